@@ -1,0 +1,120 @@
+# ramify: `make help` lists the targets. Every target installs the Debian packages it needs when they are missing.
+
+# The one list of Debian packages. BUILD: to compile and run. CHECK: only for lint, format, sanitize and bench.
+BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libopenimageio-dev \
+                 libopenexr-dev libassimp-dev libcyaml-dev libyaml-dev libtbb-dev libcmocka-dev
+CHECK_PACKAGES = clang-format clang-tidy cppcheck libclang-rt-14-dev
+
+, := ,
+VERSION := 0.1.0
+CONFIG ?= release
+ARCH   ?= native
+PREFIX ?= /usr/local
+OUT    ?= build$(if $(filter-out release,$(CONFIG)),/$(CONFIG))
+OBJ    := $(OUT)/obj
+
+# Same bits for growth everywhere: no contraction into FMA, no reassociation. (-fno-math-errno and -fno-trapping-math
+# change no value; they let sqrtf become one instruction.)
+OPT      := $(if $(filter sanitize,$(CONFIG)),-O1 -fsanitize=address$(,)undefined -fno-omit-frame-pointer,-O3)
+COMMON   := -g $(OPT) -march=$(ARCH) -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp -fPIC -MMD -MP -Isrc \
+            -Wall -Wextra -Werror
+CFLAGS   := -std=c17 -D_GNU_SOURCE $(COMMON) -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
+CXXFLAGS := -std=c++17 $(COMMON)
+LDLIBS   := -lembree3 -losdCPU -lopenvdb -lImath -lOpenImageIO -lOpenImageIO_Util -lassimp -lcyaml -lyaml -ltbb -lstdc++ -lm
+LDFLAGS  := -fopenmp $(if $(filter sanitize,$(CONFIG)),-fsanitize=address$(,)undefined)
+
+SOURCES   := $(sort $(wildcard src/*.c src/*/*.c src/*/*.cpp))
+LIB_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter-out src/cli/%,$(SOURCES)))
+CLI_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter src/cli/%,$(SOURCES)))
+TESTS     := $(sort $(wildcard tests/*/test_*.c))
+TEST_BIN  := $(patsubst tests/%.c,$(OUT)/tests/%,$(TESTS))
+BENCHES   := $(sort $(wildcard tests/bench/*.c))
+BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
+FORMATTED := $(wildcard src/*.h src/*.c src/*/*.[ch] src/*/*.cpp tests/*/*.[ch])
+
+.PHONY: all demo test bench sanitize lint format format-check install clean help packages check-packages
+.DEFAULT_GOAL := all
+
+all: packages ## build build/ramify, build/libramify.a and build/libramify.so
+	@$(MAKE) --no-print-directory -j$$(nproc) $(OUT)/ramify $(OUT)/libramify.a $(OUT)/libramify.so
+
+demo: all ## render the oak of scenes/oak.yaml to build/oak.png (and .exr)
+	$(OUT)/ramify render scenes/oak.yaml -o $(OUT)/oak.png
+
+test: all ## build and run every test; the last line counts them
+	@$(MAKE) --no-print-directory -j$$(nproc) $(TEST_BIN)
+	@RAMIFY=$(OUT)/ramify tests/run $(TEST_BIN)
+
+bench: all ## print the figures of speed, as ratios to yardsticks measured in the same run
+	@$(MAKE) --no-print-directory -j$$(nproc) $(BENCH_BIN)
+	@tests/bench/run $(OUT)
+
+sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
+	@$(MAKE) --no-print-directory CONFIG=sanitize test
+
+lint: packages check-packages format-check ## clang-tidy and cppcheck, warnings are errors
+	cppcheck --quiet --std=c17 --enable=warning,performance,portability --inline-suppr --error-exitcode=1 -Isrc \
+	    --suppress=missingIncludeSystem --check-level=normal src 2>/dev/null || \
+	cppcheck --quiet --std=c17 --enable=warning,performance,portability --inline-suppr --error-exitcode=1 -Isrc src
+	printf '%s\n' $(filter %.c,$(SOURCES)) | xargs -P $$(nproc) -n 4 sh -c \
+	    'clang-tidy --quiet "$$@" -- -std=c17 -D_GNU_SOURCE -Isrc 2>/dev/null || exit 255' sh
+
+format: check-packages ## lay the code out with clang-format
+	clang-format -i $(FORMATTED)
+
+format-check:
+	clang-format --dry-run --Werror $(FORMATTED)
+
+install: all ## install the command, the libraries, the header and ramify.pc below PREFIX
+	install -D -m 755 $(OUT)/ramify $(DESTDIR)$(PREFIX)/bin/ramify
+	install -D -m 644 $(OUT)/libramify.a $(DESTDIR)$(PREFIX)/lib/libramify.a
+	install -D -m 755 $(OUT)/libramify.so $(DESTDIR)$(PREFIX)/lib/libramify.so
+	install -D -m 644 src/ramify.h $(DESTDIR)$(PREFIX)/include/ramify.h
+	mkdir -p $(DESTDIR)$(PREFIX)/lib/pkgconfig
+	printf 'prefix=%s\nName: ramify\nDescription: grows, skins and renders branching things\nVersion: %s\nLibs: -L$${prefix}/lib -lramify\nLibs.private: %s\nCflags: -I$${prefix}/include\n' \
+	    '$(PREFIX)' '$(VERSION)' '$(LDLIBS)' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/ramify.pc
+
+clean: ## remove build/
+	rm -rf build
+
+help: ## this list
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | awk -F'|' '{printf "make %-9s %s\n", $$1, $$2}'
+
+# $(call need,packages): install those that are missing.
+define need
+	@missing=$$(for p in $(1); do dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
+	[ -z "$$missing" ] && exit 0; \
+	if [ "$$(id -u)" = 0 ]; then as=; elif command -v sudo >/dev/null; then as=sudo; else \
+	    echo "these Debian packages are missing and neither root nor sudo is at hand to install them:" $$missing >&2; exit 1; fi; \
+	echo "installing:" $$missing; \
+	$$as env DEBIAN_FRONTEND=noninteractive sh -c "apt-get update -q && apt-get install -y -q --no-install-recommends $$(echo $$missing)"
+endef
+
+packages:
+	$(call need,$(BUILD_PACKAGES))
+
+check-packages:
+	$(call need,$(CHECK_PACKAGES))
+
+$(OBJ)/%.c.o: src/%.c
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) -c $< -o $@
+
+$(OBJ)/%.cpp.o: src/%.cpp
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) -c $< -o $@
+
+$(OUT)/libramify.a: $(LIB_OBJ)
+	rm -f $@ && ar rcs $@ $^
+
+$(OUT)/libramify.so: $(LIB_OBJ)
+	$(CC) -shared $^ $(LDFLAGS) $(LDLIBS) -o $@
+
+$(OUT)/ramify: $(CLI_OBJ) $(OUT)/libramify.a
+	$(CC) $^ $(LDFLAGS) $(LDLIBS) -o $@
+
+$(OUT)/tests/%: tests/%.c $(OUT)/libramify.a
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) -Itests $< $(OUT)/libramify.a $(LDFLAGS) -lcmocka $(LDLIBS) -o $@
+
+-include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(addsuffix .d,$(TEST_BIN) $(BENCH_BIN))

@@ -1,0 +1,39 @@
+// Errors as values: a fallible function returns false or NULL and fills the Error its caller handed
+// down. An Error * may be NULL when the caller does not care to know.
+#ifndef RAMIFY_BASE_ERROR_H
+#define RAMIFY_BASE_ERROR_H
+
+#include <stdbool.h>
+
+typedef enum ErrorCode {
+    ERROR_NONE = 0,
+    ERROR_INPUT,     // the scene, a file it names, or the command line is wrong: exit status 2
+    ERROR_IO,        // the machine would not read or write: exit status 1
+    ERROR_MEMORY,    // out of memory: exit status 1
+    ERROR_CANCELLED, // the user interrupted: exit status 130
+    ERROR_INTERNAL   // a library failed in a way the input does not explain: exit status 1
+} ErrorCode;
+
+typedef struct Error {
+    ErrorCode code;
+    int line, column; // 1-based; 0 when unknown
+    char file[256];   // "" when unknown
+    char message[768];
+} Error;
+
+// Fills e (if not NULL) and returns false, so that callers can `return error_set(...)`.
+// The message says what is wrong and, after a semicolon, what would be right.
+bool error_set(Error *e, ErrorCode code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+// Names the place an error belongs to, unless a place is named already. Line and column 0 =
+// unknown.
+void error_locate(Error *e, const char *file, int line, int column);
+
+// Puts words before the message, once on the way up: error_prefix(e, "object 'oak': ").
+void error_prefix(Error *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// Writes "file:line:column: message" (as much of it as is known) into text.
+void error_format(const Error *e, char *text, int size);
+
+#endif

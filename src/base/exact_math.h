@@ -1,0 +1,23 @@
+// Elementary functions from + - * / sqrt alone: the same bits on every machine and libm, for growth
+// and geometry. Computed in double with series of more terms than a float can see; results are
+// rounded once.
+#ifndef RAMIFY_BASE_EXACT_MATH_H
+#define RAMIFY_BASE_EXACT_MATH_H
+
+// Sine and cosine of an angle in radians, |angle| < 1e6; error below 1e-7.
+void exact_sincos(float angle, float *sine, float *cosine);
+
+// Natural logarithm of x > 0, and e^x for |x| < 700. Relative error below 1e-14.
+double exact_log(double x);
+double exact_exp(double x);
+
+// x^y for x >= 0 (0^0 = 1).
+float exact_pow(float x, float y);
+
+// Angle in radians of the vector (x, y), in (-pi, pi]; 0 for the zero vector.
+float exact_atan2(float y, float x);
+
+// Inverse cosine in radians; x is clamped to [-1, 1].
+float exact_acos(float x);
+
+#endif

@@ -1,0 +1,44 @@
+// How to run: threads, cancellation, progress and warnings. Handed down to every function that may
+// take long.
+#ifndef RAMIFY_BASE_RUN_H
+#define RAMIFY_BASE_RUN_H
+
+#include "base/error.h"
+
+#include <stdint.h>
+
+typedef struct Run {
+    int threads;                   // >= 1; results never depend on it
+    const volatile int *cancelled; // becomes non-zero when the user interrupts; may be NULL
+    void (*progress)(void *user, const char *stage, double done); // done in [0, 1]; may be NULL
+    void (*warn)(void *user, const char *message);                // may be NULL
+    void *user;
+} Run;
+
+// One thread, silent.
+static inline Run run_default(void)
+{
+    return (Run){.threads = 1};
+}
+
+static inline bool run_is_cancelled(const Run *run)
+{
+    return run->cancelled && *run->cancelled;
+}
+
+// Fills e with ERROR_CANCELLED and returns false.
+bool run_cancel_error(Error *e);
+
+static inline void run_progress(const Run *run, const char *stage, double done)
+{
+    if (run->progress) {
+        run->progress(run->user, stage, done);
+    }
+}
+
+void run_warn(const Run *run, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// Seconds on a clock that never goes back.
+double run_seconds(void);
+
+#endif

@@ -1,0 +1,58 @@
+// Guide vector fields (Tanaka et al., eq. (9)-(13)): position and node -> vector. Built once,
+// before growth.
+#ifndef RAMIFY_FIELD_GUIDE_FIELD_H
+#define RAMIFY_FIELD_GUIDE_FIELD_H
+
+#include "base/run.h"
+#include "shape/envelope.h"
+
+#include <stdint.h>
+
+typedef struct GuideField GuideField; // immutable once made; safe to evaluate from many threads
+
+typedef enum FieldKind {
+    FIELD_UNIFORM, // `vector` everywhere: a tropism
+    FIELD_RADIAL,  // away from `center`
+    FIELD_VORTEX,  // about the axis `vector` through `center`
+    FIELD_NUCLEI,  // the papers': away from the nearest initial node, turned about the normal by
+                   // `turn`
+    FIELD_GRID,    // FIELD_NUCLEI sampled on a sparse voxel grid, trilinear between voxels (E 4.4)
+    FIELD_CURL,    // divergence-free noise of wavelength `scale`
+    FIELD_POINT    // control point: `vector` at `center`, falling off over `scale`
+} FieldKind;
+
+typedef enum FieldProfile {
+    PROFILE_SWEPT,   // local angle grows so that a streamline sweeps `turn` from nucleus to rim
+                     // (design section 3)
+    PROFILE_CONSTANT // the literal quaternion: every vector is turned by `turn`
+} FieldProfile;
+
+typedef struct FieldParams {
+    FieldKind kind;
+    float weight; // share in a sum of fields
+    Vec3 vector, center;
+    float turn;  // degrees
+    float scale; // m
+    FieldProfile profile;
+    bool spherical; // swept angle: by polar angle on a sphere (atan(t sin(phi)/pi)) instead of by
+                    // distance
+    bool
+        surface; // turn about the attractors' surface normals rather than about `vector` as an axis
+    uint64_t seed;
+    int resolution; // FIELD_GRID: voxels along the longest side; 0 = 48
+} FieldParams;
+
+FieldParams field_params_default(FieldKind kind); // weight 1, vector +Y, scale 1, swept
+
+// nuclei: positions and unit normals of the initial type-0 nodes, copied. bounds: the region of the
+// attractors. params: `count` fields, summed with their weights.
+GuideField *guide_field_new(const FieldParams *params, int count, const Vec3 *nuclei,
+                            const Vec3 *nucleus_normals, int64_t nucleus_count, Aabb bounds,
+                            const Run *run, Error *e);
+void guide_field_free(GuideField *field); // NULL is fine
+
+// X_f at p for a node whose (surface) normal is n; unit for a single field of weight 1, the
+// weighted sum otherwise.
+Vec3 guide_field_at(const GuideField *field, Vec3 p, Vec3 n);
+
+#endif

@@ -1,0 +1,92 @@
+// Space colonization (Runions et al. 2007; Tanaka et al., eq. (1)-(8)): one engine, several rules.
+// Cost per step is that of the new nodes' neighbourhoods, not attractors x nodes.
+#ifndef RAMIFY_GROW_COLONIZE_H
+#define RAMIFY_GROW_COLONIZE_H
+
+#include "base/run.h"
+#include "field/guide_field.h"
+#include "shape/points.h"
+#include "tree/out_tree.h"
+
+typedef enum GrowRule {
+    GROW_MEAN,   // one child a step along the mean pull (E6-7)
+    GROW_SNAP,   // the nearest reached attractor itself becomes the node (E fig. 5-6, J 3.3)
+    GROW_SECTORS // pulls binned by angle about the heading; at most one child a sector
+} GrowRule;
+
+typedef enum FieldMode {
+    FIELD_STEER,   // direction normalize(n + w X_f); step stays exact
+    FIELD_ADDITIVE // E13 as printed, X_f scaled by the step
+} FieldMode;
+
+// Lengths in metres; colonize_auto fills them in from multiples of the attractors' spacing.
+typedef struct ColonizeParams {
+    GrowRule rule;
+    float step, kill, influence;
+    int max_children; // per node; 0 = no limit
+    float min_angle;  // degrees between a branching child (second and later) and its parent's
+                      // direction; 0 = off
+    float max_angle;  // degrees between any child and its parent's direction; 0 or 180 = off
+    float noise;      // Gaussian, per component, added to the unit direction before normalising
+    Vec3 tropism;     // added to the unit direction: uniform pull, any length
+    const GuideField *field; // may be NULL
+    float field_weight;
+    FieldMode field_mode;
+    bool on_surface; // growth on a surface: directions are kept in the tangent plane of the nearest
+                     // attractors' normals
+    float sector_angle; // GROW_SECTORS: degrees a sector, 60 in the paper
+    bool sector_axis;   // GROW_SECTORS: grow along the sector's axis instead of its mean
+    float apical;       // apical dominance 0..1: probability that a lateral child is suppressed
+    uint64_t seed;
+    int32_t first_step;           // birth of the first new nodes is first_step + 1
+    int64_t max_steps, max_nodes; // 0 = no limit
+} ColonizeParams;
+
+ColonizeParams colonize_params_default(void); // mean rule, lengths 0, everything else off, seed 1
+
+typedef enum GrowStop {
+    STOP_NO_PULL, // no attractor pulls any node: done
+    STOP_MAX_STEPS,
+    STOP_MAX_NODES,
+    STOP_OUT_OF_REACH // nothing grew: no attractor within influence of any initial node
+} GrowStop;
+
+typedef struct GrowReport {
+    GrowStop stop;
+    int64_t steps, new_nodes, attractors_left;
+    float nearest; // m: distance from the roots to the nearest attractor when STOP_OUT_OF_REACH
+    int32_t root;  // the root it was measured from
+} GrowReport;
+
+// Sets step, kill and influence that are 0 to these multiples of the points' mean spacing s.
+void colonize_auto(ColonizeParams *params, double spacing, float step, float kill, float influence);
+
+// Grows tree in place: its nodes so far are the type-0 points. The same bits for any run->threads;
+// noise is keyed by node id. On error the tree is still valid. ERROR_INPUT for lengths that are not
+// positive and finite.
+bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *params,
+              const Run *run, GrowReport *report, Error *e);
+
+// Formats a stop reason for people: "no attractor in reach of root 0: influence 0.12 m, nearest
+// attractor 0.31 m; raise growth.influence".
+void grow_report_format(const GrowReport *report, const ColonizeParams *params, char *text,
+                        int size);
+
+// One level of coarse-to-fine growth. Multiples are of that level's own mean spacing.
+typedef struct GrowLevel {
+    int64_t attractors;
+    float step, kill, influence; // multiples of the level's spacing
+    float scale;                 // of the envelope, about its box's centre
+    float noise;
+    float tropism; // factor on ColonizeParams.tropism
+    float relax;   // after the level, each new node moves this share of the way to its parent; 0.5
+                   // usual
+} GrowLevel;
+
+// Scatters and grows level after level into tree, starting from all nodes so far (docs: recipes;
+// the difference between a broom and an oak). reports: one a level, may be NULL.
+bool colonize_levels(OutTree *tree, const Envelope *envelope, const ScatterParams *scatter,
+                     const GrowLevel *levels, int level_count, const ColonizeParams *params,
+                     const Run *run, GrowReport *reports, Error *e);
+
+#endif

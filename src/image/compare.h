@@ -1,0 +1,16 @@
+// How far apart two images are.
+#ifndef RAMIFY_IMAGE_COMPARE_H
+#define RAMIFY_IMAGE_COMPARE_H
+
+#include "image/image.h"
+
+typedef struct ImageDifference {
+    double rmse, mean, maximum; // over all channels
+    double failing;             // share of pixels with a channel over the threshold
+} ImageDifference;
+
+// ERROR_INPUT when sizes or channel counts differ.
+bool image_compare(const Image *a, const Image *b, double threshold, ImageDifference *difference,
+                   Error *e);
+
+#endif

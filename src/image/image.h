@@ -1,0 +1,37 @@
+// Reading and writing pictures through OpenImageIO. Files are written beside and renamed: a failure
+// never leaves half a file or harms an old one.
+#ifndef RAMIFY_IMAGE_IMAGE_H
+#define RAMIFY_IMAGE_IMAGE_H
+
+#include "base/error.h"
+
+#include <stdint.h>
+
+// width * height * channels floats, row by row from the top left.
+typedef struct Image {
+    int width, height, channels;
+    float *pixel;
+} Image;
+
+Image *image_new(int width, int height, int channels, Error *e);
+void image_free(Image *image); // NULL is fine
+
+// Any format OpenImageIO reads, as stored values (8-bit: 0..1, not linearised).
+Image *image_read(const char *file, Error *e);
+
+// 8-bit PNG or JPEG of an image already in display values; 3 or 4 channels, 0..1. Dithered by a
+// fixed pattern. metadata: "key\0value\0...\0\0" pairs or NULL.
+bool image_write_display(const char *file, const Image *image, const char *metadata, Error *e);
+
+// One layer of a multi-part or multi-channel EXR.
+typedef struct ImageLayer {
+    const char *name;          // "" = the beauty: R, G, B(, A); else name.X ...
+    const char *channel_names; // e.g. "RGBA", "XYZ", "Z"
+    const Image *image;
+} ImageLayer;
+
+// Linear float EXR with all layers and metadata.
+bool image_write_exr(const char *file, const ImageLayer *layers, int count, const char *metadata,
+                     Error *e);
+
+#endif

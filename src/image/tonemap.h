@@ -1,0 +1,25 @@
+// From scene radiance to display values.
+#ifndef RAMIFY_IMAGE_TONEMAP_H
+#define RAMIFY_IMAGE_TONEMAP_H
+
+#include "base/vec.h"
+#include "image/image.h"
+
+typedef enum ToneCurve { TONE_FILMIC, TONE_LINEAR } ToneCurve;
+
+typedef struct ToneParams {
+    ToneCurve curve;
+    float exposure;             // stops
+    bool auto_exposure;         // log-average luminance of the image goes to 0.18 before `exposure`
+    float contrast, saturation; // 1 = as it is
+    float white_balance;        // K: the light that shall look neutral; 0 or 6500 = none
+    float bloom;                // share of light spread by the lens, 0..0.2
+    float vignette;             // darkening at the corners, 0..1
+} ToneParams;
+
+ToneParams tone_params_default(void);
+
+// image: linear radiance, 3 or 4 channels (alpha kept); the result has sRGB display values.
+Image *tone_map(const Image *image, const ToneParams *params, Error *e);
+
+#endif

@@ -1,0 +1,23 @@
+// Round curves: twigs, hairs, grass. Chains of points with radii, traced as linear round segments.
+#ifndef RAMIFY_MESH_CURVES_H
+#define RAMIFY_MESH_CURVES_H
+
+#include "base/error.h"
+#include "base/vec.h"
+
+#include <stdint.h>
+
+typedef struct CurveSet {
+    int64_t point_count, curve_count;
+    Vec3 *position; // m, per point
+    float *radius;  // m, per point
+    float *birth;   // 0..1, per point
+    float *along;   // m along the branch from its start, per point: for textures
+    int64_t *first; // curve_count + 1 entries: curve i has points first[i] .. first[i + 1] - 1, at
+                    // least 2
+} CurveSet;
+
+CurveSet *curves_new(int64_t point_count, int64_t curve_count, Error *e);
+void curves_free(CurveSet *curves); // NULL is fine
+
+#endif

@@ -1,0 +1,42 @@
+// Geometry: the parts a model is made of, on its way to the ray tracer and the exporters. Every
+// part names its material by index into the scene's list.
+#ifndef RAMIFY_MESH_GEOMETRY_H
+#define RAMIFY_MESH_GEOMETRY_H
+
+#include "base/mesh.h"
+#include "mesh/curves.h"
+
+typedef enum PartKind { PART_MESH, PART_CURVES } PartKind;
+
+// One mesh or curve set, drawn once (instance_count 0, in world space) or at every instance.
+typedef struct Part {
+    PartKind kind;
+    Mesh *mesh;          // PART_MESH, owned
+    CurveSet *curves;    // PART_CURVES, owned
+    int material;        // index into World.materials
+    int object;          // index of the scene's object it belongs to, for the object-id AOV
+    Transform *instance; // owned; instance_count transforms; NULL = drawn once, as it is
+    float *variation;    // owned; 0..1 per instance, for colour variation; NULL = hashed from the
+                         // instance's index
+    int64_t instance_count;
+} Part;
+
+typedef struct Geometry {
+    Part *part;
+    int64_t count, capacity;
+} Geometry;
+
+// Takes ownership of mesh, curves, instance and variation, also when it fails.
+bool geometry_add(Geometry *geometry, Part part, Error *e);
+void geometry_clear(Geometry *geometry); // frees the parts, leaves an empty Geometry
+
+typedef struct GeometryCounts {
+    int64_t triangles; // stored once; a quad counts as two
+    int64_t curve_segments;
+    int64_t instances;
+    int64_t bytes;
+} GeometryCounts;
+
+GeometryCounts geometry_counts(const Geometry *geometry);
+
+#endif

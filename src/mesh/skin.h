@@ -1,0 +1,37 @@
+// Skins an out-tree with a closed, two-manifold, all-quad cage and smooths it with OpenSubdiv
+// (Catmull-Clark).
+#ifndef RAMIFY_MESH_SKIN_H
+#define RAMIFY_MESH_SKIN_H
+
+#include "base/mesh.h"
+#include "base/run.h"
+#include "mesh/curves.h"
+#include "tree/out_tree.h"
+
+typedef struct SkinParams {
+    float min_radius;   // m: chains thinner than this are not skinned (trace them as curves); 0 =
+                        // skin all
+    int levels;         // subdivision of the thickest branches, 0..4 (the cage itself at 0)
+    float ring_spacing; // distance between rings, in radii; 1 usual
+    int smoothing;      // relaxation passes over the chains before resampling; 2 usual
+} SkinParams;
+
+SkinParams skin_params_default(void);
+
+// The cage: closed, two-manifold, all quads, one component a root. Radii are enlarged so that the
+// limit surface has the out-tree's radius. Carries uv (m), radius and birth.
+Mesh *skin_cage(const OutTree *tree, const SkinParams *params, const Run *run, Error *e);
+
+// Catmull-Clark refinement of a quad cage `levels` times through OpenSubdiv, vertices moved to the
+// limit surface, limit normals, attributes interpolated. Level 0 gives a copy with normals.
+Mesh *mesh_subdivide(const Mesh *cage, int levels, const Run *run, Error *e);
+
+// skin_cage, then mesh_subdivide: the finished surface.
+Mesh *skin_tree(const OutTree *tree, const SkinParams *params, const Run *run, Error *e);
+
+// The chains thinner than max_radius as round curves; together with skin_tree at min_radius =
+// max_radius nothing is missing and nothing shows twice (a curve's first point lies inside its
+// parent's surface).
+CurveSet *skin_curves(const OutTree *tree, float max_radius, const SkinParams *params, Error *e);
+
+#endif

@@ -1,0 +1,28 @@
+// The film: what a rendering leaves behind. One entry a pixel, row by row from the top left, 32-bit
+// float.
+#ifndef RAMIFY_RENDER_FILM_H
+#define RAMIFY_RENDER_FILM_H
+
+#include "base/error.h"
+#include "base/vec.h"
+
+#include <stdint.h>
+
+typedef struct Film {
+    int width, height;
+    Vec3 *color;    // mean radiance
+    float *alpha;   // share of samples that met something (or the visible sky)
+    Vec3 *albedo;   // first-hit reflectance, 0..1
+    Vec3 *normal;   // first-hit shading normal, world, mean (not unit)
+    float *depth;   // m along the ray, mean over samples that hit; INFINITY where none did
+    Vec3 *position; // m, first hit; 0 where none
+    float *object;  // object id + 1 of the first sample that hit; 0 = background
+    float *samples; // taken so far
+    float
+        *variance; // of the pixel's mean luminance, estimated; for adaptive stopping and denoising
+} Film;
+
+Film *film_new(int width, int height, Error *e);
+void film_free(Film *film); // NULL is fine
+
+#endif

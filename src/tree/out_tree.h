@@ -1,0 +1,48 @@
+// The out-tree: what growth makes and everything after it reads. Structure of arrays, one entry a
+// node. Invariants (out_tree_check): parent[i] < i, parent[i] == -1 exactly at roots, all numbers
+// finite, radius >= 0.
+#ifndef RAMIFY_TREE_OUT_TREE_H
+#define RAMIFY_TREE_OUT_TREE_H
+
+#include "base/error.h"
+#include "base/vec.h"
+
+#include <stdint.h>
+
+typedef struct OutTree {
+    int64_t count, capacity; // nodes, at most 2^31 - 1
+    Vec3 *position;          // m
+    int32_t *parent;         // index, -1 at a root
+    int32_t *birth;          // growth step at which the node appeared; 0 for initial nodes
+    int32_t *colony; // which root's colony (or which element of a tree: trunk, branches, roots) it
+                     // belongs to
+    float *radius;   // m; 0 until radii are computed
+    Vec3
+        *normal; // unit: across the node's direction, or the surface normal for growth on a surface
+    uint64_t *id; // stable name: hash of the parent's id and its place among its siblings
+} OutTree;
+
+OutTree *out_tree_new(Error *e);
+void out_tree_free(OutTree *tree); // NULL is fine
+OutTree *out_tree_copy(const OutTree *tree, Error *e);
+
+bool out_tree_reserve(OutTree *tree, int64_t count, Error *e);
+
+// Appends a node and returns its index, or -1 and e. Radius 0, normal (0, 1, 0). The id names the
+// node for ever: out_tree_child_id for a child, anything stable (a hash of the seed and the root's
+// number) for a root.
+int64_t out_tree_add_node(OutTree *tree, Vec3 position, int64_t parent, int32_t birth,
+                          int32_t colony, uint64_t id, Error *e);
+
+// The id of a parent's child number place (0 for the first).
+uint64_t out_tree_child_id(uint64_t parent_id, int64_t place);
+
+// Checks every invariant; the error names the first node that breaks one.
+bool out_tree_check(const OutTree *tree, Error *e);
+
+Aabb out_tree_bounds(const OutTree *tree);
+
+// A 64-bit hash over positions, parents, births, colonies and radii: equal trees, equal hashes.
+uint64_t out_tree_hash(const OutTree *tree);
+
+#endif
