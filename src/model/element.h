@@ -1,0 +1,44 @@
+// An element of a model: one out-tree's worth of envelope, points, growth and field (Tanaka et al.,
+// section 5.1: trunk, branches and roots are grown as separate elements). Every kind of model is
+// made of these.
+#ifndef RAMIFY_MODEL_ELEMENT_H
+#define RAMIFY_MODEL_ELEMENT_H
+
+#include "field/guide_field.h"
+#include "grow/colonize.h"
+#include "shape/envelope.h"
+#include "shape/points.h"
+
+// What the scene file says of an element. Lists that are empty and numbers that are 0 take the
+// model's own defaults.
+typedef struct ElementParams {
+    Shape *shapes; // the envelope
+    int shape_count;
+    float voxel; // m, of level sets; 0 = automatic
+    ScatterPlace place;
+    ScatterPattern pattern;
+    float shell, gradient, depth_gradient; // see ScatterParams
+    GrowLevel *levels;
+    int level_count;
+    GrowRule rule;
+    int max_children;
+    float min_angle, max_angle; // degrees
+    float noise;                // for levels that name none
+    Vec3 tropism;
+    float apical;
+    float sector_angle; // degrees
+    bool sector_axis;
+    FieldParams *fields;
+    int field_count;
+    float field_weight;
+    FieldMode field_mode;
+    int64_t max_steps, max_nodes; // 0 = no limit
+} ElementParams;
+
+// Grows the element into tree, whose nodes so far are the type-0 points. seed: the element's own.
+// label names the element in warnings and errors ("object 'oak', crown"). colony is given to the
+// new nodes' own growth (see OutTree).
+bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, const char *label,
+                  const Run *run, Error *e);
+
+#endif

@@ -1,0 +1,21 @@
+// From the scene to a world: grows, skins and places every object.
+#ifndef RAMIFY_SCENE_BUILD_H
+#define RAMIFY_SCENE_BUILD_H
+
+#include "scene/scene.h"
+#include "tree/out_tree.h"
+
+typedef struct BuildStats {
+    int64_t nodes;
+    double grow_seconds, mesh_seconds;
+    GeometryCounts geometry;
+} BuildStats;
+
+// All out-trees of the scene, one per growing object (NULL for objects that do not grow), as an
+// array of scene->object_count; free each, then the array.
+OutTree **scene_grow(const Scene *scene, const Run *run, Error *e);
+
+// Everything. The world borrows strings from the scene: free the world first.
+World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error *e);
+
+#endif

@@ -1,0 +1,66 @@
+// The scene file as a value: everything a picture is made from, read from YAML (libcyaml) and
+// checked. Strict: unknown keys, wrong types and numbers out of range are errors with line, column
+// and what would be right. All defaults stand in one set of tables (schema.c), from which the JSON
+// Schema is printed too.
+#ifndef RAMIFY_SCENE_SCENE_H
+#define RAMIFY_SCENE_SCENE_H
+
+#include "base/run.h"
+#include "image/tonemap.h"
+#include "model/ground.h"
+#include "model/tree.h"
+#include "render/world.h"
+
+typedef struct SceneMesh { // an imported mesh that is drawn
+    char *file;
+    Transform transform;
+    bool smooth; // make smooth normals when the file has none
+} SceneMesh;
+
+typedef struct SceneShape { // envelopes drawn as they are: spheres, boxes, ...
+    Shape *shapes;
+    int shape_count;
+    float voxel;
+} SceneShape;
+
+// Exactly one of the kinds is not NULL.
+typedef struct SceneObject {
+    char *name;
+    uint64_t seed; // 0 = from the scene's seed and the name
+    TreeParams *tree;
+    GroundParams *ground;
+    SceneMesh *mesh;
+    SceneShape *shape;
+    // material names, as far as the kind has use for them; NULL = the kind's built-in default
+    char *material; // mesh, shape, ground; bark of a tree
+    char *twig_material, *leaf_material, *grass_material;
+} SceneObject;
+
+typedef struct Scene {
+    char *file; // where it was read from, for messages and to resolve relative paths
+    char *text; // the file's text, stored in images as metadata
+    uint64_t seed;
+    Camera camera;
+    FilmParams film;
+    ToneParams tone;
+    bool denoise;
+    RenderParams render;
+    Sky sky;
+    Light *lights;
+    int light_count;
+    Material *materials;
+    int material_count;
+    SceneObject *objects;
+    int object_count;
+} Scene;
+
+// Reads and checks a scene. overrides: "path=value" strings (objects.0.tree.height=9, or
+// objects.oak.tree.height=9 by name). Files named in the scene are found relative to it.
+// ERROR_INPUT carries file, line and column.
+Scene *scene_read(const char *file, const char *const *overrides, int override_count, Error *e);
+void scene_free(Scene *scene); // NULL is fine
+
+// JSON Schema of scene files (draft 2020-12) as heap text.
+char *scene_schema_json(Error *e);
+
+#endif
