@@ -27,13 +27,13 @@ static void *or_error(void *memory, size_t bytes, Error *e)
 
 void *memory_alloc(int64_t count, size_t size, Error *e)
 {
-    size_t bytes;
+    size_t bytes = 0;
     return byte_count(count, size, &bytes, e) ? or_error(malloc(bytes), bytes, e) : NULL;
 }
 
 void *memory_alloc_zero(int64_t count, size_t size, Error *e)
 {
-    size_t bytes;
+    size_t bytes = 0;
     return byte_count(count, size, &bytes, e) ? or_error(calloc(1, bytes), bytes, e) : NULL;
 }
 
@@ -46,7 +46,7 @@ bool memory_reserve(void *array, int64_t *capacity, int64_t count, size_t size, 
     if (wanted < count) {
         wanted = count;
     }
-    size_t bytes;
+    size_t bytes = 0;
     if (!byte_count(wanted, size, &bytes, e)) {
         return false;
     }
