@@ -1,0 +1,69 @@
+#include "mesh/geometry.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+
+static void part_clear(Part *part)
+{
+    mesh_free(part->mesh);
+    curves_free(part->curves);
+    free(part->instance);
+    free(part->variation);
+}
+
+bool geometry_add(Geometry *geometry, Part part, Error *e)
+{
+    if (!memory_reserve(&geometry->part, &geometry->capacity, geometry->count + 1, sizeof part,
+                        e)) {
+        part_clear(&part);
+        return false;
+    }
+    geometry->part[geometry->count++] = part;
+    return true;
+}
+
+void geometry_clear(Geometry *geometry)
+{
+    for (int64_t i = 0; i < geometry->count; i++) {
+        part_clear(&geometry->part[i]);
+    }
+    free(geometry->part);
+    *geometry = (Geometry){0};
+}
+
+static int64_t mesh_bytes(const Mesh *mesh)
+{
+    size_t vertex = sizeof(Vec3);
+    vertex += mesh->normal ? sizeof(Vec3) : 0;
+    vertex += mesh->uv ? sizeof(Vec2) : 0;
+    vertex += mesh->radius ? sizeof(float) : 0;
+    vertex += mesh->birth ? sizeof(float) : 0;
+    return mesh->vertex_count * (int64_t)vertex +
+           mesh->face_count * mesh->face_size * (int64_t)sizeof(uint32_t);
+}
+
+static int64_t curves_bytes(const CurveSet *curves)
+{
+    return curves->point_count * (int64_t)(sizeof(Vec3) + 3 * sizeof(float)) +
+           (curves->curve_count + 1) * (int64_t)sizeof(int64_t);
+}
+
+GeometryCounts geometry_counts(const Geometry *geometry)
+{
+    GeometryCounts counts = {0};
+    for (int64_t i = 0; i < geometry->count; i++) {
+        const Part *part = &geometry->part[i];
+        if (part->mesh) {
+            counts.triangles += part->mesh->face_count * (part->mesh->face_size - 2);
+            counts.bytes += mesh_bytes(part->mesh);
+        }
+        if (part->curves) {
+            counts.curve_segments += part->curves->point_count - part->curves->curve_count;
+            counts.bytes += curves_bytes(part->curves);
+        }
+        counts.instances += part->instance_count;
+        counts.bytes += part->instance_count * (int64_t)sizeof(Transform);
+    }
+    return counts;
+}
