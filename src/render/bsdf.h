@@ -1,6 +1,13 @@
 // BSDFs: a material evaluated at a surface point gives one Bsdf, a small value on the stack that
 // can be sampled and evaluated. Directions are world-space unit vectors pointing away from the
 // surface: wo to where light goes (toward the eye), wi to where it comes from.
+//
+// Lobes are defined about the shading normal and folded over the true surface's horizon: what a
+// lobe would send through an opaque surface is mirrored back to the side it belongs to. So shading
+// normals and bumps neither lose energy (black fringes) nor leak light.
+//
+// Transmission carries flux: the factor eta^2 of radiance inside a denser body is left out. It
+// cancels between entering and leaving.
 #ifndef RAMIFY_RENDER_BSDF_H
 #define RAMIFY_RENDER_BSDF_H
 
@@ -10,25 +17,29 @@
 // Per-material tables (energy compensation) and textures, made once per world.
 typedef struct MaterialSet MaterialSet;
 
+// Copies the materials. ERROR_INPUT names the material and the file when a texture cannot be read.
 MaterialSet *material_set_new(const Material *materials, int count, Error *e);
 void material_set_free(MaterialSet *set); // NULL is fine
 
+struct GgxTable;
+
 typedef struct Bsdf {
     MaterialKind kind;
-    Vec3 normal; // shading normal after bumps, on wo's side
-    Vec3 tangent, bitangent;
+    Vec3 normal; // shading normal after bumps, unit, on wo's side
     Vec3 geometric_normal;
-    Vec3 color; // diffuse albedo or specular tint
-    Vec3 transmittance;
-    Vec3 emission; // radiance toward wo
-    Vec3 specular; // f0
-    Vec3 absorption;
-    float alpha;     // GGX
-    float roughness; // of the diffuse lobe
-    float eta;       // index on the far side over that on wo's side
-    float diffuse_weight;
-    float specular_probability;
-    Vec3 albedo; // for the albedo AOV and for choosing lobes
+    Vec3 color;         // diffuse reflectance, or the tint of a dielectric
+    Vec3 transmittance; // MATERIAL_LEAF
+    Vec3 emission;      // radiance toward wo
+    Vec3 specular;      // Schlick's f0 of the glossy lobe
+    Vec3 absorption;    // per metre, of the body that wo's ray came through; 0 outside of bodies
+    Vec3 albedo;        // for the albedo AOV, 0..1
+    float alpha;        // GGX; 0 = mirror
+    float roughness;    // of the diffuse lobe
+    float eta;          // index on the far side over that on wo's side
+    float metallic;
+    float coat;                   // weight of the glossy lobe of MATERIAL_LEAF
+    float probability;            // of choosing the glossy single-scattering lobe
+    const struct GgxTable *table; // borrowed from the MaterialSet
 } Bsdf;
 
 typedef struct BsdfSample {
