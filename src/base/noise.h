@@ -1,0 +1,15 @@
+// Gradient noise on hashed lattices: + - * / only, so geometry made from it has the same bits
+// everywhere.
+#ifndef RAMIFY_BASE_NOISE_H
+#define RAMIFY_BASE_NOISE_H
+
+#include <stdint.h>
+
+// Gradient noise in the plane (Perlin 2002, quintic fade): zero at lattice points, about -0.7 ..
+// 0.7, wavelength 1.
+float noise_plane(float x, float y, uint64_t seed);
+
+// Sum of octaves, each of twice the frequency and half the height of the last.
+float noise_plane_fractal(float x, float y, int octaves, uint64_t seed);
+
+#endif

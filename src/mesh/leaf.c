@@ -1,0 +1,173 @@
+#include "mesh/leaf.h"
+
+#include "base/exact_math.h"
+#include "base/random.h"
+
+// A leaf is a grid of rows along the midrib and columns across, and a three-sided stalk below it.
+enum { LEAF_COLUMNS = 5, STALK_SIDES = 3, BLADE_ROWS = 5 };
+
+// Half width of the blade at t in 0..1 along it, as a share of the largest: an obovate oval, widest
+// at 0.62, cut by the bays between the lobes.
+static float outline(const LeafParams *params, float t, float phase)
+{
+    const float a = 0.9f, b = 0.55f, peak = a / (a + b);
+    float oval = exact_pow(t / peak, a) * exact_pow((1.0f - t) / (1.0f - peak), b);
+    if (params->lobes == 0) {
+        return oval;
+    }
+    float sine, cosine;
+    exact_sincos(2.0f * PI_F * ((float)params->lobes * t + phase), &sine, &cosine);
+    // Bays are narrow and lobes broad: square the raised cosine.
+    float bay = 0.5f + 0.5f * cosine;
+    float reach = smoothstepf(0.02f, 0.25f, t) * smoothstepf(1.02f, 0.8f, t);
+    return oval * (1.0f - params->lobe_depth * bay * bay * reach);
+}
+
+// One vertex of the blade: x across, s along the midrib, folded, rippled and curled.
+static Vec3 blade_point(const LeafParams *params, float x, float t, float ripple)
+{
+    float fold_sine, fold_cosine, sine, cosine;
+    exact_sincos(params->fold * RADIANS_PER_DEGREE, &fold_sine, &fold_cosine);
+    float lift = (x < 0.0f ? -x : x) * fold_sine + ripple;
+    // The midrib is an arc that turns by `curl` over the blade's length, with half of it past the
+    // middle.
+    float angle = params->curl * RADIANS_PER_DEGREE * t * t;
+    exact_sincos(angle, &sine, &cosine);
+    float along = params->petiole + params->length * t * (1.0f - 0.12f * angle * angle);
+    float down = params->length * t * sine * 0.4f;
+    return vec3(x * fold_cosine, along + lift * sine, lift * cosine - down);
+}
+
+static void add_blade(Mesh *mesh, const LeafParams *params, int rows, uint64_t seed)
+{
+    float phase = random_range(random_key(seed, 1), -0.15f, 0.15f);
+    float side_shift = random_range(random_key(seed, 2), 0.1f, 0.35f);
+    for (int r = 0; r < rows; r++) {
+        float t = (float)r / (float)(rows - 1);
+        for (int c = 0; c < LEAF_COLUMNS; c++) {
+            float across = (float)c / (LEAF_COLUMNS - 1) * 2.0f - 1.0f;
+            // Lobes of the two sides do not quite face each other.
+            float half = outline(params, clampf(t, 0.012f, 0.985f),
+                                 phase + (across < 0.0f ? side_shift : 0.0f));
+            float x = 0.5f * params->width * half * across;
+            float sine, cosine;
+            exact_sincos(2.0f * PI_F * (3.0f * t + phase + 0.3f * across), &sine, &cosine);
+            float ripple = params->wave * params->width * sine * across * across * half;
+            int64_t v = (int64_t)r * LEAF_COLUMNS + c;
+            mesh->position[v] = blade_point(params, x, t, ripple);
+            mesh->uv[v] = (Vec2){0.5f + 0.5f * across, t};
+        }
+    }
+    uint32_t *face = mesh->index;
+    for (int r = 0; r + 1 < rows; r++) {
+        for (int c = 0; c + 1 < LEAF_COLUMNS; c++) {
+            uint32_t v = (uint32_t)(r * LEAF_COLUMNS + c);
+            uint32_t corners[4] = {v, v + 1, v + 1 + LEAF_COLUMNS, v + LEAF_COLUMNS};
+            for (int k = 0; k < 4; k++) {
+                *face++ = corners[k];
+            }
+        }
+    }
+}
+
+static void add_stalk(Mesh *mesh, const LeafParams *params, int64_t first_vertex,
+                      int64_t first_face)
+{
+    float thickness = 0.006f * params->length;
+    for (int end = 0; end < 2; end++) {
+        for (int k = 0; k < STALK_SIDES; k++) {
+            float sine, cosine;
+            exact_sincos(2.0f * PI_F * (float)k / STALK_SIDES, &sine, &cosine);
+            // The stalk runs on under the blade's base, where the midrib takes over.
+            float y = end ? params->petiole + 0.04f * params->length : 0.0f;
+            int64_t v = first_vertex + (int64_t)end * STALK_SIDES + k;
+            mesh->position[v] = vec3(thickness * cosine, y, thickness * (sine - 0.8f));
+            mesh->uv[v] = (Vec2){0.5f, 0.0f};
+        }
+    }
+    for (int k = 0; k < STALK_SIDES; k++) {
+        uint32_t a = (uint32_t)(first_vertex + k);
+        uint32_t b = (uint32_t)(first_vertex + (k + 1) % STALK_SIDES);
+        uint32_t corners[4] = {a, a + STALK_SIDES, b + STALK_SIDES, b};
+        for (int c = 0; c < 4; c++) {
+            mesh->index[(first_face + k) * 4 + c] = corners[c];
+        }
+    }
+}
+
+Mesh *leaf_mesh_new(const LeafParams *params, uint64_t seed, Error *e)
+{
+    int rows = params->lobes > 0 ? 6 * params->lobes + 3 : 10;
+    int64_t blade_vertices = (int64_t)rows * LEAF_COLUMNS;
+    int64_t blade_faces = (int64_t)(rows - 1) * (LEAF_COLUMNS - 1);
+    bool stalk = params->petiole > 0.0f;
+    Mesh *mesh = mesh_new(4, blade_vertices + (stalk ? 2 * STALK_SIDES : 0),
+                          blade_faces + (stalk ? STALK_SIDES : 0), MESH_NORMAL | MESH_UV, e);
+    if (!mesh) {
+        return NULL;
+    }
+    add_blade(mesh, params, rows, seed);
+    if (stalk) {
+        add_stalk(mesh, params, blade_vertices, blade_faces);
+    }
+    if (!mesh_compute_normals(mesh, e)) {
+        mesh_free(mesh);
+        return NULL;
+    }
+    return mesh;
+}
+
+// One blade: BLADE_ROWS pairs of vertices along an arc that leaves the ground at `lean` and bends
+// over.
+static void add_grass_blade(Mesh *mesh, const GrassParams *params, int blade, uint64_t key)
+{
+    float sine, cosine;
+    exact_sincos(random_range(random_key(key, 1), 0.0f, 2.0f * PI_F), &sine, &cosine);
+    Vec3 out = vec3(cosine, 0, sine), side = vec3(-sine, 0, cosine);
+    float place = params->spread * sqrtf(random_unit(random_key(key, 2)));
+    float turn = random_range(random_key(key, 3), 0.0f, 2.0f * PI_F);
+    exact_sincos(turn, &sine, &cosine);
+    Vec3 p = vec3(place * cosine, 0, place * sine);
+    float height = params->height * random_range(random_key(key, 4), 0.45f, 1.0f);
+    float width = params->width * random_range(random_key(key, 5), 0.6f, 1.0f);
+    float lean = params->lean * random_unit(random_key(key, 6));
+    float bend = params->bend * random_unit(random_key(key, 7));
+    int64_t first = (int64_t)blade * BLADE_ROWS * 2;
+    for (int r = 0; r < BLADE_ROWS; r++) {
+        float t = (float)r / (BLADE_ROWS - 1);
+        float half = 0.5f * width * (1.0f - 0.92f * t * t);
+        mesh->position[first + 2 * r] = vec3_madd(p, -half, side);
+        mesh->position[first + 2 * r + 1] = vec3_madd(p, half, side);
+        mesh->uv[first + 2 * r] = (Vec2){0, t};
+        mesh->uv[first + 2 * r + 1] = (Vec2){1, t};
+        exact_sincos((lean + bend * t * t) * RADIANS_PER_DEGREE, &sine, &cosine);
+        Vec3 d = vec3_madd(vec3(0, cosine, 0), sine, out);
+        p = vec3_madd(p, height / (BLADE_ROWS - 1), d);
+    }
+    for (int r = 0; r + 1 < BLADE_ROWS; r++) {
+        uint32_t v = (uint32_t)(first + 2 * r);
+        uint32_t *face = mesh->index + ((int64_t)blade * (BLADE_ROWS - 1) + r) * 4;
+        face[0] = v;
+        face[1] = v + 1;
+        face[2] = v + 3;
+        face[3] = v + 2;
+    }
+}
+
+Mesh *grass_tuft_new(const GrassParams *params, uint64_t seed, Error *e)
+{
+    int64_t blades = params->blades;
+    Mesh *mesh =
+        mesh_new(4, blades * BLADE_ROWS * 2, blades * (BLADE_ROWS - 1), MESH_NORMAL | MESH_UV, e);
+    if (!mesh) {
+        return NULL;
+    }
+    for (int i = 0; i < params->blades; i++) {
+        add_grass_blade(mesh, params, i, random_key(seed, (uint64_t)i));
+    }
+    if (!mesh_compute_normals(mesh, e)) {
+        mesh_free(mesh);
+        return NULL;
+    }
+    return mesh;
+}

@@ -1,0 +1,35 @@
+// Leaves and tufts of grass as small quad meshes, to be instanced by the hundred thousand.
+#ifndef RAMIFY_MESH_LEAF_H
+#define RAMIFY_MESH_LEAF_H
+
+#include "base/mesh.h"
+
+// A leaf whose stalk starts at the origin and whose blade lies along +Y, upper side facing +Z.
+// Lengths in metres.
+typedef struct LeafParams {
+    float length, width; // of the blade
+    float petiole;       // length of the stalk; its base is the origin
+    float fold;          // degrees that each half is folded up about the midrib
+    float curl;          // degrees that the blade bends down from base to tip
+    float wave;          // ripple of the edge, as a share of the width
+    int lobes;           // a side, rounded as an oak's; 0 = a plain oval
+    float lobe_depth;    // of the bays between lobes, as a share of the half width
+} LeafParams;
+
+// uv: u 0..1 across (0.5 = midrib), v 0..1 along the blade (0 on the stalk). seed varies the
+// outline a little.
+Mesh *leaf_mesh_new(const LeafParams *params, uint64_t seed, Error *e);
+
+// A tuft of bent blades about the origin, growing along +Y.
+typedef struct GrassParams {
+    int blades;
+    float height, width; // m, of the tallest and widest blade
+    float spread;        // m, radius of the circle the blades stand in
+    float lean;          // degrees from the vertical at the base, at most
+    float bend;          // degrees more at the tip, at most
+} GrassParams;
+
+// uv: u 0..1 across, v 0..1 from the root to the tip.
+Mesh *grass_tuft_new(const GrassParams *params, uint64_t seed, Error *e);
+
+#endif

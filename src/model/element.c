@@ -1,0 +1,120 @@
+#include "model/element.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+
+#include <stdlib.h>
+
+static ColonizeParams colonize_params(const ElementParams *element, const GuideField *field,
+                                      uint64_t seed)
+{
+    ColonizeParams params = colonize_params_default();
+    params.rule = element->rule;
+    params.max_children = element->max_children;
+    params.min_angle = element->min_angle;
+    params.max_angle = element->max_angle;
+    params.noise = element->noise;
+    params.tropism = element->tropism;
+    params.field = field;
+    params.field_weight = element->field_weight;
+    params.field_mode = element->field_mode;
+    params.on_surface = element->place == SCATTER_SURFACE;
+    params.sector_angle = element->sector_angle > 0.0f ? element->sector_angle : 60.0f;
+    params.sector_axis = element->sector_axis;
+    params.apical = element->apical;
+    params.seed = seed;
+    params.max_steps = element->max_steps;
+    params.max_nodes = element->max_nodes;
+    return params;
+}
+
+static ScatterParams scatter_params(const ElementParams *element, uint64_t seed)
+{
+    ScatterParams params = scatter_params_default();
+    params.place = element->place;
+    params.pattern = element->pattern;
+    params.shell = element->shell;
+    params.gradient = element->gradient;
+    params.depth_gradient = element->depth_gradient;
+    params.seed = seed;
+    return params;
+}
+
+// The guide field about the roots of the tree so far, its nuclei (Tanaka et al., eq. (9); J 3.7.3).
+static GuideField *element_field(const OutTree *tree, const ElementParams *element,
+                                 const Envelope *envelope, uint64_t seed, const Run *run, Error *e)
+{
+    Vec3 *position = memory_alloc(tree->count, 2 * sizeof *position, e);
+    if (!position) {
+        return NULL;
+    }
+    Vec3 *normal = position + tree->count;
+    int64_t count = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->parent[i] < 0) {
+            position[count] = tree->position[i];
+            normal[count++] = tree->normal[i];
+        }
+    }
+    FieldParams *fields = memory_alloc(element->field_count, sizeof *fields, e);
+    GuideField *field = NULL;
+    if (fields) {
+        for (int i = 0; i < element->field_count; i++) {
+            fields[i] = element->fields[i];
+            fields[i].seed = random_key(seed, (uint64_t)i);
+        }
+        field = guide_field_new(fields, element->field_count, position, normal, count,
+                                envelope_bounds(envelope), run, e);
+    }
+    free(fields);
+    free(position);
+    return field;
+}
+
+static void warn_out_of_reach(const GrowReport *reports, const ElementParams *element,
+                              const ColonizeParams *params, const char *label, const Run *run)
+{
+    for (int i = 0; i < element->level_count; i++) {
+        if (reports[i].stop == STOP_OUT_OF_REACH) {
+            char text[256];
+            grow_report_format(&reports[i], params, text, sizeof text);
+            run_warn(run, "%s, level %d: %s", label, i + 1, text);
+        }
+    }
+}
+
+static bool grow_in_envelope(OutTree *tree, const ElementParams *element, const Envelope *envelope,
+                             uint64_t seed, const char *label, const Run *run, Error *e)
+{
+    GuideField *field = NULL;
+    if (element->field_count > 0) {
+        field = element_field(tree, element, envelope, random_key(seed, 1), run, e);
+        if (!field) {
+            return false;
+        }
+    }
+    ScatterParams scatter = scatter_params(element, random_key(seed, 2));
+    ColonizeParams params = colonize_params(element, field, random_key(seed, 3));
+    GrowReport *reports = memory_alloc_zero(element->level_count, sizeof *reports, e);
+    bool done = reports && colonize_levels(tree, envelope, &scatter, element->levels,
+                                           element->level_count, &params, run, reports, e);
+    if (done) {
+        warn_out_of_reach(reports, element, &params, label, run);
+    }
+    free(reports);
+    guide_field_free(field);
+    return done;
+}
+
+bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, const char *label,
+                  const Run *run, Error *e)
+{
+    EnvelopeParams params = {element->shapes, element->shape_count, element->voxel};
+    Envelope *envelope = envelope_new(&params, run, e);
+    bool done = envelope && grow_in_envelope(tree, element, envelope, seed, label, run, e);
+    envelope_free(envelope);
+    if (!done) {
+        error_prefix(e, "%s: ", label);
+    }
+    return done;
+}

@@ -1,0 +1,258 @@
+// Growth of a tree: trunk, crown and roots as elements joined into one out-tree (Tanaka et al.,
+// section 5.1).
+#include "model/tree.h"
+
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "model/tree_defaults.h"
+#include "tree/radii.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { COLONY_TRUNK, COLONY_CROWN, COLONY_ROOTS };
+
+#define GOLDEN_ANGLE_DEGREES 137.50776f
+
+// Each node's unit direction, from its parent; a root's is that of its first child, or up.
+static Vec3 node_direction(const OutTree *tree, int64_t node)
+{
+    int64_t parent = tree->parent[node];
+    if (parent < 0) {
+        for (int64_t i = node + 1; i < tree->count; i++) {
+            if (tree->parent[i] == node) {
+                return vec3_normalize(vec3_sub(tree->position[i], tree->position[node]));
+            }
+        }
+        return vec3(0, 1, 0);
+    }
+    Vec3 d = vec3_normalize(vec3_sub(tree->position[node], tree->position[parent]));
+    return vec3_dot(d, d) > 0.5f ? d : vec3(0, 1, 0);
+}
+
+// Normals across the branches, carried from parent to child without twist.
+static void transport_normals(OutTree *tree)
+{
+    for (int64_t i = 0; i < tree->count; i++) {
+        Vec3 d = node_direction(tree, i);
+        Vec3 n = tree->parent[i] >= 0 ? tree->normal[tree->parent[i]] : vec3(0, 0, 1);
+        n = vec3_madd(n, -vec3_dot(n, d), d);
+        tree->normal[i] = vec3_dot(n, n) > 1e-6f ? vec3_normalize(n) : vec3_perpendicular(d);
+    }
+}
+
+// A node under the ground and one on it for each stem, so that the trunk's end never shows.
+static bool plant_stems(OutTree *tree, const TreeParams *params, uint64_t seed, Error *e)
+{
+    int stems = params->trunk.stems > 1 ? params->trunk.stems : 1;
+    for (int i = 0; i < stems; i++) {
+        float sine = 0.0f, cosine = 0.0f;
+        if (stems > 1) {
+            exact_sincos(2.0f * PI_F * (float)i / (float)stems, &sine, &cosine);
+        }
+        Vec3 foot = vec3_madd(params->position, params->trunk.stem_circle, vec3(sine, 0, cosine));
+        Vec3 below = vec3_add(foot, vec3(0, -params->trunk.radius, 0));
+        uint64_t id = random_key(seed, (uint64_t)i);
+        int64_t root = out_tree_add_node(tree, below, -1, 0, COLONY_TRUNK, id, e);
+        if (root < 0 ||
+            out_tree_add_node(tree, foot, root, 0, COLONY_TRUNK, out_tree_child_id(id, 0), e) < 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+typedef struct HeightOrder {
+    float y;
+    int32_t node;
+} HeightOrder;
+
+static int compare_height(const void *a, const void *b)
+{
+    const HeightOrder *p = a, *q = b;
+    if (p->y != q->y) {
+        return p->y < q->y ? -1 : 1;
+    }
+    return p->node < q->node ? -1 : (p->node > q->node);
+}
+
+// Starts one branch at a trunk node: a short piece that leaves the trunk along the node's normal.
+static bool start_branch(OutTree *tree, int64_t node, Vec3 normal, float length,
+                         const CrownParams *crown, Error *e)
+{
+    enum { PIECES = 3 };
+    Vec3 axis = node_direction(tree, node);
+    float sine, cosine;
+    exact_sincos(crown->branch_angle * RADIANS_PER_DEGREE, &sine, &cosine);
+    Vec3 d = vec3_madd(vec3_scale(axis, cosine), sine, normal);
+    int64_t parent = node;
+    for (int i = 0; i < PIECES; i++) {
+        uint64_t id = out_tree_child_id(tree->id[parent], i == 0 ? 1000 : 0);
+        Vec3 p = vec3_madd(tree->position[parent], length / PIECES, d);
+        parent = out_tree_add_node(tree, p, parent, tree->birth[node], COLONY_CROWN, id, e);
+        if (parent < 0) {
+            return false;
+        }
+        d = vec3_normalize(vec3_add(d, vec3(0, 0.12f, 0))); // limbs bow upward
+    }
+    return true;
+}
+
+// Branches stand on the trunk's upper nodes, taken in order of height, each turned by the golden
+// angle from the last about the trunk and along the node's normal.
+static bool start_branches(OutTree *tree, const TreeParams *params, uint64_t seed, Error *e)
+{
+    const CrownParams *crown = &params->crown;
+    HeightOrder *order = memory_alloc(tree->count, sizeof *order, e);
+    if (!order) {
+        return false;
+    }
+    int64_t count = 0;
+    float from = params->position.y + crown->branch_from * params->trunk.height;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->position[i].y >= from) {
+            order[count++] = (HeightOrder){tree->position[i].y, (int32_t)i};
+        }
+    }
+    qsort(order, (size_t)count, sizeof *order, compare_height);
+    bool done = true;
+    for (int b = 0; done && b < crown->branches && count > 0; b++) {
+        float share = ((float)b + random_range(random_key(seed, (uint64_t)b), 0.2f, 0.8f)) /
+                      (float)crown->branches;
+        int64_t node = order[(int64_t)(share * (float)count)].node;
+        float sine, cosine;
+        exact_sincos((float)(b + 1) * GOLDEN_ANGLE_DEGREES * RADIANS_PER_DEGREE, &sine, &cosine);
+        Vec3 normal = vec3_rotate(tree->normal[node], node_direction(tree, node), cosine, sine);
+        done = start_branch(tree, node, normal, crown->branch_length * (1.15f - 0.4f * share),
+                            crown, e);
+    }
+    free(order);
+    return done;
+}
+
+static bool grow_trunk(OutTree *tree, const TreeParams *params, uint64_t seed, const char *label,
+                       const Run *run, Error *e)
+{
+    char name[128];
+    snprintf(name, sizeof name, "%s, trunk", label);
+    if (!plant_stems(tree, params, seed, e) ||
+        !element_grow(tree, &params->trunk.element, seed, name, run, e)) {
+        return false;
+    }
+    transport_normals(tree);
+    return true;
+}
+
+static bool grow_crown(OutTree *tree, const TreeParams *params, uint64_t seed, const char *label,
+                       const Run *run, Error *e)
+{
+    char name[128];
+    snprintf(name, sizeof name, "%s, crown", label);
+    int64_t trunk_count = tree->count;
+    if (!start_branches(tree, params, random_key(seed, 1), e) ||
+        !element_grow(tree, &params->crown.element, seed, name, run, e)) {
+        return false;
+    }
+    for (int64_t i = trunk_count; i < tree->count; i++) {
+        tree->colony[i] = COLONY_CROWN;
+    }
+    return true;
+}
+
+// Main roots leave the foot evenly spread about it; `foot` is the centre of the trunk's base.
+static bool plant_roots(OutTree *roots, const TreeParams *params, uint64_t seed, Error *e)
+{
+    float radius = params->trunk.radius, start = 0.35f * radius;
+    float offset = random_range(random_key(seed, 1), 0.0f, 2.0f * PI_F);
+    for (int i = 0; i < params->roots.count; i++) {
+        uint64_t key = random_key(seed, 10 + (uint64_t)i);
+        float turn = ((float)i + random_range(key, -0.25f, 0.25f)) / (float)params->roots.count;
+        float sine, cosine;
+        exact_sincos(offset + 2.0f * PI_F * turn, &sine, &cosine);
+        Vec3 out = vec3(sine, 0, cosine);
+        uint64_t id = random_key(key, 2);
+        int64_t parent = -1;
+        // A buttress that comes down the flare, then runs just under the turf.
+        static const float reach[4] = {0.6f, 1.3f, 2.0f, 2.8f};
+        static const float drop[4] = {0.0f, 0.75f, 1.15f, 1.45f};
+        for (int k = 0; k < 4; k++) {
+            Vec3 p = vec3_madd(params->position, reach[k] * radius, out);
+            p.y += start * (1.0f - drop[k]);
+            id = k == 0 ? id : out_tree_child_id(id, 0);
+            parent = out_tree_add_node(roots, p, parent, 0, COLONY_ROOTS, id, e);
+            if (parent < 0) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// Joins the roots to the trunk: each root's first node becomes a child of the foot node.
+static bool graft_roots(OutTree *tree, const OutTree *roots, int64_t foot, Error *e)
+{
+    int64_t base = tree->count;
+    if (!out_tree_reserve(tree, base + roots->count, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < roots->count; i++) {
+        int64_t parent = roots->parent[i] < 0 ? foot : base + roots->parent[i];
+        int64_t node = out_tree_add_node(tree, roots->position[i], parent, roots->birth[i],
+                                         COLONY_ROOTS, roots->id[i], e);
+        if (node < 0) {
+            return false;
+        }
+        tree->radius[node] = roots->radius[i];
+    }
+    return true;
+}
+
+static bool grow_roots(OutTree *tree, const TreeParams *params, uint64_t seed, const char *label,
+                       const Run *run, Error *e)
+{
+    char name[128];
+    snprintf(name, sizeof name, "%s, roots", label);
+    OutTree *roots = out_tree_new(e);
+    bool done = roots && plant_roots(roots, params, random_key(seed, 1), e) &&
+                element_grow(roots, &params->roots.element, seed, name, run, e);
+    if (done) {
+        out_tree_pipe_radii(roots, params->radii.exponent, 2.0f * params->radii.tip,
+                            params->roots.radius * params->trunk.radius);
+        done = graft_roots(tree, roots, 1, e); // node 1: the first stem's foot, on the ground
+    }
+    out_tree_free(roots);
+    return done;
+}
+
+static void compute_radii(OutTree *tree, const TreeParams *params)
+{
+    const RadiiParams *radii = &params->radii;
+    if (radii->model == RADIUS_BIRTH) {
+        out_tree_birth_radii(tree, radii->tip, params->trunk.radius);
+    } else {
+        out_tree_pipe_radii(tree, radii->exponent, radii->tip, params->trunk.radius);
+    }
+    out_tree_root_flare(tree, radii->flare, radii->flare_height);
+}
+
+OutTree *tree_grow(const TreeParams *params, uint64_t seed, const char *label, const Run *run,
+                   Error *e)
+{
+    TreePlan plan;
+    tree_plan_make(&plan, params);
+    OutTree *tree = out_tree_new(e);
+    if (!tree || !grow_trunk(tree, &plan.params, random_key(seed, 1), label, run, e) ||
+        !grow_crown(tree, &plan.params, random_key(seed, 2), label, run, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    compute_radii(tree, &plan.params);
+    if (params->roots.count > 0 &&
+        !grow_roots(tree, &plan.params, random_key(seed, 3), label, run, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    transport_normals(tree);
+    return tree;
+}

@@ -1,0 +1,21 @@
+// What a tree's elements are where the scene file leaves them open: envelopes, levels and pulls in
+// proportion to the tree's height, so that a sapling and a giant need no other numbers.
+#ifndef RAMIFY_MODEL_TREE_DEFAULTS_H
+#define RAMIFY_MODEL_TREE_DEFAULTS_H
+
+#include "model/tree.h"
+
+// Most shapes and levels that a default element has.
+#define TREE_DEFAULT_LEVELS 4
+
+// A tree's parameters with every open number filled in. The elements' lists point into the scene's
+// own lists or into this struct, so it must stay where it is.
+typedef struct TreePlan {
+    TreeParams params;
+    Shape trunk_shape, crown_shape, root_shape;
+    GrowLevel trunk_level[1], crown_level[TREE_DEFAULT_LEVELS], root_level[2];
+} TreePlan;
+
+void tree_plan_make(TreePlan *plan, const TreeParams *params);
+
+#endif
