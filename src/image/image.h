@@ -19,8 +19,9 @@ void image_free(Image *image); // NULL is fine
 // Any format OpenImageIO reads, as stored values (8-bit: 0..1, not linearised).
 Image *image_read(const char *file, Error *e);
 
-// 8-bit PNG or JPEG of an image already in display values; 3 or 4 channels, 0..1. Dithered by a
-// fixed pattern. metadata: "key\0value\0...\0\0" pairs or NULL.
+// 8-bit PNG or JPEG (by the name's ending) of an image already in display values; 3 or 4 channels,
+// 0..1, alpha straight; JPEG shows it over black. Dithered by a fixed pattern. metadata:
+// "key\0value\0...\0\0" pairs or NULL.
 bool image_write_display(const char *file, const Image *image, const char *metadata, Error *e);
 
 // One layer of a multi-part or multi-channel EXR.
@@ -30,7 +31,7 @@ typedef struct ImageLayer {
     const Image *image;
 } ImageLayer;
 
-// Linear float EXR with all layers and metadata.
+// Linear float EXR with all layers (of one size) and metadata.
 bool image_write_exr(const char *file, const ImageLayer *layers, int count, const char *metadata,
                      Error *e);
 

@@ -19,7 +19,9 @@ typedef struct ToneParams {
 
 ToneParams tone_params_default(void);
 
-// image: linear radiance, 3 or 4 channels (alpha kept); the result has sRGB display values.
+// image: linear radiance, 3 or 4 channels; with alpha, radiance is premultiplied (as films and EXRs
+// hold it). The result has sRGB display values, straight (not premultiplied) beside the same alpha,
+// as PNG wants them.
 Image *tone_map(const Image *image, const ToneParams *params, Error *e);
 
 #endif

@@ -1,0 +1,14 @@
+// Writing a whole file so that a failure never harms an old one.
+#ifndef RAMIFY_IMAGE_FILE_REPLACE_H
+#define RAMIFY_IMAGE_FILE_REPLACE_H
+
+#include "base/error.h"
+
+#include <stddef.h>
+
+// Writes size bytes to a new file beside `file`, brings them to the disk and renames it over
+// `file` (over what it points to, if it is a symbolic link). On failure: ERROR_IO with the reason,
+// `file` as it was, the new file gone. Refuses what is not a regular file.
+bool file_replace(const char *file, const void *bytes, size_t size, Error *e);
+
+#endif

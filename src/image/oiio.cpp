@@ -1,0 +1,252 @@
+// The only file that knows OpenImageIO's image input and output. Pictures are encoded in memory
+// and written by file_replace, so that every failure of the disk is seen.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <string>
+#include <vector>
+
+extern "C" {
+#include "image/file_replace.h"
+#include "image/image.h"
+}
+
+namespace
+{
+
+using Bytes = std::vector<unsigned char>;
+
+// Runs body; turns what it throws into an Error. what: "'x.png' cannot be written"
+template <typename Body> bool guarded(const std::string &what, Error *e, Body body)
+{
+    try {
+        return body();
+    } catch (const std::bad_alloc &) {
+        return error_set(e, ERROR_MEMORY, "%s: out of memory", what.c_str());
+    } catch (const std::exception &failure) {
+        return error_set(e, ERROR_INTERNAL, "%s: %s", what.c_str(), failure.what());
+    } catch (...) {
+        return error_set(e, ERROR_INTERNAL, "%s: unknown failure", what.c_str());
+    }
+}
+
+std::string extension_of(const char *file)
+{
+    std::string extension = OIIO::Filesystem::extension(file, false);
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return extension;
+}
+
+// The pairs as attributes; formats without free attributes get them as one text.
+void add_metadata(OIIO::ImageSpec &spec, const char *metadata, bool as_one_text)
+{
+    std::string text;
+    for (const char *key = metadata; key && *key;) {
+        const char *value = key + std::strlen(key) + 1;
+        if (as_one_text) {
+            text += std::string(key) + ": " + value + "\n";
+        } else {
+            spec.attribute(key, value);
+        }
+        key = value + std::strlen(value) + 1;
+    }
+    if (as_one_text && !text.empty()) {
+        const size_t limit = 30000; // a JPEG marker holds less than 65,536 bytes
+        spec.attribute("ImageDescription", text.substr(0, limit));
+    }
+    spec.attribute("DateTime", ""); // the same picture is the same file, whenever it is written
+    spec.attribute("Software", "ramify");
+}
+
+bool encode(const char *file, const char *format, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
+            const void *pixels, Bytes &bytes, Error *e)
+{
+    OIIO::Filesystem::IOVecOutput proxy(bytes);
+    auto output = OIIO::ImageOutput::create(format);
+    if (!output || !output->supports("ioproxy")) {
+        return error_set(e, ERROR_INTERNAL, "'%s' cannot be written: OpenImageIO has no %s writer",
+                         file, format);
+    }
+    std::string name = std::string("memory.") + format;
+    bool done = output->set_ioproxy(&proxy) && output->open(name, spec) &&
+                output->write_image(type, pixels) && output->close();
+    if (!done) {
+        return error_set(e, ERROR_INTERNAL, "'%s' cannot be written: %s", file,
+                         output->geterror().c_str());
+    }
+    return true;
+}
+
+// A threshold in (0, 1) that differs between neighbours like blue noise does: interleaved gradient
+// noise (Jimenez 2014), shifted from channel to channel.
+float dither_threshold(int x, int y, int channel)
+{
+    float a = 0.06711056f * float(x + 47 * channel) + 0.00583715f * float(y + 17 * channel);
+    float b = 52.9829189f * (a - std::floor(a));
+    return std::clamp(b - std::floor(b), 1.0f / 64.0f, 63.0f / 64.0f);
+}
+
+unsigned char quantise(float value, float threshold)
+{
+    float v = value > 0.0f ? std::min(value, 1.0f) : 0.0f; // NaN becomes 0
+    return (unsigned char)std::min(255.0f, std::floor(v * 255.0f + threshold));
+}
+
+// 8 bits; without_alpha: over black.
+Bytes quantise_image(const Image *image, bool without_alpha)
+{
+    int channels = without_alpha ? 3 : image->channels;
+    Bytes bytes(size_t(image->width) * size_t(image->height) * size_t(channels));
+    size_t out = 0;
+    for (int y = 0; y < image->height; y++) {
+        for (int x = 0; x < image->width; x++) {
+            const float *p = image->pixel + (size_t(y) * size_t(image->width) + size_t(x)) *
+                                                size_t(image->channels);
+            float over = without_alpha && image->channels == 4 ? p[3] : 1.0f;
+            for (int c = 0; c < channels; c++) {
+                float threshold = c == 3 ? 0.5f : dither_threshold(x, y, c);
+                bytes[out++] = quantise(p[c] * over, threshold);
+            }
+        }
+    }
+    return bytes;
+}
+
+bool write_display(const char *file, const Image *image, const char *metadata, Error *e)
+{
+    std::string extension = extension_of(file);
+    bool jpeg = extension == "jpg" || extension == "jpeg";
+    if (!jpeg && extension != "png") {
+        return error_set(e, ERROR_INPUT,
+                         "'%s' cannot be written: the name must end in .png, .jpg or .jpeg", file);
+    }
+    if (image->channels != 3 && image->channels != 4) {
+        return error_set(e, ERROR_INPUT, "'%s' cannot be written: %d channels; 3 or 4 would do",
+                         file, image->channels);
+    }
+    Bytes pixels = quantise_image(image, jpeg);
+    OIIO::ImageSpec spec(image->width, image->height, jpeg ? 3 : image->channels,
+                         OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (jpeg) {
+        spec.attribute("CompressionQuality", 95);
+        spec.attribute("jpeg:subsampling", "4:4:4");
+    }
+    add_metadata(spec, metadata, jpeg);
+    Bytes bytes;
+    return encode(file, jpeg ? "jpeg" : "png", spec, OIIO::TypeDesc::UINT8, pixels.data(), bytes,
+                  e) &&
+           file_replace(file, bytes.data(), bytes.size(), e);
+}
+
+bool check_layers(const char *file, const ImageLayer *layers, int count, Error *e)
+{
+    for (int i = 0; i < count; i++) {
+        const Image *image = layers[i].image, *first = layers[0].image;
+        if (image->width != first->width || image->height != first->height) {
+            return error_set(e, ERROR_INPUT,
+                             "'%s' cannot be written: layer '%s' is %d x %d, the first one %d x %d",
+                             file, layers[i].name, image->width, image->height, first->width,
+                             first->height);
+        }
+        if ((int)std::strlen(layers[i].channel_names) != image->channels) {
+            return error_set(
+                e, ERROR_INPUT,
+                "'%s' cannot be written: layer '%s' has %d channels but the names '%s'", file,
+                layers[i].name, image->channels, layers[i].channel_names);
+        }
+    }
+    return count > 0 || error_set(e, ERROR_INPUT, "'%s' cannot be written: no layers", file);
+}
+
+bool write_exr(const char *file, const ImageLayer *layers, int count, const char *metadata,
+               Error *e)
+{
+    if (!check_layers(file, layers, count, e)) {
+        return false;
+    }
+    OIIO::ImageSpec spec(layers[0].image->width, layers[0].image->height, 0, OIIO::TypeDesc::FLOAT);
+    for (int i = 0; i < count; i++) {
+        std::string prefix = layers[i].name[0] ? std::string(layers[i].name) + "." : "";
+        for (const char *c = layers[i].channel_names; *c; c++) {
+            if (prefix.empty() && *c == 'A') {
+                spec.alpha_channel = spec.nchannels;
+            }
+            spec.channelnames.push_back(prefix + *c);
+            spec.nchannels++;
+        }
+    }
+    size_t size = size_t(spec.width) * size_t(spec.height), channels = size_t(spec.nchannels);
+    std::vector<float> pixels(size * channels);
+    size_t offset = 0;
+    for (int i = 0; i < count; i++) {
+        size_t own = size_t(layers[i].image->channels);
+        for (size_t p = 0; p < size; p++) {
+            std::memcpy(&pixels[p * channels + offset], layers[i].image->pixel + p * own,
+                        own * sizeof(float));
+        }
+        offset += own;
+    }
+    spec.attribute("compression", "zip");
+    spec.attribute("oiio:ColorSpace", "lin_srgb");
+    add_metadata(spec, metadata, false);
+    Bytes bytes;
+    return encode(file, "openexr", spec, OIIO::TypeDesc::FLOAT, pixels.data(), bytes, e) &&
+           file_replace(file, bytes.data(), bytes.size(), e);
+}
+
+bool read(const char *file, Image **image, Error *e)
+{
+    auto input = OIIO::ImageInput::open(file);
+    if (!input) {
+        std::string reason = OIIO::geterror();
+        return error_set(e, ERROR_INPUT, "image '%s' cannot be read: %s", file, reason.c_str());
+    }
+    const OIIO::ImageSpec spec = input->spec();
+    if (spec.depth > 1 || spec.deep) {
+        return error_set(e, ERROR_INPUT, "image '%s' cannot be read: it is not flat", file);
+    }
+    *image = image_new(spec.width, spec.height, spec.nchannels, e);
+    if (!*image) {
+        return false;
+    }
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, (*image)->pixel)) {
+        return error_set(e, ERROR_INPUT, "image '%s' cannot be read: %s", file,
+                         input->geterror().c_str());
+    }
+    return true;
+}
+
+} // namespace
+
+extern "C" Image *image_read(const char *file, Error *e)
+{
+    Image *image = nullptr;
+    bool done = guarded("image '" + std::string(file) + "' cannot be read", e,
+                        [&] { return read(file, &image, e); });
+    if (!done) {
+        image_free(image);
+        return nullptr;
+    }
+    return image;
+}
+
+extern "C" bool image_write_display(const char *file, const Image *image, const char *metadata,
+                                    Error *e)
+{
+    return guarded("'" + std::string(file) + "' cannot be written", e,
+                   [&] { return write_display(file, image, metadata, e); });
+}
+
+extern "C" bool image_write_exr(const char *file, const ImageLayer *layers, int count,
+                                const char *metadata, Error *e)
+{
+    return guarded("'" + std::string(file) + "' cannot be written", e,
+                   [&] { return write_exr(file, layers, count, metadata, e); });
+}

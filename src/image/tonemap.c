@@ -1,0 +1,110 @@
+#include "image/tonemap.h"
+
+#include "base/memory.h"
+#include "image/lens.h"
+#include "image/tone_curve.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+ToneParams tone_params_default(void)
+{
+    return (ToneParams){.curve = TONE_FILMIC,
+                        .contrast = 1.0f,
+                        .saturation = 1.0f,
+                        .white_balance = 6500.0f,
+                        .bloom = 0.03f,
+                        .vignette = 0.15f};
+}
+
+static float luminance(const float *p)
+{
+    return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+}
+
+// The factor that takes the log-average luminance of what is not black to 0.18.
+static float auto_gain(const Image *image)
+{
+    double sum = 0.0, weight = 0.0;
+    int64_t count = (int64_t)image->width * image->height;
+    for (int64_t i = 0; i < count; i++) {
+        const float *p = image->pixel + i * image->channels;
+        float cover = image->channels == 4 ? p[3] : 1.0f;
+        float y = luminance(p);
+        if (cover > 0.0f && y > 1e-7f && isfinite(y)) {
+            sum += (double)cover * log((double)(y / cover));
+            weight += (double)cover;
+        }
+    }
+    return weight > 0.0 ? (float)(0.18 / exp(sum / weight)) : 1.0f;
+}
+
+// Linear, straight (not premultiplied), finite, exposed and balanced.
+static void prepare(Image *out, const Image *image, const ToneParams *params)
+{
+    float gain = exp2f(params->exposure) * (params->auto_exposure ? auto_gain(image) : 1.0f);
+    float balance[3][3];
+    tone_white_balance(params->white_balance, balance);
+    int64_t count = (int64_t)image->width * image->height;
+    for (int64_t i = 0; i < count; i++) {
+        const float *p = image->pixel + i * image->channels;
+        float *q = out->pixel + i * image->channels;
+        float value[3];
+        for (int c = 0; c < 3; c++) {
+            value[c] = p[c] > 0.0f ? fminf(p[c] * gain, 1e6f) : 0.0f;
+        }
+        for (int c = 0; c < 3; c++) {
+            q[c] = fmaxf(0.0f, balance[c][0] * value[0] + balance[c][1] * value[1] +
+                                   balance[c][2] * value[2]);
+        }
+        if (image->channels == 4) {
+            q[3] = clampf(p[3], 0.0f, 1.0f);
+        }
+    }
+}
+
+static void develop_pixel(float *p, int channels, float shade, const ToneParams *params,
+                          const ToneCurveFit *fit)
+{
+    float alpha = channels == 4 ? p[3] : 1.0f;
+    float scale = alpha > 0.0f ? shade / alpha : 0.0f;
+    for (int c = 0; c < 3; c++) {
+        p[c] *= scale;
+    }
+    if (params->curve == TONE_FILMIC) {
+        tone_film(fit, params->saturation, p);
+    } else {
+        tone_saturate(params->saturation, p);
+    }
+    for (int c = 0; c < 3; c++) {
+        p[c] = tone_srgb_from_linear(p[c]);
+    }
+}
+
+Image *tone_map(const Image *image, const ToneParams *params, Error *e)
+{
+    if (image->channels != 3 && image->channels != 4) {
+        error_set(e, ERROR_INPUT,
+                  "an image with %d channels cannot be tone mapped; 3 or 4 would do",
+                  image->channels);
+        return NULL;
+    }
+    Image *out = image_new(image->width, image->height, image->channels, e);
+    if (!out) {
+        return NULL;
+    }
+    prepare(out, image, params);
+    if (params->bloom > 0.0f && !lens_bloom(out, fminf(params->bloom, 1.0f), e)) {
+        image_free(out);
+        return NULL;
+    }
+    ToneCurveFit fit = tone_curve_fit(params->contrast);
+    for (int y = 0; y < out->height; y++) {
+        for (int x = 0; x < out->width; x++) {
+            float shade = lens_vignette(out, x, y, params->vignette);
+            develop_pixel(out->pixel + ((int64_t)y * out->width + x) * out->channels, out->channels,
+                          shade, params, &fit);
+        }
+    }
+    return out;
+}
