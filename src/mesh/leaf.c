@@ -3,6 +3,8 @@
 #include "base/exact_math.h"
 #include "base/random.h"
 
+#include <stddef.h>
+
 // A leaf is a grid of rows along the midrib and columns across, and a three-sided stalk below it.
 enum { LEAF_COLUMNS = 5, STALK_SIDES = 3, BLADE_ROWS = 5 };
 

@@ -1,0 +1,16 @@
+// Leaves on twigs: where phyllotaxis puts them and how they turn.
+#ifndef RAMIFY_MODEL_FOLIAGE_H
+#define RAMIFY_MODEL_FOLIAGE_H
+
+#include "mesh/geometry.h"
+#include "model/tree.h"
+
+// Adds one part per leaf variant with an instance for every leaf on the thin ends of the curves.
+// center: of the crown, from which leaves turn outward to the light.
+bool foliage_add(const CurveSet *twigs, const LeavesParams *leaves, Vec3 center, int material,
+                 int object, uint64_t seed, Geometry *geometry, Error *e);
+
+// The mesh of leaf variant number `variant`.
+Mesh *foliage_leaf_mesh(const LeavesParams *leaves, int variant, uint64_t seed, Error *e);
+
+#endif

@@ -1,0 +1,63 @@
+// From a grown tree to geometry: bark mesh, twigs as curves, leaves as instances.
+#include "mesh/skin.h"
+#include "model/foliage.h"
+#include "model/tree.h"
+#include "model/tree_defaults.h"
+
+#include "base/random.h"
+
+static bool add_bark(const OutTree *tree, const SkinParams *skin, int material, int object,
+                     Geometry *geometry, const Run *run, Error *e)
+{
+    Mesh *mesh = skin_tree(tree, skin, run, e);
+    return mesh &&
+           geometry_add(
+               geometry,
+               (Part){.kind = PART_MESH, .mesh = mesh, .material = material, .object = object}, e);
+}
+
+static bool add_twigs(CurveSet *curves, int material, int object, Geometry *geometry, Error *e)
+{
+    return geometry_add(
+        geometry,
+        (Part){.kind = PART_CURVES, .curves = curves, .material = material, .object = object}, e);
+}
+
+// Leaves stand on the same curves that are drawn as twigs, so that none floats. When every twig is
+// mesh, the curves are made for the leaves alone.
+static bool add_twigs_and_leaves(const OutTree *tree, const TreeParams *params,
+                                 const SkinParams *skin, const TreeMaterials *materials, int object,
+                                 uint64_t seed, Geometry *geometry, Error *e)
+{
+    bool drawn = params->skin.curve_radius > 0.0f;
+    bool leafy = params->leaves.max_count > 0;
+    if (!drawn && !leafy) {
+        return true;
+    }
+    float radius = drawn ? params->skin.curve_radius : params->leaves.twig_radius;
+    CurveSet *twigs = skin_curves(tree, radius, skin, e);
+    if (!twigs) {
+        return false;
+    }
+    Vec3 center = vec3_add(params->position, vec3(0, 0.5f * params->height, 0));
+    bool done = !leafy || foliage_add(twigs, &params->leaves, center, materials->leaf, object,
+                                      random_key(seed, 4), geometry, e);
+    if (!done || !drawn) {
+        curves_free(twigs);
+        return done;
+    }
+    return add_twigs(twigs, materials->twig, object, geometry, e);
+}
+
+bool tree_geometry(const OutTree *tree, const TreeParams *params, const TreeMaterials *materials,
+                   int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e)
+{
+    SkinParams skin = skin_params_default();
+    skin.min_radius = params->skin.curve_radius;
+    skin.levels = params->skin.levels;
+    if (params->skin.ring_spacing > 0.0f) {
+        skin.ring_spacing = params->skin.ring_spacing;
+    }
+    return add_bark(tree, &skin, materials->bark, object, geometry, run, e) &&
+           add_twigs_and_leaves(tree, params, &skin, materials, object, seed, geometry, e);
+}
