@@ -30,7 +30,7 @@ TESTS     := $(sort $(wildcard tests/*/test_*.c))
 TEST_BIN  := $(patsubst tests/%.c,$(OUT)/tests/%,$(TESTS))
 BENCHES   := $(sort $(wildcard tests/bench/*.c))
 BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
-FORMATTED := $(wildcard src/*.h src/*.c src/*/*.[ch] src/*/*.cpp tests/*/*.[ch])
+FORMATTED := $(wildcard src/*.h src/*.c src/*/*.[ch] src/*/*.cpp tests/*.h tests/*/*.[ch])
 
 .PHONY: all demo test bench sanitize lint format format-check install clean help packages check-packages
 .DEFAULT_GOAL := all
@@ -98,23 +98,29 @@ check-packages:
 
 $(OBJ)/%.c.o: src/%.c
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -c $< -o $@
+	@echo "  CC   $<"
+	@$(CC) $(CFLAGS) -c $< -o $@
 
 $(OBJ)/%.cpp.o: src/%.cpp
 	@mkdir -p $(@D)
-	$(CXX) $(CXXFLAGS) -c $< -o $@
+	@echo "  CXX  $<"
+	@$(CXX) $(CXXFLAGS) -c $< -o $@
 
 $(OUT)/libramify.a: $(LIB_OBJ)
-	rm -f $@ && ar rcs $@ $^
+	@echo "  AR   $@"
+	@rm -f $@ && ar rcs $@ $^
 
 $(OUT)/libramify.so: $(LIB_OBJ)
-	$(CC) -shared $^ $(LDFLAGS) $(LDLIBS) -o $@
+	@echo "  LINK $@"
+	@$(CC) -shared $^ $(LDFLAGS) $(LDLIBS) -o $@
 
 $(OUT)/ramify: $(CLI_OBJ) $(OUT)/libramify.a
-	$(CC) $^ $(LDFLAGS) $(LDLIBS) -o $@
+	@echo "  LINK $@"
+	@$(CC) $^ $(LDFLAGS) $(LDLIBS) -o $@
 
 $(OUT)/tests/%: tests/%.c $(OUT)/libramify.a
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -Itests $< $(OUT)/libramify.a $(LDFLAGS) -lcmocka $(LDLIBS) -o $@
+	@echo "  TEST $<"
+	@$(CC) $(CFLAGS) -Itests $< $(OUT)/libramify.a $(LDFLAGS) -lcmocka $(LDLIBS) -o $@
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(addsuffix .d,$(TEST_BIN) $(BENCH_BIN))
