@@ -52,10 +52,9 @@ bench: all ## print the figures of speed, as ratios to yardsticks measured in th
 sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory CONFIG=sanitize test
 
-lint: packages check-packages format-check ## clang-tidy and cppcheck, warnings are errors
-	cppcheck --quiet --std=c17 --enable=warning,performance,portability --inline-suppr --error-exitcode=1 -Isrc \
-	    --suppress=missingIncludeSystem --check-level=normal src 2>/dev/null || \
-	cppcheck --quiet --std=c17 --enable=warning,performance,portability --inline-suppr --error-exitcode=1 -Isrc src
+lint: packages check-packages format-check ## clang-tidy, cppcheck and the order of the folders; warnings are errors
+	tests/layers.sh
+	cppcheck --quiet --std=c17 -j $$(nproc) --enable=warning,performance,portability --inline-suppr --error-exitcode=1 -Isrc src
 	printf '%s\n' $(filter %.c,$(SOURCES)) | xargs -P $$(nproc) -n 4 sh -c \
 	    'clang-tidy --quiet "$$@" -- -std=c17 -D_GNU_SOURCE -Isrc 2>/dev/null || exit 255' sh
 
