@@ -67,3 +67,38 @@ GeometryCounts geometry_counts(const Geometry *geometry)
     }
     return counts;
 }
+
+static void bake_instance(Mesh *out, const Part *part, int64_t instance)
+{
+    const Mesh *mesh = part->mesh;
+    const Transform *t = &part->instance[instance];
+    Transform inverse;
+    bool invertible = transform_inverse(t, &inverse);
+    int64_t v0 = instance * mesh->vertex_count;
+    for (int64_t v = 0; v < mesh->vertex_count; v++) {
+        out->position[v0 + v] = transform_point(t, mesh->position[v]);
+        if (out->normal) {
+            Vec3 n = mesh->normal[v];
+            out->normal[v0 + v] = vec3_normalize(invertible ? transform_normal(&inverse, n) : n);
+        }
+        if (out->uv) {
+            out->uv[v0 + v] = mesh->uv[v];
+        }
+    }
+    int64_t corners = mesh->face_count * mesh->face_size;
+    for (int64_t c = 0; c < corners; c++) {
+        out->index[instance * corners + c] = (uint32_t)v0 + mesh->index[c];
+    }
+}
+
+Mesh *geometry_bake(const Part *part, Error *e)
+{
+    const Mesh *mesh = part->mesh;
+    int64_t count = part->instance_count;
+    Mesh *out = mesh_new(mesh->face_size, count * mesh->vertex_count, count * mesh->face_count,
+                         (mesh->normal ? MESH_NORMAL : 0) | (mesh->uv ? MESH_UV : 0), e);
+    for (int64_t i = 0; out && i < count; i++) {
+        bake_instance(out, part, i);
+    }
+    return out;
+}

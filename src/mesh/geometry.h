@@ -30,6 +30,10 @@ typedef struct Geometry {
 bool geometry_add(Geometry *geometry, Part part, Error *e);
 void geometry_clear(Geometry *geometry); // frees the parts, leaves an empty Geometry
 
+// The part's mesh copied to every instance's place, as one mesh: cheaper to trace than instances
+// where they are many, small and far away, and instances of it are possible again.
+Mesh *geometry_bake(const Part *part, Error *e);
+
 typedef struct GeometryCounts {
     int64_t triangles; // stored once; a quad counts as two
     int64_t curve_segments;

@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "mesh/leaf.h"
 #include "model/foliage.h"
+#include "model/grove.h"
 
 #include <stdlib.h>
 
@@ -21,7 +22,13 @@ GroundParams ground_params_default(void)
                           .grass_clumping = 0.5f,
                           .grass_variants = 6,
                           .fallen_leaves = 0,
-                          .fallen_radius = 9.0f};
+                          .fallen_radius = 9.0f,
+                          .trees = {.count = 0,
+                                    .inner = 150.0f,
+                                    .outer = 900.0f,
+                                    .height = 16.0f,
+                                    .clumping = 0.9f,
+                                    .variants = 3}};
 }
 
 float ground_height(const GroundParams *params, uint64_t seed, float x, float z)
@@ -233,7 +240,6 @@ static bool add_fallen_leaves(const GroundParams *params, int material, int obje
 bool ground_geometry(const GroundParams *params, const GroundMaterials *materials, int object,
                      uint64_t seed, Geometry *geometry, const Run *run, Error *e)
 {
-    (void)run;
     Mesh *mesh = ground_mesh(params, seed, e);
     if (!mesh || !geometry_add(geometry,
                                (Part){.kind = PART_MESH,
@@ -248,6 +254,9 @@ bool ground_geometry(const GroundParams *params, const GroundMaterials *material
             return false;
         }
     }
-    return params->fallen_leaves == 0 ||
-           add_fallen_leaves(params, materials->fallen, object, seed, geometry, e);
+    if (params->fallen_leaves > 0 &&
+        !add_fallen_leaves(params, materials->fallen, object, seed, geometry, e)) {
+        return false;
+    }
+    return params->trees.count == 0 || grove_add(params, materials, object, seed, geometry, run, e);
 }

@@ -5,6 +5,15 @@
 #include "base/run.h"
 #include "mesh/geometry.h"
 
+// Woods in the distance: a few trees, grown once and instanced.
+typedef struct GroveParams {
+    int count;          // trees; 0 = none
+    float inner, outer; // m from the origin between which they stand
+    float height;       // m, of the tallest
+    float clumping;     // 0 = even .. 1 = in woods with open land between
+    int variants;       // different trees
+} GroveParams;
+
 typedef struct GroundParams {
     float radius;        // m, to the horizon
     float relief;        // m, height of the hills
@@ -18,10 +27,12 @@ typedef struct GroundParams {
     int grass_variants;    // different tuft meshes
     int64_t fallen_leaves; // leaves lying about the origin; 0 = none
     float fallen_radius;   // m
+    GroveParams trees;
 } GroundParams;
 
 typedef struct GroundMaterials {
     int ground, grass, fallen;
+    int bark, foliage; // of the trees in the distance
 } GroundMaterials;
 
 GroundParams ground_params_default(void); // 2 km of meadow, 60,000 tufts
