@@ -1,7 +1,7 @@
 # ramify: `make help` lists the targets. Every target installs the Debian packages it needs when they are missing.
 
 # The one list of Debian packages. BUILD: to compile and run. CHECK: only for lint, format, sanitize and bench.
-BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libopenimageio-dev \
+BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libboost-dev libopenimageio-dev \
                  libopenexr-dev libassimp-dev libcyaml-dev libyaml-dev libtbb-dev libcmocka-dev
 CHECK_PACKAGES = clang-format clang-tidy cppcheck libclang-rt-14-dev
 
