@@ -10,16 +10,16 @@
 
 typedef struct Film {
     int width, height;
-    Vec3 *color;    // mean radiance
-    float *alpha;   // share of samples that met something (or the visible sky)
-    Vec3 *albedo;   // first-hit reflectance, 0..1
-    Vec3 *normal;   // first-hit shading normal, world, mean (not unit)
-    float *depth;   // m along the ray, mean over samples that hit; INFINITY where none did
-    Vec3 *position; // m, first hit; 0 where none
-    float *object;  // object id + 1 of the first sample that hit; 0 = background
-    float *samples; // taken so far
-    float
-        *variance; // of the pixel's mean luminance, estimated; for adaptive stopping and denoising
+    Vec3 *color;     // mean radiance
+    float *alpha;    // share of samples that met something (or the visible sky)
+    Vec3 *albedo;    // first-hit reflectance, 0..1
+    Vec3 *normal;    // first-hit shading normal, world, mean (not unit)
+    float *depth;    // m along the ray, mean over samples that hit; INFINITY where none did
+    Vec3 *position;  // m, first hit, mean over samples that hit; 0 where none
+    float *object;   // object id + 1 of the first sample that hit; 0 = background
+    float *hits;     // samples that met a surface: what depth and position are means over
+    float *samples;  // taken so far
+    float *variance; // of the pixel's mean luminance, estimated; for adaptive stopping, denoising
 } Film;
 
 Film *film_new(int width, int height, Error *e);

@@ -8,10 +8,15 @@
 #include <stdint.h>
 
 typedef struct SurfacePoint {
-    Vec3 position;         // world
+    Vec3 position; // world
+    Vec3 lifted;   // position raised from the facet to the smooth surface that the vertex normals
+                   // tell of: where rays start that leave on normal's side (no shadow terminator)
     Vec3 object_position;  // in the part's own space: where 3D patterns are looked up
-    Vec3 geometric_normal; // unit, world, on the side of the ray's origin
-    Vec3 normal; // unit, world, interpolated, same side as geometric_normal (before bumps)
+    Vec3 facet_normal;     // unit, world, on the side of the ray's origin: of the flat face itself
+    Vec3 geometric_normal; // unit, world, same side: of the surface before bumps, which is the
+                           // smooth one where vertex normals tell of one; parts reflection from
+                           // transmission
+    Vec3 normal;           // unit, world: geometric_normal until a material bumps it
     Vec3 tangent_u,
         tangent_v; // world: dP/du, dP/dv of the uv parametrisation; some frame where there is no uv
     Vec2 uv;
@@ -19,6 +24,8 @@ typedef struct SurfacePoint {
     float birth;
     float variation; // 0..1 per instance
     bool backface;   // the ray met the side away from the mesh's own orientation
+    float
+        epsilon; // m: how far along facet_normal a ray starts so as not to meet this surface again
     float footprint; // m: rough width of the pixel here, for fading fine patterns; 0 = unknown
     int material, object, part;
 } SurfacePoint;

@@ -55,8 +55,9 @@ typedef struct Light {
 } Light;
 
 typedef struct RenderParams {
-    int samples;   // per pixel
-    int max_depth; // bounces
+    int samples;        // per pixel
+    int max_depth;      // bounces
+    int roulette_depth; // bounces before Russian roulette may end a path; max_depth = never
     uint64_t seed;
     float clamp;     // upper bound on a sample's indirect luminance; 0 = none (unbiased)
     float max_noise; // adaptive: a tile stops when its estimated relative error is below this; 0 =

@@ -1,0 +1,48 @@
+// The world's surfaces in Embree: what does a ray meet, and what is it like there?
+// Single meshes and curve sets go straight into the scene; instances are one level deep, and parts
+// of few corners in many copies are copied out, because Embree then traces them faster.
+#ifndef RAMIFY_RENDER_ACCEL_H
+#define RAMIFY_RENDER_ACCEL_H
+
+#include "base/run.h"
+#include "render/bsdf.h"
+#include "render/world.h"
+
+typedef struct Accel Accel;
+
+typedef struct Ray {
+    Vec3 origin, direction; // unit direction
+    float far;              // m
+    uint32_t key;           // random: decides whether the ray passes half-transparent surfaces
+    bool coherent;          // neighbours go the same way: camera rays
+} Ray;
+
+typedef struct Hit {
+    float t, u, v;
+    Vec3 normal; // Embree's, in the part's own space, not unit
+    uint32_t geometry, primitive;
+} Hit;
+
+// Builds. world and materials are borrowed. ERROR_MEMORY instead of a crash when Embree runs out.
+// isa as for renderer_new.
+Accel *accel_new(const World *world, const MaterialSet *materials, const char *isa, const Run *run,
+                 Error *e);
+void accel_free(Accel *accel); // NULL is fine
+
+int64_t accel_bytes(const Accel *accel); // held by Embree
+Aabb accel_bounds(const Accel *accel);   // of everything; empty when there is nothing
+
+// To be called around tracing in every thread: denormal numbers as zero. Returns the old state.
+unsigned accel_thread_begin(void);
+void accel_thread_end(unsigned state);
+
+bool accel_intersect(const Accel *accel, const Ray *ray, Hit *hit);
+bool accel_occluded(const Accel *accel, const Ray *ray);
+
+// Index of the light that was hit; -1 when it was a part.
+int accel_light(const Accel *accel, const Hit *hit);
+
+// Fills everything but footprint.
+void accel_surface(const Accel *accel, const Ray *ray, const Hit *hit, SurfacePoint *point);
+
+#endif

@@ -1,0 +1,250 @@
+#include "render/accel_internal.h"
+
+#include "base/random.h"
+
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+
+unsigned accel_thread_begin(void)
+{
+    unsigned state = _mm_getcsr();
+    _mm_setcsr(state | _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON);
+    return state;
+}
+
+void accel_thread_end(unsigned state)
+{
+    _mm_setcsr(state);
+}
+
+// Embree may ask more than once about a hit, so the draw hashes the hit instead of advancing a
+// generator. Rays come one at a time (N = 1), as only single rays are traced.
+void accel_alpha_filter(const struct RTCFilterFunctionNArguments *arguments)
+{
+    const AccelPart *own = arguments->geometryUserPtr;
+    const Mesh *mesh = own->part->mesh;
+    const struct RTCRay *ray = (const struct RTCRay *)arguments->ray;
+    const struct RTCHit *hit = (const struct RTCHit *)arguments->hit;
+    if (!arguments->valid[0]) {
+        return;
+    }
+    Corners c = accel_corners(mesh, hit->primID % mesh->face_count, hit->u, hit->v);
+    float opacity =
+        material_opacity(own->accel->materials, own->part->material, accel_uv(mesh, &c));
+    if (opacity < 1.0f) {
+        uint64_t key = random_key(random_key(ray->id, hit->primID), hit->instID[0]);
+        if (random_unit(key) >= opacity) {
+            arguments->valid[0] = 0;
+        }
+    }
+}
+
+static struct RTCRay embree_ray(const Ray *ray)
+{
+    return (struct RTCRay){.org_x = ray->origin.x,
+                           .org_y = ray->origin.y,
+                           .org_z = ray->origin.z,
+                           .dir_x = ray->direction.x,
+                           .dir_y = ray->direction.y,
+                           .dir_z = ray->direction.z,
+                           .tfar = ray->far,
+                           .mask = ~0u,
+                           .id = ray->key};
+}
+
+bool accel_intersect(const Accel *accel, const Ray *ray, Hit *hit)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags =
+        ray->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    struct RTCRayHit query = {.ray = embree_ray(ray)};
+    query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(accel->scene, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return false;
+    }
+    bool instanced = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+    *hit = (Hit){query.ray.tfar,
+                 query.hit.u,
+                 query.hit.v,
+                 vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z),
+                 instanced ? query.hit.instID[0] : query.hit.geomID,
+                 query.hit.primID};
+    return true;
+}
+
+bool accel_occluded(const Accel *accel, const Ray *ray)
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    struct RTCRay query = embree_ray(ray);
+    rtcOccluded1(accel->scene, &context, &query);
+    return query.tfar < 0.0f;
+}
+
+int accel_light(const Accel *accel, const Hit *hit)
+{
+    AccelEntry entry = accel->entry[hit->geometry];
+    return entry.part < 0 ? (int)entry.instance : -1;
+}
+
+// Normals go with the cofactors of the matrix: right for any scale, no inverse needed. Its sign
+// keeps them outside under mirroring.
+static Vec3 normal_to_world(const Transform *t, Vec3 n)
+{
+    Vec3 x = vec3(t->m[0][0], t->m[1][0], t->m[2][0]);
+    Vec3 y = vec3(t->m[0][1], t->m[1][1], t->m[2][1]);
+    Vec3 z = vec3(t->m[0][2], t->m[1][2], t->m[2][2]);
+    Vec3 yz = vec3_cross(y, z);
+    Vec3 sum = vec3_madd(vec3_scale(yz, n.x), n.y, vec3_cross(z, x));
+    sum = vec3_madd(sum, n.z, vec3_cross(x, y));
+    return vec3_dot(x, yz) < 0.0f ? vec3_neg(sum) : sum;
+}
+
+// Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021: the point lifted to the
+// tangent planes of the vertices. Everything in the part's space, normals on the side of the ray.
+static Vec3 lift(const Mesh *mesh, const Corners *c, Vec3 p, float side)
+{
+    Vec3 lifted = p;
+    for (int i = 0; i < 3; i++) {
+        Vec3 n = vec3_scale(mesh->normal[c->vertex[i]], side);
+        float depth = vec3_dot(vec3_sub(p, mesh->position[c->vertex[i]]), n);
+        if (depth < 0.0f) {
+            lifted = vec3_madd(lifted, -depth * c->weight[i], n);
+        }
+    }
+    return lifted;
+}
+
+// dP/du and dP/dv of the triangle of c; false where uv is degenerate.
+static bool uv_tangents(const Mesh *mesh, const Corners *c, Vec3 e1, Vec3 e2, SurfacePoint *point)
+{
+    Vec2 a = mesh->uv[c->vertex[0]], b = mesh->uv[c->vertex[1]], d = mesh->uv[c->vertex[2]];
+    float u1 = b.x - a.x, v1 = b.y - a.y, u2 = d.x - a.x, v2 = d.y - a.y;
+    float determinant = u1 * v2 - v1 * u2;
+    if (fabsf(determinant) < 1e-20f) {
+        return false;
+    }
+    float scale = 1.0f / determinant;
+    point->tangent_u = vec3_scale(vec3_madd(vec3_scale(e1, v2), -v1, e2), scale);
+    point->tangent_v = vec3_scale(vec3_madd(vec3_scale(e2, u1), -u2, e1), scale);
+    return true;
+}
+
+// An interpolated normal on the facet's side, bent until the ray's origin sees it at least
+// grazingly.
+static Vec3 smooth_normal(Vec3 n, Vec3 facet, Vec3 direction)
+{
+    const float least = 1e-3f;
+    n = vec3_dot(n, facet) < 0.0f ? vec3_neg(n) : n;
+    float cosine = -vec3_dot(n, direction);
+    return cosine >= least ? n : vec3_normalize(vec3_madd(n, cosine - 2.0f * least, direction));
+}
+
+static void mesh_surface(const Mesh *mesh, const Hit *hit, int64_t face, const Transform *t,
+                         Vec3 direction, SurfacePoint *point)
+{
+    Corners c = accel_corners(mesh, face, hit->u, hit->v);
+    Vec3 a = mesh->position[c.vertex[0]];
+    Vec3 e1 = vec3_sub(mesh->position[c.vertex[1]], a);
+    Vec3 e2 = vec3_sub(mesh->position[c.vertex[2]], a);
+    Vec3 p = vec3_madd(vec3_madd(a, c.weight[1], e1), c.weight[2], e2);
+    Vec3 facet = vec3_cross(e1, e2);
+    Vec3 geometric = vec3_normalize(t ? normal_to_world(t, facet) : facet);
+    point->backface = vec3_dot(geometric, direction) > 0.0f;
+    float side = point->backface ? -1.0f : 1.0f;
+    point->object_position = p;
+    point->position = point->lifted = t ? transform_point(t, p) : p;
+    point->facet_normal = point->normal = vec3_scale(geometric, side);
+    if (mesh->normal) {
+        Vec3 n = vec3_scale(mesh->normal[c.vertex[0]], c.weight[0]);
+        n = vec3_madd(n, c.weight[1], mesh->normal[c.vertex[1]]);
+        n = vec3_madd(n, c.weight[2], mesh->normal[c.vertex[2]]);
+        n = vec3_normalize(t ? normal_to_world(t, n) : n);
+        if (vec3_dot(n, n) > 0.0f) {
+            point->normal = smooth_normal(n, point->facet_normal, direction);
+            Vec3 lifted = lift(mesh, &c, p, side);
+            point->lifted = t ? transform_point(t, lifted) : lifted;
+        }
+    }
+    point->geometric_normal = point->normal;
+    if (mesh->uv) {
+        point->uv = accel_uv(mesh, &c);
+    }
+    if (!mesh->uv || !uv_tangents(mesh, &c, e1, e2, point)) {
+        point->tangent_u = e1;
+        point->tangent_v = e2;
+    }
+    if (t) {
+        point->tangent_u = transform_vector(t, point->tangent_u);
+        point->tangent_v = transform_vector(t, point->tangent_v);
+    }
+    for (int i = 0; i < 3 && mesh->radius; i++) {
+        point->radius += c.weight[i] * mesh->radius[c.vertex[i]];
+    }
+    for (int i = 0; i < 3 && mesh->birth; i++) {
+        point->birth += c.weight[i] * mesh->birth[c.vertex[i]];
+    }
+}
+
+static void curve_surface(const AccelPart *own, const Ray *ray, const Hit *hit, const Transform *t,
+                          SurfacePoint *point)
+{
+    const CurveSet *curves = own->part->curves;
+    uint32_t k = own->segment[hit->primitive];
+    Vec3 axis = vec3_sub(curves->position[k + 1], curves->position[k]);
+    Vec3 normal = vec3_normalize(t ? normal_to_world(t, hit->normal) : hit->normal);
+    point->backface = vec3_dot(normal, ray->direction) > 0.0f;
+    point->normal = point->backface ? vec3_neg(normal) : normal;
+    point->facet_normal = point->geometric_normal = point->normal;
+    point->position = point->lifted = vec3_madd(ray->origin, hit->t, ray->direction);
+    Transform inverse;
+    point->object_position = t && transform_inverse(t, &inverse)
+                                 ? transform_point(&inverse, point->position)
+                                 : point->position;
+    point->radius = lerpf(curves->radius[k], curves->radius[k + 1], hit->u);
+    point->birth = curves->birth ? lerpf(curves->birth[k], curves->birth[k + 1], hit->u) : 0.0f;
+    if (curves->along) {
+        point->uv.y = lerpf(curves->along[k], curves->along[k + 1], hit->u);
+    }
+    point->tangent_v = vec3_normalize(t ? transform_vector(t, axis) : axis);
+    point->tangent_u = vec3_cross(point->tangent_v, point->normal);
+}
+
+static float instance_variation(const Part *part, uint32_t instance)
+{
+    return part->variation ? part->variation[instance]
+                           : random_unit(random_key((uint64_t)part->object, instance));
+}
+
+static float largest(Vec3 p)
+{
+    return fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
+}
+
+void accel_surface(const Accel *accel, const Ray *ray, const Hit *hit, SurfacePoint *point)
+{
+    AccelEntry entry = accel->entry[hit->geometry];
+    const AccelPart *own = &accel->part[entry.part];
+    const Part *part = own->part;
+    uint32_t instance = entry.instance, face = hit->primitive;
+    if (own->copied) {
+        instance = (uint32_t)(hit->primitive / part->mesh->face_count);
+        face = (uint32_t)(hit->primitive % part->mesh->face_count);
+    }
+    *point = (SurfacePoint){.variation = part->instance ? instance_variation(part, instance)
+                                                        : own->base_variation,
+                            .material = part->material,
+                            .object = part->object,
+                            .part = entry.part};
+    const Transform *t = part->instance ? &part->instance[instance] : NULL;
+    if (part->kind == PART_MESH) {
+        mesh_surface(part->mesh, hit, face, t, ray->direction, point);
+        point->epsilon = 4e-6f * largest(point->position) + 1e-7f;
+    } else {
+        curve_surface(own, ray, hit, t, point);
+        point->epsilon = 1e-5f * fmaxf(largest(point->position), hit->t) + 1e-7f;
+    }
+}

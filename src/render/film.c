@@ -1,0 +1,64 @@
+#include "render/film.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+
+static bool film_make_planes(Film *film, Error *e)
+{
+    int64_t count = (int64_t)film->width * film->height;
+    Vec3 **vectors[] = {&film->color, &film->albedo, &film->normal, &film->position};
+    float **scalars[] = {&film->alpha, &film->depth,   &film->object,
+                         &film->hits,  &film->samples, &film->variance};
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
+        if (!(*vectors[i] = memory_alloc_zero(count, sizeof(Vec3), e))) {
+            return false;
+        }
+    }
+    for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) {
+        if (!(*scalars[i] = memory_alloc_zero(count, sizeof(float), e))) {
+            return false;
+        }
+    }
+    for (int64_t i = 0; i < count; i++) {
+        film->depth[i] = INFINITY;
+    }
+    return true;
+}
+
+Film *film_new(int width, int height, Error *e)
+{
+    if (width < 1 || height < 1) {
+        error_set(e, ERROR_INPUT, "a picture of %d x %d pixels; at least 1 x 1 is needed", width,
+                  height);
+        return NULL;
+    }
+    Film *film = memory_alloc_zero(1, sizeof *film, e);
+    if (!film) {
+        return NULL;
+    }
+    film->width = width;
+    film->height = height;
+    if (!film_make_planes(film, e)) {
+        film_free(film);
+        return NULL;
+    }
+    return film;
+}
+
+void film_free(Film *film)
+{
+    if (film) {
+        free(film->color);
+        free(film->alpha);
+        free(film->albedo);
+        free(film->normal);
+        free(film->depth);
+        free(film->position);
+        free(film->object);
+        free(film->hits);
+        free(film->samples);
+        free(film->variance);
+        free(film);
+    }
+}

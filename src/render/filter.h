@@ -1,0 +1,28 @@
+// Reconstruction filters, sampled by importance: a sample's place in the film is drawn from the
+// filter about its pixel, so all weights are one and no sample touches two pixels (Ernst et al.
+// 2006).
+#ifndef RAMIFY_RENDER_FILTER_H
+#define RAMIFY_RENDER_FILTER_H
+
+#include "render/world.h"
+
+enum { FILTER_STEPS = 256 };
+
+typedef struct Filter {
+    float offset[FILTER_STEPS + 1]; // pixels: inverse of the cumulated profile at i / FILTER_STEPS
+} Filter;
+
+void filter_fill(Filter *filter, FilterKind kind, float radius);
+
+// The filter's profile at x in units of its radius, |x| <= 1, not normalised.
+float filter_profile(FilterKind kind, float x);
+
+// Distance in pixels from the pixel's centre for a uniform number u in [0, 1).
+static inline float filter_sample(const Filter *filter, float u)
+{
+    float x = u * (float)FILTER_STEPS;
+    int i = (int)x;
+    return lerpf(filter->offset[i], filter->offset[i + 1], x - (float)i);
+}
+
+#endif

@@ -1,0 +1,226 @@
+#include "render/integrator.h"
+
+#include "render/dome.h"
+
+// Sets of random numbers: one for the camera, then two for each bounce.
+enum { SET_CAMERA = 0, SET_BSDF = 1, SET_LIGHT = 2, SETS_PER_BOUNCE = 2 };
+
+// The state of a path between two surfaces.
+typedef struct Path {
+    const Tracer *tracer;
+    Sampler sampler;
+    Ray ray;
+    Vec3 throughput;
+    Vec3 absorption; // per metre, of what the ray is in
+    Vec3 direct, indirect;
+    float bsdf_pdf;  // of the ray's direction; 0 where light sampling has no part in it
+    float spread;    // radians: how fast the footprint grows
+    float footprint; // m, at the ray's origin
+    int depth;       // bounces so far
+    bool mirrored;   // from the eye by mirrors only
+    int64_t rays;
+} Path;
+
+static void add_light(Path *path, Vec3 radiance)
+{
+    Vec3 light = vec3_mul(path->throughput, radiance);
+    Vec3 *sum = path->depth < 2 ? &path->direct : &path->indirect;
+    *sum = vec3_add(*sum, light);
+}
+
+static Ray leave(const Path *path, const SurfacePoint *point, Vec3 direction, float far)
+{
+    bool outside = vec3_dot(direction, point->geometric_normal) > 0.0f;
+    Vec3 start = outside ? point->lifted : point->position;
+    float step = outside ? point->epsilon : -point->epsilon;
+    uint32_t key = path->sampler.key ^ (path->sampler.reversed * 0x9e3779b1u);
+    return (Ray){.origin = vec3_madd(start, step, point->facet_normal),
+                 .direction = direction,
+                 .far = far,
+                 .key = key + (uint32_t)path->depth};
+}
+
+// Light that reaches the point straight from a light, by sampling the light.
+static void add_direct_light(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3 wo)
+{
+    float u[4], pdf;
+    sampler_draw(&path->sampler, (uint32_t)(SET_LIGHT + SETS_PER_BOUNCE * path->depth), u);
+    LightSample light;
+    if (!lights_sample(path->tracer->lights, point->position, u, &light)) {
+        return;
+    }
+    Vec3 f = bsdf_eval(bsdf, wo, light.direction, &pdf);
+    if (!(f.x + f.y + f.z > 0.0f)) {
+        return;
+    }
+    Ray shadow = leave(path, point, light.direction, light.distance * 0.999f);
+    path->rays++;
+    if (accel_occluded(path->tracer->accel, &shadow)) {
+        return;
+    }
+    Vec3 radiance =
+        vec3_scale(vec3_mul(f, light.radiance), power_heuristic(light.pdf, pdf) / light.pdf);
+    path->depth++; // the light is one bounce further
+    add_light(path, radiance);
+    path->depth--;
+}
+
+// Distance fades what is seen into the colour of the horizon. Only what the eye sees directly or in
+// a mirror: for light that comes diffusely the difference does not show.
+static void add_haze(Path *path, float distance)
+{
+    float length = path->tracer->world->sky.haze_distance;
+    if (length > 0.0f && path->mirrored) {
+        float clear = expf(-distance / length);
+        Vec3 veil = lights_horizon(path->tracer->lights, path->ray.direction);
+        add_light(path, vec3_scale(veil, 1.0f - clear));
+        path->throughput = vec3_scale(path->throughput, clear);
+    }
+}
+
+static void absorb(Path *path, float distance)
+{
+    Vec3 a = path->absorption;
+    if (a.x + a.y + a.z > 0.0f) {
+        path->throughput =
+            vec3_mul(path->throughput,
+                     vec3(expf(-a.x * distance), expf(-a.y * distance), expf(-a.z * distance)));
+    }
+}
+
+// The ray left the scene.
+static void add_background(Path *path, PathResult *result)
+{
+    const Sky *sky = &path->tracer->world->sky;
+    if (path->depth == 0) {
+        bool seen = sky->visible && sky->kind != SKY_NONE;
+        result->alpha = seen ? 1.0f : 0.0f;
+        if (!seen) {
+            return;
+        }
+    }
+    add_light(path, lights_background(path->tracer->lights, path->ray.direction, path->bsdf_pdf));
+}
+
+static void note_first_hit(PathResult *result, const SurfacePoint *point, const Bsdf *bsdf,
+                           float distance)
+{
+    result->hit = true;
+    result->albedo = bsdf->albedo;
+    result->normal = bsdf->normal;
+    result->position = point->position;
+    result->depth = distance;
+    result->object = point->object;
+}
+
+// Ends weak paths by chance; the survivors stand for them.
+static bool survives(Path *path, float u)
+{
+    if (path->depth < path->tracer->world->render.roulette_depth) {
+        return true;
+    }
+    Vec3 t = path->throughput;
+    float chance = fmaxf(t.x, fmaxf(t.y, t.z));
+    if (chance >= 1.0f) {
+        return true;
+    }
+    if (u >= chance) {
+        return false;
+    }
+    path->throughput = vec3_scale(t, 1.0f / chance);
+    return true;
+}
+
+// Sends the ray on its next way. False when the path ends here.
+static bool bounce(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3 wo)
+{
+    float u[4];
+    sampler_draw(&path->sampler, (uint32_t)(SET_BSDF + SETS_PER_BOUNCE * path->depth), u);
+    BsdfSample sample;
+    if (!bsdf_sample(bsdf, wo, u, &sample)) {
+        return false;
+    }
+    path->throughput = vec3_mul(path->throughput, sample.weight);
+    path->ray = leave(path, point, sample.wi, INFINITY);
+    path->depth++;
+    path->bsdf_pdf = sample.delta ? 0.0f : sample.pdf;
+    path->footprint = point->footprint;
+    if (!sample.delta) {
+        path->mirrored = false;
+        path->spread = fmaxf(path->spread, 0.25f * fminf(1.0f, 1.0f / sqrtf(sample.pdf)));
+    }
+    if (sample.transmitted && bsdf->kind == MATERIAL_DIELECTRIC) {
+        path->absorption = point->backface ? vec3_splat(0.0f) : bsdf->absorption;
+    }
+    return survives(path, u[3]);
+}
+
+// Follows the ray to what it meets. False when the path ends there.
+static bool step(Path *path, PathResult *result)
+{
+    const Tracer *tracer = path->tracer;
+    Hit hit;
+    path->rays++;
+    if (!accel_intersect(tracer->accel, &path->ray, &hit)) {
+        add_background(path, result);
+        return false;
+    }
+    absorb(path, hit.t);
+    add_haze(path, hit.t);
+    int light = accel_light(tracer->accel, &hit);
+    if (light >= 0) {
+        add_light(path, lights_emitted(tracer->lights, light, path->ray.origin, path->ray.direction,
+                                       hit.t, path->bsdf_pdf));
+        return false;
+    }
+    SurfacePoint point;
+    accel_surface(tracer->accel, &path->ray, &hit, &point);
+    point.footprint = path->footprint + path->spread * hit.t;
+    Vec3 wo = vec3_neg(path->ray.direction);
+    Bsdf bsdf = bsdf_at(tracer->materials, &point, wo);
+    if (path->depth == 0) {
+        note_first_hit(result, &point, &bsdf, hit.t);
+    }
+    if (bsdf_is_emissive(&bsdf)) {
+        add_light(path, bsdf.emission);
+    }
+    if (path->depth >= tracer->world->render.max_depth) {
+        return false;
+    }
+    if (lights_can_sample(tracer->lights)) {
+        add_direct_light(path, &point, &bsdf, wo);
+    }
+    return bounce(path, &point, &bsdf, wo);
+}
+
+// Lowers a too bright indirect contribution, which is noise for certain and light hardly ever.
+static Vec3 clamped(Vec3 light, float limit)
+{
+    float l = luminance(light);
+    return limit > 0.0f && l > limit ? vec3_scale(light, limit / l) : light;
+}
+
+PathResult integrator_path(const Tracer *tracer, int x, int y, int sample)
+{
+    const World *world = tracer->world;
+    Path path = {.tracer = tracer, .throughput = {1.0f, 1.0f, 1.0f}, .mirrored = true};
+    path.sampler = sampler_at(&tracer->sobol, world->render.seed,
+                              (uint32_t)(y * world->film.width + x), (uint32_t)sample);
+    float u[4];
+    sampler_draw(&path.sampler, SET_CAMERA, u);
+    float film_x = (float)x + 0.5f + filter_sample(&tracer->filter, u[0]);
+    float film_y = (float)y + 0.5f + filter_sample(&tracer->filter, u[1]);
+    path.ray =
+        (Ray){.far = INFINITY, .key = path.sampler.key ^ path.sampler.reversed, .coherent = true};
+    camera_ray(&tracer->camera, film_x, film_y, u + 2, &path.ray.origin, &path.ray.direction);
+    path.spread = tracer->camera.pixel_angle;
+    PathResult result = {.alpha = 1.0f, .depth = INFINITY};
+    while (step(&path, &result)) {
+    }
+    result.color = vec3_add(path.direct, clamped(path.indirect, world->render.clamp));
+    if (!vec3_finite(result.color)) {
+        result.color = vec3_splat(0.0f);
+    }
+    result.rays = path.rays;
+    return result;
+}

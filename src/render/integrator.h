@@ -1,0 +1,36 @@
+// One path from the camera into the world: next-event estimation, multiple importance sampling,
+// Russian roulette. A pure function of (tracer, pixel, sample).
+#ifndef RAMIFY_RENDER_INTEGRATOR_H
+#define RAMIFY_RENDER_INTEGRATOR_H
+
+#include "render/accel.h"
+#include "render/camera.h"
+#include "render/filter.h"
+#include "render/lights.h"
+#include "render/sampler.h"
+
+// What all paths share, read only.
+typedef struct Tracer {
+    const World *world;
+    const Accel *accel;
+    const Lights *lights;
+    const MaterialSet *materials;
+    CameraFrame camera;
+    Filter filter;
+    SobolTable sobol;
+} Tracer;
+
+// What one path brought home. The fields from albedo on are of the first surface it met.
+typedef struct PathResult {
+    Vec3 color;
+    float alpha;
+    int64_t rays;
+    bool hit;
+    Vec3 albedo, normal, position;
+    float depth; // m along the ray
+    int object;
+} PathResult;
+
+PathResult integrator_path(const Tracer *tracer, int x, int y, int sample);
+
+#endif

@@ -1,0 +1,247 @@
+#include "render/lights.h"
+
+#include "base/memory.h"
+#include "render/environment.h"
+#include "render/sky.h"
+#include "render/warp.h"
+
+#include <stdlib.h>
+
+struct Lights {
+    const World *world;
+    Vec3 constant; // SKY_CONSTANT: radiance
+    Dome *dome;    // NULL without sky or environment
+    Sun sun;
+    float *share; // chance of each to be chosen: the world's lights, the dome, the sun
+    float *sum;   // count + 1: cumulated
+    int count, dome_index, sun_index;
+};
+
+// Power that reaches the scene, over pi^2 R^2 for a scene of radius R.
+static float near_power(const Light *light, float scene_radius)
+{
+    float area = light->kind == LIGHT_QUAD ? vec3_length(vec3_cross(light->edge_u, light->edge_v))
+                                           : 4.0f * PI_F * light->radius * light->radius;
+    return luminance(light->radiance) * area / (scene_radius * scene_radius);
+}
+
+// Half by power, half evenly: what is weak on the whole may be all there is in a shadow.
+static void fill_shares(Lights *lights, float scene_radius)
+{
+    double total = 0.0, lit = 0.0, sum = 0.0;
+    for (int i = 0; i < lights->count; i++) {
+        float power;
+        if (i == lights->dome_index) {
+            power = 0.5f * lights->dome->power / PI_F;
+        } else if (i == lights->sun_index) {
+            power = luminance(lights->sun.radiance) * lights->sun.solid_angle / PI_F;
+        } else {
+            power = near_power(&lights->world->light[i], scene_radius);
+        }
+        lights->share[i] = power;
+        total += (double)power;
+        lit += power > 0.0f ? 1.0 : 0.0;
+    }
+    for (int i = 0; i < lights->count; i++) {
+        double power = (double)lights->share[i];
+        lights->share[i] = power > 0.0 ? (float)(0.5 * power / total + 0.5 / lit) : 0.0f;
+        lights->sum[i] = (float)sum;
+        sum += (double)lights->share[i];
+    }
+    lights->sum[lights->count] = total > 0.0 ? 1.0f : 0.0f;
+}
+
+static bool make_sky(Lights *lights, const Run *run, Error *e)
+{
+    const Sky *sky = &lights->world->sky;
+    switch (sky->kind) {
+    case SKY_NONE:
+        return true;
+    case SKY_CONSTANT:
+        lights->constant = vec3_scale(sky->color, sky->strength);
+        return true;
+    case SKY_SUN_SKY:
+        lights->dome = sky_dome(sky, &lights->sun, run, e);
+        break;
+    case SKY_ENVIRONMENT:
+        lights->dome = environment_dome(sky, e);
+        break;
+    }
+    return lights->dome != NULL;
+}
+
+Lights *lights_new(const World *world, float scene_radius, const Run *run, Error *e)
+{
+    Lights *lights = memory_alloc_zero(1, sizeof *lights, e);
+    if (!lights) {
+        return NULL;
+    }
+    lights->world = world;
+    lights->dome_index = lights->sun_index = -1;
+    if (!make_sky(lights, run, e)) {
+        lights_free(lights);
+        return NULL;
+    }
+    lights->count = world->light_count;
+    if (lights->dome) {
+        lights->dome_index = lights->count++;
+    }
+    if (luminance(lights->sun.radiance) > 0.0f) {
+        lights->sun_index = lights->count++;
+    }
+    if (!(lights->share = memory_alloc_zero(lights->count, sizeof(float), e)) ||
+        !(lights->sum = memory_alloc_zero(lights->count + 1, sizeof(float), e))) {
+        lights_free(lights);
+        return NULL;
+    }
+    fill_shares(lights, fmaxf(scene_radius, 1e-6f));
+    return lights;
+}
+
+void lights_free(Lights *lights)
+{
+    if (lights) {
+        dome_free(lights->dome);
+        free(lights->share);
+        free(lights->sum);
+        free(lights);
+    }
+}
+
+bool lights_can_sample(const Lights *lights)
+{
+    return lights->sum[lights->count] > 0.0f;
+}
+
+// ---- quads and spheres
+
+// Density per steradian at which a uniform point of the quad lies in this direction.
+static float quad_density(const Light *light, Vec3 direction, float distance)
+{
+    Vec3 normal = vec3_cross(light->edge_u, light->edge_v); // length: the area
+    float facing = -vec3_dot(normal, direction);
+    return facing > 0.0f ? distance * distance / facing : 0.0f;
+}
+
+static bool quad_sample(const Light *light, Vec3 point, const float u[3], LightSample *sample)
+{
+    Vec3 on = vec3_madd(vec3_madd(light->corner, u[0], light->edge_u), u[1], light->edge_v);
+    Vec3 to = vec3_sub(on, point);
+    sample->distance = vec3_length(to);
+    if (!(sample->distance > 0.0f)) {
+        return false;
+    }
+    sample->direction = vec3_scale(to, 1.0f / sample->distance);
+    sample->pdf = quad_density(light, sample->direction, sample->distance);
+    return sample->pdf > 0.0f;
+}
+
+// 1 - cosine of the half angle under which the sphere is seen; 2 from inside: all directions.
+static float sphere_one_minus_cos(const Light *light, Vec3 point)
+{
+    Vec3 to = vec3_sub(light->center, point);
+    float s2 = light->radius * light->radius / vec3_dot(to, to);
+    return s2 < 1.0f ? s2 / (1.0f + sqrtf(1.0f - s2)) : 2.0f;
+}
+
+static bool sphere_sample(const Light *light, Vec3 point, const float u[3], LightSample *sample)
+{
+    Vec3 to = vec3_sub(light->center, point);
+    float cap = sphere_one_minus_cos(light, point), off = u[0] * cap;
+    Vec3 axis = vec3_normalize(to);
+    axis = vec3_dot(axis, axis) > 0.0f ? axis : vec3(0.0f, 1.0f, 0.0f);
+    sample->direction = warp_cone(axis, 1.0f - off, sqrtf(fmaxf(0.0f, off * (2.0f - off))), u[1]);
+    float along = vec3_dot(to, sample->direction);
+    Vec3 aside = vec3_madd(to, -along, sample->direction);
+    float half = sqrtf(fmaxf(0.0f, light->radius * light->radius - vec3_dot(aside, aside)));
+    sample->distance = cap < 2.0f ? along - half : along + half;
+    sample->pdf = 1.0f / (2.0f * PI_F * cap);
+    return sample->distance > 0.0f;
+}
+
+// ---- all together
+
+static int choose(const Lights *lights, float u)
+{
+    int low = 0, high = lights->count;
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        if (lights->sum[middle] <= u) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+bool lights_sample(const Lights *lights, Vec3 point, const float u[3], LightSample *sample)
+{
+    int i = choose(lights, u[2]);
+    bool seen = true;
+    if (i == lights->dome_index) {
+        sample->direction = dome_sample(lights->dome, u[0], u[1], &sample->pdf);
+        sample->distance = INFINITY;
+        sample->radiance = dome_lookup(lights->dome, sample->direction);
+    } else if (i == lights->sun_index) {
+        sample->direction = sun_sample(&lights->sun, u[0], u[1]);
+        sample->distance = INFINITY;
+        sample->radiance = sun_radiance(&lights->sun, sample->direction);
+        sample->pdf = 1.0f / lights->sun.solid_angle;
+    } else {
+        const Light *light = &lights->world->light[i];
+        sample->radiance = light->radiance;
+        seen = light->kind == LIGHT_QUAD ? quad_sample(light, point, u, sample)
+                                         : sphere_sample(light, point, u, sample);
+    }
+    sample->pdf *= lights->share[i];
+    return seen && sample->pdf > 0.0f;
+}
+
+static float bsdf_weight(float bsdf_pdf, float light_pdf)
+{
+    return bsdf_pdf > 0.0f ? power_heuristic(bsdf_pdf, light_pdf) : 1.0f;
+}
+
+Vec3 lights_background(const Lights *lights, Vec3 direction, float bsdf_pdf)
+{
+    if (!lights->dome) {
+        return lights->constant;
+    }
+    float pdf = 0.0f;
+    if (bsdf_pdf > 0.0f) {
+        pdf = dome_density(lights->dome, direction) * lights->share[lights->dome_index];
+    }
+    Vec3 sum = vec3_scale(dome_lookup(lights->dome, direction), bsdf_weight(bsdf_pdf, pdf));
+    if (lights->sun_index >= 0 && sun_covers(&lights->sun, direction)) {
+        pdf = lights->share[lights->sun_index] / lights->sun.solid_angle;
+        sum = vec3_madd(sum, bsdf_weight(bsdf_pdf, pdf), sun_radiance(&lights->sun, direction));
+    }
+    return sum;
+}
+
+Vec3 lights_emitted(const Lights *lights, int index, Vec3 origin, Vec3 direction, float distance,
+                    float bsdf_pdf)
+{
+    const Light *light = &lights->world->light[index];
+    float pdf;
+    if (light->kind == LIGHT_QUAD) {
+        pdf = quad_density(light, direction, distance);
+        if (!(pdf > 0.0f)) {
+            return vec3_splat(0.0f); // the dark side
+        }
+    } else {
+        pdf = 1.0f / (2.0f * PI_F * sphere_one_minus_cos(light, origin));
+    }
+    return vec3_scale(light->radiance, bsdf_weight(bsdf_pdf, pdf * lights->share[index]));
+}
+
+Vec3 lights_horizon(const Lights *lights, Vec3 direction)
+{
+    if (!lights->dome) {
+        return lights->constant;
+    }
+    float level = sqrtf(direction.x * direction.x + direction.z * direction.z);
+    float rise = 0.02f * fmaxf(level, 1e-3f); // a degree up: the air, not the ground
+    return dome_lookup(lights->dome, vec3_normalize(vec3(direction.x, rise, direction.z)));
+}

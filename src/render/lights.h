@@ -1,0 +1,46 @@
+// Everything that emits without being a surface of the geometry: sky, sun, environment, quads,
+// spheres. Each can be sampled and evaluated, so that the integrator combines both ways.
+#ifndef RAMIFY_RENDER_LIGHTS_H
+#define RAMIFY_RENDER_LIGHTS_H
+
+#include "base/run.h"
+#include "render/world.h"
+
+typedef struct Lights Lights;
+
+// scene_radius (m): how much a light at infinity counts against near ones when one is chosen.
+Lights *lights_new(const World *world, float scene_radius, const Run *run, Error *e);
+void lights_free(Lights *lights); // NULL is fine
+
+typedef struct LightSample {
+    Vec3 direction; // unit, toward the light
+    float distance; // m; INFINITY for sky and sun
+    Vec3 radiance;
+    float pdf; // per steradian, with the choice of the light in it
+} LightSample;
+
+// True when some light is worth sampling. A sky of one colour is not: it is met by chance as well.
+bool lights_can_sample(const Lights *lights);
+
+// False when the chosen light cannot be seen from point.
+bool lights_sample(const Lights *lights, Vec3 point, const float u[3], LightSample *sample);
+
+// Radiance from beyond the geometry along direction. bsdf_pdf > 0: the density with which the
+// direction was drawn, when light sampling could have found the same; the result is weighted by
+// the power heuristic (Veach 1997). bsdf_pdf <= 0: unweighted.
+Vec3 lights_background(const Lights *lights, Vec3 direction, float bsdf_pdf);
+
+// The same for a ray from `origin` that meets light `index` after `distance` m.
+Vec3 lights_emitted(const Lights *lights, int index, Vec3 origin, Vec3 direction, float distance,
+                    float bsdf_pdf);
+
+// Colour that distant things fade into, looking along direction.
+Vec3 lights_horizon(const Lights *lights, Vec3 direction);
+
+// Veach's power heuristic, exponent 2, for the density `a` against `b`.
+static inline float power_heuristic(float a, float b)
+{
+    return a > 0.0f ? 1.0f / (1.0f + (b / a) * (b / a)) : 0.0f;
+}
+
+#endif

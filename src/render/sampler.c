@@ -1,0 +1,127 @@
+#include "render/sampler.h"
+
+#include "base/random.h"
+
+#include <string.h>
+
+typedef uint32_t Lanes __attribute__((vector_size(16)));
+typedef int32_t SignedLanes __attribute__((vector_size(16)));
+typedef float FloatLanes __attribute__((vector_size(16)));
+
+static uint32_t reverse_bits(uint32_t x)
+{
+    x = __builtin_bswap32(x);
+    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+    return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+}
+
+static inline Lanes reverse_lanes(Lanes x)
+{
+    x = (x >> 16) | (x << 16);
+    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
+    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+    return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+}
+
+// Direction numbers of the first four Sobol dimensions: primitive polynomial (degree, inner
+// coefficients) and initial numbers, then Sobol's recurrence. direction[i] belongs to bit i.
+static void direction_numbers(int dimension, uint32_t direction[32])
+{
+    static const struct {
+        int degree;
+        uint32_t inner, start[3];
+    } primitive[4] = {{0, 0, {0}}, {1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}};
+    int degree = primitive[dimension].degree;
+    for (int i = 0; i < 32; i++) {
+        if (degree == 0) {
+            direction[i] = 0x80000000u >> i;
+        } else if (i < degree) {
+            direction[i] = primitive[dimension].start[i] << (31 - i);
+        } else {
+            direction[i] = direction[i - degree] ^ (direction[i - degree] >> degree);
+            for (int k = 1; k < degree; k++) {
+                if (primitive[dimension].inner >> (degree - 1 - k) & 1u) {
+                    direction[i] ^= direction[i - k];
+                }
+            }
+        }
+    }
+}
+
+// Indices come with their bits reversed and points are left with theirs reversed, because that is
+// the order in which the hash scrambles them.
+void sobol_table_fill(SobolTable *table)
+{
+    memset(table, 0, sizeof *table);
+    for (int dimension = 0; dimension < 4; dimension++) {
+        uint32_t direction[32];
+        direction_numbers(dimension, direction);
+        for (int nibble = 0; nibble < 8; nibble++) {
+            for (int value = 0; value < 16; value++) {
+                uint32_t word = 0;
+                for (int bit = 0; bit < 4; bit++) {
+                    if (value >> bit & 1) {
+                        word ^= direction[31 - (4 * nibble + bit)];
+                    }
+                }
+                table->word[nibble][value][dimension] = reverse_bits(word);
+            }
+        }
+    }
+}
+
+static inline uint32_t mix(uint32_t x)
+{
+    x ^= x >> 16;
+    x *= 0x21f0aaadu;
+    x ^= x >> 15;
+    x *= 0xd35a2d97u;
+    return x ^ (x >> 15);
+}
+
+// Owen scrambling of a number whose bits are reversed: every operation lets a bit depend on lower
+// bits only, so it is a nested permutation of elementary intervals. Laine and Karras 2011 with the
+// constants of Vegdahl 2021.
+static inline uint32_t owen(uint32_t x, uint32_t seed)
+{
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    return x ^ (x * 0x53a22864u);
+}
+
+static inline Lanes owen_lanes(Lanes x, Lanes seed)
+{
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    return x ^ (x * 0x53a22864u);
+}
+
+Sampler sampler_at(const SobolTable *table, uint64_t seed, uint32_t pixel, uint32_t sample)
+{
+    return (Sampler){table, (uint32_t)random_key(random_key(seed, 0x50b01), pixel),
+                     reverse_bits(sample)};
+}
+
+void sampler_draw(const Sampler *sampler, uint32_t set, float u[4])
+{
+    uint32_t key = mix(sampler->key + 0x9e3779b9u * (set + 1u));
+    uint32_t index = owen(sampler->reversed, key);
+    Lanes x = {0, 0, 0, 0};
+    for (int nibble = 0; nibble < 8; nibble++) {
+        const uint32_t *word = sampler->table->word[nibble][index >> (4 * nibble) & 15u];
+        x ^= *(const Lanes *)__builtin_assume_aligned(word, 16);
+    }
+    Lanes seed = {key, key, key, key};
+    seed = (seed ^ (Lanes){0x6a09e667u, 0xbb67ae85u, 0x3c6ef372u, 0xa54ff53au}) * 0x21f0aaadu;
+    seed = (seed ^ (seed >> 15)) * 0xd35a2d97u;
+    seed ^= seed >> 16;
+    x = reverse_lanes(owen_lanes(x, seed)) >> 8;
+    FloatLanes unit = __builtin_convertvector((SignedLanes)x, FloatLanes) * (1.0f / 16777216.0f);
+    memcpy(u, &unit, sizeof unit);
+}
