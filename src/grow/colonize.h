@@ -38,8 +38,9 @@ typedef struct ColonizeParams {
     bool sector_axis;   // GROW_SECTORS: grow along the sector's axis instead of its mean
     float apical;       // apical dominance 0..1: probability that a lateral child is suppressed
     uint64_t seed;
-    int32_t first_step;           // birth of the first new nodes is first_step + 1
-    int64_t max_steps, max_nodes; // 0 = no limit
+    int32_t first_step; // birth of the first new nodes is first_step + 1
+    int64_t max_steps;  // 0 = no limit
+    int64_t max_nodes;  // of the whole tree, initial nodes too; 0 = no limit
 } ColonizeParams;
 
 ColonizeParams colonize_params_default(void); // mean rule, lengths 0, everything else off, seed 1
@@ -54,8 +55,9 @@ typedef enum GrowStop {
 typedef struct GrowReport {
     GrowStop stop;
     int64_t steps, new_nodes, attractors_left;
-    float nearest; // m: distance from the roots to the nearest attractor when STOP_OUT_OF_REACH
-    int32_t root;  // the root it was measured from
+    float nearest;   // m: distance from the roots to the nearest attractor when STOP_OUT_OF_REACH
+    int32_t root;    // the root it was measured from
+    float influence; // m: the influence radius that was in force
 } GrowReport;
 
 // Sets step, kill and influence that are 0 to these multiples of the points' mean spacing s.

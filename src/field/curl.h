@@ -1,0 +1,12 @@
+// Divergence-free noise: the curl of a smooth random vector potential (Bridson et al. 2007).
+#ifndef RAMIFY_FIELD_CURL_H
+#define RAMIFY_FIELD_CURL_H
+
+#include "base/vec.h"
+
+#include <stdint.h>
+
+// The curl at p of gradient noise of wavelength 1; analytic, so divergence-free to rounding.
+Vec3 curl_noise(Vec3 p, uint64_t seed);
+
+#endif

@@ -1,0 +1,63 @@
+// The attractors of growth in a uniform grid, each with the nearest node so far (Tanaka et al., eq.
+// (3)-(5), (8)). The nearest node changes only where new nodes appear: every cell keeps the largest
+// of its attractors' best distances, and a new node visits only the cells it can still improve.
+#ifndef RAMIFY_GROW_ATTRACTOR_GRID_H
+#define RAMIFY_GROW_ATTRACTOR_GRID_H
+
+#include "base/run.h"
+#include "shape/points.h"
+#include "tree/out_tree.h"
+
+#include <stdint.h>
+
+enum { BLOCK_LANES = 8 };
+
+// Eight attractors of one cell; lanes beyond the cell's count have best = -1, which no distance
+// beats. Three cache lines.
+typedef struct AttractorBlock {
+    _Alignas(64) float x[BLOCK_LANES];
+    float y[BLOCK_LANES], z[BLOCK_LANES];
+    float best[BLOCK_LANES];       // m^2: squared distance to the nearest node, or reach^2
+    int32_t nearest[BLOCK_LANES];  // that node; -1 when none is within reach
+    int32_t previous[BLOCK_LANES]; // the nearest node one step ago
+} AttractorBlock;
+
+typedef struct AttractorGrid {
+    Vec3 low;
+    float cell, slack; // m: side of a cell; how far outside its cell rounding may put a point
+    int size[3];       // cells along each axis; those along z are neighbours in memory
+    int64_t cell_count;
+    float reach, reach2, kill2; // m, m^2
+    int64_t *first_block;       // per cell
+    int32_t *count;             // per cell: attractors alive
+    float *furthest;            // per cell: the largest best; -1 in empty cells
+    uint8_t *state;             // per cell: CELL_*
+    int32_t *touched;           // scratch: cells a search changed
+    int64_t *work;              // scratch: how searching is shared out
+    float *gap2;                // scratch: distances to the cells of a row
+    int32_t *active;            // cells with an attractor in reach of a node
+    int64_t active_count;
+    AttractorBlock *block;
+    int32_t *source; // per lane: index in the point set
+    int64_t alive;
+} AttractorGrid;
+
+// A set of nodes as bits, written by many threads.
+typedef struct NodeBits {
+    uint64_t *word;
+    int64_t capacity; // words
+} NodeBits;
+
+// reach: influence radius R_m, kill: D_k, m. ERROR_INPUT names the first attractor that is not
+// finite.
+bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reach, float kill,
+                         Error *e);
+void attractor_grid_free(AttractorGrid *grid);
+
+// Takes nodes first..tree->count-1 into account: updates the nearest nodes, removes attractors
+// closer than kill to any node, and sets in `changed` the bits of all nodes that gained or lost a
+// living attractor. The same result for any number of threads; ties go to the lowest node index.
+void attractor_grid_update(AttractorGrid *grid, const OutTree *tree, int64_t first, int threads,
+                           const NodeBits *changed);
+
+#endif

@@ -1,0 +1,216 @@
+#include "base/random.h"
+#include "grow/growth.h"
+
+#include <stddef.h>
+
+// w X_f + tropism + noise: what bends the unit pull (E13 in the steering form). The noise is named
+// by the child it is for.
+static Vec3 lean_of(const Growth *growth, const Grower *grower, uint64_t child_id)
+{
+    const ColonizeParams *p = growth->params;
+    Vec3 lean = p->tropism;
+    if (p->field && p->field_weight != 0.0f && p->field_mode == FIELD_STEER) {
+        Vec3 x = guide_field_at(p->field, grower->position, grower->normal);
+        lean = vec3_madd(lean, p->field_weight, x);
+    }
+    if (p->noise > 0.0f) {
+        uint64_t key = random_key(child_id, p->seed);
+        Vec3 g = vec3(random_normal(random_key(key, 0)), random_normal(random_key(key, 1)),
+                      random_normal(random_key(key, 2)));
+        lean = vec3_madd(lean, p->noise, g);
+    }
+    return lean;
+}
+
+static bool is_zero(Vec3 v)
+{
+    return v.x == 0.0f && v.y == 0.0f && v.z == 0.0f;
+}
+
+static uint64_t next_child_id(const Growth *growth, const Grower *grower, int place)
+{
+    return out_tree_child_id(growth->tree->id[grower->node],
+                             growth->state[grower->node].children + place);
+}
+
+void growth_prepare(const Growth *growth, Grower *grower)
+{
+    const OutTree *tree = growth->tree;
+    int32_t node = grower->node, parent = tree->parent[node];
+    Vec3 from = tree->position[node], to = from;
+    if (parent >= 0) {
+        from = tree->position[parent];
+    } else if (growth->params->rule == GROW_SECTORS && growth->state[node].first_child >= 0) {
+        to = tree->position[growth->state[node].first_child];
+    }
+    grower->position = tree->position[node];
+    grower->heading = vec3_normalize(vec3_sub(to, from));
+    grower->has_heading = !is_zero(grower->heading);
+    grower->normal = vec3_normalize(tree->normal[node]);
+    if (grower->has_heading && !growth->params->on_surface) {
+        Vec3 n =
+            vec3_madd(grower->normal, -vec3_dot(grower->normal, grower->heading), grower->heading);
+        grower->normal =
+            vec3_dot(n, n) > 1e-6f ? vec3_normalize(n) : vec3_perpendicular(grower->heading);
+    } else if (grower->has_heading) {
+        Vec3 h =
+            vec3_madd(grower->heading, -vec3_dot(grower->normal, grower->heading), grower->normal);
+        grower->heading =
+            vec3_dot(h, h) > 1e-6f ? vec3_normalize(h) : vec3_perpendicular(grower->normal);
+    }
+    grower->side = vec3_cross(grower->normal, grower->heading);
+    grower->lean = growth->params->rule == GROW_SNAP
+                       ? lean_of(growth, grower, next_child_id(growth, grower, 0))
+                       : vec3(0, 0, 0);
+}
+
+// Mean of the unit pulls as a direction; zero where they cancel out (eq. 7).
+static Vec3 mean_direction(const Pull *pull)
+{
+    Vec3 sum =
+        vec3_scale(vec3((float)pull->toward[0], (float)pull->toward[1], (float)pull->toward[2]),
+                   1.0f / PULL_ONE);
+    float least = 1e-6f * (float)pull->count;
+    return vec3_dot(sum, sum) > least * least ? vec3_normalize(sum) : vec3(0, 0, 0);
+}
+
+static Vec3 mean_normal(const Pull *pull, Vec3 fallback)
+{
+    Vec3 sum =
+        vec3_scale(vec3((float)pull->normal[0], (float)pull->normal[1], (float)pull->normal[2]),
+                   1.0f / PULL_ONE);
+    float least = 1e-3f * (float)pull->count;
+    return vec3_dot(sum, sum) > least * least ? vec3_normalize(sum) : fallback;
+}
+
+// Turns d in its plane with the heading until the angle between them keeps the limits.
+static Vec3 limit_angle(const Growth *growth, const Grower *grower, bool lateral, Vec3 d)
+{
+    if (!grower->has_heading || growth->tree->parent[grower->node] < 0) {
+        return d;
+    }
+    float cosine = vec3_dot(d, grower->heading), c, s;
+    if (cosine < growth->max_cos) {
+        c = growth->max_cos, s = growth->max_sin;
+    } else if (lateral && cosine > growth->min_cos) {
+        c = growth->min_cos, s = growth->min_sin;
+    } else {
+        return d;
+    }
+    Vec3 across = vec3_madd(d, -cosine, grower->heading);
+    across = vec3_dot(across, across) > 1e-12f ? vec3_normalize(across) : grower->side;
+    return vec3_normalize(vec3_madd(vec3_scale(grower->heading, c), s, across));
+}
+
+// Into the tangent plane, and back toward the surface where the steps have left it.
+static Vec3 keep_on_surface(const Growth *growth, const Pull *pull, Vec3 normal, Vec3 d)
+{
+    d = vec3_normalize(vec3_madd(d, -vec3_dot(d, normal), normal));
+    float height = (float)pull->height / (PULL_ONE * (float)pull->count);
+    float rise = height * growth->params->influence / growth->params->step;
+    return vec3_normalize(vec3_madd(d, -clampf(rise, -0.7f, 0.7f), normal));
+}
+
+// The child's normal: the surface's, or the parent's carried along without twist.
+static Vec3 carry_normal(const Grower *grower, Vec3 d)
+{
+    Vec3 n = vec3_madd(grower->normal, -vec3_dot(grower->normal, d), d);
+    return vec3_dot(n, n) > 1e-6f ? vec3_normalize(n) : vec3_perpendicular(d);
+}
+
+static Vec3 add_field(const Growth *growth, const Grower *grower, Vec3 p)
+{
+    const ColonizeParams *params = growth->params;
+    if (!params->field || params->field_weight == 0.0f || params->field_mode != FIELD_ADDITIVE) {
+        return p;
+    }
+    Vec3 x = guide_field_at(params->field, grower->position, grower->normal);
+    return vec3_madd(p, params->step * params->field_weight, x); // E13, X_f scaled by the step
+}
+
+// One child a step along `axis` (a sector's) or the mean pull, bent, limited.
+static bool make_child(const Growth *growth, const Grower *grower, const Pull *pull,
+                       const Vec3 *axis, int place, Child *child)
+{
+    const ColonizeParams *params = growth->params;
+    Vec3 d = axis ? *axis : mean_direction(pull);
+    Vec3 lean = lean_of(growth, grower, next_child_id(growth, grower, place));
+    if (!is_zero(lean)) {
+        d = vec3_normalize(vec3_add(d, lean));
+    }
+    Vec3 normal = grower->normal;
+    if (params->on_surface) {
+        normal = mean_normal(pull, grower->normal);
+        d = keep_on_surface(growth, pull, normal, d);
+    }
+    if (is_zero(d)) {
+        return false;
+    }
+    d = limit_angle(growth, grower, growth->state[grower->node].children + place > 0, d);
+    child->normal = params->on_surface ? normal : carry_normal(grower, d);
+    Vec3 p = vec3_madd(grower->position, params->step, d); // eq. (6)
+    child->position = add_field(growth, grower, p);
+    return true;
+}
+
+// A draw that keeps a lateral child from growing, the same however often it is asked.
+static bool is_suppressed(const Growth *growth, uint64_t child_id)
+{
+    return growth->params->apical > 0.0f &&
+           random_unit(random_key(random_key(child_id, growth->params->seed), 3)) <
+               growth->params->apical;
+}
+
+static int make_snap(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
+{
+    if (pull->pick == UINT64_MAX) {
+        return 0;
+    }
+    int64_t attractor = (int64_t)(pull->pick & 0xffffffffu);
+    Vec3 p = growth->attractors->position[attractor];
+    Vec3 d = vec3_normalize(vec3_sub(p, grower->position));
+    child->normal = growth->params->on_surface
+                        ? vec3_normalize(growth->attractors->normal[attractor])
+                        : carry_normal(grower, d);
+    child->position = add_field(growth, grower, p);
+    return 1;
+}
+
+static int make_sectors(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
+{
+    const ColonizeParams *params = growth->params;
+    const NodeState *state = &growth->state[grower->node];
+    int count = 0, limit = params->max_children > 0 ? params->max_children - state->children
+                                                    : growth->sectors.count;
+    for (int s = 0; s < growth->sectors.count && count < limit; s++) {
+        uint64_t bud = out_tree_child_id(growth->tree->id[grower->node], -1 - s);
+        if (pull[s].count == 0 || (growth->used[grower->node] >> s & 1) ||
+            (s > 0 && is_suppressed(growth, bud))) {
+            continue;
+        }
+        Vec3 local = growth->sectors.axis[s], axis;
+        axis = vec3_scale(grower->heading, local.x);
+        axis = vec3_madd(axis, local.y, grower->normal);
+        axis = vec3_madd(axis, local.z, grower->side);
+        if (make_child(growth, grower, &pull[s], params->sector_axis ? &axis : NULL, count,
+                       &child[count])) {
+            child[count++].sector = s;
+        }
+    }
+    return count;
+}
+
+int growth_make_children(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
+{
+    GrowRule rule = growth->params->rule;
+    if (rule == GROW_SECTORS && grower->has_heading) {
+        return make_sectors(growth, grower, pull, child);
+    }
+    child->sector = 0;
+    bool lateral = growth->state[grower->node].children > 0;
+    if (pull->count == 0 || (lateral && is_suppressed(growth, next_child_id(growth, grower, 0)))) {
+        return 0;
+    }
+    return rule == GROW_SNAP ? make_snap(growth, grower, pull, child)
+                             : make_child(growth, grower, pull, NULL, 0, child);
+}

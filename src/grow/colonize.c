@@ -1,0 +1,377 @@
+#include "base/memory.h"
+#include "grow/growth.h"
+#include "grow/reach.h"
+
+#include "base/exact_math.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+ColonizeParams colonize_params_default(void)
+{
+    return (ColonizeParams){.sector_angle = 60.0f, .seed = 1};
+}
+
+void colonize_auto(ColonizeParams *params, double spacing, float step, float kill, float influence)
+{
+    float *length[3] = {&params->step, &params->kill, &params->influence};
+    const float multiple[3] = {step, kill, influence};
+    for (int i = 0; i < 3; i++) {
+        if (*length[i] == 0.0f) {
+            *length[i] = (float)((double)multiple[i] * spacing);
+        }
+    }
+}
+
+void grow_report_format(const GrowReport *report, const ColonizeParams *params, char *text,
+                        int size)
+{
+    size_t n = size > 0 ? (size_t)size : 0;
+    long long steps = report->steps, nodes = report->new_nodes, left = report->attractors_left;
+    switch (report->stop) {
+    case STOP_OUT_OF_REACH:
+        if (isfinite(report->nearest)) {
+            snprintf(
+                text, n,
+                "no attractor in reach of root %d: influence %.3g m, nearest attractor %.3g m; "
+                "raise growth.influence",
+                report->root, (double)report->influence, (double)report->nearest);
+        } else {
+            snprintf(text, n, "there are no attractors to grow toward; raise growth.attractors");
+        }
+        break;
+    case STOP_MAX_STEPS:
+        snprintf(text, n,
+                 "stopped after %lld steps: %lld new nodes, %lld attractors left; raise "
+                 "growth.max_steps %lld to grow on",
+                 steps, nodes, left, (long long)params->max_steps);
+        break;
+    case STOP_MAX_NODES:
+        snprintf(text, n,
+                 "stopped after %lld steps: %lld new nodes, %lld attractors left; raise "
+                 "growth.max_nodes %lld to grow on",
+                 steps, nodes, left, (long long)params->max_nodes);
+        break;
+    case STOP_NO_PULL:
+        snprintf(text, n,
+                 "grown until no attractor pulls: %lld new nodes in %lld steps, %lld attractors "
+                 "left",
+                 nodes, steps, left);
+        break;
+    }
+}
+
+static bool check_params(const OutTree *tree, const ColonizeParams *params, Error *e)
+{
+    const char *name[3] = {"step", "kill", "influence"};
+    const float length[3] = {params->step, params->kill, params->influence};
+    for (int i = 0; i < 3; i++) {
+        if (!(length[i] >= 1e-12f && length[i] <= 1e12f)) {
+            return error_set(e, ERROR_INPUT, "growth.%s is %g m; it must be positive and finite",
+                             name[i], (double)length[i]);
+        }
+    }
+    if (params->kill >= params->influence) {
+        return error_set(e, ERROR_INPUT,
+                         "growth.kill %.3g m is not below growth.influence %.3g m, so nothing can "
+                         "grow; lower growth.kill or raise growth.influence",
+                         (double)params->kill, (double)params->influence);
+    }
+    if (!vec3_finite(params->tropism) || !isfinite(params->noise) || params->noise < 0.0f ||
+        !isfinite(params->field_weight)) {
+        return error_set(e, ERROR_INPUT,
+                         "growth.noise, tropism and field weight must be finite, and noise not "
+                         "negative");
+    }
+    if (tree->count < 1) {
+        return error_set(e, ERROR_INPUT, "growth has no point to start from; give it a root");
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (!vec3_finite(tree->position[i]) || !vec3_finite(tree->normal[i])) {
+            return error_set(e, ERROR_INPUT, "the growth's starting point %lld is not finite",
+                             (long long)i);
+        }
+    }
+    return true;
+}
+
+static void set_angle_limits(Growth *growth)
+{
+    const ColonizeParams *p = growth->params;
+    growth->min_cos = 2.0f; // off: no cosine is above it
+    growth->max_cos = -2.0f;
+    if (p->min_angle > 0.0f) {
+        exact_sincos(p->min_angle * RADIANS_PER_DEGREE, &growth->min_sin, &growth->min_cos);
+    }
+    if (p->max_angle > 0.0f && p->max_angle < 180.0f) {
+        exact_sincos(p->max_angle * RADIANS_PER_DEGREE, &growth->max_sin, &growth->max_cos);
+    }
+}
+
+// Makes room for what is remembered of nodes `from`..count-1.
+static bool reserve_nodes(Growth *growth, int64_t from, Error *e)
+{
+    int64_t count = growth->tree->count, words = growth->changed.capacity;
+    if (!memory_reserve(&growth->state, &growth->state_capacity, count, sizeof *growth->state, e) ||
+        !memory_reserve(&growth->slot, &growth->slot_capacity, count, sizeof *growth->slot, e) ||
+        !memory_reserve(&growth->changed.word, &growth->changed.capacity, count / 64 + 1,
+                        sizeof *growth->changed.word, e)) {
+        return false;
+    }
+    memset(growth->changed.word + words, 0,
+           (size_t)(growth->changed.capacity - words) * sizeof *growth->changed.word);
+    if (growth->params->rule == GROW_SECTORS) {
+        if (!memory_reserve(&growth->used, &growth->used_capacity, count, sizeof *growth->used,
+                            e)) {
+            return false;
+        }
+        memset(growth->used + from, 0, (size_t)(count - from) * sizeof *growth->used);
+    }
+    for (int64_t i = from; i < count; i++) {
+        growth->state[i] = (NodeState){.first_child = -1};
+        growth->slot[i] = -1;
+    }
+    return true;
+}
+
+static void count_child(Growth *growth, int32_t parent, int32_t child)
+{
+    NodeState *state = &growth->state[parent];
+    if (state->children++ == 0) {
+        state->first_child = child;
+    }
+}
+
+// Takes over the tree as it is: children counted, the sectors they stand in used up.
+static bool begin(Growth *growth, Error *e)
+{
+    const OutTree *tree = growth->tree;
+    if (!reserve_nodes(growth, 0, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->parent[i] >= 0) {
+            count_child(growth, tree->parent[i], (int32_t)i);
+        }
+    }
+    for (int64_t i = 0; growth->params->rule == GROW_SECTORS && i < tree->count; i++) {
+        if (tree->parent[i] >= 0) {
+            Grower parent = {.node = tree->parent[i]};
+            growth_prepare(growth, &parent);
+            Vec3 d = vec3_sub(tree->position[i], parent.position);
+            Vec3 local = vec3(vec3_dot(d, parent.heading), vec3_dot(d, parent.normal),
+                              vec3_dot(d, parent.side));
+            growth->used[parent.node] |= 1ull << sectors_find(&growth->sectors, local);
+        }
+    }
+    return true;
+}
+
+// A node that grew and whose attractors are still the same would make the same child again: they
+// pull it no more. (A node's attractors only ever become fewer, so this is for good.)
+static void drop_fruitless(Growth *growth)
+{
+    for (int64_t i = 0; i < growth->grew_count; i++) {
+        int32_t node = growth->grew[i];
+        if (!(growth->changed.word[node >> 6] >> (node & 63) & 1)) {
+            growth->state[node].stalled = true;
+        }
+    }
+}
+
+static bool may_grow(const Growth *growth, int64_t node)
+{
+    int limit = growth->params->max_children;
+    return !growth->state[node].stalled && (limit <= 0 || growth->state[node].children < limit);
+}
+
+// Makes the changed nodes that may grow the growers, in order of their index, and clears the marks.
+static bool choose_growers(Growth *growth, Error *e)
+{
+    growth->grower_count = 0;
+    int64_t words = (growth->tree->count + 63) / 64;
+    for (int64_t w = 0; w < words; w++) {
+        for (uint64_t bits = growth->changed.word[w]; bits; bits &= bits - 1) {
+            int64_t node = w * 64 + __builtin_ctzll(bits);
+            if (!may_grow(growth, node)) {
+                continue;
+            }
+            if (!memory_reserve(&growth->grower, &growth->grower_capacity, growth->grower_count + 1,
+                                sizeof *growth->grower, e)) {
+                return false;
+            }
+            growth->slot[node] = (int32_t)growth->grower_count;
+            growth->grower[growth->grower_count++] = (Grower){.node = (int32_t)node};
+        }
+        growth->changed.word[w] = 0;
+    }
+    int64_t count = growth->grower_count, children = count * growth->sectors.count;
+    return memory_reserve(&growth->pull, &growth->pull_capacity, children * growth->threads,
+                          sizeof *growth->pull, e) &&
+           memory_reserve(&growth->child, &growth->child_capacity, children, sizeof *growth->child,
+                          e) &&
+           memory_reserve(&growth->child_count, &growth->child_count_capacity, count,
+                          sizeof *growth->child_count, e) &&
+           memory_reserve(&growth->grew, &growth->grew_capacity, count, sizeof *growth->grew, e);
+}
+
+static void make_children(Growth *growth)
+{
+    int64_t growers = growth->grower_count, sectors = growth->sectors.count;
+#pragma omp parallel for schedule(static) num_threads(growth->threads) if (growers > 256)
+    for (int64_t i = 0; i < growers; i++) {
+        growth_prepare(growth, &growth->grower[i]);
+    }
+    growth_sum_pulls(growth);
+#pragma omp parallel for schedule(static) num_threads(growth->threads) if (growers > 256)
+    for (int64_t i = 0; i < growers; i++) {
+        growth->child_count[i] = growth_make_children(
+            growth, &growth->grower[i], &growth->pull[i * sectors], &growth->child[i * sectors]);
+    }
+}
+
+static bool add_child(Growth *growth, int32_t parent, const Child *child, int32_t birth, Error *e)
+{
+    OutTree *tree = growth->tree;
+    uint64_t id = out_tree_child_id(tree->id[parent], growth->state[parent].children);
+    int64_t node =
+        out_tree_add_node(tree, child->position, parent, birth, tree->colony[parent], id, e);
+    if (node < 0) {
+        return false;
+    }
+    tree->normal[node] = child->normal;
+    count_child(growth, parent, (int32_t)node);
+    if (growth->params->rule == GROW_SECTORS) {
+        growth->used[parent] |= 1ull << child->sector;
+    }
+    return true;
+}
+
+// Adds this step's children to the tree; false with *full set when max_nodes is reached.
+static bool add_children(Growth *growth, int32_t birth, bool *full, Error *e)
+{
+    int64_t max_nodes = growth->params->max_nodes;
+    growth->grew_count = 0;
+    for (int64_t i = 0; i < growth->grower_count; i++) {
+        int32_t node = growth->grower[i].node;
+        growth->slot[node] = -1;
+        for (int j = 0; j < growth->child_count[i] && !*full; j++) {
+            *full = max_nodes > 0 && growth->tree->count >= max_nodes;
+            if (!*full &&
+                !add_child(growth, node, &growth->child[i * growth->sectors.count + j], birth, e)) {
+                return false;
+            }
+        }
+        if (growth->child_count[i] > 0) {
+            growth->grew[growth->grew_count++] = node;
+        }
+    }
+    return true;
+}
+
+// After the first look at the attractors: what no root can reach.
+static void check_reach(const Growth *growth, const Run *run, GrowReport *report)
+{
+    bool killed = growth->grid.alive < growth->attractors->count;
+    if (growth->grid.active_count == 0 && !killed) {
+        report->stop = STOP_OUT_OF_REACH;
+        reach_measure(growth->tree, growth->attractors, report);
+    } else {
+        reach_warn(growth->tree, growth->params, growth->attractors, &growth->changed, run);
+    }
+}
+
+// Steps until nothing grows or a limit is met.
+static bool grow(Growth *growth, const Run *run, GrowReport *report, Error *e)
+{
+    const ColonizeParams *params = growth->params;
+    double attractors = (double)growth->attractors->count + 1.0;
+    int64_t seen = 0;
+    bool full = false;
+    for (;;) {
+        attractor_grid_update(&growth->grid, growth->tree, seen, growth->threads, &growth->changed);
+        seen = growth->tree->count;
+        if (report->steps == 0) {
+            check_reach(growth, run, report);
+        }
+        if (full || (params->max_steps > 0 && report->steps >= params->max_steps)) {
+            report->stop = full ? STOP_MAX_NODES : STOP_MAX_STEPS;
+            return true;
+        }
+        if (run_is_cancelled(run)) {
+            return run_cancel_error(e);
+        }
+        run_progress(run, "grow", 1.0 - (double)growth->grid.alive / attractors);
+        drop_fruitless(growth);
+        if (!choose_growers(growth, e)) {
+            return false;
+        }
+        make_children(growth);
+        int64_t birth = params->first_step + report->steps + 1;
+        if (!add_children(growth, (int32_t)birth, &full, e) || !reserve_nodes(growth, seen, e)) {
+            return false;
+        }
+        if (growth->tree->count == seen) {
+            report->stop = full ? STOP_MAX_NODES : report->stop;
+            return true;
+        }
+        report->steps++;
+    }
+}
+
+static void free_growth(Growth *growth)
+{
+    attractor_grid_free(&growth->grid);
+    free(growth->state);
+    free(growth->slot);
+    free(growth->used);
+    free(growth->changed.word);
+    free(growth->grower);
+    free(growth->pull);
+    free(growth->child);
+    free(growth->child_count);
+    free(growth->grew);
+}
+
+static bool prepare(Growth *growth, Error *e)
+{
+    const ColonizeParams *params = growth->params;
+    if (!check_params(growth->tree, params, e)) {
+        return false;
+    }
+    set_angle_limits(growth);
+    growth->sectors.count = 1;
+    if (params->rule == GROW_SECTORS &&
+        !sectors_init(&growth->sectors, params->sector_angle, params->on_surface, e)) {
+        return false;
+    }
+    return begin(growth, e) && (growth->attractors->count == 0 ||
+                                attractor_grid_init(&growth->grid, growth->attractors,
+                                                    params->influence, params->kill, e));
+}
+
+bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *params,
+              const Run *run, GrowReport *report, Error *e)
+{
+    GrowReport mine = {.stop = STOP_NO_PULL, .influence = params->influence};
+    Growth growth = {.tree = tree,
+                     .attractors = attractors,
+                     .params = params,
+                     .threads = run->threads > 1 ? run->threads : 1};
+    int64_t before = tree->count;
+    bool grown = prepare(&growth, e);
+    if (grown && attractors->count == 0) {
+        mine.stop = STOP_OUT_OF_REACH;
+        mine.nearest = INFINITY;
+    } else if (grown) {
+        grown = grow(&growth, run, &mine, e);
+    }
+    mine.new_nodes = tree->count - before;
+    mine.attractors_left = growth.grid.alive;
+    if (report) {
+        *report = mine;
+    }
+    free_growth(&growth);
+    return grown;
+}

@@ -1,0 +1,84 @@
+// The state of one run of space colonization, shared by the parts of the engine: choosing who
+// grows, summing pulls, making children. Sums of pulls are integers, so the order of summing, and
+// with it the number of threads, cannot show in the result.
+#ifndef RAMIFY_GROW_GROWTH_H
+#define RAMIFY_GROW_GROWTH_H
+
+#include "grow/attractor_grid.h"
+#include "grow/colonize.h"
+#include "grow/sectors.h"
+
+// What growth remembers of a node.
+typedef struct NodeState {
+    int32_t children;    // so far
+    int32_t first_child; // index, -1 before
+    bool stalled;        // its attractors did not change though it grew: they pull it no more
+} NodeState;
+
+// A node that grows in this step.
+typedef struct Grower {
+    int32_t node;
+    bool has_heading;
+    Vec3 position;
+    Vec3 heading; // unit: from its parent to it; a root's first child gives it where needed
+    Vec3 normal;  // unit
+    Vec3 side;    // normal x heading: with them the frame of the sectors
+    Vec3 lean;    // w X_f + tropism + noise, for the rule that picks attractors by it
+} Grower;
+
+// What pulls a grower (or one sector of it). Fixed point, units of 1 / PULL_ONE.
+typedef struct Pull {
+    int64_t toward[3]; // sum of unit vectors to the attractors (E7)
+    int64_t count;
+    int64_t normal[3]; // sum of the attractors' normals, on surfaces
+    int64_t height;    // sum of the heights of the node above the attractors' surface / influence
+    uint64_t pick;     // GROW_SNAP: least (cost as float bits, attractor); UINT64_MAX = none
+} Pull;
+
+#define PULL_ONE 1073741824.0f // 2^30: a product with it only changes the exponent
+
+typedef struct Child {
+    Vec3 position, normal;
+    int sector;
+} Child;
+
+typedef struct Growth {
+    OutTree *tree;
+    const PointSet *attractors;
+    const ColonizeParams *params;
+    int threads;
+    AttractorGrid grid;
+    SectorTable sectors;                      // GROW_SECTORS; else one sector
+    float min_cos, min_sin, max_cos, max_sin; // of the angle limits; max_cos = -2 when off
+
+    NodeState *state; // per node
+    int64_t state_capacity;
+    int32_t *slot; // per node: its place among the growers, -1
+    int64_t slot_capacity;
+    uint64_t *used; // per node: bits of the sectors that have their child; GROW_SECTORS only
+    int64_t used_capacity;
+    NodeBits changed;
+
+    Grower *grower;
+    int64_t grower_count, grower_capacity;
+    Pull *pull; // threads x growers x sectors; the first thread's end up as the sums
+    int64_t pull_capacity;
+    Child *child; // growers x sectors
+    int64_t child_capacity;
+    int32_t *child_count; // per grower
+    int64_t child_count_capacity;
+    int32_t *grew; // nodes that made a child in the last step
+    int64_t grew_count, grew_capacity;
+} Growth;
+
+// Sums what pulls every grower into growth->pull[grower * sectors + sector].
+void growth_sum_pulls(Growth *growth);
+
+// Fills in a grower whose node is set.
+void growth_prepare(const Growth *growth, Grower *grower);
+
+// Makes the children of a grower from its pulls (one a sector at most); returns how many.
+int growth_make_children(const Growth *growth, const Grower *grower, const Pull *pull,
+                         Child *child);
+
+#endif

@@ -1,0 +1,84 @@
+#include "base/random.h"
+#include "grow/colonize.h"
+
+// Moves the nodes from `first` on toward their parents, all at once: children come after their
+// parents, so going back every parent still stands where it grew (Runions et al. 2007).
+static void relax(OutTree *tree, int64_t first, float share)
+{
+    for (int64_t i = tree->count - 1; i >= first; i--) {
+        if (tree->parent[i] >= 0) {
+            tree->position[i] =
+                vec3_lerp(tree->position[i], tree->position[tree->parent[i]], share);
+        }
+    }
+}
+
+static bool check_level(const GrowLevel *level, int number, Error *e)
+{
+    const float numbers[7] = {level->step,  level->kill,    level->influence, level->scale,
+                              level->noise, level->tropism, level->relax};
+    for (int i = 0; i < 7; i++) {
+        if (!isfinite(numbers[i])) {
+            return error_set(e, ERROR_INPUT, "level %d has a number that is not finite", number);
+        }
+    }
+    if (level->attractors < 1) {
+        return error_set(e, ERROR_INPUT, "level %d has %lld attractors; give it at least 1", number,
+                         (long long)level->attractors);
+    }
+    if (level->relax < 0.0f || level->relax > 1.0f) {
+        return error_set(e, ERROR_INPUT, "level %d relaxes by %g; it must be 0 to 1", number,
+                         (double)level->relax);
+    }
+    return true;
+}
+
+static PointSet *scatter_level(const Envelope *envelope, const ScatterParams *scatter,
+                               const GrowLevel *level, int number, const Run *run, Error *e)
+{
+    ScatterParams mine = *scatter;
+    mine.count = level->attractors;
+    mine.scale = scatter->scale * level->scale;
+    mine.seed = random_key(scatter->seed, (uint64_t)number);
+    return points_scatter(envelope, &mine, run, e);
+}
+
+static bool grow_level(OutTree *tree, const PointSet *attractors, const GrowLevel *level,
+                       ColonizeParams *params, const Run *run, GrowReport *report, Error *e)
+{
+    double spacing = points_spacing(attractors);
+    ColonizeParams mine = *params;
+    colonize_auto(&mine, spacing, level->step, level->kill, level->influence);
+    mine.noise = level->noise;
+    mine.tropism = vec3_scale(params->tropism, level->tropism);
+    int64_t first = tree->count;
+    if (!colonize(tree, attractors, &mine, run, report, e)) {
+        return false;
+    }
+    params->first_step += (int32_t)report->steps;
+    relax(tree, first, level->relax);
+    return true;
+}
+
+bool colonize_levels(OutTree *tree, const Envelope *envelope, const ScatterParams *scatter,
+                     const GrowLevel *levels, int level_count, const ColonizeParams *params,
+                     const Run *run, GrowReport *reports, Error *e)
+{
+    ColonizeParams mine = *params;
+    for (int i = 0; i < level_count; i++) {
+        GrowReport report = {.stop = STOP_NO_PULL};
+        if (!check_level(&levels[i], i, e)) {
+            return false;
+        }
+        PointSet *attractors = scatter_level(envelope, scatter, &levels[i], i, run, e);
+        bool grown = attractors && grow_level(tree, attractors, &levels[i], &mine, run, &report, e);
+        points_free(attractors);
+        if (reports) {
+            reports[i] = report;
+        }
+        if (!grown) {
+            return false;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,81 @@
+#include "grow/reach.h"
+
+#include <stdio.h>
+
+enum { MAX_WARNINGS = 4 };
+
+static int32_t root_of(const OutTree *tree, int64_t node)
+{
+    while (tree->parent[node] >= 0) {
+        node = tree->parent[node];
+    }
+    return (int32_t)node;
+}
+
+static float nearest_to(Vec3 p, const PointSet *attractors)
+{
+    float best = INFINITY;
+    for (int64_t a = 0; a < attractors->count; a++) {
+        Vec3 v = vec3_sub(attractors->position[a], p);
+        float d = vec3_dot(v, v);
+        best = d < best ? d : best;
+    }
+    return sqrtf(best);
+}
+
+void reach_measure(const OutTree *tree, const PointSet *attractors, GrowReport *report)
+{
+    report->nearest = INFINITY;
+    report->root = 0;
+    int64_t node = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        float d = nearest_to(tree->position[i], attractors);
+        if (d < report->nearest) {
+            report->nearest = d;
+            node = i;
+        }
+    }
+    report->root = root_of(tree, node);
+}
+
+// Whether an attractor pulls any node of the tree that begins at `root`.
+static bool is_pulled(const OutTree *tree, int32_t root, const NodeBits *pulled)
+{
+    for (int64_t i = root; i < tree->count; i++) {
+        if ((pulled->word[i >> 6] >> (i & 63) & 1) && root_of(tree, i) == root) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void reach_warn(const OutTree *tree, const ColonizeParams *params, const PointSet *attractors,
+                const NodeBits *pulled, const Run *run)
+{
+    if (!run->warn) {
+        return;
+    }
+    int warnings = 0;
+    for (int32_t root = 0; root < tree->count && warnings < MAX_WARNINGS; root++) {
+        if (tree->parent[root] >= 0 || is_pulled(tree, root, pulled)) {
+            continue;
+        }
+        float best = INFINITY;
+        for (int64_t i = root; i < tree->count; i++) {
+            if (root_of(tree, i) == root) {
+                float d = nearest_to(tree->position[i], attractors);
+                best = d < best ? d : best;
+            }
+        }
+        if (best >= params->influence) {
+            GrowReport report = {.stop = STOP_OUT_OF_REACH,
+                                 .nearest = best,
+                                 .root = root,
+                                 .influence = params->influence};
+            char text[256];
+            grow_report_format(&report, params, text, sizeof text);
+            run_warn(run, "%s", text);
+            warnings++;
+        }
+    }
+}
