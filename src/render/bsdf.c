@@ -25,21 +25,49 @@ static void leaf_colors(Bsdf *b, const SurfacePoint *point)
     b->albedo = vec3_add(b->color, b->transmittance);
 }
 
+// What the material's picture multiplies its colour with.
+static Vec3 texture_at(const Texture *texture, const SurfacePoint *point)
+{
+    float u = vec3_length(point->tangent_u), v = vec3_length(point->tangent_v);
+    return texture_color(texture, point->uv, u > 0.0f ? point->footprint / u : 0.0f,
+                         v > 0.0f ? point->footprint / v : 0.0f);
+}
+
 Bsdf bsdf_at(const MaterialSet *set, const SurfacePoint *point, Vec3 wo)
 {
-    const Material *m = &set->material[point->material];
+    const MaterialEntry *entry = &set->entry[point->material];
+    const Material *m = &entry->material;
     Bsdf b = {.kind = m->kind,
-              .normal = normal_toward(point->normal, wo),
+              .normal = point->normal,
               .geometric_normal = point->geometric_normal,
               .color = m->color,
               .roughness = m->roughness,
-              .albedo = m->color};
-    if (m->kind == MATERIAL_LEAF) {
-        b.transmittance = m->transmittance;
-        leaf_colors(&b, point);
-    } else if (m->kind == MATERIAL_EMISSION) {
+              .alpha = entry->alpha,
+              .table = entry->table};
+    if (entry->color) {
+        b.color = vec3_mul(b.color, texture_at(entry->color, point));
+    }
+    b.normal = normal_toward(b.normal, wo);
+    b.albedo = vec3_min(b.color, vec3_splat(1.0f));
+    switch (m->kind) {
+    case MATERIAL_DIFFUSE:
+        break;
+    case MATERIAL_EMISSION:
         b.emission = m->radiance;
         b.color = b.albedo = vec3_splat(0.0f);
+        break;
+    case MATERIAL_DIELECTRIC:
+        dielectric_prepare(&b, m, point->backface, vec3_dot(b.normal, wo));
+        break;
+    case MATERIAL_LEAF:
+        b.transmittance = m->transmittance;
+        leaf_colors(&b, point);
+        layered_prepare(&b, m, point->backface, vec3_dot(b.normal, wo));
+        break;
+    case MATERIAL_CONDUCTOR:
+    case MATERIAL_PRINCIPLED:
+        layered_prepare(&b, m, false, vec3_dot(b.normal, wo));
+        break;
     }
     return b;
 }
@@ -62,12 +90,22 @@ static Vec3 eval_unfolded(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
     switch (b->kind) {
     case MATERIAL_DIFFUSE:
         return diffuse_eval(b, wo, wi, pdf);
+    case MATERIAL_DIELECTRIC:
+        return dielectric_eval(b, wo, wi, pdf);
+    case MATERIAL_CONDUCTOR:
+    case MATERIAL_PRINCIPLED:
     case MATERIAL_LEAF:
-        return leaf_eval(b, wo, wi, pdf);
-    default:
-        *pdf = 0.0f;
-        return vec3_splat(0.0f);
+        return layered_eval(b, wo, wi, pdf);
+    case MATERIAL_EMISSION:
+        break;
     }
+    *pdf = 0.0f;
+    return vec3_splat(0.0f);
+}
+
+static bool is_mirror(const Bsdf *b)
+{
+    return b->alpha <= 0.0f && (b->kind == MATERIAL_CONDUCTOR || b->kind == MATERIAL_DIELECTRIC);
 }
 
 Vec3 bsdf_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf)
@@ -76,6 +114,9 @@ Vec3 bsdf_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf)
     Vec3 folded = vec3_madd(wi, -2.0f * side, bsdf->geometric_normal);
     Vec3 f = vec3_splat(0.0f);
     *pdf = 0.0f;
+    if (is_mirror(bsdf)) {
+        return f;
+    }
     if (side * vec3_dot(bsdf->normal, wi) > 0.0f) {
         f = eval_unfolded(bsdf, wo, wi, pdf);
     }
@@ -109,20 +150,48 @@ static bool lambert_sample(const Bsdf *b, const float u[3], BsdfSample *sample)
     return sample->pdf > 0.0f;
 }
 
+// Draws about the shading normal, not yet folded.
+static bool draw_unfolded(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
+{
+    switch (b->kind) {
+    case MATERIAL_DIFFUSE:
+        *wi = draw_cosine(b->normal, u[0], u[1]);
+        return true;
+    case MATERIAL_DIELECTRIC:
+        return dielectric_draw(b, wo, u, wi);
+    case MATERIAL_CONDUCTOR:
+    case MATERIAL_PRINCIPLED:
+    case MATERIAL_LEAF:
+        return layered_draw(b, wo, u, wi);
+    case MATERIAL_EMISSION:
+        break;
+    }
+    return false;
+}
+
+static bool mirror_sample(const Bsdf *b, Vec3 wo, const float u[3], BsdfSample *sample)
+{
+    bool drawn = b->kind == MATERIAL_CONDUCTOR ? conductor_mirror(b, wo, sample)
+                                               : dielectric_mirror(b, wo, u, sample);
+    if (!drawn) {
+        return false;
+    }
+    sample->wi = fold(b, sample->wi, sample->transmitted);
+    sample->delta = true;
+    sample->pdf = 0.0f;
+    return true;
+}
+
 bool bsdf_sample(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample)
 {
+    if (bsdf->kind == MATERIAL_DIFFUSE && bsdf->roughness <= 0.0f) {
+        return lambert_sample(bsdf, u, sample);
+    }
+    if (is_mirror(bsdf)) {
+        return mirror_sample(bsdf, wo, u, sample);
+    }
     Vec3 wi;
-    switch (bsdf->kind) {
-    case MATERIAL_DIFFUSE:
-        if (bsdf->roughness <= 0.0f) {
-            return lambert_sample(bsdf, u, sample);
-        }
-        wi = draw_cosine(bsdf->normal, u[0], u[1]);
-        break;
-    case MATERIAL_LEAF:
-        wi = leaf_draw(bsdf, wo, u);
-        break;
-    default:
+    if (!draw_unfolded(bsdf, wo, u, &wi)) {
         return false;
     }
     sample->delta = false;

@@ -1,6 +1,6 @@
 // What the BSDF's source files share: the lobes, each about the shading normal, not yet folded over
-// the geometric horizon. Every eval returns f |cos wi| and adds nothing to its arguments; every
-// draw returns a unit direction distributed as the pdf of the eval beside it.
+// the geometric horizon. Every eval returns f |cos wi|; every draw gives a unit direction
+// distributed as the pdf of the eval beside it, or false where the light is lost.
 #ifndef RAMIFY_RENDER_BSDF_LOBES_H
 #define RAMIFY_RENDER_BSDF_LOBES_H
 
@@ -41,8 +41,18 @@ static inline float luminance_of(Vec3 c)
 // (Portsmouth et al. 2025, EON). All cosines positive; the pdf to go with it is cos / pi.
 Vec3 rough_diffuse_eval(Vec3 color, float roughness, float cos_o, float cos_i, float cos_oi);
 
-// Thin sheet: see bsdf_leaf.c.
-Vec3 leaf_draw(const Bsdf *bsdf, Vec3 wo, const float u[3]);
-Vec3 leaf_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf);
+// Conductor, principled and leaf: a glossy GGX lobe over diffuse ones. bsdf_layered.c.
+void layered_prepare(Bsdf *bsdf, const Material *material, bool underside, float cos_o);
+bool layered_draw(const Bsdf *bsdf, Vec3 wo, const float u[3], Vec3 *wi);
+Vec3 layered_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf);
+
+// Rough glass. alpha > 0. bsdf_dielectric.c.
+void dielectric_prepare(Bsdf *bsdf, const Material *material, bool inside, float cos_o);
+bool dielectric_draw(const Bsdf *bsdf, Vec3 wo, const float u[3], Vec3 *wi);
+Vec3 dielectric_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf);
+
+// Mirror-like conductors and dielectrics (alpha = 0): wi, weight and transmitted of the sample.
+bool conductor_mirror(const Bsdf *bsdf, Vec3 wo, BsdfSample *sample);
+bool dielectric_mirror(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample);
 
 #endif

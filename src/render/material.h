@@ -29,7 +29,7 @@ typedef enum PatternKind {
 typedef struct Material {
     char name[64];
     MaterialKind kind;
-    Vec3 color;         // reflectance (leaf: of the upper side)
+    Vec3 color;         // reflectance (leaf: of the upper side; dielectric: tint of what passes)
     Vec3 color2;        // the pattern's second colour (bark: of the furrows)
     Vec3 transmittance; // MATERIAL_LEAF: colour of light let through; dielectric: unused
     Vec3 absorption;    // MATERIAL_DIELECTRIC: per metre, Beer-Lambert

@@ -3,39 +3,78 @@
 #include "base/memory.h"
 
 #include <stdlib.h>
-#include <string.h>
 
-static bool check_supported(const Material *materials, int count, Error *e)
+// Narrower lobes than this are mirrors, or, where a mirror cannot mix with other lobes, this wide.
+static const float LEAST_ALPHA = 1e-3f;
+
+static bool prepare_table(MaterialEntry *entry, Error *e)
 {
-    for (int i = 0; i < count; i++) {
-        const Material *m = &materials[i];
-        bool ready =
-            m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_LEAF || m->kind == MATERIAL_EMISSION;
-        if (!ready || m->texture || m->alpha_texture) {
-            return error_set(e, ERROR_INPUT,
-                             "material '%s': only untextured diffuse, leaf and emission exist yet",
-                             m->name);
-        }
+    const Material *m = &entry->material;
+    float roughness = clampf(m->roughness, 0.0f, 1.0f);
+    float alpha = roughness * roughness;
+    if (m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_EMISSION) {
+        return true;
+    }
+    bool mirror =
+        alpha < LEAST_ALPHA && (m->kind == MATERIAL_CONDUCTOR || m->kind == MATERIAL_DIELECTRIC);
+    entry->alpha = mirror ? 0.0f : fmaxf(alpha, LEAST_ALPHA);
+    entry->table = memory_alloc_zero(1, sizeof *entry->table, e);
+    if (!entry->table) {
+        return false;
+    }
+    if (m->kind == MATERIAL_DIELECTRIC) {
+        ggx_table_dielectric(entry->table, fmaxf(alpha, LEAST_ALPHA), m->ior);
+    } else {
+        ggx_table_reflection(entry->table, fmaxf(alpha, LEAST_ALPHA));
     }
     return true;
 }
 
+static bool open_texture(MaterialSet *set, const Material *m, const char *file, Texture **texture,
+                         Error *e)
+{
+    if (!file || !file[0]) {
+        return true;
+    }
+    if (!set->textures) {
+        set->textures = texture_cache_new(e);
+    }
+    *texture = set->textures ? texture_open(set->textures, file, e) : NULL;
+    if (!*texture) {
+        error_prefix(e, "material '%s': ", m->name);
+    }
+    return *texture != NULL;
+}
+
+static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material *material,
+                          Error *e)
+{
+    entry->material = *material;
+    Material *m = &entry->material;
+    m->ior = fmaxf(m->ior, 1e-3f);
+    if (fabsf(m->ior - 1.0f) < 1e-3f) { // no facet bends light: keep away from 0 / 0
+        m->ior = 1.001f;
+    }
+    return prepare_table(entry, e) && open_texture(set, m, m->texture, &entry->color, e) &&
+           open_texture(set, m, m->alpha_texture, &entry->opacity, e);
+}
+
 MaterialSet *material_set_new(const Material *materials, int count, Error *e)
 {
-    if (!check_supported(materials, count, e)) {
-        return NULL;
-    }
     MaterialSet *set = memory_alloc_zero(1, sizeof *set, e);
     if (!set) {
         return NULL;
     }
-    set->count = count;
-    set->material = memory_alloc(count, sizeof *set->material, e);
-    if (!set->material) {
+    set->entry = memory_alloc_zero(count, sizeof *set->entry, e);
+    bool done = set->entry != NULL;
+    set->count = done ? count : 0;
+    for (int i = 0; done && i < count; i++) {
+        done = prepare_entry(set, &set->entry[i], &materials[i], e);
+    }
+    if (!done) {
         material_set_free(set);
         return NULL;
     }
-    memcpy(set->material, materials, (size_t)count * sizeof *materials);
     return set;
 }
 
@@ -44,14 +83,16 @@ void material_set_free(MaterialSet *set)
     if (!set) {
         return;
     }
-    free(set->material);
+    for (int i = 0; i < set->count; i++) {
+        free(set->entry[i].table);
+    }
+    free(set->entry);
+    texture_cache_free(set->textures);
     free(set);
 }
 
 float material_opacity(const MaterialSet *set, int material, Vec2 uv)
 {
-    (void)set;
-    (void)material;
-    (void)uv;
-    return 1.0f;
+    const MaterialEntry *entry = &set->entry[material];
+    return entry->opacity ? texture_opacity(entry->opacity, uv) : 1.0f;
 }

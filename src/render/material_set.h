@@ -3,10 +3,21 @@
 #define RAMIFY_RENDER_MATERIAL_SET_H
 
 #include "render/bsdf.h"
+#include "render/bsdf_ggx.h"
+#include "render/texture.h"
+
+typedef struct MaterialEntry {
+    Material material;
+    float alpha;      // GGX; 0 = mirror
+    GgxTable *table;  // owned; NULL where the kind needs none
+    Texture *color;   // borrowed from the cache; NULL = none
+    Texture *opacity; // likewise
+} MaterialEntry;
 
 struct MaterialSet {
     int count;
-    Material *material;
+    MaterialEntry *entry;
+    TextureCache *textures; // NULL while no material has any
 };
 
 #endif
