@@ -1,10 +1,14 @@
-#include "mesh/limit_patch.h"
-
+#include <cmath>
+#include <cstdint>
 #include <exception>
 #include <memory>
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <vector>
+
+extern "C" {
+#include "mesh/limit_patch.h"
+}
 
 namespace Far = OpenSubdiv::Far;
 
@@ -144,7 +148,7 @@ bool evaluate(const LimitPatch &patch, int level, LimitPoint *grid, Error *e)
 
 } // namespace
 
-bool limit_patch_evaluate(const LimitPatch *patch, int level, LimitPoint *grid, Error *e)
+extern "C" bool limit_patch_evaluate(const LimitPatch *patch, int level, LimitPoint *grid, Error *e)
 {
     try {
         return evaluate(*patch, level, grid, e);

@@ -7,10 +7,6 @@
 
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // What a surface point carries; before refinement, a cage vertex (normal unused).
 typedef struct LimitPoint {
     Vec3 position, normal;
@@ -30,9 +26,5 @@ typedef struct LimitPatch {
 // (2^level + 1)^2 points of the limit surface over it: row by row, x from corner 0 to corner 1, y
 // from corner 0 to corner 3.
 bool limit_patch_evaluate(const LimitPatch *patch, int level, LimitPoint *grid, Error *e);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif
