@@ -240,7 +240,7 @@ OutTree *tree_grow(const TreeParams *params, uint64_t seed, const char *label, c
                    Error *e)
 {
     TreePlan plan;
-    tree_plan_make(&plan, params);
+    tree_plan_make(&plan, params, seed);
     OutTree *tree = out_tree_new(e);
     if (!tree || !grow_trunk(tree, &plan.params, random_key(seed, 1), label, run, e) ||
         !grow_crown(tree, &plan.params, random_key(seed, 2), label, run, e)) {

@@ -11,7 +11,7 @@
 
 typedef struct TrunkParams {
     ElementParams element;
-    float height; // m, from the ground to the trunk's last node; 0 = 0.38 of the tree's height
+    float height; // m, from the ground to the trunk's last node; 0 = 0.32 of the tree's height
     float radius; // m, above the root flare; 0 = from the height: 0.032 height^1.5 / 14^0.5
                   // (elastic similarity)
     float lean;   // degrees from the vertical, toward `lean_azimuth`
@@ -23,11 +23,12 @@ typedef struct TrunkParams {
 typedef struct CrownParams {
     ElementParams element;
     float width;         // m; 0 = 1.05 of the tree's height
-    float base;          // m above the ground where the crown begins; 0 = 0.2 of the height
+    float base;          // m above the ground where the crown begins; 0 = 0.18 of the height
     int branches;        // placed on the trunk by sorted height
     float branch_from;   // share of the trunk's height where the lowest branch stands
     float branch_angle;  // degrees between a branch and the trunk where it starts
     float branch_length; // m, of the starting piece; 0 = 0.08 of the tree's height
+    int lobes; // of the default envelope: bulges about an ellipsoid; 0 = the plain ellipsoid
 } CrownParams;
 
 typedef struct RootParams {

@@ -1,6 +1,7 @@
 #include "model/tree_defaults.h"
 
 #include "base/exact_math.h"
+#include "base/random.h"
 
 TreeParams tree_params_default(void)
 {
@@ -18,8 +19,9 @@ TreeParams tree_params_default(void)
                               .noise = 0.3f,
                               .tropism = {0, 1, 0},
                               .field_weight = 1.0f},
+                  .lobes = 14,
                   .branches = 7,
-                  .branch_from = 0.55f,
+                  .branch_from = 0.72f,
                   .branch_angle = 62.0f},
         .roots = {.element = {.max_children = 2,
                               .noise = 0.25f,
@@ -53,11 +55,11 @@ static void fill(float *value, float default_value)
     }
 }
 
-static void fill_envelope(ElementParams *element, Shape *shape)
+static void fill_envelope(ElementParams *element, Shape *shapes, int count)
 {
     if (element->shape_count == 0) {
-        element->shapes = shape;
-        element->shape_count = 1;
+        element->shapes = shapes;
+        element->shape_count = count;
     }
 }
 
@@ -73,7 +75,7 @@ static void plan_trunk(TreePlan *plan)
 {
     TreeParams *tree = &plan->params;
     TrunkParams *trunk = &tree->trunk;
-    fill(&trunk->height, 0.38f * tree->height);
+    fill(&trunk->height, 0.32f * tree->height);
     fill(&trunk->radius, 0.032f * tree->height * sqrtf(tree->height / 14.0f));
     fill(&trunk->stem_circle, trunk->radius);
     // A capsule about the leaning axis; stems that share it need room for their circle.
@@ -94,23 +96,56 @@ static void plan_trunk(TreePlan *plan)
                                        .noise = trunk->element.noise,
                                        .tropism = 1.0f,
                                        .relax = 0.3f};
-    fill_envelope(&trunk->element, &plan->trunk_shape);
+    fill_envelope(&trunk->element, &plan->trunk_shape, 1);
     fill_levels(&trunk->element, plan->trunk_level, 1);
 }
 
-static void plan_crown(TreePlan *plan)
+static Shape ellipsoid(Vec3 center, Vec3 half)
+{
+    return (Shape){.kind = SHAPE_ELLIPSOID,
+                   .op = SHAPE_UNION,
+                   .size = half,
+                   .transform = transform_compose(center, vec3_splat(0), vec3_splat(1))};
+}
+
+// The default crown: an ellipsoid, or a smaller one with lobes spread evenly over it (by the golden
+// angle), which bulge unevenly as limbs do that each fight for their own light. Returns how many
+// shapes.
+static int crown_shapes(TreePlan *plan, uint64_t seed)
+{
+    const TreeParams *tree = &plan->params;
+    const CrownParams *crown = &tree->crown;
+    float height = 0.5f * (tree->height - crown->base);
+    Vec3 half = vec3(0.5f * crown->width, height, 0.5f * crown->width);
+    Vec3 center = vec3_add(tree->position, vec3(0, crown->base + height, 0));
+    int lobes = crown->lobes < TREE_MOST_LOBES ? crown->lobes : TREE_MOST_LOBES;
+    if (lobes <= 0) {
+        plan->crown_shape[0] = ellipsoid(center, half);
+        return 1;
+    }
+    plan->crown_shape[0] = ellipsoid(center, vec3_scale(half, 0.74f));
+    for (int i = 0; i < lobes; i++) {
+        uint64_t key = random_key(seed, (uint64_t)i);
+        float sine, cosine, size = random_range(random_key(key, 1), 0.26f, 0.44f);
+        float y =
+            1.0f - 1.7f * ((float)i + 0.5f) / (float)lobes; // few below: they would be in the shade
+        float turn = (float)i * 2.39996f + random_range(random_key(key, 2), -0.4f, 0.4f);
+        exact_sincos(turn, &sine, &cosine);
+        float r = sqrtf(1.0f - y * y), reach = 1.0f - size;
+        Vec3 place = vec3_mul(half, vec3(reach * r * sine, reach * y, reach * r * cosine));
+        plan->crown_shape[1 + i] = ellipsoid(vec3_add(center, place), vec3_scale(half, size));
+    }
+    return 1 + lobes;
+}
+
+static void plan_crown(TreePlan *plan, uint64_t seed)
 {
     TreeParams *tree = &plan->params;
     CrownParams *crown = &tree->crown;
     fill(&crown->width, 1.05f * tree->height);
-    fill(&crown->base, 0.2f * tree->height);
+    fill(&crown->base, 0.18f * tree->height);
     fill(&crown->branch_length, 0.08f * tree->height);
-    float half = 0.5f * (tree->height - crown->base);
-    Vec3 center = vec3_add(tree->position, vec3(0, crown->base + half, 0));
-    plan->crown_shape =
-        (Shape){.kind = SHAPE_ELLIPSOID,
-                .size = vec3(0.5f * crown->width, half, 0.5f * crown->width),
-                .transform = transform_compose(center, vec3_splat(0), vec3_splat(1))};
+    int shapes = crown_shapes(plan, seed);
     // Coarse to fine: few long-reaching limbs first, then ten times as many branches, and so on.
     float noise = crown->element.noise;
     GrowLevel levels[TREE_DEFAULT_LEVELS] = {
@@ -122,7 +157,7 @@ static void plan_crown(TreePlan *plan)
     for (int i = 0; i < TREE_DEFAULT_LEVELS; i++) {
         plan->crown_level[i] = levels[i];
     }
-    fill_envelope(&crown->element, &plan->crown_shape);
+    fill_envelope(&crown->element, plan->crown_shape, shapes);
     fill_levels(&crown->element, plan->crown_level, TREE_DEFAULT_LEVELS);
 }
 
@@ -140,15 +175,15 @@ static void plan_roots(TreePlan *plan)
     float noise = roots->element.noise;
     plan->root_level[0] = (GrowLevel){40, 0.15f, 0.6f, 4.0f, 0.9f, noise, 0.02f, 0.5f};
     plan->root_level[1] = (GrowLevel){250, 0.3f, 0.8f, 2.2f, 1.0f, noise, 0.1f, 0.5f};
-    fill_envelope(&roots->element, &plan->root_shape);
+    fill_envelope(&roots->element, &plan->root_shape, 1);
     fill_levels(&roots->element, plan->root_level, 2);
 }
 
-void tree_plan_make(TreePlan *plan, const TreeParams *params)
+void tree_plan_make(TreePlan *plan, const TreeParams *params, uint64_t seed)
 {
     plan->params = *params;
     plan_trunk(plan);
-    plan_crown(plan);
+    plan_crown(plan, random_key(seed, 1));
     plan_roots(plan);
     fill(&plan->params.radii.flare_height, 2.5f * plan->params.trunk.radius);
 }

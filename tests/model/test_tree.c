@@ -58,7 +58,7 @@ static void a_tree_has_trunk_crown_and_roots(void **state)
     assert_true(count[0] > 10 && count[1] > 200 && count[2] > 50);
     assert_true(top > 0.8f * params.height && top < 1.1f * params.height);
     // No branch below the share of the trunk that the scene keeps bare.
-    assert_true(lowest_branch > 0.9f * params.crown.branch_from * 0.38f * params.height);
+    assert_true(lowest_branch > 0.9f * params.crown.branch_from * 0.32f * params.height);
     assert_true(deepest < -0.1f);
     out_tree_free(tree);
 }
