@@ -10,7 +10,7 @@
 
 #include <stdint.h>
 
-enum { BLOCK_LANES = 8 };
+enum { BLOCK_LANES = 8, ATTRACTOR_MAX_SLABS = 256 };
 
 // Eight attractors of one cell; lanes beyond the cell's count have best = -1, which no distance
 // beats. Three cache lines.
@@ -22,21 +22,25 @@ typedef struct AttractorBlock {
     int32_t previous[BLOCK_LANES]; // the nearest node one step ago
 } AttractorBlock;
 
+typedef struct AttractorCell {
+    int64_t first_block;
+    int32_t count; // attractors alive
+    int32_t state; // bits: searched in this step, listed as active
+} AttractorCell;
+
 typedef struct AttractorGrid {
     Vec3 low;
     float cell, slack; // m: side of a cell; how far outside its cell rounding may put a point
     int size[3];       // cells along each axis; those along z are neighbours in memory
     int64_t cell_count;
     float reach, reach2, kill2; // m, m^2
-    int64_t *first_block;       // per cell
-    int32_t *count;             // per cell: attractors alive
-    float *furthest;            // per cell: the largest best; -1 in empty cells
-    uint8_t *state;             // per cell: CELL_*
-    int32_t *touched;           // scratch: cells a search changed
-    int64_t *work;              // scratch: how searching is shared out
-    float *gap2;                // scratch: distances to the cells of a row
-    int32_t *active;            // cells with an attractor in reach of a node
-    int64_t active_count;
+    AttractorCell *cells;
+    float *furthest;                  // per cell: the largest best; -1 in empty cells
+    int32_t *touched;                 // scratch: cells a search changed
+    int64_t *work;                    // scratch: how searching is shared out
+    float *gap2;                      // scratch: distances to the cells of a row
+    int32_t *active;                  // cells with an attractor in reach of a node
+    int64_t active_count, idle_count; // how many are listed, and how many of them are empty now
     AttractorBlock *block;
     int32_t *source; // per lane: index in the point set
     int64_t alive;
@@ -53,6 +57,9 @@ typedef struct NodeBits {
 bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reach, float kill,
                          Error *e);
 void attractor_grid_free(AttractorGrid *grid);
+
+// The cell along an axis of a point at this offset from the grid's low corner, m; clamped.
+int attractor_grid_cell_along(const AttractorGrid *grid, int axis, float offset);
 
 // Takes nodes first..tree->count-1 into account: updates the nearest nodes, removes attractors
 // closer than kill to any node, and sets in `changed` the bits of all nodes that gained or lost a

@@ -4,9 +4,13 @@
 
 #include "base/exact_math.h"
 
+#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+// Steps with fewer growers or cells than this are not worth sharing among threads.
+enum { LEAST_SHARED = 64 };
 
 ColonizeParams colonize_params_default(void)
 {
@@ -219,15 +223,27 @@ static bool choose_growers(Growth *growth, Error *e)
 static void make_children(Growth *growth)
 {
     int64_t growers = growth->grower_count, sectors = growth->sectors.count;
-#pragma omp parallel for schedule(static) num_threads(growth->threads) if (growers > 256)
-    for (int64_t i = 0; i < growers; i++) {
-        growth_prepare(growth, &growth->grower[i]);
-    }
-    growth_sum_pulls(growth);
-#pragma omp parallel for schedule(static) num_threads(growth->threads) if (growers > 256)
-    for (int64_t i = 0; i < growers; i++) {
-        growth->child_count[i] = growth_make_children(
-            growth, &growth->grower[i], &growth->pull[i * sectors], &growth->child[i * sectors]);
+    int64_t cells = growth->grid.active_count;
+    int threads = growers >= LEAST_SHARED && cells >= LEAST_SHARED ? growth->threads : 1;
+#pragma omp parallel num_threads(threads) if (threads > 1)
+    {
+        int part = omp_get_thread_num(), parts = omp_get_num_threads();
+        growth_clear_pulls(growth, part);
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < growers; i++) {
+            growth_prepare(growth, &growth->grower[i]);
+        }
+#pragma omp for schedule(dynamic, 32)
+        for (int64_t i = 0; i < cells; i++) {
+            growth_add_cell(growth, growth->grid.active[i], part);
+        }
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < growers; i++) {
+            growth_merge_pulls(growth, i, parts);
+            growth->child_count[i] =
+                growth_make_children(growth, &growth->grower[i], &growth->pull[i * sectors],
+                                     &growth->child[i * sectors]);
+        }
     }
 }
 

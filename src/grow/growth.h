@@ -71,8 +71,11 @@ typedef struct Growth {
     int64_t grew_count, grew_capacity;
 } Growth;
 
-// Sums what pulls every grower into growth->pull[grower * sectors + sector].
-void growth_sum_pulls(Growth *growth);
+// Pulls are summed in parts, one a thread: clear a part, add cells to any part, then merge all
+// parts of a grower into part 0, growth->pull[grower * sectors + sector].
+void growth_clear_pulls(const Growth *growth, int part);
+void growth_add_cell(const Growth *growth, int32_t cell, int part);
+void growth_merge_pulls(const Growth *growth, int64_t grower, int parts);
 
 // Fills in a grower whose node is set.
 void growth_prepare(const Growth *growth, Grower *grower);

@@ -1,6 +1,5 @@
 #include "grow/growth.h"
 
-#include <omp.h>
 #include <string.h>
 
 static int64_t fixed(float x)
@@ -79,11 +78,20 @@ static void add_attractor(const Growth *growth, const AttractorBlock *a, int lan
     }
 }
 
-static void add_cell(const Growth *growth, int32_t cell, Pull *pulls)
+void growth_clear_pulls(const Growth *growth, int part)
+{
+    int64_t pulls = growth->grower_count * growth->sectors.count;
+    for (int64_t i = 0; i < pulls; i++) {
+        growth->pull[part * pulls + i] = (Pull){.pick = UINT64_MAX};
+    }
+}
+
+void growth_add_cell(const Growth *growth, int32_t cell, int part)
 {
     const AttractorGrid *grid = &growth->grid;
-    int64_t first = grid->first_block[cell] * BLOCK_LANES;
-    for (int64_t i = first; i < first + grid->count[cell]; i++) {
+    Pull *pulls = growth->pull + part * growth->grower_count * growth->sectors.count;
+    int64_t first = grid->cells[cell].first_block * BLOCK_LANES;
+    for (int64_t i = first; i < first + grid->cells[cell].count; i++) {
         const AttractorBlock *a = &grid->block[i / BLOCK_LANES];
         if (a->nearest[i % BLOCK_LANES] >= 0) {
             add_attractor(growth, a, (int)(i % BLOCK_LANES), grid->source[i], pulls);
@@ -102,27 +110,12 @@ static void merge(Pull *sum, const Pull *part)
     sum->pick = part->pick < sum->pick ? part->pick : sum->pick;
 }
 
-void growth_sum_pulls(Growth *growth)
+void growth_merge_pulls(const Growth *growth, int64_t grower, int parts)
 {
-    const AttractorGrid *grid = &growth->grid;
-    int64_t pulls = growth->grower_count * growth->sectors.count;
-    int parts = grid->active_count > 64 ? growth->threads : 1;
-#pragma omp parallel num_threads(parts) if (parts > 1)
-    {
-        int team = omp_get_num_threads();
-        Pull *mine = growth->pull + omp_get_thread_num() * pulls;
-        for (int64_t i = 0; i < pulls; i++) {
-            mine[i] = (Pull){.pick = UINT64_MAX};
-        }
-#pragma omp for schedule(dynamic, 32)
-        for (int64_t i = 0; i < grid->active_count; i++) {
-            add_cell(growth, grid->active[i], mine);
-        }
-#pragma omp for schedule(static)
-        for (int64_t i = 0; i < pulls; i++) {
-            for (int part = 1; part < team; part++) {
-                merge(&growth->pull[i], &growth->pull[part * pulls + i]);
-            }
+    int64_t sectors = growth->sectors.count, pulls = growth->grower_count * sectors;
+    for (int64_t i = grower * sectors; i < (grower + 1) * sectors; i++) {
+        for (int part = 1; part < parts; part++) {
+            merge(&growth->pull[i], &growth->pull[part * pulls + i]);
         }
     }
 }
