@@ -2,6 +2,7 @@
 
 #include "render/bsdf_lobes.h"
 #include "render/material_set.h"
+#include "render/pattern.h"
 
 // A shading normal that wo sees at least grazingly. Interpolated and bumped normals may turn away.
 static Vec3 normal_toward(Vec3 n, Vec3 wo)
@@ -37,6 +38,7 @@ Bsdf bsdf_at(const MaterialSet *set, const SurfacePoint *point, Vec3 wo)
 {
     const MaterialEntry *entry = &set->entry[point->material];
     const Material *m = &entry->material;
+    Vec3 transmittance = m->transmittance;
     Bsdf b = {.kind = m->kind,
               .normal = point->normal,
               .geometric_normal = point->geometric_normal,
@@ -44,11 +46,19 @@ Bsdf bsdf_at(const MaterialSet *set, const SurfacePoint *point, Vec3 wo)
               .roughness = m->roughness,
               .alpha = entry->alpha,
               .table = entry->table};
+    if (m->pattern != PATTERN_NONE || m->variation > 0.0f) {
+        PatternShade shade = {m->color, m->transmittance, point->normal};
+        pattern_apply(m, point, &shade);
+        b.color = shade.color;
+        transmittance = shade.transmittance;
+        b.normal = shade.normal;
+    }
     if (entry->color) {
         b.color = vec3_mul(b.color, texture_at(entry->color, point));
     }
     b.normal = normal_toward(b.normal, wo);
-    b.albedo = vec3_min(b.color, vec3_splat(1.0f));
+    b.color = vec3_max(vec3_min(b.color, vec3_splat(1.0f)), vec3_splat(0.0f));
+    b.albedo = b.color;
     switch (m->kind) {
     case MATERIAL_DIFFUSE:
         break;
@@ -60,7 +70,7 @@ Bsdf bsdf_at(const MaterialSet *set, const SurfacePoint *point, Vec3 wo)
         dielectric_prepare(&b, m, point->backface, vec3_dot(b.normal, wo));
         break;
     case MATERIAL_LEAF:
-        b.transmittance = m->transmittance;
+        b.transmittance = vec3_max(transmittance, vec3_splat(0.0f));
         leaf_colors(&b, point);
         layered_prepare(&b, m, point->backface, vec3_dot(b.normal, wo));
         break;
