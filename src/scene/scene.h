@@ -1,6 +1,6 @@
 // The scene file as a value: everything a picture is made from, read from YAML (libcyaml) and
 // checked. Strict: unknown keys, wrong types and numbers out of range are errors with line, column
-// and what would be right. All defaults stand in one set of tables (schema.c), from which the JSON
+// and what would be right. All defaults stand in one set of tables (spec.h), from which the JSON
 // Schema is printed too.
 #ifndef RAMIFY_SCENE_SCENE_H
 #define RAMIFY_SCENE_SCENE_H
@@ -10,6 +10,8 @@
 #include "model/ground.h"
 #include "model/tree.h"
 #include "render/world.h"
+
+#include <stddef.h>
 
 typedef struct SceneMesh { // an imported mesh that is drawn
     char *file;
@@ -37,8 +39,9 @@ typedef struct SceneObject {
 } SceneObject;
 
 typedef struct Scene {
-    char *file; // where it was read from, for messages and to resolve relative paths
-    char *text; // the file's text, stored in images as metadata
+    char *file;     // where it was read from, for messages and to resolve relative paths
+    char *text;     // the file's text, stored in images as metadata
+    char *resolved; // the same as YAML with every default and override written out
     uint64_t seed;
     Camera camera;
     FilmParams film;
@@ -58,6 +61,12 @@ typedef struct Scene {
 // objects.oak.tree.height=9 by name). Files named in the scene are found relative to it.
 // ERROR_INPUT carries file, line and column.
 Scene *scene_read(const char *file, const char *const *overrides, int override_count, Error *e);
+
+// The same from text in memory. name stands for the file in messages; files named in the text are
+// relative to folder ("" = the current one).
+Scene *scene_read_text(const char *text, size_t length, const char *name, const char *folder,
+                       const char *const *overrides, int override_count, Error *e);
+
 void scene_free(Scene *scene); // NULL is fine
 
 // JSON Schema of scene files (draft 2020-12) as heap text.

@@ -1,0 +1,86 @@
+#include "scene/builtin.h"
+
+#include <stddef.h>
+#include <string.h>
+
+// Oak bark and twig after reflectances of dry bark (0.1 to 0.2, reddish); leaves from PROSPECT-5 as
+// material_default has them, the grass yellower, fallen leaves without chlorophyll.
+static const Material MATERIALS[] = {
+    {.name = "bark",
+     .kind = MATERIAL_PRINCIPLED,
+     .color = {0.175f, 0.135f, 0.098f},
+     .color2 = {0.045f, 0.032f, 0.024f},
+     .roughness = 0.85f,
+     .specular = 0.25f,
+     .ior = 1.5f,
+     .pattern = PATTERN_BARK,
+     .pattern_depth = 0.012f},
+    {.name = "twig",
+     .kind = MATERIAL_PRINCIPLED,
+     .color = {0.130f, 0.098f, 0.068f},
+     .color2 = {0.070f, 0.052f, 0.038f},
+     .roughness = 0.7f,
+     .specular = 0.3f,
+     .ior = 1.5f},
+    {.name = "leaf",
+     .kind = MATERIAL_LEAF,
+     .color = {0.087f, 0.149f, 0.046f},
+     .color2 = {0.110f, 0.175f, 0.060f},
+     .transmittance = {0.060f, 0.110f, 0.012f},
+     .roughness = 0.45f,
+     .specular = 0.5f,
+     .ior = 1.5f,
+     .pattern = PATTERN_LEAF,
+     .variation = 0.35f},
+    {.name = "ground",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.085f, 0.105f, 0.040f},
+     .color2 = {0.110f, 0.082f, 0.052f},
+     .roughness = 0.8f,
+     .ior = 1.5f,
+     .pattern = PATTERN_GROUND,
+     .pattern_depth = 0.03f},
+    {.name = "grass",
+     .kind = MATERIAL_LEAF,
+     .color = {0.115f, 0.165f, 0.048f},
+     .color2 = {0.165f, 0.155f, 0.070f},
+     .transmittance = {0.080f, 0.120f, 0.018f},
+     .roughness = 0.5f,
+     .specular = 0.4f,
+     .ior = 1.5f,
+     .variation = 0.5f},
+    {.name = "fallen",
+     .kind = MATERIAL_LEAF,
+     .color = {0.230f, 0.130f, 0.055f},
+     .color2 = {0.130f, 0.075f, 0.038f},
+     .transmittance = {0.090f, 0.040f, 0.010f},
+     .roughness = 0.6f,
+     .specular = 0.35f,
+     .ior = 1.5f,
+     .pattern = PATTERN_LEAF,
+     .variation = 0.7f},
+    {.name = "clay",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.45f, 0.42f, 0.39f},
+     .color2 = {0.1f, 0.1f, 0.1f},
+     .roughness = 0.5f,
+     .ior = 1.5f},
+};
+
+const Material *builtin_materials(int *count)
+{
+    *count = (int)(sizeof MATERIALS / sizeof MATERIALS[0]);
+    return MATERIALS;
+}
+
+const Material *builtin_material(const char *name)
+{
+    int count;
+    const Material *materials = builtin_materials(&count);
+    for (int i = 0; i < count; i++) {
+        if (strcmp(materials[i].name, name) == 0) {
+            return &materials[i];
+        }
+    }
+    return NULL;
+}

@@ -1,0 +1,220 @@
+// Checks of objects and what they are made of.
+#include "scene/node_number.h"
+#include "scene/scalar.h"
+#include "scene/spec_check.h"
+
+#include <math.h>
+#include <string.h>
+
+// Which material keys each kind of object has.
+static const struct {
+    const char *kind, *keys[4];
+} KINDS[] = {{"tree", {"material", "twig_material", "leaf_material", NULL}},
+             {"ground", {"material", "leaf_material", "grass_material", NULL}},
+             {"mesh", {"material", NULL}},
+             {"shape", {"material", NULL}}};
+
+static bool kind_has_material(int kind, const char *key)
+{
+    for (int i = 0; i < 4 && KINDS[kind].keys[i]; i++) {
+        if (strcmp(KINDS[kind].keys[i], key) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool check_object(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    static const char *const materials[] = {"material", "twig_material", "leaf_material",
+                                            "grass_material"};
+    const char *name = resolver_path(r, path, NULL);
+    int kind = -1;
+    for (int i = 0; i < 4; i++) {
+        const Node *child = node_get(resolved, KINDS[i].kind);
+        if (child && kind >= 0) {
+            return resolver_fail(r, child,
+                                 "%s is a %s and a %s; it must be one, make two objects of it",
+                                 name, KINDS[kind].kind, KINDS[i].kind);
+        }
+        kind = child ? i : kind;
+    }
+    if (kind < 0) {
+        return resolver_fail(r, given,
+                             "%s is nothing; it must have one of tree, ground, mesh, shape", name);
+    }
+    for (int i = 0; i < 4; i++) {
+        const Node *material = node_get(resolved, materials[i]);
+        if (material && !kind_has_material(kind, materials[i])) {
+            return resolver_fail(r, material, "%s: a %s has no %s; leave it out", name,
+                                 KINDS[kind].kind, materials[i]);
+        }
+    }
+    return true;
+}
+
+bool check_tree(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    double height = node_number(resolved, "height");
+    const char *const parts[] = {"crown", "trunk"}, *const keys[] = {"base", "height"};
+    for (int i = 0; i < 2; i++) {
+        double value = node_number(node_get(resolved, parts[i]), keys[i]);
+        if (i == 0 ? value >= height : value > height) {
+            return resolver_fail(r, node_place(node_get(given, parts[i]), keys[i]),
+                                 "%s.%s.%s is %g m; it must be below the tree's height, %g m",
+                                 resolver_path(r, path, NULL), parts[i], keys[i], value, height);
+        }
+    }
+    return true;
+}
+
+bool check_ground(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    double flat = node_number(resolved, "flat_radius"), radius = node_number(resolved, "radius");
+    if (flat >= radius) {
+        return resolver_fail(r, node_place(given, "flat_radius"),
+                             "%s.flat_radius is %g m; it must be less than the radius, %g m",
+                             resolver_path(r, path, NULL), flat, radius);
+    }
+    return true;
+}
+
+// Appends the hidden node `transform`, three rows of four numbers. size: of a sphere, whose shape
+// is the unit sphere; 1 otherwise.
+static bool add_transform(Resolver *r, const Path *path, const Node *given, Node *resolved,
+                          float size)
+{
+    Vec3 scale = node_vector(resolved, "scale");
+    if (scale.x == 0.0f || scale.y == 0.0f || scale.z == 0.0f) {
+        return resolver_fail(r, node_place(given, "scale"),
+                             "%s.scale has a 0, which flattens it; no factor may be 0",
+                             resolver_path(r, path, NULL));
+    }
+    Transform transform =
+        transform_compose(node_vector(resolved, "position"), node_vector(resolved, "rotation"),
+                          vec3_scale(scale, size));
+    Node *rows = node_new(r->arena, NODE_LIST, r->e);
+    for (int i = 0; rows && i < 3; i++) {
+        Node *row = resolver_number_list(r, transform.m[i], 4);
+        if (!row) {
+            return false;
+        }
+        node_append(rows, row, NULL);
+    }
+    if (rows) {
+        rows->flags = KEY_HIDDEN;
+        node_append(resolved, rows, "transform");
+    }
+    return rows;
+}
+
+bool check_mesh(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    return add_transform(r, path, given, resolved, 1.0f);
+}
+
+// The components of size that a kind of shape needs to be greater than 0.
+static int needed_sizes(const char *kind, const char **why)
+{
+    if (strcmp(kind, "cone") == 0) {
+        *why = "radius below and height";
+        return 2;
+    }
+    if (strcmp(kind, "sphere") == 0 || strcmp(kind, "capsule") == 0) {
+        *why = "radius";
+        return 1;
+    }
+    *why = "all sizes";
+    return strcmp(kind, "ellipsoid") == 0 || strcmp(kind, "box") == 0 ? 3 : 0;
+}
+
+bool check_shape(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    const char *kind = node_get_text(resolved, "shape"), *why;
+    const Node *size = node_get(resolved, "size");
+    int needed = needed_sizes(kind, &why);
+    for (int i = 0; i < needed; i++) {
+        if (!(node_component(size, i) > 0.0f)) {
+            return resolver_fail(r, node_place(given, "size"),
+                                 "%s.size: %s of a %s must be greater than 0 m",
+                                 resolver_path(r, path, NULL), why, kind);
+        }
+    }
+    bool sphere = strcmp(kind, "sphere") == 0;
+    return add_transform(r, path, given, resolved, sphere ? node_component(size, 0) : 1.0f);
+}
+
+bool check_envelope(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    const char *name = resolver_path(r, path, "envelope");
+    const Node *list = node_get(resolved, "envelope");
+    (void)given;
+    for (const Node *shape = list ? list->first : NULL; shape; shape = shape->next) {
+        bool adds = strcmp(node_get_text(shape, "op"), "union") == 0;
+        if (shape == list->first && !adds) {
+            return resolver_fail(r, shape, "%s begins with a %s; the first shape must be a union",
+                                 name, node_get_text(shape, "op"));
+        }
+        if (adds && strcmp(node_get_text(shape, "shape"), "half_space") == 0) {
+            return resolver_fail(r, shape,
+                                 "%s: a half_space has no end; its op must be difference or "
+                                 "intersection",
+                                 name);
+        }
+    }
+    return true;
+}
+
+bool check_level(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    double kill = node_number(resolved, "kill"), influence = node_number(resolved, "influence");
+    if (kill >= influence) {
+        return resolver_fail(r, node_place(given, "kill"),
+                             "%s.kill is %g; it must be less than influence, %g, or attractors go "
+                             "before they pull",
+                             resolver_path(r, path, NULL), kill, influence);
+    }
+    return true;
+}
+
+// Gives a level the key that it leaves out.
+static bool fill_level(Resolver *r, Node *level, const char *key, const char *text)
+{
+    if (node_get(level, key)) {
+        return true;
+    }
+    Node *node = node_scalar(r->arena, text, r->e);
+    if (node) {
+        node_append(level, node, key);
+    }
+    return node;
+}
+
+bool check_growth(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    double least = node_number(resolved, "min_angle"), most = node_number(resolved, "max_angle");
+    if (most > 0.0 && least > most) {
+        return resolver_fail(r, node_place(given, "min_angle"),
+                             "%s.min_angle is %g; it must be at most max_angle, %g degrees",
+                             resolver_path(r, path, NULL), least, most);
+    }
+    const Node *levels = node_get(resolved, "levels");
+    for (Node *level = levels ? levels->first : NULL; level; level = level->next) {
+        if (!fill_level(r, level, "noise", node_get_text(resolved, "noise")) ||
+            !fill_level(r, level, "tropism", node_get(given, "tropism") ? "1" : "0")) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool check_field(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    const Node *vector = node_get(resolved, "vector");
+    if (vector && !(vec3_length(node_vector(resolved, "vector")) > 0.0f)) {
+        return resolver_fail(r, node_place(given, "vector"),
+                             "%s.vector is zero; it must point somewhere",
+                             resolver_path(r, path, NULL));
+    }
+    return true;
+}

@@ -1,0 +1,123 @@
+#include "scene/overrides.h"
+
+#include "scene/hint.h"
+#include "scene/yaml.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_NAMES 256
+
+typedef struct Override {
+    Arena *arena;
+    const char *source; // "--set path=value"
+    Error *e;
+} Override;
+
+static Node *fail(const Override *o)
+{
+    error_locate(o->e, o->source, 0, 0);
+    return NULL;
+}
+
+// Entry of a list by name or number.
+static Node *find_entry(const Override *o, const Node *list, const char *token)
+{
+    const char *names[MAX_NAMES];
+    int count = 0;
+    for (Node *entry = list->first; entry; entry = entry->next) {
+        const char *name = node_get_text(entry, "name");
+        if (name && strcmp(name, token) == 0) {
+            return entry;
+        }
+        if (name && count < MAX_NAMES) {
+            names[count++] = name;
+        }
+    }
+    char *end;
+    long index = strtol(token, &end, 10);
+    if (*end == 0 && end != token) {
+        Node *entry = list->first;
+        for (long i = 0; entry && i < index; i++) {
+            entry = entry->next;
+        }
+        if (entry && index >= 0) {
+            return entry;
+        }
+        error_set(o->e, ERROR_INPUT, "no entry %ld in this list; it has %d, counted from 0", index,
+                  list->count);
+        return fail(o);
+    }
+    char hint[512];
+    hint_format(token, names, count, hint, sizeof hint);
+    error_set(o->e, ERROR_INPUT, "no entry named '%.60s' in this list; %s", token, hint);
+    return fail(o);
+}
+
+// The child that token names, made when a mapping lacks it.
+static Node *step_into(const Override *o, Node *node, const char *token)
+{
+    if (node->kind == NODE_LIST) {
+        return find_entry(o, node, token);
+    }
+    if (node->kind == NODE_SCALAR) {
+        if (!node_is_null(node)) {
+            error_set(o->e, ERROR_INPUT, "'%.60s' lies below a value that is no mapping; %s", token,
+                      "the path ends before it");
+            return fail(o);
+        }
+        node->kind = NODE_MAP;
+    }
+    Node *child = node_get(node, token);
+    if (!child) {
+        child = node_new(o->arena, NODE_SCALAR, o->e);
+        if (!child) {
+            return NULL;
+        }
+        child->source = o->source;
+        node_append(node, child, token);
+    }
+    return child;
+}
+
+static void replace(Node *node, const Node *value)
+{
+    Node old = *node;
+    *node = *value;
+    node->key = old.key;
+    node->key_line = old.key_line;
+    node->key_column = old.key_column;
+    node->next = old.next;
+}
+
+bool override_apply(Arena *arena, Node *root, const char *override, Error *e)
+{
+    Override o = {arena, arena_format(arena, e, "--set %s", override), e};
+    const char *equals = strchr(override, '=');
+    if (!o.source) {
+        return false;
+    }
+    if (!equals || equals == override || !equals[1]) {
+        error_set(e, ERROR_INPUT, "not an override; write path=value, as in camera.fov=35");
+        return fail(&o);
+    }
+    char *path = arena_text(arena, override, (size_t)(equals - override), e);
+    const Node *value = yaml_parse(arena, equals + 1, strlen(equals + 1), o.source, o.source, e);
+    Node *node = path && value ? root : NULL;
+    while (node && path) {
+        char *dot = strchr(path, '.');
+        if (dot) {
+            *dot = 0;
+        }
+        if (!*path) {
+            error_set(e, ERROR_INPUT, "an empty name in the path; write a.b=value");
+            return fail(&o);
+        }
+        node = step_into(&o, node, path);
+        path = dot ? dot + 1 : NULL;
+    }
+    if (node) {
+        replace(node, value);
+    }
+    return node;
+}

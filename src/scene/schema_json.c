@@ -1,0 +1,285 @@
+// The JSON Schema (draft 2020-12) of scene files, written from the tables of spec.h.
+#include "base/memory.h"
+#include "scene/resolve_value.h"
+#include "scene/scene.h"
+
+#include <locale.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_TABLES 32
+
+typedef struct Writer {
+    char *text;
+    int64_t length, capacity;
+    const Table *shared[MOST_TABLES]; // tables that go to $defs, in the order met
+    int shared_count;
+    Resolver resolver;
+    bool failed;
+    Error *e;
+} Writer;
+
+static void put(Writer *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void put(Writer *w, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    char line[2048];
+    int count = vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    if (count < 0 || count >= (int)sizeof line ||
+        !memory_reserve(&w->text, &w->capacity, w->length + count + 1, 1, w->e)) {
+        w->failed = true;
+        return;
+    }
+    memcpy(w->text + w->length, line, (size_t)count + 1);
+    w->length += count;
+}
+
+static void put_string(Writer *w, const char *text)
+{
+    put(w, "\"");
+    for (; *text; text++) {
+        put(w, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
+    }
+    put(w, "\"");
+}
+
+// Words that follow the documentation: unit, kinds.
+static void put_description(Writer *w, const Table *table, const Key *row)
+{
+    char text[1024];
+    int used = snprintf(text, sizeof text, "%s", row->doc);
+    if (row->unit) {
+        used += snprintf(text + used, sizeof text - (size_t)used, " Unit: %s.", row->unit);
+    }
+    if (row->kinds) {
+        const Key *kind = table_find(table, table->kind_key);
+        used += snprintf(text + used, sizeof text - (size_t)used, " Only of %s", table->kind_key);
+        const char *before = " ";
+        for (const cyaml_strval_t *s = kind->names; s->str; s++) {
+            if (row->kinds >> s->val & 1u) {
+                used += snprintf(text + used, sizeof text - (size_t)used, "%s%s", before, s->str);
+                before = ", ";
+            }
+        }
+        snprintf(text + used, sizeof text - (size_t)used, ".");
+    }
+    put(w, "\"description\": ");
+    put_string(w, text);
+}
+
+static void put_range(Writer *w, const Key *row)
+{
+    if (row->low == 0.0 && row->high == 0.0) {
+        return;
+    }
+    put(w, ", \"%s\": %.17g, \"%s\": %.17g",
+        row->flags & KEY_ABOVE ? "exclusiveMinimum" : "minimum", row->low,
+        row->flags & KEY_BELOW ? "exclusiveMaximum" : "maximum", row->high);
+}
+
+static void put_number(Writer *w, const Key *row, const char *type)
+{
+    put(w, "{\"type\": \"%s\"", type);
+    put_range(w, row);
+    put(w, "}");
+}
+
+static void put_vector(Writer *w, const Key *row)
+{
+    int count = row->type == KEY_COLOR ? 3 : row->count;
+    bool splat = row->type == KEY_COLOR || row->flags & KEY_SPLAT;
+    put(w, ", ");
+    if (splat) {
+        put(w, "\"anyOf\": [");
+        put_number(w, row, "number");
+        put(w, ", {");
+    }
+    put(w, "\"type\": \"array\", \"minItems\": %d, \"maxItems\": %d, \"items\": ", count, count);
+    put_number(w, row, "number");
+    if (row->type == KEY_COLOR) {
+        put(w, "}, {\"type\": \"string\", \"pattern\": \"^#[0-9a-fA-F]{6}$\"");
+    }
+    put(w, splat ? "}]" : "");
+}
+
+static void put_enum(Writer *w, const Key *row)
+{
+    put(w, ", \"enum\": [");
+    for (const cyaml_strval_t *s = row->names; s->str; s++) {
+        put(w, s == row->names ? "\"%s\"" : ", \"%s\"", s->str);
+    }
+    put(w, "]");
+}
+
+static void put_default(Writer *w, const Key *row, const char *base)
+{
+    Node *node = NULL;
+    if (row->flags & (KEY_REQUIRED | KEY_NO_DEFAULT) || !base ||
+        !resolve_default(&w->resolver, row, base, &node) || !node) {
+        return;
+    }
+    if (row->type == KEY_ENUM) {
+        put(w, ", \"default\": \"%s\"", node->text);
+    } else if (node->kind == NODE_SCALAR) {
+        put(w, ", \"default\": %s", node->text);
+    } else {
+        const char *before = "";
+        put(w, ", \"default\": [");
+        for (const Node *item = node->first; item; item = item->next) {
+            put(w, "%s%s", before, item->text);
+            before = ", ";
+        }
+        put(w, "]");
+    }
+}
+
+static void share(Writer *w, const Table *table)
+{
+    for (int i = 0; i < w->shared_count; i++) {
+        if (w->shared[i] == table) {
+            return;
+        }
+    }
+    if (w->shared_count == MOST_TABLES) {
+        w->failed = true;
+        return;
+    }
+    w->shared[w->shared_count++] = table;
+}
+
+static void put_table(Writer *w, const Table *table, const char *base, int depth);
+
+static void put_key(Writer *w, const Table *table, const Key *row, const char *base, int depth)
+{
+    put(w, "{");
+    put_description(w, table, row);
+    switch (row->type) {
+    case KEY_BOOL:
+        put(w, ", \"type\": \"boolean\"");
+        break;
+    case KEY_INT:
+    case KEY_INT64:
+    case KEY_UINT64:
+        put(w, ", \"type\": \"integer\"");
+        put_range(w, row);
+        break;
+    case KEY_FLOAT:
+    case KEY_DOUBLE:
+        put(w, ", \"type\": \"number\"");
+        put_range(w, row);
+        break;
+    case KEY_ENUM:
+        put_enum(w, row);
+        break;
+    case KEY_TEXT:
+    case KEY_FILE:
+    case KEY_NAME:
+        put(w, ", \"type\": \"string\", \"minLength\": 1");
+        break;
+    case KEY_GROUP:
+        put(w, ", ");
+        put_table(w, row->table, base ? base + row->offset : NULL, depth);
+        put(w, "}");
+        return;
+    case KEY_POINTER:
+        share(w, row->table);
+        put(w, ", \"$ref\": \"#/$defs/%s\"", row->table->name);
+        break;
+    case KEY_LIST:
+        share(w, row->table);
+        put(w, ", \"type\": \"array\", \"minItems\": %d, \"maxItems\": %d, ", (int)row->low,
+            row->count);
+        put(w, "\"items\": {\"$ref\": \"#/$defs/%s\"}", row->table->name);
+        break;
+    default:
+        put_vector(w, row);
+    }
+    put_default(w, row, base);
+    put(w, "}");
+}
+
+static void put_required(Writer *w, const Table *table)
+{
+    int count = 0;
+    for (const Key *row = table->keys; row->key; row++) {
+        if (row->flags & KEY_REQUIRED && !row->kinds) {
+            put(w, "%s\"%s\"", count++ ? ", " : ", \"required\": [", row->key);
+        }
+    }
+    put(w, count ? "]" : "");
+}
+
+// The members of an object schema, without its braces.
+static void put_table(Writer *w, const Table *table, const char *base, int depth)
+{
+    if (table->defaults) {
+        size_t size = table->defaults_size ? table->defaults_size : table->size;
+        char *fresh = arena_alloc(w->resolver.arena, size, w->e);
+        if (fresh) {
+            table->defaults(NULL, -1, fresh);
+        }
+        base = fresh;
+    }
+    put(w, "\"type\": [\"object\", \"null\"], \"additionalProperties\": false");
+    put_required(w, table);
+    put(w, ", \"properties\": {");
+    const char *before = "";
+    for (const Key *row = table->keys; row->key; row++) {
+        if (row->flags & KEY_HIDDEN) {
+            continue;
+        }
+        put(w, "%s\n%*s\"%s\": ", before, 2 * depth, "", row->key);
+        put_key(w, table, row, base, depth + 1);
+        before = ",";
+    }
+    put(w, "}");
+}
+
+static void put_schema(Writer *w)
+{
+    put(w, "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n"
+           "  \"title\": \"ramify scene\",\n  \"description\": ");
+    put_string(w, scene_table.doc);
+    put(w, ",\n  ");
+    put_table(w, &scene_table, NULL, 2);
+    put(w, ",\n  \"$defs\": {");
+    for (int i = 0; i < w->shared_count; i++) { // grows while its tables are written
+        put(w, "%s\n    \"%s\": {\"description\": ", i ? "," : "", w->shared[i]->name);
+        put_string(w, w->shared[i]->doc);
+        put(w, ", ");
+        put_table(w, w->shared[i], NULL, 3);
+        put(w, "}");
+    }
+    put(w, "\n  }\n}\n");
+}
+
+char *scene_schema_json(Error *e)
+{
+    Arena *arena = arena_new(e);
+    locale_t c_locale = newlocale(LC_ALL_MASK, "C", NULL);
+    if (!arena || !c_locale) {
+        error_set(e, ERROR_MEMORY, "out of memory for the schema");
+        arena_free(arena);
+        if (c_locale) {
+            freelocale(c_locale);
+        }
+        return NULL;
+    }
+    locale_t before = uselocale(c_locale);
+    Writer w = {.resolver = {arena, "", "", e}, .e = e};
+    put_schema(&w);
+    uselocale(before);
+    freelocale(c_locale);
+    arena_free(arena);
+    if (w.failed) {
+        free(w.text);
+        error_set(e, ERROR_INTERNAL, "the schema could not be written");
+        return NULL;
+    }
+    return w.text;
+}

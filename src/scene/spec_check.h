@@ -1,0 +1,33 @@
+// Checks of whole mappings, named by the tables of spec_*.c: what no single key's range can say.
+// See Table.check.
+#ifndef RAMIFY_SCENE_SPEC_CHECK_H
+#define RAMIFY_SCENE_SPEC_CHECK_H
+
+#include "scene/resolve.h"
+#include "scene/scene.h"
+
+// Defaults of mappings whose position, rotation and scale become one transform.
+typedef struct PlacedShape {
+    Shape shape;
+    Vec3 position, rotation, scale;
+} PlacedShape;
+
+typedef struct PlacedMesh {
+    SceneMesh mesh;
+    Vec3 position, rotation, scale;
+} PlacedMesh;
+
+typedef bool TableCheck(Resolver *r, const Path *path, const Node *given, Node *resolved);
+
+// The whole scene: names are unique, materials that objects name exist.
+TableCheck check_scene;
+TableCheck check_camera; // also turns focal_length into fov
+TableCheck check_film, check_light;
+TableCheck check_object;              // exactly one kind; material keys that suit it
+TableCheck check_tree, check_ground;  // lengths that must be in order
+TableCheck check_shape, check_mesh;   // also add `transform`
+TableCheck check_envelope;            // the list under `envelope`
+TableCheck check_level, check_growth; // check_growth also fills in what levels leave out
+TableCheck check_field;
+
+#endif

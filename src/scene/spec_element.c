@@ -1,0 +1,225 @@
+// What elements (trunk, crown, roots) are made of: shapes, points, growth levels, guide fields.
+#include "model/element.h"
+#include "scene/spec_check.h"
+
+#define BIT(kind) (1u << (kind))
+
+static const cyaml_strval_t SHAPES[] = {{"sphere", SHAPE_SPHERE},
+                                        {"ellipsoid", SHAPE_ELLIPSOID},
+                                        {"box", SHAPE_BOX},
+                                        {"cone", SHAPE_CONE},
+                                        {"capsule", SHAPE_CAPSULE},
+                                        {"mesh", SHAPE_MESH},
+                                        {"half_space", SHAPE_HALF_SPACE},
+                                        {0}};
+static const cyaml_strval_t SHAPE_OPS[] = {{"union", SHAPE_UNION},
+                                           {"difference", SHAPE_DIFFERENCE},
+                                           {"intersection", SHAPE_INTERSECTION},
+                                           {0}};
+
+static const Key SHAPE_KEYS[] = {
+    {KEY_OF(Shape, kind, "shape", KEY_ENUM), .flags = KEY_REQUIRED, .names = SHAPES,
+     .doc = "sphere, ellipsoid, box: about the origin; cone and capsule: up from the origin; mesh: "
+            "from a file; half_space: all below y = 0, to cut with. Then scaled, rotated, moved."},
+    {KEY_OF(Shape, op, "op", KEY_ENUM), .names = SHAPE_OPS,
+     .doc = "union: add the shape; difference: take it away; intersection: keep only what lies in "
+            "it too. The first shape of a list is a union."},
+    {KEY_OF(Shape, size, "size", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3, .high = 1e6,
+     .kinds = BIT(SHAPE_SPHERE) | BIT(SHAPE_ELLIPSOID) | BIT(SHAPE_BOX) | BIT(SHAPE_CONE) |
+              BIT(SHAPE_CAPSULE),
+     .unit = "m",
+     .doc = "sphere: radius; ellipsoid: half-axes; box: half of its extents; cone: radius below, "
+            "height, radius above; capsule: radius, length between the centres, unused."},
+    {KEY_OF(Shape, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(SHAPE_MESH),
+     .doc = "OBJ, PLY, STL, glTF or GLB file, relative to the scene's folder."},
+    {KEY_OF(PlacedShape, position, "position", KEY_VECTOR), .flags = KEY_VIRTUAL, .count = 3,
+     .unit = "m", .doc = "Where the shape's origin goes."},
+    {KEY_OF(PlacedShape, rotation, "rotation", KEY_VECTOR), .flags = KEY_VIRTUAL, .count = 3,
+     .unit = "degrees", .doc = "Turns about x, then y, then z."},
+    {KEY_OF(PlacedShape, scale, "scale", KEY_VECTOR), .flags = KEY_VIRTUAL | KEY_SPLAT, .count = 3,
+     .doc = "Factors along x, y and z, before the turns; negative ones mirror."},
+    {KEY_OF(Shape, transform, "transform", KEY_AFFINE), .flags = KEY_HIDDEN, .doc = ""},
+    {0},
+};
+
+static void shape_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    *(PlacedShape *)out = (PlacedShape){.shape = {.kind = kind < 0 ? SHAPE_SPHERE : (ShapeKind)kind,
+                                                  .size = {1, 1, 1},
+                                                  .transform = transform_identity()},
+                                        .scale = {1, 1, 1}};
+}
+
+const Table shape_table = {.name = "shape",
+                           .doc = "One shape of an envelope.",
+                           .size = sizeof(Shape),
+                           .defaults_size = sizeof(PlacedShape),
+                           .keys = SHAPE_KEYS,
+                           .kind_key = "shape",
+                           .defaults = shape_defaults,
+                           .check = check_shape};
+
+static const cyaml_strval_t PLACES[] = {
+    {"volume", SCATTER_VOLUME}, {"surface", SCATTER_SURFACE}, {0}};
+static const cyaml_strval_t SCATTERS[] = {
+    {"random", SCATTER_RANDOM}, {"poisson", SCATTER_POISSON}, {0}};
+
+static const Key POINTS_KEYS[] = {
+    {KEY_OF(ElementParams, place, "place", KEY_ENUM), .names = PLACES,
+     .doc = "Fill the envelope's volume, or its surface."},
+    {KEY_OF(ElementParams, pattern, "pattern", KEY_ENUM), .names = SCATTERS,
+     .doc = "random: independent points; poisson: evenly spread ones."},
+    {KEY_OF(ElementParams, shell, "shell", KEY_FLOAT), .high = 1,
+     .doc = "Share of the points that is pushed toward the surface."},
+    {KEY_OF(ElementParams, gradient, "gradient", KEY_FLOAT), .low = -1, .high = 1,
+     .doc = "Density by height: -1 = only below, 0 = even, 1 = only above."},
+    {KEY_OF(ElementParams, depth_gradient, "depth_gradient", KEY_FLOAT), .low = -1, .high = 1,
+     .doc = "Density by depth: -1 = only in the middle, 0 = even, 1 = only near the surface."},
+    {0},
+};
+
+const Table points_table = {.name = "points",
+                            .doc = "How attractors are scattered.",
+                            .size = sizeof(ElementParams),
+                            .keys = POINTS_KEYS};
+
+static const Key LEVEL_KEYS[] = {
+    {KEY_OF(GrowLevel, attractors, "attractors", KEY_INT64), .flags = KEY_REQUIRED, .low = 1,
+     .high = 2147483647, .doc = "Number of attractors to scatter."},
+    {KEY_OF(GrowLevel, step, "step", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .unit = "spacings",
+     .doc = "Distance from node to node, in mean spacings of this level's attractors."},
+    {KEY_OF(GrowLevel, kill, "kill", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
+     .unit = "spacings", .doc = "An attractor this near to a node is used up."},
+    {KEY_OF(GrowLevel, influence, "influence", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
+     .unit = "spacings", .doc = "How far an attractor pulls."},
+    {KEY_OF(GrowLevel, scale, "scale", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .doc = "Scale of the envelope in this level, about the middle of its box."},
+    {KEY_OF(GrowLevel, noise, "noise", KEY_FLOAT), .flags = KEY_NO_DEFAULT, .high = 100,
+     .doc = "Gaussian noise on each direction, per component; left out: growth.noise."},
+    {KEY_OF(GrowLevel, tropism, "tropism", KEY_FLOAT), .flags = KEY_NO_DEFAULT, .low = -1000,
+     .high = 1000,
+     .doc = "Factor on growth.tropism; left out: 1 if the file gives growth.tropism, else 0."},
+    {KEY_OF(GrowLevel, relax, "relax", KEY_FLOAT), .high = 1,
+     .doc = "After the level each new node moves this share of the way to its parent."},
+    {0},
+};
+
+// The papers' plain case: one level, tried in between the coarsest and the finest of the oak.
+static void level_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(GrowLevel *)out =
+        (GrowLevel){.step = 0.3f, .kill = 0.9f, .influence = 2.2f, .scale = 1.0f, .relax = 0.5f};
+}
+
+static const Table LEVEL_TABLE = {.name = "level",
+                                  .doc = "One level of coarse-to-fine growth.",
+                                  .size = sizeof(GrowLevel),
+                                  .keys = LEVEL_KEYS,
+                                  .defaults = level_defaults,
+                                  .check = check_level};
+
+static const cyaml_strval_t RULES[] = {
+    {"mean", GROW_MEAN}, {"snap", GROW_SNAP}, {"sectors", GROW_SECTORS}, {0}};
+static const cyaml_strval_t FIELD_MODES[] = {
+    {"steer", FIELD_STEER}, {"additive", FIELD_ADDITIVE}, {0}};
+
+static const Key GROWTH_KEYS[] = {
+    {KEY_OF(ElementParams, rule, "rule", KEY_ENUM), .names = RULES,
+     .doc = "mean: one child a step along the mean pull; snap: reached attractors become nodes; "
+            "sectors: at most one child in each sector of angle about the heading."},
+    {KEY_OF(ElementParams, levels, "levels", KEY_LIST),
+     .count_offset = offsetof(ElementParams, level_count), .count = 100, .table = &LEVEL_TABLE,
+     .doc = "Coarse to fine: each level scatters new attractors and grows from all nodes so far. "
+            "Left out: the model's own levels."},
+    {KEY_OF(ElementParams, max_children, "max_children", KEY_INT), .high = 1000,
+     .doc = "Most children of a node; 0 = no limit."},
+    {KEY_OF(ElementParams, min_angle, "min_angle", KEY_FLOAT), .high = 180, .unit = "degrees",
+     .doc = "Least angle between a branching child and its parent's direction; 0 = off."},
+    {KEY_OF(ElementParams, max_angle, "max_angle", KEY_FLOAT), .high = 180, .unit = "degrees",
+     .doc = "Largest angle between a child and its parent's direction; 0 = off."},
+    {KEY_OF(ElementParams, noise, "noise", KEY_FLOAT), .high = 100,
+     .doc = "Gaussian noise on each direction, per component, for levels that name none."},
+    {KEY_OF(ElementParams, tropism, "tropism", KEY_VECTOR), .count = 3, .low = -1000, .high = 1000,
+     .doc = "A pull that is the same everywhere, added to the unit direction: [0, 1, 0] is up."},
+    {KEY_OF(ElementParams, apical, "apical", KEY_FLOAT), .high = 1,
+     .doc = "Apical dominance: probability that a side branch is suppressed."},
+    {KEY_OF(ElementParams, sector_angle, "sector_angle", KEY_FLOAT), .high = 360, .unit = "degrees",
+     .doc = "Width of a sector for the rule sectors; 0 = 60."},
+    {KEY_OF(ElementParams, sector_axis, "sector_axis", KEY_BOOL),
+     .doc = "Grow along a sector's axis rather than along the mean of its pulls."},
+    {KEY_OF(ElementParams, field_weight, "field_weight", KEY_FLOAT), .low = -1000, .high = 1000,
+     .doc = "Weight of the guide fields against the pull; 0 = none."},
+    {KEY_OF(ElementParams, field_mode, "field_mode", KEY_ENUM), .names = FIELD_MODES,
+     .doc = "steer: the field turns the direction, steps keep their length; additive: the field's "
+            "vector is added to the new position."},
+    {KEY_OF(ElementParams, max_steps, "max_steps", KEY_INT64), .high = 1e9,
+     .doc = "Stop after this many steps a level; 0 = no limit."},
+    {KEY_OF(ElementParams, max_nodes, "max_nodes", KEY_INT64), .high = 2147483647,
+     .doc = "Stop at this many nodes; 0 = no limit."},
+    {0},
+};
+
+const Table growth_table = {.name = "growth",
+                            .doc = "How an element grows.",
+                            .size = sizeof(ElementParams),
+                            .keys = GROWTH_KEYS,
+                            .check = check_growth};
+
+static const cyaml_strval_t FIELD_KINDS[] = {{"uniform", FIELD_UNIFORM}, {"radial", FIELD_RADIAL},
+                                             {"vortex", FIELD_VORTEX},   {"nuclei", FIELD_NUCLEI},
+                                             {"grid", FIELD_GRID},       {"curl", FIELD_CURL},
+                                             {"point", FIELD_POINT},     {0}};
+static const cyaml_strval_t PROFILES[] = {
+    {"swept", PROFILE_SWEPT}, {"constant", PROFILE_CONSTANT}, {0}};
+
+#define NUCLEI (BIT(FIELD_NUCLEI) | BIT(FIELD_GRID))
+
+static const Key FIELD_KEYS[] = {
+    {KEY_OF(FieldParams, kind, "kind", KEY_ENUM), .flags = KEY_REQUIRED, .names = FIELD_KINDS,
+     .doc = "uniform: `vector` everywhere; radial: away from `center`; vortex: about the axis "
+            "`vector` through `center`; nuclei: away from the nearest initial node, turned by "
+            "`turn`; grid: the same on voxels; curl: swirling noise; point: `vector` at `center`, "
+            "falling off over `scale`."},
+    {KEY_OF(FieldParams, weight, "weight", KEY_FLOAT), .low = -1000, .high = 1000,
+     .doc = "Share in the sum of the fields."},
+    {KEY_OF(FieldParams, vector, "vector", KEY_VECTOR), .count = 3,
+     .kinds = BIT(FIELD_UNIFORM) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT) | NUCLEI,
+     .doc = "Direction, or the axis to turn about."},
+    {KEY_OF(FieldParams, center, "center", KEY_VECTOR), .count = 3,
+     .kinds = BIT(FIELD_RADIAL) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT), .unit = "m",
+     .doc = "Where the field has its middle."},
+    {KEY_OF(FieldParams, turn, "turn", KEY_FLOAT), .kinds = NUCLEI, .low = -36000, .high = 36000,
+     .unit = "degrees",
+     .doc = "Azimuth that a streamline sweeps from the nucleus to the rim (profile swept), or by "
+            "which every vector is turned (profile constant)."},
+    {KEY_OF(FieldParams, scale, "scale", KEY_FLOAT), .kinds = BIT(FIELD_CURL) | BIT(FIELD_POINT),
+     .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
+     .doc = "Wavelength of the noise; distance over which a point's vector fades."},
+    {KEY_OF(FieldParams, profile, "profile", KEY_ENUM), .kinds = NUCLEI, .names = PROFILES,
+     .doc = "How the angle depends on the distance from the nucleus."},
+    {KEY_OF(FieldParams, spherical, "spherical", KEY_BOOL), .kinds = NUCLEI,
+     .doc = "Sweep by polar angle on a sphere instead of by distance."},
+    {KEY_OF(FieldParams, surface, "surface", KEY_BOOL), .kinds = NUCLEI,
+     .doc = "Turn about the attractors' surface normals rather than about `vector`."},
+    {KEY_OF(FieldParams, resolution, "resolution", KEY_INT), .kinds = BIT(FIELD_GRID), .high = 1024,
+     .doc = "Voxels along the longest side; 0 = 48."},
+    {0},
+};
+
+static void field_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    *(FieldParams *)out = field_params_default(kind < 0 ? FIELD_UNIFORM : (FieldKind)kind);
+}
+
+const Table guide_field_table = {.name = "field",
+                                 .doc = "A guide vector field.",
+                                 .size = sizeof(FieldParams),
+                                 .keys = FIELD_KEYS,
+                                 .kind_key = "kind",
+                                 .defaults = field_defaults,
+                                 .check = check_field};

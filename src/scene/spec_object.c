@@ -1,0 +1,140 @@
+// Objects: what kinds there are, and the small ones.
+#include "scene/scene.h"
+#include "scene/spec_check.h"
+
+static const Key GROUND_KEYS[] = {
+    {KEY_OF(GroundParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6,
+     .unit = "m", .doc = "How far the land goes, to the horizon."},
+    {KEY_OF(GroundParams, relief, "relief", KEY_FLOAT), .high = 1e4, .unit = "m",
+     .doc = "Height of the hills."},
+    {KEY_OF(GroundParams, wavelength, "wavelength", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6,
+     .unit = "m", .doc = "Distance from hill to hill."},
+    {KEY_OF(GroundParams, flat_radius, "flat_radius", KEY_FLOAT), .high = 1e6, .unit = "m",
+     .doc = "About the origin that stays flat, where the subject stands."},
+    {KEY_OF(GroundParams, grass_tufts, "grass_tufts", KEY_INT64), .high = 1e9,
+     .doc = "Tufts of grass; 0 = none."},
+    {KEY_OF(GroundParams, grass_radius, "grass_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e5,
+     .unit = "m", .doc = "About grass_center that bears grass."},
+    {KEY_OF(GroundParams, grass_center, "grass_center", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Middle of the grass."},
+    {KEY_OF(GroundParams, grass_height, "grass_height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .unit = "m", .doc = "Height of the tallest blades."},
+    {KEY_OF(GroundParams, grass_clumping, "grass_clumping", KEY_FLOAT), .high = 1,
+     .doc = "0 = even, 1 = in patches."},
+    {KEY_OF(GroundParams, grass_variants, "grass_variants", KEY_INT), .low = 1, .high = 1000,
+     .doc = "Different tuft meshes."},
+    {KEY_OF(GroundParams, fallen_leaves, "fallen_leaves", KEY_INT64), .high = 1e9,
+     .doc = "Leaves that lie about the origin; 0 = none."},
+    {KEY_OF(GroundParams, fallen_radius, "fallen_radius", KEY_FLOAT), .flags = KEY_ABOVE,
+     .high = 1e5, .unit = "m", .doc = "How far fallen leaves lie."},
+    {0},
+};
+
+static void ground_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(GroundParams *)out = ground_params_default();
+}
+
+static const Table GROUND_TABLE = {.name = "ground",
+                                   .doc = "Gently rolling land with grass on it.",
+                                   .size = sizeof(GroundParams),
+                                   .keys = GROUND_KEYS,
+                                   .defaults = ground_defaults,
+                                   .check = check_ground};
+
+static const Key MESH_KEYS[] = {
+    {KEY_OF(SceneMesh, file, "file", KEY_FILE), .flags = KEY_REQUIRED,
+     .doc = "OBJ, PLY, STL, glTF or GLB file, relative to the scene's folder."},
+    {KEY_OF(SceneMesh, smooth, "smooth", KEY_BOOL),
+     .doc = "Make smooth normals when the file has none."},
+    {KEY_OF(PlacedMesh, position, "position", KEY_VECTOR), .flags = KEY_VIRTUAL, .count = 3,
+     .unit = "m", .doc = "Where the mesh's origin goes."},
+    {KEY_OF(PlacedMesh, rotation, "rotation", KEY_VECTOR), .flags = KEY_VIRTUAL, .count = 3,
+     .unit = "degrees", .doc = "Turns about x, then y, then z."},
+    {KEY_OF(PlacedMesh, scale, "scale", KEY_VECTOR), .flags = KEY_VIRTUAL | KEY_SPLAT, .count = 3,
+     .doc = "Factors along x, y and z, before the turns; negative ones mirror."},
+    {KEY_OF(SceneMesh, transform, "transform", KEY_AFFINE), .flags = KEY_HIDDEN, .doc = ""},
+    {0},
+};
+
+static void mesh_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(PlacedMesh *)out =
+        (PlacedMesh){.mesh = {.transform = transform_identity()}, .scale = {1, 1, 1}};
+}
+
+static const Table MESH_TABLE = {.name = "mesh",
+                                 .doc = "A mesh that another program made.",
+                                 .size = sizeof(SceneMesh),
+                                 .defaults_size = sizeof(PlacedMesh),
+                                 .keys = MESH_KEYS,
+                                 .defaults = mesh_defaults,
+                                 .check = check_mesh};
+
+static const Key SOLID_KEYS[] = {
+    {KEY_OF(SceneShape, shapes, "envelope", KEY_LIST),
+     .count_offset = offsetof(SceneShape, shape_count), .flags = KEY_REQUIRED, .low = 1,
+     .count = 1000, .table = &shape_table,
+     .doc = "Shapes joined, cut and intersected in this order."},
+    {KEY_OF(SceneShape, voxel, "voxel", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "Voxel size where it is not one plain shape; 0 = 1/128 of the largest extent."},
+    {0},
+};
+
+static void solid_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(SceneShape *)out = (SceneShape){0};
+}
+
+static const Table SOLID_TABLE = {.name = "solid",
+                                  .doc = "Shapes drawn as they are.",
+                                  .size = sizeof(SceneShape),
+                                  .keys = SOLID_KEYS,
+                                  .defaults = solid_defaults,
+                                  .check = check_envelope};
+
+static const Key OBJECT_KEYS[] = {
+    {KEY_OF(SceneObject, name, "name", KEY_TEXT), .flags = KEY_REQUIRED,
+     .doc = "What messages, --set and the object's random numbers go by."},
+    {KEY_OF(SceneObject, seed, "seed", KEY_UINT64), .high = 18446744073709551615.0,
+     .doc = "Seed of this object; 0 = from the scene's seed and the object's name."},
+    {KEY_OF(SceneObject, tree, "tree", KEY_POINTER), .table = &tree_table, .doc = "A tree."},
+    {KEY_OF(SceneObject, ground, "ground", KEY_POINTER), .table = &GROUND_TABLE,
+     .doc = "Ground to stand on."},
+    {KEY_OF(SceneObject, mesh, "mesh", KEY_POINTER), .table = &MESH_TABLE,
+     .doc = "An imported mesh."},
+    {KEY_OF(SceneObject, shape, "shape", KEY_POINTER), .table = &SOLID_TABLE,
+     .doc = "Spheres, boxes, ... drawn as they are."},
+    {KEY_OF(SceneObject, material, "material", KEY_TEXT),
+     .doc = "Material of a mesh, a shape, the ground, or a tree's bark; left out: clay, clay, "
+            "ground, bark."},
+    {KEY_OF(SceneObject, twig_material, "twig_material", KEY_TEXT),
+     .doc = "Material of a tree's twigs; left out: twig."},
+    {KEY_OF(SceneObject, leaf_material, "leaf_material", KEY_TEXT),
+     .doc = "Material of a tree's leaves, or of those that lie on the ground; left out: leaf, "
+            "fallen."},
+    {KEY_OF(SceneObject, grass_material, "grass_material", KEY_TEXT),
+     .doc = "Material of the ground's grass; left out: grass."},
+    {0},
+};
+
+static void object_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(SceneObject *)out = (SceneObject){0};
+}
+
+const Table object_table = {.name = "object",
+                            .doc = "One thing of the scene: exactly one of tree, ground, mesh, "
+                                   "shape.",
+                            .size = sizeof(SceneObject),
+                            .keys = OBJECT_KEYS,
+                            .defaults = object_defaults,
+                            .check = check_object};

@@ -1,0 +1,154 @@
+// The scene's own keys: camera, film and renderer.
+#include "scene/scene.h"
+#include "scene/spec_check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const Key CAMERA_KEYS[] = {
+    {KEY_OF(Camera, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Where the lens is."},
+    {KEY_OF(Camera, target, "target", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "The point in the middle of the picture (before shift)."},
+    {KEY_OF(Camera, up, "up", KEY_VECTOR), .count = 3,
+     .doc = "Direction that is up in the picture; any length."},
+    {KEY_OF(Camera, fov, "fov", KEY_FLOAT), .flags = KEY_ABOVE | KEY_BELOW, .high = 180,
+     .unit = "degrees", .doc = "Vertical field of view."},
+    {.key = "focal_length",
+     .type = KEY_FLOAT,
+     .flags = KEY_VIRTUAL | KEY_NO_DEFAULT | KEY_ABOVE,
+     .high = 10000,
+     .unit = "mm",
+     .doc = "Instead of fov: focal length of a lens before a full frame, 24 mm high."},
+    {KEY_OF(Camera, aperture, "aperture", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "Diameter of the lens; 0 = everything sharp."},
+    {KEY_OF(Camera, focus_distance, "focus_distance", KEY_FLOAT), .high = 1e6, .unit = "m",
+     .doc = "Distance that is sharp; 0 = that of the target."},
+    {KEY_OF(Camera, shift_x, "shift", KEY_VECTOR), .count = 2, .low = -10, .high = 10,
+     .unit = "image heights",
+     .doc = "Lens shift right and up: keeps verticals upright when looking up."},
+    {0},
+};
+
+static const Table CAMERA_TABLE = {.name = "camera",
+                                   .doc = "A camera with a thin lens.",
+                                   .size = sizeof(Camera),
+                                   .keys = CAMERA_KEYS,
+                                   .check = check_camera};
+
+static const cyaml_strval_t FILTERS[] = {{"blackman_harris", FILTER_BLACKMAN_HARRIS},
+                                         {"box", FILTER_BOX},
+                                         {"gaussian", FILTER_GAUSSIAN},
+                                         {0}};
+static const cyaml_strval_t CURVES[] = {{"filmic", TONE_FILMIC}, {"linear", TONE_LINEAR}, {0}};
+
+static const Key FILM_KEYS[] = {
+    {KEY_OF(Scene, film.width, "width", KEY_INT), .low = 1, .high = 65536, .unit = "pixels",
+     .doc = "Width of the picture."},
+    {KEY_OF(Scene, film.height, "height", KEY_INT), .low = 1, .high = 65536, .unit = "pixels",
+     .doc = "Height of the picture."},
+    {KEY_OF(Scene, film.filter, "filter", KEY_ENUM), .names = FILTERS,
+     .doc = "Reconstruction filter."},
+    {KEY_OF(Scene, film.filter_radius, "filter_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 16,
+     .unit = "pixels", .doc = "How far the filter reaches."},
+    {KEY_OF(Scene, film.crop, "crop", KEY_VECTOR), .count = 4, .high = 1,
+     .doc = "Part of the picture to render: x0, y0, x1, y1 from the top left, in 0..1."},
+    {KEY_OF(Scene, tone.exposure, "exposure", KEY_FLOAT), .low = -50, .high = 50, .unit = "stops",
+     .doc = "Brightness of the developed picture: each stop doubles it."},
+    {KEY_OF(Scene, tone.auto_exposure, "auto_exposure", KEY_BOOL),
+     .doc = "Take the picture's log-average luminance to 0.18 before `exposure`."},
+    {KEY_OF(Scene, tone.curve, "curve", KEY_ENUM), .names = CURVES,
+     .doc = "Tone curve: filmic rolls off highlights, linear clips them."},
+    {KEY_OF(Scene, tone.contrast, "contrast", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
+     .doc = "Slope of the filmic curve at middle grey; 1 = as it is."},
+    {KEY_OF(Scene, tone.saturation, "saturation", KEY_FLOAT), .high = 10,
+     .doc = "Strength of colour: 0 = grey, 1 = as it is."},
+    {KEY_OF(Scene, tone.white_balance, "white_balance", KEY_FLOAT), .high = 40000, .unit = "K",
+     .doc = "Colour temperature of the light that shall look neutral; 0 or 6500 = no change."},
+    {KEY_OF(Scene, tone.bloom, "bloom", KEY_FLOAT), .high = 1,
+     .doc = "Share of the light that the lens spreads over its neighbourhood."},
+    {KEY_OF(Scene, tone.vignette, "vignette", KEY_FLOAT), .high = 1,
+     .doc = "Darkening at the corners."},
+    {KEY_OF(Scene, denoise, "denoise", KEY_BOOL),
+     .doc = "Remove the noise that is left from the developed picture (never from the EXR)."},
+    {0},
+};
+
+// A group of the scene itself: two structs make up what a photographer calls the film.
+static const Table FILM_TABLE = {.name = "film",
+                                 .doc = "The size of the picture and how it is developed.",
+                                 .size = sizeof(Scene),
+                                 .keys = FILM_KEYS,
+                                 .check = check_film};
+
+static const Key RENDER_KEYS[] = {
+    {KEY_OF(RenderParams, samples, "samples", KEY_INT), .low = 1, .high = 1 << 24,
+     .doc = "Paths per pixel."},
+    {KEY_OF(RenderParams, max_depth, "max_depth", KEY_INT), .low = 1, .high = 10000,
+     .doc = "Most bounces of a path; 1 = direct light only."},
+    {KEY_OF(RenderParams, roulette_depth, "roulette_depth", KEY_INT), .high = 10000,
+     .doc = "Bounces before Russian roulette may end a path early; max_depth = never."},
+    {KEY_OF(RenderParams, clamp, "clamp", KEY_FLOAT), .high = 1e9,
+     .doc = "Upper bound on the indirect luminance of one path, against fireflies; 0 = none."},
+    {KEY_OF(RenderParams, max_noise, "noise", KEY_FLOAT), .flags = KEY_BELOW, .high = 1,
+     .doc = "A part of the picture is done when its estimated relative error is below this; 0 = "
+            "take all samples everywhere."},
+    {KEY_OF(RenderParams, max_seconds, "seconds", KEY_DOUBLE), .high = 1e8, .unit = "s",
+     .doc = "Stop rendering after this time; 0 = no limit."},
+    {0},
+};
+
+static const Table RENDER_TABLE = {.name = "render",
+                                   .doc = "The path tracer's effort.",
+                                   .size = sizeof(RenderParams),
+                                   .keys = RENDER_KEYS};
+
+static const Key SCENE_KEYS[] = {
+    {KEY_OF(Scene, seed, "seed", KEY_UINT64), .high = 18446744073709551615.0,
+     .doc = "Seed of everything random: another number, another tree of the same kind."},
+    {KEY_OF(Scene, camera, "camera", KEY_GROUP), .table = &CAMERA_TABLE, .doc = "The camera."},
+    {.key = "film",
+     .type = KEY_GROUP,
+     .table = &FILM_TABLE,
+     .doc = "The picture's size and its development."},
+    {KEY_OF(Scene, render, "render", KEY_GROUP), .table = &RENDER_TABLE,
+     .doc = "The path tracer's effort."},
+    {KEY_OF(Scene, sky, "sky", KEY_GROUP), .table = &sky_table,
+     .doc = "What lights the scene from all around."},
+    {KEY_OF(Scene, lights, "lights", KEY_LIST), .count_offset = offsetof(Scene, light_count),
+     .count = 100000, .table = &light_table, .doc = "Lamps."},
+    {KEY_OF(Scene, materials, "materials", KEY_LIST),
+     .count_offset = offsetof(Scene, material_count), .count = 10000, .table = &material_table,
+     .doc = "Materials that objects name. bark, twig, leaf, ground, grass, fallen and clay are "
+            "there already; an entry of such a name changes it."},
+    {KEY_OF(Scene, objects, "objects", KEY_LIST), .count_offset = offsetof(Scene, object_count),
+     .flags = KEY_REQUIRED, .low = 1, .count = 10000, .table = &object_table,
+     .doc = "What there is to see."},
+    {0},
+};
+
+// The documented defaults are those of the modules themselves.
+static void scene_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    Scene *scene = out;
+    World *world = world_new(NULL);
+    if (world) {
+        scene->camera = world->camera;
+        scene->film = world->film;
+        scene->render = world->render;
+        scene->sky = world->sky;
+    }
+    world_free(world);
+    scene->seed = 1;
+    scene->tone = tone_params_default();
+}
+
+const Table scene_table = {.name = "scene",
+                           .doc = "A ramify scene: one file becomes one picture. Metres, degrees, "
+                                  "Y up, right-handed, linear Rec. 709 colours.",
+                           .size = sizeof(Scene),
+                           .keys = SCENE_KEYS,
+                           .defaults = scene_defaults,
+                           .check = check_scene};

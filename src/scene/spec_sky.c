@@ -1,0 +1,93 @@
+// Sky and lamps.
+#include "render/world.h"
+#include "scene/spec_check.h"
+
+#define BIT(kind) (1u << (kind))
+
+static const cyaml_strval_t SKY_KINDS[] = {{"sun_sky", SKY_SUN_SKY},
+                                           {"environment", SKY_ENVIRONMENT},
+                                           {"constant", SKY_CONSTANT},
+                                           {"none", SKY_NONE},
+                                           {0}};
+
+#define SKY_ANY (BIT(SKY_SUN_SKY) | BIT(SKY_ENVIRONMENT) | BIT(SKY_CONSTANT))
+
+static const Key SKY_KEYS[] = {
+    {KEY_OF(Sky, kind, "kind", KEY_ENUM), .names = SKY_KINDS,
+     .doc = "sun_sky: a clear day computed from the sun's place; environment: an HDR panorama; "
+            "constant: one colour all around; none: black."},
+    {KEY_OF(Sky, color, "color", KEY_COLOR), .kinds = BIT(SKY_CONSTANT), .high = 1e9,
+     .unit = "W/(m^2 sr)", .doc = "Radiance of the whole sky."},
+    {KEY_OF(Sky, sun_elevation, "sun_elevation", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = -10,
+     .high = 90, .unit = "degrees", .doc = "Height of the sun above the horizon."},
+    {KEY_OF(Sky, sun_azimuth, "sun_azimuth", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = -360,
+     .high = 360, .unit = "degrees", .doc = "Where the sun stands, from +Z toward +X."},
+    {KEY_OF(Sky, sun_size, "sun_size", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .flags = KEY_ABOVE,
+     .high = 90, .unit = "degrees",
+     .doc = "Angular diameter of the sun; larger = softer shadows of the same strength."},
+    {KEY_OF(Sky, sun_strength, "sun_strength", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1e6,
+     .doc = "Factor on the sun alone; 1 = physical, 0 = no sun."},
+    {KEY_OF(Sky, turbidity, "turbidity", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = 1,
+     .high = 10, .doc = "1 = pure air, 2 to 3 = clear, 6 and more = hazy."},
+    {KEY_OF(Sky, ground_albedo, "ground_albedo", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1,
+     .doc = "Reflectance of the land below, which brightens the sky."},
+    {KEY_OF(Sky, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(SKY_ENVIRONMENT),
+     .doc = "Latitude-longitude HDR panorama (.hdr, .exr), relative to the scene's folder."},
+    {KEY_OF(Sky, rotation, "rotation", KEY_FLOAT), .kinds = BIT(SKY_ENVIRONMENT), .low = -360,
+     .high = 360, .unit = "degrees", .doc = "Turns the panorama about +Y."},
+    {KEY_OF(Sky, strength, "strength", KEY_FLOAT), .kinds = SKY_ANY, .high = 1e9,
+     .doc = "Factor on all of the sky's light."},
+    {KEY_OF(Sky, visible, "visible", KEY_BOOL), .kinds = SKY_ANY,
+     .doc = "Seen by the camera; if not, the background is transparent."},
+    {KEY_OF(Sky, haze_distance, "haze_distance", KEY_FLOAT), .kinds = SKY_ANY, .high = 1e9,
+     .unit = "m",
+     .doc = "Distance over which surfaces fade to 1/e into the horizon's colour; 0 = no haze."},
+    {0},
+};
+
+const Table sky_table = {.name = "sky",
+                         .doc = "What lights the scene from all around.",
+                         .size = sizeof(Sky),
+                         .keys = SKY_KEYS,
+                         .kind_key = "kind"};
+
+static const cyaml_strval_t LIGHT_KINDS[] = {{"quad", LIGHT_QUAD}, {"sphere", LIGHT_SPHERE}, {0}};
+
+static const Key LIGHT_KEYS[] = {
+    {KEY_OF(Light, kind, "kind", KEY_ENUM), .flags = KEY_REQUIRED, .names = LIGHT_KINDS,
+     .doc = "quad: a parallelogram that shines to one side; sphere: a ball."},
+    {KEY_OF(Light, radiance, "radiance", KEY_COLOR), .high = 1e12, .unit = "W/(m^2 sr)",
+     .doc = "Light per area and solid angle."},
+    {KEY_OF(Light, center, "center", KEY_VECTOR), .count = 3, .kinds = BIT(LIGHT_SPHERE),
+     .unit = "m", .doc = "Middle of the ball."},
+    {KEY_OF(Light, radius, "radius", KEY_FLOAT), .kinds = BIT(LIGHT_SPHERE), .flags = KEY_ABOVE,
+     .high = 1e6, .unit = "m", .doc = "Radius of the ball."},
+    {KEY_OF(Light, corner, "corner", KEY_VECTOR), .count = 3, .kinds = BIT(LIGHT_QUAD), .unit = "m",
+     .doc = "One corner of the quad."},
+    {KEY_OF(Light, edge_u, "edge_u", KEY_VECTOR), .count = 3, .kinds = BIT(LIGHT_QUAD), .unit = "m",
+     .doc = "From the corner along one side; the quad shines to the side of edge_u x edge_v."},
+    {KEY_OF(Light, edge_v, "edge_v", KEY_VECTOR), .count = 3, .kinds = BIT(LIGHT_QUAD), .unit = "m",
+     .doc = "From the corner along the other side."},
+    {0},
+};
+
+static void light_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    // A square metre that shines down from 3 m; a ball of 10 cm in its place.
+    *(Light *)out = (Light){.kind = kind < 0 ? LIGHT_SPHERE : (LightKind)kind,
+                            .radiance = {10, 10, 10},
+                            .center = {0, 3, 0},
+                            .radius = 0.1f,
+                            .corner = {-0.5f, 3, -0.5f},
+                            .edge_u = {1, 0, 0},
+                            .edge_v = {0, 0, 1}};
+}
+
+const Table light_table = {.name = "light",
+                           .doc = "A lamp.",
+                           .size = sizeof(Light),
+                           .keys = LIGHT_KEYS,
+                           .kind_key = "kind",
+                           .defaults = light_defaults,
+                           .check = check_light};

@@ -1,0 +1,165 @@
+// The tree: trunk, crown, roots, radii, leaves, skin.
+#include "model/tree.h"
+#include "scene/spec_check.h"
+
+static const Key TRUNK_KEYS[] = {
+    {KEY_OF(TrunkParams, height, "height", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "From the ground to the trunk's last node; 0 = 0.38 of the tree's height."},
+    {KEY_OF(TrunkParams, radius, "radius", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "Radius above the root flare; 0 = from the tree's height, by elastic similarity."},
+    {KEY_OF(TrunkParams, lean, "lean", KEY_FLOAT), .high = 89, .unit = "degrees",
+     .doc = "Angle from the vertical."},
+    {KEY_OF(TrunkParams, lean_azimuth, "lean_azimuth", KEY_FLOAT), .low = -360, .high = 360,
+     .unit = "degrees", .doc = "Where it leans to, from +Z toward +X."},
+    {KEY_OF(TrunkParams, stems, "stems", KEY_INT), .low = 1, .high = 1000,
+     .doc = "Stems that start on a circle about the base; 1 = a plain trunk."},
+    {KEY_OF(TrunkParams, stem_circle, "stem_circle", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "Radius of that circle; 0 = the trunk's radius."},
+    ELEMENT_ROWS(TrunkParams),
+    {0},
+};
+
+static const Table TRUNK_TABLE = {.name = "trunk",
+                                  .doc = "The trunk.",
+                                  .size = sizeof(TrunkParams),
+                                  .keys = TRUNK_KEYS,
+                                  .check = check_envelope};
+
+static const Key CROWN_KEYS[] = {
+    {KEY_OF(CrownParams, width, "width", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "Width of the crown; 0 = 1.05 of the tree's height."},
+    {KEY_OF(CrownParams, base, "base", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "Height above the ground where the crown begins; 0 = 0.2 of the tree's height."},
+    {KEY_OF(CrownParams, branches, "branches", KEY_INT), .high = 10000,
+     .doc = "Main branches placed on the trunk, sorted by height."},
+    {KEY_OF(CrownParams, branch_from, "branch_from", KEY_FLOAT), .high = 1,
+     .doc = "Share of the trunk's height where the lowest branch stands."},
+    {KEY_OF(CrownParams, branch_angle, "branch_angle", KEY_FLOAT), .high = 180, .unit = "degrees",
+     .doc = "Angle between a branch and the trunk where it starts."},
+    {KEY_OF(CrownParams, branch_length, "branch_length", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "Length of the piece that a branch starts with; 0 = 0.08 of the tree's height."},
+    ELEMENT_ROWS(CrownParams),
+    {0},
+};
+
+static const Table CROWN_TABLE = {.name = "crown",
+                                  .doc = "The branches.",
+                                  .size = sizeof(CrownParams),
+                                  .keys = CROWN_KEYS,
+                                  .check = check_envelope};
+
+static const Key ROOTS_KEYS[] = {
+    {KEY_OF(RootParams, count, "count", KEY_INT), .high = 10000, .doc = "Main roots; 0 = none."},
+    {KEY_OF(RootParams, spread, "spread", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "How far they reach; 0 = 0.2 of the tree's height."},
+    {KEY_OF(RootParams, depth, "depth", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "How deep they go; 0 = 0.25 of the spread."},
+    {KEY_OF(RootParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
+     .doc = "Radius of a main root where it leaves the trunk, as a share of the trunk's."},
+    ELEMENT_ROWS(RootParams),
+    {0},
+};
+
+static const Table ROOTS_TABLE = {.name = "roots",
+                                  .doc = "The roots.",
+                                  .size = sizeof(RootParams),
+                                  .keys = ROOTS_KEYS,
+                                  .check = check_envelope};
+
+static const cyaml_strval_t RADIUS_MODELS[] = {{"pipe", RADIUS_PIPE}, {"birth", RADIUS_BIRTH}, {0}};
+
+static const Key RADII_KEYS[] = {
+    {KEY_OF(RadiiParams, model, "model", KEY_ENUM), .names = RADIUS_MODELS,
+     .doc = "pipe: r_parent^e = sum of r_child^e; birth: older is thicker."},
+    {KEY_OF(RadiiParams, exponent, "exponent", KEY_FLOAT), .low = 1, .high = 10,
+     .doc = "e of the pipe model: 2 keeps the area (da Vinci), 3 is Murray's."},
+    {KEY_OF(RadiiParams, tip, "tip", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10, .unit = "m",
+     .doc = "Radius of the twigs' tips."},
+    {KEY_OF(RadiiParams, flare, "flare", KEY_FLOAT), .high = 10,
+     .doc = "How much wider the trunk is at the ground: 0.5 = half as wide again."},
+    {KEY_OF(RadiiParams, flare_height, "flare_height", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "How far up the flare goes; 0 = 2.5 trunk radii."},
+    {0},
+};
+
+static const Table RADII_TABLE = {.name = "radii",
+                                  .doc = "Thickness of trunk, branches and roots.",
+                                  .size = sizeof(RadiiParams),
+                                  .keys = RADII_KEYS};
+
+static const Key LEAVES_KEYS[] = {
+    {KEY_OF(LeavesParams, max_count, "max_count", KEY_INT64), .high = 1e9,
+     .doc = "Most leaves; 0 = a bare tree."},
+    {KEY_OF(LeavesParams, spacing, "spacing", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .unit = "m", .doc = "Distance from leaf to leaf along a twig."},
+    {KEY_OF(LeavesParams, twig_radius, "twig_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .unit = "m", .doc = "Only branches thinner than this bear leaves."},
+    {KEY_OF(LeavesParams, length, "length", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .unit = "m", .doc = "Length of a blade."},
+    {KEY_OF(LeavesParams, width, "width", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100, .unit = "m",
+     .doc = "Width of a blade."},
+    {KEY_OF(LeavesParams, size_variation, "size_variation", KEY_FLOAT), .high = 1,
+     .doc = "How far sizes differ from leaf to leaf."},
+    {KEY_OF(LeavesParams, petiole, "petiole", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "Length of the stalk."},
+    {KEY_OF(LeavesParams, fold, "fold", KEY_FLOAT), .low = -90, .high = 90, .unit = "degrees",
+     .doc = "How far the halves are folded up about the midrib."},
+    {KEY_OF(LeavesParams, curl, "curl", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
+     .doc = "How far the blade bends along its length."},
+    {KEY_OF(LeavesParams, lobes, "lobes", KEY_INT), .high = 100,
+     .doc = "Lobes a side; 0 = a plain oval."},
+    {KEY_OF(LeavesParams, angle, "angle", KEY_FLOAT), .high = 180, .unit = "degrees",
+     .doc = "Angle between a leaf and its twig."},
+    {KEY_OF(LeavesParams, droop, "droop", KEY_FLOAT), .high = 1,
+     .doc = "How far blades turn from the twig's frame toward hanging and facing the light."},
+    {KEY_OF(LeavesParams, phyllotaxis, "phyllotaxis", KEY_FLOAT), .low = -360, .high = 360,
+     .unit = "degrees", .doc = "Turn about the twig from one leaf to the next; 137.5 in nature."},
+    {KEY_OF(LeavesParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
+     .doc = "Different leaf meshes."},
+    {0},
+};
+
+static const Table LEAVES_TABLE = {
+    .name = "leaves", .doc = "The leaves.", .size = sizeof(LeavesParams), .keys = LEAVES_KEYS};
+
+static const Key SKIN_KEYS[] = {
+    {KEY_OF(SkinningParams, curve_radius, "curve_radius", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "Twigs thinner than this are traced as round curves; 0 = everything is mesh."},
+    {KEY_OF(SkinningParams, levels, "levels", KEY_INT), .high = 4, .doc = "Subdivision levels."},
+    {KEY_OF(SkinningParams, ring_spacing, "ring_spacing", KEY_FLOAT), .flags = KEY_ABOVE,
+     .high = 100, .unit = "radii", .doc = "Distance between the rings of the cage."},
+    {0},
+};
+
+static const Table SKIN_TABLE = {
+    .name = "skin", .doc = "The surface.", .size = sizeof(SkinningParams), .keys = SKIN_KEYS};
+
+static const Key TREE_KEYS[] = {
+    {KEY_OF(TreeParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Where the trunk stands."},
+    {KEY_OF(TreeParams, height, "height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000, .unit = "m",
+     .doc = "Height of the whole tree; what is left out elsewhere follows it."},
+    {KEY_OF(TreeParams, trunk, "trunk", KEY_GROUP), .table = &TRUNK_TABLE, .doc = "The trunk."},
+    {KEY_OF(TreeParams, crown, "crown", KEY_GROUP), .table = &CROWN_TABLE, .doc = "The branches."},
+    {KEY_OF(TreeParams, roots, "roots", KEY_GROUP), .table = &ROOTS_TABLE, .doc = "The roots."},
+    {KEY_OF(TreeParams, radii, "radii", KEY_GROUP), .table = &RADII_TABLE,
+     .doc = "Thickness of trunk, branches and roots."},
+    {KEY_OF(TreeParams, leaves, "leaves", KEY_GROUP), .table = &LEAVES_TABLE, .doc = "The leaves."},
+    {KEY_OF(TreeParams, skin, "skin", KEY_GROUP), .table = &SKIN_TABLE, .doc = "The surface."},
+    {0},
+};
+
+static void tree_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(TreeParams *)out = tree_params_default();
+}
+
+const Table tree_table = {.name = "tree",
+                          .doc = "A tree: trunk, crown and roots grown as separate elements "
+                                 "(Tanaka et al., section 5.1). Everything left out makes an oak.",
+                          .size = sizeof(TreeParams),
+                          .keys = TREE_KEYS,
+                          .defaults = tree_defaults,
+                          .check = check_tree};
