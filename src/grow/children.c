@@ -33,30 +33,45 @@ static uint64_t next_child_id(const Growth *growth, const Grower *grower, int pl
                              growth->state[grower->node].children + place);
 }
 
+// A root has no parent to head away from. For its sectors: the way its first initial child stands,
+// else the normal in space, or some direction on the surface, named by the root.
+static Vec3 root_heading(const Growth *growth, int32_t node)
+{
+    const OutTree *tree = growth->tree;
+    int32_t child = growth->state[node].first_child;
+    if (child >= 0 && child < growth->initial_count) {
+        return vec3_sub(tree->position[child], tree->position[node]);
+    }
+    if (!growth->params->on_surface) {
+        return tree->normal[node];
+    }
+    return random_direction(random_key(random_key(tree->id[node], growth->params->seed), 4));
+}
+
+// v without its part along the unit vector n, as a unit vector; any such vector when none is left.
+static Vec3 unit_across(Vec3 v, Vec3 n)
+{
+    v = vec3_madd(v, -vec3_dot(v, n), n);
+    return vec3_dot(v, v) > 1e-6f ? vec3_normalize(v) : vec3_perpendicular(n);
+}
+
 void growth_prepare(const Growth *growth, Grower *grower)
 {
     const OutTree *tree = growth->tree;
     int32_t node = grower->node, parent = tree->parent[node];
-    Vec3 from = tree->position[node], to = from;
-    if (parent >= 0) {
-        from = tree->position[parent];
-    } else if (growth->params->rule == GROW_SECTORS && growth->state[node].first_child >= 0) {
-        to = tree->position[growth->state[node].first_child];
-    }
     grower->position = tree->position[node];
-    grower->heading = vec3_normalize(vec3_sub(to, from));
+    grower->heading = vec3(0, 0, 0);
+    if (parent >= 0) {
+        grower->heading = vec3_normalize(vec3_sub(grower->position, tree->position[parent]));
+    } else if (growth->params->rule == GROW_SECTORS) {
+        grower->heading = vec3_normalize(root_heading(growth, node));
+    }
     grower->has_heading = !is_zero(grower->heading);
     grower->normal = vec3_normalize(tree->normal[node]);
-    if (grower->has_heading && !growth->params->on_surface) {
-        Vec3 n =
-            vec3_madd(grower->normal, -vec3_dot(grower->normal, grower->heading), grower->heading);
-        grower->normal =
-            vec3_dot(n, n) > 1e-6f ? vec3_normalize(n) : vec3_perpendicular(grower->heading);
+    if (grower->has_heading && growth->params->on_surface) {
+        grower->heading = unit_across(grower->heading, grower->normal);
     } else if (grower->has_heading) {
-        Vec3 h =
-            vec3_madd(grower->heading, -vec3_dot(grower->normal, grower->heading), grower->normal);
-        grower->heading =
-            vec3_dot(h, h) > 1e-6f ? vec3_normalize(h) : vec3_perpendicular(grower->normal);
+        grower->normal = unit_across(grower->normal, grower->heading);
     }
     grower->side = vec3_cross(grower->normal, grower->heading);
     grower->lean = growth->params->rule == GROW_SNAP
@@ -111,13 +126,6 @@ static Vec3 keep_on_surface(const Growth *growth, const Pull *pull, Vec3 normal,
     return vec3_normalize(vec3_madd(d, -clampf(rise, -0.7f, 0.7f), normal));
 }
 
-// The child's normal: the surface's, or the parent's carried along without twist.
-static Vec3 carry_normal(const Grower *grower, Vec3 d)
-{
-    Vec3 n = vec3_madd(grower->normal, -vec3_dot(grower->normal, d), d);
-    return vec3_dot(n, n) > 1e-6f ? vec3_normalize(n) : vec3_perpendicular(d);
-}
-
 static Vec3 add_field(const Growth *growth, const Grower *grower, Vec3 p)
 {
     const ColonizeParams *params = growth->params;
@@ -147,7 +155,8 @@ static bool make_child(const Growth *growth, const Grower *grower, const Pull *p
         return false;
     }
     d = limit_angle(growth, grower, growth->state[grower->node].children + place > 0, d);
-    child->normal = params->on_surface ? normal : carry_normal(grower, d);
+    // in space the parent's normal is carried along without twist
+    child->normal = params->on_surface ? normal : unit_across(grower->normal, d);
     Vec3 p = vec3_madd(grower->position, params->step, d); // eq. (6)
     child->position = add_field(growth, grower, p);
     return true;
@@ -171,7 +180,7 @@ static int make_snap(const Growth *growth, const Grower *grower, const Pull *pul
     Vec3 d = vec3_normalize(vec3_sub(p, grower->position));
     child->normal = growth->params->on_surface
                         ? vec3_normalize(growth->attractors->normal[attractor])
-                        : carry_normal(grower, d);
+                        : unit_across(grower->normal, d);
     child->position = add_field(growth, grower, p);
     return 1;
 }
@@ -184,7 +193,8 @@ static int make_sectors(const Growth *growth, const Grower *grower, const Pull *
                                                     : growth->sectors.count;
     for (int s = 0; s < growth->sectors.count && count < limit; s++) {
         uint64_t bud = out_tree_child_id(growth->tree->id[grower->node], -1 - s);
-        if (pull[s].count == 0 || (growth->used[grower->node] >> s & 1) ||
+        bool beyond = growth->sectors.axis[s].x < growth->max_cos - 1e-6f;
+        if (pull[s].count == 0 || beyond || (growth->used[grower->node] >> s & 1) ||
             (s > 0 && is_suppressed(growth, bud))) {
             continue;
         }

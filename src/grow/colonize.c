@@ -374,6 +374,7 @@ bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *p
     Growth growth = {.tree = tree,
                      .attractors = attractors,
                      .params = params,
+                     .initial_count = tree->count,
                      .threads = run->threads > 1 ? run->threads : 1};
     int64_t before = tree->count;
     bool grown = prepare(&growth, e);

@@ -26,7 +26,8 @@ typedef struct ColonizeParams {
     int max_children; // per node; 0 = no limit
     float min_angle;  // degrees between a branching child (second and later) and its parent's
                       // direction; 0 = off
-    float max_angle;  // degrees between any child and its parent's direction; 0 or 180 = off
+    float max_angle;  // degrees between any child and its parent's direction; 0 or 180 = off. Mean
+                      // and sector children turn back to it; sectors beyond it do not grow
     float noise;      // Gaussian, per component, added to the unit direction before normalising
     Vec3 tropism;     // added to the unit direction: uniform pull, any length
     const GuideField *field; // may be NULL

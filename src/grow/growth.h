@@ -20,7 +20,7 @@ typedef struct Grower {
     int32_t node;
     bool has_heading;
     Vec3 position;
-    Vec3 heading; // unit: from its parent to it; a root's first child gives it where needed
+    Vec3 heading; // unit: from its parent to it; sectors give one to roots too
     Vec3 normal;  // unit
     Vec3 side;    // normal x heading: with them the frame of the sectors
     Vec3 lean;    // w X_f + tropism + noise, for the rule that picks attractors by it
@@ -47,6 +47,7 @@ typedef struct Growth {
     const PointSet *attractors;
     const ColonizeParams *params;
     int threads;
+    int64_t initial_count; // nodes the tree began with: the type-0 points
     AttractorGrid grid;
     SectorTable sectors;                      // GROW_SECTORS; else one sector
     float min_cos, min_sin, max_cos, max_sin; // of the angle limits; max_cos = -2 when off
