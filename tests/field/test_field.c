@@ -1,0 +1,241 @@
+// Guide fields: unit length, the swept spiral, the literal quaternion, the voxel grid, curl noise.
+#include "testing.h"
+
+#include "base/exact_math.h"
+#include "base/random.h"
+#include "field/curl.h"
+#include "field/guide_field.h"
+
+#include <string.h>
+
+static GuideField *field_new(const FieldParams *params, int count, Vec3 nucleus, Vec3 normal,
+                             float half)
+{
+    Run run = run_default();
+    run.threads = 2;
+    Error e = {0};
+    Aabb bounds = {vec3_splat(-half), vec3_splat(half)};
+    GuideField *field = guide_field_new(params, count, &nucleus, &normal, 1, bounds, &run, &e);
+    if (!field) {
+        fail_msg("%s", e.message);
+    }
+    return field;
+}
+
+static void assert_vec3(Vec3 a, Vec3 b, float tolerance)
+{
+    assert_float_equal(a.x, b.x, tolerance);
+    assert_float_equal(a.y, b.y, tolerance);
+    assert_float_equal(a.z, b.z, tolerance);
+}
+
+static Vec3 random_point(uint64_t seed, uint64_t i)
+{
+    uint64_t key = random_key(seed, i);
+    return vec3(random_range(random_key(key, 0), -1, 1), random_range(random_key(key, 1), -1, 1),
+                random_range(random_key(key, 2), -1, 1));
+}
+
+static void every_kind_is_unit(void **state)
+{
+    (void)state;
+    for (int kind = FIELD_UNIFORM; kind <= FIELD_CURL; kind++) {
+        FieldParams params = field_params_default((FieldKind)kind);
+        params.vector = vec3(0, 2, 0);
+        params.turn = 200.0f;
+        params.scale = kind == FIELD_CURL ? 0.4f : 0.0f;
+        GuideField *field = field_new(&params, 1, vec3(0.1f, -1, 0), vec3(0, 1, 0), 1.0f);
+        for (uint64_t i = 0; i < 500; i++) {
+            Vec3 x = guide_field_at(field, random_point(5, i), vec3(0, 1, 0));
+            assert_float_equal(vec3_length(x), 1.0f, 1e-4f);
+        }
+        guide_field_free(field);
+    }
+}
+
+static void simple_kinds_point_where_they_should(void **state)
+{
+    (void)state;
+    FieldParams params[4] = {field_params_default(FIELD_UNIFORM),
+                             field_params_default(FIELD_RADIAL), field_params_default(FIELD_VORTEX),
+                             field_params_default(FIELD_POINT)};
+    params[3].scale = 4.0f;
+    const Vec3 expected[4] = {{0, 1, 0}, {1, 0, 0}, {0, 0, -1}, {0, 0.5f, 0}};
+    for (int i = 0; i < 4; i++) {
+        GuideField *field = field_new(&params[i], 1, vec3(0, 0, 0), vec3(0, 1, 0), 3.0f);
+        assert_vec3(guide_field_at(field, vec3(2, 0, 0), vec3(0, 1, 0)), expected[i], 1e-6f);
+        guide_field_free(field);
+    }
+    params[0].weight = 2.0f;
+    params[1].weight = -1.0f;
+    GuideField *sum = field_new(params, 2, vec3(0, 0, 0), vec3(0, 1, 0), 3.0f);
+    assert_vec3(guide_field_at(sum, vec3(0, 0, 5), vec3(0, 1, 0)), vec3(0, 2, -1), 1e-6f);
+    guide_field_free(sum);
+}
+
+// The angle about +Y by which v stands ahead of u.
+static float azimuth_between(Vec3 u, Vec3 v)
+{
+    return exact_atan2(u.z * v.x - u.x * v.z, u.x * v.x + u.z * v.z) / RADIANS_PER_DEGREE;
+}
+
+// Follows the field from near the nucleus of a unit sphere (the south pole) to near the north pole;
+// returns the azimuth swept, degrees.
+static float swept_on_sphere(float turn, float start, float stop)
+{
+    FieldParams params = field_params_default(FIELD_NUCLEI);
+    params.turn = turn;
+    params.spherical = params.surface = true;
+    GuideField *field = field_new(&params, 1, vec3(0, -1, 0), vec3(0, -1, 0), 1.0f);
+    float s, c, swept = 0.0f;
+    exact_sincos(start, &s, &c);
+    Vec3 p = vec3(s, -c, 0);
+    exact_sincos(stop, &s, &c);
+    for (int i = 0; i < 100000 && p.y < -c; i++) {
+        Vec3 x = guide_field_at(field, p, p);
+        assert_float_equal(vec3_dot(x, p), 0.0f, 1e-4f);
+        Vec3 middle = vec3_normalize(vec3_madd(p, 0.0005f, x));
+        Vec3 q = vec3_normalize(vec3_madd(p, 0.001f, guide_field_at(field, middle, middle)));
+        swept += azimuth_between(p, q);
+        p = q;
+    }
+    guide_field_free(field);
+    assert_true(p.y >= -c);
+    return swept;
+}
+
+static void a_streamline_on_a_sphere_sweeps_the_turn(void **state)
+{
+    (void)state;
+    const float turns[] = {0.0f, 120.0f, 360.0f, 720.0f};
+    float start = 0.02f, stop = PI_F - 0.02f;
+    for (int i = 0; i < 4; i++) {
+        float swept = swept_on_sphere(turns[i], start, stop);
+        float share = (stop - start) / PI_F; // of the way from pole to pole
+        assert_float_equal(fabsf(swept), turns[i] * share, 0.01f * turns[i] + 0.05f);
+    }
+}
+
+// In the plane, from the middle of the bounds to their side.
+static void a_streamline_in_the_plane_sweeps_the_turn(void **state)
+{
+    (void)state;
+    const float turns[] = {120.0f, 360.0f, 720.0f};
+    for (int i = 0; i < 3; i++) {
+        for (int surface = 0; surface < 2; surface++) {
+            FieldParams params = field_params_default(FIELD_NUCLEI);
+            params.turn = turns[i];
+            params.surface = surface;
+            GuideField *field = field_new(&params, 1, vec3(0, 0, 0), vec3(0, 1, 0), 2.0f);
+            Vec3 p = vec3(0.01f, 0, 0);
+            float swept = 0.0f;
+            while (vec3_length(p) < 2.0f) {
+                Vec3 x = guide_field_at(field, p, vec3(0, 1, 0));
+                Vec3 middle = vec3_madd(p, 0.0005f, x);
+                Vec3 q = vec3_madd(p, 0.001f, guide_field_at(field, middle, vec3(0, 1, 0)));
+                assert_true(vec3_length(q) > vec3_length(p)); // never runs backwards
+                swept += azimuth_between(p, q);
+                p = q;
+            }
+            assert_float_equal(fabsf(swept), turns[i] * 0.995f, 0.01f * turns[i]);
+            guide_field_free(field);
+        }
+    }
+}
+
+static void constant_profile_is_the_literal_quaternion(void **state)
+{
+    (void)state;
+    FieldParams params = field_params_default(FIELD_NUCLEI);
+    params.profile = PROFILE_CONSTANT;
+    const float turns[] = {0.0f, 90.0f, 180.0f, 360.0f};
+    const Vec3 expected[] = {{1, 0, 0}, {0, 0, -1}, {-1, 0, 0}, {1, 0, 0}};
+    for (int i = 0; i < 4; i++) {
+        params.turn = turns[i];
+        GuideField *field = field_new(&params, 1, vec3(0, 0, 0), vec3(0, 1, 0), 1.0f);
+        assert_vec3(guide_field_at(field, vec3(0.7f, 0, 0), vec3(0, 1, 0)), expected[i], 1e-5f);
+        guide_field_free(field);
+    }
+    // a longer normal turns further: tan(half the angle) grows by its length
+    params.turn = 60.0f;
+    params.vector = vec3(0, 1.7320508f, 0);
+    GuideField *field = field_new(&params, 1, vec3(0, 0, 0), vec3(0, 1, 0), 1.0f);
+    assert_vec3(guide_field_at(field, vec3(0.7f, 0, 0), vec3(0, 1, 0)), vec3(0, 0, -1), 1e-5f);
+    guide_field_free(field);
+}
+
+static void the_grid_is_close_to_the_field_it_samples(void **state)
+{
+    (void)state;
+    FieldParams params = field_params_default(FIELD_NUCLEI);
+    params.turn = 360.0f;
+    GuideField *exact = field_new(&params, 1, vec3(0, -1.2f, 0), vec3(0, 1, 0), 1.0f);
+    params.kind = FIELD_GRID;
+    params.resolution = 96;
+    GuideField *grid = field_new(&params, 1, vec3(0, -1.2f, 0), vec3(0, 1, 0), 1.0f);
+    for (uint64_t i = 0; i < 2000; i++) {
+        Vec3 p = random_point(3, i), n = vec3(0, 1, 0);
+        assert_vec3(guide_field_at(grid, p, n), guide_field_at(exact, p, n), 0.025f);
+    }
+    guide_field_free(exact);
+    guide_field_free(grid);
+}
+
+static void curl_noise_has_no_divergence(void **state)
+{
+    (void)state;
+    float largest = 0.0f;
+    for (uint64_t i = 0; i < 300; i++) {
+        Vec3 p = vec3_scale(random_point(8, i), 5.0f);
+        float h = 0.01f, divergence = 0.0f;
+        divergence += curl_noise(vec3_add(p, vec3(h, 0, 0)), 4).x;
+        divergence -= curl_noise(vec3_sub(p, vec3(h, 0, 0)), 4).x;
+        divergence += curl_noise(vec3_add(p, vec3(0, h, 0)), 4).y;
+        divergence -= curl_noise(vec3_sub(p, vec3(0, h, 0)), 4).y;
+        divergence += curl_noise(vec3_add(p, vec3(0, 0, h)), 4).z;
+        divergence -= curl_noise(vec3_sub(p, vec3(0, 0, h)), 4).z;
+        assert_float_equal(divergence / (2.0f * h), 0.0f, 0.02f);
+        float length = vec3_length(curl_noise(p, 4));
+        largest = length > largest ? length : largest;
+    }
+    assert_true(largest > 0.5f);
+}
+
+static void wrong_fields_are_errors(void **state)
+{
+    (void)state;
+    Run run = run_default();
+    Aabb bounds = {vec3_splat(-1), vec3_splat(1)};
+    Vec3 at = vec3(0, 0, 0), up = vec3(0, 1, 0);
+    Error e = {0};
+    FieldParams params = field_params_default(FIELD_NUCLEI);
+    assert_null(guide_field_new(&params, 1, NULL, NULL, 0, bounds, &run, &e));
+    assert_string_equal(e.message, "a nuclei field needs at least one root to lead away from");
+    params = field_params_default(FIELD_CURL);
+    params.scale = -1.0f;
+    assert_null(guide_field_new(&params, 1, &at, &up, 1, bounds, &run, &e));
+    assert_string_equal(e.message, "field scale -1 m; it must be positive");
+    params = field_params_default(FIELD_GRID);
+    params.resolution = 5000;
+    assert_null(guide_field_new(&params, 1, &at, &up, 1, bounds, &run, &e));
+    assert_string_equal(e.message, "field resolution 5000; it must be 1 to 2048");
+    params = field_params_default(FIELD_NUCLEI);
+    params.turn = NAN;
+    assert_null(guide_field_new(&params, 1, &at, &up, 1, bounds, &run, &e));
+    assert_string_equal(e.message, "a field's numbers must be finite");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kind_is_unit),
+        cmocka_unit_test(simple_kinds_point_where_they_should),
+        cmocka_unit_test(a_streamline_on_a_sphere_sweeps_the_turn),
+        cmocka_unit_test(a_streamline_in_the_plane_sweeps_the_turn),
+        cmocka_unit_test(constant_profile_is_the_literal_quaternion),
+        cmocka_unit_test(the_grid_is_close_to_the_field_it_samples),
+        cmocka_unit_test(curl_noise_has_no_divergence),
+        cmocka_unit_test(wrong_fields_are_errors),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
