@@ -7,22 +7,35 @@
 #include <stddef.h>
 
 typedef struct BarkPlace {
-    float around, along; // m
-    Vec3 u, v;           // world: unit directions in which these grow
+    Vec3 p;       // m: where noise is looked up, on a straight stem along z
+    Vec3 along_u; // the direction there that u goes; v goes along z
+    Vec3 u, v;    // world: unit directions around and along the stem
 } BarkPlace;
+
+// The stem unbent: a point of a cylinder of its radius, so that nothing shows where u closes. u of
+// grown meshes runs both ways from one side to the other; which way round is told by the handedness
+// of its frame.
+static BarkPlace stem_place(const SurfacePoint *point, Vec3 u, Vec3 v)
+{
+    float angle = point->uv.x / point->radius;
+    bool right = vec3_dot(vec3_cross(u, v), point->geometric_normal) > 0.0f;
+    float hand = right != point->backface ? 1.0f : -1.0f;
+    float s = sinf(angle), c = cosf(angle);
+    return (BarkPlace){vec3(point->radius * c, point->radius * s * hand, point->uv.y),
+                       vec3(-s, hand * c, 0.0f), u, v};
+}
 
 // Where there is no branch (imported meshes) bark runs up the object's y axis.
 static BarkPlace bark_place(const SurfacePoint *point)
 {
     float u = vec3_length(point->tangent_u), v = vec3_length(point->tangent_v);
     if (point->radius > 0.0f && u > 0.0f && v > 0.0f) {
-        return (BarkPlace){point->uv.x, point->uv.y, vec3_scale(point->tangent_u, 1.0f / u),
-                           vec3_scale(point->tangent_v, 1.0f / v)};
+        return stem_place(point, vec3_scale(point->tangent_u, 1.0f / u),
+                          vec3_scale(point->tangent_v, 1.0f / v));
     }
-    Vec3 p = point->object_position;
-    bool facing_x = fabsf(point->geometric_normal.x) > fabsf(point->geometric_normal.z);
-    return (BarkPlace){facing_x ? p.z : p.x, p.y, facing_x ? vec3(0, 0, 1) : vec3(1, 0, 0),
-                       vec3(0, 1, 0)};
+    Vec3 p = point->object_position, n = point->geometric_normal;
+    Vec3 side = vec3_normalize(vec3(n.z, 0.0f, -n.x + 1e-6f));
+    return (BarkPlace){vec3(p.x, p.z, p.y), vec3(side.x, side.z, 0.0f), side, vec3(0, 1, 0)};
 }
 
 // Height 0..1 and its slope per metre around and along, and what colours it.
@@ -30,53 +43,97 @@ typedef struct BarkRelief {
     float height, slope_u, slope_v;
     float furrow; // 1 in the depth of a furrow
     float plate;  // 0..1, random per ridge
+    float grain;  // about -1..1
 } BarkRelief;
 
-enum { LENGTHENING = 5 }; // of ridges along the branch
+enum { LENGTHENING = 6 }; // of ridges along the branch
 
-// warp: moves the lookup sideways (in ridge widths), so that ridges wind.
-static BarkRelief ridges(const BarkPlace *place, float width, Vec2 warp, uint32_t seed)
+// The place in ridge widths, pushed about so that ridges wind and their edges are torn.
+static Vec3 ridge_lookup(const BarkPlace *place, float width, Vec3 wind)
 {
-    const float stretch = 1.0f / LENGTHENING;
-    float x = place->around / width + warp.x, y = place->along * stretch / width + warp.y;
-    CellPoint cell = noise_cells(x, y, seed);
-    // Distances are compressed along the branch: back to true ones, in ridge widths.
-    float nx = cell.normal.x, ny = cell.normal.y * stretch;
-    float length = sqrtf(nx * nx + ny * ny), distance = cell.border / length;
-    nx /= length;
-    ny /= length;
+    Vec3 torn, p = vec3_scale(place->p, 1.0f / width);
+    noise_solid(vec3(3.1f * p.x, 3.1f * p.y, 1.3f * p.z), 15, &torn);
+    Vec3 q = vec3(p.x, p.y, p.z * (1.0f / LENGTHENING));
+    q = vec3_madd(q, 0.42f, wind);
+    return vec3_madd(q, 0.055f, torn);
+}
+
+static BarkRelief ridges(const BarkPlace *place, float width, Vec3 wind, uint32_t seed)
+{
+    CellPoint cell = noise_cells(ridge_lookup(place, width, wind), seed);
+    // Distances are compressed along the branch, and borders cut the surface at a slant: back to
+    // true distances on the surface, in ridge widths.
+    float nu = vec3_dot(cell.normal, place->along_u), nv = cell.normal.z * (1.0f / LENGTHENING);
+    float length = fmaxf(sqrtf(nu * nu + nv * nv), 0.15f), distance = cell.border / length;
+    nu /= length;
+    nv /= length;
     // Borders that run along the branch are furrows, those across it mere cracks.
-    float along = nx * nx;
-    float depth = lerpf(0.35f, 1.0f, along);
-    float wall = lerpf(0.12f, 0.34f, along);
-    float t = clampf(distance / wall, 0.0f, 1.0f);
-    float rise = t * (2.0f - t), slope = t < 1.0f ? 2.0f * (1.0f - t) / wall : 0.0f;
+    float along = nu * nu;
+    float depth = lerpf(0.45f, 1.0f, along);
     BarkRelief r = {.plate = noise_unit(cell.cell, 7)};
-    float top = 0.8f + 0.2f * r.plate;
+    float wall = lerpf(0.10f, 0.36f + 0.12f * wind.x, along);
+    float floor_width = 0.22f * wall;
+    float t = clampf((distance - floor_width) / (wall - floor_width), 0.0f, 1.0f);
+    float rise = t * (2.0f - t);
+    float slope = t > 0.0f && t < 1.0f ? 2.0f * (1.0f - t) / (wall - floor_width) : 0.0f;
+    float top = 0.75f + 0.25f * r.plate;
     r.height = top * (1.0f - depth * (1.0f - rise));
     r.furrow = depth * (1.0f - rise);
-    r.slope_u = top * depth * slope * nx / width;
-    r.slope_v = top * depth * slope * ny / width;
+    r.slope_u = top * depth * slope * nu / width;
+    r.slope_v = top * depth * slope * nv / width;
     return r;
 }
 
-// Adds fissures along the grain and flakes: noise, drawn out along the branch.
-static void add_grain(BarkRelief *r, const BarkPlace *place, float wavelength, float lengthening,
-                      float height, uint32_t seed)
+// Adds `height` of a noise with this slope at the place.
+static void add_relief(BarkRelief *r, const BarkPlace *place, float height, Vec3 slope)
 {
-    float z = 10.0f * r->plate; // every ridge has its own grain
-    Vec3 p = vec3(place->around / wavelength, place->along / (wavelength * lengthening), z), g;
-    float n = noise_solid(p, seed, &g);
-    r->height += height * n;
-    r->slope_u += height * g.x / wavelength;
-    r->slope_v += height * g.y / (wavelength * lengthening);
+    r->height += height;
+    r->slope_u += vec3_dot(slope, place->along_u);
+    r->slope_v += slope.z;
+}
+
+// A lookup drawn out along the branch, every ridge with its own.
+static Vec3 grain_lookup(const BarkRelief *r, const BarkPlace *place, float wavelength,
+                         float lengthening)
+{
+    Vec3 p = vec3_scale(place->p, 1.0f / wavelength);
+    return vec3(p.x, p.y, p.z / lengthening + 10.0f * r->plate);
+}
+
+// Thin cracks along the grain, where a drawn-out noise passes through zero.
+static void add_fissures(BarkRelief *r, const BarkPlace *place, float wavelength, float height)
+{
+    const float lengthening = 5.0f, width = 0.2f;
+    Vec3 g;
+    float n = noise_solid(grain_lookup(r, place, wavelength, lengthening), 12, &g);
+    float inside = 1.0f - fabsf(n) / width;
+    if (inside <= 0.0f) {
+        return;
+    }
+    height *= 1.0f - r->furrow;
+    float change = 2.0f * height * inside / width / wavelength * (n < 0.0f ? -1.0f : 1.0f);
+    r->grain -= 1.3f * inside * inside;
+    add_relief(r, place, -height * inside * inside,
+               vec3(change * g.x, change * g.y, change * g.z / lengthening));
+}
+
+// Flakes: dents sharper than bulges.
+static void add_flakes(BarkRelief *r, const BarkPlace *place, float wavelength, float height)
+{
+    const float lengthening = 1.8f;
+    Vec3 g;
+    float n = noise_solid(grain_lookup(r, place, wavelength, lengthening), 16, &g);
+    float dent = n < 0.0f ? 1.7f : 0.7f, scale = height * dent / wavelength;
+    r->grain += dent * n;
+    add_relief(r, place, height * dent * n,
+               vec3(scale * g.x, scale * g.y, scale * g.z / lengthening));
 }
 
 static BarkRelief mix_relief(BarkRelief a, BarkRelief b, float t)
 {
-    return (BarkRelief){lerpf(a.height, b.height, t), lerpf(a.slope_u, b.slope_u, t),
+    return (BarkRelief){lerpf(a.height, b.height, t),   lerpf(a.slope_u, b.slope_u, t),
                         lerpf(a.slope_v, b.slope_v, t), lerpf(a.furrow, b.furrow, t),
-                        t < 0.5f ? a.plate : b.plate};
+                        lerpf(a.plate, b.plate, t),     lerpf(a.grain, b.grain, t)};
 }
 
 // The relief at a stem's own size: coarse ridges, fine ones, or a blend where a stem thins out.
@@ -84,15 +141,18 @@ static BarkRelief relief_at(const SurfacePoint *point, const BarkPlace *place, f
                             Vec3 wind)
 {
     float thick = point->radius > 0.0f ? smoothstepf(0.05f, 0.12f, point->radius) : 1.0f;
-    Vec2 warp = {0.55f * wind.x, 0.25f * wind.y};
+    float detail = pattern_detail(0.22f * width, point->footprint);
     BarkRelief coarse = {0}, fine = {0};
     if (thick > 0.0f) {
-        coarse = ridges(place, width, warp, 11);
-        add_grain(&coarse, place, 0.28f * width, 5.0f, 0.16f, 12);
+        coarse = ridges(place, width, wind, 11);
+        add_fissures(&coarse, place, 0.55f * width, 0.3f);
+        if (detail > 0.0f) {
+            add_flakes(&coarse, place, 0.17f * width, 0.13f * detail);
+        }
     }
     if (thick < 1.0f) {
-        fine = ridges(place, 0.4f * width, warp, 13);
-        add_grain(&fine, place, 0.12f * width, 4.0f, 0.12f, 14);
+        fine = ridges(place, 0.4f * width, wind, 13);
+        add_flakes(&fine, place, 0.12f * width, 0.15f * detail);
     }
     return mix_relief(fine, coarse, thick);
 }
@@ -114,12 +174,12 @@ static Vec3 add_growth(Vec3 color, const SurfacePoint *point, const BarkRelief *
 static Vec3 bark_color(const Material *m, const SurfacePoint *point, const BarkRelief *r, Vec3 wind,
                        Vec3 own)
 {
-    float value = 0.82f + 0.36f * r->plate + 0.14f * wind.z;
-    Vec3 ridge = vec3_scale(own, value * (0.72f + 0.38f * clampf(r->height, 0.0f, 1.1f)));
+    float value = 0.86f + 0.3f * r->plate + 0.16f * wind.z + 0.2f * clampf(r->grain, -2.0f, 1.5f);
+    Vec3 ridge = vec3_scale(own, value * (0.65f + 0.42f * clampf(r->height, 0.0f, 1.2f)));
     // Furrow walls show the warmer inner bark before they sink into the dark.
     float wall = 4.0f * r->furrow * (1.0f - r->furrow);
     ridge = vec3_mul(ridge, vec3(1.0f, 1.0f - 0.10f * wall, 1.0f - 0.22f * wall));
-    Vec3 color = vec3_lerp(ridge, m->color2, smoothstepf(0.15f, 0.9f, r->furrow));
+    Vec3 color = vec3_lerp(ridge, m->color2, smoothstepf(0.1f, 0.75f, r->furrow));
     return add_growth(color, point, r, wind);
 }
 

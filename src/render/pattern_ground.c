@@ -20,10 +20,10 @@ void pattern_ground(const Material *m, const SurfacePoint *point, PatternShade *
         slope = vec3_madd(slope, 0.35f * tuft_detail * clump_size / tuft_size, tuft_slope);
     }
     Vec3 green = shade->color;
-    Vec3 lush = vec3(0.72f * green.x, 0.92f * green.y, 0.75f * green.z);
-    Vec3 straw = vec3(1.75f * green.x + 0.015f, 1.25f * green.y + 0.01f, 1.3f * green.z + 0.005f);
+    Vec3 lush = vec3(0.66f * green.x, 0.8f * green.y, 0.85f * green.z);
+    Vec3 straw = vec3(1.5f * green.x + 0.02f, 1.1f * green.y + 0.01f, 1.25f * green.z + 0.01f);
     Vec3 color = vec3_lerp(lush, green, smoothstepf(-0.35f, 0.3f, patches));
-    color = vec3_lerp(color, straw, 0.8f * smoothstepf(0.05f, 0.6f, dry + 0.35f * clumps));
+    color = vec3_lerp(color, straw, 0.65f * smoothstepf(-0.05f, 0.7f, dry + 0.35f * clumps));
     float bare = smoothstepf(0.28f, 0.6f, patches - 0.35f * dry + 0.25f * clumps);
     color = vec3_lerp(color, m->color2, bare);
     shade->color = vec3_scale(color, 1.0f + 0.28f * clumps + 0.35f * tufts);

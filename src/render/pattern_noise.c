@@ -80,18 +80,20 @@ float noise_fractal(Vec3 p, int octaves, uint32_t seed)
     return 1.4f * sum;
 }
 
-CellPoint noise_cells(float x, float y, uint32_t seed)
+CellPoint noise_cells(Vec3 p, uint32_t seed)
 {
-    float fx = floorf(x), fy = floorf(y);
+    float fx = floorf(p.x), fy = floorf(p.y), fz = floorf(p.z);
+    Vec3 corner = vec3_sub(vec3(fx, fy, fz), p);
     float nearest = INFINITY, second = INFINITY;
-    Vec2 a = {0, 0}, b = {0, 0};
+    Vec3 a = {0, 0, 0}, b = {0, 0, 0};
     uint32_t cell = 0;
-    for (int k = 0; k < 9; k++) {
-        int i = k % 3 - 1, j = k / 3 - 1;
-        uint32_t h = lattice((int)fx + i, (int)fy + j, 0, seed);
-        Vec2 point = {fx + (float)i + 0.1f + 0.8f * (float)(h & 0xffffu) / 65535.0f - x,
-                      fy + (float)j + 0.1f + 0.8f * (float)(h >> 16) / 65535.0f - y};
-        float distance = point.x * point.x + point.y * point.y;
+    for (int k = 0; k < 27; k++) {
+        int i = k % 3 - 1, j = k / 3 % 3 - 1, l = k / 9 - 1;
+        uint32_t h = lattice((int)fx + i, (int)fy + j, (int)fz + l, seed);
+        Vec3 jitter = vec3_scale(lattice_gradient(h), 0.42f);
+        Vec3 offset = vec3((float)i + 0.5f, (float)j + 0.5f, (float)l + 0.5f);
+        Vec3 point = vec3_add(vec3_add(corner, offset), jitter);
+        float distance = vec3_dot(point, point);
         if (distance < nearest) {
             second = nearest;
             b = a;
@@ -103,9 +105,7 @@ CellPoint noise_cells(float x, float y, uint32_t seed)
             b = point;
         }
     }
-    Vec2 apart = {a.x - b.x, a.y - b.y};
-    float length = sqrtf(apart.x * apart.x + apart.y * apart.y);
-    length = length > 1e-6f ? length : 1e-6f;
-    return (CellPoint){
-        0.5f * (second - nearest) / length, {apart.x / length, apart.y / length}, cell};
+    Vec3 apart = vec3_sub(a, b);
+    float length = fmaxf(vec3_length(apart), 1e-6f);
+    return (CellPoint){0.5f * (second - nearest) / length, vec3_scale(apart, 1.0f / length), cell};
 }

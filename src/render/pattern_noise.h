@@ -12,14 +12,14 @@ float noise_solid(Vec3 p, uint32_t seed, Vec3 *gradient); // gradient may be NUL
 // Octaves of it, each of twice the frequency and half the height; about -1..1.
 float noise_fractal(Vec3 p, int octaves, uint32_t seed);
 
-// The plane cut into cells, one about a random point of each unit square (Worley 1996).
+// Space cut into cells, one about a random point of each unit cube (Worley 1996).
 typedef struct CellPoint {
     float border;  // distance to the border toward the nearest neighbour
-    Vec2 normal;   // unit, from that neighbour to this cell: the gradient of border
+    Vec3 normal;   // unit, from that neighbour to this cell: the gradient of border
     uint32_t cell; // hash of the cell
 } CellPoint;
 
-CellPoint noise_cells(float x, float y, uint32_t seed);
+CellPoint noise_cells(Vec3 p, uint32_t seed);
 
 // Uniform in [0, 1), from a hash and a number.
 float noise_unit(uint32_t hash, uint32_t number);
