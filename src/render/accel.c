@@ -212,6 +212,8 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
         return true;
     }
     own->copied = worth_copying(part);
+    own->plain = mesh && !own->copied && !part->mesh->normal && !part->mesh->uv &&
+                 !part->mesh->radius && !part->mesh->birth;
     RTCGeometry geometry =
         mesh ? mesh_geometry(accel, part->mesh, own->copied ? part->instance : NULL,
                              own->copied ? part->instance_count : 1)

@@ -14,6 +14,7 @@ typedef struct AccelPart {
     RTCScene scene;          // of an instanced part; NULL otherwise
     const uint32_t *segment; // curves: first point of each segment; Embree's buffer
     float base_variation;    // of a part that is drawn once
+    bool plain;              // a mesh without anything at its vertices
     bool copied;             // instances were copied out: primitive = instance * faces + face
 } AccelPart;
 

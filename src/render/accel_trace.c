@@ -143,6 +143,12 @@ static Vec3 smooth_normal(Vec3 n, Vec3 facet, Vec3 direction)
     return cosine >= least ? n : vec3_normalize(vec3_madd(n, cosine - 2.0f * least, direction));
 }
 
+static float largest(Vec3 p)
+{
+    float x = fabsf(p.x), y = fabsf(p.y), z = fabsf(p.z), yz = y > z ? y : z;
+    return x > yz ? x : yz;
+}
+
 static void mesh_surface(const Mesh *mesh, const Hit *hit, int64_t face, const Transform *t,
                          Vec3 direction, SurfacePoint *point)
 {
@@ -187,23 +193,34 @@ static void mesh_surface(const Mesh *mesh, const Hit *hit, int64_t face, const T
     for (int i = 0; i < 3 && mesh->birth; i++) {
         point->birth += c.weight[i] * mesh->birth[c.vertex[i]];
     }
+    point->epsilon = 4e-6f * largest(point->position) + 1e-7f;
 }
 
-static void curve_surface(const AccelPart *own, const Ray *ray, const Hit *hit, const Transform *t,
-                          SurfacePoint *point)
+// Without attributes at the vertices the hit itself tells all, and the vertices need not be fetched
+// from memory.
+static void plain_surface(const Ray *ray, const Hit *hit, const Transform *t, SurfacePoint *point)
 {
-    const CurveSet *curves = own->part->curves;
-    uint32_t k = own->segment[hit->primitive];
-    Vec3 axis = vec3_sub(curves->position[k + 1], curves->position[k]);
     Vec3 normal = vec3_normalize(t ? normal_to_world(t, hit->normal) : hit->normal);
     point->backface = vec3_dot(normal, ray->direction) > 0.0f;
     point->normal = point->backface ? vec3_neg(normal) : normal;
     point->facet_normal = point->geometric_normal = point->normal;
     point->position = point->lifted = vec3_madd(ray->origin, hit->t, ray->direction);
+    point->object_position = point->position;
     Transform inverse;
-    point->object_position = t && transform_inverse(t, &inverse)
-                                 ? transform_point(&inverse, point->position)
-                                 : point->position;
+    if (t && transform_inverse(t, &inverse)) {
+        point->object_position = transform_point(&inverse, point->position);
+    }
+    float reach = largest(point->position);
+    point->epsilon = 4e-6f * (reach > hit->t ? reach : hit->t) + 1e-7f;
+}
+
+static void curve_surface(const AccelPart *own, const Ray *ray, const Hit *hit, const Transform *t,
+                          SurfacePoint *point)
+{
+    plain_surface(ray, hit, t, point);
+    const CurveSet *curves = own->part->curves;
+    uint32_t k = own->segment[hit->primitive];
+    Vec3 axis = vec3_sub(curves->position[k + 1], curves->position[k]);
     point->radius = lerpf(curves->radius[k], curves->radius[k + 1], hit->u);
     point->birth = curves->birth ? lerpf(curves->birth[k], curves->birth[k + 1], hit->u) : 0.0f;
     if (curves->along) {
@@ -211,17 +228,13 @@ static void curve_surface(const AccelPart *own, const Ray *ray, const Hit *hit, 
     }
     point->tangent_v = vec3_normalize(t ? transform_vector(t, axis) : axis);
     point->tangent_u = vec3_cross(point->tangent_v, point->normal);
+    point->epsilon *= 2.5f; // Embree meets curves less precisely than triangles
 }
 
 static float instance_variation(const Part *part, uint32_t instance)
 {
     return part->variation ? part->variation[instance]
                            : random_unit(random_key((uint64_t)part->object, instance));
-}
-
-static float largest(Vec3 p)
-{
-    return fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
 }
 
 void accel_surface(const Accel *accel, const Ray *ray, const Hit *hit, SurfacePoint *point)
@@ -240,11 +253,14 @@ void accel_surface(const Accel *accel, const Ray *ray, const Hit *hit, SurfacePo
                             .object = part->object,
                             .part = entry.part};
     const Transform *t = part->instance ? &part->instance[instance] : NULL;
-    if (part->kind == PART_MESH) {
+    if (own->plain) {
+        plain_surface(ray, hit, t, point);
+        Vec3 n = point->normal; // any two directions in the plane
+        point->tangent_u = fabsf(n.x) > 0.5f ? vec3(-n.y, n.x, 0.0f) : vec3(0.0f, -n.z, n.y);
+        point->tangent_v = vec3_cross(n, point->tangent_u);
+    } else if (part->kind == PART_MESH) {
         mesh_surface(part->mesh, hit, face, t, ray->direction, point);
-        point->epsilon = 4e-6f * largest(point->position) + 1e-7f;
     } else {
         curve_surface(own, ray, hit, t, point);
-        point->epsilon = 1e-5f * fmaxf(largest(point->position), hit->t) + 1e-7f;
     }
 }

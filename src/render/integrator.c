@@ -21,6 +21,12 @@ typedef struct Path {
     int64_t rays;
 } Path;
 
+// fmaxf is a call into the library unless NaN may be ignored.
+static inline float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
 static void add_light(Path *path, Vec3 radiance)
 {
     Vec3 light = vec3_mul(path->throughput, radiance);
@@ -28,16 +34,17 @@ static void add_light(Path *path, Vec3 radiance)
     *sum = vec3_add(*sum, light);
 }
 
-static Ray leave(const Path *path, const SurfacePoint *point, Vec3 direction, float far)
+// Makes *ray start at the point, on the side that direction goes to.
+static void leave(const Path *path, const SurfacePoint *point, Vec3 direction, float far, Ray *ray)
 {
     bool outside = vec3_dot(direction, point->geometric_normal) > 0.0f;
     Vec3 start = outside ? point->lifted : point->position;
     float step = outside ? point->epsilon : -point->epsilon;
-    uint32_t key = path->sampler.key ^ (path->sampler.reversed * 0x9e3779b1u);
-    return (Ray){.origin = vec3_madd(start, step, point->facet_normal),
-                 .direction = direction,
-                 .far = far,
-                 .key = key + (uint32_t)path->depth};
+    ray->origin = vec3_madd(start, step, point->facet_normal);
+    ray->direction = direction;
+    ray->far = far;
+    ray->key = (path->sampler.key ^ (path->sampler.reversed * 0x9e3779b1u)) + (uint32_t)path->depth;
+    ray->coherent = false;
 }
 
 // Light that reaches the point straight from a light, by sampling the light.
@@ -53,7 +60,8 @@ static void add_direct_light(Path *path, const SurfacePoint *point, const Bsdf *
     if (!(f.x + f.y + f.z > 0.0f)) {
         return;
     }
-    Ray shadow = leave(path, point, light.direction, light.distance * 0.999f);
+    Ray shadow;
+    leave(path, point, light.direction, light.distance * 0.999f, &shadow);
     path->rays++;
     if (accel_occluded(path->tracer->accel, &shadow)) {
         return;
@@ -120,7 +128,7 @@ static bool survives(Path *path, float u)
         return true;
     }
     Vec3 t = path->throughput;
-    float chance = fmaxf(t.x, fmaxf(t.y, t.z));
+    float chance = larger(t.x, larger(t.y, t.z));
     if (chance >= 1.0f) {
         return true;
     }
@@ -141,13 +149,13 @@ static bool bounce(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3
         return false;
     }
     path->throughput = vec3_mul(path->throughput, sample.weight);
-    path->ray = leave(path, point, sample.wi, INFINITY);
+    leave(path, point, sample.wi, INFINITY, &path->ray);
     path->depth++;
     path->bsdf_pdf = sample.delta ? 0.0f : sample.pdf;
     path->footprint = point->footprint;
     if (!sample.delta) {
         path->mirrored = false;
-        path->spread = fmaxf(path->spread, 0.25f * fminf(1.0f, 1.0f / sqrtf(sample.pdf)));
+        path->spread = larger(path->spread, 0.25f / (1.0f + sample.pdf));
     }
     if (sample.transmitted && bsdf->kind == MATERIAL_DIELECTRIC) {
         path->absorption = point->backface ? vec3_splat(0.0f) : bsdf->absorption;
@@ -200,7 +208,7 @@ static Vec3 clamped(Vec3 light, float limit)
     return limit > 0.0f && l > limit ? vec3_scale(light, limit / l) : light;
 }
 
-PathResult integrator_path(const Tracer *tracer, int x, int y, int sample)
+void integrator_path(const Tracer *tracer, int x, int y, int sample, PathResult *result)
 {
     const World *world = tracer->world;
     Path path = {.tracer = tracer, .throughput = {1.0f, 1.0f, 1.0f}, .mirrored = true};
@@ -214,13 +222,12 @@ PathResult integrator_path(const Tracer *tracer, int x, int y, int sample)
         (Ray){.far = INFINITY, .key = path.sampler.key ^ path.sampler.reversed, .coherent = true};
     camera_ray(&tracer->camera, film_x, film_y, u + 2, &path.ray.origin, &path.ray.direction);
     path.spread = tracer->camera.pixel_angle;
-    PathResult result = {.alpha = 1.0f, .depth = INFINITY};
-    while (step(&path, &result)) {
+    *result = (PathResult){.alpha = 1.0f, .depth = INFINITY};
+    while (step(&path, result)) {
     }
-    result.color = vec3_add(path.direct, clamped(path.indirect, world->render.clamp));
-    if (!vec3_finite(result.color)) {
-        result.color = vec3_splat(0.0f);
+    result->color = vec3_add(path.direct, clamped(path.indirect, world->render.clamp));
+    if (!vec3_finite(result->color)) {
+        result->color = vec3_splat(0.0f);
     }
-    result.rays = path.rays;
-    return result;
+    result->rays = path.rays;
 }

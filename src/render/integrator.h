@@ -31,6 +31,6 @@ typedef struct PathResult {
     int object;
 } PathResult;
 
-PathResult integrator_path(const Tracer *tracer, int x, int y, int sample);
+void integrator_path(const Tracer *tracer, int x, int y, int sample, PathResult *result);
 
 #endif

@@ -157,7 +157,8 @@ static int64_t render_tile(Job *job, Tile *tile, int end)
         for (int x = tile->x0; x < tile->x1; x++) {
             PixelSum sum = {.object = 0};
             for (int k = tile->samples; k < end; k++) {
-                PathResult path = integrator_path(job->tracer, x, y, k);
+                PathResult path;
+                integrator_path(job->tracer, x, y, k, &path);
                 pixel_add(&sum, &path);
             }
             film_merge(job->film, (int64_t)y * job->film->width + x, tile->samples,

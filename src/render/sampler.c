@@ -104,16 +104,21 @@ static inline Lanes owen_lanes(Lanes x, Lanes seed)
 
 Sampler sampler_at(const SobolTable *table, uint64_t seed, uint32_t pixel, uint32_t sample)
 {
-    return (Sampler){table, (uint32_t)random_key(random_key(seed, 0x50b01), pixel),
-                     reverse_bits(sample)};
+    uint32_t reversed = reverse_bits(sample);
+    return (Sampler){.table = table,
+                     .key = (uint32_t)random_key(random_key(seed, 0x50b01), pixel),
+                     .reversed = reversed,
+                     .lowest = sample ? __builtin_ctz(reversed) / 4 : 8};
 }
 
 void sampler_draw(const Sampler *sampler, uint32_t set, float u[4])
 {
     uint32_t key = mix(sampler->key + 0x9e3779b9u * (set + 1u));
-    uint32_t index = owen(sampler->reversed, key);
+    // Taking off what index 0 becomes only shifts all points alike (the scrambling below is random
+    // anyway) and leaves no bit set above the index's own, so few words need be looked up.
+    uint32_t index = owen(sampler->reversed, key) ^ owen(0, key);
     Lanes x = {0, 0, 0, 0};
-    for (int nibble = 0; nibble < 8; nibble++) {
+    for (int nibble = sampler->lowest; nibble < 8; nibble++) {
         const uint32_t *word = sampler->table->word[nibble][index >> (4 * nibble) & 15u];
         x ^= *(const Lanes *)__builtin_assume_aligned(word, 16);
     }

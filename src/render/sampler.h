@@ -18,6 +18,7 @@ typedef struct Sampler {
     const SobolTable *table;
     uint32_t key;      // of the pixel and the seed
     uint32_t reversed; // sample index, lowest bit first
+    int lowest;        // first group of four bits of it that is not zero
 } Sampler;
 
 Sampler sampler_at(const SobolTable *table, uint64_t seed, uint32_t pixel, uint32_t sample);

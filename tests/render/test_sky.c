@@ -1,0 +1,179 @@
+// The sky against what photometers read under the real one, and the dome it is baked into.
+#include "tiny_world.h"
+
+#include "render/atmosphere.h"
+#include "render/lights.h"
+#include "render/sky.h"
+
+static Dome *make_sky(float elevation, float turbidity, Sun *sun)
+{
+    World *world = world_new(NULL);
+    assert_non_null(world);
+    world->sky.sun_elevation = elevation;
+    world->sky.sun_azimuth = 0.0f;
+    world->sky.turbidity = turbidity;
+    Run run = run_default();
+    Dome *dome = sky_dome(&world->sky, sun, &run, NULL);
+    assert_non_null(dome);
+    world_free(world);
+    return dome;
+}
+
+static float candela(const Dome *dome, float elevation, float azimuth)
+{
+    float e = elevation * RADIANS_PER_DEGREE, a = azimuth * RADIANS_PER_DEGREE;
+    Vec3 d = vec3(cosf(e) * sinf(a), sinf(e), cosf(e) * cosf(a));
+    return luminance(dome_lookup(dome, d)) * SKY_CANDELA_PER_UNIT;
+}
+
+// Light from the whole upper half on level ground, lux.
+static float sky_lux(const Dome *dome)
+{
+    double sum = 0.0;
+    for (int row = 0; row < dome->rows / 2; row++) {
+        double a = (double)dome->edge[row], b = (double)dome->edge[row + 1];
+        for (int i = 0; i < dome->columns; i++) {
+            sum += (double)luminance(dome->radiance[row * dome->columns + i]) * 0.5 *
+                   (a * a - b * b) * 2.0 * (double)PI_F / dome->columns;
+        }
+    }
+    return (float)sum * SKY_CANDELA_PER_UNIT;
+}
+
+static float sun_lux(const Sun *sun) // facing it
+{
+    return luminance(sun->radiance) * sun->solid_angle * SKY_CANDELA_PER_UNIT;
+}
+
+#define ASSERT_BETWEEN(value, low, high)                                                           \
+    do {                                                                                           \
+        double v_ = (double)(value);                                                               \
+        if (!(v_ >= (double)(low) && v_ <= (double)(high))) {                                      \
+            fail_msg("%s = %g, not in %g .. %g", #value, v_, (double)(low), (double)(high));       \
+        }                                                                                          \
+    } while (0)
+
+// The solar illuminance constant: 128 to 134 klx by different spectra.
+static void solar_constant_in_lux(void **state)
+{
+    (void)state;
+    Spectrum solar = atmosphere_solar_irradiance();
+    ASSERT_BETWEEN(luminance(spectrum_to_rgb(&solar)), 124e3, 136e3);
+}
+
+// Clear-day readings: IES and CIE tables of direct and diffuse illuminance, zenith luminance after
+// CIE 110-1994. Wide, because days differ.
+static void luminance_in_published_ranges(void **state)
+{
+    (void)state;
+    Sun sun;
+    Dome *noon = make_sky(60.0f, 2.5f, &sun);
+    ASSERT_BETWEEN(sun_lux(&sun), 80e3, 112e3);
+    ASSERT_BETWEEN(sky_lux(noon), 9e3, 26e3);
+    ASSERT_BETWEEN(candela(noon, 90, 0), 1.5e3, 9e3);
+    ASSERT_BETWEEN(candela(noon, 5, 180), 3e3, 16e3);
+    dome_free(noon);
+    Dome *afternoon = make_sky(20.0f, 2.5f, &sun);
+    ASSERT_BETWEEN(sun_lux(&sun), 45e3, 85e3);
+    ASSERT_BETWEEN(sky_lux(afternoon), 5e3, 14e3);
+    ASSERT_BETWEEN(candela(afternoon, 90, 0), 0.8e3, 3.5e3);
+    dome_free(afternoon);
+    Dome *low = make_sky(5.0f, 2.5f, &sun);
+    ASSERT_BETWEEN(sun_lux(&sun), 8e3, 40e3);
+    ASSERT_BETWEEN(sky_lux(low), 1.5e3, 7e3);
+    dome_free(low);
+    Dome *dusk = make_sky(-4.0f, 2.5f, &sun);
+    assert_true(sun_lux(&sun) == 0.0f);
+    ASSERT_BETWEEN(sky_lux(dusk), 5, 120); // civil twilight
+    dome_free(dusk);
+}
+
+static void sky_is_blue_and_the_low_sun_red(void **state)
+{
+    (void)state;
+    Sun high, low;
+    Dome *dome = make_sky(45.0f, 2.0f, &high);
+    Vec3 zenith = dome_lookup(dome, vec3(0, 1, 0));
+    ASSERT_BETWEEN(zenith.z / zenith.x, 2.0, 6.0);
+    Vec3 horizon = dome_lookup(dome, vec3_normalize(vec3(0, 0.03f, -1)));
+    assert_true(horizon.z / horizon.x < zenith.z / zenith.x); // paler
+    assert_true(luminance(horizon) > luminance(zenith));
+    dome_free(dome);
+    dome = make_sky(3.0f, 2.0f, &low);
+    assert_true(low.radiance.z / low.radiance.x < 0.4f * high.radiance.z / high.radiance.x);
+    assert_true(low.radiance.y / low.radiance.x < 0.9f * high.radiance.y / high.radiance.x);
+    assert_true(candela(dome, 3, 0) > 4.0f * candela(dome, 3, 90)); // brighter about the sun
+    Vec3 right = dome_lookup(dome, vec3_normalize(vec3(0.5f, 0.2f, 1)));
+    Vec3 left = dome_lookup(dome, vec3_normalize(vec3(-0.5f, 0.2f, 1)));
+    assert_true(fabsf(luminance(right) - luminance(left)) < 1e-3f * luminance(left));
+    dome_free(dome);
+}
+
+static void haze_and_strength(void **state)
+{
+    (void)state;
+    Sun clear, hazy;
+    Dome *a = make_sky(40.0f, 2.0f, &clear), *b = make_sky(40.0f, 6.0f, &hazy);
+    assert_true(sun_lux(&hazy) < 0.75f * sun_lux(&clear));
+    assert_true(candela(b, 40, 10) > 1.5f * candela(a, 40, 10)); // the aureole
+    assert_true(sky_lux(b) > 1.3f * sky_lux(a));
+    dome_free(a);
+    dome_free(b);
+}
+
+// The disc's light is the same whatever size it is drawn with, and its mean is the stated radiance.
+static void sun_disc(void **state)
+{
+    (void)state;
+    Sun sun;
+    dome_free(make_sky(30.0f, 2.5f, &sun));
+    double mean = 0.0;
+    for (int i = 0; i < 1000; i++) {
+        Vec3 d = sun_sample(&sun, ((float)i + 0.5f) / 1000.0f, (float)(i * 37 % 100) / 100.0f);
+        mean += (double)luminance(sun_radiance(&sun, d)) / 1000.0;
+    }
+    assert_true(fabs(mean / (double)luminance(sun.radiance) - 1.0) < 0.01);
+    Vec3 aside = vec3_normalize(vec3_add(sun.direction, vec3(0.006f, 0, 0)));
+    assert_false(sun_covers(&sun, aside));
+    assert_true(sun_covers(&sun, sun.direction));
+}
+
+// Sampled directions must integrate the dome (radiance over density averages to the true integral),
+// and density must be what dome_density says.
+static void dome_sampling_integrates(void **state)
+{
+    (void)state;
+    Sun sun;
+    Dome *dome = make_sky(10.0f, 3.0f, &sun);
+    double sum = 0.0, reference = 0.0;
+    enum { N = 256 };
+    for (int i = 0; i < N * N; i++) {
+        float u = ((float)(i % N) + 0.5f) / N, v = ((float)(i / N) + 0.5f) / N, density;
+        Vec3 d = dome_sample(dome, u, v, &density);
+        assert_true(density > 0.0f);
+        float asked = dome_density(dome, d);
+        if (fabsf(asked / density - 1.0f) > 1e-3f && i % 7 == 0) {
+            Vec3 near = vec3_normalize(vec3_madd(d, 1e-4f, vec3(1, 0, 1))); // on a cell's edge
+            Vec3 other = vec3_normalize(vec3_madd(d, -1e-4f, vec3(1, 0, 1)));
+            float a = dome_density(dome, near), b = dome_density(dome, other);
+            assert_true(fabsf(a / density - 1.0f) < 1e-3f || fabsf(b / density - 1.0f) < 1e-3f);
+        }
+        sum += (double)(luminance(dome_lookup(dome, d)) / density) / (N * N);
+        float z = 2.0f * v - 1.0f, r = sqrtf(1.0f - z * z), a = 2.0f * PI_F * u;
+        reference += (double)luminance(dome_lookup(dome, vec3(r * sinf(a), z, r * cosf(a)))) * 4.0 *
+                     (double)PI_F / (N * N);
+    }
+    assert_true(fabs(sum / reference - 1.0) < 0.01);
+    assert_true(fabs((double)dome->power / reference - 1.0) < 0.02);
+    dome_free(dome);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(solar_constant_in_lux),    cmocka_unit_test(luminance_in_published_ranges),
+        cmocka_unit_test(sky_is_blue_and_the_low_sun_red), cmocka_unit_test(haze_and_strength),
+        cmocka_unit_test(sun_disc),                 cmocka_unit_test(dome_sampling_integrates),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
