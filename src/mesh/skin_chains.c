@@ -62,7 +62,6 @@ static void measure_tree(SkinPlan *plan)
     int32_t last = 1;
     for (int64_t i = 0; i < tree->count; i++) {
         last = tree->birth[i] > last ? tree->birth[i] : last;
-        plan->thickest = tree->radius[i] > plan->thickest ? tree->radius[i] : plan->thickest;
     }
     plan->birth_scale = 1.0f / (float)last;
     if (tree->count > 0) {
@@ -71,6 +70,15 @@ static void measure_tree(SkinPlan *plan)
     }
     if (plan->least_radius < 1e-6f) {
         plan->least_radius = 1e-6f;
+    }
+    plan->thickest = plan->least_radius;
+    plan->thinnest = INFINITY;
+    for (int64_t i = 0; i < tree->count; i++) {
+        float radius = tree->radius[i];
+        plan->thickest = radius > plan->thickest ? radius : plan->thickest;
+        if (radius >= plan->params.min_radius && radius < plan->thinnest) {
+            plan->thinnest = radius;
+        }
     }
 }
 

@@ -105,6 +105,11 @@ bool skin_plan_init(SkinPlan *plan, const OutTree *tree, const SkinParams *param
         }
     }
     free(stack);
+    for (int64_t i = 0; good && i < plan->chain_count; i++) {
+        if (plan->chain[i].visible && plan->chain[i].parent >= 0) {
+            plan->chain[plan->chain[i].parent].has_children = true;
+        }
+    }
     return good;
 }
 

@@ -21,6 +21,7 @@ typedef struct SkinChain {
     int64_t first, count;  // its nodes: plan->node[first] ...
     int64_t axis, samples; // its axis: plan->point[axis] ...
     bool visible;          // false: all of it lies inside the parent
+    bool has_children;     // visible ones leave it
     // Where a visible child comes out of its parent's surface:
     float exit_on_parent; // m along the parent's axis
     float exit;           // m along its own axis
@@ -49,10 +50,10 @@ typedef struct SkinPlan {
     int64_t point_count, point_capacity;
     SkinNode *raw; // of the chain at hand
     int64_t raw_capacity;
-    float least_radius;  // m: thinner nodes count as this thick, so that nothing is degenerate
-    float thickest;      // m
-    float birth_scale;   // turns steps into 0..1
-    const OutTree *tree; // not owned
+    float least_radius;       // m: thinner nodes count as this thick, so that nothing is degenerate
+    float thickest, thinnest; // m, of the nodes to skin
+    float birth_scale;        // turns steps into 0..1
+    const OutTree *tree;      // not owned
     SkinParams params;
 } SkinPlan;
 
