@@ -53,10 +53,12 @@ double envelope_area(const Envelope *envelope);   // m^2, of the surface
 // Signed distance to the surface, m, negative inside; clamped to the level set's narrow band where
 // there is one. Safe to call from many threads.
 float envelope_distance(const Envelope *envelope, Vec3 p);
-static inline bool envelope_contains(const Envelope *envelope, Vec3 p)
-{
-    return envelope_distance(envelope, p) < 0.0f;
-}
+
+// Whether p is inside: the sign of envelope_distance, faster.
+bool envelope_contains(const Envelope *envelope, Vec3 p);
+
+// The distance beyond which envelope_distance is clamped, m; INFINITY where it never is.
+float envelope_band(const Envelope *envelope);
 
 // The surface as triangles with normals (the imported mesh itself where the envelope is just that).
 // Owned by the envelope.

@@ -1,0 +1,215 @@
+#include "shape/depth_field.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { CELLS = 96, BISECTIONS = 8, SWEEPS = 8 };
+
+static Vec3 node_position(const DepthField *f, int x, int y, int z)
+{
+    return vec3_madd(f->origin, f->spacing, vec3((float)x, (float)y, (float)z));
+}
+
+static int64_t node_index(const DepthField *f, int x, int y, int z)
+{
+    return ((int64_t)x * f->size[1] + y) * f->size[2] + z;
+}
+
+// Distance from the inner point p along step (a grid edge) to where it leaves the envelope.
+static float crossing(const Envelope *envelope, Vec3 p, Vec3 step)
+{
+    float low = 0.0f, high = 1.0f;
+    for (int i = 0; i < BISECTIONS; i++) {
+        float middle = 0.5f * (low + high);
+        if (envelope_contains(envelope, vec3_madd(p, middle, step))) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return 0.5f * (low + high) * vec3_length(step);
+}
+
+// Depth of a node that has an outer neighbour, as if the surface were flat there; INFINITY for
+// nodes deep inside.
+static float border_depth(const DepthField *f, const float *depth, int x, int y, int z)
+{
+    static const int side[6][3] = {{-1, 0, 0}, {1, 0, 0},  {0, -1, 0},
+                                   {0, 1, 0},  {0, 0, -1}, {0, 0, 1}};
+    Vec3 p = node_position(f, x, y, z);
+    float nearest[3] = {INFINITY, INFINITY, INFINITY}, sum = 0.0f;
+    for (int i = 0; i < 6; i++) {
+        int a = x + side[i][0], b = y + side[i][1], c = z + side[i][2];
+        if (depth[node_index(f, a, b, c)] == 0.0f) {
+            Vec3 step = vec3_scale(vec3((float)side[i][0], (float)side[i][1], (float)side[i][2]),
+                                   f->spacing);
+            nearest[i / 2] = fminf(nearest[i / 2], crossing(f->envelope, p, step));
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        sum += 1.0f / (nearest[i] * nearest[i]);
+    }
+    return 1.0f / sqrtf(sum);
+}
+
+// The smallest u that solves sum over axes of max(0, u - a_i)^2 = h^2, a sorted.
+static float solve_node(float a, float b, float c, float h)
+{
+    float swap;
+    if (a > b) {
+        swap = a, a = b, b = swap;
+    }
+    if (b > c) {
+        swap = b, b = c, c = swap;
+    }
+    if (a > b) {
+        swap = a, a = b, b = swap;
+    }
+    float u = a + h;
+    if (u > b) {
+        u = 0.5f * (a + b + sqrtf(fmaxf(2.0f * h * h - (a - b) * (a - b), 0.0f)));
+    }
+    if (u > c) {
+        float sum = a + b + c, squares = a * a + b * b + c * c;
+        u = (sum + sqrtf(fmaxf(sum * sum - 3.0f * (squares - h * h), 0.0f))) / 3.0f;
+    }
+    return u;
+}
+
+// One pass over the grid; bits of `way` choose the direction of each axis.
+static void sweep(DepthField *f, int way)
+{
+    int64_t sx = (int64_t)f->size[1] * f->size[2], sy = f->size[2];
+    int n[3] = {f->size[0] - 2, f->size[1] - 2, f->size[2] - 2};
+    for (int i = 0; i < n[0]; i++) {
+        for (int j = 0; j < n[1]; j++) {
+            for (int k = 0; k < n[2]; k++) {
+                int64_t at =
+                    node_index(f, 1 + (way & 1 ? n[0] - 1 - i : i),
+                               1 + (way & 2 ? n[1] - 1 - j : j), 1 + (way & 4 ? n[2] - 1 - k : k));
+                float *d = f->depth;
+                if (d[at] > 0.0f) {
+                    float u =
+                        solve_node(fminf(d[at - sx], d[at + sx]), fminf(d[at - sy], d[at + sy]),
+                                   fminf(d[at - 1], d[at + 1]), f->spacing);
+                    d[at] = fminf(d[at], u);
+                }
+            }
+        }
+    }
+}
+
+// Marks outer nodes with 0 and inner ones with INFINITY, or their depth where it is known.
+static void start_nodes(DepthField *f)
+{
+    float band = envelope_band(f->envelope);
+    for (int x = 0; x < f->size[0]; x++) {
+        for (int y = 0; y < f->size[1]; y++) {
+            for (int z = 0; z < f->size[2]; z++) {
+                float d = envelope_distance(f->envelope, node_position(f, x, y, z));
+                f->depth[node_index(f, x, y, z)] =
+                    d >= 0.0f ? 0.0f : (d > -0.99f * band ? -d : INFINITY);
+            }
+        }
+    }
+}
+
+static bool solve(DepthField *f, Error *e)
+{
+    int64_t count = (int64_t)f->size[0] * f->size[1] * f->size[2];
+    f->depth = memory_alloc(count, sizeof *f->depth, e);
+    if (!f->depth) {
+        return false;
+    }
+    start_nodes(f);
+    for (int x = 1; x < f->size[0] - 1; x++) {
+        for (int y = 1; y < f->size[1] - 1; y++) {
+            for (int z = 1; z < f->size[2] - 1; z++) {
+                float *d = &f->depth[node_index(f, x, y, z)];
+                if (isinf(*d)) {
+                    *d = border_depth(f, f->depth, x, y, z);
+                }
+            }
+        }
+    }
+    // where a node's border is not the nearest one a sweep may still lower it
+    for (int i = 0; i < SWEEPS; i++) {
+        sweep(f, i);
+    }
+    for (int64_t i = 0; i < count; i++) {
+        f->deepest = fmaxf(f->deepest, f->depth[i]);
+    }
+    return true;
+}
+
+static void find_deepest(DepthField *f)
+{
+    for (int x = 0; x < f->size[0]; x++) {
+        for (int y = 0; y < f->size[1]; y++) {
+            for (int z = 0; z < f->size[2]; z++) {
+                float d = envelope_distance(f->envelope, node_position(f, x, y, z));
+                f->deepest = fmaxf(f->deepest, -d);
+            }
+        }
+    }
+}
+
+bool depth_field_new(const Envelope *envelope, DepthField *f, Error *e)
+{
+    Aabb box = envelope_bounds(envelope);
+    Vec3 size = vec3_sub(box.high, box.low);
+    bool clamped = isfinite(envelope_band(envelope));
+    // the maximum of an exact distance needs no fine grid
+    float cells = clamped ? (float)CELLS : (float)CELLS / 3.0f;
+    *f = (DepthField){.envelope = envelope};
+    f->spacing = fmaxf(size.x, fmaxf(size.y, size.z)) / cells;
+    float extent[3] = {size.x, size.y, size.z}, origin[3] = {box.low.x, box.low.y, box.low.z};
+    for (int i = 0; i < 3; i++) {
+        // two nodes outside on either side at least, and the grid centred on the box
+        f->size[i] = (int)(extent[i] / f->spacing) + 5;
+        origin[i] -= 0.5f * ((float)(f->size[i] - 1) * f->spacing - extent[i]);
+    }
+    f->origin = vec3(origin[0], origin[1], origin[2]);
+    if (!clamped) {
+        find_deepest(f);
+        return true;
+    }
+    return solve(f, e);
+}
+
+void depth_field_free(DepthField *field)
+{
+    free(field->depth);
+    field->depth = NULL;
+}
+
+static float grid_depth(const DepthField *f, Vec3 p)
+{
+    Vec3 local = vec3_scale(vec3_sub(p, f->origin), 1.0f / f->spacing);
+    float at[3] = {local.x, local.y, local.z}, t[3];
+    int c[3];
+    for (int i = 0; i < 3; i++) {
+        at[i] = clampf(at[i], 0.0f, (float)(f->size[i] - 2) + 0.999f);
+        c[i] = (int)at[i];
+        t[i] = at[i] - (float)c[i];
+    }
+    float v[8];
+    for (int i = 0; i < 8; i++) {
+        v[i] = f->depth[node_index(f, c[0] + (i >> 2), c[1] + (i >> 1 & 1), c[2] + (i & 1))];
+    }
+    for (int i = 0; i < 4; i++) {
+        v[i] = lerpf(v[i], v[i + 4], t[0]);
+    }
+    return lerpf(lerpf(v[0], v[2], t[1]), lerpf(v[1], v[3], t[1]), t[2]);
+}
+
+float depth_field_at(const DepthField *f, Vec3 p)
+{
+    // in the band the envelope knows better than the coarse grid
+    float distance = envelope_distance(f->envelope, p);
+    bool clamped = f->depth && distance <= -0.9f * envelope_band(f->envelope);
+    float depth = clamped ? grid_depth(f, p) : -distance;
+    return f->deepest > 0.0f ? clampf(depth / f->deepest, 0.0f, 1.0f) : 0.0f;
+}

@@ -1,0 +1,370 @@
+#include "shape/envelope.h"
+
+#include "base/memory.h"
+#include "shape/import.h"
+#include "shape/level_set.h"
+#include "shape/mesh_close.h"
+#include "shape/primitive.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { VOXELS_DEFAULT = 128, VOXELS_LEAST = 8, VOXELS_MOST = 1024 }; // across the largest extent
+
+struct Envelope {
+    Primitive primitive; // where level_set is NULL
+    LevelSet *level_set;
+    Mesh *surface;
+    Aabb bounds;
+    double volume, area;
+};
+
+// A shape of the list, made ready.
+typedef struct Piece {
+    const Shape *shape;
+    Primitive primitive; // unless it is a mesh
+    Mesh *mesh;          // as imported, transformed, facing outward; NULL unless it is a mesh
+    Mesh *closed;        // the same without holes
+    int64_t open_edges;
+    Aabb bounds;
+} Piece;
+
+static const char *kind_name(ShapeKind kind)
+{
+    static const char *const names[] = {"sphere",  "ellipsoid", "box",       "cone",
+                                        "capsule", "mesh",      "half space"};
+    return names[kind];
+}
+
+static float largest_extent(Aabb box)
+{
+    Vec3 size = vec3_sub(box.high, box.low);
+    return fmaxf(size.x, fmaxf(size.y, size.z));
+}
+
+static Aabb box_union(Aabb a, Aabb b)
+{
+    return (Aabb){vec3_min(a.low, b.low), vec3_max(a.high, b.high)};
+}
+
+static Aabb box_common(Aabb a, Aabb b)
+{
+    return (Aabb){vec3_max(a.low, b.low), vec3_min(a.high, b.high)};
+}
+
+static bool check_list(const EnvelopeParams *params, Error *e)
+{
+    if (params->shape_count < 1) {
+        return error_set(e, ERROR_INPUT, "an envelope of no shapes; give one at least");
+    }
+    if (!isfinite(params->voxel) || params->voxel < 0.0f) {
+        return error_set(e, ERROR_INPUT,
+                         "voxel is %g m; it must be positive, or 0 for 1/%d of the largest extent",
+                         (double)params->voxel, VOXELS_DEFAULT);
+    }
+    for (int i = 0; i < params->shape_count; i++) {
+        const Shape *shape = &params->shapes[i];
+        if (shape->kind == SHAPE_HALF_SPACE && (i == 0 || shape->op == SHAPE_UNION)) {
+            return error_set(e, ERROR_INPUT,
+                             "shape %d: a half space has no end and can only cut; put it after "
+                             "another shape, as an intersection or a difference",
+                             i + 1);
+        }
+        if (i == 0 && shape->op != SHAPE_UNION) {
+            return error_set(e, ERROR_INPUT,
+                             "shape 1: there is nothing yet to cut; the first shape of the list "
+                             "must be a union");
+        }
+    }
+    return true;
+}
+
+// ---- meshes ----
+
+// Faces and normals outward, where the mesh has an outside.
+static void face_outward(Piece *piece)
+{
+    double volume = mesh_signed_volume(piece->closed);
+    double box = (double)largest_extent(piece->bounds) * mesh_area(piece->closed);
+    if (volume < -1e-5 * box) {
+        mesh_flip(piece->closed);
+        mesh_flip(piece->mesh);
+    }
+}
+
+static bool load_mesh(Piece *piece, const Run *run, Error *e)
+{
+    const char *file = piece->shape->file;
+    piece->mesh = mesh_import(file, e);
+    if (!piece->mesh || !mesh_transform(piece->mesh, &piece->shape->transform, e) ||
+        (!piece->mesh->normal && !mesh_compute_normals(piece->mesh, e))) {
+        return false;
+    }
+    piece->bounds = mesh_bounds(piece->mesh);
+    if (!vec3_finite(piece->bounds.low) || !vec3_finite(piece->bounds.high)) {
+        return error_set(e, ERROR_INPUT,
+                         "the transform moves the mesh out of all bounds; its "
+                         "numbers must be finite and moderate");
+    }
+    piece->closed = mesh_close(piece->mesh, &piece->open_edges, e);
+    if (!piece->closed) {
+        return false;
+    }
+    face_outward(piece);
+    if (piece->open_edges > 0) {
+        run_warn(run,
+                 "%s: the mesh is open: %lld edges have a face on one side only; its holes were "
+                 "closed as well as possible, close them in the file to be sure of the inside",
+                 file, (long long)piece->open_edges);
+    }
+    return true;
+}
+
+// ---- pieces ----
+
+static bool piece_load(const Shape *shape, Piece *piece, const Run *run, Error *e)
+{
+    piece->shape = shape;
+    if (shape->kind == SHAPE_MESH) {
+        return load_mesh(piece, run, e);
+    }
+    if (!primitive_new(shape, &piece->primitive, e)) {
+        return false;
+    }
+    piece->bounds = primitive_bounds(&piece->primitive);
+    return true;
+}
+
+static void pieces_free(Piece *pieces, int count)
+{
+    for (int i = 0; pieces && i < count; i++) {
+        mesh_free(pieces[i].mesh);
+        mesh_free(pieces[i].closed);
+    }
+    free(pieces);
+}
+
+static Piece *pieces_load(const EnvelopeParams *params, const Run *run, Error *e)
+{
+    Piece *pieces = memory_alloc_zero(params->shape_count, sizeof *pieces, e);
+    for (int i = 0; pieces && i < params->shape_count; i++) {
+        const Shape *shape = &params->shapes[i];
+        if (!piece_load(shape, &pieces[i], run, e)) {
+            error_prefix(e, "shape %d (%s): ", i + 1, kind_name(shape->kind));
+            pieces_free(pieces, params->shape_count);
+            return NULL;
+        }
+    }
+    return pieces;
+}
+
+// ---- level sets ----
+
+// Chooses the voxel and checks it before anything is allocated. *inside = a box around all that can
+// be inside.
+static bool choose_frame(const Piece *pieces, int count, float voxel, LevelSetFrame *frame,
+                         Aabb *inside, Error *e)
+{
+    *inside = aabb_empty();
+    for (int i = 0; i < count; i++) {
+        if (pieces[i].shape->op == SHAPE_UNION) {
+            *inside = box_union(*inside, pieces[i].bounds);
+        }
+    }
+    float extent = largest_extent(*inside);
+    *frame = (LevelSetFrame){inside->low, voxel > 0.0f ? voxel : extent / VOXELS_DEFAULT};
+    if (!(extent / frame->voxel >= VOXELS_LEAST)) {
+        return error_set(e, ERROR_INPUT,
+                         "voxel %g m is too coarse for an envelope of %g m; set voxel to %g or "
+                         "less, or to 0 for 1/%d of the extent",
+                         (double)voxel, (double)extent, (double)(extent / VOXELS_LEAST),
+                         VOXELS_DEFAULT);
+    }
+    for (int i = 0; i < count; i++) {
+        bool is_mesh =
+            pieces[i].shape->kind == SHAPE_MESH; // the others are made only within the box
+        float across = is_mesh ? largest_extent(pieces[i].bounds) : extent;
+        if (across / frame->voxel > VOXELS_MOST) {
+            return error_set(e, ERROR_INPUT,
+                             "shape %d (%s): voxel %g m makes a level set of %.0f voxels across; "
+                             "at most %d are possible: set voxel to %g or more",
+                             i + 1, kind_name(pieces[i].shape->kind), (double)frame->voxel,
+                             (double)(across / frame->voxel), VOXELS_MOST,
+                             (double)(across / VOXELS_MOST));
+        }
+    }
+    return true;
+}
+
+static double piece_distance(const void *shape, Vec3 p, double *bound)
+{
+    return primitive_distance(shape, p, bound);
+}
+
+static LevelSet *piece_level_set(const Piece *piece, LevelSetFrame frame, Aabb inside,
+                                 const Run *run, Error *e)
+{
+    if (piece->closed) {
+        return level_set_from_mesh(piece->closed, frame, run, e);
+    }
+    return level_set_from_distance(piece_distance, &piece->primitive,
+                                   box_common(piece->bounds, inside), frame, run, e);
+}
+
+static LevelSet *combine_pieces(const Piece *pieces, int count, LevelSetFrame frame, Aabb inside,
+                                const Run *run, Error *e)
+{
+    LevelSet *all = piece_level_set(&pieces[0], frame, inside, run, e);
+    bool done = all;
+    for (int i = 1; done && i < count; i++) {
+        LevelSet *next = piece_level_set(&pieces[i], frame, inside, run, e);
+        done = next && level_set_combine(all, next, pieces[i].shape->op, e);
+        level_set_free(next);
+        run_progress(run, "envelope", (double)i / (double)count);
+    }
+    if (!done || !level_set_finish(all, e)) {
+        level_set_free(all);
+        return NULL;
+    }
+    return all;
+}
+
+// ---- envelopes ----
+
+static bool become_primitive(Envelope *envelope, const Primitive *primitive, Error *e)
+{
+    envelope->primitive = *primitive;
+    envelope->bounds = primitive_bounds(primitive);
+    envelope->volume = primitive_volume(primitive);
+    envelope->area = primitive_area(primitive);
+    if (!isfinite(envelope->volume) || !vec3_finite(envelope->bounds.low) ||
+        !vec3_finite(envelope->bounds.high)) {
+        return error_set(e, ERROR_INPUT,
+                         "the envelope is larger than numbers can say; its sizes "
+                         "and scales must be moderate");
+    }
+    envelope->surface = primitive_surface(primitive, e);
+    return envelope->surface;
+}
+
+// A mesh alone keeps its own surface.
+static bool measure_mesh(Envelope *envelope, Piece *piece, Error *e)
+{
+    Mesh *inside = level_set_surface(envelope->level_set, e);
+    if (!inside) {
+        return false;
+    }
+    double filled = mesh_signed_volume(inside), own = mesh_signed_volume(piece->closed);
+    // faces that overlap or a guessed cap count wrongly; the level set knows better then
+    bool trusted = piece->open_edges == 0 && fabs(own - filled) < 0.1 * own;
+    mesh_free(inside);
+    envelope->volume = trusted ? own : filled;
+    envelope->area = mesh_area(piece->mesh);
+    envelope->bounds = piece->bounds;
+    envelope->surface = piece->mesh;
+    piece->mesh = NULL;
+    return true;
+}
+
+static bool measure_level_set(Envelope *envelope, Aabb inside, Error *e)
+{
+    envelope->surface = level_set_surface(envelope->level_set, e);
+    if (!envelope->surface) {
+        return false;
+    }
+    envelope->bounds = box_common(level_set_bounds(envelope->level_set), inside);
+    envelope->volume = mesh_signed_volume(envelope->surface);
+    envelope->area = mesh_area(envelope->surface);
+    if (!(envelope->volume > 0.0)) {
+        return error_set(e, ERROR_INPUT,
+                         "the envelope is empty: its cuts leave nothing of it; "
+                         "make the cutting shapes smaller or move them");
+    }
+    return true;
+}
+
+static bool build(Envelope *envelope, Piece *pieces, const EnvelopeParams *params, const Run *run,
+                  Error *e)
+{
+    int count = params->shape_count;
+    if (count == 1 && !pieces[0].mesh) {
+        return become_primitive(envelope, &pieces[0].primitive, e);
+    }
+    LevelSetFrame frame;
+    Aabb inside;
+    if (!choose_frame(pieces, count, params->voxel, &frame, &inside, e)) {
+        return false;
+    }
+    envelope->level_set = combine_pieces(pieces, count, frame, inside, run, e);
+    if (!envelope->level_set) {
+        return false;
+    }
+    return count == 1 ? measure_mesh(envelope, &pieces[0], e)
+                      : measure_level_set(envelope, inside, e);
+}
+
+Envelope *envelope_new(const EnvelopeParams *params, const Run *run, Error *e)
+{
+    if (!check_list(params, e)) {
+        return NULL;
+    }
+    Piece *pieces = pieces_load(params, run, e);
+    if (!pieces) {
+        return NULL;
+    }
+    Envelope *envelope = memory_alloc_zero(1, sizeof *envelope, e);
+    if (envelope && !build(envelope, pieces, params, run, e)) {
+        envelope_free(envelope);
+        envelope = NULL;
+    }
+    pieces_free(pieces, params->shape_count);
+    return envelope;
+}
+
+void envelope_free(Envelope *envelope)
+{
+    if (envelope) {
+        level_set_free(envelope->level_set);
+        mesh_free(envelope->surface);
+        free(envelope);
+    }
+}
+
+Aabb envelope_bounds(const Envelope *envelope)
+{
+    return envelope->bounds;
+}
+
+double envelope_volume(const Envelope *envelope)
+{
+    return envelope->volume;
+}
+
+double envelope_area(const Envelope *envelope)
+{
+    return envelope->area;
+}
+
+float envelope_distance(const Envelope *envelope, Vec3 p)
+{
+    if (envelope->level_set) {
+        return level_set_distance(envelope->level_set, p);
+    }
+    return (float)primitive_distance(&envelope->primitive, p, NULL);
+}
+
+bool envelope_contains(const Envelope *envelope, Vec3 p)
+{
+    return envelope->level_set ? level_set_distance(envelope->level_set, p) < 0.0f
+                               : primitive_contains(&envelope->primitive, p);
+}
+
+float envelope_band(const Envelope *envelope)
+{
+    return envelope->level_set ? level_set_band(envelope->level_set) : INFINITY;
+}
+
+const Mesh *envelope_surface(const Envelope *envelope)
+{
+    return envelope->surface;
+}

@@ -1,0 +1,218 @@
+#include "shape/import.h"
+
+#include "base/memory.h"
+#include "shape/import_check.h"
+
+#include <assimp/cimport.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#define COORDINATE_LIMIT 1e7f // m: beyond, a float cannot tell points a metre apart
+
+// What a file holds in all, over every node that shows a mesh.
+typedef struct Tally {
+    int64_t vertices, triangles;
+    bool normals, uvs; // every vertex has them
+} Tally;
+
+static bool is_triangle_mesh(const struct aiMesh *mesh)
+{
+    return mesh->mNumVertices > 0 && mesh->mNumFaces > 0;
+}
+
+static void tally_node(const struct aiScene *scene, const struct aiNode *node, Tally *tally)
+{
+    for (unsigned i = 0; i < node->mNumMeshes; i++) {
+        const struct aiMesh *mesh = scene->mMeshes[node->mMeshes[i]];
+        if (is_triangle_mesh(mesh)) {
+            tally->vertices += mesh->mNumVertices;
+            tally->triangles += mesh->mNumFaces;
+            tally->normals = tally->normals && mesh->mNormals;
+            tally->uvs = tally->uvs && mesh->mTextureCoords[0];
+        }
+    }
+    for (unsigned i = 0; i < node->mNumChildren; i++) {
+        tally_node(scene, node->mChildren[i], tally);
+    }
+}
+
+static Transform node_transform(const Transform *parent, const struct aiMatrix4x4 *m)
+{
+    Transform own = {
+        {{m->a1, m->a2, m->a3, m->a4}, {m->b1, m->b2, m->b3, m->b4}, {m->c1, m->c2, m->c3, m->c4}}};
+    return transform_multiply(parent, &own);
+}
+
+static void copy_vertices(const struct aiMesh *from, const Transform *t, Mesh *to)
+{
+    Transform inverse = transform_identity();
+    transform_inverse(t, &inverse); // singular: the normals stay as they are
+    for (unsigned i = 0; i < from->mNumVertices; i++) {
+        int64_t v = to->vertex_count + i;
+        const struct aiVector3D *p = &from->mVertices[i];
+        to->position[v] = transform_point(t, vec3(p->x, p->y, p->z));
+        if (to->normal) {
+            const struct aiVector3D *n = &from->mNormals[i];
+            to->normal[v] = vec3_normalize(transform_normal(&inverse, vec3(n->x, n->y, n->z)));
+        }
+        if (to->uv) {
+            to->uv[v] = (Vec2){from->mTextureCoords[0][i].x, from->mTextureCoords[0][i].y};
+        }
+    }
+}
+
+static bool is_degenerate(const Mesh *mesh, const uint32_t c[3])
+{
+    Vec3 a = mesh->position[c[0]];
+    Vec3 ab = vec3_sub(mesh->position[c[1]], a), ac = vec3_sub(mesh->position[c[2]], a);
+    Vec3 across = vec3_cross(ab, ac);
+    return c[0] == c[1] || c[1] == c[2] || c[2] == c[0] ||
+           (across.x == 0.0f && across.y == 0.0f && across.z == 0.0f);
+}
+
+static void copy_faces(const struct aiMesh *from, const Transform *t, Mesh *to)
+{
+    Vec3 x = vec3(t->m[0][0], t->m[1][0], t->m[2][0]);
+    Vec3 y = vec3(t->m[0][1], t->m[1][1], t->m[2][1]);
+    Vec3 z = vec3(t->m[0][2], t->m[1][2], t->m[2][2]);
+    bool mirrored = vec3_dot(x, vec3_cross(y, z)) < 0.0f;
+    for (unsigned i = 0; i < from->mNumFaces; i++) {
+        const struct aiFace *face = &from->mFaces[i];
+        uint32_t *corner = to->index + 3 * to->face_count;
+        bool valid = face->mNumIndices == 3;
+        for (unsigned k = 0; valid && k < 3; k++) {
+            unsigned v = face->mIndices[mirrored && k > 0 ? 3 - k : k];
+            valid = v < from->mNumVertices;
+            corner[k] = (uint32_t)(to->vertex_count + v);
+        }
+        if (valid && !is_degenerate(to, corner)) {
+            to->face_count++;
+        }
+    }
+}
+
+static void copy_node(const struct aiScene *scene, const struct aiNode *node,
+                      const Transform *parent, Mesh *to)
+{
+    Transform t = node_transform(parent, &node->mTransformation);
+    for (unsigned i = 0; i < node->mNumMeshes; i++) {
+        const struct aiMesh *mesh = scene->mMeshes[node->mMeshes[i]];
+        if (is_triangle_mesh(mesh)) {
+            copy_vertices(mesh, &t, to);
+            copy_faces(mesh, &t, to);
+            to->vertex_count += mesh->mNumVertices;
+        }
+    }
+    for (unsigned i = 0; i < node->mNumChildren; i++) {
+        copy_node(scene, node->mChildren[i], &t, to);
+    }
+}
+
+// All of the scene as one mesh; NULL and e when it is nothing to work with.
+static Mesh *gather(const struct aiScene *scene, Error *e)
+{
+    Tally tally = {.normals = true, .uvs = true};
+    tally_node(scene, scene->mRootNode, &tally);
+    if (tally.triangles == 0) {
+        error_set(e, ERROR_INPUT,
+                  "the file holds no triangles; a surface of triangles or polygons is needed");
+        return NULL;
+    }
+    Mesh *mesh =
+        mesh_new(3, tally.vertices, tally.triangles,
+                 (tally.normals ? (int)MESH_NORMAL : 0) | (tally.uvs ? (int)MESH_UV : 0), e);
+    if (!mesh) {
+        return NULL;
+    }
+    mesh->vertex_count = mesh->face_count = 0;
+    Transform identity = transform_identity();
+    copy_node(scene, scene->mRootNode, &identity, mesh);
+    return mesh;
+}
+
+static bool check_mesh(const Mesh *mesh, Error *e)
+{
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        Vec3 p = mesh->position[i];
+        if (!vec3_finite(p)) {
+            return error_set(e, ERROR_INPUT,
+                             "vertex %lld has a coordinate that is not finite; coordinates must be "
+                             "numbers in metres",
+                             (long long)i);
+        }
+        if (fabsf(p.x) > COORDINATE_LIMIT || fabsf(p.y) > COORDINATE_LIMIT ||
+            fabsf(p.z) > COORDINATE_LIMIT) {
+            return error_set(e, ERROR_INPUT,
+                             "vertex %lld lies at %g, %g, %g m; at most %g m from the origin is "
+                             "possible",
+                             (long long)i, (double)p.x, (double)p.y, (double)p.z,
+                             (double)COORDINATE_LIMIT);
+        }
+    }
+    if (mesh->face_count == 0) {
+        return error_set(e, ERROR_INPUT,
+                         "all faces of the file are degenerate; triangles with an area are needed");
+    }
+    return true;
+}
+
+static const struct aiScene *read_scene(const char *file, Error *e)
+{
+    struct aiPropertyStore *store = aiCreatePropertyStore();
+    if (!store) {
+        error_set(e, ERROR_MEMORY, "out of memory");
+        return NULL;
+    }
+    // what keeps vertices apart that are the same to us, and what is no surface
+    aiSetImportPropertyInteger(store, AI_CONFIG_PP_RVC_FLAGS,
+                               aiComponent_COLORS | aiComponent_BONEWEIGHTS |
+                                   aiComponent_ANIMATIONS | aiComponent_TEXTURES |
+                                   aiComponent_LIGHTS | aiComponent_CAMERAS |
+                                   aiComponent_TANGENTS_AND_BITANGENTS);
+    aiSetImportPropertyInteger(store, AI_CONFIG_PP_SBP_REMOVE,
+                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    const struct aiScene *scene =
+        aiImportFileExWithProperties(file,
+                                     aiProcess_RemoveComponent | aiProcess_Triangulate |
+                                         aiProcess_JoinIdenticalVertices | aiProcess_SortByPType,
+                                     NULL, store);
+    aiReleasePropertyStore(store);
+    if (!scene || !scene->mRootNode) {
+        // Assimp ends its messages in all ways; ours go on after a semicolon
+        char why[400];
+        size_t length = strcspn(strncpy(why, aiGetErrorString(), sizeof why - 1), "\r\n");
+        why[length < sizeof why ? length : sizeof why - 1] = '\0';
+        error_set(e, ERROR_INPUT,
+                  "not readable as a mesh: %s; a whole OBJ, PLY, STL, glTF or GLB "
+                  "file is needed",
+                  why[0] ? why : "no reason is known");
+        aiReleaseImport(scene);
+        return NULL;
+    }
+    return scene;
+}
+
+Mesh *mesh_import(const char *file, Error *e)
+{
+    Mesh *mesh = NULL;
+    if (import_check(file, e)) {
+        const struct aiScene *scene = read_scene(file, e);
+        if (scene) {
+            mesh = gather(scene, e);
+            aiReleaseImport(scene);
+        }
+    }
+    if (mesh && !check_mesh(mesh, e)) {
+        mesh_free(mesh);
+        mesh = NULL;
+    }
+    if (!mesh) {
+        error_locate(e, file, 0, 0);
+    }
+    return mesh;
+}

@@ -1,0 +1,425 @@
+// openvdb first: its headers want no macros of ours
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Composite.h>
+#include <openvdb/tools/MeshToVolume.h>
+#include <openvdb/tools/Prune.h>
+#include <openvdb/tools/VolumeToMesh.h>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <memory>
+#include <new>
+#include <vector>
+
+extern "C" {
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers" // usual in C
+#include "shape/level_set.h"
+#pragma GCC diagnostic pop
+}
+
+using openvdb::Coord;
+using openvdb::FloatGrid;
+using Leaf = openvdb::FloatTree::LeafNodeType;
+
+static_assert(Leaf::DIM == 8, "level_set_distance knows the layout of a leaf");
+
+struct LevelSet {
+    LevelSetFrame frame{};
+    float band = 0.0f; // m
+    FloatGrid::Ptr grid;
+    // One entry a block of 8^3 voxels, of blocks[0] x blocks[1] x blocks[2]: the block's 512
+    // values.
+    Coord first{0, 0, 0}; // voxel of the table's low corner
+    int blocks[3] = {0, 0, 0};
+    std::vector<const float *> table;
+    std::vector<float> inside, outside; // the values of blocks without a leaf
+};
+
+namespace
+{
+
+// Runs f, which returns whether it succeeded, and turns whatever it throws into an Error.
+template <typename F> bool guarded(Error *e, const F &f)
+{
+    try {
+        return f();
+    } catch (const std::bad_alloc &) {
+        return error_set(e, ERROR_MEMORY,
+                         "out of memory while making a level set; "
+                         "a larger voxel needs less");
+    } catch (const std::exception &x) {
+        return error_set(e, ERROR_INTERNAL, "OpenVDB failed: %s", x.what());
+    } catch (...) {
+        return error_set(e, ERROR_INTERNAL, "OpenVDB failed");
+    }
+}
+
+// Runs f with this many threads of TBB's. What runs on one is the same every time.
+template <typename F> auto with_threads(int threads, const F &f)
+{
+    tbb::task_arena arena(std::max(threads, 1));
+    return arena.execute(f);
+}
+
+std::unique_ptr<LevelSet> make_empty(LevelSetFrame frame)
+{
+    auto made = std::make_unique<LevelSet>();
+    made->frame = frame;
+    made->band = LEVEL_SET_BAND * frame.voxel;
+    made->grid = FloatGrid::create(made->band);
+    made->grid->setTransform(openvdb::math::Transform::createLinearTransform(frame.voxel));
+    made->grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    return made;
+}
+
+// What meshToVolume wants to know of a mesh.
+struct MeshAdapter {
+    const Mesh *mesh;
+    LevelSetFrame frame;
+
+    size_t polygonCount() const
+    {
+        return static_cast<size_t>(mesh->face_count);
+    }
+    size_t pointCount() const
+    {
+        return static_cast<size_t>(mesh->vertex_count);
+    }
+    size_t vertexCount(size_t) const
+    {
+        return static_cast<size_t>(mesh->face_size);
+    }
+    void getIndexSpacePoint(size_t n, size_t v, openvdb::Vec3d &out) const
+    {
+        size_t corner = n * static_cast<size_t>(mesh->face_size) + v;
+        Vec3 p = mesh->position[mesh->index[corner]];
+        openvdb::Vec3d from(frame.origin.x, frame.origin.y, frame.origin.z);
+        out = (openvdb::Vec3d(p.x, p.y, p.z) - from) / static_cast<double>(frame.voxel);
+    }
+};
+
+struct Interrupter {
+    const Run *run;
+
+    void start(const char *)
+    {
+    }
+    void end()
+    {
+    }
+    bool wasInterrupted(int = -1)
+    {
+        return run_is_cancelled(run);
+    }
+};
+
+struct Block {
+    Coord origin;
+    bool inside = false;        // of a block without a leaf
+    std::unique_ptr<Leaf> leaf; // where the surface is near
+};
+
+Vec3 voxel_position(const LevelSetFrame &frame, double i, double j, double k)
+{
+    double v = static_cast<double>(frame.voxel);
+    return vec3(static_cast<float>(static_cast<double>(frame.origin.x) + v * i),
+                static_cast<float>(static_cast<double>(frame.origin.y) + v * j),
+                static_cast<float>(static_cast<double>(frame.origin.z) + v * k));
+}
+
+void fill_block(Block &block, LevelSetDistance distance, const void *shape, const LevelSet &set)
+{
+    const double reach = static_cast<double>(set.frame.voxel) * 3.5 * 1.7320509; // center to corner
+    const Coord &o = block.origin;
+    double bound;
+    Vec3 center = voxel_position(set.frame, o.x() + 3.5, o.y() + 3.5, o.z() + 3.5);
+    block.inside = distance(shape, center, &bound) < 0.0;
+    if (bound > reach + static_cast<double>(set.band)) {
+        return;
+    }
+    block.leaf = std::make_unique<Leaf>(o, set.band, false);
+    for (openvdb::Index n = 0; n < Leaf::SIZE; n++) {
+        Coord c = block.leaf->offsetToGlobalCoord(n);
+        double d = distance(shape, voxel_position(set.frame, c.x(), c.y(), c.z()), &bound);
+        float value = clampf(static_cast<float>(d), -set.band, set.band);
+        if (fabsf(value) < set.band) {
+            block.leaf->setValueOn(n, value);
+        } else {
+            block.leaf->setValueOff(n, value);
+        }
+    }
+}
+
+// All blocks that bounds and the narrow band about them touch.
+std::vector<Block> blocks_of(const Aabb &bounds, const LevelSetFrame &frame)
+{
+    const float low[3] = {bounds.low.x - frame.origin.x, bounds.low.y - frame.origin.y,
+                          bounds.low.z - frame.origin.z};
+    const float high[3] = {bounds.high.x - frame.origin.x, bounds.high.y - frame.origin.y,
+                           bounds.high.z - frame.origin.z};
+    int first[3], last[3];
+    if (low[0] > high[0] || low[1] > high[1] || low[2] > high[2]) {
+        return {};
+    }
+    for (int i = 0; i < 3; i++) {
+        first[i] = static_cast<int>(floorf((low[i] / frame.voxel - LEVEL_SET_BAND - 1) / 8));
+        last[i] = static_cast<int>(floorf((high[i] / frame.voxel + LEVEL_SET_BAND + 1) / 8));
+    }
+    std::vector<Block> blocks;
+    for (int x = first[0]; x <= last[0]; x++) {
+        for (int y = first[1]; y <= last[1]; y++) {
+            for (int z = first[2]; z <= last[2]; z++) {
+                blocks.emplace_back();
+                blocks.back().origin = Coord(8 * x, 8 * y, 8 * z);
+            }
+        }
+    }
+    return blocks;
+}
+
+void make_table(LevelSet &set)
+{
+    openvdb::CoordBBox box;
+    set.inside.assign(Leaf::SIZE, -set.band);
+    set.outside.assign(Leaf::SIZE, set.band);
+    if (!set.grid->tree().evalLeafBoundingBox(box)) {
+        return;
+    }
+    set.first = box.min() & ~7;
+    for (int i = 0; i < 3; i++) {
+        set.blocks[i] = (box.max()[i] - set.first[i]) / 8 + 1;
+    }
+    set.table.reserve(static_cast<size_t>(set.blocks[0]) * static_cast<size_t>(set.blocks[1]) *
+                      static_cast<size_t>(set.blocks[2]));
+    FloatGrid::ConstAccessor accessor = set.grid->getConstAccessor();
+    for (int x = 0; x < set.blocks[0]; x++) {
+        for (int y = 0; y < set.blocks[1]; y++) {
+            for (int z = 0; z < set.blocks[2]; z++) {
+                Coord c = set.first.offsetBy(8 * x, 8 * y, 8 * z);
+                const Leaf *leaf = accessor.probeConstLeaf(c);
+                bool inside = !leaf && accessor.getValue(c) < 0.0f;
+                set.table.push_back(leaf ? leaf->buffer().data()
+                                         : (inside ? set.inside : set.outside).data());
+            }
+        }
+    }
+}
+
+const float *block_at(const LevelSet &set, int x, int y, int z)
+{
+    return set.table[(static_cast<size_t>(x) * static_cast<size_t>(set.blocks[1]) +
+                      static_cast<size_t>(y)) *
+                         static_cast<size_t>(set.blocks[2]) +
+                     static_cast<size_t>(z)];
+}
+
+float voxel_at(const LevelSet &set, int x, int y, int z)
+{
+    const float *block = block_at(set, x >> 3, y >> 3, z >> 3);
+    return block[((x & 7) << 6) + ((y & 7) << 3) + (z & 7)];
+}
+
+// Values of the eight voxels about a cell, z fastest.
+void cell_corners(const LevelSet &set, const int c[3], float v[8])
+{
+    if ((c[0] & 7) < 7 && (c[1] & 7) < 7 && (c[2] & 7) < 7) {
+        const float *block = block_at(set, c[0] >> 3, c[1] >> 3, c[2] >> 3);
+        const float *at = block + ((c[0] & 7) << 6) + ((c[1] & 7) << 3) + (c[2] & 7);
+        v[0] = at[0], v[1] = at[1], v[2] = at[8], v[3] = at[9];
+        v[4] = at[64], v[5] = at[65], v[6] = at[72], v[7] = at[73];
+        return;
+    }
+    for (int i = 0; i < 8; i++) {
+        v[i] = voxel_at(set, c[0] + (i >> 2), c[1] + (i >> 1 & 1), c[2] + (i & 1));
+    }
+}
+
+// Widens low..high to the voxels of a block that are inside.
+void add_inside(const float *block, const Coord &origin, Coord &low, Coord &high)
+{
+    for (int i = 0; i < static_cast<int>(Leaf::SIZE); i++) {
+        if (block[i] < 0.0f) {
+            Coord c = origin.offsetBy(i >> 6, i >> 3 & 7, i & 7);
+            low.minComponent(c);
+            high.maxComponent(c);
+        }
+    }
+}
+
+void add_triangle(Mesh *mesh, uint32_t a, uint32_t b, uint32_t c)
+{
+    uint32_t *corner = mesh->index + 3 * mesh->face_count++;
+    corner[0] = a;
+    corner[1] = b;
+    corner[2] = c;
+}
+
+} // namespace
+
+extern "C" LevelSet *level_set_from_mesh(const Mesh *mesh, LevelSetFrame frame, const Run *run,
+                                         Error *e)
+{
+    std::unique_ptr<LevelSet> made;
+    bool done = guarded(e, [&] {
+        made = make_empty(frame);
+        MeshAdapter adapter{mesh, frame};
+        Interrupter interrupter{run};
+        with_threads(1, [&] {
+            made->grid = openvdb::tools::meshToVolume<FloatGrid>(
+                interrupter, adapter, made->grid->transform(), LEVEL_SET_BAND, LEVEL_SET_BAND);
+        });
+        return !run_is_cancelled(run) || run_cancel_error(e);
+    });
+    return done ? made.release() : nullptr;
+}
+
+extern "C" LevelSet *level_set_from_distance(LevelSetDistance distance, const void *shape,
+                                             Aabb bounds, LevelSetFrame frame, const Run *run,
+                                             Error *e)
+{
+    std::unique_ptr<LevelSet> made;
+    bool done = guarded(e, [&] {
+        made = make_empty(frame);
+        std::vector<Block> blocks = blocks_of(bounds, frame);
+        with_threads(run->threads, [&] {
+            tbb::parallel_for(size_t(0), blocks.size(), [&](size_t i) {
+                if (!run_is_cancelled(run)) {
+                    fill_block(blocks[i], distance, shape, *made);
+                }
+            });
+        });
+        for (Block &block : blocks) {
+            if (block.leaf) {
+                made->grid->tree().addLeaf(block.leaf.release());
+            } else if (block.inside) {
+                made->grid->tree().addTile(1, block.origin, -made->band, false);
+            }
+        }
+        return !run_is_cancelled(run) || run_cancel_error(e);
+    });
+    return done ? made.release() : nullptr;
+}
+
+extern "C" bool level_set_combine(LevelSet *a, LevelSet *b, ShapeOp op, Error *e)
+{
+    return guarded(e, [&] {
+        with_threads(1, [&] {
+            switch (op) {
+            case SHAPE_UNION:
+                openvdb::tools::csgUnion(*a->grid, *b->grid);
+                break;
+            case SHAPE_DIFFERENCE:
+                openvdb::tools::csgDifference(*a->grid, *b->grid);
+                break;
+            case SHAPE_INTERSECTION:
+                openvdb::tools::csgIntersection(*a->grid, *b->grid);
+                break;
+            }
+        });
+        return true;
+    });
+}
+
+extern "C" bool level_set_finish(LevelSet *level_set, Error *e)
+{
+    return guarded(e, [&] {
+        with_threads(1, [&] {
+            openvdb::tools::pruneLevelSet(level_set->grid->tree());
+            make_table(*level_set);
+        });
+        return true;
+    });
+}
+
+extern "C" void level_set_free(LevelSet *level_set)
+{
+    delete level_set;
+}
+
+extern "C" float level_set_distance(const LevelSet *set, Vec3 p)
+{
+    const float x[3] = {p.x - set->frame.origin.x, p.y - set->frame.origin.y,
+                        p.z - set->frame.origin.z};
+    int c[3];
+    float t[3], v[8];
+    for (int i = 0; i < 3; i++) {
+        float at = x[i] / set->frame.voxel - static_cast<float>(set->first[i]);
+        if (!(at >= 0.0f) || !(at < static_cast<float>(8 * set->blocks[i] - 1))) {
+            return set->band;
+        }
+        c[i] = static_cast<int>(at);
+        t[i] = at - static_cast<float>(c[i]);
+    }
+    cell_corners(*set, c, v);
+    for (int i = 0; i < 4; i++) {
+        v[i] = lerpf(v[i], v[i + 4], t[0]);
+    }
+    return lerpf(lerpf(v[0], v[2], t[1]), lerpf(v[1], v[3], t[1]), t[2]);
+}
+
+extern "C" float level_set_band(const LevelSet *set)
+{
+    return set->band;
+}
+
+extern "C" Aabb level_set_bounds(const LevelSet *set)
+{
+    Coord low = Coord::max(), high = Coord::min();
+    for (int x = 0; x < set->blocks[0]; x++) {
+        for (int y = 0; y < set->blocks[1]; y++) {
+            for (int z = 0; z < set->blocks[2]; z++) {
+                const float *block = block_at(*set, x, y, z);
+                if (block != set->outside.data()) {
+                    add_inside(block, set->first.offsetBy(8 * x, 8 * y, 8 * z), low, high);
+                }
+            }
+        }
+    }
+    if (low.x() > high.x()) {
+        return aabb_empty();
+    }
+    low = low - Coord(1);
+    high = high + Coord(1);
+    return Aabb{voxel_position(set->frame, low.x(), low.y(), low.z()),
+                voxel_position(set->frame, high.x(), high.y(), high.z())};
+}
+
+extern "C" Mesh *level_set_surface(const LevelSet *set, Error *e)
+{
+    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec3I> triangles;
+    std::vector<openvdb::Vec4I> quads;
+    if (!guarded(e, [&] {
+            with_threads(1, [&] {
+                openvdb::tools::volumeToMesh(*set->grid, points, triangles, quads, 0.0, 0.0, false);
+            });
+            return true;
+        })) {
+        return nullptr;
+    }
+    Mesh *mesh = mesh_new(3, static_cast<int64_t>(points.size()),
+                          static_cast<int64_t>(triangles.size() + 2 * quads.size()), 0, e);
+    if (!mesh) {
+        return nullptr;
+    }
+    for (size_t i = 0; i < points.size(); i++) {
+        mesh->position[i] =
+            vec3_add(set->frame.origin, vec3(points[i].x(), points[i].y(), points[i].z()));
+    }
+    mesh->face_count = 0; // OpenVDB's faces are clockwise
+    for (const auto &t : triangles) {
+        add_triangle(mesh, t[0], t[2], t[1]);
+    }
+    for (const auto &q : quads) {
+        add_triangle(mesh, q[0], q[2], q[1]);
+        add_triangle(mesh, q[0], q[3], q[2]);
+    }
+    if (!mesh_compute_normals(mesh, e)) {
+        mesh_free(mesh);
+        return nullptr;
+    }
+    return mesh;
+}

@@ -1,0 +1,298 @@
+#include "shape/scatter.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#define PILOT_SEED 0x70696c6f74ull // of the draws that measure mean densities
+enum { PILOT_DRAWS = 1 << 15, PILOT_TRIES = 1 << 22 };
+
+ScatterParams scatter_params_default(void)
+{
+    return (ScatterParams){.place = SCATTER_VOLUME,
+                           .pattern = SCATTER_RANDOM,
+                           .count = 1000,
+                           .seed = 1,
+                           .scale = 1.0f};
+}
+
+// ---- one draw ----
+
+static double unit_double(uint64_t key)
+{
+    return (double)(random_mix(key) >> 11) * 0x1p-53;
+}
+
+static float coordinate(uint64_t key, float low, float high)
+{
+    return (float)((double)low + ((double)high - (double)low) * unit_double(key));
+}
+
+// Density at p relative to an even one, before shell and gradients are normalised: its largest
+// value is largest_weight.
+static double weight_at(const Scatter *s, Vec3 p)
+{
+    const ScatterParams *params = s->params;
+    double height = (double)clampf((p.y - s->lowest) * s->inverse_height, 0.0f, 1.0f);
+    double weight = 1.0 + (double)params->gradient * (2.0 * height - 1.0);
+    if (s->uses_depth) {
+        double out = 1.0 - (double)depth_field_at(&s->depth, p), out2 = out * out;
+        weight *= 1.0 + (double)params->depth_gradient * (2.0 * out - 1.0);
+        weight *= 1.0 - (double)params->shell + (double)params->shell * out2 * out2 / s->mean_shell;
+    }
+    return weight;
+}
+
+static double largest_weight(const Scatter *s)
+{
+    const ScatterParams *params = s->params;
+    double weight = 1.0 + (double)fabsf(params->gradient);
+    if (s->uses_depth) {
+        weight *= 1.0 + (double)fabsf(params->depth_gradient);
+        weight *= 1.0 - (double)params->shell + (double)params->shell / s->mean_shell;
+    }
+    return weight;
+}
+
+static Vec3 interpolate(const Vec3 *values, const uint32_t *corner, float u, float v)
+{
+    Vec3 a = values[corner[0]], b = values[corner[1]], c = values[corner[2]];
+    return vec3_add(vec3_scale(a, 1.0f - u - v), vec3_add(vec3_scale(b, u), vec3_scale(c, v)));
+}
+
+// The face in which this share of the area lies.
+static int64_t find_face(const double *cumulative, int64_t count, double share)
+{
+    double area = share * cumulative[count - 1];
+    int64_t low = 0, high = count - 1;
+    while (low < high) {
+        int64_t middle = low + (high - low) / 2;
+        if (cumulative[middle] > area) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+static void draw_on_surface(const Scatter *s, uint64_t key, Draw *draw)
+{
+    const Mesh *mesh = envelope_surface(s->envelope);
+    int64_t face = find_face(s->cumulative, mesh->face_count, unit_double(random_key(key, 1)));
+    const uint32_t *corner = mesh->index + 3 * face;
+    // uniform in a triangle (Turk 1990)
+    float root = (float)sqrt(unit_double(random_key(key, 2)));
+    float v = root * random_unit(random_key(key, 3)), u = root - v;
+    draw->position = interpolate(mesh->position, corner, u, v);
+    draw->normal = vec3_normalize(interpolate(mesh->normal, corner, u, v));
+    if (isinf(envelope_band(s->envelope))) { // a primitive: from its facet to the surface itself
+        float distance = envelope_distance(s->envelope, draw->position);
+        draw->position = vec3_madd(draw->position, -distance, draw->normal);
+    }
+    draw->inside = true;
+}
+
+Draw scatter_draw(const Scatter *s, uint64_t number)
+{
+    uint64_t key = random_key(s->params->seed, number);
+    Draw draw = {.id = key, .normal = vec3(0, 1, 0)};
+    if (s->params->place == SCATTER_SURFACE) {
+        draw_on_surface(s, key, &draw);
+    } else {
+        draw.position = vec3(coordinate(random_key(key, 1), s->box.low.x, s->box.high.x),
+                             coordinate(random_key(key, 2), s->box.low.y, s->box.high.y),
+                             coordinate(random_key(key, 3), s->box.low.z, s->box.high.z));
+        draw.inside = envelope_contains(s->envelope, draw.position);
+    }
+    draw.kept = draw.inside &&
+                (!s->weighted ||
+                 unit_double(random_key(key, 4)) * largest_weight(s) < weight_at(s, draw.position));
+    draw.position = vec3_madd(s->center, s->params->scale, vec3_sub(draw.position, s->center));
+    return draw;
+}
+
+void scatter_draw_many(const Scatter *scatter, uint64_t first, int64_t count, Draw *draws,
+                       const Run *run)
+{
+#pragma omp parallel for schedule(dynamic, 1024) num_threads(run->threads)
+    for (int64_t i = 0; i < count; i++) {
+        draws[i] = scatter_draw(scatter, first + (uint64_t)i);
+    }
+}
+
+// ---- checks ----
+
+static bool check_share(const char *name, float value, float low, Error *e)
+{
+    if (!(value >= low) || !(value <= 1.0f)) {
+        return error_set(e, ERROR_INPUT, "%s is %g; it must lie between %g and 1", name,
+                         (double)value, (double)low);
+    }
+    return true;
+}
+
+static bool check_count(int64_t count, Error *e)
+{
+    if (count < 1) {
+        return error_set(e, ERROR_INPUT, "count is %lld; one point at least is needed",
+                         (long long)count);
+    }
+    if (count > INT32_MAX) {
+        return error_set(e, ERROR_INPUT, "count is %lld; at most %d points are possible",
+                         (long long)count, INT32_MAX);
+    }
+    double needed = (double)count * (2.0 * sizeof(Vec3) + sizeof(uint64_t));
+    double there = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    if (needed > there) {
+        return error_set(e, ERROR_MEMORY,
+                         "%lld points need %.1f GB and this machine has %.1f GB; a smaller count "
+                         "is needed",
+                         (long long)count, needed * 1e-9, there * 1e-9);
+    }
+    return true;
+}
+
+static bool check_params(const Envelope *envelope, const ScatterParams *params, Error *e)
+{
+    if (!check_count(params->count, e) || !check_share("shell", params->shell, 0.0f, e) ||
+        !check_share("gradient", params->gradient, -1.0f, e) ||
+        !check_share("depth_gradient", params->depth_gradient, -1.0f, e)) {
+        return false;
+    }
+    if (!isfinite(params->scale) || !(params->scale > 0.0f)) {
+        return error_set(e, ERROR_INPUT, "scale is %g; it must be positive", (double)params->scale);
+    }
+    if (params->place == SCATTER_VOLUME && !(envelope_volume(envelope) > 0.0)) {
+        return error_set(e, ERROR_INPUT,
+                         "the envelope has no inside to put points in; close its mesh, make its "
+                         "voxel smaller, or put the points on its surface");
+    }
+    if (params->place == SCATTER_SURFACE && !(envelope_area(envelope) > 0.0)) {
+        return error_set(e, ERROR_INPUT,
+                         "the envelope has no surface to put points on; make it larger");
+    }
+    return true;
+}
+
+bool scatter_empty_error(const Scatter *scatter, int64_t draws, Error *e)
+{
+    return error_set(e, ERROR_INPUT,
+                     "only a vanishing part of the envelope's box is to be filled: %lld draws "
+                     "were not enough for %lld points; make the envelope thicker, or count smaller",
+                     (long long)draws, (long long)scatter->params->count);
+}
+
+// ---- preparing ----
+
+static bool sum_areas(Scatter *s, Error *e)
+{
+    const Mesh *mesh = envelope_surface(s->envelope);
+    s->cumulative = memory_alloc(mesh->face_count, sizeof *s->cumulative, e);
+    if (!s->cumulative) {
+        return false;
+    }
+    double sum = 0.0;
+    for (int64_t f = 0; f < mesh->face_count; f++) {
+        const uint32_t *corner = mesh->index + 3 * f;
+        Vec3 a = mesh->position[corner[0]];
+        Vec3 across = vec3_cross(vec3_sub(mesh->position[corner[1]], a),
+                                 vec3_sub(mesh->position[corner[2]], a));
+        double x = (double)across.x, y = (double)across.y, z = (double)across.z;
+        sum += 0.5 * sqrt(x * x + y * y + z * z);
+        s->cumulative[f] = sum;
+    }
+    return true;
+}
+
+// The means over the region of the shell's density and then of the whole weight.
+static bool measure_weights(Scatter *s, Error *e)
+{
+    ScatterParams even = *s->params;
+    even.seed = PILOT_SEED;
+    even.scale = 1.0f;
+    Scatter pilot = *s;
+    pilot.params = &even;
+    pilot.weighted = false;
+    Vec3 *inner = memory_alloc(PILOT_DRAWS, sizeof *inner, e);
+    int64_t n = 0;
+    for (uint64_t i = 0; inner && i < PILOT_TRIES && n < PILOT_DRAWS; i++) {
+        Draw draw = scatter_draw(&pilot, i);
+        if (draw.inside) {
+            inner[n++] = draw.position;
+        }
+    }
+    double shell = 0.0, weight = 0.0;
+    for (int64_t i = 0; s->uses_depth && i < n; i++) {
+        double out = 1.0 - (double)depth_field_at(&s->depth, inner[i]);
+        shell += out * out * out * out;
+    }
+    s->mean_shell = n > 0 && shell > 0.0 ? shell / (double)n : 1.0;
+    for (int64_t i = 0; i < n; i++) {
+        weight += weight_at(s, inner[i]);
+    }
+    s->mean_weight = n > 0 ? weight / ((double)n * largest_weight(s)) : 0.0;
+    bool made = inner;
+    free(inner);
+    if (made && !(s->mean_weight > 0.0)) {
+        return scatter_empty_error(s, PILOT_TRIES, e);
+    }
+    return made;
+}
+
+static bool scatter_prepare(const Envelope *envelope, const ScatterParams *params, Scatter *s,
+                            Error *e)
+{
+    bool volume = params->place == SCATTER_VOLUME;
+    *s = (Scatter){.envelope = envelope, .params = params, .mean_shell = 1.0, .mean_weight = 1.0};
+    s->box = envelope_bounds(envelope);
+    s->center = params->scale_about_center ? params->scale_center
+                                           : vec3_scale(vec3_add(s->box.low, s->box.high), 0.5f);
+    s->lowest = s->box.low.y;
+    float height = s->box.high.y - s->box.low.y;
+    s->inverse_height = height > 0.0f ? 1.0f / height : 0.0f;
+    s->uses_depth = volume && (params->shell > 0.0f || params->depth_gradient != 0.0f);
+    s->weighted = s->uses_depth || params->gradient != 0.0f;
+    if (!volume && !sum_areas(s, e)) {
+        return false;
+    }
+    if (s->uses_depth && !depth_field_new(envelope, &s->depth, e)) {
+        return false;
+    }
+    return !s->weighted || measure_weights(s, e);
+}
+
+static void scatter_release(Scatter *s)
+{
+    free(s->cumulative);
+    depth_field_free(&s->depth);
+}
+
+PointSet *points_scatter(const Envelope *envelope, const ScatterParams *params, const Run *run,
+                         Error *e)
+{
+    if (!check_params(envelope, params, e)) {
+        return NULL;
+    }
+    Scatter s;
+    PointSet *points = NULL;
+    bool done = scatter_prepare(envelope, params, &s, e) && (points = points_new(e));
+    if (done) {
+        double scale = (double)params->scale;
+        bool volume = params->place == SCATTER_VOLUME;
+        points->dimension = volume ? 3 : 2;
+        points->measure = volume ? envelope_volume(envelope) * scale * scale * scale
+                                 : envelope_area(envelope) * scale * scale;
+        done = params->pattern == SCATTER_POISSON ? scatter_poisson(&s, points, run, e)
+                                                  : scatter_random(&s, points, run, e);
+    }
+    scatter_release(&s);
+    if (!done) {
+        points_free(points);
+        return NULL;
+    }
+    return points;
+}
