@@ -6,7 +6,21 @@
 #include <stddef.h>
 
 // A leaf is a grid of rows along the midrib and columns across, and a three-sided stalk below it.
-enum { LEAF_COLUMNS = 5, STALK_SIDES = 3, BLADE_ROWS = 5 };
+enum { STALK_SIDES = 3, BLADE_ROWS = 4 };
+
+// The grid that a leaf's blade is.
+typedef struct LeafGrid {
+    int rows, columns;
+} LeafGrid;
+
+static LeafGrid leaf_grid(const LeafParams *params)
+{
+    bool fine = params->detail > 1;
+    if (params->lobes == 0) {
+        return (LeafGrid){fine ? 12 : 6, fine ? 5 : 3};
+    }
+    return (LeafGrid){(fine ? 6 : 2) * params->lobes + 3, fine ? 5 : 3};
+}
 
 // Half width of the blade at t in 0..1 along it, as a share of the largest: an obovate oval, widest
 // at 0.62, cut by the bays between the lobes.
@@ -40,14 +54,14 @@ static Vec3 blade_point(const LeafParams *params, float x, float t, float ripple
     return vec3(x * fold_cosine, along + lift * sine, lift * cosine - down);
 }
 
-static void add_blade(Mesh *mesh, const LeafParams *params, int rows, uint64_t seed)
+static void add_blade(Mesh *mesh, const LeafParams *params, LeafGrid grid, uint64_t seed)
 {
     float phase = random_range(random_key(seed, 1), -0.15f, 0.15f);
     float side_shift = random_range(random_key(seed, 2), 0.1f, 0.35f);
-    for (int r = 0; r < rows; r++) {
-        float t = (float)r / (float)(rows - 1);
-        for (int c = 0; c < LEAF_COLUMNS; c++) {
-            float across = (float)c / (LEAF_COLUMNS - 1) * 2.0f - 1.0f;
+    for (int r = 0; r < grid.rows; r++) {
+        float t = (float)r / (float)(grid.rows - 1);
+        for (int c = 0; c < grid.columns; c++) {
+            float across = (float)c / (float)(grid.columns - 1) * 2.0f - 1.0f;
             // Lobes of the two sides do not quite face each other.
             float half = outline(params, clampf(t, 0.012f, 0.985f),
                                  phase + (across < 0.0f ? side_shift : 0.0f));
@@ -55,16 +69,16 @@ static void add_blade(Mesh *mesh, const LeafParams *params, int rows, uint64_t s
             float sine, cosine;
             exact_sincos(2.0f * PI_F * (3.0f * t + phase + 0.3f * across), &sine, &cosine);
             float ripple = params->wave * params->width * sine * across * across * half;
-            int64_t v = (int64_t)r * LEAF_COLUMNS + c;
+            int64_t v = (int64_t)r * grid.columns + c;
             mesh->position[v] = blade_point(params, x, t, ripple);
             mesh->uv[v] = (Vec2){0.5f + 0.5f * across, t};
         }
     }
     uint32_t *face = mesh->index;
-    for (int r = 0; r + 1 < rows; r++) {
-        for (int c = 0; c + 1 < LEAF_COLUMNS; c++) {
-            uint32_t v = (uint32_t)(r * LEAF_COLUMNS + c);
-            uint32_t corners[4] = {v, v + 1, v + 1 + LEAF_COLUMNS, v + LEAF_COLUMNS};
+    for (int r = 0; r + 1 < grid.rows; r++) {
+        for (int c = 0; c + 1 < grid.columns; c++) {
+            uint32_t v = (uint32_t)(r * grid.columns + c), up = v + (uint32_t)grid.columns;
+            uint32_t corners[4] = {v, v + 1, up + 1, up};
             for (int k = 0; k < 4; k++) {
                 *face++ = corners[k];
             }
@@ -99,16 +113,16 @@ static void add_stalk(Mesh *mesh, const LeafParams *params, int64_t first_vertex
 
 Mesh *leaf_mesh_new(const LeafParams *params, uint64_t seed, Error *e)
 {
-    int rows = params->lobes > 0 ? 6 * params->lobes + 3 : 10;
-    int64_t blade_vertices = (int64_t)rows * LEAF_COLUMNS;
-    int64_t blade_faces = (int64_t)(rows - 1) * (LEAF_COLUMNS - 1);
+    LeafGrid grid = leaf_grid(params);
+    int64_t blade_vertices = (int64_t)grid.rows * grid.columns;
+    int64_t blade_faces = (int64_t)(grid.rows - 1) * (grid.columns - 1);
     bool stalk = params->petiole > 0.0f;
     Mesh *mesh = mesh_new(4, blade_vertices + (stalk ? 2 * STALK_SIDES : 0),
                           blade_faces + (stalk ? STALK_SIDES : 0), MESH_NORMAL | MESH_UV, e);
     if (!mesh) {
         return NULL;
     }
-    add_blade(mesh, params, rows, seed);
+    add_blade(mesh, params, grid, seed);
     if (stalk) {
         add_stalk(mesh, params, blade_vertices, blade_faces);
     }

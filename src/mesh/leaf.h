@@ -14,6 +14,7 @@ typedef struct LeafParams {
     float wave;          // ripple of the edge, as a share of the width
     int lobes;           // a side, rounded as an oak's; 0 = a plain oval
     float lobe_depth;    // of the bays between lobes, as a share of the half width
+    int detail;          // 1 = about 25 quads, for whole trees; 2 = about 110, for close-ups
 } LeafParams;
 
 // uv: u 0..1 across (0.5 = midrib), v 0..1 along the blade (0 on the stalk). seed varies the

@@ -34,6 +34,7 @@ Mesh *foliage_leaf_mesh(const LeavesParams *leaves, int variant, uint64_t seed, 
         .wave = 0.05f,
         .lobes = leaves->lobes,
         .lobe_depth = 0.42f,
+        .detail = leaves->detail,
     };
     return leaf_mesh_new(&params, key, e);
 }

@@ -64,6 +64,7 @@ typedef struct LeavesParams {
                  // light
     float phyllotaxis; // degrees from one leaf to the next about the twig; 137.5 in nature
     int variants;      // different leaf meshes
+    int detail;        // of a leaf's mesh: 1 for whole trees, 2 for close-ups
 } LeavesParams;
 
 typedef struct SkinningParams {

@@ -43,7 +43,8 @@ TreeParams tree_params_default(void)
                    .angle = 55.0f,
                    .droop = 0.45f,
                    .phyllotaxis = 137.5f,
-                   .variants = 4},
+                   .variants = 4,
+                   .detail = 1},
         .skin = {.curve_radius = 0.012f, .levels = 2, .ring_spacing = 1.0f},
     };
 }
