@@ -1,0 +1,325 @@
+#include "image/denoise.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    WINDOW = 7,          // half width of the search window, pixels
+    BORDER = WINDOW + 1, // of mirrored pixels about the image: window and patch never leave it
+    BAND = 16            // rows a thread works on at a time
+};
+
+// What is known of a pixel, in planes of floats with a border.
+enum {
+    PLANE_COLOR,        // 3: radiance over albedo
+    PLANE_VARIANCE = 3, // of each of those
+    PLANE_ALBEDO,       // 3
+    PLANE_NORMAL = 7,   // 3
+    PLANE_DEPTH = 10,   // logarithm of m; 0 is 1 m
+    PLANE_SLACK,        // square of what depth may differ by from pixel to pixel
+    PLANE_COUNT
+};
+
+typedef struct Planes {
+    int width, height; // of the image
+    int64_t stride;    // from row to row
+    float *data;
+    float *plane[PLANE_COUNT]; // pixel (0, 0) of each
+} Planes;
+
+static int mirror(int i, int count)
+{
+    while (i < 0 || i >= count) { // more than once in images smaller than the border
+        i = i < 0 ? -1 - i : 2 * count - 1 - i;
+    }
+    return i;
+}
+
+static bool planes_new(Planes *p, int width, int height, Error *e)
+{
+    p->width = width;
+    p->height = height;
+    p->stride = width + 2 * BORDER;
+    int64_t size = p->stride * (height + 2 * BORDER);
+    p->data = memory_alloc(size * PLANE_COUNT, sizeof *p->data, e);
+    for (int k = 0; p->data && k < PLANE_COUNT; k++) {
+        p->plane[k] = p->data + size * k + p->stride * BORDER + BORDER;
+    }
+    return p->data != NULL;
+}
+
+static float luminance(const float *p)
+{
+    return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+}
+
+// What radiance is divided by: the albedo, or 1 where there is next to none (sky, lamps).
+static void divisor_of(const float *albedo, float divisor[3])
+{
+    bool surface = luminance(albedo) > 0.01f;
+    for (int c = 0; c < 3; c++) {
+        divisor[c] = surface ? fmaxf(albedo[c], 0.01f) : 1.0f;
+    }
+}
+
+static float finite_or_zero(float x)
+{
+    return isfinite(x) ? x : 0.0f;
+}
+
+// Mean of a 3 x 3 neighbourhood: single variances are themselves noisy.
+static float smoothed_variance(const Image *variance, int x, int y)
+{
+    float sum = 0.0f;
+    for (int k = 0; k < 9; k++) {
+        int i = mirror(x + k % 3 - 1, variance->width);
+        int j = mirror(y + k / 3 - 1, variance->height);
+        sum += finite_or_zero(variance->pixel[(int64_t)j * variance->width + i]);
+    }
+    return sum / 9.0f;
+}
+
+static float log_depth(const Image *depth, int x, int y)
+{
+    float z =
+        depth->pixel[(int64_t)mirror(y, depth->height) * depth->width + mirror(x, depth->width)];
+    return isfinite(z) ? logf(fmaxf(z, 1e-3f)) : 20.0f; // nothing is as far as the sky
+}
+
+typedef struct Guides {
+    const Image *color, *albedo, *normal, *depth, *variance;
+} Guides;
+
+static void fill_pixel(const Planes *p, const Guides *g, int x, int y)
+{
+    int i = mirror(x, p->width), j = mirror(y, p->height);
+    int64_t from = (int64_t)j * p->width + i, to = (int64_t)y * p->stride + x;
+    const float *albedo = g->albedo->pixel + 3 * from;
+    float divisor[3];
+    divisor_of(albedo, divisor);
+    for (int c = 0; c < 3; c++) {
+        float radiance = finite_or_zero(g->color->pixel[from * g->color->channels + c]);
+        p->plane[PLANE_COLOR + c][to] = radiance / divisor[c];
+        p->plane[PLANE_ALBEDO + c][to] = albedo[c];
+        p->plane[PLANE_NORMAL + c][to] = finite_or_zero(g->normal->pixel[3 * from + c]);
+    }
+    float scale = luminance(divisor);
+    p->plane[PLANE_VARIANCE][to] = smoothed_variance(g->variance, i, j) / (scale * scale);
+    float z = log_depth(g->depth, i, j);
+    float dx =
+        fminf(fabsf(log_depth(g->depth, i + 1, j) - z), fabsf(log_depth(g->depth, i - 1, j) - z));
+    float dy =
+        fminf(fabsf(log_depth(g->depth, i, j + 1) - z), fabsf(log_depth(g->depth, i, j - 1) - z));
+    p->plane[PLANE_DEPTH][to] = z;
+    p->plane[PLANE_SLACK][to] = 0.01f * 0.01f + 4.0f * (dx * dx + dy * dy);
+}
+
+// Room for one band: patch distances of its rows and one above and below, sums over patches,
+// and what has been gathered.
+typedef struct Band {
+    float *distance, *across, *weight, *sum[3];
+} Band;
+
+static bool band_new(Band *band, const Planes *p)
+{
+    int64_t row = p->stride;
+    float *data = memory_alloc_zero(row * (2 * (BAND + 2) + 4 * BAND), sizeof *data, NULL);
+    if (!data) {
+        return false;
+    }
+    band->distance = data;
+    band->across = data + row * (BAND + 2);
+    band->weight = data + row * 2 * (BAND + 2);
+    for (int c = 0; c < 3; c++) {
+        band->sum[c] = band->weight + row * BAND * (c + 1);
+    }
+    return true;
+}
+
+// Squared difference of colours beyond what the variances explain, over those variances (Rousselle
+// et al. 2012, eq. 2), for one row; offset: to the other pixel.
+static void color_distances(const Planes *p, int y, int64_t offset, float k2, float *restrict out)
+{
+    const float *restrict a = p->plane[PLANE_COLOR] + y * p->stride;
+    const float *restrict b = p->plane[PLANE_COLOR + 1] + y * p->stride;
+    const float *restrict c = p->plane[PLANE_COLOR + 2] + y * p->stride;
+    const float *restrict v = p->plane[PLANE_VARIANCE] + y * p->stride;
+    for (int x = -1; x <= p->width; x++) {
+        float da = a[x] - a[x + offset], db = b[x] - b[x + offset], dc = c[x] - c[x + offset];
+        float v0 = v[x], v1 = v[x + offset], least = v0 < v1 ? v0 : v1;
+        float square = (da * da + db * db + dc * dc) * (1.0f / 3.0f);
+        out[x] = (square - (v0 + least)) / (1e-10f + k2 * (v0 + v1));
+    }
+}
+
+static void sum_across(const Planes *p, const float *restrict in, float *restrict out)
+{
+    for (int x = 0; x < p->width; x++) {
+        out[x] = in[x - 1] + in[x] + in[x + 1];
+    }
+}
+
+// Squared differences of a row's features over their bandwidths.
+static void feature_distances(const Planes *p, int y, int64_t offset, float *restrict out)
+{
+    const float *restrict plane[PLANE_COUNT];
+    for (int k = 0; k < PLANE_COUNT; k++) {
+        plane[k] = p->plane[k] + y * p->stride;
+    }
+    const float albedo_scale = 1.0f / (0.06f * 0.06f), normal_scale = 1.0f / (0.3f * 0.3f);
+    for (int x = 0; x < p->width; x++) {
+        int64_t q = x + offset;
+        float a = plane[PLANE_ALBEDO][x] - plane[PLANE_ALBEDO][q];
+        float b = plane[PLANE_ALBEDO + 1][x] - plane[PLANE_ALBEDO + 1][q];
+        float c = plane[PLANE_ALBEDO + 2][x] - plane[PLANE_ALBEDO + 2][q];
+        float d = plane[PLANE_NORMAL][x] - plane[PLANE_NORMAL][q];
+        float e = plane[PLANE_NORMAL + 1][x] - plane[PLANE_NORMAL + 1][q];
+        float f = plane[PLANE_NORMAL + 2][x] - plane[PLANE_NORMAL + 2][q];
+        float z = plane[PLANE_DEPTH][x] - plane[PLANE_DEPTH][q];
+        out[x] = (a * a + b * b + c * c) * albedo_scale + (d * d + e * e + f * f) * normal_scale +
+                 z * z / plane[PLANE_SLACK][x];
+    }
+}
+
+// Gathers the other pixel with the weight e^-distance (as (1 - d/8)^8, which ends).
+static void gather_row(const Planes *p, const Band *band, int row, int y, int64_t offset)
+{
+    const float *restrict above = band->across + (int64_t)row * p->stride;
+    const float *restrict middle = above + p->stride, *restrict below = middle + p->stride;
+    const float *restrict feature = band->distance + BORDER; // no longer needed for distances
+    int64_t own = (int64_t)row * p->stride;
+    float *restrict weight = band->weight + own;
+    for (int x = 0; x < p->width; x++) {
+        float patch = (above[x] + middle[x] + below[x]) * (1.0f / 9.0f);
+        float d = 1.0f - ((patch > 0.0f ? patch : 0.0f) + feature[x]) * 0.125f;
+        d = d > 0.0f ? d : 0.0f;
+        d *= d;
+        d *= d;
+        d *= d;
+        weight[x] += d;
+        for (int c = 0; c < 3; c++) {
+            band->sum[c][own + x] += d * p->plane[PLANE_COLOR + c][y * p->stride + x + offset];
+        }
+    }
+}
+
+static void gather_offset(const Planes *p, const Band *band, int y0, int rows, int64_t offset,
+                          float k2)
+{
+    for (int row = -1; row <= rows; row++) {
+        float *line = band->distance + (int64_t)(row + 1) * p->stride + BORDER;
+        color_distances(p, y0 + row, offset, k2, line);
+        sum_across(p, line, band->across + (int64_t)(row + 1) * p->stride);
+    }
+    for (int row = 0; row < rows; row++) {
+        feature_distances(p, y0 + row, offset, band->distance + BORDER);
+        gather_row(p, band, row, y0 + row, offset);
+    }
+}
+
+static void finish_band(const Planes *p, const Band *band, const Guides *g, int y0, int rows,
+                        Image *out)
+{
+    for (int row = 0; row < rows; row++) {
+        for (int x = 0; x < p->width; x++) {
+            int64_t pixel = (int64_t)(y0 + row) * p->width + x, own = (int64_t)row * p->stride + x;
+            float divisor[3];
+            divisor_of(g->albedo->pixel + 3 * pixel, divisor);
+            float *to = out->pixel + pixel * out->channels;
+            for (int c = 0; c < 3; c++) {
+                to[c] = band->sum[c][own] / band->weight[own] * divisor[c];
+            }
+        }
+    }
+}
+
+static void filter_band(const Planes *p, const Band *band, const Guides *g, int y0, float k2,
+                        Image *out)
+{
+    int rows = p->height - y0 < BAND ? p->height - y0 : BAND;
+    memset(band->weight, 0, (size_t)p->stride * BAND * 4 * sizeof(float));
+    for (int dy = -WINDOW; dy <= WINDOW; dy++) {
+        for (int dx = -WINDOW; dx <= WINDOW; dx++) {
+            gather_offset(p, band, y0, rows, dy * p->stride + dx, k2);
+        }
+    }
+    finish_band(p, band, g, y0, rows, out);
+}
+
+static bool filter(const Planes *p, const Guides *g, float k2, const Run *run, Image *out, Error *e)
+{
+    bool short_of_memory = false;
+#pragma omp parallel num_threads(run->threads)
+    {
+        Band band = {0};
+        if (!band_new(&band, p)) {
+#pragma omp atomic write
+            short_of_memory = true;
+        }
+#pragma omp for schedule(dynamic, 1)
+        for (int y = 0; y < p->height; y += BAND) {
+            if (band.distance && !run_is_cancelled(run)) {
+                filter_band(p, &band, g, y, k2, out);
+            }
+        }
+        free(band.distance);
+    }
+    if (run_is_cancelled(run)) {
+        return run_cancel_error(e);
+    }
+    return !short_of_memory || error_set(e, ERROR_MEMORY, "out of memory while denoising");
+}
+
+static bool fits(const Image *color, const Image *guide, int channels)
+{
+    return guide->width == color->width && guide->height == color->height &&
+           guide->channels == channels;
+}
+
+static bool check_guides(const Guides *g, Error *e)
+{
+    bool good = g->color->channels == 3 || g->color->channels == 4;
+    good = good && fits(g->color, g->albedo, 3) && fits(g->color, g->normal, 3);
+    good = good && fits(g->color, g->depth, 1) && fits(g->color, g->variance, 1);
+    return good || error_set(e, ERROR_INPUT,
+                             "cannot denoise: color, albedo, normal, depth and variance must be of "
+                             "one size and have 3 or 4, 3, 3, 1 and 1 channels");
+}
+
+Image *image_denoise(const Image *color, const Image *albedo, const Image *normal,
+                     const Image *depth, const Image *variance, float strength, const Run *run,
+                     Error *e)
+{
+    Guides guides = {color, albedo, normal, depth, variance};
+    Image *out = check_guides(&guides, e)
+                     ? image_new(color->width, color->height, color->channels, e)
+                     : NULL;
+    if (!out) {
+        return NULL;
+    }
+    int64_t pixels = (int64_t)color->width * color->height;
+    memcpy(out->pixel, color->pixel, (size_t)(pixels * color->channels) * sizeof(float));
+    if (!(strength > 0.0f)) {
+        return out;
+    }
+    Planes planes;
+    bool done = planes_new(&planes, color->width, color->height, e);
+    if (done) {
+#pragma omp parallel for num_threads(run->threads) schedule(static)
+        for (int y = -BORDER; y < planes.height + BORDER; y++) {
+            for (int x = -BORDER; x < planes.width + BORDER; x++) {
+                fill_pixel(&planes, &guides, x, y);
+            }
+        }
+        done = filter(&planes, &guides, 0.5f * strength * strength, run, out, e);
+        free(planes.data);
+    }
+    if (!done) {
+        image_free(out);
+        return NULL;
+    }
+    return out;
+}

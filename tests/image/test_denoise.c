@@ -1,0 +1,217 @@
+// The denoiser on a made scene: a striped wall, a checkered floor and a field of thin bars.
+#include "image/denoise.h"
+
+#include "base/random.h"
+#include "image/compare.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { WIDTH = 160, HEIGHT = 120 };
+
+typedef struct Scene {
+    Image *truth, *noisy, *albedo, *normal, *depth, *variance;
+} Scene;
+
+static void set_pixel(Image *image, int x, int y, float a, float b, float c)
+{
+    float v[3] = {a, b, c};
+    memcpy(image->pixel + (y * image->width + x) * image->channels, v,
+           (size_t)image->channels * sizeof(float));
+}
+
+// What is at a pixel: sky above, a wall, a floor, and bars one pixel wide in front of the sky.
+static void describe(Scene *s, int x, int y)
+{
+    bool sky = y < 40, bar = sky && x % 4 == 0, wall = !sky && y < 80;
+    float light = 0.5f + 0.5f * (float)x / WIDTH;
+    if (sky && !bar) {
+        set_pixel(s->albedo, x, y, 0, 0, 0);
+        set_pixel(s->normal, x, y, 0, 0, 0);
+        set_pixel(s->depth, x, y, INFINITY, 0, 0);
+        set_pixel(s->truth, x, y, 0.6f, 0.8f, 1.2f);
+        return;
+    }
+    float a = bar ? 0.1f : wall ? (x / 3 % 2 ? 0.6f : 0.3f) : ((x / 5 + y / 5) % 2 ? 0.7f : 0.2f);
+    set_pixel(s->albedo, x, y, a, 0.8f * a, 0.5f * a);
+    set_pixel(s->normal, x, y, 0, wall || bar ? 0.0f : 1.0f, wall || bar ? 1.0f : 0.0f);
+    set_pixel(s->depth, x, y, bar ? 4.0f : wall ? 8.0f : 6.0f, 0, 0);
+    float lit = light * (wall ? 1.0f : 0.7f);
+    set_pixel(s->truth, x, y, a * lit, 0.8f * a * lit, 0.5f * a * lit);
+}
+
+// Noise in proportion to the pixel, but for the sky, which is clean, as a renderer's is.
+static Scene make_scene(float noise)
+{
+    Scene s = {image_new(WIDTH, HEIGHT, 3, NULL), image_new(WIDTH, HEIGHT, 3, NULL),
+               image_new(WIDTH, HEIGHT, 3, NULL), image_new(WIDTH, HEIGHT, 3, NULL),
+               image_new(WIDTH, HEIGHT, 1, NULL), image_new(WIDTH, HEIGHT, 1, NULL)};
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            describe(&s, x, y);
+            int64_t i = y * WIDTH + x;
+            const float *t = s.truth->pixel + 3 * i;
+            float level = isinf(s.depth->pixel[i]) ? 0.0f : noise;
+            float n = 1.0f + level * random_normal(random_key(5, (uint64_t)i));
+            set_pixel(s.noisy, x, y, t[0] * n, t[1] * n, t[2] * n);
+            float bright = (0.2126f * t[0] + 0.7152f * t[1] + 0.0722f * t[2]) * level;
+            s.variance->pixel[i] = bright * bright;
+        }
+    }
+    return s;
+}
+
+static void free_scene(Scene *s)
+{
+    image_free(s->truth);
+    image_free(s->noisy);
+    image_free(s->albedo);
+    image_free(s->normal);
+    image_free(s->depth);
+    image_free(s->variance);
+}
+
+static Image *denoise(const Scene *s, float strength, int threads)
+{
+    Run run = run_default();
+    run.threads = threads;
+    return image_denoise(s->noisy, s->albedo, s->normal, s->depth, s->variance, strength, &run,
+                         NULL);
+}
+
+static double rmse(const Image *a, const Image *b)
+{
+    ImageDifference d;
+    assert_true(image_compare(a, b, 0.0, &d, NULL));
+    return d.rmse;
+}
+
+static void test_less_noise(void **state)
+{
+    (void)state;
+    Scene s = make_scene(0.3f);
+    Image *out = denoise(&s, 1.0f, 1);
+    assert_non_null(out);
+    double before = rmse(s.noisy, s.truth), after = rmse(out, s.truth);
+    if (after > 0.3 * before) {
+        fail_msg("rmse %g before, %g after", before, after);
+    }
+    image_free(out);
+    free_scene(&s);
+}
+
+// Stripes, checks and bars keep their contrast: the mean over light ones and over dark ones.
+static void test_keeps_edges(void **state)
+{
+    (void)state;
+    Scene s = make_scene(0.3f);
+    Image *out = denoise(&s, 1.0f, 1);
+    double error = 0.0, reference = 0.0;
+    for (int y = 2; y < HEIGHT - 2; y++) {
+        for (int x = 1; x < WIDTH - 1; x++) {
+            const float *p = out->pixel + 3 * (y * WIDTH + x);
+            const float *t = s.truth->pixel + 3 * (y * WIDTH + x);
+            double step = (double)(t[3] - t[0]);
+            if (fabs(step) > 0.1) {
+                error += ((double)(p[3] - p[0]) - step) / step;
+                reference += 1.0;
+            }
+        }
+    }
+    assert_true(reference > 1000.0);
+    assert_true(fabs(error / reference) < 0.03);
+    image_free(out);
+    free_scene(&s);
+}
+
+static void test_clean_stays(void **state)
+{
+    (void)state;
+    Scene s = make_scene(0.0f);
+    Image *out = denoise(&s, 1.0f, 1);
+    assert_true(rmse(out, s.truth) < 1e-5);
+    image_free(out);
+    free_scene(&s);
+}
+
+static void test_threads_agree(void **state)
+{
+    (void)state;
+    Scene s = make_scene(0.2f);
+    Image *one = denoise(&s, 1.0f, 1), *three = denoise(&s, 1.0f, 3);
+    assert_memory_equal(one->pixel, three->pixel, sizeof(float) * 3 * WIDTH * HEIGHT);
+    image_free(one);
+    image_free(three);
+    free_scene(&s);
+}
+
+static void test_strength_zero_copies(void **state)
+{
+    (void)state;
+    Scene s = make_scene(0.2f);
+    Image *out = denoise(&s, 0.0f, 1);
+    assert_memory_equal(out->pixel, s.noisy->pixel, sizeof(float) * 3 * WIDTH * HEIGHT);
+    image_free(out);
+    free_scene(&s);
+}
+
+static void test_refuses_and_stops(void **state)
+{
+    (void)state;
+    Scene s = make_scene(0.2f);
+    Run run = run_default();
+    Error e = {0};
+    assert_null(image_denoise(s.noisy, s.depth, s.normal, s.depth, s.variance, 1.0f, &run, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    volatile int cancelled = 1;
+    run.cancelled = &cancelled;
+    assert_null(image_denoise(s.noisy, s.albedo, s.normal, s.depth, s.variance, 1.0f, &run, &e));
+    assert_int_equal(e.code, ERROR_CANCELLED);
+    free_scene(&s);
+}
+
+// Smaller than the search window, with broken pixels and alpha.
+static void test_tiny_image(void **state)
+{
+    (void)state;
+    Image *color = image_new(3, 2, 4, NULL), *albedo = image_new(3, 2, 3, NULL);
+    Image *normal = image_new(3, 2, 3, NULL), *depth = image_new(3, 2, 1, NULL);
+    Image *variance = image_new(3, 2, 1, NULL);
+    for (int i = 0; i < 6; i++) {
+        color->pixel[4 * i] = i == 2 ? NAN : 1.0f;
+        color->pixel[4 * i + 3] = 0.5f;
+        variance->pixel[i] = i == 4 ? INFINITY : 0.1f;
+        depth->pixel[i] = 1.0f;
+    }
+    Run run = run_default();
+    Image *out = image_denoise(color, albedo, normal, depth, variance, 1.0f, &run, NULL);
+    assert_non_null(out);
+    for (int i = 0; i < 6; i++) {
+        assert_true(out->pixel[4 * i] >= 0.0f && out->pixel[4 * i] <= 1.0f);
+        assert_true(out->pixel[4 * i + 3] == 0.5f);
+    }
+    image_free(color);
+    image_free(albedo);
+    image_free(normal);
+    image_free(depth);
+    image_free(variance);
+    image_free(out);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_less_noise),           cmocka_unit_test(test_keeps_edges),
+        cmocka_unit_test(test_clean_stays),          cmocka_unit_test(test_threads_agree),
+        cmocka_unit_test(test_strength_zero_copies), cmocka_unit_test(test_refuses_and_stops),
+        cmocka_unit_test(test_tiny_image),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
