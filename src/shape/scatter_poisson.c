@@ -8,25 +8,32 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 // Darts stick at most to this many per cube (square) of the least distance's side, when thrown for
 // ever: 0.384 of space in balls, 0.547 of a plane in discs of that diameter.
 #define JAMMED_VOLUME 0.7334
 #define JAMMED_SURFACE 0.6966
-// The share of that limit to stop at takes 13 darts a point in space and 10 on a plane; 0.8 in space
-// would take 46.
+// The share of that limit to stop at takes 13 darts a point in space and 10 on a plane; 0.8 in
+// space would take 46.
 #define FULLNESS_VOLUME 0.70
 #define FULLNESS_SURFACE 0.80
 #define DARTS_A_POINT 40 // before giving up: the region holds fewer than was thought
 
-// Darts that stuck, in a hash table of cells as wide as the least distance. Cells of a block of
-// 4 x 4 x 4 lie side by side in memory, since neighbours are looked up together.
+// A dart that stuck.
+typedef struct Dart {
+    Vec3 position;
+    int32_t next; // in DartGrid.spilled: one before it in the same cell; or one of these
+} Dart;
+
+enum { DART_LAST = -1, DART_NONE = -2 };
+
+// Darts in a hash table of cells as wide as the least distance, the newest of each cell in the
+// table itself. Cells of a block of 4 x 4 x 4 lie side by side in memory, since neighbours are
+// looked up together: a look-up is as slow as the memory it touches.
 typedef struct DartGrid {
-    Vec3 *position;
-    int32_t *next; // the one before it in the same slot, -1 = none
-    int64_t count, position_capacity, next_capacity;
-    int32_t *slot; // newest dart, -1 = none
+    Dart *slot;
+    Dart *spilled;
+    int64_t spilled_count, spilled_capacity;
     uint64_t block_mask;
     float distance2, inverse_cell;
     Vec3 origin;
@@ -54,15 +61,16 @@ static bool grid_new(DartGrid *g, Vec3 origin, float distance, int64_t expected,
     if (!g->slot) {
         return false;
     }
-    memset(g->slot, 0xff, blocks * 64 * sizeof *g->slot);
+    for (uint64_t i = 0; i < blocks * 64; i++) {
+        g->slot[i].next = DART_NONE;
+    }
     return true;
 }
 
 static void grid_free(DartGrid *g)
 {
-    free(g->position);
-    free(g->next);
     free(g->slot);
+    free(g->spilled);
 }
 
 static void cell_of(const DartGrid *g, Vec3 p, int32_t c[3])
@@ -73,8 +81,25 @@ static void cell_of(const DartGrid *g, Vec3 p, int32_t c[3])
     c[2] = (int32_t)floorf(local.z);
 }
 
-// Whether a dart at p would be too near to one whose number is `since` or more.
-static bool grid_hits(const DartGrid *g, Vec3 p, int64_t since)
+static bool near_cell(const DartGrid *g, const Dart *dart, Vec3 p)
+{
+    if (dart->next == DART_NONE) {
+        return false;
+    }
+    for (;;) {
+        Vec3 d = vec3_sub(dart->position, p);
+        if (vec3_dot(d, d) < g->distance2) {
+            return true;
+        }
+        if (dart->next == DART_LAST) {
+            return false;
+        }
+        dart = &g->spilled[dart->next];
+    }
+}
+
+// Whether a dart at p would be too near to one that is there.
+static bool grid_hits(const DartGrid *g, Vec3 p)
 {
     int32_t c[3];
     cell_of(g, p, c);
@@ -82,11 +107,8 @@ static bool grid_hits(const DartGrid *g, Vec3 p, int64_t since)
         // the dart's own cell first
         int k = (n + 13) % 27;
         uint64_t at = slot_of(g, c[0] + k / 9 - 1, c[1] + k / 3 % 3 - 1, c[2] + k % 3 - 1);
-        for (int32_t i = g->slot[at]; i >= since; i = g->next[i]) {
-            Vec3 d = vec3_sub(g->position[i], p);
-            if (vec3_dot(d, d) < g->distance2) {
-                return true;
-            }
+        if (near_cell(g, &g->slot[at], p)) {
+            return true;
         }
     }
     return false;
@@ -94,17 +116,21 @@ static bool grid_hits(const DartGrid *g, Vec3 p, int64_t since)
 
 static bool grid_add(DartGrid *g, Vec3 p, Error *e)
 {
-    int32_t c[3];
-    if (!memory_reserve(&g->position, &g->position_capacity, g->count + 1, sizeof *g->position,
-                        e) ||
-        !memory_reserve(&g->next, &g->next_capacity, g->count + 1, sizeof *g->next, e)) {
-        return false;
-    }
+    int32_t c[3], next = DART_LAST;
     cell_of(g, p, c);
-    int32_t *slot = &g->slot[slot_of(g, c[0], c[1], c[2])];
-    g->position[g->count] = p;
-    g->next[g->count] = *slot;
-    *slot = (int32_t)g->count++;
+    Dart *slot = &g->slot[slot_of(g, c[0], c[1], c[2])];
+    if (slot->next != DART_NONE) {
+        if (g->spilled_count == INT32_MAX) {
+            return error_set(e, ERROR_INPUT, "too many points; a smaller count is needed");
+        }
+        if (!memory_reserve(&g->spilled, &g->spilled_capacity, g->spilled_count + 1,
+                            sizeof *g->spilled, e)) {
+            return false;
+        }
+        next = (int32_t)g->spilled_count++;
+        g->spilled[next] = *slot;
+    }
+    *slot = (Dart){p, next};
     return true;
 }
 
@@ -121,19 +147,15 @@ static float least_distance(const PointSet *points, double base)
 static bool throw_round(const Scatter *s, DartGrid *g, uint64_t first, int64_t size, Draw *draws,
                         PointSet *points, const Run *run, Error *e)
 {
-    int64_t since = g->count;
 #pragma omp parallel for schedule(dynamic, 1024) num_threads(run->threads)
     for (int64_t i = 0; i < size; i++) {
         draws[i] = scatter_draw(s, first + (uint64_t)i);
-        draws[i].inside = draws[i].inside && !grid_hits(g, draws[i].position, 0);
+        draws[i].inside = draws[i].inside && !grid_hits(g, draws[i].position);
     }
     for (int64_t i = 0; i < size && points->count < s->params->count; i++) {
         const Draw *draw = &draws[i];
-        if (!draw->inside || grid_hits(g, draw->position, since)) {
+        if (!draw->inside || grid_hits(g, draw->position)) {
             continue;
-        }
-        if (g->count == INT32_MAX) {
-            return error_set(e, ERROR_INPUT, "too many points; a smaller count is needed");
         }
         if (!grid_add(g, draw->position, e) ||
             (draw->kept && !points_add(points, draw->position, draw->normal, draw->id, e))) {
