@@ -203,7 +203,9 @@ bool write_exr(const char *file, const ImageLayer *layers, int count, const char
 
 bool read(const char *file, Image **image, Error *e)
 {
-    auto input = OIIO::ImageInput::open(file);
+    OIIO::ImageSpec as_stored;
+    as_stored.attribute("oiio:UnassociatedAlpha", 1);
+    auto input = OIIO::ImageInput::open(file, &as_stored);
     if (!input) {
         std::string reason = OIIO::geterror();
         return error_set(e, ERROR_INPUT, "image '%s' cannot be read: %s", file, reason.c_str());

@@ -1,0 +1,243 @@
+// Tone mapping: the curve, exposure, white balance, lens, alpha.
+#include "image/tonemap.h"
+
+#include "image/lens.h"
+#include "image/tone_curve.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+// The curve alone: no lens.
+static ToneParams plain(void)
+{
+    ToneParams p = tone_params_default();
+    p.bloom = p.vignette = 0.0f;
+    return p;
+}
+
+static void map_one(float r, float g, float b, const ToneParams *params, float out[3])
+{
+    Image *image = image_new(1, 1, 3, NULL);
+    float in[3] = {r, g, b};
+    memcpy(image->pixel, in, sizeof in);
+    Image *mapped = tone_map(image, params, NULL);
+    assert_non_null(mapped);
+    memcpy(out, mapped->pixel, sizeof in);
+    image_free(image);
+    image_free(mapped);
+}
+
+static void test_curve(void **state)
+{
+    (void)state;
+    float last = -1.0f, out[3];
+    ToneParams params = plain();
+    for (int contrast = 0; contrast < 3; contrast++) {
+        params.contrast = 0.7f + 0.3f * (float)contrast;
+        last = -1.0f;
+        for (int i = -120; i <= 60; i++) {
+            float x = exp2f((float)i * 0.1f);
+            map_one(x, x, x, &params, out);
+            assert_true(out[0] >= last && out[0] <= 1.0f);
+            assert_float_equal(out[0], out[1], 1e-5f);
+            assert_float_equal(out[0], out[2], 1e-5f);
+            last = out[0];
+        }
+        assert_float_equal(last, 1.0f, 1e-4f);
+        map_one(0, 0, 0, &params, out);
+        assert_float_equal(out[0], 0.0f, 0.0f);
+        map_one(0.18f, 0.18f, 0.18f, &params, out);
+        assert_float_equal(out[0], tone_srgb_from_linear(0.18f), 2e-3f);
+    }
+}
+
+// A toe and a shoulder: steeper in the middle than at both ends, and highlights of 2 stops over
+// white paper still differ.
+static void test_shape(void **state)
+{
+    (void)state;
+    ToneParams params = plain();
+    float low[3], low2[3], mid[3], mid2[3], high[3], high2[3];
+    map_one(0.004f, 0.004f, 0.004f, &params, low);
+    map_one(0.008f, 0.008f, 0.008f, &params, low2);
+    map_one(0.18f, 0.18f, 0.18f, &params, mid);
+    map_one(0.36f, 0.36f, 0.36f, &params, mid2);
+    map_one(3.0f, 3.0f, 3.0f, &params, high);
+    map_one(6.0f, 6.0f, 6.0f, &params, high2);
+    assert_true(mid2[0] - mid[0] > low2[0] - low[0]);
+    assert_true(mid2[0] - mid[0] > high2[0] - high[0]);
+    assert_true(high2[0] > high[0] + 0.01f);
+}
+
+// Bright colours pale, but keep the order of their channels.
+static void test_colours(void **state)
+{
+    (void)state;
+    ToneParams params = plain();
+    float dim[3], bright[3];
+    map_one(0.2f, 0.1f, 0.05f, &params, dim);
+    assert_true(dim[0] > dim[1] && dim[1] > dim[2]);
+    map_one(12.0f, 6.0f, 3.0f, &params, bright);
+    assert_true(bright[0] >= bright[1] && bright[1] > bright[2]);
+    assert_true(bright[0] - bright[2] < dim[0] - dim[2]);
+    map_one(-1.0f, NAN, INFINITY, &params, bright);
+    for (int c = 0; c < 3; c++) {
+        assert_true(bright[c] >= 0.0f && bright[c] <= 1.0f);
+    }
+}
+
+static void test_linear_and_exposure(void **state)
+{
+    (void)state;
+    ToneParams params = plain();
+    params.curve = TONE_LINEAR;
+    params.exposure = 1.0f;
+    float out[3];
+    map_one(0.1f, 0.2f, 0.6f, &params, out);
+    assert_float_equal(out[0], tone_srgb_from_linear(0.2f), 1e-5f);
+    assert_float_equal(out[1], tone_srgb_from_linear(0.4f), 1e-5f);
+    assert_float_equal(out[2], 1.0f, 0.0f);
+    params.exposure = 0.0f;
+    params.saturation = 0.0f;
+    map_one(0.0f, 0.5f, 0.0f, &params, out);
+    assert_float_equal(out[0], tone_srgb_from_linear(0.3576f), 1e-4f);
+    assert_float_equal(out[0], out[2], 1e-6f);
+    // IEC 61966-2-1
+    assert_float_equal(tone_srgb_from_linear(0.5f), 0.735357f, 1e-5f);
+    assert_float_equal(tone_srgb_from_linear(0.002f), 0.02584f, 1e-6f);
+}
+
+static void test_auto_exposure(void **state)
+{
+    (void)state;
+    Image *image = image_new(4, 1, 3, NULL);
+    float values[4] = {50.0f, 200.0f, 100.0f, 0.0f}; // geometric mean 100, black left out
+    for (int i = 0; i < 12; i++) {
+        image->pixel[i] = values[i / 3];
+    }
+    ToneParams params = plain();
+    params.curve = TONE_LINEAR;
+    params.auto_exposure = true;
+    Image *out = tone_map(image, &params, NULL);
+    assert_float_equal(out->pixel[6], tone_srgb_from_linear(0.18f), 1e-4f);
+    image_free(out);
+    image_free(image);
+}
+
+static void apply(float m[3][3], const float v[3], float out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
+    }
+}
+
+static void test_white_balance(void **state)
+{
+    (void)state;
+    float m[3][3], out[3], white[3] = {1, 1, 1};
+    for (int k = 0; k < 2; k++) {
+        tone_white_balance(k ? 6500.0f : 0.0f, m);
+        apply(m, white, out);
+        assert_float_equal(out[0], 1.0f, 1e-5f);
+        assert_float_equal(out[2], 1.0f, 1e-5f);
+    }
+    // CIE illuminant A (2856 K) in linear Rec. 709, luminance 1: turned nearly grey
+    float lamp[3] = {1.8453f, 0.8262f, 0.2333f};
+    tone_white_balance(2856.0f, m);
+    apply(m, lamp, out);
+    assert_float_equal(out[0] / out[1], 1.0f, 0.02f);
+    assert_float_equal(out[2] / out[1], 1.0f, 0.03f);
+    // a light bluer than daylight makes white look warm
+    tone_white_balance(10000.0f, m);
+    apply(m, white, out);
+    assert_true(out[0] > 1.02f && out[2] < 0.95f);
+}
+
+static double sum_of(const Image *image)
+{
+    double sum = 0.0;
+    for (int i = 0; i < image->width * image->height * image->channels; i++) {
+        sum += (double)image->pixel[i];
+    }
+    return sum;
+}
+
+static void test_bloom(void **state)
+{
+    (void)state;
+    Image *image = image_new(90, 70, 3, NULL);
+    float *spot = image->pixel + 3 * (20 * 90 + 30);
+    spot[0] = 1000.0f;
+    spot[1] = 500.0f;
+    image->pixel[0] = 100.0f; // in the corner: what leaves comes back
+    assert_true(lens_bloom(image, 0.1f, NULL));
+    assert_true(fabs(sum_of(image) / 1600.0 - 1.0) < 1e-4);
+    assert_true(spot[0] > 900.0f && spot[0] < 950.0f);
+    assert_float_equal(spot[1] / spot[0], 0.5f, 1e-3f);
+    assert_true(spot[3] > spot[6] && spot[6] > spot[12] && spot[12] > 0.0f);
+    assert_float_equal(spot[3], spot[-3], 1e-3f);
+    assert_float_equal(spot[3], spot[3 * 90], 1e-3f);
+    image_free(image);
+
+    Image *flat = image_new(1, 3, 4, NULL); // smaller than any blur
+    for (int i = 0; i < 12; i++) {
+        flat->pixel[i] = 0.5f;
+    }
+    assert_true(lens_bloom(flat, 0.2f, NULL));
+    assert_float_equal(flat->pixel[4], 0.5f, 1e-5f);
+    assert_float_equal(flat->pixel[7], 0.5f, 0.0f);
+    image_free(flat);
+}
+
+static void test_vignette(void **state)
+{
+    (void)state;
+    Image *image = image_new(1001, 501, 3, NULL);
+    assert_float_equal(lens_vignette(image, 500, 250, 0.4f), 1.0f, 1e-6f);
+    assert_float_equal(lens_vignette(image, 0, 0, 0.4f), 0.6f, 5e-3f);
+    assert_float_equal(lens_vignette(image, 1000, 500, 0.4f), lens_vignette(image, 0, 0, 0.4f),
+                       1e-6f);
+    assert_float_equal(lens_vignette(image, 0, 0, 0.0f), 1.0f, 1e-6f);
+    image_free(image);
+}
+
+// Premultiplied radiance in, straight display values out: the colour does not depend on alpha.
+static void test_alpha(void **state)
+{
+    (void)state;
+    Image *image = image_new(3, 1, 4, NULL);
+    float pixels[12] = {0.4f, 0.2f, 0.1f, 1.0f, 0.2f, 0.1f, 0.05f, 0.5f, 0, 0, 0, 0};
+    memcpy(image->pixel, pixels, sizeof pixels);
+    ToneParams params = plain();
+    Image *out = tone_map(image, &params, NULL);
+    for (int c = 0; c < 3; c++) {
+        assert_float_equal(out->pixel[c], out->pixel[4 + c], 1e-5f);
+        assert_float_equal(out->pixel[8 + c], 0.0f, 0.0f);
+    }
+    assert_float_equal(out->pixel[7], 0.5f, 0.0f);
+    image_free(image);
+    image_free(out);
+    Error e = {0};
+    Image *two = image_new(1, 1, 2, NULL);
+    assert_null(tone_map(two, &params, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    image_free(two);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_curve),         cmocka_unit_test(test_shape),
+        cmocka_unit_test(test_colours),       cmocka_unit_test(test_linear_and_exposure),
+        cmocka_unit_test(test_auto_exposure), cmocka_unit_test(test_white_balance),
+        cmocka_unit_test(test_bloom),         cmocka_unit_test(test_vignette),
+        cmocka_unit_test(test_alpha),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
