@@ -19,7 +19,7 @@ static LeafGrid leaf_grid(const LeafParams *params)
     if (params->lobes == 0) {
         return (LeafGrid){fine ? 12 : 6, fine ? 5 : 3};
     }
-    return (LeafGrid){(fine ? 6 : 2) * params->lobes + 3, fine ? 5 : 3};
+    return (LeafGrid){(fine ? 6 : 2) * params->lobes + 1, fine ? 5 : 3};
 }
 
 // Half width of the blade at t in 0..1 along it, as a share of the largest: an obovate oval, widest

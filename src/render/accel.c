@@ -8,8 +8,10 @@
 #include <string.h>
 #include <unistd.h>
 
-// Copying instances out costs about 100 bytes a face; up to this many faces it is worth it.
-enum { COPY_FACES_LIMIT = 6000000 };
+// Copying instances out costs about 100 bytes a face. It is worth it for many copies of a small
+// mesh (leaves, grass), which as instances would be met with a ray apiece; a large mesh is traced
+// as well through its instances.
+enum { COPY_FACES_LIMIT = 6000000, COPY_MESH_LIMIT = 256 };
 
 // ---- Embree's callbacks
 
@@ -193,6 +195,7 @@ static bool attach_instances(Accel *accel, RTCGeometry geometry, int32_t number,
 static bool worth_copying(const Part *part)
 {
     return part->kind == PART_MESH && part->instance && part->mesh->face_count > 0 &&
+           part->mesh->face_count <= COPY_MESH_LIMIT &&
            part->instance_count <= COPY_FACES_LIMIT / part->mesh->face_count &&
            part->instance_count < (int64_t)UINT32_MAX / (part->mesh->vertex_count + 1);
 }
