@@ -67,7 +67,7 @@ bool colonize_levels(OutTree *tree, const Envelope *envelope, const ScatterParam
     ColonizeParams mine = *params;
     for (int i = 0; i < level_count; i++) {
         GrowReport report = {.stop = STOP_NO_PULL};
-        if (!check_level(&levels[i], i, e)) {
+        if (!check_level(&levels[i], i + 1, e)) {
             return false;
         }
         PointSet *attractors = scatter_level(envelope, scatter, &levels[i], i, run, e);
