@@ -144,6 +144,27 @@ static bool sample_axis(SkinPlan *plan, SkinChain *chain, int64_t count, Error *
     return true;
 }
 
+// A tube cannot bend more tightly than its own radius: samples where the axis turns within less
+// than 1.4 radii are drawn towards their neighbours until it does not (or enough has been tried).
+static void soften_bends(SkinPoint *point, int64_t count)
+{
+    bool bent = true;
+    for (int pass = 0; bent && pass < 80; pass++) {
+        bent = false;
+        for (int64_t i = 1; i + 1 < count; i++) {
+            Vec3 before = vec3_sub(point[i].position, point[i - 1].position);
+            Vec3 after = vec3_sub(point[i + 1].position, point[i].position);
+            float length = 0.5f * (vec3_length(before) + vec3_length(after));
+            Vec3 turn = vec3_sub(vec3_normalize(after), vec3_normalize(before));
+            if (vec3_length(turn) * 1.4f * point[i].radius > length) {
+                Vec3 middle = vec3_lerp(point[i - 1].position, point[i + 1].position, 0.5f);
+                point[i].position = vec3_lerp(point[i].position, middle, 0.7f);
+                bent = true;
+            }
+        }
+    }
+}
+
 // ---- frames ----
 
 static void set_tangents(SkinPoint *point, int64_t count, Vec3 fallback)
@@ -313,6 +334,7 @@ bool skin_plan_axis(SkinPlan *plan, int32_t number, Error *e)
             return false;
         }
         SkinPoint *point = plan->point + chain->axis;
+        soften_bends(point, chain->samples);
         skin_axis_frames(point, chain->samples, default_tangent(plan, chain));
         int64_t fold = find_fold(point, chain->samples);
         bool cut = false;

@@ -116,13 +116,13 @@ static bool lay_rows(SkinGrid *grid, const SkinPlan *plan, int32_t chain, TubeRa
     for (float at = range.start; at < range.high;) {
         bool bare = at > range.last_exit + 1.5f * skin_axis_at(plan, chain, at).radius ||
                     grid->child_count == 0;
-        float step = fineness * ring_step(plan, chain, at, sides, bare);
-        float next = at + 1.5f * step < range.high && at + step > at ? at + step : range.high;
-        float radius = skin_axis_at(plan, chain, next).radius;
+        float radius = skin_axis_at(plan, chain, at).radius;
         bool reduce = sides % 4 == 0 && sides / 2 >= least_sides(!bare) &&
                       (float)sides * 0.5f >= 0.75f * wanted_sides(plan, radius) &&
-                      grid->station_count > 1 && next < range.high;
+                      at > range.start + radius;
         sides = reduce ? sides / 2 : sides;
+        float step = fineness * ring_step(plan, chain, at, sides, bare);
+        float next = at + 1.5f * step < range.high && at + step > at ? at + step : range.high;
         if (!add_station(grid, next, sides, e)) {
             return false;
         }
@@ -173,6 +173,21 @@ static uint32_t rows_taken(const SkinGrid *grid, int64_t row, int size)
         }
     }
     return taken;
+}
+
+void skin_grid_take(SkinGrid *grid, const SkinSeat *seat, bool taken)
+{
+    uint32_t mask = column_mask(seat->column, seat->size, grid->station[seat->row].sides);
+    for (int64_t i = seat->row; i < seat->row + seat->size; i++) {
+        grid->station[i].taken = (grid->station[i].taken & ~mask) | (taken ? mask : 0);
+    }
+}
+
+bool skin_grid_is_free(const SkinGrid *grid, const SkinSeat *seat)
+{
+    int sides = grid->station[seat->row].sides;
+    uint32_t taken = rows_taken(grid, seat->row, seat->size);
+    return taken != UINT32_MAX && !(taken & column_mask(seat->column, seat->size, sides));
 }
 
 // How many faces a side the child's block should have: room for its girth and a fillet.
@@ -254,10 +269,7 @@ static bool seat_child(SkinGrid *grid, const SkinPlan *plan, int32_t chain, int3
     if (!*seated) {
         return true;
     }
-    int sides = grid->station[seat.row].sides;
-    for (int64_t i = seat.row; i < seat.row + seat.size; i++) {
-        grid->station[i].taken |= column_mask(seat.column, seat.size, sides);
-    }
+    skin_grid_take(grid, &seat, true);
     if (!memory_reserve(&grid->seat, &grid->seat_capacity, grid->seat_count + 1, sizeof seat, e)) {
         return false;
     }

@@ -45,6 +45,12 @@ bool skin_grid_place(SkinGrid *grid, const SkinPlan *plan, int32_t chain, float 
 // Azimuth of a child's exit about its parent's axis, in columns of a grid of that many sides.
 float skin_grid_column(const SkinPlan *plan, int32_t parent, int32_t child, float phase, int sides);
 
+// Marks the seat's faces as taken or not.
+void skin_grid_take(SkinGrid *grid, const SkinSeat *seat, bool taken);
+
+// Whether all the seat's faces are there and nobody's.
+bool skin_grid_is_free(const SkinGrid *grid, const SkinSeat *seat);
+
 void skin_grid_clear(SkinGrid *grid);
 
 #endif

@@ -35,10 +35,13 @@ static Girth fit_girth(const SkinPlan *plan, const SkinMouthSite *site)
     float radius = skin_axis_at(plan, seat->child, child->start).radius;
     float wanted = skin_ring_scale(4 * seat->size) * radius;
     float width = size * 2.0f * PI_F * 0.5f * (low->radius + high->radius) / sides;
-    float height = high->along - low->along;
+    float height = high->along - low->along, way = 0.0f;
+    for (int i = 0; i < seat->size; i++) {
+        way += vec3_distance(low[i].centre, low[i + 1].centre);
+    }
     Girth girth = {.radius = radius, .y = 0.5f};
     girth.reach_x = girth_reach(wanted, width, seat->size);
-    girth.reach_y = girth_reach(wanted / clampf(child->exit_sine, 0.5f, 1.0f), height, seat->size);
+    girth.reach_y = girth_reach(wanted / clampf(child->exit_sine, 0.5f, 1.0f), way, seat->size);
     float column = skin_grid_column(plan, site->parent, seat->child, site->phase, low->sides);
     float off = column - (float)seat->column - 0.5f * size;
     girth.x = 0.5f + (off - sides * floorf(off / sides + 0.5f)) / size;
@@ -105,20 +108,94 @@ static SkinVertex frame_vertex(const SkinPlan *plan, const SkinMouthSite *site, 
     return v;
 }
 
+// The parent's axis beside the frame's face k.
+static Vec3 frame_axis(const SkinMouthSite *site, const Girth *girth, int k, float share)
+{
+    int row, column;
+    outline_corner(site->seat, k, &row, &column);
+    float y = lerpf((float)row, girth->y * (float)site->seat->size, 0.5f * share);
+    int below = (int)y < site->seat->size - 1 ? (int)y : site->seat->size - 1;
+    return vec3_lerp(site->ring[below].centre, site->ring[below + 1].centre, y - (float)below);
+}
+
+// Frame i of `frames`: how far it has come from the outline to the girth. Frames shrink by equal
+// factors.
+static float frame_share(float ratio, int i, int frames)
+{
+    float shrunk = exact_pow(ratio, (float)i / (float)frames);
+    return i < frames ? (1.0f - shrunk) / (1.0f - ratio) : 1.0f;
+}
+
+// The girth's size as a share of the block's, and the number of frames down to it.
+static float girth_ratio(const Girth *girth, int *frames)
+{
+    float ratio = 2.0f * (girth->reach_x < girth->reach_y ? girth->reach_x : girth->reach_y);
+    *frames = 1;
+    for (float left = ratio; left < 0.36f; left *= 2.0f) {
+        ++*frames;
+    }
+    return ratio < 0.95f ? ratio : 0.95f;
+}
+
+// Whether all faces of the frames would look away from the parent's axis.
+static bool frames_look_outwards(const SkinPlan *plan, const SkinMouthSite *site,
+                                 const Girth *girth)
+{
+    int count = 4 * site->seat->size, frames;
+    float ratio = girth_ratio(girth, &frames);
+    Vec3 outer[SKIN_MAX_SIDES], inner[SKIN_MAX_SIDES];
+    for (int i = 0; i <= frames; i++) {
+        float share = frame_share(ratio, i, frames);
+        for (int k = 0; k < count; k++) {
+            inner[k] = frame_vertex(plan, site, girth, k, share).position;
+        }
+        for (int k = 0; i > 0 && k < count; k++) {
+            int next = (k + 1) % count;
+            Vec3 normal =
+                vec3_cross(vec3_sub(inner[next], outer[k]), vec3_sub(inner[k], outer[next]));
+            Vec3 middle = vec3_scale(
+                vec3_add(vec3_add(inner[k], inner[next]), vec3_add(outer[k], outer[next])), 0.25f);
+            Vec3 out = vec3_sub(middle, frame_axis(site, girth, k, share));
+            if (!(vec3_dot(normal, out) > 0.0f)) {
+                return false;
+            }
+        }
+        for (int k = 0; k < count; k++) {
+            outer[k] = inner[k];
+        }
+    }
+    return true;
+}
+
+// On sharply bent wood frames may fold; a smaller girth has more room.
+static Girth fit_unfolded_girth(const SkinPlan *plan, const SkinMouthSite *site)
+{
+    Girth girth = fit_girth(plan, site);
+    for (int i = 0; i < 4 && !frames_look_outwards(plan, site, &girth); i++) {
+        girth.reach_x *= 0.6f;
+        girth.reach_y *= 0.6f;
+        girth.x = lerpf(girth.x, 0.5f, 0.4f);
+        girth.y = lerpf(girth.y, 0.5f, 0.4f);
+    }
+    return girth;
+}
+
+bool skin_mouth_fits(const SkinPlan *plan, const SkinMouthSite *site)
+{
+    Girth girth = fit_unfolded_girth(plan, site);
+    return frames_look_outwards(plan, site, &girth);
+}
+
 bool skin_mouth_open(SkinCage *cage, const SkinPlan *plan, const SkinMouthSite *site,
                      uint32_t *mouth, Error *e)
 {
     const SkinSeat *seat = site->seat;
-    Girth girth = fit_girth(plan, site);
-    int count = 4 * seat->size, frames = 1;
-    float ratio = 2.0f * (girth.reach_x < girth.reach_y ? girth.reach_x : girth.reach_y);
-    for (float left = ratio; left < 0.36f; left *= 2.0f) {
-        frames++;
-    }
+    Girth girth = fit_unfolded_girth(plan, site);
+    int count = 4 * seat->size, frames;
+    float ratio = girth_ratio(&girth, &frames);
     if (!skin_cage_reserve(cage, count * frames, count * frames, e)) {
         return false;
     }
-    Vec3 axis = vec3_lerp(site->ring[0].centre, site->ring[seat->size].centre, 0.5f);
     uint32_t outer[SKIN_MAX_SIDES];
     for (int k = 0; k < count; k++) {
         int row, column;
@@ -126,15 +203,14 @@ bool skin_mouth_open(SkinCage *cage, const SkinPlan *plan, const SkinMouthSite *
         outer[k] = site->ring[row].name[(seat->column + column) % site->ring[row].sides];
     }
     for (int i = 1; i <= frames; i++) {
-        // Frames shrink by equal factors.
-        float shrunk = exact_pow(ratio, (float)i / (float)frames);
-        float share = i < frames ? (1.0f - shrunk) / (1.0f - ratio) : 1.0f;
+        float share = frame_share(ratio, i, frames);
         for (int k = 0; k < count; k++) {
             SkinVertex v = frame_vertex(plan, site, &girth, k, share);
             mouth[k] = skin_cage_add_vertex(cage, v);
         }
         for (int k = 0; k < count; k++) {
             int next = (k + 1) % count;
+            Vec3 axis = frame_axis(site, &girth, k, share);
             skin_cage_add_face(cage, outer[k], outer[next], mouth[next], mouth[k], axis);
         }
         for (int k = 0; k < count; k++) {

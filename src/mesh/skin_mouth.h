@@ -17,6 +17,9 @@ typedef struct SkinMouthSite {
 // A ring's corner as a vertex; offset: m from the root to the start of the ring's axis.
 SkinVertex skin_ring_vertex(const SkinRing *ring, int k, float offset);
 
+// Whether a mouth in this seat would have no face that looks inwards.
+bool skin_mouth_fits(const SkinPlan *plan, const SkinMouthSite *site);
+
 // Fills the block with frames of quads that shrink from its outline (whose corners have names) to
 // the child's own girth, and leaves that open. Writes the names of the last frame's 4 * size
 // vertices to mouth, counter-clockwise seen from outside, from the lower left.

@@ -31,6 +31,9 @@ float skin_ring_scale(int sides);
 // Corners from centre, normal, side (made to stand across the normal) and radius.
 void skin_ring_set_corners(SkinRing *ring);
 
+// Corner k of a ring as if it had that many sides: its own number or twice it.
+Vec3 skin_ring_finer_corner(const SkinRing *ring, int sides, int k);
+
 // Centre, normal and side of a ring whose corners are given: the mouth in a parent's face.
 void skin_ring_fit(SkinRing *ring);
 

@@ -159,21 +159,26 @@ static bool add_row(TubeBuilder *builder, const SkinRing *low, uint32_t taken, f
     return true;
 }
 
+// A vertex between a ring's corner k and the next ring, which has half as many.
+static SkinVertex half_way(const SkinRing *low, const SkinRing *high, int k, float offset)
+{
+    SkinVertex below = skin_ring_vertex(low, k, offset), half = {.radius = 0.0f};
+    SkinVertex above = skin_ring_vertex(high, k / 2, offset);
+    above.position = skin_ring_finer_corner(high, low->sides, k);
+    above.uv.x = below.uv.x;
+    half = skin_vertex_madd(half, 0.5f, below);
+    return skin_vertex_madd(half, 0.5f, above);
+}
+
 // A row that ends in half as many sides: six quads for every four sides below.
-static bool add_reduction(TubeBuilder *builder, const SkinRing *low, float phase, int32_t chain,
-                          Error *e)
+static bool add_reduction(TubeBuilder *builder, const SkinRing *low, float offset, Error *e)
 {
     const SkinRing *high = low + 1;
     SkinCage *cage = builder->cage;
-    float offset = builder->plan->chain[chain].offset;
-    Vec3 axis = vec3_lerp(low->centre, high->centre, 0.5f);
-    Vec3 corner[SKIN_MAX_SIDES];
-    SkinRing middle = {.corner = corner, .sides = low->sides};
-    set_ring(builder->plan, chain, 0.5f * (low->along + high->along), phase, &middle);
-    middle.centre = axis;
-    middle.normal = vec3_normalize(vec3_add(low->normal, high->normal));
-    middle.side = low->side;
-    skin_ring_set_corners(&middle);
+    // The axis beside the outer, lower and upper faces.
+    Vec3 beside = vec3_lerp(low->centre, high->centre, 0.375f);
+    Vec3 lower = vec3_lerp(low->centre, high->centre, 0.25f);
+    Vec3 upper = vec3_lerp(low->centre, high->centre, 0.75f);
     if (!skin_cage_reserve(cage, 4 * low->sides, 2 * low->sides, e)) {
         return false;
     }
@@ -184,14 +189,14 @@ static bool add_reduction(TubeBuilder *builder, const SkinRing *low, float phase
         }
         for (int k = 0; k < 3; k++) {
             above[k] = name_corner(builder, high, (2 * g + k) % high->sides, offset);
-            inner[k] = skin_cage_add_vertex(cage, skin_ring_vertex(&middle, 4 * g + k + 1, offset));
+            inner[k] = skin_cage_add_vertex(cage, half_way(low, high, 4 * g + k + 1, offset));
         }
-        skin_cage_add_face(cage, below[0], below[1], inner[0], above[0], axis);
-        skin_cage_add_face(cage, below[1], below[2], inner[1], inner[0], axis);
-        skin_cage_add_face(cage, below[2], below[3], inner[2], inner[1], axis);
-        skin_cage_add_face(cage, below[3], below[4], above[2], inner[2], axis);
-        skin_cage_add_face(cage, inner[0], inner[1], above[1], above[0], axis);
-        skin_cage_add_face(cage, inner[1], inner[2], above[2], above[1], axis);
+        skin_cage_add_face(cage, below[0], below[1], inner[0], above[0], beside);
+        skin_cage_add_face(cage, below[1], below[2], inner[1], inner[0], lower);
+        skin_cage_add_face(cage, below[2], below[3], inner[2], inner[1], lower);
+        skin_cage_add_face(cage, below[3], below[4], above[2], inner[2], beside);
+        skin_cage_add_face(cage, inner[0], inner[1], above[1], above[0], upper);
+        skin_cage_add_face(cage, inner[1], inner[2], above[2], above[1], upper);
     }
     return true;
 }
@@ -224,6 +229,50 @@ static bool open_mouths(TubeBuilder *builder, int32_t chain, const SkinRing *rin
         }
     }
     return true;
+}
+
+static bool seat_fits(const TubeBuilder *builder, int32_t chain, const SkinRing *ring, float phase,
+                      const SkinSeat *seat)
+{
+    SkinMouthSite site = {chain, phase, ring + seat->row, seat};
+    return skin_mouth_fits(builder->plan, &site);
+}
+
+// Finds the nearest single face that the child can leave through without folds; false if there is
+// none.
+static bool find_other_seat(const TubeBuilder *builder, int32_t chain, const SkinRing *ring,
+                            float phase, SkinSeat *seat)
+{
+    const SkinGrid *grid = &builder->grid;
+    SkinSeat other = {.child = seat->child, .size = 1};
+    for (int64_t step = 0; step < 2 * grid->station_count; step++) {
+        other.row = seat->row + (step & 1 ? -(step + 1) / 2 : step / 2);
+        if (other.row < 0 || other.row + 1 >= grid->station_count) {
+            continue;
+        }
+        int sides = grid->station[other.row].sides;
+        for (int k = 0; k < sides; k++) {
+            other.column = (seat->column + k) % sides;
+            if (skin_grid_is_free(grid, &other) && seat_fits(builder, chain, ring, phase, &other)) {
+                *seat = other;
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// On sharply bent wood a mouth may have faces that look inwards: its child moves to another place.
+static void move_bad_seats(TubeBuilder *builder, int32_t chain, const SkinRing *ring, float phase)
+{
+    for (int64_t i = 0; i < builder->grid.seat_count; i++) {
+        SkinSeat *seat = &builder->grid.seat[i];
+        if (!seat_fits(builder, chain, ring, phase, seat)) {
+            skin_grid_take(&builder->grid, seat, false);
+            find_other_seat(builder, chain, ring, phase, seat);
+            skin_grid_take(&builder->grid, seat, true);
+        }
+    }
 }
 
 // Corners of blocks that no other face uses still need names before mouths open.
@@ -279,12 +328,13 @@ static bool build_chain(TubeBuilder *builder, const TubeJob *job, Error *e)
     }
     const SkinRing *ring = builder->ring;
     int64_t extra = job->sides > 0;
+    move_bad_seats(builder, job->chain, ring + extra, phase);
     name_outlines(builder, ring + extra, offset);
     for (int64_t i = 0; i + 1 < count; i++) {
         uint32_t taken = i >= extra ? grid->station[i - extra].taken : 0;
         bool good = ring[i].sides == ring[i + 1].sides
                         ? add_row(builder, &ring[i], taken, offset, e)
-                        : add_reduction(builder, &ring[i], phase, job->chain, e);
+                        : add_reduction(builder, &ring[i], offset, e);
         if (!good) {
             return false;
         }
