@@ -51,16 +51,13 @@ static void offer_to_cell(AttractorGrid *grid, Slab *slab, int32_t c, Vec3 p, in
     }
 }
 
-// Squared distances (never too large) from the coordinate p to cells begin..end-1 of an axis.
-static void gaps_along(const AttractorGrid *grid, float low, float p, int begin, int end,
-                       float *gap2)
+// Squared distance (never too large) from the coordinate p to a cell of an axis.
+static float gap2_to(const AttractorGrid *grid, float low, float p, int cell)
 {
-    for (int c = begin; c < end; c++) {
-        float a = low + (float)c * grid->cell - p, b = -a - grid->cell;
-        float gap = (a > b ? a : b) - grid->slack;
-        gap = gap > 0.0f ? gap * CAUTION : 0.0f;
-        gap2[c - begin] = gap * gap;
-    }
+    float a = low + (float)cell * grid->cell - p, b = -a - grid->cell;
+    float gap = (a > b ? a : b) - grid->slack;
+    gap = gap > 0.0f ? gap * CAUTION : 0.0f;
+    return gap * gap;
 }
 
 static unsigned cells_to_visit(const float *furthest, const float *gap2, float rest)
@@ -134,16 +131,16 @@ static void offer_node(AttractorGrid *grid, Slab *slab, Vec3 p, int32_t k)
     }
     int count = end[2] - begin[2];
     int padded = (count + BLOCK_LANES - 1) / BLOCK_LANES * BLOCK_LANES;
-    gaps_along(grid, grid->low.z, p.z, begin[2], begin[2] + padded, slab->gap2);
+    for (int z = 0; z < padded; z++) {
+        slab->gap2[z] = gap2_to(grid, grid->low.z, p.z, begin[2] + z);
+    }
     for (int x = begin[0]; x < end[0]; x++) {
-        float gap_x;
-        gaps_along(grid, grid->low.x, p.x, x, x + 1, &gap_x);
+        float gap_x = gap2_to(grid, grid->low.x, p.x, x);
         for (int y = begin[1]; y < end[1]; y++) {
-            float gap_y;
-            gaps_along(grid, grid->low.y, p.y, y, y + 1, &gap_y);
-            if (gap_x + gap_y < grid->reach2) {
+            float gap = gap_x + gap2_to(grid, grid->low.y, p.y, y);
+            if (gap < grid->reach2) {
                 int64_t cell = ((int64_t)x * grid->size[1] + y) * grid->size[2] + begin[2];
-                offer_to_row(grid, slab, cell, count, gap_x + gap_y, p, k, &listed);
+                offer_to_row(grid, slab, cell, count, gap, p, k, &listed);
             }
         }
     }

@@ -4,7 +4,6 @@
 
 #include "base/exact_math.h"
 
-#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -220,30 +219,42 @@ static bool choose_growers(Growth *growth, Error *e)
            memory_reserve(&growth->grew, &growth->grew_capacity, count, sizeof *growth->grew, e);
 }
 
+// Sums the pulls of this step in `parts`, each taking handfuls of cells until none is left.
+static void sum_pulls(const Growth *growth, int parts)
+{
+    enum { HANDFUL = 32 };
+    int64_t cells = growth->grid.active_count, next = 0;
+#pragma omp parallel for schedule(static, 1) num_threads(parts) if (parts > 1)
+    for (int part = 0; part < parts; part++) {
+        growth_clear_pulls(growth, part);
+        for (;;) {
+            int64_t i = __atomic_fetch_add(&next, HANDFUL, __ATOMIC_RELAXED);
+            int64_t end = i + HANDFUL < cells ? i + HANDFUL : cells;
+            if (i >= cells) {
+                break;
+            }
+            for (; i < end; i++) {
+                growth_add_cell(growth, growth->grid.active[i], part);
+            }
+        }
+    }
+}
+
 static void make_children(Growth *growth)
 {
     int64_t growers = growth->grower_count, sectors = growth->sectors.count;
-    int64_t cells = growth->grid.active_count;
-    int threads = growers >= LEAST_SHARED && cells >= LEAST_SHARED ? growth->threads : 1;
-#pragma omp parallel num_threads(threads) if (threads > 1)
-    {
-        int part = omp_get_thread_num(), parts = omp_get_num_threads();
-        growth_clear_pulls(growth, part);
-#pragma omp for schedule(static)
-        for (int64_t i = 0; i < growers; i++) {
-            growth_prepare(growth, &growth->grower[i]);
-        }
-#pragma omp for schedule(dynamic, 32)
-        for (int64_t i = 0; i < cells; i++) {
-            growth_add_cell(growth, growth->grid.active[i], part);
-        }
-#pragma omp for schedule(static)
-        for (int64_t i = 0; i < growers; i++) {
-            growth_merge_pulls(growth, i, parts);
-            growth->child_count[i] =
-                growth_make_children(growth, &growth->grower[i], &growth->pull[i * sectors],
-                                     &growth->child[i * sectors]);
-        }
+    bool shared = growers >= LEAST_SHARED && growth->grid.active_count >= LEAST_SHARED;
+    int threads = shared ? growth->threads : 1;
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+    for (int64_t i = 0; i < growers; i++) {
+        growth_prepare(growth, &growth->grower[i]);
+    }
+    sum_pulls(growth, threads);
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+    for (int64_t i = 0; i < growers; i++) {
+        growth_merge_pulls(growth, i, threads);
+        growth->child_count[i] = growth_make_children(
+            growth, &growth->grower[i], &growth->pull[i * sectors], &growth->child[i * sectors]);
     }
 }
 
