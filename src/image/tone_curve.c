@@ -39,15 +39,12 @@ void tone_saturate(float saturation, float rgb[3])
 
 void tone_film(const ToneCurveFit *fit, float saturation, float rgb[3])
 {
-    const float crossover = 0.10f;
+    const float crossover = 0.15f; // also takes back the saturation that the power adds
     float mixed[3], y = luminance(rgb);
     for (int i = 0; i < 3; i++) {
         mixed[i] = curve(fit, rgb[i] + crossover * (y - rgb[i]));
     }
-    // The power that makes contrast also adds saturation; with the crossover taken back this comes
-    // out near the scene's own.
-    float restored = 1.0f / (1.0f - 0.5f * crossover);
-    tone_saturate(saturation * restored, mixed);
+    tone_saturate(saturation, mixed);
     memcpy(rgb, mixed, sizeof mixed);
 }
 

@@ -34,18 +34,36 @@ static Vec3 texture_at(const Texture *texture, const SurfacePoint *point)
                          v > 0.0f ? point->footprint / v : 0.0f);
 }
 
+// A plain diffuse surface: what other kinds read is left unset, since this is the commonest case
+// and clearing a Bsdf takes as long as filling this one.
+static inline void plain_diffuse(Bsdf *b, const Material *m, const SurfacePoint *point, Vec3 wo)
+{
+    b->kind = MATERIAL_DIFFUSE;
+    b->normal = normal_toward(point->normal, wo);
+    b->geometric_normal = point->geometric_normal;
+    b->color = b->albedo = m->color;
+    b->emission = b->absorption = vec3_splat(0.0f);
+    b->roughness = m->roughness;
+    b->alpha = 0.0f;
+}
+
 Bsdf bsdf_at(const MaterialSet *set, const SurfacePoint *point, Vec3 wo)
 {
     const MaterialEntry *entry = &set->entry[point->material];
     const Material *m = &entry->material;
     Vec3 transmittance = m->transmittance;
-    Bsdf b = {.kind = m->kind,
-              .normal = point->normal,
-              .geometric_normal = point->geometric_normal,
-              .color = m->color,
-              .roughness = m->roughness,
-              .alpha = entry->alpha,
-              .table = entry->table};
+    Bsdf b;
+    if (entry->plain) {
+        plain_diffuse(&b, m, point, wo);
+        return b;
+    }
+    b = (Bsdf){.kind = m->kind,
+               .normal = point->normal,
+               .geometric_normal = point->geometric_normal,
+               .color = m->color,
+               .roughness = m->roughness,
+               .alpha = entry->alpha,
+               .table = entry->table};
     if (m->pattern != PATTERN_NONE || m->variation > 0.0f) {
         PatternShade shade = {m->color, m->transmittance, point->normal};
         pattern_apply(m, point, &shade);
@@ -118,8 +136,20 @@ static bool is_mirror(const Bsdf *b)
     return b->alpha <= 0.0f && (b->kind == MATERIAL_CONDUCTOR || b->kind == MATERIAL_DIELECTRIC);
 }
 
+// Lambert's law, folded: the commonest case, with as few operations as it takes.
+static Vec3 lambert_eval(const Bsdf *b, Vec3 wi, float *pdf)
+{
+    float side = vec3_dot(b->geometric_normal, wi), cosine = vec3_dot(b->normal, wi);
+    float folded = cosine - 2.0f * side * vec3_dot(b->normal, b->geometric_normal);
+    *pdf = side > 0.0f ? (fmaxf(cosine, 0.0f) + fmaxf(folded, 0.0f)) * (1.0f / PI_F) : 0.0f;
+    return vec3_scale(b->color, *pdf);
+}
+
 Vec3 bsdf_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf)
 {
+    if (bsdf->kind == MATERIAL_DIFFUSE && bsdf->roughness <= 0.0f) {
+        return lambert_eval(bsdf, wi, pdf);
+    }
     float side = vec3_dot(bsdf->geometric_normal, wi);
     Vec3 folded = vec3_madd(wi, -2.0f * side, bsdf->geometric_normal);
     Vec3 f = vec3_splat(0.0f);
@@ -146,16 +176,12 @@ static Vec3 fold(const Bsdf *b, Vec3 wi, bool transmitted)
     return wrong ? vec3_madd(wi, -2.0f * side, b->geometric_normal) : wi;
 }
 
-// The commonest case, with as few operations as it takes: every direction has the weight color.
+// Every direction has the weight color.
 static bool lambert_sample(const Bsdf *b, const float u[3], BsdfSample *sample)
 {
-    Vec3 wi = fold(b, draw_cosine(b->normal, u[0], u[1]), false);
-    float side = vec3_dot(b->geometric_normal, wi);
-    float cosine = vec3_dot(b->normal, wi);
-    float folded = cosine - 2.0f * side * vec3_dot(b->normal, b->geometric_normal);
-    sample->wi = wi;
+    sample->wi = fold(b, draw_cosine(b->normal, u[0], u[1]), false);
+    lambert_eval(b, sample->wi, &sample->pdf);
     sample->weight = b->color;
-    sample->pdf = (fmaxf(cosine, 0.0f) + fmaxf(folded, 0.0f)) * (1.0f / PI_F);
     sample->delta = sample->transmitted = false;
     return sample->pdf > 0.0f;
 }

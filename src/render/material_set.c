@@ -55,6 +55,9 @@ static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material
     if (fabsf(m->ior - 1.0f) < 1e-3f) { // no facet bends light: keep away from 0 / 0
         m->ior = 1.001f;
     }
+    m->color = vec3_max(vec3_min(m->color, vec3_splat(1.0f)), vec3_splat(0.0f));
+    entry->plain = m->kind == MATERIAL_DIFFUSE && m->pattern == PATTERN_NONE &&
+                   m->variation <= 0.0f && !(m->texture && m->texture[0]);
     return prepare_table(entry, e) && open_texture(set, m, m->texture, &entry->color, e) &&
            open_texture(set, m, m->alpha_texture, &entry->opacity, e);
 }

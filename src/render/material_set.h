@@ -8,6 +8,7 @@
 
 typedef struct MaterialEntry {
     Material material;
+    bool plain;       // diffuse of one colour
     float alpha;      // GGX; 0 = mirror
     GgxTable *table;  // owned; NULL where the kind needs none
     Texture *color;   // borrowed from the cache; NULL = none

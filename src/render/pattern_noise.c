@@ -2,33 +2,33 @@
 
 #include <stddef.h>
 
-// Mixes 32 bits (the finaliser of MurmurHash3).
-static inline uint32_t mix(uint32_t h)
-{
-    h ^= h >> 16;
-    h *= 0x85ebca6bu;
-    h ^= h >> 13;
-    h *= 0xc2b2ae35u;
-    return h ^ (h >> 16);
-}
+// Eight lattice points at a time, in the compiler's vectors: noise is most of a pattern's cost.
+typedef float Float8 __attribute__((vector_size(32)));
+typedef int32_t Int8 __attribute__((vector_size(32)));
+typedef uint32_t Hash8 __attribute__((vector_size(32)));
 
-static inline uint32_t lattice(int x, int y, int z, uint32_t seed)
-{
-    return mix((uint32_t)x * 0x8da6b343u + (uint32_t)y * 0xd8163841u + (uint32_t)z * 0xcb1ab31fu +
-               seed * 0x9e3779b9u);
-}
+enum { TEN_BITS = 1023 };
+static const float GRADIENT_SCALE = 2.0f / TEN_BITS;
+
+// The finaliser of MurmurHash3, of a number or of eight.
+#define MIX(h)              \
+    do {                    \
+        (h) ^= (h) >> 16;   \
+        (h) *= 0x85ebca6bu; \
+        (h) ^= (h) >> 13;   \
+        (h) *= 0xc2b2ae35u; \
+        (h) ^= (h) >> 16;   \
+    } while (0)
+
+// Hash of lattice points; the coordinates may be vectors.
+#define LATTICE(x, y, z, seed) \
+    ((x)*0x8da6b343u + (y)*0xd8163841u + (z)*0xcb1ab31fu + (seed)*0x9e3779b9u)
 
 float noise_unit(uint32_t hash, uint32_t number)
 {
-    return (float)(mix(hash + 0x9e3779b9u * (number + 1)) >> 8) * (1.0f / 16777216.0f);
-}
-
-// Three components in -1..1, ten bits each: not unit, but their spread has no axis.
-static inline Vec3 lattice_gradient(uint32_t h)
-{
-    const float scale = 2.0f / 1023.0f;
-    return vec3((float)(h & 1023u) * scale - 1.0f, (float)(h >> 10 & 1023u) * scale - 1.0f,
-                (float)(h >> 20 & 1023u) * scale - 1.0f);
+    hash += 0x9e3779b9u * (number + 1);
+    MIX(hash);
+    return (float)(hash >> 8) * (1.0f / 16777216.0f);
 }
 
 static inline float fade(float t)
@@ -41,32 +41,46 @@ static inline float fade_slope(float t)
     return 30.0f * t * t * (t * (t - 2.0f) + 1.0f);
 }
 
+static inline float sum_of(const Float8 *v)
+{
+    const Float8 w = *v;
+    return ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
+}
+
+// Three components in -1..1, ten bits of a hash each: not unit, but their spread has no axis.
+static inline void gradients_of(const Hash8 *hash, Float8 gradient[3])
+{
+    for (int c = 0; c < 3; c++) {
+        Int8 bits = (Int8)(*hash >> (uint32_t)(10 * c) & TEN_BITS);
+        gradient[c] = __builtin_convertvector(bits, Float8) * GRADIENT_SCALE - 1.0f;
+    }
+}
+
 float noise_solid(Vec3 p, uint32_t seed, Vec3 *gradient)
 {
+    static const float scale = 1.25f;
+    const Hash8 i = {0, 1, 0, 1, 0, 1, 0, 1}, j = {0, 0, 1, 1, 0, 0, 1, 1};
+    const Hash8 k = {0, 0, 0, 0, 1, 1, 1, 1};
+    const Float8 i1 = {0, 1, 0, 1, 0, 1, 0, 1}, j1 = {0, 0, 1, 1, 0, 0, 1, 1};
+    const Float8 k1 = {0, 0, 0, 0, 1, 1, 1, 1};
     float fx = floorf(p.x), fy = floorf(p.y), fz = floorf(p.z);
-    int x = (int)fx, y = (int)fy, z = (int)fz;
+    Hash8 hash = LATTICE((uint32_t)(int)fx + i, (uint32_t)(int)fy + j, (uint32_t)(int)fz + k, seed);
+    MIX(hash);
+    Float8 g[3];
+    gradients_of(&hash, g);
     Vec3 f = vec3(p.x - fx, p.y - fy, p.z - fz);
-    float u[2] = {1.0f - fade(f.x), fade(f.x)}, v[2] = {1.0f - fade(f.y), fade(f.y)};
-    float w[2] = {1.0f - fade(f.z), fade(f.z)};
-    float du = fade_slope(f.x), dv = fade_slope(f.y), dw = fade_slope(f.z);
-    float sum = 0.0f;
-    Vec3 slope = vec3_splat(0.0f);
-    for (int k = 0; k < 8; k++) {
-        int i = k & 1, j = k >> 1 & 1, l = k >> 2;
-        Vec3 g = lattice_gradient(lattice(x + i, y + j, z + l, seed));
-        float value = g.x * (f.x - (float)i) + g.y * (f.y - (float)j) + g.z * (f.z - (float)l);
-        float weight = u[i] * v[j] * w[l];
-        sum += weight * value;
-        slope = vec3_madd(slope, weight, g);
-        slope.x += (i ? du : -du) * v[j] * w[l] * value;
-        slope.y += (j ? dv : -dv) * u[i] * w[l] * value;
-        slope.z += (l ? dw : -dw) * u[i] * v[j] * value;
-    }
-    const float scale = 1.25f;
+    Float8 value = g[0] * (f.x - i1) + g[1] * (f.y - j1) + g[2] * (f.z - k1);
+    float u = fade(f.x), v = fade(f.y), w = fade(f.z);
+    Float8 wu = (1.0f - u) + i1 * (2.0f * u - 1.0f), wv = (1.0f - v) + j1 * (2.0f * v - 1.0f);
+    Float8 ww = (1.0f - w) + k1 * (2.0f * w - 1.0f), weight = wu * wv * ww;
+    Float8 sum = weight * value;
     if (gradient) {
-        *gradient = vec3_scale(slope, scale);
+        Float8 x = weight * g[0] + (2.0f * i1 - 1.0f) * fade_slope(f.x) * wv * ww * value;
+        Float8 y = weight * g[1] + (2.0f * j1 - 1.0f) * fade_slope(f.y) * wu * ww * value;
+        Float8 z = weight * g[2] + (2.0f * k1 - 1.0f) * fade_slope(f.z) * wu * wv * value;
+        *gradient = vec3(scale * sum_of(&x), scale * sum_of(&y), scale * sum_of(&z));
     }
-    return sum * scale;
+    return scale * sum_of(&sum);
 }
 
 float noise_fractal(Vec3 p, int octaves, uint32_t seed)
@@ -80,32 +94,60 @@ float noise_fractal(Vec3 p, int octaves, uint32_t seed)
     return 1.4f * sum;
 }
 
-CellPoint noise_cells(Vec3 p, uint32_t seed)
+// The points of a cell's neighbourhood, as seen from a place in it: 27, and 5 not used.
+typedef struct CellPoints {
+    Float8 x[4], y[4], z[4], distance[4];
+    Hash8 hash[4];
+} CellPoints;
+
+static void find_cell_points(Vec3 p, uint32_t seed, CellPoints *points)
 {
     float fx = floorf(p.x), fy = floorf(p.y), fz = floorf(p.z);
-    Vec3 corner = vec3_sub(vec3(fx, fy, fz), p);
+    Vec3 f = vec3(p.x - fx, p.y - fy, p.z - fz);
+    for (int batch = 0; batch < 4; batch++) {
+        const Int8 lane = {0, 1, 2, 3, 4, 5, 6, 7};
+        Int8 n = lane + 8 * batch, i = n % 3 - 1, j = n / 3 % 3 - 1, k = n / 9 - 1;
+        Hash8 hash = LATTICE((uint32_t)(int)fx + (Hash8)i, (uint32_t)(int)fy + (Hash8)j,
+                             (uint32_t)(int)fz + (Hash8)k, seed);
+        MIX(hash);
+        Float8 g[3];
+        gradients_of(&hash, g);
+        Float8 x = __builtin_convertvector(i, Float8) + 0.5f - f.x + 0.42f * g[0];
+        Float8 y = __builtin_convertvector(j, Float8) + 0.5f - f.y + 0.42f * g[1];
+        Float8 z = __builtin_convertvector(k, Float8) + 0.5f - f.z + 0.42f * g[2];
+        points->x[batch] = x;
+        points->y[batch] = y;
+        points->z[batch] = z;
+        points->distance[batch] = x * x + y * y + z * z;
+        points->hash[batch] = hash;
+    }
+}
+
+static Vec3 cell_point(const CellPoints *points, int n)
+{
+    return vec3(points->x[n / 8][n % 8], points->y[n / 8][n % 8], points->z[n / 8][n % 8]);
+}
+
+CellPoint noise_cells(Vec3 p, uint32_t seed)
+{
+    CellPoints points;
+    find_cell_points(p, seed, &points);
     float nearest = INFINITY, second = INFINITY;
-    Vec3 a = {0, 0, 0}, b = {0, 0, 0};
-    uint32_t cell = 0;
-    for (int k = 0; k < 27; k++) {
-        int i = k % 3 - 1, j = k / 3 % 3 - 1, l = k / 9 - 1;
-        uint32_t h = lattice((int)fx + i, (int)fy + j, (int)fz + l, seed);
-        Vec3 jitter = vec3_scale(lattice_gradient(h), 0.42f);
-        Vec3 offset = vec3((float)i + 0.5f, (float)j + 0.5f, (float)l + 0.5f);
-        Vec3 point = vec3_add(vec3_add(corner, offset), jitter);
-        float distance = vec3_dot(point, point);
+    int a = 0, b = 0;
+    for (int n = 0; n < 27; n++) {
+        float distance = points.distance[n / 8][n % 8];
         if (distance < nearest) {
             second = nearest;
             b = a;
             nearest = distance;
-            a = point;
-            cell = h;
+            a = n;
         } else if (distance < second) {
             second = distance;
-            b = point;
+            b = n;
         }
     }
-    Vec3 apart = vec3_sub(a, b);
+    Vec3 apart = vec3_sub(cell_point(&points, a), cell_point(&points, b));
     float length = fmaxf(vec3_length(apart), 1e-6f);
-    return (CellPoint){0.5f * (second - nearest) / length, vec3_scale(apart, 1.0f / length), cell};
+    return (CellPoint){0.5f * (second - nearest) / length, vec3_scale(apart, 1.0f / length),
+                       points.hash[a / 8][a % 8]};
 }
