@@ -8,10 +8,10 @@
 #include <string.h>
 #include <unistd.h>
 
-// Copying instances out costs about 100 bytes a face. It is worth it for many copies of a small
-// mesh (leaves, grass), which as instances would be met with a ray apiece; a large mesh is traced
-// as well through its instances.
-enum { COPY_FACES_LIMIT = 6000000, COPY_MESH_LIMIT = 256 };
+// Leaves copied out trace 1.3 times as fast as leaves instanced one by one, but cost about 130
+// bytes a face: worth it up to this many faces. mesh (leaves, grass), which as instances would be
+// met with a ray apiece; a large mesh is traced as well through its instances.
+enum { COPY_FACES_LIMIT = 6, COPY_MESH_LIMIT = 256 };
 
 // ---- Embree's callbacks
 

@@ -14,7 +14,6 @@ typedef struct Ray {
     Vec3 origin, direction; // unit direction
     float far;              // m
     uint32_t key;           // random: decides whether the ray passes half-transparent surfaces
-    bool coherent;          // neighbours go the same way: camera rays
 } Ray;
 
 typedef struct Hit {
@@ -37,6 +36,13 @@ unsigned accel_thread_begin(void);
 void accel_thread_end(unsigned state);
 
 bool accel_intersect(const Accel *accel, const Ray *ray, Hit *hit);
+
+// The same for up to PACKET_SIZE rays that start and go nearly alike, together: faster. met[i] is
+// false where ray i meets nothing.
+enum { PACKET_SIZE = 8 };
+void accel_intersect_packet(const Accel *accel, const Ray *const ray[], int count, Hit hit[],
+                            bool met[]);
+
 bool accel_occluded(const Accel *accel, const Ray *ray);
 
 // Index of the light that was hit; -1 when it was a part.

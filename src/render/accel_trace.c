@@ -3,6 +3,7 @@
 #include "base/random.h"
 
 #include <pmmintrin.h>
+#include <string.h>
 #include <xmmintrin.h>
 
 unsigned accel_thread_begin(void)
@@ -17,24 +18,31 @@ void accel_thread_end(unsigned state)
     _mm_setcsr(state);
 }
 
-// Embree may ask more than once about a hit, so the draw hashes the hit instead of advancing a
-// generator. Rays come one at a time (N = 1), as only single rays are traced.
-void accel_alpha_filter(const struct RTCFilterFunctionNArguments *arguments)
+static bool passes(const AccelPart *own, unsigned primitive, unsigned instance, float u, float v,
+                   unsigned key)
 {
-    const AccelPart *own = arguments->geometryUserPtr;
     const Mesh *mesh = own->part->mesh;
-    const struct RTCRay *ray = (const struct RTCRay *)arguments->ray;
-    const struct RTCHit *hit = (const struct RTCHit *)arguments->hit;
-    if (!arguments->valid[0]) {
-        return;
-    }
-    Corners c = accel_corners(mesh, hit->primID % mesh->face_count, hit->u, hit->v);
+    Corners c = accel_corners(mesh, primitive % mesh->face_count, u, v);
     float opacity =
         material_opacity(own->accel->materials, own->part->material, accel_uv(mesh, &c));
-    if (opacity < 1.0f) {
-        uint64_t key = random_key(random_key(ray->id, hit->primID), hit->instID[0]);
-        if (random_unit(key) >= opacity) {
-            arguments->valid[0] = 0;
+    return opacity < 1.0f &&
+           random_unit(random_key(random_key(key, primitive), instance)) >= opacity;
+}
+
+// Embree may ask more than once about a hit, so the draw hashes the hit instead of advancing a
+// generator. Rays come one at a time or in packets, whose fields are arrays of N.
+void accel_alpha_filter(const struct RTCFilterFunctionNArguments *arguments)
+{
+    unsigned n = arguments->N;
+    const unsigned *ray = (const unsigned *)arguments->ray, *hit = (const unsigned *)arguments->hit;
+    for (unsigned i = 0; i < n; i++) {
+        float uv[2];
+        memcpy(&uv[0], &hit[3 * n + i], sizeof(float));
+        memcpy(&uv[1], &hit[4 * n + i], sizeof(float));
+        // Words of RTCRayN and RTCHitN: 10 = id; 3, 4 = u, v; 5 = primID; 7 = instID.
+        if (arguments->valid[i] && passes(arguments->geometryUserPtr, hit[5 * n + i],
+                                          hit[7 * n + i], uv[0], uv[1], ray[10 * n + i])) {
+            arguments->valid[i] = 0;
         }
     }
 }
@@ -56,8 +64,7 @@ bool accel_intersect(const Accel *accel, const Ray *ray, Hit *hit)
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags =
-        ray->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     struct RTCRayHit query = {.ray = embree_ray(ray)};
     query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(accel->scene, &context, &query);
@@ -72,6 +79,45 @@ bool accel_intersect(const Accel *accel, const Ray *ray, Hit *hit)
                  instanced ? query.hit.instID[0] : query.hit.geomID,
                  query.hit.primID};
     return true;
+}
+
+static void set_packet_ray(struct RTCRayHit8 *query, int i, const Ray *ray)
+{
+    query->ray.org_x[i] = ray->origin.x;
+    query->ray.org_y[i] = ray->origin.y;
+    query->ray.org_z[i] = ray->origin.z;
+    query->ray.dir_x[i] = ray->direction.x;
+    query->ray.dir_y[i] = ray->direction.y;
+    query->ray.dir_z[i] = ray->direction.z;
+    query->ray.tfar[i] = ray->far;
+    query->ray.mask[i] = ~0u;
+    query->ray.id[i] = ray->key;
+    query->hit.geomID[i] = query->hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+}
+
+void accel_intersect_packet(const Accel *accel, const Ray *const ray[], int count, Hit hit[],
+                            bool met[])
+{
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    struct RTCRayHit8 query = {.ray.tnear = {0.0f}};
+    int valid[PACKET_SIZE] __attribute__((aligned(32))) = {0};
+    for (int i = 0; i < count; i++) {
+        set_packet_ray(&query, i, ray[i]);
+        valid[i] = -1;
+    }
+    rtcIntersect8(valid, accel->scene, &context, &query);
+    for (int i = 0; i < count; i++) {
+        met[i] = query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        bool instanced = query.hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID;
+        hit[i] = (Hit){query.ray.tfar[i],
+                       query.hit.u[i],
+                       query.hit.v[i],
+                       vec3(query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]),
+                       instanced ? query.hit.instID[0][i] : query.hit.geomID[i],
+                       query.hit.primID[i]};
+    }
 }
 
 bool accel_occluded(const Accel *accel, const Ray *ray)

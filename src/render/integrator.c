@@ -2,6 +2,8 @@
 
 #include "render/dome.h"
 
+#include <stddef.h>
+
 // Sets of random numbers: one for the camera, then two for each bounce.
 enum { SET_CAMERA = 0, SET_BSDF = 1, SET_LIGHT = 2, SETS_PER_BOUNCE = 2 };
 
@@ -44,7 +46,6 @@ static void leave(const Path *path, const SurfacePoint *point, Vec3 direction, f
     ray->direction = direction;
     ray->far = far;
     ray->key = (path->sampler.key ^ (path->sampler.reversed * 0x9e3779b1u)) + (uint32_t)path->depth;
-    ray->coherent = false;
 }
 
 // Light that reaches the point straight from a light, by sampling the light.
@@ -163,31 +164,25 @@ static bool bounce(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3
     return survives(path, u[3]);
 }
 
-// Follows the ray to what it meets. False when the path ends there.
-static bool step(Path *path, PathResult *result)
+// What the ray met. False when the path ends there.
+static bool arrive(Path *path, const Hit *hit, PathResult *result)
 {
     const Tracer *tracer = path->tracer;
-    Hit hit;
-    path->rays++;
-    if (!accel_intersect(tracer->accel, &path->ray, &hit)) {
-        add_background(path, result);
-        return false;
-    }
-    absorb(path, hit.t);
-    add_haze(path, hit.t);
-    int light = accel_light(tracer->accel, &hit);
+    absorb(path, hit->t);
+    add_haze(path, hit->t);
+    int light = accel_light(tracer->accel, hit);
     if (light >= 0) {
         add_light(path, lights_emitted(tracer->lights, light, path->ray.origin, path->ray.direction,
-                                       hit.t, path->bsdf_pdf));
+                                       hit->t, path->bsdf_pdf));
         return false;
     }
     SurfacePoint point;
-    accel_surface(tracer->accel, &path->ray, &hit, &point);
-    point.footprint = path->footprint + path->spread * hit.t;
+    accel_surface(tracer->accel, &path->ray, hit, &point);
+    point.footprint = path->footprint + path->spread * hit->t;
     Vec3 wo = vec3_neg(path->ray.direction);
     Bsdf bsdf = bsdf_at(tracer->materials, &point, wo);
     if (path->depth == 0) {
-        note_first_hit(result, &point, &bsdf, hit.t);
+        note_first_hit(result, &point, &bsdf, hit->t);
     }
     if (bsdf_is_emissive(&bsdf)) {
         add_light(path, bsdf.emission);
@@ -208,26 +203,57 @@ static Vec3 clamped(Vec3 light, float limit)
     return limit > 0.0f && l > limit ? vec3_scale(light, limit / l) : light;
 }
 
-void integrator_path(const Tracer *tracer, int x, int y, int sample, PathResult *result)
+static void begin(Path *path, const Tracer *tracer, int x, int y, int sample)
 {
     const World *world = tracer->world;
-    Path path = {.tracer = tracer, .throughput = {1.0f, 1.0f, 1.0f}, .mirrored = true};
-    path.sampler = sampler_at(&tracer->sobol, world->render.seed,
-                              (uint32_t)(y * world->film.width + x), (uint32_t)sample);
+    *path = (Path){.tracer = tracer,
+                   .throughput = {1.0f, 1.0f, 1.0f},
+                   .spread = tracer->camera.pixel_angle,
+                   .mirrored = true,
+                   .rays = 1};
+    path->sampler = sampler_at(&tracer->sobol, world->render.seed,
+                               (uint32_t)(y * world->film.width + x), (uint32_t)sample);
     float u[4];
-    sampler_draw(&path.sampler, SET_CAMERA, u);
+    sampler_draw(&path->sampler, SET_CAMERA, u);
     float film_x = (float)x + 0.5f + filter_sample(&tracer->filter, u[0]);
     float film_y = (float)y + 0.5f + filter_sample(&tracer->filter, u[1]);
-    path.ray =
-        (Ray){.far = INFINITY, .key = path.sampler.key ^ path.sampler.reversed, .coherent = true};
-    camera_ray(&tracer->camera, film_x, film_y, u + 2, &path.ray.origin, &path.ray.direction);
-    path.spread = tracer->camera.pixel_angle;
+    path->ray.far = INFINITY;
+    path->ray.key = path->sampler.key ^ path->sampler.reversed;
+    camera_ray(&tracer->camera, film_x, film_y, u + 2, &path->ray.origin, &path->ray.direction);
+}
+
+// From the first hit, which is known, to the end.
+static void finish(Path *path, bool met, Hit *hit, PathResult *result)
+{
+    const Tracer *tracer = path->tracer;
     *result = (PathResult){.alpha = 1.0f, .depth = INFINITY};
-    while (step(&path, result)) {
+    while (met && arrive(path, hit, result)) {
+        path->rays++;
+        met = accel_intersect(tracer->accel, &path->ray, hit);
     }
-    result->color = vec3_add(path.direct, clamped(path.indirect, world->render.clamp));
+    if (!met) {
+        add_background(path, result);
+    }
+    result->color = vec3_add(path->direct, clamped(path->indirect, tracer->world->render.clamp));
     if (!vec3_finite(result->color)) {
         result->color = vec3_splat(0.0f);
     }
-    result->rays = path.rays;
+    result->rays = path->rays;
+}
+
+void integrator_paths(const Tracer *tracer, int x, int y, int sample, int count,
+                      PathResult result[])
+{
+    Path path[PACKET_SIZE];
+    const Ray *ray[PACKET_SIZE] = {NULL};
+    Hit hit[PACKET_SIZE];
+    bool met[PACKET_SIZE];
+    for (int i = 0; i < count; i++) {
+        begin(&path[i], tracer, x, y, sample + i);
+        ray[i] = &path[i].ray;
+    }
+    accel_intersect_packet(tracer->accel, ray, count, hit, met);
+    for (int i = 0; i < count; i++) {
+        finish(&path[i], met[i], &hit[i], &result[i]);
+    }
 }

@@ -1,5 +1,5 @@
-// One path from the camera into the world: next-event estimation, multiple importance sampling,
-// Russian roulette. A pure function of (tracer, pixel, sample).
+// Paths from the camera into the world: next-event estimation, multiple importance sampling,
+// Russian roulette. Each is a pure function of (tracer, pixel, sample).
 #ifndef RAMIFY_RENDER_INTEGRATOR_H
 #define RAMIFY_RENDER_INTEGRATOR_H
 
@@ -31,6 +31,9 @@ typedef struct PathResult {
     int object;
 } PathResult;
 
-void integrator_path(const Tracer *tracer, int x, int y, int sample, PathResult *result);
+// Samples sample .. sample + count - 1 of pixel (x, y), count at most PACKET_SIZE: their camera
+// rays are traced together.
+void integrator_paths(const Tracer *tracer, int x, int y, int sample, int count,
+                      PathResult result[]);
 
 #endif

@@ -156,10 +156,13 @@ static int64_t render_tile(Job *job, Tile *tile, int end)
     for (int y = tile->y0; y < tile->y1; y++) {
         for (int x = tile->x0; x < tile->x1; x++) {
             PixelSum sum = {.object = 0};
-            for (int k = tile->samples; k < end; k++) {
-                PathResult path;
-                integrator_path(job->tracer, x, y, k, &path);
-                pixel_add(&sum, &path);
+            for (int k = tile->samples, count; k < end; k += count) {
+                PathResult path[PACKET_SIZE];
+                count = end - k < PACKET_SIZE ? end - k : PACKET_SIZE;
+                integrator_paths(job->tracer, x, y, k, count, path);
+                for (int i = 0; i < count; i++) {
+                    pixel_add(&sum, &path[i]);
+                }
             }
             film_merge(job->film, (int64_t)y * job->film->width + x, tile->samples,
                        end - tile->samples, &sum);

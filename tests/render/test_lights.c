@@ -7,20 +7,18 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#define ASSERT_NEAR(value, wanted, tolerance)                                                      \
-    do {                                                                                           \
-        double v_ = (double)(value), w_ = (double)(wanted);                                        \
-        if (!(fabs(v_ - w_) <= (double)(tolerance))) {                                             \
-            fail_msg("%s = %.6g, not %.6g +- %.2g", #value, v_, w_, (double)(tolerance));          \
-        }                                                                                          \
+#define ASSERT_NEAR(value, wanted, tolerance)                                             \
+    do {                                                                                  \
+        double v_ = (double)(value), w_ = (double)(wanted);                               \
+        if (!(fabs(v_ - w_) <= (double)(tolerance))) {                                    \
+            fail_msg("%s = %.6g, not %.6g +- %.2g", #value, v_, w_, (double)(tolerance)); \
+        }                                                                                 \
     } while (0)
 
 static Light sphere_light(Vec3 center, float radius, float radiance)
 {
-    return (Light){.kind = LIGHT_SPHERE,
-                   .radiance = vec3_splat(radiance),
-                   .center = center,
-                   .radius = radius};
+    return (Light){
+        .kind = LIGHT_SPHERE, .radiance = vec3_splat(radiance), .center = center, .radius = radius};
 }
 
 // Looks straight down at one point of a plane through a very long lens.
@@ -158,7 +156,8 @@ static void environment_is_where_it_should_be(void **state)
     Lights *lights = lights_new(world, 1.0f, &run, NULL);
     assert_non_null(lights);
     float elevation = (0.5f - 10.5f / 32.0f) * PI_F, azimuth = (0.5f - 16.5f / 64.0f) * 2.0f * PI_F;
-    Vec3 lamp = vec3(cosf(elevation) * sinf(azimuth), sinf(elevation), cosf(elevation) * cosf(azimuth));
+    Vec3 lamp =
+        vec3(cosf(elevation) * sinf(azimuth), sinf(elevation), cosf(elevation) * cosf(azimuth));
     assert_true(lamp.x > 0.8f);
     ASSERT_NEAR(lights_background(lights, lamp, 0.0f).x, 800.0, 1.0);
     lights_free(lights);
@@ -200,7 +199,8 @@ static void sampling_agrees_with_brute_force(void **state)
 }
 
 // A whole path tracing under the environment, next to a sum over uniform directions: a convex
-// diffuse body sees the environment only, so a pixel's radiance is albedo / pi times the irradiance.
+// diffuse body sees the environment only, so a pixel's radiance is albedo / pi times the
+// irradiance.
 static void path_tracing_agrees_with_brute_force(void **state)
 {
     (void)state;

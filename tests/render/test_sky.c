@@ -45,12 +45,12 @@ static float sun_lux(const Sun *sun) // facing it
     return luminance(sun->radiance) * sun->solid_angle * SKY_CANDELA_PER_UNIT;
 }
 
-#define ASSERT_BETWEEN(value, low, high)                                                           \
-    do {                                                                                           \
-        double v_ = (double)(value);                                                               \
-        if (!(v_ >= (double)(low) && v_ <= (double)(high))) {                                      \
-            fail_msg("%s = %g, not in %g .. %g", #value, v_, (double)(low), (double)(high));       \
-        }                                                                                          \
+#define ASSERT_BETWEEN(value, low, high)                                                     \
+    do {                                                                                     \
+        double v_ = (double)(value);                                                         \
+        if (!(v_ >= (double)(low) && v_ <= (double)(high))) {                                \
+            fail_msg("%s = %g, not in %g .. %g", #value, v_, (double)(low), (double)(high)); \
+        }                                                                                    \
     } while (0)
 
 // The solar illuminance constant: 128 to 134 klx by different spectra.
@@ -171,9 +171,12 @@ static void dome_sampling_integrates(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(solar_constant_in_lux),    cmocka_unit_test(luminance_in_published_ranges),
-        cmocka_unit_test(sky_is_blue_and_the_low_sun_red), cmocka_unit_test(haze_and_strength),
-        cmocka_unit_test(sun_disc),                 cmocka_unit_test(dome_sampling_integrates),
+        cmocka_unit_test(solar_constant_in_lux),
+        cmocka_unit_test(luminance_in_published_ranges),
+        cmocka_unit_test(sky_is_blue_and_the_low_sun_red),
+        cmocka_unit_test(haze_and_strength),
+        cmocka_unit_test(sun_disc),
+        cmocka_unit_test(dome_sampling_integrates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

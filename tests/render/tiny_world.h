@@ -21,7 +21,8 @@ static inline World *tiny_world(int width, int height, int samples, float albedo
 {
     World *world = world_new(NULL);
     assert_non_null(world);
-    world->camera = (Camera){.position = {0, 0, 5}, .target = {0, 0, 0}, .up = {0, 1, 0}, .fov = 30};
+    world->camera =
+        (Camera){.position = {0, 0, 5}, .target = {0, 0, 0}, .up = {0, 1, 0}, .fov = 30};
     world->film.width = width;
     world->film.height = height;
     world->film.filter = FILTER_BOX;
@@ -46,7 +47,8 @@ static inline void add_part(World *world, Part part)
 static inline void add_mesh(World *world, Mesh *mesh, int material, int object)
 {
     assert_non_null(mesh);
-    add_part(world, (Part){.kind = PART_MESH, .mesh = mesh, .material = material, .object = object});
+    add_part(world,
+             (Part){.kind = PART_MESH, .mesh = mesh, .material = material, .object = object});
 }
 
 static inline void add_light(World *world, Light light)
@@ -61,7 +63,8 @@ static inline Mesh *quad_mesh(Vec3 corner, Vec3 u, Vec3 v)
 {
     Mesh *mesh = mesh_new(4, 4, 1, 0, NULL);
     assert_non_null(mesh);
-    Vec3 p[4] = {corner, vec3_add(corner, u), vec3_add(vec3_add(corner, u), v), vec3_add(corner, v)};
+    Vec3 p[4] = {corner, vec3_add(corner, u), vec3_add(vec3_add(corner, u), v),
+                 vec3_add(corner, v)};
     memcpy(mesh->position, p, sizeof p);
     memcpy(mesh->index, (uint32_t[4]){0, 1, 2, 3}, 16);
     return mesh;
@@ -70,8 +73,8 @@ static inline Mesh *quad_mesh(Vec3 corner, Vec3 u, Vec3 v)
 // A sphere of n x 2n quads, with smooth normals when asked.
 static inline Mesh *sphere_mesh(Vec3 center, float radius, int n, bool smooth)
 {
-    Mesh *mesh = mesh_new(4, (int64_t)(n + 1) * 2 * n, (int64_t)2 * n * n,
-                          smooth ? MESH_NORMAL : 0, NULL);
+    Mesh *mesh =
+        mesh_new(4, (int64_t)(n + 1) * 2 * n, (int64_t)2 * n * n, smooth ? MESH_NORMAL : 0, NULL);
     assert_non_null(mesh);
     uint32_t *index = mesh->index;
     for (int j = 0; j <= n; j++) {
@@ -84,7 +87,8 @@ static inline Mesh *sphere_mesh(Vec3 center, float radius, int n, bool smooth)
                 mesh->normal[k] = d;
             }
             if (j < n) {
-                uint32_t a = (uint32_t)(j * 2 * n + i), b = (uint32_t)(j * 2 * n + (i + 1) % (2 * n));
+                uint32_t a = (uint32_t)(j * 2 * n + i),
+                         b = (uint32_t)(j * 2 * n + (i + 1) % (2 * n));
                 uint32_t row = (uint32_t)(2 * n);
                 memcpy(index, (uint32_t[4]){a, a + row, b + row, b}, 16);
                 index += 4;
