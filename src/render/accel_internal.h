@@ -32,6 +32,7 @@ struct Accel {
     AccelPart *part; // one for each of the world's parts
     AccelEntry *entry;
     int64_t entry_count, entry_capacity;
+    int64_t copied_faces; // of instances copied out so far
     _Atomic int64_t bytes;
     int64_t bytes_limit;
     pthread_mutex_t lock; // of failure
