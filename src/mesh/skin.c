@@ -108,7 +108,9 @@ Mesh *mesh_subdivide(const Mesh *cage, int levels, const Run *run, Error *e)
     return mesh;
 }
 
-// The thickest branches get `levels`; each quarter of their radius, one less, but one at least.
+// Thin branches have few sides and get fewer levels: one less below a 24th of the thickest radius,
+// two less below a 96th, but one at least. (Thick ones have more sides to begin with, so that faces
+// differ little in size.)
 static void grade_levels(const Mesh *cage, int levels, uint8_t *face_level)
 {
     float thickest = 0.0f;
@@ -122,7 +124,7 @@ static void grade_levels(const Mesh *cage, int levels, uint8_t *face_level)
             radius = here > radius ? here : radius;
         }
         int level = levels;
-        for (float limit = 0.25f * thickest; level > 1 && radius < limit; limit *= 0.25f) {
+        for (float limit = thickest / 24.0f; level > 1 && radius < limit; limit *= 0.25f) {
             level--;
         }
         face_level[f] = (uint8_t)level;
