@@ -199,7 +199,8 @@ void pattern_bark(const Material *m, const SurfacePoint *point, PatternShade *sh
     wind = vec3_scale(wind, 0.6f);
     float old = point->radius > 0.0f ? smoothstepf(0.008f, 0.03f, point->radius) : 1.0f;
     float seen = old * pattern_detail(1.6f * width, point->footprint);
-    Vec3 mean = vec3_lerp(shade->color, m->color2, 0.25f);
+    const BarkRelief flat = {.height = 0.7f, .furrow = 0.3f}; // what relief comes to from afar
+    Vec3 mean = add_growth(vec3_lerp(shade->color, m->color2, 0.44f), point, &flat, wind);
     Vec3 color = mean;
     if (seen > 0.0f) {
         BarkPlace place = bark_place(point);

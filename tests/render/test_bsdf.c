@@ -16,6 +16,7 @@
 
 typedef struct Case {
     const char *name;
+    int number; // of its material in the set
     Material material;
     bool inside;
 } Case;
@@ -36,17 +37,17 @@ static int make_cases(Case *cases)
 {
     static const float roughness[] = {0.04f, 0.15f, 0.3f, 0.5f, 0.75f, 1.0f};
     int n = 0;
-    cases[n++] = (Case){"lambert", white(MATERIAL_DIFFUSE, 0.0f), false};
+    cases[n++] = (Case){"lambert", 0, white(MATERIAL_DIFFUSE, 0.0f), false};
     for (int i = 0; i < 6; i++) {
         float r = roughness[i];
-        cases[n++] = (Case){"diffuse", white(MATERIAL_DIFFUSE, r), false};
-        cases[n++] = (Case){"conductor", white(MATERIAL_CONDUCTOR, r), false};
-        cases[n++] = (Case){"principled", white(MATERIAL_PRINCIPLED, r), false};
-        cases[n] = (Case){"metallic", white(MATERIAL_PRINCIPLED, r), false};
+        cases[n++] = (Case){"diffuse", 0, white(MATERIAL_DIFFUSE, r), false};
+        cases[n++] = (Case){"conductor", 0, white(MATERIAL_CONDUCTOR, r), false};
+        cases[n++] = (Case){"principled", 0, white(MATERIAL_PRINCIPLED, r), false};
+        cases[n] = (Case){"metallic", 0, white(MATERIAL_PRINCIPLED, r), false};
         cases[n++].material.metallic = 0.7f;
-        cases[n++] = (Case){"glass", white(MATERIAL_DIELECTRIC, r), false};
-        cases[n++] = (Case){"in glass", white(MATERIAL_DIELECTRIC, r), true};
-        cases[n] = (Case){"leaf", white(MATERIAL_LEAF, r), false};
+        cases[n++] = (Case){"glass", 0, white(MATERIAL_DIELECTRIC, r), false};
+        cases[n++] = (Case){"in glass", 0, white(MATERIAL_DIELECTRIC, r), true};
+        cases[n] = (Case){"leaf", 0, white(MATERIAL_LEAF, r), false};
         cases[n].material.color = vec3_splat(0.6f);
         cases[n++].material.transmittance = vec3_splat(0.4f);
         cases[n] = cases[n - 1];
@@ -57,6 +58,33 @@ static int make_cases(Case *cases)
     return n;
 }
 
+// All cases and their materials, made once.
+typedef struct Cases {
+    int count;
+    Case list[CASE_LIMIT];
+    MaterialSet *set;
+} Cases;
+
+static int set_up(void **state)
+{
+    static Cases cases;
+    Material materials[CASE_LIMIT];
+    cases.count = make_cases(cases.list);
+    for (int i = 0; i < cases.count; i++) {
+        cases.list[i].number = i;
+        materials[i] = cases.list[i].material;
+    }
+    cases.set = material_set_new(materials, cases.count, NULL);
+    *state = &cases;
+    return cases.set ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    material_set_free(((Cases *)*state)->set);
+    return 0;
+}
+
 static SurfacePoint flat_point(bool inside)
 {
     return (SurfacePoint){.geometric_normal = vec3(0, 0, 1),
@@ -64,6 +92,13 @@ static SurfacePoint flat_point(bool inside)
                           .tangent_u = vec3(1, 0, 0),
                           .tangent_v = vec3(0, 1, 0),
                           .backface = inside};
+}
+
+static SurfacePoint case_point(const Case *c)
+{
+    SurfacePoint point = flat_point(c->inside);
+    point.material = c->number;
+    return point;
 }
 
 static Vec3 at_cosine(float cosine, float turn)
@@ -111,13 +146,11 @@ static const float COSINES[] = {0.02f, 0.1f, 0.3f, 0.6f, 0.9f, 1.0f};
 
 static void test_white_furnace(void **state)
 {
-    (void)state;
-    Case cases[CASE_LIMIT];
-    int count = make_cases(cases);
-    for (int i = 0; i < count; i++) {
-        MaterialSet *set = material_set_new(&cases[i].material, 1, NULL);
-        assert_non_null(set);
-        SurfacePoint point = flat_point(cases[i].inside);
+    const Cases *all = *state;
+    const Case *cases = all->list;
+    for (int i = 0; i < all->count; i++) {
+        const MaterialSet *set = all->set;
+        SurfacePoint point = case_point(&cases[i]);
         for (int k = 0; k < 6; k++) {
             Vec3 wo = at_cosine(COSINES[k], 0.1f);
             Bsdf bsdf = bsdf_at(set, &point, wo);
@@ -127,7 +160,6 @@ static void test_white_furnace(void **state)
                          (double)cases[i].material.roughness, (double)COSINES[k], albedo);
             }
         }
-        material_set_free(set);
     }
 }
 
@@ -186,15 +218,14 @@ static double density_integral(const Bsdf *bsdf, Vec3 wo, double *kept)
 
 static void test_densities(void **state)
 {
-    (void)state;
-    Case cases[CASE_LIMIT];
-    int count = make_cases(cases);
-    for (int i = 0; i < count; i++) {
+    const Cases *all = *state;
+    const Case *cases = all->list;
+    for (int i = 0; i < all->count; i++) {
         if (cases[i].material.roughness > 0.0f && cases[i].material.roughness < 0.25f) {
             continue; // too narrow for the grid
         }
-        MaterialSet *set = material_set_new(&cases[i].material, 1, NULL);
-        SurfacePoint point = flat_point(cases[i].inside);
+        const MaterialSet *set = all->set;
+        SurfacePoint point = case_point(&cases[i]);
         Vec3 wo = at_cosine(0.6f, 0.3f);
         Bsdf bsdf = bsdf_at(set, &point, wo);
         int drawn = 0;
@@ -210,19 +241,17 @@ static void test_densities(void **state)
                      (double)cases[i].material.roughness, integral, drawn / 4000.0);
         }
         assert_float_equal((float)kept, (float)furnace(&bsdf, wo, 8000, &error), 0.01f);
-        material_set_free(set);
     }
 }
 
 // The weight of a sample is eval over density at that direction.
 static void test_weights_agree(void **state)
 {
-    (void)state;
-    Case cases[CASE_LIMIT];
-    int count = make_cases(cases);
-    for (int i = 0; i < count; i++) {
-        MaterialSet *set = material_set_new(&cases[i].material, 1, NULL);
-        SurfacePoint point = flat_point(cases[i].inside);
+    const Cases *all = *state;
+    const Case *cases = all->list;
+    for (int i = 0; i < all->count; i++) {
+        const MaterialSet *set = all->set;
+        SurfacePoint point = case_point(&cases[i]);
         Vec3 wo = at_cosine(0.4f, 0.7f);
         point.normal = vec3_normalize(vec3(0.5f, -0.2f, 1.0f));
         Bsdf bsdf = bsdf_at(set, &point, wo);
@@ -239,7 +268,6 @@ static void test_weights_agree(void **state)
             assert_float_equal(pdf / s.pdf, 1.0f, 1e-3f);
             assert_float_equal(f.y / pdf, s.weight.y, 2e-3f * (1.0f + s.weight.y));
         }
-        material_set_free(set);
     }
 }
 
@@ -272,10 +300,9 @@ static void expect_cells(const Bsdf *bsdf, Vec3 wo, double *expected)
 
 // Chi-squared of the drawn directions against the density, also with a tilted shading normal, where
 // lobes fold over the horizon.
-static void chi_squared(const Case *c, bool tilted)
+static void chi_squared(const MaterialSet *set, const Case *c, bool tilted)
 {
-    MaterialSet *set = material_set_new(&c->material, 1, NULL);
-    SurfacePoint point = flat_point(c->inside);
+    SurfacePoint point = case_point(c);
     Vec3 wo = at_cosine(0.5f, 0.2f);
     if (tilted) {
         point.normal = vec3_normalize(vec3(0.6f, 0.3f, 1.0f));
@@ -314,19 +341,17 @@ static void chi_squared(const Case *c, bool tilted)
         fail_msg("%s, roughness %g%s: chi-squared %.1f over %d cells", c->name,
                  (double)c->material.roughness, tilted ? ", tilted" : "", statistic, degrees);
     }
-    material_set_free(set);
 }
 
 static void test_histograms(void **state)
 {
-    (void)state;
-    Case cases[CASE_LIMIT];
-    int count = make_cases(cases);
-    for (int i = 0; i < count; i++) {
+    const Cases *all = *state;
+    const Case *cases = all->list;
+    for (int i = 0; i < all->count; i++) {
         float r = cases[i].material.roughness;
         if (r <= 0.0f || (r > 0.4f && r < 0.7f)) {
-            chi_squared(&cases[i], false);
-            chi_squared(&cases[i], true);
+            chi_squared(all->set, &cases[i], false);
+            chi_squared(all->set, &cases[i], true);
         }
     }
 }
@@ -334,12 +359,11 @@ static void test_histograms(void **state)
 // f(a, b) = f(b, a) for reflection; between the two sides f / index^2 is what is symmetric.
 static void test_reciprocity(void **state)
 {
-    (void)state;
-    Case cases[CASE_LIMIT];
-    int count = make_cases(cases);
-    for (int i = 0; i < count; i++) {
-        MaterialSet *set = material_set_new(&cases[i].material, 1, NULL);
-        SurfacePoint point = flat_point(cases[i].inside);
+    const Cases *all = *state;
+    const Case *cases = all->list;
+    for (int i = 0; i < all->count; i++) {
+        const MaterialSet *set = all->set;
+        SurfacePoint point = case_point(&cases[i]);
         for (uint64_t k = 0; k < 200; k++) {
             Vec3 a = sphere_direction(random_key(1, k)), b = sphere_direction(random_key(2, k));
             a.z = fabsf(a.z);
@@ -356,7 +380,6 @@ static void test_reciprocity(void **state)
                          (double)cases[i].material.roughness, (double)ab, (double)ba);
             }
         }
-        material_set_free(set);
     }
 }
 
@@ -386,15 +409,14 @@ static void test_transmission_reciprocity(void **state)
 // material never sends light below the surface.
 static void test_bumped_furnace(void **state)
 {
-    (void)state;
-    Case cases[CASE_LIMIT];
-    int count = make_cases(cases);
-    for (int i = 0; i < count; i++) {
-        MaterialSet *set = material_set_new(&cases[i].material, 1, NULL);
+    const Cases *all = *state;
+    const Case *cases = all->list;
+    for (int i = 0; i < all->count; i++) {
+        const MaterialSet *set = all->set;
         bool opaque = cases[i].material.kind != MATERIAL_LEAF &&
                       cases[i].material.kind != MATERIAL_DIELECTRIC;
         for (int k = 0; k < 4; k++) {
-            SurfacePoint point = flat_point(cases[i].inside);
+            SurfacePoint point = case_point(&cases[i]);
             point.normal = vec3_normalize(vec3(0.4f * (float)k, -0.3f, 1.0f));
             Vec3 wo = at_cosine(0.15f, 0.5f); // away from the tilt: beyond its horizon at k = 3
             Bsdf bsdf = bsdf_at(set, &point, wo);
@@ -408,7 +430,6 @@ static void test_bumped_furnace(void **state)
             Vec3 below = bsdf_eval(&bsdf, wo, vec3(0.6f, 0.0f, -0.8f), &pdf);
             assert_true(!opaque || (below.y == 0.0f && pdf == 0.0f));
         }
-        material_set_free(set);
     }
 }
 
@@ -466,5 +487,5 @@ int main(void)
         cmocka_unit_test(test_leaf_sides),
         cmocka_unit_test(test_emission_and_glass_body),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -1,0 +1,306 @@
+// Noise and the patterns made of it.
+#include "render/pattern.h"
+
+#include "base/random.h"
+#include "render/bsdf.h"
+#include "render/pattern_noise.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static Vec3 random_point(uint64_t key, float size)
+{
+    return vec3(random_range(random_key(key, 0), -size, size),
+                random_range(random_key(key, 1), -size, size),
+                random_range(random_key(key, 2), -size, size));
+}
+
+static void test_noise_range(void **state)
+{
+    (void)state;
+    double sum = 0.0, squares = 0.0;
+    float low = 1.0f, high = -1.0f;
+    const int count = 100000;
+    for (int i = 0; i < count; i++) {
+        float n = noise_solid(random_point((uint64_t)i, 500.0f), 3, NULL);
+        sum += (double)n;
+        squares += (double)(n * n);
+        low = fminf(low, n);
+        high = fmaxf(high, n);
+        float f = noise_fractal(random_point((uint64_t)i, 50.0f), 4, 3);
+        assert_true(fabsf(f) < 1.6f);
+    }
+    assert_true(fabs(sum / count) < 0.01);
+    assert_true(sqrt(squares / count) > 0.15 && sqrt(squares / count) < 0.45);
+    assert_true(low > -1.3f && high < 1.3f && high > 0.6f && low < -0.6f);
+    assert_float_equal(noise_solid(vec3(3, -7, 12), 3, NULL), 0.0f, 1e-6f);
+    assert_true(noise_solid(vec3(0.3f, 0.4f, 0.6f), 1, NULL) !=
+                noise_solid(vec3(0.3f, 0.4f, 0.6f), 2, NULL));
+}
+
+// Continuous over cell walls, and the gradient is that of the value.
+static void test_noise_gradient(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 2000; i++) {
+        Vec3 p = random_point(i, 20.0f), g;
+        if (i % 4 == 0) {
+            p.x = roundf(p.x);
+        }
+        float n = noise_solid(p, 9, &g);
+        assert_float_equal(n, noise_solid(p, 9, NULL), 0.0f);
+        const float h = 2e-3f;
+        float dx = noise_solid(vec3(p.x + h, p.y, p.z), 9, NULL) -
+                   noise_solid(vec3(p.x - h, p.y, p.z), 9, NULL);
+        float dy = noise_solid(vec3(p.x, p.y + h, p.z), 9, NULL) -
+                   noise_solid(vec3(p.x, p.y - h, p.z), 9, NULL);
+        float dz = noise_solid(vec3(p.x, p.y, p.z + h), 9, NULL) -
+                   noise_solid(vec3(p.x, p.y, p.z - h), 9, NULL);
+        assert_float_equal(dx / (2 * h), g.x, 0.01f);
+        assert_float_equal(dy / (2 * h), g.y, 0.01f);
+        assert_float_equal(dz / (2 * h), g.z, 0.01f);
+    }
+}
+
+static void test_cells(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 5000; i++) {
+        Vec3 p = random_point(i, 30.0f), q = vec3_add(p, vec3(0, 1e-3f, 0));
+        CellPoint a = noise_cells(p, 5), b = noise_cells(q, 5);
+        assert_true(a.border >= 0.0f && a.border < 1.5f);
+        assert_float_equal(vec3_length(a.normal), 1.0f, 1e-3f);
+        // walking through a border changes the cell; the distance to it is continuous there
+        if (a.cell != b.cell) {
+            assert_true(a.border < 2e-3f && b.border < 2e-3f);
+        }
+    }
+}
+
+static SurfacePoint trunk_point(float angle, float along, float radius)
+{
+    Vec3 n = vec3(cosf(angle), 0, sinf(angle)), around = vec3(-n.z, 0, n.x);
+    float side = angle < 0.0f ? -1.0f : 1.0f;
+    SurfacePoint p = {.normal = n,
+                      .geometric_normal = n,
+                      .uv = {fabsf(angle) * radius, along},
+                      .tangent_u = vec3_scale(around, side),
+                      .tangent_v = vec3(0, 1, 0),
+                      .radius = radius,
+                      .footprint = 5e-4f};
+    p.position = p.object_position = vec3_madd(vec3(0, along, 0), radius, n);
+    return p;
+}
+
+static Material bark(void)
+{
+    Material m = material_default(MATERIAL_PRINCIPLED);
+    m.pattern = PATTERN_BARK;
+    m.pattern_depth = 0.012f;
+    m.color = vec3(0.2f, 0.17f, 0.14f);
+    m.color2 = vec3(0.03f, 0.024f, 0.02f);
+    return m;
+}
+
+static PatternShade shade_of(const Material *m, const SurfacePoint *p)
+{
+    PatternShade shade = {m->color, m->transmittance, p->normal};
+    pattern_apply(m, p, &shade);
+    assert_true(vec3_finite(shade.color) && vec3_finite(shade.normal));
+    assert_float_equal(vec3_length(shade.normal), 1.0f, 1e-3f);
+    assert_true(vec3_dot(shade.normal, p->normal) > 0.2f);
+    assert_true(shade.color.x >= 0.0f && shade.color.x < 1.0f);
+    return shade;
+}
+
+// A grown mesh's u runs both ways round and meets itself twice: neither colour nor bump may show
+// it.
+static void test_bark_has_no_seam(void **state)
+{
+    (void)state;
+    Material m = bark();
+    for (int i = 0; i < 400; i++) {
+        float along = 0.013f * (float)i;
+        for (int seam = 0; seam < 2; seam++) {
+            float angle = seam ? 3.14159f : 1e-6f;
+            SurfacePoint a = trunk_point(angle, along, 0.4f), b = trunk_point(-angle, along, 0.4f);
+            PatternShade left = shade_of(&m, &a), right = shade_of(&m, &b);
+            assert_true(vec3_distance(left.color, right.color) < 0.01f);
+            assert_true(vec3_distance(left.normal, right.normal) < 0.05f);
+        }
+    }
+}
+
+typedef struct Spread {
+    double mean, deviation, tilt;
+    double around, along; // mean change of brightness over 1 cm
+} Spread;
+
+static Spread measure_bark(float radius, float footprint)
+{
+    Material m = bark();
+    Spread s = {0};
+    const int count = 4000;
+    double squares = 0.0;
+    for (int i = 0; i < count; i++) {
+        float angle = random_range(random_key(1, (uint64_t)i), -3.0f, 3.0f);
+        float along = random_range(random_key(2, (uint64_t)i), 0.0f, 5.0f);
+        SurfacePoint p = trunk_point(angle, along, radius);
+        SurfacePoint q = trunk_point(angle + 0.01f / radius, along, radius);
+        SurfacePoint r = trunk_point(angle, along + 0.01f, radius);
+        p.footprint = q.footprint = r.footprint = footprint;
+        PatternShade shade = shade_of(&m, &p);
+        double c = (double)shade.color.y;
+        s.mean += c / count;
+        squares += c * c / count;
+        s.tilt += (double)(1.0f - vec3_dot(shade.normal, p.normal)) / count;
+        s.around += fabs((double)shade_of(&m, &q).color.y - c) / count;
+        s.along += fabs((double)shade_of(&m, &r).color.y - c) / count;
+    }
+    s.deviation = sqrt(fmax(0.0, squares - s.mean * s.mean));
+    return s;
+}
+
+// Furrows run along the stem, are deep and dark, fade with distance, and leave twigs smooth.
+static void test_bark_relief(void **state)
+{
+    (void)state;
+    Spread trunk = measure_bark(0.4f, 5e-4f), twig = measure_bark(0.004f, 5e-4f);
+    Spread distant = measure_bark(0.4f, 0.5f), branch = measure_bark(0.04f, 5e-4f);
+    assert_true(trunk.around > 1.5 * trunk.along);
+    assert_true(trunk.deviation > 0.25 * trunk.mean);
+    assert_true(trunk.tilt > 0.05);
+    assert_true(twig.tilt < 1e-6 && twig.deviation < 0.1 * twig.mean);
+    assert_true(distant.tilt < 1e-6 && distant.deviation < 0.4 * trunk.deviation);
+    assert_true(fabs(distant.mean / trunk.mean - 1.0) < 0.1);
+    assert_true(branch.tilt > 0.02 && branch.deviation > 0.15 * branch.mean);
+}
+
+// Ridges keep their metric size whatever the stem's radius.
+static void test_bark_scale(void **state)
+{
+    (void)state;
+    Spread thin = measure_bark(0.2f, 5e-4f), thick = measure_bark(0.8f, 5e-4f);
+    assert_true(fabs(thin.around / thick.around - 1.0) < 0.15);
+    assert_true(fabs(thin.along / thick.along - 1.0) < 0.15);
+}
+
+// Imported meshes know no branch.
+static void test_bark_without_branch(void **state)
+{
+    (void)state;
+    Material m = bark();
+    SurfacePoint p = {.normal = vec3(0, 1, 0), .geometric_normal = vec3(0, 1, 0)};
+    shade_of(&m, &p);
+    p.normal = p.geometric_normal = vec3(0.6f, 0, 0.8f);
+    p.object_position = vec3(100, 200, -300);
+    shade_of(&m, &p);
+}
+
+static void test_ground(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_GROUND;
+    m.pattern_depth = 0.02f;
+    m.color = vec3(0.08f, 0.12f, 0.03f);
+    m.color2 = vec3(0.13f, 0.09f, 0.06f);
+    int green = 0, earth = 0;
+    for (int i = 0; i < 4000; i++) {
+        Vec3 at = random_point((uint64_t)i, 40.0f);
+        SurfacePoint p = {.normal = vec3(0, 1, 0), .geometric_normal = vec3(0, 1, 0)};
+        p.position = p.object_position = vec3(at.x, 0, at.z);
+        Vec3 c = shade_of(&m, &p).color;
+        green += c.y > c.x;
+        earth += c.x > c.y;
+    }
+    assert_true(green > 2400 && earth > 40);
+}
+
+static void test_leaf_veins(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_LEAF);
+    m.pattern = PATTERN_LEAF;
+    SurfacePoint p = {.normal = vec3(0, 0, 1),
+                      .geometric_normal = vec3(0, 0, 1),
+                      .tangent_u = vec3(0.06f, 0, 0),
+                      .tangent_v = vec3(0, 0.1f, 0),
+                      .uv = {0.5f, 0.4f},
+                      .footprint = 1e-5f};
+    PatternShade midrib = shade_of(&m, &p);
+    double blade = 0.0, through = 0.0;
+    for (int i = 0; i < 1000; i++) {
+        p.uv = (Vec2){random_unit(random_key(1, (uint64_t)i)),
+                      random_unit(random_key(2, (uint64_t)i))};
+        PatternShade s = shade_of(&m, &p);
+        blade += (double)s.color.y / 1000.0;
+        through += (double)s.transmittance.y / 1000.0;
+    }
+    assert_true((double)midrib.color.y > 1.15 * blade);
+    assert_true((double)midrib.transmittance.y < 0.8 * through);
+}
+
+// Instances differ as far as `variation` says, and not at all without it.
+static void test_variation(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_LEAF);
+    SurfacePoint p = {.normal = vec3(0, 0, 1), .geometric_normal = vec3(0, 0, 1)};
+    float low = 1.0f, high = 0.0f;
+    for (int k = 0; k < 2; k++) {
+        m.variation = 0.4f * (float)k;
+        low = 1.0f;
+        high = 0.0f;
+        for (int i = 0; i < 200; i++) {
+            p.variation = (float)i / 200.0f;
+            float value = shade_of(&m, &p).color.y / m.color.y;
+            low = fminf(low, value);
+            high = fmaxf(high, value);
+        }
+        assert_true(k || (low == 1.0f && high == 1.0f));
+    }
+    assert_true(low < 0.9f && low > 0.8f && high > 1.1f && high < 1.2f);
+}
+
+static void test_noise_pattern(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_NOISE;
+    m.pattern_depth = 0.01f;
+    float low = 1.0f, high = 0.0f;
+    for (int i = 0; i < 1000; i++) {
+        SurfacePoint p = {.normal = vec3(0, 0, 1), .geometric_normal = vec3(0, 0, 1)};
+        p.object_position = random_point((uint64_t)i, 3.0f);
+        float c = shade_of(&m, &p).color.x;
+        assert_true(c >= 0.0999f && c <= 0.5001f);
+        low = fminf(low, c);
+        high = fmaxf(high, c);
+    }
+    assert_true(low < 0.2f && high > 0.4f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_noise_range),
+        cmocka_unit_test(test_noise_gradient),
+        cmocka_unit_test(test_cells),
+        cmocka_unit_test(test_bark_has_no_seam),
+        cmocka_unit_test(test_bark_relief),
+        cmocka_unit_test(test_bark_scale),
+        cmocka_unit_test(test_bark_without_branch),
+        cmocka_unit_test(test_ground),
+        cmocka_unit_test(test_leaf_veins),
+        cmocka_unit_test(test_variation),
+        cmocka_unit_test(test_noise_pattern),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
