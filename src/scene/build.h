@@ -15,7 +15,11 @@ typedef struct BuildStats {
 // array of scene->object_count; free each, then the array.
 OutTree **scene_grow(const Scene *scene, const Run *run, Error *e);
 
+// The out-tree of object number index alone. ERROR_INPUT when it does not grow or does not exist.
+OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error *e);
+
 // Everything. The world borrows strings from the scene: free the world first.
+// stats may be NULL.
 World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error *e);
 
 #endif

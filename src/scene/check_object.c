@@ -79,6 +79,17 @@ bool check_ground(Resolver *r, const Path *path, const Node *given, Node *resolv
     return true;
 }
 
+bool check_grove(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    double inner = node_number(resolved, "inner"), outer = node_number(resolved, "outer");
+    if (inner >= outer) {
+        return resolver_fail(r, node_place(given, "inner"),
+                             "%s.inner is %g m; it must be less than outer, %g m",
+                             resolver_path(r, path, NULL), inner, outer);
+    }
+    return true;
+}
+
 // Appends the hidden node `transform`, three rows of four numbers. size: of a sphere, whose shape
 // is the unit sphere; 1 otherwise.
 static bool add_transform(Resolver *r, const Path *path, const Node *given, Node *resolved,

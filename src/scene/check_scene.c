@@ -21,6 +21,7 @@ static bool fov_from_focal_length(Resolver *r, Node *resolved)
     scalar_from_float(fminf(degrees, 179.999f), text);
     const char *kept = arena_text(r->arena, text, strlen(text), r->e);
     node_get(resolved, "fov")->text = kept;
+    node_get(resolved, "focal_length")->flags |= KEY_HIDDEN; // fov says it
     return kept;
 }
 

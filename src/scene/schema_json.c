@@ -199,7 +199,9 @@ static void put_key(Writer *w, const Table *table, const Key *row, const char *b
     default:
         put_vector(w, row);
     }
-    put_default(w, row, base);
+    if (row->type != KEY_POINTER && row->type != KEY_LIST) {
+        put_default(w, row, base);
+    }
     put(w, "}");
 }
 

@@ -23,10 +23,10 @@ typedef bool TableCheck(Resolver *r, const Path *path, const Node *given, Node *
 TableCheck check_scene;
 TableCheck check_camera; // also turns focal_length into fov
 TableCheck check_film, check_light;
-TableCheck check_object;              // exactly one kind; material keys that suit it
-TableCheck check_tree, check_ground;  // lengths that must be in order
-TableCheck check_shape, check_mesh;   // also add `transform`
-TableCheck check_envelope;            // the list under `envelope`
+TableCheck check_object;                          // exactly one kind; material keys that suit it
+TableCheck check_tree, check_ground, check_grove; // lengths that must be in order
+TableCheck check_shape, check_mesh;               // also add `transform`
+TableCheck check_envelope;                        // the list under `envelope`
 TableCheck check_level, check_growth; // check_growth also fills in what levels leave out
 TableCheck check_field;
 

@@ -2,6 +2,27 @@
 #include "scene/scene.h"
 #include "scene/spec_check.h"
 
+static const Key GROVE_KEYS[] = {
+    {KEY_OF(GroveParams, count, "count", KEY_INT), .high = 1e6, .doc = "Trees; 0 = none."},
+    {KEY_OF(GroveParams, inner, "inner", KEY_FLOAT), .high = 1e6, .unit = "m",
+     .doc = "Least distance from the origin."},
+    {KEY_OF(GroveParams, outer, "outer", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
+     .doc = "Largest distance from the origin."},
+    {KEY_OF(GroveParams, height, "height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
+     .unit = "m", .doc = "Height of the tallest."},
+    {KEY_OF(GroveParams, clumping, "clumping", KEY_FLOAT), .high = 1,
+     .doc = "0 = even, 1 = in woods with open land between."},
+    {KEY_OF(GroveParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
+     .doc = "Different trees."},
+    {0},
+};
+
+static const Table GROVE_TABLE = {.name = "grove",
+                                  .doc = "Woods in the distance: a few trees, instanced.",
+                                  .size = sizeof(GroveParams),
+                                  .keys = GROVE_KEYS,
+                                  .check = check_grove};
+
 static const Key GROUND_KEYS[] = {
     {KEY_OF(GroundParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6,
      .unit = "m", .doc = "How far the land goes, to the horizon."},
@@ -27,6 +48,8 @@ static const Key GROUND_KEYS[] = {
      .doc = "Leaves that lie about the origin; 0 = none."},
     {KEY_OF(GroundParams, fallen_radius, "fallen_radius", KEY_FLOAT), .flags = KEY_ABOVE,
      .high = 1e5, .unit = "m", .doc = "How far fallen leaves lie."},
+    {KEY_OF(GroundParams, trees, "trees", KEY_GROUP), .table = &GROVE_TABLE,
+     .doc = "Woods in the distance: a few trees, instanced."},
     {0},
 };
 

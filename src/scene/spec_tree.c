@@ -4,7 +4,7 @@
 
 static const Key TRUNK_KEYS[] = {
     {KEY_OF(TrunkParams, height, "height", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "From the ground to the trunk's last node; 0 = 0.38 of the tree's height."},
+     .doc = "From the ground to the trunk's last node; 0 = a share of the tree's height."},
     {KEY_OF(TrunkParams, radius, "radius", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Radius above the root flare; 0 = from the tree's height, by elastic similarity."},
     {KEY_OF(TrunkParams, lean, "lean", KEY_FLOAT), .high = 89, .unit = "degrees",
@@ -27,9 +27,9 @@ static const Table TRUNK_TABLE = {.name = "trunk",
 
 static const Key CROWN_KEYS[] = {
     {KEY_OF(CrownParams, width, "width", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "Width of the crown; 0 = 1.05 of the tree's height."},
+     .doc = "Width of the crown; 0 = about the tree's height."},
     {KEY_OF(CrownParams, base, "base", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "Height above the ground where the crown begins; 0 = 0.2 of the tree's height."},
+     .doc = "Height above the ground where the crown begins; 0 = a share of the tree's height."},
     {KEY_OF(CrownParams, branches, "branches", KEY_INT), .high = 10000,
      .doc = "Main branches placed on the trunk, sorted by height."},
     {KEY_OF(CrownParams, branch_from, "branch_from", KEY_FLOAT), .high = 1,
@@ -37,7 +37,9 @@ static const Key CROWN_KEYS[] = {
     {KEY_OF(CrownParams, branch_angle, "branch_angle", KEY_FLOAT), .high = 180, .unit = "degrees",
      .doc = "Angle between a branch and the trunk where it starts."},
     {KEY_OF(CrownParams, branch_length, "branch_length", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "Length of the piece that a branch starts with; 0 = 0.08 of the tree's height."},
+     .doc = "Length of the piece that a branch starts with; 0 = a share of the tree's height."},
+    {KEY_OF(CrownParams, lobes, "lobes", KEY_INT), .high = 1000,
+     .doc = "Bulges about the ellipsoid that a crown without envelope fills; 0 = none."},
     ELEMENT_ROWS(CrownParams),
     {0},
 };
@@ -51,7 +53,7 @@ static const Table CROWN_TABLE = {.name = "crown",
 static const Key ROOTS_KEYS[] = {
     {KEY_OF(RootParams, count, "count", KEY_INT), .high = 10000, .doc = "Main roots; 0 = none."},
     {KEY_OF(RootParams, spread, "spread", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "How far they reach; 0 = 0.2 of the tree's height."},
+     .doc = "How far they reach; 0 = a share of the tree's height."},
     {KEY_OF(RootParams, depth, "depth", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "How deep they go; 0 = 0.25 of the spread."},
     {KEY_OF(RootParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,

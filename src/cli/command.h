@@ -1,0 +1,34 @@
+// What the commands share: the run's surroundings, and the commands themselves.
+#ifndef RAMIFY_CLI_COMMAND_H
+#define RAMIFY_CLI_COMMAND_H
+
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "scene/scene.h"
+
+// Each reads its scene, does its work and prints its data; false and e when it failed.
+bool command_render(const Options *options, Error *e); // render.c
+bool command_grow(const Options *options, Error *e);   // grow.c
+bool command_info(const Options *options, Error *e);   // info.c
+bool command_schema(const Options *options, Error *e); // schema.c
+
+// Threads as asked, progress and warnings to stderr, Ctrl-C and SIGTERM to cancel.
+Run command_run(const Options *options, Progress *progress);
+
+// The scene with --set and the render options carried out.
+Scene *command_scene(const Options *options, Error *e);
+
+// Can FILE be written when the time comes? ERROR_IO when its folder is missing or may not be
+// written to, or when FILE is a folder.
+bool output_check(const char *file, Error *e);
+
+// FILE with its ending (".png") replaced; heap text.
+char *output_with_ending(const char *file, const char *ending, Error *e);
+
+// Does the file's name end in this, in any case?
+bool output_has_ending(const char *file, const char *ending);
+
+// Writes text as a JSON string, quotes included, to stdout.
+void json_print_string(const char *text);
+
+#endif

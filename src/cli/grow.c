@@ -1,0 +1,91 @@
+// ramify grow: only the out-trees of a scene.
+#include "cli/command.h"
+
+#include "base/memory.h"
+#include "scene/build.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void print_trees(const Scene *scene, OutTree *const *trees, double seconds)
+{
+    for (int i = 0; i < scene->object_count; i++) {
+        if (trees[i]) {
+            Aabb box = out_tree_bounds(trees[i]);
+            fprintf(stderr, "%s: %" PRId64 " nodes, %.2f x %.2f x %.2f m, hash %016" PRIx64 "\n",
+                    scene->objects[i].name, trees[i]->count, (double)(box.high.x - box.low.x),
+                    (double)(box.high.y - box.low.y), (double)(box.high.z - box.low.z),
+                    out_tree_hash(trees[i]));
+        }
+    }
+    fprintf(stderr, "grow %.2f s, %.0f MB at most\n", seconds, (double)memory_peak() * 1e-6);
+}
+
+static void print_json(const Scene *scene, OutTree *const *trees, double seconds)
+{
+    const char *before = "";
+    printf("{\"trees\": [");
+    for (int i = 0; i < scene->object_count; i++) {
+        if (trees[i]) {
+            printf("%s{\"name\": ", before);
+            json_print_string(scene->objects[i].name);
+            printf(", \"nodes\": %" PRId64 ", \"hash\": \"%016" PRIx64 "\"}", trees[i]->count,
+                   out_tree_hash(trees[i]));
+            before = ", ";
+        }
+    }
+    printf("], \"seconds\": %.3f, \"memory\": %" PRId64 "}\n", seconds, memory_peak());
+}
+
+static int count_growing(const Scene *scene)
+{
+    int count = 0;
+    for (int i = 0; i < scene->object_count; i++) {
+        count += scene->objects[i].tree ? 1 : 0;
+    }
+    return count;
+}
+
+static bool check_request(const Options *options, const Scene *scene, Error *e)
+{
+    if (count_growing(scene) == 0) {
+        error_set(e, ERROR_INPUT, "no object of this scene grows; it needs a tree");
+        error_locate(e, scene->file, 0, 0);
+        return false;
+    }
+    return !options->output || output_check(options->output, e);
+}
+
+static bool grow_scene(const Options *options, const Scene *scene, Error *e)
+{
+    Progress progress;
+    Run run = command_run(options, &progress);
+    double start = run_seconds();
+    OutTree **trees = scene_grow(scene, &run, e);
+    double seconds = run_seconds() - start;
+    progress_end(&progress);
+    if (!trees) {
+        return false;
+    }
+    if (!options->quiet) {
+        print_trees(scene, trees, seconds);
+    }
+    if (options->json) {
+        print_json(scene, trees, seconds);
+    }
+    for (int i = 0; i < scene->object_count; i++) {
+        out_tree_free(trees[i]);
+    }
+    free(trees);
+    return true;
+}
+
+bool command_grow(const Options *options, Error *e)
+{
+    Scene *scene = command_scene(options, e);
+    bool done = scene && check_request(options, scene, e) && grow_scene(options, scene, e);
+    scene_free(scene);
+    return done;
+}

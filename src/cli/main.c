@@ -1,0 +1,77 @@
+// The ramify command: parses the command line, runs one command, reports what went wrong.
+#include "cli/command.h"
+#include "ramify.h"
+
+#include <stdio.h>
+
+static int exit_status(const Error *e)
+{
+    switch (e->code) {
+    case ERROR_INPUT:
+        return 2;
+    case ERROR_CANCELLED:
+        return 130;
+    default:
+        return 1;
+    }
+}
+
+static int report(const Error *e)
+{
+    char text[1200];
+    error_format(e, text, sizeof text);
+    // "file:line:column: ..." stands alone, so that editors find the place
+    fprintf(stderr, "%s%s\n", e->file[0] ? "" : "ramify: ", text);
+    return exit_status(e);
+}
+
+static int help(const Options *options)
+{
+    CommandId command = options->command;
+    if (options->operand && command == COMMAND_HELP) {
+        command = command_by_name(options->operand);
+    }
+    if (command == COMMAND_COUNT) {
+        fprintf(stderr, "ramify: unknown command '%.60s'; see ramify --help\n", options->operand);
+        return 2;
+    }
+    options_print_help(command);
+    return 0;
+}
+
+static bool run_command(const Options *options, Error *e)
+{
+    switch (options->command) {
+    case COMMAND_RENDER:
+        return command_render(options, e);
+    case COMMAND_GROW:
+        return command_grow(options, e);
+    case COMMAND_INFO:
+        return command_info(options, e);
+    default:
+        return command_schema(options, e);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    Options options;
+    bool version;
+    Error e = {0};
+    if (!options_parse(&options, argc, argv, &version, &e)) {
+        return report(&e);
+    }
+    int status = 0;
+    if (version) {
+        printf("ramify %s\n", ramify_version());
+    } else if (options.help || options.command == COMMAND_HELP) {
+        status = help(&options);
+    } else if (!run_command(&options, &e)) {
+        return report(&e);
+    }
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fprintf(stderr, "ramify: cannot write to stdout\n");
+        return 1;
+    }
+    return status;
+}

@@ -1,0 +1,371 @@
+#include "cli/options.h"
+
+#include "scene/hint.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef enum OptionType {
+    OPTION_YES,  // int or bool set to 1
+    OPTION_NO,   // int set to 0
+    OPTION_INT,  // int
+    OPTION_REAL, // double
+    OPTION_TEXT, // const char *
+    OPTION_SIZE, // int[2], WxH
+    OPTION_CROP, // float[4]
+    OPTION_SET   // path=value, may be repeated
+} OptionType;
+
+typedef struct Option {
+    const char *name;  // without the dashes
+    char letter;       // 0 = none
+    const char *value; // as the help calls it; NULL = takes none
+    OptionType type;
+    size_t offset; // in Options
+    unsigned commands;
+    double low, high;
+    const char *doc;
+} Option;
+
+#define BIT(command) (1u << (command))
+#define SCENES (BIT(COMMAND_RENDER) | BIT(COMMAND_GROW) | BIT(COMMAND_INFO))
+#define EVERY (SCENES | BIT(COMMAND_SCHEMA) | BIT(COMMAND_HELP))
+#define RENDERS BIT(COMMAND_RENDER)
+#define AT(member) offsetof(Options, member)
+
+static const Option OPTIONS[] = {
+    {"output", 'o', "FILE", OPTION_TEXT, AT(output), RENDERS | BIT(COMMAND_GROW), 0, 0,
+     "what to write; render: .png or .jpg with the .exr beside it; grow: .swc or .json"},
+    {"samples", 0, "N", OPTION_INT, AT(samples), RENDERS, 1, 1 << 24, "paths per pixel"},
+    {"size", 0, "WxH", OPTION_SIZE, AT(size), RENDERS, 1, 65536, "width and height in pixels"},
+    {"seconds", 0, "T", OPTION_REAL, AT(seconds), RENDERS, 0, 1e8,
+     "stop tracing after T seconds; 0 = no limit"},
+    {"noise", 0, "E", OPTION_REAL, AT(noise), RENDERS, 0, 1,
+     "a part is done when its relative error is below E; 0 = off"},
+    {"crop", 0, "x0,y0,x1,y1", OPTION_CROP, AT(crop), RENDERS, 0, 1,
+     "only this part of the picture, in 0..1 from the top left"},
+    {"exposure", 0, "E", OPTION_REAL, AT(exposure), RENDERS, -50, 50, "in stops"},
+    {"denoise", 0, NULL, OPTION_YES, AT(denoise), RENDERS, 0, 0,
+     "remove the noise that is left from the .png"},
+    {"no-denoise", 0, NULL, OPTION_NO, AT(denoise), RENDERS, 0, 0, "do not"},
+    {"isa", 0, "NAME", OPTION_TEXT, AT(isa), RENDERS, 0, 0,
+     "instruction set of the ray tracer, such as sse4.2: the same bits on every machine"},
+    {"set", 0, "PATH=VALUE", OPTION_SET, AT(overrides), SCENES, 0, 0,
+     "change the scene: --set camera.fov=35 --set objects.oak.tree.height=9"},
+    {"resolved", 0, NULL, OPTION_YES, AT(resolved), BIT(COMMAND_INFO), 0, 0,
+     "print the whole scene with every default as YAML"},
+    {"threads", 0, "N", OPTION_INT, AT(threads), SCENES, 1, 1024,
+     "use N threads; the result does not depend on it"},
+    {"json", 0, NULL, OPTION_YES, AT(json), SCENES, 0, 0, "print the numbers as JSON to stdout"},
+    {"quiet", 'q', NULL, OPTION_YES, AT(quiet), SCENES, 0, 0, "say nothing but errors"},
+    {"help", 'h', NULL, OPTION_YES, AT(help), EVERY, 0, 0, "this text"},
+};
+
+#define OPTION_COUNT ((int)(sizeof OPTIONS / sizeof OPTIONS[0]))
+
+static const struct {
+    const char *name, *operand, *doc, *more;
+} COMMANDS[COMMAND_COUNT] = {
+    [COMMAND_RENDER] = {"render", "SCENE", "make a picture of a scene file",
+                        "Writes SCENE's name with .png to the current folder if there is no -o, "
+                        "and beside it the .exr with\nlinear colours, albedo, normal, depth, "
+                        "position, object and samples. Ctrl-C writes what there is.\n"},
+    [COMMAND_GROW] = {"grow", "SCENE", "grow a scene's trees only",
+                      "With -o writes the out-trees; of several, the objects' names are put "
+                      "before the ending.\n"},
+    [COMMAND_INFO] = {"info", "SCENE", "say what a scene file holds", ""},
+    [COMMAND_SCHEMA] = {"schema", "", "print the JSON Schema of scene files", ""},
+    [COMMAND_HELP] = {"help", "[COMMAND]", "explain a command", ""},
+};
+
+Options options_default(void)
+{
+    return (Options){.command = COMMAND_HELP,
+                     .seconds = -1.0,
+                     .noise = -1.0,
+                     .exposure = (double)NAN,
+                     .crop = {-1.0f, -1.0f, -1.0f, -1.0f},
+                     .denoise = -1};
+}
+
+CommandId command_by_name(const char *name)
+{
+    int i = 0;
+    while (i < COMMAND_COUNT && strcmp(COMMANDS[i].name, name) != 0) {
+        i++;
+    }
+    return (CommandId)i;
+}
+
+static bool unknown_command(const char *name, Error *e)
+{
+    const char *names[COMMAND_COUNT];
+    char hint[256];
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        names[i] = COMMANDS[i].name;
+    }
+    hint_format(name, names, COMMAND_COUNT, hint, sizeof hint);
+    return error_set(e, ERROR_INPUT, "unknown command '%.60s'; %s", name, hint);
+}
+
+// name: with its dashes, for the message.
+static bool unknown_option(CommandId command, const char *name, int length, Error *e)
+{
+    const char *known[OPTION_COUNT];
+    char text[64], hint[512];
+    int count = 0;
+    snprintf(text, sizeof text, "%.*s", length, name + strspn(name, "-"));
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        if (OPTIONS[i].commands & BIT(command)) {
+            known[count++] = OPTIONS[i].name;
+        }
+    }
+    int nearest = hint_nearest(text, known, count);
+    if (nearest >= 0) {
+        snprintf(hint, sizeof hint, "did you mean '--%s'?", known[nearest]);
+    } else {
+        snprintf(hint, sizeof hint, "see ramify %s --help", COMMANDS[command].name);
+    }
+    return error_set(e, ERROR_INPUT, "unknown option '%.60s' of %s; %s", name,
+                     COMMANDS[command].name, hint);
+}
+
+static bool read_number(const char **text, double low, double high, double *value)
+{
+    char *end;
+    errno = 0;
+    *value = strtod(*text, &end);
+    bool valid = end != *text && *value >= low && *value <= high;
+    *text = end;
+    return valid;
+}
+
+static bool read_size(const char *text, const Option *option, int *size)
+{
+    double width, height;
+    if (!read_number(&text, option->low, option->high, &width) || (*text != 'x' && *text != 'X')) {
+        return false;
+    }
+    text++;
+    if (!read_number(&text, option->low, option->high, &height) || *text || floor(width) != width ||
+        floor(height) != height || width * height > 1e8) {
+        return false;
+    }
+    size[0] = (int)width;
+    size[1] = (int)height;
+    return true;
+}
+
+static bool read_crop(const char *text, const Option *option, float *crop)
+{
+    for (int i = 0; i < 4; i++) {
+        double value;
+        if (!read_number(&text, option->low, option->high, &value) || *text != (i < 3 ? ',' : 0)) {
+            return false;
+        }
+        text += i < 3;
+        crop[i] = (float)value;
+    }
+    return crop[0] < crop[2] && crop[1] < crop[3];
+}
+
+static bool bad_value(const Option *option, const char *text, Error *e)
+{
+    switch (option->type) {
+    case OPTION_SIZE:
+        return error_set(e, ERROR_INPUT,
+                         "--size %.60s; it must be WIDTHxHEIGHT, each 1 to 65536, at most 100 "
+                         "million pixels",
+                         text);
+    case OPTION_CROP:
+        return error_set(e, ERROR_INPUT,
+                         "--crop %.60s; it must be x0,y0,x1,y1 in 0..1 with x0 < x1 and y0 < y1",
+                         text);
+    default:
+        return error_set(e, ERROR_INPUT, "--%s %.60s; it must be a %s of %.9g to %.9g",
+                         option->name, text, option->type == OPTION_INT ? "whole number" : "number",
+                         option->low, option->high);
+    }
+}
+
+static bool add_override(Options *options, const char *text, Error *e)
+{
+    if (options->override_count == MAX_OVERRIDES) {
+        return error_set(e, ERROR_INPUT, "more than %d --set; put some into the scene file",
+                         MAX_OVERRIDES);
+    }
+    options->overrides[options->override_count++] = text;
+    return true;
+}
+
+static bool take_value(Options *options, const Option *option, const char *text, Error *e)
+{
+    char *at = (char *)options + option->offset;
+    const char *rest = text;
+    double value;
+    switch (option->type) {
+    case OPTION_TEXT:
+        if (!*text) {
+            return error_set(e, ERROR_INPUT, "--%s is empty; it must be a %s", option->name,
+                             option->value);
+        }
+        memcpy(at, &text, sizeof text);
+        return true;
+    case OPTION_SET:
+        return add_override(options, text, e);
+    case OPTION_SIZE:
+        return read_size(text, option, (int *)(void *)at) || bad_value(option, text, e);
+    case OPTION_CROP:
+        return read_crop(text, option, (float *)(void *)at) || bad_value(option, text, e);
+    default:
+        break;
+    }
+    if (!read_number(&rest, option->low, option->high, &value) || *rest) {
+        return bad_value(option, text, e);
+    }
+    if (option->type == OPTION_REAL) {
+        memcpy(at, &value, sizeof value);
+        return true;
+    }
+    int whole = (int)value;
+    memcpy(at, &whole, sizeof whole);
+    return (double)whole == value || bad_value(option, text, e);
+}
+
+static void take_flag(Options *options, const Option *option)
+{
+    char *at = (char *)options + option->offset;
+    if (option->offset == AT(denoise)) {
+        int value = option->type == OPTION_YES;
+        memcpy(at, &value, sizeof value);
+    } else {
+        bool value = true;
+        memcpy(at, &value, sizeof value);
+    }
+}
+
+static const Option *find_option(CommandId command, const char *name, size_t length)
+{
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        const Option *o = &OPTIONS[i];
+        bool named = name[1] == '-' ? strlen(o->name) == length - 2 &&
+                                          strncmp(o->name, name + 2, length - 2) == 0
+                                    : o->letter && name[1] == o->letter && length == 2;
+        if (named && o->commands & BIT(command)) {
+            return o;
+        }
+    }
+    return NULL;
+}
+
+// argv[*i] begins with a dash: takes it and, where needed, the word after it.
+static bool parse_option(Options *options, int argc, char **argv, int *i, Error *e)
+{
+    const char *word = argv[*i], *equals = strchr(word, '=');
+    size_t length = equals ? (size_t)(equals - word) : strlen(word);
+    const Option *option = find_option(options->command, word, length);
+    if (!option) {
+        return unknown_option(options->command, word, (int)length, e);
+    }
+    if (!option->value) {
+        if (equals) {
+            return error_set(e, ERROR_INPUT, "--%s takes no value", option->name);
+        }
+        take_flag(options, option);
+        return true;
+    }
+    if (equals) {
+        return take_value(options, option, equals + 1, e);
+    }
+    if (*i + 1 >= argc) {
+        return error_set(e, ERROR_INPUT, "--%s needs a value; write --%s %s", option->name,
+                         option->name, option->value);
+    }
+    return take_value(options, option, argv[++*i], e);
+}
+
+static bool parse_words(Options *options, int argc, char **argv, Error *e)
+{
+    bool only_operands = false;
+    for (int i = 2; i < argc; i++) {
+        if (!only_operands && strcmp(argv[i], "--") == 0) {
+            only_operands = true;
+        } else if (!only_operands && argv[i][0] == '-' && argv[i][1]) {
+            if (!parse_option(options, argc, argv, &i, e)) {
+                return false;
+            }
+        } else if (options->operand || !*COMMANDS[options->command].operand) {
+            return error_set(e, ERROR_INPUT, "'%.60s' is one word too many; usage: ramify %s %s",
+                             argv[i], COMMANDS[options->command].name,
+                             COMMANDS[options->command].operand);
+        } else {
+            options->operand = argv[i];
+        }
+    }
+    bool needs = *COMMANDS[options->command].operand == 'S';
+    if (needs && !options->operand && !options->help) {
+        return error_set(e, ERROR_INPUT, "no scene file is named; usage: ramify %s SCENE",
+                         COMMANDS[options->command].name);
+    }
+    return true;
+}
+
+bool options_parse(Options *options, int argc, char **argv, bool *version, Error *e)
+{
+    *options = options_default();
+    *version = argc > 1 && strcmp(argv[1], "--version") == 0;
+    if (argc < 2) {
+        return error_set(e, ERROR_INPUT, "no command; try ramify render SCENE, or ramify --help");
+    }
+    if (*version || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
+        return true;
+    }
+    if (argv[1][0] == '-') {
+        return unknown_option(COMMAND_HELP, argv[1], (int)strlen(argv[1]), e);
+    }
+    options->command = command_by_name(argv[1]);
+    if (options->command == COMMAND_COUNT) {
+        return unknown_command(argv[1], e);
+    }
+    return parse_words(options, argc, argv, e);
+}
+
+static void print_program_help(void)
+{
+    printf("ramify grows branching things, skins them and path traces stills of them.\n\n");
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        char usage[64];
+        snprintf(usage, sizeof usage, "ramify %s %s", COMMANDS[i].name, COMMANDS[i].operand);
+        printf("  %-24s %s\n", usage, COMMANDS[i].doc);
+    }
+    printf("  %-24s %s\n\n", "ramify --version", "print the version");
+    printf("'ramify COMMAND --help' lists a command's options. Exit status: 0 done, 1 failed while "
+           "running,\n2 bad command line or scene, 130 interrupted.\n");
+}
+
+void options_print_help(CommandId command)
+{
+    if (command == COMMAND_HELP || command == COMMAND_COUNT) {
+        print_program_help();
+        return;
+    }
+    printf("usage: ramify %s %s%s[options]\n\n%s: %s.\n%s\n", COMMANDS[command].name,
+           COMMANDS[command].operand, *COMMANDS[command].operand ? " " : "", COMMANDS[command].name,
+           COMMANDS[command].doc, COMMANDS[command].more);
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        const Option *o = &OPTIONS[i];
+        if (o->commands & BIT(command)) {
+            char name[64], letter[8] = "";
+            if (o->letter) {
+                snprintf(letter, sizeof letter, "-%c, ", o->letter);
+            }
+            snprintf(name, sizeof name, "%s--%s%s%s", letter, o->name, o->value ? " " : "",
+                     o->value ? o->value : "");
+            printf("  %-26s %s\n", name, o->doc);
+        }
+    }
+}

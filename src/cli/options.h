@@ -1,0 +1,49 @@
+// The command line: one table of all options (options.c) parses it and prints the help.
+#ifndef RAMIFY_CLI_OPTIONS_H
+#define RAMIFY_CLI_OPTIONS_H
+
+#include "base/error.h"
+
+#define MAX_OVERRIDES 256
+
+typedef enum CommandId {
+    COMMAND_RENDER,
+    COMMAND_GROW,
+    COMMAND_INFO,
+    COMMAND_SCHEMA,
+    COMMAND_HELP,
+    COMMAND_COUNT
+} CommandId;
+
+// What the command line says; numbers that it does not give are as options_default sets them.
+typedef struct Options {
+    CommandId command;
+    const char *operand; // SCENE, or the command to be helped with; NULL = none
+    const char *output;  // NULL = the command's default
+    const char *overrides[MAX_OVERRIDES];
+    int override_count;
+    int threads; // 0 = all processors
+    bool quiet, json, resolved, help;
+    int samples;     // 0 = the scene's
+    int size[2];     // 0, 0 = the scene's
+    double seconds;  // negative = the scene's
+    double noise;    // negative = the scene's
+    double exposure; // NAN = the scene's
+    float crop[4];   // crop[0] negative = the scene's
+    int denoise;     // 1 yes, 0 no, -1 the scene's
+    const char *isa; // NULL = the best there is
+} Options;
+
+Options options_default(void);
+
+// Parses argv[1..]. ERROR_INPUT names what is wrong and what would be right. --help and --version
+// set command to COMMAND_HELP and *version.
+bool options_parse(Options *options, int argc, char **argv, bool *version, Error *e);
+
+// Prints the help of a command, or of the program when command is COMMAND_HELP, to stdout.
+void options_print_help(CommandId command);
+
+// The command of this name; COMMAND_COUNT when there is none.
+CommandId command_by_name(const char *name);
+
+#endif

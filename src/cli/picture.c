@@ -1,0 +1,113 @@
+#include "cli/picture.h"
+
+#include "base/memory.h"
+#include "image/denoise.h"
+#include "ramify.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define DENOISE_STRENGTH 1.0f
+
+static Image *beauty_image(const Film *film, Error *e)
+{
+    Image *image = image_new(film->width, film->height, 4, e);
+    for (int64_t i = 0; image && i < (int64_t)film->width * film->height; i++) {
+        float pixel[4] = {film->color[i].x, film->color[i].y, film->color[i].z, film->alpha[i]};
+        memcpy(image->pixel + 4 * i, pixel, sizeof pixel);
+    }
+    return image;
+}
+
+// A copy of one of the film's planes.
+static Image *plane_image(const Film *film, const void *plane, int channels, Error *e)
+{
+    Image *image = image_new(film->width, film->height, channels, e);
+    if (image) {
+        memcpy(image->pixel, plane,
+               sizeof(float) * (size_t)channels * (size_t)film->width * (size_t)film->height);
+    }
+    return image;
+}
+
+// "key\0value\0 ... \0" on the heap.
+static char *make_metadata(const Scene *scene, Error *e)
+{
+    const char *const pairs[] = {"Software",  "ramify " RAMIFY_VERSION, "ramify:scene",
+                                 scene->text, "ramify:settings",        scene->resolved};
+    enum { COUNT = sizeof pairs / sizeof pairs[0] };
+    int64_t length = 1;
+    for (int i = 0; i < COUNT; i++) {
+        length += (int64_t)strlen(pairs[i]) + 1;
+    }
+    char *metadata = memory_alloc_zero(length, 1, e);
+    char *at = metadata;
+    for (int i = 0; metadata && i < COUNT; i++) {
+        size_t size = strlen(pairs[i]) + 1;
+        memcpy(at, pairs[i], size);
+        at += size;
+    }
+    return metadata;
+}
+
+static Image *denoised_image(const Image *beauty, const Film *film, const Run *run, Error *e)
+{
+    Image *guides[4] = {plane_image(film, film->albedo, 3, e),
+                        plane_image(film, film->normal, 3, e), plane_image(film, film->depth, 1, e),
+                        plane_image(film, film->variance, 1, e)};
+    Image *clean = NULL;
+    if (guides[0] && guides[1] && guides[2] && guides[3]) {
+        clean = image_denoise(beauty, guides[0], guides[1], guides[2], guides[3], DENOISE_STRENGTH,
+                              run, e);
+    }
+    for (int i = 0; i < 4; i++) {
+        image_free(guides[i]);
+    }
+    return clean;
+}
+
+bool picture_write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
+                           const Run *run, Error *e)
+{
+    Image *beauty = beauty_image(film, e);
+    if (beauty && denoise) {
+        Image *clean = denoised_image(beauty, film, run, e);
+        image_free(beauty);
+        beauty = clean;
+    }
+    Image *display = beauty ? tone_map(beauty, &scene->tone, e) : NULL;
+    char *metadata = display ? make_metadata(scene, e) : NULL;
+    bool done = metadata && image_write_display(file, display, metadata, e);
+    free(metadata);
+    image_free(display);
+    image_free(beauty);
+    return done;
+}
+
+bool picture_write_exr(const char *file, const Scene *scene, const Film *film, Error *e)
+{
+    Image *const images[] = {beauty_image(film, e),
+                             plane_image(film, film->albedo, 3, e),
+                             plane_image(film, film->normal, 3, e),
+                             plane_image(film, film->depth, 1, e),
+                             plane_image(film, film->position, 3, e),
+                             plane_image(film, film->object, 1, e),
+                             plane_image(film, film->samples, 1, e)};
+    static const char *const names[][2] = {{"", "RGBA"},    {"albedo", "RGB"},   {"normal", "XYZ"},
+                                           {"depth", "Z"},  {"position", "XYZ"}, {"object", "V"},
+                                           {"samples", "V"}};
+    enum { COUNT = sizeof images / sizeof images[0] };
+    ImageLayer layers[COUNT];
+    bool made = true;
+    for (int i = 0; i < COUNT; i++) {
+        layers[i] = (ImageLayer){names[i][0], names[i][1], images[i]};
+        made = made && images[i];
+    }
+    char *metadata = made ? make_metadata(scene, e) : NULL;
+    bool done = metadata && image_write_exr(file, layers, COUNT, metadata, e);
+    free(metadata);
+    for (int i = 0; i < COUNT; i++) {
+        image_free(images[i]);
+    }
+    return done;
+}
