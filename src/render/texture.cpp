@@ -28,7 +28,7 @@ struct TextureCache {
     ~TextureCache()
     {
         if (system) {
-            OIIO::TextureSystem::destroy(system, true);
+            OIIO::TextureSystem::destroy(system);
         }
     }
 };
@@ -84,7 +84,9 @@ extern "C" TextureCache *texture_cache_new(Error *e)
 {
     try {
         auto cache = std::make_unique<TextureCache>();
-        cache->system = OIIO::TextureSystem::create(false);
+        // the process's own: destroying a private one frees memory with a size it was not made with
+        cache->system = OIIO::TextureSystem::create(true);
+        cache->system->invalidate_all(false); // files that changed since the last rendering
         cache->system->attribute("automip", 1);
         cache->system->attribute("autotile", 64);
         cache->system->attribute("max_memory_MB", 1024.0f);
