@@ -335,6 +335,15 @@ Aabb envelope_bounds(const Envelope *envelope)
     return envelope->bounds;
 }
 
+Transform envelope_frame(const Envelope *envelope)
+{
+    if (!envelope->level_set) {
+        return primitive_frame(&envelope->primitive);
+    }
+    Vec3 low = envelope->bounds.low, size = vec3_sub(envelope->bounds.high, low);
+    return transform_from_axes(vec3(size.x, 0, 0), vec3(0, size.y, 0), vec3(0, 0, size.z), low);
+}
+
 double envelope_volume(const Envelope *envelope)
 {
     return envelope->volume;

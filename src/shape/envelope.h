@@ -47,6 +47,11 @@ Envelope *envelope_new(const EnvelopeParams *params, const Run *run, Error *e);
 void envelope_free(Envelope *envelope); // NULL is fine
 
 Aabb envelope_bounds(const Envelope *envelope);
+
+// The affine map of the unit cube onto a slanted box around the inside, tighter than the bounds
+// where a primitive is turned: what to draw candidates from.
+Transform envelope_frame(const Envelope *envelope);
+
 double envelope_volume(const Envelope *envelope); // m^3
 double envelope_area(const Envelope *envelope);   // m^2, of the surface
 

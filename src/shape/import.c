@@ -12,6 +12,7 @@
 #include <string.h>
 #include <strings.h>
 
+#define NO_TRIANGLES "the file holds no triangles; a surface of triangles or polygons is needed"
 #define COORDINATE_LIMIT 1e7f // m: beyond, a float cannot tell points a metre apart
 
 // What a file holds in all, over every node that shows a mesh.
@@ -119,8 +120,7 @@ static Mesh *gather(const struct aiScene *scene, Error *e)
     Tally tally = {.normals = true, .uvs = true};
     tally_node(scene, scene->mRootNode, &tally);
     if (tally.triangles == 0) {
-        error_set(e, ERROR_INPUT,
-                  "the file holds no triangles; a surface of triangles or polygons is needed");
+        error_set(e, ERROR_INPUT, NO_TRIANGLES);
         return NULL;
     }
     Mesh *mesh =
@@ -161,6 +161,22 @@ static bool check_mesh(const Mesh *mesh, Error *e)
     return true;
 }
 
+// Assimp's words, with no full stop or line end, go before ours.
+static void read_error(const char *why, Error *e)
+{
+    int length = (int)strcspn(why, "\r\n");
+    while (length > 0 && why[length - 1] == '.') {
+        length--;
+    }
+    if (strncmp(why, "No meshes remaining", 19) == 0) { // lines and points are left out
+        error_set(e, ERROR_INPUT, NO_TRIANGLES);
+    } else {
+        error_set(e, ERROR_INPUT,
+                  "not readable as a mesh: %.*s; a whole OBJ, PLY, STL, glTF or GLB file is needed",
+                  length > 0 ? length : 19, length > 0 ? why : "no reason is known");
+    }
+}
+
 static const struct aiScene *read_scene(const char *file, Error *e)
 {
     struct aiPropertyStore *store = aiCreatePropertyStore();
@@ -183,14 +199,7 @@ static const struct aiScene *read_scene(const char *file, Error *e)
                                      NULL, store);
     aiReleasePropertyStore(store);
     if (!scene || !scene->mRootNode) {
-        // Assimp ends its messages in all ways; ours go on after a semicolon
-        char why[400];
-        size_t length = strcspn(strncpy(why, aiGetErrorString(), sizeof why - 1), "\r\n");
-        why[length < sizeof why ? length : sizeof why - 1] = '\0';
-        error_set(e, ERROR_INPUT,
-                  "not readable as a mesh: %s; a whole OBJ, PLY, STL, glTF or GLB "
-                  "file is needed",
-                  why[0] ? why : "no reason is known");
+        read_error(aiGetErrorString(), e);
         aiReleaseImport(scene);
         return NULL;
     }

@@ -27,7 +27,8 @@ double primitive_distance(const Primitive *primitive, Vec3 p, double *bound);
 // The sign of the distance alone.
 bool primitive_contains(const Primitive *primitive, Vec3 p);
 
-Aabb primitive_bounds(const Primitive *primitive); // infinite for a half space
+Aabb primitive_bounds(const Primitive *primitive);     // infinite for a half space
+Transform primitive_frame(const Primitive *primitive); // as envelope_frame
 double primitive_volume(const Primitive *primitive);
 double primitive_area(const Primitive *primitive);
 

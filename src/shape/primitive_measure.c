@@ -66,6 +66,34 @@ Aabb primitive_bounds(const Primitive *p)
     }
 }
 
+Transform primitive_frame(const Primitive *p)
+{
+    const double *s = p->raw_size;
+    double low[3] = {-s[0], -s[1], -s[2]}, high[3] = {s[0], s[1], s[2]}, wide = fmax(s[0], s[2]);
+    if (p->kind == SHAPE_CONE) {
+        low[0] = low[2] = -wide, low[1] = 0.0;
+        high[0] = high[2] = wide;
+    } else if (p->kind == SHAPE_CAPSULE) {
+        low[0] = low[1] = low[2] = -s[0];
+        high[0] = high[2] = s[0], high[1] = s[1] + s[0];
+    }
+    bool round = p->kind == SHAPE_ELLIPSOID; // the unit sphere, stretched along its axes
+    Transform t;
+    for (int i = 0; i < 3; i++) {
+        double origin = p->affine[i][3];
+        for (int j = 0; j < 3; j++) {
+            double axis = round ? p->forward[i][j] * p->size[j] : p->affine[i][j];
+            // a hair wider, for the rounding of what it maps
+            double from = (round ? -1.0 : low[j]) * 1.000001;
+            double to = (round ? 1.0 : high[j]) * 1.000001;
+            t.m[i][j] = (float)(axis * (to - from));
+            origin += axis * from;
+        }
+        t.m[i][3] = (float)origin;
+    }
+    return t;
+}
+
 double primitive_volume(const Primitive *p)
 {
     const double *s = p->raw_size;

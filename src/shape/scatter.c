@@ -26,11 +26,6 @@ static double unit_double(uint64_t key)
     return (double)(random_mix(key) >> 11) * 0x1p-53;
 }
 
-static float coordinate(uint64_t key, float low, float high)
-{
-    return (float)((double)low + ((double)high - (double)low) * unit_double(key));
-}
-
 // Density at p relative to an even one, before shell and gradients are normalised: its largest
 // value is largest_weight.
 static double weight_at(const Scatter *s, Vec3 p)
@@ -103,9 +98,16 @@ Draw scatter_draw(const Scatter *s, uint64_t number)
     if (s->params->place == SCATTER_SURFACE) {
         draw_on_surface(s, key, &draw);
     } else {
-        draw.position = vec3(coordinate(random_key(key, 1), s->box.low.x, s->box.high.x),
-                             coordinate(random_key(key, 2), s->box.low.y, s->box.high.y),
-                             coordinate(random_key(key, 3), s->box.low.z, s->box.high.z));
+        double u[3], p[3];
+        for (int i = 0; i < 3; i++) {
+            u[i] = unit_double(random_key(key, (uint64_t)i + 1));
+        }
+        for (int i = 0; i < 3; i++) {
+            const float *row = s->frame.m[i];
+            p[i] = (double)row[0] * u[0] + (double)row[1] * u[1] + (double)row[2] * u[2] +
+                   (double)row[3];
+        }
+        draw.position = vec3((float)p[0], (float)p[1], (float)p[2]);
         draw.inside = envelope_contains(s->envelope, draw.position);
     }
     draw.kept = draw.inside &&
@@ -248,11 +250,13 @@ static bool scatter_prepare(const Envelope *envelope, const ScatterParams *param
 {
     bool volume = params->place == SCATTER_VOLUME;
     *s = (Scatter){.envelope = envelope, .params = params, .mean_shell = 1.0, .mean_weight = 1.0};
-    s->box = envelope_bounds(envelope);
+    Aabb box = envelope_bounds(envelope);
+    s->frame = envelope_frame(envelope);
+    s->lowest_corner = box.low;
     s->center = params->scale_about_center ? params->scale_center
-                                           : vec3_scale(vec3_add(s->box.low, s->box.high), 0.5f);
-    s->lowest = s->box.low.y;
-    float height = s->box.high.y - s->box.low.y;
+                                           : vec3_scale(vec3_add(box.low, box.high), 0.5f);
+    s->lowest = box.low.y;
+    float height = box.high.y - box.low.y;
     s->inverse_height = height > 0.0f ? 1.0f / height : 0.0f;
     s->uses_depth = volume && (params->shell > 0.0f || params->depth_gradient != 0.0f);
     s->weighted = s->uses_depth || params->gradient != 0.0f;

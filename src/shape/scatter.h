@@ -9,7 +9,8 @@
 typedef struct Scatter {
     const Envelope *envelope; // borrowed
     const ScatterParams *params;
-    Aabb box;                     // of the envelope
+    Transform frame;              // of the envelope
+    Vec3 lowest_corner;           // of its bounds
     Vec3 center;                  // that the scale keeps in place
     float lowest, inverse_height; // m, 1/m: of the region, for the gradient
     double *cumulative;           // SCATTER_SURFACE: area of the faces up to and with each, m^2

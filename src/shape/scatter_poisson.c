@@ -168,8 +168,10 @@ static bool throw_round(const Scatter *s, DartGrid *g, uint64_t first, int64_t s
 // Share of the draws that lie in the region at all.
 static double inside_share(const Scatter *s)
 {
-    Vec3 size = vec3_sub(s->box.high, s->box.low);
-    double box = (double)size.x * (double)size.y * (double)size.z;
+    const float(*m)[4] = s->frame.m;
+    Vec3 x = vec3(m[0][0], m[1][0], m[2][0]), y = vec3(m[0][1], m[1][1], m[2][1]);
+    Vec3 z = vec3(m[0][2], m[1][2], m[2][2]);
+    double box = (double)fabsf(vec3_dot(x, vec3_cross(y, z)));
     return s->params->place == SCATTER_SURFACE ? 1.0 : envelope_volume(s->envelope) / box;
 }
 
@@ -178,7 +180,7 @@ bool scatter_poisson(const Scatter *s, PointSet *points, const Run *run, Error *
     double wanted = (double)s->params->count, base = wanted / s->mean_weight;
     double share = inside_share(s), limit = (DARTS_A_POINT * base + 10000.0) / share;
     DartGrid grid;
-    if (!grid_new(&grid, s->box.low, least_distance(points, base), (int64_t)base, e)) {
+    if (!grid_new(&grid, s->lowest_corner, least_distance(points, base), (int64_t)base, e)) {
         return false;
     }
     Draw *draws = memory_alloc(SCATTER_ROUND, sizeof *draws, e);
