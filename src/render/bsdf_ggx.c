@@ -105,7 +105,7 @@ static void balance(const Scattering *scattering, float *factor)
         factor[i] = 1.0f;
     }
     for (int iteration = 0; iteration < 60; iteration++) {
-        float next[2 * GGX_NODES];
+        float next[2 * GGX_NODES] = {0};
         for (int i = 0; i < scattering->count; i++) {
             float sum = 0.0f;
             for (int j = 0; j < scattering->count; j++) {
