@@ -92,39 +92,63 @@ static void choose_cells(AttractorGrid *grid, Aabb box, const PointSet *points)
     grid->cell_count = (int64_t)grid->size[0] * grid->size[1] * grid->size[2];
 }
 
+// Counts the points of every cell into cells[].count; cell: the cell of every point.
+static void count_cells(AttractorGrid *grid, const PointSet *points, int threads, int32_t *cell)
+{
+    memset(grid->cells, 0, (size_t)grid->cell_count * sizeof *grid->cells);
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int64_t i = 0; i < points->count; i++) {
+        cell[i] = (int32_t)cell_of(grid, points->position[i]);
+    }
+    for (int64_t i = 0; i < points->count; i++) {
+        grid->cells[cell[i]].count++;
+    }
+}
+
+// Gives every cell its blocks, empty for now; returns how many there are.
+static int64_t place_blocks(AttractorGrid *grid)
+{
+    int64_t blocks = 0;
+    for (int64_t c = 0; c < grid->cell_count; c++) {
+        AttractorCell *cell = &grid->cells[c];
+        grid->furthest[c] = cell->count > 0 ? grid->reach2 : -1.0f;
+        cell->first_block = blocks;
+        blocks += (cell->count + BLOCK_LANES - 1) / BLOCK_LANES;
+        cell->count = 0;
+    }
+    for (int i = 0; i < BLOCK_LANES; i++) {
+        grid->furthest[grid->cell_count + i] = -1.0f; // reading a row's last cells goes beyond it
+    }
+    return blocks;
+}
+
+static void clear_block(AttractorBlock *block)
+{
+    for (int lane = 0; lane < BLOCK_LANES; lane++) {
+        block->x[lane] = block->y[lane] = block->z[lane] = 0.0f;
+        block->best[lane] = -1.0f;
+        block->nearest[lane] = block->previous[lane] = -1;
+    }
+}
+
 // Sorts the points into their cells, in order of their index.
-static bool fill_cells(AttractorGrid *grid, const PointSet *points, Error *e)
+static bool fill_cells(AttractorGrid *grid, const PointSet *points, int threads, Error *e)
 {
     int32_t *cell = memory_alloc(points->count, sizeof *cell, e);
     if (!cell) {
         return false;
     }
-    memset(grid->cells, 0, (size_t)grid->cell_count * sizeof *grid->cells);
-    memset(grid->furthest + grid->cell_count, 0, BLOCK_LANES * sizeof *grid->furthest);
-    for (int64_t i = 0; i < points->count; i++) {
-        cell[i] = (int32_t)cell_of(grid, points->position[i]);
-        grid->cells[cell[i]].count++;
-    }
-    int64_t blocks = 0;
-    for (int64_t c = 0; c < grid->cell_count; c++) {
-        grid->cells[c].first_block = blocks;
-        grid->furthest[c] = grid->cells[c].count > 0 ? grid->reach2 : -1.0f;
-        blocks += (grid->cells[c].count + BLOCK_LANES - 1) / BLOCK_LANES;
-        grid->cells[c].count = 0;
-    }
+    count_cells(grid, points, threads, cell);
+    int64_t blocks = place_blocks(grid);
     grid->block = alloc_table(blocks, sizeof *grid->block, e);
     grid->source = alloc_table(blocks * BLOCK_LANES, sizeof *grid->source, e);
     if (!grid->block || !grid->source) {
         free(cell);
         return false;
     }
+#pragma omp parallel for schedule(static) num_threads(threads)
     for (int64_t b = 0; b < blocks; b++) {
-        for (int lane = 0; lane < BLOCK_LANES; lane++) {
-            AttractorBlock *block = &grid->block[b];
-            block->x[lane] = block->y[lane] = block->z[lane] = 0.0f;
-            block->best[lane] = -1.0f;
-            block->nearest[lane] = block->previous[lane] = -1;
-        }
+        clear_block(&grid->block[b]);
     }
     for (int64_t i = 0; i < points->count; i++) {
         int32_t place = grid->cells[cell[i]].count++;
@@ -141,7 +165,7 @@ static bool fill_cells(AttractorGrid *grid, const PointSet *points, Error *e)
 }
 
 bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reach, float kill,
-                         Error *e)
+                         int threads, Error *e)
 {
     *grid = (AttractorGrid){.reach = reach, .reach2 = reach * reach, .kill2 = kill * kill};
     Aabb box;
@@ -160,7 +184,7 @@ bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reac
     grid->gap2 = memory_alloc((int64_t)ATTRACTOR_MAX_SLABS * (grid->size[2] + BLOCK_LANES),
                               sizeof *grid->gap2, e);
     return grid->work && grid->gap2 && grid->cells && grid->furthest && grid->touched &&
-           grid->active && fill_cells(grid, points, e);
+           grid->active && fill_cells(grid, points, threads, e);
 }
 
 void attractor_grid_free(AttractorGrid *grid)

@@ -55,7 +55,7 @@ typedef struct NodeBits {
 // reach: influence radius R_m, kill: D_k, m. ERROR_INPUT names the first attractor that is not
 // finite.
 bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reach, float kill,
-                         Error *e);
+                         int threads, Error *e);
 void attractor_grid_free(AttractorGrid *grid);
 
 // The cell along an axis of a point at this offset from the grid's low corner, m; clamped.

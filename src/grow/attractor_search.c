@@ -4,7 +4,7 @@
 #include <string.h>
 
 enum { CELL_TOUCHED = 1, CELL_ACTIVE = 2 };
-enum { SLABS_PER_THREAD = 4, MAX_VISITS = 64 };
+enum { SLABS_PER_THREAD = 2, MAX_VISITS = 64 };
 enum { LEAST_SHARED = 32 }; // new nodes that are worth sharing among threads
 
 // Shrinks distances to cells so that rounding can never make one look further than a point in it.

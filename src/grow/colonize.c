@@ -373,9 +373,10 @@ static bool prepare(Growth *growth, Error *e)
         !sectors_init(&growth->sectors, params->sector_angle, params->on_surface, e)) {
         return false;
     }
-    return begin(growth, e) && (growth->attractors->count == 0 ||
-                                attractor_grid_init(&growth->grid, growth->attractors,
-                                                    params->influence, params->kill, e));
+    return begin(growth, e) &&
+           (growth->attractors->count == 0 ||
+            attractor_grid_init(&growth->grid, growth->attractors, params->influence, params->kill,
+                                growth->threads, e));
 }
 
 bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *params,
