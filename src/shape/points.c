@@ -18,13 +18,13 @@ PointSet *points_new(Error *e)
 // Room for `count` points in all three arrays; capacity is that of the smallest of them.
 static bool points_reserve(PointSet *points, int64_t count, Error *e)
 {
-    int64_t position = points->capacity, normal = points->capacity, id = points->capacity;
-    if (!memory_reserve(&points->position, &position, count, sizeof *points->position, e) ||
-        !memory_reserve(&points->normal, &normal, count, sizeof *points->normal, e) ||
-        !memory_reserve(&points->id, &id, count, sizeof *points->id, e)) {
+    int64_t capacity[3] = {points->capacity, points->capacity, points->capacity};
+    if (!memory_reserve(&points->position, &capacity[0], count, sizeof *points->position, e) ||
+        !memory_reserve(&points->normal, &capacity[1], count, sizeof *points->normal, e) ||
+        !memory_reserve(&points->id, &capacity[2], count, sizeof *points->id, e)) {
         return false; // arrays that have grown already are only larger than capacity says
     }
-    points->capacity = position;
+    points->capacity = capacity[0];
     return true;
 }
 

@@ -29,18 +29,23 @@ typedef struct ScatterParams {
     ScatterPattern pattern;
     int64_t count; // wanted points, >= 1; exact for SCATTER_RANDOM
     uint64_t seed;
-    float scale;       // volume: keep to the envelope shrunk by this factor about its box's centre
+    float
+        scale; // keep to the envelope (or its surface) shrunk by this factor about its box's centre
     Vec3 scale_center; // used when scale_about_center is set
     bool scale_about_center;
-    float shell;    // volume: share of the points, 0..1, that is pushed toward the surface
+    float shell;    // volume: share of the points, 0..1, that is pushed toward the surface: their
+                    // density is that of t^4, t = 0 at the deepest place, 1 at the surface
     float gradient; // density from bottom to top: -1 = only below, 0 = even, 1 = only above (linear
                     // in height)
-    float depth_gradient; // density from the middle to the surface, as gradient
+    float depth_gradient; // volume: density from the middle to the surface, as gradient
 } ScatterParams;
 
 ScatterParams scatter_params_default(void); // volume, random, 1000 points, seed 1, scale 1, even
 
-// ERROR_INPUT when count is absurd (over 2^31 - 1) or the region is empty.
+// The same points for any number of threads. Poisson-disk points keep a distance of 0.75 to 0.8 of
+// their mean spacing and may fall short of count where the region is thin. measure is that of the
+// region at this scale. ERROR_INPUT when count is absurd (over 2^31 - 1) or the region is empty,
+// ERROR_MEMORY when the points would not fit in this machine's memory.
 PointSet *points_scatter(const Envelope *envelope, const ScatterParams *params, const Run *run,
                          Error *e);
 

@@ -18,22 +18,22 @@ typedef struct Primitive {
 
 // False and ERROR_INPUT for sizes that are no shape and for singular or non-finite transforms.
 // Not for SHAPE_MESH.
-bool primitive_new(const Shape *shape, Primitive *primitive, Error *e);
+bool primitive_new(const Shape *shape, Primitive *p, Error *e);
 
 // Signed distance to the surface, m, negative inside, always with the right sign. *bound (if not
 // NULL) is set to a number that |true distance| is not below.
-double primitive_distance(const Primitive *primitive, Vec3 p, double *bound);
+double primitive_distance(const Primitive *p, Vec3 point, double *bound);
 
 // The sign of the distance alone.
-bool primitive_contains(const Primitive *primitive, Vec3 p);
+bool primitive_contains(const Primitive *p, Vec3 point);
 
-Aabb primitive_bounds(const Primitive *primitive);     // infinite for a half space
-Transform primitive_frame(const Primitive *primitive); // as envelope_frame
-double primitive_volume(const Primitive *primitive);
-double primitive_area(const Primitive *primitive);
+Aabb primitive_bounds(const Primitive *p);     // infinite for a half space
+Transform primitive_frame(const Primitive *p); // as envelope_frame
+double primitive_volume(const Primitive *p);
+double primitive_area(const Primitive *p);
 
 // Triangles with smooth normals (creases kept), fine enough that the chord error is about 0.03 % of
 // the size. The caller frees it with mesh_free.
-Mesh *primitive_surface(const Primitive *primitive, Error *e);
+Mesh *primitive_surface(const Primitive *p, Error *e);
 
 #endif
