@@ -80,6 +80,7 @@ static void measure_tree(SkinPlan *plan)
             plan->thinnest = radius;
         }
     }
+    plan->thinnest = fmaxf(plan->thinnest, plan->least_radius);
 }
 
 bool skin_plan_chains(SkinPlan *plan, Error *e)
