@@ -1,6 +1,7 @@
 #include "render/lights.h"
 
 #include "base/memory.h"
+#include "render/clouds.h"
 #include "render/environment.h"
 #include "render/sky.h"
 #include "render/warp.h"
@@ -12,6 +13,7 @@ struct Lights {
     Vec3 constant; // SKY_CONSTANT: radiance
     Dome *dome;    // NULL without sky or environment
     Sun sun;
+    Clouds clouds;
     float *share; // chance of each to be chosen: the world's lights, the dome, the sun
     float *sum;   // count + 1: cumulated
     int count, dome_index, sun_index;
@@ -51,6 +53,22 @@ static void fill_shares(Lights *lights, float scene_radius)
     lights->sum[lights->count] = total > 0.0 ? 1.0f : 0.0f;
 }
 
+// Clouds are lit by the sun and by the sky's mean radiance half way up.
+static Clouds make_clouds(const Lights *lights)
+{
+    const Sky *sky = &lights->world->sky;
+    Clouds clouds = {.cover = sky->clouds,
+                     .sun_direction = lights->sun.direction,
+                     .sunlight = vec3_scale(lights->sun.radiance, lights->sun.solid_angle),
+                     .seed = (uint32_t)lights->world->render.seed};
+    const float half = 0.70710678f;
+    const Vec3 around[4] = {{half, half, 0}, {-half, half, 0}, {0, half, half}, {0, half, -half}};
+    for (int i = 0; i < 4; i++) {
+        clouds.skylight = vec3_madd(clouds.skylight, 0.25f, dome_lookup(lights->dome, around[i]));
+    }
+    return clouds;
+}
+
 static bool make_sky(Lights *lights, const Run *run, Error *e)
 {
     const Sky *sky = &lights->world->sky;
@@ -62,6 +80,9 @@ static bool make_sky(Lights *lights, const Run *run, Error *e)
         return true;
     case SKY_SUN_SKY:
         lights->dome = sky_dome(sky, &lights->sun, run, e);
+        if (lights->dome) {
+            lights->clouds = make_clouds(lights);
+        }
         break;
     case SKY_ENVIRONMENT:
         lights->dome = environment_dome(sky, e);
@@ -213,6 +234,9 @@ Vec3 lights_background(const Lights *lights, Vec3 direction, float bsdf_pdf)
         pdf = dome_density(lights->dome, direction) * lights->share[lights->dome_index];
     }
     Vec3 sum = vec3_scale(dome_lookup(lights->dome, direction), bsdf_weight(bsdf_pdf, pdf));
+    if (bsdf_pdf <= 0.0f) { // seen by the camera or in a mirror: no light sample stands against it
+        sum = clouds_before(&lights->clouds, direction, sum);
+    }
     if (lights->sun_index >= 0 && sun_covers(&lights->sun, direction)) {
         pdf = lights->share[lights->sun_index] / lights->sun.solid_angle;
         sum = vec3_madd(sum, bsdf_weight(bsdf_pdf, pdf), sun_radiance(&lights->sun, direction));

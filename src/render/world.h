@@ -36,6 +36,8 @@ typedef struct Sky {
     float sun_strength;  // factor on the sun alone, 1 = physical
     float turbidity;     // 1 = pure air, 2-3 clear, 6+ hazy
     float ground_albedo; // grey, for light bounced into the sky
+    float clouds; // SKY_SUN_SKY: share of the sky under thin clouds, 0..1; seen, but not cast as
+                  // light
     const char *file;    // SKY_ENVIRONMENT: latitude-longitude HDR, borrowed
     float rotation;      // SKY_ENVIRONMENT: degrees about +Y
     float strength;      // factor on all of it

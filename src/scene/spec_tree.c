@@ -118,6 +118,8 @@ static const Key LEAVES_KEYS[] = {
      .unit = "degrees", .doc = "Turn about the twig from one leaf to the next; 137.5 in nature."},
     {KEY_OF(LeavesParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
      .doc = "Different leaf meshes."},
+    {KEY_OF(LeavesParams, detail, "detail", KEY_INT), .low = 1, .high = 2,
+     .doc = "Of a leaf's mesh: 1 for whole trees, 2 for close-ups."},
     {0},
 };
 
