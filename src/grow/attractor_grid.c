@@ -89,6 +89,7 @@ static void choose_cells(AttractorGrid *grid, Aabb box, const PointSet *points)
     for (int axis = 0; axis < 3; axis++) {
         grid->size[axis] = (int)cells_along(extent[axis], cell);
     }
+    grid->axis = grid->size[0] >= grid->size[1] ? 0 : 1;
     grid->cell_count = (int64_t)grid->size[0] * grid->size[1] * grid->size[2];
 }
 

@@ -28,6 +28,10 @@ typedef struct AttractorCell {
     int32_t state; // bits: searched in this step, listed as active
 } AttractorCell;
 
+typedef struct ActiveCell {
+    int32_t cell, slice; // slice: the cell's place along the grid's axis
+} ActiveCell;
+
 typedef struct AttractorGrid {
     Vec3 low;
     float cell, slack; // m: side of a cell; how far outside its cell rounding may put a point
@@ -39,11 +43,13 @@ typedef struct AttractorGrid {
     int32_t *touched;                 // scratch: cells a search changed
     int64_t *work;                    // scratch: how searching is shared out
     float *gap2;                      // scratch: distances to the cells of a row
-    int32_t *active;                  // cells with an attractor in reach of a node
+    ActiveCell *active;               // cells with an attractor in reach of a node
     int64_t active_count, idle_count; // how many are listed, and how many of them are empty now
     AttractorBlock *block;
     int32_t *source; // per lane: index in the point set
     int64_t alive;
+    int axis;                                      // 0 or 1: threads own slabs of slices along it
+    int slab_count, slab_end[ATTRACTOR_MAX_SLABS]; // in the last update
 } AttractorGrid;
 
 // A set of nodes as bits, written by many threads.

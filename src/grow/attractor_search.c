@@ -4,15 +4,15 @@
 #include <string.h>
 
 enum { CELL_TOUCHED = 1, CELL_ACTIVE = 2 };
-enum { SLABS_PER_THREAD = 2, MAX_VISITS = 64 };
+enum { MAX_VISITS = 64 };
 enum { LEAST_SHARED = 32 }; // new nodes that are worth sharing among threads
 
 // Shrinks distances to cells so that rounding can never make one look further than a point in it.
 #define CAUTION 0.999999f
 
-// The cells one thread owns during a search: slices begin..end-1 along axis 0 or 1.
+// The cells one thread owns during a search: slices begin..end-1 along the grid's axis.
 typedef struct Slab {
-    int axis, begin, end;
+    int begin, end;
     int32_t *touched; // room for all cells of the slab
     int64_t touched_count;
     float *gap2; // scratch: a row of cells, rounded up to whole blocks
@@ -99,7 +99,7 @@ static bool range_of(const AttractorGrid *grid, const Slab *slab, const float at
         begin[axis] = attractor_grid_cell_along(grid, axis, offset - reach);
         end[axis] = attractor_grid_cell_along(grid, axis, offset + reach) + 1;
     }
-    int axis = slab->axis;
+    int axis = grid->axis;
     begin[axis] = begin[axis] > slab->begin ? begin[axis] : slab->begin;
     end[axis] = end[axis] < slab->end ? end[axis] : slab->end;
     return begin[axis] < end[axis];
@@ -203,21 +203,25 @@ static int64_t settle_cell(AttractorGrid *grid, int32_t cell, const NodeBits *ch
     AttractorCell *c = &grid->cells[cell];
     if (!(c->state & CELL_ACTIVE) && count > 0) {
         c->state |= CELL_ACTIVE;
-        grid->active[__atomic_fetch_add(&grid->active_count, 1, __ATOMIC_RELAXED)] = cell;
+        int64_t place = __atomic_fetch_add(&grid->active_count, 1, __ATOMIC_RELAXED);
+        int32_t row = cell / grid->size[2];
+        int32_t slice = grid->axis == 0 ? row / grid->size[1] : row % grid->size[1];
+        grid->active[place] = (ActiveCell){cell, slice};
     } else if ((c->state & CELL_ACTIVE) && count == 0) {
         __atomic_fetch_add(&grid->idle_count, 1, __ATOMIC_RELAXED);
     }
     return removed;
 }
 
-// Splits the grid into at most `wanted` slabs of about equal work; returns how many.
-static int plan_slabs(const AttractorGrid *grid, const OutTree *tree, int64_t first, int wanted,
-                      int axis, int64_t *work, int *end)
+// Splits the grid into at most `wanted` slabs of about equal work. Slabs move little from step to
+// step, so a thread finds most of its cells in its own cache.
+static void plan_slabs(AttractorGrid *grid, const OutTree *tree, int64_t first, int wanted)
 {
-    int slices = grid->size[axis];
+    int axis = grid->axis, slices = grid->size[axis];
+    int64_t *work = grid->work;
     memset(work, 0, (size_t)(slices + 1) * sizeof *work);
     float low = axis == 0 ? grid->low.x : grid->low.y;
-    for (int64_t k = first; k < tree->count; k++) {
+    for (int64_t k = first; k < tree->count && wanted > 1; k++) {
         float at = axis == 0 ? tree->position[k].x : tree->position[k].y;
         work[attractor_grid_cell_along(grid, axis, at - low - grid->reach)]++;
         work[attractor_grid_cell_along(grid, axis, at - low + grid->reach) + 1]--;
@@ -227,14 +231,14 @@ static int plan_slabs(const AttractorGrid *grid, const OutTree *tree, int64_t fi
         load += work[s];
         total += work[s] = load;
     }
-    int slabs = 0;
+    grid->slab_count = 0;
     for (int s = 0; s < slices; s++) {
         sum += work[s];
-        if (s == slices - 1 || (slabs < wanted - 1 && sum * wanted >= total * (slabs + 1))) {
-            end[slabs++] = s + 1;
+        bool enough = sum * wanted >= total * (grid->slab_count + 1);
+        if (s == slices - 1 || (grid->slab_count < wanted - 1 && enough)) {
+            grid->slab_end[grid->slab_count++] = s + 1;
         }
     }
-    return slabs;
 }
 
 static int64_t update_slab(AttractorGrid *grid, Slab *slab, const OutTree *tree, int64_t first,
@@ -258,7 +262,7 @@ static void drop_idle_cells(AttractorGrid *grid)
     }
     int64_t kept = 0;
     for (int64_t i = 0; i < grid->active_count; i++) {
-        if (grid->cells[grid->active[i]].count > 0) {
+        if (grid->cells[grid->active[i].cell].count > 0) {
             grid->active[kept++] = grid->active[i];
         }
     }
@@ -269,22 +273,15 @@ static void drop_idle_cells(AttractorGrid *grid)
 void attractor_grid_update(AttractorGrid *grid, const OutTree *tree, int64_t first, int threads,
                            const NodeBits *changed)
 {
-    int axis = grid->size[0] >= grid->size[1] ? 0 : 1;
     bool shared = threads > 1 && tree->count - first >= LEAST_SHARED;
-    int wanted = shared ? threads * SLABS_PER_THREAD : 1;
-    wanted = wanted > ATTRACTOR_MAX_SLABS ? ATTRACTOR_MAX_SLABS : wanted;
-    int end[ATTRACTOR_MAX_SLABS];
-    int slabs = plan_slabs(grid, tree, first, wanted, axis, grid->work, end);
-    int64_t removed = 0, slice = grid->cell_count / grid->size[axis];
-    int row = grid->size[2] + BLOCK_LANES;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) reduction(+ : removed) if (slabs > 1)
+    plan_slabs(grid, tree, first, shared ? threads : 1);
+    int slabs = grid->slab_count, row = grid->size[2] + BLOCK_LANES;
+    int64_t removed = 0, slice = grid->cell_count / grid->size[grid->axis];
+#pragma omp parallel for schedule(static, 1) num_threads(slabs) reduction(+ : removed) if (slabs > 1)
     for (int s = 0; s < slabs; s++) {
-        int begin = s > 0 ? end[s - 1] : 0;
-        Slab slab = {.axis = axis,
-                     .begin = begin,
-                     .end = end[s],
-                     .touched = grid->touched + begin * slice,
-                     .gap2 = grid->gap2 + (int64_t)s * row};
+        Slab slab = {.begin = s > 0 ? grid->slab_end[s - 1] : 0, .end = grid->slab_end[s]};
+        slab.touched = grid->touched + slab.begin * slice;
+        slab.gap2 = grid->gap2 + (int64_t)s * row;
         removed += update_slab(grid, &slab, tree, first, changed);
     }
     grid->alive -= removed;

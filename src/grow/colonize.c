@@ -219,37 +219,19 @@ static bool choose_growers(Growth *growth, Error *e)
            memory_reserve(&growth->grew, &growth->grew_capacity, count, sizeof *growth->grew, e);
 }
 
-// Sums the pulls of this step in `parts`, each taking handfuls of cells until none is left.
-static void sum_pulls(const Growth *growth, int parts)
-{
-    enum { HANDFUL = 32 };
-    int64_t cells = growth->grid.active_count, next = 0;
-#pragma omp parallel for schedule(static, 1) num_threads(parts) if (parts > 1)
-    for (int part = 0; part < parts; part++) {
-        growth_clear_pulls(growth, part);
-        for (;;) {
-            int64_t i = __atomic_fetch_add(&next, HANDFUL, __ATOMIC_RELAXED);
-            int64_t end = i + HANDFUL < cells ? i + HANDFUL : cells;
-            if (i >= cells) {
-                break;
-            }
-            for (; i < end; i++) {
-                growth_add_cell(growth, growth->grid.active[i], part);
-            }
-        }
-    }
-}
-
 static void make_children(Growth *growth)
 {
     int64_t growers = growth->grower_count, sectors = growth->sectors.count;
     bool shared = growers >= LEAST_SHARED && growth->grid.active_count >= LEAST_SHARED;
-    int threads = shared ? growth->threads : 1;
+    int threads = shared ? growth->grid.slab_count : 1;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int64_t i = 0; i < growers; i++) {
         growth_prepare(growth, &growth->grower[i]);
     }
-    sum_pulls(growth, threads);
+#pragma omp parallel for schedule(static, 1) num_threads(threads) if (threads > 1)
+    for (int part = 0; part < threads; part++) {
+        growth_sum_part(growth, part, threads);
+    }
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int64_t i = 0; i < growers; i++) {
         growth_merge_pulls(growth, i, threads);
@@ -379,6 +361,11 @@ static bool prepare(Growth *growth, Error *e)
                                 growth->threads, e));
 }
 
+static int clamp_threads(int threads)
+{
+    return threads < 1 ? 1 : (threads > ATTRACTOR_MAX_SLABS ? ATTRACTOR_MAX_SLABS : threads);
+}
+
 bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *params,
               const Run *run, GrowReport *report, Error *e)
 {
@@ -387,7 +374,7 @@ bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *p
                      .attractors = attractors,
                      .params = params,
                      .initial_count = tree->count,
-                     .threads = run->threads > 1 ? run->threads : 1};
+                     .threads = clamp_threads(run->threads)};
     int64_t before = tree->count;
     bool grown = prepare(&growth, e);
     if (grown && attractors->count == 0) {

@@ -72,10 +72,9 @@ typedef struct Growth {
     int64_t grew_count, grew_capacity;
 } Growth;
 
-// Pulls are summed in parts, one a thread: clear a part, add cells to any part, then merge all
-// parts of a grower into part 0, growth->pull[grower * sectors + sector].
-void growth_clear_pulls(const Growth *growth, int part);
-void growth_add_cell(const Growth *growth, int32_t cell, int part);
+// Pulls are summed in parts (at most as many as the grid has slabs): part by part, each by one
+// thread, then all parts of a grower into part 0, growth->pull[grower * sectors + sector].
+void growth_sum_part(const Growth *growth, int part, int parts);
 void growth_merge_pulls(const Growth *growth, int64_t grower, int parts);
 
 // Fills in a grower whose node is set.

@@ -78,23 +78,31 @@ static void add_attractor(const Growth *growth, const AttractorBlock *a, int lan
     }
 }
 
-void growth_clear_pulls(const Growth *growth, int part)
-{
-    int64_t pulls = growth->grower_count * growth->sectors.count;
-    for (int64_t i = 0; i < pulls; i++) {
-        growth->pull[part * pulls + i] = (Pull){.pick = UINT64_MAX};
-    }
-}
-
-void growth_add_cell(const Growth *growth, int32_t cell, int part)
+static void add_cell(const Growth *growth, int32_t cell, Pull *pulls)
 {
     const AttractorGrid *grid = &growth->grid;
-    Pull *pulls = growth->pull + part * growth->grower_count * growth->sectors.count;
     int64_t first = grid->cells[cell].first_block * BLOCK_LANES;
     for (int64_t i = first; i < first + grid->cells[cell].count; i++) {
         const AttractorBlock *a = &grid->block[i / BLOCK_LANES];
         if (a->nearest[i % BLOCK_LANES] >= 0) {
             add_attractor(growth, a, (int)(i % BLOCK_LANES), grid->source[i], pulls);
+        }
+    }
+}
+
+void growth_sum_part(const Growth *growth, int part, int parts)
+{
+    const AttractorGrid *grid = &growth->grid;
+    int64_t count = growth->grower_count * growth->sectors.count;
+    Pull *pulls = growth->pull + part * count;
+    for (int64_t i = 0; i < count; i++) {
+        pulls[i] = (Pull){.pick = UINT64_MAX};
+    }
+    int begin = part > 0 ? grid->slab_end[part - 1] : 0;
+    int end = part < parts - 1 ? grid->slab_end[part] : INT32_MAX;
+    for (int64_t i = 0; i < grid->active_count; i++) {
+        if (grid->active[i].slice >= begin && grid->active[i].slice < end) {
+            add_cell(growth, grid->active[i].cell, pulls);
         }
     }
 }
