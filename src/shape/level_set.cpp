@@ -5,6 +5,7 @@
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -60,7 +61,8 @@ template <typename F> bool guarded(Error *e, const F &f)
 // Runs f with this many threads of TBB's. What runs on one is the same every time.
 template <typename F> auto with_threads(int threads, const F &f)
 {
-    tbb::task_arena arena(std::max(threads, 1));
+    // TBB complains aloud when asked for more than there are
+    tbb::task_arena arena(std::clamp(threads, 1, tbb::info::default_concurrency()));
     return arena.execute(f);
 }
 
