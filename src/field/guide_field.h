@@ -10,15 +10,16 @@
 
 typedef struct GuideField GuideField; // immutable once made; safe to evaluate from many threads
 
+// Each is a unit vector (times a falloff for FIELD_POINT; zero where no direction is defined).
 typedef enum FieldKind {
-    FIELD_UNIFORM, // `vector` everywhere: a tropism
+    FIELD_UNIFORM, // along `vector` everywhere: a tropism
     FIELD_RADIAL,  // away from `center`
     FIELD_VORTEX,  // about the axis `vector` through `center`
     FIELD_NUCLEI,  // the papers': away from the nearest initial node, turned about the normal by
                    // `turn`
     FIELD_GRID,    // FIELD_NUCLEI sampled on a sparse voxel grid, trilinear between voxels (E 4.4)
-    FIELD_CURL,    // divergence-free noise of wavelength `scale`
-    FIELD_POINT    // control point: `vector` at `center`, falling off over `scale`
+    FIELD_CURL,    // direction of divergence-free noise of wavelength `scale`
+    FIELD_POINT    // control point: along `vector` at `center`, falling to 0 at distance `scale`
 } FieldKind;
 
 typedef enum FieldProfile {
@@ -27,25 +28,30 @@ typedef enum FieldProfile {
     PROFILE_CONSTANT // the literal quaternion: every vector is turned by `turn`
 } FieldProfile;
 
+// A field turned about an axis (nuclei, grid) takes it from the surface normal when `surface` is
+// set, else from `vector`, else, when that is zero, from the nearest nucleus. The axis need not be
+// unit: a longer one turns further.
 typedef struct FieldParams {
     FieldKind kind;
     float weight; // share in a sum of fields
     Vec3 vector, center;
     float turn;  // degrees
-    float scale; // m
+    float scale; // m; nuclei and grid: distance of the rim from the nucleus, 0 = the farthest side
+                 // of the attractors' bounds
     FieldProfile profile;
-    bool spherical; // swept angle: by polar angle on a sphere (atan(t sin(phi)/pi)) instead of by
-                    // distance
-    bool
-        surface; // turn about the attractors' surface normals rather than about `vector` as an axis
+    bool spherical; // swept angle by polar angle on the sphere about `center`, atan(t sin(phi) /
+                    // pi), instead of by distance, atan(t r / rim)
+    bool surface; // keep to the tangent plane of the attractors' surface and turn about its normal
     uint64_t seed;
-    int resolution; // FIELD_GRID: voxels along the longest side; 0 = 48
+    int resolution; // FIELD_GRID: voxels along the longest side; 0 = 48, at most 2048
 } FieldParams;
 
-FieldParams field_params_default(FieldKind kind); // weight 1, vector +Y, scale 1, swept
+// Weight 1, vector +Y, swept; scale 1, for nuclei and grid 0.
+FieldParams field_params_default(FieldKind kind);
 
 // nuclei: positions and unit normals of the initial type-0 nodes, copied. bounds: the region of the
-// attractors. params: `count` fields, summed with their weights.
+// attractors. params: `count` fields, summed with their weights. ERROR_INPUT for numbers that are
+// not finite, a scale that is not positive where one is needed, nuclei fields without nuclei.
 GuideField *guide_field_new(const FieldParams *params, int count, const Vec3 *nuclei,
                             const Vec3 *nucleus_normals, int64_t nucleus_count, Aabb bounds,
                             const Run *run, Error *e);

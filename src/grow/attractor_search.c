@@ -5,7 +5,7 @@
 
 enum { CELL_TOUCHED = 1, CELL_ACTIVE = 2 };
 enum { MAX_VISITS = 64 };
-enum { LEAST_SHARED = 32 }; // new nodes that are worth sharing among threads
+enum { LEAST_SHARED = 64 }; // new nodes that are worth sharing among threads
 
 // Shrinks distances to cells so that rounding can never make one look further than a point in it.
 #define CAUTION 0.999999f

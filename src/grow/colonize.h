@@ -10,8 +10,9 @@
 
 typedef enum GrowRule {
     GROW_MEAN,   // one child a step along the mean pull (E6-7)
-    GROW_SNAP,   // the nearest reached attractor itself becomes the node (E fig. 5-6, J 3.3)
-    GROW_SECTORS // pulls binned by angle about the heading; at most one child a sector
+    GROW_SNAP,   // the nearest reached attractor itself becomes the node (E fig. 5-6, J 3.3); what
+                 // bends the other rules' directions makes attractors that way count as nearer
+    GROW_SECTORS // pulls binned by angle about the heading; at most one child a sector, ever
 } GrowRule;
 
 typedef enum FieldMode {
@@ -64,9 +65,13 @@ typedef struct GrowReport {
 // Sets step, kill and influence that are 0 to these multiples of the points' mean spacing s.
 void colonize_auto(ColonizeParams *params, double spacing, float step, float kill, float influence);
 
-// Grows tree in place: its nodes so far are the type-0 points. The same bits for any run->threads;
-// noise is keyed by node id. On error the tree is still valid. ERROR_INPUT for lengths that are not
-// positive and finite.
+// Grows tree in place: its nodes so far are the type-0 points. In a step every attractor within
+// influence pulls its nearest node (ties: the lowest index), every pulled node makes its child or
+// children, in order of index, and attractors closer than kill to a node are removed. A node that
+// made a child without gaining or losing an attractor by it would make the same child for ever: its
+// attractors pull it no more. The same bits for any run->threads; noise is keyed by node id. On
+// error the tree is still valid. ERROR_INPUT for lengths that are not positive and finite, kill not
+// below influence, positions that are not finite; ERROR_CANCELLED. report may be NULL.
 bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *params,
               const Run *run, GrowReport *report, Error *e);
 

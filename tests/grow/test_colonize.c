@@ -10,7 +10,7 @@ static void same_bits_for_any_number_of_threads(void **state)
         for (int surface = 0; surface < 2; surface++) {
             uint64_t hash = 0;
             for (int threads = 1; threads <= 3; threads++) {
-                PointSet *points = surface ? points_on_sphere(4000, 5) : points_in_ball(6000, 5);
+                PointSet *points = surface ? points_on_sphere(20000, 5) : points_in_ball(30000, 5);
                 OutTree *tree = tree_from(vec3(0, -1, 0));
                 ColonizeParams params = params_auto(points, 0.5f, 1.2f, 4.0f);
                 params.rule = (GrowRule)rule;
@@ -19,7 +19,7 @@ static void same_bits_for_any_number_of_threads(void **state)
                 params.max_children = 4;
                 params.max_angle = 100.0f;
                 GrowReport report = grow_with(tree, points, &params, threads);
-                assert_true(report.new_nodes > 400);
+                assert_true(report.new_nodes > 4000); // enough for steps that are shared
                 if (threads == 1) {
                     hash = out_tree_hash(tree);
                 }
