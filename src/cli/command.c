@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,35 +30,64 @@ Run command_run(const Options *options, Progress *progress)
                  .user = progress};
 }
 
+// The options that stand for keys of the scene, as overrides, so that they show in the settings
+// that pictures carry.
+typedef struct KeyOptions {
+    char text[16][160];
+    int count;
+} KeyOptions;
+
+static void add_key(KeyOptions *keys, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static void add_key(KeyOptions *keys, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(keys->text[keys->count++], sizeof keys->text[0], format, arguments);
+    va_end(arguments);
+}
+
+static void add_keys(KeyOptions *keys, const Options *o)
+{
+    if (o->samples > 0) {
+        add_key(keys, "render.samples=%d", o->samples);
+    }
+    if (o->size[0] > 0) {
+        add_key(keys, "film.width=%d", o->size[0]);
+        add_key(keys, "film.height=%d", o->size[1]);
+    }
+    if (o->seconds >= 0.0) {
+        add_key(keys, "render.seconds=%.17g", o->seconds);
+    }
+    if (o->noise >= 0.0) {
+        add_key(keys, "render.noise=%.17g", o->noise);
+    }
+    if (!isnan(o->exposure)) {
+        add_key(keys, "film.exposure=%.17g", o->exposure);
+    }
+    if (o->crop[0] >= 0.0f) {
+        add_key(keys, "film.crop=[%.9g, %.9g, %.9g, %.9g]", (double)o->crop[0], (double)o->crop[1],
+                (double)o->crop[2], (double)o->crop[3]);
+    }
+    if (o->denoise >= 0) {
+        add_key(keys, "film.denoise=%s", o->denoise ? "true" : "false");
+    }
+}
+
 Scene *command_scene(const Options *options, Error *e)
 {
-    Scene *scene = scene_read(options->operand, options->overrides, options->override_count, e);
-    if (!scene) {
-        return NULL;
+    KeyOptions keys = {.count = 0};
+    const char *overrides[MAX_OVERRIDES + 16];
+    int count = 0;
+    add_keys(&keys, options);
+    for (int i = 0; i < options->override_count; i++) {
+        overrides[count++] = options->overrides[i];
     }
-    if (options->samples > 0) {
-        scene->render.samples = options->samples;
+    for (int i = 0; i < keys.count; i++) {
+        overrides[count++] = keys.text[i];
     }
-    if (options->size[0] > 0) {
-        scene->film.width = options->size[0];
-        scene->film.height = options->size[1];
-    }
-    if (options->seconds >= 0.0) {
-        scene->render.max_seconds = options->seconds;
-    }
-    if (options->noise >= 0.0) {
-        scene->render.max_noise = (float)options->noise;
-    }
-    if (!isnan(options->exposure)) {
-        scene->tone.exposure = (float)options->exposure;
-    }
-    if (options->crop[0] >= 0.0f) {
-        memcpy(scene->film.crop, options->crop, sizeof scene->film.crop);
-    }
-    if (options->denoise >= 0) {
-        scene->denoise = options->denoise == 1;
-    }
-    return scene;
+    return scene_read(options->operand, overrides, count, e);
 }
 
 bool output_check(const char *file, Error *e)

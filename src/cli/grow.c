@@ -3,11 +3,11 @@
 
 #include "base/memory.h"
 #include "scene/build.h"
+#include "tree/out_tree_io.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static void print_trees(const Scene *scene, OutTree *const *trees, double seconds)
 {
@@ -55,7 +55,37 @@ static bool check_request(const Options *options, const Scene *scene, Error *e)
         error_locate(e, scene->file, 0, 0);
         return false;
     }
+    if (options->output && !output_has_ending(options->output, ".swc") &&
+        !output_has_ending(options->output, ".json")) {
+        return error_set(e, ERROR_INPUT, "--output %s; its ending must be .swc or .json",
+                         options->output);
+    }
     return !options->output || output_check(options->output, e);
+}
+
+// One tree goes to FILE.swc, several go to FILE-name.swc.
+static bool write_tree(const Options *options, const Scene *scene, int index, const OutTree *tree,
+                       Error *e)
+{
+    if (count_growing(scene) == 1) {
+        return out_tree_write(tree, options->output, e);
+    }
+    char ending[128];
+    snprintf(ending, sizeof ending, "-%s%s", scene->objects[index].name,
+             output_has_ending(options->output, ".swc") ? ".swc" : ".json");
+    char *file = output_with_ending(options->output, ending, e);
+    bool done = file && out_tree_write(tree, file, e);
+    free(file);
+    return done;
+}
+
+static bool write_trees(const Options *options, const Scene *scene, OutTree *const *trees, Error *e)
+{
+    bool done = true;
+    for (int i = 0; options->output && done && i < scene->object_count; i++) {
+        done = !trees[i] || write_tree(options, scene, i, trees[i], e);
+    }
+    return done;
 }
 
 static bool grow_scene(const Options *options, const Scene *scene, Error *e)
@@ -69,17 +99,18 @@ static bool grow_scene(const Options *options, const Scene *scene, Error *e)
     if (!trees) {
         return false;
     }
-    if (!options->quiet) {
+    bool done = write_trees(options, scene, trees, e);
+    if (done && !options->quiet) {
         print_trees(scene, trees, seconds);
     }
-    if (options->json) {
+    if (done && options->json) {
         print_json(scene, trees, seconds);
     }
     for (int i = 0; i < scene->object_count; i++) {
         out_tree_free(trees[i]);
     }
     free(trees);
-    return true;
+    return done;
 }
 
 bool command_grow(const Options *options, Error *e)

@@ -228,6 +228,9 @@ static bool add_object(const Placing *p, Error *e)
     bool done =
         p->object->ground ? add_ground(p, e) : (p->object->mesh ? add_mesh(p, e) : add_shape(p, e));
     p->stats->mesh_seconds += run_seconds() - start;
+    if (!done && e && e->code != ERROR_CANCELLED) {
+        error_prefix(e, "object '%s': ", p->object->name); // trees name themselves
+    }
     return done;
 }
 

@@ -49,23 +49,29 @@ int hint_nearest(const char *word, const char *const *known, int count)
     return nearest;
 }
 
-void hint_format(const char *word, const char *const *known, int count, char *text, int size)
+void hint_list(const char *const *known, int count, char *text, int size)
 {
-    int nearest = hint_nearest(word, known, count);
-    if (nearest >= 0) {
-        snprintf(text, (size_t)size, "did you mean '%s'?", known[nearest]);
-        return;
-    }
-    if (count == 0) {
-        snprintf(text, (size_t)size, "nothing is known here");
-        return;
-    }
-    int used = snprintf(text, (size_t)size, "known: ");
+    int used = 0;
+    text[0] = 0;
     for (int i = 0; i < count && used < size; i++) {
         if (i == MOST_LISTED) {
             snprintf(text + used, (size_t)(size - used), ", ...");
             return;
         }
         used += snprintf(text + used, (size_t)(size - used), "%s%s", i ? ", " : "", known[i]);
+    }
+}
+
+void hint_format(const char *word, const char *const *known, int count, char *text, int size)
+{
+    int nearest = hint_nearest(word, known, count);
+    if (nearest >= 0) {
+        snprintf(text, (size_t)size, "did you mean '%s'?", known[nearest]);
+    } else if (count == 0) {
+        snprintf(text, (size_t)size, "nothing is known here");
+    } else {
+        char list[512];
+        hint_list(known, count, list, sizeof list);
+        snprintf(text, (size_t)size, "known: %s", list);
     }
 }

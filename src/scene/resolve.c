@@ -83,13 +83,13 @@ static bool check_keys_in_kind(Resolver *r, const Table *table, int kind, const 
         const char *known[MAX_KNOWN];
         int count = known_keys(table, kind, known);
         char list[512];
-        hint_format("", known, count, list, sizeof list);
+        hint_list(known, count, list, sizeof list);
         Node at = *child;
         at.line = child->key_line;
         at.column = child->key_column;
         const Key *row = table_find(table, table->kind_key);
-        return resolver_fail(r, &at, "key '%s' means nothing in %s of %s '%s'; %s", child->key,
-                             resolver_path(r, path, NULL), table->kind_key,
+        return resolver_fail(r, &at, "key '%s' means nothing in %s of %s '%s'; known: %s",
+                             child->key, resolver_path(r, path, NULL), table->kind_key,
                              enum_name(row->names, kind), list);
     }
     return true;
@@ -247,8 +247,8 @@ static Node *resolve_map(Resolver *r, const Table *table, const Node *given, con
     if (given && given->kind != NODE_MAP && !node_is_null(given)) {
         const char *known[MAX_KNOWN];
         char list[512];
-        hint_format("", known, known_keys(table, -1, known), list, sizeof list);
-        resolver_fail(r, given, "%s is %s; it must be a mapping with keys, %s",
+        hint_list(known, known_keys(table, -1, known), list, sizeof list);
+        resolver_fail(r, given, "%s is %s; it must be a mapping of %s",
                       resolver_path(r, path, NULL), node_describe(r, given), list);
         return NULL;
     }

@@ -44,6 +44,10 @@ void key_range(const Key *row, char *text, int size)
                  row->unit ? ")" : "");
         return;
     }
+    if (row->type == KEY_UINT64) {
+        snprintf(text, (size_t)size, "a whole number, at least 0 and below 2^64");
+        return;
+    }
     snprintf(text, (size_t)size, "%s%s %.17g and %s %.17g%s%s", whole ? "a whole number, " : "",
              row->flags & KEY_ABOVE ? "greater than" : "at least", row->low,
              row->flags & KEY_BELOW ? "less than" : "at most", row->high, space, unit);

@@ -96,13 +96,13 @@ static const Key LEVEL_KEYS[] = {
      .unit = "spacings", .doc = "How far an attractor pulls."},
     {KEY_OF(GrowLevel, scale, "scale", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
      .doc = "Scale of the envelope in this level, about the middle of its box."},
+    {KEY_OF(GrowLevel, relax, "relax", KEY_FLOAT), .high = 1,
+     .doc = "After the level each new node moves this share of the way to its parent."},
     {KEY_OF(GrowLevel, noise, "noise", KEY_FLOAT), .flags = KEY_NO_DEFAULT, .high = 100,
      .doc = "Gaussian noise on each direction, per component; left out: growth.noise."},
     {KEY_OF(GrowLevel, tropism, "tropism", KEY_FLOAT), .flags = KEY_NO_DEFAULT, .low = -1000,
      .high = 1000,
      .doc = "Factor on growth.tropism; left out: 1 if the file gives growth.tropism, else 0."},
-    {KEY_OF(GrowLevel, relax, "relax", KEY_FLOAT), .high = 1,
-     .doc = "After the level each new node moves this share of the way to its parent."},
     {0},
 };
 

@@ -116,6 +116,8 @@ static const Key LEAVES_KEYS[] = {
      .doc = "How far blades turn from the twig's frame toward hanging and facing the light."},
     {KEY_OF(LeavesParams, phyllotaxis, "phyllotaxis", KEY_FLOAT), .low = -360, .high = 360,
      .unit = "degrees", .doc = "Turn about the twig from one leaf to the next; 137.5 in nature."},
+    {KEY_OF(LeavesParams, detail, "detail", KEY_INT), .low = 1, .high = 2,
+     .doc = "Detail of a leaf's mesh: 1 for whole trees, 2 for close-ups."},
     {KEY_OF(LeavesParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
      .doc = "Different leaf meshes."},
     {KEY_OF(LeavesParams, detail, "detail", KEY_INT), .low = 1, .high = 2,

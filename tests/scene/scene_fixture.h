@@ -1,0 +1,48 @@
+// A temporary folder with files in it, and scenes read from text in it.
+#ifndef RAMIFY_TESTS_SCENE_FIXTURE_H
+#define RAMIFY_TESTS_SCENE_FIXTURE_H
+
+#include "scene/scene.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "testing.h"
+
+typedef struct Fixture {
+    char folder[64];
+    char path[128];
+} Fixture;
+
+static inline int fixture_set_up(void **state)
+{
+    Fixture *fixture = calloc(1, sizeof *fixture);
+    strcpy(fixture->folder, "/tmp/ramify_scene_XXXXXX");
+    *state = fixture;
+    return mkdtemp(fixture->folder) ? 0 : -1;
+}
+
+static inline int fixture_tear_down(void **state)
+{
+    Fixture *fixture = *state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", fixture->folder);
+    int status = system(command);
+    free(fixture);
+    return status;
+}
+
+// Writes a file into the folder and returns its path, good until the next call.
+static inline const char *fixture_write(Fixture *fixture, const char *name, const void *bytes,
+                                        size_t size)
+{
+    snprintf(fixture->path, sizeof fixture->path, "%s/%s", fixture->folder, name);
+    FILE *stream = fopen(fixture->path, "wb");
+    assert_non_null(stream);
+    assert_int_equal(fwrite(bytes, 1, size, stream), size);
+    fclose(stream);
+    return fixture->path;
+}
+
+#endif

@@ -1,0 +1,401 @@
+// Scenes and meshes that are wrong, and the exact words they are refused with.
+#include "scene_fixture.h"
+
+#include "base/memory.h"
+#include "scene/build.h"
+
+// What follows the file's name: ":line:column: message" or ": message".
+typedef struct Case {
+    const char *text, *message;
+} Case;
+
+#define TREE "objects: [{name: a, tree: }]\n"
+
+static const Case scenes[] = {
+    // not YAML
+    {"", ": nothing in it; a scene has at least 'objects:' with one object"},
+    {"# only a comment\n", ": nothing in it; a scene has at least 'objects:' with one object"},
+    {"a: [1, 2\n", ":2:1: not valid YAML: did not find expected ',' or ']' while parsing a flow "
+                   "sequence; check indentation, brackets and quotes here and just above"},
+    {"\tseed: 1\n",
+     ":1:1: not valid YAML: found character that cannot start any token while scanning for the "
+     "next token; indent with spaces, not tabs, and quote texts with special characters"},
+    {"seed: \x01\n", ": not a text file: control characters are not allowed at byte 6; a scene is "
+                     "YAML text in UTF-8"},
+    {"seed: \xff\n", ": not a text file: invalid leading UTF-8 octet at byte 6; a scene is YAML "
+                     "text in UTF-8"},
+    {"seed: 1\n--- \nseed: 2\n", ":3:1: a second document; a scene is one YAML document"},
+    {"seed: !!int 4\n",
+     ":1:7: tag 'tag:yaml.org,2002:int'; a scene has no tags, write the plain value"},
+    {"objects: *x\n", ":1:10: alias '*x' has no anchor; write '&x' before the value it shall "
+                      "repeat, above"},
+    {"a: &a [*a]\n", ":1:8: alias '*a' has no anchor; write '&a' before the value it shall "
+                     "repeat, above"},
+    {"? [1]\n: 2\n", ":1:3: a key that is no text; keys are plain words"},
+    {"camera: {<<: 3}\n",
+     ":1:14: the merge key '<<' needs a mapping or a list of mappings, usually an alias"},
+    {"seed: 1\nseed: 2\n",
+     ":2:1: key 'seed' is given twice; it stands in line 1 already, keep one"},
+    // keys
+    {"sed: 1\n" TREE, ":1:1: unknown key 'sed' in the scene; did you mean 'seed'?"},
+    {TREE "camera: {heigth: 3}\n",
+     ":2:10: unknown key 'heigth' in camera; known: position, target, up, fov, focal_length, "
+     "aperture, focus_distance, shift"},
+    {"objects: [{name: oak, tree: {leaves: {max_cuont: 5}}}]\n",
+     ":1:39: unknown key 'max_cuont' in objects.oak.tree.leaves; did you mean 'max_count'?"},
+    {"objects: [{name: oak, tree: {transform: 5}}]\n",
+     ":1:30: unknown key 'transform' in objects.oak.tree; known: position, height, trunk, crown, "
+     "roots, radii, leaves, skin"},
+    {"{}", ":1:1: the scene has no 'objects'; it must have one: What there is to see."},
+    {"objects: [{tree: }]", ":1:11: objects.0 has no 'name'; it must have one: What messages, "
+                            "--set and the object's random numbers go by."},
+    {"objects: [{name: a, mesh: }]",
+     ":1:26: objects.a.mesh has no 'file'; it must have one: OBJ, PLY, STL, glTF or GLB file, "
+     "relative to the scene's folder."},
+    {TREE "sky: {kind: environment}\n",
+     ":2:6: sky has no 'file'; it must have one: Latitude-longitude HDR panorama (.hdr, .exr), "
+     "relative to the scene's folder."},
+    {TREE "sky: {kind: constant, turbidity: 3}\n",
+     ":2:23: key 'turbidity' means nothing in sky of kind 'constant'; known: kind, color, "
+     "strength, visible, haze_distance"},
+    {TREE "lights: [{kind: sphere, corner: [0, 0, 0]}]\n",
+     ":2:25: key 'corner' means nothing in lights.0 of kind 'sphere'; known: kind, radiance, "
+     "center, radius"},
+    // types
+    {"- 1\n", ":1:1: the scene is a list; it must be a mapping of seed, camera, film, render, sky, "
+              "lights, materials, objects"},
+    {"objects: 3\n", ":1:10: objects is 3; it must be a list of mappings ('- ' before each)"},
+    {"objects: []\n", ":1:10: objects has 0 entries; it must have 1 to 10000"},
+    {TREE "camera: {fov: wide}\n", ":2:15: camera.fov is 'wide'; it must be a number"},
+    {TREE "camera: {fov: \"40\"}\n", ":2:15: camera.fov is the text \"40\"; it must be a number"},
+    {TREE "camera: {fov: [4]}\n", ":2:15: camera.fov is a list; it must be a number"},
+    {TREE "camera: {fov: }\n", ":2:15: camera.fov is empty; it must be a number"},
+    {TREE "camera: {position: 3}\n", ":2:20: camera.position is 3; it must be a list of 3 numbers"},
+    {TREE "camera: {position: [1, 2]}\n",
+     ":2:20: camera.position has 2 entries; it must be a list of 3 numbers"},
+    {TREE "camera: {position: [1, 2, far]}\n",
+     ":2:27: camera.position[2] is 'far'; it must be a number"},
+    {TREE "film: {width: 3.5}\n", ":2:15: film.width is 3.5; it must be a whole number"},
+    {TREE "film: {denoise: maybe}\n", ":2:17: film.denoise is 'maybe'; it must be true or false"},
+    {TREE "film: {filter: gausian}\n", ":2:16: film.filter is 'gausian'; did you mean 'gaussian'?"},
+    {TREE "sky: {kind: sun}\n",
+     ":2:13: sky.kind is 'sun'; known: sun_sky, environment, constant, none"},
+    {TREE "materials: [{name: x, color: \"#12345\"}]\n",
+     ":2:30: materials.x.color is the text \"#12345\"; it must be [red, green, blue], one number "
+     "for a grey, or \"#rrggbb\" in quotes"},
+    {"objects: [{name: , tree: }]\n", ":1:18: objects.0.name is empty; it must be a text"},
+    // ranges
+    {TREE "camera: {fov: .nan}\n",
+     ":2:15: camera.fov is .nan; it must be greater than 0 and less than 180 degrees"},
+    {TREE "camera: {fov: 180}\n",
+     ":2:15: camera.fov is 180; it must be greater than 0 and less than 180 degrees"},
+    {TREE "camera: {position: [0, -.inf, 0]}\n",
+     ":2:24: camera.position[1] is -.inf; it must be a finite number (m)"},
+    {TREE "camera: {position: [0, 1e39, 0]}\n",
+     ":2:24: camera.position[1] is 1e39; it must be a finite number (m)"},
+    {TREE "seed: -1\n", ":2:7: seed is -1; it must be a whole number, at least 0 and below 2^64"},
+    {TREE "seed: 99999999999999999999\n", ":2:7: seed is 99999999999999999999; it must be a whole "
+                                          "number, at least 0 and below 2^64"},
+    {"objects: [{name: a, tree: {radii: {tip: -0.1}}}]\n",
+     ":1:41: objects.a.tree.radii.tip is -0.1; it must be greater than 0 and at most 10 m"},
+    {"objects: [{name: a, tree: {height: 0}}]\n",
+     ":1:36: objects.a.tree.height is 0; it must be greater than 0 and at most 1000 m"},
+    {"objects: [{name: a, tree: {crown: {growth: {levels: [{attractors: 0}]}}}}]\n",
+     ":1:67: objects.a.tree.crown.growth.levels.0.attractors is 0; it must be a whole number, at "
+     "least 1 and at most 2147483647"},
+    {"objects: [{name: a, tree: {crown: {growth: {levels: [{attractors: 1000000000000}]}}}}]\n",
+     ":1:67: objects.a.tree.crown.growth.levels.0.attractors is 1000000000000; it must be a whole "
+     "number, at least 1 and at most 2147483647"},
+    {TREE "film: {width: 0}\n",
+     ":2:15: film.width is 0; it must be a whole number, at least 1 and at most 65536"},
+    {TREE "film: {width: 65536, height: 65536}\n",
+     ":2:15: film has 4295 million pixels; it must have at most 100 million"},
+    // things that do not go together
+    {TREE "camera: {fov: 40, focal_length: 35}\n",
+     ":2:33: camera has both fov and focal_length; give one"},
+    {TREE "camera: {target: [0, 1.7, 10]}\n",
+     ":2:18: camera.target is where the camera is; it must be another point"},
+    {TREE "camera: {up: [0, 0, 1]}\n",
+     ":2:14: camera.up is zero or along the line of sight; it must point aside from it"},
+    {TREE "film: {crop: [0.5, 0, 0.5, 1]}\n",
+     ":2:14: film.crop is empty; it must be [x0, y0, x1, y1] with x0 < x1, y0 < y1"},
+    {TREE "lights: [{kind: quad, edge_u: [0, 0, 2]}]\n",
+     ":2:31: lights.0 has edges that span no area; they must not be parallel or zero"},
+    {"objects: [{name: a}]\n",
+     ":1:11: objects.a is nothing; it must have one of tree, ground, mesh, shape"},
+    {"objects: [{name: a, tree: {}, ground: {}}]\n",
+     ":1:39: objects.a is a tree and a ground; it must be one, make two objects of it"},
+    {"objects: [{name: a.b, tree: }]\n",
+     ":1:18: object name 'a.b'; it must be letters, digits, spaces, - and _, at most 63 of them, "
+     "and not begin with a digit"},
+    {"objects: [{name: a, tree: }, {name: a, ground: }]\n",
+     ":1:37: object name 'a' is taken in line 1 already; give each its own"},
+    {"objects: [{name: a, tree: , material: barc}]\n",
+     ":1:39: objects.a.material: there is no material 'barc'; did you mean 'bark'?"},
+    {"objects: [{name: a, tree: , leaf_material: gold}]\n",
+     ":1:44: objects.a.leaf_material: there is no material 'gold'; known: bark, twig, leaf, "
+     "ground, grass, fallen, clay"},
+    {"objects: [{name: a, tree: , grass_material: grass}]\n",
+     ":1:45: objects.a: a tree has no grass_material; leave it out"},
+    {"objects: [{name: a, tree: {height: 5, crown: {base: 5}}}]\n",
+     ":1:53: objects.a.tree.crown.base is 5 m; it must be below the tree's height, 5 m"},
+    {"objects: [{name: a, tree: {crown: {growth: {levels: [{attractors: 5, kill: 3}]}}}}]\n",
+     ":1:76: objects.a.tree.crown.growth.levels.0.kill is 3; it must be less than influence, 2.2, "
+     "or attractors go before they pull"},
+    {"objects: [{name: a, tree: {crown: {envelope: [{shape: box, op: difference}]}}}]\n",
+     ":1:47: objects.a.tree.crown.envelope begins with a difference; the first shape must be a "
+     "union"},
+    {"objects: [{name: a, shape: {envelope: [{shape: half_space}]}}]\n",
+     ":1:40: objects.a.shape.envelope: a half_space has no end; its op must be difference or "
+     "intersection"},
+    {"objects: [{name: a, shape: {envelope: [{shape: cone, size: [0, 1, 1]}]}}]\n",
+     ":1:60: objects.a.shape.envelope.0.size: radius below and height of a cone must be greater "
+     "than 0 m"},
+    {"objects: [{name: a, shape: {envelope: [{shape: box, scale: [1, 0, 1]}]}}]\n",
+     ":1:60: objects.a.shape.envelope.0.scale has a 0, which flattens it; no factor may be 0"},
+    {"objects: [{name: a, ground: {radius: 10, flat_radius: 10}}]\n",
+     ":1:55: objects.a.ground.flat_radius is 10 m; it must be less than the radius, 10 m"},
+    // files
+    {"objects: [{name: a, mesh: {file: nope.ply}}]\n",
+     ":1:34: objects.a.mesh.file: cannot read 'nope.ply': No such file or directory; paths are "
+     "relative to the scene's folder"},
+    {"objects: [{name: a, mesh: {file: /tmp}}]\n",
+     ":1:34: objects.a.mesh.file: '/tmp' is a folder; it must be a file"},
+    {TREE "materials: [{name: m, texture: bark.jpg}]\n",
+     ":2:32: materials.m.texture: cannot read 'bark.jpg': No such file or directory; paths are "
+     "relative to the scene's folder"},
+};
+
+static void expect(const char *what, const Error *e, const char *wanted)
+{
+    char got[1200];
+    error_format(e, got, sizeof got);
+    if (strcmp(got, wanted) != 0) {
+        fail_msg("%s\n  said   %s\n  wanted %s", what, got, wanted);
+    }
+}
+
+static void bad_scenes_are_refused_in_exact_words(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        Error e = {0};
+        char wanted[1200];
+        Scene *scene =
+            scene_read_text(scenes[i].text, strlen(scenes[i].text), "s.yaml", "", NULL, 0, &e);
+        if (scene) {
+            fail_msg("read without complaint: %s", scenes[i].text);
+        }
+        assert_int_equal(e.code, ERROR_INPUT);
+        snprintf(wanted, sizeof wanted, "s.yaml%s", scenes[i].message);
+        expect(scenes[i].text, &e, wanted);
+    }
+}
+
+static const Case overrides[] = {
+    {"camera.fov", ": not an override; write path=value, as in camera.fov=35"},
+    {"camera.fov=", ": not an override; write path=value, as in camera.fov=35"},
+    {"=3", ": not an override; write path=value, as in camera.fov=35"},
+    {"camera..fov=3", ": an empty name in the path; write a.b=value"},
+    {"camera.fvo=3", ": unknown key 'fvo' in camera; did you mean 'fov'?"},
+    {"camera.fov=190", ": camera.fov is 190; it must be greater than 0 and less than 180 degrees"},
+    {"objects.b.seed=3", ": no entry named 'b' in this list; did you mean 'a'?"},
+    {"objects.7.seed=3", ": no entry 7 in this list; it has 1, counted from 0"},
+    {"objects.a.name.x=3", ": 'x' lies below a value that is no mapping; the path ends before it"},
+    {"camera={fov: [}", ": not valid YAML: did not find expected node content while parsing a flow "
+                        "node; check indentation, brackets and quotes here and just above"},
+};
+
+static void bad_overrides_are_refused_in_exact_words(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof overrides / sizeof overrides[0]; i++) {
+        Error e = {0};
+        char wanted[1200];
+        assert_null(scene_read_text(TREE, strlen(TREE), "s.yaml", "", &overrides[i].text, 1, &e));
+        snprintf(wanted, sizeof wanted, "--set %s%s", overrides[i].text, overrides[i].message);
+        expect(overrides[i].text, &e, wanted);
+    }
+}
+
+typedef struct MeshCase {
+    const char *name, *text, *message;
+} MeshCase;
+
+#define PLY_HEAD                                                                    \
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n" \
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"    \
+    "end_header\n"
+
+static const MeshCase meshes[] = {
+    {"empty.ply", "", "object 'a': the file is empty; a mesh is needed"},
+    {"cut.ply", PLY_HEAD "0 0 0\n1 0 0\n",
+     "object 'a': truncated: the header promises 3 vertices and 1 faces, which need 4 lines, but "
+     "2 follow; the whole file is needed"},
+    {"head.ply", "ply\nformat ascii 1.0\n",
+     "object 'a': not a PLY file, or its header is cut off; a header from 'ply' to 'end_header' is "
+     "needed"},
+    {"mesh.xyz", "0 0 0\n",
+     "object 'a': the name does not end in a mesh format that can be read; .obj, .ply, .stl, .gltf "
+     "or .glb would be right"},
+    {"nan.ply", PLY_HEAD "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n",
+     "object 'a': vertex 1 has a coordinate that is not finite; coordinates must be numbers in "
+     "metres"},
+};
+
+// The first thing wrong with a scene that draws the mesh (or grows in it, when kind says so).
+static void refuse_mesh(Fixture *fixture, const MeshCase *mesh)
+{
+    Error e = {0};
+    char scene_path[128], wanted[1200], text[256];
+    fixture_write(fixture, mesh->name, mesh->text, strlen(mesh->text));
+    snprintf(text, sizeof text, "objects: [{name: a, mesh: {file: %s}}]", mesh->name);
+    strcpy(scene_path, fixture_write(fixture, "s.yaml", text, strlen(text)));
+    Scene *scene = scene_read(scene_path, NULL, 0, &e);
+    assert_non_null(scene);
+    Run run = run_default();
+    assert_null(scene_build(scene, &run, NULL, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    snprintf(wanted, sizeof wanted, "%s/%s: %s", fixture->folder, mesh->name, mesh->message);
+    expect(mesh->name, &e, wanted);
+    scene_free(scene);
+}
+
+static void bad_meshes_are_refused_in_exact_words(void **state)
+{
+    for (size_t i = 0; i < sizeof meshes / sizeof meshes[0]; i++) {
+        refuse_mesh(*state, &meshes[i]);
+    }
+}
+
+static void read_failing(const char *path, const char *message)
+{
+    Error e = {0};
+    char wanted[1200];
+    assert_null(scene_read(path, NULL, 0, &e));
+    snprintf(wanted, sizeof wanted, "%s: %s", path, message);
+    expect(path, &e, wanted);
+}
+
+static void files_that_are_no_scene_are_refused(void **state)
+{
+    Fixture *fixture = *state;
+    read_failing("/tmp", "a folder; name a scene file");
+    read_failing("/dev/null", "a device or pipe; name a scene file");
+    read_failing("/nope/s.yaml", "cannot read it: No such file or directory; name a scene file");
+    read_failing(fixture_write(fixture, "zero.yaml", "a\0b", 3),
+                 "not a text file: a NUL at byte 1; a scene is YAML text in UTF-8");
+    const char *large = fixture_write(fixture, "large.yaml", "", 0);
+    assert_int_equal(truncate(large, 100 << 20), 0);
+    read_failing(large, "100.0 MB long; a scene has at most 16 MB");
+}
+
+// ---- hostile documents: an error, soon, whatever they are ----
+
+static void refuse_soon(const char *text, const char *ending)
+{
+    Error e = {0};
+    double start = run_seconds();
+    assert_null(scene_read_text(text, strlen(text), "s.yaml", "", NULL, 0, &e));
+    assert_true(run_seconds() - start < 20.0);
+    if (!strstr(e.message, ending)) {
+        fail_msg("said %s\nwanted %s", e.message, ending);
+    }
+}
+
+// a: &a [..], b: &b [*a x 9], c: &c [*b x 9] ...: ten to the tenth values.
+static void aliases_cannot_explode(void **state)
+{
+    (void)state;
+    char text[2048] = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+    for (int i = 1; i < 12; i++) {
+        size_t used = strlen(text);
+        snprintf(text + used, sizeof text - used,
+                 "a%d: &a%d [*a%d, *a%d, *a%d, *a%d, *a%d, *a%d, *a%d, *a%d, *a%d]\n", i, i, i - 1,
+                 i - 1, i - 1, i - 1, i - 1, i - 1, i - 1, i - 1, i - 1);
+    }
+    refuse_soon(text, "the aliases of this file unfold to too much");
+}
+
+static void nesting_is_bounded(void **state)
+{
+    (void)state;
+    enum { DEEP = 200000 };
+    char *text = malloc(DEEP + 1);
+    memset(text, '[', DEEP);
+    text[DEEP] = 0;
+    refuse_soon(text, "nested deeper than 64 levels");
+    memset(text, '{', DEEP);
+    refuse_soon(text, "");
+    free(text);
+    // depth that only aliases make
+    char chain[4096] = "a0: &a0 [[[[[[[[[[x]]]]]]]]]]\n";
+    for (int i = 1; i < 20; i++) {
+        size_t used = strlen(chain);
+        snprintf(chain + used, sizeof chain - used, "a%d: &a%d [[[[[[[[[[*a%d]]]]]]]]]]\n", i, i,
+                 i - 1);
+    }
+    refuse_soon(chain, "nested deeper than 64 levels");
+}
+
+static void long_documents_are_read_in_linear_time(void **state)
+{
+    (void)state;
+    enum { COUNT = 300000 };
+    char *text = malloc(COUNT * 12 + 100), *at = text;
+    at += sprintf(at, "objects: [");
+    for (int i = 0; i < COUNT; i++) {
+        at += sprintf(at, "{a%d: 1},", i % 100);
+    }
+    sprintf(at, "]");
+    refuse_soon(text, "objects has 300000 entries; it must have 1 to 10000");
+    at = text;
+    for (int i = 0; i < 2000; i++) {
+        at += sprintf(at, "k%d: 1\n", i);
+    }
+    refuse_soon(text, "more than 1000 keys in one mapping");
+    free(text);
+}
+
+// Whatever bytes come, the reader returns; the sanitizers see that it does so cleanly.
+static void mangled_scenes_are_survived(void **state)
+{
+    (void)state;
+    static const char right[] = "seed: 1\ncamera: &c {position: [0, 1, 9], fov: 3_0}\nobjects:\n"
+                                "  - name: a\n    tree: {crown: {envelope: [{shape: box, size: 2}],"
+                                " growth: {levels: [{attractors: 9, <<: {step: .2}}]}}}\n"
+                                "  - {name: \"b\", ground: ~}\n";
+    char text[sizeof right];
+    uint64_t random = 12345;
+    int read = 0;
+    for (int i = 0; i < 3000; i++) {
+        memcpy(text, right, sizeof right);
+        for (int k = 0; k < 1 + i % 3; k++) {
+            random = random * 6364136223846793005ull + 1442695040888963407ull;
+            text[(random >> 33) % (sizeof right - 1)] = (char)(random >> 56);
+        }
+        Error e = {0};
+        Scene *scene = scene_read_text(text, sizeof right - 1, "s.yaml", "", NULL, 0, &e);
+        read += scene != NULL;
+        assert_true(scene || (e.code == ERROR_INPUT && e.message[0]));
+        scene_free(scene);
+    }
+    assert_true(read < 3000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_scenes_are_refused_in_exact_words),
+        cmocka_unit_test(bad_overrides_are_refused_in_exact_words),
+        cmocka_unit_test_setup_teardown(bad_meshes_are_refused_in_exact_words, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(files_that_are_no_scene_are_refused, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test(aliases_cannot_explode),
+        cmocka_unit_test(nesting_is_bounded),
+        cmocka_unit_test(long_documents_are_read_in_linear_time),
+        cmocka_unit_test(mangled_scenes_are_survived),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

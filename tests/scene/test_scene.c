@@ -1,0 +1,438 @@
+// Scenes that are right: defaults, overrides, anchors, merges, numbers, files, round trips.
+#include "scene_fixture.h"
+
+#include "model/tree.h"
+#include "scene/hint.h"
+#include "scene/scalar.h"
+#include "scene/spec.h"
+
+#include <locale.h>
+#include <math.h>
+
+static const char plain[] = "objects: [{name: oak, tree: }]\n";
+
+static Scene *read_text(const char *text, const char *const *overrides, int count)
+{
+    Error e = {0};
+    Scene *scene = scene_read_text(text, strlen(text), "s.yaml", "", overrides, count, &e);
+    if (!scene) {
+        char message[1200];
+        error_format(&e, message, sizeof message);
+        print_error("%s\n", message);
+    }
+    assert_non_null(scene);
+    return scene;
+}
+
+static void defaults_are_those_of_the_modules(void **state)
+{
+    (void)state;
+    Scene *scene = read_text(plain, NULL, 0);
+    World *world = world_new(NULL);
+    TreeParams tree = tree_params_default();
+    ToneParams tone = tone_params_default();
+    assert_memory_equal(&scene->camera, &world->camera, sizeof scene->camera);
+    assert_memory_equal(&scene->film, &world->film, sizeof scene->film);
+    assert_int_equal(scene->sky.kind, world->sky.kind);
+    assert_memory_equal(&scene->sky.sun_elevation, &world->sky.sun_elevation, sizeof(float));
+    assert_int_equal(scene->render.samples, world->render.samples);
+    assert_int_equal(scene->render.max_depth, world->render.max_depth);
+    assert_int_equal(scene->seed, 1);
+    assert_int_equal(scene->render.seed, 1);
+    assert_memory_equal(&scene->tone.contrast, &tone.contrast, sizeof(float));
+    assert_memory_equal(&scene->tone.bloom, &tone.bloom, sizeof(float));
+    assert_int_equal(scene->object_count, 1);
+    assert_null(scene->objects[0].ground);
+    const TreeParams *read = scene->objects[0].tree;
+    assert_memory_equal(&read->leaves, &tree.leaves, sizeof tree.leaves);
+    assert_memory_equal(&read->radii, &tree.radii, sizeof tree.radii);
+    assert_memory_equal(&read->skin, &tree.skin, sizeof tree.skin);
+    assert_memory_equal(&read->crown.element.noise, &tree.crown.element.noise, sizeof(float));
+    assert_memory_equal(&read->crown.branch_angle, &tree.crown.branch_angle, sizeof(float));
+    assert_null(read->crown.element.shapes);
+    world_free(world);
+    scene_free(scene);
+}
+
+static void overrides_reach_every_depth(void **state)
+{
+    (void)state;
+    const char *const overrides[] = {"objects.oak.tree.leaves.max_count=0",
+                                     "camera.position=[1, 2, 3]",
+                                     "objects.0.tree.height=9",
+                                     "film={width: 64, height: 32}",
+                                     "film.exposure=-1.5",
+                                     "seed=0x10"};
+    Scene *scene = read_text(plain, overrides, 6);
+    assert_int_equal(scene->objects[0].tree->leaves.max_count, 0);
+    assert_true(scene->objects[0].tree->height == 9.0f);
+    assert_true(scene->camera.position.z == 3.0f);
+    assert_int_equal(scene->film.width, 64);
+    assert_true(scene->tone.exposure == -1.5f);
+    assert_int_equal(scene->seed, 16);
+    scene_free(scene);
+}
+
+static void anchors_and_merge_keys_work(void **state)
+{
+    (void)state;
+    Scene *scene = read_text("objects:\n"
+                             "  - &first\n"
+                             "    name: a\n"
+                             "    seed: 5\n"
+                             "    tree: &tree {height: 7, roots: &no_roots {count: 0}}\n"
+                             "  - {<<: *first, name: b}\n"
+                             "  - name: c\n"
+                             "    tree: {<<: *tree, height: 8}\n"
+                             "  - name: d\n"
+                             "    tree: {height: 3, <<: [{height: 4, radii: {tip: 0.5}}, *tree]}\n",
+                             NULL, 0);
+    assert_int_equal(scene->object_count, 4);
+    assert_string_equal(scene->objects[1].name, "b");
+    assert_int_equal(scene->objects[1].seed, 5);
+    assert_true(scene->objects[1].tree->height == 7.0f);
+    assert_true(scene->objects[2].tree->height == 8.0f);
+    assert_int_equal(scene->objects[2].tree->roots.count, 0);
+    assert_true(scene->objects[3].tree->height == 3.0f); // its own key wins, wherever it stands
+    assert_true(scene->objects[3].tree->radii.tip == 0.5f);
+    assert_int_equal(scene->objects[3].tree->roots.count, 0);
+    scene_free(scene);
+}
+
+static void an_override_changes_one_copy_of_an_anchor(void **state)
+{
+    (void)state;
+    const char *const overrides[] = {"objects.a.tree.height=5"};
+    Scene *scene =
+        read_text("objects: [{name: a, tree: &t {height: 7}}, {name: b, tree: *t}]", overrides, 1);
+    assert_true(scene->objects[0].tree->height == 5.0f);
+    assert_true(scene->objects[1].tree->height == 7.0f);
+    scene_free(scene);
+}
+
+static void growth_fills_in_its_levels(void **state)
+{
+    (void)state;
+    Scene *scene = read_text("objects:\n"
+                             "  - name: a\n"
+                             "    tree:\n"
+                             "      crown:\n"
+                             "        growth:\n"
+                             "          noise: 0.7\n"
+                             "          levels: [{attractors: 1_000}, {attractors: 1e6, noise: 0, "
+                             "tropism: 2}]\n"
+                             "      trunk: {growth: {tropism: [0, 1, 0], levels: [{attractors: "
+                             "9}]}}\n",
+                             NULL, 0);
+    const ElementParams *crown = &scene->objects[0].tree->crown.element;
+    assert_int_equal(crown->level_count, 2);
+    assert_int_equal(crown->levels[0].attractors, 1000);
+    assert_int_equal(crown->levels[1].attractors, 1000000);
+    assert_true(crown->levels[0].noise == 0.7f && crown->levels[1].noise == 0.0f);
+    assert_true(crown->levels[0].tropism == 0.0f && crown->levels[1].tropism == 2.0f);
+    assert_true(scene->objects[0].tree->trunk.element.levels[0].tropism == 1.0f);
+    scene_free(scene);
+}
+
+static void shapes_and_fields_are_placed(void **state)
+{
+    (void)state;
+    Scene *scene = read_text("objects:\n"
+                             "  - name: a\n"
+                             "    shape:\n"
+                             "      envelope:\n"
+                             "        - {shape: sphere, size: 2, position: [1, 2, 3]}\n"
+                             "        - {shape: half_space, op: difference, rotation: [0, 0, 90]}\n"
+                             "  - name: b\n"
+                             "    tree: {crown: {fields: [{kind: nuclei, turn: 360}, {kind: "
+                             "point, weight: 2}]}}\n",
+                             NULL, 0);
+    const Shape *shape = scene->objects[0].shape->shapes;
+    assert_int_equal(scene->objects[0].shape->shape_count, 2);
+    assert_true(shape[0].transform.m[0][0] == 2.0f && shape[0].transform.m[2][3] == 3.0f);
+    assert_int_equal(shape[1].op, SHAPE_DIFFERENCE);
+    assert_true(fabsf(shape[1].transform.m[1][0] - 1.0f) < 1e-6f); // y <= 0 became x >= 0
+    const ElementParams *crown = &scene->objects[1].tree->crown.element;
+    assert_int_equal(crown->field_count, 2);
+    assert_true(crown->fields[0].turn == 360.0f && crown->fields[1].weight == 2.0f);
+    FieldParams point = field_params_default(FIELD_POINT);
+    assert_true(crown->fields[1].scale == point.scale);
+    scene_free(scene);
+}
+
+static void materials_begin_from_their_kind_or_the_built_in_one(void **state)
+{
+    (void)state;
+    Scene *scene = read_text("materials:\n"
+                             "  - {name: leaf, variation: 0.9}\n"
+                             "  - {name: gold, kind: conductor, color: \"#ffff00\"}\n"
+                             "  - {name: stone, color: 0.3}\n"
+                             "objects: [{name: a, tree: , material: gold}]\n",
+                             NULL, 0);
+    Material conductor = material_default(MATERIAL_CONDUCTOR);
+    assert_int_equal(scene->materials[0].kind, MATERIAL_LEAF);
+    assert_true(scene->materials[0].variation == 0.9f);
+    assert_true(scene->materials[0].transmittance.y > 0.05f);
+    assert_true(scene->materials[1].roughness == conductor.roughness);
+    assert_true(scene->materials[1].color.x == 1.0f && scene->materials[1].color.z == 0.0f);
+    assert_int_equal(scene->materials[2].kind, MATERIAL_DIFFUSE);
+    assert_true(scene->materials[2].color.y == 0.3f);
+    assert_string_equal(scene->objects[0].material, "gold");
+    scene_free(scene);
+}
+
+static void files_are_found_beside_the_scene(void **state)
+{
+    Fixture *fixture = *state;
+    char wanted[160];
+    Error e = {0};
+    fixture_write(fixture, "stone.obj", "v 0 0 0\n", 8);
+    snprintf(wanted, sizeof wanted, "%s/stone.obj", fixture->folder);
+    const char text[] = "objects: [{name: a, mesh: {file: stone.obj}}]";
+    Scene *scene = scene_read(fixture_write(fixture, "s.yaml", text, sizeof text - 1), NULL, 0, &e);
+    assert_non_null(scene);
+    assert_string_equal(scene->objects[0].mesh->file, wanted);
+    assert_string_equal(scene->text, text);
+    scene_free(scene);
+}
+
+// The resolved text says everything: read again, it resolves to itself.
+static void the_resolved_scene_reads_back_to_itself(void **state)
+{
+    (void)state;
+    Scene *scene = read_text("seed: 18446744073709551615\n"
+                             "camera: {focal_length: 35, position: [0.1, 1.0e-3, 30]}\n"
+                             "sky: {kind: constant, color: [1, 2, 3]}\n"
+                             "lights: [{kind: quad}, {kind: sphere, radius: 0.3}]\n"
+                             "materials: [{name: \"a b\", kind: dielectric}]\n"
+                             "objects:\n"
+                             "  - {name: oak, tree: {crown: {envelope: [{shape: cone, size: [3, 9, "
+                             "0]}], growth: {levels: [{attractors: 5}]}}}}\n"
+                             "  - {name: land, ground: }\n"
+                             "  - {name: ball, shape: {envelope: [{shape: sphere}]}, material: \"a "
+                             "b\"}\n",
+                             NULL, 0);
+    Scene *again = read_text(scene->resolved, NULL, 0);
+    assert_string_equal(again->resolved, scene->resolved);
+    assert_memory_equal(&again->camera, &scene->camera, sizeof scene->camera);
+    assert_int_equal(again->light_count, 2);
+    assert_memory_equal(again->lights, scene->lights, 2 * sizeof(Light));
+    assert_true(again->seed == UINT64_MAX);
+    scene_free(again);
+    scene_free(scene);
+}
+
+static void the_language_of_the_caller_does_not_matter(void **state)
+{
+    (void)state;
+    const char *const languages[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "C"}; // where installed
+    for (int i = 0; i < 3; i++) {
+        setlocale(LC_ALL, languages[i]);
+        const char *const overrides[] = {"camera.fov=33.25"};
+        Scene *scene = read_text(plain, overrides, 1);
+        assert_true(scene->camera.fov == 33.25f);
+        scene_free(scene);
+    }
+    setlocale(LC_ALL, "C");
+}
+
+static void numbers_are_those_of_yaml(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        bool valid;
+        double value;
+    } cases[] = {{"1", true, 1},
+                 {"-1.5", true, -1.5},
+                 {"+2e3", true, 2000},
+                 {".5", true, 0.5},
+                 {"1_000", true, 1000},
+                 {"0x1F", true, 31},
+                 {"-0x10", true, -16},
+                 {"1.", true, 1},
+                 {"", false, 0},
+                 {"1__0", false, 0},
+                 {"_1", false, 0},
+                 {"010", false, 0},
+                 {"1:30", false, 0},
+                 {"1e", false, 0},
+                 {"0x", false, 0},
+                 {"nano", false, 0},
+                 {"-", false, 0},
+                 {"1 2", false, 0},
+                 {".inf", true, (double)INFINITY},
+                 {"1e999", true, (double)INFINITY}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        double value = 0.0;
+        bool valid = scalar_number(cases[i].text, &value);
+        if (valid != cases[i].valid || (valid && value != cases[i].value)) {
+            fail_msg("'%s' was %s, %g", cases[i].text, valid ? "read" : "refused", value);
+        }
+    }
+}
+
+static void floats_keep_their_bits_as_text(void **state)
+{
+    (void)state;
+    char text[32];
+    for (uint32_t i = 0; i < 20000; i++) {
+        uint32_t bits = i * 214013u + 0x3a83126fu;
+        float value;
+        memcpy(&value, &bits, sizeof value);
+        if (isfinite(value)) {
+            scalar_from_float(value, text);
+            assert_true(strtof(text, NULL) == value);
+        }
+    }
+    scalar_from_float(0.1f, text);
+    assert_string_equal(text, "0.1");
+}
+
+static void hints_are_near(void **state)
+{
+    (void)state;
+    const char *const known[] = {"height", "width", "samples"};
+    assert_int_equal(hint_nearest("heigth", known, 3), 0);
+    assert_int_equal(hint_nearest("sample", known, 3), 2);
+    assert_int_equal(hint_nearest("colour", known, 3), -1);
+    assert_int_equal(hint_distance("abcd", "acbd"), 1);
+    assert_int_equal(hint_distance("", "abc"), 3);
+}
+
+// ---- the JSON Schema ----
+
+// Skips one JSON value; NULL when it is malformed.
+static const char *skip_json(const char *at, int depth);
+
+static const char *skip_space(const char *at)
+{
+    return at + strspn(at, " \n\r\t");
+}
+
+static const char *skip_string(const char *at)
+{
+    if (*at != '"') {
+        return NULL;
+    }
+    for (at++; *at && *at != '"'; at++) {
+        if ((unsigned char)*at < 0x20 || (*at == '\\' && !*++at)) {
+            return NULL;
+        }
+    }
+    return *at ? at + 1 : NULL;
+}
+
+static const char *skip_members(const char *at, char end, int depth)
+{
+    at = skip_space(at + 1);
+    if (*at == end) {
+        return at + 1;
+    }
+    for (;;) {
+        if (end == '}') {
+            at = skip_string(skip_space(at));
+            at = at ? skip_space(at) : NULL;
+            if (!at || *at++ != ':') {
+                return NULL;
+            }
+        }
+        at = skip_json(at, depth + 1);
+        at = at ? skip_space(at) : NULL;
+        if (!at || (*at != ',' && *at != end)) {
+            return NULL;
+        }
+        if (*at++ == end) {
+            return at;
+        }
+    }
+}
+
+static const char *skip_json(const char *at, int depth)
+{
+    at = skip_space(at);
+    if (depth > 40) {
+        return NULL;
+    }
+    if (*at == '{' || *at == '[') {
+        return skip_members(at, *at == '{' ? '}' : ']', depth);
+    }
+    if (*at == '"') {
+        return skip_string(at);
+    }
+    if (strncmp(at, "true", 4) == 0 || strncmp(at, "null", 4) == 0) {
+        return at + 4;
+    }
+    if (strncmp(at, "false", 5) == 0) {
+        return at + 5;
+    }
+    char *end;
+    strtod(at, &end);
+    return end > at ? end : NULL;
+}
+
+static void the_schema_is_json(void **state)
+{
+    (void)state;
+    Error e = {0};
+    char *schema = scene_schema_json(&e);
+    assert_non_null(schema);
+    const char *end = skip_json(schema, 0);
+    assert_non_null(end);
+    assert_int_equal(*skip_space(end), 0);
+    assert_non_null(
+        strstr(schema, "\"$schema\": \"https://json-schema.org/draft/2020-12/schema\""));
+    assert_null(strstr(schema, "\"description\": \"\""));
+    free(schema);
+}
+
+// Counts keys of a table and those below, and looks each up in the schema.
+static int look_up_keys(const Table *table, const char *schema)
+{
+    int count = 0;
+    for (const Key *row = table->keys; row->key; row++) {
+        if (row->flags & KEY_HIDDEN) {
+            continue;
+        }
+        char quoted[80];
+        snprintf(quoted, sizeof quoted, "\"%s\": {\"description\": \"%.20s", row->key, row->doc);
+        if (!strstr(schema, quoted)) {
+            fail_msg("the schema lacks %s of %s", row->key, table->name);
+        }
+        count += 1 + (row->table ? look_up_keys(row->table, schema) : 0);
+    }
+    return count;
+}
+
+static void the_schema_has_every_key(void **state)
+{
+    (void)state;
+    Error e = {0};
+    char *schema = scene_schema_json(&e);
+    assert_non_null(schema);
+    assert_true(look_up_keys(&scene_table, schema) > 200);
+    free(schema);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(defaults_are_those_of_the_modules),
+        cmocka_unit_test(overrides_reach_every_depth),
+        cmocka_unit_test(anchors_and_merge_keys_work),
+        cmocka_unit_test(an_override_changes_one_copy_of_an_anchor),
+        cmocka_unit_test(growth_fills_in_its_levels),
+        cmocka_unit_test(shapes_and_fields_are_placed),
+        cmocka_unit_test(materials_begin_from_their_kind_or_the_built_in_one),
+        cmocka_unit_test_setup_teardown(files_are_found_beside_the_scene, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test(the_resolved_scene_reads_back_to_itself),
+        cmocka_unit_test(the_language_of_the_caller_does_not_matter),
+        cmocka_unit_test(numbers_are_those_of_yaml),
+        cmocka_unit_test(floats_keep_their_bits_as_text),
+        cmocka_unit_test(hints_are_near),
+        cmocka_unit_test(the_schema_is_json),
+        cmocka_unit_test(the_schema_has_every_key),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
