@@ -55,35 +55,44 @@ static bool add_raw(CurveBuilder *builder, Vec3 position, int32_t node, Error *e
     return true;
 }
 
-// Where a skinned node lies on its chain's axis.
-static Vec3 on_axis(const SkinPlan *plan, int32_t node)
+// Where a skinned node lies on its chain's axis, m from the axis' start.
+static float along_axis(const SkinPlan *plan, int32_t node)
 {
     int32_t number = plan->chain_of[node];
     const SkinChain *chain = &plan->chain[number];
     int64_t place = plan->place[node] - chain->first;
     int64_t sample = chain->count > 1 ? place * (chain->samples - 1) / (chain->count - 1) : 0;
-    float along = skin_axis_nearest(plan, number, plan->tree->position[node], &sample);
-    return skin_axis_at(plan, number, along).position;
+    return skin_axis_nearest(plan, number, plan->tree->position[node], &sample);
 }
 
-// The points before the first thin node: inside the branch it grows from. A hidden chain between
-// the two becomes part of the curve.
+static bool add_axis_point(CurveBuilder *builder, int32_t chain, float along, Error *e)
+{
+    return add_raw(builder, skin_axis_at(builder->plan, chain, along).position, -1, e);
+}
+
+// The points before the first thin node: inside the branch it grows from. Where that is hidden in
+// its own parent, or has just come out of it, the curve starts in the parent.
 static bool add_beginning(CurveBuilder *builder, int32_t base, Error *e)
 {
     const SkinPlan *plan = builder->plan;
     if (is_thin(plan, base)) {
         return add_raw(builder, builder->relaxed[base], -1, e);
     }
-    const SkinChain *chain = &plan->chain[plan->chain_of[base]];
-    if (chain->visible) {
-        return add_raw(builder, on_axis(plan, base), -1, e);
+    int32_t number = plan->chain_of[base];
+    const SkinChain *chain = &plan->chain[number];
+    float along = along_axis(plan, base);
+    float near = chain->start + 2.0f * skin_axis_at(plan, number, along).radius;
+    if (chain->parent >= 0 && (!chain->visible || along < near)) {
+        if (!add_axis_point(builder, chain->parent, chain->attach, e)) {
+            return false;
+        }
+        for (int64_t i = chain->first; !chain->visible && i < plan->place[base]; i++) {
+            if (!add_raw(builder, plan->tree->position[plan->node[i]], -1, e)) {
+                return false;
+            }
+        }
     }
-    Vec3 start = skin_axis_at(plan, chain->parent, chain->attach).position;
-    bool good = add_raw(builder, start, -1, e);
-    for (int64_t i = chain->first; good && i <= plan->place[base]; i++) {
-        good = add_raw(builder, plan->tree->position[plan->node[i]], -1, e);
-    }
-    return good;
+    return add_axis_point(builder, number, along, e);
 }
 
 static bool gather_curve(CurveBuilder *builder, int64_t start, Error *e)
