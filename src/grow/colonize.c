@@ -1,10 +1,9 @@
 #include "base/memory.h"
 #include "grow/growth.h"
-#include "grow/reach.h"
+#include "grow/report.h"
 
 #include "base/exact_math.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,44 +23,6 @@ void colonize_auto(ColonizeParams *params, double spacing, float step, float kil
         if (*length[i] == 0.0f) {
             *length[i] = (float)((double)multiple[i] * spacing);
         }
-    }
-}
-
-void grow_report_format(const GrowReport *report, const ColonizeParams *params, char *text,
-                        int size)
-{
-    size_t n = size > 0 ? (size_t)size : 0;
-    long long steps = report->steps, nodes = report->new_nodes, left = report->attractors_left;
-    switch (report->stop) {
-    case STOP_OUT_OF_REACH:
-        if (isfinite(report->nearest)) {
-            snprintf(
-                text, n,
-                "no attractor in reach of root %d: influence %.3g m, nearest attractor %.3g m; "
-                "raise growth.influence",
-                report->root, (double)report->influence, (double)report->nearest);
-        } else {
-            snprintf(text, n, "there are no attractors to grow toward; raise growth.attractors");
-        }
-        break;
-    case STOP_MAX_STEPS:
-        snprintf(text, n,
-                 "stopped after %lld steps: %lld new nodes, %lld attractors left; raise "
-                 "growth.max_steps %lld to grow on",
-                 steps, nodes, left, (long long)params->max_steps);
-        break;
-    case STOP_MAX_NODES:
-        snprintf(text, n,
-                 "stopped after %lld steps: %lld new nodes, %lld attractors left; raise "
-                 "growth.max_nodes %lld to grow on",
-                 steps, nodes, left, (long long)params->max_nodes);
-        break;
-    case STOP_NO_PULL:
-        snprintf(text, n,
-                 "grown until no attractor pulls: %lld new nodes in %lld steps, %lld attractors "
-                 "left",
-                 nodes, steps, left);
-        break;
     }
 }
 

@@ -1,8 +1,46 @@
-#include "grow/reach.h"
+#include "grow/report.h"
 
 #include <stdio.h>
 
 enum { MAX_WARNINGS = 4 };
+
+void grow_report_format(const GrowReport *report, const ColonizeParams *params, char *text,
+                        int size)
+{
+    size_t n = size > 0 ? (size_t)size : 0;
+    long long steps = report->steps, nodes = report->new_nodes, left = report->attractors_left;
+    switch (report->stop) {
+    case STOP_OUT_OF_REACH:
+        if (isfinite(report->nearest)) {
+            snprintf(
+                text, n,
+                "no attractor in reach of root %d: influence %.3g m, nearest attractor %.3g m; "
+                "raise growth.influence",
+                report->root, (double)report->influence, (double)report->nearest);
+        } else {
+            snprintf(text, n, "there are no attractors to grow toward; raise growth.attractors");
+        }
+        break;
+    case STOP_MAX_STEPS:
+        snprintf(text, n,
+                 "stopped after %lld steps: %lld new nodes, %lld attractors left; raise "
+                 "growth.max_steps %lld to grow on",
+                 steps, nodes, left, (long long)params->max_steps);
+        break;
+    case STOP_MAX_NODES:
+        snprintf(text, n,
+                 "stopped after %lld steps: %lld new nodes, %lld attractors left; raise "
+                 "growth.max_nodes %lld to grow on",
+                 steps, nodes, left, (long long)params->max_nodes);
+        break;
+    case STOP_NO_PULL:
+        snprintf(text, n,
+                 "grown until no attractor pulls: %lld new nodes in %lld steps, %lld attractors "
+                 "left",
+                 nodes, steps, left);
+        break;
+    }
+}
 
 static int32_t root_of(const OutTree *tree, int64_t node)
 {

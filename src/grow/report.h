@@ -1,6 +1,6 @@
-// Which roots have no attractor within reach, and how far off their nearest one is.
-#ifndef RAMIFY_GROW_REACH_H
-#define RAMIFY_GROW_REACH_H
+// What growth tells people: why it stopped, and which roots have no attractor within reach.
+#ifndef RAMIFY_GROW_REPORT_H
+#define RAMIFY_GROW_REPORT_H
 
 #include "grow/attractor_grid.h"
 #include "grow/colonize.h"
