@@ -12,26 +12,27 @@ typedef struct BarkPlace {
     Vec3 u, v;    // world: unit directions around and along the stem
 } BarkPlace;
 
-// The stem unbent: a point of a cylinder of its radius, so that nothing shows where u closes. u of
-// grown meshes runs both ways from one side to the other; which way round is told by the handedness
-// of its frame.
-static BarkPlace stem_place(const SurfacePoint *point, Vec3 u, Vec3 v)
+// The stem unbent: a point of a cylinder of its radius, found from where the normal points, so that
+// nothing shows where u closes or where it is uneven. side_u: along a line of equal v, either way.
+static BarkPlace stem_place(const SurfacePoint *point, Vec3 side_u)
 {
-    float angle = point->uv.x / point->radius;
-    bool right = vec3_dot(vec3_cross(u, v), point->geometric_normal) > 0.0f;
-    float hand = right != point->backface ? 1.0f : -1.0f;
-    float s = sinf(angle), c = cosf(angle);
-    return (BarkPlace){vec3(point->radius * c, point->radius * s * hand, point->uv.y),
-                       vec3(-s, hand * c, 0.0f), u, v};
+    Vec3 n = point->geometric_normal;
+    Vec3 axis = vec3_cross(n, side_u);
+    axis = vec3_normalize(vec3_dot(axis, point->tangent_v) < 0.0f ? vec3_neg(axis) : axis);
+    const Vec3 reference = {0.83f, -0.21f, 0.52f}; // few branches grow just that way
+    Vec3 x = vec3_normalize(vec3_madd(reference, -vec3_dot(reference, axis), axis));
+    Vec3 y = vec3_cross(axis, x);
+    float c = vec3_dot(n, x), s = vec3_dot(n, y);
+    return (BarkPlace){vec3(point->radius * c, point->radius * s, point->uv.y), vec3(-s, c, 0.0f),
+                       vec3_cross(axis, n), axis};
 }
 
 // Where there is no branch (imported meshes) bark runs up the object's y axis.
 static BarkPlace bark_place(const SurfacePoint *point)
 {
-    float u = vec3_length(point->tangent_u), v = vec3_length(point->tangent_v);
-    if (point->radius > 0.0f && u > 0.0f && v > 0.0f) {
-        return stem_place(point, vec3_scale(point->tangent_u, 1.0f / u),
-                          vec3_scale(point->tangent_v, 1.0f / v));
+    float u = vec3_length(point->tangent_u);
+    if (point->radius > 0.0f && u > 0.0f) {
+        return stem_place(point, vec3_scale(point->tangent_u, 1.0f / u));
     }
     Vec3 p = point->object_position, n = point->geometric_normal;
     Vec3 side = vec3_normalize(vec3(n.z, 0.0f, -n.x + 1e-6f));
