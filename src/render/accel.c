@@ -236,8 +236,27 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
 
 // ---- life
 
+// Embree itself takes an unknown name for its default without a word.
+static bool check_isa(const char *isa, Error *e)
+{
+    static const char *const known[] = {"sse2", "sse4.2", "avx", "avx2", "avx512"};
+    for (size_t i = 0; isa && i < sizeof known / sizeof *known; i++) {
+        if (strcmp(isa, known[i]) == 0) {
+            return true;
+        }
+    }
+    return !isa ||
+           error_set(e, ERROR_INPUT,
+                     "unknown instruction set '%s'; sse2, sse4.2, avx, avx2 or avx512 would "
+                     "be right",
+                     isa);
+}
+
 static RTCDevice open_device(Accel *accel, const char *isa, int threads, Error *e)
 {
+    if (!check_isa(isa, e)) {
+        return NULL;
+    }
     char config[128];
     snprintf(config, sizeof config, "threads=%d%s%s", threads, isa ? ",isa=" : "", isa ? isa : "");
     RTCDevice device = rtcNewDevice(config);

@@ -302,7 +302,8 @@ static Spectrum multiple_scattering(const Atmosphere *a, double r, double mu_sun
     Spectrum second = {{0.0f}}, share = {{0.0f}}, result;
     double sine_sun = sqrt(fmax(0.0, 1.0 - mu_sun * mu_sun));
     for (int k = 0; k < POLAR * TURNS; k++) {
-        double mu = -1.0 + 2.0 * (k / TURNS + 0.5) / POLAR;
+        int ring = k / TURNS;
+        double mu = -1.0 + 2.0 * (ring + 0.5) / POLAR;
         double turn = 2.0 * (double)PI_F * (k % TURNS + 0.5) / TURNS;
         double cosine = mu * mu_sun + sqrt(1.0 - mu * mu) * sine_sun * cos(turn);
         double length = distance_to_top(r, mu);

@@ -1,5 +1,6 @@
 #include "render/integrator.h"
 
+#include "base/random.h"
 #include "render/dome.h"
 
 #include <stddef.h>
@@ -12,6 +13,7 @@ typedef struct Path {
     const Tracer *tracer;
     Sampler sampler;
     Ray ray;
+    uint32_t key; // of the next ray
     Vec3 throughput;
     Vec3 absorption; // per metre, of what the ray is in
     Vec3 direct, indirect;
@@ -37,7 +39,7 @@ static void add_light(Path *path, Vec3 radiance)
 }
 
 // Makes *ray start at the point, on the side that direction goes to.
-static void leave(const Path *path, const SurfacePoint *point, Vec3 direction, float far, Ray *ray)
+static void leave(Path *path, const SurfacePoint *point, Vec3 direction, float far, Ray *ray)
 {
     bool outside = vec3_dot(direction, point->geometric_normal) > 0.0f;
     Vec3 start = outside ? point->lifted : point->position;
@@ -45,7 +47,7 @@ static void leave(const Path *path, const SurfacePoint *point, Vec3 direction, f
     ray->origin = vec3_madd(start, step, point->facet_normal);
     ray->direction = direction;
     ray->far = far;
-    ray->key = (path->sampler.key ^ (path->sampler.reversed * 0x9e3779b1u)) + (uint32_t)path->depth;
+    ray->key = path->key++;
 }
 
 // Light that reaches the point straight from a light, by sampling the light.
@@ -159,7 +161,8 @@ static bool bounce(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3
         path->spread = larger(path->spread, 0.25f / (1.0f + sample.pdf));
     }
     if (sample.transmitted && bsdf->kind == MATERIAL_DIELECTRIC) {
-        path->absorption = point->backface ? vec3_splat(0.0f) : bsdf->absorption;
+        const Material *body = &path->tracer->world->material[point->material];
+        path->absorption = point->backface ? vec3_splat(0.0f) : body->absorption;
     }
     return survives(path, u[3]);
 }
@@ -218,7 +221,8 @@ static void begin(Path *path, const Tracer *tracer, int x, int y, int sample)
     float film_x = (float)x + 0.5f + filter_sample(&tracer->filter, u[0]);
     float film_y = (float)y + 0.5f + filter_sample(&tracer->filter, u[1]);
     path->ray.far = INFINITY;
-    path->ray.key = path->sampler.key ^ path->sampler.reversed;
+    path->key = (uint32_t)random_key(path->sampler.key, (uint64_t)sample);
+    path->ray.key = path->key++;
     camera_ray(&tracer->camera, film_x, film_y, u + 2, &path->ray.origin, &path->ray.direction);
 }
 

@@ -4,7 +4,7 @@
 #include "render/dome.h"
 #include "render/integrator.h"
 
-#include <omp.h>
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
@@ -146,6 +146,7 @@ typedef struct Job {
     int tile_count;
     int64_t pixels;
     double start;
+    pthread_t caller; // the thread that hears of progress
     _Atomic int64_t rays, paths;
     _Atomic int64_t settled; // paths traced or saved by adaptive stopping
 } Job;
@@ -224,7 +225,7 @@ static void render_pass(Job *job, int before, int end)
                               tile_noise(job->film, tile) < params->max_noise;
             }
             stop = stop || (end > 1 && must_stop(job));
-            if (omp_get_thread_num() == 0) {
+            if (pthread_equal(pthread_self(), job->caller)) {
                 tell_progress(job);
             }
         }
@@ -311,8 +312,12 @@ bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass 
         return false;
     }
     Tracer *tracer = memory_alloc_zero(1, sizeof *tracer, e);
-    Job job = {
-        .renderer = renderer, .tracer = tracer, .film = film, .run = run, .start = run_seconds()};
+    Job job = {.renderer = renderer,
+               .tracer = tracer,
+               .film = film,
+               .run = run,
+               .start = run_seconds(),
+               .caller = pthread_self()};
     job.tile = tracer ? make_tiles(&world->film, &job.tile_count, &job.pixels, e) : NULL;
     if (job.tile) {
         tracer->world = world;

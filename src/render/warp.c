@@ -13,7 +13,8 @@ Vec2 warp_disc(float u, float v)
         r = y;
         angle = 0.5f * PI_F - 0.25f * PI_F * (x / y);
     }
-    return (Vec2){r * cosf(angle), r * sinf(angle)};
+    float c = cosf(angle), s = sinf(angle);
+    return (Vec2){r * c, r * s};
 }
 
 Vec3 warp_cone(Vec3 axis, float c, float sine, float turn)

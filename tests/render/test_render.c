@@ -1,6 +1,10 @@
 // The whole renderer: energy, determinism, instances, curves, film planes, interruption.
 #include "tiny_world.h"
 
+#include "image/image.h"
+
+#include <unistd.h>
+
 #define ASSERT_NEAR(value, wanted, tolerance)                                             \
     do {                                                                                  \
         double v_ = (double)(value), w_ = (double)(wanted);                               \
@@ -174,10 +178,10 @@ static Transform turned(float scale, Vec3 at)
     return transform_compose(at, vec3(20, 40, 60), vec3(scale, scale * 1.3f, scale));
 }
 
-// The same bodies as instances and baked: the same picture up to rounding.
-static void instances_equal_baked_meshes(void **state)
+// The same bodies as instances and baked: the same picture up to rounding. The renderer copies
+// small meshes out and instances large ones.
+static void check_instances(int faces_around)
 {
-    (void)state;
     enum { COUNT = 5 };
     Film *film[2];
     for (int baked = 0; baked < 2; baked++) {
@@ -189,7 +193,7 @@ static void instances_equal_baked_meshes(void **state)
             instance[i] = turned(0.3f, vec3(0.4f * (float)i - 0.8f, 0.2f * (float)(i % 2), 0));
         }
         for (int i = 0; i < (baked ? COUNT : 1); i++) {
-            Mesh *mesh = sphere_mesh(vec3(0, 0.5f, 0), 1.0f, 8, true);
+            Mesh *mesh = sphere_mesh(vec3(0, 0.5f, 0), 1.0f, faces_around, true);
             if (baked) {
                 assert_true(mesh_transform(mesh, &instance[i], NULL));
                 add_mesh(world, mesh, 0, 0);
@@ -213,6 +217,94 @@ static void instances_equal_baked_meshes(void **state)
     ASSERT_NEAR(mean_luminance(film[0]), mean_luminance(film[1]), 1e-3);
     film_free(film[0]);
     film_free(film[1]);
+}
+
+static void small_instances_equal_baked_meshes(void **state)
+{
+    (void)state;
+    check_instances(8);
+}
+
+static void large_instances_equal_baked_meshes(void **state)
+{
+    (void)state;
+    check_instances(16);
+}
+
+// Light through a slab of coloured glass: Beer-Lambert over the way inside, and Fresnel's share at
+// both faces (4 % each, with what is reflected to and fro).
+static void absorption_in_glass(void **state)
+{
+    (void)state;
+    World *world = tiny_world(4, 4, 256, 0.5f);
+    world->camera.fov = 0.5f;
+    world->sky.kind = SKY_CONSTANT;
+    world->sky.color = vec3_splat(1.0f);
+    world->material[0] = material_default(MATERIAL_DIELECTRIC);
+    world->material[0].ior = 1.5f;
+    world->material[0].roughness = 0.0f;
+    world->material[0].absorption = vec3(0.0f, 0.5f, 2.0f);
+    world->render.max_depth = world->render.roulette_depth = 20;
+    add_mesh(world, quad_mesh(vec3(-9, -9, 0), vec3(18, 0, 0), vec3(0, 18, 0)), 0, 0);
+    add_mesh(world, quad_mesh(vec3(-9, -9, -1), vec3(0, 18, 0), vec3(18, 0, 0)), 0, 0);
+    Film *film = trace(world, 2, NULL);
+    const double absorption[3] = {0.0, 0.5, 2.0}, r = 0.04;
+    const Vec3 c = center_color(film);
+    const float channel[3] = {c.x, c.y, c.z};
+    for (int k = 0; k < 3; k++) {
+        double t = exp(-absorption[k]);
+        double through = (1 - r) * (1 - r) * t / (1 - r * r * t * t);
+        double back = r + (1 - r) * (1 - r) * t * t * r / (1 - r * r * t * t);
+        ASSERT_NEAR(channel[k], through + back, 0.015);
+    }
+    film_free(film);
+    world_free(world);
+}
+
+// A quarter opaque: a quarter of the rays stop, of camera rays and of shadow rays alike.
+static void alpha_texture_cuts(void **state)
+{
+    (void)state;
+    char name[] = "/tmp/ramify_test_XXXXXX.exr";
+    int file = mkstemps(name, 4);
+    assert_true(file >= 0);
+    close(file);
+    Image *image = image_new(4, 4, 4, NULL);
+    assert_non_null(image);
+    for (int i = 0; i < 64; i++) {
+        image->pixel[i] = 0.25f;
+    }
+    ImageLayer layer = {"", "RGBA", image};
+    assert_true(image_write_exr(name, &layer, 1, NULL, NULL));
+    image_free(image);
+    World *world = tiny_world(16, 16, 64, 0.0f);
+    world->camera.fov = 0.5f;
+    world->material[0].alpha_texture = name;
+    world->material[1] = material_default(MATERIAL_DIFFUSE);
+    world->material[1].color = vec3_splat(1.0f);
+    world->material[1].roughness = 0.0f;
+    world->material_count = 2;
+    Mesh *veil = quad_mesh(vec3(-9, -9, 0), vec3(18, 0, 0), vec3(0, 18, 0));
+    veil->uv = memory_alloc_zero(4, sizeof(Vec2), NULL);
+    assert_non_null(veil->uv);
+    veil->uv[1].x = veil->uv[2].x = veil->uv[2].y = veil->uv[3].y = 1.0f;
+    add_mesh(world, veil, 0, 0);
+    add_mesh(world, quad_mesh(vec3(-9, -9, -1), vec3(18, 0, 0), vec3(0, 18, 0)), 1, 1);
+    add_light(world, (Light){.kind = LIGHT_SPHERE,
+                             .radiance = vec3_splat(1e4f / PI_F),
+                             .center = {0, 0, 99},
+                             .radius = 1.0f});
+    Film *film = trace(world, 2, NULL);
+    double through = 0.0;
+    for (int i = 0; i < 16 * 16; i++) {
+        through += (double)film->albedo[i].x / (16 * 16);
+    }
+    ASSERT_NEAR(through, 0.75, 0.015);
+    // Irradiance behind the veil: 1e4 / 1e4 * 0.75; seen through the veil: * 0.75 / pi.
+    ASSERT_NEAR(mean_luminance(film) * (double)PI_F, 0.75 * 0.75, 0.02);
+    film_free(film);
+    world_free(world);
+    unlink(name);
 }
 
 static CurveSet *straight_curve(Vec3 from, Vec3 to, float radius, int points)
@@ -382,9 +474,8 @@ static void thin_lens_focus(void **state)
     (void)state;
     assert_true(blurred_columns(0.0f, 0.0f) <= 2);
     assert_true(blurred_columns(0.2f, 0.0f) <= 2);
-    // At z = -5 (10 m away): blur 0.2 * 5 / 5 = 0.2 m there; a pixel is 10 * 2 tan(2 deg) / 4.
-    double pixel = 10.0 * 2.0 * (double)tanf(2.0f * RADIANS_PER_DEGREE) / 4.0;
-    (void)pixel;
+    // At z = -5, 10 m away, the edge is spread over 2.0 * 5 / 5 = 2 m of a picture 11 m wide: 11
+    // columns, of which the outermost are almost covered or free.
     assert_in_range(blurred_columns(2.0f, -5.0f), 7, 14);
 }
 
@@ -496,7 +587,9 @@ static void errors_are_told(void **state)
     World *world = varied_world();
     Run run = run_default();
     Error e = {.code = ERROR_NONE};
-    assert_null(renderer_new(world, "z80", &run, &e) ? NULL : NULL);
+    assert_null(renderer_new(world, "z80", &run, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    assert_non_null(strstr(e.message, "sse4.2"));
     world->sky.kind = SKY_ENVIRONMENT;
     world->sky.file = "/nowhere/missing.hdr";
     assert_null(renderer_new(world, NULL, &run, &e));
@@ -525,7 +618,10 @@ int main(void)
         cmocka_unit_test(same_bits_for_any_thread_count),
         cmocka_unit_test(crop_gives_the_same_pixels),
         cmocka_unit_test(seed_changes_noise_only),
-        cmocka_unit_test(instances_equal_baked_meshes),
+        cmocka_unit_test(small_instances_equal_baked_meshes),
+        cmocka_unit_test(large_instances_equal_baked_meshes),
+        cmocka_unit_test(absorption_in_glass),
+        cmocka_unit_test(alpha_texture_cuts),
         cmocka_unit_test(curves_are_hit),
         cmocka_unit_test(no_shadow_terminator),
         cmocka_unit_test(empty_world_is_transparent_black),
