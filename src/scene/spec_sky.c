@@ -33,8 +33,6 @@ static const Key SKY_KEYS[] = {
      .doc = "Reflectance of the land below, which brightens the sky."},
     {KEY_OF(Sky, clouds, "clouds", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1,
      .doc = "Share of the sky under thin clouds; they are seen, but cast no shadow."},
-    {KEY_OF(Sky, clouds, "clouds", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1,
-     .doc = "Share of the sky under thin clouds; they are seen, but cast no light."},
     {KEY_OF(Sky, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(SKY_ENVIRONMENT),
      .doc = "Latitude-longitude HDR panorama (.hdr, .exr), relative to the scene's folder."},
     {KEY_OF(Sky, rotation, "rotation", KEY_FLOAT), .kinds = BIT(SKY_ENVIRONMENT), .low = -360,

@@ -120,8 +120,6 @@ static const Key LEAVES_KEYS[] = {
      .doc = "Detail of a leaf's mesh: 1 for whole trees, 2 for close-ups."},
     {KEY_OF(LeavesParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
      .doc = "Different leaf meshes."},
-    {KEY_OF(LeavesParams, detail, "detail", KEY_INT), .low = 1, .high = 2,
-     .doc = "Of a leaf's mesh: 1 for whole trees, 2 for close-ups."},
     {0},
 };
 
