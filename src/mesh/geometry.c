@@ -77,11 +77,11 @@ static void bake_instance(Mesh *out, const Part *part, int64_t instance)
     int64_t v0 = instance * mesh->vertex_count;
     for (int64_t v = 0; v < mesh->vertex_count; v++) {
         out->position[v0 + v] = transform_point(t, mesh->position[v]);
-        if (out->normal) {
+        if (mesh->normal) {
             Vec3 n = mesh->normal[v];
             out->normal[v0 + v] = vec3_normalize(invertible ? transform_normal(&inverse, n) : n);
         }
-        if (out->uv) {
+        if (mesh->uv) {
             out->uv[v0 + v] = mesh->uv[v];
         }
     }

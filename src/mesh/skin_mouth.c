@@ -131,7 +131,9 @@ static float girth_ratio(const Girth *girth, int *frames)
 {
     float ratio = 2.0f * (girth->reach_x < girth->reach_y ? girth->reach_x : girth->reach_y);
     *frames = 1;
-    for (float left = ratio; left < 0.36f; left *= 2.0f) {
+    float left = ratio;
+    while (left < 0.36f) {
+        left *= 2.0f;
         ++*frames;
     }
     return ratio < 0.95f ? ratio : 0.95f;

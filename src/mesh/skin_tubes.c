@@ -93,6 +93,23 @@ static void turn_outwards(SkinRing *ring, const SkinRing *mouth)
     }
 }
 
+// Six edges meet at every other corner of a ring above a reduction, and the limit surface keeps
+// closer to such a corner: it is drawn in.
+static void draw_in_above_reductions(SkinRing *ring, int64_t count)
+{
+    for (int64_t i = 1; i < count; i++) {
+        if (ring[i].sides == ring[i - 1].sides) {
+            continue;
+        }
+        float fine = skin_ring_scale(ring[i - 1].sides), coarse = skin_ring_scale(ring[i].sides);
+        float draw = lerpf(1.0f, fine / coarse, 0.35f);
+        for (int k = 0; k < ring[i].sides; k += 2) {
+            Vec3 out = vec3_sub(ring[i].corner[k], ring[i].centre);
+            ring[i].corner[k] = vec3_madd(ring[i].centre, draw, out);
+        }
+    }
+}
+
 // Rings of all stations, after the mouth if there is one; *count of them.
 static bool lay_rings(TubeBuilder *builder, const TubeJob *job, float phase, int64_t *count,
                       Error *e)
@@ -123,6 +140,7 @@ static bool lay_rings(TubeBuilder *builder, const TubeJob *job, float phase, int
     }
     *count = grid->station_count + extra;
     skin_rings_settle(builder->ring, *count);
+    draw_in_above_reductions(builder->ring, *count);
     return true;
 }
 
@@ -167,7 +185,14 @@ static SkinVertex half_way(const SkinRing *low, const SkinRing *high, int k, flo
     above.position = skin_ring_finer_corner(high, low->sides, k);
     above.uv.x = below.uv.x;
     half = skin_vertex_madd(half, 0.5f, below);
-    return skin_vertex_madd(half, 0.5f, above);
+    half = skin_vertex_madd(half, 0.5f, above);
+    // Between many sides the limit surface keeps closer to the cage than between few: unless these
+    // vertices stand as near the axis as the ring below, there is a bulge.
+    Vec3 axis = vec3_lerp(low->centre, high->centre, 0.5f);
+    float fine = skin_ring_scale(low->sides), coarse = skin_ring_scale(high->sides);
+    float draw = 2.0f * fine / (fine + coarse);
+    half.position = vec3_madd(axis, draw, vec3_sub(half.position, axis));
+    return half;
 }
 
 // A row that ends in half as many sides: six quads for every four sides below.
