@@ -50,7 +50,7 @@ static const Case scenes[] = {
     {"objects: [{tree: }]", ":1:11: objects.0 has no 'name'; it must have one: What messages, "
                             "--set and the object's random numbers go by."},
     {"objects: [{name: a, mesh: }]",
-     ":1:26: objects.a.mesh has no 'file'; it must have one: OBJ, PLY, STL, glTF or GLB file, "
+     ":1:27: objects.a.mesh has no 'file'; it must have one: OBJ, PLY, STL, glTF or GLB file, "
      "relative to the scene's folder."},
     {TREE "sky: {kind: environment}\n",
      ":2:6: sky has no 'file'; it must have one: Latitude-longitude HDR panorama (.hdr, .exr), "
@@ -107,7 +107,7 @@ static const Case scenes[] = {
      ":1:67: objects.a.tree.crown.growth.levels.0.attractors is 1000000000000; it must be a whole "
      "number, at least 1 and at most 2147483647"},
     {TREE "film: {width: 0}\n",
-     ":2:15: film.width is 0; it must be a whole number, at least 1 and at most 65536"},
+     ":2:15: film.width is 0; it must be a whole number, at least 1 and at most 65536 pixels"},
     {TREE "film: {width: 65536, height: 65536}\n",
      ":2:15: film has 4295 million pixels; it must have at most 100 million"},
     // things that do not go together
@@ -166,18 +166,22 @@ static const Case scenes[] = {
      "relative to the scene's folder"},
 };
 
-static void expect(const char *what, const Error *e, const char *wanted)
+// Complains about other words and returns 1.
+static int expect(const char *what, const Error *e, const char *wanted)
 {
     char got[1200];
     error_format(e, got, sizeof got);
-    if (strcmp(got, wanted) != 0) {
-        fail_msg("%s\n  said   %s\n  wanted %s", what, got, wanted);
+    if (strcmp(got, wanted) == 0 && e->code == ERROR_INPUT) {
+        return 0;
     }
+    print_error("%s\n  said   %s\n  wanted %s\n", what, got, wanted);
+    return 1;
 }
 
 static void bad_scenes_are_refused_in_exact_words(void **state)
 {
     (void)state;
+    int wrong = 0;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         Error e = {0};
         char wanted[1200];
@@ -186,10 +190,10 @@ static void bad_scenes_are_refused_in_exact_words(void **state)
         if (scene) {
             fail_msg("read without complaint: %s", scenes[i].text);
         }
-        assert_int_equal(e.code, ERROR_INPUT);
         snprintf(wanted, sizeof wanted, "s.yaml%s", scenes[i].message);
-        expect(scenes[i].text, &e, wanted);
+        wrong += expect(scenes[i].text, &e, wanted);
     }
+    assert_int_equal(wrong, 0);
 }
 
 static const Case overrides[] = {
@@ -209,13 +213,15 @@ static const Case overrides[] = {
 static void bad_overrides_are_refused_in_exact_words(void **state)
 {
     (void)state;
+    int wrong = 0;
     for (size_t i = 0; i < sizeof overrides / sizeof overrides[0]; i++) {
         Error e = {0};
         char wanted[1200];
         assert_null(scene_read_text(TREE, strlen(TREE), "s.yaml", "", &overrides[i].text, 1, &e));
         snprintf(wanted, sizeof wanted, "--set %s%s", overrides[i].text, overrides[i].message);
-        expect(overrides[i].text, &e, wanted);
+        wrong += expect(overrides[i].text, &e, wanted);
     }
+    assert_int_equal(wrong, 0);
 }
 
 typedef struct MeshCase {
@@ -238,13 +244,13 @@ static const MeshCase meshes[] = {
     {"mesh.xyz", "0 0 0\n",
      "object 'a': the name does not end in a mesh format that can be read; .obj, .ply, .stl, .gltf "
      "or .glb would be right"},
-    {"nan.ply", PLY_HEAD "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n",
+    {"nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n",
      "object 'a': vertex 1 has a coordinate that is not finite; coordinates must be numbers in "
      "metres"},
 };
 
-// The first thing wrong with a scene that draws the mesh (or grows in it, when kind says so).
-static void refuse_mesh(Fixture *fixture, const MeshCase *mesh)
+// Builds a scene that draws the mesh.
+static int refuse_mesh(Fixture *fixture, const MeshCase *mesh)
 {
     Error e = {0};
     char scene_path[128], wanted[1200], text[256];
@@ -255,17 +261,19 @@ static void refuse_mesh(Fixture *fixture, const MeshCase *mesh)
     assert_non_null(scene);
     Run run = run_default();
     assert_null(scene_build(scene, &run, NULL, &e));
-    assert_int_equal(e.code, ERROR_INPUT);
     snprintf(wanted, sizeof wanted, "%s/%s: %s", fixture->folder, mesh->name, mesh->message);
-    expect(mesh->name, &e, wanted);
+    int wrong = expect(mesh->name, &e, wanted);
     scene_free(scene);
+    return wrong;
 }
 
 static void bad_meshes_are_refused_in_exact_words(void **state)
 {
+    int wrong = 0;
     for (size_t i = 0; i < sizeof meshes / sizeof meshes[0]; i++) {
-        refuse_mesh(*state, &meshes[i]);
+        wrong += refuse_mesh(*state, &meshes[i]);
     }
+    assert_int_equal(wrong, 0);
 }
 
 static void read_failing(const char *path, const char *message)
@@ -274,7 +282,7 @@ static void read_failing(const char *path, const char *message)
     char wanted[1200];
     assert_null(scene_read(path, NULL, 0, &e));
     snprintf(wanted, sizeof wanted, "%s: %s", path, message);
-    expect(path, &e, wanted);
+    assert_int_equal(expect(path, &e, wanted), 0);
 }
 
 static void files_that_are_no_scene_are_refused(void **state)

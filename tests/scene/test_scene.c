@@ -404,6 +404,26 @@ static int look_up_keys(const Table *table, const char *schema)
     return count;
 }
 
+static void check_no_key_twice(const Table *table)
+{
+    for (const Key *row = table->keys; row->key; row++) {
+        for (const Key *other = row + 1; other->key; other++) {
+            if (strcmp(row->key, other->key) == 0) {
+                fail_msg("%s has two rows for %s", table->name, row->key);
+            }
+        }
+        if (row->table) {
+            check_no_key_twice(row->table);
+        }
+    }
+}
+
+static void no_table_has_a_key_twice(void **state)
+{
+    (void)state;
+    check_no_key_twice(&scene_table);
+}
+
 static void the_schema_has_every_key(void **state)
 {
     (void)state;
@@ -431,6 +451,7 @@ int main(void)
         cmocka_unit_test(numbers_are_those_of_yaml),
         cmocka_unit_test(floats_keep_their_bits_as_text),
         cmocka_unit_test(hints_are_near),
+        cmocka_unit_test(no_table_has_a_key_twice),
         cmocka_unit_test(the_schema_is_json),
         cmocka_unit_test(the_schema_has_every_key),
     };
