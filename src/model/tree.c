@@ -233,6 +233,13 @@ static void compute_radii(OutTree *tree, const TreeParams *params)
     } else {
         out_tree_pipe_radii(tree, radii->exponent, radii->tip, params->trunk.radius);
     }
+    // Stems that wind about each other stay stout whether or not the crown favoured them.
+    float least = params->trunk.stems > 1 ? 0.75f * params->trunk.radius : 0.0f;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->colony[i] == COLONY_TRUNK && tree->radius[i] < least) {
+            tree->radius[i] = least;
+        }
+    }
     out_tree_root_flare(tree, radii->flare, radii->flare_height);
 }
 
