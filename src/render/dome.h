@@ -11,18 +11,20 @@
 // falls with the column, so that seen from inside the picture is not mirrored (as in OpenEXR).
 typedef struct Dome {
     int columns, rows;
+    int block;            // a sampled cell is block * block entries; divides columns and rows
     Vec3 *radiance;       // rows * columns, at the cells' centres; owned
     bool horizon_spacing; // rows crowd toward the horizon (elevation ~ square) instead of even
     float rotation;       // radians about +Y
     float *edge;          // rows + 1: sines of the elevations between rows; owned
-    float *row_sum;       // rows + 1: cumulated share of the rows; owned
-    float *cell_sum;      // rows * (columns + 1): cumulated share within the row; owned
-    float *density;       // rows * columns: density per steradian; owned
+    float *row_sum;       // rows / block + 1: cumulated share of the rows of cells; owned
+    float *cell_sum;      // a row of columns / block + 1 each: cumulated share within it; owned
+    float *density;       // of each cell, per steradian; owned
     float power;          // integral of luminance over all directions
 } Dome;
 
-// A black table; fill radiance, then dome_prepare.
-Dome *dome_new(int columns, int rows, bool horizon_spacing, float rotation, Error *e);
+// A black table; fill radiance, then dome_prepare. block: 1 for pictures; smooth skies can be
+// sampled by coarser cells, whose tables stay in the cache.
+Dome *dome_new(int columns, int rows, int block, bool horizon_spacing, float rotation, Error *e);
 void dome_free(Dome *dome); // NULL is fine
 
 // Builds the sampling tables. A dome without any light is fine; it is never sampled.

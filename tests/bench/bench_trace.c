@@ -163,7 +163,7 @@ int main(int argc, char **argv)
     const char *yardstick = argc > 1 && argv[1][0] ? argv[1] : NULL;
     char *own = argc > 2 ? NULL : write_tree();
     const char *ply = own ? own : argv[2];
-    int samples = argc > 3 ? atoi(argv[3]) : 16;
+    int samples = argc > 3 ? atoi(argv[3]) : 32;
     World *world = make_world(ply, samples);
     Error e = {0};
     Run run = run_default();

@@ -2,11 +2,7 @@
 #ifndef RAMIFY_TESTS_RENDER_TINY_WORLD_H
 #define RAMIFY_TESTS_RENDER_TINY_WORLD_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 #include "base/memory.h"
 #include "render/dome.h"
@@ -15,8 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Looks from +Z at the origin, orthogonal to nothing: a black sky, box filter, one diffuse
-// material.
+// Looks from +Z at the origin: a black sky, box filter, one diffuse material.
 static inline World *tiny_world(int width, int height, int samples, float albedo)
 {
     World *world = world_new(NULL);
