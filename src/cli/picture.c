@@ -33,8 +33,9 @@ static Image *plane_image(const Film *film, const void *plane, int channels, Err
 // "key\0value\0 ... \0" on the heap.
 static char *make_metadata(const Scene *scene, Error *e)
 {
-    const char *const pairs[] = {"Software",  "ramify " RAMIFY_VERSION, "ramify:scene",
-                                 scene->text, "ramify:settings",        scene->resolved};
+    static const char program[] = "ramify " RAMIFY_VERSION;
+    const char *const pairs[] = {"Software",  program,           "ramify:scene",
+                                 scene->text, "ramify:settings", scene->resolved};
     enum { COUNT = sizeof pairs / sizeof pairs[0] };
     int64_t length = 1;
     for (int i = 0; i < COUNT; i++) {

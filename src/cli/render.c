@@ -141,7 +141,7 @@ static void print_json(const Outputs *outputs, const Scene *scene, const BuildSt
            scene->film.width, scene->film.height, render->samples, (long long)build->nodes,
            (long long)build->geometry.triangles, (long long)build->geometry.curve_segments,
            (long long)build->geometry.instances, (long long)render->paths, (long long)render->rays,
-           (long long)memory_peak(), (long long)(build->geometry.bytes + render->memory));
+           (long long)memory_peak(), (long long)build->geometry.bytes + (long long)render->memory);
     printf("\"seconds\": {\"grow\": %.3f, \"mesh\": %.3f, \"build\": %.3f, \"trace\": %.3f, "
            "\"write\": %.3f}}\n",
            build->grow_seconds, build->mesh_seconds, seconds->build, seconds->trace,

@@ -8,9 +8,10 @@ bool command_schema(const Options *options, Error *e)
 {
     (void)options;
     char *text = scene_schema_json(e);
-    if (text) {
-        fputs(text, stdout);
+    if (!text) {
+        return false;
     }
+    fputs(text, stdout);
     free(text);
-    return text;
+    return true;
 }

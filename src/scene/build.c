@@ -99,7 +99,7 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
 
 OutTree **scene_grow(const Scene *scene, const Run *run, Error *e)
 {
-    OutTree **trees = memory_alloc_zero(scene->object_count, sizeof *trees, e);
+    OutTree **trees = memory_alloc_zero(scene->object_count, sizeof(OutTree *), e);
     bool done = trees;
     for (int i = 0; done && i < scene->object_count; i++) {
         if (scene->objects[i].tree) {
@@ -236,7 +236,7 @@ static bool add_object(const Placing *p, Error *e)
 
 World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error *e)
 {
-    BuildStats own;
+    BuildStats own = {0};
     stats = stats ? stats : &own;
     *stats = (BuildStats){0};
     World *world = world_new(e);

@@ -120,7 +120,7 @@ static bool check_names(Resolver *r, const Node *list, const char *what)
         count++;
     }
     if (names && count > 1) {
-        qsort(names, (size_t)count, sizeof *names, compare_names);
+        qsort(names, (size_t)count, sizeof(Node *), compare_names);
     }
     for (int i = 1; names && i < count; i++) {
         if (strcmp(names[i - 1]->text, names[i]->text) == 0) {
@@ -137,7 +137,7 @@ static const char **material_names(Resolver *r, const Node *materials, int *coun
 {
     int builtin_count;
     const Material *builtin = builtin_materials(&builtin_count);
-    size_t most = (size_t)(builtin_count + (materials ? materials->count : 0));
+    size_t most = (size_t)builtin_count + (size_t)(materials ? materials->count : 0);
     const char **names = arena_alloc(r->arena, sizeof(char *) * most, r->e);
     *count = 0;
     for (const Node *m = names && materials ? materials->first : NULL; m; m = m->next) {

@@ -135,7 +135,7 @@ static const char *find_base(Resolver *r, const Table *table, const Node *given,
         table->defaults(given, *kind, fresh);
         base = fresh;
     }
-    if (table->kind_key && *kind < 0) {
+    if (base && table->kind_key && *kind < 0) {
         memcpy(kind, base + table_find(table, table->kind_key)->offset, sizeof *kind);
     }
     return base;

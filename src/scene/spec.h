@@ -43,13 +43,13 @@ typedef struct Key {
     KeyType type;
     unsigned flags;
     size_t offset, count_offset; // in the struct; of the count of a list
-    int count;                   // components of a vector; most entries of a list; size of a name
     double low, high;            // range of numbers; both 0 = any finite number
     const cyaml_strval_t *names; // KEY_ENUM, ended by NULL
     const struct Table *table;   // of groups, pointers and lists
-    unsigned kinds; // bits of the kinds (see Table.kind_key) that have this key; 0 = all
     const char *unit;
     const char *doc;
+    int count;      // components of a vector; most entries of a list; size of a name
+    unsigned kinds; // bits of the kinds (see Table.kind_key) that have this key; 0 = all
 } Key;
 
 typedef struct Resolver Resolver;
