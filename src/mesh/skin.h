@@ -24,8 +24,10 @@ typedef struct SkinParams {
 
 SkinParams skin_params_default(void);
 
-// The cage: closed, two-manifold, all quads, one component a root. Radii are enlarged so that the
-// limit surface has the out-tree's radius. Carries uv (m), radius and birth.
+// The cage: closed, two-manifold, all quads, one component a root (whatever the out-tree). Tubes
+// have 4 to 32 sides, more on thicker branches; a child leaves through a block of its parent's
+// faces about as wide as itself. Branches that lie inside their parents are left out. Radii are
+// enlarged so that the limit surface has the out-tree's radius. Carries uv (m), radius and birth.
 Mesh *skin_cage(const OutTree *tree, const SkinParams *params, const Run *run, Error *e);
 
 // Catmull-Clark refinement of a quad cage `levels` times through OpenSubdiv, vertices moved to the

@@ -176,6 +176,39 @@ static void straight_tubes_have_the_asked_radius(void **state)
     }
 }
 
+// On the way from 32 sides to 4 the surface must not bulge where sides are halved.
+static void tapering_tubes_stay_round(void **state)
+{
+    (void)state;
+    enum { NODES = 100, BINS = 100 };
+    OutTree *tree = out_tree_new(NULL);
+    assert_non_null(tree);
+    for (int i = 0; i <= NODES; i++) {
+        sample_add(tree, vec3(0, 0.05f * (float)i, 0), i - 1, 0.3f - 0.0028f * (float)i);
+    }
+    Run run = run_default();
+    SkinParams params = skin_params_default();
+    params.levels = 3;
+    Mesh *mesh = skin_tree(tree, &params, &run, NULL);
+    assert_non_null(mesh);
+    double sum[BINS] = {0}, count[BINS] = {0};
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        Vec3 p = mesh->position[i];
+        if (p.y < 0.2f || p.y > 4.9f) {
+            continue;
+        }
+        double radius = sqrt((double)(p.x * p.x + p.z * p.z)) / (0.3 - 0.056 * (double)p.y);
+        assert_true(radius > 0.94 && radius < 1.09);
+        sum[(int)(p.y * 20.0f)] += radius;
+        count[(int)(p.y * 20.0f)] += 1.0;
+    }
+    for (int b = 4; b < 98; b++) {
+        assert_true(count[b] > 0.0 && fabs(sum[b] / count[b] - 1.0) < 0.03);
+    }
+    mesh_free(mesh);
+    out_tree_free(tree);
+}
+
 static void the_same_tree_gives_the_same_bits(void **state)
 {
     (void)state;
@@ -276,6 +309,7 @@ int main(void)
         cmocka_unit_test(nasty_trees_have_closed_skins_that_look_outwards),
         cmocka_unit_test(finished_skins_are_closed_and_look_outwards),
         cmocka_unit_test(straight_tubes_have_the_asked_radius),
+        cmocka_unit_test(tapering_tubes_stay_round),
         cmocka_unit_test(the_same_tree_gives_the_same_bits),
         cmocka_unit_test(along_never_jumps),
         cmocka_unit_test(thin_chains_are_left_out),
