@@ -1,6 +1,7 @@
 // ramify info: what a scene file holds, without growing or rendering it.
 #include "cli/command.h"
 
+#include "model/tree_defaults.h"
 #include "render/film.h"
 
 #include <stdio.h>
@@ -19,14 +20,17 @@ static int64_t element_attractors(const ElementParams *element)
     return sum;
 }
 
-// Attractors that the file names; models add their own levels where it names none.
+// Attractors of a tree, those of the model's own levels too.
 static int64_t object_attractors(const SceneObject *object)
 {
-    const TreeParams *tree = object->tree;
-    return tree ? element_attractors(&tree->trunk.element) +
-                      element_attractors(&tree->crown.element) +
-                      element_attractors(&tree->roots.element)
-                : 0;
+    if (!object->tree) {
+        return 0;
+    }
+    TreePlan plan;
+    tree_plan_make(&plan, object->tree, 0); // no seed changes how many
+    return element_attractors(&plan.params.trunk.element) +
+           element_attractors(&plan.params.crown.element) +
+           (plan.params.roots.count > 0 ? element_attractors(&plan.params.roots.element) : 0);
 }
 
 // Leaves, tufts: what is placed as instances.
@@ -64,9 +68,7 @@ static void print_text(const Scene *scene)
             printf(", %g m", (double)object->tree->height);
         }
         int64_t attractors = object_attractors(object), instances = object_instances(object);
-        if (object->tree && attractors == 0) {
-            printf(", the model's own attractors");
-        } else if (attractors > 0) {
+        if (attractors > 0) {
             printf(", %lld attractors", (long long)attractors);
         }
         if (instances > 0) {

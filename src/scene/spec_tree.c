@@ -1,5 +1,5 @@
 // The tree: trunk, crown, roots, radii, leaves, skin.
-#include "model/tree.h"
+#include "model/tree_defaults.h"
 #include "scene/spec_check.h"
 
 static const Key TRUNK_KEYS[] = {
@@ -38,7 +38,7 @@ static const Key CROWN_KEYS[] = {
      .doc = "Angle between a branch and the trunk where it starts."},
     {KEY_OF(CrownParams, branch_length, "branch_length", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "Length of the piece that a branch starts with; 0 = a share of the tree's height."},
-    {KEY_OF(CrownParams, lobes, "lobes", KEY_INT), .high = 1000,
+    {KEY_OF(CrownParams, lobes, "lobes", KEY_INT), .high = TREE_MOST_LOBES,
      .doc = "Bulges about the ellipsoid that a crown without envelope fills; 0 = none."},
     ELEMENT_ROWS(CrownParams),
     {0},
