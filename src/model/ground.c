@@ -141,6 +141,7 @@ static int64_t place_tufts(const GroundParams *params, uint64_t ground_seed, uin
         float z = params->grass_center.z + params->grass_radius * share * cosine;
         float patch = noise_plane_fractal(x * 0.55f, z * 0.55f, 3, random_key(ground_seed, 3));
         float keep = 1.0f - params->grass_clumping * smoothstepf(0.25f, -0.35f, patch);
+        keep *= smoothstepf(1.0f, 0.55f, share); // no edge where the grass ends
         if (random_unit(random_key(key, 3)) > keep) {
             continue;
         }
