@@ -17,7 +17,7 @@ objects:
   - name: bush
     tree:
       height: 3
-      crown: {growth: {levels: [{attractors: 20, step: 0.1, kill: 0.4, influence: 4}, {attractors: 300}]}}
+      crown: {lobes: 0, growth: {levels: [{attractors: 20, step: 0.1, kill: 0.4, influence: 4}, {attractors: 300}]}}
       leaves: {max_count: 500}
   - name: ball
     shape: {envelope: [{shape: sphere, size: 0.5, position: [1.5, 0.5, 1]}]}

@@ -7,15 +7,15 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char text[] =
-    "camera: {position: [0, 1.5, 7], target: [0, 1.4, 0]}\n"
-    "film: {width: 24, height: 16}\n"
-    "render: {samples: 2, max_depth: 2}\n"
-    "sky: {kind: constant, color: 1}\n"
-    "objects:\n"
-    "  - name: bush\n"
-    "    tree: {height: 3, leaves: {max_count: 0}, crown: {growth: {levels: [{attractors: 60}]}}}\n"
-    "  - {name: ball, shape: {envelope: [{shape: sphere}]}}\n";
+static const char text[] = "camera: {position: [0, 1.5, 7], target: [0, 1.4, 0]}\n"
+                           "film: {width: 24, height: 16}\n"
+                           "render: {samples: 2, max_depth: 2}\n"
+                           "sky: {kind: constant, color: 1}\n"
+                           "objects:\n"
+                           "  - name: bush\n"
+                           "    tree: {height: 3, leaves: {max_count: 0}, crown: {lobes: 0, "
+                           "growth: {levels: [{attractors: 60}]}}}\n"
+                           "  - {name: ball, shape: {envelope: [{shape: sphere}]}}\n";
 
 static RamifyScene *load(void)
 {
