@@ -12,6 +12,7 @@ typedef struct GroveParams {
     float height;       // m, of the tallest
     float clumping;     // 0 = even .. 1 = in woods with open land between
     int variants;       // different trees
+    bool bare;          // without leaves
 } GroveParams;
 
 typedef struct GroundParams {

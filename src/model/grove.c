@@ -25,7 +25,7 @@ static TreeParams distant_tree(const GroveParams *grove, GrowLevel levels[3], ui
     tree.skin.curve_radius = 0.03f;
     tree.skin.levels = 0;
     tree.leaves.twig_radius = 0.03f;
-    tree.leaves.max_count = 7000;
+    tree.leaves.max_count = grove->bare ? 0 : 7000;
     tree.leaves.spacing = 0.05f;
     tree.leaves.length = 0.034f * tree.height;
     tree.leaves.width = 0.024f * tree.height;

@@ -14,6 +14,7 @@ static const Key GROVE_KEYS[] = {
      .doc = "0 = even, 1 = in woods with open land between."},
     {KEY_OF(GroveParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
      .doc = "Different trees."},
+    {KEY_OF(GroveParams, bare, "bare", KEY_BOOL), .doc = "Without leaves, as in winter."},
     {0},
 };
 
