@@ -82,7 +82,7 @@ static bool batch_add(LeafBatch *batch, Transform instance, float variation, Err
 }
 
 // Walks one twig from its tip toward its start and calls for a leaf at every gap while the twig is
-// thin enough. Without `place` leaves are only counted.
+// thin enough. Without `place` leaves are only counted, and nothing fails.
 static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curve, bool place,
                            bool *failed, Error *e)
 {
@@ -126,7 +126,7 @@ static int64_t all_leaves(Foliage *foliage, const CurveSet *twigs, bool place, b
                           Error *e)
 {
     int64_t count = 0;
-    for (int64_t i = 0; i < twigs->curve_count && !*failed; i++) {
+    for (int64_t i = 0; i < twigs->curve_count && !(failed && *failed); i++) {
         count += twig_leaves(foliage, twigs, i, place, failed, e);
     }
     return count;
@@ -162,6 +162,19 @@ static bool add_parts(Foliage *foliage, int material, int object, Geometry *geom
     return true;
 }
 
+// Widens the spacing until there are no more leaves than asked for. Every twig keeps its first leaf
+// for long, so that one step by the ratio does not do; the least factor makes an end certain.
+static void limit_leaves(Foliage *foliage, const CurveSet *twigs)
+{
+    int64_t most = foliage->leaves->max_count;
+    int64_t count = all_leaves(foliage, twigs, false, NULL, NULL);
+    while (count > most) {
+        float ratio = (float)count / (float)most;
+        foliage->spacing *= ratio > 1.01f ? ratio : 1.01f;
+        count = all_leaves(foliage, twigs, false, NULL, NULL);
+    }
+}
+
 bool foliage_add(const CurveSet *twigs, const LeavesParams *leaves, Vec3 center, int material,
                  int object, uint64_t seed, Geometry *geometry, Error *e)
 {
@@ -171,10 +184,7 @@ bool foliage_add(const CurveSet *twigs, const LeavesParams *leaves, Vec3 center,
         return false;
     }
     bool failed = false;
-    int64_t count = all_leaves(&foliage, twigs, false, &failed, e);
-    if (count > leaves->max_count) {
-        foliage.spacing *= (float)count / (float)leaves->max_count;
-    }
+    limit_leaves(&foliage, twigs);
     all_leaves(&foliage, twigs, true, &failed, e);
     bool done = !failed && add_parts(&foliage, material, object, geometry, e);
     for (int v = 0; v < leaves->variants; v++) {

@@ -6,7 +6,8 @@
 #include "model/tree.h"
 
 // Adds one part per leaf variant with an instance for every leaf on the thin ends of the curves.
-// center: of the crown, from which leaves turn outward to the light.
+// Where they would be more than leaves->max_count they stand farther apart. center: of the crown,
+// from which leaves turn outward to the light.
 bool foliage_add(const CurveSet *twigs, const LeavesParams *leaves, Vec3 center, int material,
                  int object, uint64_t seed, Geometry *geometry, Error *e);
 
