@@ -55,7 +55,7 @@ sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 lint: packages check-packages format-check ## clang-tidy, cppcheck and the order of the folders; warnings are errors
 	tests/layers.sh
 	cppcheck --quiet --std=c17 -j $$(nproc) --enable=warning,performance,portability --inline-suppr --error-exitcode=1 -Isrc src
-	printf '%s\n' $(filter %.c,$(SOURCES)) | xargs -P $$(nproc) -n 4 sh -c \
+	printf '%s\n' $(filter %.c,$(SOURCES)) | xargs -P $$(nproc) -n 1 sh -c \
 	    'clang-tidy --quiet "$$@" -- -std=c17 -D_GNU_SOURCE -Isrc 2>/dev/null || exit 255' sh
 
 format: check-packages ## lay the code out with clang-format
@@ -109,9 +109,10 @@ $(OUT)/libramify.a: $(LIB_OBJ)
 	@echo "  AR   $@"
 	@rm -f $@ && ar rcs $@ $^
 
-$(OUT)/libramify.so: $(LIB_OBJ)
+# Only ramify_* can be seen from outside.
+$(OUT)/libramify.so: $(LIB_OBJ) src/ramify.map
 	@echo "  LINK $@"
-	@$(CC) -shared $^ $(LDFLAGS) $(LDLIBS) -o $@
+	@$(CC) -shared $(LIB_OBJ) -Wl,--version-script=src/ramify.map $(LDFLAGS) $(LDLIBS) -o $@
 
 $(OUT)/ramify: $(CLI_OBJ) $(OUT)/libramify.a
 	@echo "  LINK $@"

@@ -20,6 +20,7 @@ static TreeParams distant_tree(const GroveParams *grove, GrowLevel levels[3], ui
     tree.crown.base = tree.height * random_range(random_key(seed, 3), 0.06f, 0.16f);
     tree.crown.element.levels = levels;
     tree.crown.element.level_count = 3;
+    tree.crown.element.voxel = tree.height / 32.0f;
     tree.roots.count = 0;
     tree.radii.tip = 0.004f;
     tree.skin.curve_radius = 0.03f;

@@ -12,7 +12,7 @@
 typedef struct TrunkParams {
     ElementParams element;
     float height; // m, from the ground to the trunk's last node; 0 = 0.32 of the tree's height
-    float radius; // m, above the root flare; 0 = from the height: 0.032 height^1.5 / 14^0.5
+    float radius; // m, above the root flare; 0 = from the height: 0.03 height^1.5 / 14^0.5
                   // (elastic similarity)
     float lean;   // degrees from the vertical, toward `lean_azimuth`
     float lean_azimuth; // degrees from +Z toward +X

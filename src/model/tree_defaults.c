@@ -29,10 +29,10 @@ TreeParams tree_params_default(void)
                               .field_weight = 1.0f},
                   .count = 6,
                   .radius = 0.42f},
-        .radii = {.model = RADIUS_PIPE, .exponent = 2.3f, .tip = 0.0016f, .flare = 0.55f},
+        .radii = {.model = RADIUS_PIPE, .exponent = 2.3f, .tip = 0.0024f, .flare = 0.55f},
         .leaves = {.max_count = 160000,
                    .spacing = 0.03f,
-                   .twig_radius = 0.006f,
+                   .twig_radius = 0.011f,
                    .length = 0.105f,
                    .width = 0.062f,
                    .size_variation = 0.35f,
@@ -45,7 +45,7 @@ TreeParams tree_params_default(void)
                    .phyllotaxis = 137.5f,
                    .variants = 4,
                    .detail = 1},
-        .skin = {.curve_radius = 0.012f, .levels = 2, .ring_spacing = 1.0f},
+        .skin = {.curve_radius = 0.014f, .levels = 2, .ring_spacing = 1.0f},
     };
 }
 
@@ -77,7 +77,7 @@ static void plan_trunk(TreePlan *plan)
     TreeParams *tree = &plan->params;
     TrunkParams *trunk = &tree->trunk;
     fill(&trunk->height, 0.32f * tree->height);
-    fill(&trunk->radius, 0.032f * tree->height * sqrtf(tree->height / 14.0f));
+    fill(&trunk->radius, 0.03f * tree->height * sqrtf(tree->height / 14.0f));
     fill(&trunk->stem_circle, trunk->radius);
     // A capsule about the leaning axis; stems that share it need room for their circle.
     float radius = 0.7f * trunk->radius + (trunk->stems > 1 ? trunk->stem_circle : 0.0f);
@@ -157,6 +157,9 @@ static void plan_crown(TreePlan *plan, uint64_t seed)
     };
     for (int i = 0; i < TREE_DEFAULT_LEVELS; i++) {
         plan->crown_level[i] = levels[i];
+    }
+    if (crown->element.shape_count == 0) {
+        fill(&crown->element.voxel, tree->height / 80.0f); // lobes are smooth: no finer is needed
     }
     fill_envelope(&crown->element, plan->crown_shape, shapes);
     fill_levels(&crown->element, plan->crown_level, TREE_DEFAULT_LEVELS);
