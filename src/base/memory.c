@@ -8,8 +8,9 @@ static bool byte_count(int64_t count, size_t size, size_t *bytes, Error *e)
 {
     if (count < 0 || __builtin_mul_overflow((size_t)count, size, bytes) ||
         *bytes > (size_t)PTRDIFF_MAX) {
-        return error_set(e, ERROR_MEMORY, "out of memory: %lld elements of %zu bytes asked for",
-                         (long long)count, size);
+        error_set(e, ERROR_MEMORY, "out of memory: %lld elements of %zu bytes asked for",
+                  (long long)count, size);
+        return false;
     }
     if (*bytes == 0) {
         *bytes = 1;
