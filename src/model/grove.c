@@ -53,7 +53,7 @@ static int64_t place_trees(const GroundParams *ground, uint64_t ground_seed, uin
         if (random_unit(random_key(key, 3)) < grove->clumping && wood < 0.12f) {
             continue;
         }
-        float size = random_range(random_key(key, 4), 0.7f, 1.1f);
+        float size = random_range(random_key(key, 4), 0.7f, 1.0f);
         exact_sincos(random_range(random_key(key, 5), 0.0f, 2.0f * PI_F), &sine, &cosine);
         place[count++] =
             transform_from_axes(vec3(size * cosine, 0, -size * sine), vec3(0, size, 0),
