@@ -176,7 +176,7 @@ int main(int argc, char **argv)
     }
     double building = run_seconds() - start, ours = 0.0, rays = 0.0, other = 0.0;
     for (int round = 0; round < ROUNDS; round++) {
-        RenderStats stats;
+        RenderStats stats = {0};
         if (!renderer_render(renderer, film, &run, NULL, NULL, &stats, &e)) {
             stop("rendering", &e);
         }
