@@ -124,14 +124,16 @@ static void note_first_hit(PathResult *result, const SurfacePoint *point, const 
     result->object = point->object;
 }
 
-// Ends weak paths by chance; the survivors stand for them.
+// Ends weak paths by chance; the survivors stand for them. The chance to live is the root of what
+// the path still carries: half way, in noise for time, between keeping all of them and keeping them
+// in proportion.
 static bool survives(Path *path, float u)
 {
     if (path->depth < path->tracer->world->render.roulette_depth) {
         return true;
     }
     Vec3 t = path->throughput;
-    float chance = larger(t.x, larger(t.y, t.z));
+    float chance = sqrtf(larger(t.x, larger(t.y, t.z)));
     if (chance >= 1.0f) {
         return true;
     }
