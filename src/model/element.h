@@ -36,8 +36,7 @@ typedef struct ElementParams {
 } ElementParams;
 
 // Grows the element into tree, whose nodes so far are the type-0 points. seed: the element's own.
-// label names the element in warnings and errors ("object 'oak', crown"). colony is given to the
-// new nodes' own growth (see OutTree).
+// label names the element in warnings and errors ("object 'oak', crown").
 bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, const char *label,
                   const Run *run, Error *e);
 

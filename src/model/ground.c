@@ -36,7 +36,8 @@ float ground_height(const GroundParams *params, uint64_t seed, float x, float z)
     float r = sqrtf(x * x + z * z), scale = 1.0f / params->wavelength;
     float hills = noise_plane_fractal(x * scale, z * scale, 4, random_key(seed, 1));
     float bumps = noise_plane_fractal(x * 0.35f, z * 0.35f, 2, random_key(seed, 2));
-    float near = smoothstepf(params->flat_radius, 8.0f * params->flat_radius, r);
+    float flat = params->flat_radius > 1e-3f ? params->flat_radius : 1e-3f; // a step has no slope
+    float near = smoothstepf(flat, 8.0f * flat, r);
     return params->relief * hills * near + 0.07f * bumps * smoothstepf(0.5f, 4.0f, r);
 }
 
@@ -178,7 +179,7 @@ static bool add_grass_variant(const GroundParams *params, int variant, int mater
                         .spread = 0.09f,
                         .lean = 32.0f,
                         .bend = 85.0f};
-    int64_t wanted = params->grass_tufts / params->grass_variants;
+    int64_t wanted = grove_share(params->grass_tufts, params->grass_variants, variant);
     Mesh *mesh = grass_tuft_new(&tuft, key, e);
     Transform *instance = memory_alloc(wanted, sizeof *instance, e);
     float *variation = memory_alloc(wanted, sizeof *variation, e);
@@ -217,8 +218,11 @@ static bool add_fallen_leaves(const GroundParams *params, int material, int obje
                               Geometry *geometry, Error *e)
 {
     LeavesParams leaves = tree_params_default().leaves;
-    int64_t each = params->fallen_leaves / leaves.variants;
-    for (int v = 0; v < leaves.variants && each > 0; v++) {
+    for (int v = 0; v < leaves.variants; v++) {
+        int64_t each = grove_share(params->fallen_leaves, leaves.variants, v);
+        if (each == 0) {
+            break;
+        }
         uint64_t key = random_key(random_key(seed, 5), (uint64_t)v);
         leaves.curl = 60.0f; // dry leaves roll up
         Mesh *mesh = foliage_leaf_mesh(&leaves, v, key, e);

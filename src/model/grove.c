@@ -114,11 +114,12 @@ bool grove_add(const GroundParams *ground, const GroundMaterials *materials, int
                uint64_t ground_seed, Geometry *geometry, const Run *run, Error *e)
 {
     const GroveParams *grove = &ground->trees;
-    int wanted = grove->count / grove->variants;
-    Transform *place = memory_alloc(wanted, sizeof *place, e);
+    Transform *place =
+        memory_alloc(grove_share(grove->count, grove->variants, 0), sizeof *place, e);
     bool done = place != NULL;
     for (int v = 0; done && v < grove->variants; v++) {
         uint64_t key = random_key(random_key(ground_seed, 6), (uint64_t)v);
+        int wanted = (int)grove_share(grove->count, grove->variants, v);
         int64_t count = place_trees(ground, ground_seed, random_key(key, 1), wanted, place);
         done = count == 0 || add_variant(ground, materials, object, place, count,
                                          random_key(key, 2), geometry, run, e);

@@ -5,6 +5,12 @@
 
 #include "model/ground.h"
 
+// How many of `count` things fall to variant number `variant`: evenly, the first take the rest.
+static inline int64_t grove_share(int64_t count, int variants, int variant)
+{
+    return count / variants + (variant < count % variants ? 1 : 0);
+}
+
 bool grove_add(const GroundParams *ground, const GroundMaterials *materials, int object,
                uint64_t ground_seed, Geometry *geometry, const Run *run, Error *e);
 

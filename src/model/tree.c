@@ -78,7 +78,8 @@ static int compare_height(const void *a, const void *b)
 }
 
 // Starts one branch at a trunk node: a short piece that leaves the trunk along the node's normal.
-static bool start_branch(OutTree *tree, int64_t node, Vec3 normal, float length,
+// place: of the branch among those of this node.
+static bool start_branch(OutTree *tree, int64_t node, int place, Vec3 normal, float length,
                          const CrownParams *crown, Error *e)
 {
     enum { PIECES = 3 };
@@ -88,7 +89,7 @@ static bool start_branch(OutTree *tree, int64_t node, Vec3 normal, float length,
     Vec3 d = vec3_madd(vec3_scale(axis, cosine), sine, normal);
     int64_t parent = node;
     for (int i = 0; i < PIECES; i++) {
-        uint64_t id = out_tree_child_id(tree->id[parent], i == 0 ? 1000 : 0);
+        uint64_t id = out_tree_child_id(tree->id[parent], i == 0 ? 1000 + place : 0);
         Vec3 p = vec3_madd(tree->position[parent], length / PIECES, d);
         parent = out_tree_add_node(tree, p, parent, tree->birth[node], COLONY_CROWN, id, e);
         if (parent < 0) {
@@ -117,15 +118,18 @@ static bool start_branches(OutTree *tree, const TreeParams *params, uint64_t see
     }
     qsort(order, (size_t)count, sizeof *order, compare_height);
     bool done = true;
-    for (int b = 0; done && b < crown->branches && count > 0; b++) {
+    int64_t last = -1;
+    for (int b = 0, place = 0; done && b < crown->branches && count > 0; b++) {
         float share = ((float)b + random_range(random_key(seed, (uint64_t)b), 0.2f, 0.8f)) /
                       (float)crown->branches;
         int64_t node = order[(int64_t)(share * (float)count)].node;
+        place = node == last ? place + 1 : 0;
+        last = node;
         float sine, cosine;
         exact_sincos((float)(b + 1) * GOLDEN_ANGLE_DEGREES * RADIANS_PER_DEGREE, &sine, &cosine);
         Vec3 normal = vec3_rotate(tree->normal[node], node_direction(tree, node), cosine, sine);
-        done = start_branch(tree, node, normal, crown->branch_length * (1.15f - 0.4f * share),
-                            crown, e);
+        done = start_branch(tree, node, place, normal,
+                            crown->branch_length * (1.15f - 0.4f * share), crown, e);
     }
     free(order);
     return done;

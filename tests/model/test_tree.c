@@ -195,6 +195,72 @@ static int stem_turns(const OutTree *tree, Vec3 base, double turn[MOST_STEMS])
 }
 
 // The trunk of scenes/twisted.yaml, whose crown is not looked at and made small.
+// Copies of all meshes of this material.
+static int64_t copies_of(const Geometry *geometry, int material)
+{
+    int64_t count = 0;
+    for (int64_t i = 0; i < geometry->count; i++) {
+        const Part *part = &geometry->part[i];
+        bool counts = part->kind == PART_MESH && part->material == material;
+        count += counts ? part->instance_count : 0;
+    }
+    return count;
+}
+
+// Fewer things than variants, and land that is flat nowhere.
+static void a_few_things_are_not_lost_among_variants(void **state)
+{
+    (void)state;
+    GroundParams params = ground_params_default();
+    params.flat_radius = 0.0f;
+    params.grass_tufts = 0;
+    params.fallen_leaves = 3;
+    params.trees.count = 2;
+    params.trees.clumping = 0.0f;
+    params.trees.bare = true;
+    GroundMaterials materials = {.grass = 1, .fallen = 2, .bark = 3, .foliage = 4};
+    Run run = {.threads = 1};
+    Geometry geometry = {0};
+    Error e = {0};
+    assert_true(ground_geometry(&params, &materials, 0, 9, &geometry, &run, &e));
+    assert_int_equal(copies_of(&geometry, 2), 3);
+    assert_int_equal(copies_of(&geometry, 3), 2);
+    const Mesh *land = geometry.part[0].mesh;
+    for (int64_t i = 0; i < land->vertex_count; i++) {
+        assert_true(vec3_finite(land->position[i]) && vec3_finite(land->normal[i]));
+    }
+    geometry_clear(&geometry);
+}
+
+static int compare_ids(const void *a, const void *b)
+{
+    uint64_t p = *(const uint64_t *)a, q = *(const uint64_t *)b;
+    return p < q ? -1 : p > q;
+}
+
+// Branches that crowd on one node of the trunk are not each other's doubles.
+static void crowded_branches_have_names_of_their_own(void **state)
+{
+    (void)state;
+    TreeParams params = tree_params_default();
+    GrowLevel level = {20, 0.3f, 0.9f, 2.2f, 1.0f, 0.3f, 0.0f, 0.5f};
+    params.crown.lobes = 0;
+    params.crown.branches = 200;
+    params.crown.element.shell = 0.0f;
+    params.crown.element.levels = &level;
+    params.crown.element.level_count = 1;
+    params.roots.count = 0;
+    Run run = {.threads = 1};
+    Error e = {0};
+    OutTree *tree = tree_grow(&params, 5, "tree", &run, &e);
+    assert_non_null(tree);
+    qsort(tree->id, (size_t)tree->count, sizeof *tree->id, compare_ids);
+    for (int64_t i = 1; i < tree->count; i++) {
+        assert_true(tree->id[i] != tree->id[i - 1]);
+    }
+    out_tree_free(tree);
+}
+
 static void a_vortex_winds_the_stems(void **state)
 {
     (void)state;
@@ -338,6 +404,8 @@ int main(void)
         cmocka_unit_test(a_larger_tree_has_the_same_form),
         cmocka_unit_test(leaves_sit_on_their_twigs),
         cmocka_unit_test(grass_stands_on_the_ground),
+        cmocka_unit_test(a_few_things_are_not_lost_among_variants),
+        cmocka_unit_test(crowded_branches_have_names_of_their_own),
         cmocka_unit_test(a_vortex_winds_the_stems),
         cmocka_unit_test(distant_trees_stand_on_the_ground),
         cmocka_unit_test(an_objects_name_makes_its_tree),
