@@ -334,7 +334,8 @@ bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass 
                                .memory = accel_bytes(renderer->accel),
                                .samples = least_samples(&job)};
     }
+    bool done = job.tile != NULL;
     free(job.tile);
     free(tracer);
-    return job.tile_count > 0;
+    return done;
 }

@@ -51,6 +51,12 @@ bool check_camera(Resolver *r, const Path *path, const Node *given, Node *resolv
     return true;
 }
 
+// Do the edges of the crop fall together in whole pixels?
+static bool crop_is_empty(float low, float high, double pixels)
+{
+    return !(lroundf(high * (float)pixels) > lroundf(low * (float)pixels));
+}
+
 bool check_film(Resolver *r, const Path *path, const Node *given, Node *resolved)
 {
     const char *name = resolver_path(r, path, NULL);
@@ -65,6 +71,12 @@ bool check_film(Resolver *r, const Path *path, const Node *given, Node *resolved
     if (!(node_component(crop, 2) > x0 && node_component(crop, 3) > y0)) {
         return resolver_fail(r, node_place(given, "crop"),
                              "%s.crop is empty; it must be [x0, y0, x1, y1] with x0 < x1, y0 < y1",
+                             name);
+    }
+    if (crop_is_empty(x0, node_component(crop, 2), node_number(resolved, "width")) ||
+        crop_is_empty(y0, node_component(crop, 3), node_number(resolved, "height"))) {
+        return resolver_fail(r, node_place(given, "crop"),
+                             "%s.crop is less than half a pixel wide or high; make it larger",
                              name);
     }
     return true;

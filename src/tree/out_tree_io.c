@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 // A file on its way: stream writes to `part`, which replaces `file` at the end.
 typedef struct NewFile {
@@ -103,7 +104,7 @@ bool out_tree_write_json(const OutTree *tree, const char *file, Error *e)
 static bool ends_with(const char *text, const char *end)
 {
     size_t a = strlen(text), b = strlen(end);
-    return a >= b && strcmp(text + a - b, end) == 0;
+    return a >= b && strcasecmp(text + a - b, end) == 0;
 }
 
 bool out_tree_write(const OutTree *tree, const char *file, Error *e)

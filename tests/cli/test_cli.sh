@@ -102,6 +102,7 @@ yes quiet_is_quiet test ! -s err
 check grow_json_file 0 "$RAMIFY" grow scene.yaml -o tree.json --quiet
 yes grow_wrote_json grep -q '"parent"' tree.json
 hash tree.swc >one
+check grow_capital_ending 0 "$RAMIFY" grow scene.yaml -o TREE.SWC --quiet
 check grow_two_threads 0 "$RAMIFY" grow scene.yaml -o tree.swc --quiet --threads 2
 hash tree.swc >two
 yes growth_ignores_threads cmp one two

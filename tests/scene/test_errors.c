@@ -119,6 +119,8 @@ static const Case scenes[] = {
      ":2:14: camera.up is zero or along the line of sight; it must point aside from it"},
     {TREE "film: {crop: [0.5, 0, 0.5, 1]}\n",
      ":2:14: film.crop is empty; it must be [x0, y0, x1, y1] with x0 < x1, y0 < y1"},
+    {TREE "film: {width: 2, height: 2, crop: [0, 0, 1, 0.2]}\n",
+     ":2:35: film.crop is less than half a pixel wide or high; make it larger"},
     {TREE "lights: [{kind: quad, edge_u: [0, 0, 2]}]\n",
      ":2:31: lights.0 has edges that span no area; they must not be parallel or zero"},
     {"objects: [{name: a}]\n",
