@@ -66,7 +66,7 @@ lint: packages check-packages format-check ## clang-tidy, cppcheck and the order
 format: check-packages ## lay the code out with clang-format
 	clang-format -i $(FORMATTED)
 
-format-check:
+format-check: check-packages
 	clang-format --dry-run --Werror $(FORMATTED)
 
 install: all ## install the command, the libraries, the header and ramify.pc below PREFIX
@@ -76,7 +76,8 @@ install: all ## install the command, the libraries, the header and ramify.pc bel
 	install -D -m 644 src/ramify.h $(DESTDIR)$(PREFIX)/include/ramify.h
 	mkdir -p $(DESTDIR)$(PREFIX)/lib/pkgconfig
 	printf 'prefix=%s\nName: ramify\nDescription: grows, skins and renders branching things\nVersion: %s\nLibs: -L$${prefix}/lib -lramify\nLibs.private: %s\nCflags: -I$${prefix}/include\n' \
-	    '$(PREFIX)' '$(VERSION)' '$(LDLIBS)' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/ramify.pc
+	    '$(PREFIX)' '$(VERSION)' '$(LDLIBS) -lgomp -lpthread' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/ramify.pc
+	[ -n "$(DESTDIR)" ] || [ "$$(id -u)" != 0 ] || ldconfig # so that programs find the .so at once
 
 clean: ## remove build/
 	rm -rf build
