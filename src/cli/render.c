@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "cli/picture.h"
+#include "render/accel.h"
 #include "render/renderer.h"
 #include "scene/build.h"
 
@@ -193,7 +194,8 @@ static bool render_scene(const Options *options, const Scene *scene, const Outpu
 bool command_render(const Options *options, Error *e)
 {
     Outputs outputs = {0};
-    Scene *scene = plan_outputs(options, &outputs, e) ? command_scene(options, e) : NULL;
+    bool sound = accel_check_isa(options->isa, e) && plan_outputs(options, &outputs, e);
+    Scene *scene = sound ? command_scene(options, e) : NULL;
     bool done = scene && render_scene(options, scene, &outputs, e);
     scene_free(scene);
     clear_outputs(&outputs);

@@ -237,7 +237,7 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
 // ---- life
 
 // Embree itself takes an unknown name for its default without a word.
-static bool check_isa(const char *isa, Error *e)
+bool accel_check_isa(const char *isa, Error *e)
 {
     static const char *const known[] = {"sse2", "sse4.2", "avx", "avx2", "avx512"};
     for (size_t i = 0; isa && i < sizeof known / sizeof *known; i++) {
@@ -254,7 +254,7 @@ static bool check_isa(const char *isa, Error *e)
 
 static RTCDevice open_device(Accel *accel, const char *isa, int threads, Error *e)
 {
-    if (!check_isa(isa, e)) {
+    if (!accel_check_isa(isa, e)) {
         return NULL;
     }
     char config[128];

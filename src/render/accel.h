@@ -22,6 +22,9 @@ typedef struct Hit {
     uint32_t geometry, primitive;
 } Hit;
 
+// Is there an instruction set of this name? NULL is fine. ERROR_INPUT names those that there are.
+bool accel_check_isa(const char *isa, Error *e);
+
 // Builds. world and materials are borrowed. ERROR_MEMORY instead of a crash when Embree runs out.
 // isa as for renderer_new.
 Accel *accel_new(const World *world, const MaterialSet *materials, const char *isa, const Run *run,

@@ -102,6 +102,8 @@ yes quiet_is_quiet test ! -s err
 check grow_json_file 0 "$RAMIFY" grow scene.yaml -o tree.json --quiet
 yes grow_wrote_json grep -q '"parent"' tree.json
 hash tree.swc >one
+check isa_unknown 2 "$RAMIFY" render missing.yaml --isa sse9
+says isa_before_the_scene err "unknown instruction set 'sse9'"
 check grow_capital_ending 0 "$RAMIFY" grow scene.yaml -o TREE.SWC --quiet
 check grow_two_threads 0 "$RAMIFY" grow scene.yaml -o tree.swc --quiet --threads 2
 hash tree.swc >two
