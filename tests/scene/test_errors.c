@@ -100,6 +100,9 @@ static const Case scenes[] = {
      ":1:41: objects.a.tree.radii.tip is -0.1; it must be greater than 0 and at most 10 m"},
     {"objects: [{name: a, tree: {height: 0}}]\n",
      ":1:36: objects.a.tree.height is 0; it must be greater than 0 and at most 1000 m"},
+    {"objects: [{name: a, tree: {leaves: {spacing: 1.0e-30}}}]\n",
+     ":1:46: objects.a.tree.leaves.spacing is 1.0e-30; it must be at least 0.0001 and at most 100 "
+     "m"},
     {"objects: [{name: a, tree: {crown: {growth: {levels: [{attractors: 0}]}}}}]\n",
      ":1:67: objects.a.tree.crown.growth.levels.0.attractors is 0; it must be a whole number, at "
      "least 1 and at most 2147483647"},
