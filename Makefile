@@ -3,7 +3,7 @@
 # The one list of Debian packages. BUILD: to compile and run. CHECK: only for lint, format, sanitize and bench.
 BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libboost-dev libopenimageio-dev \
                  libopenexr-dev libassimp-dev libcyaml-dev libyaml-dev libtbb-dev libcmocka-dev
-CHECK_PACKAGES = clang-format clang-tidy cppcheck libclang-rt-14-dev
+CHECK_PACKAGES = clang-format clang-tidy cppcheck
 
 , := ,
 VERSION := 0.1.0

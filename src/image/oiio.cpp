@@ -11,7 +11,7 @@
 #include <vector>
 
 extern "C" {
-#include "image/file_replace.h"
+#include "base/file_replace.h"
 #include "image/image.h"
 }
 

@@ -1,48 +1,37 @@
 #include "tree/out_tree_io.h"
 
-#include "base/memory.h"
+#include "base/file_replace.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-// A file on its way: stream writes to `part`, which replaces `file` at the end.
+// A file on its way: written to memory first, then put in place whole.
 typedef struct NewFile {
     const char *file;
-    char *part;
     FILE *stream;
+    char *bytes;
+    size_t size;
 } NewFile;
 
 static bool new_file_open(NewFile *out, const char *file, Error *e)
 {
-    size_t length = strlen(file) + sizeof ".part";
-    *out = (NewFile){.file = file, .part = memory_alloc((int64_t)length, 1, e)};
-    if (!out->part) {
-        return false;
-    }
-    snprintf(out->part, length, "%s.part", file);
-    out->stream = fopen(out->part, "w");
-    if (!out->stream) {
-        error_set(e, ERROR_IO, "cannot write '%s': %s", out->part, strerror(errno));
-        free(out->part);
-        return false;
-    }
-    return true;
+    *out = (NewFile){.file = file};
+    out->stream = open_memstream(&out->bytes, &out->size);
+    return out->stream || error_set(e, ERROR_MEMORY, "out of memory for '%s'", file);
 }
 
 static bool new_file_close(NewFile *out, Error *e)
 {
     bool good = !ferror(out->stream);
     good = fclose(out->stream) == 0 && good;
-    good = good && rename(out->part, out->file) == 0;
     if (!good) {
-        error_set(e, ERROR_IO, "cannot write '%s': %s", out->file, strerror(errno));
-        remove(out->part);
+        error_set(e, ERROR_MEMORY, "out of memory for '%s'", out->file);
     }
-    free(out->part);
+    good = good && file_replace(out->file, out->bytes, out->size, e);
+    free(out->bytes);
     return good;
 }
 

@@ -1,7 +1,7 @@
 // Image files: round trips with metadata, and failures that harm nothing.
 #include "image/image.h"
 
-#include "image/file_replace.h"
+#include "base/file_replace.h"
 
 #include <dirent.h>
 #include <math.h>

@@ -4,8 +4,10 @@
 #include "tree/radii.h"
 
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 // A trunk of four nodes, from whose end two and three tips leave: 0-1-2-3, 3-(4-5, 6-7), 1-8.
@@ -160,17 +162,30 @@ static void failures_leave_nothing_behind(void **state)
     assert_int_equal(e.code, ERROR_IO);
     assert_false(out_tree_write(tree, "/tmp/tree.obj", &e));
     assert_int_equal(e.code, ERROR_INPUT);
-    if (access("/dev/full", W_OK) == 0) { // a disk without room
-        char folder[] = "/tmp/ramify-test-XXXXXX", file[64], part[80];
-        assert_non_null(mkdtemp(folder));
-        snprintf(file, sizeof file, "%s/t.swc", folder);
-        snprintf(part, sizeof part, "%s.part", file);
-        assert_int_equal(symlink("/dev/full", part), 0);
-        assert_false(out_tree_write(tree, file, &e));
-        assert_int_equal(e.code, ERROR_IO);
-        assert_int_not_equal(access(file, F_OK), 0);
-        assert_int_equal(rmdir(folder), 0);
-    }
+    // A disk without room, played by a limit on the size of files: the old file stays.
+    char folder[] = "/tmp/ramify-test-XXXXXX", file[64], text[8] = "";
+    assert_non_null(mkdtemp(folder));
+    snprintf(file, sizeof file, "%s/t.swc", folder);
+    FILE *old = fopen(file, "w");
+    assert_non_null(old);
+    fputs("old", old);
+    fclose(old);
+    struct rlimit before, small;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    small = (struct rlimit){8, before.rlim_max};
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    bool written = out_tree_write(tree, file, &e);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+    assert_false(written);
+    assert_int_equal(e.code, ERROR_IO);
+    old = fopen(file, "r");
+    assert_non_null(old);
+    assert_non_null(fgets(text, sizeof text, old));
+    fclose(old);
+    assert_string_equal(text, "old");
+    assert_int_equal(remove(file), 0);
+    assert_int_equal(rmdir(folder), 0); // and nothing else was left in it
     out_tree_free(tree);
 }
 

@@ -1,6 +1,6 @@
 // Writing a whole file so that a failure never harms an old one.
-#ifndef RAMIFY_IMAGE_FILE_REPLACE_H
-#define RAMIFY_IMAGE_FILE_REPLACE_H
+#ifndef RAMIFY_BASE_FILE_REPLACE_H
+#define RAMIFY_BASE_FILE_REPLACE_H
 
 #include "base/error.h"
 
