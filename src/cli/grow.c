@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "scene/build.h"
+#include "scene/kind.h"
 #include "tree/out_tree_io.h"
 
 #include <inttypes.h>
@@ -43,7 +44,7 @@ static int count_growing(const Scene *scene)
 {
     int count = 0;
     for (int i = 0; i < scene->object_count; i++) {
-        count += scene->objects[i].tree ? 1 : 0;
+        count += kind_of(&scene->objects[i])->grow ? 1 : 0;
     }
     return count;
 }
@@ -51,7 +52,8 @@ static int count_growing(const Scene *scene)
 static bool check_request(const Options *options, const Scene *scene, Error *e)
 {
     if (count_growing(scene) == 0) {
-        error_set(e, ERROR_INPUT, "no object of this scene grows; it needs a tree");
+        error_set(e, ERROR_INPUT,
+                  "no object of this scene grows; it needs a tree or another growing thing");
         error_locate(e, scene->file, 0, 0);
         return false;
     }

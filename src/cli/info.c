@@ -1,45 +1,21 @@
 // ramify info: what a scene file holds, without growing or rendering it.
 #include "cli/command.h"
 
-#include "model/tree_defaults.h"
 #include "render/film.h"
+#include "scene/kind.h"
 
 #include <stdio.h>
 
-static const char *object_kind(const SceneObject *object)
-{
-    return object->tree ? "tree" : object->ground ? "ground" : object->mesh ? "mesh" : "shape";
-}
-
-static int64_t element_attractors(const ElementParams *element)
-{
-    int64_t sum = 0;
-    for (int i = 0; i < element->level_count; i++) {
-        sum += element->levels[i].attractors;
-    }
-    return sum;
-}
-
-// Attractors of a tree, those of the model's own levels too.
 static int64_t object_attractors(const SceneObject *object)
 {
-    if (!object->tree) {
-        return 0;
-    }
-    TreePlan plan;
-    tree_plan_make(&plan, object->tree, 0); // no seed changes how many
-    return element_attractors(&plan.params.trunk.element) +
-           element_attractors(&plan.params.crown.element) +
-           (plan.params.roots.count > 0 ? element_attractors(&plan.params.roots.element) : 0);
+    const Kind *kind = kind_of(object);
+    return kind->attractors ? kind->attractors(object) : 0;
 }
 
-// Leaves, tufts: what is placed as instances.
 static int64_t object_instances(const SceneObject *object)
 {
-    return object->tree     ? object->tree->leaves.max_count
-           : object->ground ? object->ground->grass_tufts + object->ground->fallen_leaves +
-                                  object->ground->trees.count
-                            : 0;
+    const Kind *kind = kind_of(object);
+    return kind->copies ? kind->copies(object) : 0;
 }
 
 // Rough size in memory, bytes: attractors and their search grid (~100 each), instances with their
@@ -63,10 +39,12 @@ static void print_text(const Scene *scene)
            scene->render.samples);
     for (int i = 0; i < scene->object_count; i++) {
         const SceneObject *object = &scene->objects[i];
-        printf("object %d  %-20s %s", i, object->name, object_kind(object));
-        if (object->tree) {
-            printf(", %g m", (double)object->tree->height);
+        const Kind *kind = kind_of(object);
+        char text[256] = "";
+        if (kind->describe) {
+            kind->describe(object, text, sizeof text);
         }
+        printf("object %d  %-20s %s%s", i, object->name, kind->key, text);
         int64_t attractors = object_attractors(object), instances = object_instances(object);
         if (attractors > 0) {
             printf(", %lld attractors", (long long)attractors);
@@ -95,7 +73,7 @@ static void print_json(const Scene *scene)
         printf("%s{\"name\": ", i ? ", " : "");
         json_print_string(object->name);
         printf(", \"kind\": \"%s\", \"attractors\": %lld, \"instances\": %lld}",
-               object_kind(object), (long long)object_attractors(object),
+               kind_of(object)->key, (long long)object_attractors(object),
                (long long)object_instances(object));
     }
     printf("], \"materials\": [");

@@ -247,20 +247,22 @@ static void compute_radii(OutTree *tree, const TreeParams *params)
     out_tree_root_flare(tree, radii->flare, radii->flare_height);
 }
 
-OutTree *tree_grow(const TreeParams *params, uint64_t seed, const char *label, const Run *run,
-                   Error *e)
+OutTree *tree_grow(const TreeParams *params, const Recipe *recipe, Error *e)
 {
     TreePlan plan;
+    uint64_t seed = recipe->seed;
     tree_plan_make(&plan, params, seed);
     OutTree *tree = out_tree_new(e);
-    if (!tree || !grow_trunk(tree, &plan.params, random_key(seed, 1), label, run, e) ||
-        !grow_crown(tree, &plan.params, random_key(seed, 2), label, run, e)) {
+    if (!tree ||
+        !grow_trunk(tree, &plan.params, random_key(seed, 1), recipe->label, recipe->run, e) ||
+        !grow_crown(tree, &plan.params, random_key(seed, 2), recipe->label, recipe->run, e) ||
+        !out_tree_keep_births(tree, recipe->grow_to, e)) {
         out_tree_free(tree);
         return NULL;
     }
     compute_radii(tree, &plan.params);
     if (params->roots.count > 0 &&
-        !grow_roots(tree, &plan.params, random_key(seed, 3), label, run, e)) {
+        !grow_roots(tree, &plan.params, random_key(seed, 3), recipe->label, recipe->run, e)) {
         out_tree_free(tree);
         return NULL;
     }

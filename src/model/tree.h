@@ -7,6 +7,7 @@
 #include "base/run.h"
 #include "mesh/geometry.h"
 #include "model/element.h"
+#include "model/recipe.h"
 #include "tree/out_tree.h"
 
 typedef struct TrunkParams {
@@ -93,8 +94,7 @@ typedef struct TreeMaterials {
 TreeParams tree_params_default(void);
 
 // Grows the out-tree: all elements joined, radii computed. Colony: 0 trunk, 1 crown, 2 roots.
-OutTree *tree_grow(const TreeParams *params, uint64_t seed, const char *label, const Run *run,
-                   Error *e);
+OutTree *tree_grow(const TreeParams *params, const Recipe *recipe, Error *e);
 
 // Skins a grown tree and hangs its leaves: adds meshes, curves and leaf instances to geometry.
 bool tree_geometry(const OutTree *tree, const TreeParams *params, const TreeMaterials *materials,

@@ -1,53 +1,62 @@
 // Checks of objects and what they are made of.
+#include "scene/kind.h"
 #include "scene/node_number.h"
 #include "scene/scalar.h"
 #include "scene/spec_check.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-// Which material keys each kind of object has.
-static const struct {
-    const char *kind, *keys[4];
-} KINDS[] = {{"tree", {"material", "twig_material", "leaf_material", NULL}},
-             {"ground", {"material", "leaf_material", "grass_material", NULL}},
-             {"mesh", {"material", NULL}},
-             {"shape", {"material", NULL}}};
-
-static bool kind_has_material(int kind, const char *key)
+static bool kind_has_material(const Kind *kind, const char *key)
 {
-    for (int i = 0; i < 4 && KINDS[kind].keys[i]; i++) {
-        if (strcmp(KINDS[kind].keys[i], key) == 0) {
+    for (int i = 0; i < KIND_MOST_MATERIALS && kind->materials[i]; i++) {
+        if (strcmp(kind->materials[i], key) == 0) {
             return true;
         }
     }
     return false;
 }
 
+bool is_material_key(const char *key)
+{
+    static const char ending[] = "material";
+    size_t length = strlen(key), tail = sizeof ending - 1;
+    return length >= tail && strcmp(key + length - tail, ending) == 0;
+}
+
+// "tree, ground, ...".
+static const char *kind_list(char *text, size_t size)
+{
+    size_t used = 0;
+    for (int i = 0; i < kind_count() && used < size; i++) {
+        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", kind_at(i)->key);
+    }
+    return text;
+}
+
 bool check_object(Resolver *r, const Path *path, const Node *given, Node *resolved)
 {
-    static const char *const materials[] = {"material", "twig_material", "leaf_material",
-                                            "grass_material"};
     const char *name = resolver_path(r, path, NULL);
-    int kind = -1;
-    for (int i = 0; i < 4; i++) {
-        const Node *child = node_get(resolved, KINDS[i].kind);
-        if (child && kind >= 0) {
+    const Kind *kind = NULL;
+    for (int i = 0; i < kind_count(); i++) {
+        const Node *child = node_get(resolved, kind_at(i)->key);
+        if (child && kind) {
             return resolver_fail(r, child,
                                  "%s is a %s and a %s; it must be one, make two objects of it",
-                                 name, KINDS[kind].kind, KINDS[i].kind);
+                                 name, kind->key, kind_at(i)->key);
         }
-        kind = child ? i : kind;
+        kind = child ? kind_at(i) : kind;
     }
-    if (kind < 0) {
-        return resolver_fail(r, given,
-                             "%s is nothing; it must have one of tree, ground, mesh, shape", name);
+    if (!kind) {
+        char kinds[256];
+        return resolver_fail(r, given, "%s is nothing; it must have one of %s", name,
+                             kind_list(kinds, sizeof kinds));
     }
-    for (int i = 0; i < 4; i++) {
-        const Node *material = node_get(resolved, materials[i]);
-        if (material && !kind_has_material(kind, materials[i])) {
-            return resolver_fail(r, material, "%s: a %s has no %s; leave it out", name,
-                                 KINDS[kind].kind, materials[i]);
+    for (const Node *child = resolved->first; child; child = child->next) {
+        if (is_material_key(child->key) && !kind_has_material(kind, child->key)) {
+            return resolver_fail(r, child, "%s: a %s has no %s; leave it out", name, kind->key,
+                                 child->key);
         }
     }
     return true;

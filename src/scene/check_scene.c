@@ -161,11 +161,10 @@ static const char **material_names(Resolver *r, const Node *materials, int *coun
     return names;
 }
 
-static bool check_material_of(Resolver *r, const Node *object, const char *key,
+static bool check_material_of(Resolver *r, const Node *object, const Node *named,
                               const char *const *names, int count)
 {
-    const Node *named = node_get(object, key);
-    bool found = !named;
+    bool found = false;
     for (int i = 0; i < count && !found; i++) {
         found = strcmp(names[i], named->text) == 0;
     }
@@ -173,15 +172,13 @@ static bool check_material_of(Resolver *r, const Node *object, const char *key,
         char hint[512];
         hint_format(named->text, names, count, hint, sizeof hint);
         return resolver_fail(r, named, "objects.%s.%s: there is no material '%.60s'; %s",
-                             node_get_text(object, "name"), key, named->text, hint);
+                             node_get_text(object, "name"), named->key, named->text, hint);
     }
     return true;
 }
 
 bool check_scene(Resolver *r, const Path *path, const Node *given, Node *resolved)
 {
-    static const char *const keys[] = {"material", "twig_material", "leaf_material",
-                                       "grass_material"};
     (void)path;
     (void)given;
     const Node *materials = node_get(resolved, "materials"),
@@ -193,8 +190,8 @@ bool check_scene(Resolver *r, const Path *path, const Node *given, Node *resolve
     int count;
     const char **names = material_names(r, materials, &count);
     for (const Node *object = names ? objects->first : NULL; object; object = object->next) {
-        for (int k = 0; k < 4; k++) {
-            if (!check_material_of(r, object, keys[k], names, count)) {
+        for (const Node *key = object->first; key; key = key->next) {
+            if (is_material_key(key->key) && !check_material_of(r, object, key, names, count)) {
                 return false;
             }
         }

@@ -43,6 +43,7 @@ typedef struct Scene {
     char *text;     // the file's text, stored in images as metadata
     char *resolved; // the same as YAML with every default and override written out
     uint64_t seed;
+    float grow_to; // 0..1: how much of all growth shows
     Camera camera;
     FilmParams film;
     ToneParams tone;

@@ -17,6 +17,9 @@ typedef struct PlacedMesh {
     Vec3 position, rotation, scale;
 } PlacedMesh;
 
+// Does an object's key name a material? Those that do end in "material".
+bool is_material_key(const char *key);
+
 typedef bool TableCheck(Resolver *r, const Path *path, const Node *given, Node *resolved);
 
 // The whole scene: names are unique, materials that objects name exist.

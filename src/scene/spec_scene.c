@@ -106,6 +106,8 @@ static const Table RENDER_TABLE = {.name = "render",
 static const Key SCENE_KEYS[] = {
     {KEY_OF(Scene, seed, "seed", KEY_UINT64), .high = 18446744073709551615.0,
      .doc = "Seed of everything random: another number, another tree of the same kind."},
+    {KEY_OF(Scene, grow_to, "grow_to", KEY_FLOAT), .high = 1,
+     .doc = "How much of all growth shows: 0 = nothing has grown yet, 1 = all of it."},
     {KEY_OF(Scene, camera, "camera", KEY_GROUP), .table = &CAMERA_TABLE, .doc = "The camera."},
     {.key = "film",
      .type = KEY_GROUP,
@@ -142,6 +144,7 @@ static void scene_defaults(const Node *given, int kind, void *out)
     }
     world_free(world);
     scene->seed = 1;
+    scene->grow_to = 1.0f;
     scene->tone = tone_params_default();
 }
 

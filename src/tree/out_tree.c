@@ -100,6 +100,46 @@ uint64_t out_tree_child_id(uint64_t parent_id, int64_t place)
     return random_key(parent_id, (uint64_t)place);
 }
 
+static void move_node(OutTree *tree, int64_t from, int64_t to)
+{
+    tree->position[to] = tree->position[from];
+    tree->parent[to] = tree->parent[from];
+    tree->birth[to] = tree->birth[from];
+    tree->colony[to] = tree->colony[from];
+    tree->radius[to] = tree->radius[from];
+    tree->normal[to] = tree->normal[from];
+    tree->id[to] = tree->id[from];
+}
+
+bool out_tree_keep_births(OutTree *tree, float share, Error *e)
+{
+    if (share >= 1.0f) {
+        return true;
+    }
+    int32_t *place = memory_alloc(tree->count, sizeof *place, e); // of each node that stays; -1
+    if (!place) {
+        return false;
+    }
+    int32_t last = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        last = tree->birth[i] > last ? tree->birth[i] : last;
+    }
+    double limit = (double)share * last;
+    int32_t kept = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        bool stays = tree->birth[i] <= limit && (parent < 0 || place[parent] >= 0);
+        place[i] = stays ? kept : -1;
+        if (stays) {
+            move_node(tree, i, kept);
+            tree->parent[kept++] = parent < 0 ? -1 : place[parent];
+        }
+    }
+    tree->count = kept;
+    free(place);
+    return true;
+}
+
 bool out_tree_check(const OutTree *tree, Error *e)
 {
     for (int64_t i = 0; i < tree->count; i++) {

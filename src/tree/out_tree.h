@@ -37,6 +37,10 @@ int64_t out_tree_add_node(OutTree *tree, Vec3 position, int64_t parent, int32_t 
 // The id of a parent's child number place (0 for the first).
 uint64_t out_tree_child_id(uint64_t parent_id, int64_t place);
 
+// Drops the nodes born after `share` (0..1) of the last birth: the tree as it was at that time of
+// its growth. Keeps the order; 1 or more changes nothing.
+bool out_tree_keep_births(OutTree *tree, float share, Error *e);
+
 // Checks every invariant; the error names the first node that breaks one.
 bool out_tree_check(const OutTree *tree, Error *e);
 

@@ -75,7 +75,7 @@ static void growth_gives_an_out_tree(void **state)
     }
     ramify_tree_free(tree);
     assert_null(ramify_grow(scene, 1, NULL, &error));
-    assert_string_equal(error.message, "object 'ball' does not grow; name one that is a tree");
+    assert_string_equal(error.message, "object 'ball' does not grow; a shape never does");
     assert_null(ramify_grow(scene, 2, NULL, &error));
     assert_int_equal(error.code, RAMIFY_BAD_INPUT);
     ramify_scene_free(scene);

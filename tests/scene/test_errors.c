@@ -62,7 +62,7 @@ static const Case scenes[] = {
      ":2:25: key 'corner' means nothing in lights.0 of kind 'sphere'; known: kind, radiance, "
      "center, radius"},
     // types
-    {"- 1\n", ":1:1: the scene is a list; it must be a mapping of seed, camera, film, render, sky, "
+    {"- 1\n", ":1:1: the scene is a list; it must be a mapping of seed, grow_to, camera, film, render, sky, "
               "lights, materials, objects"},
     {"objects: 3\n", ":1:10: objects is 3; it must be a list of mappings ('- ' before each)"},
     {"objects: []\n", ":1:10: objects has 0 entries; it must have 1 to 10000"},

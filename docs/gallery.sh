@@ -1,0 +1,41 @@
+#!/bin/sh
+# Renders the pictures of docs/gallery.md into renders/: all of them, or those named on the command line.
+# usage: docs/gallery.sh [NAME...]
+set -e
+cd "$(dirname "$0")/.."
+ramify=${RAMIFY:-build/ramify}
+wanted=" $* "
+parts=$(mktemp -d)
+trap 'rm -rf "$parts"' EXIT
+
+is_wanted() { [ "$wanted" = "  " ] || case $wanted in *" $1 "*) ;; *) false ;; esac; }
+
+# still NAME SCENE [OPTION...]: renders/NAME.jpg, one scene as it is.
+still() {
+    is_wanted "$1" || return 0
+    name=$1 scene=$2
+    shift 2
+    "$ramify" render "scenes/$scene.yaml" -o "renders/$name.jpg" "$@"
+}
+
+# panel SCENE [OPTION...]: one picture of the sheet that follows.
+panel() {
+    scene=$1
+    shift
+    count=$((${count:-0} + 1))
+    "$ramify" render "scenes/$scene.yaml" -o "$parts/$(printf %03d "$count").png" "$@"
+}
+
+# sheet NAME COLUMNSxROWS: renders/NAME.jpg from the panels since the last sheet.
+sheet() {
+    oiiotool "$parts"/*.png --mosaic:pad=4 "$2" --ch R,G,B --compression jpeg:88 -o "renders/$1.jpg"
+    rm -f "$parts"/*
+    count=0
+}
+
+# A sheet's lines:
+#   if is_wanted figure-7; then
+#       panel some-scene --size 426x720 --set ...
+#       sheet figure-7 3x1
+#   fi
+

@@ -1,0 +1,59 @@
+// Kinds of objects: what a scene's object can be. One file kind_*.c a kind, one line in kinds.c;
+// nothing else in scene/ or cli/ knows how many there are.
+#ifndef RAMIFY_SCENE_KIND_H
+#define RAMIFY_SCENE_KIND_H
+
+#include "base/measures.h"
+#include "model/recipe.h"
+#include "scene/build.h"
+
+enum { KIND_MOST_MATERIALS = 6 };
+
+// One object on its way into the world.
+typedef struct Placing {
+    World *world;
+    const Scene *scene;
+    const SceneObject *object;
+    int index;     // of the object in the scene
+    Recipe recipe; // seed, label and run for the recipes of model/
+    BuildStats *stats;
+} Placing;
+
+typedef struct Kind {
+    const char *key; // of SceneObject's mapping in the scene file, and its name for people
+    size_t offset;   // of its pointer in SceneObject
+    const char *materials[KIND_MOST_MATERIALS]; // keys of the object that name materials; NULL ends
+
+    // The out-tree, radii and all; NULL when nothing of this kind grows. The error names the
+    // object (Recipe.label).
+    OutTree *(*grow)(const SceneObject *object, const Recipe *recipe, Error *e);
+
+    // Adds the object's parts to the world: from its out-tree where the kind grows one, else tree
+    // is NULL.
+    bool (*place)(const Placing *placing, const OutTree *tree, Error *e);
+
+    // Adds what there is to measure beyond what every out-tree has; NULL = nothing.
+    bool (*measure)(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e);
+
+    // For `ramify info`: prints ", 14 m, ..." after the name of the kind; NULL = nothing to add.
+    void (*describe)(const SceneObject *object, char *text, size_t size);
+
+    // Attractors asked for, and copies (leaves, tufts) at most; NULL = none.
+    int64_t (*attractors)(const SceneObject *object);
+    int64_t (*copies)(const SceneObject *object);
+} Kind;
+
+int kind_count(void);
+const Kind *kind_at(int index);
+
+// The kind of an object of a checked scene.
+const Kind *kind_of(const SceneObject *object);
+
+// Index in the world of the material called name, or of the built-in fallback when name is NULL.
+// Names were checked when the scene was read.
+int placing_material(const Placing *placing, const char *name, const char *fallback);
+
+// Adds a mesh, drawn once, with the object's `material` (or the built-in fallback). Takes the mesh.
+bool placing_add_mesh(const Placing *placing, Mesh *mesh, const char *fallback, Error *e);
+
+#endif

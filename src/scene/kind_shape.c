@@ -1,0 +1,43 @@
+// Envelopes drawn as they are, as a kind of object.
+#include "scene/kinds.h"
+
+#include <string.h>
+
+static Mesh *copy_mesh(const Mesh *mesh, Error *e)
+{
+    int arrays = (mesh->normal ? MESH_NORMAL : 0) | (mesh->uv ? MESH_UV : 0);
+    Mesh *copy = mesh_new(mesh->face_size, mesh->vertex_count, mesh->face_count, arrays, e);
+    if (!copy) {
+        return NULL;
+    }
+    size_t vertices = (size_t)mesh->vertex_count;
+    size_t corners = (size_t)mesh->face_count * (size_t)mesh->face_size;
+    memcpy(copy->index, mesh->index, sizeof *mesh->index * corners);
+    memcpy(copy->position, mesh->position, sizeof *mesh->position * vertices);
+    if (mesh->normal) {
+        memcpy(copy->normal, mesh->normal, sizeof *mesh->normal * vertices);
+    }
+    if (mesh->uv) {
+        memcpy(copy->uv, mesh->uv, sizeof *mesh->uv * vertices);
+    }
+    return copy;
+}
+
+static bool place(const Placing *p, const OutTree *tree, Error *e)
+{
+    (void)tree;
+    const SceneShape *shape = p->object->shape;
+    EnvelopeParams params = {shape->shapes, shape->shape_count, shape->voxel};
+    Envelope *envelope = envelope_new(&params, p->recipe.run, e);
+    if (!envelope) {
+        return false;
+    }
+    Mesh *mesh = copy_mesh(envelope_surface(envelope), e);
+    envelope_free(envelope);
+    return mesh && placing_add_mesh(p, mesh, "clay", e);
+}
+
+const Kind kind_shape = {.key = "shape",
+                         .offset = offsetof(SceneObject, shape),
+                         .materials = {"material"},
+                         .place = place};

@@ -1,0 +1,57 @@
+// A tree as a kind of object.
+#include "model/tree_defaults.h"
+#include "scene/kinds.h"
+
+#include <stdio.h>
+
+static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+{
+    return tree_grow(object->tree, recipe, e);
+}
+
+static bool place(const Placing *p, const OutTree *tree, Error *e)
+{
+    TreeMaterials materials = {.bark = placing_material(p, p->object->material, "bark"),
+                               .twig = placing_material(p, p->object->twig_material, "twig"),
+                               .leaf = placing_material(p, p->object->leaf_material, "leaf")};
+    return tree_geometry(tree, p->object->tree, &materials, p->index, p->recipe.seed,
+                         &p->world->geometry, p->recipe.run, e);
+}
+
+static void describe(const SceneObject *object, char *text, size_t size)
+{
+    snprintf(text, size, ", %g m", (double)object->tree->height);
+}
+
+static int64_t element_attractors(const ElementParams *element)
+{
+    int64_t sum = 0;
+    for (int i = 0; i < element->level_count; i++) {
+        sum += element->levels[i].attractors;
+    }
+    return sum;
+}
+
+// Those of the model's own levels too.
+static int64_t attractors(const SceneObject *object)
+{
+    TreePlan plan;
+    tree_plan_make(&plan, object->tree, 0); // no seed changes how many
+    return element_attractors(&plan.params.trunk.element) +
+           element_attractors(&plan.params.crown.element) +
+           (plan.params.roots.count > 0 ? element_attractors(&plan.params.roots.element) : 0);
+}
+
+static int64_t copies(const SceneObject *object)
+{
+    return object->tree->leaves.max_count;
+}
+
+const Kind kind_tree = {.key = "tree",
+                        .offset = offsetof(SceneObject, tree),
+                        .materials = {"material", "twig_material", "leaf_material"},
+                        .grow = grow,
+                        .place = place,
+                        .describe = describe,
+                        .attractors = attractors,
+                        .copies = copies};

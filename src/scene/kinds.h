@@ -1,0 +1,9 @@
+// Every kind of object, one kind_*.c each.
+#ifndef RAMIFY_SCENE_KINDS_H
+#define RAMIFY_SCENE_KINDS_H
+
+#include "scene/kind.h"
+
+extern const Kind kind_tree, kind_ground, kind_mesh, kind_shape;
+
+#endif
