@@ -189,13 +189,14 @@ static int make_sectors(const Growth *growth, const Grower *grower, const Pull *
 {
     const ColonizeParams *params = growth->params;
     const NodeState *state = &growth->state[grower->node];
+    bool straight = growth_is_last_order(growth, grower->node);
     int count = 0, limit = params->max_children > 0 ? params->max_children - state->children
                                                     : growth->sectors.count;
     for (int s = 0; s < growth->sectors.count && count < limit; s++) {
         uint64_t bud = out_tree_child_id(growth->tree->id[grower->node], -1 - s);
         bool beyond = growth->sectors.axis[s].x < growth->max_cos - 1e-6f;
         if (pull[s].count == 0 || beyond || (growth->used[grower->node] >> s & 1) ||
-            (s > 0 && is_suppressed(growth, bud))) {
+            (s > 0 && (straight || is_suppressed(growth, bud)))) {
             continue;
         }
         Vec3 local = growth->sectors.axis[s], axis;
@@ -210,6 +211,12 @@ static int make_sectors(const Growth *growth, const Grower *grower, const Pull *
     return count;
 }
 
+bool growth_is_last_order(const Growth *growth, int32_t node)
+{
+    int limit = growth->params->max_order;
+    return limit > 0 && growth->tree->parent[node] >= 0 && growth->state[node].order >= limit;
+}
+
 int growth_make_children(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
 {
     GrowRule rule = growth->params->rule;
@@ -218,6 +225,9 @@ int growth_make_children(const Growth *growth, const Grower *grower, const Pull 
     }
     child->sector = 0;
     bool lateral = growth->state[grower->node].children > 0;
+    if (lateral && growth_is_last_order(growth, grower->node)) {
+        return 0;
+    }
     if (pull->count == 0 || (lateral && is_suppressed(growth, next_child_id(growth, grower, 0)))) {
         return 0;
     }

@@ -73,10 +73,10 @@ static void set_angle_limits(Growth *growth)
     }
 }
 
-// Makes room for what is remembered of nodes `from`..count-1.
-static bool reserve_nodes(Growth *growth, int64_t from, Error *e)
+// Makes room for what is remembered of nodes `from`..count-1, which may be yet to come.
+static bool reserve_nodes(Growth *growth, int64_t from, int64_t count, Error *e)
 {
-    int64_t count = growth->tree->count, words = growth->changed.capacity;
+    int64_t words = growth->changed.capacity;
     if (!memory_reserve(&growth->state, &growth->state_capacity, count, sizeof *growth->state, e) ||
         !memory_reserve(&growth->slot, &growth->slot_capacity, count, sizeof *growth->slot, e) ||
         !memory_reserve(&growth->changed.word, &growth->changed.capacity, count / 64 + 1,
@@ -99,34 +99,48 @@ static bool reserve_nodes(Growth *growth, int64_t from, Error *e)
     return true;
 }
 
-static void count_child(Growth *growth, int32_t parent, int32_t child)
+// sector: that it stands in; 0 = forward, or the rule has none.
+static void count_child(Growth *growth, int32_t parent, int32_t child, int sector)
 {
     NodeState *state = &growth->state[parent];
+    bool side = growth->params->rule == GROW_SECTORS ? sector > 0 : state->children > 0;
+    growth->state[child].order = state->order + (side && growth->tree->parent[parent] >= 0);
     if (state->children++ == 0) {
         state->first_child = child;
     }
+}
+
+// Marks the sector in which a node stands as used up.
+static int use_sector(Growth *growth, int64_t node)
+{
+    const OutTree *tree = growth->tree;
+    Grower parent = {.node = tree->parent[node]};
+    growth_prepare(growth, &parent);
+    Vec3 d = vec3_sub(tree->position[node], parent.position);
+    Vec3 local =
+        vec3(vec3_dot(d, parent.heading), vec3_dot(d, parent.normal), vec3_dot(d, parent.side));
+    int sector = sectors_find(&growth->sectors, local);
+    growth->used[parent.node] |= 1ull << sector;
+    return sector;
 }
 
 // Takes over the tree as it is: children counted, the sectors they stand in used up.
 static bool begin(Growth *growth, Error *e)
 {
     const OutTree *tree = growth->tree;
-    if (!reserve_nodes(growth, 0, e)) {
+    if (!reserve_nodes(growth, 0, tree->count, e)) {
         return false;
     }
     for (int64_t i = 0; i < tree->count; i++) {
-        if (tree->parent[i] >= 0) {
-            count_child(growth, tree->parent[i], (int32_t)i);
+        int32_t parent = tree->parent[i];
+        if (parent >= 0 && growth->state[parent].first_child < 0) {
+            growth->state[parent].first_child = (int32_t)i; // a root's heading
         }
     }
-    for (int64_t i = 0; growth->params->rule == GROW_SECTORS && i < tree->count; i++) {
+    for (int64_t i = 0; i < tree->count; i++) {
         if (tree->parent[i] >= 0) {
-            Grower parent = {.node = tree->parent[i]};
-            growth_prepare(growth, &parent);
-            Vec3 d = vec3_sub(tree->position[i], parent.position);
-            Vec3 local = vec3(vec3_dot(d, parent.heading), vec3_dot(d, parent.normal),
-                              vec3_dot(d, parent.side));
-            growth->used[parent.node] |= 1ull << sectors_find(&growth->sectors, local);
+            int sector = growth->params->rule == GROW_SECTORS ? use_sector(growth, i) : 0;
+            count_child(growth, tree->parent[i], (int32_t)i, sector);
         }
     }
     return true;
@@ -211,7 +225,7 @@ static bool add_child(Growth *growth, int32_t parent, const Child *child, int32_
         return false;
     }
     tree->normal[node] = child->normal;
-    count_child(growth, parent, (int32_t)node);
+    count_child(growth, parent, (int32_t)node, child->sector);
     if (growth->params->rule == GROW_SECTORS) {
         growth->used[parent] |= 1ull << child->sector;
     }
@@ -221,8 +235,14 @@ static bool add_child(Growth *growth, int32_t parent, const Child *child, int32_
 // Adds this step's children to the tree; false with *full set when max_nodes is reached.
 static bool add_children(Growth *growth, int32_t birth, bool *full, Error *e)
 {
-    int64_t max_nodes = growth->params->max_nodes;
+    int64_t max_nodes = growth->params->max_nodes, first = growth->tree->count, count = first;
     growth->grew_count = 0;
+    for (int64_t i = 0; i < growth->grower_count; i++) {
+        count += growth->child_count[i];
+    }
+    if (!reserve_nodes(growth, first, count, e)) {
+        return false;
+    }
     for (int64_t i = 0; i < growth->grower_count; i++) {
         int32_t node = growth->grower[i].node;
         growth->slot[node] = -1;
@@ -279,7 +299,7 @@ static bool grow(Growth *growth, const Run *run, GrowReport *report, Error *e)
         }
         make_children(growth);
         int64_t birth = params->first_step + report->steps + 1;
-        if (!add_children(growth, (int32_t)birth, &full, e) || !reserve_nodes(growth, seen, e)) {
+        if (!add_children(growth, (int32_t)birth, &full, e)) {
             return false;
         }
         if (growth->tree->count == seen) {

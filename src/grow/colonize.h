@@ -38,6 +38,9 @@ typedef struct ColonizeParams {
                      // attractors' normals
     float sector_angle; // GROW_SECTORS: degrees a sector, 60 in the paper
     bool sector_axis;   // GROW_SECTORS: grow along the sector's axis instead of its mean
+    int max_order;      // orders of branching: sides of sides ...; 0 = no limit. What continues its
+                        // parent (first child; GROW_SECTORS: forward sector) keeps its order; a
+                        // root's children all have order 0
     float apical;       // apical dominance 0..1: probability that a lateral child is suppressed
     uint64_t seed;
     int32_t first_step; // birth of the first new nodes is first_step + 1

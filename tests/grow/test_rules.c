@@ -253,6 +253,57 @@ static void an_edit_elsewhere_changes_nothing_here(void **state)
     points_free(ball);
 }
 
+// Highest order in the tree, told from the angles of the sectors (60 degrees) or from who came
+// first; a root's children have order 0.
+static int highest_order(const OutTree *tree, bool by_angle)
+{
+    int *order = calloc((size_t)tree->count, sizeof *order), highest = 0;
+    bool *has_child = calloc((size_t)tree->count, sizeof *has_child);
+    assert_non_null(order);
+    assert_non_null(has_child);
+    for (int64_t i = 1; i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        bool side = by_angle && tree->parent[parent] >= 0
+                        ? angle_between(heading_of(tree, i), heading_of(tree, parent)) > 30.0f
+                        : has_child[parent];
+        has_child[parent] = true;
+        order[i] = order[parent] + (side && tree->parent[parent] >= 0);
+        highest = order[i] > highest ? order[i] : highest;
+    }
+    free(order);
+    free(has_child);
+    return highest;
+}
+
+static void orders_of_branching_are_limited(void **state)
+{
+    (void)state;
+    PointSet *points = points_on_plane(3000, 3), *finer = points_on_plane(9000, 4);
+    ColonizeParams params = params_auto(points, 0.55f, 1.1f, 3.2f);
+    params.on_surface = true;
+    params.max_angle = 90.0f;
+    for (int rule = 0; rule < 2; rule++) {
+        params.rule = rule == 0 ? GROW_MEAN : GROW_SECTORS;
+        params.sector_axis = rule == 1;
+        for (int limit = 0; limit < 4; limit++) {
+            params.max_order = limit;
+            OutTree *tree = tree_from(vec3(-1, 0, 0));
+            out_tree_add_node(tree, vec3(-0.99f, 0, 0), 0, 0, 0, out_tree_child_id(77, 0), NULL);
+            grow_with(tree, points, &params, 1);
+            int highest = highest_order(tree, rule == 1);
+            assert_true(limit == 0 ? highest > 3 : highest == limit);
+            // growth that goes on from a grown tree knows the orders in it
+            ColonizeParams fine = params;
+            fine.step *= 0.55f, fine.kill *= 0.55f, fine.influence *= 0.55f;
+            grow_with(tree, finer, &fine, 1);
+            assert_true(limit == 0 || highest_order(tree, rule == 1) == limit);
+            out_tree_free(tree);
+        }
+    }
+    points_free(points);
+    points_free(finer);
+}
+
 static void additive_mode_is_the_printed_formula(void **state)
 {
     (void)state;
@@ -289,6 +340,7 @@ int main(void)
         cmocka_unit_test(normals_in_space_lie_across_the_direction),
         cmocka_unit_test(apical_dominance_thins_out_laterals),
         cmocka_unit_test(an_edit_elsewhere_changes_nothing_here),
+        cmocka_unit_test(orders_of_branching_are_limited),
         cmocka_unit_test(additive_mode_is_the_printed_formula),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
