@@ -32,6 +32,7 @@ void curves_free(CurveSet *curves)
         free(curves->radius);
         free(curves->birth);
         free(curves->along);
+        free(curves->glow);
         free(curves->first);
         free(curves);
     }

@@ -45,7 +45,8 @@ static int64_t mesh_bytes(const Mesh *mesh)
 
 static int64_t curves_bytes(const CurveSet *curves)
 {
-    return curves->point_count * (int64_t)(sizeof(Vec3) + 3 * sizeof(float)) +
+    size_t point = sizeof(Vec3) + (curves->glow ? 4 : 3) * sizeof(float);
+    return curves->point_count * (int64_t)point +
            (curves->curve_count + 1) * (int64_t)sizeof(int64_t);
 }
 
