@@ -31,6 +31,29 @@ void exact_sincos(float angle, float *sine, float *cosine)
     }
 }
 
+void exact_sincos_double(double angle, double *sine, double *cosine)
+{
+    // pi / 2 in two parts, so that the reduction by a few quarters loses nothing
+    const double high = 1.5707963267948966, low = 6.123233995736766e-17;
+    double quarters = angle * (2.0 / PI_D);
+    int64_t n = (int64_t)(quarters + (quarters < 0.0 ? -0.5 : 0.5));
+    double r = (angle - (double)n * high) - (double)n * low, r2 = r * r;
+    double s = 1.0, c = 1.0;
+    for (int k = 18; k >= 2; k -= 2) { // Horner over the Taylor terms
+        s = 1.0 - s * r2 / (double)(k * (k + 1));
+        c = 1.0 - c * r2 / (double)(k * (k - 1));
+    }
+    s *= r;
+    *sine = (n & 1) ? c : s;
+    *cosine = (n & 1) ? s : c;
+    if (n & 2) {
+        *sine = -*sine;
+    }
+    if ((n + 1) & 2) {
+        *cosine = -*cosine;
+    }
+}
+
 double exact_log(double x)
 {
     uint64_t bits;

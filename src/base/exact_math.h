@@ -7,6 +7,9 @@
 // Sine and cosine of an angle in radians, |angle| < 1e6; error below 1e-7.
 void exact_sincos(float angle, float *sine, float *cosine);
 
+// The same to the last bits of a double for |angle| <= 7; error below 1e-15.
+void exact_sincos_double(double angle, double *sine, double *cosine);
+
 // Natural logarithm of x > 0, and e^x for |x| < 700. Relative error below 1e-14.
 double exact_log(double x);
 double exact_exp(double x);
