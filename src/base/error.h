@@ -11,7 +11,8 @@ typedef enum ErrorCode {
     ERROR_IO,        // the machine would not read or write: exit status 1
     ERROR_MEMORY,    // out of memory: exit status 1
     ERROR_CANCELLED, // the user interrupted: exit status 130
-    ERROR_INTERNAL   // a library failed in a way the input does not explain: exit status 1
+    ERROR_INTERNAL,  // a library failed in a way the input does not explain: exit status 1
+    ERROR_DIFFERS    // a result is not what it was held to (the command only): exit status 1
 } ErrorCode;
 
 typedef struct Error {

@@ -28,6 +28,16 @@ const Measure *measures_find(const MeasureList *list, const char *name)
     return NULL;
 }
 
+void measures_set_range(MeasureList *list, const char *name, double low, double high)
+{
+    for (int64_t i = 0; i < list->count; i++) {
+        if (strcmp(list->item[i].name, name) == 0) {
+            list->item[i].low = low;
+            list->item[i].high = high;
+        }
+    }
+}
+
 void measures_clear(MeasureList *list)
 {
     free(list->item);

@@ -25,6 +25,9 @@ bool measures_add(MeasureList *list, const char *name, double value, const char 
 // The measure of this name; NULL when there is none.
 const Measure *measures_find(const MeasureList *list, const char *name);
 
+// Gives the measure of this name nature's range (NAN = none), when the list has it.
+void measures_set_range(MeasureList *list, const char *name, double low, double high);
+
 void measures_clear(MeasureList *list);
 
 #endif

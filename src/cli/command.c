@@ -66,6 +66,9 @@ static void add_keys(KeyOptions *keys, const Options *o)
     if (!isnan(o->exposure)) {
         add_key(keys, "film.exposure=%.17g", o->exposure);
     }
+    if (o->grow_to >= 0.0) {
+        add_key(keys, "grow_to=%.17g", o->grow_to);
+    }
     if (o->crop[0] >= 0.0f) {
         add_key(keys, "film.crop=[%.9g, %.9g, %.9g, %.9g]", (double)o->crop[0], (double)o->crop[1],
                 (double)o->crop[2], (double)o->crop[3]);

@@ -7,10 +7,11 @@
 #include "scene/scene.h"
 
 // Each reads its scene, does its work and prints its data; false and e when it failed.
-bool command_render(const Options *options, Error *e); // render.c
-bool command_grow(const Options *options, Error *e);   // grow.c
-bool command_info(const Options *options, Error *e);   // info.c
-bool command_schema(const Options *options, Error *e); // schema.c
+bool command_render(const Options *options, Error *e);  // render.c
+bool command_grow(const Options *options, Error *e);    // grow.c
+bool command_measure(const Options *options, Error *e); // measure.c
+bool command_info(const Options *options, Error *e);    // info.c
+bool command_schema(const Options *options, Error *e);  // schema.c
 
 // Threads as asked, progress and warnings to stderr, Ctrl-C and SIGTERM to cancel.
 Run command_run(const Options *options, Progress *progress);

@@ -32,7 +32,8 @@ typedef struct Option {
 } Option;
 
 #define BIT(command) (1u << (command))
-#define SCENES (BIT(COMMAND_RENDER) | BIT(COMMAND_GROW) | BIT(COMMAND_INFO))
+#define GROWS (BIT(COMMAND_RENDER) | BIT(COMMAND_GROW) | BIT(COMMAND_MEASURE))
+#define SCENES (GROWS | BIT(COMMAND_INFO))
 #define EVERY (SCENES | BIT(COMMAND_SCHEMA) | BIT(COMMAND_HELP))
 #define RENDERS BIT(COMMAND_RENDER)
 #define AT(member) offsetof(Options, member)
@@ -109,6 +110,14 @@ static const Option OPTIONS[] = {
      .type = OPTION_TEXT,
      .commands = RENDERS,
      .doc = "instruction set of the ray tracer, such as sse4.2: the same bits on every machine"},
+    {.name = "grow-to",
+     .value = "T",
+     .offset = AT(grow_to),
+     .low = 0,
+     .high = 1,
+     .type = OPTION_REAL,
+     .commands = GROWS,
+     .doc = "show growth as it was at this share of its time, 0..1"},
     {.name = "set",
      .value = "PATH=VALUE",
      .offset = AT(overrides),
@@ -159,6 +168,9 @@ static const struct {
     [COMMAND_GROW] = {"grow", "SCENE", "grow a scene's trees only",
                       "With -o writes the out-trees; of several, the objects' names are put "
                       "before the ending.\n"},
+    [COMMAND_MEASURE] = {"measure", "SCENE|FILE.swc",
+                         "measure what a scene grows, or an out-tree in a file",
+                         "Exit status 1 when a target that the scene states is missed.\n"},
     [COMMAND_INFO] = {"info", "SCENE", "say what a scene file holds", ""},
     [COMMAND_SCHEMA] = {"schema", "", "print the JSON Schema of scene files", ""},
     [COMMAND_HELP] = {"help", "[COMMAND]", "explain a command", ""},
@@ -170,6 +182,7 @@ Options options_default(void)
                      .seconds = -1.0,
                      .noise = -1.0,
                      .exposure = (double)NAN,
+                     .grow_to = -1.0,
                      .crop = {-1.0f, -1.0f, -1.0f, -1.0f},
                      .denoise = -1};
 }
@@ -422,9 +435,9 @@ static void print_program_help(void)
     for (int i = 0; i < COMMAND_COUNT; i++) {
         char usage[64];
         snprintf(usage, sizeof usage, "ramify %s %s", COMMANDS[i].name, COMMANDS[i].operand);
-        printf("  %-24s %s\n", usage, COMMANDS[i].doc);
+        printf("  %-29s %s\n", usage, COMMANDS[i].doc);
     }
-    printf("  %-24s %s\n\n", "ramify --version", "print the version");
+    printf("  %-29s %s\n\n", "ramify --version", "print the version");
     printf("'ramify COMMAND --help' lists a command's options. Exit status: 0 done, 1 failed while "
            "running,\n2 bad command line or scene, 130 interrupted.\n");
 }

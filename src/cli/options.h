@@ -9,6 +9,7 @@
 typedef enum CommandId {
     COMMAND_RENDER,
     COMMAND_GROW,
+    COMMAND_MEASURE,
     COMMAND_INFO,
     COMMAND_SCHEMA,
     COMMAND_HELP,
@@ -29,6 +30,7 @@ typedef struct Options {
     double seconds;  // negative = the scene's
     double noise;    // negative = the scene's
     double exposure; // NAN = the scene's
+    double grow_to;  // negative = the scene's
     float crop[4];   // crop[0] negative = the scene's
     int denoise;     // 1 yes, 0 no, -1 the scene's
     const char *isa; // NULL = the best there is

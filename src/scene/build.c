@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "scene/builtin.h"
 #include "scene/kind.h"
+#include "tree/measure.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -113,6 +114,20 @@ OutTree **scene_grow(const Scene *scene, const Run *run, Error *e)
     }
     free(trees);
     return NULL;
+}
+
+bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *list, Error *e)
+{
+    const SceneObject *object = &scene->objects[index];
+    const Kind *kind = kind_of(object);
+    OutTree *tree = NULL;
+    if (kind->grow && !(tree = scene_grow_object(scene, index, run, e))) {
+        return false;
+    }
+    bool done = (!tree || out_tree_measure(tree, list, e)) &&
+                (!kind->measure || kind->measure(object, tree, list, e));
+    out_tree_free(tree);
+    return done;
 }
 
 static bool add_object(const Placing *p, Error *e)

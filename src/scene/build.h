@@ -2,6 +2,7 @@
 #ifndef RAMIFY_SCENE_BUILD_H
 #define RAMIFY_SCENE_BUILD_H
 
+#include "base/measures.h"
 #include "scene/scene.h"
 #include "tree/out_tree.h"
 
@@ -17,6 +18,10 @@ OutTree **scene_grow(const Scene *scene, const Run *run, Error *e);
 
 // The out-tree of object number index alone. ERROR_INPUT when it does not grow or does not exist.
 OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error *e);
+
+// Measures of object number index: of its out-tree, and its kind's own. One that neither grows nor
+// has anything to measure adds nothing.
+bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *list, Error *e);
 
 // Everything. The world borrows strings from the scene: free the world first.
 // stats may be NULL.

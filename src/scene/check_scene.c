@@ -96,6 +96,17 @@ bool check_light(Resolver *r, const Path *path, const Node *given, Node *resolve
     return true;
 }
 
+bool check_target(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    double low = node_number(resolved, "low"), high = node_number(resolved, "high");
+    if (!(low <= high)) {
+        return resolver_fail(r, node_place(given, "low"),
+                             "%s: low %g is above high %g; nothing can meet it",
+                             resolver_path(r, path, NULL), low, high);
+    }
+    return true;
+}
+
 // Names are parts of --set paths and of layers' names.
 static bool check_name(Resolver *r, const Node *given, const char *name, const char *what)
 {
@@ -177,6 +188,30 @@ static bool check_material_of(Resolver *r, const Node *object, const Node *named
     return true;
 }
 
+// Each target's object exists. (Which measures it has shows when it is measured.)
+static bool check_targets(Resolver *r, const Node *targets, const Node *objects)
+{
+    const char **names = arena_alloc(r->arena, sizeof(char *) * (size_t)objects->count, r->e);
+    int count = 0;
+    for (const Node *object = names ? objects->first : NULL; object; object = object->next) {
+        names[count++] = node_get_text(object, "name");
+    }
+    for (const Node *target = names ? targets->first : NULL; target; target = target->next) {
+        const Node *named = node_get(target, "object");
+        bool found = false;
+        for (int i = 0; i < count && !found; i++) {
+            found = strcmp(names[i], named->text) == 0;
+        }
+        if (!found) {
+            char hint[512];
+            hint_format(named->text, names, count, hint, sizeof hint);
+            return resolver_fail(r, named, "targets: there is no object '%.60s'; %s", named->text,
+                                 hint);
+        }
+    }
+    return names;
+}
+
 bool check_scene(Resolver *r, const Path *path, const Node *given, Node *resolved)
 {
     (void)path;
@@ -185,6 +220,10 @@ bool check_scene(Resolver *r, const Path *path, const Node *given, Node *resolve
                *objects = node_get(resolved, "objects");
     if ((materials && !check_names(r, materials, "material")) ||
         !check_names(r, objects, "object")) {
+        return false;
+    }
+    const Node *targets = node_get(resolved, "targets");
+    if (targets && !check_targets(r, targets, objects)) {
         return false;
     }
     int count;

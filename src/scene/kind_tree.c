@@ -47,11 +47,25 @@ static int64_t copies(const SceneObject *object)
     return object->tree->leaves.max_count;
 }
 
+// Nature's ranges: radii after Eloy (2011); the others are usual for broad-leaved trees.
+static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+{
+    (void)object;
+    (void)tree;
+    (void)e;
+    measures_set_range(list, "radius_exponent", 1.8, 2.3);
+    measures_set_range(list, "branch_angle", 30.0, 70.0);
+    measures_set_range(list, "horton_number", 3.0, 5.0);
+    measures_set_range(list, "tip_radius", 0.0005, 0.002);
+    return true;
+}
+
 const Kind kind_tree = {.key = "tree",
                         .offset = offsetof(SceneObject, tree),
                         .materials = {"material", "twig_material", "leaf_material"},
                         .grow = grow,
                         .place = place,
+                        .measure = measure,
                         .describe = describe,
                         .attractors = attractors,
                         .copies = copies};

@@ -38,6 +38,13 @@ typedef struct SceneObject {
     char *twig_material, *leaf_material, *grass_material;
 } SceneObject;
 
+typedef struct SceneTarget { // what a scene says of its own result
+    char *object, *measure;  // names
+    double low, high;        // inclusive
+} SceneTarget;
+
+#define TARGET_NO_BOUND 1e300 // and beyond: that side is open
+
 typedef struct Scene {
     char *file;     // where it was read from, for messages and to resolve relative paths
     char *text;     // the file's text, stored in images as metadata
@@ -56,6 +63,8 @@ typedef struct Scene {
     int material_count;
     SceneObject *objects;
     int object_count;
+    SceneTarget *targets;
+    int target_count;
 } Scene;
 
 // Reads and checks a scene. overrides: "path=value" strings (objects.0.tree.height=9, or

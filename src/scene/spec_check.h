@@ -26,6 +26,7 @@ typedef bool TableCheck(Resolver *r, const Path *path, const Node *given, Node *
 TableCheck check_scene;
 TableCheck check_camera; // also turns focal_length into fov
 TableCheck check_film, check_light;
+TableCheck check_target;                          // low <= high
 TableCheck check_object;                          // exactly one kind; material keys that suit it
 TableCheck check_tree, check_ground, check_grove; // lengths that must be in order
 TableCheck check_shape, check_mesh;               // also add `transform`

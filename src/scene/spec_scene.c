@@ -103,6 +103,32 @@ static const Table RENDER_TABLE = {.name = "render",
                                    .size = sizeof(RenderParams),
                                    .keys = RENDER_KEYS};
 
+static const Key TARGET_KEYS[] = {
+    {KEY_OF(SceneTarget, object, "object", KEY_TEXT), .flags = KEY_REQUIRED,
+     .doc = "Name of the object."},
+    {KEY_OF(SceneTarget, measure, "measure", KEY_TEXT), .flags = KEY_REQUIRED,
+     .doc = "Name of the measure, as `ramify measure` prints it."},
+    {KEY_OF(SceneTarget, low, "low", KEY_DOUBLE),
+     .doc = "Least value that meets the target; left out: any."},
+    {KEY_OF(SceneTarget, high, "high", KEY_DOUBLE),
+     .doc = "Largest value that meets the target; left out: any."},
+    {0},
+};
+
+static void target_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(SceneTarget *)out = (SceneTarget){.low = -TARGET_NO_BOUND, .high = TARGET_NO_BOUND};
+}
+
+static const Table TARGET_TABLE = {.name = "target",
+                                   .doc = "A number that the scene is held to.",
+                                   .size = sizeof(SceneTarget),
+                                   .keys = TARGET_KEYS,
+                                   .defaults = target_defaults,
+                                   .check = check_target};
+
 static const Key SCENE_KEYS[] = {
     {KEY_OF(Scene, seed, "seed", KEY_UINT64), .high = 18446744073709551615.0,
      .doc = "Seed of everything random: another number, another tree of the same kind."},
@@ -126,6 +152,9 @@ static const Key SCENE_KEYS[] = {
     {KEY_OF(Scene, objects, "objects", KEY_LIST), .count_offset = offsetof(Scene, object_count),
      .flags = KEY_REQUIRED, .low = 1, .count = 10000, .table = &object_table,
      .doc = "What there is to see."},
+    {KEY_OF(Scene, targets, "targets", KEY_LIST), .count_offset = offsetof(Scene, target_count),
+     .count = 1000, .table = &TARGET_TABLE,
+     .doc = "What the scene's measures must be, for `ramify measure`."},
     {0},
 };
 

@@ -1,0 +1,68 @@
+#!/bin/sh
+# Every scene of scenes/ that states targets is grown and measured and must meet them, and the command that says so
+# does say so. A scene whose growth takes long names lighter keys in a line "# small: path=value path=value".
+RAMIFY=${RAMIFY:-build/ramify}
+case $RAMIFY in /*) ;; *) RAMIFY=$PWD/$RAMIFY ;; esac
+folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT
+out=$folder/out
+
+# measures NAME STATUS ARGUMENT...: runs ramify measure, wants this exit status.
+measures() {
+    name=$1 wanted=$2
+    shift 2
+    "$RAMIFY" measure "$@" >"$out" 2>&1
+    status=$?
+    if [ "$status" -eq "$wanted" ]; then echo "ok $name"; else
+        echo "not ok $name"
+        echo "   exit status $status, not $wanted: ramify measure $*"
+        cat "$out"
+    fi
+}
+says() {
+    if grep -qF -- "$2" "$out"; then echo "ok $1"; else
+        echo "not ok $1"
+        echo "   no '$2' in:"
+        cat "$out"
+    fi
+}
+
+for scene in scenes/*.yaml; do
+    grep -q '^targets:' "$scene" || continue
+    set --
+    for change in $(sed -n 's/^# small: //p' "$scene"); do set -- "$@" --set "$change"; done
+    name=$(basename "$scene" .yaml)
+    measures "targets_of_$name" 0 "$scene" --quiet "$@"
+done
+
+cat >"$folder/bush.yaml" <<'END'
+objects:
+  - name: bush
+    tree:
+      height: 3
+      crown: {lobes: 0, growth: {levels: [{attractors: 20, step: 0.1, kill: 0.4, influence: 4}, {attractors: 100}]}}
+  - {name: floor, ground: {grass_tufts: 0}}
+targets:
+  - {object: bush, measure: height, low: 2, high: 4}
+  - {object: bush, measure: terminals, low: 10}
+END
+measures met 0 "$folder/bush.yaml"
+says met_targets "met"
+measures missed 1 "$folder/bush.yaml" --set targets.1.low=1e6
+says missed_target "MISSED"
+says missed_message "1 of 2 targets missed"
+measures unknown_measure 2 "$folder/bush.yaml" --set targets.0.measure=heigth
+says unknown_measure_hint "did you mean 'height'?"
+measures unknown_object 2 "$folder/bush.yaml" --set targets.0.object=bosh
+says unknown_object_hint "did you mean 'bush'?"
+measures nothing_to_measure 2 "$folder/bush.yaml" --set targets.0.object=floor
+measures bounds_the_wrong_way_round 2 "$folder/bush.yaml" --set targets.0.low=5
+measures as_json 0 "$folder/bush.yaml" --json --quiet
+says json_value '"terminals": {"value": '
+says json_target '"measure": "height", "value": '
+"$RAMIFY" grow "$folder/bush.yaml" -q -o "$folder/bush.swc" || echo "not ok write_swc"
+grep '"terminals": ' "$out" >"$folder/before"
+measures a_file 0 "$folder/bush.swc" --json
+grep '"terminals": ' "$out" >"$folder/after"
+if cmp -s "$folder/before" "$folder/after"; then echo "ok file_measures_the_same"; else echo "not ok file_measures_the_same"; fi
+measures half_grown 0 "$folder/bush.yaml" --grow-to 0.5 --set targets.1.low=0 --set targets.0.low=0
+measures grow_to_beyond 2 "$folder/bush.yaml" --grow-to 1.5
