@@ -230,6 +230,10 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
         rtcSetGeometryIntersectFilterFunction(geometry, accel_alpha_filter);
         rtcSetGeometryOccludedFilterFunction(geometry, accel_alpha_filter);
     }
+    if (mesh && accel->world->material[part->material].kind == MATERIAL_THIN_FILM) {
+        rtcSetGeometryUserData(geometry, own);
+        rtcSetGeometryOccludedFilterFunction(geometry, accel_film_filter);
+    }
     return part->instance && !own->copied ? attach_instances(accel, geometry, number, e)
                                           : attach(accel, geometry, number, 0, e);
 }

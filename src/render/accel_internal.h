@@ -73,4 +73,8 @@ static inline Vec2 accel_uv(const Mesh *mesh, const Corners *c)
 // Embree filter: lets a ray pass where the part's alpha texture is (in part) transparent.
 void accel_alpha_filter(const struct RTCFilterFunctionNArguments *arguments);
 
+// Embree filter for shadow rays: a thin film lets pass what it does not mirror, by its mean over
+// thicknesses and colours.
+void accel_film_filter(const struct RTCFilterFunctionNArguments *arguments);
+
 #endif

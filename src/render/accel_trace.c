@@ -1,6 +1,7 @@
 #include "render/accel_internal.h"
 
 #include "base/random.h"
+#include "render/thin_film.h"
 
 #include <pmmintrin.h>
 #include <string.h>
@@ -42,6 +43,32 @@ void accel_alpha_filter(const struct RTCFilterFunctionNArguments *arguments)
         // Words of RTCRayN and RTCHitN: 10 = id; 3, 4 = u, v; 5 = primID; 7 = instID.
         if (arguments->valid[i] && passes(arguments->geometryUserPtr, hit[5 * n + i],
                                           hit[7 * n + i], uv[0], uv[1], ray[10 * n + i])) {
+            arguments->valid[i] = 0;
+        }
+    }
+}
+
+static bool passes_film(const AccelPart *own, Vec3 normal, Vec3 direction, unsigned primitive,
+                        unsigned key)
+{
+    float cosine = fabsf(vec3_dot(vec3_normalize(normal), direction));
+    float ior = own->accel->world->material[own->part->material].ior;
+    return random_unit(random_key(key, primitive)) >= thin_film_mean(ior, cosine);
+}
+
+void accel_film_filter(const struct RTCFilterFunctionNArguments *arguments)
+{
+    unsigned n = arguments->N;
+    const unsigned *ray = (const unsigned *)arguments->ray, *hit = (const unsigned *)arguments->hit;
+    for (unsigned i = 0; i < n; i++) {
+        Vec3 normal, direction; // words of RTCRayN: 4..6 = direction; of RTCHitN: 0..2 = Ng
+        float *to[6] = {&normal.x, &normal.y, &normal.z, &direction.x, &direction.y, &direction.z};
+        for (unsigned k = 0; k < 3; k++) {
+            memcpy(to[k], &hit[k * n + i], sizeof(float));
+            memcpy(to[3 + k], &ray[(4 + k) * n + i], sizeof(float));
+        }
+        if (arguments->valid[i] && passes_film(arguments->geometryUserPtr, normal, direction,
+                                               hit[5 * n + i], ray[10 * n + i])) {
             arguments->valid[i] = 0;
         }
     }

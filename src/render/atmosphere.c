@@ -47,21 +47,27 @@ static void color_matching(double w, double xyz[3])
     xyz[2] = 1.217 * lobe(w, 437.0, 11.8, 36.0) + 0.681 * lobe(w, 459.0, 26.0, 13.8);
 }
 
+void wavelength_to_rgb(double nm, double rgb[3])
+{
+    double xyz[3];
+    color_matching(nm, xyz);
+    double x = xyz[0], y = xyz[1], z = xyz[2];
+    rgb[0] = 3.2404542 * x - 1.5371385 * y - 0.4985314 * z;
+    rgb[1] = -0.9692660 * x + 1.8760108 * y + 0.0415560 * z;
+    rgb[2] = 0.0556434 * x - 0.2040259 * y + 1.0572252 * z;
+}
+
 Vec3 spectrum_to_rgb(const Spectrum *spectrum)
 {
     double sum[3] = {0.0, 0.0, 0.0};
     for (int w = 380; w < 700; w += 5) {
-        double xyz[3];
-        color_matching(w + 2.5, xyz);
+        double rgb[3];
+        wavelength_to_rgb(w + 2.5, rgb);
         for (int k = 0; k < 3; k++) {
-            sum[k] += 683.0 * 5.0 * xyz[k] * (double)spectrum->v[(w - 380) / 40];
+            sum[k] += 683.0 * 5.0 * rgb[k] * (double)spectrum->v[(w - 380) / 40];
         }
     }
-    double x = sum[0], y = sum[1], z = sum[2];
-    Vec3 rgb = vec3((float)(3.2404542 * x - 1.5371385 * y - 0.4985314 * z),
-                    (float)(-0.9692660 * x + 1.8760108 * y + 0.0415560 * z),
-                    (float)(0.0556434 * x - 0.2040259 * y + 1.0572252 * z));
-    return vec3_max(rgb, vec3_splat(0.0f));
+    return vec3_max(vec3((float)sum[0], (float)sum[1], (float)sum[2]), vec3_splat(0.0f));
 }
 
 // Rayleigh: 0.0116 per km at 550 nm (Bucholtz 1995). Aerosol: Angstrom's law with exponent 1.3 and

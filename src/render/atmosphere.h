@@ -33,6 +33,9 @@ Spectrum atmosphere_radiance(const Atmosphere *atmosphere, Vec3 direction, Vec3 
 // The sun's irradiance outside the atmosphere, W / (m^2 nm).
 Spectrum atmosphere_solar_irradiance(void);
 
+// What a wavelength adds to each channel of linear Rec. 709 (some are negative): CIE 1931.
+void wavelength_to_rgb(double nm, double rgb[3]);
+
 // Radiance per band to linear Rec. 709 times luminance in cd/m^2 (irradiance: lux).
 Vec3 spectrum_to_rgb(const Spectrum *spectrum);
 

@@ -67,7 +67,7 @@ Bsdf bsdf_at(const MaterialSet *set, const SurfacePoint *point, Vec3 wo)
     if (m->pattern != PATTERN_NONE || m->variation > 0.0f) {
         PatternShade shade = {m->color, m->transmittance, point->normal};
         pattern_apply(m, point, &shade);
-        b.color = shade.color;
+        b.color = m->kind == MATERIAL_DIELECTRIC ? m->color : shade.color; // bumps alone
         transmittance = shade.transmittance;
         b.normal = shade.normal;
     }
@@ -86,6 +86,9 @@ Bsdf bsdf_at(const MaterialSet *set, const SurfacePoint *point, Vec3 wo)
         break;
     case MATERIAL_DIELECTRIC:
         dielectric_prepare(&b, m, point->backface, vec3_dot(b.normal, wo));
+        break;
+    case MATERIAL_THIN_FILM:
+        thin_film_prepare(&b, m, set->films, point, vec3_dot(b.normal, wo));
         break;
     case MATERIAL_LEAF:
         b.transmittance = vec3_max(transmittance, vec3_splat(0.0f));
@@ -125,6 +128,7 @@ static Vec3 eval_unfolded(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
     case MATERIAL_LEAF:
         return layered_eval(b, wo, wi, pdf);
     case MATERIAL_EMISSION:
+    case MATERIAL_THIN_FILM:
         break;
     }
     *pdf = 0.0f;
@@ -133,7 +137,8 @@ static Vec3 eval_unfolded(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
 
 static bool is_mirror(const Bsdf *b)
 {
-    return b->alpha <= 0.0f && (b->kind == MATERIAL_CONDUCTOR || b->kind == MATERIAL_DIELECTRIC);
+    return b->kind == MATERIAL_THIN_FILM ||
+           (b->alpha <= 0.0f && (b->kind == MATERIAL_CONDUCTOR || b->kind == MATERIAL_DIELECTRIC));
 }
 
 // Lambert's law, folded: the commonest case, with as few operations as it takes.
@@ -200,6 +205,7 @@ static bool draw_unfolded(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
     case MATERIAL_LEAF:
         return layered_draw(b, wo, u, wi);
     case MATERIAL_EMISSION:
+    case MATERIAL_THIN_FILM:
         break;
     }
     return false;
@@ -207,8 +213,9 @@ static bool draw_unfolded(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
 
 static bool mirror_sample(const Bsdf *b, Vec3 wo, const float u[3], BsdfSample *sample)
 {
-    bool drawn = b->kind == MATERIAL_CONDUCTOR ? conductor_mirror(b, wo, sample)
-                                               : dielectric_mirror(b, wo, u, sample);
+    bool drawn = b->kind == MATERIAL_CONDUCTOR   ? conductor_mirror(b, wo, sample)
+                 : b->kind == MATERIAL_THIN_FILM ? thin_film_mirror(b, wo, u, sample)
+                                                 : dielectric_mirror(b, wo, u, sample);
     if (!drawn) {
         return false;
     }

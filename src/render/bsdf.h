@@ -28,7 +28,7 @@ typedef struct Bsdf {
     Vec3 normal; // shading normal after bumps, unit, on wo's side
     Vec3 geometric_normal;
     Vec3 color;         // diffuse reflectance; the tint of what passes a dielectric
-    Vec3 transmittance; // diffuse, MATERIAL_LEAF
+    Vec3 transmittance; // diffuse, MATERIAL_LEAF; straight, MATERIAL_THIN_FILM
     Vec3 emission;      // radiance toward wo
     Vec3 absorption;    // per metre, of the body that wo's ray came through; 0 outside of bodies
     Vec3 albedo;        // for the albedo AOV, 0..1
@@ -38,14 +38,15 @@ typedef struct Bsdf {
     bool inside;        // wo is inside a dielectric body
 
     // The glossy lobe and what it leaves to the lobes below it, already looked up for wo.
-    Vec3 specular;                // Schlick's f0; zero and grazing zero = no glossy lobe
+    Vec3
+        specular; // a film's reflectance; else Schlick's f0; zero and grazing zero = no glossy lobe
     float grazing;                // Schlick's f90
     Vec3 metal;                   // f0 of the metallic part of that lobe ...
     Vec3 multiple;                // ... and how much of what it loses between facets comes back
     float restore_o;              // see GgxTable
     float coat_f0, coat_f90;      // the dielectric coat over color and transmittance
     float coat_o;                 // share that passes the coat at wo, over its mean
-    float probability;            // of drawing the glossy lobe
+    float probability;            // of drawing the glossy lobe; of a film: the mirrored ray
     float through;                // of the rest: probability of drawing transmission
     const struct GgxTable *table; // borrowed from the MaterialSet
 } Bsdf;

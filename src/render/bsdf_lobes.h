@@ -55,4 +55,10 @@ Vec3 dielectric_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf);
 bool conductor_mirror(const Bsdf *bsdf, Vec3 wo, BsdfSample *sample);
 bool dielectric_mirror(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample);
 
+// Soap film. bsdf_thin_film.c.
+struct ThinFilmTable;
+void thin_film_prepare(Bsdf *bsdf, const Material *material, const struct ThinFilmTable *table,
+                       const SurfacePoint *point, float cos_o);
+bool thin_film_mirror(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample);
+
 #endif

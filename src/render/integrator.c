@@ -22,6 +22,7 @@ typedef struct Path {
     float footprint; // m, at the ray's origin
     int depth;       // bounces so far
     bool mirrored;   // from the eye by mirrors only
+    bool straight;   // from the eye through films only
     int64_t rays;
 } Path;
 
@@ -156,8 +157,12 @@ static bool bounce(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3
     path->throughput = vec3_mul(path->throughput, sample.weight);
     leave(path, point, sample.wi, INFINITY, &path->ray);
     path->depth++;
-    path->bsdf_pdf = sample.delta ? 0.0f : sample.pdf;
     path->footprint = point->footprint;
+    if (bsdf->kind == MATERIAL_THIN_FILM && sample.transmitted) {
+        return survives(path, u[3]); // goes on as it came, as shadow rays do
+    }
+    path->straight = false;
+    path->bsdf_pdf = sample.delta ? 0.0f : sample.pdf;
     if (!sample.delta) {
         path->mirrored = false;
         path->spread = larger(path->spread, 0.25f / (1.0f + sample.pdf));
@@ -186,7 +191,7 @@ static bool arrive(Path *path, const Hit *hit, PathResult *result)
     point.footprint = path->footprint + path->spread * hit->t;
     Vec3 wo = vec3_neg(path->ray.direction);
     Bsdf bsdf = bsdf_at(tracer->materials, &point, wo);
-    if (path->depth == 0) {
+    if (path->straight) {
         note_first_hit(result, &point, &bsdf, hit->t);
     }
     if (bsdf_is_emissive(&bsdf)) {
@@ -215,6 +220,7 @@ static void begin(Path *path, const Tracer *tracer, int x, int y, int sample)
                    .throughput = {1.0f, 1.0f, 1.0f},
                    .spread = tracer->camera.pixel_angle,
                    .mirrored = true,
+                   .straight = true,
                    .rays = 1};
     path->sampler = sampler_at(&tracer->sobol, world->render.seed,
                                (uint32_t)(y * world->film.width + x), (uint32_t)sample);

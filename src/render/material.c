@@ -22,6 +22,12 @@ Material material_default(MaterialKind kind)
         m.transmittance = vec3(0.060f, 0.110f, 0.012f);
     } else if (kind == MATERIAL_EMISSION) {
         m.radiance = vec3_splat(1.0f);
+    } else if (kind == MATERIAL_THIN_FILM) { // soapy water
+        m.color = vec3_splat(1.0f);
+        m.ior = 1.33f;
+        m.film_thickness = 480.0f;
+        m.film_drainage = 0.6f;
+        m.film_swirl = 0.35f;
     }
     return m;
 }

@@ -14,7 +14,8 @@ typedef enum MaterialKind {
     MATERIAL_DIELECTRIC, // rough glass or ice: GGX reflection and transmission, compensated
     MATERIAL_PRINCIPLED, // diffuse + specular coat + metallic
     MATERIAL_LEAF,       // thin sheet: diffuse reflection and transmission under a glossy coat
-    MATERIAL_EMISSION
+    MATERIAL_EMISSION,
+    MATERIAL_THIN_FILM // soap film: clear, mirrors in interference colours
 } MaterialKind;
 
 typedef enum PatternKind {
@@ -37,7 +38,10 @@ typedef struct Material {
     float metallic;     // MATERIAL_PRINCIPLED
     float specular;     // strength of the coat of principled and leaf, 0..1; 0.5 = ior 1.5
     float ior;
-    Vec3 radiance; // MATERIAL_EMISSION: W / (m^2 sr)
+    Vec3 radiance;        // MATERIAL_EMISSION: W / (m^2 sr)
+    float film_thickness; // MATERIAL_THIN_FILM: nm where the film stands upright
+    float film_drainage;  // 0..1: how much thinner it is where it faces up, thicker where down
+    float film_swirl;     // 0..1: how far the thickness varies in streaks, pattern_scale wide
     PatternKind pattern;
     float pattern_scale;       // m: wavelength of the pattern's largest feature; 0 = the kind's own
     float pattern_depth;       // m: bump height; 0 = none

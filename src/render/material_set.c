@@ -12,7 +12,8 @@ static bool prepare_table(MaterialEntry *entry, Error *e)
     const Material *m = &entry->material;
     float roughness = clampf(m->roughness, 0.0f, 1.0f);
     float alpha = roughness * roughness;
-    if (m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_EMISSION) {
+    if (m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_EMISSION ||
+        m->kind == MATERIAL_THIN_FILM) {
         return true;
     }
     bool mirror =
@@ -46,6 +47,15 @@ static bool open_texture(MaterialSet *set, const Material *m, const char *file, 
     return *texture != NULL;
 }
 
+static bool prepare_film(MaterialSet *set, const Material *m, Error *e)
+{
+    if (m->kind == MATERIAL_THIN_FILM && !set->films) {
+        set->films = thin_film_table_new(e);
+        return set->films != NULL;
+    }
+    return true;
+}
+
 static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material *material,
                           Error *e)
 {
@@ -58,7 +68,8 @@ static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material
     m->color = vec3_max(vec3_min(m->color, vec3_splat(1.0f)), vec3_splat(0.0f));
     entry->plain = m->kind == MATERIAL_DIFFUSE && m->pattern == PATTERN_NONE &&
                    m->variation <= 0.0f && !(m->texture && m->texture[0]);
-    return prepare_table(entry, e) && open_texture(set, m, m->texture, &entry->color, e) &&
+    return prepare_table(entry, e) && prepare_film(set, m, e) &&
+           open_texture(set, m, m->texture, &entry->color, e) &&
            open_texture(set, m, m->alpha_texture, &entry->opacity, e);
 }
 
@@ -91,6 +102,7 @@ void material_set_free(MaterialSet *set)
     }
     free(set->entry);
     texture_cache_free(set->textures);
+    thin_film_table_free(set->films);
     free(set);
 }
 

@@ -5,6 +5,7 @@
 #include "render/bsdf.h"
 #include "render/bsdf_ggx.h"
 #include "render/texture.h"
+#include "render/thin_film.h"
 
 typedef struct MaterialEntry {
     Material material;
@@ -19,6 +20,7 @@ struct MaterialSet {
     int count;
     MaterialEntry *entry;
     TextureCache *textures; // NULL while no material has any
+    ThinFilmTable *films;   // NULL while no material is one
 };
 
 #endif

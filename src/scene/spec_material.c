@@ -1,12 +1,15 @@
 // Materials.
 #include "render/material.h"
+#include "render/thin_film.h"
 #include "scene/builtin.h"
 #include "scene/spec_check.h"
 
 #define BIT(kind) (1u << (kind))
-#define ALL_BUT(kinds) (63u & ~(kinds))
+#define ALL_BUT(kinds) (127u & ~(kinds))
 #define COLOURED ALL_BUT(BIT(MATERIAL_EMISSION))
-#define PATTERNED ALL_BUT(BIT(MATERIAL_EMISSION) | BIT(MATERIAL_DIELECTRIC))
+#define FILM BIT(MATERIAL_THIN_FILM)
+#define PATTERNED ALL_BUT(BIT(MATERIAL_EMISSION) | BIT(MATERIAL_DIELECTRIC) | FILM)
+#define BUMPED (PATTERNED | BIT(MATERIAL_DIELECTRIC))
 
 static const cyaml_strval_t MATERIAL_KINDS[] = {{"diffuse", MATERIAL_DIFFUSE},
                                                 {"conductor", MATERIAL_CONDUCTOR},
@@ -14,6 +17,7 @@ static const cyaml_strval_t MATERIAL_KINDS[] = {{"diffuse", MATERIAL_DIFFUSE},
                                                 {"principled", MATERIAL_PRINCIPLED},
                                                 {"leaf", MATERIAL_LEAF},
                                                 {"emission", MATERIAL_EMISSION},
+                                                {"thin_film", MATERIAL_THIN_FILM},
                                                 {0}};
 static const cyaml_strval_t PATTERNS[] = {{"none", PATTERN_NONE},     {"bark", PATTERN_BARK},
                                           {"ground", PATTERN_GROUND}, {"leaf", PATTERN_LEAF},
@@ -24,7 +28,8 @@ static const Key MATERIAL_KEYS[] = {
      .doc = "What objects call it. The name of a built-in material changes that one."},
     {KEY_OF(Material, kind, "kind", KEY_ENUM), .names = MATERIAL_KINDS,
      .doc = "diffuse: matt; conductor: metal; dielectric: glass or ice; principled: matt under a "
-            "coat, or metallic; leaf: a thin sheet that lets light through; emission: shines."},
+            "coat, or metallic; leaf: a thin sheet that lets light through; emission: shines; "
+            "thin_film: a soap bubble's, clear, with interference colours."},
     {KEY_OF(Material, color, "color", KEY_COLOR), .kinds = COLOURED, .high = 1,
      .doc = "Reflectance (of a leaf's upper side; the tint of what passes a dielectric)."},
     {KEY_OF(Material, color2, "color2", KEY_COLOR), .kinds = PATTERNED, .high = 1,
@@ -33,28 +38,36 @@ static const Key MATERIAL_KEYS[] = {
      .high = 1, .doc = "Share of light that a leaf lets through."},
     {KEY_OF(Material, absorption, "absorption", KEY_COLOR), .kinds = BIT(MATERIAL_DIELECTRIC),
      .high = 1e6, .unit = "1/m", .doc = "How fast light fades inside (Beer-Lambert)."},
-    {KEY_OF(Material, roughness, "roughness", KEY_FLOAT), .kinds = COLOURED, .high = 1,
+    {KEY_OF(Material, roughness, "roughness", KEY_FLOAT), .kinds = COLOURED & ~FILM, .high = 1,
      .doc = "0 = mirror-like, 1 = matt."},
     {KEY_OF(Material, metallic, "metallic", KEY_FLOAT), .kinds = BIT(MATERIAL_PRINCIPLED),
      .high = 1, .doc = "0 = no metal, 1 = metal."},
     {KEY_OF(Material, specular, "specular", KEY_FLOAT),
      .kinds = BIT(MATERIAL_PRINCIPLED) | BIT(MATERIAL_LEAF), .high = 1,
      .doc = "Strength of the glossy coat; 0.5 = an index of 1.5."},
-    {KEY_OF(Material, ior, "ior", KEY_FLOAT), .kinds = BIT(MATERIAL_DIELECTRIC), .low = 1,
+    {KEY_OF(Material, ior, "ior", KEY_FLOAT), .kinds = BIT(MATERIAL_DIELECTRIC) | FILM, .low = 1,
      .high = 5, .doc = "Index of refraction."},
     {KEY_OF(Material, radiance, "radiance", KEY_COLOR), .kinds = BIT(MATERIAL_EMISSION),
      .high = 1e12, .unit = "W/(m^2 sr)", .doc = "Light that it sends out."},
-    {KEY_OF(Material, pattern, "pattern", KEY_ENUM), .kinds = PATTERNED, .names = PATTERNS,
+    {KEY_OF(Material, film_thickness, "film_thickness", KEY_FLOAT), .kinds = FILM,
+     .high = (double)THIN_FILM_MOST_NM, .unit = "nm",
+     .doc = "Thickness of the film where it stands upright; 0 = not to be seen."},
+    {KEY_OF(Material, film_drainage, "film_drainage", KEY_FLOAT), .kinds = FILM, .high = 1,
+     .doc = "How much thinner it is where it faces up, and thicker where down."},
+    {KEY_OF(Material, film_swirl, "film_swirl", KEY_FLOAT), .kinds = FILM, .high = 1,
+     .doc = "How far its thickness varies in streaks, about pattern_scale wide."},
+    {KEY_OF(Material, pattern, "pattern", KEY_ENUM), .kinds = BUMPED, .names = PATTERNS,
      .doc = "Procedural pattern of color and color2, with bumps."},
-    {KEY_OF(Material, pattern_scale, "pattern_scale", KEY_FLOAT), .kinds = PATTERNED, .high = 1e6,
-     .unit = "m", .doc = "Wavelength of the pattern's largest features; 0 = the pattern's own."},
-    {KEY_OF(Material, pattern_depth, "pattern_depth", KEY_FLOAT), .kinds = PATTERNED, .high = 1e3,
+    {KEY_OF(Material, pattern_scale, "pattern_scale", KEY_FLOAT), .kinds = BUMPED | FILM,
+     .high = 1e6, .unit = "m",
+     .doc = "Wavelength of the pattern's largest features; 0 = the pattern's own."},
+    {KEY_OF(Material, pattern_depth, "pattern_depth", KEY_FLOAT), .kinds = BUMPED, .high = 1e3,
      .unit = "m", .doc = "Height of the pattern's bumps; 0 = none."},
     {KEY_OF(Material, variation, "variation", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "How far hue and brightness differ from instance to instance."},
     {KEY_OF(Material, texture, "texture", KEY_FILE), .kinds = PATTERNED,
      .doc = "Image that multiplies color, by the mesh's UVs."},
-    {KEY_OF(Material, alpha_texture, "alpha_texture", KEY_FILE), .kinds = COLOURED,
+    {KEY_OF(Material, alpha_texture, "alpha_texture", KEY_FILE), .kinds = COLOURED & ~FILM,
      .doc = "Image that cuts the surface out, by the mesh's UVs."},
     {0},
 };
