@@ -147,7 +147,8 @@ static const Key SCENE_KEYS[] = {
      .count = 100000, .table = &light_table, .doc = "Lamps."},
     {KEY_OF(Scene, materials, "materials", KEY_LIST),
      .count_offset = offsetof(Scene, material_count), .count = 10000, .table = &material_table,
-     .doc = "Materials that objects name. bark, twig, leaf, ground, grass, fallen and clay are "
+     .doc = "Materials that objects name. bark, twig, leaf, ground, grass, fallen, ice, "
+            "soap_film and clay are "
             "there already; an entry of such a name changes it."},
     {KEY_OF(Scene, objects, "objects", KEY_LIST), .count_offset = offsetof(Scene, object_count),
      .flags = KEY_REQUIRED, .low = 1, .count = 10000, .table = &object_table,
