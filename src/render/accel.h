@@ -6,6 +6,7 @@
 
 #include "base/run.h"
 #include "render/bsdf.h"
+#include "render/emitter_set.h"
 #include "render/world.h"
 
 typedef struct Accel Accel;
@@ -50,6 +51,9 @@ bool accel_occluded(const Accel *accel, const Ray *ray);
 
 // Index of the light that was hit; -1 when it was a part.
 int accel_light(const Accel *accel, const Hit *hit);
+
+// Which piece of the geometry was hit.
+SurfacePlace accel_place(const Accel *accel, const Hit *hit);
 
 // Fills everything but footprint.
 void accel_surface(const Accel *accel, const Ray *ray, const Hit *hit, SurfacePoint *point);

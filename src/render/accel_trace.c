@@ -163,6 +163,25 @@ int accel_light(const Accel *accel, const Hit *hit)
     return entry.part < 0 ? (int)entry.instance : -1;
 }
 
+SurfacePlace accel_place(const Accel *accel, const Hit *hit)
+{
+    AccelEntry entry = accel->entry[hit->geometry];
+    const AccelPart *own = &accel->part[entry.part];
+    SurfacePlace place = {.part = entry.part,
+                          .instance = entry.instance,
+                          .primitive = hit->primitive,
+                          .u = hit->u,
+                          .v = hit->v};
+    if (own->copied) {
+        place.instance = (uint32_t)(hit->primitive / own->part->mesh->face_count);
+        place.primitive = (uint32_t)(hit->primitive % own->part->mesh->face_count);
+    }
+    if (own->part->kind == PART_CURVES) {
+        place.point = own->segment[hit->primitive];
+    }
+    return place;
+}
+
 // Normals go with the cofactors of the matrix: right for any scale, no inverse needed. Its sign
 // keeps them outside under mirroring.
 static Vec3 normal_to_world(const Transform *t, Vec3 n)

@@ -17,12 +17,13 @@ typedef struct Path {
     Vec3 throughput;
     Vec3 absorption; // per metre, of what the ray is in
     Vec3 direct, indirect;
-    float bsdf_pdf;  // of the ray's direction; 0 where light sampling has no part in it
-    float spread;    // radians: how fast the footprint grows
-    float footprint; // m, at the ray's origin
-    int depth;       // bounces so far
-    bool mirrored;   // from the eye by mirrors only
-    bool straight;   // from the eye through films only
+    LightReceiver from; // where the ray's direction was drawn
+    float bsdf_pdf;     // of the ray's direction; 0 where light sampling has no part in it
+    float spread;       // radians: how fast the footprint grows
+    float footprint;    // m, at the ray's origin
+    int depth;          // bounces so far
+    bool mirrored;      // from the eye by mirrors only
+    bool straight;      // from the eye through films only
     int64_t rays;
 } Path;
 
@@ -51,13 +52,20 @@ static void leave(Path *path, const SurfacePoint *point, Vec3 direction, float f
     ray->key = path->key++;
 }
 
+// Light from behind reaches leaves and glass only.
+static LightReceiver receiver_at(const SurfacePoint *point, const Bsdf *bsdf)
+{
+    bool opaque = bsdf->kind != MATERIAL_LEAF && bsdf->kind != MATERIAL_DIELECTRIC;
+    return (LightReceiver){point->position, opaque ? point->geometric_normal : vec3_splat(0.0f)};
+}
+
 // Light that reaches the point straight from a light, by sampling the light.
 static void add_direct_light(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3 wo)
 {
     float u[4], pdf;
     sampler_draw(&path->sampler, (uint32_t)(SET_LIGHT + SETS_PER_BOUNCE * path->depth), u);
     LightSample light;
-    if (!lights_sample(path->tracer->lights, point->position, u, &light)) {
+    if (!lights_sample(path->tracer->lights, &path->from, u, &light)) {
         return;
     }
     Vec3 f = bsdf_eval(bsdf, wo, light.direction, &pdf);
@@ -65,7 +73,7 @@ static void add_direct_light(Path *path, const SurfacePoint *point, const Bsdf *
         return;
     }
     Ray shadow;
-    leave(path, point, light.direction, light.distance * 0.999f, &shadow);
+    leave(path, point, light.direction, light.far, &shadow);
     path->rays++;
     if (accel_occluded(path->tracer->accel, &shadow)) {
         return;
@@ -195,13 +203,20 @@ static bool arrive(Path *path, const Hit *hit, PathResult *result)
         note_first_hit(result, &point, &bsdf, hit->t);
     }
     if (bsdf_is_emissive(&bsdf)) {
-        add_light(path, bsdf.emission);
+        SurfacePlace place = accel_place(tracer->accel, hit);
+        float glow =
+            lights_glow(tracer->lights, &place, point.position, &path->from, path->bsdf_pdf);
+        add_light(path, vec3_scale(bsdf.emission, glow));
+        return false;
     }
     if (path->depth >= tracer->world->render.max_depth) {
         return false;
     }
-    if (lights_can_sample(tracer->lights)) {
-        add_direct_light(path, &point, &bsdf, wo);
+    if (bsdf.kind != MATERIAL_THIN_FILM) { // which light passes as if it were not there
+        path->from = receiver_at(&point, &bsdf);
+        if (lights_can_sample(tracer->lights)) {
+            add_direct_light(path, &point, &bsdf, wo);
+        }
     }
     return bounce(path, &point, &bsdf, wo);
 }

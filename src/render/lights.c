@@ -14,9 +14,11 @@ struct Lights {
     Dome *dome;    // NULL without sky or environment
     Sun sun;
     Clouds clouds;
-    float *share; // chance of each to be chosen: the world's lights, the dome, the sun
-    float *sum;   // count + 1: cumulated
-    int count, dome_index, sun_index;
+    EmitterSet emitters; // glowing geometry
+    float
+        *share; // chance of each to be chosen: the world's lights, the dome, the sun, all emitters
+    float *sum; // count + 1: cumulated
+    int count, dome_index, sun_index, emitters_index; // -1 = there is none
 };
 
 // Power that reaches the scene, over pi^2 R^2 for a scene of radius R.
@@ -37,6 +39,8 @@ static void fill_shares(Lights *lights, float scene_radius)
             power = 0.5f * lights->dome->power / PI_F;
         } else if (i == lights->sun_index) {
             power = luminance(lights->sun.radiance) * lights->sun.solid_angle / PI_F;
+        } else if (i == lights->emitters_index) {
+            power = light_tree_power(lights->emitters.tree) / (PI_F * scene_radius * scene_radius);
         } else {
             power = near_power(&lights->world->light[i], scene_radius);
         }
@@ -98,8 +102,8 @@ Lights *lights_new(const World *world, float scene_radius, const Run *run, Error
         return NULL;
     }
     lights->world = world;
-    lights->dome_index = lights->sun_index = -1;
-    if (!make_sky(lights, run, e)) {
+    lights->dome_index = lights->sun_index = lights->emitters_index = -1;
+    if (!make_sky(lights, run, e) || !emitter_set_fill(&lights->emitters, world, e)) {
         lights_free(lights);
         return NULL;
     }
@@ -109,6 +113,9 @@ Lights *lights_new(const World *world, float scene_radius, const Run *run, Error
     }
     if (luminance(lights->sun.radiance) > 0.0f) {
         lights->sun_index = lights->count++;
+    }
+    if (lights->emitters.tree) {
+        lights->emitters_index = lights->count++;
     }
     if (!(lights->share = memory_alloc_zero(lights->count, sizeof(float), e)) ||
         !(lights->sum = memory_alloc_zero(lights->count + 1, sizeof(float), e))) {
@@ -123,6 +130,7 @@ void lights_free(Lights *lights)
 {
     if (lights) {
         dome_free(lights->dome);
+        emitter_set_clear(&lights->emitters);
         free(lights->share);
         free(lights->sum);
         free(lights);
@@ -182,7 +190,8 @@ static bool sphere_sample(const Light *light, Vec3 point, const float u[3], Ligh
 
 // ---- all together
 
-static int choose(const Lights *lights, float u)
+// *rest: u's place within the share of the one chosen, 0..1.
+static int choose(const Lights *lights, float u, float *rest)
 {
     int low = 0, high = lights->count;
     while (high - low > 1) {
@@ -193,27 +202,50 @@ static int choose(const Lights *lights, float u)
             high = middle;
         }
     }
+    *rest = fminf((u - lights->sum[low]) / lights->share[low], 0.99999994f);
     return low;
 }
 
-bool lights_sample(const Lights *lights, Vec3 point, const float u[3], LightSample *sample)
+static bool sample_emitters(const Lights *lights, const LightReceiver *receiver, const float u[2],
+                            float choice, LightSample *sample)
 {
-    int i = choose(lights, u[2]);
+    float probability;
+    int64_t i = light_tree_sample(lights->emitters.tree, receiver, choice, &probability);
+    EmitterSample on;
+    if (i < 0 || !emitter_sample(&lights->emitters.emitter[i], receiver->position, u, &on)) {
+        return false;
+    }
+    const Material *m = &lights->world->material[lights->emitters.emitter[i].material];
+    sample->direction = on.direction;
+    sample->distance = on.distance;
+    sample->far = fmaxf(on.distance * 0.999f - on.slack, 0.0f);
+    sample->radiance = vec3_scale(m->radiance, on.glow);
+    sample->pdf = on.pdf * probability;
+    return true;
+}
+
+bool lights_sample(const Lights *lights, const LightReceiver *receiver, const float u[3],
+                   LightSample *sample)
+{
+    float rest;
+    int i = choose(lights, u[2], &rest);
     bool seen = true;
+    sample->distance = sample->far = INFINITY;
     if (i == lights->dome_index) {
         sample->direction = dome_sample(lights->dome, u[0], u[1], &sample->pdf);
-        sample->distance = INFINITY;
         sample->radiance = dome_lookup(lights->dome, sample->direction);
     } else if (i == lights->sun_index) {
         sample->direction = sun_sample(&lights->sun, u[0], u[1]);
-        sample->distance = INFINITY;
         sample->radiance = sun_radiance(&lights->sun, sample->direction);
         sample->pdf = 1.0f / lights->sun.solid_angle;
+    } else if (i == lights->emitters_index) {
+        seen = sample_emitters(lights, receiver, u, rest, sample);
     } else {
         const Light *light = &lights->world->light[i];
         sample->radiance = light->radiance;
-        seen = light->kind == LIGHT_QUAD ? quad_sample(light, point, u, sample)
-                                         : sphere_sample(light, point, u, sample);
+        seen = light->kind == LIGHT_QUAD ? quad_sample(light, receiver->position, u, sample)
+                                         : sphere_sample(light, receiver->position, u, sample);
+        sample->far = sample->distance * 0.999f;
     }
     sample->pdf *= lights->share[i];
     return seen && sample->pdf > 0.0f;
@@ -258,6 +290,22 @@ Vec3 lights_emitted(const Lights *lights, int index, Vec3 origin, Vec3 direction
         pdf = 1.0f / (2.0f * PI_F * sphere_one_minus_cos(light, origin));
     }
     return vec3_scale(light->radiance, bsdf_weight(bsdf_pdf, pdf * lights->share[index]));
+}
+
+float lights_glow(const Lights *lights, const SurfacePlace *place, Vec3 position,
+                  const LightReceiver *receiver, float bsdf_pdf)
+{
+    const EmitterSet *set = &lights->emitters;
+    float glow = emitter_set_glow(lights->world, place);
+    if (bsdf_pdf <= 0.0f || !set->tree) {
+        return glow;
+    }
+    int64_t i = emitter_set_find(set, lights->world, place, position);
+    float pdf = emitter_pdf(&set->emitter[i], receiver->position, position);
+    if (pdf > 0.0f) {
+        pdf *= light_tree_probability(set->tree, receiver, i);
+    }
+    return glow * bsdf_weight(bsdf_pdf, pdf * lights->share[lights->emitters_index]);
 }
 
 Vec3 lights_horizon(const Lights *lights, Vec3 direction)

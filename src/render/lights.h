@@ -1,9 +1,10 @@
-// Everything that emits without being a surface of the geometry: sky, sun, environment, quads,
-// spheres. Each can be sampled and evaluated, so that the integrator combines both ways.
+// Everything that emits: sky, sun, environment, quads, spheres, and glowing geometry. Each can be
+// sampled and evaluated, so that the integrator combines both ways.
 #ifndef RAMIFY_RENDER_LIGHTS_H
 #define RAMIFY_RENDER_LIGHTS_H
 
 #include "base/run.h"
+#include "render/emitter_set.h"
 #include "render/world.h"
 
 typedef struct Lights Lights;
@@ -15,6 +16,7 @@ void lights_free(Lights *lights); // NULL is fine
 typedef struct LightSample {
     Vec3 direction; // unit, toward the light
     float distance; // m; INFINITY for sky and sun
+    float far;      // m: as far as nothing may be in between
     Vec3 radiance;
     float pdf; // per steradian, with the choice of the light in it
 } LightSample;
@@ -22,8 +24,9 @@ typedef struct LightSample {
 // True when some light is worth sampling. A sky of one colour is not: it is met by chance as well.
 bool lights_can_sample(const Lights *lights);
 
-// False when the chosen light cannot be seen from point.
-bool lights_sample(const Lights *lights, Vec3 point, const float u[3], LightSample *sample);
+// False when the chosen light cannot be seen from the receiver.
+bool lights_sample(const Lights *lights, const LightReceiver *receiver, const float u[3],
+                   LightSample *sample);
 
 // Radiance from beyond the geometry along direction. bsdf_pdf > 0: the density with which the
 // direction was drawn, when light sampling could have found the same; the result is weighted by
@@ -33,6 +36,11 @@ Vec3 lights_background(const Lights *lights, Vec3 direction, float bsdf_pdf);
 // The same for a ray from `origin` that meets light `index` after `distance` m.
 Vec3 lights_emitted(const Lights *lights, int index, Vec3 origin, Vec3 direction, float distance,
                     float bsdf_pdf);
+
+// How much of its material's radiance glowing geometry shows at a place met at `position`: its
+// glow, weighted as above; bsdf_pdf was drawn at the receiver.
+float lights_glow(const Lights *lights, const SurfacePlace *place, Vec3 position,
+                  const LightReceiver *receiver, float bsdf_pdf);
 
 // Colour that distant things fade into, looking along direction.
 Vec3 lights_horizon(const Lights *lights, Vec3 direction);

@@ -101,7 +101,7 @@ static double sampled_irradiance(const Lights *lights, Vec3 point, Vec3 normal, 
         float u[3] = {((float)(i % n) + 0.5f) / (float)n, ((float)(i / n) + 0.5f) / (float)n,
                       (float)((i * 7919) % (n * n)) / (float)(n * n)};
         LightSample s;
-        if (lights_sample(lights, point, u, &s)) {
+        if (lights_sample(lights, &(LightReceiver){.position = point}, u, &s)) {
             float cosine = fmaxf(0.0f, vec3_dot(normal, s.direction));
             sum += (double)(luminance(s.radiance) * cosine / s.pdf) / (n * n);
         }
