@@ -73,6 +73,13 @@ static const Material MATERIALS[] = {
      .film_thickness = 480.0f,
      .film_drainage = 0.6f,
      .film_swirl = 0.35f},
+    // reflectance of copper at normal incidence, linear Rec. 709
+    {.name = "copper",
+     .kind = MATERIAL_CONDUCTOR,
+     .color = {0.955f, 0.638f, 0.538f},
+     .color2 = {0.1f, 0.1f, 0.1f},
+     .roughness = 0.35f,
+     .ior = 1.5f},
     {.name = "clay",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.45f, 0.42f, 0.39f},

@@ -10,6 +10,7 @@ static const Kind *const KINDS[] = {
     &kind_ground,
     &kind_mesh,
     &kind_shape,
+    &kind_dla,
 };
 
 int kind_count(void)

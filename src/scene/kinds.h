@@ -4,6 +4,6 @@
 
 #include "scene/kind.h"
 
-extern const Kind kind_tree, kind_ground, kind_mesh, kind_shape;
+extern const Kind kind_tree, kind_ground, kind_mesh, kind_shape, kind_dla;
 
 #endif

@@ -7,6 +7,7 @@
 
 #include "base/run.h"
 #include "image/tonemap.h"
+#include "model/dla.h"
 #include "model/ground.h"
 #include "model/tree.h"
 #include "render/world.h"
@@ -33,6 +34,7 @@ typedef struct SceneObject {
     GroundParams *ground;
     SceneMesh *mesh;
     SceneShape *shape;
+    DlaModel *dla;
     // material names, as far as the kind has use for them; NULL = the kind's built-in default
     char *material; // mesh, shape, ground; bark of a tree
     char *twig_material, *leaf_material, *grass_material;

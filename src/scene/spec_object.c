@@ -135,6 +135,8 @@ static const Key OBJECT_KEYS[] = {
      .doc = "An imported mesh."},
     {KEY_OF(SceneObject, shape, "shape", KEY_POINTER), .table = &SOLID_TABLE,
      .doc = "Spheres, boxes, ... drawn as they are."},
+    {KEY_OF(SceneObject, dla, "dla", KEY_POINTER), .table = &dla_table,
+     .doc = "A diffusion-limited aggregate."},
     {KEY_OF(SceneObject, material, "material", KEY_TEXT),
      .doc = "Material of a mesh, a shape, the ground, or a tree's bark; left out: clay, clay, "
             "ground, bark."},

@@ -36,6 +36,10 @@ LevelSet *level_set_from_distance(LevelSetDistance distance, const void *shape, 
 // a = a op b. b is used up and only fit to be freed. Not after level_set_finish(a).
 bool level_set_combine(LevelSet *a, LevelSet *b, ShapeOp op, Error *e);
 
+// Rounds the surface off by this many steps of the flow d(phi)/dt = Laplacian(phi), each of a time
+// of voxel^2 / 6 (a cylinder of radius r ends with sqrt(r^2 - 2 time)). Not after level_set_finish.
+bool level_set_smooth(LevelSet *level_set, int steps, const Run *run, Error *e);
+
 // Makes the table that level_set_distance reads.
 bool level_set_finish(LevelSet *level_set, Error *e);
 

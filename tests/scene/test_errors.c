@@ -62,8 +62,9 @@ static const Case scenes[] = {
      ":2:25: key 'corner' means nothing in lights.0 of kind 'sphere'; known: kind, radiance, "
      "center, radius"},
     // types
-    {"- 1\n", ":1:1: the scene is a list; it must be a mapping of seed, grow_to, camera, film, render, sky, "
-              "lights, materials, objects, targets"},
+    {"- 1\n",
+     ":1:1: the scene is a list; it must be a mapping of seed, grow_to, camera, film, render, sky, "
+     "lights, materials, objects, targets"},
     {"objects: 3\n", ":1:10: objects is 3; it must be a list of mappings ('- ' before each)"},
     {"objects: []\n", ":1:10: objects has 0 entries; it must have 1 to 10000"},
     {TREE "camera: {fov: wide}\n", ":2:15: camera.fov is 'wide'; it must be a number"},
@@ -127,7 +128,7 @@ static const Case scenes[] = {
     {TREE "lights: [{kind: quad, edge_u: [0, 0, 2]}]\n",
      ":2:31: lights.0 has edges that span no area; they must not be parallel or zero"},
     {"objects: [{name: a}]\n",
-     ":1:11: objects.a is nothing; it must have one of tree, ground, mesh, shape"},
+     ":1:11: objects.a is nothing; it must have one of tree, ground, mesh, shape..."},
     {"objects: [{name: a, tree: {}, ground: {}}]\n",
      ":1:39: objects.a is a tree and a ground; it must be one, make two objects of it"},
     {"objects: [{name: a.b, tree: }]\n",
@@ -139,7 +140,7 @@ static const Case scenes[] = {
      ":1:39: objects.a.material: there is no material 'barc'; did you mean 'bark'?"},
     {"objects: [{name: a, tree: , leaf_material: gold}]\n",
      ":1:44: objects.a.leaf_material: there is no material 'gold'; known: bark, twig, leaf, "
-     "ground, grass, fallen, ice, soap_film, clay"},
+     "ground, grass, fallen..."},
     {"objects: [{name: a, tree: , grass_material: grass}]\n",
      ":1:45: objects.a: a tree has no grass_material; leave it out"},
     {"objects: [{name: a, tree: {height: 5, crown: {base: 5}}}]\n",
@@ -176,7 +177,11 @@ static int expect(const char *what, const Error *e, const char *wanted)
 {
     char got[1200];
     error_format(e, got, sizeof got);
-    if (strcmp(got, wanted) == 0 && e->code == ERROR_INPUT) {
+    // "..." at the end: a list that goes on
+    size_t length = strlen(wanted);
+    bool open = length > 3 && strcmp(wanted + length - 3, "...") == 0;
+    bool same = open ? strncmp(got, wanted, length - 3) == 0 : strcmp(got, wanted) == 0;
+    if (same && e->code == ERROR_INPUT) {
         return 0;
     }
     print_error("%s\n  said   %s\n  wanted %s\n", what, got, wanted);

@@ -1,0 +1,39 @@
+// A diffusion-limited aggregate as a kind of object.
+#include "grow/dla.h"
+#include "scene/kinds.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+{
+    return dla_model_grow(object->dla, recipe, e);
+}
+
+static bool place(const Placing *p, const OutTree *tree, Error *e)
+{
+    return dla_model_geometry(tree, placing_material(p, p->object->material, "copper"), p->index,
+                              &p->world->geometry, p->recipe.run, e);
+}
+
+// 1.71 and 2.5 for ever larger clusters (Meakin 1983; Davidovitch et al. 2000).
+static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+{
+    double dimension = dla_dimension(tree), low = object->dla->dimension == 2 ? 1.66 : 2.4;
+    return measures_add(list, "gyration_dimension", dimension > 0.0 ? dimension : (double)NAN, "",
+                        low, low + 0.2, e);
+}
+
+static void describe(const SceneObject *object, char *text, size_t size)
+{
+    snprintf(text, size, ", %lld particles in %dD", (long long)object->dla->particles,
+             object->dla->dimension);
+}
+
+const Kind kind_dla = {.key = "dla",
+                       .offset = offsetof(SceneObject, dla),
+                       .materials = {"material"},
+                       .grow = grow,
+                       .place = place,
+                       .measure = measure,
+                       .describe = describe};
