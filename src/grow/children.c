@@ -117,6 +117,19 @@ static Vec3 limit_angle(const Growth *growth, const Grower *grower, bool lateral
     return vec3_normalize(vec3_madd(vec3_scale(grower->heading, c), s, across));
 }
 
+// Turns d toward the cone's axis until it lies within the cone.
+static Vec3 limit_cone(const Growth *growth, Vec3 d)
+{
+    Vec3 axis = growth->cone_axis;
+    float cosine = vec3_dot(d, axis);
+    if (growth->params->on_surface || cosine >= growth->cone_cos || is_zero(axis)) {
+        return d;
+    }
+    Vec3 across = vec3_madd(d, -cosine, axis);
+    across = vec3_dot(across, across) > 1e-12f ? vec3_normalize(across) : vec3_perpendicular(axis);
+    return vec3_normalize(vec3_madd(vec3_scale(axis, growth->cone_cos), growth->cone_sin, across));
+}
+
 // Into the tangent plane, and back toward the surface where the steps have left it.
 static Vec3 keep_on_surface(const Growth *growth, const Pull *pull, Vec3 normal, Vec3 d)
 {
@@ -155,6 +168,7 @@ static bool make_child(const Growth *growth, const Grower *grower, const Pull *p
         return false;
     }
     d = limit_angle(growth, grower, growth->state[grower->node].children + place > 0, d);
+    d = limit_cone(growth, d);
     // in space the parent's normal is carried along without twist
     child->normal = params->on_surface ? normal : unit_across(grower->normal, d);
     Vec3 p = vec3_madd(grower->position, params->step, d); // eq. (6)

@@ -71,6 +71,11 @@ static void set_angle_limits(Growth *growth)
     if (p->max_angle > 0.0f && p->max_angle < 180.0f) {
         exact_sincos(p->max_angle * RADIANS_PER_DEGREE, &growth->max_sin, &growth->max_cos);
     }
+    growth->cone_cos = -2.0f;
+    growth->cone_axis = vec3_normalize(p->cone_axis);
+    if (p->cone_angle > 0.0f && p->cone_angle < 180.0f) {
+        exact_sincos(p->cone_angle * RADIANS_PER_DEGREE, &growth->cone_sin, &growth->cone_cos);
+    }
 }
 
 // Makes room for what is remembered of nodes `from`..count-1, which may be yet to come.

@@ -29,6 +29,9 @@ typedef struct ColonizeParams {
                       // direction; 0 = off
     float max_angle;  // degrees between any child and its parent's direction; 0 or 180 = off. Mean
                       // and sector children turn back to it; sectors beyond it do not grow
+    float cone_angle; // degrees between any child and cone_axis: none heads further away from it.
+                      // 0 or 180 = off. GROW_MEAN and GROW_SECTORS in space; children turn back
+    Vec3 cone_axis;   // any length
     float noise;      // Gaussian, per component, added to the unit direction before normalising
     Vec3 tropism;     // added to the unit direction: uniform pull, any length
     const GuideField *field; // may be NULL

@@ -52,6 +52,8 @@ typedef struct Growth {
     AttractorGrid grid;
     SectorTable sectors;                      // GROW_SECTORS; else one sector
     float min_cos, min_sin, max_cos, max_sin; // of the angle limits; max_cos = -2 when off
+    float cone_cos, cone_sin;                 // likewise
+    Vec3 cone_axis;                           // unit
 
     NodeState *state; // per node
     int64_t state_capacity;

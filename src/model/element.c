@@ -13,6 +13,8 @@ static ColonizeParams colonize_params(const ElementParams *element, const GuideF
     params.max_children = element->max_children;
     params.min_angle = element->min_angle;
     params.max_angle = element->max_angle;
+    params.cone_angle = element->cone_angle;
+    params.cone_axis = element->cone_axis;
     params.noise = element->noise;
     params.tropism = element->tropism;
     params.field = field;
@@ -83,8 +85,8 @@ static void warn_out_of_reach(const GrowReport *reports, const ElementParams *el
     }
 }
 
-static bool grow_in_envelope(OutTree *tree, const ElementParams *element, const Envelope *envelope,
-                             uint64_t seed, const char *label, const Run *run, Error *e)
+bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope *envelope,
+                     uint64_t seed, const char *label, const Run *run, Error *e)
 {
     GuideField *field = NULL;
     if (element->field_count > 0) {
@@ -111,7 +113,7 @@ bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, co
 {
     EnvelopeParams params = {element->shapes, element->shape_count, element->voxel};
     Envelope *envelope = envelope_new(&params, run, e);
-    bool done = envelope && grow_in_envelope(tree, element, envelope, seed, label, run, e);
+    bool done = envelope && element_grow_in(tree, element, envelope, seed, label, run, e);
     envelope_free(envelope);
     if (!done) {
         error_prefix(e, "%s: ", label);

@@ -23,7 +23,9 @@ typedef struct ElementParams {
     GrowRule rule;
     int max_children;
     float min_angle, max_angle; // degrees
-    float noise;                // for levels that name none
+    float cone_angle;           // degrees
+    Vec3 cone_axis;
+    float noise; // for levels that name none
     Vec3 tropism;
     float apical;
     float sector_angle; // degrees
@@ -39,5 +41,9 @@ typedef struct ElementParams {
 // label names the element in warnings and errors ("object 'oak', crown").
 bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, const char *label,
                   const Run *run, Error *e);
+
+// The same in an envelope that is there already; the element's shapes are not looked at.
+bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope *envelope,
+                     uint64_t seed, const char *label, const Run *run, Error *e);
 
 #endif

@@ -80,6 +80,8 @@ static const Material MATERIALS[] = {
      .color2 = {0.1f, 0.1f, 0.1f},
      .roughness = 0.35f,
      .ior = 1.5f},
+    // The hue of nitrogen at 30,000 K; brightness is lightning.power.
+    {.name = "lightning", .kind = MATERIAL_EMISSION, .radiance = {0.75f, 0.85f, 1.25f}},
     {.name = "clay",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.45f, 0.42f, 0.39f},

@@ -185,6 +185,16 @@ bool check_envelope(Resolver *r, const Path *path, const Node *given, Node *reso
     return true;
 }
 
+bool check_lightning(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    const Node *points = node_get(resolved, "points"), *list = node_get(resolved, "envelope");
+    if (strcmp(node_get_text(points, "place"), "surface") == 0 && (!list || !list->first)) {
+        return resolver_fail(r, given, "%s grows over a surface but has no envelope; give it one",
+                             resolver_path(r, path, NULL));
+    }
+    return check_envelope(r, path, given, resolved);
+}
+
 bool check_level(Resolver *r, const Path *path, const Node *given, Node *resolved)
 {
     double kill = node_number(resolved, "kill"), influence = node_number(resolved, "influence");

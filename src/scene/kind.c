@@ -6,11 +6,7 @@
 
 // In the order in which people read of them.
 static const Kind *const KINDS[] = {
-    &kind_tree,
-    &kind_ground,
-    &kind_mesh,
-    &kind_shape,
-    &kind_dla,
+    &kind_tree, &kind_ground, &kind_mesh, &kind_shape, &kind_dla, &kind_lightning,
 };
 
 int kind_count(void)

@@ -4,6 +4,6 @@
 
 #include "scene/kind.h"
 
-extern const Kind kind_tree, kind_ground, kind_mesh, kind_shape, kind_dla;
+extern const Kind kind_tree, kind_ground, kind_mesh, kind_shape, kind_dla, kind_lightning;
 
 #endif

@@ -9,6 +9,7 @@
 #include "image/tonemap.h"
 #include "model/dla.h"
 #include "model/ground.h"
+#include "model/lightning.h"
 #include "model/tree.h"
 #include "render/world.h"
 
@@ -35,6 +36,7 @@ typedef struct SceneObject {
     SceneMesh *mesh;
     SceneShape *shape;
     DlaModel *dla;
+    LightningParams *lightning;
     // material names, as far as the kind has use for them; NULL = the kind's built-in default
     char *material; // mesh, shape, ground; bark of a tree
     char *twig_material, *leaf_material, *grass_material;

@@ -137,6 +137,8 @@ static const Key OBJECT_KEYS[] = {
      .doc = "Spheres, boxes, ... drawn as they are."},
     {KEY_OF(SceneObject, dla, "dla", KEY_POINTER), .table = &dla_table,
      .doc = "A diffusion-limited aggregate."},
+    {KEY_OF(SceneObject, lightning, "lightning", KEY_POINTER), .table = &lightning_table,
+     .doc = "Lightning."},
     {KEY_OF(SceneObject, material, "material", KEY_TEXT),
      .doc = "Material of a mesh, a shape, the ground, or a tree's bark; left out: clay, clay, "
             "ground, bark."},

@@ -304,6 +304,29 @@ static void orders_of_branching_are_limited(void **state)
     points_free(finer);
 }
 
+static void no_child_leaves_the_cone(void **state)
+{
+    (void)state;
+    PointSet *points = points_in_ball(2000, 5);
+    ColonizeParams params = params_auto(points, 0.5f, 1.2f, 4.0f);
+    params.noise = 0.5f;
+    Vec3 down = vec3(0, -1, 0);
+    for (int limited = 0; limited < 2; limited++) {
+        params.cone_axis = vec3(0, -3, 0);
+        params.cone_angle = limited ? 70.0f : 0.0f;
+        OutTree *tree = tree_from(vec3(0, 1, 0));
+        grow_with(tree, points, &params, 1);
+        assert_true(tree->count > 100);
+        float widest = 0.0f;
+        for (int64_t i = 1; i < tree->count; i++) {
+            widest = fmaxf(widest, angle_between(heading_of(tree, i), down));
+        }
+        assert_true(limited ? widest < 70.1f && widest > 69.0f : widest > 100.0f);
+        out_tree_free(tree);
+    }
+    points_free(points);
+}
+
 static void additive_mode_is_the_printed_formula(void **state)
 {
     (void)state;
@@ -341,6 +364,7 @@ int main(void)
         cmocka_unit_test(apical_dominance_thins_out_laterals),
         cmocka_unit_test(an_edit_elsewhere_changes_nothing_here),
         cmocka_unit_test(orders_of_branching_are_limited),
+        cmocka_unit_test(no_child_leaves_the_cone),
         cmocka_unit_test(additive_mode_is_the_printed_formula),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,47 @@
+// Lightning as a kind of object.
+#include "model/lightning.h"
+#include "scene/kinds.h"
+
+#include <stdio.h>
+
+static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+{
+    return lightning_grow(object->lightning, recipe, e);
+}
+
+static bool place(const Placing *p, const OutTree *tree, Error *e)
+{
+    int material = placing_material(p, p->object->material, "lightning");
+    Vec3 radiance = p->world->material[material].radiance;
+    float luminance = vec3_dot(radiance, vec3(0.2126f, 0.7152f, 0.0722f));
+    return lightning_geometry(tree, p->object->lightning, material, luminance, p->index,
+                              &p->world->geometry, e);
+}
+
+static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+{
+    return lightning_measure(object->lightning, tree, list, e);
+}
+
+static void describe(const SceneObject *object, char *text, size_t size)
+{
+    if (object->lightning->element.place == SCATTER_SURFACE) {
+        snprintf(text, size, ", over a surface");
+    } else {
+        snprintf(text, size, ", %g m", (double)object->lightning->height);
+    }
+}
+
+static int64_t attractors(const SceneObject *object)
+{
+    return lightning_attractors(object->lightning);
+}
+
+const Kind kind_lightning = {.key = "lightning",
+                             .offset = offsetof(SceneObject, lightning),
+                             .materials = {"material"},
+                             .grow = grow,
+                             .place = place,
+                             .measure = measure,
+                             .describe = describe,
+                             .attractors = attractors};
