@@ -63,7 +63,7 @@ void growth_prepare(const Growth *growth, Grower *grower)
     grower->heading = vec3(0, 0, 0);
     if (parent >= 0) {
         grower->heading = vec3_normalize(vec3_sub(grower->position, tree->position[parent]));
-    } else if (growth->params->rule == GROW_SECTORS) {
+    } else if (growth->params->rule == GROW_SECTORS || growth->params->rule == GROW_STRING) {
         grower->heading = vec3_normalize(root_heading(growth, node));
     }
     grower->has_heading = !is_zero(grower->heading);
@@ -149,9 +149,9 @@ static Vec3 add_field(const Growth *growth, const Grower *grower, Vec3 p)
     return vec3_madd(p, params->step * params->field_weight, x); // E13, X_f scaled by the step
 }
 
-// One child a step along `axis` (a sector's) or the mean pull, bent, limited.
+// One child a step (m) along `axis` (a sector's) or the mean pull, bent, limited.
 static bool make_child(const Growth *growth, const Grower *grower, const Pull *pull,
-                       const Vec3 *axis, int place, Child *child)
+                       const Vec3 *axis, float step, int place, Child *child)
 {
     const ColonizeParams *params = growth->params;
     Vec3 d = axis ? *axis : mean_direction(pull);
@@ -171,7 +171,7 @@ static bool make_child(const Growth *growth, const Grower *grower, const Pull *p
     d = limit_cone(growth, d);
     // in space the parent's normal is carried along without twist
     child->normal = params->on_surface ? normal : unit_across(grower->normal, d);
-    Vec3 p = vec3_madd(grower->position, params->step, d); // eq. (6)
+    Vec3 p = vec3_madd(grower->position, step, d); // eq. (6)
     child->position = add_field(growth, grower, p);
     return true;
 }
@@ -199,6 +199,14 @@ static int make_snap(const Growth *growth, const Grower *grower, const Pull *pul
     return 1;
 }
 
+// A vector given in (heading, normal, side) components.
+static Vec3 from_frame(const Grower *grower, Vec3 local)
+{
+    Vec3 v = vec3_scale(grower->heading, local.x);
+    v = vec3_madd(v, local.y, grower->normal);
+    return vec3_madd(v, local.z, grower->side);
+}
+
 static int make_sectors(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
 {
     const ColonizeParams *params = growth->params;
@@ -213,12 +221,9 @@ static int make_sectors(const Growth *growth, const Grower *grower, const Pull *
             (s > 0 && (straight || is_suppressed(growth, bud)))) {
             continue;
         }
-        Vec3 local = growth->sectors.axis[s], axis;
-        axis = vec3_scale(grower->heading, local.x);
-        axis = vec3_madd(axis, local.y, grower->normal);
-        axis = vec3_madd(axis, local.z, grower->side);
-        if (make_child(growth, grower, &pull[s], params->sector_axis ? &axis : NULL, count,
-                       &child[count])) {
+        Vec3 axis = from_frame(grower, growth->sectors.axis[s]);
+        if (make_child(growth, grower, &pull[s], params->sector_axis ? &axis : NULL, params->step,
+                       count, &child[count])) {
             child[count++].sector = s;
         }
     }
@@ -231,11 +236,44 @@ bool growth_is_last_order(const Growth *growth, int32_t node)
     return limit > 0 && growth->tree->parent[node] >= 0 && growth->state[node].order >= limit;
 }
 
+// The coral paper, steps b-d: each direction that owns attractors makes one child, toward their mean
+// and as far as their mean growth distance.
+static int make_string(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
+{
+    const ColonizeParams *params = growth->params;
+    const GrowString *string = params->string;
+    const GrowDirection *at = &string->direction[growth->place[grower->node]];
+    int limit = params->max_children > 0 ? params->max_children : at->followers, count = 0;
+    for (int i = 0; i < at->followers && count < limit; i++) {
+        const GrowDirection *direction = &string->direction[at->first + i];
+        uint64_t bud = out_tree_child_id(growth->tree->id[grower->node], -1 - i);
+        if (pull[i].count == 0 || (i > 0 && is_suppressed(growth, bud))) {
+            continue;
+        }
+        Vec3 axis = from_frame(grower, direction->heading);
+        Vec3 d = vec3_lerp(mean_direction(&pull[i]), axis, params->regularity);
+        d = vec3_dot(d, d) > 1e-12f ? vec3_normalize(d) : axis;
+        float mean = (float)((double)pull[i].length / (double)pull[i].count) / PULL_ONE;
+        float step = direction->length * mean * growth->longest;
+        if (make_child(growth, grower, &pull[i], &d, step, count, &child[count])) {
+            if (!params->on_surface) {
+                Vec3 way = vec3_normalize(vec3_sub(child[count].position, grower->position));
+                child[count].normal = unit_across(from_frame(grower, direction->normal), way);
+            }
+            child[count++].sector = at->first + i;
+        }
+    }
+    return count;
+}
+
 int growth_make_children(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
 {
     GrowRule rule = growth->params->rule;
     if (rule == GROW_SECTORS && grower->has_heading) {
         return make_sectors(growth, grower, pull, child);
+    }
+    if (rule == GROW_STRING) {
+        return make_string(growth, grower, pull, child);
     }
     child->sector = 0;
     bool lateral = growth->state[grower->node].children > 0;
@@ -246,5 +284,6 @@ int growth_make_children(const Growth *growth, const Grower *grower, const Pull 
         return 0;
     }
     return rule == GROW_SNAP ? make_snap(growth, grower, pull, child)
-                             : make_child(growth, grower, pull, NULL, 0, child);
+                             : make_child(growth, grower, pull, NULL, growth->params->step, 0,
+                                          child);
 }

@@ -97,6 +97,15 @@ static bool reserve_nodes(Growth *growth, int64_t from, int64_t count, Error *e)
         }
         memset(growth->used + from, 0, (size_t)(count - from) * sizeof *growth->used);
     }
+    if (growth->params->rule == GROW_STRING) { // those that growth made have their place already
+        if (!memory_reserve(&growth->place, &growth->place_capacity, count, sizeof *growth->place,
+                            e)) {
+            return false;
+        }
+        for (int64_t i = from; i < growth->initial_count; i++) {
+            growth->place[i] = 0;
+        }
+    }
     for (int64_t i = from; i < count; i++) {
         growth->state[i] = (NodeState){.first_child = -1};
         growth->slot[i] = -1;
@@ -157,7 +166,8 @@ static void drop_fruitless(Growth *growth)
 {
     for (int64_t i = 0; i < growth->grew_count; i++) {
         int32_t node = growth->grew[i];
-        if (!(growth->changed.word[node >> 6] >> (node & 63) & 1)) {
+        if (growth->params->rule == GROW_STRING || // it had its turn
+            !(growth->changed.word[node >> 6] >> (node & 63) & 1)) {
             growth->state[node].stalled = true;
         }
     }
@@ -166,6 +176,9 @@ static void drop_fruitless(Growth *growth)
 static bool may_grow(const Growth *growth, int64_t node)
 {
     int limit = growth->params->max_children;
+    if (growth->params->rule == GROW_STRING && growth->state[node].children > 0) {
+        return false;
+    }
     return !growth->state[node].stalled && (limit <= 0 || growth->state[node].children < limit);
 }
 
@@ -231,6 +244,13 @@ static bool add_child(Growth *growth, int32_t parent, const Child *child, int32_
     }
     tree->normal[node] = child->normal;
     count_child(growth, parent, (int32_t)node, child->sector);
+    if (growth->params->rule == GROW_STRING) {
+        if (!memory_reserve(&growth->place, &growth->place_capacity, node + 1,
+                            sizeof *growth->place, e)) {
+            return false;
+        }
+        growth->place[node] = child->sector;
+    }
     if (growth->params->rule == GROW_SECTORS) {
         growth->used[parent] |= 1ull << child->sector;
     }
@@ -315,9 +335,54 @@ static bool grow(Growth *growth, const Run *run, GrowReport *report, Error *e)
     }
 }
 
+static float distance_to_root(const Growth *growth, int64_t attractor)
+{
+    const OutTree *tree = growth->tree;
+    float least = INFINITY;
+    for (int64_t i = 0; i < growth->initial_count; i++) {
+        if (tree->parent[i] < 0) {
+            Vec3 d = vec3_sub(growth->attractors->position[attractor], tree->position[i]);
+            least = fminf(least, vec3_dot(d, d));
+        }
+    }
+    return sqrtf(least);
+}
+
+// Each attractor's own growth distance (the coral paper, step c): between the user's two lengths, by
+// its distance from the nearest root as a share of the largest.
+static bool prepare_string(Growth *growth, Error *e)
+{
+    const ColonizeParams *p = growth->params;
+    int64_t count = growth->attractors->count;
+    if (!p->string || !(p->sector_angle > 0.0f && p->sector_angle <= 360.0f)) {
+        return error_set(e, ERROR_INPUT,
+                         "growth by a string needs one, and groups above 0 and up to 360 degrees");
+    }
+    float near = p->length_near > 0.0f ? p->length_near : p->step;
+    float far = p->length_far > 0.0f ? p->length_far : p->step, half;
+    exact_sincos(0.5f * p->sector_angle * RADIANS_PER_DEGREE, &half, &growth->group_cos);
+    growth->longest = fmaxf(near, far);
+    growth->sectors.count = p->string->most_followers;
+    growth->length = memory_alloc(count, sizeof *growth->length, e);
+    if (!growth->length) {
+        return false;
+    }
+    float furthest = 0.0f;
+    for (int64_t i = 0; i < count; i++) {
+        growth->length[i] = distance_to_root(growth, i);
+        furthest = fmaxf(furthest, growth->length[i]);
+    }
+    for (int64_t i = 0; i < count; i++) {
+        growth->length[i] = lerpf(near, far, furthest > 0.0f ? growth->length[i] / furthest : 0.0f);
+    }
+    return true;
+}
+
 static void free_growth(Growth *growth)
 {
     attractor_grid_free(&growth->grid);
+    free(growth->length);
+    free(growth->place);
     free(growth->state);
     free(growth->slot);
     free(growth->used);
@@ -339,6 +404,9 @@ static bool prepare(Growth *growth, Error *e)
     growth->sectors.count = 1;
     if (params->rule == GROW_SECTORS &&
         !sectors_init(&growth->sectors, params->sector_angle, params->on_surface, e)) {
+        return false;
+    }
+    if (params->rule == GROW_STRING && !prepare_string(growth, e)) {
         return false;
     }
     return begin(growth, e) &&

@@ -33,6 +33,7 @@ typedef struct Pull {
     int64_t count;
     int64_t normal[3]; // sum of the attractors' normals, on surfaces
     int64_t height;    // sum of the heights of the node above the attractors' surface / influence
+    int64_t length;    // GROW_STRING: sum of the attractors' growth distances / the largest
     uint64_t pick;     // GROW_SNAP: least (cost as float bits, attractor); UINT64_MAX = none
 } Pull;
 
@@ -54,6 +55,12 @@ typedef struct Growth {
     float min_cos, min_sin, max_cos, max_sin; // of the angle limits; max_cos = -2 when off
     float cone_cos, cone_sin;                 // likewise
     Vec3 cone_axis;                           // unit
+
+    float group_cos; // GROW_STRING: of half a group
+    float *length;   // GROW_STRING: growth distance of each attractor, m
+    float longest;   // m, of them
+    int32_t *place;  // GROW_STRING: per node, the direction of the string that it stands at
+    int64_t place_capacity;
 
     NodeState *state; // per node
     int64_t state_capacity;

@@ -51,6 +51,26 @@ static void add_pick(const Growth *growth, const Grower *grower, Vec3 unit, floa
     pull->pick = key < pull->pick ? key : pull->pick;
 }
 
+// The direction of the string that owns an attractor: the nearest in angle, within half a group; -1
+// = none.
+static int find_direction(const Growth *growth, const Grower *grower, Vec3 unit)
+{
+    const GrowString *string = growth->params->string;
+    const GrowDirection *at = &string->direction[growth->place[grower->node]];
+    Vec3 local = vec3(vec3_dot(unit, grower->heading), vec3_dot(unit, grower->normal),
+                      vec3_dot(unit, grower->side));
+    float best = growth->group_cos;
+    int found = -1;
+    for (int i = 0; i < at->followers; i++) {
+        float cosine = vec3_dot(local, string->direction[at->first + i].heading);
+        if (cosine > best) {
+            best = cosine;
+            found = i;
+        }
+    }
+    return found;
+}
+
 static void add_attractor(const Growth *growth, const AttractorBlock *a, int lane,
                           int32_t attractor, Pull *pulls)
 {
@@ -67,6 +87,14 @@ static void add_attractor(const Growth *growth, const AttractorBlock *a, int lan
         Vec3 local = vec3(vec3_dot(unit, grower->heading), vec3_dot(unit, grower->normal),
                           vec3_dot(unit, grower->side));
         pull += sectors_find(&growth->sectors, local);
+    }
+    if (growth->params->rule == GROW_STRING) {
+        int direction = find_direction(growth, grower, unit);
+        if (direction < 0) {
+            return;
+        }
+        pull += direction;
+        pull->length += fixed(growth->length[attractor] / growth->longest);
     }
     add_vector(pull->toward, unit);
     pull->count++;
@@ -115,6 +143,7 @@ static void merge(Pull *sum, const Pull *part)
     }
     sum->count += part->count;
     sum->height += part->height;
+    sum->length += part->length;
     sum->pick = part->pick < sum->pick ? part->pick : sum->pick;
 }
 

@@ -1,0 +1,454 @@
+#include "grow/lsystem.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "grow/expression.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_RULES = 64, MOST_NAMES = 64, DEFAULT_MOST_MODULES = 4000000 };
+
+// A module of a successor: its parameters are still expressions.
+typedef struct Pattern {
+    char symbol;
+    int count;
+    Expression parameter[MODULE_MOST_PARAMETERS];
+} Pattern;
+
+typedef struct Successor {
+    Pattern *pattern; // owned
+    int64_t count, capacity;
+} Successor;
+
+typedef struct Rule {
+    char symbol;
+    int count; // of parameters
+    bool has_condition, has_probability;
+    double probability;
+    Expression condition;
+    Successor successor;
+} Rule;
+
+// Names are the constants, then the parameters of the rule at hand; values go in the same order.
+typedef struct Grammar {
+    Rule *rule; // owned
+    int64_t count, capacity;
+    char name[MOST_NAMES + MODULE_MOST_PARAMETERS][NAME_SIZE];
+    double value[MOST_NAMES + MODULE_MOST_PARAMETERS];
+    int constants;
+} Grammar;
+
+static void successor_clear(Successor *successor)
+{
+    for (int64_t i = 0; i < successor->count; i++) {
+        for (int p = 0; p < successor->pattern[i].count; p++) {
+            expression_clear(&successor->pattern[i].parameter[p]);
+        }
+    }
+    free(successor->pattern);
+    *successor = (Successor){0};
+}
+
+static void grammar_clear(Grammar *grammar)
+{
+    for (int64_t i = 0; i < grammar->count; i++) {
+        expression_clear(&grammar->rule[i].condition);
+        successor_clear(&grammar->rule[i].successor);
+    }
+    free(grammar->rule);
+}
+
+// ---- reading ----
+
+static bool is_symbol(char c)
+{
+    return isgraph((unsigned char)c) && !strchr("(),:;<>=#", c);
+}
+
+static bool ends_rule(char c)
+{
+    return c == '\0' || c == '\n' || c == ';' || c == '#' || c == '\r';
+}
+
+static bool at_arrow(const Reader *r)
+{
+    return r->at[0] == '-' && r->at[1] == '>';
+}
+
+static bool expect(Reader *r, char wanted, Error *e)
+{
+    reader_skip_blanks(r);
+    if (*r->at != wanted) {
+        return reader_fail(r, e, "'%c' is missing", wanted);
+    }
+    r->at++;
+    return true;
+}
+
+static bool read_parameters(Reader *r, const Names *names, Pattern *pattern, Error *e)
+{
+    do {
+        if (pattern->count == MODULE_MOST_PARAMETERS) {
+            return reader_fail(r, e, "'%c' has more than %d parameters", pattern->symbol,
+                               MODULE_MOST_PARAMETERS);
+        }
+        pattern->count++; // from here on it is cleared with the pattern
+        if (!expression_read(r, names, &pattern->parameter[pattern->count - 1], e)) {
+            return false;
+        }
+        reader_skip_blanks(r);
+    } while (*r->at == ',' && r->at++);
+    return expect(r, ')', e);
+}
+
+// Modules as far as they go; brackets must match.
+static bool read_successor(Reader *r, const Names *names, Successor *out, Error *e)
+{
+    int64_t open = 0;
+    for (;;) {
+        reader_skip_blanks(r);
+        if (!is_symbol(*r->at)) {
+            break;
+        }
+        open += *r->at == '[' ? 1 : (*r->at == ']' ? -1 : 0);
+        if (open < 0) {
+            return reader_fail(r, e, "']' closes no '['");
+        }
+        if (!memory_reserve(&out->pattern, &out->capacity, out->count + 1, sizeof *out->pattern,
+                            e)) {
+            return false;
+        }
+        Pattern *pattern = &out->pattern[out->count++];
+        *pattern = (Pattern){.symbol = *r->at++};
+        if (*r->at == '(' && r->at++ && !read_parameters(r, names, pattern, e)) {
+            return false;
+        }
+    }
+    return open == 0 || reader_fail(r, e, "'[' is not closed; put a ']' for each '['");
+}
+
+// "A(l, w)": the parameters become names after the constants.
+static bool read_predecessor(Reader *r, Grammar *grammar, Rule *rule, Error *e)
+{
+    if (!is_symbol(*r->at) || *r->at == '[' || *r->at == ']') {
+        return reader_fail(r, e, "'%.1s' cannot stand on a rule's left side; a symbol must", r->at);
+    }
+    rule->symbol = *r->at++;
+    if (*r->at != '(') {
+        return true;
+    }
+    do {
+        r->at++;
+        if (rule->count == MODULE_MOST_PARAMETERS) {
+            return reader_fail(r, e, "'%c' has more than %d parameters", rule->symbol,
+                               MODULE_MOST_PARAMETERS);
+        }
+        if (!reader_name(r, grammar->name[grammar->constants + rule->count])) {
+            return reader_fail(r, e, "a parameter's name is missing; write %c(l, w)", rule->symbol);
+        }
+        rule->count++;
+        reader_skip_blanks(r);
+    } while (*r->at == ',');
+    return expect(r, ')', e);
+}
+
+static bool read_condition(Reader *r, const Names *names, Rule *rule, Error *e)
+{
+    reader_skip_blanks(r);
+    if (*r->at != ':') {
+        return true;
+    }
+    r->at++;
+    reader_skip_blanks(r);
+    if (*r->at == '*') { // as the book writes "always"
+        r->at++;
+        return true;
+    }
+    rule->has_condition = true;
+    return expression_read(r, names, &rule->condition, e);
+}
+
+static bool read_probability(Reader *r, const Grammar *grammar, Rule *rule, Error *e)
+{
+    reader_skip_blanks(r);
+    if (*r->at != ':') {
+        return true;
+    }
+    r->at++;
+    Expression x = {0};
+    const Names constants = {(const char(*)[NAME_SIZE])grammar->name, grammar->constants};
+    bool read = expression_read(r, &constants, &x, e);
+    rule->has_probability = true;
+    rule->probability = read ? expression_value(&x, grammar->value) : 0.0;
+    expression_clear(&x);
+    return read && ((rule->probability > 0.0 && isfinite(rule->probability)) ||
+                    reader_fail(r, e, "the probability is %g; it must be above 0",
+                                rule->probability));
+}
+
+static bool read_rule(Reader *r, Grammar *grammar, Error *e)
+{
+    if (grammar->count == MOST_RULES) {
+        return reader_fail(r, e, "there are more than %d rules", MOST_RULES);
+    }
+    if (!memory_reserve(&grammar->rule, &grammar->capacity, grammar->count + 1,
+                        sizeof *grammar->rule, e)) {
+        return false;
+    }
+    Rule *rule = &grammar->rule[grammar->count++];
+    *rule = (Rule){0};
+    if (!read_predecessor(r, grammar, rule, e)) {
+        return false;
+    }
+    const Names names = {(const char(*)[NAME_SIZE])grammar->name, grammar->constants + rule->count};
+    if (!read_condition(r, &names, rule, e)) {
+        return false;
+    }
+    reader_skip_blanks(r);
+    if (!at_arrow(r)) {
+        return reader_fail(r, e, "'->' is missing; a rule is written A : condition -> BA");
+    }
+    r->at += 2;
+    return read_successor(r, &names, &rule->successor, e) && read_probability(r, grammar, rule, e);
+}
+
+// "name = expression", known by its '='; false in *is when this line is none.
+static bool read_constant(Reader *r, Grammar *grammar, bool *is, Error *e)
+{
+    const char *start = r->at;
+    char name[NAME_SIZE];
+    *is = reader_name(r, name);
+    reader_skip_blanks(r);
+    *is = *is && r->at[0] == '=' && r->at[1] != '=';
+    if (!*is) {
+        r->at = start;
+        return true;
+    }
+    r->at++;
+    if (grammar->constants == MOST_NAMES) {
+        return reader_fail(r, e, "there are more than %d constants", MOST_NAMES);
+    }
+    Expression x = {0};
+    const Names names = {(const char(*)[NAME_SIZE])grammar->name, grammar->constants};
+    bool read = expression_read(r, &names, &x, e);
+    if (read) {
+        memcpy(grammar->name[grammar->constants], name, sizeof name);
+        grammar->value[grammar->constants++] = expression_value(&x, grammar->value);
+    }
+    expression_clear(&x);
+    return read;
+}
+
+static void skip_to_line(Reader *r)
+{
+    for (;;) {
+        if (*r->at == '#') {
+            r->at += strcspn(r->at, "\n");
+        }
+        if (*r->at == '\0' || !strchr(" \t\r\n;", *r->at)) {
+            return;
+        }
+        r->at++;
+    }
+}
+
+static bool read_grammar(const char *text, Grammar *grammar, Error *e)
+{
+    Reader r = {text, text, "the L-system's rules"};
+    for (skip_to_line(&r); *r.at; skip_to_line(&r)) {
+        bool constant;
+        if (!read_constant(&r, grammar, &constant, e) || (!constant && !read_rule(&r, grammar, e))) {
+            return false;
+        }
+        reader_skip_blanks(&r);
+        if (!ends_rule(*r.at)) {
+            return reader_fail(&r, e, "'%.1s' does not belong here; end the rule with ';' or a new "
+                                      "line", r.at);
+        }
+    }
+    return true;
+}
+
+// ---- rewriting ----
+
+// Appends the modules of a successor under these values. *place: of a module whose parameter is not
+// finite.
+static bool append(const Successor *successor, const double *values, ModuleString *string, Error *e)
+{
+    int64_t count = string->count + successor->count;
+    if (!memory_reserve(&string->module, &string->capacity, count, sizeof *string->module, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < successor->count; i++) {
+        const Pattern *pattern = &successor->pattern[i];
+        if (!memory_reserve(&string->value, &string->value_capacity,
+                            string->value_count + pattern->count, sizeof *string->value, e)) {
+            return false;
+        }
+        string->module[string->count++] =
+            (Module){pattern->symbol, (int8_t)pattern->count, string->value_count};
+        for (int p = 0; p < pattern->count; p++) {
+            double value = expression_value(&pattern->parameter[p], values);
+            if (!isfinite(value)) {
+                return error_set(e, ERROR_INPUT,
+                                 "parameter %d of '%c' is no finite number; keep divisors from 0 "
+                                 "and powers to positive numbers",
+                                 p + 1, pattern->symbol);
+            }
+            string->value[string->value_count++] = value;
+        }
+    }
+    return true;
+}
+
+static bool fits(const Rule *rule, const ModuleString *from, int64_t place, const Grammar *grammar,
+                 double *values)
+{
+    const Module *module = &from->module[place];
+    if (rule->symbol != module->symbol || rule->count != module->count) {
+        return false;
+    }
+    for (int p = 0; p < rule->count; p++) {
+        values[grammar->constants + p] = from->value[module->first + p];
+    }
+    return !rule->has_condition || expression_value(&rule->condition, values) != 0.0;
+}
+
+// The rule for a module; NULL = it stays as it is.
+static const Rule *choose(const Grammar *grammar, const ModuleString *from, int64_t place,
+                          double *values, uint64_t key)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < grammar->count; i++) {
+        const Rule *rule = &grammar->rule[i];
+        if (fits(rule, from, place, grammar, values)) {
+            if (!rule->has_probability && sum == 0.0) {
+                return rule;
+            }
+            sum += rule->probability;
+        }
+    }
+    double draw = sum * (double)random_unit(key);
+    const Rule *chosen = NULL;
+    for (int64_t i = 0; sum > 0.0 && i < grammar->count && draw >= 0.0; i++) {
+        const Rule *rule = &grammar->rule[i];
+        if (rule->has_probability && fits(rule, from, place, grammar, values)) {
+            chosen = rule;
+            draw -= rule->probability;
+        }
+    }
+    return chosen;
+}
+
+static bool copy_module(const ModuleString *from, int64_t place, ModuleString *to, Error *e)
+{
+    const Module *module = &from->module[place];
+    if (!memory_reserve(&to->module, &to->capacity, to->count + 1, sizeof *to->module, e) ||
+        !memory_reserve(&to->value, &to->value_capacity, to->value_count + module->count,
+                        sizeof *to->value, e)) {
+        return false;
+    }
+    to->module[to->count++] = (Module){module->symbol, module->count, to->value_count};
+    for (int p = 0; p < module->count; p++) {
+        to->value[to->value_count++] = from->value[module->first + p];
+    }
+    return true;
+}
+
+static bool rewrite(const Grammar *grammar, const ModuleString *from, ModuleString *to, uint64_t key,
+                    int generation, int64_t most, Error *e)
+{
+    double values[MOST_NAMES + MODULE_MOST_PARAMETERS];
+    memcpy(values, grammar->value, sizeof values);
+    for (int64_t i = 0; i < from->count; i++) {
+        const Rule *rule = choose(grammar, from, i, values, random_key(key, (uint64_t)i));
+        if (rule) {
+            fits(rule, from, i, grammar, values); // its parameters again, after the others' look
+        }
+        if (!(rule ? append(&rule->successor, values, to, e) : copy_module(from, i, to, e))) {
+            return false;
+        }
+        if (to->count > most) {
+            return error_set(e, ERROR_INPUT,
+                             "generation %d of the L-system has more than %lld symbols; lower "
+                             "generations or the rules' growth",
+                             generation, (long long)most);
+        }
+    }
+    return true;
+}
+
+static bool derive(const Grammar *grammar, const LSystemParams *params, const Run *run,
+                   ModuleString *string, Error *e)
+{
+    int64_t most = params->most_modules > 0 ? params->most_modules : DEFAULT_MOST_MODULES;
+    for (int g = 1; g <= params->generations; g++) {
+        if (run_is_cancelled(run)) {
+            return run_cancel_error(e);
+        }
+        ModuleString next = {0};
+        if (!rewrite(grammar, string, &next, random_key(params->seed, (uint64_t)g), g, most, e)) {
+            module_string_clear(&next);
+            return false;
+        }
+        module_string_clear(string);
+        *string = next;
+    }
+    return true;
+}
+
+static bool read_axiom(const char *text, const Grammar *grammar, ModuleString *string, Error *e)
+{
+    Reader r = {text, text, "the L-system's axiom"};
+    const Names names = {(const char(*)[NAME_SIZE])grammar->name, grammar->constants};
+    Successor axiom = {0};
+    bool read = read_successor(&r, &names, &axiom, e);
+    if (read) {
+        r.at += strspn(r.at, " \t\r\n");
+        read = *r.at ? reader_fail(&r, e, "'%.1s' is no symbol", r.at)
+                     : axiom.count > 0 || reader_fail(&r, e, "it is empty; give it a symbol");
+    }
+    read = read && append(&axiom, grammar->value, string, e);
+    successor_clear(&axiom);
+    return read;
+}
+
+bool lsystem_derive(const LSystemParams *params, const Run *run, ModuleString *string, Error *e)
+{
+    Grammar *grammar = memory_alloc_zero(1, sizeof *grammar, e); // large for the stack
+    *string = (ModuleString){0};
+    bool done = grammar && read_grammar(params->rules, grammar, e) &&
+                read_axiom(params->axiom, grammar, string, e) &&
+                derive(grammar, params, run, string, e);
+    if (grammar) {
+        grammar_clear(grammar);
+    }
+    free(grammar);
+    if (!done) {
+        module_string_clear(string);
+    }
+    return done;
+}
+
+bool module_string_read(const char *text, ModuleString *string, Error *e)
+{
+    Run run = run_default();
+    LSystemParams params = {.axiom = text, .rules = ""};
+    return lsystem_derive(&params, &run, string, e);
+}
+
+void module_string_clear(ModuleString *string)
+{
+    free(string->module);
+    free(string->value);
+    *string = (ModuleString){0};
+}
+
+double module_parameter(const ModuleString *string, int64_t module, int place, double fallback)
+{
+    const Module *m = &string->module[module];
+    return place < m->count ? string->value[m->first + place] : fallback;
+}
