@@ -342,7 +342,8 @@ static float distance_to_root(const Growth *growth, int64_t attractor)
     for (int64_t i = 0; i < growth->initial_count; i++) {
         if (tree->parent[i] < 0) {
             Vec3 d = vec3_sub(growth->attractors->position[attractor], tree->position[i]);
-            least = fminf(least, vec3_dot(d, d));
+            float d2 = vec3_dot(d, d);
+            least = d2 < least ? d2 : least;
         }
     }
     return sqrtf(least);
@@ -361,7 +362,7 @@ static bool prepare_string(Growth *growth, Error *e)
     float near = p->length_near > 0.0f ? p->length_near : p->step;
     float far = p->length_far > 0.0f ? p->length_far : p->step, half;
     exact_sincos(0.5f * p->sector_angle * RADIANS_PER_DEGREE, &half, &growth->group_cos);
-    growth->longest = fmaxf(near, far);
+    growth->longest = near > far ? near : far;
     growth->sectors.count = p->string->most_followers;
     growth->length = memory_alloc(count, sizeof *growth->length, e);
     if (!growth->length) {
@@ -370,7 +371,7 @@ static bool prepare_string(Growth *growth, Error *e)
     float furthest = 0.0f;
     for (int64_t i = 0; i < count; i++) {
         growth->length[i] = distance_to_root(growth, i);
-        furthest = fmaxf(furthest, growth->length[i]);
+        furthest = growth->length[i] > furthest ? growth->length[i] : furthest;
     }
     for (int64_t i = 0; i < count; i++) {
         growth->length[i] = lerpf(near, far, furthest > 0.0f ? growth->length[i] / furthest : 0.0f);

@@ -1,0 +1,62 @@
+// Corals as a kind of object.
+#include "model/coral.h"
+#include "scene/kinds.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+{
+    return coral_grow(object->coral, recipe, e);
+}
+
+static bool place(const Placing *p, const OutTree *tree, Error *e)
+{
+    CoralMaterials materials = {.coral = placing_material(p, p->object->material, "coral"),
+                                .polyp = placing_material(p, p->object->polyp_material, "coral_polyp"),
+                                .rock = placing_material(p, p->object->rock_material, "reef_rock")};
+    return coral_geometry(tree, p->object->coral, &materials, p->index, p->recipe.seed,
+                          &p->world->geometry, p->recipe.run, e);
+}
+
+static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+{
+    CoralParams p = coral_params_resolve(object->coral);
+    CoralMeasures m;
+    return coral_measure(tree, &m, e) &&
+           // Madracis: branches 7 to 14 mm thick, corallites 1.0 to 1.4 mm wide, 0.5 to 0.8 apart
+           measures_add(list, "branch_thickness", 1000.0 * m.branch_thickness, "mm", 7, 14, e) &&
+           measures_add(list, "branch_spacing", 1000.0 * m.branch_spacing, "mm", NAN, NAN, e) &&
+           measures_add(list, "colony_seam", 1000.0 * m.seam, "mm", NAN, NAN, e) &&
+           measures_add(list, "corallite_diameter", 1000.0 * (double)p.polyps.diameter, "mm", 1.0,
+                        1.4, e) &&
+           measures_add(list, "corallite_gap",
+                        1000.0 * (double)(p.polyps.spacing - p.polyps.diameter), "mm", 0.5, 0.8, e);
+}
+
+static void describe(const SceneObject *object, char *text, size_t size)
+{
+    snprintf(text, size, ", %g m, %d %s", (double)object->coral->size, object->coral->colonies,
+             object->coral->colonies == 1 ? "colony" : "colonies");
+}
+
+static int64_t attractors(const SceneObject *object)
+{
+    CoralParams p = coral_params_resolve(object->coral);
+    return p.attractors * p.colonies;
+}
+
+static int64_t copies(const SceneObject *object)
+{
+    return object->coral->polyps.max_count;
+}
+
+const Kind kind_coral = {.key = "coral",
+                         .offset = offsetof(SceneObject, coral),
+                         .materials = {"material", "polyp_material", "rock_material"},
+                         .grow = grow,
+                         .place = place,
+                         .measure = measure,
+                         .describe = describe,
+                         .attractors = attractors,
+                         .copies = copies};

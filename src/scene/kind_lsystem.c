@@ -1,0 +1,38 @@
+// Plants written as L-systems as a kind of object.
+#include "model/lsystem_plant.h"
+#include "scene/kinds.h"
+
+#include <stdio.h>
+
+static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+{
+    return lsystem_plant_grow(object->lsystem, recipe, e);
+}
+
+static bool place(const Placing *p, const OutTree *tree, Error *e)
+{
+    TreeMaterials materials = {.bark = placing_material(p, p->object->material, "bark"),
+                               .twig = placing_material(p, p->object->twig_material, "twig"),
+                               .leaf = placing_material(p, p->object->leaf_material, "leaf")};
+    return lsystem_plant_geometry(tree, p->object->lsystem, &materials, p->index, p->recipe.seed,
+                                  &p->world->geometry, p->recipe.run, e);
+}
+
+static void describe(const SceneObject *object, char *text, size_t size)
+{
+    snprintf(text, size, ", %g m, %d generations", (double)object->lsystem->height,
+             object->lsystem->generations);
+}
+
+static int64_t copies(const SceneObject *object)
+{
+    return object->lsystem->leaves.max_count;
+}
+
+const Kind kind_lsystem = {.key = "lsystem",
+                           .offset = offsetof(SceneObject, lsystem),
+                           .materials = {"material", "twig_material", "leaf_material"},
+                           .grow = grow,
+                           .place = place,
+                           .describe = describe,
+                           .copies = copies};

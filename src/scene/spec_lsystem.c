@@ -1,0 +1,49 @@
+// A plant written as an L-system.
+#include "model/lsystem_plant.h"
+#include "scene/spec_check.h"
+
+static const Key LSYSTEM_KEYS[] = {
+    {KEY_OF(LSystemPlantParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Where the root goes."},
+    {KEY_OF(LSystemPlantParams, height, "height", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "The drawing is scaled to it; 0 = as the turtle draws it."},
+    {KEY_OF(LSystemPlantParams, axiom, "axiom", KEY_TEXT),
+     .doc = "The string to begin with; left out: a tree."},
+    {KEY_OF(LSystemPlantParams, rules, "rules", KEY_TEXT),
+     .doc = "One a line or parted by ';': \"A(l) : l > 0.1 -> F(l)[+A(l*0.7)]A(l*0.8) : 0.5\"; "
+            "\"name = number\" makes a constant."},
+    {KEY_OF(LSystemPlantParams, generations, "generations", KEY_INT), .high = 1000,
+     .doc = "How often the rules are applied."},
+    {KEY_OF(LSystemPlantParams, angle, "angle", KEY_FLOAT), .low = -360, .high = 360,
+     .unit = "degrees", .doc = "Of turns that name none."},
+    {KEY_OF(LSystemPlantParams, step, "step", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
+     .unit = "m", .doc = "Length of an F without parameter, and unit of those with one."},
+    {KEY_OF(LSystemPlantParams, tropism, "tropism", KEY_VECTOR), .count = 3, .low = -1000,
+     .high = 1000, .doc = "The vector that segments bend toward."},
+    {KEY_OF(LSystemPlantParams, elasticity, "elasticity", KEY_FLOAT), .low = -10, .high = 10,
+     .unit = "radians", .doc = "How far a segment that stands across the tropism bends."},
+    {KEY_OF(LSystemPlantParams, noise, "noise", KEY_FLOAT), .high = 180, .unit = "degrees",
+     .doc = "Standard deviation of every turn."},
+    {KEY_OF(LSystemPlantParams, radius, "radius", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "At the root; 0 = 0.02 of the height, or what the pipe model makes of the tips'."},
+    {KEY_OF(LSystemPlantParams, radii, "radii", KEY_GROUP), .table = &radii_table,
+     .doc = "Thickness where the string sets no widths by '!'."},
+    {KEY_OF(LSystemPlantParams, leaves, "leaves", KEY_GROUP), .table = &leaves_table,
+     .doc = "Leaves on its thin ends."},
+    {KEY_OF(LSystemPlantParams, skin, "skin", KEY_GROUP), .table = &skin_table,
+     .doc = "How it becomes a mesh."},
+    {0},
+};
+
+static void lsystem_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(LSystemPlantParams *)out = lsystem_plant_params_default();
+}
+
+const Table lsystem_table = {.name = "lsystem",
+                             .doc = "A plant written as an L-system.",
+                             .size = sizeof(LSystemPlantParams),
+                             .keys = LSYSTEM_KEYS,
+                             .defaults = lsystem_defaults};
