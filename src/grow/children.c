@@ -244,6 +244,7 @@ static int make_string(const Growth *growth, const Grower *grower, const Pull *p
     const GrowString *string = params->string;
     const GrowDirection *at = &string->direction[growth->place[grower->node]];
     int limit = params->max_children > 0 ? params->max_children : at->followers, count = 0;
+    limit = growth_is_last_order(growth, grower->node) ? 1 : limit;
     for (int i = 0; i < at->followers && count < limit; i++) {
         const GrowDirection *direction = &string->direction[at->first + i];
         uint64_t bud = out_tree_child_id(growth->tree->id[grower->node], -1 - i);

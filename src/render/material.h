@@ -24,7 +24,10 @@ typedef enum PatternKind {
                     // scaled by radius
     PATTERN_GROUND, // soil and grass tones, patchy
     PATTERN_LEAF,   // veins, lighter midrib, blotches in leaf uv (0..1)
-    PATTERN_NOISE   // plain fractal noise between color and color2
+    PATTERN_NOISE,  // plain fractal noise between color and color2
+    PATTERN_CORALLITE, // coral: cups with raised rims, paler (color2) where it grows
+    PATTERN_YOUTH,     // color2 where a branch grows, color where it is old
+    PATTERN_SAND       // ripples on a sea floor
 } PatternKind;
 
 typedef struct Material {

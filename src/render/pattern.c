@@ -50,6 +50,15 @@ void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *s
     case PATTERN_LEAF:
         pattern_leaf(m, point, shade);
         break;
+    case PATTERN_CORALLITE:
+        pattern_corallite(m, point, shade);
+        break;
+    case PATTERN_YOUTH:
+        pattern_youth(m, point, shade);
+        break;
+    case PATTERN_SAND:
+        pattern_sand(m, point, shade);
+        break;
     case PATTERN_NOISE:
         noise_pattern(m, point, shade);
         break;

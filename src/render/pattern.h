@@ -19,6 +19,9 @@ void pattern_apply(const Material *material, const SurfacePoint *point, PatternS
 void pattern_bark(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_ground(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_leaf(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_corallite(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_youth(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_sand(const Material *material, const SurfacePoint *point, PatternShade *shade);
 
 // n tilted by the surface gradient of a height field (slope: world, dimensionless). Slopes are
 // bounded softly, so that bumps never turn a surface over.

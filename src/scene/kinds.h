@@ -5,5 +5,6 @@
 #include "scene/kind.h"
 
 extern const Kind kind_tree, kind_ground, kind_mesh, kind_shape, kind_dla, kind_lightning;
+extern const Kind kind_coral, kind_lsystem;
 
 #endif

@@ -7,9 +7,11 @@
 
 #include "base/run.h"
 #include "image/tonemap.h"
+#include "model/coral.h"
 #include "model/dla.h"
 #include "model/ground.h"
 #include "model/lightning.h"
+#include "model/lsystem_plant.h"
 #include "model/tree.h"
 #include "render/world.h"
 
@@ -32,6 +34,8 @@ typedef struct SceneObject {
     char *name;
     uint64_t seed; // 0 = from the scene's seed and the name
     TreeParams *tree;
+    CoralParams *coral;
+    LSystemPlantParams *lsystem;
     GroundParams *ground;
     SceneMesh *mesh;
     SceneShape *shape;
@@ -40,6 +44,7 @@ typedef struct SceneObject {
     // material names, as far as the kind has use for them; NULL = the kind's built-in default
     char *material; // mesh, shape, ground; bark of a tree
     char *twig_material, *leaf_material, *grass_material;
+    char *polyp_material, *rock_material; // of corals
 } SceneObject;
 
 typedef struct SceneTarget { // what a scene says of its own result

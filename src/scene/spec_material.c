@@ -21,7 +21,10 @@ static const cyaml_strval_t MATERIAL_KINDS[] = {{"diffuse", MATERIAL_DIFFUSE},
                                                 {0}};
 static const cyaml_strval_t PATTERNS[] = {{"none", PATTERN_NONE},     {"bark", PATTERN_BARK},
                                           {"ground", PATTERN_GROUND}, {"leaf", PATTERN_LEAF},
-                                          {"noise", PATTERN_NOISE},   {0}};
+                                          {"noise", PATTERN_NOISE},
+                                          {"corallite", PATTERN_CORALLITE},
+                                          {"youth", PATTERN_YOUTH},   {"sand", PATTERN_SAND},
+                                          {0}};
 
 static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, name, "name", KEY_NAME), .flags = KEY_REQUIRED, .count = 64,

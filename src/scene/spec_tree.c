@@ -84,7 +84,7 @@ static const Key RADII_KEYS[] = {
     {0},
 };
 
-static const Table RADII_TABLE = {.name = "radii",
+const Table radii_table = {.name = "radii",
                                   .doc = "Thickness of trunk, branches and roots.",
                                   .size = sizeof(RadiiParams),
                                   .keys = RADII_KEYS};
@@ -123,7 +123,7 @@ static const Key LEAVES_KEYS[] = {
     {0},
 };
 
-static const Table LEAVES_TABLE = {
+const Table leaves_table = {
     .name = "leaves", .doc = "The leaves.", .size = sizeof(LeavesParams), .keys = LEAVES_KEYS};
 
 static const Key SKIN_KEYS[] = {
@@ -135,7 +135,7 @@ static const Key SKIN_KEYS[] = {
     {0},
 };
 
-static const Table SKIN_TABLE = {
+const Table skin_table = {
     .name = "skin", .doc = "The surface.", .size = sizeof(SkinningParams), .keys = SKIN_KEYS};
 
 static const Key TREE_KEYS[] = {
@@ -146,10 +146,10 @@ static const Key TREE_KEYS[] = {
     {KEY_OF(TreeParams, trunk, "trunk", KEY_GROUP), .table = &TRUNK_TABLE, .doc = "The trunk."},
     {KEY_OF(TreeParams, crown, "crown", KEY_GROUP), .table = &CROWN_TABLE, .doc = "The branches."},
     {KEY_OF(TreeParams, roots, "roots", KEY_GROUP), .table = &ROOTS_TABLE, .doc = "The roots."},
-    {KEY_OF(TreeParams, radii, "radii", KEY_GROUP), .table = &RADII_TABLE,
+    {KEY_OF(TreeParams, radii, "radii", KEY_GROUP), .table = &radii_table,
      .doc = "Thickness of trunk, branches and roots."},
-    {KEY_OF(TreeParams, leaves, "leaves", KEY_GROUP), .table = &LEAVES_TABLE, .doc = "The leaves."},
-    {KEY_OF(TreeParams, skin, "skin", KEY_GROUP), .table = &SKIN_TABLE, .doc = "The surface."},
+    {KEY_OF(TreeParams, leaves, "leaves", KEY_GROUP), .table = &leaves_table, .doc = "The leaves."},
+    {KEY_OF(TreeParams, skin, "skin", KEY_GROUP), .table = &skin_table, .doc = "The surface."},
     {0},
 };
 
