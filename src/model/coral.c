@@ -87,7 +87,7 @@ static Envelope *room(const CoralParams *p, const Run *run, Error *e)
         Vec3 foot = colony_foot(p, i);
         bool table = p->form == CORAL_TABLE;
         Vec3 center = table ? vec3_add(foot, vec3(0, 0.9f * p->height, 0)) : foot;
-        shapes[count++] = ellipsoid(center, vec3(r, table ? 0.05f * p->size : p->height, r));
+        shapes[count++] = ellipsoid(center, vec3(r, table ? 0.022f * p->size : p->height, r));
     }
     if (p->form == CORAL_BRANCHING) { // nothing below the ground
         shapes[count] = (Shape){.kind = SHAPE_HALF_SPACE,
@@ -160,7 +160,7 @@ static bool plant_upright(Growing *g, int colony, Error *e)
 {
     const CoralParams *p = g->params;
     bool flat = p->form == CORAL_FAN;
-    float stem = p->form == CORAL_TABLE ? 0.84f * p->height : (flat ? 0.02f : 0.05f) * p->size;
+    float stem = p->form == CORAL_TABLE ? 0.9f * p->height : (flat ? 0.02f : 0.05f) * p->size;
     int pieces = p->form == CORAL_TABLE ? STEM_NODES : 1;
     Vec3 at = colony_foot(p, colony);
     at.y -= flat ? 0.0f : 0.06f * p->size;
@@ -211,6 +211,7 @@ static ColonizeParams colonize_params(const Growing *g, double spacing)
     ColonizeParams c = colonize_params_default();
     c.seed = random_key(g->recipe->seed, 3);
     c.noise = p->noise;
+    c.tropism = vec3(0, p->form == CORAL_BRANCHING ? 0.12f * p->light : 0.0f, 0);
     c.on_surface = p->form == CORAL_ENCRUSTING || p->form == CORAL_MASSIVE;
     c.length_near = p->length;
     c.length_far = p->length_tip;
@@ -255,9 +256,9 @@ static bool grow_branchlets(Growing *g, int32_t first_step, Error *e)
             continue;
         }
         for (uint64_t k = 0; done && k < 4; k++) {
-            float rise = p->size * random_range(random_key(key, 4 * k), 0.018f, 0.055f);
-            Vec3 d = vec3(random_range(random_key(key, 4 * k + 1), -0.014f, 0.014f) * p->size, rise,
-                          random_range(random_key(key, 4 * k + 2), -0.014f, 0.014f) * p->size);
+            float rise = p->size * random_range(random_key(key, 4 * k), 0.016f, 0.05f);
+            Vec3 d = vec3(random_range(random_key(key, 4 * k + 1), -0.012f, 0.012f) * p->size, rise,
+                          random_range(random_key(key, 4 * k + 2), -0.012f, 0.012f) * p->size);
             done = points_add(points, vec3_add(g->tree->position[i], d), vec3(0, 1, 0), key + k, e);
         }
     }

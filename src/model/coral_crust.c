@@ -44,7 +44,7 @@ float crust_height(const OutTree *tree, const CrustParams *params, Vec3 p, float
     float inside = 0.5f * (other - own) - params->seam;
     inside = inside < reach ? inside : reach;
     float t = clampf(inside / params->thickness, 0.0f, 1.0f);
-    *margin = clampf(1.0f - inside / (3.0f * params->thickness), 0.0f, 1.0f);
+    *margin = clampf(1.0f - inside / params->pale, 0.0f, 1.0f);
     if (inside <= 0.0f) {
         return -0.25f * params->thickness;
     }

@@ -11,6 +11,7 @@ typedef struct CrustParams {
     float thickness; // m
     float reach;     // m: how far from its nodes a colony covers the rock
     float seam;      // m: half the width left bare between two colonies
+    float pale;      // m: how far from its margin the crust is young
     float lump;      // m: wavelength of the crust's swellings
     uint64_t seed;
 } CrustParams;

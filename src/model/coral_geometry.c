@@ -85,6 +85,7 @@ static Mesh *crust(const OutTree *tree, const CoralParams *p, const CoralMateria
         CrustParams crust = {.thickness = 1.3f * p->tip_radius,
                              .reach = 1.5f * p->length,
                              .seam = 0.35f * p->length_tip,
+                             .pale = p->form == CORAL_MASSIVE ? 0.03f * p->size : 0.05f * p->size,
                              .lump = p->form == CORAL_MASSIVE ? 0.10f * p->size : 0.05f * p->size,
                              .seed = random_key(seed, 8)};
         mesh = crust_mesh(envelope_surface(rock), tree, &crust, run, e);

@@ -6,8 +6,8 @@
 
 // In the order in which people read of them.
 static const Kind *const KINDS[] = {
-    &kind_tree,  &kind_coral, &kind_lsystem, &kind_ground, &kind_mesh,
-    &kind_shape, &kind_dla,   &kind_lightning,
+    &kind_tree, &kind_ground,    &kind_mesh,  &kind_shape,
+    &kind_dla,  &kind_lightning, &kind_coral, &kind_lsystem,
 };
 
 int kind_count(void)
