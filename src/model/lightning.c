@@ -19,10 +19,10 @@ LightningParams lightning_params_default(void)
                               .spread = 0.4f,
                               .branching = 1.0f,
                               .hurst = 0.7f,
-                              .jitter = 0.08f,
+                              .jitter = 0.10f,
                               .branch_power = 0.2f};
     params.element.max_children = 2;
-    params.element.cone_angle = 75.0f;
+    params.element.cone_angle = 60.0f;
     params.element.gradient = 0.35f;
     return params;
 }
@@ -136,7 +136,7 @@ bool lightning_set_radii(OutTree *tree, const LightningParams *params, float siz
                      chains->node + chains->first[c], chains->first[c + 1] - chains->first[c]);
     }
     for (int64_t i = 0; i < tree->count; i++) {
-        tree->radius[i] = core * sqrtf(tree->radius[i]);
+        tree->radius[i] = core * exact_pow(tree->radius[i], 1.0f / 3.0f);
     }
     free(rank);
     chains_free(chains);

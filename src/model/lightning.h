@@ -42,7 +42,7 @@ typedef struct LightningParams {
 // The documented defaults: a bolt of 1,000 m.
 LightningParams lightning_params_default(void);
 
-// Grows the out-tree of all bolts. A node's radius is the core's, and its square in units of
+// Grows the out-tree of all bolts. A node's radius is the core's, and its cube in units of
 // lightning_radius()'s is its power in units of the main channel's. Colony: the bolt's number, and
 // bolts + that number for its streamers. Normals: of the surface where there is one.
 OutTree *lightning_grow(const LightningParams *params, const Recipe *recipe, Error *e);

@@ -146,7 +146,7 @@ static bool grow_branches(OutTree *tree, const Bolt *bolt, const Recipe *recipe,
         element.shape_count = 1;
     }
     if (vec3_length(element.tropism) == 0.0f) {
-        element.tropism = vec3_scale(bolt->axis, 0.4f);
+        element.tropism = vec3_scale(bolt->axis, 0.8f);
     }
     if (vec3_length(element.cone_axis) == 0.0f) {
         element.cone_axis = bolt->axis;

@@ -20,7 +20,8 @@ static void fill_curve(CurveSet *curves, int64_t curve, const OutTree *tree, con
         along += k > 0 ? vec3_distance(tree->position[node[k - 1]], tree->position[node[k]]) : 0.0f;
         curves->position[first + k] = tree->position[node[k]];
         curves->radius[first + k] = tree->radius[own];
-        curves->glow[first + k] = glow * tree->radius[own] / core;
+        float thin = tree->radius[own] / core; // power is its cube, so radiance its square
+        curves->glow[first + k] = glow * thin * thin;
         curves->along[first + k] = along;
         curves->birth[first + k] = (float)tree->birth[node[k]] / last_birth;
     }

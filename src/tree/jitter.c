@@ -23,17 +23,32 @@ JitterParams jitter_params_default(void)
     return (JitterParams){.hurst = 0.7f, .reference = 1.0f, .seed = 1};
 }
 
-// Standard deviation of the process after one step of the piece, m.
-static double step_deviation(const Jitter *j, const int32_t *node, int64_t steps)
+static float piece_length(const Jitter *j, const int32_t *node, int64_t steps)
 {
     float length = 0.0f;
     for (int64_t k = 1; k <= steps; k++) {
         length += vec3_distance(j->old[node[k - 1]], j->old[node[k]]);
     }
-    double share = (double)length / (double)steps / (double)j->params->reference;
+    return length;
+}
+
+// Standard deviation of the process after a step of this length (m), m.
+static double step_deviation(const Jitter *j, double step)
+{
+    double share = step / (double)j->params->reference;
     return share > 0.0 ? (double)j->params->amplitude *
                              exact_exp((double)j->params->hurst * exact_log(share))
                        : 0.0;
+}
+
+// A path drawn at 0 .. steps, at x; straight between.
+static float path_at(const double *path, int64_t steps, double x)
+{
+    int64_t k = (int64_t)x;
+    if (k >= steps) {
+        return (float)path[steps];
+    }
+    return (float)(path[k] + (x - (double)k) * (path[k + 1] - path[k]));
 }
 
 // The direction of the chain at place k of a piece of `steps` steps, smoothed over its neighbours.
@@ -78,13 +93,17 @@ static bool jitter_piece(Jitter *j, const int32_t *node, int64_t steps, Error *e
     if (!fbm_bridges(j->fbm, steps, key, j->a, j->b, e)) {
         return false;
     }
-    double scale = step_deviation(j, node, steps);
+    // The process runs evenly along the piece; nodes closer than that stay close.
+    double step = (double)piece_length(j, node, steps) / (double)steps, way = 0.0;
+    float scale = (float)step_deviation(j, step);
     Vec3 shift = vec3_sub(tree->position[node[0]], j->old[node[0]]);
     Vec3 side = across(tree->normal[node[0]], direction_at(j, node, steps, 0));
     bool in_space = !j->params->project;
     for (int64_t k = 1; k <= steps; k++) {
         Vec3 d = direction_at(j, node, steps, k);
-        float a = (float)(scale * j->a[k]), b = (float)(scale * j->b[k]);
+        way += (double)vec3_distance(j->old[node[k - 1]], j->old[node[k]]);
+        double x = k == steps || step == 0.0 ? (double)steps : way / step;
+        float a = scale * path_at(j->a, steps, x), b = scale * path_at(j->b, steps, x);
         if (in_space) {
             side = across(side, d); // carried along without twist
             Vec3 offset = vec3_scale(side, a);

@@ -24,9 +24,10 @@ typedef struct JitterParams {
 
 JitterParams jitter_params_default(void); // H 0.7, amplitude 0, reference 1 m, unpinned, in space
 
-// Displaces the tree's nodes in place; roots stay, and so do their chains' tips. Nodes should stand
-// evenly along the chains (out_tree_resample). Draws are keyed by node ids. ERROR_INPUT for a Hurst
-// exponent out of range or lengths that make no sense; ERROR_CANCELLED.
+// Displaces the tree's nodes in place; roots stay, and so do their chains' tips. The process
+// is drawn as many times as there are nodes, evenly along a chain, and runs straight between: nodes
+// that stand evenly (out_tree_resample) carry it exactly. Draws are keyed by node ids. ERROR_INPUT
+// for a Hurst exponent out of range or lengths that make no sense; ERROR_CANCELLED.
 bool out_tree_jitter(OutTree *tree, const JitterParams *params, const Run *run, Error *e);
 
 #endif
