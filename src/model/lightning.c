@@ -18,8 +18,8 @@ LightningParams lightning_params_default(void)
                               .ground_points = 1,
                               .spread = 0.4f,
                               .branching = 1.0f,
-                              .hurst = 0.7f,
-                              .jitter = 0.10f,
+                              .hurst = 0.65f,
+                              .jitter = 0.1f,
                               .branch_power = 0.2f};
     params.element.max_children = 2;
     params.element.cone_angle = 60.0f;
