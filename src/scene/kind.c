@@ -8,6 +8,7 @@
 static const Kind *const KINDS[] = {
     &kind_tree, &kind_ground,    &kind_mesh,  &kind_shape,
     &kind_dla,  &kind_lightning, &kind_coral, &kind_lsystem,
+    &kind_frost,
 };
 
 int kind_count(void)

@@ -9,6 +9,7 @@
 #include "image/tonemap.h"
 #include "model/coral.h"
 #include "model/dla.h"
+#include "model/frost.h"
 #include "model/ground.h"
 #include "model/lightning.h"
 #include "model/lsystem_plant.h"
@@ -37,6 +38,7 @@ typedef struct SceneObject {
     CoralParams *coral;
     LSystemPlantParams *lsystem;
     GroundParams *ground;
+    FrostParams *frost;
     SceneMesh *mesh;
     SceneShape *shape;
     DlaModel *dla;

@@ -135,6 +135,8 @@ static const Key OBJECT_KEYS[] = {
      .doc = "A plant written as an L-system."},
     {KEY_OF(SceneObject, ground, "ground", KEY_POINTER), .table = &GROUND_TABLE,
      .doc = "Ground to stand on."},
+    {KEY_OF(SceneObject, frost, "frost", KEY_POINTER), .table = &frost_table,
+     .doc = "Frost on a pane or a bubble."},
     {KEY_OF(SceneObject, mesh, "mesh", KEY_POINTER), .table = &MESH_TABLE,
      .doc = "An imported mesh."},
     {KEY_OF(SceneObject, shape, "shape", KEY_POINTER), .table = &SOLID_TABLE,
@@ -168,8 +170,9 @@ static void object_defaults(const Node *given, int kind, void *out)
 }
 
 const Table object_table = {.name = "object",
-                            .doc = "One thing of the scene: exactly one of tree, ground, mesh, "
-                                   "shape.",
+                            .doc =
+                                "One thing of the scene: exactly one of tree, ground, mesh, "
+                                "shape.",
                             .size = sizeof(SceneObject),
                             .keys = OBJECT_KEYS,
                             .defaults = object_defaults,

@@ -111,24 +111,16 @@ static void move_node(OutTree *tree, int64_t from, int64_t to)
     tree->id[to] = tree->id[from];
 }
 
-bool out_tree_keep_births(OutTree *tree, float share, Error *e)
+bool out_tree_keep_nodes(OutTree *tree, const bool *keep, Error *e)
 {
-    if (share >= 1.0f) {
-        return true;
-    }
     int32_t *place = memory_alloc(tree->count, sizeof *place, e); // of each node that stays; -1
     if (!place) {
         return false;
     }
-    int32_t last = 0;
-    for (int64_t i = 0; i < tree->count; i++) {
-        last = tree->birth[i] > last ? tree->birth[i] : last;
-    }
-    double limit = (double)share * last;
     int32_t kept = 0;
     for (int64_t i = 0; i < tree->count; i++) {
         int32_t parent = tree->parent[i];
-        bool stays = tree->birth[i] <= limit && (parent < 0 || place[parent] >= 0);
+        bool stays = keep[i] && (parent < 0 || place[parent] >= 0);
         place[i] = stays ? kept : -1;
         if (stays) {
             move_node(tree, i, kept);
@@ -138,6 +130,28 @@ bool out_tree_keep_births(OutTree *tree, float share, Error *e)
     tree->count = kept;
     free(place);
     return true;
+}
+
+bool out_tree_keep_births(OutTree *tree, float share, Error *e)
+{
+    if (share >= 1.0f) {
+        return true;
+    }
+    bool *keep = memory_alloc(tree->count, sizeof *keep, e);
+    if (!keep) {
+        return false;
+    }
+    int32_t last = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        last = tree->birth[i] > last ? tree->birth[i] : last;
+    }
+    double limit = (double)share * last;
+    for (int64_t i = 0; i < tree->count; i++) {
+        keep[i] = tree->birth[i] <= limit;
+    }
+    bool done = out_tree_keep_nodes(tree, keep, e);
+    free(keep);
+    return done;
 }
 
 bool out_tree_check(const OutTree *tree, Error *e)

@@ -37,6 +37,9 @@ int64_t out_tree_add_node(OutTree *tree, Vec3 position, int64_t parent, int32_t 
 // The id of a parent's child number place (0 for the first).
 uint64_t out_tree_child_id(uint64_t parent_id, int64_t place);
 
+// Drops the nodes for which keep is false, with all that grew from them. Keeps the order.
+bool out_tree_keep_nodes(OutTree *tree, const bool *keep, Error *e);
+
 // Drops the nodes born after `share` (0..1) of the last birth: the tree as it was at that time of
 // its growth. Keeps the order; 1 or more changes nothing.
 bool out_tree_keep_births(OutTree *tree, float share, Error *e);
