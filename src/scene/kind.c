@@ -6,9 +6,18 @@
 
 // In the order in which people read of them.
 static const Kind *const KINDS[] = {
-    &kind_tree, &kind_ground,    &kind_mesh,  &kind_shape,
-    &kind_dla,  &kind_lightning, &kind_coral, &kind_lsystem,
+    // clang-format off
+    &kind_tree,
+    &kind_ground,
+    &kind_mesh,
+    &kind_shape,
+    &kind_dla,
+    &kind_lightning,
+    &kind_coral,
+    &kind_lsystem,
     &kind_frost,
+    &kind_sculpture,
+    // clang-format on
 };
 
 int kind_count(void)

@@ -13,6 +13,7 @@
 #include "model/ground.h"
 #include "model/lightning.h"
 #include "model/lsystem_plant.h"
+#include "model/sculpture.h"
 #include "model/tree.h"
 #include "render/world.h"
 
@@ -43,6 +44,7 @@ typedef struct SceneObject {
     SceneShape *shape;
     DlaModel *dla;
     LightningParams *lightning;
+    SculptureParams *sculpture;
     // material names, as far as the kind has use for them; NULL = the kind's built-in default
     char *material; // mesh, shape, ground; bark of a tree
     char *twig_material, *leaf_material, *grass_material;

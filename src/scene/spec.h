@@ -77,12 +77,13 @@ extern const Table scene_table; // the root
 
 // Tables that another file's table uses.
 extern const Table sky_table, light_table, material_table,
-    object_table;              // spec_{sky,material,object}.c
+    object_table; // spec_{sky,material,object}.c
 extern const Table tree_table, radii_table, leaves_table, skin_table; // spec_tree.c
-extern const Table dla_table;                                          // spec_dla.c
-extern const Table lightning_table;                                    // spec_lightning.c
-extern const Table coral_table, lsystem_table;                         // spec_{coral,lsystem}.c
-extern const Table frost_table;                                        // spec_frost.c
+extern const Table dla_table;                                         // spec_dla.c
+extern const Table lightning_table;                                   // spec_lightning.c
+extern const Table coral_table, lsystem_table;                        // spec_{coral,lsystem}.c
+extern const Table frost_table;                                       // spec_frost.c
+extern const Table sculpture_table;                                   // spec_sculpture.c
 extern const Table shape_table, points_table, growth_table, guide_field_table; // spec_element.c
 
 // The start of a row: key `KEY` of type `TYPE` stored in `MEMBER` of struct `STRUCT`.

@@ -145,6 +145,8 @@ static const Key OBJECT_KEYS[] = {
      .doc = "A diffusion-limited aggregate."},
     {KEY_OF(SceneObject, lightning, "lightning", KEY_POINTER), .table = &lightning_table,
      .doc = "Lightning."},
+    {KEY_OF(SceneObject, sculpture, "sculpture", KEY_POINTER), .table = &sculpture_table,
+     .doc = "A hollow branch sculpture."},
     {KEY_OF(SceneObject, material, "material", KEY_TEXT),
      .doc = "Material of a mesh, a shape, the ground, or a tree's bark; left out: clay, clay, "
             "ground, bark."},
@@ -170,9 +172,8 @@ static void object_defaults(const Node *given, int kind, void *out)
 }
 
 const Table object_table = {.name = "object",
-                            .doc =
-                                "One thing of the scene: exactly one of tree, ground, mesh, "
-                                "shape.",
+                            .doc = "One thing of the scene: exactly one of tree, ground, mesh, "
+                                   "shape.",
                             .size = sizeof(SceneObject),
                             .keys = OBJECT_KEYS,
                             .defaults = object_defaults,

@@ -1,0 +1,49 @@
+// A hollow branch sculpture as a kind of object.
+#include "scene/kinds.h"
+#include "tree/join.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+{
+    return sculpture_grow(object->sculpture, recipe, e);
+}
+
+static bool place(const Placing *p, const OutTree *tree, Error *e)
+{
+    return sculpture_geometry(tree, placing_material(p, p->object->material, "clay"), p->index,
+                              &p->world->geometry, p->recipe.run, e);
+}
+
+static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+{
+    (void)object;
+    int64_t pieces;
+    return out_tree_count_pieces(tree, &pieces, e) &&
+           measures_add(list, "pieces", (double)pieces, "", 1.0, 1.0, e);
+}
+
+static void describe(const SceneObject *object, char *text, size_t size)
+{
+    snprintf(text, size, ", %d clusters", object->sculpture->clusters);
+}
+
+static int64_t attractors(const SceneObject *object)
+{
+    const SculptureParams *params = object->sculpture;
+    int64_t sum = params->element.level_count == 0 ? params->attractors : 0;
+    for (int i = 0; i < params->element.level_count; i++) {
+        sum += params->element.levels[i].attractors;
+    }
+    return sum;
+}
+
+const Kind kind_sculpture = {.key = "sculpture",
+                             .offset = offsetof(SceneObject, sculpture),
+                             .materials = {"material"},
+                             .grow = grow,
+                             .place = place,
+                             .measure = measure,
+                             .describe = describe,
+                             .attractors = attractors};
