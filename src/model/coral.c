@@ -86,8 +86,9 @@ static Envelope *room(const CoralParams *p, const Run *run, Error *e)
     for (int i = 0; i < p->colonies; i++) {
         Vec3 foot = colony_foot(p, i);
         bool table = p->form == CORAL_TABLE;
-        Vec3 center = table ? vec3_add(foot, vec3(0, 0.9f * p->height, 0)) : foot;
-        shapes[count++] = ellipsoid(center, vec3(r, table ? 0.022f * p->size : p->height, r));
+        float middle = (table ? 0.9f : 0.5f) * p->height;
+        float half = table ? 0.022f * p->size : 0.52f * p->height;
+        shapes[count++] = ellipsoid(vec3_add(foot, vec3(0, middle, 0)), vec3(r, half, r));
     }
     if (p->form == CORAL_BRANCHING) { // nothing below the ground
         shapes[count] = (Shape){.kind = SHAPE_HALF_SPACE,
@@ -177,6 +178,9 @@ static bool plant_upright(Growing *g, int colony, Error *e)
             g->tree->normal[node] = vec3(s, 0, c);
         }
     }
+    if (node >= 0 && p->form == CORAL_TABLE) {
+        g->tree->normal[node] = vec3(0, 1, 0); // of the plate that it bears
+    }
     return node >= 0;
 }
 
@@ -212,7 +216,8 @@ static ColonizeParams colonize_params(const Growing *g, double spacing)
     c.seed = random_key(g->recipe->seed, 3);
     c.noise = p->noise;
     c.tropism = vec3(0, p->form == CORAL_BRANCHING ? 0.12f * p->light : 0.0f, 0);
-    c.on_surface = p->form == CORAL_ENCRUSTING || p->form == CORAL_MASSIVE;
+    // a table's plate is as good as a surface: its attractors' normals point up
+    c.on_surface = p->form == CORAL_TABLE || p->form == CORAL_ENCRUSTING || p->form == CORAL_MASSIVE;
     c.length_near = p->length;
     c.length_far = p->length_tip;
     c.sector_angle = p->group;
