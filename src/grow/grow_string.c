@@ -11,7 +11,7 @@
 // since.
 typedef struct Place {
     int32_t direction;
-    TurtleFrame frame; // in (heading, normal, side) components of that direction's own frame
+    TurtleFrame frame; // in (heading, left, up) components of that direction's own frame
 } Place;
 
 typedef struct Builder {
@@ -21,8 +21,13 @@ typedef struct Builder {
     int64_t depth, capacity;
 } Builder;
 
-// The turtle's frame of a node is (heading, left, up) = (heading, side, normal).
-static const TurtleFrame STRAIGHT = {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+static const TurtleFrame STRAIGHT = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+// A node's normal is the turtle's up, its side the turtle's left.
+static Vec3 heading_normal_side(Vec3 heading_left_up)
+{
+    return vec3(heading_left_up.x, heading_left_up.z, heading_left_up.y);
+}
 
 static bool add(GrowString *string, GrowDirection direction, Error *e)
 {
@@ -39,8 +44,8 @@ static bool add(GrowString *string, GrowDirection direction, Error *e)
 
 static bool forward(Builder *b, float length, Error *e)
 {
-    GrowDirection direction = {.heading = b->now.frame.heading,
-                               .normal = b->now.frame.up,
+    GrowDirection direction = {.heading = heading_normal_side(b->now.frame.heading),
+                               .normal = heading_normal_side(b->now.frame.up),
                                .length = length,
                                .parent = b->now.direction};
     b->now = (Place){(int32_t)b->string->count, STRAIGHT};
@@ -79,6 +84,12 @@ static bool read_module(Builder *b, const ModuleString *modules, int64_t place, 
     if (symbol == 'f') {
         return error_set(e, ERROR_INPUT,
                          "symbol %lld of the string, 'f', jumps; a branch can only grow (F)",
+                         (long long)place + 1);
+    }
+    if (symbol == '$') {
+        return error_set(e, ERROR_INPUT,
+                         "symbol %lld of the string, '$', asks for the vertical, which a branch "
+                         "that grows freely does not know; use + - & ^ \\ / |",
                          (long long)place + 1);
     }
     if (symbol == '[' || symbol == ']') {
@@ -151,7 +162,7 @@ bool grow_string_init(GrowString *string, const ModuleString *modules, float deg
 {
     *string = (GrowString){0};
     Builder b = {.string = string, .now = {0, STRAIGHT}};
-    bool done = add(string, (GrowDirection){.heading = STRAIGHT.heading, .normal = STRAIGHT.up,
+    bool done = add(string, (GrowDirection){.heading = {1, 0, 0}, .normal = {0, 1, 0},
                                             .length = 1.0f},
                     e);
     for (int64_t i = 0; done && i < modules->count; i++) {
