@@ -1,5 +1,6 @@
 #include "mesh/height_drainage.h"
 
+#include "base/lowest_queue.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -8,60 +9,6 @@
 
 static const int STEP_X[8] = {1, 1, 0, -1, -1, -1, 0, 1};
 static const int STEP_Z[8] = {0, 1, 1, 1, 0, -1, -1, -1};
-
-// ---- a queue of samples, the lowest first
-
-typedef struct FloodItem {
-    float height;
-    int32_t index;
-} FloodItem;
-
-typedef struct FloodQueue {
-    FloodItem *item;
-    int64_t count, capacity;
-} FloodQueue;
-
-static bool is_lower(FloodItem a, FloodItem b)
-{
-    return a.height < b.height || (a.height == b.height && a.index < b.index);
-}
-
-static bool push(FloodQueue *queue, float height, int32_t index, Error *e)
-{
-    if (!memory_reserve(&queue->item, &queue->capacity, queue->count + 1, sizeof *queue->item, e)) {
-        return false;
-    }
-    FloodItem item = {height, index};
-    int64_t i = queue->count++;
-    while (i > 0 && is_lower(item, queue->item[(i - 1) / 2])) {
-        queue->item[i] = queue->item[(i - 1) / 2];
-        i = (i - 1) / 2;
-    }
-    queue->item[i] = item;
-    return true;
-}
-
-static FloodItem pop(FloodQueue *queue)
-{
-    FloodItem lowest = queue->item[0], last = queue->item[--queue->count];
-    int64_t i = 0;
-    for (;;) {
-        int64_t child = 2 * i + 1;
-        if (child >= queue->count) {
-            break;
-        }
-        if (child + 1 < queue->count && is_lower(queue->item[child + 1], queue->item[child])) {
-            child++;
-        }
-        if (!is_lower(queue->item[child], last)) {
-            break;
-        }
-        queue->item[i] = queue->item[child];
-        i = child;
-    }
-    queue->item[i] = last;
-    return lowest;
-}
 
 // ---- neighbours
 
@@ -128,7 +75,7 @@ static float next_above(float x)
 typedef struct Flood {
     const HeightField *field;
     Drainage *out;
-    FloodQueue queue;
+    LowestQueue queue;
     uint8_t *seen;
     float fall;
 } Flood;
@@ -143,7 +90,7 @@ static bool begin_at_rim(Flood *flood, Error *e)
             flood->seen[i] = 1;
         } else if (on_rim(field, i)) {
             flood->seen[i] = 1;
-            if (!push(&flood->queue, field->height[i], (int32_t)i, e)) {
+            if (!lowest_queue_push(&flood->queue, field->height[i], (int32_t)i, e)) {
                 return false;
             }
         }
@@ -157,7 +104,7 @@ static bool flood_all(Flood *flood, Error *e)
 {
     int64_t reached = 0;
     while (flood->queue.count > 0) {
-        int32_t here = pop(&flood->queue).index;
+        int32_t here = lowest_queue_pop(&flood->queue).index;
         flood->out->order[reached++] = here;
         for (int k = 0; k < 8; k++) {
             int64_t n = neighbour(flood->field, here, k);
@@ -171,7 +118,7 @@ static bool flood_all(Flood *flood, Error *e)
             flood->seen[n] = 1;
             flood->out->filled[n] = h > least ? h : least;
             flood->out->receiver[n] = here;
-            if (!push(&flood->queue, flood->out->filled[n], (int32_t)n, e)) {
+            if (!lowest_queue_push(&flood->queue, flood->out->filled[n], (int32_t)n, e)) {
                 return false;
             }
         }

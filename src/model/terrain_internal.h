@@ -1,0 +1,55 @@
+// What the parts of the terrain share: private to terrain*.c.
+#ifndef RAMIFY_MODEL_TERRAIN_INTERNAL_H
+#define RAMIFY_MODEL_TERRAIN_INTERNAL_H
+
+#include "model/terrain.h"
+#include "model/terrain_envelope.h"
+
+// Rivers with all that follows from them.
+typedef struct Terrain {
+    const TerrainParams *params; // borrowed
+    uint64_t seed;
+    OutTree *rivers;          // heights and radii filled in
+    float *area;              // m^2 that drain through each node
+    float *uplift;            // factor on gradients at each node
+    float gradient;           // of hillslopes where the uplift is 1
+    TroughEnvelope *land;     // heights of valleys and slopes
+    TroughEnvelope *distance; // m to the nearest river, whatever its height
+} Terrain;
+
+// Takes the rivers (positions in the plane, parents) and finds areas, heights and captures.
+Terrain *terrain_new(const TerrainParams *params, OutTree *rivers, const Recipe *recipe, Error *e);
+void terrain_free(Terrain *terrain); // NULL is fine
+
+// terrain_rivers.c: grows the rivers in the plane y = 0.
+OutTree *terrain_rivers(const TerrainParams *params, const Recipe *recipe, Error *e);
+
+// terrain_uplift.c: the factor on gradients at a place, at least 0.02.
+float terrain_uplift(const TerrainParams *params, uint64_t seed, float x, float z);
+
+// terrain_profile.c: one pass over the rivers: areas, then heights for hillslopes of gradient
+// uplift * 1, from the outlets up. A river that would run below another's slope is captured by it:
+// *captures counts them. Nodes are sorted by height.
+bool terrain_profile(Terrain *terrain, const Run *run, int64_t *captures, Error *e);
+
+// Half the width of a valley floor with this drainage area, m.
+static inline float terrain_valley(const TerrainParams *params, float area)
+{
+    return params->rivers.valley * sqrtf(area);
+}
+
+// The trough of node i's piece of river (to its parent), for hillslopes of `gradient` times uplift.
+Trough terrain_trough(const Terrain *terrain, int64_t i, float gradient);
+
+// terrain_erosion.c: thermal and stream erosion of a field.
+bool terrain_erode(HeightField *field, const TerrainErosionParams *params, float relief,
+                   const Run *run, Error *e);
+
+// terrain_mesh.c, terrain_water.c, terrain_forest.c: parts of the geometry. Places in the field's
+// own space are moved by params->position.
+bool terrain_add_water(const Terrain *terrain, const HeightField *field, int material, int object,
+                       Geometry *geometry, Error *e);
+bool terrain_add_forest(const TerrainParams *params, const HeightField *field, int material,
+                        int object, uint64_t seed, Geometry *geometry, Error *e);
+
+#endif

@@ -1,0 +1,421 @@
+// Drainage areas and heights of rivers. From the outlet up a river rises as streams in a steady
+// state do, slope = S0 min(1, (A / A0)^-concavity) (Flint 1974), times the uplift. All rivers rise
+// at once, the lowest first; where a river would have to cross the slope of one that is lower it is
+// captured and runs down that slope instead, as brooks are when divides move.
+#include "model/terrain_internal.h"
+
+#include "base/exact_math.h"
+#include "base/lowest_queue.h"
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// ---- drainage areas
+
+// Nodes sorted into the cells of a square grid.
+typedef struct NodeGrid {
+    int side;
+    float size, scale; // of the terrain; cells a metre
+    int64_t *start;    // side * side + 1
+    int32_t *node;
+} NodeGrid;
+
+static int grid_cell(const NodeGrid *grid, float x)
+{
+    int i = (int)((x + 0.5f * grid->size) * grid->scale);
+    return i < 0 ? 0 : i >= grid->side ? grid->side - 1 : i;
+}
+
+static int64_t grid_place(const NodeGrid *grid, Vec3 p)
+{
+    return (int64_t)grid_cell(grid, p.z) * grid->side + grid_cell(grid, p.x);
+}
+
+static bool grid_fill(NodeGrid *grid, const OutTree *tree, float size, Error *e)
+{
+    grid->side = 1;
+    while (grid->side < 1024 && (int64_t)grid->side * grid->side < tree->count / 2) {
+        grid->side *= 2;
+    }
+    grid->size = size;
+    grid->scale = (float)grid->side / size;
+    int64_t cells = (int64_t)grid->side * grid->side;
+    grid->start = memory_alloc_zero(cells + 2, sizeof *grid->start, e);
+    grid->node = memory_alloc(tree->count, sizeof *grid->node, e);
+    if (!grid->start || !grid->node) {
+        return false;
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        grid->start[grid_place(grid, tree->position[i]) + 2]++;
+    }
+    for (int64_t c = 0; c < cells; c++) {
+        grid->start[c + 2] += grid->start[c + 1];
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        grid->node[grid->start[grid_place(grid, tree->position[i]) + 1]++] = (int32_t)i;
+    }
+    return true;
+}
+
+static void grid_clear(NodeGrid *grid)
+{
+    free(grid->start);
+    free(grid->node);
+}
+
+// The node nearest to (x, z); ties: the lowest index.
+static int32_t nearest_node(const NodeGrid *grid, const OutTree *tree, float x, float z)
+{
+    int column = grid_cell(grid, x), row = grid_cell(grid, z);
+    float best = 3e38f;
+    int32_t found = 0;
+    for (int ring = 0; ring < grid->side; ring++) {
+        float clear = (float)(ring - 1) / grid->scale;
+        if (ring > 1 && clear * clear > best) {
+            break;
+        }
+        for (int r = row - ring; r <= row + ring; r++) {
+            bool edge = r == row - ring || r == row + ring;
+            for (int c = column - ring; c <= column + ring; c += edge || ring == 0 ? 1 : 2 * ring) {
+                if (r < 0 || c < 0 || r >= grid->side || c >= grid->side) {
+                    continue;
+                }
+                int64_t cell = (int64_t)r * grid->side + c;
+                for (int64_t k = grid->start[cell]; k < grid->start[cell + 1]; k++) {
+                    int32_t i = grid->node[k];
+                    float dx = tree->position[i].x - x, dz = tree->position[i].z - z;
+                    float d2 = dx * dx + dz * dz;
+                    if (d2 < best || (d2 == best && i < found)) {
+                        best = d2;
+                        found = i;
+                    }
+                }
+            }
+        }
+    }
+    return found;
+}
+
+// Land belongs to its nearest node: counted on a grid that the number of rivers decides, not the
+// resolution asked for.
+static bool count_areas(Terrain *terrain, const Run *run, Error *e)
+{
+    const OutTree *tree = terrain->rivers;
+    float size = terrain->params->size;
+    int side = 256;
+    while (side < 2048 && (int64_t)side * side < 12 * tree->count) {
+        side *= 2;
+    }
+    NodeGrid grid = {0};
+    int32_t *owner = memory_alloc((int64_t)side * side, sizeof *owner, e);
+    bool done = owner && grid_fill(&grid, tree, size, e);
+    if (done) {
+#pragma omp parallel for schedule(static) num_threads(run->threads)
+        for (int row = 0; row < side; row++) {
+            for (int column = 0; column < side; column++) {
+                float x = ((float)column + 0.5f) / (float)side - 0.5f;
+                float z = ((float)row + 0.5f) / (float)side - 0.5f;
+                owner[(int64_t)row * side + column] = nearest_node(&grid, tree, x * size, z * size);
+            }
+        }
+        float cell = size / (float)side * (size / (float)side);
+        memset(terrain->area, 0, sizeof *terrain->area * (size_t)tree->count);
+        for (int64_t i = 0; i < (int64_t)side * side; i++) {
+            terrain->area[owner[i]] += cell;
+        }
+        for (int64_t i = tree->count - 1; i >= 0; i--) {
+            float least = 0.25f * cell; // a node between others, nearest to no sample
+            terrain->area[i] = terrain->area[i] > least ? terrain->area[i] : least;
+            if (tree->parent[i] >= 0) {
+                terrain->area[tree->parent[i]] += terrain->area[i];
+            }
+        }
+    }
+    free(owner);
+    grid_clear(&grid);
+    return done;
+}
+
+// ---- heights
+
+Trough terrain_trough(const Terrain *terrain, int64_t i, float gradient)
+{
+    const OutTree *tree = terrain->rivers;
+    Vec3 b = tree->position[i], a = tree->parent[i] >= 0 ? tree->position[tree->parent[i]] : b;
+    float dx = b.x - a.x, dz = b.z - a.z, length = sqrtf(dx * dx + dz * dz);
+    float own = gradient * terrain->uplift[i];
+    Trough t = {.x = a.x,
+                .z = a.z,
+                .dx = 1.0f,
+                .h0 = a.y,
+                .gradient = own,
+                .width = terrain_valley(terrain->params, terrain->area[i]),
+                .node = (int32_t)i};
+    if (length > 0.0f) {
+        t.dx = dx / length;
+        t.dz = dz / length;
+        t.length = length;
+        t.slope = (b.y - a.y) / length;
+        t.gradient = own > 1.05f * t.slope ? own : 1.05f * t.slope;
+    }
+    return t;
+}
+
+// What is known of the troughs in one cell, for skipping it.
+typedef struct TroughCell {
+    int32_t first; // -1 = none; next in Ascent.next
+    float low, gradient, reach;
+} TroughCell;
+
+typedef struct Ascent {
+    Terrain *terrain;
+    LowestQueue queue;
+    NodeGrid grid; // only its cells
+    TroughCell *cell;
+    Trough *trough;
+    int32_t *next;
+    int32_t *child, *sibling; // first child, next sibling
+    int64_t captures;
+    float least_gradient, largest_reach;
+} Ascent;
+
+static void link_children(Ascent *a)
+{
+    const OutTree *tree = a->terrain->rivers;
+    for (int64_t i = tree->count - 1; i >= 0; i--) {
+        int32_t parent = tree->parent[i];
+        a->sibling[i] = -1;
+        if (parent >= 0) {
+            a->sibling[i] = a->child[parent];
+            a->child[parent] = (int32_t)i;
+        }
+    }
+}
+
+static void settle(Ascent *a, int32_t i)
+{
+    Trough t = terrain_trough(a->terrain, i, 1.0f);
+    TroughCell *cell = &a->cell[grid_place(&a->grid, a->terrain->rivers->position[i])];
+    float reach = t.length + t.width;
+    a->trough[i] = t;
+    a->next[i] = cell->first;
+    cell->low = cell->first < 0 || t.h0 < cell->low ? t.h0 : cell->low;
+    cell->gradient = cell->first < 0 || t.gradient < cell->gradient ? t.gradient : cell->gradient;
+    cell->reach = cell->first < 0 || reach > cell->reach ? reach : cell->reach;
+    cell->first = i;
+    a->least_gradient = t.gradient < a->least_gradient ? t.gradient : a->least_gradient;
+    a->largest_reach = reach > a->largest_reach ? reach : a->largest_reach;
+}
+
+static void search_cell(const Ascent *a, int column, int row, Vec3 p, float *best, int32_t *found)
+{
+    const TroughCell *cell = &a->cell[(int64_t)row * a->grid.side + column];
+    float side = 1.0f / a->grid.scale;
+    float dx = fabsf(p.x - (((float)column + 0.5f) * side - 0.5f * a->grid.size)) - 0.5f * side;
+    float dz = fabsf(p.z - (((float)row + 0.5f) * side - 0.5f * a->grid.size)) - 0.5f * side;
+    dx = dx > 0.0f ? dx : 0.0f;
+    dz = dz > 0.0f ? dz : 0.0f;
+    float clear = sqrtf(dx * dx + dz * dz) - cell->reach;
+    if (cell->first < 0 || cell->low + cell->gradient * (clear > 0.0f ? clear : 0.0f) > *best) {
+        return;
+    }
+    for (int32_t i = cell->first; i >= 0; i = a->next[i]) {
+        float h = trough_height(&a->trough[i], p.x, p.z);
+        if (h < *best || (h == *best && i < *found)) {
+            *best = h;
+            *found = i;
+        }
+    }
+}
+
+// The lowest settled slope at p that is below `best`; -1 = none.
+static int32_t lowest_slope(const Ascent *a, Vec3 p, float *best)
+{
+    int column = grid_cell(&a->grid, p.x), row = grid_cell(&a->grid, p.z), side = a->grid.side;
+    int32_t found = -1;
+    for (int ring = 0; ring < side; ring++) {
+        float clear = (float)(ring - 1) / a->grid.scale - a->largest_reach;
+        if (clear > 0.0f && clear * a->least_gradient > *best) {
+            break;
+        }
+        for (int r = row - ring; r <= row + ring; r++) {
+            bool edge = r == row - ring || r == row + ring;
+            for (int c = column - ring; c <= column + ring; c += edge || ring == 0 ? 1 : 2 * ring) {
+                if (r >= 0 && c >= 0 && r < side && c < side) {
+                    search_cell(a, c, r, p, best, &found);
+                }
+            }
+        }
+    }
+    return found;
+}
+
+// The height that node i would have above its parent by the slope-area law.
+static float tentative(const Ascent *a, int32_t i)
+{
+    const Terrain *terrain = a->terrain;
+    const OutTree *tree = terrain->rivers;
+    const RiverParams *rivers = &terrain->params->rivers;
+    float headwater = terrain->params->size * terrain->params->size / (float)rivers->count;
+    float share = terrain->area[i] / headwater;
+    float slope = rivers->gradient * terrain->uplift[i];
+    if (share > 1.0f) {
+        slope *= exact_pow(share, -rivers->concavity);
+    }
+    Vec3 p = tree->position[i], q = tree->position[tree->parent[i]];
+    float dx = p.x - q.x, dz = p.z - q.z;
+    return q.y + slope * sqrtf(dx * dx + dz * dz);
+}
+
+// Every river keeps this much fall at least.
+static float least_rise(const OutTree *tree, int32_t i, int32_t below)
+{
+    Vec3 p = tree->position[i], q = tree->position[below];
+    float dx = p.x - q.x, dz = p.z - q.z;
+    return q.y + 1e-5f * sqrtf(dx * dx + dz * dz) + 1e-6f * (q.y + 1.0f);
+}
+
+// The floor of a river's own valley reaches a little upstream: that is no capture.
+static bool is_ancestor(const OutTree *tree, int32_t other, int32_t i)
+{
+    for (int k = 0; k < 100 && i >= 0; k++, i = tree->parent[i]) {
+        if (i == other) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool ascend(Ascent *a, Error *e)
+{
+    OutTree *tree = a->terrain->rivers;
+    for (int64_t i = 0; i < tree->count; i++) {
+        tree->position[i].y = 0.0f;
+        if (tree->parent[i] < 0 && !lowest_queue_push(&a->queue, 0.0f, (int32_t)i, e)) {
+            return false;
+        }
+    }
+    while (a->queue.count > 0) {
+        QueueItem item = lowest_queue_pop(&a->queue);
+        int32_t i = item.index, parent = tree->parent[i];
+        if (parent >= 0) {
+            float height = item.height;
+            int32_t other = lowest_slope(a, tree->position[i], &height);
+            if (other >= 0 && height < tree->position[parent].y && tree->parent[other] >= 0 &&
+                !is_ancestor(tree, other, parent)) { // captured
+                parent = tree->parent[i] = tree->parent[other];
+                a->captures++;
+            }
+            float least = least_rise(tree, i, parent);
+            tree->position[i].y = height > least ? height : least;
+        }
+        settle(a, i);
+        for (int32_t c = a->child[i]; c >= 0; c = a->sibling[c]) {
+            if (!lowest_queue_push(&a->queue, tentative(a, c), c, e)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool ascend_all(Terrain *terrain, int64_t *captures, Error *e)
+{
+    int64_t count = terrain->rivers->count;
+    Ascent a = {.terrain = terrain, .least_gradient = 3e38f};
+    a.grid.side = 1;
+    while (a.grid.side < 512 && (int64_t)a.grid.side * a.grid.side < count / 3) {
+        a.grid.side *= 2;
+    }
+    a.grid.size = terrain->params->size;
+    a.grid.scale = (float)a.grid.side / a.grid.size;
+    int64_t cells = (int64_t)a.grid.side * a.grid.side;
+    a.cell = memory_alloc(cells, sizeof *a.cell, e);
+    a.trough = memory_alloc(count, sizeof *a.trough, e);
+    a.next = memory_alloc(count, sizeof *a.next, e);
+    a.child = memory_alloc(count, sizeof *a.child, e);
+    a.sibling = memory_alloc(count, sizeof *a.sibling, e);
+    bool done = a.cell && a.trough && a.next && a.child && a.sibling;
+    if (done) {
+        for (int64_t i = 0; i < cells; i++) {
+            a.cell[i] = (TroughCell){.first = -1};
+        }
+        memset(a.child, 0xff, sizeof *a.child * (size_t)count);
+        link_children(&a);
+        done = ascend(&a, e);
+    }
+    *captures = a.captures;
+    free(a.queue.item);
+    free(a.cell);
+    free(a.trough);
+    free(a.next);
+    free(a.child);
+    free(a.sibling);
+    return done;
+}
+
+// ---- order
+
+typedef struct Rank {
+    float height;
+    int32_t node;
+} Rank;
+
+static int compare_ranks(const void *a, const void *b)
+{
+    const Rank *x = a, *y = b;
+    if (x->height != y->height) {
+        return x->height < y->height ? -1 : 1;
+    }
+    return x->node < y->node ? -1 : x->node > y->node;
+}
+
+// A copy of the tree with every parent before its children: by height, which grows upstream.
+static bool sort_by_height(Terrain *terrain, Error *e)
+{
+    OutTree *tree = terrain->rivers, *sorted = out_tree_new(e);
+    Rank *rank = memory_alloc(tree->count, sizeof *rank, e);
+    int32_t *place = memory_alloc(tree->count, sizeof *place, e);
+    float *uplift = memory_alloc(tree->count, sizeof *uplift, e);
+    float *area = memory_alloc(tree->count, sizeof *area, e);
+    bool done =
+        sorted && rank && place && uplift && area && out_tree_reserve(sorted, tree->count, e);
+    for (int64_t i = 0; done && i < tree->count; i++) {
+        rank[i] = (Rank){tree->position[i].y, (int32_t)i};
+    }
+    if (done) {
+        qsort(rank, (size_t)tree->count, sizeof *rank, compare_ranks);
+    }
+    for (int64_t k = 0; done && k < tree->count; k++) {
+        int32_t i = rank[k].node, parent = tree->parent[i];
+        place[i] = (int32_t)k;
+        uplift[k] = terrain->uplift[i];
+        area[k] = terrain->area[i];
+        done = out_tree_add_node(sorted, tree->position[i], parent < 0 ? -1 : place[parent],
+                                 tree->birth[i],
+                                 parent < 0 ? tree->colony[i] : sorted->colony[place[parent]],
+                                 tree->id[i], e) >= 0;
+    }
+    if (done) {
+        memcpy(terrain->uplift, uplift, sizeof *uplift * (size_t)tree->count);
+        memcpy(terrain->area, area, sizeof *area * (size_t)tree->count);
+        terrain->rivers = sorted;
+        sorted = tree;
+    }
+    out_tree_free(sorted);
+    free(rank);
+    free(place);
+    free(uplift);
+    free(area);
+    return done;
+}
+
+bool terrain_profile(Terrain *terrain, const Run *run, int64_t *captures, Error *e)
+{
+    if (run_is_cancelled(run)) {
+        return run_cancel_error(e);
+    }
+    return count_areas(terrain, run, e) && ascend_all(terrain, captures, e) &&
+           sort_by_height(terrain, e);
+}
