@@ -35,6 +35,9 @@ Mesh *mesh_new(int face_size, int64_t vertex_count, int64_t face_count, int arra
     if (made && (arrays & MESH_BIRTH)) {
         made = (mesh->birth = memory_alloc_zero(vertex_count, sizeof(float), e));
     }
+    if (made && (arrays & MESH_SITE)) {
+        made = (mesh->site = memory_alloc_zero(vertex_count, sizeof(Vec2), e));
+    }
     if (!made) {
         mesh_free(mesh);
         return NULL;
@@ -51,6 +54,7 @@ void mesh_free(Mesh *mesh)
         free(mesh->uv);
         free(mesh->radius);
         free(mesh->birth);
+        free(mesh->site);
         free(mesh);
     }
 }

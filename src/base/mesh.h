@@ -18,10 +18,11 @@ typedef struct Mesh {
     Vec2 *uv;        // m around and along on grown meshes, 0..1 elsewhere; NULL = none
     float *radius;   // m, of the branch the vertex lies on; NULL = none
     float *birth;    // growth step, as a fraction of the last one, 0..1; NULL = none
+    Vec2 *site;      // land: altitude (x) and wetness (y), 0..1 each; NULL = none
 } Mesh;
 
 // Which optional arrays mesh_new makes.
-enum { MESH_NORMAL = 1, MESH_UV = 2, MESH_RADIUS = 4, MESH_BIRTH = 8 };
+enum { MESH_NORMAL = 1, MESH_UV = 2, MESH_RADIUS = 4, MESH_BIRTH = 8, MESH_SITE = 16 };
 
 // A mesh with arrays of these sizes, contents zero; NULL and e when memory is short.
 Mesh *mesh_new(int face_size, int64_t vertex_count, int64_t face_count, int arrays, Error *e);

@@ -206,7 +206,10 @@ static float land_at(const Terrain *terrain, float x, float z, float *wetness)
     }
     float valley = 1.5f * terrain_valley(params, terrain->area[nearest]) + 0.002f * params->size;
     *wetness = 1.0f - smoothstepf(0.0f, 1.0f, away / valley);
-    return height;
+    // The bed of the water, a quarter as deep as half its width.
+    float half = terrain->rivers->radius[nearest];
+    float bank = half > 0.0f ? 1.0f - away * away / (half * half) : 0.0f;
+    return bank > 0.0f ? height - 0.25f * half * bank : height;
 }
 
 static bool sample_land(const Terrain *terrain, HeightField *field, const Run *run)
@@ -267,7 +270,7 @@ static void carve_piece(HeightField *field, Vec3 from, Vec3 to)
         }
         float *height = &field->height[(int64_t)row * field->columns + column];
         float river = lerpf(from.y, to.y, t);
-        *height = *height < river ? *height : river;
+        *height = *height < river ? *height : river; // water beds are lower already
     }
 }
 
@@ -296,34 +299,37 @@ static bool finish_field(const Terrain *terrain, HeightField *field, const Run *
     return params->terraces.count <= 0 || height_field_fill(field, 0.0f, e);
 }
 
+HeightField *terrain_sample(Terrain *terrain, const Run *run, Error *e)
+{
+    const TerrainParams *params = terrain->params;
+    float cell = params->size / (float)params->resolution, corner = -0.5f * params->size;
+    terrain->land = make_envelope(terrain, false, run, e);
+    terrain->distance = terrain->land ? make_envelope(terrain, true, run, e) : NULL;
+    HeightField *field = NULL;
+    if (terrain->distance) {
+        field = height_field_new(params->resolution + 1, params->resolution + 1,
+                                 (Vec2){cell, cell}, (Vec2){corner, corner}, e);
+    }
+    if (!field) {
+        return NULL;
+    }
+    run_progress(run, "heights", 0.0);
+    field->wetness = memory_alloc_zero(height_field_count(field), sizeof(float), e);
+    if (!field->wetness || !(sample_land(terrain, field, run) || run_cancel_error(e)) ||
+        !finish_field(terrain, field, run, e)) {
+        height_field_free(field);
+        return NULL;
+    }
+    return field;
+}
+
 HeightField *terrain_heights(const TerrainParams *params, const OutTree *rivers,
                              const Recipe *recipe, Error *e)
 {
     OutTree *copy = out_tree_copy(rivers, e);
     Terrain *terrain = copy ? terrain_new(params, copy, recipe, e) : NULL;
-    HeightField *field = NULL;
-    bool done = terrain;
-    if (done) {
-        terrain->land = make_envelope(terrain, false, recipe->run, e);
-        terrain->distance = terrain->land ? make_envelope(terrain, true, recipe->run, e) : NULL;
-        float cell = params->size / (float)params->resolution;
-        done = terrain->distance &&
-               (field = height_field_new(params->resolution + 1, params->resolution + 1,
-                                         (Vec2){cell, cell},
-                                         (Vec2){-0.5f * params->size, -0.5f * params->size}, e));
-    }
-    if (done) {
-        field->wetness = memory_alloc_zero(height_field_count(field), sizeof(float), e);
-        run_progress(recipe->run, "heights", 0.0);
-        done = field->wetness &&
-               (sample_land(terrain, field, recipe->run) || run_cancel_error(e)) &&
-               finish_field(terrain, field, recipe->run, e);
-    }
+    HeightField *field = terrain ? terrain_sample(terrain, recipe->run, e) : NULL;
     terrain_free(terrain);
-    if (!done) {
-        height_field_free(field);
-        return NULL;
-    }
     return field;
 }
 

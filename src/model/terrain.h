@@ -100,15 +100,12 @@ TerrainParams terrain_params_default(void); // 12 km of mountains
 // height), radii half the width of the water. In the terrain's own space, position not added.
 OutTree *terrain_grow(const TerrainParams *params, const Recipe *recipe, Error *e);
 
-// m^2 that drain through each node of a terrain_grow tree, from its radii.
-float terrain_node_area(const TerrainParams *params, float radius);
-
 // Heights and wetness from the rivers; square, resolution + 1 samples a side. Every sample off the
 // rim drains. The same bits for any number of threads.
 HeightField *terrain_heights(const TerrainParams *params, const OutTree *rivers,
                              const Recipe *recipe, Error *e);
 
-// The height to which everything was scaled, m: what `relief` 0 came to.
+// Height of the lake, in the field's own space.
 float terrain_water_height(const TerrainParams *params, const HeightField *field);
 
 typedef struct TerrainMaterials {

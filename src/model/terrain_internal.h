@@ -45,11 +45,14 @@ Trough terrain_trough(const Terrain *terrain, int64_t i, float gradient);
 bool terrain_erode(HeightField *field, const TerrainErosionParams *params, float relief,
                    const Run *run, Error *e);
 
-// terrain_mesh.c, terrain_water.c, terrain_forest.c: parts of the geometry. Places in the field's
-// own space are moved by params->position.
+// terrain.c: heights and wetness (see terrain_heights).
+HeightField *terrain_sample(Terrain *terrain, const Run *run, Error *e);
+
+// terrain_water.c, terrain_forest.c: parts of the geometry, moved by params->position. eye: the
+// camera, NULL = none.
 bool terrain_add_water(const Terrain *terrain, const HeightField *field, int material, int object,
                        Geometry *geometry, Error *e);
-bool terrain_add_forest(const TerrainParams *params, const HeightField *field, int material,
-                        int object, uint64_t seed, Geometry *geometry, Error *e);
+bool terrain_add_forest(const TerrainParams *params, const HeightField *field, const Vec3 *eye,
+                        int material, int object, uint64_t seed, Geometry *geometry, Error *e);
 
 #endif

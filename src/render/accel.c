@@ -220,7 +220,7 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
         accel->copied_faces += part->instance_count * part->mesh->face_count;
     }
     own->plain = mesh && !own->copied && !part->mesh->normal && !part->mesh->uv &&
-                 !part->mesh->radius && !part->mesh->birth;
+                 !part->mesh->radius && !part->mesh->birth && !part->mesh->site;
     RTCGeometry geometry =
         mesh ? mesh_geometry(accel, part->mesh, own->copied ? part->instance : NULL,
                              own->copied ? part->instance_count : 1)

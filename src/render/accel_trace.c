@@ -285,6 +285,10 @@ static void mesh_surface(const Mesh *mesh, const Hit *hit, int64_t face, const T
     for (int i = 0; i < 3 && mesh->birth; i++) {
         point->birth += c.weight[i] * mesh->birth[c.vertex[i]];
     }
+    for (int i = 0; i < 3 && mesh->site; i++) {
+        point->site.x += c.weight[i] * mesh->site[c.vertex[i]].x;
+        point->site.y += c.weight[i] * mesh->site[c.vertex[i]].y;
+    }
     point->epsilon = 4e-6f * largest(point->position) + 1e-7f;
 }
 

@@ -27,7 +27,10 @@ typedef enum PatternKind {
     PATTERN_NOISE,  // plain fractal noise between color and color2
     PATTERN_CORALLITE, // coral: cups with raised rims, paler (color2) where it grows
     PATTERN_YOUTH,     // color2 where a branch grows, color where it is old
-    PATTERN_SAND       // ripples on a sea floor
+    PATTERN_SAND,      // ripples on a sea floor
+    PATTERN_MOUNTAIN, // rock, scree, grass and snow by altitude, slope and wetness of the land
+    PATTERN_BADLANDS, // rock in coloured beds, rills, sandy flats
+    PATTERN_WATER     // ripples
 } PatternKind;
 
 typedef struct Material {
@@ -48,6 +51,8 @@ typedef struct Material {
     PatternKind pattern;
     float pattern_scale;       // m: wavelength of the pattern's largest feature; 0 = the kind's own
     float pattern_depth;       // m: bump height; 0 = none
+    float snow_line, grass_line; // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above
+                                 // and below which they lie; 0 = none
     float variation;           // 0..1: how far hue and value differ from instance to instance
     const char *texture;       // file that multiplies color, by uv; NULL = none; borrowed
     const char *alpha_texture; // NULL = opaque; borrowed

@@ -59,6 +59,15 @@ void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *s
     case PATTERN_SAND:
         pattern_sand(m, point, shade);
         break;
+    case PATTERN_MOUNTAIN:
+        pattern_mountain(m, point, shade);
+        break;
+    case PATTERN_BADLANDS:
+        pattern_badlands(m, point, shade);
+        break;
+    case PATTERN_WATER:
+        pattern_water(m, point, shade);
+        break;
     case PATTERN_NOISE:
         noise_pattern(m, point, shade);
         break;

@@ -18,6 +18,9 @@ void pattern_apply(const Material *material, const SurfacePoint *point, PatternS
 // The kinds, one file each.
 void pattern_bark(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_ground(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_mountain(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_badlands(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_water(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_leaf(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_corallite(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_youth(const Material *material, const SurfacePoint *point, PatternShade *shade);

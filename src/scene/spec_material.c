@@ -24,7 +24,7 @@ static const cyaml_strval_t PATTERNS[] = {{"none", PATTERN_NONE},     {"bark", P
                                           {"noise", PATTERN_NOISE},
                                           {"corallite", PATTERN_CORALLITE},
                                           {"youth", PATTERN_YOUTH},   {"sand", PATTERN_SAND},
-                                          {0}};
+                                          {"mountain", PATTERN_MOUNTAIN}, {"badlands", PATTERN_BADLANDS}, {"water", PATTERN_WATER},   {0}};
 
 static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, name, "name", KEY_NAME), .flags = KEY_REQUIRED, .count = 64,
@@ -66,6 +66,11 @@ static const Key MATERIAL_KEYS[] = {
      .doc = "Wavelength of the pattern's largest features; 0 = the pattern's own."},
     {KEY_OF(Material, pattern_depth, "pattern_depth", KEY_FLOAT), .kinds = BUMPED, .high = 1e3,
      .unit = "m", .doc = "Height of the pattern's bumps; 0 = none."},
+    {KEY_OF(Material, snow_line, "snow_line", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
+     .doc = "Pattern mountain: altitude above which snow lies, a share of the land's relief; 0 = no "
+            "snow."},
+    {KEY_OF(Material, grass_line, "grass_line", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
+     .doc = "Pattern mountain: altitude below which grass grows; 0 = no grass."},
     {KEY_OF(Material, variation, "variation", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "How far hue and brightness differ from instance to instance."},
     {KEY_OF(Material, texture, "texture", KEY_FILE), .kinds = PATTERNED,

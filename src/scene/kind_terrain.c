@@ -1,0 +1,100 @@
+// Terrain as a kind of object.
+#include "scene/kinds.h"
+
+#include "base/memory.h"
+#include "image/image.h"
+#include "mesh/height_measure.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+// The parameters with the uplift's picture read in.
+typedef struct LoadedTerrain {
+    TerrainParams params;
+    Image *image; // grey; NULL = none
+} LoadedTerrain;
+
+static bool load(const TerrainParams *given, LoadedTerrain *loaded, Error *e)
+{
+    *loaded = (LoadedTerrain){.params = *given};
+    if (!given->uplift.image) {
+        return true;
+    }
+    loaded->image = image_read(given->uplift.image, e);
+    if (!loaded->image) {
+        return false;
+    }
+    Image *image = loaded->image;
+    int64_t count = (int64_t)image->width * image->height;
+    int colours = image->channels < 3 ? 1 : 3;
+    for (int64_t i = 0; i < count; i++) { // in place: the grey ones lie before those still to read
+        float sum = 0.0f;
+        for (int c = 0; c < colours; c++) {
+            sum += image->pixel[i * image->channels + c];
+        }
+        image->pixel[i] = sum / (float)colours;
+    }
+    loaded->params.uplift.image_pixels = image->pixel;
+    loaded->params.uplift.image_size[0] = image->width;
+    loaded->params.uplift.image_size[1] = image->height;
+    return true;
+}
+
+static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+{
+    LoadedTerrain loaded;
+    OutTree *tree =
+        load(object->terrain, &loaded, e) ? terrain_grow(&loaded.params, recipe, e) : NULL;
+    image_free(loaded.image);
+    return tree;
+}
+
+static bool place(const Placing *p, const OutTree *tree, Error *e)
+{
+    TerrainMaterials materials = {.land = placing_material(p, p->object->material, "mountain"),
+                                  .water = placing_material(p, p->object->water_material, "lake"),
+                                  .foliage = placing_material(p, NULL, "conifer")};
+    LoadedTerrain loaded;
+    bool done = load(p->object->terrain, &loaded, e) &&
+                terrain_geometry(&loaded.params, tree, &materials, &p->world->camera.position,
+                                 p->index, &p->world->geometry, &p->recipe, e);
+    image_free(loaded.image);
+    return done;
+}
+
+HeightField *kind_terrain_heights(const SceneObject *object, const OutTree *tree,
+                                  const Recipe *recipe, Error *e)
+{
+    LoadedTerrain loaded;
+    HeightField *field = load(object->terrain, &loaded, e)
+                             ? terrain_heights(&loaded.params, tree, recipe, e)
+                             : NULL;
+    image_free(loaded.image);
+    return field;
+}
+
+static void describe(const SceneObject *object, char *text, size_t size)
+{
+    snprintf(text, size, ", %g km, %d x %d cells", (double)object->terrain->size * 1e-3,
+             object->terrain->resolution, object->terrain->resolution);
+}
+
+static int64_t attractors(const SceneObject *object)
+{
+    int64_t count = object->terrain->rivers.count;
+    return count + count / 8 + count / 60 + count / 500;
+}
+
+static int64_t copies(const SceneObject *object)
+{
+    return object->terrain->forest.count;
+}
+
+const Kind kind_terrain = {.key = "terrain",
+                           .offset = offsetof(SceneObject, terrain),
+                           .materials = {"material", "water_material"},
+                           .grow = grow,
+                           .place = place,
+                           .describe = describe,
+                           .attractors = attractors,
+                           .copies = copies};
