@@ -113,8 +113,8 @@ static bool add_corner(Mesher *m, Point p, Error *e)
 {
     int32_t *vertex = &m->vertex[place(m, p.column, p.row)];
     if (*vertex < 0) {
-        if (!memory_reserve(&m->sample, &m->vertex_capacity, m->vertex_count + 1,
-                            sizeof *m->sample, e)) {
+        if (!memory_reserve(&m->sample, &m->vertex_capacity, m->vertex_count + 1, sizeof *m->sample,
+                            e)) {
             return false;
         }
         m->sample[m->vertex_count] = (int32_t)place(m, p.column, p.row);
@@ -143,8 +143,8 @@ static Vec3 field_normal(const HeightField *field, int column, int row)
     int south = row + 1 < field->rows ? row + 1 : row;
     const float *h = field->height;
     int64_t stride = field->columns;
-    float dx = (h[row * stride + east] - h[row * stride + west]) /
-               ((float)(east - west) * field->cell.x);
+    float dx =
+        (h[row * stride + east] - h[row * stride + west]) / ((float)(east - west) * field->cell.x);
     float dz = (h[south * stride + column] - h[north * stride + column]) /
                ((float)(south - north) * field->cell.y);
     return vec3_normalize(vec3(-dx, 1.0f, -dz));
@@ -153,8 +153,8 @@ static Vec3 field_normal(const HeightField *field, int column, int row)
 static Mesh *make_mesh(const Mesher *m, Error *e)
 {
     const HeightField *field = m->field;
-    Mesh *mesh = mesh_new(3, m->vertex_count, m->index_count / 3,
-                          MESH_NORMAL | MESH_UV | MESH_SITE, e);
+    Mesh *mesh =
+        mesh_new(3, m->vertex_count, m->index_count / 3, MESH_NORMAL | MESH_UV | MESH_SITE, e);
     if (!mesh) {
         return NULL;
     }
@@ -168,8 +168,8 @@ static Mesh *make_mesh(const Mesher *m, Error *e)
         mesh->position[i] = p;
         mesh->normal[i] = field_normal(field, column, row);
         mesh->uv[i] = (Vec2){p.x, p.z};
-        mesh->site[i] = (Vec2){(p.y - low) * scale,
-                               field->wetness ? field->wetness[m->sample[i]] : 0.0f};
+        mesh->site[i] =
+            (Vec2){(p.y - low) * scale, field->wetness ? field->wetness[m->sample[i]] : 0.0f};
     }
     return mesh;
 }
@@ -178,8 +178,10 @@ Mesh *height_mesh_new(const HeightField *field, const HeightMeshParams *params, 
 {
     int side = field->columns - 1;
     if (field->rows != field->columns || side < 2 || (side & (side - 1)) != 0) {
-        error_set(e, ERROR_INPUT, "a height field of %d x %d cells cannot be meshed; its side must "
-                  "be a power of two", side, field->rows - 1);
+        error_set(e, ERROR_INPUT,
+                  "a height field of %d x %d cells cannot be meshed; its side must "
+                  "be a power of two",
+                  side, field->rows - 1);
         return NULL;
     }
     int64_t count = height_field_count(field);

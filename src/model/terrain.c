@@ -307,8 +307,8 @@ HeightField *terrain_sample(Terrain *terrain, const Run *run, Error *e)
     terrain->distance = terrain->land ? make_envelope(terrain, true, run, e) : NULL;
     HeightField *field = NULL;
     if (terrain->distance) {
-        field = height_field_new(params->resolution + 1, params->resolution + 1,
-                                 (Vec2){cell, cell}, (Vec2){corner, corner}, e);
+        field = height_field_new(params->resolution + 1, params->resolution + 1, (Vec2){cell, cell},
+                                 (Vec2){corner, corner}, e);
     }
     if (!field) {
         return NULL;

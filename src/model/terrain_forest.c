@@ -35,7 +35,8 @@ static Mesh *conifer_mesh(uint64_t seed, Error *e)
             Vec3 middle = vec3_madd(vec3(0.0f, height + lift, 0.0f), 0.62f * length, out);
             mesh->position[v] = root;
             mesh->position[v + 1] = vec3_madd(middle, wide, side);
-            mesh->position[v + 2] = vec3_madd(vec3(0.0f, height - 0.35f * length, 0.0f), length, out);
+            mesh->position[v + 2] =
+                vec3_madd(vec3(0.0f, height - 0.35f * length, 0.0f), length, out);
             mesh->position[v + 3] = vec3_madd(middle, -wide, side);
             // Seen as a cone with soft needles, not as sheets.
             for (int k = 0; k < 4; k++) {
@@ -84,7 +85,8 @@ static float tree_size(const Planting *p, float x, float z, uint64_t key)
     return forest->height * random_range(random_key(key, 4), 0.45f, 1.0f) * (0.55f + 0.45f * line);
 }
 
-// Trees stand in a jittered grid. Where there are too many for `count`, far ones are left out first.
+// Trees stand in a jittered grid. Where there are too many for `count`, far ones are left out
+// first.
 static bool plant(const Planting *p, Transform **place, int64_t *count, Error *e)
 {
     const TerrainForestParams *forest = &p->params->forest;
@@ -96,9 +98,9 @@ static bool plant(const Planting *p, Transform **place, int64_t *count, Error *e
         uint64_t key = random_key(p->seed, 1000 + (uint64_t)i);
         float x = ((float)(i % side) + random_unit(random_key(key, 1))) * spacing - 0.5f * size;
         float z = ((float)(i / side) + random_unit(random_key(key, 2))) * spacing - 0.5f * size;
-        float away = p->has_eye ? sqrtf((x - p->eye.x) * (x - p->eye.x) +
-                                        (z - p->eye.z) * (z - p->eye.z))
-                                : 0.5f * size;
+        float away = p->has_eye
+                         ? sqrtf((x - p->eye.x) * (x - p->eye.x) + (z - p->eye.z) * (z - p->eye.z))
+                         : 0.5f * size;
         float share = full / (away + 1.0f);
         if (share < 1.0f && random_unit(random_key(key, 5)) > share * share) {
             continue;

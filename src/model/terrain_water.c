@@ -100,8 +100,8 @@ static void add_stems(const Terrain *terrain, const int32_t *heaviest, float lea
     *vertices = *faces = 0;
     for (int64_t i = 0; i < tree->count; i++) {
         int32_t parent = tree->parent[i];
-        bool begins = parent < 0 ? heaviest[i] >= 0
-                                 : tree->radius[i] >= least && heaviest[parent] != i;
+        bool begins =
+            parent < 0 ? heaviest[i] >= 0 : tree->radius[i] >= least && heaviest[parent] != i;
         if (begins) {
             add_stem(terrain, heaviest, (int32_t)i, mesh, vertices, faces);
         }

@@ -28,9 +28,9 @@ typedef enum PatternKind {
     PATTERN_CORALLITE, // coral: cups with raised rims, paler (color2) where it grows
     PATTERN_YOUTH,     // color2 where a branch grows, color where it is old
     PATTERN_SAND,      // ripples on a sea floor
-    PATTERN_MOUNTAIN, // rock, scree, grass and snow by altitude, slope and wetness of the land
-    PATTERN_BADLANDS, // rock in coloured beds, rills, sandy flats
-    PATTERN_WATER     // ripples
+    PATTERN_MOUNTAIN,  // rock, scree, grass and snow by altitude, slope and wetness of the land
+    PATTERN_BADLANDS,  // rock in coloured beds, rills, sandy flats
+    PATTERN_WATER      // ripples
 } PatternKind;
 
 typedef struct Material {
@@ -49,13 +49,13 @@ typedef struct Material {
     float film_drainage;  // 0..1: how much thinner it is where it faces up, thicker where down
     float film_swirl;     // 0..1: how far the thickness varies in streaks, pattern_scale wide
     PatternKind pattern;
-    float pattern_scale;       // m: wavelength of the pattern's largest feature; 0 = the kind's own
-    float pattern_depth;       // m: bump height; 0 = none
+    float pattern_scale; // m: wavelength of the pattern's largest feature; 0 = the kind's own
+    float pattern_depth; // m: bump height; 0 = none
     float snow_line, grass_line; // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above
                                  // and below which they lie; 0 = none
-    float variation;           // 0..1: how far hue and value differ from instance to instance
-    const char *texture;       // file that multiplies color, by uv; NULL = none; borrowed
-    const char *alpha_texture; // NULL = opaque; borrowed
+    float variation;             // 0..1: how far hue and value differ from instance to instance
+    const char *texture;         // file that multiplies color, by uv; NULL = none; borrowed
+    const char *alpha_texture;   // NULL = opaque; borrowed
 } Material;
 
 Material material_default(MaterialKind kind);

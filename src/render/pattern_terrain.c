@@ -4,6 +4,8 @@
 #include "render/pattern.h"
 #include "render/pattern_noise.h"
 
+#include <stddef.h>
+
 // Noise summed over octaves that the pixel still shows, and its gradient per metre.
 typedef struct Relief {
     float value;
@@ -56,8 +58,8 @@ static float bed_level(const SurfacePoint *point, float thickness)
 {
     Vec3 p = point->object_position;
     Vec3 q = vec3_scale(p, 0.011f / (0.1f * thickness));
-    float fold = 1.8f * noise_solid(vec3_scale(q, 0.12f), 51, NULL) +
-                 0.35f * noise_solid(q, 52, NULL);
+    float fold =
+        1.8f * noise_solid(vec3_scale(q, 0.12f), 51, NULL) + 0.35f * noise_solid(q, 52, NULL);
     return (p.y + 0.05f * p.x + 0.03f * p.z) / thickness + fold;
 }
 
@@ -66,8 +68,7 @@ static float bed_tone(float level, uint32_t seed)
 {
     float floor_level = floorf(level), t = level - floor_level;
     uint32_t bed = (uint32_t)(int32_t)floor_level * 2654435761u + seed;
-    return lerpf(noise_unit(bed, 3), noise_unit(bed + 2654435761u, 3),
-                 smoothstepf(0.78f, 1.0f, t));
+    return lerpf(noise_unit(bed, 3), noise_unit(bed + 2654435761u, 3), smoothstepf(0.78f, 1.0f, t));
 }
 
 static Ground rock(const Material *m, const SurfacePoint *point, Vec3 color, float scale)
@@ -142,9 +143,8 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
     other = scree(m, point, tinted(shade->color, 1.1f, 1.08f, 1.02f), 0.5f * scale);
     g = blend(g, &other, 0.8f * bank);
     if (m->snow_line > 0.0f) {
-        float cold = altitude + 0.09f * ragged + 0.10f * (point->geometric_normal.z < 0.0f
-                                                               ? -point->geometric_normal.z
-                                                               : 0.0f);
+        float cold = altitude + 0.09f * ragged +
+                     0.10f * (point->geometric_normal.z < 0.0f ? -point->geometric_normal.z : 0.0f);
         float high = smoothstepf(m->snow_line - 0.05f, m->snow_line + 0.09f, cold);
         float least = lerpf(0.80f, 0.52f, smoothstepf(m->snow_line, m->snow_line + 0.4f, cold));
         float held = smoothstepf(least, least + 0.07f, upright + 0.10f * fray.value);
@@ -179,8 +179,9 @@ void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade
     Relief sand = relief_at(point, 0.3f * scale, 7, 0.55f, 1.0f, 131);
     Vec3 floor_color = vec3_lerp(vec3_lerp(shade->color, pale, 0.45f), m->color2, 0.25f);
     floor_color = vec3_scale(floor_color, 1.0f + 0.2f * clampf(sand.value, -1.3f, 1.3f));
-    float scrub = smoothstepf(0.25f, 0.6f, relief_at(point, 0.12f * scale, 3, 0.7f, 1.0f, 141).value +
-                                               0.5f * point->site.y);
+    float scrub = smoothstepf(0.25f, 0.6f,
+                              relief_at(point, 0.12f * scale, 3, 0.7f, 1.0f, 141).value +
+                                  0.5f * point->site.y);
     floor_color = vec3_lerp(floor_color, vec3(0.085f, 0.088f, 0.045f), 0.65f * scrub);
     float flat = smoothstepf(0.86f, 0.95f, upright + 0.08f * sand.value);
     shade->color = vec3_lerp(color, floor_color, flat);

@@ -22,7 +22,7 @@ typedef struct SurfacePoint {
     Vec2 uv;
     float radius; // m, of the branch; 0 when unknown
     float birth;
-    Vec2 site; // of land: altitude and wetness, 0..1 each
+    Vec2 site;       // of land: altitude and wetness, 0..1 each
     float variation; // 0..1 per instance
     bool backface;   // the ray met the side away from the mesh's own orientation
     float

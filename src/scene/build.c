@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "mesh/height_measure.h"
 #include "scene/builtin.h"
 #include "scene/kind.h"
 #include "tree/measure.h"
@@ -116,6 +117,33 @@ OutTree **scene_grow(const Scene *scene, const Run *run, Error *e)
     return NULL;
 }
 
+HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, const Run *run,
+                           Error *e)
+{
+    const SceneObject *object = &scene->objects[index];
+    const Kind *kind = kind_of(object);
+    if (!kind->heights) {
+        error_set(e, ERROR_INPUT, "object '%s' is no land; a terrain would be", object->name);
+        return NULL;
+    }
+    char label[LABEL_SIZE];
+    Recipe recipe = make_recipe(scene, object, run, label);
+    return kind->heights(object, tree, &recipe, e);
+}
+
+// Measures of the land that a kind with heights makes; others have none.
+static bool measure_land(const Scene *scene, int index, const OutTree *tree, const Run *run,
+                         MeasureList *list, Error *e)
+{
+    if (!kind_of(&scene->objects[index])->heights) {
+        return true;
+    }
+    HeightField *field = scene_heights(scene, index, tree, run, e);
+    bool done = field && height_field_measure(field, 0.0, list, e);
+    height_field_free(field);
+    return done;
+}
+
 bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *list, Error *e)
 {
     const SceneObject *object = &scene->objects[index];
@@ -125,6 +153,7 @@ bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *l
         return false;
     }
     bool done = (!tree || out_tree_measure(tree, list, e)) &&
+                measure_land(scene, index, tree, run, list, e) &&
                 (!kind->measure || kind->measure(object, tree, list, e));
     out_tree_free(tree);
     return done;

@@ -3,6 +3,7 @@
 #define RAMIFY_SCENE_BUILD_H
 
 #include "base/measures.h"
+#include "mesh/height_field.h"
 #include "scene/scene.h"
 #include "tree/out_tree.h"
 
@@ -18,6 +19,11 @@ OutTree **scene_grow(const Scene *scene, const Run *run, Error *e);
 
 // The out-tree of object number index alone. ERROR_INPUT when it does not grow or does not exist.
 OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error *e);
+
+// Heights of object number index from its out-tree, in its own space. ERROR_INPUT when it is no
+// land.
+HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, const Run *run,
+                           Error *e);
 
 // Measures of object number index: of its out-tree, and its kind's own. One that neither grows nor
 // has anything to measure adds nothing.

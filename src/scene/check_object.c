@@ -77,6 +77,17 @@ bool check_tree(Resolver *r, const Path *path, const Node *given, Node *resolved
     return true;
 }
 
+bool check_terrain(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    int cells = (int)node_number(resolved, "resolution");
+    if ((cells & (cells - 1)) != 0) {
+        return resolver_fail(r, node_place(given, "resolution"),
+                             "%s.resolution is %d; it must be a power of two, such as 1024",
+                             resolver_path(r, path, NULL), cells);
+    }
+    return true;
+}
+
 bool check_ground(Resolver *r, const Path *path, const Node *given, Node *resolved)
 {
     double flat = node_number(resolved, "flat_radius"), radius = node_number(resolved, "radius");

@@ -17,6 +17,7 @@ static const Kind *const KINDS[] = {
     &kind_lsystem,
     &kind_frost,
     &kind_sculpture,
+    &kind_terrain,
     // clang-format on
 };
 

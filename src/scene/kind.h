@@ -4,6 +4,7 @@
 #define RAMIFY_SCENE_KIND_H
 
 #include "base/measures.h"
+#include "mesh/height_field.h"
 #include "model/recipe.h"
 #include "scene/build.h"
 
@@ -31,6 +32,10 @@ typedef struct Kind {
     // Adds the object's parts to the world: from its out-tree where the kind grows one, else tree
     // is NULL.
     bool (*place)(const Placing *placing, const OutTree *tree, Error *e);
+
+    // Heights of what is land, in the object's own space; NULL = the kind is none.
+    HeightField *(*heights)(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+                            Error *e);
 
     // Adds what there is to measure beyond what every out-tree has; NULL = nothing.
     bool (*measure)(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e);

@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "image/image.h"
-#include "mesh/height_measure.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -62,13 +61,12 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
     return done;
 }
 
-HeightField *kind_terrain_heights(const SceneObject *object, const OutTree *tree,
-                                  const Recipe *recipe, Error *e)
+static HeightField *heights(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+                            Error *e)
 {
     LoadedTerrain loaded;
-    HeightField *field = load(object->terrain, &loaded, e)
-                             ? terrain_heights(&loaded.params, tree, recipe, e)
-                             : NULL;
+    HeightField *field =
+        load(object->terrain, &loaded, e) ? terrain_heights(&loaded.params, tree, recipe, e) : NULL;
     image_free(loaded.image);
     return field;
 }
@@ -95,6 +93,7 @@ const Kind kind_terrain = {.key = "terrain",
                            .materials = {"material", "water_material"},
                            .grow = grow,
                            .place = place,
+                           .heights = heights,
                            .describe = describe,
                            .attractors = attractors,
                            .copies = copies};

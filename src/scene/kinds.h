@@ -8,5 +8,6 @@ extern const Kind kind_tree, kind_ground, kind_mesh, kind_shape, kind_dla, kind_
 extern const Kind kind_coral, kind_lsystem;
 extern const Kind kind_frost;
 extern const Kind kind_sculpture;
+extern const Kind kind_terrain;
 
 #endif

@@ -14,6 +14,7 @@
 #include "model/lightning.h"
 #include "model/lsystem_plant.h"
 #include "model/sculpture.h"
+#include "model/terrain.h"
 #include "model/tree.h"
 #include "render/world.h"
 
@@ -45,9 +46,11 @@ typedef struct SceneObject {
     DlaModel *dla;
     LightningParams *lightning;
     SculptureParams *sculpture;
+    TerrainParams *terrain;
     // material names, as far as the kind has use for them; NULL = the kind's built-in default
     char *material; // mesh, shape, ground; bark of a tree
     char *twig_material, *leaf_material, *grass_material;
+    char *water_material;                 // of terrain
     char *polyp_material, *rock_material; // of corals
 } SceneObject;
 

@@ -32,6 +32,7 @@ TableCheck check_tree, check_ground, check_grove; // lengths that must be in ord
 TableCheck check_shape, check_mesh;               // also add `transform`
 TableCheck check_envelope;                        // the list under `envelope`
 TableCheck check_level, check_growth; // check_growth also fills in what levels leave out
+TableCheck check_terrain; // cells a power of two
 TableCheck check_field;
 TableCheck check_lightning; // also what check_envelope does
 

@@ -19,12 +19,11 @@ static const cyaml_strval_t MATERIAL_KINDS[] = {{"diffuse", MATERIAL_DIFFUSE},
                                                 {"emission", MATERIAL_EMISSION},
                                                 {"thin_film", MATERIAL_THIN_FILM},
                                                 {0}};
-static const cyaml_strval_t PATTERNS[] = {{"none", PATTERN_NONE},     {"bark", PATTERN_BARK},
-                                          {"ground", PATTERN_GROUND}, {"leaf", PATTERN_LEAF},
-                                          {"noise", PATTERN_NOISE},
-                                          {"corallite", PATTERN_CORALLITE},
-                                          {"youth", PATTERN_YOUTH},   {"sand", PATTERN_SAND},
-                                          {"mountain", PATTERN_MOUNTAIN}, {"badlands", PATTERN_BADLANDS}, {"water", PATTERN_WATER},   {0}};
+static const cyaml_strval_t PATTERNS[] = {
+    {"none", PATTERN_NONE},         {"bark", PATTERN_BARK},   {"ground", PATTERN_GROUND},
+    {"leaf", PATTERN_LEAF},         {"noise", PATTERN_NOISE}, {"corallite", PATTERN_CORALLITE},
+    {"youth", PATTERN_YOUTH},       {"sand", PATTERN_SAND},   {"mountain", PATTERN_MOUNTAIN},
+    {"badlands", PATTERN_BADLANDS}, {"water", PATTERN_WATER}, {0}};
 
 static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, name, "name", KEY_NAME), .flags = KEY_REQUIRED, .count = 64,
@@ -67,8 +66,9 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, pattern_depth, "pattern_depth", KEY_FLOAT), .kinds = BUMPED, .high = 1e3,
      .unit = "m", .doc = "Height of the pattern's bumps; 0 = none."},
     {KEY_OF(Material, snow_line, "snow_line", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
-     .doc = "Pattern mountain: altitude above which snow lies, a share of the land's relief; 0 = no "
-            "snow."},
+     .doc =
+         "Pattern mountain: altitude above which snow lies, a share of the land's relief; 0 = no "
+         "snow."},
     {KEY_OF(Material, grass_line, "grass_line", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern mountain: altitude below which grass grows; 0 = no grass."},
     {KEY_OF(Material, variation, "variation", KEY_FLOAT), .kinds = PATTERNED, .high = 1,

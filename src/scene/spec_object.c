@@ -147,6 +147,10 @@ static const Key OBJECT_KEYS[] = {
      .doc = "Lightning."},
     {KEY_OF(SceneObject, sculpture, "sculpture", KEY_POINTER), .table = &sculpture_table,
      .doc = "A hollow branch sculpture."},
+    {KEY_OF(SceneObject, terrain, "terrain", KEY_POINTER), .table = &terrain_table,
+     .doc = "Mountains, valleys and rivers."},
+    {KEY_OF(SceneObject, water_material, "water_material", KEY_TEXT),
+     .doc = "Material of a terrain's lakes and rivers; left out: lake."},
     {KEY_OF(SceneObject, material, "material", KEY_TEXT),
      .doc = "Material of a mesh, a shape, the ground, or a tree's bark; left out: clay, clay, "
             "ground, bark."},

@@ -4,8 +4,9 @@
 
 static const Key STROKE_KEYS[] = {
     {KEY_OF(UpliftStroke, from, "from", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 2,
-     .unit = "sizes", .doc = "Where the stroke begins: x and z as shares of the terrain's size, "
-                             "[0, 0] in the middle, [-0.5, -0.5] in the north-west."},
+     .unit = "sizes",
+     .doc = "Where the stroke begins: x and z as shares of the terrain's size, "
+            "[0, 0] in the middle, [-0.5, -0.5] in the north-west."},
     {KEY_OF(UpliftStroke, to, "to", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 2, .unit = "sizes",
      .doc = "Where it ends; the same place makes a round spot."},
     {KEY_OF(UpliftStroke, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
@@ -46,9 +47,9 @@ static const Table UPLIFT_TABLE = {.name = "uplift",
                                    .size = sizeof(UpliftParams),
                                    .keys = UPLIFT_KEYS};
 
-static const cyaml_strval_t SIDES[] = {{"all", SIDE_ALL},     {"north", SIDE_NORTH},
-                                       {"east", SIDE_EAST},   {"south", SIDE_SOUTH},
-                                       {"west", SIDE_WEST},   {0}};
+static const cyaml_strval_t SIDES[] = {{"all", SIDE_ALL},   {"north", SIDE_NORTH},
+                                       {"east", SIDE_EAST}, {"south", SIDE_SOUTH},
+                                       {"west", SIDE_WEST}, {0}};
 
 static const Key RIVER_KEYS[] = {
     {KEY_OF(RiverParams, outlets, "outlets", KEY_INT), .low = 1, .high = 10000,
