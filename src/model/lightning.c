@@ -21,6 +21,7 @@ LightningParams lightning_params_default(void)
                               .hurst = 0.65f,
                               .jitter = 0.1f,
                               .branch_power = 0.2f};
+    params.element.pattern = SCATTER_POISSON;
     params.element.max_children = 2;
     params.element.cone_angle = 60.0f;
     params.element.gradient = 0.35f;
@@ -33,9 +34,9 @@ int lightning_own_levels(const LightningParams *params, GrowLevel levels[LIGHTNI
 {
     static const GrowLevel AIR[2] = {{14, 0.10f, 0.5f, 2.6f, 1.0f, 0.45f, 1.0f, 0.3f},
                                      {110, 0.25f, 0.8f, 1.7f, 1.0f, 0.5f, 1.0f, 0.3f}};
-    static const GrowLevel SURFACE[3] = {{12, 0.08f, 0.4f, 4.0f, 1.0f, 0.40f, 1.0f, 0.3f},
-                                         {70, 0.15f, 0.6f, 2.2f, 1.0f, 0.45f, 1.0f, 0.3f},
-                                         {420, 0.30f, 0.8f, 1.6f, 1.0f, 0.5f, 1.0f, 0.3f}};
+    static const GrowLevel SURFACE[3] = {{30, 0.08f, 0.4f, 4.0f, 1.0f, 0.40f, 1.0f, 0.3f},
+                                         {175, 0.15f, 0.6f, 2.2f, 1.0f, 0.45f, 1.0f, 0.3f},
+                                         {1050, 0.30f, 0.8f, 1.6f, 1.0f, 0.5f, 1.0f, 0.3f}};
     bool air = params->element.place == SCATTER_VOLUME;
     const GrowLevel *own = air ? AIR : SURFACE;
     int count = 0;
@@ -171,6 +172,7 @@ OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float si
     for (int i = 0; tree && i < 2; i++) {
         OutTree *next = out_tree_resample(tree, length[i], e);
         jitter.amplitude = params->jitter * size * (i == 0 ? 1.0f : 0.4f);
+        jitter.amplitude *= project ? 0.7f : 1.0f; // in one direction only, but round bends
         jitter.seed = random_key(seed, (uint64_t)i);
         if (next && !out_tree_jitter(next, &jitter, run, e)) {
             out_tree_free(next);

@@ -81,6 +81,18 @@ static bool grow_over(OutTree *tree, const LightningParams *params, const Envelo
         element.levels = levels;
         element.level_count = lightning_own_levels(params, levels);
     }
+    // Away from where it started, and no hairpins: discharges do not come back over their own
+    // charge.
+    FieldParams away = field_params_default(FIELD_NUCLEI);
+    away.surface = true;
+    if (element.field_count == 0) {
+        element.fields = &away;
+        element.field_count = 1;
+        element.field_weight = 0.7f;
+    }
+    if (element.max_angle == 0.0f) {
+        element.max_angle = 60.0f;
+    }
     return element.level_count == 0 ||
            element_grow_in(tree, &element, envelope, random_key(recipe->seed, 4), recipe->label,
                            recipe->run, e);
