@@ -19,7 +19,7 @@ LightningParams lightning_params_default(void)
                               .spread = 0.4f,
                               .branching = 1.0f,
                               .hurst = 0.65f,
-                              .jitter = 0.1f,
+                              .jitter = 0.095f,
                               .branch_power = 0.2f};
     params.element.pattern = SCATTER_POISSON;
     params.element.max_children = 2;

@@ -81,11 +81,16 @@ static ColonizeParams leader_params(const Bolt *bolt)
     return params;
 }
 
-static int32_t nearest_node(const OutTree *tree, Vec3 p)
+// The node nearest to the target among those that it lies below, at most 50 degrees aside; the root
+// where there is none.
+static int32_t nearest_above(const OutTree *tree, const Bolt *bolt, Vec3 target)
 {
     int32_t nearest = 0;
     for (int64_t i = 1; i < tree->count; i++) {
-        if (vec3_distance(tree->position[i], p) < vec3_distance(tree->position[nearest], p)) {
+        Vec3 way = vec3_sub(target, tree->position[i]);
+        float distance = vec3_length(way);
+        if (vec3_dot(way, bolt->axis) > 0.64f * distance &&
+            distance < vec3_distance(tree->position[nearest], target)) {
             nearest = (int32_t)i;
         }
     }
@@ -95,7 +100,7 @@ static int32_t nearest_node(const OutTree *tree, Vec3 p)
 // The final jump: once near, straight to the ground, step by step.
 static bool jump_to(OutTree *tree, const Bolt *bolt, Vec3 target, uint64_t *id, Error *e)
 {
-    int64_t parent = nearest_node(tree, target);
+    int64_t parent = nearest_above(tree, bolt, target);
     Vec3 from = tree->position[parent];
     int steps = (int)(vec3_distance(from, target) / (LEADER_STEP * bolt->height)) + 1;
     for (int i = 1; parent >= 0 && i <= steps; i++) {

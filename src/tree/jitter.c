@@ -51,11 +51,19 @@ static float path_at(const double *path, int64_t steps, double x)
     return (float)(path[k] + (x - (double)k) * (path[k + 1] - path[k]));
 }
 
-// The direction of the chain at place k of a piece of `steps` steps, smoothed over its neighbours.
-static Vec3 direction_at(const Jitter *j, const int32_t *node, int64_t steps, int64_t k)
+// The direction of the chain at place k of a piece of `steps` steps, over at least a step of the
+// process either way: nodes that crowd at forks may point anywhere.
+static Vec3 direction_at(const Jitter *j, const int32_t *node, int64_t steps, int64_t k,
+                         float reach)
 {
-    Vec3 from = j->old[node[k > 0 ? k - 1 : 0]], to = j->old[node[k < steps ? k + 1 : steps]];
-    Vec3 d = vec3_normalize(vec3_sub(to, from));
+    int64_t first = k, last = k;
+    for (float way = 0.0f; first > 0 && way < reach; first--) {
+        way += vec3_distance(j->old[node[first - 1]], j->old[node[first]]);
+    }
+    for (float way = 0.0f; last < steps && way < reach; last++) {
+        way += vec3_distance(j->old[node[last]], j->old[node[last + 1]]);
+    }
+    Vec3 d = vec3_normalize(vec3_sub(j->old[node[last]], j->old[node[first]]));
     return vec3_dot(d, d) > 0.5f ? d : vec3(0, 1, 0);
 }
 
@@ -95,12 +103,12 @@ static bool jitter_piece(Jitter *j, const int32_t *node, int64_t steps, Error *e
     }
     // The process runs evenly along the piece; nodes closer than that stay close.
     double step = (double)piece_length(j, node, steps) / (double)steps, way = 0.0;
-    float scale = (float)step_deviation(j, step);
+    float scale = (float)step_deviation(j, step), reach = 0.99f * (float)step;
     Vec3 shift = vec3_sub(tree->position[node[0]], j->old[node[0]]);
-    Vec3 side = across(tree->normal[node[0]], direction_at(j, node, steps, 0));
+    Vec3 side = across(tree->normal[node[0]], direction_at(j, node, steps, 0, reach));
     bool in_space = !j->params->project;
     for (int64_t k = 1; k <= steps; k++) {
-        Vec3 d = direction_at(j, node, steps, k);
+        Vec3 d = direction_at(j, node, steps, k, reach);
         way += (double)vec3_distance(j->old[node[k - 1]], j->old[node[k]]);
         double x = k == steps || step == 0.0 ? (double)steps : way / step;
         float a = scale * path_at(j->a, steps, x), b = scale * path_at(j->b, steps, x);
