@@ -345,14 +345,22 @@ static bool prepare_string(Growing *g, Error *e)
     return done;
 }
 
-// Rounded growing ends: the last stretch of every branch narrows a little.
-static void round_tips(OutTree *tree, float tip)
+// Growing ends: the last stretch of every branch narrows toward its axial corallite.
+static bool narrow_tips(OutTree *tree, Error *e)
 {
-    for (int64_t i = tree->count - 1; i > 0; i--) {
-        if (tree->radius[i] <= tip * 1.0001f) {
-            tree->radius[i] = tip;
+    const float share = 0.72f;
+    bool *bears = memory_alloc_zero(tree->count, sizeof *bears, e);
+    for (int64_t i = tree->count - 1; bears && i > 0; i--) {
+        if (!bears[i]) {
+            tree->radius[i] *= share;
+        }
+        if (tree->parent[i] >= 0) {
+            bears[tree->parent[i]] = true;
         }
     }
+    bool done = bears;
+    free(bears);
+    return done;
 }
 
 OutTree *coral_grow(const CoralParams *params, const Recipe *recipe, Error *e)
@@ -370,6 +378,9 @@ OutTree *coral_grow(const CoralParams *params, const Recipe *recipe, Error *e)
         return NULL;
     }
     out_tree_pipe_radii(g.tree, p.exponent, p.tip_radius, 0.0f);
-    round_tips(g.tree, p.tip_radius);
+    if (!narrow_tips(g.tree, e)) {
+        out_tree_free(g.tree);
+        return NULL;
+    }
     return g.tree;
 }

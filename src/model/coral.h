@@ -51,7 +51,7 @@ typedef struct CoralParams {
     float light;               // 0..1: how much more room to grow there is above than below
     float tip_radius;          // m; 0 = the form's own share of the size
     float exponent;            // of the radii: 4 keeps branches nearly as thick as their tips
-    float pale;                // m from a growing tip (or margin) that are pale; 0 = a share
+    float pale;                // m from a growing tip (or margin) that are pale; 0 = 4 tip radii
     PolypParams polyps;
     Shape *base; // of encrusting and massive forms: the rock; empty = a boulder of the size
     int base_count;

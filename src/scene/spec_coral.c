@@ -75,7 +75,7 @@ static const Key CORAL_KEYS[] = {
      .doc = "Of the radii, r_parent^e = sum of r_child^e: 4 keeps branches near their tips' "
             "thickness."},
     {KEY_OF(CoralParams, pale, "pale", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "How far from a growing tip the tissue is pale; 0 = 5 tip radii."},
+     .doc = "How far from a growing tip the tissue is pale; 0 = 4 tip radii."},
     {KEY_OF(CoralParams, polyps, "polyps", KEY_GROUP), .table = &POLYP_TABLE,
      .doc = "Corallites: the cups that polyps sit in."},
     {KEY_OF(CoralParams, base, "base", KEY_LIST), .count_offset = offsetof(CoralParams, base_count),
