@@ -3,6 +3,42 @@
 
 #include <stddef.h>
 
+#define NOISE_STEPS 2.0f // from one corner of the noise in space to the next
+
+static Vec3 random_normals(uint64_t key)
+{
+    return vec3(random_normal(random_key(key, 0)), random_normal(random_key(key, 1)),
+                random_normal(random_key(key, 2)));
+}
+
+// Smooth noise of mean 0 and variance 1 per component at p, in units of its own lattice: quintic
+// blends of normal numbers at the corners, scaled by what blending takes off the variance there.
+static Vec3 space_noise(Vec3 p, uint64_t key)
+{
+    const float at[3] = {p.x, p.y, p.z};
+    float weight[3][2], squares = 1.0f;
+    uint64_t cell[3];
+    for (int i = 0; i < 3; i++) {
+        float low = floorf(at[i]), t = at[i] - low;
+        t = t * t * t * (t * (6.0f * t - 15.0f) + 10.0f);
+        cell[i] = (uint64_t)(int64_t)low;
+        weight[i][0] = 1.0f - t, weight[i][1] = t;
+        squares *= weight[i][0] * weight[i][0] + t * t;
+    }
+    Vec3 sum = vec3(0, 0, 0);
+    for (int corner = 0; corner < 8; corner++) {
+        uint64_t mine = key;
+        float w = 1.0f;
+        for (int i = 0; i < 3; i++) {
+            int side = corner >> i & 1;
+            mine = random_key(mine, cell[i] + (uint64_t)side);
+            w *= weight[i][side];
+        }
+        sum = vec3_madd(sum, w, random_normals(mine));
+    }
+    return vec3_scale(sum, 1.0f / sqrtf(squares));
+}
+
 // w X_f + tropism + noise: what bends the unit pull (E13 in the steering form). The noise is named
 // by the child it is for.
 static Vec3 lean_of(const Growth *growth, const Grower *grower, uint64_t child_id)
@@ -14,9 +50,10 @@ static Vec3 lean_of(const Growth *growth, const Grower *grower, uint64_t child_i
         lean = vec3_madd(lean, p->field_weight, x);
     }
     if (p->noise > 0.0f) {
-        uint64_t key = random_key(child_id, p->seed);
-        Vec3 g = vec3(random_normal(random_key(key, 0)), random_normal(random_key(key, 1)),
-                      random_normal(random_key(key, 2)));
+        Vec3 place = vec3_sub(grower->position, p->anchor);
+        Vec3 g = p->noise_in_space
+                     ? space_noise(vec3_scale(place, 1.0f / (NOISE_STEPS * p->step)), p->seed)
+                     : random_normals(random_key(child_id, p->seed));
         lean = vec3_madd(lean, p->noise, g);
     }
     return lean;

@@ -36,7 +36,10 @@ typedef struct ColonizeParams {
                       // 0 or 180 = off. GROW_MEAN and GROW_SECTORS in space; children turn back
     Vec3 cone_axis;   // any length
     float noise;      // Gaussian, per component, added to the unit direction before normalising
-    Vec3 tropism;     // added to the unit direction: uniform pull, any length
+    bool noise_in_space; // draw the noise from a smooth field fixed in space, not by node: where
+                         // growth comes by again, as in the next frame of a film, it is the same
+    Vec3 anchor;         // of that field
+    Vec3 tropism;        // added to the unit direction: uniform pull, any length
     const GuideField *field; // may be NULL
     float field_weight;
     FieldMode field_mode;

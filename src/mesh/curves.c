@@ -16,8 +16,9 @@ CurveSet *curves_new(int64_t point_count, int64_t curve_count, Error *e)
     curves->radius = memory_alloc_zero(point_count, sizeof(float), e);
     curves->birth = memory_alloc_zero(point_count, sizeof(float), e);
     curves->along = memory_alloc_zero(point_count, sizeof(float), e);
+    curves->id = memory_alloc_zero(curve_count, sizeof(uint64_t), e);
     curves->first = memory_alloc_zero(curve_count + 1, sizeof(int64_t), e);
-    if (!curves->position || !curves->radius || !curves->birth || !curves->along ||
+    if (!curves->position || !curves->radius || !curves->birth || !curves->along || !curves->id ||
         !curves->first) {
         curves_free(curves);
         return NULL;
@@ -33,6 +34,7 @@ void curves_free(CurveSet *curves)
         free(curves->birth);
         free(curves->along);
         free(curves->glow);
+        free(curves->id);
         free(curves->first);
         free(curves);
     }

@@ -13,8 +13,9 @@ typedef struct CurveSet {
     float *radius;  // m, per point
     float *birth;   // 0..1, per point
     float *along;   // m along the branch from its start, per point: for textures
-    float *glow;    // factor on the radiance of an emitting material, per point; NULL = 1 (curves_new
-                    // leaves it out; allocate it with memory_alloc and hand it over)
+    float *glow;  // factor on the radiance of an emitting material, per point; NULL = 1 (curves_new
+                  // leaves it out; allocate it with memory_alloc and hand it over)
+    uint64_t *id; // per curve: a stable name, for draws that shall stay with the curve
     int64_t *first; // curve_count + 1 entries: curve i has points first[i] .. first[i + 1] - 1, at
                     // least 2
 } CurveSet;

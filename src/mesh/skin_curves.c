@@ -19,7 +19,9 @@ typedef struct CurveBuilder {
     CurvePoint *raw;         // of the curve at hand
     CurvePoint *point;       // of all curves
     int64_t *first;          // where each starts
-    int64_t raw_count, raw_capacity, point_count, point_capacity, curve_count, first_capacity;
+    int32_t *start;          // each one's first node
+    int64_t raw_count, raw_capacity, point_count, point_capacity, curve_count, first_capacity,
+        start_capacity;
 } CurveBuilder;
 
 static bool is_thin(const SkinPlan *plan, int64_t node)
@@ -173,15 +175,18 @@ static bool segment_will_do(const CurvePoint *raw, int64_t a, int64_t b)
 }
 
 // Keeps the points that matter.
-static bool store_curve(CurveBuilder *builder, Error *e)
+static bool store_curve(CurveBuilder *builder, int32_t start, Error *e)
 {
     enum { FARTHEST = 16 };
     if (!memory_reserve(&builder->point, &builder->point_capacity,
                         builder->point_count + builder->raw_count, sizeof(CurvePoint), e) ||
         !memory_reserve(&builder->first, &builder->first_capacity, builder->curve_count + 1,
-                        sizeof(int64_t), e)) {
+                        sizeof(int64_t), e) ||
+        !memory_reserve(&builder->start, &builder->start_capacity, builder->curve_count + 1,
+                        sizeof(int32_t), e)) {
         return false;
     }
+    builder->start[builder->curve_count] = start;
     builder->first[builder->curve_count++] = builder->point_count;
     builder->point[builder->point_count++] = builder->raw[0];
     for (int64_t a = 0; a + 1 < builder->raw_count;) {
@@ -213,7 +218,7 @@ static bool trace_curves(CurveBuilder *builder, Error *e)
         }
         relax_curve(builder);
         dress_curve(builder);
-        if (!store_curve(builder, e)) {
+        if (!store_curve(builder, (int32_t)i, e)) {
             return false;
         }
     }
@@ -234,6 +239,7 @@ static CurveSet *finish_curves(const CurveBuilder *builder, Error *e)
     }
     for (int64_t i = 0; i < builder->curve_count; i++) {
         curves->first[i] = builder->first[i];
+        curves->id[i] = builder->plan->tree->id[builder->start[i]];
     }
     curves->first[builder->curve_count] = builder->point_count;
     return curves;
@@ -260,6 +266,7 @@ CurveSet *skin_curves(const OutTree *tree, float max_radius, const SkinParams *p
     free(builder.raw);
     free(builder.point);
     free(builder.first);
+    free(builder.start);
     skin_plan_clear(&plan);
     return curves;
 }

@@ -5,8 +5,8 @@
 
 #include <stdlib.h>
 
-static ColonizeParams colonize_params(const ElementParams *element, const GuideField *field,
-                                      uint64_t seed)
+static ColonizeParams colonize_params(const OutTree *tree, const ElementParams *element,
+                                      const GuideField *field, uint64_t seed)
 {
     ColonizeParams params = colonize_params_default();
     params.rule = element->rule;
@@ -16,6 +16,8 @@ static ColonizeParams colonize_params(const ElementParams *element, const GuideF
     params.cone_angle = element->cone_angle;
     params.cone_axis = element->cone_axis;
     params.noise = element->noise;
+    params.noise_in_space = element->anchored;
+    params.anchor = tree->count > 0 ? tree->position[0] : vec3(0, 0, 0);
     params.tropism = element->tropism;
     params.field = field;
     params.field_weight = element->field_weight;
@@ -25,12 +27,16 @@ static ColonizeParams colonize_params(const ElementParams *element, const GuideF
     params.sector_axis = element->sector_axis;
     params.apical = element->apical;
     params.seed = seed;
+    for (int64_t i = 0; i < tree->count; i++) { // what grows now is younger than what is there
+        params.first_step = tree->birth[i] > params.first_step ? tree->birth[i] : params.first_step;
+    }
     params.max_steps = element->max_steps;
     params.max_nodes = element->max_nodes;
     return params;
 }
 
-static ScatterParams scatter_params(const ElementParams *element, uint64_t seed)
+static ScatterParams scatter_params(const OutTree *tree, const ElementParams *element,
+                                    uint64_t seed)
 {
     ScatterParams params = scatter_params_default();
     params.place = element->place;
@@ -38,6 +44,8 @@ static ScatterParams scatter_params(const ElementParams *element, uint64_t seed)
     params.shell = element->shell;
     params.gradient = element->gradient;
     params.depth_gradient = element->depth_gradient;
+    params.anchored = element->anchored;
+    params.anchor = tree->count > 0 ? tree->position[0] : vec3(0, 0, 0);
     params.seed = seed;
     return params;
 }
@@ -95,8 +103,8 @@ bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope
             return false;
         }
     }
-    ScatterParams scatter = scatter_params(element, random_key(seed, 2));
-    ColonizeParams params = colonize_params(element, field, random_key(seed, 3));
+    ScatterParams scatter = scatter_params(tree, element, random_key(seed, 2));
+    ColonizeParams params = colonize_params(tree, element, field, random_key(seed, 3));
     GrowReport *reports = memory_alloc_zero(element->level_count, sizeof *reports, e);
     bool done = reports && colonize_levels(tree, envelope, &scatter, element->levels,
                                            element->level_count, &params, run, reports, e);

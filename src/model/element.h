@@ -18,6 +18,7 @@ typedef struct ElementParams {
     ScatterPlace place;
     ScatterPattern pattern;
     float shell, gradient, depth_gradient; // see ScatterParams
+    bool anchored;                         // to the element's first node; see ScatterParams
     GrowLevel *levels;
     int level_count;
     GrowRule rule;

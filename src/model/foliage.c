@@ -87,7 +87,7 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
                            bool *failed, Error *e)
 {
     const LeavesParams *leaves = foliage->leaves;
-    uint64_t twig_key = random_key(foliage->seed, (uint64_t)curve);
+    uint64_t twig_key = random_key(foliage->seed, twigs->id[curve]);
     int64_t first = twigs->first[curve], last = twigs->first[curve + 1] - 1, number = 0;
     float until = 0.2f * foliage->spacing * random_unit(random_key(twig_key, 1));
     Vec3 reference = random_direction(random_key(twig_key, 2));

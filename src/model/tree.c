@@ -84,6 +84,7 @@ static bool start_branch(OutTree *tree, int64_t node, int place, Vec3 normal, fl
 {
     enum { PIECES = 3 };
     Vec3 axis = node_direction(tree, node);
+    int32_t birth = tree->birth[node];
     float sine, cosine;
     exact_sincos(crown->branch_angle * RADIANS_PER_DEGREE, &sine, &cosine);
     Vec3 d = vec3_madd(vec3_scale(axis, cosine), sine, normal);
@@ -91,7 +92,7 @@ static bool start_branch(OutTree *tree, int64_t node, int place, Vec3 normal, fl
     for (int i = 0; i < PIECES; i++) {
         uint64_t id = out_tree_child_id(tree->id[parent], i == 0 ? 1000 + place : 0);
         Vec3 p = vec3_madd(tree->position[parent], length / PIECES, d);
-        parent = out_tree_add_node(tree, p, parent, tree->birth[node], COLONY_CROWN, id, e);
+        parent = out_tree_add_node(tree, p, parent, ++birth, COLONY_CROWN, id, e);
         if (parent < 0) {
             return false;
         }
@@ -193,17 +194,21 @@ static bool plant_roots(OutTree *roots, const TreeParams *params, uint64_t seed,
     return true;
 }
 
-// Joins the roots to the trunk: each root's first node becomes a child of the foot node.
+// Joins the roots to the trunk: each root's first node becomes a child of the foot node. Roots grow
+// along with all the rest, from its first birth to its last.
 static bool graft_roots(OutTree *tree, const OutTree *roots, int64_t foot, Error *e)
 {
     int64_t base = tree->count;
+    int64_t last = out_tree_last_birth(tree), last_root = out_tree_last_birth(roots);
+    last_root = last_root > 0 ? last_root : 1;
     if (!out_tree_reserve(tree, base + roots->count, e)) {
         return false;
     }
     for (int64_t i = 0; i < roots->count; i++) {
         int64_t parent = roots->parent[i] < 0 ? foot : base + roots->parent[i];
-        int64_t node = out_tree_add_node(tree, roots->position[i], parent, roots->birth[i],
-                                         COLONY_ROOTS, roots->id[i], e);
+        int32_t birth = (int32_t)(roots->birth[i] * last / last_root);
+        int64_t node = out_tree_add_node(tree, roots->position[i], parent, birth, COLONY_ROOTS,
+                                         roots->id[i], e);
         if (node < 0) {
             return false;
         }
@@ -255,14 +260,14 @@ OutTree *tree_grow(const TreeParams *params, const Recipe *recipe, Error *e)
     OutTree *tree = out_tree_new(e);
     if (!tree ||
         !grow_trunk(tree, &plan.params, random_key(seed, 1), recipe->label, recipe->run, e) ||
-        !grow_crown(tree, &plan.params, random_key(seed, 2), recipe->label, recipe->run, e) ||
-        !out_tree_keep_births(tree, recipe->grow_to, e)) {
+        !grow_crown(tree, &plan.params, random_key(seed, 2), recipe->label, recipe->run, e)) {
         out_tree_free(tree);
         return NULL;
     }
     compute_radii(tree, &plan.params);
-    if (params->roots.count > 0 &&
-        !grow_roots(tree, &plan.params, random_key(seed, 3), recipe->label, recipe->run, e)) {
+    if ((params->roots.count > 0 &&
+         !grow_roots(tree, &plan.params, random_key(seed, 3), recipe->label, recipe->run, e)) ||
+        !out_tree_rejuvenate(tree, recipe->grow_to, params->radii.tip, e)) {
         out_tree_free(tree);
         return NULL;
     }

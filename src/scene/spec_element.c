@@ -76,6 +76,9 @@ static const Key POINTS_KEYS[] = {
      .doc = "Density by height: -1 = only below, 0 = even, 1 = only above."},
     {KEY_OF(ElementParams, depth_gradient, "depth_gradient", KEY_FLOAT), .low = -1, .high = 1,
      .doc = "Density by depth: -1 = only in the middle, 0 = even, 1 = only near the surface."},
+    {KEY_OF(ElementParams, anchored, "anchored", KEY_BOOL),
+     .doc = "For films and edits: attractors stay where they are when the envelope moves or "
+            "changes, so that growth elsewhere hardly does; counts are then approximate."},
     {0},
 };
 

@@ -38,6 +38,10 @@ typedef struct ScatterParams {
     float gradient; // density from bottom to top: -1 = only below, 0 = even, 1 = only above (linear
                     // in height)
     float depth_gradient; // volume: density from the middle to the surface, as gradient
+    bool anchored; // the points stay where they are in space, and their mean spacing too, when the
+                   // envelope moves or changes a little: SCATTER_RANDOM, about count points (their
+                   // spacing is rounded to a quarter octave)
+    Vec3 anchor;   // of anchored points: they move with it
 } ScatterParams;
 
 ScatterParams scatter_params_default(void); // volume, random, 1000 points, seed 1, scale 1, even

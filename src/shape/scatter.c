@@ -91,6 +91,11 @@ static void draw_on_surface(const Scatter *s, uint64_t key, Draw *draw)
     draw->inside = true;
 }
 
+bool scatter_keeps(const Scatter *s, Vec3 p, uint64_t key)
+{
+    return !s->weighted || unit_double(random_key(key, 4)) * largest_weight(s) < weight_at(s, p);
+}
+
 Draw scatter_draw(const Scatter *s, uint64_t number)
 {
     uint64_t key = random_key(s->params->seed, number);
@@ -110,9 +115,7 @@ Draw scatter_draw(const Scatter *s, uint64_t number)
         draw.position = vec3((float)p[0], (float)p[1], (float)p[2]);
         draw.inside = envelope_contains(s->envelope, draw.position);
     }
-    draw.kept = draw.inside &&
-                (!s->weighted ||
-                 unit_double(random_key(key, 4)) * largest_weight(s) < weight_at(s, draw.position));
+    draw.kept = draw.inside && scatter_keeps(s, draw.position, key);
     draw.position = vec3_madd(s->center, s->params->scale, vec3_sub(draw.position, s->center));
     return draw;
 }
@@ -167,6 +170,11 @@ static bool check_params(const Envelope *envelope, const ScatterParams *params, 
     }
     if (!isfinite(params->scale) || !(params->scale > 0.0f)) {
         return error_set(e, ERROR_INPUT, "scale is %g; it must be positive", (double)params->scale);
+    }
+    if (params->anchored && params->pattern == SCATTER_POISSON) {
+        return error_set(e, ERROR_INPUT,
+                         "anchored points keep no distance; use the pattern random, or anchored: "
+                         "false");
     }
     if (params->place == SCATTER_VOLUME && !(envelope_volume(envelope) > 0.0)) {
         return error_set(e, ERROR_INPUT,
@@ -290,8 +298,9 @@ PointSet *points_scatter(const Envelope *envelope, const ScatterParams *params, 
         points->dimension = volume ? 3 : 2;
         points->measure = volume ? envelope_volume(envelope) * scale * scale * scale
                                  : envelope_area(envelope) * scale * scale;
-        done = params->pattern == SCATTER_POISSON ? scatter_poisson(&s, points, run, e)
-                                                  : scatter_random(&s, points, run, e);
+        done = params->anchored                     ? scatter_anchored(&s, points, run, e)
+               : params->pattern == SCATTER_POISSON ? scatter_poisson(&s, points, run, e)
+                                                    : scatter_random(&s, points, run, e);
     }
     scatter_release(&s);
     if (!done) {

@@ -43,6 +43,13 @@ bool scatter_random(const Scatter *scatter, PointSet *points, const Run *run, Er
 // throwing).
 bool scatter_poisson(const Scatter *scatter, PointSet *points, const Run *run, Error *e);
 
+// Points of a lattice fixed in space, as many as the region holds; sets points->measure.
+// (scatter_anchored.c)
+bool scatter_anchored(const Scatter *scatter, PointSet *points, const Run *run, Error *e);
+
+// Whether the density keeps a draw of this key at p, a place of the unscaled region.
+bool scatter_keeps(const Scatter *scatter, Vec3 p, uint64_t key);
+
 // What to say when this many draws found nothing.
 bool scatter_empty_error(const Scatter *scatter, int64_t draws, Error *e);
 

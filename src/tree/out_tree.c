@@ -132,6 +132,15 @@ bool out_tree_keep_nodes(OutTree *tree, const bool *keep, Error *e)
     return true;
 }
 
+int32_t out_tree_last_birth(const OutTree *tree)
+{
+    int32_t last = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        last = tree->birth[i] > last ? tree->birth[i] : last;
+    }
+    return last;
+}
+
 bool out_tree_keep_births(OutTree *tree, float share, Error *e)
 {
     if (share >= 1.0f) {
@@ -141,17 +150,31 @@ bool out_tree_keep_births(OutTree *tree, float share, Error *e)
     if (!keep) {
         return false;
     }
-    int32_t last = 0;
-    for (int64_t i = 0; i < tree->count; i++) {
-        last = tree->birth[i] > last ? tree->birth[i] : last;
-    }
-    double limit = (double)share * last;
+    double limit = (double)share * out_tree_last_birth(tree);
     for (int64_t i = 0; i < tree->count; i++) {
         keep[i] = tree->birth[i] <= limit;
     }
     bool done = out_tree_keep_nodes(tree, keep, e);
     free(keep);
     return done;
+}
+
+bool out_tree_rejuvenate(OutTree *tree, float share, float tip_radius, Error *e)
+{
+    if (share >= 1.0f) {
+        return true;
+    }
+    double last = out_tree_last_birth(tree), now = (double)share * last;
+    if (!out_tree_keep_births(tree, share, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        double lifetime = last - (double)tree->birth[i];
+        float age = lifetime > 0.0 ? (float)((now - (double)tree->birth[i]) / lifetime) : 0.0f;
+        float thin = fminf(tip_radius, tree->radius[i]);
+        tree->radius[i] = lerpf(thin, tree->radius[i], age * (2.0f - age));
+    }
+    return true;
 }
 
 bool out_tree_check(const OutTree *tree, Error *e)

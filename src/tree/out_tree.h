@@ -44,6 +44,15 @@ bool out_tree_keep_nodes(OutTree *tree, const bool *keep, Error *e);
 // its growth. Keeps the order; 1 or more changes nothing.
 bool out_tree_keep_births(OutTree *tree, float share, Error *e);
 
+// The last birth; 0 when there are no nodes.
+int32_t out_tree_last_birth(const OutTree *tree);
+
+// The tree with radii as it was at `share` (0..1) of its growth: drops the younger nodes as
+// out_tree_keep_births does, and thins the others by their youth, from tip_radius (m) where a node
+// has just appeared to its own radius at the end: fast at first, so that nothing pops into being or
+// stays a bare rod for long. Radii keep their order along the branches. 1 or more changes nothing.
+bool out_tree_rejuvenate(OutTree *tree, float share, float tip_radius, Error *e);
+
 // Checks every invariant; the error names the first node that breaks one.
 bool out_tree_check(const OutTree *tree, Error *e);
 
