@@ -180,6 +180,7 @@ static bool cone_sample(const Emitter *e, Vec3 from, const float u[2], bool pivo
         cosine = cosf(angle);
     }
     sample->glow = lerpf(e->glow0, e->glow1, s);
+    sample->pivot = rim.center;
     sample->pivot_ratio = 1.0f / density_along;
     sample->pdf = cone_pdf_at(e, &cone, &rim, from, cosine, sine, density_along, &sample->position);
     return sample->pdf > 0.0f;
@@ -247,6 +248,7 @@ static bool sample_emitter(const Emitter *e, Vec3 from, const float u[2], bool p
         sample->position = triangle ? triangle_point(e, u) : cap_point(e, u);
         sample->pdf = triangle ? triangle_pdf(e, vec3_sub(sample->position, from))
                                : cap_pdf(e, from, sample->position);
+        sample->pivot = sample->position;
         sample->glow = e->glow0;
         sample->pivot_ratio = 1.0f;
         seen = sample->pdf > 0.0f;

@@ -38,6 +38,7 @@ typedef struct EmitterSample {
     float slack;       // m: how far before it nothing need be looked for that may be in between
     float glow;        // factor on the material's radiance
     float pdf;         // per steradian
+    Vec3 pivot;        // as emitter_pivot gives it
     float pivot_ratio; // density of the pivot as emitter_pivot draws it over that of this sample
 } EmitterSample;
 

@@ -1,39 +1,13 @@
 #include "render/integrator.h"
 
 #include "base/random.h"
-#include "render/dome.h"
+#include "render/path.h"
 
 #include <stddef.h>
 
-// Sets of random numbers: one for the camera, then two for each bounce.
-enum { SET_CAMERA = 0, SET_BSDF = 1, SET_LIGHT = 2, SETS_PER_BOUNCE = 2 };
+enum { MOST_CLEAR_CROSSINGS = 256 };
 
-// The state of a path between two surfaces.
-typedef struct Path {
-    const Tracer *tracer;
-    Sampler sampler;
-    Ray ray;
-    uint32_t key; // of the next ray
-    Vec3 throughput;
-    Vec3 absorption; // per metre, of what the ray is in
-    Vec3 direct, indirect;
-    LightReceiver from; // where the ray's direction was drawn
-    float bsdf_pdf;     // of the ray's direction; 0 where light sampling has no part in it
-    float spread;       // radians: how fast the footprint grows
-    float footprint;    // m, at the ray's origin
-    int depth;          // bounces so far
-    bool mirrored;      // from the eye by mirrors only
-    bool straight;      // from the eye through films only
-    int64_t rays;
-} Path;
-
-// fmaxf is a call into the library unless NaN may be ignored.
-static inline float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
-
-static void add_light(Path *path, Vec3 radiance)
+void path_add_light(Path *path, Vec3 radiance)
 {
     Vec3 light = vec3_mul(path->throughput, radiance);
     Vec3 *sum = path->depth < 2 ? &path->direct : &path->indirect;
@@ -74,14 +48,27 @@ static void add_direct_light(Path *path, const SurfacePoint *point, const Bsdf *
     }
     Ray shadow;
     leave(path, point, light.direction, light.far, &shadow);
-    path->rays++;
-    if (accel_occluded(path->tracer->accel, &shadow)) {
-        return;
-    }
     Vec3 radiance =
         vec3_scale(vec3_mul(f, light.radiance), power_heuristic(light.pdf, pdf) / light.pdf);
+    if (path->tracer->has_clear || path->media.now.present || path->tracer->outside.present) {
+        Vec3 share;
+        Media media = path->media;
+        if (bsdf->kind == MATERIAL_DIELECTRIC &&
+            vec3_dot(light.direction, point->geometric_normal) < 0.0f) {
+            media_cross(&media, path->tracer, point->material, point->backface);
+        }
+        if (!path_lets_through(path, &shadow, &media, &share)) {
+            return;
+        }
+        radiance = vec3_mul(radiance, share);
+    } else {
+        path->rays++;
+        if (accel_occluded(path->tracer->accel, &shadow)) {
+            return;
+        }
+    }
     path->depth++; // the light is one bounce further
-    add_light(path, radiance);
+    path_add_light(path, radiance);
     path->depth--;
 }
 
@@ -93,18 +80,8 @@ static void add_haze(Path *path, float distance)
     if (length > 0.0f && path->mirrored) {
         float clear = expf(-distance / length);
         Vec3 veil = lights_horizon(path->tracer->lights, path->ray.direction);
-        add_light(path, vec3_scale(veil, 1.0f - clear));
+        path_add_light(path, vec3_scale(veil, 1.0f - clear));
         path->throughput = vec3_scale(path->throughput, clear);
-    }
-}
-
-static void absorb(Path *path, float distance)
-{
-    Vec3 a = path->absorption;
-    if (a.x + a.y + a.z > 0.0f) {
-        path->throughput =
-            vec3_mul(path->throughput,
-                     vec3(expf(-a.x * distance), expf(-a.y * distance), expf(-a.z * distance)));
     }
 }
 
@@ -119,7 +96,8 @@ static void add_background(Path *path, PathResult *result)
             return;
         }
     }
-    add_light(path, lights_background(path->tracer->lights, path->ray.direction, path->bsdf_pdf));
+    path_add_light(path,
+                   lights_background(path->tracer->lights, path->ray.direction, path->bsdf_pdf));
 }
 
 static void note_first_hit(PathResult *result, const SurfacePoint *point, const Bsdf *bsdf,
@@ -136,7 +114,7 @@ static void note_first_hit(PathResult *result, const SurfacePoint *point, const 
 // Ends weak paths by chance; the survivors stand for them. The chance to live is the root of what
 // the path still carries: half way, in noise for time, between keeping all of them and keeping them
 // in proportion.
-static bool survives(Path *path, float u)
+bool path_survives(Path *path, float u)
 {
     if (path->depth < path->tracer->world->render.roulette_depth) {
         return true;
@@ -167,46 +145,61 @@ static bool bounce(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3
     path->depth++;
     path->footprint = point->footprint;
     if (bsdf->kind == MATERIAL_THIN_FILM && sample.transmitted) {
-        return survives(path, u[3]); // goes on as it came, as shadow rays do
+        return path_survives(path, u[3]); // goes on as it came, as shadow rays do
     }
     path->straight = false;
+    path->start = path->ray.origin;
+    path->travelled = 0.0f;
     path->bsdf_pdf = sample.delta ? 0.0f : sample.pdf;
     if (!sample.delta) {
         path->mirrored = false;
         path->spread = larger(path->spread, 0.25f / (1.0f + sample.pdf));
     }
     if (sample.transmitted && bsdf->kind == MATERIAL_DIELECTRIC) {
-        const Material *body = &path->tracer->world->material[point->material];
-        path->absorption = point->backface ? vec3_splat(0.0f) : body->absorption;
+        media_cross(&path->media, path->tracer, point->material, point->backface);
     }
-    return survives(path, u[3]);
+    return path_survives(path, u[3]);
+}
+
+// Into or out of a body that has no surface: straight on.
+static bool pass_clear(Path *path, const SurfacePoint *point)
+{
+    media_cross(&path->media, path->tracer, point->material, point->backface);
+    path->throughput =
+        vec3_mul(path->throughput, path->tracer->world->material[point->material].color);
+    leave(path, point, path->ray.direction, INFINITY, &path->ray);
+    path->footprint = point->footprint;
+    return ++path->crossings < MOST_CLEAR_CROSSINGS;
 }
 
 // What the ray met. False when the path ends there.
 static bool arrive(Path *path, const Hit *hit, PathResult *result)
 {
     const Tracer *tracer = path->tracer;
-    absorb(path, hit->t);
     add_haze(path, hit->t);
     int light = accel_light(tracer->accel, hit);
     if (light >= 0) {
-        add_light(path, lights_emitted(tracer->lights, light, path->ray.origin, path->ray.direction,
-                                       hit->t, path->bsdf_pdf));
+        path_add_light(path, lights_emitted(tracer->lights, light, path->start, path->ray.direction,
+                                            path->travelled + hit->t, path->bsdf_pdf));
         return false;
     }
+    path->travelled += hit->t;
     SurfacePoint point;
     accel_surface(tracer->accel, &path->ray, hit, &point);
     point.footprint = path->footprint + path->spread * hit->t;
+    if (is_clear(tracer, point.material)) {
+        return pass_clear(path, &point);
+    }
     Vec3 wo = vec3_neg(path->ray.direction);
     Bsdf bsdf = bsdf_at(tracer->materials, &point, wo);
     if (path->straight) {
-        note_first_hit(result, &point, &bsdf, hit->t);
+        note_first_hit(result, &point, &bsdf, path->travelled);
     }
     if (bsdf_is_emissive(&bsdf)) {
         SurfacePlace place = accel_place(tracer->accel, hit);
         float glow =
             lights_glow(tracer->lights, &place, point.position, &path->from, path->bsdf_pdf);
-        add_light(path, vec3_scale(bsdf.emission, glow));
+        path_add_light(path, vec3_scale(bsdf.emission, glow));
         return false;
     }
     if (path->depth >= tracer->world->render.max_depth) {
@@ -247,6 +240,8 @@ static void begin(Path *path, const Tracer *tracer, int x, int y, int sample)
     path->key = (uint32_t)random_key(path->sampler.key, (uint64_t)sample);
     path->ray.key = path->key++;
     camera_ray(&tracer->camera, film_x, film_y, u + 2, &path->ray.origin, &path->ray.direction);
+    path->start = path->ray.origin;
+    path->media = media_outside(tracer);
 }
 
 // From the first hit, which is known, to the end.
@@ -254,12 +249,20 @@ static void finish(Path *path, bool met, Hit *hit, PathResult *result)
 {
     const Tracer *tracer = path->tracer;
     *result = (PathResult){.alpha = 1.0f, .depth = INFINITY};
-    while (met && arrive(path, hit, result)) {
+    for (;;) {
+        Travel travel = TRAVEL_ARRIVED;
+        if (path->media.now.present) {
+            travel = path_travel(path, met ? hit->t : INFINITY);
+        }
+        if (travel == TRAVEL_ARRIVED && !met) {
+            add_background(path, result);
+        }
+        if (travel == TRAVEL_ENDED ||
+            (travel == TRAVEL_ARRIVED && !(met && arrive(path, hit, result)))) {
+            break;
+        }
         path->rays++;
         met = accel_intersect(tracer->accel, &path->ray, hit);
-    }
-    if (!met) {
-        add_background(path, result);
     }
     result->color = vec3_add(path->direct, clamped(path->indirect, tracer->world->render.clamp));
     if (!vec3_finite(result->color)) {

@@ -15,6 +15,10 @@ typedef struct Tracer {
     const Accel *accel;
     const Lights *lights;
     const MaterialSet *materials;
+    Filling outside; // the scene's medium
+    Vec3 center;     // of the scene
+    float medium_radius;
+    bool has_clear; // some body has no surface: see is_clear
     CameraFrame camera;
     Filter filter;
     SobolTable sobol;
@@ -30,6 +34,9 @@ typedef struct PathResult {
     float depth; // m along the ray
     int object;
 } PathResult;
+
+// Prepares what of the above belongs to media. bounds: of the scene.
+void tracer_set_media(Tracer *tracer, Aabb bounds);
 
 // Samples sample .. sample + count - 1 of pixel (x, y), count at most PACKET_SIZE: their camera
 // rays are traced together.

@@ -152,7 +152,7 @@ static float quad_density(const Light *light, Vec3 direction, float distance)
     return facing > 0.0f ? distance * distance / facing : 0.0f;
 }
 
-static bool quad_sample(const Light *light, Vec3 point, const float u[3], LightSample *sample)
+static bool quad_sample(const Light *light, Vec3 point, const float u[2], LightSample *sample)
 {
     Vec3 on = vec3_madd(vec3_madd(light->corner, u[0], light->edge_u), u[1], light->edge_v);
     Vec3 to = vec3_sub(on, point);
@@ -173,7 +173,7 @@ static float sphere_one_minus_cos(const Light *light, Vec3 point)
     return s2 < 1.0f ? s2 / (1.0f + sqrtf(1.0f - s2)) : 2.0f;
 }
 
-static bool sphere_sample(const Light *light, Vec3 point, const float u[3], LightSample *sample)
+static bool sphere_sample(const Light *light, Vec3 point, const float u[2], LightSample *sample)
 {
     Vec3 to = vec3_sub(light->center, point);
     float cap = sphere_one_minus_cos(light, point), off = u[0] * cap;
@@ -190,8 +190,7 @@ static bool sphere_sample(const Light *light, Vec3 point, const float u[3], Ligh
 
 // ---- all together
 
-// *rest: u's place within the share of the one chosen, 0..1.
-static int choose(const Lights *lights, float u, float *rest)
+LightChoice lights_choose(const Lights *lights, float u)
 {
     int low = 0, high = lights->count;
     while (high - low > 1) {
@@ -202,8 +201,19 @@ static int choose(const Lights *lights, float u, float *rest)
             high = middle;
         }
     }
-    *rest = fminf((u - lights->sum[low]) / lights->share[low], 0.99999994f);
-    return low;
+    float rest = fminf((u - lights->sum[low]) / lights->share[low], 0.99999994f);
+    return (LightChoice){low, rest, low != lights->dome_index && low != lights->sun_index};
+}
+
+static void take_emitter_sample(const Lights *lights, int64_t emitter, const EmitterSample *on,
+                                float probability, LightSample *sample)
+{
+    const Material *m = &lights->world->material[lights->emitters.emitter[emitter].material];
+    sample->direction = on->direction;
+    sample->distance = on->distance;
+    sample->far = fmaxf(on->distance * 0.999f - on->slack, 0.0f);
+    sample->radiance = vec3_scale(m->radiance, on->glow);
+    sample->pdf = on->pdf * probability;
 }
 
 static bool sample_emitters(const Lights *lights, const LightReceiver *receiver, const float u[2],
@@ -215,40 +225,118 @@ static bool sample_emitters(const Lights *lights, const LightReceiver *receiver,
     if (i < 0 || !emitter_sample(&lights->emitters.emitter[i], receiver->position, u, &on)) {
         return false;
     }
-    const Material *m = &lights->world->material[lights->emitters.emitter[i].material];
-    sample->direction = on.direction;
-    sample->distance = on.distance;
-    sample->far = fmaxf(on.distance * 0.999f - on.slack, 0.0f);
-    sample->radiance = vec3_scale(m->radiance, on.glow);
-    sample->pdf = on.pdf * probability;
+    take_emitter_sample(lights, i, &on, probability, sample);
     return true;
+}
+
+static bool sample_lamp(const Light *light, Vec3 point, const float u[2], LightSample *sample)
+{
+    sample->radiance = light->radiance;
+    bool seen = light->kind == LIGHT_QUAD ? quad_sample(light, point, u, sample)
+                                          : sphere_sample(light, point, u, sample);
+    sample->far = sample->distance * 0.999f;
+    return seen;
+}
+
+// Sky and sun.
+static void sample_far(const Lights *lights, int index, const float u[2], LightSample *sample)
+{
+    sample->distance = sample->far = INFINITY;
+    if (index == lights->dome_index) {
+        sample->direction = dome_sample(lights->dome, u[0], u[1], &sample->pdf);
+        sample->radiance = dome_lookup(lights->dome, sample->direction);
+    } else {
+        sample->direction = sun_sample(&lights->sun, u[0], u[1]);
+        sample->radiance = sun_radiance(&lights->sun, sample->direction);
+        sample->pdf = 1.0f / lights->sun.solid_angle;
+    }
 }
 
 bool lights_sample(const Lights *lights, const LightReceiver *receiver, const float u[3],
                    LightSample *sample)
 {
-    float rest;
-    int i = choose(lights, u[2], &rest);
+    LightChoice choice = lights_choose(lights, u[2]);
     bool seen = true;
-    sample->distance = sample->far = INFINITY;
-    if (i == lights->dome_index) {
-        sample->direction = dome_sample(lights->dome, u[0], u[1], &sample->pdf);
-        sample->radiance = dome_lookup(lights->dome, sample->direction);
-    } else if (i == lights->sun_index) {
-        sample->direction = sun_sample(&lights->sun, u[0], u[1]);
-        sample->radiance = sun_radiance(&lights->sun, sample->direction);
-        sample->pdf = 1.0f / lights->sun.solid_angle;
-    } else if (i == lights->emitters_index) {
-        seen = sample_emitters(lights, receiver, u, rest, sample);
+    if (!choice.near) {
+        sample_far(lights, choice.index, u, sample);
+    } else if (choice.index == lights->emitters_index) {
+        seen = sample_emitters(lights, receiver, u, choice.rest, sample);
     } else {
-        const Light *light = &lights->world->light[i];
-        sample->radiance = light->radiance;
-        seen = light->kind == LIGHT_QUAD ? quad_sample(light, receiver->position, u, sample)
-                                         : sphere_sample(light, receiver->position, u, sample);
-        sample->far = sample->distance * 0.999f;
+        seen = sample_lamp(&lights->world->light[choice.index], receiver->position, u, sample);
     }
-    sample->pdf *= lights->share[i];
+    sample->pdf *= lights->share[choice.index];
     return seen && sample->pdf > 0.0f;
+}
+
+// ---- along a segment
+
+static Vec3 lamp_pivot(const Light *light, const float u[2])
+{
+    return light->kind == LIGHT_QUAD
+               ? vec3_madd(vec3_madd(light->corner, u[0], light->edge_u), u[1], light->edge_v)
+               : light->center;
+}
+
+bool lights_draw_pivot(const Lights *lights, const LightChoice *choice, const LightSegment *segment,
+                       const float u[2], LightPivot *pivot)
+{
+    if (choice->index != lights->emitters_index) {
+        *pivot = (LightPivot){-1, lamp_pivot(&lights->world->light[choice->index], u)};
+        return true;
+    }
+    float unused;
+    pivot->emitter =
+        light_tree_sample_segment(lights->emitters.tree, segment, choice->rest, &unused);
+    if (pivot->emitter >= 0) {
+        pivot->position = emitter_pivot(&lights->emitters.emitter[pivot->emitter], u);
+    }
+    return pivot->emitter >= 0;
+}
+
+static bool sample_emitters_along(const Lights *lights, const LightChoice *choice,
+                                  const LightSegment *segment, const LightPivot *pivot, Vec3 point,
+                                  const float u[2], SegmentLight *sample)
+{
+    const LightTree *tree = lights->emitters.tree;
+    LightReceiver receiver = {.position = point};
+    float probability = 0.0f;
+    int64_t i =
+        pivot ? pivot->emitter : light_tree_sample(tree, &receiver, choice->rest, &probability);
+    EmitterSample on;
+    const Emitter *emitter = &lights->emitters.emitter[i < 0 ? 0 : i];
+    if (i < 0 || !(pivot ? emitter_sample_pivoted(emitter, point, u, &on)
+                         : emitter_sample(emitter, point, u, &on))) {
+        return false;
+    }
+    if (pivot) {
+        probability = light_tree_probability(tree, &receiver, i);
+    }
+    take_emitter_sample(lights, i, &on, probability, &sample->light);
+    sample->pivot = (LightPivot){i, on.pivot};
+    sample->pivot_pdf = light_tree_probability_segment(tree, segment, i) * on.pdf * on.pivot_ratio;
+    return true;
+}
+
+bool lights_sample_chosen(const Lights *lights, const LightChoice *choice,
+                          const LightSegment *segment, const LightPivot *pivot, Vec3 point,
+                          const float u[2], SegmentLight *sample)
+{
+    float share = lights->share[choice->index];
+    bool seen = true;
+    if (!choice->near) {
+        sample_far(lights, choice->index, u, &sample->light);
+        sample->pivot_pdf = 0.0f;
+    } else if (choice->index == lights->emitters_index) {
+        seen = sample_emitters_along(lights, choice, segment, pivot, point, u, sample);
+    } else {
+        const Light *light = &lights->world->light[choice->index];
+        seen = sample_lamp(light, point, u, &sample->light);
+        sample->pivot = (LightPivot){-1, lamp_pivot(light, u)};
+        sample->pivot_pdf = sample->light.pdf;
+    }
+    sample->light.pdf *= share;
+    sample->pivot_pdf *= share;
+    return seen && sample->light.pdf + sample->pivot_pdf > 0.0f;
 }
 
 static float bsdf_weight(float bsdf_pdf, float light_pdf)

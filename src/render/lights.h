@@ -28,6 +28,40 @@ bool lights_can_sample(const Lights *lights);
 bool lights_sample(const Lights *lights, const LightReceiver *receiver, const float u[3],
                    LightSample *sample);
 
+// ---- light that a medium scatters along a stretch of a ray
+
+// One of the lights, chosen by a uniform number. near: sampled from a pivot, too.
+typedef struct LightChoice {
+    int index;
+    float rest; // of the number
+    bool near;  // a lamp or glowing geometry, not sky and sun
+} LightChoice;
+
+LightChoice lights_choose(const Lights *lights, float u);
+
+// A place on the chosen near light, before the point that it lights is known.
+typedef struct LightPivot {
+    int64_t emitter; // of glowing geometry
+    Vec3 position;
+} LightPivot;
+
+bool lights_draw_pivot(const Lights *lights, const LightChoice *choice, const LightSegment *segment,
+                       const float u[2], LightPivot *pivot);
+
+// A sample of the chosen light from a point of the segment.
+typedef struct SegmentLight {
+    LightSample light; // with the density of lights_sample
+    LightPivot pivot;  // of a near light: where the pivot is, or would have been
+    float pivot_pdf;   // per steradian: the density by way of the pivot
+} SegmentLight;
+
+// pivot: NULL = draw anew from the point. u must be that of the pivot.
+bool lights_sample_chosen(const Lights *lights, const LightChoice *choice,
+                          const LightSegment *segment, const LightPivot *pivot, Vec3 point,
+                          const float u[2], SegmentLight *sample);
+
+// ----
+
 // Radiance from beyond the geometry along direction. bsdf_pdf > 0: the density with which the
 // direction was drawn, when light sampling could have found the same; the result is weighted by
 // the power heuristic (Veach 1997). bsdf_pdf <= 0: unweighted.

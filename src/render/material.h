@@ -36,14 +36,16 @@ typedef enum PatternKind {
 typedef struct Material {
     char name[64];
     MaterialKind kind;
-    Vec3 color;         // reflectance (leaf: of the upper side; dielectric: tint of what passes)
-    Vec3 color2;        // the pattern's second colour (bark: of the furrows)
-    Vec3 transmittance; // MATERIAL_LEAF: colour of light let through; dielectric: unused
-    Vec3 absorption;    // MATERIAL_DIELECTRIC: per metre, Beer-Lambert
-    float roughness;    // GGX alpha = roughness^2; 0..1
-    float metallic;     // MATERIAL_PRINCIPLED
-    float specular;     // strength of the coat of principled and leaf, 0..1; 0.5 = ior 1.5
-    float ior;
+    Vec3 color;           // reflectance (leaf: of the upper side; dielectric: tint of what passes)
+    Vec3 color2;          // the pattern's second colour (bark: of the furrows)
+    Vec3 transmittance;   // MATERIAL_LEAF: colour of light let through; dielectric: unused
+    Vec3 absorption;      // MATERIAL_DIELECTRIC: per metre, Beer-Lambert
+    Vec3 scattering;      // MATERIAL_DIELECTRIC: per metre: clouded, milky, flesh
+    float anisotropy;     // of that scattering: mean cosine, -1..1
+    float roughness;      // GGX alpha = roughness^2; 0..1
+    float metallic;       // MATERIAL_PRINCIPLED
+    float specular;       // strength of the coat of principled and leaf, 0..1; 0.5 = ior 1.5
+    float ior;            // MATERIAL_DIELECTRIC: 1 = no surface, only what is inside
     Vec3 radiance;        // MATERIAL_EMISSION: W / (m^2 sr)
     float film_thickness; // MATERIAL_THIN_FILM: nm where the film stands upright
     float film_drainage;  // 0..1: how much thinner it is where it faces up, thicker where down

@@ -327,6 +327,7 @@ bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass 
         tracer->camera = camera_frame(&world->camera, film->width, film->height);
         filter_fill(&tracer->filter, world->film.filter, world->film.filter_radius);
         sobol_table_fill(&tracer->sobol);
+        tracer_set_media(tracer, accel_bounds(renderer->accel));
         render_passes(&job, pass, user);
         *stats = (RenderStats){.paths = job.paths,
                                .rays = job.rays,

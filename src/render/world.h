@@ -6,6 +6,7 @@
 #include "base/vec.h"
 #include "mesh/geometry.h"
 #include "render/material.h"
+#include "render/medium.h"
 
 typedef struct Camera {
     Vec3 position, target, up;
@@ -72,7 +73,8 @@ typedef struct World {
     FilmParams film;
     RenderParams render;
     Sky sky;
-    Light *light; // owned
+    Medium medium; // MEDIUM_NONE: clear air
+    Light *light;  // owned
     int light_count;
     Material *material; // owned
     int material_count;

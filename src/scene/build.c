@@ -195,6 +195,9 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
     world->film = scene->film;
     world->render = scene->render;
     world->sky = scene->sky;
+    if (scene->medium) {
+        world->medium = *scene->medium;
+    }
     bool done = add_materials(world, scene, e) && add_lights(world, scene, e);
     for (int i = 0; done && i < scene->object_count; i++) {
         char label[LABEL_SIZE];

@@ -73,6 +73,7 @@ typedef struct Scene {
     bool denoise;
     RenderParams render;
     Sky sky;
+    Medium *medium; // NULL = clear air
     Light *lights;
     int light_count;
     Material *materials;

@@ -143,6 +143,8 @@ static const Key SCENE_KEYS[] = {
      .doc = "The path tracer's effort."},
     {KEY_OF(Scene, sky, "sky", KEY_GROUP), .table = &sky_table,
      .doc = "What lights the scene from all around."},
+    {KEY_OF(Scene, medium, "medium", KEY_POINTER), .table = &medium_table,
+     .doc = "Fog, haze or water around everything; left out: clear air."},
     {KEY_OF(Scene, lights, "lights", KEY_LIST), .count_offset = offsetof(Scene, light_count),
      .count = 100000, .table = &light_table, .doc = "Lamps."},
     {KEY_OF(Scene, materials, "materials", KEY_LIST),

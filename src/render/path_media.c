@@ -1,0 +1,133 @@
+// Bodies that a path is in, and what shadow rays lose on their way.
+#include "render/path.h"
+
+#include "render/thin_film.h"
+
+enum { MOST_CROSSINGS = 64 };
+
+void tracer_set_media(Tracer *tracer, Aabb bounds)
+{
+    const World *world = tracer->world;
+    const Medium *m = &world->medium;
+    if (m->kind != MEDIUM_NONE) {
+        tracer->outside = filling_of(m->scattering, m->absorption, m->anisotropy);
+    }
+    bounds = aabb_add(bounds, world->camera.position);
+    tracer->center = vec3_scale(vec3_add(bounds.low, bounds.high), 0.5f);
+    float radius = 0.5f * vec3_distance(bounds.low, bounds.high);
+    tracer->medium_radius = m->extent > 0.0f ? m->extent : 3.0f * radius;
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        const Material *body = &world->material[world->geometry.part[i].material];
+        tracer->has_clear =
+            tracer->has_clear || (body->kind == MATERIAL_DIELECTRIC && body->ior <= 1.0f);
+    }
+}
+
+static void refresh(Media *media, const Tracer *tracer)
+{
+    media->sheltered = false;
+    for (int i = 0; i < media->count; i++) {
+        media->sheltered = media->sheltered || !is_clear(tracer, media->body[i]);
+    }
+    if (media->count > 0) {
+        const Material *m = &tracer->world->material[media->body[media->count - 1]];
+        media->now = filling_of(m->scattering, m->absorption, m->anisotropy);
+    } else {
+        media->now = tracer->outside;
+    }
+}
+
+Media media_outside(const Tracer *tracer)
+{
+    return (Media){.now = tracer->outside};
+}
+
+void media_cross(Media *media, const Tracer *tracer, int material, bool leaving)
+{
+    if (!leaving) {
+        if (media->count < DEEPEST_NESTING) {
+            media->body[media->count++] = material;
+        }
+    } else {
+        int i = media->count - 1;
+        while (i >= 0 && media->body[i] != material) {
+            i--;
+        }
+        if (i < 0) {
+            return; // the path began inside
+        }
+        for (media->count--; i < media->count; i++) {
+            media->body[i] = media->body[i + 1];
+        }
+    }
+    refresh(media, tracer);
+}
+
+bool media_line(const Media *media, const Tracer *tracer, const Ray *ray, float far,
+                MediumLine *line)
+{
+    if (!media->now.present) {
+        return false;
+    }
+    *line = media->count > 0 ? medium_line_inside(far)
+                             : medium_line(&tracer->world->medium, tracer->center,
+                                           tracer->medium_radius, ray->origin, ray->direction, far);
+    return line->count > 0;
+}
+
+static void lose(const Media *media, const Tracer *tracer, const Ray *ray, float far, Vec3 *share)
+{
+    MediumLine line;
+    if (media_line(media, tracer, ray, far, &line)) {
+        *share = vec3_mul(*share, medium_transmittance(media->now.extinction, line.length));
+    }
+}
+
+// Stretch by stretch, through films and the surfaces of clear bodies.
+static bool passes_bodies(Path *path, Ray ray, Media media, Vec3 *share)
+{
+    const Tracer *tracer = path->tracer;
+    for (int i = 0; i < MOST_CROSSINGS; i++) {
+        Hit hit;
+        path->rays++;
+        bool met = accel_intersect(tracer->accel, &ray, &hit);
+        lose(&media, tracer, &ray, met ? hit.t : ray.far, share);
+        if (!met) {
+            return true;
+        }
+        if (accel_light(tracer->accel, &hit) >= 0) {
+            return false;
+        }
+        SurfacePoint point;
+        accel_surface(tracer->accel, &ray, &hit, &point);
+        const Material *m = &tracer->world->material[point.material];
+        if (m->kind == MATERIAL_THIN_FILM) {
+            float cosine = fabsf(vec3_dot(ray.direction, point.geometric_normal));
+            *share = vec3_scale(*share, 1.0f - thin_film_mean(m->ior, cosine));
+        } else if (is_clear(tracer, point.material)) {
+            *share = vec3_mul(*share, m->color);
+            media_cross(&media, tracer, point.material, point.backface);
+        } else {
+            return false;
+        }
+        ray.origin = vec3_madd(point.position, -point.epsilon, point.facet_normal);
+        ray.far -= hit.t;
+        ray.key++;
+    }
+    return false;
+}
+
+bool path_lets_through(Path *path, const Ray *ray, const Media *media, Vec3 *share)
+{
+    const Tracer *tracer = path->tracer;
+    *share = vec3_splat(1.0f);
+    if (tracer->has_clear) {
+        return passes_bodies(path, *ray, *media, share);
+    }
+    path->rays++;
+    if (accel_occluded(tracer->accel, ray)) {
+        return false;
+    }
+    lose(media, tracer, ray, ray->far, share);
+    return true;
+}
