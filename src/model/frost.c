@@ -28,12 +28,13 @@ FrostParams frost_params_default(FrostSurface surface)
                          .turn = pane ? 110.0f : 120.0f,
                          .field_weight = pane ? 1.0f : 1.5f,
                          .spines = pane ? 420 : 700,
-                         .sides = 60000,
+                         .sides = pane ? 150000 : 60000,
                          .angle = 60.0f,
                          .skip = 0.33f,
                          .orders = 3,
                          .width_share = 0.22f,
                          .relief = 0.5f,
+                         .rime = 0.4f,
                          .grains = pane ? 30000 : 6000};
 }
 
@@ -145,7 +146,7 @@ static bool grow_sides(OutTree *tree, const FrostParams *params, const Recipe *r
         return false;
     }
     ColonizeParams growth = colonize_params_default();
-    colonize_auto(&growth, points_spacing(points), SIDE_STEP, 1.1f, 3.2f);
+    colonize_auto(&growth, points_spacing(points), SIDE_STEP, 0.9f, 5.0f);
     growth.rule = GROW_SECTORS;
     growth.sector_angle = params->angle;
     growth.sector_axis = true;

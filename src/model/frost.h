@@ -43,8 +43,14 @@ typedef struct FrostParams {
     int orders;         // of branching: 1 = sides alone, 3 = sides of sides of sides
     float width_share;  // half-width of the finest blades, in spacings between sides
     float relief;       // height of a blade's rib over its half-width
+    float rime;         // 0..1: share of the sides that are white with air instead of clear
     int64_t grains;     // loose crystals between the blades, mostly near the border
 } FrostParams;
+
+// Materials, as indices into the world's list.
+typedef struct FrostMaterials {
+    int ice, rime;
+} FrostMaterials;
 
 // Window frost on a pane of 0.6 x 0.45 m; a bubble has its own numbers.
 FrostParams frost_params_default(FrostSurface surface);
@@ -54,10 +60,10 @@ FrostParams frost_params_default(FrostSurface surface);
 // ERROR_MEMORY, ERROR_CANCELLED.
 OutTree *frost_grow(const FrostParams *params, const Recipe *recipe, Error *e);
 
-// The blades as one mesh of triangles, closed pieces that overlap where a side leaves, and the
-// grains as instances.
-bool frost_geometry(const OutTree *tree, const FrostParams *params, int material, int object,
-                    const Recipe *recipe, Geometry *geometry, Error *e);
+// The blades as meshes of triangles, clear ones and white ones: closed pieces that overlap where a
+// side leaves. The grains are instances, half of them white.
+bool frost_geometry(const OutTree *tree, const FrostParams *params, const FrostMaterials *materials,
+                    int object, const Recipe *recipe, Geometry *geometry, Error *e);
 
 // Appends orders (of branching, spines being 0), side_angle and side_angle_spread (degrees, where a
 // side leaves), swept (degrees about the nucleus that the longest spines turn on their way, mean

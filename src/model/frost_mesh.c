@@ -96,13 +96,21 @@ static void add_blade(BladeMesh *b, const int32_t *node, int64_t count)
     }
 }
 
+// Is the chain one of rime, or of clear ice? Spines are clear.
+static bool is_rime(const OutTree *tree, const FrostParams *params, const ChainSet *chains,
+                    int64_t chain)
+{
+    uint64_t id = tree->id[chains->node[chains->first[chain + 1] - 1]];
+    return chains->order[chain] > 0 && random_unit(random_key(id, 79)) < params->rime;
+}
+
 static Mesh *blade_mesh(const OutTree *tree, const FrostParams *params, const ChainSet *chains,
-                        const Run *run, Error *e)
+                        bool rime, const Run *run, Error *e)
 {
     int64_t vertices = 0, faces = 0;
     for (int64_t c = 0; c < chains->count; c++) {
         int64_t rings = chain_length(chains, c) - 1;
-        if (rings > 0) {
+        if (rings > 0 && is_rime(tree, params, chains, c) == rime) {
             vertices += rings * SECTION + 1;
             faces += (rings - 1) * 2 * SECTION + SECTION + SECTION - 2;
         }
@@ -114,7 +122,7 @@ static Mesh *blade_mesh(const OutTree *tree, const FrostParams *params, const Ch
             mesh_free(b.mesh);
             return NULL;
         }
-        if (chain_length(chains, c) > 1) {
+        if (chain_length(chains, c) > 1 && is_rime(tree, params, chains, c) == rime) {
             add_blade(&b, chains->node + chains->first[c], chain_length(chains, c));
         }
     }
@@ -201,17 +209,30 @@ static bool add_grains(const FrostParams *params, float size, int material, int 
                         e);
 }
 
-bool frost_geometry(const OutTree *tree, const FrostParams *params, int material, int object,
-                    const Recipe *recipe, Geometry *geometry, Error *e)
+static bool add_blades(const OutTree *tree, const FrostParams *params,
+                       const FrostMaterials *materials, int object, const Run *run,
+                       Geometry *geometry, Error *e)
 {
-    enum { VARIANTS = 5 };
     ChainSet *chains = out_tree_chains(tree, e);
-    Mesh *mesh = chains ? blade_mesh(tree, params, chains, recipe->run, e) : NULL;
+    bool done = chains != NULL;
+    for (int rime = 0; done && rime < 2; rime++) {
+        Mesh *mesh = blade_mesh(tree, params, chains, rime == 1, run, e);
+        done = mesh && geometry_add(geometry,
+                                    (Part){.kind = PART_MESH,
+                                           .mesh = mesh,
+                                           .material = rime ? materials->rime : materials->ice,
+                                           .object = object},
+                                    e);
+    }
     chains_free(chains);
-    if (!mesh ||
-        !geometry_add(
-            geometry,
-            (Part){.kind = PART_MESH, .mesh = mesh, .material = material, .object = object}, e)) {
+    return done;
+}
+
+bool frost_geometry(const OutTree *tree, const FrostParams *params, const FrostMaterials *materials,
+                    int object, const Recipe *recipe, Geometry *geometry, Error *e)
+{
+    enum { VARIANTS = 6 };
+    if (!add_blades(tree, params, materials, object, recipe->run, geometry, e)) {
         return false;
     }
     float size = 0.0f; // as wide as the finest blades
@@ -219,6 +240,7 @@ bool frost_geometry(const OutTree *tree, const FrostParams *params, int material
         size = size == 0.0f || tree->radius[i] < size ? tree->radius[i] : size;
     }
     for (int v = 0; params->grains >= VARIANTS && v < VARIANTS; v++) {
+        int material = v % 2 ? materials->rime : materials->ice;
         if (!add_grains(params, size, material, object, random_key(recipe->seed, 6), v,
                         params->grains / VARIANTS, geometry, e)) {
             return false;

@@ -10,8 +10,9 @@ static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
-    int material = placing_material(p, p->object->material, "ice");
-    return frost_geometry(tree, p->object->frost, material, p->index, &p->recipe,
+    FrostMaterials materials = {.ice = placing_material(p, p->object->material, "ice"),
+                                .rime = placing_material(p, p->object->rime_material, "rime")};
+    return frost_geometry(tree, p->object->frost, &materials, p->index, &p->recipe,
                           &p->world->geometry, e);
 }
 
@@ -42,7 +43,7 @@ static int64_t copies(const SceneObject *object)
 
 const Kind kind_frost = {.key = "frost",
                          .offset = offsetof(SceneObject, frost),
-                         .materials = {"material"},
+                         .materials = {"material", "rime_material"},
                          .grow = grow,
                          .place = place,
                          .measure = measure,

@@ -51,6 +51,7 @@ typedef struct SceneObject {
     char *material; // mesh, shape, ground; bark of a tree
     char *twig_material, *leaf_material, *grass_material;
     char *water_material;                 // of terrain
+    char *rime_material;                  // of frost
     char *polyp_material, *rock_material; // of corals
 } SceneObject;
 

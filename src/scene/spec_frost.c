@@ -63,6 +63,8 @@ static const Key FROST_KEYS[] = {
      .doc = "Half-width of the finest blades, in mean spacings of the sides' attractors."},
     {KEY_OF(FrostParams, relief, "relief", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
      .doc = "Height of a blade's rib over its half-width."},
+    {KEY_OF(FrostParams, rime, "rime", KEY_FLOAT), .high = 1,
+     .doc = "Share of the sides that are white with enclosed air instead of clear."},
     {KEY_OF(FrostParams, grains, "grains", KEY_INT64), .high = 1e8,
      .doc = "Loose crystals, mostly near the border or about the nucleus; 0 = none."},
     {0},

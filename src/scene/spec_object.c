@@ -159,6 +159,8 @@ static const Key OBJECT_KEYS[] = {
     {KEY_OF(SceneObject, leaf_material, "leaf_material", KEY_TEXT),
      .doc = "Material of a tree's leaves, or of those that lie on the ground; left out: leaf, "
             "fallen."},
+    {KEY_OF(SceneObject, rime_material, "rime_material", KEY_TEXT),
+     .doc = "Material of frost that is white with enclosed air; left out: rime."},
     {KEY_OF(SceneObject, polyp_material, "polyp_material", KEY_TEXT),
      .doc = "Material of a coral's cups; left out: coral_polyp."},
     {KEY_OF(SceneObject, rock_material, "rock_material", KEY_TEXT),

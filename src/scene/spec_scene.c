@@ -150,7 +150,7 @@ static const Key SCENE_KEYS[] = {
     {KEY_OF(Scene, materials, "materials", KEY_LIST),
      .count_offset = offsetof(Scene, material_count), .count = 10000, .table = &material_table,
      .doc = "Materials that objects name. bark, twig, leaf, ground, grass, fallen, ice, "
-            "soap_film, lightning, coral, coral_polyp, reef_rock and clay are "
+            "rime, soap_film, lightning, coral, coral_polyp, reef_rock and clay are "
             "there already; an entry of such a name changes it."},
     {KEY_OF(Scene, objects, "objects", KEY_LIST), .count_offset = offsetof(Scene, object_count),
      .flags = KEY_REQUIRED, .low = 1, .count = 10000, .table = &object_table,
