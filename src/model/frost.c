@@ -14,8 +14,8 @@
 // Nodes stand this many spacings of the sides' attractors apart.
 static const float SIDE_STEP = 0.55f;
 
-// A blade that goes on this many nodes without a side has run out of anything to grow into.
-enum { MOST_BARE = 26 };
+// A blade that goes on so far without a side, in spacings between spines, has escaped.
+static const float MOST_BARE = 1.5f;
 
 FrostParams frost_params_default(FrostSurface surface)
 {
@@ -28,7 +28,7 @@ FrostParams frost_params_default(FrostSurface surface)
                          .turn = pane ? 110.0f : 120.0f,
                          .field_weight = pane ? 1.0f : 1.5f,
                          .spines = pane ? 420 : 700,
-                         .sides = pane ? 150000 : 60000,
+                         .sides = pane ? 150000 : 100000,
                          .angle = 60.0f,
                          .skip = 0.33f,
                          .orders = 3,
@@ -188,8 +188,10 @@ static void count_bare(const OutTree *tree, int32_t *since, uint8_t *children)
 }
 
 // Ends every way soon after its last side: rods that escaped into empty space.
-static bool trim_rods(OutTree *tree, Error *e)
+static bool trim_rods(OutTree *tree, const FrostParams *params, Error *e)
 {
+    float spine_spacing = sqrtf(frost_area(params) / (float)params->spines);
+    float most = MOST_BARE * spine_spacing / (SIDE_STEP * side_spacing(params));
     int32_t *since = memory_alloc(tree->count, sizeof *since, e);
     uint8_t *children = memory_alloc_zero(tree->count, sizeof *children, e);
     bool *keep = memory_alloc(tree->count, sizeof *keep, e);
@@ -197,7 +199,7 @@ static bool trim_rods(OutTree *tree, Error *e)
     if (done) {
         count_bare(tree, since, children);
         for (int64_t i = 0; i < tree->count; i++) {
-            keep[i] = since[i] <= MOST_BARE;
+            keep[i] = (float)since[i] <= most;
         }
         done = out_tree_keep_nodes(tree, keep, e);
     }
@@ -229,7 +231,7 @@ static OutTree *grow(const FrostParams *params, const Recipe *recipe, Error *e)
     if (done) {
         give_births(tree, spine_count);
         done = frost_drop_crossings(tree, recipe->run, e) &&
-               (params->sides == 0 || trim_rods(tree, e)) &&
+               (params->sides == 0 || trim_rods(tree, params, e)) &&
                out_tree_keep_births(tree, recipe->grow_to, e);
     }
     if (!done) {
