@@ -157,6 +157,9 @@ static bool begin(Growth *growth, Error *e)
             count_child(growth, tree->parent[i], (int32_t)i, sector);
         }
     }
+    for (int64_t i = 0; growth->params->new_orders && i < tree->count; i++) {
+        growth->state[i].order = 0;
+    }
     return true;
 }
 

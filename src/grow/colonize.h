@@ -50,6 +50,7 @@ typedef struct ColonizeParams {
     int max_order;      // orders of branching: sides of sides ...; 0 = no limit. What continues its
                         // parent (first child; GROW_SECTORS: forward sector) keeps its order; a
                         // root's children all have order 0
+    bool new_orders; // orders count from the nodes there are at first, all of which have order 0
     const GrowString *string; // GROW_STRING: a node without children stands at its start
     float regularity; // GROW_STRING: share of the string's own direction in a child's; 0 = the mean
                       // of what the direction owns, as in the paper

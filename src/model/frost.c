@@ -153,11 +153,15 @@ static bool grow_sides(OutTree *tree, const FrostParams *params, const Recipe *r
     growth.max_angle = 1.02f * params->angle; // forward and to the two sides
     growth.on_surface = true;
     growth.max_order = params->orders;
+    growth.new_orders = true;
     growth.apical = params->skip;
     growth.noise = 0.02f;
     growth.seed = random_key(recipe->seed, 5);
     bool done = colonize(tree, points, &growth, recipe->run, NULL, e);
     points_free(points);
+    for (int64_t i = 0; done && i < tree->count; i++) { // steps are chords
+        tree->normal[i] = frost_project(params, &tree->position[i]);
+    }
     return done;
 }
 

@@ -55,9 +55,9 @@ typedef struct FrostMaterials {
 // Window frost on a pane of 0.6 x 0.45 m; a bubble has its own numbers.
 FrostParams frost_params_default(FrostSurface surface);
 
-// Grows spines and sides. Radius = half-width of the blades, normal = the surface's, colony = the
-// nucleus. No two segments cross: a crystal ends where another was first. ERROR_INPUT,
-// ERROR_MEMORY, ERROR_CANCELLED.
+// Grows spines and sides; births of a spine's nodes follow one by one, those of sides by twos.
+// Radius = half-width of the blades, normal = the surface's, colony = the nucleus. No two segments
+// cross: a crystal ends where another was first. ERROR_INPUT, ERROR_MEMORY, ERROR_CANCELLED.
 OutTree *frost_grow(const FrostParams *params, const Recipe *recipe, Error *e);
 
 // The blades as meshes of triangles, clear ones and white ones: closed pieces that overlap where a

@@ -12,13 +12,14 @@ static double angle_between(Vec3 a, Vec3 b)
                     RADIANS_PER_DEGREE);
 }
 
-// Degrees between the step to a node and the one before; negative where there is none.
+// Degrees between the step to a side's node and the one before; 0 for nodes of spines.
 static double turn_at(const OutTree *tree, int64_t node)
 {
     int32_t parent = tree->parent[node], before = parent < 0 ? -1 : tree->parent[parent];
-    return before < 0 ? -1.0
-                      : angle_between(vec3_sub(tree->position[node], tree->position[parent]),
-                                      vec3_sub(tree->position[parent], tree->position[before]));
+    bool spine = before < 0 || tree->birth[node] - tree->birth[parent] == 1;
+    return spine ? 0.0
+                 : angle_between(vec3_sub(tree->position[node], tree->position[parent]),
+                                 vec3_sub(tree->position[parent], tree->position[before]));
 }
 
 // Sides are what leaves by more than half the angle of ice, the growth's own border between forward

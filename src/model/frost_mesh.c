@@ -57,7 +57,7 @@ static void add_ring(BladeMesh *b, const int32_t *node, int64_t count, int64_t k
     float shift = random_range(random_key(key, 1), -0.12f, 0.12f);
     for (int i = 0; i < SECTION; i++) {
         float x = SECTION_ACROSS[i] + (i > 0 && i < SECTION - 1 ? shift : 0.0f);
-        Vec3 p = vec3_madd(tree->position[node[k]], -x * width, across);
+        Vec3 p = vec3_madd(tree->position[node[k]], x * width, across);
         b->mesh->position[b->vertex++] = vec3_madd(p, SECTION_UP[i] * height, normal);
     }
 }

@@ -279,6 +279,7 @@ static void orders_of_branching_are_limited(void **state)
 {
     (void)state;
     PointSet *points = points_on_plane(3000, 3), *finer = points_on_plane(9000, 4);
+    PointSet *finest = points_on_plane(27000, 5);
     ColonizeParams params = params_auto(points, 0.55f, 1.1f, 3.2f);
     params.on_surface = true;
     params.max_angle = 90.0f;
@@ -297,11 +298,16 @@ static void orders_of_branching_are_limited(void **state)
             fine.step *= 0.55f, fine.kill *= 0.55f, fine.influence *= 0.55f;
             grow_with(tree, finer, &fine, 1);
             assert_true(limit == 0 || highest_order(tree, rule == 1) == limit);
+            fine.new_orders = true; // or is told to begin to count anew
+            fine.step *= 0.55f, fine.kill *= 0.55f, fine.influence *= 0.55f;
+            grow_with(tree, finest, &fine, 1);
+            assert_true(limit == 0 || highest_order(tree, rule == 1) > limit);
             out_tree_free(tree);
         }
     }
     points_free(points);
     points_free(finer);
+    points_free(finest);
 }
 
 static void no_child_leaves_the_cone(void **state)
