@@ -5,8 +5,8 @@
 
 #include <stdlib.h>
 
-static ColonizeParams colonize_params(const OutTree *tree, const ElementParams *element,
-                                      const GuideField *field, uint64_t seed)
+ColonizeParams element_colonize_params(const OutTree *tree, const ElementParams *element,
+                                       const GuideField *field, uint64_t seed)
 {
     ColonizeParams params = colonize_params_default();
     params.rule = element->rule;
@@ -35,8 +35,8 @@ static ColonizeParams colonize_params(const OutTree *tree, const ElementParams *
     return params;
 }
 
-static ScatterParams scatter_params(const OutTree *tree, const ElementParams *element,
-                                    uint64_t seed)
+ScatterParams element_scatter_params(const OutTree *tree, const ElementParams *element,
+                                     uint64_t seed)
 {
     ScatterParams params = scatter_params_default();
     params.place = element->place;
@@ -93,18 +93,27 @@ static void warn_out_of_reach(const GrowReport *reports, const ElementParams *el
     }
 }
 
+bool element_guide_field(const OutTree *tree, const ElementParams *element,
+                         const Envelope *envelope, uint64_t seed, const Run *run,
+                         GuideField **field, Error *e)
+{
+    *field = NULL;
+    if (element->field_count > 0) {
+        *field = element_field(tree, element, envelope, seed, run, e);
+        return *field;
+    }
+    return true;
+}
+
 bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope *envelope,
                      uint64_t seed, const char *label, const Run *run, Error *e)
 {
-    GuideField *field = NULL;
-    if (element->field_count > 0) {
-        field = element_field(tree, element, envelope, random_key(seed, 1), run, e);
-        if (!field) {
-            return false;
-        }
+    GuideField *field;
+    if (!element_guide_field(tree, element, envelope, random_key(seed, 1), run, &field, e)) {
+        return false;
     }
-    ScatterParams scatter = scatter_params(tree, element, random_key(seed, 2));
-    ColonizeParams params = colonize_params(tree, element, field, random_key(seed, 3));
+    ScatterParams scatter = element_scatter_params(tree, element, random_key(seed, 2));
+    ColonizeParams params = element_colonize_params(tree, element, field, random_key(seed, 3));
     GrowReport *reports = memory_alloc_zero(element->level_count, sizeof *reports, e);
     bool done = reports && colonize_levels(tree, envelope, &scatter, element->levels,
                                            element->level_count, &params, run, reports, e);

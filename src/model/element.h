@@ -47,4 +47,15 @@ bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, co
 bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope *envelope,
                      uint64_t seed, const char *label, const Run *run, Error *e);
 
+// The parts of element_grow, for recipes that grow level by level themselves.
+ColonizeParams element_colonize_params(const OutTree *tree, const ElementParams *element,
+                                       const GuideField *field, uint64_t seed);
+ScatterParams element_scatter_params(const OutTree *tree, const ElementParams *element,
+                                     uint64_t seed);
+
+// The element's guide fields about the roots of the tree so far; *field is NULL when it has none.
+bool element_guide_field(const OutTree *tree, const ElementParams *element,
+                         const Envelope *envelope, uint64_t seed, const Run *run,
+                         GuideField **field, Error *e);
+
 #endif

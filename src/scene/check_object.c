@@ -151,8 +151,8 @@ static int needed_sizes(const char *kind, const char **why)
         *why = "radius below and height";
         return 2;
     }
-    if (strcmp(kind, "sphere") == 0 || strcmp(kind, "capsule") == 0) {
-        *why = "radius";
+    if (strcmp(kind, "sphere") == 0 || strcmp(kind, "capsule") == 0 || strcmp(kind, "body") == 0) {
+        *why = strcmp(kind, "body") == 0 ? "the height" : "radius";
         return 1;
     }
     *why = "all sizes";
@@ -201,6 +201,16 @@ bool check_lightning(Resolver *r, const Path *path, const Node *given, Node *res
     const Node *points = node_get(resolved, "points"), *list = node_get(resolved, "envelope");
     if (strcmp(node_get_text(points, "place"), "surface") == 0 && (!list || !list->first)) {
         return resolver_fail(r, given, "%s grows over a surface but has no envelope; give it one",
+                             resolver_path(r, path, NULL));
+    }
+    return check_envelope(r, path, given, resolved);
+}
+
+bool check_vessels(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    const Node *list = node_get(resolved, "envelope");
+    if (!list || !list->first) {
+        return resolver_fail(r, given, "%s has no envelope; it must name the organ to fill",
                              resolver_path(r, path, NULL));
     }
     return check_envelope(r, path, given, resolved);

@@ -18,6 +18,7 @@ static const Kind *const KINDS[] = {
     &kind_frost,
     &kind_sculpture,
     &kind_terrain,
+    &kind_vessels,
     // clang-format on
 };
 

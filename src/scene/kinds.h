@@ -9,5 +9,6 @@ extern const Kind kind_coral, kind_lsystem;
 extern const Kind kind_frost;
 extern const Kind kind_sculpture;
 extern const Kind kind_terrain;
+extern const Kind kind_vessels;
 
 #endif

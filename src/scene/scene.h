@@ -16,6 +16,7 @@
 #include "model/sculpture.h"
 #include "model/terrain.h"
 #include "model/tree.h"
+#include "model/vessels.h"
 #include "render/world.h"
 
 #include <stddef.h>
@@ -39,6 +40,7 @@ typedef struct SceneObject {
     TreeParams *tree;
     CoralParams *coral;
     LSystemPlantParams *lsystem;
+    VesselsParams *vessels;
     GroundParams *ground;
     FrostParams *frost;
     SceneMesh *mesh;
@@ -53,6 +55,7 @@ typedef struct SceneObject {
     char *water_material;                 // of terrain
     char *rime_material;                  // of frost
     char *polyp_material, *rock_material; // of corals
+    char *vein_material;
 } SceneObject;
 
 typedef struct SceneTarget { // what a scene says of its own result

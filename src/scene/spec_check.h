@@ -30,6 +30,7 @@ TableCheck check_target;                          // low <= high
 TableCheck check_object;                          // exactly one kind; material keys that suit it
 TableCheck check_tree, check_ground, check_grove; // lengths that must be in order
 TableCheck check_shape, check_mesh;               // also add `transform`
+TableCheck check_vessels;                         // an envelope there must be
 TableCheck check_envelope;                        // the list under `envelope`
 TableCheck check_level, check_growth; // check_growth also fills in what levels leave out
 TableCheck check_terrain; // cells a power of two

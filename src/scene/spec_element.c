@@ -11,6 +11,7 @@ static const cyaml_strval_t SHAPES[] = {{"sphere", SHAPE_SPHERE},
                                         {"capsule", SHAPE_CAPSULE},
                                         {"mesh", SHAPE_MESH},
                                         {"half_space", SHAPE_HALF_SPACE},
+                                        {"body", SHAPE_BODY},
                                         {0}};
 static const cyaml_strval_t SHAPE_OPS[] = {{"union", SHAPE_UNION},
                                            {"difference", SHAPE_DIFFERENCE},
@@ -19,17 +20,21 @@ static const cyaml_strval_t SHAPE_OPS[] = {{"union", SHAPE_UNION},
 
 static const Key SHAPE_KEYS[] = {
     {KEY_OF(Shape, kind, "shape", KEY_ENUM), .flags = KEY_REQUIRED, .names = SHAPES,
-     .doc = "sphere, ellipsoid, box: about the origin; cone and capsule: up from the origin; mesh: "
-            "from a file; half_space: all below y = 0, to cut with. Then scaled, rotated, moved."},
+     .doc =
+         "sphere, ellipsoid, box: about the origin; cone and capsule: up from the origin; mesh: "
+         "from a file; half_space: all below y = 0, to cut with; body: a standing human, feet at "
+         "the origin, facing +Z. Then scaled, rotated, moved."},
     {KEY_OF(Shape, op, "op", KEY_ENUM), .names = SHAPE_OPS,
      .doc = "union: add the shape; difference: take it away; intersection: keep only what lies in "
             "it too. The first shape of a list is a union."},
     {KEY_OF(Shape, size, "size", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3, .high = 1e6,
      .kinds = BIT(SHAPE_SPHERE) | BIT(SHAPE_ELLIPSOID) | BIT(SHAPE_BOX) | BIT(SHAPE_CONE) |
-              BIT(SHAPE_CAPSULE),
+              BIT(SHAPE_CAPSULE) | BIT(SHAPE_BODY),
      .unit = "m",
      .doc = "sphere: radius; ellipsoid: half-axes; box: half of its extents; cone: radius below, "
-            "height, radius above; capsule: radius, length between the centres, unused."},
+            "height, radius above; capsule: radius, length between the centres, unused; body: its "
+            "height "
+            "(1 = 1 m)."},
     {KEY_OF(Shape, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(SHAPE_MESH),
      .doc = "OBJ, PLY, STL, glTF or GLB file, relative to the scene's folder."},
     {KEY_OF(PlacedShape, position, "position", KEY_VECTOR), .flags = KEY_VIRTUAL, .count = 3,

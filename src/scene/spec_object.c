@@ -133,6 +133,8 @@ static const Key OBJECT_KEYS[] = {
      .doc = "Corals: an L-system's directions that fight for room."},
     {KEY_OF(SceneObject, lsystem, "lsystem", KEY_POINTER), .table = &lsystem_table,
      .doc = "A plant written as an L-system."},
+    {KEY_OF(SceneObject, vessels, "vessels", KEY_POINTER), .table = &vessels_table,
+     .doc = "Blood vessels."},
     {KEY_OF(SceneObject, ground, "ground", KEY_POINTER), .table = &GROUND_TABLE,
      .doc = "Ground to stand on."},
     {KEY_OF(SceneObject, frost, "frost", KEY_POINTER), .table = &frost_table,
@@ -167,6 +169,8 @@ static const Key OBJECT_KEYS[] = {
      .doc = "Material of the rock that a coral grows on; left out: reef_rock."},
     {KEY_OF(SceneObject, grass_material, "grass_material", KEY_TEXT),
      .doc = "Material of the ground's grass; left out: grass."},
+    {KEY_OF(SceneObject, vein_material, "vein_material", KEY_TEXT),
+     .doc = "Material of veins; left out: vein."},
     {0},
 };
 

@@ -1,6 +1,7 @@
 #include "shape/envelope.h"
 
 #include "base/memory.h"
+#include "shape/body.h"
 #include "shape/import.h"
 #include "shape/level_set.h"
 #include "shape/mesh_close.h"
@@ -22,17 +23,18 @@ struct Envelope {
 // A shape of the list, made ready.
 typedef struct Piece {
     const Shape *shape;
-    Primitive primitive; // unless it is a mesh
-    Mesh *mesh;          // as imported, transformed, facing outward; NULL unless it is a mesh
-    Mesh *closed;        // the same without holes
+    Primitive primitive; // unless it is a mesh or a body
+    Body body;
+    Mesh *mesh;   // as imported, transformed, facing outward; NULL unless it is a mesh
+    Mesh *closed; // the same without holes
     int64_t open_edges;
     Aabb bounds;
 } Piece;
 
 static const char *kind_name(ShapeKind kind)
 {
-    static const char *const names[] = {"sphere",  "ellipsoid", "box",       "cone",
-                                        "capsule", "mesh",      "half space"};
+    static const char *const names[] = {"sphere",  "ellipsoid", "box",        "cone",
+                                        "capsule", "mesh",      "half space", "body"};
     return names[kind];
 }
 
@@ -128,6 +130,11 @@ static bool piece_load(const Shape *shape, Piece *piece, const Run *run, Error *
     if (shape->kind == SHAPE_MESH) {
         return load_mesh(piece, run, e);
     }
+    if (shape->kind == SHAPE_BODY) {
+        bool made = body_new(shape, &piece->body, e);
+        piece->bounds = piece->body.bounds;
+        return made;
+    }
     if (!primitive_new(shape, &piece->primitive, e)) {
         return false;
     }
@@ -201,11 +208,20 @@ static double piece_distance(const void *shape, Vec3 p, double *bound)
     return primitive_distance(shape, p, bound);
 }
 
+static double piece_body_distance(const void *shape, Vec3 p, double *bound)
+{
+    return body_distance(shape, p, bound);
+}
+
 static LevelSet *piece_level_set(const Piece *piece, LevelSetFrame frame, Aabb inside,
                                  const Run *run, Error *e)
 {
     if (piece->closed) {
         return level_set_from_mesh(piece->closed, frame, run, e);
+    }
+    if (piece->shape->kind == SHAPE_BODY) {
+        return level_set_from_distance(piece_body_distance, &piece->body,
+                                       box_common(piece->bounds, inside), frame, run, e);
     }
     return level_set_from_distance(piece_distance, &piece->primitive,
                                    box_common(piece->bounds, inside), frame, run, e);
@@ -287,7 +303,8 @@ static bool build(Envelope *envelope, Piece *pieces, const EnvelopeParams *param
                   Error *e)
 {
     int count = params->shape_count;
-    if (count == 1 && !pieces[0].mesh) {
+    bool primitive = !pieces[0].mesh && pieces[0].shape->kind != SHAPE_BODY;
+    if (count == 1 && primitive) {
         return become_primitive(envelope, &pieces[0].primitive, e);
     }
     LevelSetFrame frame;
@@ -299,8 +316,8 @@ static bool build(Envelope *envelope, Piece *pieces, const EnvelopeParams *param
     if (!envelope->level_set) {
         return false;
     }
-    return count == 1 ? measure_mesh(envelope, &pieces[0], e)
-                      : measure_level_set(envelope, inside, e);
+    return count == 1 && pieces[0].mesh ? measure_mesh(envelope, &pieces[0], e)
+                                        : measure_level_set(envelope, inside, e);
 }
 
 Envelope *envelope_new(const EnvelopeParams *params, const Run *run, Error *e)

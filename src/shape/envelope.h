@@ -10,13 +10,14 @@
 #include "base/vec.h"
 
 typedef enum ShapeKind {
-    SHAPE_SPHERE,    // unit sphere about the origin
-    SHAPE_ELLIPSOID, // half-axes size
-    SHAPE_BOX,       // half-extents size, about the origin
-    SHAPE_CONE,      // frustum about +Y: radius size.x at y = 0, size.z at y = size.y (0 = a tip)
-    SHAPE_CAPSULE,   // about the segment from the origin to (0, size.y, 0), radius size.x
-    SHAPE_MESH,      // imported surface
-    SHAPE_HALF_SPACE // y <= 0, before the transform; only to cut with
+    SHAPE_SPHERE,     // unit sphere about the origin
+    SHAPE_ELLIPSOID,  // half-axes size
+    SHAPE_BOX,        // half-extents size, about the origin
+    SHAPE_CONE,       // frustum about +Y: radius size.x at y = 0, size.z at y = size.y (0 = a tip)
+    SHAPE_CAPSULE,    // about the segment from the origin to (0, size.y, 0), radius size.x
+    SHAPE_MESH,       // imported surface
+    SHAPE_HALF_SPACE, // y <= 0, before the transform; only to cut with
+    SHAPE_BODY        // a standing human, size.x tall: feet at the origin, facing +Z (shape/body.h)
 } ShapeKind;
 
 typedef enum ShapeOp {
