@@ -19,7 +19,7 @@ LightningParams lightning_params_default(void)
                               .spread = 0.4f,
                               .branching = 1.0f,
                               .hurst = 0.65f,
-                              .jitter = 0.095f,
+                              .jitter = 0.09f,
                               .branch_power = 0.2f};
     params.element.pattern = SCATTER_POISSON;
     params.element.max_children = 2;
@@ -32,8 +32,8 @@ LightningParams lightning_params_default(void)
 
 int lightning_own_levels(const LightningParams *params, GrowLevel levels[LIGHTNING_MOST_LEVELS])
 {
-    static const GrowLevel AIR[2] = {{14, 0.10f, 0.5f, 2.6f, 1.0f, 0.45f, 1.0f, 0.3f},
-                                     {110, 0.25f, 0.8f, 1.7f, 1.0f, 0.5f, 1.0f, 0.3f}};
+    static const GrowLevel AIR[2] = {{12, 0.10f, 0.5f, 2.6f, 1.0f, 0.45f, 1.0f, 0.3f},
+                                     {80, 0.25f, 0.8f, 1.7f, 1.0f, 0.5f, 1.0f, 0.3f}};
     static const GrowLevel SURFACE[3] = {{30, 0.08f, 0.4f, 4.0f, 1.0f, 0.40f, 1.0f, 0.3f},
                                          {175, 0.15f, 0.6f, 2.2f, 1.0f, 0.45f, 1.0f, 0.3f},
                                          {1050, 0.30f, 0.8f, 1.6f, 1.0f, 0.5f, 1.0f, 0.3f}};
@@ -110,8 +110,8 @@ static void chain_powers(OutTree *tree, const LightningParams *params, float siz
     }
 }
 
-bool lightning_set_radii(OutTree *tree, const LightningParams *params, float size, float core,
-                         const uint64_t *strike_id, int strike_count, Error *e)
+static bool set_radii(OutTree *tree, const LightningParams *params, float size, float core,
+                      const uint64_t *strike_id, int strike_count, Error *e)
 {
     for (int64_t i = 0; i < tree->count; i++) {
         tree->radius[i] = 0.0f;
@@ -158,27 +158,34 @@ float lightning_radius(const LightningParams *params, const OutTree *tree)
 
 // ---- the way ----
 
-OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float size,
-                          SurfaceProject *project, const void *surface, uint64_t seed,
-                          const Run *run, Error *e)
+// Powers first, so that chains follow the main channel; and again in the end, along the ways as
+// they are drawn.
+OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float size, float core,
+                          const uint64_t *strike_id, int strike_count, const Wander *wander,
+                          Error *e)
 {
     float length[2] = {params->step > 0.0f ? params->step : size / 40.0f,
                        params->segment > 0.0f ? params->segment : size / 400.0f};
     JitterParams jitter = jitter_params_default();
     jitter.hurst = params->hurst;
     jitter.reference = size;
-    jitter.project = project;
-    jitter.surface = surface;
-    for (int i = 0; tree && i < 2; i++) {
-        OutTree *next = out_tree_resample(tree, length[i], e);
-        jitter.amplitude = params->jitter * size * (i == 0 ? 1.0f : 0.4f);
-        jitter.amplitude *= project ? 0.7f : 1.0f; // in one direction only, but round bends
-        jitter.seed = random_key(seed, (uint64_t)i);
-        if (next && !out_tree_jitter(next, &jitter, run, e)) {
+    jitter.project = wander->project;
+    jitter.surface = wander->surface;
+    for (int i = 0; tree && i < 3; i++) {
+        OutTree *next = tree;
+        bool done = set_radii(next, params, size, core, strike_id, strike_count, e);
+        if (done && i < 2) {
+            next = out_tree_resample(tree, length[i], e);
+            jitter.amplitude = params->jitter * size * (i == 0 ? 1.0f : 0.4f);
+            jitter.amplitude *= wander->project ? 0.7f : 1.0f; // in one direction, round bends
+            jitter.seed = random_key(wander->seed, (uint64_t)i);
+            done = next && out_tree_jitter(next, &jitter, wander->run, e);
+            out_tree_free(tree);
+        }
+        if (!done) {
             out_tree_free(next);
             next = NULL;
         }
-        out_tree_free(tree);
         tree = next;
     }
     return tree;
@@ -255,19 +262,20 @@ static bool grow_bolts(OutTree *tree, const LightningParams *params, uint64_t *s
 static OutTree *grow_in_air(const LightningParams *params, const Recipe *recipe, Error *e)
 {
     int strikes = params->bolts * params->ground_points;
+    float size = params->height, core = params->radius > 0.0f ? params->radius : size / 1600.0f;
     uint64_t *strike_id = memory_alloc(strikes, sizeof *strike_id, e);
     OutTree *tree = strike_id ? out_tree_new(e) : NULL;
-    float core = params->radius > 0.0f ? params->radius : params->height / 1600.0f;
-    bool done = tree && grow_bolts(tree, params, strike_id, recipe, e) &&
-                out_tree_keep_births(tree, recipe->grow_to, e) &&
-                lightning_set_radii(tree, params, params->height, core, strike_id, strikes, e);
-    free(strike_id);
-    if (!done) {
+    if (tree && !(grow_bolts(tree, params, strike_id, recipe, e) &&
+                  out_tree_keep_births(tree, recipe->grow_to, e))) {
         out_tree_free(tree);
-        return NULL;
+        tree = NULL;
     }
-    return lightning_wander(tree, params, params->height, NULL, NULL, random_key(recipe->seed, 9),
-                            recipe->run, e);
+    uint64_t seed = random_key(recipe->seed, 9);
+    tree = tree ? lightning_wander(tree, params, size, core, strike_id, strikes,
+                                   &(Wander){NULL, NULL, seed, recipe->run}, e)
+                : NULL;
+    free(strike_id);
+    return tree;
 }
 
 OutTree *lightning_grow(const LightningParams *params, const Recipe *recipe, Error *e)

@@ -32,15 +32,20 @@ bool lightning_add_streamers(OutTree *tree, const Bolt *bolt, int32_t last_birth
 // Grows everything over the surface of the element's envelope.
 OutTree *lightning_grow_surface(const LightningParams *params, const Recipe *recipe, Error *e);
 
-// Gives every node its radius: core for the way from a root to each node of id strike_id[0 ..
-// strike_count - 1] that there is, dimmer and dimmer for what leaves it, fading toward tips.
-bool lightning_set_radii(OutTree *tree, const LightningParams *params, float size, float core,
-                         const uint64_t *strike_id, int strike_count, Error *e);
+// How ways wander, besides the parameters.
+typedef struct Wander {
+    SurfaceProject *project; // NULL in space
+    const void *surface;
+    uint64_t seed;
+    const Run *run;
+} Wander;
 
-// Resampled to steps, jittered, resampled to segments, jittered within the steps. Takes the tree.
-// project: NULL in space.
-OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float size,
-                          SurfaceProject *project, const void *surface, uint64_t seed,
-                          const Run *run, Error *e);
+// Takes the tree and gives it its ways and radii: resampled to steps, jittered, resampled to
+// segments, jittered within the steps. Radii: core for the way from a root to each node of id
+// strike_id[0 .. strike_count - 1] that there is, dimmer and dimmer for what leaves it, fading
+// toward tips.
+OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float size, float core,
+                          const uint64_t *strike_id, int strike_count, const Wander *wander,
+                          Error *e);
 
 #endif

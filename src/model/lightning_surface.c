@@ -124,16 +124,15 @@ static OutTree *finish(OutTree *tree, const LightningParams *params, const Skin 
 {
     float core = params->radius > 0.0f ? params->radius : size / 700.0f;
     uint64_t *end_id = memory_alloc(params->bolts, sizeof *end_id, e);
-    bool done = end_id && out_tree_keep_births(tree, recipe->grow_to, e) &&
-                find_ends(tree, params->bolts, end_id, e) &&
-                lightning_set_radii(tree, params, size, core, end_id, params->bolts, e);
-    free(end_id);
-    if (!done) {
+    if (end_id && out_tree_keep_births(tree, recipe->grow_to, e) &&
+        find_ends(tree, params->bolts, end_id, e)) {
+        Wander wander = {project, skin, random_key(recipe->seed, 9), recipe->run};
+        tree = lightning_wander(tree, params, size, core, end_id, params->bolts, &wander, e);
+    } else {
         out_tree_free(tree);
-        return NULL;
+        tree = NULL;
     }
-    tree = lightning_wander(tree, params, size, project, skin, random_key(recipe->seed, 9),
-                            recipe->run, e);
+    free(end_id);
     float lift = params->lift > 0.0f ? params->lift : 2.0f * core;
     for (int64_t i = 0; tree && i < tree->count; i++) {
         tree->position[i] = vec3_madd(tree->position[i], lift, tree->normal[i]);
