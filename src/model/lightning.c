@@ -19,7 +19,7 @@ LightningParams lightning_params_default(void)
                               .spread = 0.4f,
                               .branching = 1.0f,
                               .hurst = 0.65f,
-                              .jitter = 0.09f,
+                              .jitter = 0.1f,
                               .branch_power = 0.2f};
     params.element.pattern = SCATTER_POISSON;
     params.element.max_children = 2;
@@ -171,6 +171,7 @@ OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float si
     jitter.reference = size;
     jitter.project = wander->project;
     jitter.surface = wander->surface;
+    jitter.stride = wander->stride;
     for (int i = 0; tree && i < 3; i++) {
         OutTree *next = tree;
         bool done = set_radii(next, params, size, core, strike_id, strike_count, e);
@@ -272,7 +273,7 @@ static OutTree *grow_in_air(const LightningParams *params, const Recipe *recipe,
     }
     uint64_t seed = random_key(recipe->seed, 9);
     tree = tree ? lightning_wander(tree, params, size, core, strike_id, strikes,
-                                   &(Wander){NULL, NULL, seed, recipe->run}, e)
+                                   &(Wander){.seed = seed, .run = recipe->run}, e)
                 : NULL;
     free(strike_id);
     return tree;

@@ -53,7 +53,8 @@ bool lightning_geometry(const OutTree *tree, const LightningParams *params, int 
         float glow = luminance > 0.0f ? radiance / luminance : 1.0f;
         float last_birth = 1.0f;
         for (int64_t i = 0; i < tree->count; i++) {
-            last_birth = fmaxf(last_birth, (float)tree->birth[i]);
+            float birth = (float)tree->birth[i];
+            last_birth = birth > last_birth ? birth : last_birth;
         }
         int64_t curve = 0;
         for (int64_t c = 0; c < chains->count; c++) {

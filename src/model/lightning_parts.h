@@ -36,6 +36,7 @@ OutTree *lightning_grow_surface(const LightningParams *params, const Recipe *rec
 typedef struct Wander {
     SurfaceProject *project; // NULL in space
     const void *surface;
+    float stride; // m, see JitterParams
     uint64_t seed;
     const Run *run;
 } Wander;

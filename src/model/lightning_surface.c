@@ -126,7 +126,12 @@ static OutTree *finish(OutTree *tree, const LightningParams *params, const Skin 
     uint64_t *end_id = memory_alloc(params->bolts, sizeof *end_id, e);
     if (end_id && out_tree_keep_births(tree, recipe->grow_to, e) &&
         find_ends(tree, params->bolts, end_id, e)) {
-        Wander wander = {project, skin, random_key(recipe->seed, 9), recipe->run};
+        float band = envelope_band(skin->envelope);
+        Wander wander = {.project = project,
+                         .surface = skin,
+                         .stride = band < 0.04f * size ? 0.5f * band : 0.02f * size,
+                         .seed = random_key(recipe->seed, 9),
+                         .run = recipe->run};
         tree = lightning_wander(tree, params, size, core, end_id, params->bolts, &wander, e);
     } else {
         out_tree_free(tree);
@@ -138,6 +143,11 @@ static OutTree *finish(OutTree *tree, const LightningParams *params, const Skin 
         tree->position[i] = vec3_madd(tree->position[i], lift, tree->normal[i]);
     }
     return tree;
+}
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
 }
 
 OutTree *lightning_grow_surface(const LightningParams *params, const Recipe *recipe, Error *e)
@@ -152,7 +162,7 @@ OutTree *lightning_grow_surface(const LightningParams *params, const Recipe *rec
     }
     Aabb box = envelope_bounds(envelope);
     Vec3 extent = vec3_sub(box.high, box.low);
-    float size = fmaxf(extent.x, fmaxf(extent.y, extent.z));
+    float size = larger(extent.x, larger(extent.y, extent.z));
     Skin skin = {envelope, 0.004f * size};
     if (plant(tree, params, &skin, random_key(recipe->seed, 3), e) &&
         grow_over(tree, params, envelope, recipe, e)) {

@@ -9,27 +9,32 @@
 #include <stdlib.h>
 #include <string.h>
 
+// Over which a chain's direction is taken, either way, as a share of its length.
+#define DIRECTION_REACH 0.05
+
 typedef struct Jitter {
     const JitterParams *params;
     OutTree *tree;
     Vec3 *old; // positions before
     int32_t *children;
     Fbm *fbm;
+    double *way;   // m along a chain
     double *a, *b; // two bridges, as long as the longest chain
 } Jitter;
 
 JitterParams jitter_params_default(void)
 {
-    return (JitterParams){.hurst = 0.7f, .reference = 1.0f, .seed = 1};
+    return (JitterParams){.hurst = 0.7f, .reference = 1.0f, .seed = 1, .stride = 1.0f};
 }
 
-static float piece_length(const Jitter *j, const int32_t *node, int64_t steps)
+// Fills j->way with the distances along the piece; returns the last, m.
+static double measure_piece(const Jitter *j, const int32_t *node, int64_t steps)
 {
-    float length = 0.0f;
+    j->way[0] = 0.0;
     for (int64_t k = 1; k <= steps; k++) {
-        length += vec3_distance(j->old[node[k - 1]], j->old[node[k]]);
+        j->way[k] = j->way[k - 1] + (double)vec3_distance(j->old[node[k - 1]], j->old[node[k]]);
     }
-    return length;
+    return j->way[steps];
 }
 
 // Standard deviation of the process after a step of this length (m), m.
@@ -51,19 +56,23 @@ static float path_at(const double *path, int64_t steps, double x)
     return (float)(path[k] + (x - (double)k) * (path[k + 1] - path[k]));
 }
 
-// The direction of the chain at place k of a piece of `steps` steps, over at least a step of the
-// process either way: nodes that crowd at forks may point anywhere.
-static Vec3 direction_at(const Jitter *j, const int32_t *node, int64_t steps, int64_t k,
-                         float reach)
+// A stretch of a piece that slides along it.
+typedef struct Window {
+    int64_t first, last;
+    double reach; // m, either way from its middle
+} Window;
+
+// The direction of the chain about place k: what is displaced across it must not swing with every
+// step, least of all where nodes crowd at forks. k grows from call to call.
+static Vec3 direction_at(const Jitter *j, const int32_t *node, int64_t steps, int64_t k, Window *w)
 {
-    int64_t first = k, last = k;
-    for (float way = 0.0f; first > 0 && way < reach; first--) {
-        way += vec3_distance(j->old[node[first - 1]], j->old[node[first]]);
+    while (w->first < k && j->way[k] - j->way[w->first] > w->reach) {
+        w->first++;
     }
-    for (float way = 0.0f; last < steps && way < reach; last++) {
-        way += vec3_distance(j->old[node[last]], j->old[node[last + 1]]);
+    while (w->last < steps && (w->last <= k || j->way[w->last] - j->way[k] < w->reach)) {
+        w->last++;
     }
-    Vec3 d = vec3_normalize(vec3_sub(j->old[node[last]], j->old[node[first]]));
+    Vec3 d = vec3_normalize(vec3_sub(j->old[node[w->last]], j->old[node[w->first]]));
     return vec3_dot(d, d) > 0.5f ? d : vec3(0, 1, 0);
 }
 
@@ -79,15 +88,23 @@ static void place_in_space(const Jitter *j, int32_t node, Vec3 shift, Vec3 offse
     j->tree->position[node] = vec3_add(vec3_add(j->old[node], shift), offset);
 }
 
-// On a surface, shift and offset lie in the tangent plane at the old place; the end goes back to
-// the surface.
+// On a surface the node walks as far as the displacement is long, stride by stride, and is put back
+// on the surface after each.
 static void place_on_surface(const Jitter *j, int32_t node, Vec3 shift, Vec3 offset)
 {
-    Vec3 n = j->tree->normal[node];
-    Vec3 move = vec3_add(shift, offset);
-    move = vec3_madd(move, -vec3_dot(move, n), n);
-    Vec3 p = vec3_add(j->old[node], move);
-    j->params->project(j->params->surface, &p, &n);
+    const JitterParams *params = j->params;
+    Vec3 p = j->old[node], n = j->tree->normal[node], d = vec3_add(shift, offset);
+    d = vec3_madd(d, -vec3_dot(d, n), n);
+    float left = vec3_length(d);
+    d = vec3_normalize(d);
+    do {
+        float stride = left < params->stride ? left : params->stride;
+        p = vec3_madd(p, stride, d);
+        params->project(params->surface, &p, &n);
+        d = vec3_madd(d, -vec3_dot(d, n), n);
+        left = vec3_dot(d, d) > 0.01f ? left - stride : 0.0f; // against a wall
+        d = vec3_normalize(d);
+    } while (left > 0.0f);
     j->tree->position[node] = p;
     j->tree->normal[node] = n;
 }
@@ -102,16 +119,16 @@ static bool jitter_piece(Jitter *j, const int32_t *node, int64_t steps, Error *e
         return false;
     }
     // The process runs evenly along the piece; nodes closer than that stay close.
-    double step = (double)piece_length(j, node, steps) / (double)steps, way = 0.0;
-    float scale = (float)step_deviation(j, step), reach = 0.99f * (float)step;
+    double length = measure_piece(j, node, steps), step = length / (double)steps;
+    float scale = (float)step_deviation(j, step);
+    Window window = {0, 0, DIRECTION_REACH * length};
     Vec3 shift = vec3_sub(tree->position[node[0]], j->old[node[0]]);
-    Vec3 side = across(tree->normal[node[0]], direction_at(j, node, steps, 0, reach));
+    Vec3 side = across(tree->normal[node[0]], direction_at(j, node, steps, 0, &window));
     bool in_space = !j->params->project;
     for (int64_t k = 1; k <= steps; k++) {
-        Vec3 d = direction_at(j, node, steps, k, reach);
-        way += (double)vec3_distance(j->old[node[k - 1]], j->old[node[k]]);
-        double x = k == steps || step == 0.0 ? (double)steps : way / step;
+        double x = k == steps || step == 0.0 ? (double)steps : j->way[k] / step;
         float a = scale * path_at(j->a, steps, x), b = scale * path_at(j->b, steps, x);
+        Vec3 d = direction_at(j, node, steps, k, &window);
         if (in_space) {
             side = across(side, d); // carried along without twist
             Vec3 offset = vec3_scale(side, a);
@@ -171,6 +188,10 @@ static int64_t longest_chain(const ChainSet *chains)
 
 bool out_tree_jitter(OutTree *tree, const JitterParams *params, const Run *run, Error *e)
 {
+    if (params->project && !(params->stride > 0.0f)) {
+        return error_set(e, ERROR_INPUT, "jitter with strides of %g m; they must be longer than 0",
+                         (double)params->stride);
+    }
     if (!(params->amplitude >= 0.0f && params->reference > 0.0f)) {
         return error_set(e, ERROR_INPUT,
                          "jitter of %g m after %g m; neither may be negative, nor the second 0",
@@ -183,9 +204,10 @@ bool out_tree_jitter(OutTree *tree, const JitterParams *params, const Run *run, 
         int64_t longest = longest_chain(chains);
         j.old = memory_alloc(tree->count, sizeof *j.old, e);
         j.children = memory_alloc_zero(tree->count, sizeof *j.children, e);
+        j.way = memory_alloc(longest, sizeof *j.way, e);
         j.a = memory_alloc(longest, sizeof *j.a, e);
         j.b = memory_alloc(longest, sizeof *j.b, e);
-        done = j.old && j.children && j.a && j.b;
+        done = j.old && j.children && j.way && j.a && j.b;
     }
     if (done && tree->count > 0) {
         memcpy(j.old, tree->position, sizeof *j.old * (size_t)tree->count);
@@ -193,6 +215,7 @@ bool out_tree_jitter(OutTree *tree, const JitterParams *params, const Run *run, 
     }
     free(j.old);
     free(j.children);
+    free(j.way);
     free(j.a);
     free(j.b);
     chains_free(chains);

@@ -17,12 +17,14 @@ typedef struct JitterParams {
     bool pin_forks;  // false: a chain is pinned at its two ends and what leaves it is carried along
                      // with its fork; true: pinned at every fork too, no fork and no tip moves
     uint64_t seed;
-    SurfaceProject *project; // NULL in space. On a surface the displacement stays in the plane of
-                             // the nodes' normals and its end is projected back
-    const void *surface;     // handed to project
+    SurfaceProject *project; // NULL in space. On a surface nodes walk along it, across their chains
+    float stride; // m: how far a node walks before it is put back on the surface: not further than
+                  // project can be trusted to find it
+    const void *surface; // handed to project
 } JitterParams;
 
-JitterParams jitter_params_default(void); // H 0.7, amplitude 0, reference 1 m, unpinned, in space
+JitterParams
+jitter_params_default(void); // H 0.7, amplitude 0, reference and stride 1 m, unpinned, in space
 
 // Displaces the tree's nodes in place; roots stay, and so do their chains' tips. The process
 // is drawn as many times as there are nodes, evenly along a chain, and runs straight between: nodes

@@ -78,7 +78,6 @@ static void side_branches_go_down_and_fade(void **state)
             for (int64_t k = 2; k < count; k++) {
                 assert_true(tree->radius[node[k]] <= tree->radius[node[k - 1]]);
             }
-            assert_true(tree->radius[node[1]] < tree->radius[from]);
         }
         assert_true(chains->count > 20);
         chains_free(chains);
@@ -192,7 +191,6 @@ static void bolts_measure_as_photographs_do(void **state)
         measures_clear(&list);
         out_tree_free(tree);
     }
-    print_message("%g %g\n", turning, dimension);
     assert_true(turning > 15.5 && turning < 17.5); // Hill (1968): 16 to 17 degrees
     assert_true(dimension > 1.27 && dimension < 1.43);
 }
@@ -239,16 +237,13 @@ static void discharges_stay_over_their_surface(void **state)
         EnvelopeParams shape = {shapes, count, 0.0f};
         Run run = run_default();
         Envelope *envelope = envelope_new(&shape, &run, NULL);
-        // a sphere is known exactly; a level set to half a voxel (3.2 m / 128), more at its edges
-        float tolerance = count == 1 ? 1e-3f : 0.025f;
-        int64_t off = 0; float worst = 0.0f;
+        // a sphere is known exactly, a level set to a share of its voxels of 25 mm
+        float tolerance = count == 1 ? 1e-5f : 0.004f;
         for (int64_t i = 0; i < tree->count; i++) {
-            float error = fabsf(envelope_distance(envelope, tree->position[i]) - params.lift);
-            off += error > tolerance;
-            worst = fmaxf(worst, error);
+            float height = envelope_distance(envelope, tree->position[i]);
+            assert_true(fabsf(height - params.lift) < tolerance);
         }
-print_message("%g %ld %ld\n",(double)worst,off,tree->count);        assert_true(tree->count > 1500);
-        assert_true(count == 1 ? off == 0 : off < tree->count / 50);
+        assert_true(tree->count > 1500);
         envelope_free(envelope);
         OutTree *again = grow_to(&params, 6, 1.0f, 3);
         assert_true(out_tree_hash(again) == out_tree_hash(tree));

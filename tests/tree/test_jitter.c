@@ -167,6 +167,7 @@ static void jitter_stays_on_a_surface(void **state)
     params.amplitude = 0.2f;
     params.project = to_sphere;
     params.surface = &radius;
+    params.stride = 0.05f;
     assert_true(out_tree_jitter(tree, &params, &run, NULL));
     float most = 0.0f;
     for (int i = 0; i <= STEPS; i++) {
