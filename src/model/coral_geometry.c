@@ -2,6 +2,7 @@
 #include "model/coral.h"
 
 #include "base/memory.h"
+#include "base/noise.h"
 #include "base/random.h"
 #include "mesh/skin.h"
 #include "model/coral_crust.h"
@@ -59,11 +60,16 @@ static bool add_mesh(Geometry *geometry, Mesh *mesh, int material, int object, E
                                 e);
 }
 
-static Mesh *copy_mesh(const Mesh *from, Error *e)
+// The rock: its surface eaten into by weather, up to `depth` (m), never out of the crust.
+static Mesh *weathered(const Mesh *from, float depth, uint64_t seed, Error *e)
 {
     Mesh *to = mesh_new(from->face_size, from->vertex_count, from->face_count, 0, e);
     for (int64_t i = 0; to && i < from->vertex_count; i++) {
-        to->position[i] = from->position[i];
+        Vec3 p = vec3_scale(from->position[i], 0.16f / depth);
+        float hollow = noise_plane_fractal(p.x + 0.4f * p.y, p.z, 4, seed) +
+                       noise_plane_fractal(p.y, p.x - 0.4f * p.z, 4, seed + 1) - 0.5f;
+        to->position[i] =
+            vec3_madd(from->position[i], hollow < 0.0f ? depth * hollow : 0.0f, from->normal[i]);
     }
     for (int64_t i = 0; to && i < from->face_count * from->face_size; i++) {
         to->index[i] = from->index[i];
@@ -81,7 +87,9 @@ static Mesh *crust(const OutTree *tree, const CoralParams *p, const CoralMateria
 {
     Envelope *rock = coral_base(p, seed, run, e);
     Mesh *mesh = NULL;
-    if (rock && add_mesh(geometry, copy_mesh(envelope_surface(rock), e), materials->rock, object, e)) {
+    if (rock && add_mesh(geometry,
+                         weathered(envelope_surface(rock), 0.04f * p->size, random_key(seed, 12), e),
+                         materials->rock, object, e)) {
         CrustParams crust = {.thickness = 1.3f * p->tip_radius,
                              .reach = 1.5f * p->length,
                              .seam = 0.35f * p->length_tip,
