@@ -16,12 +16,22 @@ typedef struct CrustParams {
     uint64_t seed;
 } CrustParams;
 
-// The rock's surface raised to the crust's, a hair below the rock where there is none. Births tell
-// the nearness of the margin: 1 there, 0 inside. Radii are 0. The same bits for any run->threads.
-Mesh *crust_mesh(const Mesh *rock, const OutTree *tree, const CrustParams *params, const Run *run,
-                 Error *e);
+// What covers the rock at a point.
+typedef struct CrustPoint {
+    float height;   // m above the rock; negative where there is none
+    float margin;   // 1 at the crust's margin .. 0 inside
+    int32_t colony; // the nearest
+} CrustPoint;
 
-// Height of the crust over a point of the rock, m; negative where there is none. *margin: 0..1.
-float crust_height(const OutTree *tree, const CrustParams *params, Vec3 p, float *margin);
+CrustPoint crust_at(const OutTree *tree, const CrustParams *params, Vec3 p);
+
+// crust_at every vertex of the rock, which must have normals; the caller frees it. The same bits for
+// any run->threads.
+CrustPoint *crust_points(const Mesh *rock, const OutTree *tree, const CrustParams *params,
+                         const Run *run, Error *e);
+
+// One colony's crust: the rock's surface raised to it, its margin a hair below the rock. Births tell
+// the nearness of the margin. Empty (no faces) where the colony covers nothing.
+Mesh *crust_mesh(const Mesh *rock, const CrustPoint *points, int32_t colony, Error *e);
 
 #endif

@@ -60,16 +60,15 @@ static bool add_mesh(Geometry *geometry, Mesh *mesh, int material, int object, E
                                 e);
 }
 
-// The rock: its surface eaten into by weather, up to `depth` (m), never out of the crust.
+// The rock: its surface knobbly and eaten into by weather; `depth` (m) is that of its hollows.
 static Mesh *weathered(const Mesh *from, float depth, uint64_t seed, Error *e)
 {
     Mesh *to = mesh_new(from->face_size, from->vertex_count, from->face_count, 0, e);
     for (int64_t i = 0; to && i < from->vertex_count; i++) {
-        Vec3 p = vec3_scale(from->position[i], 0.16f / depth);
-        float hollow = noise_plane_fractal(p.x + 0.4f * p.y, p.z, 4, seed) +
-                       noise_plane_fractal(p.y, p.x - 0.4f * p.z, 4, seed + 1) - 0.5f;
-        to->position[i] =
-            vec3_madd(from->position[i], hollow < 0.0f ? depth * hollow : 0.0f, from->normal[i]);
+        Vec3 p = vec3_scale(from->position[i], 0.2f / depth);
+        float rise = noise_plane_fractal(p.x + 0.4f * p.y, p.z, 4, seed) +
+                     noise_plane_fractal(p.y, p.x - 0.4f * p.z, 4, seed + 1);
+        to->position[i] = vec3_madd(from->position[i], depth * rise, from->normal[i]);
     }
     for (int64_t i = 0; to && i < from->face_count * from->face_size; i++) {
         to->index[i] = from->index[i];
@@ -81,48 +80,86 @@ static Mesh *weathered(const Mesh *from, float depth, uint64_t seed, Error *e)
     return to;
 }
 
-// The crust, and the rock below it.
-static Mesh *crust(const OutTree *tree, const CoralParams *p, const CoralMaterials *materials,
-                   int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e)
+static CrustParams crust_params(const CoralParams *p, uint64_t seed)
 {
-    Envelope *rock = coral_base(p, seed, run, e);
-    Mesh *mesh = NULL;
-    if (rock && add_mesh(geometry,
-                         weathered(envelope_surface(rock), 0.04f * p->size, random_key(seed, 12), e),
-                         materials->rock, object, e)) {
-        CrustParams crust = {.thickness = 1.3f * p->tip_radius,
-                             .reach = 1.5f * p->length,
-                             .seam = 0.35f * p->length_tip,
-                             .pale = p->form == CORAL_MASSIVE ? 0.03f * p->size : 0.05f * p->size,
-                             .lump = p->form == CORAL_MASSIVE ? 0.10f * p->size : 0.05f * p->size,
-                             .seed = random_key(seed, 8)};
-        mesh = crust_mesh(envelope_surface(rock), tree, &crust, run, e);
+    bool massive = p->form == CORAL_MASSIVE;
+    return (CrustParams){.thickness = 1.3f * p->tip_radius,
+                         .reach = 1.5f * p->length,
+                         .seam = 0.35f * p->length_tip,
+                         .pale = (massive ? 0.03f : 0.025f) * p->size,
+                         .lump = (massive ? 0.10f : 0.05f) * p->size,
+                         .seed = random_key(seed, 8)};
+}
+
+// Adds a colony's skin and its corallites. variation: the colony's own, 0..1. Takes the mesh.
+static bool add_colony(Mesh *mesh, float variation, const CoralParams *p,
+                       const CoralMaterials *materials, int object, uint64_t seed,
+                       Geometry *geometry, const Run *run, Error *e)
+{
+    PolypPlaces places = {.max_count = p->polyps.max_count,
+                          .spacing = p->polyps.spacing,
+                          .diameter = p->polyps.diameter,
+                          .height = p->polyps.height,
+                          .lean = p->polyps.lean,
+                          .floor = p->position.y,
+                          .seed = random_key(seed, 9)};
+    if (p->polyps.max_count > 0 &&
+        !polyps_add(mesh, &places, materials->polyp, object, geometry, run, e)) {
+        mesh_free(mesh);
+        return false;
     }
-    envelope_free(rock);
-    return mesh;
+    Part part = {.kind = PART_MESH, .mesh = mesh, .material = materials->coral, .object = object,
+                 .instance = memory_alloc(1, sizeof(Transform), e),
+                 .variation = memory_alloc(1, sizeof(float), e), .instance_count = 1};
+    if (!part.instance || !part.variation) {
+        mesh_free(mesh);
+        free(part.instance);
+        free(part.variation);
+        return false;
+    }
+    part.instance[0] = transform_identity();
+    part.variation[0] = variation;
+    return geometry_add(geometry, part, e);
+}
+
+// A crust each colony, and the rock below them.
+static bool add_crusts(const OutTree *tree, const CoralParams *p, const CoralMaterials *materials,
+                       int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e)
+{
+    Envelope *base = coral_base(p, seed, run, e);
+    Mesh *rock = base ? weathered(envelope_surface(base), 0.035f * p->size, random_key(seed, 12), e)
+                      : NULL;
+    envelope_free(base);
+    CrustParams params = crust_params(p, seed);
+    CrustPoint *points = rock ? crust_points(rock, tree, &params, run, e) : NULL;
+    bool done = points;
+    for (int c = 0; done && c < p->colonies; c++) {
+        Mesh *mesh = crust_mesh(rock, points, c, e);
+        done = mesh;
+        if (mesh && mesh->face_count == 0) {
+            mesh_free(mesh);
+        } else if (mesh) {
+            float variation = random_unit(random_key(seed, 50 + (uint64_t)c));
+            done = add_colony(mesh, variation, p, materials, object, random_key(seed, 60 + (uint64_t)c),
+                              geometry, run, e);
+        }
+    }
+    free(points);
+    if (!done) {
+        mesh_free(rock);
+        return false;
+    }
+    return add_mesh(geometry, rock, materials->rock, object, e);
 }
 
 bool coral_geometry(const OutTree *tree, const CoralParams *params, const CoralMaterials *materials,
                     int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e)
 {
     CoralParams p = coral_params_resolve(params);
-    bool on_rock = p.form == CORAL_ENCRUSTING || p.form == CORAL_MASSIVE;
-    Mesh *mesh = on_rock ? crust(tree, &p, materials, object, seed, geometry, run, e)
-                         : branches(tree, &p, run, e);
-    if (!mesh) {
-        return false;
+    if (p.form == CORAL_ENCRUSTING || p.form == CORAL_MASSIVE) {
+        return add_crusts(tree, &p, materials, object, seed, geometry, run, e);
     }
-    PolypPlaces places = {.max_count = p.polyps.max_count,
-                          .spacing = p.polyps.spacing,
-                          .diameter = p.polyps.diameter,
-                          .height = p.polyps.height,
-                          .lean = p.polyps.lean,
-                          .floor = p.position.y,
-                          .seed = random_key(seed, 9)};
-    if (p.polyps.max_count > 0 &&
-        !polyps_add(mesh, &places, materials->polyp, object, geometry, run, e)) {
-        mesh_free(mesh);
-        return false;
-    }
-    return add_mesh(geometry, mesh, materials->coral, object, e);
+    Mesh *mesh = branches(tree, &p, run, e);
+    return mesh && add_colony(mesh, random_unit(random_key(seed, 50)), &p, materials, object, seed,
+                              geometry, run, e);
 }
