@@ -2,6 +2,7 @@
 #include "cli/command.h"
 
 #include "base/memory.h"
+#include "image/image.h"
 #include "scene/build.h"
 #include "scene/kind.h"
 #include "tree/out_tree_io.h"
@@ -49,6 +50,26 @@ static int count_growing(const Scene *scene)
     return count;
 }
 
+static bool is_picture(const char *file)
+{
+    return output_has_ending(file, ".png") || output_has_ending(file, ".exr");
+}
+
+// The only object whose kind makes a picture; -1 when there is none or several.
+static int find_painter(const Scene *scene)
+{
+    int found = -1;
+    for (int i = 0; i < scene->object_count; i++) {
+        if (kind_of(&scene->objects[i])->paint) {
+            if (found >= 0) {
+                return -1;
+            }
+            found = i;
+        }
+    }
+    return found;
+}
+
 static bool check_request(const Options *options, const Scene *scene, Error *e)
 {
     if (count_growing(scene) == 0) {
@@ -57,9 +78,17 @@ static bool check_request(const Options *options, const Scene *scene, Error *e)
         error_locate(e, scene->file, 0, 0);
         return false;
     }
-    if (options->output && !output_has_ending(options->output, ".swc") &&
-        !output_has_ending(options->output, ".json")) {
-        return error_set(e, ERROR_INPUT, "--output %s; its ending must be .swc or .json",
+    if (options->output && is_picture(options->output)) {
+        if (find_painter(scene) < 0) {
+            return error_set(e, ERROR_INPUT,
+                             "--output %s; for a picture the scene must have exactly one leaf "
+                             "(venation)",
+                             options->output);
+        }
+    } else if (options->output && !output_has_ending(options->output, ".swc") &&
+               !output_has_ending(options->output, ".json")) {
+        return error_set(e, ERROR_INPUT,
+                         "--output %s; its ending must be .swc, .json, .png or .exr",
                          options->output);
     }
     return !options->output || output_check(options->output, e);
@@ -81,9 +110,36 @@ static bool write_tree(const Options *options, const Scene *scene, int index, co
     return done;
 }
 
+// As large as the film: one value a pixel, 0..1, in all three channels.
+static bool write_picture(const Options *options, const Scene *scene, const OutTree *tree,
+                          int index, Error *e)
+{
+    const SceneObject *object = &scene->objects[index];
+    int width = scene->film.width, height = scene->film.height;
+    Image *image = image_new(width, height, 3, e);
+    float *value = image ? memory_alloc((int64_t)width * height, sizeof *value, e) : NULL;
+    bool done = value && kind_of(object)->paint(object, tree, width, height, value, e);
+    for (int64_t i = 0; done && i < (int64_t)width * height * 3; i++) {
+        image->pixel[i] = value[i / 3];
+    }
+    if (done && output_has_ending(options->output, ".exr")) {
+        ImageLayer layer = {"", "RGB", image};
+        done = image_write_exr(options->output, &layer, 1, NULL, e);
+    } else if (done) {
+        done = image_write_display(options->output, image, NULL, e);
+    }
+    free(value);
+    image_free(image);
+    return done;
+}
+
 static bool write_trees(const Options *options, const Scene *scene, OutTree *const *trees, Error *e)
 {
     bool done = true;
+    if (options->output && is_picture(options->output)) {
+        int painter = find_painter(scene);
+        return write_picture(options, scene, trees[painter], painter, e);
+    }
     for (int i = 0; options->output && done && i < scene->object_count; i++) {
         done = !trees[i] || write_tree(options, scene, i, trees[i], e);
     }

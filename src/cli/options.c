@@ -45,7 +45,8 @@ static const Option OPTIONS[] = {
      .type = OPTION_TEXT,
      .commands = RENDERS | BIT(COMMAND_GROW),
      .letter = 'o',
-     .doc = "what to write; render: .png or .jpg with the .exr beside it; grow: .swc or .json"},
+     .doc = "what to write; render: .png or .jpg with the .exr beside it; grow: .swc, .json or, of "
+            "a leaf's veins, .png"},
     {.name = "samples",
      .value = "N",
      .offset = AT(samples),

@@ -19,6 +19,7 @@ static const Kind *const KINDS[] = {
     &kind_sculpture,
     &kind_terrain,
     &kind_vessels,
+    &kind_venation,
     // clang-format on
 };
 

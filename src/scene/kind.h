@@ -40,6 +40,11 @@ typedef struct Kind {
     // Adds what there is to measure beyond what every out-tree has; NULL = nothing.
     bool (*measure)(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e);
 
+    // Draws what the kind makes as a picture of one value a pixel, 0..1, row by row from the top
+    // left (pixel: width * height floats); NULL = it makes no picture.
+    bool (*paint)(const SceneObject *object, const OutTree *tree, int width, int height,
+                  float *pixel, Error *e);
+
     // For `ramify info`: prints ", 14 m, ..." after the name of the kind; NULL = nothing to add.
     void (*describe)(const SceneObject *object, char *text, size_t size);
 

@@ -10,5 +10,6 @@ extern const Kind kind_frost;
 extern const Kind kind_sculpture;
 extern const Kind kind_terrain;
 extern const Kind kind_vessels;
+extern const Kind kind_venation;
 
 #endif

@@ -16,6 +16,7 @@
 #include "model/sculpture.h"
 #include "model/terrain.h"
 #include "model/tree.h"
+#include "model/venation.h"
 #include "model/vessels.h"
 #include "render/world.h"
 
@@ -49,6 +50,7 @@ typedef struct SceneObject {
     LightningParams *lightning;
     SculptureParams *sculpture;
     TerrainParams *terrain;
+    VenationParams *venation;
     // material names, as far as the kind has use for them; NULL = the kind's built-in default
     char *material; // mesh, shape, ground; bark of a tree
     char *twig_material, *leaf_material, *grass_material;

@@ -87,6 +87,7 @@ extern const Table coral_table, lsystem_table;                        // spec_{c
 extern const Table frost_table;                                       // spec_frost.c
 extern const Table sculpture_table;                                   // spec_sculpture.c
 extern const Table vessels_table;                                     // spec_vessels.c
+extern const Table venation_table;                                    // spec_venation.c
 extern const Table shape_table, points_table, growth_table, guide_field_table; // spec_element.c
 
 // The start of a row: key `KEY` of type `TYPE` stored in `MEMBER` of struct `STRUCT`.

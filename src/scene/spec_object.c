@@ -153,6 +153,8 @@ static const Key OBJECT_KEYS[] = {
      .doc = "Mountains, valleys and rivers."},
     {KEY_OF(SceneObject, water_material, "water_material", KEY_TEXT),
      .doc = "Material of a terrain's lakes and rivers; left out: lake."},
+    {KEY_OF(SceneObject, venation, "venation", KEY_POINTER), .table = &venation_table,
+     .doc = "A leaf and its veins."},
     {KEY_OF(SceneObject, material, "material", KEY_TEXT),
      .doc = "Material of a mesh, a shape, the ground, or a tree's bark; left out: clay, clay, "
             "ground, bark."},

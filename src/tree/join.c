@@ -30,8 +30,7 @@ static void unite(int32_t *piece, int32_t a, int32_t b)
     piece[a > b ? a : b] = a > b ? b : a;
 }
 
-// Is the way from a to b along the branches at least `least` long? Always between two trees.
-static bool is_far_along(const OutTree *tree, int64_t a, int64_t b, float least)
+bool out_tree_path_exceeds(const OutTree *tree, int64_t a, int64_t b, float least)
 {
     float length = 0.0f;
     while (a != b && length < least) {
@@ -53,7 +52,7 @@ static bool suits(const Joining *joining, int64_t tip, int64_t node, Vec3 way, f
     return distance > 0.0f && joining->partner[node] != tip &&
            vec3_dot(heading, way) >= joining->params->least_cosine * distance &&
            vec3_dot(tree->normal[tip], tree->normal[node]) > 0.0f &&
-           is_far_along(tree, tip, node, joining->params->least_path);
+           out_tree_path_exceeds(tree, tip, node, joining->params->least_path);
 }
 
 static int32_t find_partner(const Joining *joining, int64_t tip)

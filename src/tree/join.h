@@ -22,4 +22,7 @@ bool out_tree_join_tips(OutTree *tree, const JoinParams *params, int64_t *joins,
 // Pieces that the tree and its joins (nodes at the same place) make.
 bool out_tree_count_pieces(const OutTree *tree, int64_t *pieces, Error *e);
 
+// Is the way from a to b along the branches at least `least` long, m? Always so between two trees.
+bool out_tree_path_exceeds(const OutTree *tree, int64_t a, int64_t b, float least);
+
 #endif

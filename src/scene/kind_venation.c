@@ -1,0 +1,36 @@
+// A leaf and its veins as a kind of object.
+#include "scene/kinds.h"
+
+#include <stdio.h>
+
+static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+{
+    return venation_grow(object->venation, recipe, e);
+}
+
+static bool place(const Placing *p, const OutTree *tree, Error *e)
+{
+    VenationMaterials materials = {.vein = placing_material(p, p->object->material, "leaf_vein"),
+                                   .blade = placing_material(p, p->object->leaf_material, "leaf")};
+    return venation_geometry(tree, p->object->venation, &materials, p->index, &p->world->geometry, e);
+}
+
+static bool paint(const SceneObject *object, const OutTree *tree, int width, int height,
+                  float *pixel, Error *e)
+{
+    return venation_paint(tree, object->venation, width, height, pixel, e);
+}
+
+static void describe(const SceneObject *object, char *text, size_t size)
+{
+    snprintf(text, size, ", %s, %g m", object->venation->closed ? "closed" : "open",
+             (double)object->venation->outline.length);
+}
+
+const Kind kind_venation = {.key = "venation",
+                            .offset = offsetof(SceneObject, venation),
+                            .materials = {"material", "leaf_material"},
+                            .grow = grow,
+                            .place = place,
+                            .paint = paint,
+                            .describe = describe};
