@@ -96,8 +96,48 @@ static void add_background(Path *path, PathResult *result)
             return;
         }
     }
-    path_add_light(path,
-                   lights_background(path->tracer->lights, path->ray.direction, path->bsdf_pdf));
+    path_add_light(path, lights_background(path->tracer->lights, path->from.position,
+                                           path->ray.direction, path->bsdf_pdf));
+}
+
+// From below, the surface of the water mirrors what does not pass it.
+static bool mirrored_by_water(Path *path)
+{
+    const Tracer *tracer = path->tracer;
+    const Water *water = lights_water(tracer->lights);
+    float rise = path->ray.direction.y, level = tracer->world->medium.height;
+    if (!water_covers(water, path->ray.origin) || !(rise > 0.0f) ||
+        path->depth >= tracer->world->render.max_depth) {
+        return false;
+    }
+    float t = (level - path->ray.origin.y) / rise;
+    Vec3 point = vec3_madd(path->ray.origin, t, path->ray.direction);
+    bool waves = path->bsdf_pdf <= 0.0f;
+    Vec3 normal = waves ? water_normal(water, point) : vec3(0.0f, 1.0f, 0.0f);
+    WaterPassage passage;
+    if (water_leave(path->ray.direction, normal, &passage)) {
+        return false;
+    }
+    Vec3 d = vec3_madd(path->ray.direction, -2.0f * vec3_dot(path->ray.direction, normal), normal);
+    d.y = -fmaxf(fabsf(d.y), 1e-3f); // not out of the water by way of a steep wave
+    point.y = level - 1e-5f * fmaxf(fabsf(level), t);
+    path->ray =
+        (Ray){.origin = point, .direction = vec3_normalize(d), .far = INFINITY, .key = path->key++};
+    path->from.position = path->start = point;
+    path->travelled = path->bsdf_pdf = 0.0f;
+    path->straight = false;
+    path->depth++;
+    return true;
+}
+
+// The ray met nothing. False when the path ends there.
+static bool depart(Path *path, PathResult *result)
+{
+    if (path->tracer->world->medium.kind == MEDIUM_WATER && mirrored_by_water(path)) {
+        return true;
+    }
+    add_background(path, result);
+    return false;
 }
 
 static void note_first_hit(PathResult *result, const SurfacePoint *point, const Bsdf *bsdf,
@@ -240,7 +280,7 @@ static void begin(Path *path, const Tracer *tracer, int x, int y, int sample)
     path->key = (uint32_t)random_key(path->sampler.key, (uint64_t)sample);
     path->ray.key = path->key++;
     camera_ray(&tracer->camera, film_x, film_y, u + 2, &path->ray.origin, &path->ray.direction);
-    path->start = path->ray.origin;
+    path->start = path->from.position = path->ray.origin;
     path->media = media_outside(tracer);
 }
 
@@ -254,11 +294,8 @@ static void finish(Path *path, bool met, Hit *hit, PathResult *result)
         if (path->media.now.present) {
             travel = path_travel(path, met ? hit->t : INFINITY);
         }
-        if (travel == TRAVEL_ARRIVED && !met) {
-            add_background(path, result);
-        }
-        if (travel == TRAVEL_ENDED ||
-            (travel == TRAVEL_ARRIVED && !(met && arrive(path, hit, result)))) {
+        if (travel == TRAVEL_ENDED || (travel == TRAVEL_ARRIVED &&
+                                       !(met ? arrive(path, hit, result) : depart(path, result)))) {
             break;
         }
         path->rays++;

@@ -14,6 +14,7 @@ struct Lights {
     Dome *dome;    // NULL without sky or environment
     Sun sun;
     Clouds clouds;
+    Water *water;        // NULL without any
     EmitterSet emitters; // glowing geometry
     float
         *share; // chance of each to be chosen: the world's lights, the dome, the sun, all emitters
@@ -95,6 +96,21 @@ static bool make_sky(Lights *lights, const Run *run, Error *e)
     return lights->dome != NULL;
 }
 
+// The network of light is sharp at what the camera looks at.
+static bool make_water(Lights *lights, const Run *run, Error *e)
+{
+    const World *world = lights->world;
+    if (world->medium.kind != MEDIUM_WATER) {
+        return true;
+    }
+    float depth = world->medium.height - world->camera.target.y;
+    depth = depth > 0.0f ? depth : fmaxf(world->medium.height - world->camera.position.y, 1.0f);
+    float sun_radius = sqrtf(lights->sun.solid_angle / PI_F);
+    lights->water = water_new(&world->medium, lights->sun.direction, sun_radius, depth,
+                              world->render.seed, run, e);
+    return lights->water != NULL;
+}
+
 Lights *lights_new(const World *world, float scene_radius, const Run *run, Error *e)
 {
     Lights *lights = memory_alloc_zero(1, sizeof *lights, e);
@@ -103,7 +119,8 @@ Lights *lights_new(const World *world, float scene_radius, const Run *run, Error
     }
     lights->world = world;
     lights->dome_index = lights->sun_index = lights->emitters_index = -1;
-    if (!make_sky(lights, run, e) || !emitter_set_fill(&lights->emitters, world, e)) {
+    if (!make_sky(lights, run, e) || !make_water(lights, run, e) ||
+        !emitter_set_fill(&lights->emitters, world, e)) {
         lights_free(lights);
         return NULL;
     }
@@ -130,6 +147,7 @@ void lights_free(Lights *lights)
 {
     if (lights) {
         dome_free(lights->dome);
+        water_free(lights->water);
         emitter_set_clear(&lights->emitters);
         free(lights->share);
         free(lights->sum);
@@ -238,8 +256,24 @@ static bool sample_lamp(const Light *light, Vec3 point, const float u[2], LightS
     return seen;
 }
 
+// Bends what comes from above the water down to a point in it.
+static bool into_water(const Lights *lights, Vec3 point, bool sun, LightSample *sample)
+{
+    WaterPassage passage;
+    if (!water_enter(sample->direction, &passage)) {
+        return false;
+    }
+    float scale = WATER_INDEX * WATER_INDEX * passage.share;
+    scale *= sun ? water_caustic(lights->water, point) : 1.0f;
+    sample->radiance = vec3_scale(sample->radiance, scale);
+    sample->direction = passage.direction;
+    sample->pdf *= passage.shrink;
+    return true;
+}
+
 // Sky and sun.
-static void sample_far(const Lights *lights, int index, const float u[2], LightSample *sample)
+static bool sample_far(const Lights *lights, int index, Vec3 point, const float u[2],
+                       LightSample *sample)
 {
     sample->distance = sample->far = INFINITY;
     if (index == lights->dome_index) {
@@ -250,6 +284,8 @@ static void sample_far(const Lights *lights, int index, const float u[2], LightS
         sample->radiance = sun_radiance(&lights->sun, sample->direction);
         sample->pdf = 1.0f / lights->sun.solid_angle;
     }
+    return !water_covers(lights->water, point) ||
+           into_water(lights, point, index == lights->sun_index, sample);
 }
 
 bool lights_sample(const Lights *lights, const LightReceiver *receiver, const float u[3],
@@ -258,7 +294,7 @@ bool lights_sample(const Lights *lights, const LightReceiver *receiver, const fl
     LightChoice choice = lights_choose(lights, u[2]);
     bool seen = true;
     if (!choice.near) {
-        sample_far(lights, choice.index, u, sample);
+        seen = sample_far(lights, choice.index, receiver->position, u, sample);
     } else if (choice.index == lights->emitters_index) {
         seen = sample_emitters(lights, receiver, u, choice.rest, sample);
     } else {
@@ -324,7 +360,7 @@ bool lights_sample_chosen(const Lights *lights, const LightChoice *choice,
     float share = lights->share[choice->index];
     bool seen = true;
     if (!choice->near) {
-        sample_far(lights, choice->index, u, &sample->light);
+        seen = sample_far(lights, choice->index, point, u, &sample->light);
         sample->pivot_pdf = 0.0f;
     } else if (choice->index == lights->emitters_index) {
         seen = sample_emitters_along(lights, choice, segment, pivot, point, u, sample);
@@ -344,24 +380,75 @@ static float bsdf_weight(float bsdf_pdf, float light_pdf)
     return bsdf_pdf > 0.0f ? power_heuristic(bsdf_pdf, light_pdf) : 1.0f;
 }
 
-Vec3 lights_background(const Lights *lights, Vec3 direction, float bsdf_pdf)
+const Water *lights_water(const Lights *lights)
 {
-    if (!lights->dome) {
-        return lights->constant;
-    }
+    return lights->water;
+}
+
+// Above the water; shrink: see WaterPassage.
+static Vec3 background_above(const Lights *lights, Vec3 direction, float bsdf_pdf, float shrink,
+                             float sun_share)
+{
     float pdf = 0.0f;
     if (bsdf_pdf > 0.0f) {
-        pdf = dome_density(lights->dome, direction) * lights->share[lights->dome_index];
+        pdf = dome_density(lights->dome, direction) * lights->share[lights->dome_index] * shrink;
     }
     Vec3 sum = vec3_scale(dome_lookup(lights->dome, direction), bsdf_weight(bsdf_pdf, pdf));
     if (bsdf_pdf <= 0.0f) { // seen by the camera or in a mirror: no light sample stands against it
         sum = clouds_before(&lights->clouds, direction, sum);
     }
     if (lights->sun_index >= 0 && sun_covers(&lights->sun, direction)) {
-        pdf = lights->share[lights->sun_index] / lights->sun.solid_angle;
-        sum = vec3_madd(sum, bsdf_weight(bsdf_pdf, pdf), sun_radiance(&lights->sun, direction));
+        pdf = lights->share[lights->sun_index] / lights->sun.solid_angle * shrink;
+        sum = vec3_madd(sum, bsdf_weight(bsdf_pdf, pdf) * sun_share,
+                        sun_radiance(&lights->sun, direction));
     }
     return sum;
+}
+
+// The sun through waves, to the eye: spread over a few degrees instead of into glints, which no
+// number of samples would settle.
+static Vec3 glitter(const Lights *lights, Vec3 direction)
+{
+    const float spread = 0.03f; // radians
+    Vec3 off = vec3_sub(direction, lights->sun.direction);
+    float share = expf(-0.5f * vec3_dot(off, off) / (spread * spread));
+    float solid_angle = 2.0f * PI_F * spread * spread;
+    return vec3_scale(lights->sun.radiance, share * lights->sun.solid_angle / solid_angle);
+}
+
+static Vec3 background_from_water(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf)
+{
+    WaterPassage passage;
+    bool eye = bsdf_pdf <= 0.0f;
+    Vec3 normal = vec3(0.0f, 1.0f, 0.0f);
+    if (eye && direction.y > 0.0f) {
+        float t = (lights->world->medium.height - from.y) / direction.y;
+        normal = water_normal(lights->water, vec3_madd(from, t, direction));
+    }
+    if (!water_leave(direction, normal, &passage)) {
+        return vec3_splat(0.0f);
+    }
+    Vec3 above = lights->constant;
+    if (lights->dome && eye) {
+        above = clouds_before(&lights->clouds, passage.direction,
+                              dome_lookup(lights->dome, passage.direction));
+        above = vec3_add(above, glitter(lights, passage.direction));
+    } else if (lights->dome) {
+        above = background_above(lights, passage.direction, bsdf_pdf, passage.shrink,
+                                 water_caustic(lights->water, from));
+    }
+    return vec3_scale(above, WATER_INDEX * WATER_INDEX * passage.share);
+}
+
+Vec3 lights_background(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf)
+{
+    if (water_covers(lights->water, from)) {
+        return background_from_water(lights, from, direction, bsdf_pdf);
+    }
+    if (!lights->dome) {
+        return lights->constant;
+    }
+    return background_above(lights, direction, bsdf_pdf, 1.0f, 1.0f);
 }
 
 Vec3 lights_emitted(const Lights *lights, int index, Vec3 origin, Vec3 direction, float distance,

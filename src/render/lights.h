@@ -5,6 +5,7 @@
 
 #include "base/run.h"
 #include "render/emitter_set.h"
+#include "render/water.h"
 #include "render/world.h"
 
 typedef struct Lights Lights;
@@ -65,7 +66,11 @@ bool lights_sample_chosen(const Lights *lights, const LightChoice *choice,
 // Radiance from beyond the geometry along direction. bsdf_pdf > 0: the density with which the
 // direction was drawn, when light sampling could have found the same; the result is weighted by
 // the power heuristic (Veach 1997). bsdf_pdf <= 0: unweighted.
-Vec3 lights_background(const Lights *lights, Vec3 direction, float bsdf_pdf);
+// from: where the direction was drawn, as water above it bends light.
+Vec3 lights_background(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf);
+
+// The water that the scene lies under; NULL where there is none.
+const Water *lights_water(const Lights *lights);
 
 // The same for a ray from `origin` that meets light `index` after `distance` m.
 Vec3 lights_emitted(const Lights *lights, int index, Vec3 origin, Vec3 direction, float distance,

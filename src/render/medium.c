@@ -5,11 +5,12 @@
 Medium medium_default(MediumKind kind)
 {
     switch (kind) {
-    case MEDIUM_BELOW: // clear sea: pure water's absorption near 610, 550 and 450 nm, some plankton
+    case MEDIUM_WATER: // clear sea: pure water's absorption near 610, 550 and 450 nm, some plankton
         return (Medium){.kind = kind,
                         .scattering = {0.030f, 0.036f, 0.042f},
                         .absorption = {0.270f, 0.062f, 0.030f},
-                        .anisotropy = 0.8f};
+                        .anisotropy = 0.8f,
+                        .caustics = 1.0f};
     case MEDIUM_LAYER: // fog to see 100 m through
         return (Medium){
             .kind = kind, .scattering = vec3_splat(0.03f), .anisotropy = 0.7f, .falloff = 20.0f};
@@ -107,7 +108,7 @@ MediumLine medium_line(const Medium *m, Vec3 center, float radius, Vec3 origin, 
     case MEDIUM_EVERYWHERE:
         add_ball(&line, center, radius, origin, direction, far);
         break;
-    case MEDIUM_BELOW:
+    case MEDIUM_WATER:
         if (height < 0.0f) {
             add_piece(&line, 0.0f, rise > 0.0f ? fminf(far, -height / rise) : far, 1.0f, 0.0f);
         } else if (rise < 0.0f) {

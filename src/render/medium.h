@@ -11,7 +11,7 @@
 typedef enum MediumKind {
     MEDIUM_NONE,
     MEDIUM_EVERYWHERE, // in a ball about the scene
-    MEDIUM_BELOW,      // under the plane y = height: water
+    MEDIUM_WATER,      // under the plane y = height: water
     MEDIUM_LAYER       // density 1 under that plane, falling off exponentially above: fog
 } MediumKind;
 
@@ -20,8 +20,10 @@ typedef struct Medium {
     MediumKind kind;
     Vec3 scattering, absorption; // per metre, where the density is 1
     float anisotropy;            // mean cosine of scattering, -1..1
-    float height;                // m; MEDIUM_BELOW and MEDIUM_LAYER
+    float height;                // m; MEDIUM_WATER and MEDIUM_LAYER
     float falloff;               // m over which the density falls to 1/e; MEDIUM_LAYER
+    float caustics;              // MEDIUM_WATER: strength of the sun's network of light, 0..1
+    float wavelength;            // MEDIUM_WATER: m, of the waves; 0 = a third of the depth
     float extent;                // m, radius; MEDIUM_EVERYWHERE; 0 = three times the scene's
 } Medium;
 

@@ -1,0 +1,150 @@
+// The water's surface from below: refraction against closed forms, the network of light against its
+// mean, sampling against brute force.
+#include "tiny_world.h"
+
+#include "base/random.h"
+#include "render/lights.h"
+
+#define ASSERT_NEAR(value, wanted, tolerance)                                             \
+    do {                                                                                  \
+        double v_ = (double)(value), w_ = (double)(wanted);                               \
+        if (!(fabs(v_ - w_) <= (double)(tolerance))) {                                    \
+            fail_msg("%s = %.6g, not %.6g +- %.2g", #value, v_, w_, (double)(tolerance)); \
+        }                                                                                 \
+    } while (0)
+
+static Medium clear_water(float height)
+{
+    Medium water = medium_default(MEDIUM_WATER);
+    water.height = height;
+    water.scattering = water.absorption = vec3_splat(0.0f);
+    return water;
+}
+
+static void light_bends_both_ways_alike(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 200; i++) {
+        Vec3 d = random_direction(random_key(1, (uint64_t)i));
+        d.y = fabsf(d.y) + 0.01f;
+        d = vec3_normalize(d);
+        WaterPassage in, out;
+        assert_true(water_enter(d, &in));
+        assert_true(water_leave(in.direction, vec3(0, 1, 0), &out));
+        ASSERT_NEAR(vec3_distance(out.direction, d), 0.0, 1e-3);
+        ASSERT_NEAR(out.share, in.share, 1e-3);
+        ASSERT_NEAR(out.shrink / in.shrink, 1.0, 0.02);
+        // Snell
+        float sine_air = sqrtf(1 - d.y * d.y), sine = sqrtf(1 - in.direction.y * in.direction.y);
+        ASSERT_NEAR(sine_air, WATER_INDEX * sine, 1e-5);
+    }
+    WaterPassage none;
+    assert_false(water_leave(vec3_normalize(vec3(1, 0.5f, 0)), vec3(0, 1, 0), &none));
+}
+
+// What the waves focus they take from elsewhere.
+static void network_has_mean_one(void **state)
+{
+    (void)state;
+    Medium medium = clear_water(5.0f);
+    Run run = run_default();
+    Water *water =
+        water_new(&medium, vec3_normalize(vec3(0.5f, 0.8f, 0.2f)), 0.00465f, 5.0f, 1, &run, NULL);
+    assert_non_null(water);
+    enum { N = 200000 };
+    for (int depth = 0; depth < 12; depth++) {
+        double mean = 0.0, square = 0.0;
+        for (int i = 0; i < N; i++) {
+            uint64_t key = random_key(5, (uint64_t)i);
+            Vec3 p = vec3(random_range(random_key(key, 0), 0, 120), 5.0f - (float)depth,
+                          random_range(random_key(key, 1), 0, 120));
+            double light = (double)water_caustic(water, p);
+            mean += light / N;
+            square += light * light / N;
+        }
+        ASSERT_NEAR(mean, 1.0, 0.02);
+        if (depth == 5) { // sharp where it was asked to be
+            assert_true(square - mean * mean > 0.3);
+        } else if (depth == 0) {
+            assert_true(square - mean * mean < 0.02);
+        }
+    }
+    water_free(water);
+}
+
+// A white floor in calm clear water under a white sky: what the surface lets through, by
+// integration of Fresnel's equations.
+static void sky_lights_the_bottom_by_fresnel(void **state)
+{
+    (void)state;
+    World *world = tiny_world(8, 8, 256, 1.0f);
+    world->render.max_depth = 1;
+    world->sky.kind = SKY_CONSTANT;
+    world->sky.color = vec3_splat(1.0f);
+    world->medium = clear_water(3.0f);
+    world->camera =
+        (Camera){.position = {0, 1, 0}, .target = {0, 0, 0}, .up = {0, 0, 1}, .fov = 0.01f};
+    add_mesh(world, quad_mesh(vec3(-40, 0, 40), vec3(80, 0, 0), vec3(0, 0, -80)), 0, 0);
+    double through = 0.0;
+    enum { STEPS = 10000 };
+    for (int i = 0; i < STEPS; i++) {
+        double c = (i + 0.5) / STEPS;
+        WaterPassage p;
+        if (water_enter(vec3((float)sqrt(1 - c * c), (float)c, 0), &p)) {
+            through += 2.0 * c * (double)p.share / STEPS;
+        }
+    }
+    assert_true(through > 0.92 && through < 0.94); // 0.934 in the literature
+    Film *film = trace(world, 2, NULL);
+    // directions that the waves turn around are seen by chance alone, as calm water
+    ASSERT_NEAR(mean_luminance(film), through, 0.01 + 3.0 * mean_error(film));
+    film_free(film);
+    world_free(world);
+}
+
+static void sampling_agrees_with_brute_force(void **state)
+{
+    (void)state;
+    World *world = tiny_world(8, 8, 1, 0.5f);
+    world->sky.kind = SKY_SUN_SKY;
+    world->sky.sun_elevation = 40.0f;
+    world->sky.sun_size = 8.0f;
+    world->medium = clear_water(4.0f);
+    Run run = run_default();
+    Lights *lights = lights_new(world, 1.0f, &run, NULL);
+    assert_non_null(lights);
+    for (int k = 0; k < 3; k++) {
+        LightReceiver at = {{(float)k * 1.7f, (float)k * 0.5f, 0.3f}, {0, 0, 0}};
+        double sampled = 0.0, brute = 0.0;
+        enum { N = 300, M = 1200 };
+        for (int i = 0; i < N * N; i++) {
+            float u[3] = {((float)(i % N) + 0.5f) / N, ((float)(i / N) + 0.5f) / N,
+                          (float)((i * 7919) % (N * N)) / (float)(N * N)};
+            LightSample s;
+            if (lights_sample(lights, &at, u, &s)) {
+                sampled += (double)(luminance(s.radiance) * s.direction.y / s.pdf) / (N * N);
+            }
+        }
+        for (int i = 0; i < M * M; i++) { // weights of 1: the surface's density is far higher
+            float z = ((float)(i / M) + 0.5f) / M, r = sqrtf(1.0f - z * z);
+            float a = 2.0f * PI_F * ((float)(i % M) + 0.5f) / M;
+            Vec3 d = vec3(r * sinf(a), z, r * cosf(a));
+            Vec3 light = lights_background(lights, at.position, d, 1e15f);
+            brute += (double)(luminance(light) * z) * 2.0 * (double)PI_F / ((double)M * M);
+        }
+        ASSERT_NEAR(sampled / brute, 1.0, 0.015);
+    }
+    lights_free(lights);
+    world_free(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(light_bends_both_ways_alike),
+        cmocka_unit_test(network_has_mean_one),
+        cmocka_unit_test(sky_lights_the_bottom_by_fresnel),
+        cmocka_unit_test(sampling_agrees_with_brute_force),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
