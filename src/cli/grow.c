@@ -1,5 +1,6 @@
 // ramify grow: only the out-trees of a scene.
 #include "cli/command.h"
+#include "cli/land.h"
 
 #include "base/memory.h"
 #include "image/image.h"
@@ -79,10 +80,10 @@ static bool check_request(const Options *options, const Scene *scene, Error *e)
         return false;
     }
     if (options->output && is_picture(options->output)) {
-        if (find_painter(scene) < 0) {
+        if (land_count(scene) == 0 && find_painter(scene) < 0) {
             return error_set(e, ERROR_INPUT,
-                             "--output %s; for a picture the scene must have exactly one leaf "
-                             "(venation)",
+                             "--output %s; for a picture the scene must have a terrain, or exactly "
+                             "one leaf (venation)",
                              options->output);
         }
     } else if (options->output && !output_has_ending(options->output, ".swc") &&
@@ -133,9 +134,13 @@ static bool write_picture(const Options *options, const Scene *scene, const OutT
     return done;
 }
 
-static bool write_trees(const Options *options, const Scene *scene, OutTree *const *trees, Error *e)
+static bool write_trees(const Options *options, const Scene *scene, OutTree *const *trees,
+                        const Run *run, Error *e)
 {
     bool done = true;
+    if (options->output && is_picture(options->output) && land_count(scene) > 0) {
+        return land_write(options, scene, trees, run, e);
+    }
     if (options->output && is_picture(options->output)) {
         int painter = find_painter(scene);
         return write_picture(options, scene, trees[painter], painter, e);
@@ -157,7 +162,7 @@ static bool grow_scene(const Options *options, const Scene *scene, Error *e)
     if (!trees) {
         return false;
     }
-    bool done = write_trees(options, scene, trees, e);
+    bool done = write_trees(options, scene, trees, &run, e);
     if (done && !options->quiet) {
         print_trees(scene, trees, seconds);
     }

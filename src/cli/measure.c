@@ -4,6 +4,7 @@
 
 #include "base/measures.h"
 #include "base/memory.h"
+#include "mesh/height_measure.h"
 #include "scene/build.h"
 #include "scene/hint.h"
 #include "scene/kind.h"
@@ -277,8 +278,24 @@ static bool measure_swc(const Options *options, Error *e)
     return done;
 }
 
+static bool measure_asc(const Options *options, Error *e)
+{
+    HeightField *field = height_field_read_asc(options->operand, e);
+    Subject subject = {.name = options->operand, .kind = "asc"};
+    bool done = field && height_field_measure(field, 0.0, &subject.list, e);
+    if (done) {
+        print_subjects(options, NULL, &subject, 1, NULL);
+    }
+    measures_clear(&subject.list);
+    height_field_free(field);
+    return done;
+}
+
 bool command_measure(const Options *options, Error *e)
 {
+    if (output_has_ending(options->operand, ".asc")) {
+        return measure_asc(options, e);
+    }
     return output_has_ending(options->operand, ".swc") ? measure_swc(options, e)
                                                        : measure_scene(options, e);
 }

@@ -46,7 +46,7 @@ static const Option OPTIONS[] = {
      .commands = RENDERS | BIT(COMMAND_GROW),
      .letter = 'o',
      .doc = "what to write; render: .png or .jpg with the .exr beside it; grow: .swc, .json or, of "
-            "a leaf's veins, .png"},
+            "a leaf's veins or a terrain's heights, .png or .exr"},
     {.name = "samples",
      .value = "N",
      .offset = AT(samples),
@@ -169,7 +169,7 @@ static const struct {
     [COMMAND_GROW] = {"grow", "SCENE", "grow a scene's trees only",
                       "With -o writes the out-trees; of several, the objects' names are put "
                       "before the ending.\n"},
-    [COMMAND_MEASURE] = {"measure", "SCENE|FILE.swc",
+    [COMMAND_MEASURE] = {"measure", "SCENE|FILE.swc|FILE.asc",
                          "measure what a scene grows, or an out-tree in a file",
                          "Exit status 1 when a target that the scene states is missed.\n"},
     [COMMAND_INFO] = {"info", "SCENE", "say what a scene file holds", ""},

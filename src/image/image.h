@@ -24,6 +24,9 @@ Image *image_read(const char *file, Error *e);
 // "key\0value\0...\0\0" pairs or NULL.
 bool image_write_display(const char *file, const Image *image, const char *metadata, Error *e);
 
+// 16-bit grey PNG of a picture of one channel, 0..1.
+bool image_write_grey16(const char *file, const Image *image, const char *metadata, Error *e);
+
 // One layer of a multi-part or multi-channel EXR.
 typedef struct ImageLayer {
     const char *name;          // "" = the beauty: R, G, B(, A); else name.X ...

@@ -145,6 +145,27 @@ bool write_display(const char *file, const Image *image, const char *metadata, E
            file_replace(file, bytes.data(), bytes.size(), e);
 }
 
+bool write_grey16(const char *file, const Image *image, const char *metadata, Error *e)
+{
+    if (extension_of(file) != "png" || image->channels != 1) {
+        return error_set(e, ERROR_INPUT,
+                         "'%s' cannot be written: a 16-bit grey picture has one channel and a name "
+                         "that ends in .png",
+                         file);
+    }
+    OIIO::ImageSpec spec(image->width, image->height, 1, OIIO::TypeDesc::UINT16);
+    spec.attribute("oiio:ColorSpace", "Linear"); // heights: no viewer may bend them
+    add_metadata(spec, metadata, false);
+    std::vector<uint16_t> pixels(size_t(image->width) * size_t(image->height));
+    for (size_t i = 0; i < pixels.size(); i++) {
+        float v = std::clamp(image->pixel[i], 0.0f, 1.0f);
+        pixels[i] = uint16_t(v * 65535.0f + 0.5f);
+    }
+    Bytes bytes;
+    return encode(file, "png", spec, OIIO::TypeDesc::UINT16, pixels.data(), bytes, e) &&
+           file_replace(file, bytes.data(), bytes.size(), e);
+}
+
 bool check_layers(const char *file, const ImageLayer *layers, int count, Error *e)
 {
     for (int i = 0; i < count; i++) {
@@ -251,4 +272,11 @@ extern "C" bool image_write_exr(const char *file, const ImageLayer *layers, int 
 {
     return guarded("'" + std::string(file) + "' cannot be written", e,
                    [&] { return write_exr(file, layers, count, metadata, e); });
+}
+
+extern "C" bool image_write_grey16(const char *file, const Image *image, const char *metadata,
+                                   Error *e)
+{
+    return guarded("'" + std::string(file) + "' cannot be written", e,
+                   [&] { return write_grey16(file, image, metadata, e); });
 }

@@ -5,7 +5,7 @@
 #include <math.h>
 
 // exp(-SPARSE_NOISE_DENSITY)
-static const float NO_KERNEL = 0.0024787522f;
+static const float NO_KERNEL = 0.049787068f;
 
 int sparse_noise_count(uint64_t cell_key)
 {
@@ -49,8 +49,7 @@ float sparse_noise(float x, float y, uint64_t seed)
 {
     // Campbell's theorem: variance = density * mean square weight (1/3) * integral of kernel^2,
     // which is pi (1/7 - 10/56 + 25/252).
-    const float scale = 1.0f / 0.6316019f; // of the root of 6 / 3 * 0.1994637
-    // Kernels of radius 1 about a place of spectrum's peak near one wave in 1.25.
+    const float scale = 1.0f / 0.4466164f; // the root of 3 / 3 * 0.1994662
     float floor_x = (float)(int32_t)x - (x < (float)(int32_t)x ? 1.0f : 0.0f);
     float floor_y = (float)(int32_t)y - (y < (float)(int32_t)y ? 1.0f : 0.0f);
     float sum = 0.0f;

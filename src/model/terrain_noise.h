@@ -11,11 +11,10 @@ float sparse_noise(float x, float y, uint64_t seed);
 
 // The number of kernels in a unit cell: Poisson distributed, of mean SPARSE_NOISE_DENSITY.
 int sparse_noise_count(uint64_t cell_key);
-#define SPARSE_NOISE_DENSITY 6.0f
+#define SPARSE_NOISE_DENSITY 3.0f
 
 // `iterations` octaves, each of twice the frequency and `gain` times the height of the last, turned
-// against it. ridged 0..1 blends each from round to sharp crests. Octaves shorter than `shortest`
-// (in units of the first wavelength) are left out, fading over the last octave.
+// against it. ridged 0..1 blends each from round to sharp crests.
 float sparse_noise_fractal(float x, float y, int iterations, float gain, float ridged,
                            uint64_t seed);
 
