@@ -16,13 +16,13 @@ TerrainParams terrain_params_default(void)
         .size = 12000.0f,
         .resolution = 1024,
         .uplift = {.base = 1.0f, .noise = 0.4f},
-        .rivers = {.outlets = 9,
-                   .count = 12000,
+        .rivers = {.outlets = 5,
+                   .count = 2500,
                    .winding = 0.4f,
-                   .gradient = 0.5f,
+                   .gradient = 0.6f,
                    .concavity = 0.42f,
-                   .valley = 0.035f,
-                   .water = 0.0016f,
+                   .valley = 0.03f,
+                   .water = 0.0025f,
                    .field_weight = 1.0f},
         .noise = {.iterations = 6, .amplitude = 0.11f, .gain = 0.5f, .ridged = 0.7f, .warp = 0.35f},
         .erosion = {.talus = 38.0f},
@@ -286,9 +286,7 @@ static void carve_rivers(HeightField *field, const OutTree *rivers)
 static bool finish_field(const Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
     const TerrainParams *params = terrain->params;
-    float low, high;
-    height_field_range(field, &low, &high);
-    if (!terrain_erode(field, &params->erosion, high - low, run, e)) {
+    if (!terrain_erode(field, &params->erosion, run, e)) {
         return false;
     }
     carve_rivers(field, terrain->rivers);

@@ -1,5 +1,6 @@
 // Erosion of a height field: slopes that fall down (thermal) and brooks that cut in (stream power).
-// Lengths are those of the land, not of the grid: a finer grid takes more, smaller steps.
+// It works on a grid of its own, the same for every resolution, so that more samples show the same
+// erosion; what it changed is laid over the field by splines.
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "mesh/height_drainage.h"
@@ -7,6 +8,8 @@
 
 #include <stdlib.h>
 #include <string.h>
+
+enum { ERODED_CELLS = 512 }; // a side
 
 // ---- thermal: what stands steeper than the talus slides to lower neighbours
 
@@ -43,7 +46,7 @@ static bool erode_slopes(HeightField *field, const TerrainErosionParams *params,
     float sine, cosine;
     exact_sincos(params->talus * 0.017453292f, &sine, &cosine);
     float limit = sine / cosine * field->cell.x;
-    int steps = (int)(params->thermal * 0.04f * (float)field->columns + 0.5f);
+    int steps = (int)(params->thermal * 60.0f + 0.5f);
     float *next = memory_alloc(height_field_count(field), sizeof *next, e);
     bool done = next;
     for (int i = 0; done && i < steps; i++) {
@@ -100,12 +103,50 @@ static bool erode_streams(HeightField *field, const TerrainErosionParams *params
     return true;
 }
 
-bool terrain_erode(HeightField *field, const TerrainErosionParams *params, float relief,
-                   const Run *run, Error *e)
+// The field on the grid of the erosion.
+static HeightField *resample(const HeightField *field, Error *e)
 {
-    if (!(relief > 0.0f)) {
+    float scale_x = (float)(field->columns - 1) / ERODED_CELLS;
+    float scale_z = (float)(field->rows - 1) / ERODED_CELLS;
+    Vec2 cell = {field->cell.x * scale_x, field->cell.y * scale_z};
+    HeightField *copy =
+        height_field_new(ERODED_CELLS + 1, ERODED_CELLS + 1, cell, field->origin, e);
+    for (int64_t i = 0; copy && i < height_field_count(copy); i++) {
+        float x = copy->origin.x + (float)(i % copy->columns) * cell.x;
+        float z = copy->origin.y + (float)(i / copy->columns) * cell.y;
+        copy->height[i] = height_field_at(field, x, z);
+    }
+    return copy;
+}
+
+static void add_changes(HeightField *field, const HeightField *changes, int threads)
+{
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int row = 0; row < field->rows; row++) {
+        for (int column = 0; column < field->columns; column++) {
+            float x = field->origin.x + (float)column * field->cell.x;
+            float z = field->origin.y + (float)row * field->cell.y;
+            field->height[(int64_t)row * field->columns + column] +=
+                height_field_smooth_at(changes, x, z);
+        }
+    }
+}
+
+bool terrain_erode(HeightField *field, const TerrainErosionParams *params, const Run *run, Error *e)
+{
+    if (params->streams <= 0.0f && params->thermal <= 0.0f) {
         return true;
     }
-    return (params->streams <= 0.0f || erode_streams(field, params, run, e)) &&
-           (params->thermal <= 0.0f || erode_slopes(field, params, run, e));
+    HeightField *before = resample(field, e), *after = before ? resample(field, e) : NULL;
+    bool done = after && (params->streams <= 0.0f || erode_streams(after, params, run, e)) &&
+                (params->thermal <= 0.0f || erode_slopes(after, params, run, e));
+    if (done) {
+        for (int64_t i = 0; i < height_field_count(after); i++) {
+            after->height[i] -= before->height[i];
+        }
+        add_changes(field, after, run->threads);
+    }
+    height_field_free(before);
+    height_field_free(after);
+    return done;
 }

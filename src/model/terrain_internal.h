@@ -28,8 +28,8 @@ OutTree *terrain_rivers(const TerrainParams *params, const Recipe *recipe, Error
 float terrain_uplift(const TerrainParams *params, uint64_t seed, float x, float z);
 
 // terrain_profile.c: one pass over the rivers: areas, then heights for hillslopes of gradient
-// uplift * 1, from the outlets up. A river that would run below another's slope is captured by it:
-// *captures counts them. Nodes are sorted by height.
+// uplift * 1, from the outlets up. A river that would run below another's slope is captured by it,
+// and river ends on another's slope are dropped: *captures counts both. Nodes are sorted by height.
 bool terrain_profile(Terrain *terrain, const Run *run, int64_t *captures, Error *e);
 
 // Half the width of a valley floor with this drainage area, m.
@@ -42,8 +42,8 @@ static inline float terrain_valley(const TerrainParams *params, float area)
 Trough terrain_trough(const Terrain *terrain, int64_t i, float gradient);
 
 // terrain_erosion.c: thermal and stream erosion of a field.
-bool terrain_erode(HeightField *field, const TerrainErosionParams *params, float relief,
-                   const Run *run, Error *e);
+bool terrain_erode(HeightField *field, const TerrainErosionParams *params, const Run *run,
+                   Error *e);
 
 // terrain.c: heights and wetness (see terrain_heights).
 HeightField *terrain_sample(Terrain *terrain, const Run *run, Error *e);

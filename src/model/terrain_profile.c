@@ -176,6 +176,9 @@ typedef struct Ascent {
     Trough *trough;
     int32_t *next;
     int32_t *child, *sibling; // first child, next sibling
+    int32_t *settled;         // nodes in the order in which they got their heights
+    int64_t settled_count;
+    uint8_t *drowned; // nodes held down by a slope that is not their river's
     int64_t captures;
     float least_gradient, largest_reach;
 } Ascent;
@@ -287,6 +290,27 @@ static bool is_ancestor(const OutTree *tree, int32_t other, int32_t i)
     return false;
 }
 
+// Gives node i its height: the tentative one, if no slope is lower there.
+static void rise(Ascent *a, int32_t i, float tentative_height)
+{
+    OutTree *tree = a->terrain->rivers;
+    int32_t parent = tree->parent[i];
+    Vec3 p = tree->position[i], q = tree->position[parent];
+    float length = sqrtf((p.x - q.x) * (p.x - q.x) + (p.z - q.z) * (p.z - q.z));
+    // A valley needs some room to both sides before others' slopes begin.
+    float height = tentative_height + 0.3f * a->terrain->uplift[i] * length;
+    int32_t other = lowest_slope(a, p, &height);
+    bool foreign = other >= 0 && tree->parent[other] >= 0 && !is_ancestor(tree, other, parent);
+    a->drowned[i] = foreign;
+    height = height < tentative_height ? height : tentative_height;
+    if (foreign && height < q.y) { // captured
+        parent = tree->parent[i] = tree->parent[other];
+        a->captures++;
+    }
+    float least = least_rise(tree, i, parent);
+    tree->position[i].y = height > least ? height : least;
+}
+
 static bool ascend(Ascent *a, Error *e)
 {
     OutTree *tree = a->terrain->rivers;
@@ -298,19 +322,12 @@ static bool ascend(Ascent *a, Error *e)
     }
     while (a->queue.count > 0) {
         QueueItem item = lowest_queue_pop(&a->queue);
-        int32_t i = item.index, parent = tree->parent[i];
-        if (parent >= 0) {
-            float height = item.height;
-            int32_t other = lowest_slope(a, tree->position[i], &height);
-            if (other >= 0 && height < tree->position[parent].y && tree->parent[other] >= 0 &&
-                !is_ancestor(tree, other, parent)) { // captured
-                parent = tree->parent[i] = tree->parent[other];
-                a->captures++;
-            }
-            float least = least_rise(tree, i, parent);
-            tree->position[i].y = height > least ? height : least;
+        int32_t i = item.index;
+        if (tree->parent[i] >= 0) {
+            rise(a, i, item.height);
         }
         settle(a, i);
+        a->settled[a->settled_count++] = i;
         for (int32_t c = a->child[i]; c >= 0; c = a->sibling[c]) {
             if (!lowest_queue_push(&a->queue, tentative(a, c), c, e)) {
                 return false;
@@ -320,7 +337,26 @@ static bool ascend(Ascent *a, Error *e)
     return true;
 }
 
-static bool ascend_all(Terrain *terrain, int64_t *captures, Error *e)
+// Ends of rivers that lie on the slope of another are no rivers but its hillside: marks them in
+// drop, from the tips down to the first node that lies in a valley of its own.
+static void drop_drowned(const Ascent *a, uint8_t *drop)
+{
+    const OutTree *tree = a->terrain->rivers;
+    uint8_t *bears = drop; // 2 = a child stays
+    for (int64_t k = a->settled_count - 1; k >= 0; k--) {
+        int32_t i = a->settled[k], parent = tree->parent[i];
+        if (parent < 0) {
+            drop[i] = 0;
+            continue;
+        }
+        drop[i] = a->drowned[i] && bears[i] != 2;
+        if (!drop[i]) {
+            bears[parent] = 2;
+        }
+    }
+}
+
+static bool ascend_all(Terrain *terrain, uint8_t *drop, int64_t *captures, Error *e)
 {
     int64_t count = terrain->rivers->count;
     Ascent a = {.terrain = terrain, .least_gradient = 3e38f};
@@ -336,7 +372,9 @@ static bool ascend_all(Terrain *terrain, int64_t *captures, Error *e)
     a.next = memory_alloc(count, sizeof *a.next, e);
     a.child = memory_alloc(count, sizeof *a.child, e);
     a.sibling = memory_alloc(count, sizeof *a.sibling, e);
-    bool done = a.cell && a.trough && a.next && a.child && a.sibling;
+    a.settled = memory_alloc(count, sizeof *a.settled, e);
+    a.drowned = memory_alloc_zero(count, 1, e);
+    bool done = a.cell && a.trough && a.next && a.child && a.sibling && a.settled && a.drowned;
     if (done) {
         for (int64_t i = 0; i < cells; i++) {
             a.cell[i] = (TroughCell){.first = -1};
@@ -345,6 +383,9 @@ static bool ascend_all(Terrain *terrain, int64_t *captures, Error *e)
         link_children(&a);
         done = ascend(&a, e);
     }
+    if (done) {
+        drop_drowned(&a, drop);
+    }
     *captures = a.captures;
     free(a.queue.item);
     free(a.cell);
@@ -352,6 +393,8 @@ static bool ascend_all(Terrain *terrain, int64_t *captures, Error *e)
     free(a.next);
     free(a.child);
     free(a.sibling);
+    free(a.settled);
+    free(a.drowned);
     return done;
 }
 
@@ -372,7 +415,8 @@ static int compare_ranks(const void *a, const void *b)
 }
 
 // A copy of the tree with every parent before its children: by height, which grows upstream.
-static bool sort_by_height(Terrain *terrain, Error *e)
+// Nodes to be dropped are left out.
+static bool sort_by_height(Terrain *terrain, const uint8_t *drop, int64_t *dropped, Error *e)
 {
     OutTree *tree = terrain->rivers, *sorted = out_tree_new(e);
     Rank *rank = memory_alloc(tree->count, sizeof *rank, e);
@@ -387,15 +431,21 @@ static bool sort_by_height(Terrain *terrain, Error *e)
     if (done) {
         qsort(rank, (size_t)tree->count, sizeof *rank, compare_ranks);
     }
+    *dropped = 0;
     for (int64_t k = 0; done && k < tree->count; k++) {
         int32_t i = rank[k].node, parent = tree->parent[i];
-        place[i] = (int32_t)k;
-        uplift[k] = terrain->uplift[i];
-        area[k] = terrain->area[i];
-        done = out_tree_add_node(sorted, tree->position[i], parent < 0 ? -1 : place[parent],
-                                 tree->birth[i],
-                                 parent < 0 ? tree->colony[i] : sorted->colony[place[parent]],
-                                 tree->id[i], e) >= 0;
+        if (drop[i] == 1) {
+            ++*dropped;
+            continue;
+        }
+        int64_t own = sorted->count;
+        int32_t below = parent < 0 ? -1 : place[parent];
+        place[i] = (int32_t)own;
+        uplift[own] = terrain->uplift[i];
+        area[own] = terrain->area[i];
+        done = out_tree_add_node(sorted, tree->position[i], below, tree->birth[i],
+                                 below < 0 ? tree->colony[i] : sorted->colony[below], tree->id[i],
+                                 e) >= 0;
     }
     if (done) {
         memcpy(terrain->uplift, uplift, sizeof *uplift * (size_t)tree->count);
@@ -416,6 +466,11 @@ bool terrain_profile(Terrain *terrain, const Run *run, int64_t *captures, Error 
     if (run_is_cancelled(run)) {
         return run_cancel_error(e);
     }
-    return count_areas(terrain, run, e) && ascend_all(terrain, captures, e) &&
-           sort_by_height(terrain, e);
+    int64_t dropped = 0;
+    uint8_t *drop = memory_alloc_zero(terrain->rivers->count, 1, e);
+    bool done = drop && count_areas(terrain, run, e) && ascend_all(terrain, drop, captures, e) &&
+                sort_by_height(terrain, drop, &dropped, e);
+    free(drop);
+    *captures += dropped;
+    return done;
 }

@@ -54,13 +54,13 @@ static Vec3 tinted(Vec3 color, float r, float g, float b)
 }
 
 // Beds of rock: where a level in the (gently tilted and folded) pile of beds lies in its cycle.
-static float bed_level(const SurfacePoint *point, float thickness)
+static float bed_level(const SurfacePoint *point, float thickness, Vec3 up)
 {
     Vec3 p = point->object_position;
     Vec3 q = vec3_scale(p, 0.011f / (0.1f * thickness));
     float fold =
         1.8f * noise_solid(vec3_scale(q, 0.12f), 51, NULL) + 0.35f * noise_solid(q, 52, NULL);
-    return (p.y + 0.05f * p.x + 0.03f * p.z) / thickness + fold;
+    return vec3_dot(p, up) / thickness + fold;
 }
 
 // A random number of each bed, running smoothly from bed to bed.
@@ -75,11 +75,13 @@ static Ground rock(const Material *m, const SurfacePoint *point, Vec3 color, flo
 {
     Relief rough = relief_at(point, 0.5f * scale, 7, 0.52f, 1.6f, 61);
     Relief cracks = relief_at(point, 0.13f * scale, 4, 0.6f, 0.45f, 71);
-    float level = bed_level(point, 0.32f * scale);
-    float seen = pattern_detail(0.32f * scale, point->footprint);
-    float tone = lerpf(0.5f, bed_tone(level + 0.2f * rough.value, 7), seen);
-    float fine = bed_tone(4.3f * level + 0.5f * rough.value, 9);
-    tone = lerpf(tone, fine, 0.4f * pattern_detail(0.08f * scale, point->footprint));
+    // Steeply tilted, folded beds, here plain to see and there lost in broken rock.
+    float level = bed_level(point, 0.32f * scale, vec3(0.62f, 0.55f, 0.35f));
+    float seen = pattern_detail(0.32f * scale, point->footprint) *
+                 smoothstepf(-0.25f, 0.5f, relief_at(point, 7.0f * scale, 3, 0.5f, 1.0f, 57).value);
+    float tone = lerpf(0.5f, bed_tone(level + 0.3f * rough.value, 7), 0.7f * seen);
+    float fine = bed_tone(4.3f * level + 0.6f * rough.value, 9);
+    tone = lerpf(tone, fine, 0.35f * seen * pattern_detail(0.08f * scale, point->footprint));
     Ground g = {.color = vec3_lerp(color, m->color2, clampf(1.4f * tone - 0.2f, 0.0f, 1.0f))};
     float shade = 1.0f + 0.22f * clampf(rough.value, -1.2f, 1.2f) -
                   0.30f * smoothstepf(0.1f, 0.6f, cracks.value);
@@ -87,7 +89,7 @@ static Ground rock(const Material *m, const SurfacePoint *point, Vec3 color, flo
     g.slope = vec3_scale(rough.slope, 0.11f * scale);
     g.slope = vec3_madd(g.slope, 0.02f * scale, cracks.slope);
     // Ledges: beds weather back between hard ones.
-    g.slope.y += seen * 1.1f * (tone - 0.5f);
+    g.slope.y += seen * 0.7f * (tone - 0.5f);
     return g;
 }
 
@@ -104,7 +106,7 @@ static Ground grass(const SurfacePoint *point, float scale, float wetness, float
 {
     Relief tufts = relief_at(point, 0.16f * scale, 6, 0.6f, 0.7f, 91);
     float dry = clampf(0.5f + 0.6f * tufts.value + 0.6f * altitude - 0.5f * wetness, 0.0f, 1.0f);
-    Vec3 lush = {0.052f, 0.082f, 0.022f}, straw = {0.125f, 0.112f, 0.045f};
+    Vec3 lush = {0.038f, 0.062f, 0.018f}, straw = {0.098f, 0.092f, 0.038f};
     Ground g = {.color = vec3_lerp(lush, straw, dry)};
     g.color = vec3_scale(g.color, 1.0f + 0.3f * clampf(tufts.value, -1.3f, 1.3f));
     g.slope = vec3_scale(tufts.slope, 0.02f * scale);
@@ -146,7 +148,7 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
         float cold = altitude + 0.09f * ragged +
                      0.10f * (point->geometric_normal.z < 0.0f ? -point->geometric_normal.z : 0.0f);
         float high = smoothstepf(m->snow_line - 0.05f, m->snow_line + 0.09f, cold);
-        float least = lerpf(0.80f, 0.52f, smoothstepf(m->snow_line, m->snow_line + 0.4f, cold));
+        float least = lerpf(0.70f, 0.42f, smoothstepf(m->snow_line, m->snow_line + 0.4f, cold));
         float held = smoothstepf(least, least + 0.07f, upright + 0.10f * fray.value);
         other = snow(point, scale);
         g = blend(g, &other, high * held);
@@ -161,7 +163,7 @@ void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade
     float upright = fabsf(point->geometric_normal.y);
     Relief rough = relief_at(point, 0.5f * scale, 8, 0.54f, 1.3f, 111);
     Relief rills = relief_at(point, 0.28f * scale, 5, 0.6f, 0.16f, 121); // run down the slopes
-    float level = bed_level(point, scale) + 0.05f * rough.value;
+    float level = bed_level(point, scale, vec3(0.05f, 1.0f, 0.03f)) + 0.05f * rough.value;
     float tone = bed_tone(level, 11);
     tone = lerpf(tone, bed_tone(3.7f * level, 13),
                  0.45f * pattern_detail(0.3f * scale, point->footprint));
