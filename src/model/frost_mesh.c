@@ -45,19 +45,33 @@ static float width_at(const OutTree *tree, const int32_t *node, int64_t count, i
     return radius * (1.0f - 0.6f * t * t) * random_range(key, 0.82f, 1.15f);
 }
 
+// Where the ring at place k stands. A side begins under its parent's flank, not under its rib.
+static Vec3 ring_center(const OutTree *tree, const int32_t *node, int64_t k)
+{
+    Vec3 p = tree->position[node[k]];
+    if (k > 0 || tree->parent[node[0]] < 0) {
+        return p;
+    }
+    Vec3 next = tree->position[node[1]];
+    float length = vec3_distance(p, next);
+    float share = length > 0.0f ? 0.55f * tree->radius[node[0]] / length : 0.0f;
+    return vec3_lerp(p, next, share < 0.8f ? share : 0.8f);
+}
+
 // The corners of the ring at place k. Blades of ice are not alike: ribs run a little to one side.
 static void add_ring(BladeMesh *b, const int32_t *node, int64_t count, int64_t k)
 {
     const OutTree *tree = b->tree;
     Vec3 normal = tree->normal[node[k]], along = direction_at(tree, node, count, k);
     Vec3 across = vec3_normalize(vec3_cross(along, normal));
+    Vec3 center = ring_center(tree, node, k);
     uint64_t key = random_key(tree->id[node[k]], 78);
     float width = width_at(tree, node, count, k);
     float height = width * b->params->relief * random_range(random_key(key, 0), 0.75f, 1.25f);
     float shift = random_range(random_key(key, 1), -0.12f, 0.12f);
     for (int i = 0; i < SECTION; i++) {
         float x = SECTION_ACROSS[i] + (i > 0 && i < SECTION - 1 ? shift : 0.0f);
-        Vec3 p = vec3_madd(tree->position[node[k]], x * width, across);
+        Vec3 p = vec3_madd(center, x * width, across);
         b->mesh->position[b->vertex++] = vec3_madd(p, SECTION_UP[i] * height, normal);
     }
 }
