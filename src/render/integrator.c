@@ -97,7 +97,7 @@ static void add_background(Path *path, PathResult *result)
         }
     }
     path_add_light(path, lights_background(path->tracer->lights, path->from.position,
-                                           path->ray.direction, path->bsdf_pdf));
+                                           path->ray.direction, path->bsdf_pdf, path->spread));
 }
 
 // From below, the surface of the water mirrors what does not pass it.

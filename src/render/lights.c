@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "render/clouds.h"
 #include "render/environment.h"
+#include "render/night.h"
 #include "render/sky.h"
 #include "render/warp.h"
 
@@ -88,6 +89,9 @@ static bool make_sky(Lights *lights, const Run *run, Error *e)
         if (lights->dome) {
             lights->clouds = make_clouds(lights);
         }
+        break;
+    case SKY_NIGHT:
+        lights->dome = night_dome(sky, &lights->sun, e);
         break;
     case SKY_ENVIRONMENT:
         lights->dome = environment_dome(sky, e);
@@ -385,18 +389,28 @@ const Water *lights_water(const Lights *lights)
     return lights->water;
 }
 
-// Above the water; shrink: see WaterPassage.
-static Vec3 background_above(const Lights *lights, Vec3 direction, float bsdf_pdf, float shrink,
-                             float sun_share)
+// What only the camera and mirrors see: clouds, stars, the face of the moon.
+static Vec3 seen_above(const Lights *lights, Vec3 direction, float spread)
 {
-    float pdf = 0.0f;
-    if (bsdf_pdf > 0.0f) {
-        pdf = dome_density(lights->dome, direction) * lights->share[lights->dome_index] * shrink;
+    const Sky *sky = &lights->world->sky;
+    Vec3 sum = clouds_before(&lights->clouds, direction, dome_lookup(lights->dome, direction));
+    bool covered = lights->sun_index >= 0 && sun_covers(&lights->sun, direction);
+    if (sky->kind == SKY_NIGHT && !covered) {
+        sum = vec3_add(sum, night_stars(sky, direction, spread));
     }
+    if (covered) {
+        float face = lights->sun.even ? night_moon_face(&lights->sun, direction) : 1.0f;
+        sum = vec3_madd(sum, face, sun_radiance(&lights->sun, direction));
+    }
+    return sum;
+}
+
+// As light, weighted; shrink: see WaterPassage.
+static Vec3 light_above(const Lights *lights, Vec3 direction, float bsdf_pdf, float shrink,
+                        float sun_share)
+{
+    float pdf = dome_density(lights->dome, direction) * lights->share[lights->dome_index] * shrink;
     Vec3 sum = vec3_scale(dome_lookup(lights->dome, direction), bsdf_weight(bsdf_pdf, pdf));
-    if (bsdf_pdf <= 0.0f) { // seen by the camera or in a mirror: no light sample stands against it
-        sum = clouds_before(&lights->clouds, direction, sum);
-    }
     if (lights->sun_index >= 0 && sun_covers(&lights->sun, direction)) {
         pdf = lights->share[lights->sun_index] / lights->sun.solid_angle * shrink;
         sum = vec3_madd(sum, bsdf_weight(bsdf_pdf, pdf) * sun_share,
@@ -416,7 +430,8 @@ static Vec3 glitter(const Lights *lights, Vec3 direction)
     return vec3_scale(lights->sun.radiance, share * lights->sun.solid_angle / solid_angle);
 }
 
-static Vec3 background_from_water(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf)
+static Vec3 background_from_water(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf,
+                                  float spread)
 {
     WaterPassage passage;
     bool eye = bsdf_pdf <= 0.0f;
@@ -429,26 +444,30 @@ static Vec3 background_from_water(const Lights *lights, Vec3 from, Vec3 directio
         return vec3_splat(0.0f);
     }
     Vec3 above = lights->constant;
-    if (lights->dome && eye) {
+    if (lights->dome && eye && lights->world->sky.kind == SKY_SUN_SKY) {
         above = clouds_before(&lights->clouds, passage.direction,
                               dome_lookup(lights->dome, passage.direction));
         above = vec3_add(above, glitter(lights, passage.direction));
+    } else if (lights->dome && eye) {
+        above = seen_above(lights, passage.direction, spread);
     } else if (lights->dome) {
-        above = background_above(lights, passage.direction, bsdf_pdf, passage.shrink,
-                                 water_caustic(lights->water, from));
+        above = light_above(lights, passage.direction, bsdf_pdf, passage.shrink,
+                            water_caustic(lights->water, from));
     }
     return vec3_scale(above, WATER_INDEX * WATER_INDEX * passage.share);
 }
 
-Vec3 lights_background(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf)
+Vec3 lights_background(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf,
+                       float spread)
 {
     if (water_covers(lights->water, from)) {
-        return background_from_water(lights, from, direction, bsdf_pdf);
+        return background_from_water(lights, from, direction, bsdf_pdf, spread);
     }
     if (!lights->dome) {
         return lights->constant;
     }
-    return background_above(lights, direction, bsdf_pdf, 1.0f, 1.0f);
+    return bsdf_pdf > 0.0f ? light_above(lights, direction, bsdf_pdf, 1.0f, 1.0f)
+                           : seen_above(lights, direction, spread);
 }
 
 Vec3 lights_emitted(const Lights *lights, int index, Vec3 origin, Vec3 direction, float distance,

@@ -66,8 +66,10 @@ bool lights_sample_chosen(const Lights *lights, const LightChoice *choice,
 // Radiance from beyond the geometry along direction. bsdf_pdf > 0: the density with which the
 // direction was drawn, when light sampling could have found the same; the result is weighted by
 // the power heuristic (Veach 1997). bsdf_pdf <= 0: unweighted.
-// from: where the direction was drawn, as water above it bends light.
-Vec3 lights_background(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf);
+// from: where the direction was drawn, as water above it bends light. spread: radians, over which
+// stars are smoothed.
+Vec3 lights_background(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf,
+                       float spread);
 
 // The water that the scene lies under; NULL where there is none.
 const Water *lights_water(const Lights *lights);

@@ -118,6 +118,9 @@ Vec3 sun_radiance(const Sun *sun, Vec3 direction)
     if (off >= sun->one_minus_cos) {
         return vec3_splat(0.0f);
     }
+    if (sun->even) {
+        return sun->radiance;
+    }
     float mu = sqrtf(1.0f - off / sun->one_minus_cos);
     return vec3_scale(sun->radiance, (0.4f + 0.6f * mu) / 0.8f);
 }

@@ -18,6 +18,7 @@ typedef struct Sun {
     float one_minus_cos; // of its angular radius
     Vec3 radiance;       // mean over the disc; 0 below the horizon
     float solid_angle;
+    bool even; // without limb darkening: the moon
 } Sun;
 
 // sky->kind must be SKY_SUN_SKY. The lower half of the dome is the ground: the horizon's haze that

@@ -30,6 +30,10 @@ World *world_new(Error *e)
                        .sun_strength = 1.0f,
                        .turbidity = 2.5f,
                        .ground_albedo = 0.2f,
+                       .moon_elevation = 35.0f,
+                       .moon_azimuth = 45.0f,
+                       .moon_size = 0.53f,
+                       .stars = 1.0f,
                        .strength = 1.0f,
                        .visible = true};
     return world;

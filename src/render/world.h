@@ -26,7 +26,7 @@ typedef struct FilmParams {
     float crop[4];     // x0, y0, x1, y1 in 0..1
 } FilmParams;
 
-typedef enum SkyKind { SKY_NONE, SKY_CONSTANT, SKY_SUN_SKY, SKY_ENVIRONMENT } SkyKind;
+typedef enum SkyKind { SKY_NONE, SKY_CONSTANT, SKY_SUN_SKY, SKY_ENVIRONMENT, SKY_NIGHT } SkyKind;
 
 typedef struct Sky {
     SkyKind kind;
@@ -39,10 +39,16 @@ typedef struct Sky {
     float ground_albedo; // grey, for light bounced into the sky
     float clouds; // SKY_SUN_SKY: share of the sky under thin clouds, 0..1; seen, but not cast as
                   // light
-    const char *file;    // SKY_ENVIRONMENT: latitude-longitude HDR, borrowed
-    float rotation;      // SKY_ENVIRONMENT: degrees about +Y
-    float strength;      // factor on all of it
-    bool visible;        // seen by camera rays; if not, the background is black with alpha 0
+    float moon;   // SKY_NIGHT: light of the full moon, 0 = none
+    float moon_elevation; // degrees above the horizon
+    float moon_azimuth;   // degrees from +Z toward +X
+    float moon_size;      // angular diameter, degrees
+    float stars;          // SKY_NIGHT: factor on their light
+    float city_glow;      // SKY_NIGHT: light of towns along the horizon
+    const char *file;     // SKY_ENVIRONMENT: latitude-longitude HDR, borrowed
+    float rotation;       // SKY_ENVIRONMENT: degrees about +Y
+    float strength;       // factor on all of it
+    bool visible;         // seen by camera rays; if not, the background is black with alpha 0
     float haze_distance; // m over which distant surfaces fade to 1/e into the sky's horizon colour;
                          // 0 = no haze
 } Sky;

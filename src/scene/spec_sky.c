@@ -4,18 +4,18 @@
 
 #define BIT(kind) (1u << (kind))
 
-static const cyaml_strval_t SKY_KINDS[] = {{"sun_sky", SKY_SUN_SKY},
-                                           {"environment", SKY_ENVIRONMENT},
-                                           {"constant", SKY_CONSTANT},
-                                           {"none", SKY_NONE},
-                                           {0}};
+static const cyaml_strval_t SKY_KINDS[] = {
+    {"sun_sky", SKY_SUN_SKY},   {"environment", SKY_ENVIRONMENT},
+    {"constant", SKY_CONSTANT}, {"night", SKY_NIGHT},
+    {"none", SKY_NONE},         {0}};
 
-#define SKY_ANY (BIT(SKY_SUN_SKY) | BIT(SKY_ENVIRONMENT) | BIT(SKY_CONSTANT))
+#define SKY_ANY (BIT(SKY_SUN_SKY) | BIT(SKY_ENVIRONMENT) | BIT(SKY_CONSTANT) | BIT(SKY_NIGHT))
 
 static const Key SKY_KEYS[] = {
     {KEY_OF(Sky, kind, "kind", KEY_ENUM), .names = SKY_KINDS,
      .doc = "sun_sky: a clear day computed from the sun's place; environment: an HDR panorama; "
-            "constant: one colour all around; none: black."},
+            "constant: one colour all around; night: stars and airglow, as an exposure for the "
+            "night shows them; none: black."},
     {KEY_OF(Sky, color, "color", KEY_COLOR), .kinds = BIT(SKY_CONSTANT), .high = 1e9,
      .unit = "W/(m^2 sr)", .doc = "Radiance of the whole sky."},
     {KEY_OF(Sky, sun_elevation, "sun_elevation", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = -10,
@@ -33,6 +33,18 @@ static const Key SKY_KEYS[] = {
      .doc = "Reflectance of the land below, which brightens the sky."},
     {KEY_OF(Sky, clouds, "clouds", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1,
      .doc = "Share of the sky under thin clouds; they are seen, but cast no shadow."},
+    {KEY_OF(Sky, moon, "moon", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .high = 1e6,
+     .doc = "Light of the full moon: 1 = a moonlit landscape, 0 = no moon."},
+    {KEY_OF(Sky, moon_elevation, "moon_elevation", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .low = -10,
+     .high = 90, .unit = "degrees", .doc = "Height of the moon above the horizon."},
+    {KEY_OF(Sky, moon_azimuth, "moon_azimuth", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .low = -360,
+     .high = 360, .unit = "degrees", .doc = "Where the moon stands, from +Z toward +X."},
+    {KEY_OF(Sky, moon_size, "moon_size", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .flags = KEY_ABOVE,
+     .high = 90, .unit = "degrees", .doc = "Angular diameter of the moon."},
+    {KEY_OF(Sky, stars, "stars", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .high = 1e6,
+     .doc = "Factor on the light of the stars."},
+    {KEY_OF(Sky, city_glow, "city_glow", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .high = 1e6,
+     .doc = "Light of towns along the horizon: 1 = a suburb, 0 = none."},
     {KEY_OF(Sky, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(SKY_ENVIRONMENT),
      .doc = "Latitude-longitude HDR panorama (.hdr, .exr), relative to the scene's folder."},
     {KEY_OF(Sky, rotation, "rotation", KEY_FLOAT), .kinds = BIT(SKY_ENVIRONMENT), .low = -360,

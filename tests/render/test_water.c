@@ -129,7 +129,7 @@ static void sampling_agrees_with_brute_force(void **state)
             float z = ((float)(i / M) + 0.5f) / M, r = sqrtf(1.0f - z * z);
             float a = 2.0f * PI_F * ((float)(i % M) + 0.5f) / M;
             Vec3 d = vec3(r * sinf(a), z, r * cosf(a));
-            Vec3 light = lights_background(lights, at.position, d, 1e15f);
+            Vec3 light = lights_background(lights, at.position, d, 1e15f, 1e-3f);
             brute += (double)(luminance(light) * z) * 2.0 * (double)PI_F / ((double)M * M);
         }
         ASSERT_NEAR(sampled / brute, 1.0, 0.015);

@@ -80,7 +80,7 @@ static const Case scenes[] = {
     {TREE "film: {denoise: maybe}\n", ":2:17: film.denoise is 'maybe'; it must be true or false"},
     {TREE "film: {filter: gausian}\n", ":2:16: film.filter is 'gausian'; did you mean 'gaussian'?"},
     {TREE "sky: {kind: sun}\n",
-     ":2:13: sky.kind is 'sun'; known: sun_sky, environment, constant, none"},
+     ":2:13: sky.kind is 'sun'; known: sun_sky, environment, constant, night, none"},
     {TREE "materials: [{name: x, color: \"#12345\"}]\n",
      ":2:30: materials.x.color is the text \"#12345\"; it must be [red, green, blue], one number "
      "for a grey, or \"#rrggbb\" in quotes"},
