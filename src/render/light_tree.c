@@ -238,6 +238,12 @@ float light_tree_power(const LightTree *tree)
 
 // ---- importance
 
+// Asked for every box on the way down the tree: fmaxf would be a call into libm each time.
+static inline float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
 // Sine of the half angle under which the ball about the box is seen, and its cosine; -1 from
 // inside.
 typedef struct Outline {
@@ -259,7 +265,7 @@ static inline float cos_less(float sin_a, float cos_a, float sin_b, float cos_b)
 
 static inline float sine_of(float cosine)
 {
-    return sqrtf(fmaxf(0.0f, 1.0f - cosine * cosine));
+    return sqrtf(larger(0.0f, 1.0f - cosine * cosine));
 }
 
 // Power over squared distance, times the best cosine at which the light may be left, times the
@@ -269,7 +275,7 @@ static float importance_at(const LightBounds *b, const LightReceiver *receiver)
     Outline ball = outline_of(&b->box);
     Vec3 to = vec3_sub(ball.center, receiver->position);
     float square = vec3_dot(to, to);
-    float result = b->power / fmaxf(fmaxf(square, ball.radius_squared), 1e-12f);
+    float result = b->power / larger(larger(square, ball.radius_squared), 1e-12f);
     if (square <= ball.radius_squared) {
         return result;
     }
@@ -289,7 +295,7 @@ static float importance_at(const LightBounds *b, const LightReceiver *receiver)
     if (vec3_dot(receiver->normal, receiver->normal) > 0.0f) {
         float arriving = vec3_dot(receiver->normal, to);
         float best = cos_less(sine_of(arriving), arriving, sin_ball, cos_ball);
-        result *= fmaxf(best, 0.0f);
+        result *= larger(best, 0.0f);
     }
     return result;
 }
@@ -301,11 +307,11 @@ static float importance_along(const LightBounds *b, const LightSegment *s)
     Outline ball = outline_of(&b->box);
     Vec3 to = vec3_sub(ball.center, s->origin);
     float along = vec3_dot(to, s->direction);
-    float square = fmaxf(fmaxf(vec3_dot(to, to) - along * along, ball.radius_squared), 1e-12f);
+    float square = larger(larger(vec3_dot(to, to) - along * along, ball.radius_squared), 1e-12f);
     float near = s->near - along, far = s->far - along;
     float sin_near = near / sqrtf(square + near * near);
     float sin_far = isinf(far) ? 1.0f : far / sqrtf(square + far * far);
-    return b->power * fmaxf(sin_far - sin_near, 1e-4f) / sqrtf(square);
+    return b->power * larger(sin_far - sin_near, 1e-4f) / sqrtf(square);
 }
 
 typedef struct Asker {
@@ -339,7 +345,7 @@ static int64_t sample(const LightTree *tree, Asker asker, float u, float *probab
         node = left ? first : second;
         chance *= left ? share : 1.0f - share;
         u = left ? u / share : (u - share) / (1.0f - share);
-        u = fminf(u, 0.99999994f);
+        u = u < 0.99999994f ? u : 0.99999994f;
     }
     *probability = chance;
     return chance > 0.0f && importance(&node->bounds, asker) > 0.0f ? node->light : -1;
