@@ -20,6 +20,7 @@ static const Kind *const KINDS[] = {
     &kind_terrain,
     &kind_vessels,
     &kind_venation,
+    &kind_fracture,
     // clang-format on
 };
 

@@ -11,5 +11,6 @@ extern const Kind kind_sculpture;
 extern const Kind kind_terrain;
 extern const Kind kind_vessels;
 extern const Kind kind_venation;
+extern const Kind kind_fracture;
 
 #endif

@@ -9,6 +9,7 @@
 #include "image/tonemap.h"
 #include "model/coral.h"
 #include "model/dla.h"
+#include "model/fracture.h"
 #include "model/frost.h"
 #include "model/ground.h"
 #include "model/lightning.h"
@@ -51,6 +52,7 @@ typedef struct SceneObject {
     SculptureParams *sculpture;
     TerrainParams *terrain;
     VenationParams *venation;
+    FractureParams *fracture;
     // material names, as far as the kind has use for them; NULL = the kind's built-in default
     char *material; // mesh, shape, ground; bark of a tree
     char *twig_material, *leaf_material, *grass_material;
@@ -58,6 +60,7 @@ typedef struct SceneObject {
     char *rime_material;                  // of frost
     char *polyp_material, *rock_material; // of corals
     char *vein_material;
+    char *inside_material; // of what is broken
 } SceneObject;
 
 typedef struct SceneTarget { // what a scene says of its own result

@@ -155,6 +155,8 @@ static const Key OBJECT_KEYS[] = {
      .doc = "Material of a terrain's lakes and rivers; left out: lake."},
     {KEY_OF(SceneObject, venation, "venation", KEY_POINTER), .table = &venation_table,
      .doc = "A leaf and its veins."},
+    {KEY_OF(SceneObject, fracture, "fracture", KEY_POINTER), .table = &fracture_table,
+     .doc = "A broken thing."},
     {KEY_OF(SceneObject, material, "material", KEY_TEXT),
      .doc = "Material of a mesh, a shape, the ground, or a tree's bark; left out: clay, clay, "
             "ground, bark."},
@@ -171,6 +173,8 @@ static const Key OBJECT_KEYS[] = {
      .doc = "Material of the rock that a coral grows on; left out: reef_rock."},
     {KEY_OF(SceneObject, grass_material, "grass_material", KEY_TEXT),
      .doc = "Material of the ground's grass; left out: grass."},
+    {KEY_OF(SceneObject, inside_material, "inside_material", KEY_TEXT),
+     .doc = "Material of the faces that broke; left out: broken."},
     {KEY_OF(SceneObject, vein_material, "vein_material", KEY_TEXT),
      .doc = "Material of veins; left out: vein."},
     {0},

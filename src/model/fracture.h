@@ -1,0 +1,46 @@
+// Fracture (the earlier paper, section 3.7.5): an out-tree over the base object's surface is a
+// network of cracks; the points of the base within a distance of it are removed, and the base falls
+// into pieces. A network of lines cuts nothing off, so the cracks are closed into cells
+// (tree/join.h) and swept inward to sheets, which are rough.
+#ifndef RAMIFY_MODEL_FRACTURE_H
+#define RAMIFY_MODEL_FRACTURE_H
+
+#include "mesh/geometry.h"
+#include "mesh/pieces.h"
+#include "model/element.h"
+#include "model/recipe.h"
+
+typedef struct FractureParams {
+    ElementParams element; // its envelope is the base; growth over it makes the cracks
+    int impacts;           // where cracks begin, spread over the surface
+    int64_t attractors;    // how many cracks, where growth.levels are left out
+    float hollow;          // m, thickness of the base's wall; 0 = solid
+    bool to_axis;     // cracks are swept to the vertical through the middle, else to the middle
+    float gap;        // m, width of the cracks; 0 = 0.012 of the largest extent
+    float roughness;  // of the broken faces: height over the largest extent
+    float weathering; // of the outside: height of its bumps over the largest extent
+    float explode;    // how far pieces are moved apart: 0.3 = by 0.3 of their way from the middle
+    float turn;       // degrees, by which pieces are turned at most
+    float missing;    // 0..1: share of the pieces that are gone
+    int resolution;   // voxels of the level set along the largest extent
+} FractureParams;
+
+typedef struct FractureMaterials {
+    int outside, inside; // inside: of the faces that broke
+} FractureMaterials;
+
+FractureParams fracture_params_default(void); // a ball of 1 m radius
+
+// The network of cracks on the surface.
+OutTree *fracture_grow(const FractureParams *params, const Recipe *recipe, Error *e);
+
+// The pieces where they were before they moved: closed surfaces. Volumes in m^3: of the base, and
+// of what was removed as cracks (both may be NULL).
+bool fracture_pieces(const OutTree *network, const FractureParams *params, const Recipe *recipe,
+                     MeshPieces *pieces, double *base, double *removed, Error *e);
+
+bool fracture_geometry(const OutTree *network, const FractureParams *params,
+                       const FractureMaterials *materials, int object, const Recipe *recipe,
+                       Geometry *geometry, Error *e);
+
+#endif

@@ -1,0 +1,42 @@
+// A broken thing as a kind of object.
+#include "scene/kinds.h"
+
+#include <stdio.h>
+
+static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+{
+    return fracture_grow(object->fracture, recipe, e);
+}
+
+static bool place(const Placing *p, const OutTree *tree, Error *e)
+{
+    const SceneObject *object = p->object;
+    FractureMaterials materials = {.outside = placing_material(p, object->material, "clay"),
+                                   .inside =
+                                       placing_material(p, object->inside_material, "broken")};
+    return fracture_geometry(tree, object->fracture, &materials, p->index, &p->recipe,
+                             &p->world->geometry, e);
+}
+
+static void describe(const SceneObject *object, char *text, size_t size)
+{
+    snprintf(text, size, ", %d impacts", object->fracture->impacts);
+}
+
+static int64_t attractors(const SceneObject *object)
+{
+    const FractureParams *params = object->fracture;
+    int64_t sum = params->element.level_count == 0 ? params->attractors : 0;
+    for (int i = 0; i < params->element.level_count; i++) {
+        sum += params->element.levels[i].attractors;
+    }
+    return sum;
+}
+
+const Kind kind_fracture = {.key = "fracture",
+                            .offset = offsetof(SceneObject, fracture),
+                            .materials = {"material", "inside_material"},
+                            .grow = grow,
+                            .place = place,
+                            .describe = describe,
+                            .attractors = attractors};

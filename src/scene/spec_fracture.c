@@ -1,0 +1,46 @@
+// Broken things.
+#include "model/fracture.h"
+#include "scene/spec_check.h"
+
+static const Key FRACTURE_KEYS[] = {
+    {KEY_OF(FractureParams, impacts, "impacts", KEY_INT), .low = 1, .high = 10000,
+     .doc = "Where cracks begin, spread over the surface."},
+    {KEY_OF(FractureParams, attractors, "attractors", KEY_INT64), .low = 1, .high = 1e5,
+     .doc = "How many cracks, where growth.levels are left out: more make smaller pieces."},
+    {KEY_OF(FractureParams, hollow, "hollow", KEY_FLOAT), .high = 1e6, .unit = "m",
+     .doc = "Thickness of the base's wall; 0 = solid."},
+    {KEY_OF(FractureParams, to_axis, "to_axis", KEY_BOOL),
+     .doc = "Cracks run inward to the vertical through the middle, as in a vase; else to the "
+            "middle."},
+    {KEY_OF(FractureParams, gap, "gap", KEY_FLOAT), .high = 1e6, .unit = "m",
+     .doc = "Width of the cracks: what is nearer to them is removed; 0 = 0.012 of the largest "
+            "extent. At least 3 voxels."},
+    {KEY_OF(FractureParams, roughness, "roughness", KEY_FLOAT), .high = 0.2,
+     .doc = "Height of the bumps of the broken faces, over the largest extent."},
+    {KEY_OF(FractureParams, weathering, "weathering", KEY_FLOAT), .high = 0.2,
+     .doc = "Height of the bumps of the outside, over the largest extent."},
+    {KEY_OF(FractureParams, explode, "explode", KEY_FLOAT), .high = 100,
+     .doc = "How far pieces are moved apart: 0.3 = by 0.3 of their way from the middle."},
+    {KEY_OF(FractureParams, turn, "turn", KEY_FLOAT), .high = 180, .unit = "degrees",
+     .doc = "By how much pieces are turned at most."},
+    {KEY_OF(FractureParams, missing, "missing", KEY_FLOAT), .high = 1,
+     .doc = "Share of the pieces that are gone."},
+    {KEY_OF(FractureParams, resolution, "resolution", KEY_INT), .low = 16, .high = 1000,
+     .doc = "Voxels of the level set along the largest extent."},
+    ELEMENT_ROWS(FractureParams),
+    {0},
+};
+
+static void fracture_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(FractureParams *)out = fracture_params_default();
+}
+
+const Table fracture_table = {.name = "fracture",
+                              .doc = "A thing split along a network of cracks grown over it.",
+                              .size = sizeof(FractureParams),
+                              .keys = FRACTURE_KEYS,
+                              .defaults = fracture_defaults,
+                              .check = check_envelope};
