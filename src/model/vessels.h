@@ -24,7 +24,7 @@ typedef struct VesselsParams {
     MurrayLaw law;
     float gap; // least distance between an artery and a vein, in radii of the finest vessels
     bool turn; // stand daughters at Murray's angles
-    float curve_radius; // m: vessels thinner than this are traced as round curves; 0 = automatic
+    float curve_radius; // m: vessels thicker than this get a skin; 0 = all are round curves
     int skin_levels;
 } VesselsParams;
 

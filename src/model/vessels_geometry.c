@@ -23,36 +23,24 @@ OutTree *vessels_colony(const OutTree *tree, int32_t colony, Error *e)
     return mine;
 }
 
-static float thickest(const OutTree *tree)
-{
-    float radius = 0.0f;
-    for (int64_t i = 0; i < tree->count; i++) {
-        radius = tree->radius[i] > radius ? tree->radius[i] : radius;
-    }
-    return radius;
-}
-
 // Thick vessels as a smooth skin, thin ones as round curves.
 static bool add_colony(const OutTree *tree, const VesselsParams *params, int material, int object,
                        Geometry *geometry, const Run *run, Error *e)
 {
     SkinParams skin = skin_params_default();
     skin.levels = params->skin_levels;
-    skin.min_radius = params->curve_radius > 0.0f ? params->curve_radius : 0.12f * thickest(tree);
-    Mesh *mesh = skin_tree(tree, &skin, run, e);
-    if (!mesh ||
-        !geometry_add(
-            geometry,
-            (Part){.kind = PART_MESH, .mesh = mesh, .material = material, .object = object}, e)) {
-        return false;
+    skin.min_radius = params->curve_radius > 0.0f ? params->curve_radius : INFINITY;
+    Part part = {.material = material, .object = object};
+    if (params->curve_radius > 0.0f) {
+        part.kind = PART_MESH;
+        part.mesh = skin_tree(tree, &skin, run, e);
+        if (!part.mesh || !geometry_add(geometry, part, e)) {
+            return false;
+        }
     }
-    CurveSet *curves = skin_curves(tree, skin.min_radius, &skin, e);
-    return curves && geometry_add(geometry,
-                                  (Part){.kind = PART_CURVES,
-                                         .curves = curves,
-                                         .material = material,
-                                         .object = object},
-                                  e);
+    part = (Part){.kind = PART_CURVES, .material = material, .object = object};
+    part.curves = skin_curves(tree, skin.min_radius, &skin, e);
+    return part.curves && geometry_add(geometry, part, e);
 }
 
 bool vessels_geometry(const OutTree *tree, const VesselsParams *params,

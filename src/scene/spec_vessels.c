@@ -23,7 +23,8 @@ static const Key VESSELS_KEYS[] = {
      .doc = "Turn what lies below each fork until the daughters stand at Murray's angles, as far "
             "as all of it stays in the organ and clear of the other tree."},
     {KEY_OF(VesselsParams, curve_radius, "curve_radius", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "Vessels thinner than this are traced as round curves; 0 = an eighth of the thickest."},
+     .doc = "Vessels thinner than this are traced as round curves, others get a skin; 0 = all are "
+            "curves."},
     {KEY_OF(VesselsParams, skin_levels, "skin_levels", KEY_INT), .high = 4,
      .doc = "Subdivision levels of the thick vessels' skin."},
     ELEMENT_ROWS(VesselsParams),
