@@ -29,7 +29,7 @@ static Vec3 find_hilum(const Mesh *surface, Vec3 *middle)
 bool vessels_plant_stem(OutTree *tree, const VesselsParams *params, const Envelope *envelope,
                         int32_t colony, float root_radius, float reach, uint64_t seed, Error *e)
 {
-    enum { PIECES = 10 };
+    enum { PIECES = 16 };
     Vec3 middle, inlet = find_hilum(envelope_surface(envelope), &middle);
     if (params->inlet.x != 0.0f || params->inlet.y != 0.0f || params->inlet.z != 0.0f) {
         inlet = params->inlet;
@@ -43,7 +43,7 @@ bool vessels_plant_stem(OutTree *tree, const VesselsParams *params, const Envelo
     up = vec3_dot(up, up) > 1e-4f ? vec3_normalize(up) : vec3_perpendicular(inward);
     float aside = params->veins ? 0.7f * root_radius * (1.0f + params->vein_radius) : 0.0f;
     Vec3 entry = vec3_madd(inlet, colony == VESSELS_ARTERIES ? aside : -aside, up);
-    float outside = 0.2f * reach, depth = vec3_distance(inlet, middle);
+    float outside = 0.45f * reach, depth = vec3_distance(inlet, middle);
     depth = depth < 0.22f * reach ? depth : 0.22f * reach;
     uint64_t id = random_key(seed, (uint64_t)colony);
     int64_t parent = -1;
