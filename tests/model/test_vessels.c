@@ -215,7 +215,7 @@ static void skins_and_curves_come_out_of_both(void **state)
     VesselsMaterials materials = {3, 4};
     for (int skinned = 0; skinned < 2; skinned++) {
         Geometry geometry = {0};
-        params.curve_radius = skinned ? 0.2f * tree->radius[0] : 0.0f;
+        params.curve_radius = skinned ? 0.5f * tree->radius[0] : 0.0f;
         assert_true(vessels_geometry(tree, &params, &materials, 0, &geometry, &run, NULL));
         assert_int_equal(geometry.count, skinned ? 4 : 2);
         assert_int_equal(geometry.part[0].material, 3);
