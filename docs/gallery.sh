@@ -39,3 +39,7 @@ sheet() {
 #       sheet figure-7 3x1
 #   fi
 
+still sculpture sculpture
+still dla dla
+still fracture fracture
+still venation venation
