@@ -60,8 +60,9 @@ static bool add_lights(World *world, const Scene *scene, Error *e)
 // ---- objects ----
 
 // FNV-1a, then mixed with the scene's seed: an object keeps its form when others come and go.
-static uint64_t object_seed(const Scene *scene, const SceneObject *object)
+uint64_t scene_object_seed(const Scene *scene, int index)
 {
+    const SceneObject *object = &scene->objects[index];
     uint64_t hash = 0xcbf29ce484222325ull;
     for (const char *c = object->name; *c; c++) {
         hash = (hash ^ (unsigned char)*c) * 0x100000001b3ull;
@@ -75,7 +76,8 @@ static Recipe make_recipe(const Scene *scene, const SceneObject *object, const R
                           char label[LABEL_SIZE])
 {
     snprintf(label, LABEL_SIZE, "object '%s'", object->name);
-    return (Recipe){object_seed(scene, object), label, scene->grow_to, run};
+    return (Recipe){scene_object_seed(scene, (int)(object - scene->objects)), label, scene->grow_to,
+                    run};
 }
 
 OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error *e)

@@ -25,6 +25,9 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
 HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, const Run *run,
                            Error *e);
 
+// The seed of object number index: its own, or one made from the scene's and its name.
+uint64_t scene_object_seed(const Scene *scene, int index);
+
 // Measures of object number index: of its out-tree, and its kind's own. One that neither grows nor
 // has anything to measure adds nothing.
 bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *list, Error *e);

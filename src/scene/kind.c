@@ -8,6 +8,7 @@
 static const Kind *const KINDS[] = {
     // clang-format off
     &kind_tree,
+    &kind_forest,
     &kind_ground,
     &kind_mesh,
     &kind_shape,

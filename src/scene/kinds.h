@@ -4,7 +4,8 @@
 
 #include "scene/kind.h"
 
-extern const Kind kind_tree, kind_ground, kind_mesh, kind_shape, kind_dla, kind_lightning;
+extern const Kind kind_tree, kind_forest, kind_ground, kind_mesh, kind_shape, kind_dla,
+    kind_lightning;
 extern const Kind kind_coral, kind_lsystem;
 extern const Kind kind_frost;
 extern const Kind kind_sculpture;

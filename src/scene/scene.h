@@ -10,6 +10,7 @@
 #include "model/coral.h"
 #include "model/dla.h"
 #include "model/fracture.h"
+#include "model/forest.h"
 #include "model/frost.h"
 #include "model/ground.h"
 #include "model/lightning.h"
@@ -40,6 +41,7 @@ typedef struct SceneObject {
     char *name;
     uint64_t seed; // 0 = from the scene's seed and the name
     TreeParams *tree;
+    ForestParams *forest;
     CoralParams *coral;
     LSystemPlantParams *lsystem;
     VesselsParams *vessels;

@@ -80,6 +80,7 @@ extern const Table sky_table, light_table, material_table,
     object_table;                 // spec_{sky,material,object}.c
 extern const Table medium_table;  // spec_medium.c
 extern const Table terrain_table; // spec_terrain.c
+extern const Table forest_table;  // spec_forest.c
 extern const Table tree_table, radii_table, leaves_table, skin_table; // spec_tree.c
 extern const Table dla_table;                                         // spec_dla.c
 extern const Table lightning_table;                                   // spec_lightning.c

@@ -132,6 +132,25 @@ bool out_tree_keep_nodes(OutTree *tree, const bool *keep, Error *e)
     return true;
 }
 
+bool out_tree_append(OutTree *tree, const OutTree *other, Error *e)
+{
+    int32_t base = (int32_t)tree->count;
+    if (!out_tree_reserve(tree, tree->count + other->count, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < other->count; i++) {
+        int64_t at = tree->count++;
+        tree->position[at] = other->position[i];
+        tree->parent[at] = other->parent[i] < 0 ? -1 : base + other->parent[i];
+        tree->birth[at] = other->birth[i];
+        tree->colony[at] = other->colony[i];
+        tree->radius[at] = other->radius[i];
+        tree->normal[at] = other->normal[i];
+        tree->id[at] = other->id[i];
+    }
+    return true;
+}
+
 int32_t out_tree_last_birth(const OutTree *tree)
 {
     int32_t last = 0;

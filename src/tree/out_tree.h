@@ -44,6 +44,9 @@ bool out_tree_keep_nodes(OutTree *tree, const bool *keep, Error *e);
 // its growth. Keeps the order; 1 or more changes nothing.
 bool out_tree_keep_births(OutTree *tree, float share, Error *e);
 
+// Adds all nodes of another out-tree after those of `tree`; its roots stay roots.
+bool out_tree_append(OutTree *tree, const OutTree *other, Error *e);
+
 // The last birth; 0 when there are no nodes.
 int32_t out_tree_last_birth(const OutTree *tree);
 

@@ -1,0 +1,27 @@
+// Where a forest's stands stand. Shared by forest.c and forest_geometry.c.
+#ifndef RAMIFY_MODEL_STAND_PLACES_H
+#define RAMIFY_MODEL_STAND_PLACES_H
+
+#include "model/forest.h"
+
+float forest_spacing(const ForestParams *params);      // m from trunk to trunk
+float forest_stand_radius(const ForestParams *params); // m
+
+// The nodes of one stand of a grown forest, moved to the origin; the caller frees it.
+OutTree *forest_stand(const OutTree *all, const ForestParams *params, int stand, Error *e);
+
+typedef struct StandPlaces {
+    Transform *place; // from a stand at the origin to its place on the land
+    int *stand;       // which one
+    int64_t count, place_capacity, stand_capacity;
+} StandPlaces;
+
+bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t seed,
+                       ForestLand *land, const void *user, Error *e);
+void stand_places_free(StandPlaces *places);
+
+// Rise of the land along x and z at (x, z), over h (m) to both sides.
+void stand_land_slope(ForestLand *land, const void *user, float x, float z, float h, float *dx,
+                      float *dz);
+
+#endif

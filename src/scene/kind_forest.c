@@ -1,0 +1,75 @@
+// A forest as a kind of object. It stands on the scene's ground, if there is one.
+#include "scene/kinds.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+{
+    return forest_grow(object->forest, recipe, e);
+}
+
+// The first ground of the scene; NULL = level land at height 0.
+typedef struct Land {
+    const GroundParams *ground;
+    uint64_t seed;
+} Land;
+
+static float land_height(const void *user, float x, float z)
+{
+    const Land *land = user;
+    return land->ground ? ground_height(land->ground, land->seed, x, z) : 0.0f;
+}
+
+static Land find_land(const Scene *scene)
+{
+    for (int i = 0; i < scene->object_count; i++) {
+        if (scene->objects[i].ground) {
+            return (Land){scene->objects[i].ground, scene_object_seed(scene, i)};
+        }
+    }
+    return (Land){0};
+}
+
+static bool place(const Placing *p, const OutTree *tree, Error *e)
+{
+    ForestMaterials materials = {.bark = placing_material(p, p->object->material, "bark"),
+                                 .twig = placing_material(p, p->object->twig_material, "twig"),
+                                 .leaf = placing_material(p, p->object->leaf_material, "leaf"),
+                                 .fern = placing_material(p, p->object->grass_material, "grass")};
+    Land land = find_land(p->scene);
+    return forest_geometry(tree, p->object->forest, &materials, p->index, p->recipe.seed,
+                           land_height, &land, &p->world->geometry, p->recipe.run, e);
+}
+
+static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+{
+    double gap;
+    measures_set_range(list, "radius_exponent", 1.8, 2.3);
+    measures_set_range(list, "branch_angle", 30.0, 70.0);
+    measures_set_range(list, "horton_number", 3.0, 5.0);
+    return forest_crown_gap(tree, object->forest, &gap, e) &&
+           measures_add(list, "crown_gap", gap, "m", (double)NAN, (double)NAN, e);
+}
+
+static void describe(const SceneObject *object, char *text, size_t size)
+{
+    const ForestParams *forest = object->forest;
+    snprintf(text, size, ", %g m, %d stands of %d trees", (double)forest->height, forest->stands,
+             forest->stand_trees);
+}
+
+static int64_t copies(const SceneObject *object)
+{
+    return object->forest->ferns + object->forest->leaves.max_count * object->forest->stands;
+}
+
+const Kind kind_forest = {
+    .key = "forest",
+    .offset = offsetof(SceneObject, forest),
+    .materials = {"material", "twig_material", "leaf_material", "grass_material"},
+    .grow = grow,
+    .place = place,
+    .measure = measure,
+    .describe = describe,
+    .copies = copies};

@@ -1,0 +1,57 @@
+// Forests.
+#include "model/forest.h"
+#include "scene/spec_check.h"
+
+static const Key FOREST_KEYS[] = {
+    {KEY_OF(ForestParams, height, "height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
+     .unit = "m", .doc = "Height of the tallest trees."},
+    {KEY_OF(ForestParams, spacing, "spacing", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "From trunk to trunk; 0 = a share of the height."},
+    {KEY_OF(ForestParams, crown, "crown", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1,
+     .doc = "Share of the height, from the top, that bears branches."},
+    {KEY_OF(ForestParams, stand_trees, "stand_trees", KEY_INT), .low = 1, .high = 1000,
+     .doc = "Trees of a stand: they grow together and share its light."},
+    {KEY_OF(ForestParams, stands, "stands", KEY_INT), .low = 1, .high = 1000,
+     .doc = "Different stands, which are repeated over the land."},
+    {KEY_OF(ForestParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e5,
+     .unit = "m", .doc = "How far the forest goes."},
+    {KEY_OF(ForestParams, center, "center", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Middle of the forest."},
+    {KEY_OF(ForestParams, glade, "glade", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc = "Radius of a glade; 0 = none."},
+    {KEY_OF(ForestParams, glade_center, "glade_center", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Middle of the glade, and of the ferns."},
+    {KEY_OF(ForestParams, density, "density", KEY_FLOAT), .high = 1,
+     .doc = "Share of the places that are taken."},
+    {KEY_OF(ForestParams, clumping, "clumping", KEY_FLOAT), .high = 1,
+     .doc = "0 = even, 1 = in woods with open land between."},
+    {KEY_OF(ForestParams, max_slope, "max_slope", KEY_FLOAT), .high = 89, .unit = "degrees",
+     .doc = "Nothing stands where the land is steeper."},
+    {KEY_OF(ForestParams, ferns, "ferns", KEY_INT64), .high = 1e9, .doc = "Ferns; 0 = none."},
+    {KEY_OF(ForestParams, fern_height, "fern_height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .unit = "m", .doc = "Height of the tallest ferns."},
+    {KEY_OF(ForestParams, fern_radius, "fern_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e5,
+     .unit = "m", .doc = "About the glade's middle that bears ferns."},
+    {KEY_OF(ForestParams, radii, "radii", KEY_GROUP), .table = &radii_table,
+     .doc = "Thickness of trunks and branches."},
+    {KEY_OF(ForestParams, leaves, "leaves", KEY_GROUP), .table = &leaves_table,
+     .doc = "The leaves of one stand."},
+    {KEY_OF(ForestParams, skin, "skin", KEY_GROUP), .table = &skin_table, .doc = "The surface."},
+    ELEMENT_ROWS(ForestParams),
+    {0},
+};
+
+static void forest_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(ForestParams *)out = forest_params_default();
+}
+
+const Table forest_table = {.name = "forest",
+                            .doc = "A forest: stands of trees grown together, competing for the "
+                                   "same light, set over the ground by the thousand.",
+                            .size = sizeof(ForestParams),
+                            .keys = FOREST_KEYS,
+                            .defaults = forest_defaults,
+                            .check = check_envelope};
