@@ -8,7 +8,6 @@
 static const Kind *const KINDS[] = {
     // clang-format off
     &kind_tree,
-    &kind_forest,
     &kind_ground,
     &kind_mesh,
     &kind_shape,
@@ -23,6 +22,7 @@ static const Kind *const KINDS[] = {
     &kind_venation,
     &kind_fracture,
     // clang-format on
+    &kind_forest,
 };
 
 int kind_count(void)
