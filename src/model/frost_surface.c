@@ -38,8 +38,9 @@ static bool fill_pane(const FrostParams *params, int64_t count, uint64_t seed, P
     rows = rows > 0 ? rows : 1;
     for (int64_t i = 0; i < columns * rows; i++) {
         uint64_t key = random_key(seed, (uint64_t)i);
-        float x = (float)(i % columns) + random_range(random_key(key, 0), 0.1f, 0.9f);
-        float y = (float)(i / columns) + random_range(random_key(key, 1), 0.1f, 0.9f);
+        int64_t row = i / columns, column = i % columns;
+        float x = (float)column + random_range(random_key(key, 0), 0.1f, 0.9f);
+        float y = (float)row + random_range(random_key(key, 1), 0.1f, 0.9f);
         Vec3 p = vec3_add(params->position, vec3((x / (float)columns - 0.5f) * params->width,
                                                  (y / (float)rows - 0.5f) * params->height, 0.0f));
         if (!points_add(points, p, vec3(0, 0, 1), key, e)) {
