@@ -43,3 +43,14 @@ still sculpture sculpture
 still dla dla
 still fracture fracture
 still venation venation
+# ---- vessels ----
+
+still figure-14 vessels-forks
+still vessels-organ vessels-organ
+still vessels-body vessels-body
+if is_wanted figure-15; then
+    for share in 0.15 0.6 0.8 1; do
+        panel vessels-body --grow-to $share --size 400x720
+    done
+    sheet figure-15 4x1
+fi

@@ -89,8 +89,9 @@ static bool add_measures(const OutTree *arteries, const OutTree *veins, const Mu
     int64_t terminals[2];
     for (int i = 0; i < 2; i++) {
         int32_t *children = vessel_child_counts(i == 0 ? arteries : veins, &terminals[i], e);
+        bool counted = children != NULL;
         free(children);
-        if (!children) {
+        if (!counted) {
             return false;
         }
     }

@@ -32,8 +32,9 @@ int32_t *vessel_child_counts(const OutTree *tree, int64_t *terminals, Error *e)
 static bool count_terminals(const OutTree *tree, int64_t *terminals, Error *e)
 {
     int32_t *children = vessel_child_counts(tree, terminals, e);
+    bool counted = children != NULL;
     free(children);
-    return children;
+    return counted;
 }
 
 static int64_t wanted_terminals(const VesselBed *bed)
@@ -329,18 +330,19 @@ static bool keep_marked(VesselTree *tree, bool *keep, Error *e)
 
 static bool clear_touching(VesselBed *bed, float gap, Error *e)
 {
+    const int count = bed->tree_count > 1 ? 2 : 1;
     SegmentGrid *grid[2] = {NULL, NULL};
     bool *keep[2] = {NULL, NULL};
     bool done = true;
-    for (int t = 0; done && t < bed->tree_count; t++) {
+    for (int t = 0; done && t < count; t++) {
         grid[t] = segment_grid_new(bed->trees[t].tree, e);
         keep[t] = memory_alloc(bed->trees[t].tree->count, sizeof *keep[t], e);
         done = grid[t] && keep[t];
     }
-    for (int t = 0; done && t < bed->tree_count; t++) {
-        clear_tree(bed, t, bed->tree_count > 1 ? grid[1 - t] : NULL, gap, keep[t]);
+    for (int t = 0; done && t < count; t++) {
+        clear_tree(bed, t, count > 1 ? grid[1 - t] : NULL, gap, keep[t]);
     }
-    for (int t = 0; done && t < bed->tree_count; t++) {
+    for (int t = 0; done && t < count; t++) {
         done = keep_marked(&bed->trees[t], keep[t], e);
     }
     for (int t = 0; t < 2; t++) {
@@ -383,7 +385,7 @@ static bool drop_terminal(const VesselTree *tree, int32_t *children, bool *keep,
 // Drops terminals here and there until `wanted` are left.
 static bool thin_out(VesselTree *tree, int64_t wanted, uint64_t seed, Error *e)
 {
-    int64_t terminals, count = 0, nodes = tree->tree->count;
+    int64_t terminals = 0, count = 0, nodes = tree->tree->count;
     int32_t *children = vessel_child_counts(tree->tree, &terminals, e);
     bool *keep = memory_alloc(nodes, sizeof *keep, e);
     Terminal *order = memory_alloc(terminals, sizeof *order, e);
@@ -425,9 +427,10 @@ static bool turn_both(VesselBed *bed, float gap, Error *e)
 
 bool vessel_bed_finish(VesselBed *bed, Error *e)
 {
+    const int count = bed->tree_count > 1 ? 2 : 1;
     MurrayLaw law = bed->params->law;
     float tip[2] = {0, 0}, gap = INFINITY;
-    for (int t = 0; t < bed->tree_count; t++) {
+    for (int t = 0; t < count; t++) {
         tip[t] = murray_tip_radius(law, bed->trees[t].root_radius, wanted_terminals(bed));
         gap = bed->params->gap * tip[t] < gap ? bed->params->gap * tip[t] : gap;
         out_tree_murray_radii(bed->trees[t].tree, law, tip[t]);
@@ -436,7 +439,7 @@ bool vessel_bed_finish(VesselBed *bed, Error *e)
     if (!clear_touching(bed, gap, e)) {
         return false;
     }
-    for (int t = 0; t < bed->tree_count; t++) {
+    for (int t = 0; t < count; t++) {
         uint64_t seed = random_key(bed->seed, 1000 + (uint64_t)t);
         if (!thin_out(&bed->trees[t], wanted_terminals(bed), seed, e)) {
             return false;
