@@ -50,7 +50,7 @@ still vessels-organ vessels-organ
 still vessels-body vessels-body
 if is_wanted figure-15; then
     for share in 0.15 0.6 0.8 1; do
-        panel vessels-body --grow-to $share --size 320x720
+        panel vessels-body --grow-to $share --size 400x720
     done
     sheet figure-15 4x1
 fi
