@@ -120,16 +120,11 @@ static double squared_distance(const double a[3], const double b[3])
     return x * x + y * y + z * z;
 }
 
-// Calls visit for each particle in the cell of p and those about it.
-#define FOR_NEIGHBOURS(grid, p, particle)                                                      \
-    for (Neighbours around = neighbours_of(grid, p); around.row < around.rows; around.row++)   \
-        for (int64_t x = around.low[0]; x <= around.high[0]; x++)                              \
-            for (int32_t particle = (grid)->head[row_start(grid, &around) + x]; particle >= 0; \
-                 particle = (grid)->next[particle])
-
+// The cells about a point, row by row, and the particles in them.
 typedef struct Neighbours {
     int64_t low[3], high[3];
     int64_t row, rows; // of cells along x
+    int64_t x;         // of the cell at hand
 } Neighbours;
 
 static Neighbours neighbours_of(const DlaGrid *grid, const double p[3])
@@ -152,6 +147,28 @@ static int64_t row_start(const DlaGrid *grid, const Neighbours *n)
     return index_of(grid, 0, 0, n->low[1] + n->row % rows, n->low[2] + n->row / rows);
 }
 
+// The next particle from this one on, which may be -1: the end of a cell's list.
+static int32_t next_particle(const DlaGrid *grid, Neighbours *n, int32_t particle)
+{
+    while (particle < 0) {
+        if (++n->x > n->high[0]) {
+            n->x = n->low[0];
+            if (++n->row >= n->rows) {
+                return -1;
+            }
+        }
+        particle = grid->head[row_start(grid, n) + n->x];
+    }
+    return particle;
+}
+
+static int32_t first_particle(const DlaGrid *grid, Neighbours *n, const double p[3])
+{
+    *n = neighbours_of(grid, p);
+    n->x = n->low[0];
+    return next_particle(grid, n, grid->head[row_start(grid, n) + n->x]);
+}
+
 double dla_grid_distance(DlaGrid *grid, const double p[3], int32_t *nearest)
 {
     *nearest = -1;
@@ -170,8 +187,9 @@ double dla_grid_distance(DlaGrid *grid, const double p[3], int32_t *nearest)
         return empty_distance(grid, level, p);
     }
     double least = grid->cell[0] * grid->cell[0];
-    FOR_NEIGHBOURS(grid, p, i)
-    {
+    Neighbours around;
+    for (int32_t i = first_particle(grid, &around, p); i >= 0;
+         i = next_particle(grid, &around, grid->next[i])) {
         double d2 = squared_distance(p, grid->position[i]);
         if (d2 < least || (d2 == least && i < *nearest)) {
             least = d2;
@@ -186,8 +204,9 @@ int32_t dla_grid_contact(const DlaGrid *grid, const double p[3], const double di
 {
     int32_t first = -1;
     double nearest = length;
-    FOR_NEIGHBOURS(grid, p, i)
-    {
+    Neighbours around;
+    for (int32_t i = first_particle(grid, &around, p); i >= 0;
+         i = next_particle(grid, &around, grid->next[i])) {
         // |p + t d - q| = 1, the smaller t
         double b = 0.0, c = squared_distance(p, grid->position[i]) - 1.0;
         for (int k = 0; k < 3; k++) {

@@ -151,6 +151,9 @@ static uint64_t slot_of(const BarGrid *grid, uint64_t cell)
 
 static bool make_table(BarGrid *grid, Error *e)
 {
+    if (grid->count == 0) {
+        return error_set(e, ERROR_INTERNAL, "bars without a cell");
+    }
     qsort(grid->entry, (size_t)grid->count, sizeof *grid->entry, compare_entries);
     uint64_t slots = 16;
     while (slots < 2 * (uint64_t)grid->count) {

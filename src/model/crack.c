@@ -110,9 +110,9 @@ static bool list_sheets(Crack *crack, Error *e)
     float reach = crack->params.known + 0.8660255f * crack->cell;
     for (int64_t c = 0; c < cells; c++) {
         crack->first[c] = count;
-        Vec3 index =
-            vec3((float)(c / (crack->size[1] * crack->size[2])),
-                 (float)(c / crack->size[2] % crack->size[1]), (float)(c % crack->size[2]));
+        int64_t z = c % crack->size[2], row = c / crack->size[2];
+        int64_t y = row % crack->size[1], x = row / crack->size[1];
+        Vec3 index = vec3((float)x, (float)y, (float)z);
         Vec3 middle = vec3_madd(crack->low, crack->cell, vec3_add(index, vec3_splat(0.5f)));
         for (int64_t i = 0; i < crack->sheet_count; i++) {
             const Sheet *s = &crack->sheet[i];

@@ -128,7 +128,7 @@ static bool join(Joining *joining, Error *e)
             }
         }
     }
-    int64_t from, to;
+    int64_t from = 0, to = 0;
     while (joining->params->all_one && find_gap(joining, &from, &to)) {
         if (!add_join(joining, from, to, e)) {
             return false;
@@ -158,10 +158,21 @@ typedef struct Place {
     int32_t node;
 } Place;
 
+static int compare_floats(float a, float b)
+{
+    return a < b ? -1 : (a > b);
+}
+
+static int compare_positions(Vec3 a, Vec3 b)
+{
+    int x = compare_floats(a.x, b.x), y = compare_floats(a.y, b.y);
+    return x != 0 ? x : (y != 0 ? y : compare_floats(a.z, b.z));
+}
+
 static int compare_places(const void *a, const void *b)
 {
     const Place *p = a, *q = b;
-    int order = memcmp(&p->position, &q->position, sizeof p->position);
+    int order = compare_positions(p->position, q->position);
     return order != 0 ? order : (p->node < q->node ? -1 : (p->node > q->node));
 }
 
@@ -181,7 +192,7 @@ bool out_tree_count_pieces(const OutTree *tree, int64_t *pieces, Error *e)
     if (done) {
         qsort(place, (size_t)tree->count, sizeof *place, compare_places);
         for (int64_t i = 1; i < tree->count; i++) {
-            if (memcmp(&place[i].position, &place[i - 1].position, sizeof place->position) == 0) {
+            if (compare_positions(place[i].position, place[i - 1].position) == 0) {
                 unite(piece, place[i].node, place[i - 1].node);
             }
         }
