@@ -147,10 +147,30 @@ static void count_nodes(void)
     }
 }
 
+// Ten million, once each, and the memory that this program has needed by then.
+static void grow_most(const char *yardstick)
+{
+    const int64_t count = 10000000;
+    PointSet *points = attractors(&sphere, count);
+    GrowReport report;
+    double one = grow(&sphere, points, 1, &report);
+    points_free(points);
+    printf("growth, 10,000,000 attractors, 1 thread: %lld nodes, %.2f s\n",
+           (long long)report.new_nodes, one);
+    if (yardstick) {
+        double other = yardstick_seconds(yardstick, count);
+        printf("  1 thread / yardstick            %6.2f   (at most 1.3; yardstick %.2f s)\n",
+               one / other, other);
+    }
+    printf("  memory                          %6.2f GB (at most 4)\n",
+           (double)memory_peak() * 1e-9);
+}
+
 int main(int argc, char **argv)
 {
     compare_threads(argc > 1 ? argv[1] : NULL);
     fit_exponent();
     count_nodes();
+    grow_most(argc > 1 ? argv[1] : NULL);
     return 0;
 }
