@@ -220,24 +220,6 @@ static Bolt make_bolt(const LightningParams *params, int number, uint64_t seed)
     return bolt;
 }
 
-// Appends all of `more`, which it frees; the ids stay.
-static bool append_tree(OutTree *tree, OutTree *more, Error *e)
-{
-    int64_t base = tree->count;
-    bool done = out_tree_reserve(tree, base + more->count, e);
-    for (int64_t i = 0; done && i < more->count; i++) {
-        int64_t parent = more->parent[i] < 0 ? -1 : base + more->parent[i];
-        int64_t node = out_tree_add_node(tree, more->position[i], parent, more->birth[i],
-                                         more->colony[i], more->id[i], e);
-        done = node >= 0;
-        if (done) {
-            tree->normal[node] = more->normal[i];
-        }
-    }
-    out_tree_free(more);
-    return done;
-}
-
 static bool grow_bolts(OutTree *tree, const LightningParams *params, uint64_t *strike_id,
                        const Recipe *recipe, Error *e)
 {
@@ -245,15 +227,10 @@ static bool grow_bolts(OutTree *tree, const LightningParams *params, uint64_t *s
         Bolt bolt = make_bolt(params, i, recipe->seed);
         OutTree *one =
             lightning_grow_bolt(&bolt, strike_id + (int64_t)i * params->ground_points, recipe, e);
-        int32_t last = 0;
-        for (int64_t k = 0; one && k < one->count; k++) {
-            last = one->birth[k] > last ? one->birth[k] : last;
-        }
-        if (one && !lightning_add_streamers(one, &bolt, last, e)) {
-            out_tree_free(one);
-            one = NULL;
-        }
-        if (!one || !append_tree(tree, one, e)) {
+        bool done = one && lightning_add_streamers(one, &bolt, out_tree_last_birth(one), e) &&
+                    out_tree_append(tree, one, e);
+        out_tree_free(one);
+        if (!done) {
             return false;
         }
     }

@@ -177,38 +177,23 @@ static void set_births(OutTree *tree, const Bolt *bolt, float *distance)
     }
 }
 
-// Drops nodes and all that they bear: what is born after the strike (the return stroke ends all
-// growth) and side branches that touch the ground. keep: scratch, one a node.
-static void drop_late(OutTree *tree, const Bolt *bolt, int32_t strike_birth, uint8_t *keep,
-                      int32_t *place)
+// Keeps the ways to the strikes (on_way); of the rest, drops what is born after the last strike
+// (the return stroke ends all growth) and side branches that touch the ground.
+static bool drop_late(OutTree *tree, const Bolt *bolt, int32_t strike_birth, bool *on_way, Error *e)
 {
-    int64_t count = 0;
     for (int64_t i = 0; i < tree->count; i++) {
-        int32_t parent = tree->parent[i];
         float left = vec3_dot(vec3_sub(bolt->strike, tree->position[i]), bolt->axis);
         bool late = tree->birth[i] > strike_birth || left < 0.04f * bolt->height;
-        keep[i] |= parent < 0 || (keep[parent] && !late);
-        place[i] = (int32_t)count;
-        if (!keep[i]) {
-            continue;
-        }
-        tree->position[count] = tree->position[i];
-        tree->parent[count] = parent < 0 ? -1 : place[parent];
-        tree->birth[count] = tree->birth[i];
-        tree->colony[count] = tree->colony[i];
-        tree->radius[count] = tree->radius[i];
-        tree->normal[count] = tree->normal[i];
-        tree->id[count++] = tree->id[i];
+        on_way[i] = on_way[i] || !late;
     }
-    tree->count = count;
+    return out_tree_keep_nodes(tree, on_way, e);
 }
 
 static bool finish_bolt(OutTree *tree, const Bolt *bolt, const uint64_t *strike_id, Error *e)
 {
-    uint8_t *keep = memory_alloc_zero(tree->count, sizeof *keep, e);
-    int32_t *place = memory_alloc(tree->count, sizeof *place, e);
+    bool *on_way = memory_alloc_zero(tree->count, sizeof *on_way, e);
     float *distance = memory_alloc(tree->count, sizeof *distance, e);
-    bool done = keep && place && distance;
+    bool done = on_way && distance;
     if (done) {
         set_births(tree, bolt, distance);
         int32_t strike_birth = 0;
@@ -217,15 +202,14 @@ static bool finish_bolt(OutTree *tree, const Bolt *bolt, const uint64_t *strike_
                 if (tree->id[i] == strike_id[s]) {
                     strike_birth = tree->birth[i] > strike_birth ? tree->birth[i] : strike_birth;
                     for (int32_t k = (int32_t)i; k >= 0; k = tree->parent[k]) {
-                        keep[k] = 1;
+                        on_way[k] = true;
                     }
                 }
             }
         }
-        drop_late(tree, bolt, strike_birth, keep, place);
+        done = drop_late(tree, bolt, strike_birth, on_way, e);
     }
-    free(keep);
-    free(place);
+    free(on_way);
     free(distance);
     return done;
 }

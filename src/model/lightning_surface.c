@@ -119,6 +119,25 @@ static bool find_ends(const OutTree *tree, int bolts, uint64_t *end_id, Error *e
     return done;
 }
 
+// Drops what leads through the air or the body, across an armpit: nodes that were not found on the
+// surface, and jumps. What is left may skip a dent, as discharges do.
+static bool drop_strays(OutTree *tree, const Skin *skin, float size, Error *e)
+{
+    bool *keep = memory_alloc(tree->count, sizeof *keep, e);
+    if (!keep) {
+        return false;
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        float off = envelope_distance(skin->envelope, tree->position[i]);
+        float jump = parent < 0 ? 0.0f : vec3_distance(tree->position[i], tree->position[parent]);
+        keep[i] = parent < 0 || (off < skin->probe && off > -skin->probe && jump < 0.05f * size);
+    }
+    bool done = out_tree_keep_nodes(tree, keep, e);
+    free(keep);
+    return done;
+}
+
 static OutTree *finish(OutTree *tree, const LightningParams *params, const Skin *skin, float size,
                        const Recipe *recipe, Error *e)
 {
@@ -138,6 +157,10 @@ static OutTree *finish(OutTree *tree, const LightningParams *params, const Skin 
         tree = NULL;
     }
     free(end_id);
+    if (tree && !drop_strays(tree, skin, size, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
     float lift = params->lift > 0.0f ? params->lift : 2.0f * core;
     for (int64_t i = 0; tree && i < tree->count; i++) {
         tree->position[i] = vec3_madd(tree->position[i], lift, tree->normal[i]);
