@@ -54,3 +54,14 @@ if is_wanted figure-15; then
     done
     sheet figure-15 4x1
 fi
+still lsystem-tree lsystem-tree
+if is_wanted coral-figure-2; then
+    panel coral-figure-2 --size 640x480
+    panel coral-figure-2-b --size 640x480
+    panel coral-figure-2 --size 640x480 --set objects.coral.coral.rule=mean
+    panel coral-figure-2 --size 640x480 --set objects.coral.coral.rule=mean --set objects.coral.coral.colonies=2 \
+        --set objects.coral.coral.size=0.52 --set objects.coral.coral.height=0.6
+    sheet coral-figure-2 2x2
+fi
+still coral-reef coral-reef
+still coral-staghorn coral-staghorn

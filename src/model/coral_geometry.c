@@ -84,7 +84,7 @@ static CrustParams crust_params(const CoralParams *p, uint64_t seed)
 {
     bool massive = p->form == CORAL_MASSIVE;
     return (CrustParams){.thickness = 1.3f * p->tip_radius,
-                         .reach = 1.5f * p->length,
+                         .reach = (massive ? 2.5f : 1.5f) * p->length,
                          .seam = 0.35f * p->length_tip,
                          .pale = (massive ? 0.03f : 0.025f) * p->size,
                          .lump = (massive ? 0.10f : 0.05f) * p->size,
