@@ -273,8 +273,8 @@ bool growth_is_last_order(const Growth *growth, int32_t node)
     return limit > 0 && growth->tree->parent[node] >= 0 && growth->state[node].order >= limit;
 }
 
-// The coral paper, steps b-d: each direction that owns attractors makes one child, toward their mean
-// and as far as their mean growth distance.
+// The coral paper, steps b-d: each direction that owns attractors makes one child, toward their
+// mean and as far as their mean growth distance.
 static int make_string(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
 {
     const ColonizeParams *params = growth->params;
@@ -321,7 +321,7 @@ int growth_make_children(const Growth *growth, const Grower *grower, const Pull 
     if (pull->count == 0 || (lateral && is_suppressed(growth, next_child_id(growth, grower, 0)))) {
         return 0;
     }
-    return rule == GROW_SNAP ? make_snap(growth, grower, pull, child)
-                             : make_child(growth, grower, pull, NULL, growth->params->step, 0,
-                                          child);
+    return rule == GROW_SNAP
+               ? make_snap(growth, grower, pull, child)
+               : make_child(growth, grower, pull, NULL, growth->params->step, 0, child);
 }

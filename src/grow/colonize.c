@@ -352,8 +352,8 @@ static float distance_to_root(const Growth *growth, int64_t attractor)
     return sqrtf(least);
 }
 
-// Each attractor's own growth distance (the coral paper, step c): between the user's two lengths, by
-// its distance from the nearest root as a share of the largest.
+// Each attractor's own growth distance (the coral paper, step c): between the user's two lengths,
+// by its distance from the nearest root as a share of the largest.
 static bool prepare_string(Growth *growth, Error *e)
 {
     const ColonizeParams *p = growth->params;

@@ -10,12 +10,12 @@
 #include "tree/out_tree.h"
 
 typedef enum GrowRule {
-    GROW_MEAN,   // one child a step along the mean pull (E6-7)
-    GROW_SNAP,   // the nearest reached attractor itself becomes the node (E fig. 5-6, J 3.3); what
-                 // bends the other rules' directions makes attractors that way count as nearer
+    GROW_MEAN,    // one child a step along the mean pull (E6-7)
+    GROW_SNAP,    // the nearest reached attractor itself becomes the node (E fig. 5-6, J 3.3); what
+                  // bends the other rules' directions makes attractors that way count as nearer
     GROW_SECTORS, // pulls binned by angle about the heading; at most one child a sector, ever
-    GROW_STRING   // directions that an L-system string picks; each owns the attractors nearest to it
-                  // in angle, within half a group (the coral paper, steps a-f)
+    GROW_STRING // directions that an L-system string picks; each owns the attractors nearest to it
+                // in angle, within half a group (the coral paper, steps a-f)
 } GrowRule;
 
 typedef enum FieldMode {
@@ -50,13 +50,13 @@ typedef struct ColonizeParams {
     int max_order;      // orders of branching: sides of sides ...; 0 = no limit. What continues its
                         // parent (first child; GROW_SECTORS: forward sector) keeps its order; a
                         // root's children all have order 0
-    bool new_orders; // orders count from the nodes there are at first, all of which have order 0
+    bool new_orders;    // orders count from the nodes there are at first, all of which have order 0
     const GrowString *string; // GROW_STRING: a node without children stands at its start
     float regularity; // GROW_STRING: share of the string's own direction in a child's; 0 = the mean
                       // of what the direction owns, as in the paper
-    float length_near, length_far; // GROW_STRING, m: growth distance of the attractors next to their
-                                   // root and of the farthest; 0 = step
-    float apical;       // apical dominance 0..1: probability that a lateral child is suppressed
+    float length_near, length_far; // GROW_STRING, m: growth distance of the attractors next to
+                                   // their root and of the farthest; 0 = step
+    float apical; // apical dominance 0..1: probability that a lateral child is suppressed
     uint64_t seed;
     int32_t first_step; // birth of the first new nodes is first_step + 1
     int64_t max_steps;  // 0 = no limit

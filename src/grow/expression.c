@@ -37,10 +37,12 @@ typedef struct Token {
 } Token;
 
 static const Token BINARY[] = {
-    {"||", OP_OR, 1},         {"&&", OP_AND, 2},           {"<=", OP_LESS_EQUAL, 3},
-    {">=", OP_GREATER_EQUAL, 3}, {"==", OP_EQUAL, 3},      {"!=", OP_NOT_EQUAL, 3},
-    {"<", OP_LESS, 3},        {">", OP_GREATER, 3},        {"+", OP_ADD, 4},
-    {"-", OP_SUBTRACT, 4},    {"*", OP_MULTIPLY, 5},       {"/", OP_DIVIDE, 5},
+    {"||", OP_OR, 1},         {"&&", OP_AND, 2},
+    {"<=", OP_LESS_EQUAL, 3}, {">=", OP_GREATER_EQUAL, 3},
+    {"==", OP_EQUAL, 3},      {"!=", OP_NOT_EQUAL, 3},
+    {"<", OP_LESS, 3},        {">", OP_GREATER, 3},
+    {"+", OP_ADD, 4},         {"-", OP_SUBTRACT, 4},
+    {"*", OP_MULTIPLY, 5},    {"/", OP_DIVIDE, 5},
     {"^", OP_POWER, 7},
 };
 
@@ -116,8 +118,10 @@ static bool read_variable(Compiler *c)
     const char *start = r->at;
     char name[NAME_SIZE];
     if (!reader_name(r, name)) {
-        return reader_fail(r, c->e, "'%.1s' starts no number, name or '('; an expression is "
-                                    "wanted", *r->at ? r->at : " ");
+        return reader_fail(r, c->e,
+                           "'%.1s' starts no number, name or '('; an expression is "
+                           "wanted",
+                           *r->at ? r->at : " ");
     }
     for (int i = 0; i < c->names->count; i++) {
         if (strcmp(name, c->names->name[i]) == 0) {
@@ -125,8 +129,10 @@ static bool read_variable(Compiler *c)
         }
     }
     r->at = start;
-    return reader_fail(r, c->e, "nothing is called '%s' here; name a parameter of the rule's left "
-                                "side or a constant", name);
+    return reader_fail(r, c->e,
+                       "nothing is called '%s' here; name a parameter of the rule's left "
+                       "side or a constant",
+                       name);
 }
 
 static bool read_primary(Compiler *c)

@@ -95,8 +95,7 @@ static bool read_module(Builder *b, const ModuleString *modules, int64_t place, 
     if (symbol == '[' || symbol == ']') {
         return bracket(b, symbol, place, e);
     }
-    turtle_turn(&b->now.frame, symbol,
-                (float)module_parameter(modules, place, 0, (double)degrees));
+    turtle_turn(&b->now.frame, symbol, (float)module_parameter(modules, place, 0, (double)degrees));
     return true;
 }
 
@@ -162,9 +161,8 @@ bool grow_string_init(GrowString *string, const ModuleString *modules, float deg
 {
     *string = (GrowString){0};
     Builder b = {.string = string, .now = {0, STRAIGHT}};
-    bool done = add(string, (GrowDirection){.heading = {1, 0, 0}, .normal = {0, 1, 0},
-                                            .length = 1.0f},
-                    e);
+    bool done =
+        add(string, (GrowDirection){.heading = {1, 0, 0}, .normal = {0, 1, 0}, .length = 1.0f}, e);
     for (int64_t i = 0; done && i < modules->count; i++) {
         done = read_module(&b, modules, i, degrees, e);
     }

@@ -1,5 +1,5 @@
-// What an L-system string means to growth (the coral paper, step b): each F is a direction in which a
-// node may grow, + - & ^ \ / | turn it, [ ] branch. The string as a tree of directions: a node
+// What an L-system string means to growth (the coral paper, step b): each F is a direction in which
+// a node may grow, + - & ^ \ / | turn it, [ ] branch. The string as a tree of directions: a node
 // that stands at an F may grow into the F's that follow it.
 #ifndef RAMIFY_GROW_GROW_STRING_H
 #define RAMIFY_GROW_GROW_STRING_H
@@ -22,7 +22,8 @@ typedef struct GrowString {
 } GrowString;
 
 // degrees: of turns without parameter. ERROR_INPUT for brackets that do not match, an f (a branch
-// cannot jump), a $ (it does not know the vertical), no F at all, or more than MAX_SECTORS directions from one node.
+// cannot jump), a $ (it does not know the vertical), no F at all, or more than MAX_SECTORS
+// directions from one node.
 bool grow_string_init(GrowString *string, const ModuleString *modules, float degrees, Error *e);
 void grow_string_clear(GrowString *string);
 

@@ -184,9 +184,9 @@ static bool read_probability(Reader *r, const Grammar *grammar, Rule *rule, Erro
     rule->has_probability = true;
     rule->probability = read ? expression_value(&x, grammar->value) : 0.0;
     expression_clear(&x);
-    return read && ((rule->probability > 0.0 && isfinite(rule->probability)) ||
-                    reader_fail(r, e, "the probability is %g; it must be above 0",
-                                rule->probability));
+    return read &&
+           ((rule->probability > 0.0 && isfinite(rule->probability)) ||
+            reader_fail(r, e, "the probability is %g; it must be above 0", rule->probability));
 }
 
 static bool read_rule(Reader *r, Grammar *grammar, Error *e)
@@ -260,13 +260,16 @@ static bool read_grammar(const char *text, Grammar *grammar, Error *e)
     Reader r = {text, text, "the L-system's rules"};
     for (skip_to_line(&r); *r.at; skip_to_line(&r)) {
         bool constant;
-        if (!read_constant(&r, grammar, &constant, e) || (!constant && !read_rule(&r, grammar, e))) {
+        if (!read_constant(&r, grammar, &constant, e) ||
+            (!constant && !read_rule(&r, grammar, e))) {
             return false;
         }
         reader_skip_blanks(&r);
         if (!ends_rule(*r.at)) {
-            return reader_fail(&r, e, "'%.1s' does not belong here; end the rule with ';' or a new "
-                                      "line", r.at);
+            return reader_fail(&r, e,
+                               "'%.1s' does not belong here; end the rule with ';' or a new "
+                               "line",
+                               r.at);
         }
     }
     return true;
@@ -358,8 +361,8 @@ static bool copy_module(const ModuleString *from, int64_t place, ModuleString *t
     return true;
 }
 
-static bool rewrite(const Grammar *grammar, const ModuleString *from, ModuleString *to, uint64_t key,
-                    int generation, int64_t most, Error *e)
+static bool rewrite(const Grammar *grammar, const ModuleString *from, ModuleString *to,
+                    uint64_t key, int generation, int64_t most, Error *e)
 {
     double values[MOST_NAMES + MODULE_MOST_PARAMETERS];
     memcpy(values, grammar->value, sizeof values);

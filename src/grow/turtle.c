@@ -107,8 +107,8 @@ static int64_t add_node(Drawing *d, Vec3 position, int64_t parent, Error *e)
                               : random_key(d->params->seed, (uint64_t)d->roots++);
     int32_t birth = parent >= 0 ? tree->birth[parent] + 1 : 0;
     int64_t node = out_tree_add_node(tree, position, parent, birth, 0, id, e);
-    if (node < 0 || !memory_reserve(&d->children, &d->children_capacity, node + 1,
-                                    sizeof *d->children, e)) {
+    if (node < 0 ||
+        !memory_reserve(&d->children, &d->children_capacity, node + 1, sizeof *d->children, e)) {
         return -1;
     }
     d->children[node] = 0;
@@ -181,7 +181,8 @@ static bool interpret(Drawing *d, int64_t place, Error *e)
     case ']':
         return pop(d, place, e);
     case '!':
-        d->now.width = (float)module_parameter(d->string, place, 0, (double)(d->now.width * p->shrink));
+        d->now.width =
+            (float)module_parameter(d->string, place, 0, (double)(d->now.width * p->shrink));
         return true;
     default:
         break;

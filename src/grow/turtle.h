@@ -41,9 +41,9 @@ typedef struct TurtleParams {
 
 TurtleParams turtle_params_default(void); // step 1 m, angle 30 degrees, nothing else
 
-// Draws the string as an out-tree: a node at each end of an F, roots where drawing starts anew after
-// an f. Births count the F's from the root. ERROR_INPUT for brackets that do not match and for
-// strings that draw nothing.
+// Draws the string as an out-tree: a node at each end of an F, roots where drawing starts anew
+// after an f. Births count the F's from the root. ERROR_INPUT for brackets that do not match and
+// for strings that draw nothing.
 OutTree *turtle_draw(const ModuleString *string, const TurtleParams *params, const Run *run,
                      Error *e);
 

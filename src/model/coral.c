@@ -54,9 +54,11 @@ static int boulder(const CoralParams *p, uint64_t seed, Shape *shapes, int most)
     for (int i = 0; i < lumps && count < most; i++) {
         uint64_t key = random_key(seed, (uint64_t)i);
         float s, c, y = ((float)i + 0.3f) / (float)lumps, across = sqrtf(1.0f - y * y);
-        exact_sincos((float)i * GOLDEN_ANGLE + random_range(random_key(key, 1), -0.4f, 0.4f), &s, &c);
+        exact_sincos((float)i * GOLDEN_ANGLE + random_range(random_key(key, 1), -0.4f, 0.4f), &s,
+                     &c);
         float size = random_range(random_key(key, 2), 0.3f, 0.5f) * r;
-        Vec3 at = vec3(c * across * (r - 0.9f * size), y * 0.62f * h, s * across * (r - 0.9f * size));
+        Vec3 at =
+            vec3(c * across * (r - 0.9f * size), y * 0.62f * h, s * across * (r - 0.9f * size));
         shapes[count++] = ellipsoid(vec3_add(p->position, at),
                                     vec3(size, 0.8f * size * h / r + 0.1f * size, size));
     }
@@ -91,9 +93,8 @@ static Envelope *room(const CoralParams *p, const Run *run, Error *e)
         shapes[count++] = ellipsoid(vec3_add(foot, vec3(0, middle, 0)), vec3(r, half, r));
     }
     if (p->form == CORAL_BRANCHING) { // nothing below the ground
-        shapes[count] = (Shape){.kind = SHAPE_HALF_SPACE,
-                                .op = SHAPE_DIFFERENCE,
-                                .transform = transform_identity()};
+        shapes[count] = (Shape){
+            .kind = SHAPE_HALF_SPACE, .op = SHAPE_DIFFERENCE, .transform = transform_identity()};
         shapes[count++].transform.m[1][3] = p->position.y + 0.06f * p->size;
     }
     EnvelopeParams params = {shapes, count, p->size / 64.0f};
@@ -168,8 +169,9 @@ static bool plant_upright(Growing *g, int colony, Error *e)
     stem += flat ? 0.0f : 0.06f * p->size;
     int64_t node = plant(g->tree, at, vec3(0, 0, 1), colony, g->recipe->seed, e);
     float s, c;
-    exact_sincos(flat ? 0.0f : 2.0f * PI_F * random_unit(random_key(g->recipe->seed, 90 + (uint64_t)colony)),
-                 &s, &c);
+    exact_sincos(
+        flat ? 0.0f : 2.0f * PI_F * random_unit(random_key(g->recipe->seed, 90 + (uint64_t)colony)),
+        &s, &c);
     for (int i = 0; node >= 0 && i < pieces; i++) {
         at.y += stem / (float)pieces;
         uint64_t id = out_tree_child_id(g->tree->id[node], 0);
@@ -200,7 +202,8 @@ static bool plant_on_rock(Growing *g, const PointSet *points, Error *e)
                 best = k;
             }
         }
-        if (plant(g->tree, points->position[best], points->normal[best], i, g->recipe->seed, e) < 0) {
+        if (plant(g->tree, points->position[best], points->normal[best], i, g->recipe->seed, e) <
+            0) {
             return false;
         }
     }
@@ -217,7 +220,8 @@ static ColonizeParams colonize_params(const Growing *g, double spacing)
     c.noise = p->noise;
     c.tropism = vec3(0, p->form == CORAL_BRANCHING ? 0.12f * p->light : 0.0f, 0);
     // a table's plate is as good as a surface: its attractors' normals point up
-    c.on_surface = p->form == CORAL_TABLE || p->form == CORAL_ENCRUSTING || p->form == CORAL_MASSIVE;
+    c.on_surface =
+        p->form == CORAL_TABLE || p->form == CORAL_ENCRUSTING || p->form == CORAL_MASSIVE;
     c.length_near = p->length;
     c.length_far = p->length_tip;
     c.sector_angle = p->group;

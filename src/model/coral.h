@@ -1,7 +1,7 @@
 // Corals (Horiuchi et al., growth rules and territorial battle): an L-system string says where a
-// colony may branch, attractors (light and room) say where it can, and colonies that share them stop
-// where another was first. Branching and table forms grow in space, fans in a plane, encrusting and
-// massive ones over a rock, which they cover with a crust.
+// colony may branch, attractors (light and room) say where it can, and colonies that share them
+// stop where another was first. Branching and table forms grow in space, fans in a plane,
+// encrusting and massive ones over a rock, which they cover with a crust.
 #ifndef RAMIFY_MODEL_CORAL_H
 #define RAMIFY_MODEL_CORAL_H
 
@@ -35,23 +35,23 @@ typedef struct PolypParams {
 typedef struct CoralParams {
     CoralForm form;
     CoralRule rule;
-    Vec3 position; // m: of the middle of the colonies, on the sea floor
-    float size;    // m: width of one colony
-    float height;  // m; 0 = the form's own share of the size
-    int colonies;  // that compete for the same room
-    float spread;  // m: radius of the circle they stand on; 0 = 0.42 of the size
-    int64_t attractors;        // a colony; 0 = the form's own
-    char *axiom, *rules;       // the L-system; NULL = the form's own; borrowed
-    int generations;           // of the string; 0 = the form's own
-    float angle;               // degrees, of turns; 0 = the form's own
-    float group;               // degrees, of a direction's group; 0 = the form's own
-    float regularity;          // 0..1; -1 = the form's own. See ColonizeParams
-    float noise;               // Gaussian, on each direction; -1 = the form's own
-    float length, length_tip;  // m: growth distance at the root, and farthest from it; 0 = auto
-    float light;               // 0..1: how much more room to grow there is above than below
-    float tip_radius;          // m; 0 = the form's own share of the size
-    float exponent;            // of the radii: 4 keeps branches nearly as thick as their tips
-    float pale;                // m from a growing tip (or margin) that are pale; 0 = 4 tip radii
+    Vec3 position;            // m: of the middle of the colonies, on the sea floor
+    float size;               // m: width of one colony
+    float height;             // m; 0 = the form's own share of the size
+    int colonies;             // that compete for the same room
+    float spread;             // m: radius of the circle they stand on; 0 = 0.42 of the size
+    int64_t attractors;       // a colony; 0 = the form's own
+    char *axiom, *rules;      // the L-system; NULL = the form's own; borrowed
+    int generations;          // of the string; 0 = the form's own
+    float angle;              // degrees, of turns; 0 = the form's own
+    float group;              // degrees, of a direction's group; 0 = the form's own
+    float regularity;         // 0..1; -1 = the form's own. See ColonizeParams
+    float noise;              // Gaussian, on each direction; -1 = the form's own
+    float length, length_tip; // m: growth distance at the root, and farthest from it; 0 = auto
+    float light;              // 0..1: how much more room to grow there is above than below
+    float tip_radius;         // m; 0 = the form's own share of the size
+    float exponent;           // of the radii: 4 keeps branches nearly as thick as their tips
+    float pale;               // m from a growing tip (or margin) that are pale; 0 = 4 tip radii
     PolypParams polyps;
     Shape *base; // of encrusting and massive forms: the rock; empty = a boulder of the size
     int base_count;
@@ -79,7 +79,7 @@ bool coral_geometry(const OutTree *tree, const CoralParams *params, const CoralM
 typedef struct CoralMeasures {
     double branch_thickness; // m, mean diameter over the nodes
     double branch_spacing;   // m, mean distance from a tip to the nearest other
-    double seam;             // m, least distance between nodes of different colonies; NAN = one colony
+    double seam; // m, least distance between nodes of different colonies; NAN = one colony
 } CoralMeasures;
 
 bool coral_measure(const OutTree *tree, CoralMeasures *measures, Error *e);

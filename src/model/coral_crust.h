@@ -25,13 +25,13 @@ typedef struct CrustPoint {
 
 CrustPoint crust_at(const OutTree *tree, const CrustParams *params, Vec3 p);
 
-// crust_at every vertex of the rock, which must have normals; the caller frees it. The same bits for
-// any run->threads.
+// crust_at every vertex of the rock, which must have normals; the caller frees it. The same bits
+// for any run->threads.
 CrustPoint *crust_points(const Mesh *rock, const OutTree *tree, const CrustParams *params,
                          const Run *run, Error *e);
 
-// One colony's crust: the rock's surface raised to it, its margin a hair below the rock. Births tell
-// the nearness of the margin. Empty (no faces) where the colony covers nothing.
+// One colony's crust: the rock's surface raised to it, its margin a hair below the rock. Births
+// tell the nearness of the margin. Empty (no faces) where the colony covers nothing.
 Mesh *crust_mesh(const Mesh *rock, const CrustPoint *points, int32_t colony, Error *e);
 
 #endif

@@ -52,12 +52,10 @@ static Mesh *branches(const OutTree *tree, const CoralParams *p, const Run *run,
 
 static bool add_mesh(Geometry *geometry, Mesh *mesh, int material, int object, Error *e)
 {
-    return mesh && geometry_add(geometry,
-                                (Part){.kind = PART_MESH,
-                                       .mesh = mesh,
-                                       .material = material,
-                                       .object = object},
-                                e);
+    return mesh &&
+           geometry_add(
+               geometry,
+               (Part){.kind = PART_MESH, .mesh = mesh, .material = material, .object = object}, e);
 }
 
 // The rock: its surface knobbly and eaten into by weather; `depth` (m) is that of its hollows.
@@ -108,9 +106,13 @@ static bool add_colony(Mesh *mesh, float variation, const CoralParams *p,
         mesh_free(mesh);
         return false;
     }
-    Part part = {.kind = PART_MESH, .mesh = mesh, .material = materials->coral, .object = object,
+    Part part = {.kind = PART_MESH,
+                 .mesh = mesh,
+                 .material = materials->coral,
+                 .object = object,
                  .instance = memory_alloc(1, sizeof(Transform), e),
-                 .variation = memory_alloc(1, sizeof(float), e), .instance_count = 1};
+                 .variation = memory_alloc(1, sizeof(float), e),
+                 .instance_count = 1};
     if (!part.instance || !part.variation) {
         mesh_free(mesh);
         free(part.instance);
@@ -127,8 +129,8 @@ static bool add_crusts(const OutTree *tree, const CoralParams *p, const CoralMat
                        int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e)
 {
     Envelope *base = coral_base(p, seed, run, e);
-    Mesh *rock = base ? weathered(envelope_surface(base), 0.035f * p->size, random_key(seed, 12), e)
-                      : NULL;
+    Mesh *rock =
+        base ? weathered(envelope_surface(base), 0.035f * p->size, random_key(seed, 12), e) : NULL;
     envelope_free(base);
     CrustParams params = crust_params(p, seed);
     CrustPoint *points = rock ? crust_points(rock, tree, &params, run, e) : NULL;
@@ -140,8 +142,8 @@ static bool add_crusts(const OutTree *tree, const CoralParams *p, const CoralMat
             mesh_free(mesh);
         } else if (mesh) {
             float variation = random_unit(random_key(seed, 50 + (uint64_t)c));
-            done = add_colony(mesh, variation, p, materials, object, random_key(seed, 60 + (uint64_t)c),
-                              geometry, run, e);
+            done = add_colony(mesh, variation, p, materials, object,
+                              random_key(seed, 60 + (uint64_t)c), geometry, run, e);
         }
     }
     free(points);

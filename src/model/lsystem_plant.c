@@ -9,10 +9,11 @@
 // Monopodial and sympodial forks by divergence angles, bent by gravity (The Algorithmic Beauty of
 // Plants, figure 2.8): a trunk that forks in three, branches that fork again.
 static const char TREE_AXIOM[] = "!(1)F(1.2)/(45)A";
-static const char TREE_RULES[] = "d1 = 94.74; d2 = 132.63; a = 18.95; l = 1.109; w = 1.732\n"
-                                 "A -> !(w)F(0.5)[&(a)F(0.5)A]/(d1)[&(a)F(0.5)A]/(d2)[&(a)F(0.5)A]\n"
-                                 "F(x) -> F(x*l)\n"
-                                 "!(x) -> !(x*w)";
+static const char TREE_RULES[] =
+    "d1 = 94.74; d2 = 132.63; a = 18.95; l = 1.109; w = 1.732\n"
+    "A -> !(w)F(0.5)[&(a)F(0.5)A]/(d1)[&(a)F(0.5)A]/(d2)[&(a)F(0.5)A]\n"
+    "F(x) -> F(x*l)\n"
+    "!(x) -> !(x*w)";
 
 LSystemPlantParams lsystem_plant_params_default(void)
 {
@@ -49,8 +50,7 @@ static void scale_to(OutTree *tree, float height, Vec3 position)
     float scale = height > 0.0f && top > 0.0f ? height / top : 1.0f;
     Vec3 foot = tree->position[0];
     for (int64_t i = 0; i < tree->count; i++) {
-        tree->position[i] =
-            vec3_madd(position, scale, vec3_sub(tree->position[i], foot));
+        tree->position[i] = vec3_madd(position, scale, vec3_sub(tree->position[i], foot));
     }
 }
 

@@ -8,17 +8,17 @@
 #include "model/tree.h"
 
 typedef struct LSystemPlantParams {
-    Vec3 position;        // m, of the root
-    float height;         // m: the drawing is scaled to it; 0 = as the turtle draws it
-    char *axiom, *rules;  // NULL = a tree of the book, figure 2.7 a; borrowed
+    Vec3 position;       // m, of the root
+    float height;        // m: the drawing is scaled to it; 0 = as the turtle draws it
+    char *axiom, *rules; // NULL = a tree of the book, figure 2.7 a; borrowed
     int generations;
-    float angle;          // degrees, of turns that name none
-    float step;           // m, of an F(1)
-    Vec3 tropism;         // the vector that segments bend toward
-    float elasticity;     // radians a segment across it
-    float noise;          // degrees, of every turn
-    float radius;         // m, at the root; 0 = 0.02 of the height
-    RadiiParams radii;    // used when the string sets no widths (!)
+    float angle;       // degrees, of turns that name none
+    float step;        // m, of an F(1)
+    Vec3 tropism;      // the vector that segments bend toward
+    float elasticity;  // radians a segment across it
+    float noise;       // degrees, of every turn
+    float radius;      // m, at the root; 0 = 0.02 of the height
+    RadiiParams radii; // used when the string sets no widths (!)
     LeavesParams leaves;
     SkinningParams skin;
 } LSystemPlantParams;

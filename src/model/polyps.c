@@ -12,9 +12,9 @@ enum { AGES = 5, SIDES = 10, TRIES = 6 };
 
 // Outer wall, rim, inner wall, floor: radius and height as shares of the rim's radius and of the
 // cup's height; how much younger than the skin it looks.
-static const float PROFILE[][3] = {{0.98f, -0.30f, 0.0f}, {0.94f, 0.35f, 0.0f}, {0.98f, 0.82f, 0.2f},
-                                   {0.93f, 0.98f, 0.5f},  {0.80f, 1.00f, 0.5f}, {0.64f, 0.90f, 0.3f},
-                                   {0.50f, 0.55f, -0.3f}, {0.22f, 0.42f, -0.5f}};
+static const float PROFILE[][3] = {
+    {0.98f, -0.30f, 0.0f}, {0.94f, 0.35f, 0.0f}, {0.98f, 0.82f, 0.2f},  {0.93f, 0.98f, 0.5f},
+    {0.80f, 1.00f, 0.5f},  {0.64f, 0.90f, 0.3f}, {0.50f, 0.55f, -0.3f}, {0.22f, 0.42f, -0.5f}};
 enum { RINGS = sizeof PROFILE / sizeof PROFILE[0] };
 
 Mesh *polyp_cup(float height, float youth, Error *e)
@@ -85,7 +85,8 @@ static int64_t cell_of(float x, float spacing)
 
 static bool is_free(const Spread *s, Vec3 p)
 {
-    int64_t x = cell_of(p.x, s->spacing), y = cell_of(p.y, s->spacing), z = cell_of(p.z, s->spacing);
+    int64_t x = cell_of(p.x, s->spacing), y = cell_of(p.y, s->spacing),
+            z = cell_of(p.z, s->spacing);
     for (int64_t k = 0; k < 27; k++) {
         int64_t b = bucket_of(s, x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1);
         for (int32_t i = s->bucket[b]; i >= 0; i = s->next[i]) {
@@ -103,9 +104,9 @@ static bool put(Spread *s, Place place, Error *e)
         !memory_reserve(&s->next, &s->next_capacity, s->count + 1, sizeof *s->next, e)) {
         return false;
     }
-    int64_t b = bucket_of(s, cell_of(place.position.x, s->spacing),
-                          cell_of(place.position.y, s->spacing),
-                          cell_of(place.position.z, s->spacing));
+    int64_t b =
+        bucket_of(s, cell_of(place.position.x, s->spacing), cell_of(place.position.y, s->spacing),
+                  cell_of(place.position.z, s->spacing));
     s->next[s->count] = s->bucket[b];
     s->bucket[b] = (int32_t)s->count;
     s->place[s->count++] = place;
@@ -193,7 +194,8 @@ static double area_of(const Mesh *mesh)
 static Transform cup_frame(const Place *place, const PolypPlaces *places, uint64_t key)
 {
     float s, c;
-    float lean = places->lean * (1.0f - 0.7f * place->youth) * random_range(random_key(key, 2), 0.8f, 1.15f);
+    float lean =
+        places->lean * (1.0f - 0.7f * place->youth) * random_range(random_key(key, 2), 0.8f, 1.15f);
     exact_sincos(lean * RADIANS_PER_DEGREE, &s, &c);
     Vec3 along = vec3_madd(place->along, -vec3_dot(place->along, place->normal), place->normal);
     bool known = vec3_dot(along, along) > 1e-6f;

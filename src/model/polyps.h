@@ -20,7 +20,8 @@ typedef struct PolypPlaces {
 bool polyps_add(const Mesh *skin, const PolypPlaces *places, int material, int object,
                 Geometry *geometry, const Run *run, Error *e);
 
-// One cup about +Y, open at the top, of unit rim diameter; youth: its births (0..1), the rim's more.
+// One cup about +Y, open at the top, of unit rim diameter; youth: its births (0..1), the rim's
+// more.
 Mesh *polyp_cup(float height, float youth, Error *e);
 
 #endif

@@ -1,5 +1,5 @@
-// Living coral: corallites (a raised ring about a dark cup, one beside the other), and the age of the
-// tissue, pale where it is young.
+// Living coral: corallites (a raised ring about a dark cup, one beside the other), and the age of
+// the tissue, pale where it is young.
 #include "render/pattern.h"
 #include "render/pattern_noise.h"
 
@@ -50,7 +50,8 @@ void pattern_corallite(const Material *m, const SurfacePoint *point, PatternShad
         float length = fmaxf(vec3_length(across), 0.3f), slope;
         float height = ring(cell.border / length, &slope);
         float cup = smoothstepf(0.2f, 0.36f, cell.border / length);
-        float value = 0.62f + 0.5f * height - 0.12f * cup + 0.16f * (noise_unit(cell.cell, 3) - 0.5f);
+        float value =
+            0.62f + 0.5f * height - 0.12f * cup + 0.16f * (noise_unit(cell.cell, 3) - 0.5f);
         color = vec3_lerp(color, vec3_scale(color, value), detail);
         Vec3 gradient = vec3_scale(across, slope / (length * scale));
         shade->normal =

@@ -2,7 +2,6 @@
 #include "render/pattern.h"
 #include "render/pattern_noise.h"
 
-
 #include <math.h>
 #include <stddef.h>
 
@@ -34,8 +33,8 @@ void pattern_sand(const Material *m, const SurfacePoint *point, PatternShade *sh
                            clampf(0.35f - 0.3f * height * strength + 0.35f * patch, 0.0f, 1.0f));
     color = vec3_scale(color, 1.0f + 0.12f * grain - 0.25f * smoothstepf(0.45f, 0.75f, speck));
     float per_metre = 2.0f * PI_F / wavelength * slope * strength * m->pattern_depth;
-    Vec3 gradient = vec3(per_metre * (0.94f + 0.24f * bend.x), 0.0f,
-                         per_metre * (0.34f + 0.165f * bend.z));
+    Vec3 gradient =
+        vec3(per_metre * (0.94f + 0.24f * bend.x), 0.0f, per_metre * (0.34f + 0.165f * bend.z));
     gradient = vec3_madd(gradient, 0.10f * fine, grain_slope);
     shade->normal = pattern_tilt(shade->normal, gradient);
     shade->color = color;

@@ -13,7 +13,8 @@ static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
     CoralMaterials materials = {.coral = placing_material(p, p->object->material, "coral"),
-                                .polyp = placing_material(p, p->object->polyp_material, "coral_polyp"),
+                                .polyp =
+                                    placing_material(p, p->object->polyp_material, "coral_polyp"),
                                 .rock = placing_material(p, p->object->rock_material, "reef_rock")};
     return coral_geometry(tree, p->object->coral, &materials, p->index, p->recipe.seed,
                           &p->world->geometry, p->recipe.run, e);

@@ -2,12 +2,9 @@
 #include "model/coral.h"
 #include "scene/spec_check.h"
 
-static const cyaml_strval_t FORMS[] = {{"branching", CORAL_BRANCHING},
-                                       {"table", CORAL_TABLE},
-                                       {"fan", CORAL_FAN},
-                                       {"encrusting", CORAL_ENCRUSTING},
-                                       {"massive", CORAL_MASSIVE},
-                                       {0}};
+static const cyaml_strval_t FORMS[] = {
+    {"branching", CORAL_BRANCHING},   {"table", CORAL_TABLE},     {"fan", CORAL_FAN},
+    {"encrusting", CORAL_ENCRUSTING}, {"massive", CORAL_MASSIVE}, {0}};
 static const cyaml_strval_t RULES[] = {{"string", CORAL_STRING}, {"mean", CORAL_MEAN}, {0}};
 
 static const Key POLYP_KEYS[] = {

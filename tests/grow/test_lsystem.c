@@ -97,11 +97,7 @@ static void parameters_and_conditions_work(void **state)
                         "B(x) : x < 1 -> C\n"
                         "B(x) : x >= 1 -> B(x-1)";
     static const char *const wanted[] = {
-        "B(2)A(4,4)",
-        "B(1)B(4)A(1,0)",
-        "B(0)B(3)A(2,1)",
-        "CB(2)A(4,3)",
-        "CB(1)A(8,7)",
+        "B(2)A(4,4)", "B(1)B(4)A(1,0)", "B(0)B(3)A(2,1)", "CB(2)A(4,3)", "CB(1)A(8,7)",
     };
     for (int generation = 0; generation < 5; generation++) {
         ModuleString string = derive("B(2)A(4, 4)", rules, generation);
@@ -116,10 +112,10 @@ static void expressions_obey_the_usual_order(void **state)
     static const struct {
         const char *text;
         double value;
-    } cases[] = {{"1+2*3", 7},        {"(1+2)*3", 9},        {"2^3^2", 512},  {"-2^2", -4},
-                 {"8/4/2", 1},        {"7-4-2", 1},          {"1<2 && 2<1", 0}, {"1<2 || 2<1", 1},
-                 {"!(1==1)", 0},      {"1+1 == 2", 1},       {"3 != 3", 0},   {"k*2+1", 7},
-                 {"2*-3", -6},        {".5*4", 2},           {"1e2/10", 10},  {"5>=5", 1}};
+    } cases[] = {{"1+2*3", 7},   {"(1+2)*3", 9},  {"2^3^2", 512},    {"-2^2", -4},
+                 {"8/4/2", 1},   {"7-4-2", 1},    {"1<2 && 2<1", 0}, {"1<2 || 2<1", 1},
+                 {"!(1==1)", 0}, {"1+1 == 2", 1}, {"3 != 3", 0},     {"k*2+1", 7},
+                 {"2*-3", -6},   {".5*4", 2},     {"1e2/10", 10},    {"5>=5", 1}};
     const char name[1][NAME_SIZE] = {"k"};
     const double values[1] = {3};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -162,8 +158,8 @@ static void assert_refused(const char *axiom, const char *rules, int generations
     Run run = run_default();
     Error e = {0};
     ModuleString string;
-    LSystemParams params = {.axiom = axiom, .rules = rules, .generations = generations,
-                            .most_modules = 100000};
+    LSystemParams params = {
+        .axiom = axiom, .rules = rules, .generations = generations, .most_modules = 100000};
     assert_false(lsystem_derive(&params, &run, &string, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     if (strcmp(e.message, words) != 0) {
@@ -184,15 +180,16 @@ static void errors_name_the_place(void **state)
     assert_refused("A", "A -> [B", 1,
                    "the L-system's rules, line 1, column 8: '[' is not closed; put a ']' for each "
                    "'['");
-    assert_refused("A", "A -> B]", 1,
-                   "the L-system's rules, line 1, column 7: ']' closes no '['");
+    assert_refused("A", "A -> B]", 1, "the L-system's rules, line 1, column 7: ']' closes no '['");
     assert_refused("F(2+)", "", 1,
                    "the L-system's axiom, line 1, column 5: ')' starts no number, name or '('; an "
                    "expression is wanted");
-    assert_refused("", "", 1, "the L-system's axiom, line 1, column 1: it is empty; give it a symbol");
-    assert_refused("A", "A -> B : 0", 1,
-                   "the L-system's rules, line 1, column 11: the probability is 0; it must be above "
-                   "0");
+    assert_refused("", "", 1,
+                   "the L-system's axiom, line 1, column 1: it is empty; give it a symbol");
+    assert_refused(
+        "A", "A -> B : 0", 1,
+        "the L-system's rules, line 1, column 11: the probability is 0; it must be above "
+        "0");
     assert_refused("A(0)", "A(x) -> A(1/x)", 1,
                    "parameter 1 of 'A' is no finite number; keep divisors from 0 and powers to "
                    "positive numbers");

@@ -126,7 +126,8 @@ static void brute_node(Brute *b, int node, const int *owner, const PointSet *poi
                 continue;
             }
             Vec3 unit = vec3_normalize(vec3_sub(points->position[a], b->position[node]));
-            Vec3 local = vec3(vec3_dot(unit, heading), vec3_dot(unit, normal), vec3_dot(unit, side));
+            Vec3 local =
+                vec3(vec3_dot(unit, heading), vec3_dot(unit, normal), vec3_dot(unit, side));
             int best = -1;
             double cosine = half;
             for (int j = 0; j < at->followers; j++) {
@@ -152,7 +153,8 @@ static void brute_node(Brute *b, int node, const int *owner, const PointSet *poi
         Vec3 d = vec3_normalize(vec3_lerp(mean, axis, p->regularity));
         int child = b->count++;
         assert_true(child < MOST);
-        b->position[child] = vec3_madd(b->position[node], (float)(length / count) * mine->length, d);
+        b->position[child] =
+            vec3_madd(b->position[node], (float)(length / count) * mine->length, d);
         b->normal[child] = across(up, d);
         b->parent[child] = node;
         b->place[child] = at->first + k;

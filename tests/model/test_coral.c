@@ -119,8 +119,12 @@ static void colonies_leave_a_bare_seam(void **state)
     params.colonies = 3;
     params.generations = 9;
     OutTree *tree = grow(&params, 1);
-    CrustParams crust = {.thickness = 0.01f, .reach = 0.05f, .seam = 0.006f, .pale = 0.02f,
-                         .lump = 0.05f, .seed = 4};
+    CrustParams crust = {.thickness = 0.01f,
+                         .reach = 0.05f,
+                         .seam = 0.006f,
+                         .pale = 0.02f,
+                         .lump = 0.05f,
+                         .seed = 4};
     int seams = 0, covered = 0;
     for (int64_t i = 0; i < tree->count; i++) {
         covered += crust_at(tree, &crust, tree->position[i]).height > 0.0f;
