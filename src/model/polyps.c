@@ -89,7 +89,7 @@ static bool is_free(const Spread *s, Vec3 p)
             z = cell_of(p.z, s->spacing);
     for (int64_t k = 0; k < 27; k++) {
         int64_t b = bucket_of(s, x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1);
-        for (int32_t i = s->bucket[b]; i >= 0; i = s->next[i]) {
+        for (int32_t i = s->bucket[b]; i >= 0 && s->next; i = s->next[i]) {
             if (vec3_distance(s->place[i].position, p) < s->spacing) {
                 return false;
             }
