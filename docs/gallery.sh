@@ -53,6 +53,11 @@ if is_wanted figure-15; then
         panel vessels-body --grow-to $share --size 400x720
     done
     sheet figure-15 4x1
+still lightning lightning
+still lightning-surface lightning-surface
+if is_wanted figure-11; then
+    for share in 0.3 0.55 0.8 0.97 1; do panel lightning-growth --grow-to $share --size 360x720 --samples 8; done
+    sheet figure-11 5x1
 fi
 still lsystem-tree lsystem-tree
 if is_wanted coral-figure-2; then
