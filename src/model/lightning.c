@@ -211,7 +211,8 @@ static Bolt make_bolt(const LightningParams *params, int number, uint64_t seed)
     bolt.side = vec3_cross(up, bolt.depth);
     float apart = params->bolt_spread > 0.0f ? params->bolt_spread : 0.45f * params->height;
     // 0, +1, -1, +2, ... places to the side, a little uneven and in depth
-    float place = (float)((number + 1) / 2) * (number % 2 ? 1.0f : -1.0f);
+    int rank = (number + 1) / 2;
+    float place = (float)rank * (number % 2 ? 1.0f : -1.0f);
     uint64_t key = random_key(bolt.seed, 77);
     float across = place * apart * random_range(random_key(key, 0), 0.8f, 1.2f);
     float away = place * apart * random_range(random_key(key, 1), -0.3f, 0.3f);

@@ -41,7 +41,8 @@ static Vec3 ground_point(const Bolt *bolt, int number)
         return bolt->strike;
     }
     uint64_t key = random_key(random_key(bolt->seed, 5), (uint64_t)number);
-    float side = (number % 2 ? 1.0f : -1.0f) * (float)((number + 1) / 2);
+    int rank = (number + 1) / 2;
+    float side = (number % 2 ? 1.0f : -1.0f) * (float)rank;
     float across = side * random_range(random_key(key, 0), 0.14f, 0.24f) * bolt->height;
     float away = random_range(random_key(key, 1), -0.06f, 0.06f) * bolt->height;
     return vec3_add(bolt->strike, vec3(across, 0.0f, away));
