@@ -53,11 +53,16 @@ if is_wanted figure-15; then
         panel vessels-body --grow-to $share --size 400x720
     done
     sheet figure-15 4x1
+fi
 still lightning lightning
 still lightning-surface lightning-surface
 if is_wanted figure-11; then
     for share in 0.3 0.55 0.8 0.97 1; do panel lightning-growth --grow-to $share --size 360x720 --samples 8; done
     sheet figure-11 5x1
+fi
+if is_wanted figure-12; then
+    for share in 0.2 0.45 0.7 1; do panel lightning-surface --grow-to $share --size 640x360 --samples 6; done
+    sheet figure-12 2x2
 fi
 still lsystem-tree lsystem-tree
 if is_wanted coral-figure-2; then
