@@ -53,6 +53,20 @@ if is_wanted figure-15; then
         panel vessels-body --grow-to $share --size 400x720
     done
     sheet figure-15 4x1
+
+still figure-9 field-grid
+still forest forest --samples 24
+if is_wanted figure-10; then
+    for time in 0.2 0.45 0.62 0.8 0.9 1; do
+        panel oak --size 426x360 --denoise --samples 16 --set camera.fov=44 --grow-to "$time"
+    done
+    sheet figure-10 3x2
+fi
+if is_wanted figure-18; then
+    for tree in tree-plain tree-field-crown tree-field-trunk tree-field-dragon; do
+        panel "$tree" --size 720x405 --samples 16
+    done
+    sheet figure-18 2x2
 fi
 still lightning lightning
 still lightning-surface lightning-surface
