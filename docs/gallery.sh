@@ -43,6 +43,7 @@ still sculpture sculpture
 still dla dla
 still fracture fracture
 still venation venation
+
 # ---- vessels ----
 
 still figure-14 vessels-forks
@@ -53,6 +54,9 @@ if is_wanted figure-15; then
         panel vessels-body --grow-to $share --size 400x720
     done
     sheet figure-15 4x1
+fi
+
+# ---- trees, fields, forest ----
 
 still figure-9 field-grid
 still forest forest --samples 24

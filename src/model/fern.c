@@ -31,7 +31,7 @@ static void add_pair(Part *part, Vec3 out, float length, float arch, float t, ui
 {
     Vec3 p, along;
     frond_at(out, length, arch, t, &p, &along);
-    Vec3 side = vec3_normalize(vec3_cross(along, out.y > 0.9f ? vec3(1, 0, 0) : vec3(0, 1, 0)));
+    Vec3 side = vec3_normalize(vec3_cross(along, vec3(0, 1, 0)));
     side = vec3_dot(side, side) > 0.5f ? side : vec3(out.z, 0, -out.x);
     Vec3 up = vec3_cross(side, along);
     float size =
@@ -39,7 +39,7 @@ static void add_pair(Part *part, Vec3 out, float length, float arch, float t, ui
     for (int s = -1; s <= 1; s += 2) {
         Vec3 y = vec3_normalize(vec3_add(vec3_scale(side, (float)s), vec3_scale(along, 0.45f)));
         y = vec3_normalize(
-            vec3_madd(y, random_range(random_key(key, (uint64_t)(s + 1)), -0.2f, 0.0f), up));
+            vec3_madd(y, random_range(random_key(key, s < 0 ? 0 : 2), -0.2f, 0.0f), up));
         Vec3 z = vec3_normalize(vec3_madd(up, -vec3_dot(up, y), y));
         part->instance[part->instance_count++] = transform_from_axes(
             vec3_scale(vec3_cross(y, z), size), vec3_scale(y, size), vec3_scale(z, size), p);

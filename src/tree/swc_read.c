@@ -78,7 +78,7 @@ static bool read_columns(const char *text, double column[COLUMNS], locale_t c_lo
 
 static bool read_row(const char *text, Row *row, locale_t c_locale, Error *e)
 {
-    double c[COLUMNS];
+    double c[COLUMNS] = {0};
     int64_t type;
     if (!read_columns(text, c, c_locale, e)) {
         return false;
