@@ -93,3 +93,33 @@ if is_wanted coral-figure-2; then
 fi
 still coral-reef coral-reef
 still coral-staghorn coral-staghorn
+
+# ---- frost ----
+still frost-window frost-window
+still frost-bubble frost-bubble
+if is_wanted figure-7; then
+    for turn in 0 120 360; do
+        for step in 0.25 0.5 1; do
+            panel guide-field-plane --size 480x480 --set "objects.tree.frost.turn=$turn" --grow-to "$step"
+        done
+    done
+    sheet figure-7 3x3
+fi
+if is_wanted figure-8; then
+    for turn in 0 120 360; do
+        panel guide-field-sphere --set "objects.tree.frost.turn=$turn"
+    done
+    sheet figure-8 3x1
+fi
+if is_wanted figure-13; then
+    for step in 0.12 0.3 0.55 1; do
+        panel frost-window --size 720x405 --grow-to "$step"
+    done
+    sheet figure-13 2x2
+fi
+if is_wanted figure-20; then
+    for turn in 0 120 360 720; do
+        panel frost-bubble-turn --set "objects.frost.frost.turn=$turn"
+    done
+    sheet figure-20 2x2
+fi
