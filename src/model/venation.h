@@ -34,7 +34,8 @@ VenationParams venation_params_default(void); // closed, 0.1 m
 OutTree *venation_grow(const VenationParams *params, const Recipe *recipe, Error *e);
 
 bool venation_geometry(const OutTree *tree, const VenationParams *params,
-                       const VenationMaterials *materials, int object, Geometry *geometry, Error *e);
+                       const VenationMaterials *materials, int object, Geometry *geometry,
+                       Error *e);
 
 // The veins as a texture for leaves: how high they stand out, 0 between them and 1 in the middle of
 // the midrib, of width x height pixels row by row from the tip. Across, the blade fills the whole

@@ -12,7 +12,8 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
     VenationMaterials materials = {.vein = placing_material(p, p->object->material, "leaf_vein"),
                                    .blade = placing_material(p, p->object->leaf_material, "leaf")};
-    return venation_geometry(tree, p->object->venation, &materials, p->index, &p->world->geometry, e);
+    return venation_geometry(tree, p->object->venation, &materials, p->index, &p->world->geometry,
+                             e);
 }
 
 static bool paint(const SceneObject *object, const OutTree *tree, int width, int height,
