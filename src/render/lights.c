@@ -321,12 +321,11 @@ bool lights_draw_pivot(const Lights *lights, const LightChoice *choice, const Li
                        const float u[2], LightPivot *pivot)
 {
     if (choice->index != lights->emitters_index) {
-        *pivot = (LightPivot){-1, lamp_pivot(&lights->world->light[choice->index], u)};
+        *pivot = (LightPivot){-1, 1.0f, lamp_pivot(&lights->world->light[choice->index], u)};
         return true;
     }
-    float unused;
-    pivot->emitter =
-        light_tree_sample_segment(lights->emitters.tree, segment, choice->rest, &unused);
+    pivot->emitter = light_tree_sample_segment(lights->emitters.tree, segment, choice->rest,
+                                               &pivot->probability);
     if (pivot->emitter >= 0) {
         pivot->position = emitter_pivot(&lights->emitters.emitter[pivot->emitter], u);
     }
@@ -352,8 +351,9 @@ static bool sample_emitters_along(const Lights *lights, const LightChoice *choic
         probability = light_tree_probability(tree, &receiver, i);
     }
     take_emitter_sample(lights, i, &on, probability, &sample->light);
-    sample->pivot = (LightPivot){i, on.pivot};
-    sample->pivot_pdf = light_tree_probability_segment(tree, segment, i) * on.pdf * on.pivot_ratio;
+    float along = pivot ? pivot->probability : light_tree_probability_segment(tree, segment, i);
+    sample->pivot = (LightPivot){i, along, on.pivot};
+    sample->pivot_pdf = along * on.pdf * on.pivot_ratio;
     return true;
 }
 
@@ -371,7 +371,7 @@ bool lights_sample_chosen(const Lights *lights, const LightChoice *choice,
     } else {
         const Light *light = &lights->world->light[choice->index];
         seen = sample_lamp(light, point, u, &sample->light);
-        sample->pivot = (LightPivot){-1, lamp_pivot(light, u)};
+        sample->pivot = (LightPivot){-1, 1.0f, lamp_pivot(light, u)};
         sample->pivot_pdf = sample->light.pdf;
     }
     sample->light.pdf *= share;

@@ -42,7 +42,8 @@ LightChoice lights_choose(const Lights *lights, float u);
 
 // A place on the chosen near light, before the point that it lights is known.
 typedef struct LightPivot {
-    int64_t emitter; // of glowing geometry
+    int64_t emitter;   // of glowing geometry
+    float probability; // of drawing that emitter for the segment
     Vec3 position;
 } LightPivot;
 

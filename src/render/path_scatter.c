@@ -92,20 +92,14 @@ static bool draw_gathering(const Path *path, const Stretch *s, const float u[4],
     return *pdf > 0.0f;
 }
 
-static void gather_light(Path *path, const MediumLine *line)
+// Gathers at one point of the stretch.
+static Vec3 gather_once(Path *path, const Stretch *stretch, const float u[4], const float v[4])
 {
-    float u[4], v[4], pdf, t;
-    uint32_t set = (uint32_t)(SET_MEDIUM + SETS_PER_STRETCH * path->stretches);
-    sampler_draw(&path->sampler, set, u);
-    sampler_draw(&path->sampler, set + 1, v);
     const Filling *filling = &path->media.now;
-    Stretch stretch = {
-        line,
-        {path->ray.origin, path->ray.direction, medium_line_near(line), medium_line_far(line)},
-        channel_weights(path->throughput, filling->scattering)};
     SegmentLight on;
-    if (!draw_gathering(path, &stretch, u, v, &t, &on, &pdf)) {
-        return;
+    float pdf, t;
+    if (!draw_gathering(path, stretch, u, v, &t, &on, &pdf)) {
+        return vec3_splat(0.0f);
     }
     const LightSample *light = &on.light;
     Ray shadow = {.origin = vec3_madd(path->ray.origin, t, path->ray.direction),
@@ -114,15 +108,48 @@ static void gather_light(Path *path, const MediumLine *line)
                   .key = path->key++};
     Vec3 share;
     if (!path_lets_through(path, &shadow, &path->media, &share)) {
-        return;
+        return vec3_splat(0.0f);
     }
     float phase =
         phase_density(filling->anisotropy, vec3_dot(path->ray.direction, light->direction));
-    Vec3 f = medium_transmittance(filling->extinction, medium_line_length(line, t));
+    Vec3 f = medium_transmittance(filling->extinction, medium_line_length(stretch->line, t));
     f = vec3_mul(vec3_mul(f, filling->scattering), vec3_mul(light->radiance, share));
-    float scale = phase * medium_line_density(line, t) * power_heuristic(light->pdf, phase) / pdf;
+    float density = medium_line_density(stretch->line, t);
+    return vec3_scale(f, phase * density * power_heuristic(light->pdf, phase) / pdf);
+}
+
+// u moved on by a step, around the unit interval.
+static float turned(float u, float step)
+{
+    u += step;
+    return u - floorf(u);
+}
+
+// What the eye's own ray gathers is most of the noise: it is gathered at several points, spread
+// evenly.
+static void gather_light(Path *path, const MediumLine *line)
+{
+    enum { EYE_POINTS = 4 };
+    float u[4], v[4];
+    uint32_t set = (uint32_t)(SET_MEDIUM + SETS_PER_STRETCH * path->stretches);
+    sampler_draw(&path->sampler, set, u);
+    sampler_draw(&path->sampler, set + 1, v);
+    Stretch stretch = {
+        line,
+        {path->ray.origin, path->ray.direction, medium_line_near(line), medium_line_far(line)},
+        channel_weights(path->throughput, path->media.now.scattering)};
+    int points = path->depth == 0 ? EYE_POINTS : 1;
+    Vec3 sum = vec3_splat(0.0f);
+    for (int i = 0; i < points; i++) { // steps that fill the interval evenly
+        float k = (float)i;
+        float place[4] = {turned(u[0], k * 0.25f), turned(u[1], k * 0.6180340f),
+                          turned(u[2], k * 0.4142136f), 0.0f};
+        float aim[4] = {turned(v[0], k * 0.7548777f), turned(v[1], k * 0.5698403f),
+                        turned(v[2], k * 0.7320508f), 0.0f};
+        sum = vec3_add(sum, gather_once(path, &stretch, place, aim));
+    }
     path->depth++; // the light is one bounce further
-    path_add_light(path, vec3_scale(f, scale));
+    path_add_light(path, vec3_scale(sum, 1.0f / (float)points));
     path->depth--;
 }
 

@@ -166,7 +166,10 @@ static void small_changes_are_seen(void **state)
                                              {"environment", "sky.rotation=31"},
                                              {"materials", "materials.matt.roughness=0.8"},
                                              {"materials", "materials.coated.roughness=0.3"},
-                                             {"twigs", "camera.aperture=0.21"}};
+                                             {"twigs", "camera.aperture=0.21"},
+                                             {"bodies", "materials.flesh.anisotropy=0.6"},
+                                             {"glow_in_fog", "medium.falloff=1.6"},
+                                             {"underwater", "medium.height=4.1"}};
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
         Image *changed = render(changes[i][0], changes[i][1], PINNED, 2);
         ImageDifference d = compare_with_stored(changes[i][0], changed, false);
