@@ -153,8 +153,8 @@ static double single_scattering(double scattering, double absorption, float g)
         double t = 20.0 * (i + 0.5) / STEPS, z = 5.0 - t, d = sqrt(z * z + 0.25);
         double angle = 2.0 * (double)PI_F * (1.0 - sqrt(1.0 - 0.0025 / (d * d)));
         double cosine = z / d; // the ray goes toward -z
-        sum += exp(-extinction * (t + d)) * (double)phase_density(g, (float)cosine) * angle * 20.0 /
-               STEPS;
+        sum += exp(-extinction * (t + d - 0.05 * 2.0 / 3.0)) *
+               (double)phase_density(g, (float)cosine) * angle * 20.0 / STEPS;
     }
     return 100.0 * scattering * sum;
 }
