@@ -37,7 +37,7 @@ static void fill_shares(Lights *lights, float scene_radius)
     double total = 0.0, lit = 0.0, sum = 0.0;
     for (int i = 0; i < lights->count; i++) {
         float power;
-        if (i == lights->dome_index) {
+        if (lights->dome && i == lights->dome_index) {
             power = 0.5f * lights->dome->power / PI_F;
         } else if (i == lights->sun_index) {
             power = luminance(lights->sun.radiance) * lights->sun.solid_angle / PI_F;

@@ -118,9 +118,9 @@ static Vec3 star_color(float u)
 // A star of cell (i, j) smoothed over sigma. Ten times as many for each two magnitudes.
 static Vec3 star_light(int face, int i, int j, int number, Vec3 direction, float sigma)
 {
-    uint64_t key =
-        random_key(random_key(random_key(0x57a2, (uint64_t)face), (uint64_t)(j * STAR_CELLS + i)),
-                   (uint64_t)number);
+    uint64_t key = random_key(
+        random_key(random_key(0x57a2, (uint64_t)face), (uint64_t)j * STAR_CELLS + (uint64_t)i),
+        (uint64_t)number);
     float u = ((float)i + random_unit(random_key(key, 0))) * (2.0f / STAR_CELLS) - 1.0f;
     float v = ((float)j + random_unit(random_key(key, 1))) * (2.0f / STAR_CELLS) - 1.0f;
     Vec3 off = vec3_sub(cube_direction((CubePlace){face, u, v}), direction);
