@@ -122,4 +122,31 @@ if is_wanted figure-20; then
         panel frost-bubble-turn --set "objects.frost.frost.turn=$turn"
     done
     sheet figure-20 2x2
+still mountains mountains
+still badlands badlands
+if is_wanted figure-16; then
+    for iterations in 1 2 4 8; do
+        panel terrain-strip --set objects.range.material=relief --set objects.range.terrain.rivers.water=0 \
+            --set objects.range.terrain.noise.iterations=$iterations
+    done
+    sheet figure-16 2x2
+fi
+if is_wanted figure-17; then
+    panel terrain-strip --set objects.range.material=relief --set objects.range.terrain.relief=1 \
+        --set objects.range.terrain.rivers.water=0.03 --set objects.range.terrain.noise.iterations=0
+    panel terrain-strip --set objects.range.material=relief --set objects.range.terrain.rivers.water=0 \
+        --set objects.range.terrain.noise.iterations=0
+    panel terrain-strip --set objects.range.material=relief --set objects.range.terrain.rivers.water=0
+    panel terrain-strip
+    sheet figure-17 2x2
+fi
+if is_wanted figure-21; then
+    panel terrain-strip --set seed=8 --set objects.range.terrain.water_level=0.12
+    panel terrain-strip --set 'objects.range.terrain.rivers.fields=[{kind: vortex, vector: [0, 1, 0], center: [0, 0, 0]}]'
+    panel terrain-strip --set objects.range.terrain.rivers.count=150 --set objects.range.terrain.relief=1300 \
+        --set objects.range.terrain.erosion.streams=1
+    panel terrain-strip --set objects.range.material=badlands --set objects.range.terrain.relief=500 \
+        --set objects.range.terrain.terraces.count=7 --set objects.range.terrain.terraces.strength=0.9 \
+        --set objects.range.terrain.rivers.water=0
+    sheet figure-21 2x2
 fi
