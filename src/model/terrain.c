@@ -88,7 +88,8 @@ static float envelope_peak(const TroughEnvelope *envelope, float size)
     int32_t lowest;
     for (int i = 0; i < PEAK_SAMPLES * PEAK_SAMPLES; i++) {
         float x = ((float)(i % PEAK_SAMPLES) + 0.5f) / PEAK_SAMPLES - 0.5f;
-        float z = ((float)(i / PEAK_SAMPLES) + 0.5f) / PEAK_SAMPLES - 0.5f;
+        int row = i / PEAK_SAMPLES;
+        float z = ((float)row + 0.5f) / PEAK_SAMPLES - 0.5f;
         float h = trough_envelope_at(envelope, x * size, z * size, &lowest);
         peak = h > peak ? h : peak;
     }
