@@ -89,7 +89,8 @@ typedef struct Survey {
 static float run_length(const HeightField *field, int32_t from, int32_t to)
 {
     float x = field->cell.x * (float)(from % field->columns - to % field->columns);
-    float z = field->cell.y * (float)(from / field->columns - to / field->columns);
+    int rows = from / field->columns - to / field->columns;
+    float z = field->cell.y * (float)rows;
     return sqrtf(x * x + z * z);
 }
 

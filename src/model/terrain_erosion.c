@@ -77,7 +77,9 @@ static bool erode_streams_once(HeightField *field, float strength, float reach, 
         float length = field->cell.x * (diagonal ? 1.4142135f : 1.0f);
         // Below a patch of this area no brook gathers: slopes keep their form on any grid.
         float area = (float)drainage->area[i];
-        float share = area / (area + reach * reach);
+        // Rivers have their steady heights already: gullies grow, they do not sink.
+        float most = 64.0f * reach * reach;
+        float share = area / (area + reach * reach) * (most / (area + most));
         float f = strength * share * sqrtf(area) / length;
         float below = field->height[to];
         float h = (field->height[i] + f * below) / (1.0f + f);
@@ -113,7 +115,8 @@ static HeightField *resample(const HeightField *field, Error *e)
         height_field_new(ERODED_CELLS + 1, ERODED_CELLS + 1, cell, field->origin, e);
     for (int64_t i = 0; copy && i < height_field_count(copy); i++) {
         float x = copy->origin.x + (float)(i % copy->columns) * cell.x;
-        float z = copy->origin.y + (float)(i / copy->columns) * cell.y;
+        int64_t row = i / copy->columns;
+        float z = copy->origin.y + (float)row * cell.y;
         copy->height[i] = height_field_at(field, x, z);
     }
     return copy;

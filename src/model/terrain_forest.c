@@ -97,7 +97,8 @@ static bool plant(const Planting *p, Transform **place, int64_t *count, Error *e
     for (int64_t i = 0; i < (int64_t)side * side && *count < forest->count; i++) {
         uint64_t key = random_key(p->seed, 1000 + (uint64_t)i);
         float x = ((float)(i % side) + random_unit(random_key(key, 1))) * spacing - 0.5f * size;
-        float z = ((float)(i / side) + random_unit(random_key(key, 2))) * spacing - 0.5f * size;
+        int64_t row = i / side;
+        float z = ((float)row + random_unit(random_key(key, 2))) * spacing - 0.5f * size;
         float away = p->has_eye
                          ? sqrtf((x - p->eye.x) * (x - p->eye.x) + (z - p->eye.z) * (z - p->eye.z))
                          : 0.5f * size;

@@ -22,7 +22,8 @@ static PointSet *scatter_plane(float size, int64_t count, uint64_t seed, Error *
     for (int64_t i = 0; i < side * side; i++) {
         uint64_t id = random_key(seed, (uint64_t)i);
         float x = ((float)(i % side) + random_unit(random_key(id, 1))) * cell - 0.5f * size;
-        float z = ((float)(i / side) + random_unit(random_key(id, 2))) * cell - 0.5f * size;
+        int64_t row = i / side;
+        float z = ((float)row + random_unit(random_key(id, 2))) * cell - 0.5f * size;
         if (!points_add(points, vec3(x, 0.0f, z), vec3(0, 1, 0), id, e)) {
             points_free(points);
             return NULL;
