@@ -122,6 +122,9 @@ if is_wanted figure-20; then
         panel frost-bubble-turn --set "objects.frost.frost.turn=$turn"
     done
     sheet figure-20 2x2
+fi
+
+# ---- terrain ----
 still mountains mountains
 still badlands badlands
 if is_wanted figure-16; then
