@@ -56,12 +56,12 @@ static float luminance(const float *p)
     return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
 }
 
-// What radiance is divided by: the albedo, or 1 where there is next to none (sky, lamps).
+// What radiance is divided by, so that texture is no obstacle. The sky, lamps and haze have albedo
+// 1: where a pixel shows both them and a surface, the quotient stays between theirs.
 static void divisor_of(const float *albedo, float divisor[3])
 {
-    bool surface = luminance(albedo) > 0.01f;
     for (int c = 0; c < 3; c++) {
-        divisor[c] = surface ? fmaxf(albedo[c], 0.01f) : 1.0f;
+        divisor[c] = fmaxf(albedo[c], 0.03f);
     }
 }
 

@@ -140,11 +140,14 @@ static bool depart(Path *path, PathResult *result)
     return false;
 }
 
+// seen: share of the surface's light that comes through to the eye; the rest of what is seen there
+// is a veil, which reflects nothing and counts as white, as lamps and the sky do.
 static void note_first_hit(PathResult *result, const SurfacePoint *point, const Bsdf *bsdf,
-                           float distance)
+                           float distance, float seen)
 {
     result->hit = true;
-    result->albedo = bsdf->albedo;
+    seen = bsdf_is_emissive(bsdf) ? 0.0f : seen;
+    result->albedo = vec3_add(vec3_scale(bsdf->albedo, seen), vec3_splat(1.0f - seen));
     result->normal = bsdf->normal;
     result->position = point->position;
     result->depth = distance;
@@ -233,7 +236,8 @@ static bool arrive(Path *path, const Hit *hit, PathResult *result)
     Vec3 wo = vec3_neg(path->ray.direction);
     Bsdf bsdf = bsdf_at(tracer->materials, &point, wo);
     if (path->straight) {
-        note_first_hit(result, &point, &bsdf, path->travelled);
+        note_first_hit(result, &point, &bsdf, path->travelled,
+                       fminf(luminance(path->throughput), 1.0f));
     }
     if (bsdf_is_emissive(&bsdf)) {
         SurfacePlace place = accel_place(tracer->accel, hit);
@@ -288,7 +292,7 @@ static void begin(Path *path, const Tracer *tracer, int x, int y, int sample)
 static void finish(Path *path, bool met, Hit *hit, PathResult *result)
 {
     const Tracer *tracer = path->tracer;
-    *result = (PathResult){.alpha = 1.0f, .depth = INFINITY};
+    *result = (PathResult){.albedo = vec3_splat(1.0f), .alpha = 1.0f, .depth = INFINITY};
     for (;;) {
         Travel travel = TRAVEL_ARRIVED;
         if (path->media.now.present) {

@@ -33,7 +33,7 @@ TableCheck check_shape, check_mesh;               // also add `transform`
 TableCheck check_vessels;                         // an envelope there must be
 TableCheck check_envelope;                        // the list under `envelope`
 TableCheck check_level, check_growth; // check_growth also fills in what levels leave out
-TableCheck check_terrain; // cells a power of two
+TableCheck check_terrain;             // cells a power of two
 TableCheck check_field;
 TableCheck check_lightning; // also what check_envelope does
 

@@ -85,9 +85,9 @@ static const Key RADII_KEYS[] = {
 };
 
 const Table radii_table = {.name = "radii",
-                                  .doc = "Thickness of trunk, branches and roots.",
-                                  .size = sizeof(RadiiParams),
-                                  .keys = RADII_KEYS};
+                           .doc = "Thickness of trunk, branches and roots.",
+                           .size = sizeof(RadiiParams),
+                           .keys = RADII_KEYS};
 
 static const Key LEAVES_KEYS[] = {
     {KEY_OF(LeavesParams, max_count, "max_count", KEY_INT64), .high = 1e9,

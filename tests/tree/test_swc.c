@@ -31,8 +31,8 @@ static void what_was_written_reads_back_the_same(void **state)
     OutTree *tree = out_tree_new(NULL);
     for (int i = 0; i < 300; i++) {
         int64_t parent = i % 100 == 0 ? -1 : i - 1 - i % 7 % (i % 100);
-        out_tree_add_node(tree, vec3(1.0f / (float)(i + 1), (float)i * 1e-9f, -(float)i), parent,
-                          i, 0, (uint64_t)i, NULL);
+        out_tree_add_node(tree, vec3(1.0f / (float)(i + 1), (float)i * 1e-9f, -(float)i), parent, i,
+                          0, (uint64_t)i, NULL);
         tree->radius[i] = 0.1f / (float)(i + 3);
     }
     Error e = {0};
