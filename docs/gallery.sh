@@ -15,7 +15,9 @@ still() {
     is_wanted "$1" || return 0
     name=$1 scene=$2
     shift 2
-    "$ramify" render "scenes/$scene.yaml" -o "renders/$name.jpg" "$@"
+    "$ramify" render "scenes/$scene.yaml" -o "$parts/still.png" "$@"
+    oiiotool "$parts/still.png" --ch R,G,B --compression jpeg:90 -o "renders/$name.jpg"
+    rm -f "$parts"/*
 }
 
 # panel SCENE [OPTION...]: one picture of the sheet that follows.

@@ -56,17 +56,24 @@ static bool passes_film(const AccelPart *own, Vec3 normal, Vec3 direction, unsig
     return random_unit(random_key(key, primitive)) >= thin_film_mean(ior, cosine);
 }
 
+// Word number `word` of lane `lane` of one of Embree's packets of n.
+static float packet_float(const unsigned *packet, unsigned n, unsigned word, unsigned lane)
+{
+    float x;
+    memcpy(&x, &packet[word * n + lane], sizeof x);
+    return x;
+}
+
 void accel_film_filter(const struct RTCFilterFunctionNArguments *arguments)
 {
     unsigned n = arguments->N;
     const unsigned *ray = (const unsigned *)arguments->ray, *hit = (const unsigned *)arguments->hit;
     for (unsigned i = 0; i < n; i++) {
-        Vec3 normal, direction; // words of RTCRayN: 4..6 = direction; of RTCHitN: 0..2 = Ng
-        float *to[6] = {&normal.x, &normal.y, &normal.z, &direction.x, &direction.y, &direction.z};
-        for (unsigned k = 0; k < 3; k++) {
-            memcpy(to[k], &hit[k * n + i], sizeof(float));
-            memcpy(to[3 + k], &ray[(4 + k) * n + i], sizeof(float));
-        }
+        // RTCHitN has the normal in words 0 to 2, RTCRayN the direction in 4 to 6.
+        Vec3 normal = vec3(packet_float(hit, n, 0, i), packet_float(hit, n, 1, i),
+                           packet_float(hit, n, 2, i));
+        Vec3 direction = vec3(packet_float(ray, n, 4, i), packet_float(ray, n, 5, i),
+                              packet_float(ray, n, 6, i));
         if (arguments->valid[i] && passes_film(arguments->geometryUserPtr, normal, direction,
                                                hit[5 * n + i], ray[10 * n + i])) {
             arguments->valid[i] = 0;

@@ -96,6 +96,7 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
     }
     char label[LABEL_SIZE];
     Recipe recipe = make_recipe(scene, object, run, label);
+    // cppcheck-suppress returnDanglingLifetime ; the tree keeps nothing of the recipe
     return kind->grow(object, &recipe, e);
 }
 
@@ -130,6 +131,7 @@ HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, c
     }
     char label[LABEL_SIZE];
     Recipe recipe = make_recipe(scene, object, run, label);
+    // cppcheck-suppress returnDanglingLifetime ; neither does the land
     return kind->heights(object, tree, &recipe, e);
 }
 
