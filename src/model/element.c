@@ -51,6 +51,15 @@ ScatterParams element_scatter_params(const OutTree *tree, const ElementParams *e
 }
 
 // The guide field about the roots of the tree so far, its nuclei (Tanaka et al., eq. (9); J 3.7.3).
+int64_t element_attractors(const ElementParams *element)
+{
+    int64_t sum = 0;
+    for (int i = 0; i < element->level_count; i++) {
+        sum += element->levels[i].attractors;
+    }
+    return sum;
+}
+
 static GuideField *element_field(const OutTree *tree, const ElementParams *element,
                                  const Envelope *envelope, uint64_t seed, const Run *run, Error *e)
 {

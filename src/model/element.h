@@ -38,6 +38,9 @@ typedef struct ElementParams {
     int64_t max_steps, max_nodes; // 0 = no limit
 } ElementParams;
 
+// Attractors of all its own levels; 0 where it has none.
+int64_t element_attractors(const ElementParams *element);
+
 // Grows the element into tree, whose nodes so far are the type-0 points. seed: the element's own.
 // label names the element in warnings and errors ("object 'oak', crown").
 bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, const char *label,

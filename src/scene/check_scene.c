@@ -172,14 +172,20 @@ static const char **material_names(Resolver *r, const Node *materials, int *coun
     return names;
 }
 
+static bool is_among(const char *const *names, int count, const char *text)
+{
+    for (int i = 0; i < count; i++) {
+        if (strcmp(names[i], text) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool check_material_of(Resolver *r, const Node *object, const Node *named,
                               const char *const *names, int count)
 {
-    bool found = false;
-    for (int i = 0; i < count && !found; i++) {
-        found = strcmp(names[i], named->text) == 0;
-    }
-    if (!found) {
+    if (!is_among(names, count, named->text)) {
         char hint[512];
         hint_format(named->text, names, count, hint, sizeof hint);
         return resolver_fail(r, named, "objects.%s.%s: there is no material '%.60s'; %s",
@@ -198,11 +204,7 @@ static bool check_targets(Resolver *r, const Node *targets, const Node *objects)
     }
     for (const Node *target = names ? targets->first : NULL; target; target = target->next) {
         const Node *named = node_get(target, "object");
-        bool found = false;
-        for (int i = 0; i < count && !found; i++) {
-            found = strcmp(names[i], named->text) == 0;
-        }
-        if (!found) {
+        if (!is_among(names, count, named->text)) {
             char hint[512];
             hint_format(named->text, names, count, hint, sizeof hint);
             return resolver_fail(r, named, "targets: there is no object '%.60s'; %s", named->text,

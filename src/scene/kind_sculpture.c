@@ -32,11 +32,8 @@ static void describe(const SceneObject *object, char *text, size_t size)
 static int64_t attractors(const SceneObject *object)
 {
     const SculptureParams *params = object->sculpture;
-    int64_t sum = params->element.level_count == 0 ? params->attractors : 0;
-    for (int i = 0; i < params->element.level_count; i++) {
-        sum += params->element.levels[i].attractors;
-    }
-    return sum;
+    return params->element.level_count == 0 ? params->attractors
+                                            : element_attractors(&params->element);
 }
 
 const Kind kind_sculpture = {.key = "sculpture",

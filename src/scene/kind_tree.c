@@ -23,15 +23,6 @@ static void describe(const SceneObject *object, char *text, size_t size)
     snprintf(text, size, ", %g m", (double)object->tree->height);
 }
 
-static int64_t element_attractors(const ElementParams *element)
-{
-    int64_t sum = 0;
-    for (int i = 0; i < element->level_count; i++) {
-        sum += element->levels[i].attractors;
-    }
-    return sum;
-}
-
 // Those of the model's own levels too.
 static int64_t attractors(const SceneObject *object)
 {
