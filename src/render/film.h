@@ -12,7 +12,7 @@ typedef struct Film {
     int width, height;
     Vec3 *color;     // mean radiance
     float *alpha;    // share of samples that met something (or the visible sky)
-    Vec3 *albedo;    // first-hit reflectance, 0..1
+    Vec3 *albedo;    // first-hit reflectance, 0..1; 1 for sky, lamps and veils of haze
     Vec3 *normal;    // first-hit shading normal, world, mean (not unit)
     float *depth;    // m along the ray, mean over samples that hit; INFINITY where none did
     Vec3 *position;  // m, first hit, mean over samples that hit; 0 where none

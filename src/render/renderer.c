@@ -73,8 +73,8 @@ static void pixel_add(PixelSum *sum, const PathResult *path)
     sum->luminance += l;
     sum->luminance_squared += l * l;
     sum->rays += path->rays;
+    sum_vector(sum->albedo, path->albedo);
     if (path->hit) {
-        sum_vector(sum->albedo, path->albedo);
         sum_vector(sum->normal, path->normal);
         sum_vector(sum->position, path->position);
         sum->depth += (double)path->depth;

@@ -33,7 +33,7 @@ static void describe(Scene *s, int x, int y)
     bool sky = y < 40, bar = sky && x % 4 == 0, wall = !sky && y < 80;
     float light = 0.5f + 0.5f * (float)x / WIDTH;
     if (sky && !bar) {
-        set_pixel(s->albedo, x, y, 0, 0, 0);
+        set_pixel(s->albedo, x, y, 1, 1, 1);
         set_pixel(s->normal, x, y, 0, 0, 0);
         set_pixel(s->depth, x, y, INFINITY, 0, 0);
         set_pixel(s->truth, x, y, 0.6f, 0.8f, 1.2f);
@@ -102,6 +102,40 @@ static void test_less_noise(void **state)
     double before = rmse(s.noisy, s.truth), after = rmse(out, s.truth);
     if (after > 0.3 * before) {
         fail_msg("rmse %g before, %g after", before, after);
+    }
+    image_free(out);
+    free_scene(&s);
+}
+
+// A lit body before a dark sky: no pixel of its outline, part body and part sky, comes out brighter
+// than the body.
+static void test_silhouettes_do_not_glow(void **state)
+{
+    (void)state;
+    Scene s = make_scene(0.0f);
+    const float sky = 0.03f, body = 0.3f;
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            int64_t i = y * WIDTH + x;
+            float edge = 60.0f + 0.3f * (float)y;
+            float share = fminf(fmaxf((float)x - edge, 0.0f), 1.0f); // of the pixel that is body
+            float n = random_normal(random_key(9, (uint64_t)i));
+            float seen = sky + (body * (1.0f + 0.2f * n) - sky) * share;
+            float a = 1.0f + (0.2f - 1.0f) * share;
+            set_pixel(s.noisy, x, y, seen, seen, seen);
+            set_pixel(s.albedo, x, y, a, a, a);
+            set_pixel(s.normal, x, y, 0, 0, share);
+            set_pixel(s.depth, x, y, share > 0.0f ? 5.0f : INFINITY, 0, 0);
+            float spread =
+                0.2f * body * share + 0.25f * (body - sky) * share * (1.0f - share) * 4.0f;
+            s.variance->pixel[i] = spread * spread;
+        }
+    }
+    Image *out = denoise(&s, 1.0f, 1);
+    for (int64_t i = 0; i < (int64_t)WIDTH * HEIGHT; i++) {
+        if (out->pixel[3 * i] > 1.35f * body) {
+            fail_msg("%g at %d, %d", (double)out->pixel[3 * i], (int)(i % WIDTH), (int)(i / WIDTH));
+        }
     }
     image_free(out);
     free_scene(&s);
@@ -211,7 +245,7 @@ int main(void)
         cmocka_unit_test(test_less_noise),           cmocka_unit_test(test_keeps_edges),
         cmocka_unit_test(test_clean_stays),          cmocka_unit_test(test_threads_agree),
         cmocka_unit_test(test_strength_zero_copies), cmocka_unit_test(test_refuses_and_stops),
-        cmocka_unit_test(test_tiny_image),
+        cmocka_unit_test(test_tiny_image),           cmocka_unit_test(test_silhouettes_do_not_glow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
