@@ -8,6 +8,7 @@
 #include "shape/level_set.h"
 #include "shape/mesh_close.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 enum { BUMP_OCTAVES = 4 };
@@ -208,6 +209,26 @@ bool fracture_pieces(const OutTree *network, const FractureParams *params, const
     if (!done) {
         mesh_pieces_clear(pieces);
     }
+    return done;
+}
+
+bool fracture_measure(const OutTree *network, const FractureParams *params, const Recipe *recipe,
+                      MeasureList *list, Error *e)
+{
+    MeshPieces pieces;
+    double base, kept = 0.0, largest = 0.0, none = (double)NAN;
+    if (!fracture_pieces(network, params, recipe, &pieces, &base, NULL, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < pieces.count; i++) {
+        double volume = mesh_signed_volume(pieces.piece[i]);
+        largest = volume > largest ? volume : largest;
+        kept += volume;
+    }
+    bool done = measures_add(list, "pieces", (double)pieces.count, "", none, none, e) &&
+                measures_add(list, "largest_piece", largest / base, "", none, none, e) &&
+                measures_add(list, "removed", 1.0 - kept / base, "", none, none, e);
+    mesh_pieces_clear(&pieces);
     return done;
 }
 

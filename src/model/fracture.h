@@ -5,6 +5,7 @@
 #ifndef RAMIFY_MODEL_FRACTURE_H
 #define RAMIFY_MODEL_FRACTURE_H
 
+#include "base/measures.h"
 #include "mesh/geometry.h"
 #include "mesh/pieces.h"
 #include "model/element.h"
@@ -38,6 +39,11 @@ OutTree *fracture_grow(const FractureParams *params, const Recipe *recipe, Error
 // of what was removed as cracks (both may be NULL).
 bool fracture_pieces(const OutTree *network, const FractureParams *params, const Recipe *recipe,
                      MeshPieces *pieces, double *base, double *removed, Error *e);
+
+// Appends pieces, largest_piece (its share of the base's volume), removed (the share that
+// the pieces lack: cracks and dust).
+bool fracture_measure(const OutTree *network, const FractureParams *params, const Recipe *recipe,
+                      MeasureList *list, Error *e);
 
 bool fracture_geometry(const OutTree *network, const FractureParams *params,
                        const FractureMaterials *materials, int object, const Recipe *recipe,

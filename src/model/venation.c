@@ -3,11 +3,13 @@
 #include "base/exact_math.h"
 #include "base/random.h"
 #include "grow/venation.h"
+#include "tree/join.h"
 #include "tree/radii.h"
 
+#include <math.h>
 #include <stddef.h>
 
-enum { BLADE_ROWS = 160, BLADE_COLUMNS = 48, PETIOLE_PIECES = 12 };
+enum { BLADE_ROWS = 160, BLADE_COLUMNS = 48, PETIOLE_PIECES = 12, AREA_ROWS = 1000 };
 
 #define EXPONENT 3.0f // Murray's
 
@@ -254,4 +256,33 @@ bool venation_paint(const OutTree *tree, const VenationParams *given, int width,
         }
     }
     return true;
+}
+
+// ---- measures ----
+
+// m^2, of the flat leaf.
+static double blade_area(const LeafOutline *outline)
+{
+    double row = (double)outline->length / AREA_ROWS, sum = 0.0;
+    for (int i = 0; i < AREA_ROWS; i++) {
+        sum += 2.0 * row * (double)leaf_half_width(outline, ((float)i + 0.5f) * (float)row);
+    }
+    return sum;
+}
+
+bool venation_measure(const OutTree *tree, const VenationParams *given, MeasureList *list, Error *e)
+{
+    VenationParams params = complete(given);
+    int64_t pieces, loops;
+    double length = 0.0, area = 1e6 * blade_area(&params.outline), none = (double)NAN;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->parent[i] >= 0 && tree->position[i].y > 0.0f) { // beyond the petiole
+            length += (double)vec3_distance(tree->position[i], tree->position[tree->parent[i]]);
+        }
+    }
+    return out_tree_count_pieces(tree, &pieces, &loops, e) &&
+           measures_add(list, "areoles", (double)loops, "", none, none, e) &&
+           measures_add(list, "areole_area", loops > 0 ? area / (double)loops : none, "mm^2", none,
+                        none, e) &&
+           measures_add(list, "vein_density", 1000.0 * length / area, "mm/mm^2", none, none, e);
 }

@@ -3,6 +3,7 @@
 #ifndef RAMIFY_MODEL_VENATION_H
 #define RAMIFY_MODEL_VENATION_H
 
+#include "base/measures.h"
 #include "mesh/geometry.h"
 #include "model/recipe.h"
 #include "shape/leaf_outline.h"
@@ -42,5 +43,10 @@ bool venation_geometry(const OutTree *tree, const VenationParams *params,
 // row at every height, as the uv of leaf meshes does. pixel: width * height floats.
 bool venation_paint(const OutTree *tree, const VenationParams *params, int width, int height,
                     float *pixel, Error *e);
+
+// Appends areoles (meshes of the net; 0 in open venation), areole_area in mm^2 (of the blade, a
+// mesh), vein_density in mm of veins to the mm^2 of blade.
+bool venation_measure(const OutTree *tree, const VenationParams *params, MeasureList *list,
+                      Error *e);
 
 #endif

@@ -156,9 +156,11 @@ bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *l
     if (kind->grow && !(tree = scene_grow_object(scene, index, run, e))) {
         return false;
     }
+    char label[LABEL_SIZE];
+    Recipe recipe = make_recipe(scene, object, run, label);
     bool done = (!tree || out_tree_measure(tree, list, e)) &&
                 measure_land(scene, index, tree, run, list, e) &&
-                (!kind->measure || kind->measure(object, tree, list, e));
+                (!kind->measure || kind->measure(object, tree, &recipe, list, e));
     out_tree_free(tree);
     return done;
 }

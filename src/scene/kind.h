@@ -38,7 +38,8 @@ typedef struct Kind {
                             Error *e);
 
     // Adds what there is to measure beyond what every out-tree has; NULL = nothing.
-    bool (*measure)(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e);
+    bool (*measure)(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+                    MeasureList *list, Error *e);
 
     // Draws what the kind makes as a picture of one value a pixel, 0..1, row by row from the top
     // left (pixel: width * height floats); NULL = it makes no picture.

@@ -20,8 +20,10 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
                           &p->world->geometry, p->recipe.run, e);
 }
 
-static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+                    MeasureList *list, Error *e)
 {
+    (void)recipe;
     CoralParams p = coral_params_resolve(object->coral);
     CoralMeasures m;
     return coral_measure(tree, &m, e) &&

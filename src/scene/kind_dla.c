@@ -17,8 +17,10 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
 }
 
 // 1.71 and 2.5 for ever larger clusters (Meakin 1983; Davidovitch et al. 2000).
-static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+                    MeasureList *list, Error *e)
 {
+    (void)recipe;
     double dimension = dla_dimension(tree), low = object->dla->dimension == 2 ? 1.66 : 2.4;
     return measures_add(list, "gyration_dimension", dimension > 0.0 ? dimension : (double)NAN, "",
                         low, low + 0.2, e);

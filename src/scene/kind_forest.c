@@ -42,8 +42,10 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
                            land_height, &land, &p->world->geometry, p->recipe.run, e);
 }
 
-static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+                    MeasureList *list, Error *e)
 {
+    (void)recipe;
     double gap;
     measures_set_range(list, "radius_exponent", 1.8, 2.3);
     measures_set_range(list, "branch_angle", 30.0, 70.0);

@@ -18,6 +18,12 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
                              &p->world->geometry, e);
 }
 
+static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+                    MeasureList *list, Error *e)
+{
+    return fracture_measure(tree, object->fracture, recipe, list, e);
+}
+
 static void describe(const SceneObject *object, char *text, size_t size)
 {
     snprintf(text, size, ", %d impacts", object->fracture->impacts);
@@ -35,5 +41,6 @@ const Kind kind_fracture = {.key = "fracture",
                             .materials = {"material", "inside_material"},
                             .grow = grow,
                             .place = place,
+                            .measure = measure,
                             .describe = describe,
                             .attractors = attractors};

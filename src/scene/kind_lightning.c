@@ -18,8 +18,10 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
                               &p->world->geometry, e);
 }
 
-static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+                    MeasureList *list, Error *e)
 {
+    (void)recipe;
     return lightning_measure(object->lightning, tree, list, e);
 }
 

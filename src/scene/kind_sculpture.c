@@ -16,12 +16,16 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
                               &p->world->geometry, p->recipe.run, e);
 }
 
-static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+                    MeasureList *list, Error *e)
 {
+    (void)recipe;
     (void)object;
-    int64_t pieces;
-    return out_tree_count_pieces(tree, &pieces, e) &&
-           measures_add(list, "pieces", (double)pieces, "", 1.0, 1.0, e);
+    double none = (double)NAN;
+    int64_t pieces, loops;
+    return out_tree_count_pieces(tree, &pieces, &loops, e) &&
+           measures_add(list, "pieces", (double)pieces, "", 1.0, 1.0, e) &&
+           measures_add(list, "loops", (double)loops, "", none, none, e);
 }
 
 static void describe(const SceneObject *object, char *text, size_t size)

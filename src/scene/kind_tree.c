@@ -39,8 +39,10 @@ static int64_t copies(const SceneObject *object)
 }
 
 // Nature's ranges: radii after Eloy (2011); the others are usual for broad-leaved trees.
-static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+                    MeasureList *list, Error *e)
 {
+    (void)recipe;
     (void)object;
     (void)tree;
     (void)e;

@@ -22,6 +22,13 @@ static bool paint(const SceneObject *object, const OutTree *tree, int width, int
     return venation_paint(tree, object->venation, width, height, pixel, e);
 }
 
+static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+                    MeasureList *list, Error *e)
+{
+    (void)recipe;
+    return venation_measure(tree, object->venation, list, e);
+}
+
 static void describe(const SceneObject *object, char *text, size_t size)
 {
     snprintf(text, size, ", %s, %g m", object->venation->closed ? "closed" : "open",
@@ -33,5 +40,6 @@ const Kind kind_venation = {.key = "venation",
                             .materials = {"material", "leaf_material"},
                             .grow = grow,
                             .place = place,
+                            .measure = measure,
                             .paint = paint,
                             .describe = describe};

@@ -16,8 +16,10 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
                             p->recipe.run, e);
 }
 
-static bool measure(const SceneObject *object, const OutTree *tree, MeasureList *list, Error *e)
+static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+                    MeasureList *list, Error *e)
 {
+    (void)recipe;
     // Kassab et al. 1993; Huang et al. 1996.
     measures_set_range(list, "radius_exponent", 2.3, 3.0);
     measures_set_range(list, "branch_angle", 13.0, 43.0);

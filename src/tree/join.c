@@ -176,16 +176,18 @@ static int compare_places(const void *a, const void *b)
     return order != 0 ? order : (p->node < q->node ? -1 : (p->node > q->node));
 }
 
-bool out_tree_count_pieces(const OutTree *tree, int64_t *pieces, Error *e)
+bool out_tree_count_pieces(const OutTree *tree, int64_t *pieces, int64_t *loops, Error *e)
 {
     int32_t *piece = memory_alloc(tree->count, sizeof *piece, e);
     Place *place = memory_alloc(tree->count, sizeof *place, e);
     bool done = piece && place;
+    int64_t edges = 0, places = tree->count > 0;
     for (int64_t i = 0; done && i < tree->count; i++) {
         piece[i] = (int32_t)i;
         place[i] = (Place){tree->position[i], (int32_t)i};
         if (tree->parent[i] >= 0) {
             unite(piece, (int32_t)i, tree->parent[i]);
+            edges++;
         }
     }
     *pieces = 0;
@@ -194,11 +196,16 @@ bool out_tree_count_pieces(const OutTree *tree, int64_t *pieces, Error *e)
         for (int64_t i = 1; i < tree->count; i++) {
             if (compare_positions(place[i].position, place[i - 1].position) == 0) {
                 unite(piece, place[i].node, place[i - 1].node);
+            } else {
+                places++;
             }
         }
         for (int64_t i = 0; i < tree->count; i++) {
             *pieces += piece[i] == (int32_t)i;
         }
+    }
+    if (loops) {
+        *loops = edges - places + *pieces;
     }
     free(piece);
     free(place);

@@ -19,8 +19,9 @@ typedef struct JoinParams {
 // many nodes were added; may be NULL. Takes time with tips x nodes.
 bool out_tree_join_tips(OutTree *tree, const JoinParams *params, int64_t *joins, Error *e);
 
-// Pieces that the tree and its joins (nodes at the same place) make.
-bool out_tree_count_pieces(const OutTree *tree, int64_t *pieces, Error *e);
+// Pieces that the tree and its joins (nodes at the same place) make, and the loops in them that do
+// not follow from one another (edges - places + pieces; may be NULL).
+bool out_tree_count_pieces(const OutTree *tree, int64_t *pieces, int64_t *loops, Error *e);
 
 // Is the way from a to b along the branches at least `least` long, m? Always so between two trees.
 bool out_tree_path_exceeds(const OutTree *tree, int64_t a, int64_t b, float least);

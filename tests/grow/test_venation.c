@@ -138,6 +138,10 @@ static void closed_veins_have_loops(void **state)
     OutTree *tree = grow(&params, NULL, &report);
     assert_true(report.loops > 30);
     assert_int_equal(count_closings(tree), report.loops);
+    int64_t pieces, loops;
+    assert_true(out_tree_count_pieces(tree, &pieces, &loops, NULL));
+    assert_int_equal(pieces, 1);
+    assert_int_equal(loops, report.loops);
     OutTree *again = grow(&params, NULL, &report);
     assert_true(out_tree_hash(tree) == out_tree_hash(again));
     out_tree_free(tree);

@@ -88,6 +88,29 @@ static void threads_do_not_show(void **state)
     mesh_pieces_clear(&one);
 }
 
+static void measures_are_those_of_the_pieces(void **state)
+{
+    (void)state;
+    FractureParams params = small_params();
+    params.resolution = 40;
+    double base, removed, largest = 0.0;
+    MeshPieces pieces = break_ball(&params, 1, &base, &removed);
+    for (int64_t i = 0; i < pieces.count; i++) {
+        largest = fmax(largest, mesh_signed_volume(pieces.piece[i]));
+    }
+    Run run = run_default();
+    Recipe recipe = {.seed = 2, .label = "ball", .grow_to = 1.0f, .run = &run};
+    OutTree *network = fracture_grow(&params, &recipe, NULL);
+    MeasureList list = {0};
+    assert_true(fracture_measure(network, &params, &recipe, &list, NULL));
+    assert_int_equal(measures_find(&list, "pieces")->value, pieces.count);
+    assert_true(measures_find(&list, "largest_piece")->value == largest / base);
+    assert_true(fabs(measures_find(&list, "removed")->value - removed / base) < 0.02);
+    measures_clear(&list);
+    out_tree_free(network);
+    mesh_pieces_clear(&pieces);
+}
+
 static void a_mesh_of_two_balls_has_two_pieces(void **state)
 {
     (void)state;
@@ -146,6 +169,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pieces_are_closed_and_keep_the_volume),
         cmocka_unit_test(threads_do_not_show),
+        cmocka_unit_test(measures_are_those_of_the_pieces),
         cmocka_unit_test(a_mesh_of_two_balls_has_two_pieces),
         cmocka_unit_test(triangles_are_as_far_as_their_nearest_point),
     };

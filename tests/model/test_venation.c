@@ -3,6 +3,7 @@
 
 #include "model/venation.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static OutTree *grow(const VenationParams *params)
@@ -74,11 +75,45 @@ static void the_texture_shows_the_midrib_in_the_middle(void **state)
     out_tree_free(tree);
 }
 
+static double measured(const OutTree *tree, const VenationParams *params, const char *name)
+{
+    MeasureList list = {0};
+    assert_true(venation_measure(tree, params, &list, NULL));
+    double value = measures_find(&list, name)->value;
+    measures_clear(&list);
+    return value;
+}
+
+static void the_net_is_measured_against_the_blade(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.outline = (LeafOutline){.length = 0.1f, .width = 0.06f, .widest = 0.5f, .tip = 1.0f};
+    double ellipse = M_PI / 4.0 * 100.0 * 60.0; // mm^2
+    OutTree *net = grow(&params);
+    double areoles = measured(net, &params, "areoles");
+    assert_true(areoles > 20.0);
+    assert_true(fabs(measured(net, &params, "areole_area") * areoles / ellipse - 1.0) < 1e-3);
+    params.closed = false;
+    OutTree *open = grow(&params);
+    assert_true(measured(open, &params, "areoles") == 0.0);
+    assert_true(isnan(measured(open, &params, "areole_area")));
+    double length = 0.0;
+    for (int64_t i = 1; i < open->count; i++) {
+        length += (double)vec3_distance(open->position[i], open->position[open->parent[i]]);
+    }
+    length = 1000.0 * (length - (double)params.petiole);
+    assert_true(fabs(measured(open, &params, "vein_density") * ellipse / length - 1.0) < 1e-3);
+    out_tree_free(net);
+    out_tree_free(open);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_leaf_has_a_blade_and_a_curve_for_each_piece_of_vein),
         cmocka_unit_test(the_texture_shows_the_midrib_in_the_middle),
+        cmocka_unit_test(the_net_is_measured_against_the_blade),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,7 +26,7 @@ static int64_t join(OutTree *tree, JoinParams params)
 static int64_t pieces(const OutTree *tree)
 {
     int64_t count;
-    assert_true(out_tree_count_pieces(tree, &count, NULL));
+    assert_true(out_tree_count_pieces(tree, &count, NULL, NULL));
     return count;
 }
 
@@ -99,6 +99,30 @@ static void all_becomes_one(void **state)
     out_tree_free(tree);
 }
 
+// Two squares that share a side, drawn as a tree: the last node of each lies on an earlier one.
+static void loops_are_counted_where_ends_meet(void **state)
+{
+    (void)state;
+    OutTree *tree = out_tree_new(NULL);
+    const float x[] = {0, 1, 1, 0, 0}, y[] = {0, 0, 1, 1, 0};
+    for (int k = 0; k < 5; k++) {
+        add(tree, x[k], y[k], k - 1, k);
+    }
+    int64_t count, loops;
+    assert_true(out_tree_count_pieces(tree, &count, &loops, NULL));
+    assert_int_equal(loops, 1);
+    int64_t corner = add(tree, 2, 0, 1, 2);
+    corner = add(tree, 2, 1, corner, 3);
+    assert_true(out_tree_count_pieces(tree, &count, &loops, NULL));
+    assert_int_equal(loops, 1);
+    add(tree, 1, 1, corner, 4);
+    add(tree, 9, 9, -1, 0); // apart
+    assert_true(out_tree_count_pieces(tree, &count, &loops, NULL));
+    assert_int_equal(count, 2);
+    assert_int_equal(loops, 2);
+    out_tree_free(tree);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -106,6 +130,7 @@ int main(void)
         cmocka_unit_test(reach_heading_and_normal_are_kept_to),
         cmocka_unit_test(a_tip_does_not_join_its_own_branch),
         cmocka_unit_test(all_becomes_one),
+        cmocka_unit_test(loops_are_counted_where_ends_meet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
