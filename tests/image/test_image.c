@@ -217,6 +217,46 @@ static void test_same_bytes(void **state)
     image_free(image);
 }
 
+// Heights go out as 16-bit grey and as float: as near as 16 bits allow, and to the bit.
+static void test_height_round_trips(void **state)
+{
+    (void)state;
+    enum { WIDTH = 257, HEIGHT = 31 };
+    Image *image = image_new(WIDTH, HEIGHT, 1, NULL);
+    assert_non_null(image);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        image->pixel[i] = (float)i / (WIDTH * HEIGHT - 1);
+    }
+    image->pixel[7] = -0.5f; // beyond the range: its ends
+    image->pixel[8] = 1.5f;
+    Error e = {0};
+    ImageLayer layer = {"", "Y", image};
+    assert_true(image_write_grey16(path_of("land.png"), image, METADATA, &e));
+    assert_true(image_write_exr(path_of("land.exr"), &layer, 1, METADATA, &e));
+    Image *grey = image_read(path_of("land.png"), &e), *exact = image_read(path_of("land.exr"), &e);
+    assert_non_null(grey);
+    assert_non_null(exact);
+    assert_true(grey->width == WIDTH && grey->height == HEIGHT && grey->channels == 1);
+    assert_true(exact->width == WIDTH && exact->height == HEIGHT && exact->channels == 1);
+    assert_memory_equal(exact->pixel, image->pixel, sizeof(float) * WIDTH * HEIGHT);
+    image->pixel[7] = 0.0f;
+    image->pixel[8] = 1.0f;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        assert_float_equal(grey->pixel[i], image->pixel[i], 0.501f / 65535.0f);
+    }
+    long size;
+    char *bytes = contents(path_of("land.png"), &size);
+    assert_true(holds(bytes, size, "ramify:samples"));
+    free(bytes);
+    Image *colour = gradient(8, 8, 3);
+    assert_false(image_write_grey16(path_of("b.png"), colour, NULL, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    image_free(colour);
+    image_free(image);
+    image_free(grey);
+    image_free(exact);
+}
+
 static void expect_error(bool done, const Error *e, ErrorCode code, const char *part)
 {
     assert_false(done);
@@ -331,7 +371,7 @@ int main(void)
         cmocka_unit_test(test_jpeg),           cmocka_unit_test(test_exr_round_trip),
         cmocka_unit_test(test_same_bytes),     cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_broken_file),    cmocka_unit_test(test_full_disk),
-        cmocka_unit_test(test_link_and_mode),
+        cmocka_unit_test(test_link_and_mode),  cmocka_unit_test(test_height_round_trips),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
