@@ -16,7 +16,7 @@ TerrainParams terrain_params_default(void)
         .size = 12000.0f,
         .resolution = 1024,
         .uplift = {.base = 1.0f, .noise = 0.4f},
-        .rivers = {.outlets = 5,
+        .rivers = {.outlets = 7,
                    .count = 2500,
                    .winding = 0.4f,
                    .gradient = 0.6f,

@@ -1,7 +1,12 @@
-// Rivers as an out-tree on a plane: space colonization from outlets on the border, in levels.
+// Rivers as an out-tree on a plane: space colonization from outlets on the border, the main rivers
+// first, then their brooks. Main rivers wind at every scale and run inland side by side, so that
+// large basins are longer for their width than small ones and rivers grow with their basins about
+// as Hack's law has it (length ~ area^0.57).
 #include "base/random.h"
 #include "grow/colonize.h"
 #include "model/terrain_internal.h"
+#include "tree/chains.h"
+#include "tree/jitter.h"
 
 #include "base/memory.h"
 
@@ -88,33 +93,67 @@ static bool grow_level(OutTree *tree, const TerrainParams *params, const GrowLev
     return done;
 }
 
-static bool grow_levels(OutTree *tree, const TerrainParams *params, const GuideField *field,
+// Rivers stay on the plane and inside the land.
+static void project_on_land(const void *surface, Vec3 *p, Vec3 *normal)
+{
+    float half = 0.499f * ((const TerrainParams *)surface)->size;
+    *p = vec3(clampf(p->x, -half, half), 0.0f, clampf(p->z, -half, half));
+    *normal = vec3(0, 1, 0);
+}
+
+// Lays windings of all lengths over the rivers so far; outlets and sources stay. *tree is replaced.
+static bool wind_rivers(OutTree **tree, const TerrainParams *params, float spacing, uint64_t seed,
+                        const Run *run, Error *e)
+{
+    OutTree *fine = out_tree_resample(*tree, 0.2f * spacing, e);
+    if (!fine) {
+        return false;
+    }
+    out_tree_free(*tree);
+    *tree = fine;
+    JitterParams jitter = jitter_params_default();
+    jitter.hurst = 0.65f;
+    jitter.amplitude = 1.4f * params->rivers.winding * spacing;
+    jitter.reference = spacing;
+    jitter.seed = seed;
+    jitter.project = project_on_land;
+    jitter.surface = params;
+    jitter.stride = params->size; // a plane: one stride is as good as many
+    return out_tree_jitter(fine, &jitter, run, e);
+}
+
+static bool grow_levels(OutTree **tree, const TerrainParams *params, const GuideField *field,
                         uint64_t seed, const Run *run, Error *e)
 {
-    // Lengths in spacings of the level's own attractors.
-    const GrowLevel shape[4] = {{.step = 0.15f, .kill = 0.5f, .influence = 4.0f},
-                                {.step = 0.30f, .kill = 0.8f, .influence = 2.5f},
-                                {.step = 0.40f, .kill = 0.9f, .influence = 2.2f},
-                                {.step = 0.45f, .kill = 1.0f, .influence = 2.2f}};
     ColonizeParams colonizing = colonize_params_default();
     colonizing.on_surface = true;
     colonizing.max_children = 2;
     colonizing.field = field;
     colonizing.field_weight = params->rivers.field_weight;
     colonizing.seed = random_key(seed, 2);
-    int64_t most = params->rivers.count;
-    const int64_t counts[4] = {most / 500, most / 60, most / 8, most};
-    for (int i = 0; i < 4; i++) {
-        GrowLevel level = shape[i];
-        level.attractors = counts[i] > 12 ? counts[i] : 12;
-        level.noise = params->rivers.winding;
-        level.relax = 0.5f;
-        if ((i == 3 || counts[i] > 12) && !grow_level(tree, params, &level, &colonizing,
-                                                      random_key(seed, 10 + (uint64_t)i), run, e)) {
+    // Lengths in spacings of the level's own attractors. Brooks are relaxed: straight on the scale
+    // of hillslopes.
+    int64_t count = params->rivers.count > 12 ? params->rivers.count : 12;
+    float winding = params->rivers.winding;
+    const GrowLevel rivers = {.attractors = count / 8,
+                              .step = 0.40f,
+                              .kill = 0.9f,
+                              .influence = 2.2f,
+                              .noise = 1.5f * winding};
+    const GrowLevel brooks = {.attractors = count,
+                              .step = 0.45f,
+                              .kill = 1.0f,
+                              .influence = 2.2f,
+                              .noise = winding,
+                              .relax = 0.5f};
+    if (rivers.attractors > 12) {
+        float spacing = params->size / sqrtf((float)rivers.attractors);
+        if (!grow_level(*tree, params, &rivers, &colonizing, random_key(seed, 12), run, e) ||
+            !wind_rivers(tree, params, spacing, random_key(seed, 42), run, e)) {
             return false;
         }
     }
-    return true;
+    return grow_level(*tree, params, &brooks, &colonizing, random_key(seed, 13), run, e);
 }
 
 // The guide field about the outlets.
@@ -147,7 +186,7 @@ OutTree *terrain_rivers(const TerrainParams *params, const Recipe *recipe, Error
         field = river_field(tree, params, random_key(recipe->seed, 4), recipe->run, e);
         done = field;
     }
-    done = done && grow_levels(tree, params, field, recipe->seed, recipe->run, e) &&
+    done = done && grow_levels(&tree, params, field, recipe->seed, recipe->run, e) &&
            out_tree_keep_births(tree, recipe->grow_to, e);
     guide_field_free(field);
     if (!done) {

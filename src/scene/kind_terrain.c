@@ -80,7 +80,7 @@ static void describe(const SceneObject *object, char *text, size_t size)
 static int64_t attractors(const SceneObject *object)
 {
     int64_t count = object->terrain->rivers.count;
-    return count + count / 8 + count / 60 + count / 500;
+    return count + count / 8;
 }
 
 static int64_t copies(const SceneObject *object)

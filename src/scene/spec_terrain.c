@@ -59,7 +59,7 @@ static const Key RIVER_KEYS[] = {
     {KEY_OF(RiverParams, count, "count", KEY_INT64), .low = 12, .high = 4e6,
      .doc = "Attractors of the finest level, about as many as brooks: few make long slopes."},
     {KEY_OF(RiverParams, winding, "winding", KEY_FLOAT), .high = 1,
-     .doc = "How far rivers wind: noise of their growth."},
+     .doc = "How far rivers wind: noise of their growth and the windings laid over main rivers."},
     {KEY_OF(RiverParams, gradient, "gradient", KEY_FLOAT), .high = 0.9,
      .doc = "Of brooks, as a share of the slopes' gradient."},
     {KEY_OF(RiverParams, concavity, "concavity", KEY_FLOAT), .high = 2,

@@ -374,6 +374,58 @@ static void painted_uplift_makes_the_mountains(void **state)
     out_tree_free(tree);
 }
 
+// A picture that is bright in the north-west quarter only: there stands the land; and its rows run
+// from the north, its columns from the west.
+static void an_uplift_picture_makes_the_mountains(void **state)
+{
+    (void)state;
+    TerrainParams params = small_terrain();
+    const float pixels[6] = {1.0f, 0.1f, 0.1f, 0.1f, 0.1f, 0.1f};
+    params.uplift = (UpliftParams){.base = 1.0f, .image_pixels = pixels, .image_size = {3, 2}};
+    OutTree *tree = grow(&params, 5, 2);
+    HeightField *field = heights(&params, tree, 5, 2);
+    double sum[4] = {0};
+    for (int i = 0; i < 129 * 129; i++) {
+        sum[(i / 129 > 64) * 2 + (i % 129 > 64)] += (double)field->height[i];
+    }
+    for (int quarter = 1; quarter < 4; quarter++) {
+        assert_true(sum[0] > 1.5 * sum[quarter]);
+    }
+    height_field_free(field);
+    out_tree_free(tree);
+}
+
+// Over some seeds Hack's exponent lies on average where nature's does, give or take the scatter of
+// a mean of four; and so does the hypsometric integral.
+static void basins_are_those_of_nature(void **state)
+{
+    (void)state;
+    enum { SEEDS = 4 };
+    double hack = 0.0, integral = 0.0;
+    for (uint64_t seed = 11; seed < 11 + SEEDS; seed++) {
+        TerrainParams params = terrain_params_default();
+        params.resolution = 256;
+        OutTree *tree = grow(&params, seed, 2);
+        HeightField *field = heights(&params, tree, seed, 2);
+        Error e = {0};
+        MeasureList list = {0};
+        assert_true(height_field_measure(field, 0.0, &list, &e));
+        double h = measures_find(&list, "hack_exponent")->value;
+        double i = measures_find(&list, "hypsometric_integral")->value;
+        if (!(h > 0.51 && h < 0.64 && i > 0.3 && i < 0.6)) {
+            fail_msg("seed %d: Hack %g, hypsometric integral %g", (int)seed, h, i);
+        }
+        hack += h / SEEDS;
+        integral += i / SEEDS;
+        measures_clear(&list);
+        height_field_free(field);
+        out_tree_free(tree);
+    }
+    if (!(hack > 0.545 && hack < 0.605 && integral > 0.35 && integral < 0.6)) {
+        fail_msg("Hack %g, hypsometric integral %g", hack, integral);
+    }
+}
+
 // Horton's ratios and the concavity of grown land lie where those of nature do.
 static void measures_are_those_of_nature(void **state)
 {
@@ -471,6 +523,8 @@ int main(void)
         cmocka_unit_test(it_grows_with_its_size),
         cmocka_unit_test(relief_is_what_was_asked),
         cmocka_unit_test(painted_uplift_makes_the_mountains),
+        cmocka_unit_test(an_uplift_picture_makes_the_mountains),
+        cmocka_unit_test(basins_are_those_of_nature),
         cmocka_unit_test(measures_are_those_of_nature),
         cmocka_unit_test(erosion_lowers_what_is_too_steep),
         cmocka_unit_test(land_water_and_forest_become_parts),
