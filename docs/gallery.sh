@@ -148,7 +148,7 @@ fi
 if is_wanted figure-21; then
     panel terrain-strip --set seed=8 --set objects.range.terrain.water_level=0.12
     panel terrain-strip --set 'objects.range.terrain.rivers.fields=[{kind: vortex, vector: [0, 1, 0], center: [0, 0, 0]}]'
-    panel terrain-strip --set objects.range.terrain.rivers.count=150 --set objects.range.terrain.relief=1300 \
+    panel terrain-strip --set objects.range.terrain.rivers.count=150 --set objects.range.terrain.relief=950 \
         --set objects.range.terrain.erosion.streams=1
     panel terrain-strip --set objects.range.material=badlands --set objects.range.terrain.relief=500 \
         --set objects.range.terrain.terraces.count=7 --set objects.range.terrain.terraces.strength=0.9 \
