@@ -66,7 +66,7 @@ typedef struct TubeRange {
 } TubeRange;
 
 // A root starts, and every chain ends, a little beyond its last node, because the limit surface
-// draws back from a closed end. (Where another chain goes on from it, a root's start is open.)
+// draws back from a closed end.
 static TubeRange tube_range(const SkinGrid *grid, const SkinPlan *plan, int32_t number)
 {
     const SkinChain *chain = &plan->chain[number];
@@ -75,7 +75,7 @@ static TubeRange tube_range(const SkinGrid *grid, const SkinPlan *plan, int32_t 
     bool root = chain->parent < 0;
     TubeRange range = {.low = root ? 0.0f : chain->start,
                        .high = last->along + 0.5f * last->radius};
-    range.start = root && !chain->has_through ? -0.9f * first->radius : range.low;
+    range.start = root ? -0.9f * first->radius : range.low;
     range.last_exit = range.start;
     float longest = 0.0f;
     for (int64_t i = 0; i < grid->child_count; i++) {

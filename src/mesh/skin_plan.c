@@ -47,27 +47,6 @@ static void find_exit(const SkinPlan *plan, SkinChain *chain)
     }
 }
 
-// Whether a child goes on from the start of a root, about straight the other way, and about as
-// thick: then the two are one tube, and it leaves the root through the ring at its start.
-static bool goes_through(const SkinPlan *plan, const SkinChain *chain)
-{
-    const SkinChain *root = &plan->chain[chain->parent];
-    const SkinPoint *a = &plan->point[root->axis], *b = &plan->point[chain->axis];
-    return root->parent < 0 && !root->has_through && chain->attach < 0.1f * a->radius &&
-           vec3_dot(a->tangent, b->tangent) < -0.8f && b->radius > 0.5f * a->radius &&
-           b[chain->samples - 1].along > 2.0f * a->radius;
-}
-
-static void join_through(SkinPlan *plan, SkinChain *chain)
-{
-    SkinChain *root = &plan->chain[chain->parent];
-    root->has_through = true;
-    chain->through = true;
-    chain->visible = true;
-    chain->start = 0.4f * plan->point[root->axis].radius;
-    chain->offset = root->offset;
-}
-
 // Settles from which chain each child of this one grows: those of a hidden chain, and those that
 // start before their parent comes out, grow from the grandparent. Appends the children to the
 // stack.
@@ -101,12 +80,10 @@ static bool plan_from(SkinPlan *plan, int32_t root, int32_t **stack, int64_t *ca
             return false;
         }
         SkinChain *chain = &plan->chain[number];
-        if (chain->parent < 0) {
-            chain->visible = true;
-        } else if (goes_through(plan, chain)) {
-            join_through(plan, chain);
-        } else {
+        if (chain->parent >= 0) {
             find_exit(plan, chain);
+        } else {
+            chain->visible = true;
         }
         settle_children(plan, number, *stack, &height);
     }

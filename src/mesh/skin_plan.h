@@ -22,8 +22,6 @@ typedef struct SkinChain {
     int64_t axis, samples; // its axis: plan->point[axis] ...
     bool visible;          // false: all of it lies inside the parent
     bool has_children;     // visible ones leave it
-    bool through;          // goes on from a root's start, the other way: they share a ring there
-    bool has_through;      // a root: a child goes on from its start
     // Where a visible child comes out of its parent's surface:
     float exit_on_parent; // m along the parent's axis
     float exit;           // m along its own axis

@@ -133,60 +133,17 @@ static bool looks_outwards(const SkinRing *a, const SkinRing *b)
     return strip_looks_outwards(a, b, 0.0f, 0.5f) && strip_looks_outwards(a, b, 0.5f, 1.0f);
 }
 
-// Turns a unit vector towards another by no more than an angle.
-static Vec3 turn_towards(Vec3 from, Vec3 to, float sine, float cosine)
+// Makes the tube between a and b look outwards, whatever it takes: b is laid parallel to a, moved
+// ahead of it, and at last straight above it.
+static void force_ahead(const SkinRing *a, SkinRing *b)
 {
-    if (vec3_dot(from, to) >= cosine) {
-        return to;
-    }
-    Vec3 aside = vec3_normalize(vec3_madd(to, -vec3_dot(from, to), from));
-    if (!(vec3_dot(aside, aside) > 0.5f)) {
-        aside = vec3_perpendicular(from);
-    }
-    return vec3_normalize(vec3_madd(vec3_scale(from, cosine), sine, aside));
-}
-
-// The way from a towards where the tube should be at b and beyond.
-static Vec3 way_to(const SkinRing *a, const SkinRing *b)
-{
-    float passed = vec3_dot(vec3_sub(a->centre, b->centre), b->normal);
-    float beyond = 2.0f * b->radius + (passed > 0.0f ? passed : 0.0f);
-    Vec3 way = vec3_sub(vec3_madd(b->centre, beyond, b->normal), a->centre);
-    way = vec3_normalize(way);
-    return vec3_dot(way, way) > 0.5f ? way : b->normal;
-}
-
-// Lays b where a tube can lead from a that turns by no more than `turn` radians, bent and untwisted
-// towards b's own place. False when its faces would not all look outwards.
-static bool steer(const SkinRing *a, SkinRing *b, float turn)
-{
-    float sine, cosine;
-    exact_sincos(turn, &sine, &cosine);
-    Vec3 normal = turn_towards(a->normal, way_to(a, b), sine, cosine);
-    Vec3 heading = vec3_normalize(vec3_add(a->normal, normal));
-    // In the bend the inner corners stand still while the centre moves on.
-    float thick = fmaxf(a->radius, b->radius), turned = vec3_dot(a->normal, normal);
-    float half = sqrtf(fmaxf(0.0f, 1.0f - turned) / (1.0f + turned)); // tangent of half the angle
-    float step = 2.2f * skin_ring_scale(b->sides) * thick * half + 0.1f * thick;
-    float ahead = vec3_dot(vec3_sub(b->centre, a->centre), heading);
-    Vec3 side = vec3_normalize(vec3_madd(a->side, -vec3_dot(a->side, normal), normal));
-    Vec3 own = vec3_normalize(vec3_madd(b->side, -vec3_dot(b->side, normal), normal));
-    SkinRing laid = *b;
-    laid.centre = vec3_madd(a->centre, fmaxf(step, ahead), heading);
-    laid.normal = normal;
-    laid.side = vec3_dot(own, own) > 0.5f ? turn_towards(side, own, sine, cosine) : side;
-    skin_ring_set_corners(&laid);
-    if (!looks_outwards(a, &laid)) {
+    if (vec3_dot(a->side, b->side) < 0.5f) { // twisted by more than 60 degrees
+        b->side = a->side;
         skin_ring_set_corners(b);
-        return false;
     }
-    *b = laid;
-    return true;
-}
-
-// Lays b parallel to a, ahead of it, and at last straight above it.
-static void lay_straight(const SkinRing *a, SkinRing *b)
-{
+    if (vec3_dot(a->normal, b->normal) > 0.0f && looks_outwards(a, b)) {
+        return;
+    }
     Vec3 offset = vec3_sub(b->centre, a->centre);
     float along = vec3_dot(offset, a->normal), least = 0.1f * b->radius;
     Vec3 sideways = vec3_madd(offset, -along, a->normal);
@@ -204,34 +161,11 @@ static void lay_straight(const SkinRing *a, SkinRing *b)
     }
 }
 
-// Makes the tube between a and b look outwards, whatever it takes; whether b had to leave its
-// place. A tube that has left its axis is steered back to it, in bends that it has room for: laid
-// straight on it would never return.
-static bool force_ahead(const SkinRing *a, SkinRing *b, bool astray)
-{
-    Vec3 offset = vec3_sub(b->centre, a->centre);
-    float most = astray ? 0.5f * vec3_length(offset) : -INFINITY;
-    if (vec3_dot(a->normal, b->normal) > 0.0f && vec3_dot(a->side, b->side) >= 0.5f &&
-        vec3_dot(offset, a->normal) > most && vec3_dot(offset, b->normal) > most &&
-        looks_outwards(a, b)) {
-        return false;
-    }
-    static const float turn[] = {0.6f, 0.3f, 0.15f, 0.075f}; // radians
-    for (int i = 0; i < 4; i++) {
-        if (steer(a, b, turn[i])) {
-            return true;
-        }
-    }
-    lay_straight(a, b);
-    return true;
-}
-
 void skin_rings_settle(SkinRing *ring, int64_t count)
 {
     for (int pass = 0; pass < 30 && relax_tilts(ring, count); pass++) {
     }
-    bool astray = false;
     for (int64_t i = 1; i < count; i++) {
-        astray = force_ahead(&ring[i - 1], &ring[i], astray);
+        force_ahead(&ring[i - 1], &ring[i]);
     }
 }

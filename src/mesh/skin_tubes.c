@@ -237,29 +237,6 @@ static bool add_cap(TubeBuilder *builder, const SkinRing *ring, bool at_end, Err
                          vec3_madd(ring->centre, inwards, ring->normal), e);
 }
 
-// The start of a root's tube: a cap, or the mouth of the chain that goes on from there.
-static bool end_at_start(TubeBuilder *builder, int32_t root, const SkinRing *ring, Error *e)
-{
-    if (!builder->plan->chain[root].has_through) {
-        return add_cap(builder, ring, false, e);
-    }
-    if (!memory_reserve(&builder->job, &builder->job_capacity, builder->job_count + 1,
-                        sizeof(TubeJob), e)) {
-        return false;
-    }
-    TubeJob *job = &builder->job[builder->job_count++];
-    *job = (TubeJob){.sides = ring->sides};
-    for (int64_t i = builder->child_first[root]; i < builder->child_first[root + 1]; i++) {
-        if (builder->plan->chain[builder->child[i]].through) {
-            job->chain = builder->child[i];
-        }
-    }
-    for (int k = 0; k < ring->sides; k++) {
-        job->mouth[ring->sides - 1 - k] = ring->name[k];
-    }
-    return true;
-}
-
 static bool open_mouths(TubeBuilder *builder, int32_t chain, const SkinRing *ring, float phase,
                         Error *e)
 {
@@ -347,11 +324,9 @@ static bool gather_chain_children(TubeBuilder *builder, int32_t chain, Error *e)
     if (!memory_reserve(&grid->child, &grid->child_capacity, end - first, sizeof(int32_t), e)) {
         return false;
     }
-    grid->child_count = 0;
+    grid->child_count = end - first;
     for (int64_t i = first; i < end; i++) {
-        if (!builder->plan->chain[builder->child[i]].through) {
-            grid->child[grid->child_count++] = builder->child[i];
-        }
+        grid->child[i - first] = builder->child[i];
     }
     return true;
 }
@@ -389,7 +364,7 @@ static bool build_chain(TubeBuilder *builder, const TubeJob *job, Error *e)
             return false;
         }
     }
-    return (extra || end_at_start(builder, job->chain, &ring[0], e)) &&
+    return (extra || add_cap(builder, &ring[0], false, e)) &&
            add_cap(builder, &ring[count - 1], true, e) &&
            open_mouths(builder, job->chain, ring + extra, phase, e);
 }

@@ -261,65 +261,6 @@ static void along_never_jumps(void **state)
     out_tree_free(tree);
 }
 
-// ---- skins keep to their trees ----
-
-// Distance of p from the segment to a node from its parent, in radii of that node.
-static float radii_away(const OutTree *tree, int64_t node, Vec3 p)
-{
-    Vec3 a = tree->position[tree->parent[node]], step = vec3_sub(tree->position[node], a);
-    float t = clampf(vec3_dot(vec3_sub(p, a), step) / vec3_dot(step, step), 0.0f, 1.0f);
-    return vec3_distance(p, vec3_madd(a, t, step)) / tree->radius[node];
-}
-
-// Every vertex lies within `loose` radii of some segment, every node within as many of its own
-// radii of some vertex.
-static void assert_keeps_to_tree(const OutTree *tree, float loose)
-{
-    Run run = run_default();
-    SkinParams params = skin_params_default();
-    Mesh *mesh = skin_tree(tree, &params, &run, NULL);
-    assert_non_null(mesh);
-    assert_closed(mesh, 1);
-    for (int64_t v = 0; v < mesh->vertex_count; v++) {
-        float least = INFINITY;
-        for (int64_t i = 1; i < tree->count; i++) {
-            least = fminf(least, radii_away(tree, i, mesh->position[v]));
-        }
-        if (!(least < loose)) {
-            fail_msg("vertex %lld is %g radii away", (long long)v, (double)least);
-        }
-    }
-    for (int64_t i = 0; i < tree->count; i++) {
-        float least = INFINITY;
-        for (int64_t v = 0; v < mesh->vertex_count; v++) {
-            least = fminf(least, vec3_distance(tree->position[i], mesh->position[v]));
-        }
-        if (!(least < loose * tree->radius[i])) {
-            fail_msg("node %lld is %g radii away", (long long)i, (double)(least / tree->radius[i]));
-        }
-    }
-    mesh_free(mesh);
-}
-
-// A vessel that runs through its root: one way thick, the other way thinner. Where it is much
-// thinner, it has to bend out of the side of the thicker one and back to its place.
-static void skins_keep_to_trees_that_leave_their_root_both_ways(void **state)
-{
-    (void)state;
-    for (int i = 0; i < 12; i++) {
-        OutTree *tree = out_tree_new(NULL);
-        assert_non_null(tree);
-        float thin = 0.15f * (float)(i % 4) + 0.4f, lean = 0.002f * (float)(i - i % 4);
-        sample_line(tree, -1, vec3(0, 0, 0), vec3(0, -0.08f, 0), 40, 0.1f);
-        Vec3 back = vec3_scale(vec3_normalize(vec3(lean, 0.08f, -0.5f * lean)), 0.08f);
-        int64_t end = sample_line(tree, 0, vec3(0, 0, 0), back, 25, 0.1f * thin);
-        sample_line(tree, end, tree->position[end], vec3(0.06f, 0.05f, 0), 30, 0.08f * thin);
-        sample_line(tree, end - 8, tree->position[end - 8], vec3(0, 0.03f, 0.05f), 12, 0.02f);
-        assert_keeps_to_tree(tree, thin > 0.5f ? 2.5f : 6.0f);
-        out_tree_free(tree);
-    }
-}
-
 static void thin_chains_are_left_out(void **state)
 {
     (void)state;
@@ -371,7 +312,6 @@ int main(void)
         cmocka_unit_test(tapering_tubes_stay_round),
         cmocka_unit_test(the_same_tree_gives_the_same_bits),
         cmocka_unit_test(along_never_jumps),
-        cmocka_unit_test(skins_keep_to_trees_that_leave_their_root_both_ways),
         cmocka_unit_test(thin_chains_are_left_out),
         cmocka_unit_test(bad_settings_are_named),
     };
