@@ -1,9 +1,12 @@
 # ramify: `make help` lists the targets. Every target installs the Debian packages it needs when they are missing.
 
-# The one list of Debian packages. BUILD: to compile and run. CHECK: only for lint, format, sanitize and bench.
+# The one list of Debian packages. BUILD: to compile and run. CHECK: only for lint, format, sanitize and bench. PEERS: other
+# programs that tests hold our files against, as COMMAND:PACKAGE.
 BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libboost-dev libopenimageio-dev \
-                 libopenexr-dev libassimp-dev libcyaml-dev libyaml-dev libtbb-dev libcmocka-dev
+                 libopenexr-dev libassimp-dev libcyaml-dev libyaml-dev libtbb-dev libcmocka-dev ffmpeg
 CHECK_PACKAGES = clang-format clang-tidy cppcheck
+PEER_COMMANDS  = povray:povray povray:povray-includes blender:blender node:nodejs npm:npm chromium:chromium mandoc:mandoc \
+                 oiiotool:openimageio-tools assimp:assimp-utils zsh:zsh
 
 , := ,
 VERSION := 0.1.0
@@ -37,7 +40,7 @@ BENCHES   := $(sort $(wildcard tests/bench/*.c))
 BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.h src/*.c src/*/*.[ch] src/*/*.cpp tests/*.h tests/*/*.[ch])
 
-.PHONY: all demo test bench sanitize lint format format-check install clean help packages check-packages
+.PHONY: all demo test peers bench sanitize lint format format-check install clean help packages check-packages
 .DEFAULT_GOAL := all
 
 all: packages ## build build/ramify, build/libramify.a and build/libramify.so
@@ -46,9 +49,14 @@ all: packages ## build build/ramify, build/libramify.a and build/libramify.so
 demo: all ## render the oak of scenes/oak.yaml to build/oak.png (and .exr)
 	$(OUT)/ramify render scenes/oak.yaml -o $(OUT)/oak.png
 
-test: all ## build and run every test; the last line counts them
+test: all $(if $(filter true,$(CI)),peers) ## build and run every test; the last line counts them
 	@$(MAKE) --no-print-directory -j$$(nproc) $(TEST_BIN)
 	@RAMIFY=$(OUT)/ramify tests/run $(TEST_BIN)
+
+peers: ## install the outside programs that tests compare with: POV-Ray, Blender, Node.js, Chromium, USD, ...
+	$(call need,$(foreach p,$(PEER_COMMANDS),$(if $(shell command -v $(firstword $(subst :, ,$p))),,$(lastword $(subst :, ,$p)))) \
+	    $(if $(shell python3 -c 'import ensurepip' 2>/dev/null && echo yes),,python3-venv))
+	@tests/peers/install build/peers
 
 bench: all ## print the figures of speed, as ratios to yardsticks measured in the same run
 	@$(MAKE) --no-print-directory -j$$(nproc) $(BENCH_BIN)

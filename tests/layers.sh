@@ -11,8 +11,12 @@ allowed() {
     mesh) echo "base shape tree mesh" ;;
     model) echo "base shape field tree grow mesh model" ;;
     render) echo "base mesh image render" ;;
-    scene) echo "base shape field tree grow mesh model render image scene" ;;
-    *) echo "base shape field tree grow mesh model render image scene cli" ;;
+    export) echo "base tree mesh render image export" ;;
+    scene) echo "base shape field tree grow mesh model render image export scene" ;;
+    golden) echo "base image golden" ;;
+    animate) echo "base mesh model render image export scene animate" ;;
+    api) echo "base shape field tree grow mesh model render image export scene golden animate api" ;;
+    *) echo "base shape field tree grow mesh model render image export scene golden animate api cli" ;;
     esac
 }
 breaches=0

@@ -10,6 +10,7 @@
 bool command_render(const Options *options, Error *e);  // render.c
 bool command_grow(const Options *options, Error *e);    // grow.c
 bool command_measure(const Options *options, Error *e); // measure.c
+bool command_export(const Options *options, Error *e);  // export.c
 bool command_info(const Options *options, Error *e);    // info.c
 bool command_schema(const Options *options, Error *e);  // schema.c
 

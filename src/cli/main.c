@@ -48,6 +48,8 @@ static bool run_command(const Options *options, Error *e)
         return command_grow(options, e);
     case COMMAND_MEASURE:
         return command_measure(options, e);
+    case COMMAND_EXPORT:
+        return command_export(options, e);
     case COMMAND_INFO:
         return command_info(options, e);
     default:

@@ -32,7 +32,7 @@ typedef struct Option {
 } Option;
 
 #define BIT(command) (1u << (command))
-#define GROWS (BIT(COMMAND_RENDER) | BIT(COMMAND_GROW) | BIT(COMMAND_MEASURE))
+#define GROWS (BIT(COMMAND_RENDER) | BIT(COMMAND_GROW) | BIT(COMMAND_MEASURE) | BIT(COMMAND_EXPORT))
 #define SCENES (GROWS | BIT(COMMAND_INFO))
 #define EVERY (SCENES | BIT(COMMAND_SCHEMA) | BIT(COMMAND_HELP))
 #define RENDERS BIT(COMMAND_RENDER)
@@ -43,10 +43,11 @@ static const Option OPTIONS[] = {
      .value = "FILE",
      .offset = AT(output),
      .type = OPTION_TEXT,
-     .commands = RENDERS | BIT(COMMAND_GROW),
+     .commands = RENDERS | BIT(COMMAND_GROW) | BIT(COMMAND_EXPORT),
      .letter = 'o',
-     .doc = "what to write; render: .png or .jpg with the .exr beside it; grow: .swc, .json or, of "
-            "a leaf's veins or a terrain's heights, .png or .exr"},
+     .doc =
+         "what to write; render: .png or .jpg with the .exr beside it; grow: .swc, .json or, of "
+         "a leaf's veins or a terrain's heights, .png or .exr; export: the format by its ending"},
     {.name = "samples",
      .value = "N",
      .offset = AT(samples),
@@ -172,6 +173,9 @@ static const struct {
     [COMMAND_MEASURE] = {"measure", "SCENE|FILE.swc|FILE.asc",
                          "measure what a scene grows, or an out-tree in a file",
                          "Exit status 1 when a target that the scene states is missed.\n"},
+    [COMMAND_EXPORT] = {"export", "SCENE", "write a scene as another program's file",
+                        "The ending of -o FILE says the format; docs/formats.md tells what each "
+                        "holds.\n"},
     [COMMAND_INFO] = {"info", "SCENE", "say what a scene file holds", ""},
     [COMMAND_SCHEMA] = {"schema", "", "print the JSON Schema of scene files", ""},
     [COMMAND_HELP] = {"help", "[COMMAND]", "explain a command", ""},

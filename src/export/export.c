@@ -1,0 +1,34 @@
+#include "export/export.h"
+
+#include "export/formats.h"
+
+#include <string.h>
+#include <strings.h>
+
+static const ExportFormat FORMATS[] = {
+    {".stl", "triangles alone, binary", EXPORT_WORLD, export_stl},
+};
+
+enum { FORMAT_COUNT = (int)(sizeof FORMATS / sizeof FORMATS[0]) };
+
+const ExportFormat *export_format(const char *file)
+{
+    size_t length = strlen(file);
+    for (int i = 0; i < FORMAT_COUNT; i++) {
+        size_t ending = strlen(FORMATS[i].ending);
+        if (length > ending && strcasecmp(file + length - ending, FORMATS[i].ending) == 0) {
+            return &FORMATS[i];
+        }
+    }
+    return NULL;
+}
+
+int export_format_count(void)
+{
+    return FORMAT_COUNT;
+}
+
+const ExportFormat *export_format_at(int index)
+{
+    return &FORMATS[index];
+}

@@ -1,0 +1,9 @@
+// The writers of all formats, for the table in export.c. Each is documented at its top.
+#ifndef RAMIFY_EXPORT_FORMATS_H
+#define RAMIFY_EXPORT_FORMATS_H
+
+#include "export/export.h"
+
+bool export_stl(const ExportSource *source, const char *file, const Run *run, Error *e);
+
+#endif
