@@ -47,60 +47,58 @@ static inline void plain_diffuse(Bsdf *b, const Material *m, const SurfacePoint 
     b->alpha = 0.0f;
 }
 
-Bsdf bsdf_at(const MaterialSet *set, const SurfacePoint *point, Vec3 wo)
+void bsdf_fill(const MaterialSet *set, const SurfacePoint *point, Vec3 wo, Bsdf *b)
 {
     const MaterialEntry *entry = &set->entry[point->material];
     const Material *m = &entry->material;
     Vec3 transmittance = m->transmittance;
-    Bsdf b;
     if (entry->plain) {
-        plain_diffuse(&b, m, point, wo);
-        return b;
+        plain_diffuse(b, m, point, wo);
+        return;
     }
-    b = (Bsdf){.kind = m->kind,
-               .normal = point->normal,
-               .geometric_normal = point->geometric_normal,
-               .color = m->color,
-               .roughness = m->roughness,
-               .alpha = entry->alpha,
-               .table = entry->table};
+    *b = (Bsdf){.kind = m->kind,
+                .normal = point->normal,
+                .geometric_normal = point->geometric_normal,
+                .color = m->color,
+                .roughness = m->roughness,
+                .alpha = entry->alpha,
+                .table = entry->table};
     if (m->pattern != PATTERN_NONE || m->variation > 0.0f) {
         PatternShade shade = {m->color, m->transmittance, point->normal};
         pattern_apply(m, point, &shade);
-        b.color = m->kind == MATERIAL_DIELECTRIC ? m->color : shade.color; // bumps alone
+        b->color = m->kind == MATERIAL_DIELECTRIC ? m->color : shade.color; // bumps alone
         transmittance = shade.transmittance;
-        b.normal = shade.normal;
+        b->normal = shade.normal;
     }
     if (entry->color) {
-        b.color = vec3_mul(b.color, texture_at(entry->color, point));
+        b->color = vec3_mul(b->color, texture_at(entry->color, point));
     }
-    b.normal = normal_toward(b.normal, wo);
-    b.color = vec3_max(vec3_min(b.color, vec3_splat(1.0f)), vec3_splat(0.0f));
-    b.albedo = b.color;
+    b->normal = normal_toward(b->normal, wo);
+    b->color = vec3_max(vec3_min(b->color, vec3_splat(1.0f)), vec3_splat(0.0f));
+    b->albedo = b->color;
     switch (m->kind) {
     case MATERIAL_DIFFUSE:
         break;
     case MATERIAL_EMISSION:
-        b.emission = m->radiance;
-        b.color = b.albedo = vec3_splat(0.0f);
+        b->emission = m->radiance;
+        b->color = b->albedo = vec3_splat(0.0f);
         break;
     case MATERIAL_DIELECTRIC:
-        dielectric_prepare(&b, m, point->backface, vec3_dot(b.normal, wo));
+        dielectric_prepare(b, m, point->backface, vec3_dot(b->normal, wo));
         break;
     case MATERIAL_THIN_FILM:
-        thin_film_prepare(&b, m, set->films, point, vec3_dot(b.normal, wo));
+        thin_film_prepare(b, m, set->films, point, vec3_dot(b->normal, wo));
         break;
     case MATERIAL_LEAF:
-        b.transmittance = vec3_max(transmittance, vec3_splat(0.0f));
-        leaf_colors(&b, point);
-        layered_prepare(&b, m, point->backface, vec3_dot(b.normal, wo));
+        b->transmittance = vec3_max(transmittance, vec3_splat(0.0f));
+        leaf_colors(b, point);
+        layered_prepare(b, m, point->backface, vec3_dot(b->normal, wo));
         break;
     case MATERIAL_CONDUCTOR:
     case MATERIAL_PRINCIPLED:
-        layered_prepare(&b, m, false, vec3_dot(b.normal, wo));
+        layered_prepare(b, m, false, vec3_dot(b->normal, wo));
         break;
     }
-    return b;
 }
 
 static Vec3 diffuse_eval(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)

@@ -59,7 +59,15 @@ typedef struct BsdfSample {
 } BsdfSample;
 
 // Evaluates patterns and textures of set's material point->material; wo as above.
-Bsdf bsdf_at(const MaterialSet *set, const SurfacePoint *point, Vec3 wo);
+// In place: copying what was just written piece by piece costs the path tracer 2 % of its time.
+void bsdf_fill(const MaterialSet *set, const SurfacePoint *point, Vec3 wo, Bsdf *bsdf);
+
+static inline Bsdf bsdf_at(const MaterialSet *set, const SurfacePoint *point, Vec3 wo)
+{
+    Bsdf bsdf;
+    bsdf_fill(set, point, wo, &bsdf);
+    return bsdf;
+}
 
 // Draws wi from three uniform numbers. False when absorbed.
 bool bsdf_sample(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample);

@@ -234,7 +234,8 @@ static bool arrive(Path *path, const Hit *hit, PathResult *result)
         return pass_clear(path, &point);
     }
     Vec3 wo = vec3_neg(path->ray.direction);
-    Bsdf bsdf = bsdf_at(tracer->materials, &point, wo);
+    Bsdf bsdf;
+    bsdf_fill(tracer->materials, &point, wo, &bsdf);
     if (path->straight) {
         note_first_hit(result, &point, &bsdf, path->travelled,
                        fminf(luminance(path->throughput), 1.0f));
@@ -270,6 +271,7 @@ static void begin(Path *path, const Tracer *tracer, int x, int y, int sample)
     const World *world = tracer->world;
     *path = (Path){.tracer = tracer,
                    .throughput = {1.0f, 1.0f, 1.0f},
+                   .media.now = tracer->outside,
                    .spread = tracer->camera.pixel_angle,
                    .mirrored = true,
                    .straight = true,
@@ -285,7 +287,6 @@ static void begin(Path *path, const Tracer *tracer, int x, int y, int sample)
     path->ray.key = path->key++;
     camera_ray(&tracer->camera, film_x, film_y, u + 2, &path->ray.origin, &path->ray.direction);
     path->start = path->from.position = path->ray.origin;
-    path->media = media_outside(tracer);
 }
 
 // From the first hit, which is known, to the end.

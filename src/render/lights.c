@@ -362,7 +362,7 @@ bool lights_sample_chosen(const Lights *lights, const LightChoice *choice,
                           const float u[2], SegmentLight *sample)
 {
     float share = lights->share[choice->index];
-    bool seen = true;
+    bool seen;
     if (!choice->near) {
         seen = sample_far(lights, choice->index, point, u, &sample->light);
         sample->pivot_pdf = 0.0f;
@@ -374,9 +374,12 @@ bool lights_sample_chosen(const Lights *lights, const LightChoice *choice,
         sample->pivot = (LightPivot){-1, 1.0f, lamp_pivot(light, u)};
         sample->pivot_pdf = sample->light.pdf;
     }
+    if (!seen) {
+        return false;
+    }
     sample->light.pdf *= share;
     sample->pivot_pdf *= share;
-    return seen && sample->light.pdf + sample->pivot_pdf > 0.0f;
+    return sample->light.pdf + sample->pivot_pdf > 0.0f;
 }
 
 static float bsdf_weight(float bsdf_pdf, float light_pdf)

@@ -64,9 +64,6 @@ bool path_survives(Path *path, float u);
 
 // ---- path_media.c
 
-// Air, or the scene's medium.
-Media media_outside(const Tracer *tracer);
-
 // Through the surface of a body of this material.
 void media_cross(Media *media, const Tracer *tracer, int material, bool leaving);
 

@@ -37,11 +37,6 @@ static void refresh(Media *media, const Tracer *tracer)
     }
 }
 
-Media media_outside(const Tracer *tracer)
-{
-    return (Media){.now = tracer->outside};
-}
-
 void media_cross(Media *media, const Tracer *tracer, int material, bool leaving)
 {
     if (!leaving) {

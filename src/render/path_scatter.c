@@ -96,7 +96,7 @@ static bool draw_gathering(const Path *path, const Stretch *s, const float u[4],
 static Vec3 gather_once(Path *path, const Stretch *stretch, const float u[4], const float v[4])
 {
     const Filling *filling = &path->media.now;
-    SegmentLight on;
+    SegmentLight on = {.pivot_pdf = 0.0f};
     float pdf, t;
     if (!draw_gathering(path, stretch, u, v, &t, &on, &pdf)) {
         return vec3_splat(0.0f);
