@@ -1,0 +1,21 @@
+// The sky as other programs can take it: a picture of all directions and a sun apart from it.
+#ifndef RAMIFY_EXPORT_SKY_BAKE_H
+#define RAMIFY_EXPORT_SKY_BAKE_H
+
+#include "base/run.h"
+#include "image/image.h"
+#include "render/sky.h"
+
+typedef struct BakedSky {
+    Image *image; // owned; red, green, blue: radiance, latitude-longitude as OpenEXR has it (+Y up,
+                  // +Z in the middle, +X left of it). NULL where the sky is black, of one colour,
+                  // or a picture already (SKY_ENVIRONMENT)
+    Sun sun;      // or the moon; radiance 0 where there is none
+} BakedSky;
+
+// Daylight and night, without what only the camera sees (clouds, stars). width: of the picture,
+// twice its height.
+bool sky_bake(const Sky *sky, int width, const Run *run, BakedSky *baked, Error *e);
+void baked_sky_clear(BakedSky *baked);
+
+#endif
