@@ -1,0 +1,73 @@
+#include "export/asset_path.h"
+
+#include "base/memory.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool resolve(const char *path, char resolved[PATH_MAX], Error *e)
+{
+    return realpath(path, resolved) ||
+           error_set(e, ERROR_IO, "'%s' cannot be found: %s", path, strerror(errno));
+}
+
+// The folder of file, as seen from the root, without a slash at the end.
+static bool resolve_folder(const char *file, char resolved[PATH_MAX], Error *e)
+{
+    const char *slash = strrchr(file, '/');
+    char *folder = slash ? strndup(file, (size_t)(slash - file) + 1) : strdup(".");
+    bool done = folder ? resolve(folder, resolved, e)
+                       : error_set(e, ERROR_MEMORY, "out of memory for the name '%s'", file);
+    free(folder);
+    if (done && strcmp(resolved, "/") == 0) {
+        resolved[0] = 0;
+    }
+    return done;
+}
+
+char *asset_path(const char *file, const char *asset, Error *e)
+{
+    char from[PATH_MAX], to[PATH_MAX];
+    if (!resolve_folder(file, from, e) || !resolve(asset, to, e)) {
+        return NULL;
+    }
+    size_t same = 0; // characters of whole folders that both lie in
+    for (size_t i = 0; from[i] == to[i] || (!from[i] && to[i] == '/'); i++) {
+        if (to[i] == '/') {
+            same = i;
+        }
+        if (!from[i]) {
+            break;
+        }
+    }
+    int up = 0;
+    for (const char *c = from + same; *c; c++) {
+        up += *c == '/';
+    }
+    size_t size = (size_t)up * 3 + strlen(to + same) + 3;
+    char *path = memory_alloc((int64_t)size, 1, e);
+    if (!path) {
+        return NULL;
+    }
+    strcpy(path, up > 0 ? "" : "./");
+    for (int i = 0; i < up; i++) {
+        strcat(path, "../");
+    }
+    return strcat(path, to + same + 1);
+}
+
+char *asset_beside(const char *file, const char *ending, Error *e)
+{
+    const char *slash = strrchr(file, '/'), *dot = strrchr(file, '.');
+    size_t stem =
+        dot && dot > file && (!slash || dot > slash + 1) ? (size_t)(dot - file) : strlen(file);
+    size_t size = stem + strlen(ending) + 1;
+    char *name = memory_alloc((int64_t)size, 1, e);
+    if (name) {
+        snprintf(name, size, "%.*s%s", (int)stem, file, ending);
+    }
+    return name;
+}
