@@ -180,6 +180,13 @@ static void bring_to_disk(FileWriter *writer)
     }
 }
 
+bool file_writer_settle(FileWriter *writer, Error *e)
+{
+    bring_to_disk(writer);
+    errno = writer->reason;
+    return writer->reason ? io_error(e, writer->file) : true;
+}
+
 bool file_writer_close(FileWriter *writer, bool keep, Error *e)
 {
     if (!writer) {

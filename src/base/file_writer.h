@@ -28,6 +28,10 @@ void *file_writer_room(FileWriter *writer, size_t size);
 // Bytes written so far.
 int64_t file_writer_size(const FileWriter *writer);
 
+// Brings everything to the disk, so that a close that keeps it can hardly fail: for files that
+// belong together. ERROR_IO with the reason.
+bool file_writer_settle(FileWriter *writer, Error *e);
+
 // keep: brings everything to the disk and renames it over `file`. Not keep, or after a failure: the
 // new file is gone and `file` as it was. Frees the writer (NULL is fine). True when `file` is
 // whole; ERROR_IO with the reason when keep was asked for and could not be.

@@ -6,6 +6,8 @@
 #include <strings.h>
 
 static const ExportFormat FORMATS[] = {
+    {".obj", "meshes with materials beside it (.mtl)", EXPORT_WORLD, export_obj},
+    {".ply", "meshes with radius and birth, binary", EXPORT_WORLD, export_ply},
     {".stl", "triangles alone, binary", EXPORT_WORLD, export_stl},
 };
 

@@ -8,9 +8,35 @@
 #include "render/world.h"
 #include "tree/out_tree.h"
 
+// How instances are written by formats that can keep them.
+typedef enum ExportInstances {
+    EXPORT_INSTANCES_AUTO,  // as the format does best: docs/formats.md
+    EXPORT_INSTANCES_NODES, // each names the same mesh
+    EXPORT_INSTANCES_GPU,   // glTF: EXT_mesh_gpu_instancing
+    EXPORT_INSTANCES_FLAT   // each a copy of the mesh
+} ExportInstances;
+
+// What the colours of vertices show.
+typedef enum ExportColors {
+    EXPORT_COLORS_ALL,     // patterns first, growth second where a format has two sets
+    EXPORT_COLORS_PATTERN, // what procedural patterns look like
+    EXPORT_COLORS_GROWTH,  // red: birth, 0..1; green: radius over the largest of the part
+    EXPORT_COLORS_NONE
+} ExportColors;
+
+// {0} is what is best for most.
+typedef struct ExportOptions {
+    const char *const *object; // names of the only objects to write; NULL = all
+    int object_count;
+    ExportInstances instances;
+    ExportColors colors;
+    int tube_sides; // of curves written as tubes, 3 .. CURVE_TUBE_SIDES_MOST; 0 = CURVE_TUBE_SIDES
+} ExportOptions;
+
 // What is there to be exported. All borrowed; what the format does not need is NULL.
 typedef struct ExportSource {
     const char *title;              // of the whole: the scene file's name
+    ExportOptions options;          // objects: those left out are in no part below
     const World *world;             // EXPORT_WORLD
     int object_count;               // of the scene: Part.object is an index
     const char *const *object_name; // object_count entries

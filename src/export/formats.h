@@ -4,6 +4,8 @@
 
 #include "export/export.h"
 
+bool export_obj(const ExportSource *source, const char *file, const Run *run, Error *e);
+bool export_ply(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_stl(const ExportSource *source, const char *file, const Run *run, Error *e);
 
 #endif

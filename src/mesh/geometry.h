@@ -4,6 +4,7 @@
 #define RAMIFY_MESH_GEOMETRY_H
 
 #include "base/mesh.h"
+#include "base/random.h"
 #include "mesh/curves.h"
 
 typedef enum PartKind { PART_MESH, PART_CURVES } PartKind;
@@ -25,6 +26,13 @@ typedef struct Geometry {
     Part *part;
     int64_t count, capacity;
 } Geometry;
+
+// The variation of one of the part's instances.
+static inline float part_variation(const Part *part, int64_t instance)
+{
+    return part->variation ? part->variation[instance]
+                           : random_unit(random_key((uint64_t)part->object, (uint64_t)instance));
+}
 
 // Takes ownership of mesh, curves, instance and variation, also when it fails.
 bool geometry_add(Geometry *geometry, Part part, Error *e);

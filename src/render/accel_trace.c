@@ -334,12 +334,6 @@ static void curve_surface(const AccelPart *own, const Ray *ray, const Hit *hit, 
     point->epsilon *= 2.5f; // Embree meets curves less precisely than triangles
 }
 
-static float instance_variation(const Part *part, uint32_t instance)
-{
-    return part->variation ? part->variation[instance]
-                           : random_unit(random_key((uint64_t)part->object, instance));
-}
-
 void accel_surface(const Accel *accel, const Ray *ray, const Hit *hit, SurfacePoint *point)
 {
     AccelEntry entry = accel->entry[hit->geometry];
@@ -350,7 +344,7 @@ void accel_surface(const Accel *accel, const Ray *ray, const Hit *hit, SurfacePo
         instance = (uint32_t)(hit->primitive / part->mesh->face_count);
         face = (uint32_t)(hit->primitive % part->mesh->face_count);
     }
-    *point = (SurfacePoint){.variation = part->instance ? instance_variation(part, instance)
+    *point = (SurfacePoint){.variation = part->instance ? part_variation(part, instance)
                                                         : own->base_variation,
                             .material = part->material,
                             .object = part->object,

@@ -1,0 +1,89 @@
+#include "export/mtl.h"
+
+#include "base/number_text.h"
+#include "export/vertex.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+void mtl_name(const Material *material, char name[MTL_NAME])
+{
+    size_t length = strnlen(material->name, MTL_NAME - 1);
+    for (size_t i = 0; i < length; i++) {
+        char c = material->name[i];
+        name[i] = c == ' ' || c == '\t' || c == '\n' || c == '\r' ? '_' : c;
+    }
+    name[length] = 0;
+}
+
+static void write_numbers(FileWriter *writer, const char *keyword, const float *value, int count)
+{
+    char text[3 * (FLOAT_TEXT_MOST + 1)];
+    file_writer_text(writer, keyword);
+    file_writer_bytes(writer, " ", 1);
+    file_writer_bytes(writer, text, (size_t)(floats_text(text, value, count, ' ') - text));
+    file_writer_bytes(writer, "\n", 1);
+}
+
+static void write_color(FileWriter *writer, const char *keyword, Vec3 color)
+{
+    write_numbers(writer, keyword, (float[]){color.x, color.y, color.z}, 3);
+}
+
+static void write_number(FileWriter *writer, const char *keyword, float value)
+{
+    write_numbers(writer, keyword, &value, 1);
+}
+
+// The whole path, so that the files may be moved.
+static void write_map(FileWriter *writer, const char *keyword, const char *file)
+{
+    char path[PATH_MAX];
+    if (file && file[0]) {
+        file_writer_print(writer, "%s %s\n", keyword, realpath(file, path) ? path : file);
+    }
+}
+
+static void write_material(FileWriter *writer, const Material *m)
+{
+    char name[MTL_NAME];
+    mtl_name(m, name);
+    bool clear = m->kind == MATERIAL_DIELECTRIC || m->kind == MATERIAL_THIN_FILM;
+    bool metal = m->kind == MATERIAL_CONDUCTOR;
+    bool plain = m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_EMISSION;
+    float metallic = metal ? 1.0f : m->kind == MATERIAL_PRINCIPLED ? m->metallic : 0.0f;
+    Vec3 diffuse = metal || m->kind == MATERIAL_EMISSION ? vec3_splat(0.0f) : m->color;
+    Vec3 specular = metal ? m->color : vec3_splat(plain ? 0.0f : clear ? 0.5f : m->specular);
+    float alpha = fmaxf(m->roughness * m->roughness, 0.03f);
+    file_writer_print(writer, "\nnewmtl %s\n", name);
+    write_color(writer, "Kd", diffuse);
+    write_color(writer, "Ks", specular);
+    // Blinn's exponent of a GGX lobe as wide
+    write_number(writer, "Ns", fminf(2.0f / (alpha * alpha) - 2.0f, 1000.0f));
+    write_number(writer, "Ni", clear ? m->ior : 1.5f);
+    write_number(writer, "d", clear ? 0.1f : 1.0f);
+    if (m->kind == MATERIAL_EMISSION) {
+        write_color(writer, "Ke", m->radiance);
+    }
+    file_writer_print(writer, "illum %d\n", clear ? 7 : plain ? 1 : 2);
+    write_number(writer, "Pr", plain ? 1.0f : m->roughness);
+    write_number(writer, "Pm", metallic);
+    write_map(writer, "map_Kd", m->texture);
+    write_map(writer, "map_d", m->alpha_texture);
+}
+
+void mtl_write(FileWriter *writer, const ExportSource *source)
+{
+    const World *world = source->world;
+    file_writer_text(writer, "# materials written by ramify\n");
+    for (int i = 0; i < world->material_count; i++) {
+        bool used = false;
+        for (int64_t k = 0; k < world->geometry.count && !used; k++) {
+            used = world->geometry.part[k].material == i;
+        }
+        if (used) {
+            write_material(writer, &world->material[i]);
+        }
+    }
+}

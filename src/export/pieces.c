@@ -1,0 +1,134 @@
+#include "export/pieces.h"
+
+#include "mesh/curve_tubes.h"
+
+#include <stddef.h>
+
+static const double MANY_TRIANGLES = 20e6; // a gigabyte or so
+
+enum { CHUNK_POINTS = 16384 }; // of curves made into tubes at once, about
+
+static int tube_sides(const ExportSource *source)
+{
+    int sides = source->options.tube_sides;
+    return sides > 0 ? sides : CURVE_TUBE_SIDES;
+}
+
+static int64_t part_copies(const Part *part, bool placed)
+{
+    return part->instance && placed ? part->instance_count : 1;
+}
+
+// How many curves, from `first` on, make a chunk.
+static int64_t chunk_of(const CurveSet *curves, int64_t first)
+{
+    int64_t last = first + 1;
+    while (last < curves->curve_count &&
+           curves->first[last + 1] - curves->first[first] <= CHUNK_POINTS) {
+        last++;
+    }
+    return last - first;
+}
+
+// One mesh at all places.
+static bool visit_mesh(const ExportSource *source, int64_t index, const Mesh *mesh, bool placed,
+                       unsigned wants, const Run *run, ExportVisit visit, void *user, Error *e)
+{
+    const Part *part = &source->world->geometry.part[index];
+    ExportSurface surface;
+    if (!export_surface_prepare(&surface, mesh, &source->world->material[part->material], wants,
+                                e)) {
+        return false;
+    }
+    bool done = true;
+    for (int64_t i = 0; done && i < part_copies(part, placed); i++) {
+        bool instance = part->instance && placed;
+        ExportPiece piece = {.part = index,
+                             .surface = &surface,
+                             .place = instance ? &part->instance[i] : NULL,
+                             .variation = instance         ? part_variation(part, i)
+                                          : part->instance ? -1.0f
+                                                           : 0.5f};
+        done = run_is_cancelled(run) ? run_cancel_error(e) : visit(user, &piece, e);
+    }
+    export_surface_clear(&surface);
+    return done;
+}
+
+bool export_part_pieces(const ExportSource *source, int64_t index, bool placed, unsigned wants,
+                        const Run *run, ExportVisit visit, void *user, Error *e)
+{
+    const Part *part = &source->world->geometry.part[index];
+    if (part->mesh) {
+        return part->mesh->face_count == 0 ||
+               visit_mesh(source, index, part->mesh, placed, wants, run, visit, user, e);
+    }
+    bool done = true;
+    for (int64_t i = 0; done && i < part->curves->curve_count;) {
+        int64_t count = chunk_of(part->curves, i);
+        Mesh *tubes = curve_tubes(part->curves, i, count, tube_sides(source), e);
+        done = tubes && visit_mesh(source, index, tubes, placed, wants, run, visit, user, e);
+        mesh_free(tubes);
+        i += count;
+    }
+    return done;
+}
+
+bool export_all_pieces(const ExportSource *source, unsigned wants, float begin, float end,
+                       const Run *run, ExportVisit visit, void *user, Error *e)
+{
+    int64_t whole = export_all_tally(source).vertices, past = 0;
+    bool done = true;
+    for (int64_t i = 0; done && i < source->world->geometry.count; i++) {
+        double share = whole > 0 ? (double)past / (double)whole : 0.0;
+        run_progress(run, "write", (double)begin + share * (double)(end - begin));
+        done = export_part_pieces(source, i, true, wants, run, visit, user, e);
+        past += export_part_tally(source, i, true).vertices;
+    }
+    return done;
+}
+
+ExportTally export_part_tally(const ExportSource *source, int64_t index, bool placed)
+{
+    const Part *part = &source->world->geometry.part[index];
+    ExportTally tally = {0};
+    if (part->mesh && part->mesh->face_count > 0) {
+        tally.vertices = part->mesh->vertex_count;
+        tally.faces = part->mesh->face_count;
+        tally.triangles = tally.faces * (part->mesh->face_size - 2);
+    } else if (part->curves) {
+        curve_tubes_count(part->curves, 0, part->curves->curve_count, tube_sides(source),
+                          &tally.vertices, &tally.triangles);
+        tally.faces = tally.triangles;
+    }
+    int64_t copies = part_copies(part, placed);
+    return (ExportTally){tally.vertices * copies, tally.faces * copies, tally.triangles * copies};
+}
+
+ExportTally export_all_tally(const ExportSource *source)
+{
+    ExportTally sum = {0};
+    for (int64_t i = 0; i < source->world->geometry.count; i++) {
+        ExportTally tally = export_part_tally(source, i, true);
+        sum.vertices += tally.vertices;
+        sum.faces += tally.faces;
+        sum.triangles += tally.triangles;
+    }
+    return sum;
+}
+
+void export_warn_of_instances(const ExportSource *source, const Run *run)
+{
+    int64_t instanced = 0;
+    for (int64_t i = 0; i < source->world->geometry.count; i++) {
+        if (source->world->geometry.part[i].instance) {
+            instanced += export_part_tally(source, i, true).triangles;
+        }
+    }
+    if ((double)instanced > MANY_TRIANGLES) {
+        run_warn(run,
+                 "instances written out make %.0f million triangles; --object NAME writes only "
+                 "that object, and .glb and .usda keep instances",
+                 (double)instanced * 1e-6);
+    }
+}

@@ -1,0 +1,42 @@
+// All of a world's surfaces, one after the other, as meshes: curves become tubes some thousand at a
+// time, so that no more than a few megabytes are ever held twice.
+#ifndef RAMIFY_EXPORT_PIECES_H
+#define RAMIFY_EXPORT_PIECES_H
+
+#include "export/vertex.h"
+
+typedef struct ExportPiece {
+    int64_t part; // index into the geometry
+    const ExportSurface *surface;
+    const Transform *place; // NULL = as it is
+    float variation;        // as for export_surface_vertices
+} ExportPiece;
+
+// False and e ends the walk.
+typedef bool (*ExportVisit)(void *user, const ExportPiece *piece, Error *e);
+
+// The pieces of part number index: of each of its instances, or (not placed) of its mesh alone.
+// wants: of vertex.h. ERROR_CANCELLED when the user interrupts.
+bool export_part_pieces(const ExportSource *source, int64_t index, bool placed, unsigned wants,
+                        const Run *run, ExportVisit visit, void *user, Error *e);
+
+// Those of all parts, instances written out. Tells progress, of all the walks that share it: from
+// share begin to share end.
+bool export_all_pieces(const ExportSource *source, unsigned wants, float begin, float end,
+                       const Run *run, ExportVisit visit, void *user, Error *e);
+
+// What such walks come to.
+typedef struct ExportTally {
+    int64_t vertices, faces, triangles; // a quad is one face
+} ExportTally;
+
+ExportTally export_part_tally(const ExportSource *source, int64_t index, bool placed);
+ExportTally export_all_tally(const ExportSource *source);
+
+// Warns when writing out instances makes very many triangles.
+void export_warn_of_instances(const ExportSource *source, const Run *run);
+
+// Vertices of a piece in blocks of at most EXPORT_BLOCK.
+enum { EXPORT_BLOCK = 8192 };
+
+#endif

@@ -1,0 +1,52 @@
+// The vertices of a mesh as files want them: placed, with a normal, with the colour that the
+// material's pattern has there.
+#ifndef RAMIFY_EXPORT_VERTEX_H
+#define RAMIFY_EXPORT_VERTEX_H
+
+#include "export/export.h"
+
+typedef struct ExportVertex {
+    Vec3 position, normal; // the normal is unit
+    Vec2 uv;
+    float radius, birth;
+    Vec3 color;  // linear, 0..1: pattern and variation between instances; without textures
+    Vec3 growth; // EXPORT_COLORS_GROWTH
+} ExportVertex;
+
+enum { EXPORT_WANTS_NORMALS = 1, EXPORT_WANTS_COLORS = 2 };
+
+// A mesh made ready for that. mesh and material are borrowed.
+typedef struct ExportSurface {
+    const Mesh *mesh;
+    const Material *material;
+    unsigned wants;
+    float largest_radius; // that growth is told against
+    Vec3 *normal;         // owned: where the mesh has none and they are wanted; else NULL
+    uint32_t *face;       // owned: some face of each vertex, for colours; else NULL
+} ExportSurface;
+
+// wants: EXPORT_WANTS_NORMALS makes smooth ones where the mesh has none. What is not wanted is
+// (0, 1, 0), or the material's plain colour.
+bool export_surface_prepare(ExportSurface *surface, const Mesh *mesh, const Material *material,
+                            unsigned wants, Error *e);
+void export_surface_clear(ExportSurface *surface);
+
+// Does the material's colour change over the surface or between instances?
+bool export_material_varies(const Material *material);
+
+// Vertices first .. first + count - 1 into out. place: NULL = as it is. variation: the instance's,
+// 0..1; negative = none, as for a mesh that all instances share.
+void export_surface_vertices(const ExportSurface *surface, const Transform *place, float variation,
+                             int64_t first, int64_t count, int threads, ExportVertex *out);
+
+// True when the transform turns faces inside out.
+bool export_is_mirror(const Transform *place);
+
+// Corners of the triangles of a face as the ray tracer splits it: one, or of a quad (0, 1, 3) and
+// (2, 3, 1); turned round when mirrored. Returns their number.
+int export_face_triangles(const Mesh *mesh, int64_t face, bool mirrored, uint32_t corner[6]);
+
+// Linear 0..1 as 8-bit sRGB.
+uint8_t export_srgb8(float linear);
+
+#endif
