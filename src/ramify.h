@@ -1,14 +1,19 @@
-// ramify's C API: the way from a scene file to out-trees and pictures, for programs.
+// ramify's C API: the way from a scene file to out-trees, geometry, pictures and other programs'
+// files. The ramify command is written on it alone.
 //
 // Conventions
-// - Metres, degrees, Y up, right-handed, linear Rec. 709 colours.
+// - Metres, degrees, Y up, right-handed, linear Rec. 709 colours, UTF-8.
 // - Fallible functions return NULL or false and fill *error, which may be NULL. The message says
 //   what is wrong and, after a semicolon, what would be right.
 // - Handles are made by one function and freed by another (NULL is fine); different handles may be
 //   used from different threads at the same time, one handle only to read.
+// - Borrowed pointers live as long as the handle that gave them, and are not to be freed.
+// - Structs are plain: fixed-size numbers and pointers. Those that go in may be all zero, which is
+//   the usual way; those that come out are filled whole.
+// - An index that is out of range is the caller's mistake and not checked, unless it says so.
 // - The same scene and seed give the same bits for any number of threads.
 //
-// Link with -lramify (pkg-config ramify).
+// Link with -lramify (pkg-config ramify); docs/library.md is a guide, docs/examples/ has programs.
 #ifndef RAMIFY_H
 #define RAMIFY_H
 
@@ -26,34 +31,50 @@ extern "C" {
 // Version of the library at hand, as RAMIFY_VERSION; static text.
 RAMIFY_API const char *ramify_version(void);
 
-typedef enum RamifyErrorCode {
+// Values of RamifyError.code.
+enum {
     RAMIFY_OK = 0,
-    RAMIFY_BAD_INPUT, // the scene, or a file it names, is wrong
-    RAMIFY_IO,        // the machine would not read or write
-    RAMIFY_MEMORY,
-    RAMIFY_CANCELLED,
-    RAMIFY_INTERNAL
-} RamifyErrorCode;
+    RAMIFY_BAD_INPUT = 1, // the scene, a file it names, or an argument is wrong
+    RAMIFY_IO = 2,        // the machine would not read or write
+    RAMIFY_MEMORY = 3,    // out of memory
+    RAMIFY_CANCELLED = 4, // by RamifyRun.cancelled
+    RAMIFY_INTERNAL = 5,  // a library failed in a way that the input does not explain
+    RAMIFY_DIFFERS = 6    // a result is not what it is held to
+};
 
 typedef struct RamifyError {
-    RamifyErrorCode code;
-    int line, column;  // 1-based, in file; 0 = unknown
-    char file[256];    // "" = unknown
-    char message[768]; // UTF-8
+    int32_t code;
+    int32_t line, column; // 1-based, in file; 0 = unknown
+    char file[256];       // "" = unknown
+    char message[768];
 } RamifyError;
 
 // Writes "file:line:column: message", as much of it as is known, into text of size bytes.
 RAMIFY_API void ramify_error_format(const RamifyError *error, char *text, size_t size);
 
 // How to run. {0} is fine: all processors, silent. The callbacks may come from any thread, one at a
-// time.
+// time, and from none after the call has returned.
 typedef struct RamifyRun {
-    int threads;                                                  // 0 = all processors
+    int32_t threads;                                              // 0 = all processors
     const volatile int *cancelled;                                // set it to end early; or NULL
     void (*progress)(void *user, const char *stage, double done); // done in 0..1; or NULL
     void (*warn)(void *user, const char *message);                // or NULL
     void *user;
 } RamifyRun;
+
+// Largest resident set of this process so far, bytes.
+RAMIFY_API int64_t ramify_memory_peak(void);
+
+// Gives back memory that a function here says to give to it.
+RAMIFY_API void ramify_free(void *memory);
+
+// "did you mean": index of the known word nearest to word; -1 when none is near enough to be meant.
+RAMIFY_API int ramify_nearest(const char *word, const char *const *known, int count);
+
+// Writes "did you mean 'x'?" when a known word is near, else "known: a, b, c", into text of size
+// bytes.
+RAMIFY_API void ramify_suggest(const char *word, const char *const *known, int count, char *text,
+                               size_t size);
 
 // ---- scenes ----
 
@@ -76,35 +97,239 @@ RAMIFY_API void ramify_scene_free(RamifyScene *scene);
 // Width and height of the picture, pixels.
 RAMIFY_API void ramify_scene_size(const RamifyScene *scene, int *width, int *height);
 
-// The scene with every default written out, as YAML; lives as long as the scene.
+typedef struct RamifySceneInfo {
+    const char *file; // as it was named; borrowed
+    uint64_t seed;
+    int32_t width, height; // pixels
+    float crop[4];         // x0, y0, x1, y1 in 0..1 from the top left; 0, 0, 1, 1 = all
+    int32_t samples;       // a pixel
+    int32_t denoise;       // 1 = written pictures are to be denoised
+    double max_seconds;    // of tracing; 0 = no limit
+    float max_noise;       // 0 = off
+    float grow_to;         // 0..1: how much of all growth shows
+    int32_t object_count, material_count, light_count, target_count;
+    int64_t memory; // rough bytes that rendering needs besides the geometry
+} RamifySceneInfo;
+
+RAMIFY_API void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *info);
+
+// The scene's text as it was read, without overrides; borrowed.
+RAMIFY_API const char *ramify_scene_text(const RamifyScene *scene);
+
+// The scene with every default and override written out, as YAML; borrowed.
 RAMIFY_API const char *ramify_scene_resolved(const RamifyScene *scene);
 
-// Objects, in the file's order. index is 0 .. count - 1; the name lives as long as the scene.
+// Objects, in the file's order. index is 0 .. count - 1; the name is borrowed.
 RAMIFY_API int ramify_scene_object_count(const RamifyScene *scene);
 RAMIFY_API const char *ramify_scene_object_name(const RamifyScene *scene, int index);
 
+typedef struct RamifyObjectInfo {
+    const char *name;   // borrowed
+    const char *kind;   // "tree", "terrain", "ground", ...; static text
+    uint64_t seed;      // its own, or made from the scene's and its name
+    int32_t grows;      // 1 = ramify_grow works on it
+    int32_t is_land;    // 1 = ramify_land works on it
+    int32_t paints;     // 1 = ramify_paint works on it
+    int64_t attractors; // asked for; 0 = none
+    int64_t instances;  // leaves, tufts and other copies, at most; 0 = none
+} RamifyObjectInfo;
+
+RAMIFY_API void ramify_scene_object(const RamifyScene *scene, int index, RamifyObjectInfo *info);
+
+// Writes what is worth knowing of the object beside its kind, such as ", 14 m, 4 levels" (begins
+// with a comma, may be empty), into text of size bytes.
+RAMIFY_API void ramify_scene_object_describe(const RamifyScene *scene, int index, char *text,
+                                             size_t size);
+
+// Name of material number index (0 .. RamifySceneInfo.material_count - 1); borrowed.
+RAMIFY_API const char *ramify_scene_material_name(const RamifyScene *scene, int index);
+
+// What a scene says of its own result: measure `measure` of object `object` lies in low .. high.
+typedef struct RamifyTarget {
+    const char *object, *measure; // names; borrowed
+    double low, high;             // inclusive; -INFINITY and INFINITY where there is no bound
+} RamifyTarget;
+
+// Target number index (0 .. RamifySceneInfo.target_count - 1).
+RAMIFY_API void ramify_scene_target(const RamifyScene *scene, int index, RamifyTarget *target);
+
 // JSON Schema (draft 2020-12) of scene files; give it to ramify_free.
 RAMIFY_API char *ramify_schema(RamifyError *error);
-RAMIFY_API void ramify_free(void *memory);
 
 // ---- growth ----
 
 typedef struct RamifyTree RamifyTree; // an out-tree
 
-// Grows object number index. RAMIFY_BAD_INPUT when that object does not grow (ground, mesh, shape).
-// run may be NULL.
+// Grows object number index. RAMIFY_BAD_INPUT when that object does not grow (ground, mesh, shape)
+// or does not exist. run may be NULL.
 RAMIFY_API RamifyTree *ramify_grow(const RamifyScene *scene, int index, const RamifyRun *run,
                                    RamifyError *error);
+
+// Reads an SWC file, coordinates in metres. RAMIFY_BAD_INPUT with file and line when it is wrong.
+RAMIFY_API RamifyTree *ramify_tree_read(const char *file, RamifyError *error);
+
+// Writes .swc or .json by the file's ending. Written beside and renamed: a failure never harms an
+// existing file.
+RAMIFY_API bool ramify_tree_write(const RamifyTree *tree, const char *file, RamifyError *error);
+
 RAMIFY_API void ramify_tree_free(RamifyTree *tree);
 
-// Arrays of ramify_tree_count entries (positions: 3 floats each, m; parents: index of the parent,
-// always smaller than the node's own, or -1 at a root; radii: m; births: growth step, 0 for the
-// nodes that growth began with). They live as long as the tree.
+// Arrays of ramify_tree_count entries, borrowed.
 RAMIFY_API int64_t ramify_tree_count(const RamifyTree *tree);
-RAMIFY_API const float *ramify_tree_positions(const RamifyTree *tree);
+RAMIFY_API const float *ramify_tree_positions(const RamifyTree *tree); // 3 floats each, m
+
+// Index of the parent, always smaller than the node's own, or -1 at a root.
 RAMIFY_API const int32_t *ramify_tree_parents(const RamifyTree *tree);
-RAMIFY_API const float *ramify_tree_radii(const RamifyTree *tree);
+RAMIFY_API const float *ramify_tree_radii(const RamifyTree *tree); // m
+
+// Growth step, 0 for the nodes that growth began with.
 RAMIFY_API const int32_t *ramify_tree_births(const RamifyTree *tree);
+
+// Which root's colony, or which element (trunk, branches, roots), the node belongs to.
+RAMIFY_API const int32_t *ramify_tree_colonies(const RamifyTree *tree);
+
+// 3 floats each, unit: across the branch, or the surface's normal where growth is on a surface.
+RAMIFY_API const float *ramify_tree_normals(const RamifyTree *tree);
+
+// Stable names of the nodes: an edit elsewhere in the scene does not change them.
+RAMIFY_API const uint64_t *ramify_tree_ids(const RamifyTree *tree);
+
+// Box about the nodes, m: 3 floats each. low > high when there are none.
+RAMIFY_API void ramify_tree_bounds(const RamifyTree *tree, float *low, float *high);
+
+// A hash over positions, parents, births, colonies and radii: equal trees, equal hashes.
+RAMIFY_API uint64_t ramify_tree_hash(const RamifyTree *tree);
+
+// ---- land ----
+
+typedef struct RamifyLand RamifyLand; // heights on a regular grid
+
+// Heights of object number index, in its own space. tree: its out-tree from ramify_grow, or NULL to
+// grow it on the way. RAMIFY_BAD_INPUT when the object is no land or does not exist. run may be
+// NULL.
+RAMIFY_API RamifyLand *ramify_land(const RamifyScene *scene, int index, const RamifyTree *tree,
+                                   const RamifyRun *run, RamifyError *error);
+
+// Reads an Esri ASCII grid (.asc); missing heights are NAN.
+RAMIFY_API RamifyLand *ramify_land_read(const char *file, RamifyError *error);
+
+RAMIFY_API void ramify_land_free(RamifyLand *land);
+
+typedef struct RamifyLandInfo {
+    int32_t columns, rows;
+    float cell[2];   // m from sample to sample along x and z
+    float origin[2]; // m: x and z of the first sample
+    float low, high; // m: least and greatest height
+    uint64_t hash;   // over sizes and heights
+} RamifyLandInfo;
+
+RAMIFY_API void ramify_land_info(const RamifyLand *land, RamifyLandInfo *info);
+
+// columns * rows heights, m, row by row, x running fastest; borrowed.
+RAMIFY_API const float *ramify_land_heights(const RamifyLand *land);
+
+// Writes a 16-bit grey .png, black at the lowest and white at the highest point, or a float .exr in
+// metres (channel Y); ramify:low, ramify:high and ramify:cell in the metadata are metres.
+RAMIFY_API bool ramify_land_write(const RamifyLand *land, const char *file, RamifyError *error);
+
+// Draws what object number index makes (the veins of a leaf) as a picture of one value a pixel,
+// 0..1: fills width * height floats row by row from the top left. tree: its out-tree from
+// ramify_grow. RAMIFY_BAD_INPUT when the object makes no picture or does not exist.
+RAMIFY_API bool ramify_paint(const RamifyScene *scene, int index, const RamifyTree *tree, int width,
+                             int height, float *pixel, RamifyError *error);
+
+// Writes such a picture as grey .png, .jpg or .exr.
+RAMIFY_API bool ramify_paint_write(const float *pixel, int width, int height, const char *file,
+                                   RamifyError *error);
+
+// ---- measures ----
+
+typedef struct RamifyMeasures RamifyMeasures; // a list of named numbers
+
+// Measures object number index: its out-tree, and what its kind adds. The list is empty when the
+// object has nothing to measure. RAMIFY_BAD_INPUT when it does not exist. run may be NULL.
+RAMIFY_API RamifyMeasures *ramify_measure(const RamifyScene *scene, int index, const RamifyRun *run,
+                                          RamifyError *error);
+
+// What can be measured on any out-tree, and on any land.
+RAMIFY_API RamifyMeasures *ramify_tree_measure(const RamifyTree *tree, RamifyError *error);
+RAMIFY_API RamifyMeasures *ramify_land_measure(const RamifyLand *land, RamifyError *error);
+
+RAMIFY_API void ramify_measures_free(RamifyMeasures *measures);
+
+typedef struct RamifyMeasure {
+    const char *name; // words joined by _ ("radius_exponent"); borrowed
+    const char *unit; // "" = a plain number; static text
+    double value;     // NAN = there is too little to measure
+    double low, high; // nature's range as far as it is known; NAN = not
+} RamifyMeasure;
+
+RAMIFY_API int ramify_measures_count(const RamifyMeasures *measures);
+RAMIFY_API void ramify_measures_get(const RamifyMeasures *measures, int index,
+                                    RamifyMeasure *measure);
+
+// Index of the measure of this name; -1 when there is none.
+RAMIFY_API int ramify_measures_find(const RamifyMeasures *measures, const char *name);
+
+// ---- geometry ----
+
+typedef struct RamifyWorld RamifyWorld; // all that is rendered: grown, skinned and placed
+
+// Grows, skins and places everything. The world borrows from the scene: free it first. run may be
+// NULL.
+RAMIFY_API RamifyWorld *ramify_build(const RamifyScene *scene, const RamifyRun *run,
+                                     RamifyError *error);
+RAMIFY_API void ramify_world_free(RamifyWorld *world);
+
+typedef struct RamifyWorldInfo {
+    int64_t nodes;          // of all out-trees
+    int64_t triangles;      // stored once; a quad counts as two
+    int64_t curve_segments; // stored once
+    int64_t instances;
+    int64_t bytes; // of the geometry
+    double grow_seconds, mesh_seconds;
+} RamifyWorldInfo;
+
+RAMIFY_API void ramify_world_info(const RamifyWorld *world, RamifyWorldInfo *info);
+
+// One mesh or one set of round curves. All pointers are borrowed from the world. Arrays that are
+// not there are NULL.
+typedef struct RamifyPart {
+    int32_t object;          // index in the scene of what it belongs to
+    int32_t face_size;       // corners a face, 3 or 4; 0 = curves, not a mesh
+    const char *material;    // name
+    int64_t vertex_count;    // of the mesh, or points of the curves
+    const float *positions;  // vertex_count * 3, m
+    const float *normals;    // vertex_count * 3, unit; NULL = flat shading, or curves
+    const float *uvs;        // vertex_count * 2: m around and along on grown meshes, else 0..1
+    const float *radii;      // vertex_count, m
+    const float *births;     // vertex_count, 0..1 of the growth's time
+    int64_t face_count;      // 0 for curves
+    const uint32_t *indices; // face_count * face_size, counter-clockwise seen from outside
+    int64_t curve_count;     // 0 for a mesh
+    const int64_t *starts;   // curve_count + 1: curve i has the points starts[i] .. starts[i+1] - 1
+    int64_t instance_count;  // 0 = drawn once, as it is
+    const float *instances;  // instance_count * 12: rows of 3 x 4 matrices, column 4 the place, m
+    const float *variations; // instance_count, 0..1, for variation of colour
+} RamifyPart;
+
+RAMIFY_API int64_t ramify_world_part_count(const RamifyWorld *world);
+RAMIFY_API void ramify_world_part(const RamifyWorld *world, int64_t index, RamifyPart *part);
+
+// ---- export ----
+
+// Grows, skins and places what the format of the file's ending needs, and writes it. Written beside
+// and renamed: a failure never harms an existing file. run may be NULL.
+RAMIFY_API bool ramify_export(const RamifyScene *scene, const char *file, const RamifyRun *run,
+                              RamifyError *error);
+
+// RAMIFY_BAD_INPUT, naming the endings there are, when the file's ending is that of no format.
+RAMIFY_API bool ramify_export_check(const char *file, RamifyError *error);
+
+// The formats: ending (".glb") and a few words on each; static text.
+RAMIFY_API int ramify_export_format_count(void);
+RAMIFY_API const char *ramify_export_format_ending(int index);
+RAMIFY_API const char *ramify_export_format_doc(int index);
 
 // ---- pictures ----
 
@@ -119,6 +344,63 @@ RAMIFY_API bool ramify_render(const RamifyScene *scene, float *rgba, int *sample
 // .exr linear. Written beside and renamed: a failure never harms an existing file.
 RAMIFY_API bool ramify_write_image(const RamifyScene *scene, const float *rgba, const char *file,
                                    RamifyError *error);
+
+// The same step by step, with previews and every layer of the film.
+
+typedef struct RamifyFilm RamifyFilm;
+
+// width, height: as ramify_scene_size says. Black until something is rendered.
+RAMIFY_API RamifyFilm *ramify_film_new(int width, int height, RamifyError *error);
+RAMIFY_API void ramify_film_free(RamifyFilm *film);
+
+// A layer of the film, row by row from the top left, *channels (may be NULL) floats a pixel;
+// borrowed. NULL when there is none of that name:
+//   color 3     mean radiance, premultiplied       alpha 1     share that met something
+//   albedo 3    of the first hit, 0..1             normal 3    of the first hit, mean, not unit
+//   depth 1     m; INFINITY where nothing was hit  position 3  m, of the first hit
+//   object 1    index of the object + 1, 0 = none  samples 1   taken
+//   variance 1  of the mean luminance
+RAMIFY_API const float *ramify_film_layer(const RamifyFilm *film, const char *name, int *channels);
+
+// Copies color and alpha into rgba, 4 * width * height floats as of ramify_render.
+RAMIFY_API void ramify_film_rgba(const RamifyFilm *film, float *rgba);
+
+// Writes the film of this scene. .png, .jpg: developed, and with denoise the noise taken out first.
+// .exr: linear RGBA and the layers albedo, normal, depth, position, object and samples as they are.
+// The scene's text and settings go along as metadata. run (may be NULL) is for the denoiser.
+RAMIFY_API bool ramify_film_write(const RamifyFilm *film, const RamifyScene *scene,
+                                  const char *file, bool denoise, const RamifyRun *run,
+                                  RamifyError *error);
+
+typedef struct RamifyRenderer RamifyRenderer;
+
+// RAMIFY_BAD_INPUT when isa is no instruction set that the ray tracer has on this machine. NULL is
+// fine.
+RAMIFY_API bool ramify_check_isa(const char *isa, RamifyError *error);
+
+// Builds what rays are traced through. The world is borrowed: free the renderer first. isa: NULL =
+// the best of this machine, or "sse4.2" (sse2, avx, avx2, avx512) to pin it, for the same bits on
+// every machine. run may be NULL.
+RAMIFY_API RamifyRenderer *ramify_renderer_new(const RamifyWorld *world, const char *isa,
+                                               const RamifyRun *run, RamifyError *error);
+RAMIFY_API void ramify_renderer_free(RamifyRenderer *renderer);
+
+typedef struct RamifyRenderInfo {
+    int64_t paths, rays;
+    int64_t bytes;   // held by the renderer
+    double seconds;  // of tracing
+    int32_t samples; // taken a pixel, the least over all pixels
+} RamifyRenderInfo;
+
+// Called after every pass over the picture (1, 2, 4, ... samples) with the film so far.
+typedef void (*RamifyPass)(void *user, const RamifyFilm *film, int samples);
+
+// Renders into a film of the scene's size; what was in it is replaced, but for pixels outside the
+// crop. pass may be NULL and is called with user. Cancelled or out of time it leaves a whole
+// picture of fewer samples and returns true; info->samples tells. info and run may be NULL.
+RAMIFY_API bool ramify_renderer_render(RamifyRenderer *renderer, RamifyFilm *film, RamifyPass pass,
+                                       void *user, const RamifyRun *run, RamifyRenderInfo *info,
+                                       RamifyError *error);
 
 #ifdef __cplusplus
 }

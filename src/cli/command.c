@@ -1,6 +1,5 @@
 #include "cli/command.h"
 
-#include "base/memory.h"
 #include "cli/interrupt.h"
 
 #include <errno.h>
@@ -13,21 +12,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Processors that this process may use.
-static int processor_count(void)
-{
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
-    return count < 1 ? 1 : (count > 1024 ? 1024 : (int)count);
-}
-
-Run command_run(const Options *options, Progress *progress)
+RamifyRun command_run(const Options *options, Progress *progress)
 {
     progress_start(progress, options->quiet);
-    return (Run){.threads = options->threads > 0 ? options->threads : processor_count(),
-                 .cancelled = interrupt_flag(),
-                 .progress = progress_report,
-                 .warn = progress_warn,
-                 .user = progress};
+    return (RamifyRun){.threads = options->threads,
+                       .cancelled = interrupt_flag(),
+                       .progress = progress_report,
+                       .warn = progress_warn,
+                       .user = progress};
 }
 
 // The options that stand for keys of the scene, as overrides, so that they show in the settings
@@ -78,7 +70,7 @@ static void add_keys(KeyOptions *keys, const Options *o)
     }
 }
 
-Scene *command_scene(const Options *options, Error *e)
+RamifyScene *command_scene(const Options *options, RamifyError *e)
 {
     KeyOptions keys = {.count = 0};
     const char *overrides[MAX_OVERRIDES + 16];
@@ -90,29 +82,27 @@ Scene *command_scene(const Options *options, Error *e)
     for (int i = 0; i < keys.count; i++) {
         overrides[count++] = keys.text[i];
     }
-    return scene_read(options->operand, overrides, count, e);
+    return ramify_scene_load(options->operand, overrides, count, e);
 }
 
-bool output_check(const char *file, Error *e)
+bool output_check(const char *file, RamifyError *e)
 {
     struct stat status;
     if (stat(file, &status) == 0 && !S_ISREG(status.st_mode)) {
-        return error_set(e, ERROR_IO, "cannot write '%s': it is no regular file; name another",
-                         file);
+        return fail(e, RAMIFY_IO, "cannot write '%s': it is no regular file; name another", file);
     }
     const char *slash = strrchr(file, '/');
-    char *folder = memory_copy_string(slash ? file : ".", e);
+    size_t length = slash ? (size_t)(slash == file ? 1 : slash - file) : 1;
+    char *folder = allocate((int64_t)length + 1, 1, e);
     if (!folder) {
         return false;
     }
-    if (slash) {
-        folder[slash == file ? 1 : slash - file] = 0;
-    }
+    memcpy(folder, slash ? file : ".", length);
     bool writable = access(folder, W_OK | X_OK) == 0;
     if (!writable) {
-        error_set(e, ERROR_IO, "cannot write '%s': folder '%s': %s", file, folder, strerror(errno));
+        fail(e, RAMIFY_IO, "cannot write '%s': folder '%s': %s", file, folder, strerror(errno));
     } else if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode)) {
-        writable = error_set(e, ERROR_IO, "cannot write '%s': '%s' is no folder", file, folder);
+        writable = fail(e, RAMIFY_IO, "cannot write '%s': '%s' is no folder", file, folder);
     }
     free(folder);
     return writable;
@@ -125,15 +115,22 @@ static const char *find_ending(const char *file)
     return dot && dot > base ? dot : file + strlen(file);
 }
 
-char *output_with_ending(const char *file, const char *ending, Error *e)
+char *output_with_ending(const char *file, const char *ending, RamifyError *e)
 {
     size_t stem = (size_t)(find_ending(file) - file), length = strlen(ending);
-    char *name = memory_alloc((int64_t)(stem + length + 1), 1, e);
+    char *name = allocate((int64_t)(stem + length + 1), 1, e);
     if (name) {
         memcpy(name, file, stem);
         memcpy(name + stem, ending, length + 1);
     }
     return name;
+}
+
+char *output_of_object(const char *file, const char *name, RamifyError *e)
+{
+    char ending[256];
+    snprintf(ending, sizeof ending, "-%s%s", name, find_ending(file));
+    return output_with_ending(file, ending, e);
 }
 
 bool output_has_ending(const char *file, const char *ending)

@@ -2,30 +2,33 @@
 #ifndef RAMIFY_CLI_COMMAND_H
 #define RAMIFY_CLI_COMMAND_H
 
+#include "cli/fail.h"
 #include "cli/options.h"
 #include "cli/progress.h"
-#include "scene/scene.h"
 
 // Each reads its scene, does its work and prints its data; false and e when it failed.
-bool command_render(const Options *options, Error *e);  // render.c
-bool command_grow(const Options *options, Error *e);    // grow.c
-bool command_measure(const Options *options, Error *e); // measure.c
-bool command_export(const Options *options, Error *e);  // export.c
-bool command_info(const Options *options, Error *e);    // info.c
-bool command_schema(const Options *options, Error *e);  // schema.c
+bool command_render(const Options *options, RamifyError *e);  // render.c
+bool command_grow(const Options *options, RamifyError *e);    // grow.c
+bool command_measure(const Options *options, RamifyError *e); // measure.c
+bool command_export(const Options *options, RamifyError *e);  // export.c
+bool command_info(const Options *options, RamifyError *e);    // info.c
+bool command_schema(const Options *options, RamifyError *e);  // schema.c
 
 // Threads as asked, progress and warnings to stderr, Ctrl-C and SIGTERM to cancel.
-Run command_run(const Options *options, Progress *progress);
+RamifyRun command_run(const Options *options, Progress *progress);
 
 // The scene with --set and the render options carried out.
-Scene *command_scene(const Options *options, Error *e);
+RamifyScene *command_scene(const Options *options, RamifyError *e);
 
-// Can FILE be written when the time comes? ERROR_IO when its folder is missing or may not be
+// Can FILE be written when the time comes? RAMIFY_IO when its folder is missing or may not be
 // written to, or when FILE is a folder.
-bool output_check(const char *file, Error *e);
+bool output_check(const char *file, RamifyError *e);
 
 // FILE with its ending (".png") replaced; heap text.
-char *output_with_ending(const char *file, const char *ending, Error *e);
+char *output_with_ending(const char *file, const char *ending, RamifyError *e);
+
+// FILE with "-name" put before its ending, for one of several objects; heap text.
+char *output_of_object(const char *file, const char *name, RamifyError *e);
 
 // Does the file's name end in this, in any case?
 bool output_has_ending(const char *file, const char *ending);

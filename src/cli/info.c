@@ -1,103 +1,72 @@
 // ramify info: what a scene file holds, without growing or rendering it.
 #include "cli/command.h"
 
-#include "render/film.h"
-#include "scene/kind.h"
-
 #include <stdio.h>
 
-static int64_t object_attractors(const SceneObject *object)
+static void print_text(const RamifyScene *scene)
 {
-    const Kind *kind = kind_of(object);
-    return kind->attractors ? kind->attractors(object) : 0;
-}
-
-static int64_t object_instances(const SceneObject *object)
-{
-    const Kind *kind = kind_of(object);
-    return kind->copies ? kind->copies(object) : 0;
-}
-
-// Rough size in memory, bytes: attractors and their search grid (~100 each), instances with their
-// place in the acceleration structure (~200), and the film with one copy for development.
-static int64_t expected_memory(const Scene *scene)
-{
-    int64_t attractors = 0, instances = 0;
-    for (int i = 0; i < scene->object_count; i++) {
-        attractors += object_attractors(&scene->objects[i]);
-        instances += object_instances(&scene->objects[i]);
-    }
-    int64_t pixels = (int64_t)scene->film.width * scene->film.height;
-    int64_t pixel_bytes = (int64_t)(4 * sizeof(Vec3) + 6 * sizeof(float) + 8 * sizeof(float));
-    return 100 * attractors + 200 * instances + pixel_bytes * pixels;
-}
-
-static void print_text(const Scene *scene)
-{
-    printf("%s: seed %llu, %d x %d pixels, %d samples\n", scene->file,
-           (unsigned long long)scene->seed, scene->film.width, scene->film.height,
-           scene->render.samples);
-    for (int i = 0; i < scene->object_count; i++) {
-        const SceneObject *object = &scene->objects[i];
-        const Kind *kind = kind_of(object);
-        char text[256] = "";
-        if (kind->describe) {
-            kind->describe(object, text, sizeof text);
+    RamifySceneInfo info;
+    ramify_scene_info(scene, &info);
+    printf("%s: seed %llu, %d x %d pixels, %d samples\n", info.file, (unsigned long long)info.seed,
+           info.width, info.height, info.samples);
+    for (int i = 0; i < info.object_count; i++) {
+        RamifyObjectInfo object;
+        char text[256];
+        ramify_scene_object(scene, i, &object);
+        ramify_scene_object_describe(scene, i, text, sizeof text);
+        printf("object %d  %-20s %s%s", i, object.name, object.kind, text);
+        if (object.attractors > 0) {
+            printf(", %lld attractors", (long long)object.attractors);
         }
-        printf("object %d  %-20s %s%s", i, object->name, kind->key, text);
-        int64_t attractors = object_attractors(object), instances = object_instances(object);
-        if (attractors > 0) {
-            printf(", %lld attractors", (long long)attractors);
-        }
-        if (instances > 0) {
-            printf(", up to %lld instances", (long long)instances);
+        if (object.instances > 0) {
+            printf(", up to %lld instances", (long long)object.instances);
         }
         printf("\n");
     }
-    for (int i = 0; i < scene->material_count; i++) {
-        printf("material  %s\n", scene->materials[i].name);
+    for (int i = 0; i < info.material_count; i++) {
+        printf("material  %s\n", ramify_scene_material_name(scene, i));
     }
-    printf("lights    %d\n", scene->light_count);
-    printf("memory    about %.0f MB and the geometry\n", (double)expected_memory(scene) * 1e-6);
+    printf("lights    %d\n", info.light_count);
+    printf("memory    about %.0f MB and the geometry\n", (double)info.memory * 1e-6);
 }
 
-static void print_json(const Scene *scene)
+static void print_json(const RamifyScene *scene)
 {
+    RamifySceneInfo info;
+    ramify_scene_info(scene, &info);
     printf("{\"file\": ");
-    json_print_string(scene->file);
+    json_print_string(info.file);
     printf(", \"seed\": %llu, \"width\": %d, \"height\": %d, \"samples\": %d, \"objects\": [",
-           (unsigned long long)scene->seed, scene->film.width, scene->film.height,
-           scene->render.samples);
-    for (int i = 0; i < scene->object_count; i++) {
-        const SceneObject *object = &scene->objects[i];
+           (unsigned long long)info.seed, info.width, info.height, info.samples);
+    for (int i = 0; i < info.object_count; i++) {
+        RamifyObjectInfo object;
+        ramify_scene_object(scene, i, &object);
         printf("%s{\"name\": ", i ? ", " : "");
-        json_print_string(object->name);
-        printf(", \"kind\": \"%s\", \"attractors\": %lld, \"instances\": %lld}",
-               kind_of(object)->key, (long long)object_attractors(object),
-               (long long)object_instances(object));
+        json_print_string(object.name);
+        printf(", \"kind\": \"%s\", \"attractors\": %lld, \"instances\": %lld}", object.kind,
+               (long long)object.attractors, (long long)object.instances);
     }
     printf("], \"materials\": [");
-    for (int i = 0; i < scene->material_count; i++) {
+    for (int i = 0; i < info.material_count; i++) {
         printf("%s", i ? ", " : "");
-        json_print_string(scene->materials[i].name);
+        json_print_string(ramify_scene_material_name(scene, i));
     }
-    printf("], \"lights\": %d, \"memory\": %lld}\n", scene->light_count,
-           (long long)expected_memory(scene));
+    printf("], \"lights\": %d, \"memory\": %lld}\n", info.light_count, (long long)info.memory);
 }
 
-bool command_info(const Options *options, Error *e)
+bool command_info(const Options *options, RamifyError *e)
 {
-    Scene *scene = command_scene(options, e);
+    RamifyScene *scene = command_scene(options, e);
     if (!scene) {
         return false;
     }
     if (options->resolved) {
-        fputs(scene->resolved, stdout);
+        fputs(ramify_scene_resolved(scene), stdout);
     } else if (options->json) {
         print_json(scene);
     } else {
         print_text(scene);
     }
-    scene_free(scene);
+    ramify_scene_free(scene);
     return true;
 }

@@ -1,25 +1,24 @@
 // The ramify command: parses the command line, runs one command, reports what went wrong.
 #include "cli/command.h"
-#include "ramify.h"
 
 #include <stdio.h>
 
-static int exit_status(const Error *e)
+static int exit_status(const RamifyError *e)
 {
     switch (e->code) {
-    case ERROR_INPUT:
+    case RAMIFY_BAD_INPUT:
         return 2;
-    case ERROR_CANCELLED:
+    case RAMIFY_CANCELLED:
         return 130;
     default:
         return 1;
     }
 }
 
-static int report(const Error *e)
+static int report(const RamifyError *e)
 {
     char text[1200];
-    error_format(e, text, sizeof text);
+    ramify_error_format(e, text, sizeof text);
     // "file:line:column: ..." stands alone, so that editors find the place
     fprintf(stderr, "%s%s\n", e->file[0] ? "" : "ramify: ", text);
     return exit_status(e);
@@ -39,7 +38,7 @@ static int help(const Options *options)
     return 0;
 }
 
-static bool run_command(const Options *options, Error *e)
+static bool run_command(const Options *options, RamifyError *e)
 {
     switch (options->command) {
     case COMMAND_RENDER:
@@ -61,7 +60,7 @@ int main(int argc, char **argv)
 {
     Options options;
     bool version;
-    Error e = {0};
+    RamifyError e = {0};
     if (!options_parse(&options, argc, argv, &version, &e)) {
         return report(&e);
     }

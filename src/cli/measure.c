@@ -2,15 +2,6 @@
 // they are what the scene says they must be.
 #include "cli/command.h"
 
-#include "base/measures.h"
-#include "base/memory.h"
-#include "mesh/height_measure.h"
-#include "scene/build.h"
-#include "scene/hint.h"
-#include "scene/kind.h"
-#include "tree/measure.h"
-#include "tree/out_tree_io.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +10,7 @@
 // What was measured on one object or file.
 typedef struct Subject {
     const char *name, *kind;
-    MeasureList list;
+    RamifyMeasures *measures; // owned
 } Subject;
 
 // ---- one subject ----
@@ -41,8 +32,8 @@ static void format_range(double low, double high, char *text, size_t size)
     char a[32], b[32];
     format_number(low, a, sizeof a);
     format_number(high, b, sizeof b);
-    bool has_low = !isnan(low) && low > -TARGET_NO_BOUND;
-    bool has_high = !isnan(high) && high < TARGET_NO_BOUND;
+    bool has_low = isfinite(low);
+    bool has_high = isfinite(high);
     if (has_low && has_high) {
         snprintf(text, size, "%s .. %s", a, b);
     } else if (has_low || has_high) {
@@ -55,17 +46,18 @@ static void format_range(double low, double high, char *text, size_t size)
 static void print_table(const Subject *subject)
 {
     printf("%s (%s)\n", subject->name, subject->kind);
-    for (int64_t i = 0; i < subject->list.count; i++) {
-        const Measure *m = &subject->list.item[i];
+    for (int i = 0; i < ramify_measures_count(subject->measures); i++) {
+        RamifyMeasure m;
         char value[32], range[80];
-        format_number(m->value, value, sizeof value);
-        format_range(m->low, m->high, range, sizeof range);
-        bool beyond = m->value < m->low || m->value > m->high;
+        ramify_measures_get(subject->measures, i, &m);
+        format_number(m.value, value, sizeof value);
+        format_range(m.low, m.high, range, sizeof range);
+        bool beyond = m.value < m.low || m.value > m.high;
         if (*range) {
-            printf("  %-24s %12s %-8s nature %s%s\n", m->name, value, m->unit, range,
+            printf("  %-24s %12s %-8s nature %s%s\n", m.name, value, m.unit, range,
                    beyond ? "  (beyond)" : "");
         } else {
-            printf("  %-24s %12s%s%s\n", m->name, value, *m->unit ? " " : "", m->unit);
+            printf("  %-24s %12s%s%s\n", m.name, value, *m.unit ? " " : "", m.unit);
         }
     }
 }
@@ -84,18 +76,19 @@ static void print_json_subject(const Subject *subject)
     printf("{\"name\": ");
     json_print_string(subject->name);
     printf(", \"kind\": \"%s\", \"measures\": {", subject->kind);
-    for (int64_t i = 0; i < subject->list.count; i++) {
-        const Measure *m = &subject->list.item[i];
-        printf("%s\n  \"%s\": {", i > 0 ? "," : "", m->name);
-        print_json_number("value", m->value);
-        printf(", \"unit\": \"%s\"", m->unit);
-        if (!isnan(m->low)) {
+    for (int i = 0; i < ramify_measures_count(subject->measures); i++) {
+        RamifyMeasure m;
+        ramify_measures_get(subject->measures, i, &m);
+        printf("%s\n  \"%s\": {", i > 0 ? "," : "", m.name);
+        print_json_number("value", m.value);
+        printf(", \"unit\": \"%s\"", m.unit);
+        if (!isnan(m.low)) {
             printf(", ");
-            print_json_number("low", m->low);
+            print_json_number("low", m.low);
         }
-        if (!isnan(m->high)) {
+        if (!isnan(m.high)) {
             printf(", ");
-            print_json_number("high", m->high);
+            print_json_number("high", m.high);
         }
         putchar('}');
     }
@@ -113,112 +106,130 @@ static const Subject *find_subject(const Subject *subjects, int count, const cha
     return i < count ? &subjects[i] : NULL;
 }
 
-static bool unknown_measure(const Scene *scene, const SceneTarget *target, const MeasureList *list,
-                            Error *e)
+static bool unknown_measure(const char *file, const RamifyTarget *target,
+                            const RamifyMeasures *measures, RamifyError *e)
 {
     const char *names[128] = {NULL};
     char hint[512];
     int count = 0;
-    while (count < list->count && count < 128) {
-        names[count] = list->item[count].name;
-        count++;
+    while (measures && count < ramify_measures_count(measures) && count < 128) {
+        RamifyMeasure measure;
+        ramify_measures_get(measures, count, &measure);
+        names[count++] = measure.name;
     }
-    hint_format(target->measure, names, count, hint, sizeof hint);
-    error_set(e, ERROR_INPUT, "targets: %s has no measure '%.60s'; %s", target->object,
-              target->measure, count > 0 ? hint : "nothing of it can be measured");
-    error_locate(e, scene->file, 0, 0);
-    return false;
+    ramify_suggest(target->measure, names, count, hint, sizeof hint);
+    return fail_in(e, file, RAMIFY_BAD_INPUT, "targets: %s has no measure '%.60s'; %s",
+                   target->object, target->measure,
+                   count > 0 ? hint : "nothing of it can be measured");
 }
 
 // The measured value of each target; false and e when there is no such measure.
-static bool find_values(const Scene *scene, const Subject *subjects, int count, double *values,
-                        Error *e)
+static bool find_values(const RamifyScene *scene, const Subject *subjects, int count,
+                        double *values, RamifyError *e)
 {
-    static const MeasureList NOTHING = {0};
-    for (int i = 0; i < scene->target_count; i++) {
-        const SceneTarget *target = &scene->targets[i];
-        const Subject *subject = find_subject(subjects, count, target->object);
-        const MeasureList *list = subject ? &subject->list : &NOTHING;
-        const Measure *measure = measures_find(list, target->measure);
-        if (!measure) {
-            return unknown_measure(scene, target, list, e);
+    RamifySceneInfo info;
+    ramify_scene_info(scene, &info);
+    for (int i = 0; i < info.target_count; i++) {
+        RamifyTarget target;
+        RamifyMeasure measure;
+        ramify_scene_target(scene, i, &target);
+        const Subject *subject = find_subject(subjects, count, target.object);
+        int found = subject ? ramify_measures_find(subject->measures, target.measure) : -1;
+        if (found < 0) {
+            return unknown_measure(info.file, &target, subject ? subject->measures : NULL, e);
         }
-        values[i] = measure->value;
+        ramify_measures_get(subject->measures, found, &measure);
+        values[i] = measure.value;
     }
     return true;
 }
 
+static int target_count(const RamifyScene *scene)
+{
+    RamifySceneInfo info;
+    ramify_scene_info(scene, &info);
+    return info.target_count;
+}
+
 // A value that could not be measured misses its target.
-static bool is_met(const SceneTarget *target, double value)
+static bool is_met(const RamifyTarget *target, double value)
 {
     return value >= target->low && value <= target->high;
 }
 
-static void print_targets(const Scene *scene, const double *values)
+static void print_targets(const RamifyScene *scene, const double *values)
 {
-    printf("%s", scene->target_count > 0 ? "targets\n" : "");
-    for (int i = 0; i < scene->target_count; i++) {
-        const SceneTarget *target = &scene->targets[i];
+    printf("%s", target_count(scene) > 0 ? "targets\n" : "");
+    for (int i = 0; i < target_count(scene); i++) {
+        RamifyTarget target;
         char name[160], value[32], range[80];
-        snprintf(name, sizeof name, "%s %s", target->object, target->measure);
+        ramify_scene_target(scene, i, &target);
+        snprintf(name, sizeof name, "%s %s", target.object, target.measure);
         format_number(values[i], value, sizeof value);
-        format_range(target->low, target->high, range, sizeof range);
+        format_range(target.low, target.high, range, sizeof range);
         printf("  %-24s %12s in %s: %s\n", name, value, range,
-               is_met(target, values[i]) ? "met" : "MISSED");
+               is_met(&target, values[i]) ? "met" : "MISSED");
     }
 }
 
-static void print_json_targets(const Scene *scene, const double *values)
+static void print_json_targets(const RamifyScene *scene, const double *values)
 {
     printf(", \"targets\": [");
-    for (int i = 0; i < scene->target_count; i++) {
-        const SceneTarget *target = &scene->targets[i];
+    for (int i = 0; i < target_count(scene); i++) {
+        RamifyTarget target;
+        ramify_scene_target(scene, i, &target);
         printf("%s{\"object\": ", i > 0 ? ", " : "");
-        json_print_string(target->object);
+        json_print_string(target.object);
         printf(", \"measure\": ");
-        json_print_string(target->measure);
+        json_print_string(target.measure);
         printf(", ");
         print_json_number("value", values[i]);
-        printf(", \"met\": %s}", is_met(target, values[i]) ? "true" : "false");
+        printf(", \"met\": %s}", is_met(&target, values[i]) ? "true" : "false");
     }
     printf("]");
 }
 
-static bool judge_targets(const Scene *scene, const double *values, Error *e)
+static bool judge_targets(const RamifyScene *scene, const double *values, RamifyError *e)
 {
+    RamifySceneInfo info;
     int missed = 0;
-    for (int i = 0; i < scene->target_count; i++) {
-        missed += !is_met(&scene->targets[i], values[i]);
+    ramify_scene_info(scene, &info);
+    for (int i = 0; i < info.target_count; i++) {
+        RamifyTarget target;
+        ramify_scene_target(scene, i, &target);
+        missed += !is_met(&target, values[i]);
     }
-    if (missed > 0) {
-        error_set(e, ERROR_DIFFERS, "%d of %d targets missed; ramify measure says which", missed,
-                  scene->target_count);
-        error_locate(e, scene->file, 0, 0);
-    }
-    return missed == 0;
+    return missed == 0 ||
+           fail_in(e, info.file, RAMIFY_DIFFERS,
+                   "%d of %d targets missed; ramify measure says which", missed, info.target_count);
 }
 
 // ---- scenes and files ----
 
-static bool measure_objects(const Options *options, const Scene *scene, Subject *subjects,
-                            int *count, Error *e)
+// The ground and the like have no numbers and are left out.
+static bool measure_objects(const Options *options, const RamifyScene *scene, Subject *subjects,
+                            int *count, RamifyError *e)
 {
     Progress progress;
-    Run run = command_run(options, &progress);
+    RamifyRun run = command_run(options, &progress);
     bool done = true;
-    for (int i = 0; done && i < scene->object_count; i++) {
-        Subject *subject = &subjects[*count];
-        *subject =
-            (Subject){.name = scene->objects[i].name, .kind = kind_of(&scene->objects[i])->key};
-        done = scene_measure(scene, i, &run, &subject->list, e);
-        *count += !done || subject->list.count > 0; // the ground and the like have no numbers
+    for (int i = 0; done && i < ramify_scene_object_count(scene); i++) {
+        RamifyObjectInfo object;
+        ramify_scene_object(scene, i, &object);
+        RamifyMeasures *measures = ramify_measure(scene, i, &run, e);
+        done = measures;
+        if (done && ramify_measures_count(measures) > 0) {
+            subjects[(*count)++] = (Subject){object.name, object.kind, measures};
+        } else {
+            ramify_measures_free(measures);
+        }
     }
     progress_end(&progress);
     return done;
 }
 
-static void print_subjects(const Options *options, const Scene *scene, const Subject *subjects,
-                           int count, const double *values)
+static void print_subjects(const Options *options, const RamifyScene *scene,
+                           const Subject *subjects, int count, const double *values)
 {
     if (options->json) {
         printf("{\"objects\": [");
@@ -241,15 +252,15 @@ static void print_subjects(const Options *options, const Scene *scene, const Sub
     }
 }
 
-static bool measure_scene(const Options *options, Error *e)
+static bool measure_scene(const Options *options, RamifyError *e)
 {
-    Scene *scene = command_scene(options, e);
+    RamifyScene *scene = command_scene(options, e);
     if (!scene) {
         return false;
     }
     int count = 0;
-    Subject *subjects = memory_alloc_zero(scene->object_count, sizeof *subjects, e);
-    double *values = memory_alloc(scene->target_count, sizeof *values, e);
+    Subject *subjects = allocate(ramify_scene_object_count(scene), sizeof *subjects, e);
+    double *values = allocate(target_count(scene), sizeof *values, e);
     bool done = subjects && values && measure_objects(options, scene, subjects, &count, e) &&
                 find_values(scene, subjects, count, values, e);
     if (done) {
@@ -257,41 +268,42 @@ static bool measure_scene(const Options *options, Error *e)
         done = judge_targets(scene, values, e);
     }
     for (int i = 0; i < count; i++) {
-        measures_clear(&subjects[i].list);
+        ramify_measures_free(subjects[i].measures);
     }
     free(values);
     free(subjects);
-    scene_free(scene);
+    ramify_scene_free(scene);
     return done;
 }
 
-static bool measure_swc(const Options *options, Error *e)
+// Takes the measures; NULL when there are none because of an error.
+static bool print_file(const Options *options, const char *kind, RamifyMeasures *measures)
 {
-    OutTree *tree = out_tree_read_swc(options->operand, e);
-    Subject subject = {.name = options->operand, .kind = "swc"};
-    bool done = tree && out_tree_measure(tree, &subject.list, e);
-    if (done) {
+    Subject subject = {options->operand, kind, measures};
+    if (measures) {
         print_subjects(options, NULL, &subject, 1, NULL);
     }
-    measures_clear(&subject.list);
-    out_tree_free(tree);
-    return done;
+    ramify_measures_free(measures);
+    return measures != NULL;
 }
 
-static bool measure_asc(const Options *options, Error *e)
+static bool measure_swc(const Options *options, RamifyError *e)
 {
-    HeightField *field = height_field_read_asc(options->operand, e);
-    Subject subject = {.name = options->operand, .kind = "asc"};
-    bool done = field && height_field_measure(field, 0.0, &subject.list, e);
-    if (done) {
-        print_subjects(options, NULL, &subject, 1, NULL);
-    }
-    measures_clear(&subject.list);
-    height_field_free(field);
+    RamifyTree *tree = ramify_tree_read(options->operand, e);
+    bool done = tree && print_file(options, "swc", ramify_tree_measure(tree, e));
+    ramify_tree_free(tree);
     return done;
 }
 
-bool command_measure(const Options *options, Error *e)
+static bool measure_asc(const Options *options, RamifyError *e)
+{
+    RamifyLand *land = ramify_land_read(options->operand, e);
+    bool done = land && print_file(options, "asc", ramify_land_measure(land, e));
+    ramify_land_free(land);
+    return done;
+}
+
+bool command_measure(const Options *options, RamifyError *e)
 {
     if (output_has_ending(options->operand, ".asc")) {
         return measure_asc(options, e);

@@ -1,6 +1,6 @@
 #include "cli/options.h"
 
-#include "scene/hint.h"
+#include "cli/fail.h"
 
 #include <errno.h>
 #include <math.h>
@@ -201,19 +201,19 @@ CommandId command_by_name(const char *name)
     return (CommandId)i;
 }
 
-static bool unknown_command(const char *name, Error *e)
+static bool unknown_command(const char *name, RamifyError *e)
 {
     const char *names[COMMAND_COUNT];
     char hint[256];
     for (int i = 0; i < COMMAND_COUNT; i++) {
         names[i] = COMMANDS[i].name;
     }
-    hint_format(name, names, COMMAND_COUNT, hint, sizeof hint);
-    return error_set(e, ERROR_INPUT, "unknown command '%.60s'; %s", name, hint);
+    ramify_suggest(name, names, COMMAND_COUNT, hint, sizeof hint);
+    return fail(e, RAMIFY_BAD_INPUT, "unknown command '%.60s'; %s", name, hint);
 }
 
 // name: with its dashes, for the message.
-static bool unknown_option(CommandId command, const char *name, int length, Error *e)
+static bool unknown_option(CommandId command, const char *name, int length, RamifyError *e)
 {
     const char *known[OPTION_COUNT];
     char text[64], hint[512];
@@ -224,14 +224,14 @@ static bool unknown_option(CommandId command, const char *name, int length, Erro
             known[count++] = OPTIONS[i].name;
         }
     }
-    int nearest = hint_nearest(text, known, count);
+    int nearest = ramify_nearest(text, known, count);
     if (nearest >= 0) {
         snprintf(hint, sizeof hint, "did you mean '--%s'?", known[nearest]);
     } else {
         snprintf(hint, sizeof hint, "see ramify %s --help", COMMANDS[command].name);
     }
-    return error_set(e, ERROR_INPUT, "unknown option '%.60s' of %s; %s", name,
-                     COMMANDS[command].name, hint);
+    return fail(e, RAMIFY_BAD_INPUT, "unknown option '%.60s' of %s; %s", name,
+                COMMANDS[command].name, hint);
 }
 
 static bool read_number(const char **text, double low, double high, double *value)
@@ -273,36 +273,35 @@ static bool read_crop(const char *text, const Option *option, float *crop)
     return crop[0] < crop[2] && crop[1] < crop[3];
 }
 
-static bool bad_value(const Option *option, const char *text, Error *e)
+static bool bad_value(const Option *option, const char *text, RamifyError *e)
 {
     switch (option->type) {
     case OPTION_SIZE:
-        return error_set(e, ERROR_INPUT,
-                         "--size %.60s; it must be WIDTHxHEIGHT, each 1 to 65536, at most 100 "
-                         "million pixels",
-                         text);
+        return fail(e, RAMIFY_BAD_INPUT,
+                    "--size %.60s; it must be WIDTHxHEIGHT, each 1 to 65536, at most 100 "
+                    "million pixels",
+                    text);
     case OPTION_CROP:
-        return error_set(e, ERROR_INPUT,
-                         "--crop %.60s; it must be x0,y0,x1,y1 in 0..1 with x0 < x1 and y0 < y1",
-                         text);
+        return fail(e, RAMIFY_BAD_INPUT,
+                    "--crop %.60s; it must be x0,y0,x1,y1 in 0..1 with x0 < x1 and y0 < y1", text);
     default:
-        return error_set(e, ERROR_INPUT, "--%s %.60s; it must be a %s of %.9g to %.9g",
-                         option->name, text, option->type == OPTION_INT ? "whole number" : "number",
-                         option->low, option->high);
+        return fail(e, RAMIFY_BAD_INPUT, "--%s %.60s; it must be a %s of %.9g to %.9g",
+                    option->name, text, option->type == OPTION_INT ? "whole number" : "number",
+                    option->low, option->high);
     }
 }
 
-static bool add_override(Options *options, const char *text, Error *e)
+static bool add_override(Options *options, const char *text, RamifyError *e)
 {
     if (options->override_count == MAX_OVERRIDES) {
-        return error_set(e, ERROR_INPUT, "more than %d --set; put some into the scene file",
-                         MAX_OVERRIDES);
+        return fail(e, RAMIFY_BAD_INPUT, "more than %d --set; put some into the scene file",
+                    MAX_OVERRIDES);
     }
     options->overrides[options->override_count++] = text;
     return true;
 }
 
-static bool take_value(Options *options, const Option *option, const char *text, Error *e)
+static bool take_value(Options *options, const Option *option, const char *text, RamifyError *e)
 {
     char *at = (char *)options + option->offset;
     const char *rest = text;
@@ -310,8 +309,8 @@ static bool take_value(Options *options, const Option *option, const char *text,
     switch (option->type) {
     case OPTION_TEXT:
         if (!*text) {
-            return error_set(e, ERROR_INPUT, "--%s is empty; it must be a %s", option->name,
-                             option->value);
+            return fail(e, RAMIFY_BAD_INPUT, "--%s is empty; it must be a %s", option->name,
+                        option->value);
         }
         memcpy(at, &text, sizeof text);
         return true;
@@ -363,7 +362,7 @@ static const Option *find_option(CommandId command, const char *name, size_t len
 }
 
 // argv[*i] begins with a dash: takes it and, where needed, the word after it.
-static bool parse_option(Options *options, int argc, char **argv, int *i, Error *e)
+static bool parse_option(Options *options, int argc, char **argv, int *i, RamifyError *e)
 {
     const char *word = argv[*i], *equals = strchr(word, '=');
     size_t length = equals ? (size_t)(equals - word) : strlen(word);
@@ -373,7 +372,7 @@ static bool parse_option(Options *options, int argc, char **argv, int *i, Error 
     }
     if (!option->value) {
         if (equals) {
-            return error_set(e, ERROR_INPUT, "--%s takes no value", option->name);
+            return fail(e, RAMIFY_BAD_INPUT, "--%s takes no value", option->name);
         }
         take_flag(options, option);
         return true;
@@ -382,13 +381,13 @@ static bool parse_option(Options *options, int argc, char **argv, int *i, Error 
         return take_value(options, option, equals + 1, e);
     }
     if (*i + 1 >= argc) {
-        return error_set(e, ERROR_INPUT, "--%s needs a value; write --%s %s", option->name,
-                         option->name, option->value);
+        return fail(e, RAMIFY_BAD_INPUT, "--%s needs a value; write --%s %s", option->name,
+                    option->name, option->value);
     }
     return take_value(options, option, argv[++*i], e);
 }
 
-static bool parse_words(Options *options, int argc, char **argv, Error *e)
+static bool parse_words(Options *options, int argc, char **argv, RamifyError *e)
 {
     bool only_operands = false;
     for (int i = 2; i < argc; i++) {
@@ -399,27 +398,27 @@ static bool parse_words(Options *options, int argc, char **argv, Error *e)
                 return false;
             }
         } else if (options->operand || !*COMMANDS[options->command].operand) {
-            return error_set(e, ERROR_INPUT, "'%.60s' is one word too many; usage: ramify %s %s",
-                             argv[i], COMMANDS[options->command].name,
-                             COMMANDS[options->command].operand);
+            return fail(e, RAMIFY_BAD_INPUT, "'%.60s' is one word too many; usage: ramify %s %s",
+                        argv[i], COMMANDS[options->command].name,
+                        COMMANDS[options->command].operand);
         } else {
             options->operand = argv[i];
         }
     }
     bool needs = *COMMANDS[options->command].operand == 'S';
     if (needs && !options->operand && !options->help) {
-        return error_set(e, ERROR_INPUT, "no scene file is named; usage: ramify %s SCENE",
-                         COMMANDS[options->command].name);
+        return fail(e, RAMIFY_BAD_INPUT, "no scene file is named; usage: ramify %s SCENE",
+                    COMMANDS[options->command].name);
     }
     return true;
 }
 
-bool options_parse(Options *options, int argc, char **argv, bool *version, Error *e)
+bool options_parse(Options *options, int argc, char **argv, bool *version, RamifyError *e)
 {
     *options = options_default();
     *version = argc > 1 && strcmp(argv[1], "--version") == 0;
     if (argc < 2) {
-        return error_set(e, ERROR_INPUT, "no command; try ramify render SCENE, or ramify --help");
+        return fail(e, RAMIFY_BAD_INPUT, "no command; try ramify render SCENE, or ramify --help");
     }
     if (*version || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
         return true;

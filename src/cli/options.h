@@ -2,7 +2,7 @@
 #ifndef RAMIFY_CLI_OPTIONS_H
 #define RAMIFY_CLI_OPTIONS_H
 
-#include "base/error.h"
+#include "ramify.h"
 
 #define MAX_OVERRIDES 256
 
@@ -39,9 +39,9 @@ typedef struct Options {
 
 Options options_default(void);
 
-// Parses argv[1..]. ERROR_INPUT names what is wrong and what would be right. --help and --version
-// set command to COMMAND_HELP and *version.
-bool options_parse(Options *options, int argc, char **argv, bool *version, Error *e);
+// Parses argv[1..]. RAMIFY_BAD_INPUT names what is wrong and what would be right. --help and
+// --version set command to COMMAND_HELP and *version.
+bool options_parse(Options *options, int argc, char **argv, bool *version, RamifyError *e);
 
 // Prints the help of a command, or of the program when command is COMMAND_HELP, to stdout.
 void options_print_help(CommandId command);

@@ -3,11 +3,19 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #define BAR_WIDTH 30
 #define TERMINAL_INTERVAL 0.1 // s
 #define LINE_INTERVAL 10.0
+
+double clock_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
 
 void progress_start(Progress *progress, bool quiet)
 {
@@ -71,7 +79,7 @@ void progress_report(void *user, const char *stage, double done)
     if (p->quiet || atomic_flag_test_and_set(&p->busy)) {
         return; // another thread is talking
     }
-    double now = run_seconds();
+    double now = clock_seconds();
     if (strcmp(p->stage, stage) != 0) {
         snprintf(p->stage, sizeof p->stage, "%s", stage);
         p->stage_start = now;

@@ -1,12 +1,6 @@
 // ramify render: a scene file becomes a picture.
 #include "cli/command.h"
 
-#include "base/memory.h"
-#include "cli/picture.h"
-#include "render/accel.h"
-#include "render/renderer.h"
-#include "scene/build.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,17 +12,22 @@ typedef struct Outputs {
     char *display, *exr;
 } Outputs;
 
-typedef struct Seconds {
-    double build, trace, write;
-} Seconds;
+// What a rendering is made of, and what is worth telling of it.
+typedef struct Job {
+    const RamifyScene *scene;
+    const Outputs *outputs;
+    RamifySceneInfo info;
+    RamifyWorldInfo world;
+    RamifyRenderInfo render;
+    double build, trace, write; // s
+} Job;
 
 // What the render callback needs for previews.
 typedef struct Preview {
-    const Scene *scene;
-    const Run *run;
+    const Job *job;
+    const RamifyRun *run;
     Progress *progress;
-    const char *file;
-    double start, next; // run_seconds
+    double start, next; // clock_seconds
     double spent;       // s, on writing previews
     bool failed;
 } Preview;
@@ -46,40 +45,39 @@ static const char *file_name(const char *path)
     return slash ? slash + 1 : path;
 }
 
-static bool plan_outputs(const Options *options, Outputs *outputs, Error *e)
+static bool plan_outputs(const Options *options, Outputs *outputs, RamifyError *e)
 {
     const char *named = options->output ? options->output : file_name(options->operand);
     bool exr = output_has_ending(named, ".exr"),
          jpeg = output_has_ending(named, ".jpg") || output_has_ending(named, ".jpeg");
     if (options->output && !exr && !jpeg && !output_has_ending(named, ".png")) {
-        return error_set(e, ERROR_INPUT, "--output %s; its ending must be .png, .jpg or .exr",
-                         named);
+        return fail(e, RAMIFY_BAD_INPUT, "--output %s; its ending must be .png, .jpg or .exr",
+                    named);
     }
     bool as_named = options->output && !exr;
-    outputs->display =
-        as_named ? memory_copy_string(named, e) : output_with_ending(named, ".png", e);
-    outputs->exr = exr ? memory_copy_string(named, e) : output_with_ending(named, ".exr", e);
+    outputs->display = as_named ? copy_text(named, e) : output_with_ending(named, ".png", e);
+    outputs->exr = exr ? copy_text(named, e) : output_with_ending(named, ".exr", e);
     return outputs->display && outputs->exr && output_check(outputs->display, e) &&
            output_check(outputs->exr, e);
 }
 
 // After the first pass, then at growing intervals: a picture to look at is soon there, and writing
 // it stays a small part of the time.
-static void preview_pass(void *user, const Film *film, int samples)
+static void preview_pass(void *user, const RamifyFilm *film, int samples)
 {
     Preview *p = user;
-    double now = run_seconds();
-    if (p->failed || now < p->next || samples >= p->scene->render.samples) {
+    double now = clock_seconds();
+    if (p->failed || now < p->next || samples >= p->job->info.samples) {
         return;
     }
-    Error e = {0};
-    if (!picture_write_display(p->file, p->scene, film, false, p->run, &e)) {
+    RamifyError e = {0};
+    if (!ramify_film_write(film, p->job->scene, p->job->outputs->display, false, p->run, &e)) {
         char text[1200];
-        error_format(&e, text, sizeof text);
+        ramify_error_format(&e, text, sizeof text);
         progress_warn(p->progress, text);
         p->failed = true;
     }
-    double written = run_seconds();
+    double written = clock_seconds();
     p->spent += written - now;
     p->next = written + (samples > 1 ? written - p->start : FIRST_PREVIEW_WAIT);
 }
@@ -89,115 +87,112 @@ static double crop_share(const float *crop)
     return (double)(crop[2] - crop[0]) * (double)(crop[3] - crop[1]);
 }
 
-static bool trace(const Options *options, const Scene *scene, const World *world, Film *film,
-                  const Outputs *outputs, Progress *progress, const Run *run, RenderStats *stats,
-                  Seconds *seconds, Error *e)
+static bool trace(Job *job, const RamifyWorld *world, const char *isa, RamifyFilm *film,
+                  Progress *progress, const RamifyRun *run, RamifyError *e)
 {
-    double start = run_seconds();
-    Renderer *renderer = renderer_new(world, options->isa, run, e);
+    double start = clock_seconds();
+    RamifyRenderer *renderer = ramify_renderer_new(world, isa, run, e);
     if (!renderer) {
         return false;
     }
-    double built = run_seconds();
-    Preview preview = {
-        .scene = scene, .run = run, .progress = progress, .file = outputs->display, .start = built};
+    double built = clock_seconds();
+    Preview preview = {.job = job, .run = run, .progress = progress, .start = built};
     progress->work =
-        (double)film->width * film->height * crop_share(scene->film.crop) * scene->render.samples;
-    bool done = renderer_render(renderer, film, run, preview_pass, &preview, stats, e);
-    seconds->build = built - start;
-    seconds->trace = run_seconds() - built - preview.spent;
-    seconds->write += preview.spent;
-    renderer_free(renderer);
+        (double)job->info.width * job->info.height * crop_share(job->info.crop) * job->info.samples;
+    bool done =
+        ramify_renderer_render(renderer, film, preview_pass, &preview, run, &job->render, e);
+    job->build = built - start;
+    job->trace = clock_seconds() - built - preview.spent;
+    job->write += preview.spent;
+    ramify_renderer_free(renderer);
     return done;
 }
 
-static void print_summary(const Outputs *outputs, const Scene *scene, const BuildStats *build,
-                          const RenderStats *render, const Seconds *seconds)
+static void print_summary(const Job *job)
 {
-    double rate = seconds->trace > 0.0 ? (double)render->paths / seconds->trace : 0.0;
-    fprintf(stderr, "%s and %s: %d x %d pixels, %d samples\n", outputs->display, outputs->exr,
-            scene->film.width, scene->film.height, render->samples);
+    double rate = job->trace > 0.0 ? (double)job->render.paths / job->trace : 0.0;
+    fprintf(stderr, "%s and %s: %d x %d pixels, %d samples\n", job->outputs->display,
+            job->outputs->exr, job->info.width, job->info.height, job->render.samples);
     fprintf(stderr,
             "%lld nodes, %lld triangles, %lld curve segments, %lld instances, %.0f MB at most\n",
-            (long long)build->nodes, (long long)build->geometry.triangles,
-            (long long)build->geometry.curve_segments, (long long)build->geometry.instances,
-            (double)memory_peak() * 1e-6);
+            (long long)job->world.nodes, (long long)job->world.triangles,
+            (long long)job->world.curve_segments, (long long)job->world.instances,
+            (double)ramify_memory_peak() * 1e-6);
     fprintf(stderr,
             "grow %.2f s, mesh %.2f s, build %.2f s, trace %.2f s (%.2f M samples/s), write "
             "%.2f s\n",
-            build->grow_seconds, build->mesh_seconds, seconds->build, seconds->trace, rate * 1e-6,
-            seconds->write);
+            job->world.grow_seconds, job->world.mesh_seconds, job->build, job->trace, rate * 1e-6,
+            job->write);
 }
 
-static void print_json(const Outputs *outputs, const Scene *scene, const BuildStats *build,
-                       const RenderStats *render, const Seconds *seconds)
+static void print_json(const Job *job)
 {
     printf("{\"images\": [");
-    json_print_string(outputs->display);
+    json_print_string(job->outputs->display);
     printf(", ");
-    json_print_string(outputs->exr);
+    json_print_string(job->outputs->exr);
     printf("], \"width\": %d, \"height\": %d, \"samples\": %d, \"nodes\": %lld, "
            "\"triangles\": %lld, \"curve_segments\": %lld, \"instances\": %lld, "
            "\"paths\": %lld, \"rays\": %lld, \"memory\": %lld, \"scene_memory\": %lld, ",
-           scene->film.width, scene->film.height, render->samples, (long long)build->nodes,
-           (long long)build->geometry.triangles, (long long)build->geometry.curve_segments,
-           (long long)build->geometry.instances, (long long)render->paths, (long long)render->rays,
-           (long long)memory_peak(), (long long)build->geometry.bytes + (long long)render->memory);
+           job->info.width, job->info.height, job->render.samples, (long long)job->world.nodes,
+           (long long)job->world.triangles, (long long)job->world.curve_segments,
+           (long long)job->world.instances, (long long)job->render.paths,
+           (long long)job->render.rays, (long long)ramify_memory_peak(),
+           (long long)job->world.bytes + (long long)job->render.bytes);
     printf("\"seconds\": {\"grow\": %.3f, \"mesh\": %.3f, \"build\": %.3f, \"trace\": %.3f, "
            "\"write\": %.3f}}\n",
-           build->grow_seconds, build->mesh_seconds, seconds->build, seconds->trace,
-           seconds->write);
+           job->world.grow_seconds, job->world.mesh_seconds, job->build, job->trace, job->write);
 }
 
-static bool write_pictures(const Outputs *outputs, const Scene *scene, const Film *film,
-                           const Run *run, Seconds *seconds, Error *e)
+static bool write_pictures(Job *job, const RamifyFilm *film, const RamifyRun *run, RamifyError *e)
 {
-    double start = run_seconds();
-    Run patient = *run; // an interrupted picture is still to be written
+    double start = clock_seconds();
+    RamifyRun patient = *run; // an interrupted picture is still to be written
     patient.cancelled = NULL;
-    bool denoise = scene->denoise && !run_is_cancelled(run);
-    bool done = picture_write_display(outputs->display, scene, film, denoise, &patient, e) &&
-                picture_write_exr(outputs->exr, scene, film, e);
-    seconds->write += run_seconds() - start;
+    bool denoise = job->info.denoise && !*run->cancelled;
+    bool done = ramify_film_write(film, job->scene, job->outputs->display, denoise, &patient, e) &&
+                ramify_film_write(film, job->scene, job->outputs->exr, false, &patient, e);
+    job->write += clock_seconds() - start;
     return done;
 }
 
-static bool render_scene(const Options *options, const Scene *scene, const Outputs *outputs,
-                         Error *e)
+static bool render_scene(const Options *options, const RamifyScene *scene, const Outputs *outputs,
+                         RamifyError *e)
 {
     Progress progress;
-    Run run = command_run(options, &progress);
-    BuildStats build;
-    RenderStats stats = {0};
-    Seconds seconds = {0};
-    World *world = scene_build(scene, &run, &build, e);
-    Film *film = world ? film_new(world->film.width, world->film.height, e) : NULL;
-    bool done =
-        film && trace(options, scene, world, film, outputs, &progress, &run, &stats, &seconds, e);
+    RamifyRun run = command_run(options, &progress);
+    Job job = {.scene = scene, .outputs = outputs};
+    ramify_scene_info(scene, &job.info);
+    RamifyWorld *world = ramify_build(scene, &run, e);
+    RamifyFilm *film = world ? ramify_film_new(job.info.width, job.info.height, e) : NULL;
+    bool done = film && trace(&job, world, options->isa, film, &progress, &run, e);
     progress_end(&progress);
-    done = done && write_pictures(outputs, scene, film, &run, &seconds, e);
+    done = done && write_pictures(&job, film, &run, e);
+    if (done) {
+        ramify_world_info(world, &job.world);
+    }
     if (done && !options->quiet) {
-        print_summary(outputs, scene, &build, &stats, &seconds);
+        print_summary(&job);
     }
     if (done && options->json) {
-        print_json(outputs, scene, &build, &stats, &seconds);
+        print_json(&job);
     }
-    film_free(film);
-    world_free(world);
-    if (done && run_is_cancelled(&run)) {
-        return error_set(e, ERROR_CANCELLED, "interrupted; %s has %d samples a pixel",
-                         outputs->display, stats.samples);
+    ramify_film_free(film);
+    ramify_world_free(world);
+    if (done && *run.cancelled) {
+        return fail(e, RAMIFY_CANCELLED, "interrupted; %s has %d samples a pixel", outputs->display,
+                    job.render.samples);
     }
     return done;
 }
 
-bool command_render(const Options *options, Error *e)
+bool command_render(const Options *options, RamifyError *e)
 {
     Outputs outputs = {0};
-    bool sound = accel_check_isa(options->isa, e) && plan_outputs(options, &outputs, e);
-    Scene *scene = sound ? command_scene(options, e) : NULL;
+    bool sound = ramify_check_isa(options->isa, e) && plan_outputs(options, &outputs, e);
+    RamifyScene *scene = sound ? command_scene(options, e) : NULL;
     bool done = scene && render_scene(options, scene, &outputs, e);
-    scene_free(scene);
+    ramify_scene_free(scene);
     clear_outputs(&outputs);
     return done;
 }

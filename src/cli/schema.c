@@ -2,16 +2,15 @@
 #include "cli/command.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
-bool command_schema(const Options *options, Error *e)
+bool command_schema(const Options *options, RamifyError *e)
 {
     (void)options;
-    char *text = scene_schema_json(e);
+    char *text = ramify_schema(e);
     if (!text) {
         return false;
     }
     fputs(text, stdout);
-    free(text);
+    ramify_free(text);
     return true;
 }

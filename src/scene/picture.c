@@ -1,20 +1,37 @@
-#include "cli/picture.h"
+#include "scene/picture.h"
 
 #include "base/memory.h"
 #include "image/denoise.h"
 #include "ramify.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define DENOISE_STRENGTH 1.0f
+
+bool picture_is_exr(const char *file)
+{
+    const char *dot = strrchr(file, '.');
+    return dot && strcasecmp(dot, ".exr") == 0;
+}
+
+// ---- films ----
+
+void picture_copy_rgba(const Film *film, float *rgba)
+{
+    for (int64_t i = 0; i < (int64_t)film->width * film->height; i++) {
+        float pixel[4] = {film->color[i].x, film->color[i].y, film->color[i].z, film->alpha[i]};
+        memcpy(rgba + 4 * i, pixel, sizeof pixel);
+    }
+}
 
 static Image *beauty_image(const Film *film, Error *e)
 {
     Image *image = image_new(film->width, film->height, 4, e);
-    for (int64_t i = 0; image && i < (int64_t)film->width * film->height; i++) {
-        float pixel[4] = {film->color[i].x, film->color[i].y, film->color[i].z, film->alpha[i]};
-        memcpy(image->pixel + 4 * i, pixel, sizeof pixel);
+    if (image) {
+        picture_copy_rgba(film, image->pixel);
     }
     return image;
 }
@@ -110,5 +127,83 @@ bool picture_write_exr(const char *file, const Scene *scene, const Film *film, E
     for (int i = 0; i < COUNT; i++) {
         image_free(images[i]);
     }
+    return done;
+}
+
+bool picture_write_rgba(const char *file, const Scene *scene, const float *rgba, Error *e)
+{
+    int width = scene->film.width, height = scene->film.height;
+    Image *image = image_new(width, height, 4, e);
+    if (!image) {
+        return false;
+    }
+    memcpy(image->pixel, rgba, sizeof(float) * 4 * (size_t)width * (size_t)height);
+    bool done;
+    if (picture_is_exr(file)) {
+        ImageLayer layer = {"", "RGBA", image};
+        done = image_write_exr(file, &layer, 1, NULL, e);
+    } else {
+        Image *display = tone_map(image, &scene->tone, e);
+        done = display && image_write_display(file, display, NULL, e);
+        image_free(display);
+    }
+    image_free(image);
+    return done;
+}
+
+// ---- other pictures ----
+
+bool picture_write_grey(const char *file, const float *value, int width, int height, Error *e)
+{
+    Image *image = image_new(width, height, 3, e);
+    if (!image) {
+        return false;
+    }
+    for (int64_t i = 0; i < (int64_t)width * height * 3; i++) {
+        image->pixel[i] = value[i / 3];
+    }
+    ImageLayer layer = {"", "RGB", image};
+    bool done = picture_is_exr(file) ? image_write_exr(file, &layer, 1, NULL, e)
+                                     : image_write_display(file, image, NULL, e);
+    image_free(image);
+    return done;
+}
+
+// Key and value pairs as image.h wants them; ends with an empty key.
+static void describe_field(const HeightField *field, float low, float high, char *text, size_t size)
+{
+    const struct {
+        const char *key;
+        float value;
+    } pairs[] = {{"ramify:low", low}, {"ramify:high", high}, {"ramify:cell", field->cell.x}};
+    size_t used = 0;
+    for (int i = 0; i < 3 && used + 64 < size; i++) {
+        used += (size_t)snprintf(text + used, size - used, "%s", pairs[i].key) + 1;
+        used += (size_t)snprintf(text + used, size - used, "%.9g", (double)pairs[i].value) + 1;
+    }
+    text[used] = '\0';
+}
+
+bool picture_write_land(const char *file, const HeightField *field, Error *e)
+{
+    float low, high;
+    char metadata[256];
+    height_field_range(field, &low, &high);
+    describe_field(field, low, high, metadata, sizeof metadata);
+    if (picture_is_exr(file)) {
+        Image image = {field->columns, field->rows, 1, field->height};
+        ImageLayer layer = {"", "Y", &image};
+        return image_write_exr(file, &layer, 1, metadata, e);
+    }
+    Image *scaled = image_new(field->columns, field->rows, 1, e);
+    if (!scaled) {
+        return false;
+    }
+    float scale = high > low ? 1.0f / (high - low) : 0.0f;
+    for (int64_t i = 0; i < height_field_count(field); i++) {
+        scaled->pixel[i] = (field->height[i] - low) * scale;
+    }
+    bool done = image_write_grey16(file, scaled, metadata, e);
+    image_free(scaled);
     return done;
 }

@@ -1,0 +1,97 @@
+#include "api/handles.h"
+
+#include "mesh/height_measure.h"
+#include "scene/kind.h"
+#include "scene/picture.h"
+
+static RamifyLand *hand_land(HeightField *field, const Error *e, RamifyError *error)
+{
+    if (!field) {
+        api_fail(error, e);
+    }
+    return (RamifyLand *)(void *)field;
+}
+
+static HeightField *make_land(const Scene *scene, int index, const OutTree *tree, const Run *run,
+                              Error *e)
+{
+    const Kind *kind = kind_of(&scene->objects[index]);
+    if (tree || !kind->grow || !kind->heights) {
+        return scene_heights(scene, index, tree, run, e);
+    }
+    OutTree *grown = scene_grow_object(scene, index, run, e);
+    HeightField *field = grown ? scene_heights(scene, index, grown, run, e) : NULL;
+    out_tree_free(grown);
+    return field;
+}
+
+RamifyLand *ramify_land(const RamifyScene *scene, int index, const RamifyTree *tree,
+                        const RamifyRun *run, RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    bool sound = api_check_object(scene, index, &e);
+    return hand_land(sound ? make_land(scene_of(scene), index, tree_of(tree), &own, &e) : NULL, &e,
+                     error);
+}
+
+RamifyLand *ramify_land_read(const char *file, RamifyError *error)
+{
+    Error e = {0};
+    return hand_land(height_field_read_asc(file, &e), &e, error);
+}
+
+void ramify_land_free(RamifyLand *land)
+{
+    height_field_free((HeightField *)(void *)land);
+}
+
+void ramify_land_info(const RamifyLand *land, RamifyLandInfo *info)
+{
+    const HeightField *field = land_of(land);
+    *info = (RamifyLandInfo){.columns = field->columns,
+                             .rows = field->rows,
+                             .cell = {field->cell.x, field->cell.y},
+                             .origin = {field->origin.x, field->origin.y},
+                             .hash = height_field_hash(field)};
+    height_field_range(field, &info->low, &info->high);
+}
+
+const float *ramify_land_heights(const RamifyLand *land)
+{
+    return land_of(land)->height;
+}
+
+bool ramify_land_write(const RamifyLand *land, const char *file, RamifyError *error)
+{
+    Error e = {0};
+    return picture_write_land(file, land_of(land), &e) || api_fail(error, &e);
+}
+
+static bool paint(const Scene *scene, int index, const OutTree *tree, int width, int height,
+                  float *pixel, Error *e)
+{
+    const SceneObject *object = &scene->objects[index];
+    const Kind *kind = kind_of(object);
+    if (!kind->paint) {
+        return error_set(e, ERROR_INPUT, "a picture of object '%s', a %s; a venation makes one",
+                         object->name, kind->key);
+    }
+    return kind->paint(object, tree, width, height, pixel, e);
+}
+
+bool ramify_paint(const RamifyScene *scene, int index, const RamifyTree *tree, int width,
+                  int height, float *pixel, RamifyError *error)
+{
+    Error e = {0};
+    bool done = api_check_object(scene, index, &e) &&
+                paint(scene_of(scene), index, tree_of(tree), width, height, pixel, &e);
+    return done || api_fail(error, &e);
+}
+
+bool ramify_paint_write(const float *pixel, int width, int height, const char *file,
+                        RamifyError *error)
+{
+    Error e = {0};
+    return picture_write_grey(file, pixel, width, height, &e) || api_fail(error, &e);
+}

@@ -1,0 +1,151 @@
+#include "api/handles.h"
+
+#include "image/image.h"
+#include "render/accel.h"
+#include "scene/picture.h"
+
+#include <string.h>
+
+// ---- films ----
+
+static Film *own_film(RamifyFilm *film)
+{
+    return (Film *)(void *)film;
+}
+
+RamifyFilm *ramify_film_new(int width, int height, RamifyError *error)
+{
+    Error e = {0};
+    Film *film = film_new(width, height, &e);
+    if (!film) {
+        api_fail(error, &e);
+    }
+    return (RamifyFilm *)(void *)film;
+}
+
+void ramify_film_free(RamifyFilm *film)
+{
+    film_free(own_film(film));
+}
+
+const float *ramify_film_layer(const RamifyFilm *film, const char *name, int *channels)
+{
+    const Film *own = film_of(film);
+    const struct {
+        const char *name;
+        const void *pixel;
+        int channels;
+    } layers[] = {
+        {"color", own->color, 3},   {"alpha", own->alpha, 1},     {"albedo", own->albedo, 3},
+        {"normal", own->normal, 3}, {"depth", own->depth, 1},     {"position", own->position, 3},
+        {"object", own->object, 1}, {"samples", own->samples, 1}, {"variance", own->variance, 1}};
+    for (size_t i = 0; i < sizeof layers / sizeof layers[0]; i++) {
+        if (strcmp(layers[i].name, name) == 0) {
+            if (channels) {
+                *channels = layers[i].channels;
+            }
+            return layers[i].pixel;
+        }
+    }
+    return NULL;
+}
+
+void ramify_film_rgba(const RamifyFilm *film, float *rgba)
+{
+    picture_copy_rgba(film_of(film), rgba);
+}
+
+bool ramify_film_write(const RamifyFilm *film, const RamifyScene *scene, const char *file,
+                       bool denoise, const RamifyRun *run, RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    bool done = picture_is_exr(file) ? picture_write_exr(file, scene_of(scene), film_of(film), &e)
+                                     : picture_write_display(file, scene_of(scene), film_of(film),
+                                                             denoise, &own, &e);
+    return done || api_fail(error, &e);
+}
+
+bool ramify_write_image(const RamifyScene *scene, const float *rgba, const char *file,
+                        RamifyError *error)
+{
+    Error e = {0};
+    return picture_write_rgba(file, scene_of(scene), rgba, &e) || api_fail(error, &e);
+}
+
+// ---- rendering ----
+
+bool ramify_check_isa(const char *isa, RamifyError *error)
+{
+    Error e = {0};
+    return accel_check_isa(isa, &e) || api_fail(error, &e);
+}
+
+RamifyRenderer *ramify_renderer_new(const RamifyWorld *world, const char *isa, const RamifyRun *run,
+                                    RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    Renderer *renderer = renderer_new(world->world, isa, &own, &e);
+    if (!renderer) {
+        api_fail(error, &e);
+    }
+    return (RamifyRenderer *)(void *)renderer;
+}
+
+void ramify_renderer_free(RamifyRenderer *renderer)
+{
+    renderer_free((Renderer *)(void *)renderer);
+}
+
+typedef struct PassCall {
+    RamifyPass pass;
+    void *user;
+} PassCall;
+
+static void call_pass(void *user, const Film *film, int samples)
+{
+    const PassCall *call = user;
+    call->pass(call->user, (const RamifyFilm *)(const void *)film, samples);
+}
+
+bool ramify_renderer_render(RamifyRenderer *renderer, RamifyFilm *film, RamifyPass pass, void *user,
+                            const RamifyRun *run, RamifyRenderInfo *info, RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    RenderStats stats = {0};
+    PassCall call = {pass, user};
+    bool done = renderer_render((Renderer *)(void *)renderer, own_film(film), &own,
+                                pass ? call_pass : NULL, &call, &stats, &e);
+    if (info) {
+        *info = (RamifyRenderInfo){.paths = stats.paths,
+                                   .rays = stats.rays,
+                                   .bytes = stats.memory,
+                                   .seconds = stats.seconds,
+                                   .samples = stats.samples};
+    }
+    return done || api_fail(error, &e);
+}
+
+bool ramify_render(const RamifyScene *scene, float *rgba, int *samples, const RamifyRun *run,
+                   RamifyError *error)
+{
+    RamifyRenderInfo info = {0};
+    int width, height;
+    ramify_scene_size(scene, &width, &height);
+    RamifyWorld *world = ramify_build(scene, run, error);
+    RamifyFilm *film = world ? ramify_film_new(width, height, error) : NULL;
+    RamifyRenderer *renderer = film ? ramify_renderer_new(world, NULL, run, error) : NULL;
+    bool done = renderer && ramify_renderer_render(renderer, film, NULL, NULL, run, &info, error);
+    if (done) {
+        ramify_film_rgba(film, rgba);
+    }
+    if (samples) {
+        *samples = info.samples;
+    }
+    ramify_renderer_free(renderer);
+    ramify_film_free(film);
+    ramify_world_free(world);
+    return done;
+}

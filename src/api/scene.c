@@ -1,0 +1,165 @@
+#include "api/handles.h"
+
+#include "scene/kind.h"
+
+#include <math.h>
+#include <string.h>
+
+static RamifyScene *hand_scene(Scene *scene, const Error *e, RamifyError *error)
+{
+    if (!scene) {
+        api_fail(error, e);
+    }
+    return (RamifyScene *)(void *)scene;
+}
+
+RamifyScene *ramify_scene_load(const char *file, const char *const *overrides, int override_count,
+                               RamifyError *error)
+{
+    Error e = {0};
+    return hand_scene(scene_read(file, overrides, override_count, &e), &e, error);
+}
+
+RamifyScene *ramify_scene_load_text(const char *text, size_t length, const char *name,
+                                    const char *folder, const char *const *overrides,
+                                    int override_count, RamifyError *error)
+{
+    Error e = {0};
+    Scene *scene = scene_read_text(text, length, name, folder, overrides, override_count, &e);
+    return hand_scene(scene, &e, error);
+}
+
+void ramify_scene_free(RamifyScene *scene)
+{
+    scene_free((Scene *)(void *)scene);
+}
+
+void ramify_scene_size(const RamifyScene *scene, int *width, int *height)
+{
+    *width = scene_of(scene)->film.width;
+    *height = scene_of(scene)->film.height;
+}
+
+static int64_t object_attractors(const SceneObject *object)
+{
+    const Kind *kind = kind_of(object);
+    return kind->attractors ? kind->attractors(object) : 0;
+}
+
+static int64_t object_instances(const SceneObject *object)
+{
+    const Kind *kind = kind_of(object);
+    return kind->copies ? kind->copies(object) : 0;
+}
+
+// Attractors and their search grid (~100 bytes each), instances with their place in the
+// acceleration structure (~200), and the film with one copy for development.
+static int64_t expected_memory(const Scene *scene)
+{
+    int64_t attractors = 0, instances = 0;
+    for (int i = 0; i < scene->object_count; i++) {
+        attractors += object_attractors(&scene->objects[i]);
+        instances += object_instances(&scene->objects[i]);
+    }
+    int64_t pixels = (int64_t)scene->film.width * scene->film.height;
+    int64_t pixel_bytes = (int64_t)(4 * sizeof(Vec3) + 6 * sizeof(float) + 8 * sizeof(float));
+    return 100 * attractors + 200 * instances + pixel_bytes * pixels;
+}
+
+void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *info)
+{
+    const Scene *own = scene_of(scene);
+    *info = (RamifySceneInfo){.file = own->file,
+                              .seed = own->seed,
+                              .width = own->film.width,
+                              .height = own->film.height,
+                              .samples = own->render.samples,
+                              .denoise = own->denoise,
+                              .max_seconds = own->render.max_seconds,
+                              .max_noise = own->render.max_noise,
+                              .grow_to = own->grow_to,
+                              .object_count = own->object_count,
+                              .material_count = own->material_count,
+                              .light_count = own->light_count,
+                              .target_count = own->target_count,
+                              .memory = expected_memory(own)};
+    memcpy(info->crop, own->film.crop, sizeof info->crop);
+}
+
+const char *ramify_scene_text(const RamifyScene *scene)
+{
+    return scene_of(scene)->text;
+}
+
+const char *ramify_scene_resolved(const RamifyScene *scene)
+{
+    return scene_of(scene)->resolved;
+}
+
+bool api_check_object(const RamifyScene *scene, int index, Error *e)
+{
+    int count = scene_of(scene)->object_count;
+    return (index >= 0 && index < count) ||
+           error_set(e, ERROR_INPUT, "no object %d; the scene has %d, counted from 0", index,
+                     count);
+}
+
+int ramify_scene_object_count(const RamifyScene *scene)
+{
+    return scene_of(scene)->object_count;
+}
+
+const char *ramify_scene_object_name(const RamifyScene *scene, int index)
+{
+    return scene_of(scene)->objects[index].name;
+}
+
+void ramify_scene_object(const RamifyScene *scene, int index, RamifyObjectInfo *info)
+{
+    const SceneObject *object = &scene_of(scene)->objects[index];
+    const Kind *kind = kind_of(object);
+    *info = (RamifyObjectInfo){.name = object->name,
+                               .kind = kind->key,
+                               .seed = scene_object_seed(scene_of(scene), index),
+                               .grows = kind->grow != NULL,
+                               .is_land = kind->heights != NULL,
+                               .paints = kind->paint != NULL,
+                               .attractors = object_attractors(object),
+                               .instances = object_instances(object)};
+}
+
+void ramify_scene_object_describe(const RamifyScene *scene, int index, char *text, size_t size)
+{
+    const SceneObject *object = &scene_of(scene)->objects[index];
+    const Kind *kind = kind_of(object);
+    if (size > 0) {
+        text[0] = 0;
+    }
+    if (kind->describe) {
+        kind->describe(object, text, size);
+    }
+}
+
+const char *ramify_scene_material_name(const RamifyScene *scene, int index)
+{
+    return scene_of(scene)->materials[index].name;
+}
+
+void ramify_scene_target(const RamifyScene *scene, int index, RamifyTarget *target)
+{
+    const SceneTarget *own = &scene_of(scene)->targets[index];
+    *target = (RamifyTarget){.object = own->object,
+                             .measure = own->measure,
+                             .low = own->low > -TARGET_NO_BOUND ? own->low : (double)-INFINITY,
+                             .high = own->high < TARGET_NO_BOUND ? own->high : (double)INFINITY};
+}
+
+char *ramify_schema(RamifyError *error)
+{
+    Error e = {0};
+    char *text = scene_schema_json(&e);
+    if (!text) {
+        api_fail(error, &e);
+    }
+    return text;
+}

@@ -1,0 +1,93 @@
+#include "api/handles.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+
+RamifyWorld *ramify_build(const RamifyScene *scene, const RamifyRun *run, RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    RamifyWorld *world = memory_alloc_zero(1, sizeof *world, &e);
+    if (world) {
+        world->world = scene_build(scene_of(scene), &own, &world->stats, &e);
+    }
+    if (!world || !world->world) {
+        free(world);
+        api_fail(error, &e);
+        return NULL;
+    }
+    return world;
+}
+
+void ramify_world_free(RamifyWorld *world)
+{
+    if (world) {
+        world_free(world->world);
+        free(world);
+    }
+}
+
+void ramify_world_info(const RamifyWorld *world, RamifyWorldInfo *info)
+{
+    const BuildStats *stats = &world->stats;
+    *info = (RamifyWorldInfo){.nodes = stats->nodes,
+                              .triangles = stats->geometry.triangles,
+                              .curve_segments = stats->geometry.curve_segments,
+                              .instances = stats->geometry.instances,
+                              .bytes = stats->geometry.bytes,
+                              .grow_seconds = stats->grow_seconds,
+                              .mesh_seconds = stats->mesh_seconds};
+}
+
+int64_t ramify_world_part_count(const RamifyWorld *world)
+{
+    return world->world->geometry.count;
+}
+
+_Static_assert(sizeof(Vec3) == 3 * sizeof(float) && sizeof(Vec2) == 2 * sizeof(float) &&
+                   sizeof(Transform) == 12 * sizeof(float),
+               "vectors and matrices are plain floats");
+
+static const float *floats(const void *plain)
+{
+    return (const float *)plain;
+}
+
+static void describe_mesh(const Mesh *mesh, RamifyPart *part)
+{
+    part->face_size = mesh->face_size;
+    part->vertex_count = mesh->vertex_count;
+    part->positions = floats(mesh->position);
+    part->normals = floats(mesh->normal);
+    part->uvs = floats(mesh->uv);
+    part->radii = mesh->radius;
+    part->births = mesh->birth;
+    part->face_count = mesh->face_count;
+    part->indices = mesh->index;
+}
+
+static void describe_curves(const CurveSet *curves, RamifyPart *part)
+{
+    part->vertex_count = curves->point_count;
+    part->positions = floats(curves->position);
+    part->radii = curves->radius;
+    part->births = curves->birth;
+    part->curve_count = curves->curve_count;
+    part->starts = curves->first;
+}
+
+void ramify_world_part(const RamifyWorld *world, int64_t index, RamifyPart *part)
+{
+    const Part *own = &world->world->geometry.part[index];
+    *part = (RamifyPart){.object = own->object,
+                         .material = world->world->material[own->material].name,
+                         .instance_count = own->instance_count,
+                         .instances = floats(own->instance),
+                         .variations = own->variation};
+    if (own->kind == PART_MESH) {
+        describe_mesh(own->mesh, part);
+    } else {
+        describe_curves(own->curves, part);
+    }
+}

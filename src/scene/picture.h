@@ -1,0 +1,35 @@
+// From the film, and from other results that are pictures, to files.
+#ifndef RAMIFY_SCENE_PICTURE_H
+#define RAMIFY_SCENE_PICTURE_H
+
+#include "base/run.h"
+#include "mesh/height_field.h"
+#include "render/film.h"
+#include "scene/scene.h"
+
+// Does the file's name end in .exr, in any case?
+bool picture_is_exr(const char *file);
+
+// Develops and writes a .png or .jpg. denoise: take the noise out first.
+bool picture_write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
+                           const Run *run, Error *e);
+
+// Writes the linear EXR: RGBA, albedo, normal, depth, position, object id, samples; the scene's
+// text and every setting as metadata.
+bool picture_write_exr(const char *file, const Scene *scene, const Film *film, Error *e);
+
+// Radiance and alpha of a film: 4 * width * height floats.
+void picture_copy_rgba(const Film *film, float *rgba);
+
+// A picture of that kind, as large as the scene's film: .exr as it is, others developed.
+bool picture_write_rgba(const char *file, const Scene *scene, const float *rgba, Error *e);
+
+// width * height values, 0..1, as grey .png, .jpg or .exr.
+bool picture_write_grey(const char *file, const float *value, int width, int height, Error *e);
+
+// Heights: 16-bit PNG, black at the lowest and white at the highest point, or float EXR in metres
+// (channel Y). Both say in their metadata (ramify:low, ramify:high, ramify:cell, all in metres)
+// what they hold.
+bool picture_write_land(const char *file, const HeightField *field, Error *e);
+
+#endif
