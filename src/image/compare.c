@@ -22,7 +22,7 @@ bool image_compare(const Image *a, const Image *b, double threshold, ImageDiffer
                          "be compared; they must be alike in all three",
                          a->width, a->height, a->channels, b->width, b->height, b->channels);
     }
-    int64_t pixels = (int64_t)a->width * a->height, failing = 0;
+    int64_t pixels = (int64_t)a->width * a->height, failing = 0, worst = 0;
     double sum = 0.0, squares = 0.0, maximum = 0.0;
     for (int64_t i = 0; i < pixels; i++) {
         bool over = false;
@@ -31,6 +31,7 @@ bool image_compare(const Image *a, const Image *b, double threshold, ImageDiffer
             double d = difference_of(a->pixel[k], b->pixel[k]);
             sum += d;
             squares += d * d;
+            worst = d > maximum ? i : worst;
             maximum = fmax(maximum, d);
             over = over || d > threshold;
         }
@@ -40,6 +41,8 @@ bool image_compare(const Image *a, const Image *b, double threshold, ImageDiffer
     *difference = (ImageDifference){.rmse = sqrt(squares / count),
                                     .mean = sum / count,
                                     .maximum = maximum,
-                                    .failing = (double)failing / (double)pixels};
+                                    .failing = (double)failing / (double)pixels,
+                                    .worst_x = (int)(worst % a->width),
+                                    .worst_y = (int)(worst / a->width)};
     return true;
 }

@@ -7,6 +7,7 @@
 typedef struct ImageDifference {
     double rmse, mean, maximum; // over all channels
     double failing;             // share of pixels with a channel over the threshold
+    int worst_x, worst_y;       // the pixel with the largest difference, from the top left
 } ImageDifference;
 
 // ERROR_INPUT when sizes or channel counts differ.

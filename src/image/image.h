@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 
+#include <stddef.h>
 #include <stdint.h>
 
 // width * height * channels floats, row by row from the top left.
@@ -19,10 +20,25 @@ void image_free(Image *image); // NULL is fine
 // Any format OpenImageIO reads, as stored values (8-bit: 0..1, not linearised).
 Image *image_read(const char *file, Error *e);
 
+// R, G, B and, where the file has one, A, as stored; grey as three equal channels. *linear: whether
+// the file holds floating-point radiance (EXR, HDR; alpha premultiplied) or display values (alpha
+// straight). Other channels of the file are left out.
+Image *image_read_color(const char *file, bool *linear, Error *e);
+
+// Channels of one layer of a file, in the order named, as image_write_exr laid them out: layer
+// "variance" and channels "RGB" are variance.R, variance.G, variance.B. ERROR_INPUT when one is not
+// there.
+Image *image_read_layer(const char *file, const char *layer, const char *channels, Error *e);
+
 // 8-bit PNG or JPEG (by the name's ending) of an image already in display values; 3 or 4 channels,
 // 0..1, alpha straight; JPEG shows it over black. Dithered by a fixed pattern. metadata:
 // "key\0value\0...\0\0" pairs or NULL.
 bool image_write_display(const char *file, const Image *image, const char *metadata, Error *e);
+
+// The same PNG in memory: *bytes (free() it) of *size. And back, as stored values.
+bool image_encode_png(const Image *image, const char *metadata, unsigned char **bytes, size_t *size,
+                      Error *e);
+Image *image_decode_png(const unsigned char *bytes, size_t size, Error *e);
 
 // 16-bit grey PNG of a picture of one channel, 0..1.
 bool image_write_grey16(const char *file, const Image *image, const char *metadata, Error *e);

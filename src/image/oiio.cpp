@@ -12,6 +12,7 @@
 
 extern "C" {
 #include "base/file_replace.h"
+#include "base/memory.h"
 #include "image/image.h"
 }
 
@@ -117,7 +118,9 @@ Bytes quantise_image(const Image *image, bool without_alpha)
     return bytes;
 }
 
-bool write_display(const char *file, const Image *image, const char *metadata, Error *e)
+// The bytes of a PNG or JPEG, by the name's ending.
+bool encode_display(const char *file, const Image *image, const char *metadata, Bytes &bytes,
+                    Error *e)
 {
     std::string extension = extension_of(file);
     bool jpeg = extension == "jpg" || extension == "jpeg";
@@ -139,9 +142,14 @@ bool write_display(const char *file, const Image *image, const char *metadata, E
         spec.attribute("jpeg:subsampling", "4:4:4");
     }
     add_metadata(spec, metadata, jpeg);
-    Bytes bytes;
     return encode(file, jpeg ? "jpeg" : "png", spec, OIIO::TypeDesc::UINT8, pixels.data(), bytes,
-                  e) &&
+                  e);
+}
+
+bool write_display(const char *file, const Image *image, const char *metadata, Error *e)
+{
+    Bytes bytes;
+    return encode_display(file, image, metadata, bytes, e) &&
            file_replace(file, bytes.data(), bytes.size(), e);
 }
 
@@ -222,28 +230,79 @@ bool write_exr(const char *file, const ImageLayer *layers, int count, const char
            file_replace(file, bytes.data(), bytes.size(), e);
 }
 
-bool read(const char *file, Image **image, Error *e)
+// spec: what the file holds. proxy: the bytes to read instead of the file, or null.
+bool read(const char *file, OIIO::Filesystem::IOProxy *proxy, Image **image, OIIO::ImageSpec *spec,
+          Error *e)
 {
     OIIO::ImageSpec as_stored;
     as_stored.attribute("oiio:UnassociatedAlpha", 1);
-    auto input = OIIO::ImageInput::open(file, &as_stored);
+    auto input = OIIO::ImageInput::open(file, &as_stored, proxy);
     if (!input) {
         std::string reason = OIIO::geterror();
         return error_set(e, ERROR_INPUT, "image '%s' cannot be read: %s", file, reason.c_str());
     }
-    const OIIO::ImageSpec spec = input->spec();
-    if (spec.depth > 1 || spec.deep) {
+    *spec = input->spec();
+    if (spec->depth > 1 || spec->deep) {
         return error_set(e, ERROR_INPUT, "image '%s' cannot be read: it is not flat", file);
     }
-    *image = image_new(spec.width, spec.height, spec.nchannels, e);
+    *image = image_new(spec->width, spec->height, spec->nchannels, e);
     if (!*image) {
         return false;
     }
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, (*image)->pixel)) {
+    if (!input->read_image(0, 0, 0, spec->nchannels, OIIO::TypeDesc::FLOAT, (*image)->pixel)) {
         return error_set(e, ERROR_INPUT, "image '%s' cannot be read: %s", file,
                          input->geterror().c_str());
     }
     return true;
+}
+
+// Some channels of an image, by index, in this order.
+Image *pick_channels(const Image *image, const std::vector<int> &channels, Error *e)
+{
+    Image *picked = image_new(image->width, image->height, (int)channels.size(), e);
+    size_t pixels = size_t(image->width) * size_t(image->height), out = 0;
+    for (size_t p = 0; picked && p < pixels; p++) {
+        for (int c : channels) {
+            picked->pixel[out++] = image->pixel[p * size_t(image->channels) + size_t(c)];
+        }
+    }
+    return picked;
+}
+
+// R, G, B and, where there is one, A of a file; grey, as three equal channels, where it has no R,
+// G, B.
+std::vector<int> color_channels(const OIIO::ImageSpec &spec)
+{
+    int red = spec.channelindex("R"), green = spec.channelindex("G"), blue = spec.channelindex("B");
+    std::vector<int> channels = {red, green, blue};
+    if (red < 0 || green < 0 || blue < 0) {
+        bool grey = spec.nchannels < 3;
+        channels = {0, grey ? 0 : 1, grey ? 0 : 2};
+    }
+    if (spec.alpha_channel >= 0) {
+        channels.push_back(spec.alpha_channel);
+    }
+    return channels;
+}
+
+bool is_linear(const OIIO::ImageSpec &spec)
+{
+    return spec.format == OIIO::TypeDesc::FLOAT || spec.format == OIIO::TypeDesc::HALF;
+}
+
+// Reads, then makes of what was read what is wanted; frees the former.
+template <typename Make> Image *read_and_make(const char *file, Error *e, Make make)
+{
+    Image *image = nullptr, *made = nullptr;
+    guarded("image '" + std::string(file) + "' cannot be read", e, [&] {
+        OIIO::ImageSpec spec;
+        if (read(file, nullptr, &image, &spec, e)) {
+            made = make(image, spec);
+        }
+        return made != nullptr;
+    });
+    image_free(image);
+    return made;
 }
 
 } // namespace
@@ -251,13 +310,69 @@ bool read(const char *file, Image **image, Error *e)
 extern "C" Image *image_read(const char *file, Error *e)
 {
     Image *image = nullptr;
-    bool done = guarded("image '" + std::string(file) + "' cannot be read", e,
-                        [&] { return read(file, &image, e); });
+    bool done = guarded("image '" + std::string(file) + "' cannot be read", e, [&] {
+        OIIO::ImageSpec spec;
+        return read(file, nullptr, &image, &spec, e);
+    });
     if (!done) {
         image_free(image);
         return nullptr;
     }
     return image;
+}
+
+extern "C" Image *image_read_color(const char *file, bool *linear, Error *e)
+{
+    return read_and_make(file, e, [&](const Image *image, const OIIO::ImageSpec &spec) {
+        *linear = is_linear(spec);
+        return pick_channels(image, color_channels(spec), e);
+    });
+}
+
+extern "C" Image *image_read_layer(const char *file, const char *layer, const char *channels,
+                                   Error *e)
+{
+    return read_and_make(file, e, [&](const Image *image, const OIIO::ImageSpec &spec) -> Image * {
+        std::vector<int> picked;
+        for (const char *c = channels; *c; c++) {
+            std::string name = (layer[0] ? std::string(layer) + "." : "") + *c;
+            picked.push_back(spec.channelindex(name));
+            if (picked.back() < 0) {
+                error_set(e, ERROR_INPUT, "image '%s' has no channel '%s'", file, name.c_str());
+                return nullptr;
+            }
+        }
+        return pick_channels(image, picked, e);
+    });
+}
+
+extern "C" Image *image_decode_png(const unsigned char *bytes, size_t size, Error *e)
+{
+    Image *image = nullptr;
+    bool done = guarded("a PNG in memory cannot be read", e, [&] {
+        OIIO::Filesystem::IOMemReader proxy(const_cast<unsigned char *>(bytes), size);
+        OIIO::ImageSpec spec;
+        return read("memory.png", &proxy, &image, &spec, e);
+    });
+    if (!done) {
+        image_free(image);
+        return nullptr;
+    }
+    return image;
+}
+
+extern "C" bool image_encode_png(const Image *image, const char *metadata, unsigned char **bytes,
+                                 size_t *size, Error *e)
+{
+    return guarded("a picture cannot be made a PNG", e, [&] {
+        Bytes encoded;
+        if (!encode_display("memory.png", image, metadata, encoded, e)) {
+            return false;
+        }
+        *bytes = (unsigned char *)memory_alloc((int64_t)encoded.size(), 1, e);
+        *size = encoded.size();
+        return *bytes && std::memcpy(*bytes, encoded.data(), encoded.size());
+    });
 }
 
 extern "C" bool image_write_display(const char *file, const Image *image, const char *metadata,
