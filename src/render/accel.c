@@ -201,6 +201,17 @@ static bool worth_copying(const Accel *accel, const Part *part)
            part->instance_count < (int64_t)UINT32_MAX / (part->mesh->vertex_count + 1);
 }
 
+static bool wants_alpha(const Accel *accel, const Part *part)
+{
+    return part->kind == PART_MESH && accel->world->material[part->material].alpha_texture;
+}
+
+static bool wants_film(const Accel *accel, const Part *part)
+{
+    return part->kind == PART_MESH &&
+           accel->world->material[part->material].kind == MATERIAL_THIN_FILM;
+}
+
 static bool add_part(Accel *accel, int32_t number, Error *e)
 {
     const Part *part = &accel->world->geometry.part[number];
@@ -211,6 +222,8 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
                          accel->world->material_count);
     }
     bool mesh = part->kind == PART_MESH;
+    own->alpha = wants_alpha(accel, part);
+    own->film = wants_film(accel, part);
     if ((mesh ? part->mesh->face_count : part->curves->curve_count) < 1 ||
         (part->instance && part->instance_count < 1)) {
         return true;
@@ -225,12 +238,12 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
         mesh ? mesh_geometry(accel, part->mesh, own->copied ? part->instance : NULL,
                              own->copied ? part->instance_count : 1)
              : curve_geometry(accel, part->curves, &own->segment);
-    if (mesh && accel->world->material[part->material].alpha_texture) {
+    if (own->alpha) {
         rtcSetGeometryUserData(geometry, own);
         rtcSetGeometryIntersectFilterFunction(geometry, accel_alpha_filter);
         rtcSetGeometryOccludedFilterFunction(geometry, accel_alpha_filter);
     }
-    if (mesh && accel->world->material[part->material].kind == MATERIAL_THIN_FILM) {
+    if (own->film) {
         rtcSetGeometryUserData(geometry, own);
         rtcSetGeometryOccludedFilterFunction(geometry, accel_film_filter);
     }
@@ -337,6 +350,23 @@ void accel_free(Accel *accel)
     free(accel->part);
     free(accel->entry);
     free(accel);
+}
+
+void accel_use_materials(Accel *accel, const MaterialSet *materials)
+{
+    accel->materials = materials;
+}
+
+bool accel_fits_materials(const Accel *accel)
+{
+    for (int64_t i = 0; i < accel->world->geometry.count; i++) {
+        const Part *part = &accel->world->geometry.part[i];
+        if (accel->part[i].alpha != wants_alpha(accel, part) ||
+            accel->part[i].film != wants_film(accel, part)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 int64_t accel_bytes(const Accel *accel)

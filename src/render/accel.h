@@ -32,6 +32,12 @@ Accel *accel_new(const World *world, const MaterialSet *materials, const char *i
                  Error *e);
 void accel_free(Accel *accel); // NULL is fine
 
+// The world's materials have other values, made ready as `materials`; their number is the same.
+void accel_use_materials(Accel *accel, const MaterialSet *materials);
+
+// Do rays still have to pass the same parts? If not, it must be built anew.
+bool accel_fits_materials(const Accel *accel);
+
 int64_t accel_bytes(const Accel *accel); // held by Embree
 Aabb accel_bounds(const Accel *accel);   // of everything; empty when there is nothing
 

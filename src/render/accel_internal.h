@@ -15,6 +15,7 @@ typedef struct AccelPart {
     const uint32_t *segment; // curves: first point of each segment; Embree's buffer
     float base_variation;    // of a part that is drawn once
     bool plain;              // a mesh without anything at its vertices
+    bool alpha, film;        // rays are filtered: see accel_alpha_filter, accel_film_filter
     bool copied;             // instances were copied out: primitive = instance * faces + face
 } AccelPart;
 

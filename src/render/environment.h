@@ -5,8 +5,8 @@
 #include "render/dome.h"
 #include "render/world.h"
 
-// Reads sky->file (latitude-longitude, linear Rec. 709) and applies rotation and strength. The
-// picture's middle lies at +Z before the rotation. ERROR_INPUT names the file and what is wrong.
+// Reads sky->file (latitude-longitude, linear Rec. 709) and applies the strength, not the
+// rotation. The picture's middle lies at +Z. ERROR_INPUT names the file and what is wrong.
 Dome *environment_dome(const Sky *sky, Error *e);
 
 #endif

@@ -276,8 +276,8 @@ static void begin(Path *path, const Tracer *tracer, int x, int y, int sample)
                    .mirrored = true,
                    .straight = true,
                    .rays = 1};
-    path->sampler = sampler_at(&tracer->sobol, world->render.seed,
-                               (uint32_t)(y * world->film.width + x), (uint32_t)sample);
+    path->sampler = sampler_at(&tracer->sobol, tracer->seed, (uint32_t)(y * world->film.width + x),
+                               (uint32_t)sample);
     float u[4];
     sampler_draw(&path->sampler, SET_CAMERA, u);
     float film_x = (float)x + 0.5f + filter_sample(&tracer->filter, u[0]);

@@ -18,6 +18,7 @@ typedef struct Tracer {
     Filling outside; // the scene's medium
     Vec3 center;     // of the scene
     float medium_radius;
+    uint64_t seed;  // of all paths
     bool has_clear; // some body has no surface: see is_clear
     CameraFrame camera;
     Filter filter;

@@ -14,9 +14,12 @@ struct Lights {
     Vec3 constant; // SKY_CONSTANT: radiance
     Dome *dome;    // NULL without sky or environment
     Sun sun;
-    Clouds clouds;
-    Water *water;        // NULL without any
-    EmitterSet emitters; // glowing geometry
+    Sun built_sun;            // before the sky was turned
+    float built_rotation;     // of the dome
+    float turn_cos, turn_sin; // of the sky's rotation about +Y
+    Clouds clouds;            // as the sky was built: not turned
+    Water *water;             // NULL without any
+    EmitterSet emitters;      // glowing geometry
     float
         *share; // chance of each to be chosen: the world's lights, the dome, the sun, all emitters
     float *sum; // count + 1: cumulated
@@ -97,7 +100,35 @@ static bool make_sky(Lights *lights, const Run *run, Error *e)
         lights->dome = environment_dome(sky, e);
         break;
     }
+    if (lights->dome) {
+        lights->built_sun = lights->sun;
+        lights->built_rotation = lights->dome->rotation;
+        lights_turn_sky(lights);
+    }
     return lights->dome != NULL;
+}
+
+// From azimuth 0 (+Z) toward 90 degrees (+X).
+static Vec3 turned(Vec3 d, float cosine, float sine)
+{
+    return vec3(d.x * cosine + d.z * sine, d.y, d.z * cosine - d.x * sine);
+}
+
+// A direction of the world as the sky was built.
+static Vec3 into_sky(const Lights *lights, Vec3 direction)
+{
+    return turned(direction, lights->turn_cos, -lights->turn_sin);
+}
+
+void lights_turn_sky(Lights *lights)
+{
+    float angle = lights->world->sky.rotation * RADIANS_PER_DEGREE;
+    lights->turn_cos = cosf(angle);
+    lights->turn_sin = sinf(angle);
+    lights->sun.direction = turned(lights->built_sun.direction, lights->turn_cos, lights->turn_sin);
+    if (lights->dome) {
+        lights->dome->rotation = lights->built_rotation + angle;
+    }
 }
 
 // The network of light is sharp at what the camera looks at.
@@ -122,6 +153,7 @@ Lights *lights_new(const World *world, float scene_radius, const Run *run, Error
         return NULL;
     }
     lights->world = world;
+    lights->turn_cos = 1.0f;
     lights->dome_index = lights->sun_index = lights->emitters_index = -1;
     if (!make_sky(lights, run, e) || !make_water(lights, run, e) ||
         !emitter_set_fill(&lights->emitters, world, e)) {
@@ -396,13 +428,14 @@ const Water *lights_water(const Lights *lights)
 static Vec3 seen_above(const Lights *lights, Vec3 direction, float spread)
 {
     const Sky *sky = &lights->world->sky;
-    Vec3 sum = clouds_before(&lights->clouds, direction, dome_lookup(lights->dome, direction));
+    Vec3 above = into_sky(lights, direction);
+    Vec3 sum = clouds_before(&lights->clouds, above, dome_lookup(lights->dome, direction));
     bool covered = lights->sun_index >= 0 && sun_covers(&lights->sun, direction);
     if (sky->kind == SKY_NIGHT && !covered) {
-        sum = vec3_add(sum, night_stars(sky, direction, spread));
+        sum = vec3_add(sum, night_stars(sky, above, spread));
     }
     if (covered) {
-        float face = lights->sun.even ? night_moon_face(&lights->sun, direction) : 1.0f;
+        float face = lights->sun.even ? night_moon_face(&lights->built_sun, above) : 1.0f;
         sum = vec3_madd(sum, face, sun_radiance(&lights->sun, direction));
     }
     return sum;
@@ -448,7 +481,7 @@ static Vec3 background_from_water(const Lights *lights, Vec3 from, Vec3 directio
     }
     Vec3 above = lights->constant;
     if (lights->dome && eye && lights->world->sky.kind == SKY_SUN_SKY) {
-        above = clouds_before(&lights->clouds, passage.direction,
+        above = clouds_before(&lights->clouds, into_sky(lights, passage.direction),
                               dome_lookup(lights->dome, passage.direction));
         above = vec3_add(above, glitter(lights, passage.direction));
     } else if (lights->dome && eye) {

@@ -14,6 +14,10 @@ typedef struct Lights Lights;
 Lights *lights_new(const World *world, float scene_radius, const Run *run, Error *e);
 void lights_free(Lights *lights); // NULL is fine
 
+// Turns sun, moon, clouds, stars and dome to what sky.rotation of the world says now. Waters keep
+// the network of the sun that they were made with.
+void lights_turn_sky(Lights *lights);
+
 typedef struct LightSample {
     Vec3 direction; // unit, toward the light
     float distance; // m; INFINITY for sky and sun

@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include "base/memory.h"
+#include "base/random.h"
 #include "render/dome.h"
 #include "render/integrator.h"
 
@@ -15,7 +16,24 @@ struct Renderer {
     MaterialSet *materials;
     Accel *accel;
     Lights *lights;
+    const char *isa;
 };
+
+static bool build_lights(Renderer *renderer, const Run *run, Error *e)
+{
+    Aabb box = accel_bounds(renderer->accel);
+    float radius = aabb_is_empty(box) ? 1.0f : 0.5f * vec3_distance(box.low, box.high);
+    lights_free(renderer->lights);
+    renderer->lights = lights_new(renderer->world, radius, run, e);
+    return renderer->lights;
+}
+
+static bool build_accel(Renderer *renderer, const Run *run, Error *e)
+{
+    accel_free(renderer->accel); // first: two may not fit
+    renderer->accel = accel_new(renderer->world, renderer->materials, renderer->isa, run, e);
+    return renderer->accel;
+}
 
 Renderer *renderer_new(const World *world, const char *isa, const Run *run, Error *e)
 {
@@ -24,20 +42,36 @@ Renderer *renderer_new(const World *world, const char *isa, const Run *run, Erro
         return NULL;
     }
     renderer->world = world;
+    renderer->isa = isa;
     renderer->materials = material_set_new(world->material, world->material_count, e);
-    if (renderer->materials) {
-        renderer->accel = accel_new(world, renderer->materials, isa, run, e);
-    }
-    if (renderer->accel) {
-        Aabb box = accel_bounds(renderer->accel);
-        float radius = aabb_is_empty(box) ? 1.0f : 0.5f * vec3_distance(box.low, box.high);
-        renderer->lights = lights_new(world, radius, run, e);
-    }
-    if (!renderer->lights) {
+    if (!renderer->materials || !build_accel(renderer, run, e) || !build_lights(renderer, run, e)) {
         renderer_free(renderer);
         return NULL;
     }
     return renderer;
+}
+
+bool renderer_update(Renderer *renderer, unsigned changed, const Run *run, Error *e)
+{
+    const World *world = renderer->world;
+    if (changed & RENDERER_MATERIALS) {
+        MaterialSet *fresh = material_set_new(world->material, world->material_count, e);
+        if (!fresh) {
+            return false;
+        }
+        accel_use_materials(renderer->accel, fresh);
+        material_set_free(renderer->materials);
+        renderer->materials = fresh;
+    }
+    bool filters = changed & RENDERER_MATERIALS && !accel_fits_materials(renderer->accel);
+    if ((changed & RENDERER_LAMPS || filters) && !build_accel(renderer, run, e)) {
+        return false;
+    }
+    if (changed == RENDERER_SKY_TURNED && !lights_water(renderer->lights)) {
+        lights_turn_sky(renderer->lights);
+        return true;
+    }
+    return changed == 0 || build_lights(renderer, run, e);
 }
 
 void renderer_free(Renderer *renderer)
@@ -325,6 +359,9 @@ bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass 
         tracer->lights = renderer->lights;
         tracer->materials = renderer->materials;
         tracer->camera = camera_frame(&world->camera, film->width, film->height);
+        const RenderParams *params = &world->render;
+        tracer->seed =
+            params->noise_seed ? random_key(params->seed, params->noise_seed) : params->seed;
         filter_fill(&tracer->filter, world->film.filter, world->film.filter_radius);
         sobol_table_fill(&tracer->sobol);
         tracer_set_media(tracer, accel_bounds(renderer->accel));

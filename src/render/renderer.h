@@ -12,8 +12,22 @@ typedef struct Renderer Renderer;
 // Builds the acceleration structures (Embree). The world is borrowed and must outlive the renderer.
 // isa: NULL for the best of this machine, or "sse4.2" (sse2, avx, avx2, avx512) to pin it (golden
 // images). ERROR_MEMORY, not a crash, when the structures do not fit; progress stage "build".
+// isa is borrowed, too.
 Renderer *renderer_new(const World *world, const char *isa, const Run *run, Error *e);
 void renderer_free(Renderer *renderer); // NULL is fine
+
+// What of the world is another than when the renderer was made or last updated. Camera, film and
+// RenderParams may change at any time between two pictures without a word; geometry never.
+enum {
+    RENDERER_SKY_TURNED = 1, // sky.rotation alone: costs nothing
+    RENDERER_LIGHT = 2,      // anything else of sky and medium
+    RENDERER_MATERIALS = 4,  // their values; number and order are the same
+    RENDERER_LAMPS = 8       // builds the acceleration structures anew, as lamps are part of them
+};
+
+// Brings up to date what was made from what changed (bits of the above). After a failure the
+// renderer can only be freed.
+bool renderer_update(Renderer *renderer, unsigned changed, const Run *run, Error *e);
 
 typedef struct RenderStats {
     int64_t paths, rays;

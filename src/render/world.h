@@ -46,7 +46,7 @@ typedef struct Sky {
     float stars;          // SKY_NIGHT: factor on their light
     float city_glow;      // SKY_NIGHT: light of towns along the horizon
     const char *file;     // SKY_ENVIRONMENT: latitude-longitude HDR, borrowed
-    float rotation;       // SKY_ENVIRONMENT: degrees about +Y
+    float rotation;       // of all of it, sun, moon, clouds and stars too: degrees about +Y
     float strength;       // factor on all of it
     bool visible;         // seen by camera rays; if not, the background is black with alpha 0
     float haze_distance; // m over which distant surfaces fade to 1/e into the sky's horizon colour;
@@ -68,7 +68,8 @@ typedef struct RenderParams {
     int max_depth;      // bounces
     int roulette_depth; // bounces before Russian roulette may end a path; max_depth = never
     uint64_t seed;
-    float clamp;     // upper bound on a sample's indirect luminance; 0 = none (unbiased)
+    uint64_t noise_seed; // another number, another pattern of noise in the same picture
+    float clamp;         // upper bound on a sample's indirect luminance; 0 = none (unbiased)
     float max_noise; // adaptive: a tile stops when its estimated relative error is below this; 0 =
                      // off
     double max_seconds; // 0 = no limit

@@ -73,7 +73,7 @@ static bool is_shown(const Emitter *out, const Node *node)
 // In one line: [1, 2] and {a: 1}.
 static void put_flow(Emitter *out, const Node *node)
 {
-    if (node->kind == NODE_SCALAR) {
+    if (node->kind == NODE_SCALAR || (out->mode == EMIT_LOADABLE && node->resolved)) {
         put_scalar(out, node);
         return;
     }

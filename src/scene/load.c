@@ -109,6 +109,7 @@ static bool key_value(const Builder *b, const Key *row, cyaml_schema_value_t *va
         enum_value(row, flags, value);
         return true;
     case KEY_TEXT:
+    case KEY_ANY:
     case KEY_FILE:
     case KEY_NAME:
         text_value(row, flags, value);
@@ -225,8 +226,8 @@ void load_clear(const Table *table, void *structure)
         if (row->type == KEY_GROUP) {
             load_clear(row->table, base + row->offset);
         }
-        bool owned = row->type == KEY_TEXT || row->type == KEY_FILE || row->type == KEY_LIST ||
-                     row->type == KEY_POINTER;
+        bool owned = row->type == KEY_TEXT || row->type == KEY_ANY || row->type == KEY_FILE ||
+                     row->type == KEY_LIST || row->type == KEY_POINTER;
         if (!owned || row->flags & KEY_VIRTUAL) {
             continue;
         }

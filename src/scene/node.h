@@ -26,6 +26,7 @@ typedef enum NodeKind { NODE_SCALAR, NODE_LIST, NODE_MAP } NodeKind;
 
 typedef struct Node {
     NodeKind kind;
+    bool animated;        // a number between two keys: rounded where a whole one is asked for
     bool quoted;          // scalar written with quotes, so never a number, a truth value or null
     int line, column;     // 1-based; 0 for a node that no file holds (a default)
     const char *source;   // "--set path=value" it comes from; NULL = the scene file

@@ -10,13 +10,17 @@
 
 typedef struct Override {
     Arena *arena;
-    const char *source; // "--set path=value"
+    const char *source; // "--set path=value"; NULL = the scene's file, at line and column
+    int line, column;
     Error *e;
 } Override;
 
+// The caller, who knows the scene's name, locates what comes from the file.
 static Node *fail(const Override *o)
 {
-    error_locate(o->e, o->source, 0, 0);
+    if (o->source) {
+        error_locate(o->e, o->source, 0, 0);
+    }
     return NULL;
 }
 
@@ -75,6 +79,8 @@ static Node *step_into(const Override *o, Node *node, const char *token)
             return NULL;
         }
         child->source = o->source;
+        child->line = o->line;
+        child->column = o->column;
         node_append(node, child, token);
     }
     return child;
@@ -90,9 +96,31 @@ static void replace(Node *node, const Node *value)
     node->next = old.next;
 }
 
+// Puts value where path (which is cut up) leads.
+static bool apply(const Override *o, Node *root, char *path, const Node *value)
+{
+    Node *node = root;
+    while (node && path) {
+        char *dot = strchr(path, '.');
+        if (dot) {
+            *dot = 0;
+        }
+        if (!*path) {
+            error_set(o->e, ERROR_INPUT, "an empty name in the path; write a.b=value");
+            return fail(o);
+        }
+        node = step_into(o, node, path);
+        path = dot ? dot + 1 : NULL;
+    }
+    if (node) {
+        replace(node, value);
+    }
+    return node;
+}
+
 bool override_apply(Arena *arena, Node *root, const char *override, Error *e)
 {
-    Override o = {arena, arena_format(arena, e, "--set %s", override), e};
+    Override o = {arena, arena_format(arena, e, "--set %s", override), 0, 0, e};
     const char *equals = strchr(override, '=');
     if (!o.source) {
         return false;
@@ -103,21 +131,35 @@ bool override_apply(Arena *arena, Node *root, const char *override, Error *e)
     }
     char *path = arena_text(arena, override, (size_t)(equals - override), e);
     const Node *value = yaml_parse(arena, equals + 1, strlen(equals + 1), o.source, o.source, e);
-    Node *node = path && value ? root : NULL;
-    while (node && path) {
-        char *dot = strchr(path, '.');
-        if (dot) {
-            *dot = 0;
-        }
-        if (!*path) {
-            error_set(e, ERROR_INPUT, "an empty name in the path; write a.b=value");
-            return fail(&o);
-        }
-        node = step_into(&o, node, path);
-        path = dot ? dot + 1 : NULL;
+    return path && value && apply(&o, root, path, value);
+}
+
+// Where every node of the value comes from.
+static void place_nodes(const Override *o, Node *node)
+{
+    node->source = o->source;
+    node->line = o->line;
+    node->column = o->column;
+    node->animated = true;
+    for (Node *child = node->first; child; child = child->next) {
+        place_nodes(o, child);
     }
-    if (node) {
-        replace(node, value);
+}
+
+bool override_change(Arena *arena, Node *root, const SceneChange *change, Error *e)
+{
+    Override o = {.arena = arena, .line = change->line, .column = change->column, .e = e};
+    if (change->line == 0 &&
+        !(o.source = arena_text(arena, change->source, strlen(change->source), e))) {
+        return false;
     }
-    return node;
+    char *path = arena_text(arena, change->path, strlen(change->path), e);
+    Node *value =
+        path ? yaml_parse(arena, change->value, strlen(change->value), change->path, NULL, e)
+             : NULL;
+    if (!value) {
+        return false;
+    }
+    place_nodes(&o, value);
+    return apply(&o, root, path, value);
 }

@@ -10,6 +10,7 @@ struct Resolver {
     const char *file;   // the scene's name, for errors
     const char *folder; // files named in the scene are relative to it; "" = the current one
     Error *e;
+    uint64_t files; // hash of the files named so far
 };
 
 // Where a value stands, from the root down; NULL is the root.

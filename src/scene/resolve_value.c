@@ -1,6 +1,6 @@
 #include "scene/resolve_value.h"
 
-#include "base/exact_math.h"
+#include "base/random.h"
 #include "scene/hint.h"
 #include "scene/scalar.h"
 
@@ -105,6 +105,14 @@ static Node *resolve_integer(Resolver *r, const Key *row, const Node *given, con
 {
     bool negative = false, too_large = false;
     uint64_t magnitude = 0;
+    double between;
+    if (given->animated && is_plain(given) && scalar_number(given->text, &between) &&
+        fabs(between) < 1e15) {
+        Node rounded = *given;
+        rounded.animated = false;
+        rounded.text = arena_format(r->arena, r->e, "%.0f", round(between));
+        return rounded.text ? resolve_integer(r, row, &rounded, name) : NULL;
+    }
     if (!is_plain(given) ||
         (!scalar_integer(given->text, &negative, &magnitude, &too_large) && !too_large)) {
         return wrong_type(r, given, name, "a whole number");
@@ -176,6 +184,12 @@ static bool check_file(Resolver *r, const Node *given, const char *name, const c
         return resolver_fail(r, given, "%s: '%s' is a %s; it must be a file", name, given->text,
                              S_ISDIR(status.st_mode) ? "folder" : "device");
     }
+    for (const char *c = path; *c; c++) {
+        r->files = random_key(r->files, (unsigned char)*c);
+    }
+    r->files = random_key(r->files, (uint64_t)status.st_size);
+    r->files = random_key(r->files, (uint64_t)status.st_mtim.tv_sec);
+    r->files = random_key(r->files, (uint64_t)status.st_mtim.tv_nsec);
     return true;
 }
 
@@ -246,30 +260,53 @@ static Node *resolve_vector(Resolver *r, const Key *row, const Node *given, cons
     return list;
 }
 
-// IEC 61966-2-1, 8 bits to linear.
-static float linear_from_srgb(int byte)
-{
-    float x = (float)byte / 255.0f;
-    return x <= 0.04045f ? x / 12.92f : exact_pow((x + 0.055f) / 1.055f, 2.4f);
-}
-
 static Node *resolve_color(Resolver *r, const Key *row, const Node *given, const char *name)
 {
     double number;
     if (given->kind == NODE_LIST || (is_plain(given) && scalar_number(given->text, &number))) {
         return resolve_vector(r, row, given, name, 3);
     }
-    unsigned rgb;
-    int read = 0;
-    if (given->kind != NODE_SCALAR || strlen(given->text) != 7 || given->text[0] != '#' ||
-        strspn(given->text + 1, "0123456789abcdefABCDEF") != 6 ||
-        sscanf(given->text, "#%6x%n", &rgb, &read) != 1 || read != 7) { // NOLINT
+    float values[3];
+    if (given->kind != NODE_SCALAR || !scalar_color(given->text, values)) {
         return wrong_type(r, given, name,
                           "[red, green, blue], one number for a grey, or \"#rrggbb\" in quotes");
     }
-    float values[3] = {linear_from_srgb((int)(rgb >> 16)), linear_from_srgb((int)(rgb >> 8 & 255)),
-                       linear_from_srgb((int)(rgb & 255))};
     return resolver_number_list(r, values, 3);
+}
+
+// A number, a word or a list of numbers, kept as it is written; loaded as text.
+static Node *resolve_any(Resolver *r, const Node *given, const char *name)
+{
+    const char *right = "a number, a list of numbers, a colour or a word";
+    if (given->kind == NODE_SCALAR && !node_is_null(given) && *given->text) {
+        Node *copy = node_scalar(r->arena, given->text, r->e);
+        if (copy) {
+            copy->quoted = given->quoted;
+        }
+        return copy;
+    }
+    if (given->kind != NODE_LIST || given->count == 0) {
+        return wrong_type(r, given, name, right);
+    }
+    Node *list = node_new(r->arena, NODE_LIST, r->e);
+    const char *text = "[";
+    for (const Node *item = given->first; list && text && item; item = item->next) {
+        double value;
+        if (item->kind != NODE_SCALAR || !is_plain(item) || !scalar_number(item->text, &value)) {
+            return wrong_type(r, item, name, right);
+        }
+        Node *copy = node_scalar(r->arena, item->text, r->e);
+        if (!copy) {
+            return NULL;
+        }
+        node_append(list, copy, NULL);
+        text = arena_format(r->arena, r->e, "%s%s%s", text, item->text, item->next ? ", " : "]");
+    }
+    if (!list || !text) {
+        return NULL;
+    }
+    list->resolved = text;
+    return list;
 }
 
 Node *resolve_value(Resolver *r, const Key *row, const Node *given, const Path *up)
@@ -296,6 +333,8 @@ Node *resolve_value(Resolver *r, const Key *row, const Node *given, const Path *
         return resolve_vector(r, row, given, name, row->count);
     case KEY_COLOR:
         return resolve_color(r, row, given, name);
+    case KEY_ANY:
+        return resolve_any(r, given, name);
     default:
         error_set(r->e, ERROR_INTERNAL, "key '%s' has no values of its own", row->key);
         return NULL;
@@ -356,6 +395,7 @@ bool resolve_default(Resolver *r, const Key *row, const char *base, Node **node)
     case KEY_TEXT:
     case KEY_FILE:
     case KEY_NAME:
+    case KEY_ANY:
         return true; // no text of ours has a default other than none
     case KEY_VECTOR:
     case KEY_COLOR:

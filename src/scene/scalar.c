@@ -1,5 +1,7 @@
 #include "scene/scalar.h"
 
+#include "base/exact_math.h"
+
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
@@ -142,4 +144,25 @@ void scalar_from_double(double value, char *text)
             return;
         }
     }
+}
+
+// IEC 61966-2-1, 8 bits to linear.
+static float linear_from_srgb(int byte)
+{
+    float x = (float)byte / 255.0f;
+    return x <= 0.04045f ? x / 12.92f : exact_pow((x + 0.055f) / 1.055f, 2.4f);
+}
+
+bool scalar_color(const char *text, float rgb[3])
+{
+    unsigned bits;
+    int read = 0;
+    if (strlen(text) != 7 || text[0] != '#' || strspn(text + 1, "0123456789abcdefABCDEF") != 6 ||
+        sscanf(text, "#%6x%n", &bits, &read) != 1 || read != 7) { // NOLINT
+        return false;
+    }
+    for (int i = 0; i < 3; i++) {
+        rgb[i] = linear_from_srgb((int)(bits >> (16 - 8 * i) & 255));
+    }
+    return true;
 }

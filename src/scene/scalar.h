@@ -16,6 +16,9 @@ bool scalar_integer(const char *text, bool *negative, uint64_t *magnitude, bool 
 // true, false, yes, no, on, off in lower, upper or title case.
 bool scalar_truth(const char *text, bool *value);
 
+// "#rrggbb" in sRGB to linear Rec. 709; false when the text is no such colour.
+bool scalar_color(const char *text, float rgb[3]);
+
 // Shortest decimals that read back as the same float or double. text holds 32 characters.
 void scalar_from_float(float value, char *text);
 void scalar_from_double(double value, char *text);

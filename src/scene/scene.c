@@ -17,48 +17,83 @@
 
 #define LARGEST_FILE (16 << 20) // bytes
 
+// What a scene is read from.
+typedef struct SceneSource {
+    const char *text;
+    size_t length;
+    const char *name, *folder;
+    const char *const *overrides;
+    int override_count;
+    const SceneChange *changes;
+    int change_count;
+} SceneSource;
+
 // Parsed, overridden and completed; NULL and e otherwise.
-static Node *complete_document(Arena *arena, Resolver *resolver, const char *text, size_t length,
-                               const char *const *overrides, int override_count, Error *e)
+static Node *complete_document(Arena *arena, Resolver *resolver, const SceneSource *source,
+                               Error *e)
 {
-    const char *zero = memchr(text, 0, length);
+    const char *zero = memchr(source->text, 0, source->length);
     if (zero) {
         error_set(e, ERROR_INPUT,
-                  "not a text file: a NUL at byte %td; a scene is YAML text in UTF-8", zero - text);
+                  "not a text file: a NUL at byte %td; a scene is YAML text in UTF-8",
+                  zero - source->text);
         error_locate(e, resolver->file, 0, 0);
         return NULL;
     }
-    Node *root = yaml_parse(arena, text, length, resolver->file, NULL, e);
-    for (int i = 0; root && i < override_count; i++) {
-        if (!override_apply(arena, root, overrides[i], e)) {
+    Node *root = yaml_parse(arena, source->text, source->length, resolver->file, NULL, e);
+    for (int i = 0; root && i < source->override_count; i++) {
+        if (!override_apply(arena, root, source->overrides[i], e)) {
+            return NULL;
+        }
+    }
+    for (int i = 0; root && i < source->change_count; i++) {
+        const SceneChange *change = &source->changes[i];
+        if (!override_change(arena, root, change, e)) {
+            error_locate(e, resolver->file, change->line, change->column);
             return NULL;
         }
     }
     return root ? resolve_document(resolver, &scene_table, root) : NULL;
 }
 
-static Scene *load_scene(const Node *document, Arena *arena, const char *text, size_t length,
-                         const char *name, Error *e)
+// "path=value\0 ... \0" on the heap.
+static char *keep_overrides(const SceneSource *source, Error *e)
+{
+    int64_t length = 1;
+    for (int i = 0; i < source->override_count; i++) {
+        length += (int64_t)strlen(source->overrides[i]) + 1;
+    }
+    char *kept = memory_alloc_zero(length, 1, e), *at = kept;
+    for (int i = 0; kept && i < source->override_count; i++) {
+        size_t size = strlen(source->overrides[i]) + 1;
+        memcpy(at, source->overrides[i], size);
+        at += size;
+    }
+    return kept;
+}
+
+static Scene *load_scene(const Node *document, Arena *arena, const SceneSource *source, Error *e)
 {
     Scene *scene = load_struct(&scene_table, document, arena, e);
     if (!scene) {
         return NULL;
     }
     size_t unused;
-    scene->file = memory_copy_string(name, e);
-    scene->text = memory_alloc_zero((int64_t)length + 1, 1, e);
+    scene->file = memory_copy_string(source->name, e);
+    scene->folder = memory_copy_string(source->folder, e);
+    scene->overrides = keep_overrides(source, e);
+    scene->text = memory_alloc_zero((int64_t)source->length + 1, 1, e);
     scene->resolved = emit_yaml(document, EMIT_READABLE, &unused, e);
-    if (!scene->file || !scene->text || !scene->resolved) {
+    if (!scene->file || !scene->folder || !scene->overrides || !scene->text || !scene->resolved) {
         scene_free(scene);
         return NULL;
     }
-    memcpy(scene->text, text, length);
+    memcpy(scene->text, source->text, source->length);
     scene->render.seed = scene->seed;
     return scene;
 }
 
-Scene *scene_read_text(const char *text, size_t length, const char *name, const char *folder,
-                       const char *const *overrides, int override_count, Error *e)
+static Scene *read_source(const SceneSource *source, Error *e)
 {
     Error own;
     if (!e) {
@@ -70,10 +105,12 @@ Scene *scene_read_text(const char *text, size_t length, const char *name, const 
     Scene *scene = NULL;
     if (arena && c_locale) {
         locale_t before = uselocale(c_locale); // decimal points, whatever the caller's language
-        Resolver resolver = {arena, name, folder, e};
-        const Node *document =
-            complete_document(arena, &resolver, text, length, overrides, override_count, e);
-        scene = document ? load_scene(document, arena, text, length, name, e) : NULL;
+        Resolver resolver = {arena, source->name, source->folder, e, 0};
+        const Node *document = complete_document(arena, &resolver, source, e);
+        scene = document ? load_scene(document, arena, source, e) : NULL;
+        if (scene) {
+            scene->files = resolver.files;
+        }
         uselocale(before);
     }
     if (c_locale) {
@@ -83,6 +120,45 @@ Scene *scene_read_text(const char *text, size_t length, const char *name, const 
     }
     arena_free(arena);
     return scene;
+}
+
+Scene *scene_read_text(const char *text, size_t length, const char *name, const char *folder,
+                       const char *const *overrides, int override_count, Error *e)
+{
+    return read_source(&(SceneSource){.text = text,
+                                      .length = length,
+                                      .name = name,
+                                      .folder = folder,
+                                      .overrides = overrides,
+                                      .override_count = override_count},
+                       e);
+}
+
+Scene *scene_changed(const Scene *scene, const SceneChange *changes, int count, Error *e)
+{
+    int override_count = 0;
+    for (const char *at = scene->overrides; *at; at += strlen(at) + 1) {
+        override_count++;
+    }
+    const char **overrides = memory_alloc(override_count, sizeof *overrides, e);
+    if (!overrides) {
+        return NULL;
+    }
+    const char *at = scene->overrides;
+    for (int i = 0; i < override_count; i++, at += strlen(at) + 1) {
+        overrides[i] = at;
+    }
+    Scene *changed = read_source(&(SceneSource){.text = scene->text,
+                                                .length = strlen(scene->text),
+                                                .name = scene->file,
+                                                .folder = scene->folder,
+                                                .overrides = overrides,
+                                                .override_count = override_count,
+                                                .changes = changes,
+                                                .change_count = count},
+                                 e);
+    free(overrides);
+    return changed;
 }
 
 // The whole file as heap text.
@@ -149,6 +225,8 @@ void scene_free(Scene *scene)
         free(scene->file);
         free(scene->text);
         free(scene->resolved);
+        free(scene->folder);
+        free(scene->overrides);
         free(scene);
     }
 }

@@ -72,10 +72,43 @@ typedef struct SceneTarget { // what a scene says of its own result
 
 #define TARGET_NO_BOUND 1e300 // and beyond: that side is open
 
+// How a value goes from one key to the next.
+typedef enum Ease {
+    EASE_LINEAR,
+    EASE_SMOOTH, // slow at every key: smoothstep
+    EASE_STEP,   // stays until the next key
+    EASE_SPLINE  // a smooth curve through the keys that never overshoots them
+} Ease;
+
+typedef struct SceneKey {
+    double at;   // 0..1, share of the animation
+    char *value; // YAML: a number, a list of numbers, a colour, a word
+} SceneKey;
+
+typedef struct SceneTrack { // one value of the scene over time
+    char *path;             // as in --set: camera.position, objects.oak.tree.height
+    Ease ease;
+    SceneKey *keys; // in order of time, all of one kind
+    int key_count;
+    int line, column; // in the scene's file; 0 = unknown
+} SceneTrack;
+
+typedef struct SceneAnimation {
+    int frames;
+    double fps;
+    bool loop;       // frame number `frames` would be the first again
+    bool vary_noise; // another pattern of noise in every frame
+    SceneTrack *tracks;
+    int track_count;
+} SceneAnimation;
+
 typedef struct Scene {
-    char *file;     // where it was read from, for messages and to resolve relative paths
-    char *text;     // the file's text, stored in images as metadata
-    char *resolved; // the same as YAML with every default and override written out
+    char *file;      // where it was read from, for messages and to resolve relative paths
+    char *text;      // the file's text, stored in images as metadata
+    char *resolved;  // the same as YAML with every default and override written out
+    char *folder;    // that files named in the text are relative to; "" = the current one
+    char *overrides; // those it was read with: "path=value\0 ... \0"
+    uint64_t files;  // hash of names, sizes and times of the files it names
     uint64_t seed;
     float grow_to; // 0..1: how much of all growth shows
     Camera camera;
@@ -93,6 +126,7 @@ typedef struct Scene {
     int object_count;
     SceneTarget *targets;
     int target_count;
+    SceneAnimation *animation; // NULL = a still
 } Scene;
 
 // Reads and checks a scene. overrides: "path=value" strings (objects.0.tree.height=9, or
@@ -104,6 +138,17 @@ Scene *scene_read(const char *file, const char *const *overrides, int override_c
 // relative to folder ("" = the current one).
 Scene *scene_read_text(const char *text, size_t length, const char *name, const char *folder,
                        const char *const *overrides, int override_count, Error *e);
+
+// A value of the scene that shall be another one, as YAML. line, column: of the scene's file, for
+// messages; line 0: messages name `source` instead.
+typedef struct SceneChange {
+    const char *path, *value, *source;
+    int line, column;
+} SceneChange;
+
+// The scene anew with changes on top of its own overrides. Numbers are rounded where the key wants
+// whole ones. ERROR_INPUT as for scene_read.
+Scene *scene_changed(const Scene *scene, const SceneChange *changes, int count, Error *e);
 
 void scene_free(Scene *scene); // NULL is fine
 

@@ -181,6 +181,10 @@ static void put_key(Writer *w, const Table *table, const Key *row, const char *b
     case KEY_NAME:
         put(w, ", \"type\": \"string\", \"minLength\": 1");
         break;
+    case KEY_ANY:
+        put(w, ", \"type\": [\"number\", \"boolean\", \"string\", \"array\"], "
+               "\"items\": {\"type\": \"number\"}");
+        break;
     case KEY_GROUP:
         put(w, ", ");
         put_table(w, row->table, base ? base + row->offset : NULL, depth);
@@ -273,7 +277,7 @@ char *scene_schema_json(Error *e)
         return NULL;
     }
     locale_t before = uselocale(c_locale);
-    Writer w = {.resolver = {arena, "", "", e}, .e = e};
+    Writer w = {.resolver = {.arena = arena, .file = "", .folder = "", .e = e}, .e = e};
     put_schema(&w);
     uselocale(before);
     freelocale(c_locale);

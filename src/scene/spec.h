@@ -19,6 +19,7 @@ typedef enum KeyType {
     KEY_ENUM,    // a C enum, by the names of `names`
     KEY_TEXT,    // char *
     KEY_NAME,    // char[count]
+    KEY_ANY,     // char *: a number, a word or a list of numbers, as YAML
     KEY_FILE,    // char *: a path relative to the scene's folder; the file must exist
     KEY_VECTOR,  // float[count]
     KEY_COLOR,   // float[3]: [r, g, b] linear Rec. 709, one number for a grey, or "#rrggbb" in sRGB
@@ -77,10 +78,11 @@ extern const Table scene_table; // the root
 
 // Tables that another file's table uses.
 extern const Table sky_table, light_table, material_table,
-    object_table;                 // spec_{sky,material,object}.c
-extern const Table medium_table;  // spec_medium.c
-extern const Table terrain_table; // spec_terrain.c
-extern const Table forest_table;  // spec_forest.c
+    object_table;                   // spec_{sky,material,object}.c
+extern const Table medium_table;    // spec_medium.c
+extern const Table animation_table; // spec_animation.c
+extern const Table terrain_table;   // spec_terrain.c
+extern const Table forest_table;    // spec_forest.c
 extern const Table tree_table, radii_table, leaves_table, skin_table; // spec_tree.c
 extern const Table dla_table;                                         // spec_dla.c
 extern const Table lightning_table;                                   // spec_lightning.c

@@ -27,6 +27,7 @@ TableCheck check_scene;
 TableCheck check_camera; // also turns focal_length into fov
 TableCheck check_film, check_light;
 TableCheck check_target;                          // low <= high
+TableCheck check_track;                           // keys in order and of one kind; adds its place
 TableCheck check_object;                          // exactly one kind; material keys that suit it
 TableCheck check_tree, check_ground, check_grove; // lengths that must be in order
 TableCheck check_shape, check_mesh;               // also add `transform`

@@ -93,6 +93,8 @@ static const Key RENDER_KEYS[] = {
     {KEY_OF(RenderParams, max_noise, "noise", KEY_FLOAT), .flags = KEY_BELOW, .high = 1,
      .doc = "A part of the picture is done when its estimated relative error is below this; 0 = "
             "take all samples everywhere."},
+    {KEY_OF(RenderParams, noise_seed, "noise_seed", KEY_UINT64), .high = 18446744073709551615.0,
+     .doc = "Another number, another pattern of noise; nothing else of the picture changes."},
     {KEY_OF(RenderParams, max_seconds, "seconds", KEY_DOUBLE), .high = 1e8, .unit = "s",
      .doc = "Stop rendering after this time; 0 = no limit."},
     {0},
@@ -158,6 +160,8 @@ static const Key SCENE_KEYS[] = {
     {KEY_OF(Scene, targets, "targets", KEY_LIST), .count_offset = offsetof(Scene, target_count),
      .count = 1000, .table = &TARGET_TABLE,
      .doc = "What the scene's measures must be, for `ramify measure`."},
+    {KEY_OF(Scene, animation, "animation", KEY_POINTER), .table = &animation_table,
+     .doc = "What changes over time, for `ramify turntable`; left out: nothing but the camera."},
     {0},
 };
 

@@ -1,0 +1,91 @@
+// What changes over time.
+#include "scene/scene.h"
+#include "scene/spec_check.h"
+
+static const cyaml_strval_t EASES[] = {{"linear", EASE_LINEAR},
+                                       {"smooth", EASE_SMOOTH},
+                                       {"step", EASE_STEP},
+                                       {"spline", EASE_SPLINE},
+                                       {0}};
+
+static const Key KEY_KEYS[] = {
+    {KEY_OF(SceneKey, at, "at", KEY_DOUBLE), .flags = KEY_REQUIRED, .high = 1,
+     .doc = "When: 0 = the animation's beginning, 1 = its end."},
+    {KEY_OF(SceneKey, value, "value", KEY_ANY), .flags = KEY_REQUIRED,
+     .doc = "The value at that time: a number, a list of numbers, a colour or a word."},
+    {0},
+};
+
+static void key_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(SceneKey *)out = (SceneKey){0};
+}
+
+static const Table KEY_TABLE = {.name = "key",
+                                .doc = "The value at one time.",
+                                .size = sizeof(SceneKey),
+                                .keys = KEY_KEYS,
+                                .defaults = key_defaults};
+
+static const Key TRACK_KEYS[] = {
+    {KEY_OF(SceneTrack, path, "path", KEY_TEXT), .flags = KEY_REQUIRED,
+     .doc = "Which value of the scene, as for --set: camera.position, sky.sun_elevation, "
+            "objects.oak.tree.height."},
+    {KEY_OF(SceneTrack, ease, "ease", KEY_ENUM), .names = EASES,
+     .doc = "From key to key: linear; smooth: slow at every key; step: stays until the next key; "
+            "spline: a smooth curve through all keys that never overshoots them. Words always "
+            "step."},
+    {KEY_OF(SceneTrack, keys, "keys", KEY_LIST), .flags = KEY_REQUIRED,
+     .count_offset = offsetof(SceneTrack, key_count), .low = 1, .count = 10000, .table = &KEY_TABLE,
+     .doc = "The value at certain times, in order."},
+    {KEY_OF(SceneTrack, line, "line", KEY_INT), .flags = KEY_HIDDEN, .doc = ""},
+    {KEY_OF(SceneTrack, column, "column", KEY_INT), .flags = KEY_HIDDEN, .doc = ""},
+    {0},
+};
+
+static void track_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(SceneTrack *)out = (SceneTrack){.ease = EASE_LINEAR};
+}
+
+static const Table TRACK_TABLE = {.name = "track",
+                                  .doc = "One value of the scene over time.",
+                                  .size = sizeof(SceneTrack),
+                                  .keys = TRACK_KEYS,
+                                  .defaults = track_defaults,
+                                  .check = check_track};
+
+static const Key ANIMATION_KEYS[] = {
+    {KEY_OF(SceneAnimation, frames, "frames", KEY_INT), .low = 1, .high = 1000000,
+     .doc = "How many frames."},
+    {KEY_OF(SceneAnimation, fps, "fps", KEY_DOUBLE), .flags = KEY_ABOVE, .high = 1000,
+     .unit = "frames a second", .doc = "Speed of the film."},
+    {KEY_OF(SceneAnimation, loop, "loop", KEY_BOOL),
+     .doc = "After the last frame comes the first: frame i of N shows the time i/N, and values go "
+            "on from their last key to their first. If not, frame i shows i/(N-1) and values stay "
+            "before their first and after their last key."},
+    {KEY_OF(SceneAnimation, vary_noise, "vary_noise", KEY_BOOL),
+     .doc = "Another pattern of noise in every frame, as film grain has; if not, what does not "
+            "move keeps every bit."},
+    {KEY_OF(SceneAnimation, tracks, "tracks", KEY_LIST),
+     .count_offset = offsetof(SceneAnimation, track_count), .count = 1000, .table = &TRACK_TABLE,
+     .doc = "What changes."},
+    {0},
+};
+
+static void animation_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    (void)kind;
+    *(SceneAnimation *)out = (SceneAnimation){.frames = 72, .fps = 24.0, .loop = true};
+}
+
+const Table animation_table = {.name = "animation",
+                               .doc = "What changes over time.",
+                               .size = sizeof(SceneAnimation),
+                               .keys = ANIMATION_KEYS,
+                               .defaults = animation_defaults};
