@@ -6,7 +6,7 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
     (void)tree;
     const SceneMesh *params = p->object->mesh;
-    Mesh *mesh = mesh_import(params->file, e);
+    Mesh *mesh = mesh_import(params->file, p->recipe.run, e);
     if (!mesh) {
         return false;
     }

@@ -97,7 +97,7 @@ static void face_outward(Piece *piece)
 static bool load_mesh(Piece *piece, const Run *run, Error *e)
 {
     const char *file = piece->shape->file;
-    piece->mesh = mesh_import(file, e);
+    piece->mesh = mesh_import(file, run, e);
     if (!piece->mesh || !mesh_transform(piece->mesh, &piece->shape->transform, e) ||
         (!piece->mesh->normal && !mesh_compute_normals(piece->mesh, e))) {
         return false;

@@ -1,141 +1,71 @@
 #include "shape/import.h"
 
+#include "base/child.h"
 #include "base/memory.h"
-#include "shape/import_check.h"
+#include "shape/import_read.h"
 
-#include <assimp/cimport.h>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
+#include <dirent.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
-#define NO_TRIANGLES "the file holds no triangles; a surface of triangles or polygons is needed"
 #define COORDINATE_LIMIT 1e7f // m: beyond, a float cannot tell points a metre apart
 
-// What a file holds in all, over every node that shows a mesh.
-typedef struct Tally {
-    int64_t vertices, triangles;
-    bool normals, uvs; // every vertex has them
-} Tally;
+// What reading may take. Assimp needs up to 35 bytes a byte of the file and a second for 20 MB; a
+// compressed or a very tangled file more.
+#define LEAST_SECONDS 60.0
+#define SECONDS_A_BYTE 5e-6
+#define LEAST_MEMORY 2e9
+#define MEMORY_A_BYTE 200.0
+#define MOST_MEMORY 1e15
 
-static bool is_triangle_mesh(const struct aiMesh *mesh)
+// ---- limits ----
+
+static double size_of(const char *path)
 {
-    return mesh->mNumVertices > 0 && mesh->mNumFaces > 0;
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISREG(status.st_mode) ? (double)status.st_size : 0.0;
 }
 
-static void tally_node(const struct aiScene *scene, const struct aiNode *node, Tally *tally)
+// Of the files beside a .gltf that may be its buffers.
+static double size_of_buffers(const char *file)
 {
-    for (unsigned i = 0; i < node->mNumMeshes; i++) {
-        const struct aiMesh *mesh = scene->mMeshes[node->mMeshes[i]];
-        if (is_triangle_mesh(mesh)) {
-            tally->vertices += mesh->mNumVertices;
-            tally->triangles += mesh->mNumFaces;
-            tally->normals = tally->normals && mesh->mNormals;
-            tally->uvs = tally->uvs && mesh->mTextureCoords[0];
+    const char *slash = strrchr(file, '/');
+    int folder = slash ? (int)(slash - file) + 1 : 0;
+    char path[4096];
+    snprintf(path, sizeof path, "%.*s.", folder, file);
+    DIR *entries = opendir(path);
+    double size = 0.0;
+    for (struct dirent *entry; entries && (entry = readdir(entries));) {
+        const char *ending = strrchr(entry->d_name, '.');
+        if (ending && strcasecmp(ending, ".bin") == 0) {
+            snprintf(path, sizeof path, "%.*s%s", folder, file, entry->d_name);
+            size += size_of(path);
         }
     }
-    for (unsigned i = 0; i < node->mNumChildren; i++) {
-        tally_node(scene, node->mChildren[i], tally);
+    if (entries) {
+        closedir(entries);
     }
+    return size;
 }
 
-static Transform node_transform(const Transform *parent, const struct aiMatrix4x4 *m)
+static void set_limits(const char *file, ChildJob *job)
 {
-    Transform own = {
-        {{m->a1, m->a2, m->a3, m->a4}, {m->b1, m->b2, m->b3, m->b4}, {m->c1, m->c2, m->c3, m->c4}}};
-    return transform_multiply(parent, &own);
+    const char *ending = strrchr(file, '.');
+    double size = size_of(file);
+    if (ending && strcasecmp(ending, ".gltf") == 0) {
+        size += size_of_buffers(file);
+    }
+    job->seconds = LEAST_SECONDS + SECONDS_A_BYTE * size;
+    job->memory = (int64_t)fmin(LEAST_MEMORY + MEMORY_A_BYTE * size, MOST_MEMORY);
 }
 
-static void copy_vertices(const struct aiMesh *from, const Transform *t, Mesh *to)
-{
-    Transform inverse = transform_identity();
-    transform_inverse(t, &inverse); // singular: the normals stay as they are
-    for (unsigned i = 0; i < from->mNumVertices; i++) {
-        int64_t v = to->vertex_count + i;
-        const struct aiVector3D *p = &from->mVertices[i];
-        to->position[v] = transform_point(t, vec3(p->x, p->y, p->z));
-        if (to->normal) {
-            const struct aiVector3D *n = &from->mNormals[i];
-            to->normal[v] = vec3_normalize(transform_normal(&inverse, vec3(n->x, n->y, n->z)));
-        }
-        if (to->uv) {
-            to->uv[v] = (Vec2){from->mTextureCoords[0][i].x, from->mTextureCoords[0][i].y};
-        }
-    }
-}
+// ---- what the reader hands back ----
 
-static bool is_degenerate(const Mesh *mesh, const uint32_t c[3])
-{
-    Vec3 a = mesh->position[c[0]];
-    Vec3 ab = vec3_sub(mesh->position[c[1]], a), ac = vec3_sub(mesh->position[c[2]], a);
-    Vec3 across = vec3_cross(ab, ac);
-    return c[0] == c[1] || c[1] == c[2] || c[2] == c[0] ||
-           (across.x == 0.0f && across.y == 0.0f && across.z == 0.0f);
-}
-
-static void copy_faces(const struct aiMesh *from, const Transform *t, Mesh *to)
-{
-    Vec3 x = vec3(t->m[0][0], t->m[1][0], t->m[2][0]);
-    Vec3 y = vec3(t->m[0][1], t->m[1][1], t->m[2][1]);
-    Vec3 z = vec3(t->m[0][2], t->m[1][2], t->m[2][2]);
-    bool mirrored = vec3_dot(x, vec3_cross(y, z)) < 0.0f;
-    for (unsigned i = 0; i < from->mNumFaces; i++) {
-        const struct aiFace *face = &from->mFaces[i];
-        uint32_t *corner = to->index + 3 * to->face_count;
-        bool valid = face->mNumIndices == 3;
-        for (unsigned k = 0; valid && k < 3; k++) {
-            unsigned v = face->mIndices[mirrored && k > 0 ? 3 - k : k];
-            valid = v < from->mNumVertices;
-            corner[k] = (uint32_t)(to->vertex_count + v);
-        }
-        if (valid && !is_degenerate(to, corner)) {
-            to->face_count++;
-        }
-    }
-}
-
-static void copy_node(const struct aiScene *scene, const struct aiNode *node,
-                      const Transform *parent, Mesh *to)
-{
-    Transform t = node_transform(parent, &node->mTransformation);
-    for (unsigned i = 0; i < node->mNumMeshes; i++) {
-        const struct aiMesh *mesh = scene->mMeshes[node->mMeshes[i]];
-        if (is_triangle_mesh(mesh)) {
-            copy_vertices(mesh, &t, to);
-            copy_faces(mesh, &t, to);
-            to->vertex_count += mesh->mNumVertices;
-        }
-    }
-    for (unsigned i = 0; i < node->mNumChildren; i++) {
-        copy_node(scene, node->mChildren[i], &t, to);
-    }
-}
-
-// All of the scene as one mesh; NULL and e when it is nothing to work with.
-static Mesh *gather(const struct aiScene *scene, Error *e)
-{
-    Tally tally = {.normals = true, .uvs = true};
-    tally_node(scene, scene->mRootNode, &tally);
-    if (tally.triangles == 0) {
-        error_set(e, ERROR_INPUT, NO_TRIANGLES);
-        return NULL;
-    }
-    Mesh *mesh =
-        mesh_new(3, tally.vertices, tally.triangles,
-                 (tally.normals ? (int)MESH_NORMAL : 0) | (tally.uvs ? (int)MESH_UV : 0), e);
-    if (!mesh) {
-        return NULL;
-    }
-    mesh->vertex_count = mesh->face_count = 0;
-    Transform identity = transform_identity();
-    copy_node(scene, scene->mRootNode, &identity, mesh);
-    return mesh;
-}
-
-static bool check_mesh(const Mesh *mesh, Error *e)
+static bool check_positions(const Mesh *mesh, Error *e)
 {
     for (int64_t i = 0; i < mesh->vertex_count; i++) {
         Vec3 p = mesh->position[i];
@@ -154,6 +84,17 @@ static bool check_mesh(const Mesh *mesh, Error *e)
                              (double)COORDINATE_LIMIT);
         }
     }
+    return true;
+}
+
+static bool check_faces(const Mesh *mesh, Error *e)
+{
+    for (int64_t i = 0; i < 3 * mesh->face_count; i++) {
+        if (mesh->index[i] >= mesh->vertex_count) {
+            return error_set(e, ERROR_INPUT, "face %lld has no vertex %u; there are %lld",
+                             (long long)(i / 3), mesh->index[i], (long long)mesh->vertex_count);
+        }
+    }
     if (mesh->face_count == 0) {
         return error_set(e, ERROR_INPUT,
                          "all faces of the file are degenerate; triangles with an area are needed");
@@ -161,67 +102,77 @@ static bool check_mesh(const Mesh *mesh, Error *e)
     return true;
 }
 
-// Assimp's words, with no full stop or line end, go before ours.
-static void read_error(const char *why, Error *e)
+// Normals that are none leave the whole mesh without; such texture coordinates become 0.
+static void mend(Mesh *mesh)
 {
-    int length = (int)strcspn(why, "\r\n");
-    while (length > 0 && why[length - 1] == '.') {
-        length--;
+    bool sound = true;
+    for (int64_t i = 0; mesh->normal && i < mesh->vertex_count; i++) {
+        sound = sound && fabsf(vec3_length(mesh->normal[i]) - 1.0f) < 1e-3f;
     }
-    if (strncmp(why, "No meshes remaining", 19) == 0) { // lines and points are left out
-        error_set(e, ERROR_INPUT, NO_TRIANGLES);
-    } else {
-        error_set(e, ERROR_INPUT,
-                  "not readable as a mesh: %.*s; a whole OBJ, PLY, STL, glTF or GLB file is needed",
-                  length > 0 ? length : 19, length > 0 ? why : "no reason is known");
+    if (!sound) {
+        free(mesh->normal);
+        mesh->normal = NULL;
+    }
+    for (int64_t i = 0; mesh->uv && i < mesh->vertex_count; i++) {
+        Vec2 *uv = &mesh->uv[i];
+        *uv = isfinite(uv->x) && isfinite(uv->y) ? *uv : (Vec2){0.0f, 0.0f};
     }
 }
 
-static const struct aiScene *read_scene(const char *file, Error *e)
+// The bytes that the header promises are there before any memory is taken for them.
+static bool check_header(const ImportHeader *h, int64_t left, Error *e)
 {
-    struct aiPropertyStore *store = aiCreatePropertyStore();
-    if (!store) {
-        error_set(e, ERROR_MEMORY, "out of memory");
-        return NULL;
-    }
-    // what keeps vertices apart that are the same to us, and what is no surface
-    aiSetImportPropertyInteger(store, AI_CONFIG_PP_RVC_FLAGS,
-                               aiComponent_COLORS | aiComponent_BONEWEIGHTS |
-                                   aiComponent_ANIMATIONS | aiComponent_TEXTURES |
-                                   aiComponent_LIGHTS | aiComponent_CAMERAS |
-                                   aiComponent_TANGENTS_AND_BITANGENTS);
-    aiSetImportPropertyInteger(store, AI_CONFIG_PP_SBP_REMOVE,
-                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const struct aiScene *scene =
-        aiImportFileExWithProperties(file,
-                                     aiProcess_RemoveComponent | aiProcess_Triangulate |
-                                         aiProcess_JoinIdenticalVertices | aiProcess_SortByPType,
-                                     NULL, store);
-    aiReleasePropertyStore(store);
-    if (!scene || !scene->mRootNode) {
-        read_error(aiGetErrorString(), e);
-        aiReleaseImport(scene);
-        return NULL;
-    }
-    return scene;
+    int64_t most = (int64_t)UINT32_MAX;
+    bool sane = h->vertex_count >= 0 && h->vertex_count <= most && h->face_count >= 0 &&
+                h->face_count <= most && h->normals >> 1 == 0 && h->uvs >> 1 == 0;
+    int64_t a_vertex = (int64_t)sizeof(Vec3) * (1 + h->normals) + (int64_t)sizeof(Vec2) * h->uvs;
+    return (sane && h->face_count * 12 + h->vertex_count * a_vertex == left) ||
+           error_set(e, ERROR_INPUT,
+                     "the reader's result makes no sense; " IMPORT_WANTED " is needed");
 }
 
-Mesh *mesh_import(const char *file, Error *e)
+static Mesh *take_mesh(ChildOutput *output, Error *e)
 {
-    Mesh *mesh = NULL;
-    if (import_check(file, e)) {
-        const struct aiScene *scene = read_scene(file, e);
-        if (scene) {
-            mesh = gather(scene, e);
-            aiReleaseImport(scene);
-        }
+    ImportHeader h;
+    if (!child_read(output, &h, 1, sizeof h, e) || !check_header(&h, output->left, e)) {
+        return NULL;
     }
-    if (mesh && !check_mesh(mesh, e)) {
+    Mesh *mesh = mesh_new(3, h.vertex_count, h.face_count,
+                          (h.normals ? (int)MESH_NORMAL : 0) | (h.uvs ? (int)MESH_UV : 0), e);
+    bool done = mesh && child_read(output, mesh->index, 3 * h.face_count, sizeof *mesh->index, e) &&
+                child_read(output, mesh->position, h.vertex_count, sizeof *mesh->position, e) &&
+                child_read(output, mesh->normal, h.normals * h.vertex_count, sizeof(Vec3), e) &&
+                child_read(output, mesh->uv, h.uvs * h.vertex_count, sizeof(Vec2), e) &&
+                check_positions(mesh, e) && check_faces(mesh, e);
+    if (!done) {
         mesh_free(mesh);
-        mesh = NULL;
+        return NULL;
     }
+    mend(mesh);
+    return mesh;
+}
+
+Mesh *mesh_import_by(ChildTask *reader, const char *file, const Run *run, Error *e)
+{
+    ChildJob job = {.task = reader, .data = file, .file = file, .wanted = IMPORT_WANTED};
+    ChildOutput output;
+    if (!file || !file[0]) {
+        error_set(e, ERROR_INPUT, "no mesh file is named; give the path of one");
+        return NULL;
+    }
+    set_limits(file, &job);
+    if (!child_run(&job, run, &output, e)) {
+        return NULL;
+    }
+    Mesh *mesh = take_mesh(&output, e);
+    child_output_close(&output);
     if (!mesh) {
         error_locate(e, file, 0, 0);
     }
     return mesh;
+}
+
+Mesh *mesh_import(const char *file, const Run *run, Error *e)
+{
+    return mesh_import_by(import_read, file, run, e);
 }

@@ -112,3 +112,17 @@ result truncated_mesh_is_refused
 "$RAMIFY" render absent.yaml -o absent.png 2>err
 [ $? -eq 2 ] && grep -qF "absent.yaml:14:40: " err && grep -qF "absent.obj" err && [ ! -e absent.png ]
 result absent_mesh_is_refused
+
+# A mesh that the reader itself crashes on: brackets nested two hundred thousand deep.
+awk 'BEGIN { printf "{\"asset\":"; for (i = 0; i < 200000; i++) printf "[" }' >deep.gltf
+cat >deep.yaml <<'END_OF_SCENE'
+film: {width: 40, height: 40}
+objects:
+  - {name: thing, mesh: {file: deep.gltf}}
+END_OF_SCENE
+echo "an old picture" >deep.png
+"$RAMIFY" render deep.yaml -o deep.png 2>err
+[ $? -eq 2 ] && grep -qF "deep.gltf: object 'thing': the reader crashed (Segmentation fault); a whole OBJ" err
+result crash_of_the_reader_is_an_error
+[ "$(cat deep.png)" = "an old picture" ] && [ "$(ls deep.* | wc -l)" -eq 3 ]
+result crash_of_the_reader_harms_no_file

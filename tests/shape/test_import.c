@@ -15,6 +15,7 @@
 
 #include <cmocka.h>
 
+static const Run quiet = {.threads = 1};
 static char directory[] = "/tmp/ramify_import_XXXXXX";
 
 // Writes a file of this name into the directory of the test; path is set to where it is.
@@ -51,7 +52,7 @@ static void reads_a_cube_of_quads(void **state)
     char path[256];
     Error e = {0};
     write_file("cube.obj", cube_obj, sizeof cube_obj - 1, path);
-    Mesh *mesh = mesh_import(path, &e);
+    Mesh *mesh = mesh_import(path, &quiet, &e);
     assert_non_null(mesh);
     assert_int_equal(mesh->face_size, 3);
     assert_int_equal(mesh->face_count, 12);
@@ -69,7 +70,7 @@ static void drops_degenerate_faces(void **state)
     static const char text[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 3\n";
     char path[256];
     write_file("thin.obj", text, sizeof text - 1, path);
-    Mesh *mesh = mesh_import(path, NULL);
+    Mesh *mesh = mesh_import(path, &quiet, NULL);
     assert_non_null(mesh);
     assert_int_equal(mesh->face_count, 1);
     mesh_free(mesh);
@@ -91,7 +92,7 @@ static void applies_node_transforms(void **state)
     char path[256];
     Error e = {0};
     write_file("node.gltf", text, sizeof text - 1, path);
-    Mesh *mesh = mesh_import(path, &e);
+    Mesh *mesh = mesh_import(path, &quiet, &e);
     assert_non_null(mesh);
     Aabb box = mesh_bounds(mesh);
     assert_true(box.low.x == -1.0f && box.high.x == 0.0f);
@@ -155,7 +156,7 @@ static void refuses_broken_files(void **state)
         char path[256];
         Error e = {0};
         write_file(b->name, b->text, strlen(b->text), path);
-        assert_null(mesh_import(path, &e));
+        assert_null(mesh_import(path, &quiet, &e));
         assert_int_equal(e.code, ERROR_INPUT);
         assert_string_equal(e.file, path);
         if (b->message) {
@@ -175,7 +176,7 @@ static void refuses_truncated_binary_stl(void **state)
     Error e = {0};
     data[80] = 7;
     write_file("cut_binary.stl", data, sizeof data, path);
-    assert_null(mesh_import(path, &e));
+    assert_null(mesh_import(path, &quiet, &e));
     assert_string_equal(e.message, "truncated: the header promises 7 facets, which need 434 bytes, "
                                    "but the file has 134; the whole STL file is needed");
 }
@@ -184,15 +185,15 @@ static void refuses_missing_files(void **state)
 {
     (void)state;
     Error e = {0};
-    assert_null(mesh_import("/nowhere/at/all.obj", &e));
+    assert_null(mesh_import("/nowhere/at/all.obj", &quiet, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     char text[1200];
     error_format(&e, text, sizeof text);
     assert_string_equal(text, "/nowhere/at/all.obj: cannot be read: No such file or directory; "
                               "give the path of a mesh file");
-    assert_null(mesh_import(directory, &e));
+    assert_null(mesh_import(directory, &quiet, &e));
     assert_string_equal(e.message, "is not a file; give the path of a mesh file");
-    assert_null(mesh_import(NULL, &e));
+    assert_null(mesh_import(NULL, &quiet, &e));
     assert_string_equal(e.message, "no mesh file is named; give the path of one");
 }
 

@@ -1,0 +1,257 @@
+#include "base/child.h"
+
+#include "base/child_confine.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/pidfd.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum {
+    TICK = 20,      // ms between looks at run->cancelled
+    SHORT_TICK = 2, // the same where the kernel has no pidfd that tells of the end
+    LARGEST_WRITE = 1 << 30
+};
+#define LONGEST_TICK 1.0 // s: what lies beyond does not count, the machine slept or we were stopped
+
+typedef struct Child {
+    pid_t pid;
+    int pidfd;   // -1 = the kernel has none
+    int status;  // as of waitpid, once it is known
+    bool reaped; // status is known
+    bool gone;
+} Child;
+
+// ---- what is handed back ----
+
+bool child_write(ChildOutput *output, const void *data, int64_t count, size_t size, Error *e)
+{
+    const char *at = data;
+    size_t left;
+    if (count < 0 || __builtin_mul_overflow((size_t)count, size, &left)) {
+        return error_set(e, ERROR_MEMORY, "too much to hand back");
+    }
+    while (left > 0) {
+        ssize_t put = write(output->file, at, left < LARGEST_WRITE ? left : LARGEST_WRITE);
+        if (put < 0 && errno != EINTR) {
+            return error_set(e, ERROR_MEMORY, "cannot hand back what was read: %s",
+                             strerror(errno));
+        }
+        at += put > 0 ? put : 0;
+        left -= put > 0 ? (size_t)put : 0;
+    }
+    return true;
+}
+
+bool child_read(ChildOutput *output, void *data, int64_t count, size_t size, Error *e)
+{
+    char *at = data;
+    size_t left;
+    if (count < 0 || __builtin_mul_overflow((size_t)count, size, &left) ||
+        left > (size_t)output->left) {
+        return error_set(e, ERROR_INPUT, "the reader broke off in its result");
+    }
+    output->left -= (int64_t)left;
+    while (left > 0) {
+        ssize_t got = read(output->file, at, left < LARGEST_WRITE ? left : LARGEST_WRITE);
+        if (got == 0 || (got < 0 && errno != EINTR)) {
+            return error_set(e, ERROR_IO, "cannot take over what was read: %s",
+                             got == 0 ? "it shrank" : strerror(errno));
+        }
+        at += got > 0 ? got : 0;
+        left -= got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+void child_output_close(ChildOutput *output)
+{
+    if (output->file >= 0) {
+        close(output->file);
+    }
+    output->file = -1;
+}
+
+// ---- waiting ----
+
+// With no signal between the fork and the child's own handlers.
+static bool start(const ChildJob *job, ChildReport *report, int file, Child *child, Error *e)
+{
+    sigset_t all, before;
+    pid_t self = getpid();
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    pid_t pid = fork();
+    if (pid == 0) {
+        child_confined(job, report, file, self);
+    }
+    int why = errno;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    *child = (Child){.pid = pid, .pidfd = pid > 0 ? pidfd_open(pid, 0) : -1};
+    return pid > 0 ||
+           error_set(e, ERROR_IO, "no process can be started to read it in: %s", strerror(why));
+}
+
+// Looks whether it has ended. A host that ignores SIGCHLD, or waits for any child, has the status
+// then, and there is no child any more (ECHILD).
+static void look(Child *child, int flags)
+{
+    pid_t got;
+    do {
+        got = waitpid(child->pid, &child->status, flags);
+    } while (got < 0 && errno == EINTR);
+    child->reaped = got == child->pid;
+    child->gone = got != 0;
+}
+
+// Not by its number when that can be helped: it may be another process's by now.
+static void end(Child *child)
+{
+    if (child->gone) {
+        return;
+    }
+    if (child->pidfd < 0 || pidfd_send_signal(child->pidfd, SIGKILL, NULL, 0) != 0) {
+        kill(child->pid, SIGKILL);
+    }
+    look(child, 0);
+}
+
+typedef enum Outcome { OUTCOME_ENDED, OUTCOME_LATE, OUTCOME_CANCELLED } Outcome;
+
+static Outcome wait_for(Child *child, double seconds, const Run *run)
+{
+    Outcome outcome = OUTCOME_ENDED;
+    double waited = 0.0, last = run_seconds();
+    struct pollfd watched = {.fd = child->pidfd, .events = POLLIN};
+    for (look(child, WNOHANG); !child->gone && outcome == OUTCOME_ENDED; look(child, WNOHANG)) {
+        poll(&watched, 1, child->pidfd >= 0 ? TICK : SHORT_TICK); // -1 is passed over
+        double now = run_seconds();
+        waited += now - last < LONGEST_TICK ? now - last : LONGEST_TICK;
+        last = now;
+        outcome = run_is_cancelled(run) ? OUTCOME_CANCELLED
+                  : waited > seconds    ? OUTCOME_LATE
+                                        : OUTCOME_ENDED;
+    }
+    return outcome;
+}
+
+// ---- what happened ----
+
+// Words from the child, which took them from the file: no control characters, and an end.
+static void clean(char *text, size_t size)
+{
+    text[size - 1] = '\0';
+    for (; *text; text++) {
+        *text = (unsigned char)*text < ' ' || *text == 127 ? '?' : *text;
+    }
+}
+
+static bool too_late(const ChildJob *job, Error *e)
+{
+    return error_set(e, ERROR_INPUT, "the reader took longer than %g s; %s is needed", job->seconds,
+                     job->wanted);
+}
+
+static bool crashed(const ChildJob *job, int signal, Error *e)
+{
+    if (signal == SIGXCPU) {
+        return too_late(job, e);
+    }
+    if (signal == SIGKILL) {
+        return error_set(e, ERROR_INPUT,
+                         "the reader was killed from outside, as the system does when memory runs "
+                         "out; try again with more of it free");
+    }
+    const char *name = sigdescr_np(signal);
+    return error_set(e, ERROR_INPUT, "the reader crashed (%s); %s is needed",
+                     name ? name : "unknown signal", job->wanted);
+}
+
+static bool task_failed(const ChildJob *job, const Error *said, Error *e)
+{
+    Error copy = *said;
+    clean(copy.message, sizeof copy.message);
+    if (copy.code == ERROR_MEMORY) {
+        return error_set(e, ERROR_INPUT, "the reader needed more than %.3g GB; %s is needed",
+                         (double)job->memory * 1e-9, job->wanted);
+    }
+    bool known = copy.code == ERROR_INPUT || copy.code == ERROR_IO;
+    error_set(e, known ? copy.code : ERROR_INTERNAL, "%s", copy.message);
+    error_locate(e, job->file, copy.line > 0 ? copy.line : 0, copy.column > 0 ? copy.column : 0);
+    return false;
+}
+
+static bool judge(const ChildJob *job, Outcome outcome, const Child *child,
+                  const ChildReport *report, Error *e)
+{
+    int by_status = child->reaped && WIFSIGNALED(child->status) ? WTERMSIG(child->status) : 0;
+    int signal = report->signal ? report->signal : by_status;
+    if (outcome == OUTCOME_CANCELLED) {
+        return run_cancel_error(e);
+    }
+    if (outcome == OUTCOME_LATE) {
+        return too_late(job, e);
+    }
+    if (signal != 0) {
+        return crashed(job, signal, e);
+    }
+    if (!report->ended) {
+        return error_set(e, ERROR_INPUT, "the reader ended without a result; %s is needed",
+                         job->wanted);
+    }
+    return report->error.code == ERROR_NONE || task_failed(job, &report->error, e);
+}
+
+// From the output's start; its size is known only now that no one writes to it any more.
+static bool rewind_output(ChildOutput *output, Error *e)
+{
+    struct stat status;
+    if (fstat(output->file, &status) != 0 || lseek(output->file, 0, SEEK_SET) != 0) {
+        return error_set(e, ERROR_IO, "cannot take over what was read: %s", strerror(errno));
+    }
+    output->left = status.st_size;
+    return true;
+}
+
+static bool run_child(const ChildJob *job, ChildReport *report, const Run *run, ChildOutput *output,
+                      Error *e)
+{
+    Child child;
+    if (!start(job, report, output->file, &child, e)) {
+        return false;
+    }
+    Outcome outcome = wait_for(&child, job->seconds, run);
+    end(&child);
+    if (child.pidfd >= 0) {
+        close(child.pidfd);
+    }
+    return judge(job, outcome, &child, report, e) && rewind_output(output, e);
+}
+
+bool child_run(const ChildJob *job, const Run *run, ChildOutput *output, Error *e)
+{
+    *output = (ChildOutput){.file = memfd_create("ramify", MFD_CLOEXEC)};
+    ChildReport *report =
+        mmap(NULL, sizeof *report, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    bool done = output->file >= 0 && report != MAP_FAILED;
+    if (!done) {
+        error_set(e, ERROR_IO, "no memory can be shared with a process to read it in: %s",
+                  strerror(errno));
+    }
+    done = done && run_child(job, report, run, output, e);
+    if (report != MAP_FAILED) {
+        munmap(report, sizeof *report);
+    }
+    if (!done) {
+        child_output_close(output);
+        error_locate(e, job->file, 0, 0);
+    }
+    return done;
+}
