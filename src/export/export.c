@@ -6,6 +6,7 @@
 #include <strings.h>
 
 static const ExportFormat FORMATS[] = {
+    {".glb", "glTF 2.0 in one file: meshes, materials, camera, lights", EXPORT_WORLD, export_glb},
     {".obj", "meshes with materials beside it (.mtl)", EXPORT_WORLD, export_obj},
     {".ply", "meshes with radius and birth, binary", EXPORT_WORLD, export_ply},
     {".stl", "triangles alone, binary", EXPORT_WORLD, export_stl},

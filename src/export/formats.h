@@ -4,6 +4,7 @@
 
 #include "export/export.h"
 
+bool export_glb(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_obj(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_ply(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_stl(const ExportSource *source, const char *file, const Run *run, Error *e);

@@ -1,0 +1,76 @@
+// What the files that make up the GLB writer share: glb.c plans and writes the bytes, glb_json.c
+// describes them, glb_material.c has the materials and their pictures.
+#ifndef RAMIFY_EXPORT_GLB_H
+#define RAMIFY_EXPORT_GLB_H
+
+#include "export/pieces.h"
+#include "render/sky.h"
+
+#include <stdio.h>
+
+typedef enum GlbPlacing {
+    GLB_ONCE,  // no instances
+    GLB_NODES, // a node each
+    GLB_GPU,   // EXT_mesh_gpu_instancing
+    GLB_FLAT   // written out
+} GlbPlacing;
+
+// One part of the geometry as a mesh with one primitive. Its vertices are interleaved.
+typedef struct GlbPart {
+    int64_t index; // of the geometry's part
+    GlbPlacing placing;
+    int64_t vertices, triangles;
+    bool normal, uv, radius, birth;
+    bool color, growth; // COLOR_0; COLOR_1, or COLOR_0 where there is no color
+    Aabb bounds;        // of what is written, so of one instance unless flat
+    int stride;         // bytes a vertex
+    int64_t vertex_at, index_at, instance_at; // bytes into the buffer
+} GlbPart;
+
+// A picture as it stands in the file.
+typedef struct GlbImage {
+    const char *color, *alpha; // the files it comes from; borrowed; NULL or "" = none
+    unsigned char *bytes;      // owned
+    int64_t size, at;
+    bool jpeg; // otherwise PNG
+} GlbImage;
+
+typedef struct Glb {
+    const ExportSource *source;
+    const Run *run;
+    GlbPart *part; // owned
+    int64_t part_count;
+    int *material; // owned; of each of the world's: its number in the file, -1 = not used
+    int material_count;
+    GlbImage *image; // owned
+    int64_t image_count, image_capacity;
+    int64_t buffer_size; // bytes
+    Sun sun;             // or moon; radiance 0 = none
+} Glb;
+
+// Is COLOR_0 of such parts the whole base colour? Otherwise it is white.
+bool glb_colors_are_base(const Glb *glb, const Material *material);
+
+// Numbers the materials that parts use and reads their pictures.
+bool glb_gather_materials(Glb *glb, Error *e);
+
+// "materials": [...], and textures, images and a sampler where there are any; each with a comma
+// before it.
+void glb_put_materials(const Glb *glb, FILE *json);
+
+// Buffer views of a part: vertices, triangles, and places where it has any.
+int64_t glb_part_views(const GlbPart *part);
+
+// The names of the material extensions that are used, each quoted with a comma behind it.
+void glb_put_material_extensions(const Glb *glb, FILE *json);
+
+// All of the JSON as heap text that the caller frees.
+char *glb_json(const Glb *glb, size_t *size, Error *e);
+
+// Pieces of JSON: numbers are the shortest that read back to the same.
+void json_put_float(FILE *json, float value);
+void json_put_floats(FILE *json, const char *key, const float *value, int count); // "key":[...]
+void json_put_color(FILE *json, const char *key, Vec3 value);
+void json_put_string(FILE *json, const char *text); // quoted
+
+#endif
