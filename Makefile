@@ -9,7 +9,8 @@ PEER_COMMANDS  = povray:povray povray:povray-includes blender:blender node:nodej
                  oiiotool:openimageio-tools assimp:assimp-utils zsh:zsh
 
 , := ,
-VERSION := 0.1.0
+VERSION := $(shell sed -n 's/^\#define RAMIFY_VERSION "\(.*\)"/\1/p' src/ramify.h)
+SONAME  := libramify.so.0# counts up when programs must be compiled anew
 CONFIG ?= release
 ARCH   ?= native
 PREFIX ?= /usr/local
@@ -38,9 +39,9 @@ TESTS     := $(sort $(wildcard tests/*/test_*.c))
 TEST_BIN  := $(patsubst tests/%.c,$(OUT)/tests/%,$(TESTS))
 BENCHES   := $(sort $(wildcard tests/bench/*.c))
 BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
-FORMATTED := $(wildcard src/*.h src/*.c src/*/*.[ch] src/*/*.cpp tests/*.h tests/*/*.[ch])
+FORMATTED := $(wildcard src/*.h src/*.c src/*/*.[ch] src/*/*.cpp tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
-.PHONY: all demo test peers bench sanitize lint format format-check install clean help packages check-packages
+.PHONY: all demo test peers bench sanitize lint format format-check install uninstall clean help packages check-packages
 .DEFAULT_GOAL := all
 
 all: packages ## build build/ramify, build/libramify.a and build/libramify.so
@@ -77,15 +78,35 @@ format: check-packages ## lay the code out with clang-format
 format-check: check-packages
 	clang-format --dry-run --Werror $(FORMATTED)
 
-install: all ## install the command, the libraries, the header and ramify.pc below PREFIX
-	install -D -m 755 $(OUT)/ramify $(DESTDIR)$(PREFIX)/bin/ramify
-	install -D -m 644 $(OUT)/libramify.a $(DESTDIR)$(PREFIX)/lib/libramify.a
-	install -D -m 755 $(OUT)/libramify.so $(DESTDIR)$(PREFIX)/lib/libramify.so
-	install -D -m 644 src/ramify.h $(DESTDIR)$(PREFIX)/include/ramify.h
-	mkdir -p $(DESTDIR)$(PREFIX)/lib/pkgconfig
-	printf 'prefix=%s\nName: ramify\nDescription: grows, skins and renders branching things\nVersion: %s\nLibs: -L$${prefix}/lib -lramify\nLibs.private: %s\nCflags: -I$${prefix}/include\n' \
-	    '$(PREFIX)' '$(VERSION)' '$(LDLIBS) -lgomp -lpthread' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/ramify.pc
-	[ -n "$(DESTDIR)" ] || [ "$$(id -u)" != 0 ] || ldconfig # so that programs find the .so at once
+# What `make install` puts below PREFIX, as FILE:PLACE:MODE; `make uninstall` takes the places away again.
+INSTALL := $(OUT)/ramify:bin/ramify:755 \
+           $(OUT)/libramify.a:lib/libramify.a:644 \
+           $(OUT)/libramify.so:lib/libramify.so.$(VERSION):755 \
+           $(OUT)/ramify.pc:lib/pkgconfig/ramify.pc:644 \
+           src/ramify.h:include/ramify.h:644
+LINKS   := lib/$(SONAME) lib/libramify.so
+
+install: all ramify.pc ## install command, libraries, header and ramify.pc below PREFIX (/usr/local)
+	@set -e; for entry in $(INSTALL); do \
+	    file=$${entry%%:*}; rest=$${entry#*:}; place="$(DESTDIR)$(PREFIX)/$${rest%:*}"; \
+	    echo "  INST $$place"; install -D -m "$${rest##*:}" "$$file" "$$place"; \
+	done
+	@for link in $(LINKS); do ln -sf libramify.so.$(VERSION) "$(DESTDIR)$(PREFIX)/$$link"; done
+	@[ -n "$(DESTDIR)" ] || [ "$$(id -u)" != 0 ] || ldconfig # so that programs find the .so at once
+
+uninstall: ## take away what `make install` put there
+	@set -e; for entry in $(INSTALL); do \
+	    rest=$${entry#*:}; rm -f "$(DESTDIR)$(PREFIX)/$${rest%:*}"; \
+	done
+	@for link in $(LINKS); do rm -f "$(DESTDIR)$(PREFIX)/$$link"; done
+	@[ -n "$(DESTDIR)" ] || [ "$$(id -u)" != 0 ] || ldconfig
+
+.PHONY: ramify.pc # it holds PREFIX, which may be another one each time
+ramify.pc:
+	@mkdir -p $(OUT)
+	@printf '%s\n' 'prefix=$(PREFIX)' 'Name: ramify' 'Description: grows, skins and renders branching things' \
+	    'Version: $(VERSION)' 'Libs: -L$${prefix}/lib -lramify' 'Libs.private: $(LDLIBS) -lgomp -lpthread' \
+	    'Cflags: -I$${prefix}/include' > $(OUT)/ramify.pc
 
 clean: ## remove build/
 	rm -rf build
@@ -126,7 +147,7 @@ $(OUT)/libramify.a: $(LIB_OBJ)
 # Only ramify_* can be seen from outside.
 $(OUT)/libramify.so: $(LIB_OBJ) src/ramify.map
 	@echo "  LINK $@"
-	@$(CC) -shared $(LIB_OBJ) -Wl,--version-script=src/ramify.map $(LDFLAGS) $(LDLIBS) -o $@
+	@$(CC) -shared -Wl,-soname,$(SONAME) $(LIB_OBJ) -Wl,--version-script=src/ramify.map $(LDFLAGS) $(LDLIBS) -o $@
 
 $(OUT)/ramify: $(CLI_OBJ) $(OUT)/libramify.a
 	@echo "  LINK $@"
