@@ -41,7 +41,7 @@ BENCHES   := $(sort $(wildcard tests/bench/*.c))
 BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.h src/*.c src/*/*.[ch] src/*/*.cpp tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
-.PHONY: all demo test peers bench sanitize lint format format-check install uninstall clean help packages check-packages
+.PHONY: all demo docs test peers bench sanitize lint format format-check install uninstall clean help packages check-packages
 .DEFAULT_GOAL := all
 
 all: packages ## build build/ramify, build/libramify.a and build/libramify.so
@@ -53,6 +53,9 @@ demo: all ## render the oak of scenes/oak.yaml to build/oak.png (and .exr)
 test: all $(if $(filter true,$(CI)),peers) ## build and run every test; the last line counts them
 	@$(MAKE) --no-print-directory -j$$(nproc) $(TEST_BIN)
 	@RAMIFY=$(OUT)/ramify tests/run $(TEST_BIN)
+
+docs: all ## write docs/scene.md anew from the tables of scene files
+	$(OUT)/ramify schema --markdown > docs/scene.md
 
 peers: ## install the outside programs that tests compare with: POV-Ray, Blender, Node.js, Chromium, USD, ...
 	$(call need,$(foreach p,$(PEER_COMMANDS),$(if $(shell command -v $(firstword $(subst :, ,$p))),,$(lastword $(subst :, ,$p)))) \

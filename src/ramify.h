@@ -156,6 +156,11 @@ RAMIFY_API void ramify_scene_target(const RamifyScene *scene, int index, RamifyT
 // JSON Schema (draft 2020-12) of scene files; give it to ramify_free.
 RAMIFY_API char *ramify_schema(RamifyError *error);
 
+// The reference of scene files for readers, in Markdown; and the paths of all keys, one a line, as
+// overrides take them: "objects.NAME.tree.height". Give them to ramify_free.
+RAMIFY_API char *ramify_schema_markdown(RamifyError *error);
+RAMIFY_API char *ramify_schema_paths(RamifyError *error);
+
 // ---- growth ----
 
 typedef struct RamifyTree RamifyTree; // an out-tree

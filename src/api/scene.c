@@ -154,12 +154,32 @@ void ramify_scene_target(const RamifyScene *scene, int index, RamifyTarget *targ
                              .high = own->high < TARGET_NO_BOUND ? own->high : (double)INFINITY};
 }
 
+// Text that the scene's tables made, or the error.
+static char *hand_text(char *text, const Error *e, RamifyError *error)
+{
+    if (!text) {
+        api_fail(error, e);
+    }
+    return text;
+}
+
 char *ramify_schema(RamifyError *error)
 {
     Error e = {0};
     char *text = scene_schema_json(&e);
-    if (!text) {
-        api_fail(error, &e);
-    }
-    return text;
+    return hand_text(text, &e, error);
+}
+
+char *ramify_schema_markdown(RamifyError *error)
+{
+    Error e = {0};
+    char *text = scene_schema_markdown(&e);
+    return hand_text(text, &e, error);
+}
+
+char *ramify_schema_paths(RamifyError *error)
+{
+    Error e = {0};
+    char *text = scene_schema_paths(&e);
+    return hand_text(text, &e, error);
 }

@@ -131,6 +131,16 @@ static const Option OPTIONS[] = {
      .type = OPTION_YES,
      .commands = BIT(COMMAND_INFO),
      .doc = "print the whole scene with every default as YAML"},
+    {.name = "markdown",
+     .offset = AT(markdown),
+     .type = OPTION_YES,
+     .commands = BIT(COMMAND_SCHEMA),
+     .doc = "print the reference for readers instead, as docs/scene.md"},
+    {.name = "paths",
+     .offset = AT(paths),
+     .type = OPTION_YES,
+     .commands = BIT(COMMAND_SCHEMA),
+     .doc = "print the paths of all keys instead, as --set takes them"},
     {.name = "threads",
      .value = "N",
      .offset = AT(threads),
@@ -177,7 +187,7 @@ static const struct {
                         "The ending of -o FILE says the format; docs/formats.md tells what each "
                         "holds.\n"},
     [COMMAND_INFO] = {"info", "SCENE", "say what a scene file holds", ""},
-    [COMMAND_SCHEMA] = {"schema", "", "print the JSON Schema of scene files", ""},
+    [COMMAND_SCHEMA] = {"schema", "", "print what may stand in a scene file, as JSON Schema", ""},
     [COMMAND_HELP] = {"help", "[COMMAND]", "explain a command", ""},
 };
 

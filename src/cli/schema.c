@@ -1,12 +1,13 @@
-// ramify schema: the JSON Schema of scene files.
+// ramify schema: what may stand in a scene file, for editors, readers and shells.
 #include "cli/command.h"
 
 #include <stdio.h>
 
 bool command_schema(const Options *options, RamifyError *e)
 {
-    (void)options;
-    char *text = ramify_schema(e);
+    char *text = options->markdown ? ramify_schema_markdown(e)
+                 : options->paths  ? ramify_schema_paths(e)
+                                   : ramify_schema(e);
     if (!text) {
         return false;
     }

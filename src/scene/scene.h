@@ -155,4 +155,10 @@ void scene_free(Scene *scene); // NULL is fine
 // JSON Schema of scene files (draft 2020-12) as heap text.
 char *scene_schema_json(Error *e);
 
+// The reference of scene files, docs/scene.md, in Markdown as heap text.
+char *scene_schema_markdown(Error *e);
+
+// The paths of all keys as --set takes them, one a line: "objects.NAME.tree.height". Heap text.
+char *scene_schema_paths(Error *e);
+
 #endif

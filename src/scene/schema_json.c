@@ -1,43 +1,18 @@
 // The JSON Schema (draft 2020-12) of scene files, written from the tables of spec.h.
-#include "base/memory.h"
-#include "scene/resolve_value.h"
 #include "scene/scene.h"
+#include "scene/schema_text.h"
 
-#include <locale.h>
-#include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #define MOST_TABLES 32
 
 typedef struct Writer {
-    char *text;
-    int64_t length, capacity;
+    SchemaText *text;
     const Table *shared[MOST_TABLES]; // tables that go to $defs, in the order met
     int shared_count;
-    Resolver resolver;
-    bool failed;
-    Error *e;
 } Writer;
 
-static void put(Writer *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void put(Writer *w, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    char line[2048];
-    int count = vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    if (count < 0 || count >= (int)sizeof line ||
-        !memory_reserve(&w->text, &w->capacity, w->length + count + 1, 1, w->e)) {
-        w->failed = true;
-        return;
-    }
-    memcpy(w->text + w->length, line, (size_t)count + 1);
-    w->length += count;
-}
+#define put(w, ...) schema_put((w)->text, __VA_ARGS__)
 
 static void put_string(Writer *w, const char *text)
 {
@@ -118,9 +93,8 @@ static void put_enum(Writer *w, const Key *row)
 
 static void put_default(Writer *w, const Key *row, const char *base)
 {
-    Node *node = NULL;
-    if (row->flags & (KEY_REQUIRED | KEY_NO_DEFAULT) || !base ||
-        !resolve_default(&w->resolver, row, base, &node) || !node) {
+    const Node *node = schema_default(w->text, row, base);
+    if (!node) {
         return;
     }
     if (row->type == KEY_ENUM) {
@@ -146,7 +120,7 @@ static void share(Writer *w, const Table *table)
         }
     }
     if (w->shared_count == MOST_TABLES) {
-        w->failed = true;
+        w->text->failed = true;
         return;
     }
     w->shared[w->shared_count++] = table;
@@ -223,14 +197,7 @@ static void put_required(Writer *w, const Table *table)
 // The members of an object schema, without its braces.
 static void put_table(Writer *w, const Table *table, const char *base, int depth)
 {
-    if (table->defaults) {
-        size_t size = table->defaults_size ? table->defaults_size : table->size;
-        char *fresh = arena_alloc(w->resolver.arena, size, w->e);
-        if (fresh) {
-            table->defaults(NULL, -1, fresh);
-        }
-        base = fresh;
-    }
+    base = schema_base(w->text, table, -1, base);
     put(w, "\"type\": [\"object\", \"null\"], \"additionalProperties\": false");
     put_required(w, table);
     put(w, ", \"properties\": {");
@@ -246,8 +213,9 @@ static void put_table(Writer *w, const Table *table, const char *base, int depth
     put(w, "}");
 }
 
-static void put_schema(Writer *w)
+static void put_schema(SchemaText *text)
 {
+    Writer writer = {.text = text}, *w = &writer;
     put(w, "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n"
            "  \"title\": \"ramify scene\",\n  \"description\": ");
     put_string(w, scene_table.doc);
@@ -266,26 +234,5 @@ static void put_schema(Writer *w)
 
 char *scene_schema_json(Error *e)
 {
-    Arena *arena = arena_new(e);
-    locale_t c_locale = newlocale(LC_ALL_MASK, "C", NULL);
-    if (!arena || !c_locale) {
-        error_set(e, ERROR_MEMORY, "out of memory for the schema");
-        arena_free(arena);
-        if (c_locale) {
-            freelocale(c_locale);
-        }
-        return NULL;
-    }
-    locale_t before = uselocale(c_locale);
-    Writer w = {.resolver = {.arena = arena, .file = "", .folder = "", .e = e}, .e = e};
-    put_schema(&w);
-    uselocale(before);
-    freelocale(c_locale);
-    arena_free(arena);
-    if (w.failed) {
-        free(w.text);
-        error_set(e, ERROR_INTERNAL, "the schema could not be written");
-        return NULL;
-    }
-    return w.text;
+    return schema_write(put_schema, e);
 }

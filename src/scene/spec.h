@@ -1,6 +1,6 @@
 // What may stand in a scene file: one table a mapping, one row a key. From these tables alone come
 // the libcyaml schema (load.c), defaults and range checks (resolve.c), nearest-key hints, and the
-// JSON Schema (schema_json.c).
+// JSON Schema (schema_json.c) and the reference docs/scene.md (schema_markdown.c).
 #ifndef RAMIFY_SCENE_SPEC_H
 #define RAMIFY_SCENE_SPEC_H
 
@@ -59,6 +59,7 @@ typedef struct Path Path;
 typedef struct Table {
     const char *name; // as the JSON Schema calls it
     const char *doc;
+    const char *example;  // a piece of a scene file that shows it, from its root; may be NULL
     size_t size;          // of the struct
     size_t defaults_size; // of what defaults fills, when virtual keys make it larger; 0 = size
     const Key *keys;
@@ -103,7 +104,7 @@ extern const Table shape_table, points_table, growth_table, guide_field_table; /
     {KEY_OF(STRUCT, element.shapes, "envelope", KEY_LIST),                                        \
      .count_offset = offsetof(STRUCT, element.shape_count), .count = 1000, .table = &shape_table, \
      .doc = "The region to grow in: shapes joined, cut and intersected in this order. Left out: " \
-            "a form that follows the tree's height."},                                            \
+            "a form of the kind's own, in proportion."},                                          \
         {KEY_OF(STRUCT, element.voxel, "voxel", KEY_FLOAT), .high = 100, .unit = "m",             \
          .doc = "Voxel size of the envelope's level set, where it is not one plain shape; 0 = "   \
                 "1/128 of its largest extent."},                                                  \

@@ -34,7 +34,8 @@ static const Key TRACK_KEYS[] = {
      .doc = "Which value of the scene, as for --set: camera.position, sky.sun_elevation, "
             "objects.oak.tree.height."},
     {KEY_OF(SceneTrack, ease, "ease", KEY_ENUM), .names = EASES,
-     .doc = "From key to key: linear; smooth: slow at every key; step: stays until the next key; "
+     .doc = "From key to key. linear: evenly; smooth: slow at every key; step: stays until the "
+            "next key; "
             "spline: a smooth curve through all keys that never overshoots them. Words always "
             "step."},
     {KEY_OF(SceneTrack, keys, "keys", KEY_LIST), .flags = KEY_REQUIRED,

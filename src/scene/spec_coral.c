@@ -11,11 +11,11 @@ static const Key POLYP_KEYS[] = {
     {KEY_OF(PolypParams, max_count, "max_count", KEY_INT64), .high = 1e8,
      .doc = "Most cups as geometry; 0 = none: the material's pattern alone shows them."},
     {KEY_OF(PolypParams, diameter, "diameter", KEY_FLOAT), .high = 10, .unit = "m",
-     .doc = "Of a cup's rim; 0 = a share of the colony's size."},
+     .doc = "Diameter of a cup's rim; 0 = a share of the colony's size."},
     {KEY_OF(PolypParams, spacing, "spacing", KEY_FLOAT), .high = 10, .unit = "m",
      .doc = "Least distance between the cups' centres; 0 = 1.6 diameters."},
     {KEY_OF(PolypParams, height, "height", KEY_FLOAT), .high = 10, .unit = "m",
-     .doc = "Of a cup's wall; 0 = 0.9 diameters."},
+     .doc = "Height of a cup's wall; 0 = 0.9 diameters."},
     {KEY_OF(PolypParams, lean, "lean", KEY_FLOAT), .high = 85, .unit = "degrees",
      .doc = "How far cups lean toward the branch's tip."},
     {0},
@@ -28,8 +28,8 @@ static const Table POLYP_TABLE = {.name = "polyps",
 
 static const Key CORAL_KEYS[] = {
     {KEY_OF(CoralParams, form, "form", KEY_ENUM), .names = FORMS,
-     .doc = "branching: staghorn; table: a plate with upright branchlets; fan: flat; encrusting: a "
-            "crust over a rock; massive: a boulder."},
+     .doc = "branching: a bush, as staghorn coral; table: a plate with upright branchlets; fan: "
+            "flat; encrusting: a crust over a rock; massive: a boulder."},
     {KEY_OF(CoralParams, rule, "rule", KEY_ENUM), .names = RULES,
      .doc = "string: directions by the L-system, room by the attractors; mean: attractors alone."},
     {KEY_OF(CoralParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
@@ -45,16 +45,17 @@ static const Key CORAL_KEYS[] = {
     {KEY_OF(CoralParams, attractors, "attractors", KEY_INT64), .high = 1e8,
      .doc = "Attractors for each colony (for the whole rock where it grows on one); 0 = the form's "
             "own."},
-    {KEY_OF(CoralParams, axiom, "axiom", KEY_TEXT), .doc = "The L-system's; left out: the form's."},
+    {KEY_OF(CoralParams, axiom, "axiom", KEY_TEXT),
+     .doc = "The L-system's first string; left out: the form's own."},
     {KEY_OF(CoralParams, rules, "rules", KEY_TEXT),
-     .doc = "The L-system's, one a line or parted by ';': \"X -> [+FX][-FX]FX\". Left out: the "
-            "form's."},
+     .doc = "The L-system's rules, one a line or parted by ';', as \"X -> [+FX][-FX]FX\"; left "
+            "out: the form's own."},
     {KEY_OF(CoralParams, generations, "generations", KEY_INT), .high = 40,
-     .doc = "Of the string; 0 = the form's own."},
+     .doc = "How often the rules are applied; 0 = the form's own."},
     {KEY_OF(CoralParams, angle, "angle", KEY_FLOAT), .high = 180, .unit = "degrees",
-     .doc = "Of turns that name none; 0 = the form's own."},
+     .doc = "Angle of turns that name none; 0 = the form's own."},
     {KEY_OF(CoralParams, group, "group", KEY_FLOAT), .high = 360, .unit = "degrees",
-     .doc = "Of a direction: it owns attractors within half of it; 0 = the form's own."},
+     .doc = "Width of a direction: it owns the attractors within half of it; 0 = the form's own."},
     {KEY_OF(CoralParams, regularity, "regularity", KEY_FLOAT), .low = -1, .high = 1,
      .doc = "0 = toward the attractors a direction owns, 1 = just as the L-system says; -1 = the "
             "form's own."},
@@ -69,7 +70,7 @@ static const Key CORAL_KEYS[] = {
     {KEY_OF(CoralParams, tip_radius, "tip_radius", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Radius of the branches' tips; 0 = the form's share of the size."},
     {KEY_OF(CoralParams, exponent, "exponent", KEY_FLOAT), .low = 1, .high = 10,
-     .doc = "Of the radii, r_parent^e = sum of r_child^e: 4 keeps branches near their tips' "
+     .doc = "e of the radii, r_parent^e = sum of r_child^e: 4 keeps branches near their tips' "
             "thickness."},
     {KEY_OF(CoralParams, pale, "pale", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "How far from a growing tip the tissue is pale; 0 = 4 tip radii."},
@@ -77,7 +78,8 @@ static const Key CORAL_KEYS[] = {
      .doc = "Corallites: the cups that polyps sit in."},
     {KEY_OF(CoralParams, base, "base", KEY_LIST), .count_offset = offsetof(CoralParams, base_count),
      .count = 1000, .table = &shape_table,
-     .doc = "The rock that encrusting and massive forms grow on; left out: a boulder of the size."},
+     .doc = "Shapes that make the rock that encrusting and massive forms grow on; left out: a "
+            "boulder of the size."},
     {KEY_OF(CoralParams, levels, "levels", KEY_INT), .high = 4,
      .doc = "Subdivision of the branches' skin."},
     {0},
@@ -90,8 +92,13 @@ static void coral_defaults(const Node *given, int kind, void *out)
     *(CoralParams *)out = coral_params_default();
 }
 
-const Table coral_table = {.name = "coral",
-                           .doc = "Corals: an L-system's directions that fight for room.",
-                           .size = sizeof(CoralParams),
-                           .keys = CORAL_KEYS,
-                           .defaults = coral_defaults};
+const Table coral_table = {
+    .name = "coral",
+    .doc = "Corals: an L-system says where branches want to go, attractors how much room there is, "
+           "and colonies fight for it (Horiuchi et al.). Materials: coral, coral_polyp, reef_rock.",
+    .example = "objects:\n"
+               "  - name: staghorn\n"
+               "    coral: {form: branching, size: 0.4, colonies: 3}\n",
+    .size = sizeof(CoralParams),
+    .keys = CORAL_KEYS,
+    .defaults = coral_defaults};

@@ -20,10 +20,10 @@ static const cyaml_strval_t SHAPE_OPS[] = {{"union", SHAPE_UNION},
 
 static const Key SHAPE_KEYS[] = {
     {KEY_OF(Shape, kind, "shape", KEY_ENUM), .flags = KEY_REQUIRED, .names = SHAPES,
-     .doc =
-         "sphere, ellipsoid, box: about the origin; cone and capsule: up from the origin; mesh: "
-         "from a file; half_space: all below y = 0, to cut with; body: a standing human, feet at "
-         "the origin, facing +Z. Then scaled, rotated, moved."},
+     .doc = "sphere: about the origin; ellipsoid: about the origin, with three half-axes; box: "
+            "about the origin; cone: stands on the origin, with its tip cut off if wanted; "
+            "capsule: a round rod up from the origin; mesh: from a file; half_space: all below y = "
+            "0, to cut with; body: a standing human, feet at the origin, facing +Z."},
     {KEY_OF(Shape, op, "op", KEY_ENUM), .names = SHAPE_OPS,
      .doc = "union: add the shape; difference: take it away; intersection: keep only what lies in "
             "it too. The first shape of a list is a union."},
@@ -31,10 +31,9 @@ static const Key SHAPE_KEYS[] = {
      .kinds = BIT(SHAPE_SPHERE) | BIT(SHAPE_ELLIPSOID) | BIT(SHAPE_BOX) | BIT(SHAPE_CONE) |
               BIT(SHAPE_CAPSULE) | BIT(SHAPE_BODY),
      .unit = "m",
-     .doc = "sphere: radius; ellipsoid: half-axes; box: half of its extents; cone: radius below, "
-            "height, radius above; capsule: radius, length between the centres, unused; body: its "
-            "height "
-            "(1 = 1 m)."},
+     .doc = "sphere: the radius; ellipsoid: the three half-axes; box: half of its three extents; "
+            "cone: radius below, height, radius above; capsule: radius, length between the centres "
+            "of its ends, and a number that is not used; body: its height in the first."},
     {KEY_OF(Shape, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(SHAPE_MESH),
      .doc = "OBJ, PLY, STL, glTF or GLB file, relative to the scene's folder."},
     {KEY_OF(PlacedShape, position, "position", KEY_VECTOR), .flags = KEY_VIRTUAL, .count = 3,
@@ -56,14 +55,23 @@ static void shape_defaults(const Node *given, int kind, void *out)
                                         .scale = {1, 1, 1}};
 }
 
-const Table shape_table = {.name = "shape",
-                           .doc = "One shape of an envelope.",
-                           .size = sizeof(Shape),
-                           .defaults_size = sizeof(PlacedShape),
-                           .keys = SHAPE_KEYS,
-                           .kind_key = "shape",
-                           .defaults = shape_defaults,
-                           .check = check_shape};
+const Table shape_table = {
+    .name = "shape",
+    .doc = "One shape of an envelope, the region that something grows in. A list of them is "
+           "joined, cut and intersected in its order. Each is scaled, then rotated, then moved.",
+    .example = "objects:\n"
+               "  - name: umbrella\n"
+               "    tree:\n"
+               "      crown:\n"
+               "        envelope:\n"
+               "          - {shape: ellipsoid, size: [5, 1, 5], position: [0, 9, 0]}\n"
+               "          - {shape: sphere, size: 2, position: [3, 8, 0], op: difference}\n",
+    .size = sizeof(Shape),
+    .defaults_size = sizeof(PlacedShape),
+    .keys = SHAPE_KEYS,
+    .kind_key = "shape",
+    .defaults = shape_defaults,
+    .check = check_shape};
 
 static const cyaml_strval_t PLACES[] = {
     {"volume", SCATTER_VOLUME}, {"surface", SCATTER_SURFACE}, {0}};
@@ -72,11 +80,12 @@ static const cyaml_strval_t SCATTERS[] = {
 
 static const Key POINTS_KEYS[] = {
     {KEY_OF(ElementParams, place, "place", KEY_ENUM), .names = PLACES,
-     .doc = "Fill the envelope's volume, or its surface."},
+     .doc = "volume: fill the envelope; surface: cover its surface."},
     {KEY_OF(ElementParams, pattern, "pattern", KEY_ENUM), .names = SCATTERS,
      .doc = "random: independent points; poisson: evenly spread ones."},
     {KEY_OF(ElementParams, shell, "shell", KEY_FLOAT), .high = 1,
-     .doc = "Share of the points that is pushed toward the surface."},
+     .doc = "Share of the points that is pushed out toward the surface: leaves and twigs sit "
+            "outside, as light has it."},
     {KEY_OF(ElementParams, gradient, "gradient", KEY_FLOAT), .low = -1, .high = 1,
      .doc = "Density by height: -1 = only below, 0 = even, 1 = only above."},
     {KEY_OF(ElementParams, depth_gradient, "depth_gradient", KEY_FLOAT), .low = -1, .high = 1,
@@ -87,10 +96,15 @@ static const Key POINTS_KEYS[] = {
     {0},
 };
 
-const Table points_table = {.name = "points",
-                            .doc = "How attractors are scattered.",
-                            .size = sizeof(ElementParams),
-                            .keys = POINTS_KEYS};
+const Table points_table = {
+    .name = "points",
+    .doc = "How attractors, the points that growth reaches for, are scattered "
+           "in the envelope. How many there are, the levels of growth say.",
+    .example = "objects:\n"
+               "  - name: hollow\n"
+               "    tree: {crown: {points: {pattern: poisson, depth_gradient: 0.6}}}\n",
+    .size = sizeof(ElementParams),
+    .keys = POINTS_KEYS};
 
 static const Key LEVEL_KEYS[] = {
     {KEY_OF(GrowLevel, attractors, "attractors", KEY_INT64), .flags = KEY_REQUIRED, .low = 1,
@@ -99,9 +113,12 @@ static const Key LEVEL_KEYS[] = {
      .unit = "spacings",
      .doc = "Distance from node to node, in mean spacings of this level's attractors."},
     {KEY_OF(GrowLevel, kill, "kill", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
-     .unit = "spacings", .doc = "An attractor this near to a node is used up."},
+     .unit = "spacings",
+     .doc = "An attractor that comes this near to a node is used up; a larger distance makes "
+            "sparser branches."},
     {KEY_OF(GrowLevel, influence, "influence", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
-     .unit = "spacings", .doc = "How far an attractor pulls."},
+     .unit = "spacings",
+     .doc = "How far an attractor pulls; it pulls only the node that is nearest to it."},
     {KEY_OF(GrowLevel, scale, "scale", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
      .doc = "Scale of the envelope in this level, about the middle of its box."},
     {KEY_OF(GrowLevel, relax, "relax", KEY_FLOAT), .high = 1,
@@ -123,12 +140,23 @@ static void level_defaults(const Node *given, int kind, void *out)
         (GrowLevel){.step = 0.3f, .kill = 0.9f, .influence = 2.2f, .scale = 1.0f, .relax = 0.5f};
 }
 
-static const Table LEVEL_TABLE = {.name = "level",
-                                  .doc = "One level of coarse-to-fine growth.",
-                                  .size = sizeof(GrowLevel),
-                                  .keys = LEVEL_KEYS,
-                                  .defaults = level_defaults,
-                                  .check = check_level};
+static const Table LEVEL_TABLE = {
+    .name = "level",
+    .doc =
+        "One level of coarse-to-fine growth: it scatters attractors of its own, coarse ones for "
+        "limbs, fine ones for twigs. Lengths count in the mean spacing of the level's attractors.",
+    .example = "objects:\n"
+               "  - name: two_levels\n"
+               "    tree:\n"
+               "      crown:\n"
+               "        growth:\n"
+               "          levels:\n"
+               "            - {attractors: 300, step: 0.3, kill: 0.9}\n"
+               "            - {attractors: 8000, step: 0.4, kill: 0.8, influence: 2}\n",
+    .size = sizeof(GrowLevel),
+    .keys = LEVEL_KEYS,
+    .defaults = level_defaults,
+    .check = check_level};
 
 static const cyaml_strval_t RULES[] = {
     {"mean", GROW_MEAN}, {"snap", GROW_SNAP}, {"sectors", GROW_SECTORS}, {0}};
@@ -164,7 +192,7 @@ static const Key GROWTH_KEYS[] = {
     {KEY_OF(ElementParams, sector_axis, "sector_axis", KEY_BOOL),
      .doc = "Grow along a sector's axis rather than along the mean of its pulls."},
     {KEY_OF(ElementParams, field_weight, "field_weight", KEY_FLOAT), .low = -1000, .high = 1000,
-     .doc = "Weight of the guide fields against the pull; 0 = none."},
+     .doc = "Weight of the guide fields against the attractors' pull; 0 = they do nothing."},
     {KEY_OF(ElementParams, field_mode, "field_mode", KEY_ENUM), .names = FIELD_MODES,
      .doc = "steer: the field turns the direction, steps keep their length; additive: the field's "
             "vector is added to the new position."},
@@ -175,11 +203,16 @@ static const Key GROWTH_KEYS[] = {
     {0},
 };
 
-const Table growth_table = {.name = "growth",
-                            .doc = "How an element grows.",
-                            .size = sizeof(ElementParams),
-                            .keys = GROWTH_KEYS,
-                            .check = check_growth};
+const Table growth_table = {
+    .name = "growth",
+    .doc = "How an element grows toward its attractors: in each step every attractor pulls the "
+           "node nearest to it, and each node that is pulled makes a child.",
+    .example = "objects:\n"
+               "  - name: windswept\n"
+               "    tree: {crown: {growth: {tropism: [0.8, 0.2, 0], noise: 0.3, max_angle: 70}}}\n",
+    .size = sizeof(ElementParams),
+    .keys = GROWTH_KEYS,
+    .check = check_growth};
 
 static const cyaml_strval_t FIELD_KINDS[] = {{"uniform", FIELD_UNIFORM}, {"radial", FIELD_RADIAL},
                                              {"vortex", FIELD_VORTEX},   {"nuclei", FIELD_NUCLEI},
@@ -197,22 +230,24 @@ static const Key FIELD_KEYS[] = {
             "`turn`; grid: the same on voxels; curl: swirling noise; point: `vector` at `center`, "
             "falling off over `scale`."},
     {KEY_OF(FieldParams, weight, "weight", KEY_FLOAT), .low = -1000, .high = 1000,
-     .doc = "Share in the sum of the fields."},
+     .doc = "Weight in the sum of the fields; negative turns it around."},
     {KEY_OF(FieldParams, vector, "vector", KEY_VECTOR), .count = 3,
      .kinds = BIT(FIELD_UNIFORM) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT) | NUCLEI,
-     .doc = "Direction, or the axis to turn about."},
+     .doc = "The direction; of a vortex, nuclei and grid the axis to turn about."},
     {KEY_OF(FieldParams, center, "center", KEY_VECTOR), .count = 3,
      .kinds = BIT(FIELD_RADIAL) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT), .unit = "m",
-     .doc = "Where the field has its middle."},
+     .doc = "Middle of the field."},
     {KEY_OF(FieldParams, turn, "turn", KEY_FLOAT), .kinds = NUCLEI, .low = -36000, .high = 36000,
      .unit = "degrees",
      .doc = "Azimuth that a streamline sweeps from the nucleus to the rim (profile swept), or by "
             "which every vector is turned (profile constant)."},
     {KEY_OF(FieldParams, scale, "scale", KEY_FLOAT), .kinds = BIT(FIELD_CURL) | BIT(FIELD_POINT),
      .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
-     .doc = "Wavelength of the noise; distance over which a point's vector fades."},
+     .doc = "Of curl the wavelength of the noise; of a point the distance over which its vector "
+            "fades."},
     {KEY_OF(FieldParams, profile, "profile", KEY_ENUM), .kinds = NUCLEI, .names = PROFILES,
-     .doc = "How the angle depends on the distance from the nucleus."},
+     .doc = "swept: streamlines wind more and more on their way from the nucleus; constant: every "
+            "vector is turned by the same angle."},
     {KEY_OF(FieldParams, spherical, "spherical", KEY_BOOL), .kinds = NUCLEI,
      .doc = "Sweep by polar angle on a sphere instead of by distance."},
     {KEY_OF(FieldParams, surface, "surface", KEY_BOOL), .kinds = NUCLEI,
@@ -228,10 +263,19 @@ static void field_defaults(const Node *given, int kind, void *out)
     *(FieldParams *)out = field_params_default(kind < 0 ? FIELD_UNIFORM : (FieldKind)kind);
 }
 
-const Table guide_field_table = {.name = "field",
-                                 .doc = "A guide vector field.",
-                                 .size = sizeof(FieldParams),
-                                 .keys = FIELD_KEYS,
-                                 .kind_key = "kind",
-                                 .defaults = field_defaults,
-                                 .check = check_field};
+const Table guide_field_table = {
+    .name = "field",
+    .doc = "A guide vector field, which steers growth: it leans, winds "
+           "or swirls a tree. Several are summed with their weights.",
+    .example = "objects:\n"
+               "  - name: wound\n"
+               "    tree:\n"
+               "      crown:\n"
+               "        fields:\n"
+               "          - {kind: vortex, vector: [0, 1, 0], weight: 0.8}\n"
+               "          - {kind: curl, scale: 3, weight: 0.3}\n",
+    .size = sizeof(FieldParams),
+    .keys = FIELD_KEYS,
+    .kind_key = "kind",
+    .defaults = field_defaults,
+    .check = check_field};

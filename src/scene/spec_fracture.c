@@ -4,13 +4,14 @@
 
 static const Key FRACTURE_KEYS[] = {
     {KEY_OF(FractureParams, impacts, "impacts", KEY_INT), .low = 1, .high = 10000,
-     .doc = "Where cracks begin, spread over the surface."},
+     .doc = "Number of places, spread over the surface, where cracks begin."},
     {KEY_OF(FractureParams, attractors, "attractors", KEY_INT64), .low = 1, .high = 1e5,
-     .doc = "How many cracks, where growth.levels are left out: more make smaller pieces."},
+     .doc =
+         "Attractors of the cracks, where growth.levels are left out: more make smaller pieces."},
     {KEY_OF(FractureParams, hollow, "hollow", KEY_FLOAT), .high = 1e6, .unit = "m",
      .doc = "Thickness of the base's wall; 0 = solid."},
     {KEY_OF(FractureParams, to_axis, "to_axis", KEY_BOOL),
-     .doc = "Cracks run inward to the vertical through the middle, as in a vase; else to the "
+     .doc = "Cracks run inward to the vertical through the middle, as in a vase; false: to the "
             "middle."},
     {KEY_OF(FractureParams, gap, "gap", KEY_FLOAT), .high = 1e6, .unit = "m",
      .doc = "Width of the cracks: what is nearer to them is removed; 0 = 0.012 of the largest "
@@ -38,9 +39,15 @@ static void fracture_defaults(const Node *given, int kind, void *out)
     *(FractureParams *)out = fracture_params_default();
 }
 
-const Table fracture_table = {.name = "fracture",
-                              .doc = "A thing split along a network of cracks grown over it.",
-                              .size = sizeof(FractureParams),
-                              .keys = FRACTURE_KEYS,
-                              .defaults = fracture_defaults,
-                              .check = check_envelope};
+const Table fracture_table = {
+    .name = "fracture",
+    .doc = "A thing split along a network of cracks grown over it. The envelope is the thing. "
+           "Materials: the object's material outside, inside_material where it broke.",
+    .example =
+        "objects:\n"
+        "  - name: ball\n"
+        "    fracture: {envelope: [{shape: sphere, size: 1}], attractors: 120, explode: 0.3}\n",
+    .size = sizeof(FractureParams),
+    .keys = FRACTURE_KEYS,
+    .defaults = fracture_defaults,
+    .check = check_envelope};

@@ -10,7 +10,7 @@ static const cyaml_strval_t PLACES[] = {
 
 static const Key NUCLEUS_KEYS[] = {
     {KEY_OF(FrostNucleus, position, "position", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 3,
-     .unit = "m", .doc = "Taken to the nearest point of the surface."},
+     .unit = "m", .doc = "Where; it is taken to the nearest point of the pane or bubble."},
     {0},
 };
 
@@ -76,9 +76,13 @@ static void frost_defaults(const Node *given, int kind, void *out)
     *(FrostParams *)out = frost_params_default(kind < 0 ? FROST_PANE : (FrostSurface)kind);
 }
 
-const Table frost_table = {.name = "frost",
-                           .doc = "Frost on a pane or a bubble (Tanaka et al., section 5.3).",
-                           .size = sizeof(FrostParams),
-                           .keys = FROST_KEYS,
-                           .kind_key = "surface",
-                           .defaults = frost_defaults};
+const Table frost_table = {
+    .name = "frost",
+    .doc = "Frost on a pane or a bubble (Tanaka et al., section 5.3).",
+    .example = "objects:\n"
+               "  - name: window\n"
+               "    frost: {surface: pane, width: 0.5, height: 0.4, nuclei: 9, turn: 140}\n",
+    .size = sizeof(FrostParams),
+    .keys = FROST_KEYS,
+    .kind_key = "surface",
+    .defaults = frost_defaults};

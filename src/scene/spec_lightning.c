@@ -63,6 +63,9 @@ const Table lightning_table = {
     .name = "lightning",
     .doc = "Lightning in the air, or (points.place: surface) over the surface of an envelope "
            "(Tanaka et al., section 5.2).",
+    .example = "objects:\n"
+               "  - name: bolt\n"
+               "    lightning: {height: 900, branching: 1.5, ground_points: 2}\n",
     .size = sizeof(LightningParams),
     .keys = LIGHTNING_KEYS,
     .defaults = lightning_defaults,

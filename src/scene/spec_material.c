@@ -27,7 +27,8 @@ static const cyaml_strval_t PATTERNS[] = {
 
 static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, name, "name", KEY_NAME), .flags = KEY_REQUIRED, .count = 64,
-     .doc = "What objects call it. The name of a built-in material changes that one."},
+     .doc = "What objects call it. The name of a built-in material changes that one, and starts "
+            "from its values."},
     {KEY_OF(Material, kind, "kind", KEY_ENUM), .names = MATERIAL_KINDS,
      .doc = "diffuse: matt; conductor: metal; dielectric: glass or ice; principled: matt under a "
             "coat, or metallic; leaf: a thin sheet that lets light through; emission: shines; "
@@ -37,16 +38,16 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, color2, "color2", KEY_COLOR), .kinds = PATTERNED, .high = 1,
      .doc = "The pattern's second colour: furrows, soil, veins."},
     {KEY_OF(Material, transmittance, "transmittance", KEY_COLOR), .kinds = BIT(MATERIAL_LEAF),
-     .high = 1, .doc = "Share of light that a leaf lets through."},
+     .high = 1, .doc = "Colour of the light that a leaf lets through."},
     {KEY_OF(Material, absorption, "absorption", KEY_COLOR), .kinds = BIT(MATERIAL_DIELECTRIC),
      .high = 1e6, .unit = "1/m", .doc = "How fast light fades inside (Beer-Lambert)."},
     {KEY_OF(Material, scattering, "scattering", KEY_COLOR), .kinds = BIT(MATERIAL_DIELECTRIC),
      .high = 1e6, .unit = "1/m", .doc = "How fast light is turned aside inside: milk, flesh, ice."},
     {KEY_OF(Material, anisotropy, "anisotropy", KEY_FLOAT), .kinds = BIT(MATERIAL_DIELECTRIC),
      .low = -0.98, .high = 0.98,
-     .doc = "Mean cosine of that: 0 = to all sides, near 1 = forward, as flesh does."},
+     .doc = "Mean cosine of that scattering: 0 = to all sides, near 1 = forward, as flesh does."},
     {KEY_OF(Material, roughness, "roughness", KEY_FLOAT), .kinds = COLOURED & ~FILM, .high = 1,
-     .doc = "0 = mirror-like, 1 = matt."},
+     .doc = "How rough the surface is: 0 = a mirror or a clear pane, 1 = matt."},
     {KEY_OF(Material, metallic, "metallic", KEY_FLOAT), .kinds = BIT(MATERIAL_PRINCIPLED),
      .high = 1, .doc = "0 = no metal, 1 = metal."},
     {KEY_OF(Material, specular, "specular", KEY_FLOAT),
@@ -55,7 +56,8 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, ior, "ior", KEY_FLOAT), .kinds = BIT(MATERIAL_DIELECTRIC) | FILM, .low = 1,
      .high = 5, .doc = "Index of refraction; 1 = no surface, light goes straight in and out."},
     {KEY_OF(Material, radiance, "radiance", KEY_COLOR), .kinds = BIT(MATERIAL_EMISSION),
-     .high = 1e12, .unit = "W/(m^2 sr)", .doc = "Light that it sends out."},
+     .high = 1e12, .unit = "W/(m^2 sr)",
+     .doc = "Light that it sends out, per area and solid angle."},
     {KEY_OF(Material, film_thickness, "film_thickness", KEY_FLOAT), .kinds = FILM,
      .high = (double)THIN_FILM_MOST_NM, .unit = "nm",
      .doc = "Thickness of the film where it stands upright; 0 = not to be seen."},
@@ -64,7 +66,11 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, film_swirl, "film_swirl", KEY_FLOAT), .kinds = FILM, .high = 1,
      .doc = "How far its thickness varies in streaks, about pattern_scale wide."},
     {KEY_OF(Material, pattern, "pattern", KEY_ENUM), .kinds = BUMPED, .names = PATTERNS,
-     .doc = "Procedural pattern of color and color2, with bumps."},
+     .doc = "Procedural pattern of color and color2, with bumps. bark: ridges and furrows; ground: "
+            "soil and grass in patches; leaf: veins and blotches; noise: plain noise; corallite: "
+            "cups of a coral; youth: color2 where a branch still grows; sand: ripples of a sea "
+            "floor; mountain: rock, scree, grass and snow; badlands: coloured beds; water: "
+            "ripples; none: one colour."},
     {KEY_OF(Material, pattern_scale, "pattern_scale", KEY_FLOAT), .kinds = BUMPED | FILM,
      .high = 1e6, .unit = "m",
      .doc = "Wavelength of the pattern's largest features; 0 = the pattern's own."},
@@ -97,9 +103,18 @@ static void material_defaults(const Node *given, int kind, void *out)
     }
 }
 
-const Table material_table = {.name = "material",
-                              .doc = "What a surface is made of.",
-                              .size = sizeof(Material),
-                              .keys = MATERIAL_KEYS,
-                              .kind_key = "kind",
-                              .defaults = material_defaults};
+const Table material_table = {
+    .name = "material",
+    .doc = "What a surface is made of. Objects find materials by their names.",
+    .example = "materials:\n"
+               "  - {name: leaf, color: \"#7d8a3c\"}                               # the built-in "
+               "leaf in autumn\n"
+               "  - {name: gold, kind: conductor, color: [1.0, 0.71, 0.29], roughness: 0.2}\n"
+               "objects:\n"
+               "  - name: ball\n"
+               "    material: gold\n"
+               "    shape: {envelope: [{shape: sphere, size: 1, position: [0, 1, 0]}]}\n",
+    .size = sizeof(Material),
+    .keys = MATERIAL_KEYS,
+    .kind_key = "kind",
+    .defaults = material_defaults};

@@ -40,6 +40,8 @@ static void medium_defaults(const Node *given, int kind, void *out)
 
 const Table medium_table = {.name = "medium",
                             .doc = "Fog, haze or water that fills the scene.",
+                            .example =
+                                "medium: {kind: layer, scattering: 0.01, height: 5, falloff: 8}\n",
                             .size = sizeof(Medium),
                             .keys = MEDIUM_KEYS,
                             .kind_key = "kind",

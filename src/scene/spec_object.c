@@ -3,23 +3,23 @@
 #include "scene/spec_check.h"
 
 static const Key GROVE_KEYS[] = {
-    {KEY_OF(GroveParams, count, "count", KEY_INT), .high = 1e6, .doc = "Trees; 0 = none."},
+    {KEY_OF(GroveParams, count, "count", KEY_INT), .high = 1e6, .doc = "How many trees; 0 = none."},
     {KEY_OF(GroveParams, inner, "inner", KEY_FLOAT), .high = 1e6, .unit = "m",
      .doc = "Least distance from the origin."},
     {KEY_OF(GroveParams, outer, "outer", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
      .doc = "Largest distance from the origin."},
     {KEY_OF(GroveParams, height, "height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
-     .unit = "m", .doc = "Height of the tallest."},
+     .unit = "m", .doc = "Height of the tallest trees."},
     {KEY_OF(GroveParams, clumping, "clumping", KEY_FLOAT), .high = 1,
      .doc = "0 = even, 1 = in woods with open land between."},
     {KEY_OF(GroveParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
-     .doc = "Different trees."},
+     .doc = "How many different trees are grown; all others are copies."},
     {KEY_OF(GroveParams, bare, "bare", KEY_BOOL), .doc = "Without leaves, as in winter."},
     {0},
 };
 
 static const Table GROVE_TABLE = {.name = "grove",
-                                  .doc = "Woods in the distance: a few trees, instanced.",
+                                  .doc = "Woods in the distance: copies of a few trees.",
                                   .size = sizeof(GroveParams),
                                   .keys = GROVE_KEYS,
                                   .check = check_grove};
@@ -32,11 +32,12 @@ static const Key GROUND_KEYS[] = {
     {KEY_OF(GroundParams, wavelength, "wavelength", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6,
      .unit = "m", .doc = "Distance from hill to hill."},
     {KEY_OF(GroundParams, flat_radius, "flat_radius", KEY_FLOAT), .high = 1e6, .unit = "m",
-     .doc = "About the origin that stays flat, where the subject stands."},
+     .doc = "Radius about the origin that stays flat, at height 0, where the subject stands."},
     {KEY_OF(GroundParams, grass_tufts, "grass_tufts", KEY_INT64), .high = 1e9,
      .doc = "Tufts of grass; 0 = none."},
     {KEY_OF(GroundParams, grass_radius, "grass_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e5,
-     .unit = "m", .doc = "About grass_center that bears grass."},
+     .unit = "m",
+     .doc = "Radius about grass_center that bears grass; it thins out toward the rim."},
     {KEY_OF(GroundParams, grass_center, "grass_center", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Middle of the grass."},
     {KEY_OF(GroundParams, grass_height, "grass_height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
@@ -44,13 +45,13 @@ static const Key GROUND_KEYS[] = {
     {KEY_OF(GroundParams, grass_clumping, "grass_clumping", KEY_FLOAT), .high = 1,
      .doc = "0 = even, 1 = in patches."},
     {KEY_OF(GroundParams, grass_variants, "grass_variants", KEY_INT), .low = 1, .high = 1000,
-     .doc = "Different tuft meshes."},
+     .doc = "How many different tufts there are."},
     {KEY_OF(GroundParams, fallen_leaves, "fallen_leaves", KEY_INT64), .high = 1e9,
      .doc = "Leaves that lie about the origin; 0 = none."},
     {KEY_OF(GroundParams, fallen_radius, "fallen_radius", KEY_FLOAT), .flags = KEY_ABOVE,
      .high = 1e5, .unit = "m", .doc = "How far fallen leaves lie."},
     {KEY_OF(GroundParams, trees, "trees", KEY_GROUP), .table = &GROVE_TABLE,
-     .doc = "Woods in the distance: a few trees, instanced."},
+     .doc = "Woods in the distance: copies of a few trees."},
     {0},
 };
 
@@ -61,12 +62,18 @@ static void ground_defaults(const Node *given, int kind, void *out)
     *(GroundParams *)out = ground_params_default();
 }
 
-static const Table GROUND_TABLE = {.name = "ground",
-                                   .doc = "Gently rolling land with grass on it.",
-                                   .size = sizeof(GroundParams),
-                                   .keys = GROUND_KEYS,
-                                   .defaults = ground_defaults,
-                                   .check = check_ground};
+static const Table GROUND_TABLE = {
+    .name = "ground",
+    .doc = "Gently rolling land with grass on it, out to the "
+           "horizon. Materials: ground, grass, fallen.",
+    .example =
+        "objects:\n"
+        "  - name: meadow\n"
+        "    ground: {grass_tufts: 80000, grass_radius: 30, relief: 8, trees: {count: 300}}\n",
+    .size = sizeof(GroundParams),
+    .keys = GROUND_KEYS,
+    .defaults = ground_defaults,
+    .check = check_ground};
 
 static const Key MESH_KEYS[] = {
     {KEY_OF(SceneMesh, file, "file", KEY_FILE), .flags = KEY_REQUIRED,
@@ -91,13 +98,14 @@ static void mesh_defaults(const Node *given, int kind, void *out)
         (PlacedMesh){.mesh = {.transform = transform_identity()}, .scale = {1, 1, 1}};
 }
 
-static const Table MESH_TABLE = {.name = "mesh",
-                                 .doc = "A mesh that another program made.",
-                                 .size = sizeof(SceneMesh),
-                                 .defaults_size = sizeof(PlacedMesh),
-                                 .keys = MESH_KEYS,
-                                 .defaults = mesh_defaults,
-                                 .check = check_mesh};
+static const Table MESH_TABLE = {
+    .name = "mesh",
+    .doc = "A mesh that another program made. Material: clay, if the object names no other.",
+    .size = sizeof(SceneMesh),
+    .defaults_size = sizeof(PlacedMesh),
+    .keys = MESH_KEYS,
+    .defaults = mesh_defaults,
+    .check = check_mesh};
 
 static const Key SOLID_KEYS[] = {
     {KEY_OF(SceneShape, shapes, "envelope", KEY_LIST),
@@ -116,39 +124,50 @@ static void solid_defaults(const Node *given, int kind, void *out)
     *(SceneShape *)out = (SceneShape){0};
 }
 
-static const Table SOLID_TABLE = {.name = "solid",
-                                  .doc = "Shapes drawn as they are.",
-                                  .size = sizeof(SceneShape),
-                                  .keys = SOLID_KEYS,
-                                  .defaults = solid_defaults,
-                                  .check = check_envelope};
+static const Table SOLID_TABLE = {
+    .name = "solid",
+    .doc = "Spheres, boxes, bodies and what they cut out of each other, drawn as they are. "
+           "Material: clay, if the object names no other.",
+    .example = "objects:\n"
+               "  - name: bowl\n"
+               "    shape:\n"
+               "      envelope:\n"
+               "        - {shape: sphere, size: 0.5}\n"
+               "        - {shape: sphere, size: 0.45, op: difference}\n"
+               "        - {shape: half_space, op: intersection}\n",
+    .size = sizeof(SceneShape),
+    .keys = SOLID_KEYS,
+    .defaults = solid_defaults,
+    .check = check_envelope};
 
 static const Key OBJECT_KEYS[] = {
     {KEY_OF(SceneObject, name, "name", KEY_TEXT), .flags = KEY_REQUIRED,
-     .doc = "What messages, --set and the object's random numbers go by."},
+     .doc = "What messages, targets, --set and the object's random numbers go by; no two objects "
+            "have the same."},
     {KEY_OF(SceneObject, seed, "seed", KEY_UINT64), .high = 18446744073709551615.0,
      .doc = "Seed of this object; 0 = from the scene's seed and the object's name."},
-    {KEY_OF(SceneObject, tree, "tree", KEY_POINTER), .table = &tree_table, .doc = "A tree."},
+    {KEY_OF(SceneObject, tree, "tree", KEY_POINTER), .table = &tree_table,
+     .doc = "A tree; left out keys make an oak."},
     {KEY_OF(SceneObject, coral, "coral", KEY_POINTER), .table = &coral_table,
      .doc = "Corals: an L-system's directions that fight for room."},
     {KEY_OF(SceneObject, lsystem, "lsystem", KEY_POINTER), .table = &lsystem_table,
      .doc = "A plant written as an L-system."},
     {KEY_OF(SceneObject, vessels, "vessels", KEY_POINTER), .table = &vessels_table,
-     .doc = "Blood vessels."},
+     .doc = "Arteries and veins that fill an organ or a body."},
     {KEY_OF(SceneObject, forest, "forest", KEY_POINTER), .table = &forest_table,
-     .doc = "A forest."},
+     .doc = "Stands of trees over the land, with ferns."},
     {KEY_OF(SceneObject, ground, "ground", KEY_POINTER), .table = &GROUND_TABLE,
-     .doc = "Ground to stand on."},
+     .doc = "Ground to stand on, with grass."},
     {KEY_OF(SceneObject, frost, "frost", KEY_POINTER), .table = &frost_table,
-     .doc = "Frost on a pane or a bubble."},
+     .doc = "Frost on a window pane or a soap bubble."},
     {KEY_OF(SceneObject, mesh, "mesh", KEY_POINTER), .table = &MESH_TABLE,
      .doc = "An imported mesh."},
     {KEY_OF(SceneObject, shape, "shape", KEY_POINTER), .table = &SOLID_TABLE,
      .doc = "Spheres, boxes, ... drawn as they are."},
     {KEY_OF(SceneObject, dla, "dla", KEY_POINTER), .table = &dla_table,
-     .doc = "A diffusion-limited aggregate."},
+     .doc = "A dendrite of metal, by diffusion-limited aggregation."},
     {KEY_OF(SceneObject, lightning, "lightning", KEY_POINTER), .table = &lightning_table,
-     .doc = "Lightning."},
+     .doc = "Bolts in the air, or discharges over a surface."},
     {KEY_OF(SceneObject, sculpture, "sculpture", KEY_POINTER), .table = &sculpture_table,
      .doc = "A hollow branch sculpture."},
     {KEY_OF(SceneObject, terrain, "terrain", KEY_POINTER), .table = &terrain_table,
@@ -158,10 +177,10 @@ static const Key OBJECT_KEYS[] = {
     {KEY_OF(SceneObject, venation, "venation", KEY_POINTER), .table = &venation_table,
      .doc = "A leaf and its veins."},
     {KEY_OF(SceneObject, fracture, "fracture", KEY_POINTER), .table = &fracture_table,
-     .doc = "A broken thing."},
+     .doc = "A thing broken along grown cracks."},
     {KEY_OF(SceneObject, material, "material", KEY_TEXT),
-     .doc = "Material of a mesh, a shape, the ground, or a tree's bark; left out: clay, clay, "
-            "ground, bark."},
+     .doc = "Material of the whole, or of a tree's bark; left out: what the kind usually has, as "
+            "bark, ground, coral, ice; clay for a mesh or a shape."},
     {KEY_OF(SceneObject, twig_material, "twig_material", KEY_TEXT),
      .doc = "Material of a tree's twigs; left out: twig."},
     {KEY_OF(SceneObject, leaf_material, "leaf_material", KEY_TEXT),
@@ -189,10 +208,21 @@ static void object_defaults(const Node *given, int kind, void *out)
     *(SceneObject *)out = (SceneObject){0};
 }
 
-const Table object_table = {.name = "object",
-                            .doc = "One thing of the scene: exactly one of tree, ground, mesh, "
-                                   "shape.",
-                            .size = sizeof(SceneObject),
-                            .keys = OBJECT_KEYS,
-                            .defaults = object_defaults,
-                            .check = check_object};
+const Table object_table = {
+    .name = "object",
+    .doc = "One thing of the scene: a name, exactly one of tree, coral, lsystem, vessels, forest, "
+           "ground, frost, mesh, shape, dla, lightning, sculpture, terrain, venation and fracture, "
+           "and the names of its materials if they are not the usual ones.",
+    .example = "objects:\n"
+               "  - name: land\n"
+               "    ground: {relief: 10}\n"
+               "  - name: birch\n"
+               "    seed: 12\n"
+               "    tree: {height: 9}\n"
+               "    material: pale_bark\n"
+               "materials:\n"
+               "  - {name: pale_bark, kind: diffuse, color: 0.6}\n",
+    .size = sizeof(SceneObject),
+    .keys = OBJECT_KEYS,
+    .defaults = object_defaults,
+    .check = check_object};

@@ -30,11 +30,14 @@ static const Key CAMERA_KEYS[] = {
     {0},
 };
 
-static const Table CAMERA_TABLE = {.name = "camera",
-                                   .doc = "A camera with a thin lens.",
-                                   .size = sizeof(Camera),
-                                   .keys = CAMERA_KEYS,
-                                   .check = check_camera};
+static const Table CAMERA_TABLE = {
+    .name = "camera",
+    .doc = "The camera: where it stands, what it looks at, how wide, and what is sharp.",
+    .example =
+        "camera: {position: [4, 1.5, 18], target: [0, 5, 0], focal_length: 50, aperture: 0.03}\n",
+    .size = sizeof(Camera),
+    .keys = CAMERA_KEYS,
+    .check = check_camera};
 
 static const cyaml_strval_t FILTERS[] = {{"blackman_harris", FILTER_BLACKMAN_HARRIS},
                                          {"box", FILTER_BOX},
@@ -48,7 +51,8 @@ static const Key FILM_KEYS[] = {
     {KEY_OF(Scene, film.height, "height", KEY_INT), .low = 1, .high = 65536, .unit = "pixels",
      .doc = "Height of the picture."},
     {KEY_OF(Scene, film.filter, "filter", KEY_ENUM), .names = FILTERS,
-     .doc = "Reconstruction filter."},
+     .doc = "How samples are gathered into pixels. blackman_harris: sharp without halos; gaussian: "
+            "softer; box: each pixel for itself."},
     {KEY_OF(Scene, film.filter_radius, "filter_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 16,
      .unit = "pixels", .doc = "How far the filter reaches."},
     {KEY_OF(Scene, film.crop, "crop", KEY_VECTOR), .count = 4, .high = 1,
@@ -56,9 +60,10 @@ static const Key FILM_KEYS[] = {
     {KEY_OF(Scene, tone.exposure, "exposure", KEY_FLOAT), .low = -50, .high = 50, .unit = "stops",
      .doc = "Brightness of the developed picture: each stop doubles it."},
     {KEY_OF(Scene, tone.auto_exposure, "auto_exposure", KEY_BOOL),
-     .doc = "Take the picture's log-average luminance to 0.18 before `exposure`."},
+     .doc = "Expose for the picture's mean brightness (its log-average luminance goes to 0.18); "
+            "`exposure` is then added."},
     {KEY_OF(Scene, tone.curve, "curve", KEY_ENUM), .names = CURVES,
-     .doc = "Tone curve: filmic rolls off highlights, linear clips them."},
+     .doc = "Tone curve. filmic: rolls off highlights, as a print does; linear: clips them."},
     {KEY_OF(Scene, tone.contrast, "contrast", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
      .doc = "Slope of the filmic curve at middle grey; 1 = as it is."},
     {KEY_OF(Scene, tone.saturation, "saturation", KEY_FLOAT), .high = 10,
@@ -77,15 +82,18 @@ static const Key FILM_KEYS[] = {
 // A group of the scene itself: two structs make up what a photographer calls the film.
 static const Table FILM_TABLE = {.name = "film",
                                  .doc = "The size of the picture and how it is developed.",
+                                 .example = "film: {width: 1920, height: 1080, auto_exposure: "
+                                            "true, exposure: -0.5, contrast: 1.1, denoise: true}\n",
                                  .size = sizeof(Scene),
                                  .keys = FILM_KEYS,
                                  .check = check_film};
 
 static const Key RENDER_KEYS[] = {
     {KEY_OF(RenderParams, samples, "samples", KEY_INT), .low = 1, .high = 1 << 24,
-     .doc = "Paths per pixel."},
+     .doc = "Paths per pixel: twice as many cost twice the time and leave 0.7 of the noise."},
     {KEY_OF(RenderParams, max_depth, "max_depth", KEY_INT), .low = 1, .high = 10000,
-     .doc = "Most bounces of a path; 1 = direct light only."},
+     .doc =
+         "Most bounces of a path; 1 = direct light only. Glass and leaves need more than stone."},
     {KEY_OF(RenderParams, roulette_depth, "roulette_depth", KEY_INT), .high = 10000,
      .doc = "Bounces before Russian roulette may end a path early; max_depth = never."},
     {KEY_OF(RenderParams, clamp, "clamp", KEY_FLOAT), .high = 1e9,
@@ -101,7 +109,9 @@ static const Key RENDER_KEYS[] = {
 };
 
 static const Table RENDER_TABLE = {.name = "render",
-                                   .doc = "The path tracer's effort.",
+                                   .doc = "How long and how hard the path tracer works.",
+                                   .example =
+                                       "render: {samples: 256, max_depth: 12, noise: 0.02}\n",
                                    .size = sizeof(RenderParams),
                                    .keys = RENDER_KEYS};
 
@@ -124,12 +134,19 @@ static void target_defaults(const Node *given, int kind, void *out)
     *(SceneTarget *)out = (SceneTarget){.low = -TARGET_NO_BOUND, .high = TARGET_NO_BOUND};
 }
 
-static const Table TARGET_TABLE = {.name = "target",
-                                   .doc = "A number that the scene is held to.",
-                                   .size = sizeof(SceneTarget),
-                                   .keys = TARGET_KEYS,
-                                   .defaults = target_defaults,
-                                   .check = check_target};
+static const Table TARGET_TABLE = {
+    .name = "target",
+    .doc = "A number that the scene is held to: `ramify measure` "
+           "says whether it is met, and fails when it is not.",
+    .example = "objects:\n"
+               "  - name: oak\n"
+               "    tree: {}\n"
+               "targets:\n"
+               "  - {object: oak, measure: branch_angle, low: 30, high: 70}\n",
+    .size = sizeof(SceneTarget),
+    .keys = TARGET_KEYS,
+    .defaults = target_defaults,
+    .check = check_target};
 
 static const Key SCENE_KEYS[] = {
     {KEY_OF(Scene, seed, "seed", KEY_UINT64), .high = 18446744073709551615.0,
@@ -142,7 +159,7 @@ static const Key SCENE_KEYS[] = {
      .table = &FILM_TABLE,
      .doc = "The picture's size and its development."},
     {KEY_OF(Scene, render, "render", KEY_GROUP), .table = &RENDER_TABLE,
-     .doc = "The path tracer's effort."},
+     .doc = "How long and how hard the path tracer works."},
     {KEY_OF(Scene, sky, "sky", KEY_GROUP), .table = &sky_table,
      .doc = "What lights the scene from all around."},
     {KEY_OF(Scene, medium, "medium", KEY_POINTER), .table = &medium_table,
@@ -151,9 +168,10 @@ static const Key SCENE_KEYS[] = {
      .count = 100000, .table = &light_table, .doc = "Lamps."},
     {KEY_OF(Scene, materials, "materials", KEY_LIST),
      .count_offset = offsetof(Scene, material_count), .count = 10000, .table = &material_table,
-     .doc = "Materials that objects name. bark, twig, leaf, ground, grass, fallen, ice, "
-            "rime, soap_film, lightning, coral, coral_polyp, reef_rock and clay are "
-            "there already; an entry of such a name changes it."},
+     .doc = "Materials that objects name. bark, twig, leaf, ground, grass, fallen, conifer, ice, "
+            "rime, soap_film, copper, lightning, coral, coral_polyp, reef_rock, mountain, "
+            "badlands, lake, artery, vein, leaf_vein, broken and clay are there already; an entry "
+            "of such a name changes it."},
     {KEY_OF(Scene, objects, "objects", KEY_LIST), .count_offset = offsetof(Scene, object_count),
      .flags = KEY_REQUIRED, .low = 1, .count = 10000, .table = &object_table,
      .doc = "What there is to see."},
@@ -187,6 +205,16 @@ static void scene_defaults(const Node *given, int kind, void *out)
 const Table scene_table = {.name = "scene",
                            .doc = "A ramify scene: one file becomes one picture. Metres, degrees, "
                                   "Y up, right-handed, linear Rec. 709 colours.",
+                           .example =
+                               "seed: 7\n"
+                               "camera: {position: [0, 1.7, 26], target: [0, 6.2, 0], fov: 34}\n"
+                               "film: {auto_exposure: true}\n"
+                               "sky: {kind: sun_sky, sun_elevation: 14, sun_azimuth: 60}\n"
+                               "objects:\n"
+                               "  - name: meadow\n"
+                               "    ground: {}\n"
+                               "  - name: oak\n"
+                               "    tree: {height: 14}\n",
                            .size = sizeof(Scene),
                            .keys = SCENE_KEYS,
                            .defaults = scene_defaults,

@@ -6,7 +6,7 @@ static const Key SCULPTURE_KEYS[] = {
     {KEY_OF(SculptureParams, clusters, "clusters", KEY_INT), .low = 1, .high = 10000,
      .doc = "Roots, spread evenly over the surface; their clusters merge where they meet."},
     {KEY_OF(SculptureParams, attractors, "attractors", KEY_INT64), .low = 1, .high = 1e6,
-     .doc = "How fine the shell is, where growth.levels are left out."},
+     .doc = "Attractors of the shell, where growth.levels are left out: more make it finer."},
     {KEY_OF(SculptureParams, thickness, "thickness", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
      .unit = "spacings", .doc = "Thickness of the thinnest bars."},
     {KEY_OF(SculptureParams, contrast, "contrast", KEY_FLOAT), .low = 1, .high = 100,
@@ -26,8 +26,12 @@ static void sculpture_defaults(const Node *given, int kind, void *out)
 
 const Table sculpture_table = {
     .name = "sculpture",
-    .doc = "A hollow branch sculpture (Tanaka et al., section 2.4): clusters grown over the "
+    .doc = "A hollow sculpture of branches (Tanaka et al., section 2.4): clusters grown over the "
            "envelope's surface, merged into one shell of round bars.",
+    .example =
+        "objects:\n"
+        "  - name: lampshade\n"
+        "    sculpture: {envelope: [{shape: ellipsoid, size: [0.2, 0.3, 0.2]}], clusters: 7}\n",
     .size = sizeof(SculptureParams),
     .keys = SCULPTURE_KEYS,
     .defaults = sculpture_defaults,

@@ -13,13 +13,15 @@ static const cyaml_strval_t SKY_KINDS[] = {
 
 static const Key SKY_KEYS[] = {
     {KEY_OF(Sky, kind, "kind", KEY_ENUM), .names = SKY_KINDS,
-     .doc = "sun_sky: a clear day computed from the sun's place; environment: an HDR panorama; "
-            "constant: one colour all around; night: stars and airglow, as an exposure for the "
-            "night shows them; none: black."},
+     .doc = "sun_sky: a clear day, dusk or dawn computed from the sun's place; environment: an HDR "
+            "panorama from a file; constant: one colour all around; night: stars, airglow and the "
+            "moon, as an exposure for the night shows them; none: black."},
     {KEY_OF(Sky, color, "color", KEY_COLOR), .kinds = BIT(SKY_CONSTANT), .high = 1e9,
      .unit = "W/(m^2 sr)", .doc = "Radiance of the whole sky."},
     {KEY_OF(Sky, sun_elevation, "sun_elevation", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = -10,
-     .high = 90, .unit = "degrees", .doc = "Height of the sun above the horizon."},
+     .high = 90, .unit = "degrees",
+     .doc = "Height of the sun above the horizon: 2 to 6 makes long shadows and warm light; below "
+            "-1 it has set."},
     {KEY_OF(Sky, sun_azimuth, "sun_azimuth", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = -360,
      .high = 360, .unit = "degrees", .doc = "Where the sun stands, from +Z toward +X."},
     {KEY_OF(Sky, sun_size, "sun_size", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .flags = KEY_ABOVE,
@@ -28,7 +30,9 @@ static const Key SKY_KEYS[] = {
     {KEY_OF(Sky, sun_strength, "sun_strength", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1e6,
      .doc = "Factor on the sun alone; 1 = physical, 0 = no sun."},
     {KEY_OF(Sky, turbidity, "turbidity", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = 1,
-     .high = 10, .doc = "1 = pure air, 2 to 3 = clear, 6 and more = hazy."},
+     .high = 10,
+     .doc = "Haze in the air: 1 = pure air, 2 to 3 = clear, 6 and more = hazy, with a pale sky and "
+            "a red sun."},
     {KEY_OF(Sky, ground_albedo, "ground_albedo", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1,
      .doc = "Reflectance of the land below, which brightens the sky."},
     {KEY_OF(Sky, clouds, "clouds", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1,
@@ -60,11 +64,14 @@ static const Key SKY_KEYS[] = {
     {0},
 };
 
-const Table sky_table = {.name = "sky",
-                         .doc = "What lights the scene from all around.",
-                         .size = sizeof(Sky),
-                         .keys = SKY_KEYS,
-                         .kind_key = "kind"};
+const Table sky_table = {
+    .name = "sky",
+    .doc = "What lights the scene from all around.",
+    .example =
+        "sky: {kind: sun_sky, sun_elevation: 4, sun_azimuth: 200, turbidity: 4, clouds: 0.3}\n",
+    .size = sizeof(Sky),
+    .keys = SKY_KEYS,
+    .kind_key = "kind"};
 
 static const cyaml_strval_t LIGHT_KINDS[] = {{"quad", LIGHT_QUAD}, {"sphere", LIGHT_SPHERE}, {0}};
 
@@ -72,7 +79,8 @@ static const Key LIGHT_KEYS[] = {
     {KEY_OF(Light, kind, "kind", KEY_ENUM), .flags = KEY_REQUIRED, .names = LIGHT_KINDS,
      .doc = "quad: a parallelogram that shines to one side; sphere: a ball."},
     {KEY_OF(Light, radiance, "radiance", KEY_COLOR), .high = 1e12, .unit = "W/(m^2 sr)",
-     .doc = "Light per area and solid angle."},
+     .doc = "Light that it sends out, per area and solid angle: halve the area, double this, and "
+            "the scene is as bright."},
     {KEY_OF(Light, center, "center", KEY_VECTOR), .count = 3, .kinds = BIT(LIGHT_SPHERE),
      .unit = "m", .doc = "Middle of the ball."},
     {KEY_OF(Light, radius, "radius", KEY_FLOAT), .kinds = BIT(LIGHT_SPHERE), .flags = KEY_ABOVE,
@@ -99,10 +107,15 @@ static void light_defaults(const Node *given, int kind, void *out)
                             .edge_v = {0, 0, 1}};
 }
 
-const Table light_table = {.name = "light",
-                           .doc = "A lamp.",
-                           .size = sizeof(Light),
-                           .keys = LIGHT_KEYS,
-                           .kind_key = "kind",
-                           .defaults = light_defaults,
-                           .check = check_light};
+const Table light_table = {
+    .name = "light",
+    .doc = "A lamp: a panel or a glowing ball.",
+    .example =
+        "lights:\n"
+        "  - {kind: quad, corner: [-1, 3, 1], edge_u: [2, 0, 0], edge_v: [0, 0, 1], radiance: 8}\n"
+        "  - {kind: sphere, center: [1, 0.5, 2], radius: 0.1, radiance: [40, 25, 10]}\n",
+    .size = sizeof(Light),
+    .keys = LIGHT_KEYS,
+    .kind_key = "kind",
+    .defaults = light_defaults,
+    .check = check_light};

@@ -61,13 +61,14 @@ static const Key RIVER_KEYS[] = {
     {KEY_OF(RiverParams, winding, "winding", KEY_FLOAT), .high = 1,
      .doc = "How far rivers wind: noise of their growth and the windings laid over main rivers."},
     {KEY_OF(RiverParams, gradient, "gradient", KEY_FLOAT), .high = 0.9,
-     .doc = "Of brooks, as a share of the slopes' gradient."},
+     .doc = "Gradient of brooks, as a share of the slopes' gradient."},
     {KEY_OF(RiverParams, concavity, "concavity", KEY_FLOAT), .high = 2,
      .doc = "Exponent by which rivers flatten as they gather water; 0.42 in nature."},
     {KEY_OF(RiverParams, valley, "valley", KEY_FLOAT), .high = 1,
      .doc = "Half width of valley floors, as a share of the root of the drainage area."},
     {KEY_OF(RiverParams, water, "water", KEY_FLOAT), .high = 1,
-     .doc = "Half width of the water, likewise; 0 = dry."},
+     .doc =
+         "Half width of the water, likewise as a share of the root of the drainage area; 0 = dry."},
     {KEY_OF(RiverParams, fields, "fields", KEY_LIST),
      .count_offset = offsetof(RiverParams, field_count), .count = 100, .table = &guide_field_table,
      .doc = "Guide vector fields that steer the rivers' growth, summed with their weights."},
@@ -85,11 +86,12 @@ static const Key NOISE_KEYS[] = {
     {KEY_OF(TerrainNoiseParams, iterations, "iterations", KEY_INT), .high = 16,
      .doc = "Octaves of sparse convolution noise (Tanaka et al., eq. (16)); 0 = none."},
     {KEY_OF(TerrainNoiseParams, amplitude, "amplitude", KEY_FLOAT), .high = 10,
-     .doc = "Height of the first, as a share of its wavelength and of the slopes' gradient."},
+     .doc =
+         "Height of the first octave, as a share of its wavelength and of the slopes' gradient."},
     {KEY_OF(TerrainNoiseParams, wavelength, "wavelength", KEY_FLOAT), .high = 10, .unit = "sizes",
-     .doc = "Of the first; 0 = a few brooks apart."},
+     .doc = "Wavelength of the first octave; 0 = a few brooks apart."},
     {KEY_OF(TerrainNoiseParams, gain, "gain", KEY_FLOAT), .high = 1,
-     .doc = "Height of each as a share of the one before."},
+     .doc = "Height of each octave as a share of the one before."},
     {KEY_OF(TerrainNoiseParams, ridged, "ridged", KEY_FLOAT), .high = 1,
      .doc = "0 = round, 1 = with sharp crests."},
     {KEY_OF(TerrainNoiseParams, warp, "warp", KEY_FLOAT), .high = 2,
@@ -108,7 +110,7 @@ static const Key EROSION_KEYS[] = {
     {KEY_OF(TerrainErosionParams, thermal, "thermal", KEY_FLOAT), .high = 10,
      .doc = "How much of what stands too steep falls down; 0 = nothing, 1 = most."},
     {KEY_OF(TerrainErosionParams, talus, "talus", KEY_FLOAT), .low = 1, .high = 89,
-     .unit = "degrees", .doc = "Steepest slope at which rubble lies."},
+     .unit = "degrees", .doc = "Steepest slope on which rubble stays."},
     {0},
 };
 
@@ -134,11 +136,11 @@ static const Key FOREST_KEYS[] = {
     {KEY_OF(TerrainForestParams, count, "count", KEY_INT), .high = 1e7,
      .doc = "Most conifers; 0 = none. Far ones are left out first."},
     {KEY_OF(TerrainForestParams, height, "height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
-     .unit = "m", .doc = "Of the tallest."},
+     .unit = "m", .doc = "Height of the tallest."},
     {KEY_OF(TerrainForestParams, low, "low", KEY_FLOAT), .high = 1,
-     .doc = "Altitude of the lowest, a share of the relief."},
+     .doc = "Altitude of the lowest trees, a share of the relief."},
     {KEY_OF(TerrainForestParams, high, "high", KEY_FLOAT), .high = 1,
-     .doc = "Altitude of the tree line."},
+     .doc = "Altitude of the tree line, a share of the relief."},
     {KEY_OF(TerrainForestParams, slope, "slope", KEY_FLOAT), .high = 89, .unit = "degrees",
      .doc = "None grow on steeper land."},
     {KEY_OF(TerrainForestParams, clumping, "clumping", KEY_FLOAT), .high = 1,
@@ -165,7 +167,7 @@ static const Key TERRAIN_KEYS[] = {
     {KEY_OF(TerrainParams, uplift, "uplift", KEY_GROUP), .table = &UPLIFT_TABLE,
      .doc = "Where the land rises."},
     {KEY_OF(TerrainParams, rivers, "rivers", KEY_GROUP), .table = &RIVER_TABLE,
-     .doc = "The rivers."},
+     .doc = "The rivers that the land follows."},
     {KEY_OF(TerrainParams, noise, "noise", KEY_GROUP), .table = &NOISE_TABLE,
      .doc = "Fine erosion by sparse convolution noise."},
     {KEY_OF(TerrainParams, erosion, "erosion", KEY_GROUP), .table = &EROSION_TABLE,
@@ -186,9 +188,18 @@ static void terrain_defaults(const Node *given, int kind, void *out)
     *(TerrainParams *)out = terrain_params_default();
 }
 
-const Table terrain_table = {.name = "terrain",
-                             .doc = "Mountains, valleys and rivers (Tanaka et al., section 5.5).",
-                             .size = sizeof(TerrainParams),
-                             .keys = TERRAIN_KEYS,
-                             .defaults = terrain_defaults,
-                             .check = check_terrain};
+const Table terrain_table = {
+    .name = "terrain",
+    .doc = "Mountains, valleys and rivers (Tanaka et al., section 5.5): rivers grow first, and the "
+           "land is what stands between them. Materials: mountain, lake.",
+    .example =
+        "objects:\n"
+        "  - name: range\n"
+        "    terrain:\n"
+        "      size: 8000\n"
+        "      uplift: {base: 0.3, strokes: [{from: [-0.3, 0], to: [0.3, 0.1], strength: 3}]}\n"
+        "      rivers: {outlets: 3, side: south}\n",
+    .size = sizeof(TerrainParams),
+    .keys = TERRAIN_KEYS,
+    .defaults = terrain_defaults,
+    .check = check_terrain};

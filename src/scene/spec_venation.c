@@ -16,9 +16,9 @@ static const Key VENATION_KEYS[] = {
     {KEY_OF(VenationParams, outline.tip, "tip", KEY_FLOAT), .low = 0.2, .high = 10,
      .doc = "How pointed base and tip are: 1 = an ellipse's, 2 = drawn out."},
     {KEY_OF(VenationParams, closed, "closed", KEY_BOOL),
-     .doc = "Veins that meet in loops; else a tree."},
+     .doc = "Veins meet in loops, as in most leaves; false: they are a tree."},
     {KEY_OF(VenationParams, marginal, "marginal", KEY_BOOL),
-     .doc = "The blade grows at its margin; else evenly, taking its veins along."},
+     .doc = "The blade grows at its margin; false: evenly everywhere, taking its veins along."},
     {KEY_OF(VenationParams, detail, "detail", KEY_INT), .low = 4, .high = 2000,
      .doc = "Meshes of the net of veins along the leaf's length."},
     {KEY_OF(VenationParams, midrib, "midrib", KEY_FLOAT), .high = 100, .unit = "m",
@@ -32,7 +32,7 @@ static const Key VENATION_KEYS[] = {
     {KEY_OF(VenationParams, fold, "fold", KEY_FLOAT), .low = -80, .high = 80, .unit = "degrees",
      .doc = "How far each half is folded up about the midrib."},
     {KEY_OF(VenationParams, blade, "blade", KEY_BOOL),
-     .doc = "With the blade between the veins; else a skeleton leaf."},
+     .doc = "With the blade between the veins; false: a skeleton leaf."},
     {0},
 };
 
@@ -43,8 +43,12 @@ static void venation_defaults(const Node *given, int kind, void *out)
     *(VenationParams *)out = venation_params_default();
 }
 
-const Table venation_table = {.name = "venation",
-                              .doc = "A leaf and its veins (Runions et al. 2005).",
-                              .size = sizeof(VenationParams),
-                              .keys = VENATION_KEYS,
-                              .defaults = venation_defaults};
+const Table venation_table = {
+    .name = "venation",
+    .doc = "A single leaf with its net of veins (Runions et al. 2005). Materials: leaf, leaf_vein.",
+    .example = "objects:\n"
+               "  - name: blade\n"
+               "    venation: {length: 0.12, width: 0.07, detail: 60}\n",
+    .size = sizeof(VenationParams),
+    .keys = VENATION_KEYS,
+    .defaults = venation_defaults};

@@ -41,7 +41,11 @@ static void vessels_defaults(const Node *given, int kind, void *out)
 const Table vessels_table = {
     .name = "vessels",
     .doc = "Blood vessels that fill an organ or a body (Tanaka et al., section 5.4): radii and "
-           "angles by Murray's laws. envelope must be given.",
+           "angles by Murray's laws. The envelope must be given. Materials: artery, vein.",
+    .example = "objects:\n"
+               "  - name: organ\n"
+               "    vessels: {envelope: [{shape: ellipsoid, size: [0.05, 0.03, 0.04]}], terminals: "
+               "3000}\n",
     .size = sizeof(VesselsParams),
     .keys = VESSELS_KEYS,
     .defaults = vessels_defaults,

@@ -434,6 +434,62 @@ static void the_schema_has_every_key(void **state)
     free(schema);
 }
 
+// Replaces every "NAME" by a and every "N" between dots by 0.
+static void name_path(const char *path, size_t length, char *out)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < length; i++) {
+        bool name = strncmp(path + i, "NAME", 4) == 0, number = !name && path[i] == 'N';
+        out[used++] = name ? 'a' : number ? '0' : path[i];
+        i += name ? 3 : 0;
+    }
+    out[used] = 0;
+}
+
+static const char *message_of(const char *text, const char *path)
+{
+    static Error e;
+    e = (Error){0};
+    char override[300];
+    snprintf(override, sizeof override, "%s={}", path);
+    const char *overrides[] = {override};
+    scene_free(scene_read_text(text, strlen(text), "scene", "", overrides, 1, &e));
+    return e.message;
+}
+
+// A path that --set does not know would be completed by shells and then refused.
+static void every_path_can_be_set(void **state)
+{
+    (void)state;
+    Error e = {0};
+    char *paths = scene_schema_paths(&e);
+    assert_non_null(paths);
+    int count = 0;
+    for (const char *line = paths; *line; line = strchr(line, '\n') + 1) {
+        char path[200], text[300];
+        name_path(line, strcspn(line, "\n"), path);
+        const char *kind = "tree";
+        int length = 4;
+        if (strncmp(path, "objects.a.", 10) == 0 && strchr(path + 10, '.')) {
+            kind = path + 10;
+            length = (int)strcspn(kind, ".");
+        }
+        snprintf(text, sizeof text,
+                 "lights: [{kind: quad}]\nmaterials: [{name: a}]\n"
+                 "targets: [{object: a, measure: m}]\nobjects: [{name: a, %.*s: {}}]",
+                 length, kind);
+        const char *message = message_of(text, path);
+        if (strstr(message, "unknown key")) {
+            fail_msg("%s: %s", path, message);
+        }
+        count++;
+    }
+    assert_true(count > 500);
+    assert_non_null(
+        strstr(message_of("objects: [{name: a, tree: {}}]", "camera.fvo"), "unknown key"));
+    free(paths);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -454,6 +510,7 @@ int main(void)
         cmocka_unit_test(no_table_has_a_key_twice),
         cmocka_unit_test(the_schema_is_json),
         cmocka_unit_test(the_schema_has_every_key),
+        cmocka_unit_test(every_path_can_be_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

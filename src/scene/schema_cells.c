@@ -1,0 +1,223 @@
+#include "scene/schema_cells.h"
+
+#include "scene/scene.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_DEFAULTS 16
+
+typedef struct Default {
+    const char *text;
+    char where[512]; // the places or kinds that have it
+    int count;
+} Default;
+
+size_t schema_label_length(const Key *row, const char *at)
+{
+    if (at > row->doc && at[-1] != ' ') {
+        return 0;
+    }
+    for (const cyaml_strval_t *n = row->names; n && n->str; n++) {
+        size_t length = strlen(n->str);
+        if (strncmp(at, n->str, length) == 0 && at[length] == ':') {
+            return length;
+        }
+    }
+    return 0;
+}
+
+void schema_put_doc(SchemaText *s, const Key *row, const char *doc, size_t count)
+{
+    for (const char *at = doc; at < doc + count && *at; at++) {
+        size_t label = row ? schema_label_length(row, at) : 0;
+        if (label > 0) {
+            schema_put(s, "`%.*s`", (int)label, at);
+            at += label - 1;
+        } else {
+            schema_put(s, strchr("|<*", *at) ? "\\%c" : "%c", *at);
+        }
+    }
+}
+
+void schema_put_link(SchemaText *s, const char *text, const char *title)
+{
+    schema_put(s, "[%s](#", text);
+    for (; *title; title++) {
+        schema_put(s, "%c", *title == ' ' ? '-' : *title);
+    }
+    schema_put(s, ")");
+}
+
+static const char *section_title(const Outline *o, const Table *table)
+{
+    for (int i = 0; i < o->count; i++) {
+        if (o->sections[i].table == table) {
+            return o->sections[i].title;
+        }
+    }
+    return table->name;
+}
+
+// 1e6 and beyond as powers of ten where that is exact: nobody counts zeros.
+static void put_number(SchemaText *s, double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.0e", value);
+    if (fabs(value) >= 1e6 && strtod(text, NULL) == value) {
+        schema_put(s, "%.*se%d", (int)strcspn(text, "e"), text, atoi(strchr(text, 'e') + 1));
+    } else {
+        schema_put(s, "%.15g", value);
+    }
+}
+
+// "0 to 90 degrees", "above 0, below 1"; first: what stands before it.
+static void put_range(SchemaText *s, const Key *row, const char *first)
+{
+    bool open = row->low == 0.0 && row->high == 0.0;
+    if (row->type == KEY_UINT64) {
+        schema_put(s, "%s0 or more", first);
+    } else if (!open) {
+        bool above = row->flags & KEY_ABOVE, below = row->flags & KEY_BELOW;
+        schema_put(s, "%s%s", first, above ? "above " : below ? "from " : "");
+        put_number(s, row->low);
+        schema_put(s, "%s", below ? ", below " : above ? ", up to " : " to ");
+        put_number(s, row->high);
+    }
+    if (row->unit) {
+        schema_put(s, "%s%s", open ? ", in " : " ", row->unit);
+    }
+}
+
+static void put_names(SchemaText *s, const Key *row)
+{
+    for (const cyaml_strval_t *n = row->names; n->str; n++) {
+        schema_put(s, "%s`%s`", n == row->names ? "" : ", ", n->str);
+    }
+}
+
+static void put_vector(SchemaText *s, const Key *row)
+{
+    static const char *const SPELLED[] = {"", "", "[a, b]", "[x, y, z]", "[a, b, c, d]"};
+    schema_put(s, "%s%s", row->flags & KEY_SPLAT ? "number or " : "", SPELLED[row->count]);
+    put_range(s, row, ", each ");
+}
+
+void schema_put_value(SchemaText *s, const Outline *o, const Key *row)
+{
+    switch (row->type) {
+    case KEY_BOOL:
+        schema_put(s, "true or false");
+        break;
+    case KEY_INT:
+    case KEY_INT64:
+    case KEY_UINT64:
+        schema_put(s, "whole number");
+        put_range(s, row, ", ");
+        break;
+    case KEY_FLOAT:
+    case KEY_DOUBLE:
+        schema_put(s, "number");
+        put_range(s, row, ", ");
+        break;
+    case KEY_ENUM:
+        put_names(s, row);
+        break;
+    case KEY_TEXT:
+    case KEY_NAME:
+        schema_put(s, "text");
+        break;
+    case KEY_ANY:
+        schema_put(s, "number, word or list of numbers");
+        break;
+    case KEY_FILE:
+        schema_put(s, "file");
+        break;
+    case KEY_COLOR:
+        schema_put(s, "colour");
+        put_range(s, row, ", each ");
+        break;
+    case KEY_GROUP:
+    case KEY_POINTER:
+        schema_put_link(s, section_title(o, row->table), section_title(o, row->table));
+        break;
+    case KEY_LIST:
+        schema_put_link(s, "list", section_title(o, row->table));
+        break;
+    default:
+        put_vector(s, row);
+    }
+}
+
+static const char *default_text(SchemaText *s, const Key *row, const char *base)
+{
+    const Node *node = schema_default(s, row, base);
+    if (!node || node->kind == NODE_SCALAR) {
+        bool open =
+            node && row->type == KEY_DOUBLE && fabs(strtod(node->text, NULL)) >= TARGET_NO_BOUND;
+        return node && !open ? node->text : "";
+    }
+    const char *text = "[";
+    for (const Node *item = node->first; item && text; item = item->next) {
+        text = arena_format(s->resolver.arena, s->resolver.e, "%s%s%s", text, item->text,
+                            item->next ? ", " : "]");
+    }
+    s->failed |= !text;
+    return text ? text : "";
+}
+
+static void add_default(Default *found, int *count, const char *text, const char *where)
+{
+    int i = 0;
+    while (i < *count && strcmp(found[i].text, text) != 0) {
+        i++;
+    }
+    if (i == MOST_DEFAULTS) {
+        return;
+    }
+    if (i == *count) {
+        found[(*count)++] = (Default){.text = text};
+    }
+    size_t used = strlen(found[i].where);
+    snprintf(found[i].where + used, sizeof found[i].where - used, "%s%s", used ? ", " : "", where);
+    found[i].count++;
+}
+
+void schema_put_default(SchemaText *s, const OutlineSection *section, const Key *row)
+{
+    const Table *table = section->table;
+    const Key *kinds = table->kind_key ? table_find(table, table->kind_key) : NULL;
+    Default found[MOST_DEFAULTS];
+    int count = 0, most = 0;
+    for (int i = 0; i < section->place_count; i++) {
+        const OutlinePlace *place = &section->places[i];
+        bool by_kind = kinds && row != kinds && table->defaults;
+        for (const cyaml_strval_t *n = by_kind ? kinds->names : NULL; n && n->str; n++) {
+            if (key_in_kind(row, (int)n->val)) {
+                const char *base = schema_base(s, table, (int)n->val, place->base);
+                const char *text = default_text(s, row, base);
+                add_default(found, &count, text, n->str);
+            }
+        }
+        if (!by_kind) {
+            const char *holder = strrchr(place->title, ' ');
+            size_t length = holder ? (size_t)(holder - place->title) : strlen(place->title);
+            const char *where = arena_text(s->resolver.arena, place->title, length, s->resolver.e);
+            add_default(found, &count, default_text(s, row, place->base), where ? where : "");
+        }
+    }
+    for (int i = 1; i < count; i++) {
+        most = found[i].count > found[most].count ? i : most;
+    }
+    if (count > 0 && *found[most].text) {
+        schema_put(s, "`%s`", found[most].text);
+    }
+    for (int i = 0; i < count; i++) {
+        if (i != most) {
+            schema_put(s, *found[i].text ? "<br>%s: `%s`" : "<br>%s: none%s", found[i].where,
+                       found[i].text);
+        }
+    }
+}

@@ -1,0 +1,189 @@
+// The reference of scene files (docs/scene.md) and the list of all their keys' paths, written from
+// the tables of spec.h.
+#include "scene/scene.h"
+#include "scene/schema_cells.h"
+#include "scene/schema_intro.h"
+
+#include <string.h>
+
+// "Only of leaf." or "Not of emission.": the shorter of the two.
+static void put_kinds_of(SchemaText *s, const Table *table, const Key *row)
+{
+    const Key *kinds = row->kinds ? table_find(table, table->kind_key) : NULL;
+    int with = 0, without = 0;
+    for (const cyaml_strval_t *n = kinds ? kinds->names : NULL; n && n->str; n++) {
+        with += key_in_kind(row, (int)n->val);
+        without += !key_in_kind(row, (int)n->val);
+    }
+    bool only = with <= without;
+    const char *before = only ? " *Only of " : " *Not of ";
+    for (const cyaml_strval_t *n = kinds ? kinds->names : NULL; n && n->str && without; n++) {
+        if (key_in_kind(row, (int)n->val) == only) {
+            schema_put(s, "%s%s", before, n->str);
+            before = ", ";
+        }
+    }
+    schema_put(s, "%s", kinds && without ? ".*" : "");
+}
+
+static void put_key(SchemaText *s, const Outline *o, const OutlineSection *section, const Key *row)
+{
+    const Table *table = section->table;
+    schema_put(s, "| `%s` | ", row->key);
+    schema_put_value(s, o, row);
+    schema_put(s, " | ");
+    if (row->flags & KEY_REQUIRED) {
+        schema_put(s, "*required*");
+    } else {
+        schema_put_default(s, section, row);
+    }
+    schema_put(s, " | ");
+    if (table->kind_key && row == table_find(table, table->kind_key)) {
+        schema_put(s, "Which of those above.");
+    } else {
+        schema_put_doc(s, row, row->doc, strlen(row->doc));
+    }
+    put_kinds_of(s, table, row);
+    schema_put(s, " |\n");
+}
+
+// What the kind key's documentation says of one kind: from its name to the next one's.
+static void put_kind_doc(SchemaText *s, const Key *row, const char *name)
+{
+    for (const char *at = row->doc; *at; at++) {
+        size_t length = schema_label_length(row, at);
+        if (length == strlen(name) && strncmp(at, name, length) == 0) {
+            const char *end = at + length + 1;
+            while (*end && !schema_label_length(row, end)) {
+                end++;
+            }
+            end -= *end ? 2 : 1; // "; " or "."
+            schema_put(s, ": ");
+            schema_put_doc(s, row, at + length + 2, (size_t)(end - at) - length - 2);
+        }
+    }
+}
+
+static void put_kinds(SchemaText *s, const Table *table)
+{
+    const Key *kinds = table_find(table, table->kind_key);
+    schema_put(s, "`%s` says which:\n\n", table->kind_key);
+    for (const cyaml_strval_t *n = kinds->names; n->str; n++) {
+        schema_put(s, "- `%s`", n->str);
+        put_kind_doc(s, kinds, n->str);
+        const char *before = ". Its keys: ";
+        for (const Key *row = table->keys; row->key; row++) {
+            if (row != kinds && !(row->flags & KEY_HIDDEN) && key_in_kind(row, (int)n->val)) {
+                schema_put(s, "%s`%s`", before, row->key);
+                before = ", ";
+            }
+        }
+        schema_put(s, ".\n");
+    }
+    schema_put(s, "\n");
+}
+
+static void put_places(SchemaText *s, const Outline *o, const OutlineSection *section)
+{
+    if (section->place_count == 1) {
+        schema_put(s, "Path: `%s`.\n\n", section->places[0].path);
+        return;
+    }
+    const char *key = section->places[0].key;
+    bool list = strcmp(section->table->name, key) != 0;
+    schema_put(s, "%s`%s` of ", list ? "An entry of " : "", key);
+    for (int i = 0; i < section->place_count; i++) {
+        const OutlinePlace *place = &section->places[i];
+        bool seen = false;
+        for (int k = 0; k < i; k++) {
+            seen |= section->places[k].parent == place->parent;
+        }
+        if (!seen) {
+            schema_put(s, "%s", i ? ", " : "");
+            const char *title = o->sections[place->parent].title;
+            schema_put_link(s, title, title);
+        }
+        if (!seen && strcmp(place->key, key) != 0) {
+            schema_put(s, " (`%s`)", place->key);
+        }
+    }
+    schema_put(s, ".\n\n");
+}
+
+static void put_section(SchemaText *s, const Outline *o, const OutlineSection *section)
+{
+    const Table *table = section->table;
+    schema_put(s, "\n%s %s\n\n", section->depth ? "###" : "##", section->title);
+    schema_put_doc(s, NULL, table->doc, strlen(table->doc));
+    schema_put(s, "\n\n");
+    if (section != &o->sections[0]) {
+        put_places(s, o, section);
+    }
+    if (table->example) {
+        schema_put(s, "```yaml\n%s```\n\n", table->example);
+    }
+    if (table->kind_key) {
+        put_kinds(s, table);
+    }
+    schema_put(s, "| key | value | default | what it does |\n|---|---|---|---|\n");
+    for (const Key *row = table->keys; row->key; row++) {
+        if (!(row->flags & KEY_HIDDEN)) {
+            put_key(s, o, section, row);
+        }
+    }
+}
+
+static void put_contents(SchemaText *s, const Outline *o)
+{
+    schema_put(s, "\n## Contents\n\n");
+    bool shared = false;
+    for (int i = 0; i < o->count; i++) {
+        const OutlineSection *section = &o->sections[i];
+        if (!shared && section->place_count > 1) {
+            schema_put(s, "- parts that several of them have\n");
+            shared = true;
+        }
+        schema_put(s, "%s- ", section->depth || shared ? "  " : "");
+        schema_put_link(s, section->title, section->title);
+        schema_put(s, "\n");
+    }
+}
+
+static void put_reference(SchemaText *s)
+{
+    const Outline *o = outline_new(s);
+    if (!o) {
+        return;
+    }
+    schema_put(s, "%s", SCHEMA_INTRO);
+    put_contents(s, o);
+    for (int i = 0; i < o->count; i++) {
+        put_section(s, o, &o->sections[i]);
+    }
+}
+
+static void put_paths(SchemaText *s)
+{
+    const Outline *o = outline_new(s);
+    for (int i = 0; o && i < o->count; i++) {
+        const OutlineSection *section = &o->sections[i];
+        for (int p = 0; p < section->place_count; p++) {
+            for (const Key *row = section->table->keys; row->key; row++) {
+                if (!row->table && !(row->flags & KEY_HIDDEN)) {
+                    const char *path = section->places[p].path;
+                    schema_put(s, "%s%s%s\n", path, *path ? "." : "", row->key);
+                }
+            }
+        }
+    }
+}
+
+char *scene_schema_markdown(Error *e)
+{
+    return schema_write(put_reference, e);
+}
+
+char *scene_schema_paths(Error *e)
+{
+    return schema_write(put_paths, e);
+}
