@@ -323,10 +323,44 @@ RAMIFY_API void ramify_world_part(const RamifyWorld *world, int64_t index, Ramif
 
 // ---- export ----
 
+// How instances are written by formats that can keep them.
+typedef enum RamifyInstances {
+    RAMIFY_INSTANCES_AUTO,  // as the format does best (docs/formats.md)
+    RAMIFY_INSTANCES_NODES, // each names the same mesh
+    RAMIFY_INSTANCES_GPU,   // .glb: EXT_mesh_gpu_instancing
+    RAMIFY_INSTANCES_FLAT   // each a copy of the mesh
+} RamifyInstances;
+
+// What the colours of vertices show.
+typedef enum RamifyColors {
+    RAMIFY_COLORS_ALL,     // patterns, and growth as a second set where a format has two
+    RAMIFY_COLORS_PATTERN, // what procedural patterns look like
+    RAMIFY_COLORS_GROWTH,  // red: birth, 0..1; green: radius over the largest of the part
+    RAMIFY_COLORS_NONE
+} RamifyColors;
+
+// {0} is what is best for most.
+typedef struct RamifyExportOptions {
+    const char *const *objects; // names of the only objects to write
+    int object_count;           // 0 = all
+    RamifyInstances instances;
+    RamifyColors colors;
+    int tube_sides; // of curves written as tubes, 3..64; 0 = 6
+} RamifyExportOptions;
+
+// What was written, with instances written out and curves as tubes; 0 where a format has no
+// surfaces.
+typedef struct RamifyExportReport {
+    int64_t vertices, triangles;
+    float low[3], high[3]; // bounds, m
+    int64_t bytes;         // of the file
+} RamifyExportReport;
+
 // Grows, skins and places what the format of the file's ending needs, and writes it. Written beside
-// and renamed: a failure never harms an existing file. run may be NULL.
-RAMIFY_API bool ramify_export(const RamifyScene *scene, const char *file, const RamifyRun *run,
-                              RamifyError *error);
+// and renamed: a failure never harms an existing file. options, run and report may be NULL.
+RAMIFY_API bool ramify_export(const RamifyScene *scene, const char *file,
+                              const RamifyExportOptions *options, const RamifyRun *run,
+                              RamifyExportReport *report, RamifyError *error);
 
 // RAMIFY_BAD_INPUT, naming the endings there are, when the file's ending is that of no format.
 RAMIFY_API bool ramify_export_check(const char *file, RamifyError *error);

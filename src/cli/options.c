@@ -10,14 +10,15 @@
 #include <string.h>
 
 typedef enum OptionType {
-    OPTION_YES,  // int or bool set to 1
-    OPTION_NO,   // int set to 0
-    OPTION_INT,  // int
-    OPTION_REAL, // double
-    OPTION_TEXT, // const char *
-    OPTION_SIZE, // int[2], WxH
-    OPTION_CROP, // float[4]
-    OPTION_SET   // path=value, may be repeated
+    OPTION_YES,   // int or bool set to 1
+    OPTION_NO,    // int set to 0
+    OPTION_INT,   // int
+    OPTION_REAL,  // double
+    OPTION_TEXT,  // const char *
+    OPTION_SIZE,  // int[2], WxH
+    OPTION_CROP,  // float[4]
+    OPTION_SET,   // path=value, may be repeated
+    OPTION_OBJECT // name, may be repeated
 } OptionType;
 
 typedef struct Option {
@@ -126,6 +127,34 @@ static const Option OPTIONS[] = {
      .type = OPTION_SET,
      .commands = SCENES,
      .doc = "change the scene: --set camera.fov=35 --set objects.oak.tree.height=9"},
+    {.name = "object",
+     .value = "NAME",
+     .offset = AT(objects),
+     .type = OPTION_OBJECT,
+     .commands = BIT(COMMAND_EXPORT),
+     .doc = "write only this object; may be repeated"},
+    {.name = "instances",
+     .value = "HOW",
+     .offset = AT(instances),
+     .type = OPTION_TEXT,
+     .commands = BIT(COMMAND_EXPORT),
+     .doc = "what .glb makes of instances: nodes, gpu (EXT_mesh_gpu_instancing), flat (copies) or "
+            "auto (nodes up to 4096 of them, then gpu)"},
+    {.name = "colors",
+     .value = "WHAT",
+     .offset = AT(colors),
+     .type = OPTION_TEXT,
+     .commands = BIT(COMMAND_EXPORT),
+     .doc = "what colours of vertices show: pattern, growth (red: birth, green: radius), none or "
+            "all"},
+    {.name = "tube-sides",
+     .value = "N",
+     .offset = AT(tube_sides),
+     .low = 3,
+     .high = 64,
+     .type = OPTION_INT,
+     .commands = BIT(COMMAND_EXPORT),
+     .doc = "sides of the tubes that twigs and hairs become; 6"},
     {.name = "resolved",
      .offset = AT(resolved),
      .type = OPTION_YES,
@@ -311,6 +340,16 @@ static bool add_override(Options *options, const char *text, RamifyError *e)
     return true;
 }
 
+static bool add_object(Options *options, const char *text, RamifyError *e)
+{
+    if (options->object_count == MAX_OBJECTS) {
+        return fail(e, RAMIFY_BAD_INPUT, "more than %d --object; leave it out to write all of them",
+                    MAX_OBJECTS);
+    }
+    options->objects[options->object_count++] = text;
+    return true;
+}
+
 static bool take_value(Options *options, const Option *option, const char *text, RamifyError *e)
 {
     char *at = (char *)options + option->offset;
@@ -326,6 +365,8 @@ static bool take_value(Options *options, const Option *option, const char *text,
         return true;
     case OPTION_SET:
         return add_override(options, text, e);
+    case OPTION_OBJECT:
+        return add_object(options, text, e);
     case OPTION_SIZE:
         return read_size(text, option, (int *)(void *)at) || bad_value(option, text, e);
     case OPTION_CROP:

@@ -5,6 +5,7 @@
 #include "ramify.h"
 
 #define MAX_OVERRIDES 256
+#define MAX_OBJECTS 64
 
 typedef enum CommandId {
     COMMAND_RENDER,
@@ -26,16 +27,20 @@ typedef struct Options {
     int override_count;
     int threads; // 0 = all processors
     bool quiet, json, resolved, help;
-    bool markdown, paths; // what schema prints instead of the JSON Schema
-    int samples;          // 0 = the scene's
-    int size[2];          // 0, 0 = the scene's
-    double seconds;       // negative = the scene's
-    double noise;         // negative = the scene's
-    double exposure;      // NAN = the scene's
-    double grow_to;       // negative = the scene's
-    float crop[4];        // crop[0] negative = the scene's
-    int denoise;          // 1 yes, 0 no, -1 the scene's
-    const char *isa;      // NULL = the best there is
+    bool markdown, paths;             // what schema prints instead of the JSON Schema
+    int samples;                      // 0 = the scene's
+    int size[2];                      // 0, 0 = the scene's
+    double seconds;                   // negative = the scene's
+    double noise;                     // negative = the scene's
+    double exposure;                  // NAN = the scene's
+    double grow_to;                   // negative = the scene's
+    float crop[4];                    // crop[0] negative = the scene's
+    int denoise;                      // 1 yes, 0 no, -1 the scene's
+    const char *isa;                  // NULL = the best there is
+    const char *objects[MAX_OBJECTS]; // to export
+    int object_count;                 // 0 = all
+    const char *instances, *colors;   // NULL = the format's own
+    int tube_sides;                   // 0 = the default
 } Options;
 
 Options options_default(void);

@@ -66,12 +66,8 @@ static void plan_vertex(const Glb *glb, const Part *part, GlbPart *own)
 static bool add_bounds(void *user, const ExportPiece *piece, Error *e)
 {
     (void)e;
-    const Mesh *mesh = piece->surface->mesh;
     Aabb *bounds = user;
-    for (int64_t v = 0; v < mesh->vertex_count; v++) {
-        Vec3 p = mesh->position[v];
-        *bounds = aabb_add(*bounds, piece->place ? transform_point(piece->place, p) : p);
-    }
+    *bounds = aabb_union(*bounds, export_piece_bounds(piece));
     return true;
 }
 

@@ -8,6 +8,17 @@ static const double MANY_TRIANGLES = 20e6; // a gigabyte or so
 
 enum { CHUNK_POINTS = 16384 }; // of curves made into tubes at once, about
 
+Aabb export_piece_bounds(const ExportPiece *piece)
+{
+    const Mesh *mesh = piece->surface->mesh;
+    Aabb bounds = aabb_empty();
+    for (int64_t v = 0; v < mesh->vertex_count; v++) {
+        Vec3 p = mesh->position[v];
+        bounds = aabb_add(bounds, piece->place ? transform_point(piece->place, p) : p);
+    }
+    return bounds;
+}
+
 static int tube_sides(const ExportSource *source)
 {
     int sides = source->options.tube_sides;

@@ -12,6 +12,8 @@ typedef struct ExportPiece {
     float variation;        // as for export_surface_vertices
 } ExportPiece;
 
+Aabb export_piece_bounds(const ExportPiece *piece);
+
 // False and e ends the walk.
 typedef bool (*ExportVisit)(void *user, const ExportPiece *piece, Error *e);
 

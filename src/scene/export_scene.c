@@ -1,11 +1,14 @@
 #include "scene/export_scene.h"
 
 #include "base/memory.h"
+#include "export/pieces.h"
 #include "scene/build.h"
+#include "scene/hint.h"
 #include "scene/kind.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 bool scene_export_check(const char *file, Error *e)
 {
@@ -76,23 +79,89 @@ static bool make_parts(const Scene *scene, unsigned needs, Parts *parts, const R
     return done && (!(needs & EXPORT_LAND) || make_lands(scene, parts, run, e));
 }
 
-bool scene_export(const Scene *scene, const char *file, const Run *run, Error *e)
+static bool add_bounds(void *user, const ExportPiece *piece, Error *e)
 {
-    if (!scene_export_check(file, e)) {
-        return false;
-    }
+    (void)e;
+    Aabb *bounds = user;
+    *bounds = aabb_union(*bounds, export_piece_bounds(piece));
+    return true;
+}
+
+static bool make_report(const ExportSource *source, const Run *run, ExportReport *report, Error *e)
+{
+    ExportTally tally = export_all_tally(source);
+    report->vertices = tally.vertices;
+    report->triangles = tally.triangles;
+    return export_all_pieces(source, 0, 1.0f, 1.0f, run, add_bounds, &report->bounds, e);
+}
+
+static bool write_scene(const Scene *scene, const char *file, const ExportOptions *options,
+                        const Run *run, ExportReport *report, Error *e)
+{
     const ExportFormat *format = export_format(file);
     Parts parts = {0};
     bool done = make_parts(scene, format->needs, &parts, run, e);
     if (done) {
         ExportSource source = {.title = scene->file,
+                               .options = *options,
                                .world = parts.world,
                                .object_count = scene->object_count,
                                .object_name = parts.name,
                                .tree = (const OutTree *const *)parts.tree,
                                .land = (const HeightField *const *)parts.land};
-        done = format->write(&source, file, run, e);
+        done = format->write(&source, file, run, e) &&
+               (!report || !parts.world || make_report(&source, run, report, e));
     }
     clear_parts(&parts, scene->object_count);
+    return done;
+}
+
+// The scene's object of this name; -1 and e when there is none.
+static int find_object(const Scene *scene, const char *name, Error *e)
+{
+    for (int i = 0; i < scene->object_count; i++) {
+        if (strcmp(scene->objects[i].name, name) == 0) {
+            return i;
+        }
+    }
+    const char **known = memory_alloc(scene->object_count, sizeof *known, e);
+    if (known) {
+        char hint[512];
+        for (int i = 0; i < scene->object_count; i++) {
+            known[i] = scene->objects[i].name;
+        }
+        hint_format(name, known, scene->object_count, hint, sizeof hint);
+        error_set(e, ERROR_INPUT, "the scene has no object '%s'; %s", name, hint);
+        free(known);
+    }
+    return -1;
+}
+
+bool scene_export(const Scene *scene, const char *file, const ExportOptions *options,
+                  const Run *run, ExportReport *report, Error *e)
+{
+    if (report) {
+        *report = (ExportReport){.bounds = aabb_empty()};
+    }
+    if (!scene_export_check(file, e)) {
+        return false;
+    }
+    if (options->object_count == 0) {
+        return write_scene(scene, file, options, run, report, e);
+    }
+    // Objects stay what they are when others go: a scene of those alone is all that is needed.
+    Scene few = *scene;
+    few.objects = memory_alloc(options->object_count, sizeof *few.objects, e);
+    few.object_count = 0;
+    bool done = few.objects;
+    for (int i = 0; done && i < options->object_count; i++) {
+        int index = find_object(scene, options->object[i], e);
+        done = index >= 0;
+        if (done) {
+            few.objects[few.object_count++] = scene->objects[index];
+        }
+    }
+    done = done && write_scene(&few, file, options, run, report, e);
+    free(few.objects);
     return done;
 }

@@ -5,9 +5,18 @@
 #include "export/export.h"
 #include "scene/scene.h"
 
-// Grows, skins and places what the format of the file's ending needs, and writes it. ERROR_INPUT
-// names the endings there are.
-bool scene_export(const Scene *scene, const char *file, const Run *run, Error *e);
+// What was written, with instances written out and curves as tubes; all 0 for formats that are not
+// made of surfaces.
+typedef struct ExportReport {
+    int64_t vertices, triangles;
+    Aabb bounds; // m
+} ExportReport;
+
+// Grows, skins and places what the format of the file's ending needs, and writes it; of the objects
+// that the options name alone, where they name any. ERROR_INPUT names the endings or the objects
+// there are. report may be NULL.
+bool scene_export(const Scene *scene, const char *file, const ExportOptions *options,
+                  const Run *run, ExportReport *report, Error *e);
 
 // ERROR_INPUT when the file's ending is that of no format.
 bool scene_export_check(const char *file, Error *e);
