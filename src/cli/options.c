@@ -1,6 +1,7 @@
 #include "cli/options.h"
 
 #include "cli/fail.h"
+#include "cli/option_table.h"
 
 #include <errno.h>
 #include <math.h>
@@ -8,29 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-typedef enum OptionType {
-    OPTION_YES,   // int or bool set to 1
-    OPTION_NO,    // int set to 0
-    OPTION_INT,   // int
-    OPTION_REAL,  // double
-    OPTION_TEXT,  // const char *
-    OPTION_SIZE,  // int[2], WxH
-    OPTION_CROP,  // float[4]
-    OPTION_SET,   // path=value, may be repeated
-    OPTION_OBJECT // name, may be repeated
-} OptionType;
-
-typedef struct Option {
-    const char *name;  // without the dashes
-    const char *value; // as the help calls it; NULL = takes none
-    size_t offset;     // in Options
-    double low, high;
-    const char *doc;
-    OptionType type;
-    unsigned commands;
-    char letter; // 0 = none
-} Option;
 
 #define BIT(command) (1u << (command))
 #define GROWS (BIT(COMMAND_RENDER) | BIT(COMMAND_GROW) | BIT(COMMAND_MEASURE) | BIT(COMMAND_EXPORT))
@@ -110,6 +88,7 @@ static const Option OPTIONS[] = {
     {.name = "isa",
      .value = "NAME",
      .offset = AT(isa),
+     .choices = "sse2 sse4.2 avx avx2 avx512",
      .type = OPTION_TEXT,
      .commands = RENDERS,
      .doc = "instruction set of the ray tracer, such as sse4.2: the same bits on every machine"},
@@ -136,6 +115,7 @@ static const Option OPTIONS[] = {
     {.name = "instances",
      .value = "HOW",
      .offset = AT(instances),
+     .choices = "auto nodes gpu flat",
      .type = OPTION_TEXT,
      .commands = BIT(COMMAND_EXPORT),
      .doc = "what .glb makes of instances: nodes, gpu (EXT_mesh_gpu_instancing), flat (copies) or "
@@ -143,6 +123,7 @@ static const Option OPTIONS[] = {
     {.name = "colors",
      .value = "WHAT",
      .offset = AT(colors),
+     .choices = "all pattern growth none",
      .type = OPTION_TEXT,
      .commands = BIT(COMMAND_EXPORT),
      .doc = "what colours of vertices show: pattern, growth (red: birth, green: radius), none or "
@@ -194,14 +175,12 @@ static const Option OPTIONS[] = {
      .type = OPTION_YES,
      .commands = EVERY,
      .letter = 'h',
-     .doc = "this text"},
+     .doc = "print the help of the command"},
 };
 
 #define OPTION_COUNT ((int)(sizeof OPTIONS / sizeof OPTIONS[0]))
 
-static const struct {
-    const char *name, *operand, *doc, *more;
-} COMMANDS[COMMAND_COUNT] = {
+static const Command COMMANDS[COMMAND_COUNT] = {
     [COMMAND_RENDER] = {"render", "SCENE", "make a picture of a scene file",
                         "Writes SCENE's name with .png to the current folder if there is no -o, "
                         "and beside it the .exr with\nlinear colours, albedo, normal, depth, "
@@ -229,6 +208,21 @@ Options options_default(void)
                      .grow_to = -1.0,
                      .crop = {-1.0f, -1.0f, -1.0f, -1.0f},
                      .denoise = -1};
+}
+
+const Option *option_at(int index)
+{
+    return index < OPTION_COUNT ? &OPTIONS[index] : NULL;
+}
+
+bool option_is_of(const Option *option, CommandId command)
+{
+    return option->commands & BIT(command);
+}
+
+const Command *command_at(CommandId command)
+{
+    return &COMMANDS[command];
 }
 
 CommandId command_by_name(const char *name)
@@ -482,40 +476,4 @@ bool options_parse(Options *options, int argc, char **argv, bool *version, Ramif
         return unknown_command(argv[1], e);
     }
     return parse_words(options, argc, argv, e);
-}
-
-static void print_program_help(void)
-{
-    printf("ramify grows branching things, skins them and path traces stills of them.\n\n");
-    for (int i = 0; i < COMMAND_COUNT; i++) {
-        char usage[64];
-        snprintf(usage, sizeof usage, "ramify %s %s", COMMANDS[i].name, COMMANDS[i].operand);
-        printf("  %-29s %s\n", usage, COMMANDS[i].doc);
-    }
-    printf("  %-29s %s\n\n", "ramify --version", "print the version");
-    printf("'ramify COMMAND --help' lists a command's options. Exit status: 0 done, 1 failed while "
-           "running,\n2 bad command line or scene, 130 interrupted.\n");
-}
-
-void options_print_help(CommandId command)
-{
-    if (command == COMMAND_HELP || command == COMMAND_COUNT) {
-        print_program_help();
-        return;
-    }
-    printf("usage: ramify %s %s%s[options]\n\n%s: %s.\n%s\n", COMMANDS[command].name,
-           COMMANDS[command].operand, *COMMANDS[command].operand ? " " : "", COMMANDS[command].name,
-           COMMANDS[command].doc, COMMANDS[command].more);
-    for (int i = 0; i < OPTION_COUNT; i++) {
-        const Option *o = &OPTIONS[i];
-        if (o->commands & BIT(command)) {
-            char name[64], letter[8] = "";
-            if (o->letter) {
-                snprintf(letter, sizeof letter, "-%c, ", o->letter);
-            }
-            snprintf(name, sizeof name, "%s--%s%s%s", letter, o->name, o->value ? " " : "",
-                     o->value ? o->value : "");
-            printf("  %-26s %s\n", name, o->doc);
-        }
-    }
 }

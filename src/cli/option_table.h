@@ -1,0 +1,50 @@
+// The tables of commands and options (options.c), from which the command line is parsed and the
+// help, the man pages and the shells' completions are written.
+#ifndef RAMIFY_CLI_OPTION_TABLE_H
+#define RAMIFY_CLI_OPTION_TABLE_H
+
+#include "cli/options.h"
+
+#include <stddef.h>
+
+typedef enum OptionType {
+    OPTION_YES,   // int or bool set to 1
+    OPTION_NO,    // int set to 0
+    OPTION_INT,   // int
+    OPTION_REAL,  // double
+    OPTION_TEXT,  // const char *
+    OPTION_SIZE,  // int[2], WxH
+    OPTION_CROP,  // float[4]
+    OPTION_SET,   // path=value, may be repeated
+    OPTION_OBJECT // name, may be repeated
+} OptionType;
+
+typedef struct Option {
+    const char *name;  // without the dashes
+    const char *value; // as the help calls it: NULL = takes none, FILE and DIR are such, else free
+    const char *choices; // words that it may be, parted by blanks; NULL = anything
+    size_t offset;       // in Options
+    double low, high;
+    const char *doc; // parts "; COMMAND: ..." are of that command alone
+    OptionType type;
+    unsigned commands;
+    char letter; // 0 = none
+} Option;
+
+typedef struct Command {
+    const char *name;
+    const char *operand; // "SCENE", "[COMMAND]", ...; "" = none
+    const char *doc, *more;
+} Command;
+
+// Options in the order of the help, index from 0; NULL after the last.
+const Option *option_at(int index);
+
+bool option_is_of(const Option *option, CommandId command);
+
+// What the option does for this command, as a phrase, in text.
+void option_doc(const Option *option, CommandId command, char *text, size_t size);
+
+const Command *command_at(CommandId command); // command < COMMAND_COUNT
+
+#endif
