@@ -30,7 +30,7 @@ static bool resolve_folder(const char *file, char resolved[PATH_MAX], Error *e)
 
 char *asset_path(const char *file, const char *asset, Error *e)
 {
-    char from[PATH_MAX], to[PATH_MAX];
+    char from[PATH_MAX] = "", to[PATH_MAX] = "";
     if (!resolve_folder(file, from, e) || !resolve(asset, to, e)) {
         return NULL;
     }
@@ -47,16 +47,17 @@ char *asset_path(const char *file, const char *asset, Error *e)
     for (const char *c = from + same; *c; c++) {
         up += *c == '/';
     }
-    size_t size = (size_t)up * 3 + strlen(to + same) + 3;
+    const char *rest = to + same + 1, *start = up > 0 ? "" : "./";
+    size_t size = (size_t)up * 3 + strlen(start) + strlen(rest) + 1;
     char *path = memory_alloc((int64_t)size, 1, e);
     if (!path) {
         return NULL;
     }
-    strcpy(path, up > 0 ? "" : "./");
     for (int i = 0; i < up; i++) {
-        strcat(path, "../");
+        memcpy(path + (size_t)i * 3, "../", 3);
     }
-    return strcat(path, to + same + 1);
+    snprintf(path + (size_t)up * 3, size - (size_t)up * 3, "%s%s", start, rest);
+    return path;
 }
 
 char *asset_beside(const char *file, const char *ending, Error *e)

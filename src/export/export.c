@@ -9,6 +9,7 @@ static const ExportFormat FORMATS[] = {
     {".glb", "glTF 2.0 in one file: meshes, materials, camera, lights", EXPORT_WORLD, export_glb},
     {".obj", "meshes with materials beside it (.mtl)", EXPORT_WORLD, export_obj},
     {".ply", "meshes with radius and birth, binary", EXPORT_WORLD, export_ply},
+    {".usda", "USD as text: all of the scene", EXPORT_WORLD, export_usda},
     {".stl", "triangles alone, binary", EXPORT_WORLD, export_stl},
 };
 

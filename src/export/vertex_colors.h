@@ -7,6 +7,7 @@
 
 // True when the part's material has a pattern, so that its colour differs from place to place.
 bool vertex_colors_vary(const World *world, const Part *part);
+bool vertex_colors_vary_on(const Material *material);
 
 // The colour (reflectance, linear Rec. 709) that the part's material with its pattern has at each
 // vertex of its mesh or each point of its curves, in their order; details finer than the faces

@@ -1,0 +1,80 @@
+// USD's text format (usda, version 1.0; openusd.org): geometry, instances, materials, camera and
+// lights of a scene, in metres with +Y up. docs/formats.md says what becomes of what.
+#include "export/usda.h"
+
+#include "base/memory.h"
+#include "export/formats.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Identifiers of all materials, each its own.
+static void name_materials(const World *world, char (*name)[USDA_NAME])
+{
+    for (int i = 0; i < world->material_count; i++) {
+        usda_identifier(world->material[i].name, name[i]);
+        for (int k = 0; k < i; k++) {
+            if (strcmp(name[k], name[i]) == 0) {
+                char again[USDA_NAME];
+                snprintf(again, sizeof again, "%.80s_%d", name[i], i);
+                memcpy(name[i], again, sizeof again);
+            }
+        }
+    }
+}
+
+static bool look_through(Usda *usda, Error *e)
+{
+    const World *world = usda->source->world;
+    usda->material = memory_alloc(world->material_count, sizeof *usda->material, e);
+    usda->used = memory_alloc_zero(world->material_count, sizeof *usda->used, e);
+    usda->glows = memory_alloc_zero(world->material_count, sizeof *usda->glows, e);
+    if (!usda->material || !usda->used || !usda->glows) {
+        return false;
+    }
+    name_materials(world, usda->material);
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        const Part *part = &world->geometry.part[i];
+        usda->used[part->material] = true;
+        usda->glows[part->material] |= part->curves && part->curves->glow;
+    }
+    return true;
+}
+
+static void header(Usda *usda)
+{
+    usda_line(&usda->text, "#usda 1.0");
+    usda_line(&usda->text, "(");
+    usda_line(&usda->text, "    defaultPrim = \"World\"");
+    usda_quoted(&usda->text, "    doc = ", usda->source->title);
+    usda_line(&usda->text, "    metersPerUnit = 1");
+    usda_line(&usda->text, "    upAxis = \"Y\"");
+    usda_line(&usda->text, ")");
+    usda_line(&usda->text, "%s", "");
+}
+
+static bool write_stage(Usda *usda, Error *e)
+{
+    header(usda);
+    usda_begin(&usda->text, "kind = \"assembly\"", "def Xform \"World\"");
+    usda_camera(usda);
+    bool done = usda_materials(usda, e) && usda_objects(usda, e) && usda_lights(usda, e);
+    usda_end(&usda->text);
+    return done;
+}
+
+bool export_usda(const ExportSource *source, const char *file, const Run *run, Error *e)
+{
+    Usda usda = {.file = file, .source = source, .run = run};
+    bool done = look_through(&usda, e);
+    if (done) {
+        usda.text.out = file_writer_open(file, e);
+        done = usda.text.out && write_stage(&usda, e);
+        done = usda.text.out && file_writer_close(usda.text.out, done, e);
+    }
+    free(usda.material);
+    free(usda.used);
+    free(usda.glows);
+    return done;
+}
