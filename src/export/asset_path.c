@@ -54,7 +54,7 @@ char *asset_path(const char *file, const char *asset, Error *e)
         return NULL;
     }
     for (int i = 0; i < up; i++) {
-        memcpy(path + (size_t)i * 3, "../", 3);
+        snprintf(path + (size_t)i * 3, size - (size_t)i * 3, "../");
     }
     snprintf(path + (size_t)up * 3, size - (size_t)up * 3, "%s%s", start, rest);
     return path;
