@@ -299,8 +299,6 @@ static void put_extension(const Glb *glb, const Material *m, Extension x, FILE *
         fputs("\"iridescenceFactor\":1,", json);
         put_number(json, "iridescenceIor", m->ior);
         fputc(',', json);
-        put_number(json, "iridescenceThicknessMinimum", m->film_thickness);
-        fputc(',', json);
         put_number(json, "iridescenceThicknessMaximum", m->film_thickness);
         break;
     case SPECULAR:
