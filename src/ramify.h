@@ -111,6 +111,7 @@ typedef struct RamifySceneInfo {
     int64_t memory; // rough bytes that rendering needs besides the geometry
 } RamifySceneInfo;
 
+// What the scene says, without growing anything.
 RAMIFY_API void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *info);
 
 // The scene's text as it was read, without overrides; borrowed.
@@ -134,6 +135,7 @@ typedef struct RamifyObjectInfo {
     int64_t instances;  // leaves, tufts and other copies, at most; 0 = none
 } RamifyObjectInfo;
 
+// What the scene says of object number index.
 RAMIFY_API void ramify_scene_object(const RamifyScene *scene, int index, RamifyObjectInfo *info);
 
 // Writes what is worth knowing of the object beside its kind, such as ", 14 m, 4 levels" (begins
@@ -228,6 +230,7 @@ typedef struct RamifyLandInfo {
     uint64_t hash;   // over sizes and heights
 } RamifyLandInfo;
 
+// Sizes, range and hash; looks at every height.
 RAMIFY_API void ramify_land_info(const RamifyLand *land, RamifyLandInfo *info);
 
 // columns * rows heights, m, row by row, x running fastest; borrowed.
@@ -269,6 +272,7 @@ typedef struct RamifyMeasure {
     double low, high; // nature's range as far as it is known; NAN = not
 } RamifyMeasure;
 
+// The measures, in the order in which they were made. index is 0 .. count - 1.
 RAMIFY_API int ramify_measures_count(const RamifyMeasures *measures);
 RAMIFY_API void ramify_measures_get(const RamifyMeasures *measures, int index,
                                     RamifyMeasure *measure);
@@ -295,6 +299,7 @@ typedef struct RamifyWorldInfo {
     double grow_seconds, mesh_seconds;
 } RamifyWorldInfo;
 
+// How much was built, and how long it took.
 RAMIFY_API void ramify_world_info(const RamifyWorld *world, RamifyWorldInfo *info);
 
 // One mesh or one set of round curves. All pointers are borrowed from the world. Arrays that are
@@ -318,34 +323,35 @@ typedef struct RamifyPart {
     const float *variations; // instance_count, 0..1, for variation of colour
 } RamifyPart;
 
+// The parts, in the order of the scene's objects. index is 0 .. count - 1.
 RAMIFY_API int64_t ramify_world_part_count(const RamifyWorld *world);
 RAMIFY_API void ramify_world_part(const RamifyWorld *world, int64_t index, RamifyPart *part);
 
 // ---- export ----
 
-// How instances are written by formats that can keep them.
-typedef enum RamifyInstances {
-    RAMIFY_INSTANCES_AUTO,  // as the format does best (docs/formats.md)
-    RAMIFY_INSTANCES_NODES, // each names the same mesh
-    RAMIFY_INSTANCES_GPU,   // .glb: EXT_mesh_gpu_instancing
-    RAMIFY_INSTANCES_FLAT   // each a copy of the mesh
-} RamifyInstances;
+// Values of RamifyExportOptions.instances: how formats that can keep instances write them.
+enum {
+    RAMIFY_INSTANCES_AUTO = 0,  // as the format does best (docs/formats.md)
+    RAMIFY_INSTANCES_NODES = 1, // each names the same mesh
+    RAMIFY_INSTANCES_GPU = 2,   // .glb: EXT_mesh_gpu_instancing
+    RAMIFY_INSTANCES_FLAT = 3   // each a copy of the mesh
+};
 
-// What the colours of vertices show.
-typedef enum RamifyColors {
-    RAMIFY_COLORS_ALL,     // patterns, and growth as a second set where a format has two
-    RAMIFY_COLORS_PATTERN, // what procedural patterns look like
-    RAMIFY_COLORS_GROWTH,  // red: birth, 0..1; green: radius over the largest of the part
-    RAMIFY_COLORS_NONE
-} RamifyColors;
+// Values of RamifyExportOptions.colors: what the colours of vertices show.
+enum {
+    RAMIFY_COLORS_ALL = 0,     // patterns, and growth as a second set where a format has two
+    RAMIFY_COLORS_PATTERN = 1, // what procedural patterns look like
+    RAMIFY_COLORS_GROWTH = 2,  // red: birth, 0..1; green: radius over the largest of the part
+    RAMIFY_COLORS_NONE = 3
+};
 
 // {0} is what is best for most.
 typedef struct RamifyExportOptions {
     const char *const *objects; // names of the only objects to write
-    int object_count;           // 0 = all
-    RamifyInstances instances;
-    RamifyColors colors;
-    int tube_sides; // of curves written as tubes, 3..64; 0 = 6
+    int32_t object_count;       // 0 = all
+    int32_t instances;          // RAMIFY_INSTANCES_...
+    int32_t colors;             // RAMIFY_COLORS_...
+    int32_t tube_sides;         // of curves written as tubes, 3..64; 0 = 6
 } RamifyExportOptions;
 
 // What was written, with instances written out and curves as tubes; 0 where a format has no

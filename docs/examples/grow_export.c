@@ -67,7 +67,7 @@ int main(int argc, char **argv)
     }
     RamifyScene *scene = ramify_scene_load(argv[1], NULL, 0, &error);
     bool done = scene && (is_tree ? write_tree(scene, argv[2], &run, &error)
-                                  : ramify_export(scene, argv[2], &run, &error));
+                                  : ramify_export(scene, argv[2], NULL, &run, NULL, &error));
     ramify_scene_free(scene);
     return done ? 0 : report(&error);
 }

@@ -30,8 +30,8 @@ static bool read_options(const Options *options, RamifyExportOptions *own, Ramif
     }
     *own = (RamifyExportOptions){.objects = options->objects,
                                  .object_count = options->object_count,
-                                 .instances = (RamifyInstances)how,
-                                 .colors = (RamifyColors)what,
+                                 .instances = how,
+                                 .colors = what,
                                  .tube_sides = options->tube_sides};
     return true;
 }
