@@ -59,7 +59,8 @@ docs: all ## write docs/scene.md anew from the tables of scene files
 
 peers: ## install the outside programs that tests compare with: POV-Ray, Blender, Node.js, Chromium, USD, ...
 	$(call need,$(foreach p,$(PEER_COMMANDS),$(if $(shell command -v $(firstword $(subst :, ,$p))),,$(lastword $(subst :, ,$p)))) \
-	    $(if $(shell python3 -c 'import ensurepip' 2>/dev/null && echo yes),,python3-venv))
+	    $(if $(shell python3 -c 'import ensurepip' 2>/dev/null && echo yes),,python3-venv) \
+	    $(if $(wildcard /usr/lib/python3/dist-packages/numpy),,python3-numpy))
 	@tests/peers/install build/peers
 
 bench: all ## print the figures of speed, as ratios to yardsticks measured in the same run

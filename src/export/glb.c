@@ -63,6 +63,15 @@ static void plan_vertex(const Glb *glb, const Part *part, GlbPart *own)
                   4 * own->radius + 4 * own->birth;
 }
 
+static bool too_large(Error *e, double bytes)
+{
+    return error_set(e, ERROR_INPUT,
+                     "the file would have more than %.1f GB; a GLB file holds at most 4.29: "
+                     "--instances gpu keeps instances, --object NAME writes only that object, and "
+                     ".ply has no such limit",
+                     bytes * 1e-9);
+}
+
 static bool add_bounds(void *user, const ExportPiece *piece, Error *e)
 {
     (void)e;
@@ -71,14 +80,17 @@ static bool add_bounds(void *user, const ExportPiece *piece, Error *e)
     return true;
 }
 
+// All but its bounds.
 static bool plan_part(Glb *glb, int64_t index, int64_t instances, Error *e)
 {
     const Part *part = &glb->source->world->geometry.part[index];
     GlbPart own = {.index = index, .placing = placing_of(glb, part, instances)};
-    bool flat = own.placing == GLB_FLAT;
-    ExportTally tally = export_part_tally(glb->source, index, flat);
+    ExportTally tally = export_part_tally(glb->source, index, own.placing == GLB_FLAT);
     if (tally.triangles == 0 || (part->instance && part->instance_count == 0)) {
         return true;
+    }
+    if (tally.vertices > UINT32_MAX - 1) {
+        return too_large(e, (double)tally.vertices * 40.0);
     }
     own.vertices = tally.vertices;
     own.triangles = tally.triangles;
@@ -88,14 +100,20 @@ static bool plan_part(Glb *glb, int64_t index, int64_t instances, Error *e)
     own.index_at = own.vertex_at + own.vertices * own.stride;
     own.instance_at = own.index_at + own.triangles * 12;
     glb->buffer_size = own.instance_at + (own.placing == GLB_GPU ? part->instance_count * 40 : 0);
-    glb->part[glb->part_count] = own;
-    return own.vertices > UINT32_MAX - 1
-               ? error_set(e, ERROR_INPUT,
-                           "%lld vertices in one mesh; glTF takes fewer than 2^32: --instances gpu "
-                           "keeps instances, and --object NAME writes only that object",
-                           (long long)own.vertices)
-               : export_part_pieces(glb->source, index, flat, 0, glb->run, add_bounds,
-                                    &glb->part[glb->part_count++].bounds, e);
+    glb->part[glb->part_count++] = own;
+    return glb->buffer_size <= UINT32_MAX || too_large(e, (double)glb->buffer_size);
+}
+
+static bool plan_bounds(Glb *glb, Error *e)
+{
+    bool done = true;
+    for (int64_t i = 0; done && i < glb->part_count; i++) {
+        GlbPart *part = &glb->part[i];
+        run_progress(glb->run, "write", 0.2 * (double)i / (double)glb->part_count);
+        done = export_part_pieces(glb->source, part->index, part->placing == GLB_FLAT, 0, glb->run,
+                                  add_bounds, &part->bounds, e);
+    }
+    return done;
 }
 
 static bool plan_sun(Glb *glb, Error *e)
@@ -123,10 +141,9 @@ static bool plan(Glb *glb, Error *e)
     glb->part = memory_alloc_zero(geometry->count, sizeof *glb->part, e);
     bool done = glb->part;
     for (int64_t i = 0; done && i < geometry->count; i++) {
-        run_progress(glb->run, "write", 0.2 * (double)i / (double)geometry->count);
         done = plan_part(glb, i, instances, e);
     }
-    done = done && plan_sun(glb, e) && glb_gather_materials(glb, e);
+    done = done && plan_bounds(glb, e) && plan_sun(glb, e) && glb_gather_materials(glb, e);
     for (int64_t i = 0; done && i < glb->image_count; i++) {
         glb->image[i].at = glb->buffer_size;
         glb->buffer_size += (glb->image[i].size + 3) & ~(int64_t)3;
@@ -323,11 +340,7 @@ static bool write_file(const Glb *glb, const char *name, const char *json, size_
     int64_t padded = ((int64_t)json_size + 3) & ~(int64_t)3;
     int64_t whole = HEADER + CHUNK + padded + (glb->buffer_size > 0 ? CHUNK + glb->buffer_size : 0);
     if (whole > UINT32_MAX) {
-        return error_set(e, ERROR_INPUT,
-                         "the file would have %.1f GB; a GLB file holds at most 4.29: --instances "
-                         "gpu keeps instances, --object NAME writes only that object, and .ply has "
-                         "no such limit",
-                         (double)whole * 1e-9);
+        return too_large(e, (double)whole);
     }
     FileWriter *file = file_writer_open(name, e);
     if (!file) {

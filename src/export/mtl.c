@@ -1,9 +1,8 @@
 #include "export/mtl.h"
 
 #include "base/number_text.h"
-#include "export/vertex.h"
+#include "export/asset_path.h"
 
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,16 +35,21 @@ static void write_number(FileWriter *writer, const char *keyword, float value)
     write_numbers(writer, keyword, &value, 1);
 }
 
-// The whole path, so that the files may be moved.
-static void write_map(FileWriter *writer, const char *keyword, const char *file)
+static bool write_map(FileWriter *writer, const char *keyword, const char *picture,
+                      const char *file, Error *e)
 {
-    char path[PATH_MAX];
-    if (file && file[0]) {
-        file_writer_print(writer, "%s %s\n", keyword, realpath(file, path) ? path : file);
+    if (!picture || !picture[0]) {
+        return true;
     }
+    char *path = asset_path(file, picture, e);
+    if (path) {
+        file_writer_print(writer, "%s %s\n", keyword, path);
+    }
+    free(path);
+    return path != NULL;
 }
 
-static void write_material(FileWriter *writer, const Material *m)
+static bool write_material(FileWriter *writer, const Material *m, const char *file, Error *e)
 {
     char name[MTL_NAME];
     mtl_name(m, name);
@@ -69,21 +73,21 @@ static void write_material(FileWriter *writer, const Material *m)
     file_writer_print(writer, "illum %d\n", clear ? 7 : plain ? 1 : 2);
     write_number(writer, "Pr", plain ? 1.0f : m->roughness);
     write_number(writer, "Pm", metallic);
-    write_map(writer, "map_Kd", m->texture);
-    write_map(writer, "map_d", m->alpha_texture);
+    return write_map(writer, "map_Kd", m->texture, file, e) &&
+           write_map(writer, "map_d", m->alpha_texture, file, e);
 }
 
-void mtl_write(FileWriter *writer, const ExportSource *source)
+bool mtl_write(FileWriter *writer, const ExportSource *source, const char *file, Error *e)
 {
     const World *world = source->world;
     file_writer_text(writer, "# materials written by ramify\n");
-    for (int i = 0; i < world->material_count; i++) {
+    bool done = true;
+    for (int i = 0; done && i < world->material_count; i++) {
         bool used = false;
         for (int64_t k = 0; k < world->geometry.count && !used; k++) {
             used = world->geometry.part[k].material == i;
         }
-        if (used) {
-            write_material(writer, &world->material[i]);
-        }
+        done = !used || write_material(writer, &world->material[i], file, e);
     }
+    return done;
 }

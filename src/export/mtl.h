@@ -10,7 +10,8 @@ enum { MTL_NAME = 64 };
 // The material's name as OBJ and MTL have it: without blanks.
 void mtl_name(const Material *material, char name[MTL_NAME]);
 
-// All materials that the source's parts use.
-void mtl_write(FileWriter *writer, const ExportSource *source);
+// All materials that the source's parts use; pictures by their path from the folder of `file`.
+// ERROR_IO when a picture is not there.
+bool mtl_write(FileWriter *writer, const ExportSource *source, const char *file, Error *e);
 
 #endif

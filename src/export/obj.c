@@ -6,6 +6,7 @@
 #include "base/file_writer.h"
 #include "base/memory.h"
 #include "base/number_text.h"
+#include "export/asset_path.h"
 #include "export/mtl.h"
 #include "export/pieces.h"
 
@@ -175,10 +176,8 @@ static bool write_both(ObjWriter *obj, const char *file, const char *library, Er
 {
     obj->writer = file_writer_open(file, e);
     FileWriter *materials = obj->writer ? file_writer_open(library, e) : NULL;
-    bool done = materials && write_all(obj, library, e);
-    if (done) {
-        mtl_write(materials, obj->source);
-    }
+    bool done =
+        materials && mtl_write(materials, obj->source, library, e) && write_all(obj, library, e);
     done = done && file_writer_settle(obj->writer, e);
     done = file_writer_close(materials, done, e);
     return file_writer_close(obj->writer, done, e);
@@ -186,13 +185,11 @@ static bool write_both(ObjWriter *obj, const char *file, const char *library, Er
 
 bool export_obj(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
-    size_t stem = strlen(file) - strlen(".obj");
-    char *library = memory_copy_string(file, e);
+    char *library = asset_beside(file, ".mtl", e);
     ObjWriter obj = {.source = source, .run = run, .part = -1, .object = -1};
     obj.block = library ? memory_alloc(EXPORT_BLOCK, sizeof *obj.block, e) : NULL;
     bool done = false;
     if (obj.block) {
-        memcpy(library + stem, ".mtl", sizeof ".mtl");
         export_warn_of_instances(source, run);
         done = write_both(&obj, file, library, e);
     }

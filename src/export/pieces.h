@@ -39,6 +39,6 @@ ExportTally export_all_tally(const ExportSource *source);
 void export_warn_of_instances(const ExportSource *source, const Run *run);
 
 // Vertices of a piece in blocks of at most EXPORT_BLOCK.
-enum { EXPORT_BLOCK = 8192 };
+enum { EXPORT_BLOCK = 32768 };
 
 #endif
