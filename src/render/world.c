@@ -4,38 +4,42 @@
 
 #include <stdlib.h>
 
-// Defaults: a 40-degree pinhole camera 10 m in front of the origin at eye height, 1280 x 720
-// pixels, 64 samples, 8 bounces, an afternoon sun under a clear sky, nothing to see.
+World world_default(void)
+{
+    World world = {0};
+    world.camera = (Camera){.position = {0.0f, 1.7f, 10.0f},
+                            .target = {0.0f, 1.7f, 0.0f},
+                            .up = {0.0f, 1.0f, 0.0f},
+                            .fov = 40.0f};
+    world.film = (FilmParams){.width = 1280,
+                              .height = 720,
+                              .filter = FILTER_BLACKMAN_HARRIS,
+                              .filter_radius = 1.5f,
+                              .crop = {0.0f, 0.0f, 1.0f, 1.0f}};
+    world.render = (RenderParams){.samples = 64, .max_depth = 8, .roulette_depth = 1, .seed = 1};
+    world.sky = (Sky){.kind = SKY_SUN_SKY,
+                      .color = {1.0f, 1.0f, 1.0f},
+                      .sun_elevation = 35.0f,
+                      .sun_azimuth = 45.0f,
+                      .sun_size = 0.53f,
+                      .sun_strength = 1.0f,
+                      .turbidity = 2.5f,
+                      .ground_albedo = 0.2f,
+                      .moon_elevation = 35.0f,
+                      .moon_azimuth = 45.0f,
+                      .moon_size = 0.53f,
+                      .stars = 1.0f,
+                      .strength = 1.0f,
+                      .visible = true};
+    return world;
+}
+
 World *world_new(Error *e)
 {
-    World *world = memory_alloc_zero(1, sizeof *world, e);
-    if (!world) {
-        return NULL;
+    World *world = memory_alloc(1, sizeof *world, e);
+    if (world) {
+        *world = world_default();
     }
-    world->camera = (Camera){.position = {0.0f, 1.7f, 10.0f},
-                             .target = {0.0f, 1.7f, 0.0f},
-                             .up = {0.0f, 1.0f, 0.0f},
-                             .fov = 40.0f};
-    world->film = (FilmParams){.width = 1280,
-                               .height = 720,
-                               .filter = FILTER_BLACKMAN_HARRIS,
-                               .filter_radius = 1.5f,
-                               .crop = {0.0f, 0.0f, 1.0f, 1.0f}};
-    world->render = (RenderParams){.samples = 64, .max_depth = 8, .roulette_depth = 1, .seed = 1};
-    world->sky = (Sky){.kind = SKY_SUN_SKY,
-                       .color = {1.0f, 1.0f, 1.0f},
-                       .sun_elevation = 35.0f,
-                       .sun_azimuth = 45.0f,
-                       .sun_size = 0.53f,
-                       .sun_strength = 1.0f,
-                       .turbidity = 2.5f,
-                       .ground_albedo = 0.2f,
-                       .moon_elevation = 35.0f,
-                       .moon_azimuth = 45.0f,
-                       .moon_size = 0.53f,
-                       .stars = 1.0f,
-                       .strength = 1.0f,
-                       .visible = true};
     return world;
 }
 

@@ -41,7 +41,10 @@ const Node *schema_default(SchemaText *s, const Key *row, const char *base)
 {
     Node *node = NULL;
     bool has = base && !(row->flags & (KEY_REQUIRED | KEY_NO_DEFAULT));
-    return has && resolve_default(&s->resolver, row, base, &node) ? node : NULL;
+    if (has && !resolve_default(&s->resolver, row, base, &node)) {
+        s->failed = true;
+    }
+    return node;
 }
 
 char *schema_write(void (*write)(SchemaText *), Error *e)
@@ -64,7 +67,9 @@ char *schema_write(void (*write)(SchemaText *), Error *e)
     arena_free(arena);
     if (s.failed) {
         free(s.text);
-        error_set(e, ERROR_INTERNAL, "the schema could not be written");
+        if (!e || e->code != ERROR_MEMORY) {
+            error_set(e, ERROR_INTERNAL, "the schema could not be written");
+        }
         return NULL;
     }
     return s.text;

@@ -189,14 +189,11 @@ static void scene_defaults(const Node *given, int kind, void *out)
     (void)given;
     (void)kind;
     Scene *scene = out;
-    World *world = world_new(NULL);
-    if (world) {
-        scene->camera = world->camera;
-        scene->film = world->film;
-        scene->render = world->render;
-        scene->sky = world->sky;
-    }
-    world_free(world);
+    const World world = world_default();
+    scene->camera = world.camera;
+    scene->film = world.film;
+    scene->render = world.render;
+    scene->sky = world.sky;
     scene->seed = 1;
     scene->grow_to = 1.0f;
     scene->tone = tone_params_default();
