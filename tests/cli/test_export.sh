@@ -1,0 +1,131 @@
+#!/bin/sh
+# ramify export as a user meets it: exit status, messages, which objects are written, and that nothing harms an old file.
+# RAMIFY names the binary. Prints "ok NAME" or "not ok NAME" for each case.
+RAMIFY=${RAMIFY:-build/ramify}
+case $RAMIFY in /*) ;; *) RAMIFY=$PWD/$RAMIFY ;; esac
+folder=$(mktemp -d) && trap 'umount small 2>/dev/null; chmod -R u+w "$folder"; rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+
+cat >scene.yaml <<'END'
+seed: 3
+sky: {kind: constant, color: 1}
+objects:
+  - name: bush
+    tree:
+      height: 3
+      crown: {lobes: 0, growth: {levels: [{attractors: 20, step: 0.1, kill: 0.4, influence: 4}, {attractors: 300}]}}
+      leaves: {max_count: 500}
+  - {name: ball, shape: {envelope: [{shape: sphere, size: 0.5, position: [1.5, 0.5, 1]}]}}
+  - {name: other ball, shape: {envelope: [{shape: sphere, size: 0.5, position: [-1.5, 0.5, 1]}]}}
+END
+
+# check NAME STATUS COMMAND...: runs the command, wants this exit status; output goes to out, err.
+check() {
+    name=$1 wanted=$2
+    shift 2
+    "$@" >out 2>err
+    status=$?
+    if [ "$status" -eq "$wanted" ]; then echo "ok $name"; else
+        echo "not ok $name"
+        echo "   exit status $status, not $wanted: $*"
+        cat err
+    fi
+}
+# says NAME FILE TEXT: the last command wrote this text there.
+says() {
+    if grep -qF -- "$3" "$2"; then echo "ok $1"; else
+        echo "not ok $1"
+        echo "   no '$3' in:"
+        cat "$2"
+    fi
+}
+# yes NAME COMMAND...
+yes() {
+    name=$1
+    shift
+    if "$@" >log 2>&1; then echo "ok $name"; else
+        echo "not ok $name"
+        cat log
+    fi
+}
+number() { sed "s/.*\"$1\": \([0-9]*\).*/\1/" out; } # of the report
+
+check no_file 2 "$RAMIFY" export scene.yaml
+says no_file_message err "add -o FILE"
+check wrong_ending 2 "$RAMIFY" export scene.yaml -o a.fbx
+says wrong_ending_lists_formats err ".glb"
+check no_ending 2 "$RAMIFY" export scene.yaml -o glb
+check missing_folder 1 "$RAMIFY" export scene.yaml -o nowhere/a.glb
+says missing_folder_message err "No such file or directory"
+check unknown_object 2 "$RAMIFY" export scene.yaml -o a.ply --object bal
+says unknown_object_hint err "did you mean 'ball'?"
+check unknown_instances 2 "$RAMIFY" export scene.yaml -o a.glb --instances node
+says unknown_instances_hint err "auto, nodes, gpu, flat"
+check unknown_colors 2 "$RAMIFY" export scene.yaml -o a.glb --colors red
+check too_few_sides 2 "$RAMIFY" export scene.yaml -o a.glb --tube-sides 2
+yes nothing_is_written_by_mistakes sh -c '! ls | grep -q "^a\\."'
+
+# ---- what is written
+
+for format in glb obj ply stl; do
+    check "writes_$format" 0 "$RAMIFY" export scene.yaml -o "a.$format" --json -q
+    bytes=$(number bytes) triangles=$(number triangles)
+    yes "reports_the_size_of_$format" [ "$bytes" -eq "$(wc -c <"a.$format")" ]
+done
+yes stl_holds_what_is_reported [ "$bytes" -eq $((84 + 50 * triangles)) ]
+yes obj_has_its_materials grep -q '^newmtl leaf' a.mtl
+check says_the_file 0 "$RAMIFY" export scene.yaml -o a.stl
+says says_the_file_name err "a.stl"
+check upper_case_ending 0 "$RAMIFY" export scene.yaml -o B.OBJ -q
+yes upper_case_materials [ -s B.mtl ]
+check one_object 0 "$RAMIFY" export scene.yaml -o one.stl --json -q --object ball
+ball=$(number triangles)
+check two_objects 0 "$RAMIFY" export scene.yaml -o two.stl --json -q --object ball --object "other ball"
+yes objects_add_up [ "$(number triangles)" -eq $((2 * ball)) ]
+check another_form_of_the_same 0 "$RAMIFY" export scene.yaml -o bush.stl --json -q --object bush
+yes an_object_alone_is_the_same [ "$(number triangles)" -eq $((triangles - 2 * ball)) ]
+check thicker_tubes 0 "$RAMIFY" export scene.yaml -o bush.ply --json -q --object bush --tube-sides 12
+yes sides_count [ "$(number triangles)" -gt $((triangles - 2 * ball)) ]
+check half_grown 0 "$RAMIFY" export scene.yaml -o half.stl --json -q --grow-to 0.5 --object bush
+yes half_grown_is_less [ "$(number triangles)" -lt $((triangles - 2 * ball)) ]
+
+# ---- nothing harms an old file
+
+old() { for file in a.glb a.obj a.mtl a.ply a.stl; do echo old >$file; done; }
+still_old() { for file in a.glb a.obj a.mtl a.ply a.stl; do [ "$(cat $file)" = old ] || return 1; done; }
+old
+for format in glb obj ply stl; do
+    check "full_disk_$format" 1 sh -c "trap '' XFSZ; ulimit -f 8; exec '$RAMIFY' export scene.yaml -o a.$format -q"
+    says "full_disk_${format}_message" err "cannot be written"
+done
+yes full_disk_keeps_old_files still_old
+yes full_disk_leaves_no_parts sh -c '! ls -A | grep -q part'
+if [ "$(id -u)" -ne 0 ]; then
+    mkdir locked && echo old >locked/a.ply && chmod a-w locked
+    check read_only_folder 1 "$RAMIFY" export scene.yaml -o locked/a.ply
+    yes read_only_folder_keeps_it grep -q old locked/a.ply
+elif mkdir small && mount -t tmpfs -o size=64k,ro tmpfs small 2>/dev/null; then
+    check read_only_folder 1 "$RAMIFY" export scene.yaml -o small/a.ply
+    mount -o remount,rw small && echo old >small/a.obj && echo old >small/a.mtl
+    check small_disk 1 "$RAMIFY" export scene.yaml -o small/a.obj
+    says small_disk_message err "No space left on device"
+    yes small_disk_keeps_both sh -c 'grep -q old small/a.obj && grep -q old small/a.mtl && [ "$(ls -A small | wc -l)" -eq 2 ]'
+    umount small
+fi
+
+# Ctrl-C in the middle of it: the file on its way is there already.
+sed 's/attractors: 300/attractors: 20000/; s/max_count: 500/max_count: 400000/' scene.yaml >large.yaml
+for format in obj glb; do
+    "$RAMIFY" export large.yaml -o a.$format -q --instances flat 2>err &
+    process=$!
+    tries=0
+    while ! ls -A | grep -q '\.part$' && kill -0 $process 2>/dev/null && [ $tries -lt 6000 ]; do
+        sleep 0.01
+        tries=$((tries + 1))
+    done
+    kill -INT $process 2>/dev/null
+    wait $process
+    yes "interrupt_status_$format" [ $? -eq 130 ]
+done
+yes interrupt_keeps_old_files still_old
+yes interrupt_leaves_no_parts sh -c '! ls -A | grep -q part'
