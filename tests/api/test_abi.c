@@ -1,0 +1,51 @@
+// The structs of ramify.h lie in memory as programs compiled before know them. Whoever changes one
+// of these numbers counts SONAME in the Makefile up, so that the loader keeps old programs off.
+#include "ramify.h"
+#include "testing.h"
+
+#define STRUCT(type, last, size, offset)                        \
+    {                                                           \
+#type, sizeof(type), size, offsetof(type, last), offset \
+    }
+
+static void structs_lie_as_before(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        size_t size, wanted_size, last, wanted_last; // bytes; last: where the last member begins
+    } structs[] = {
+        STRUCT(RamifyError, message, 1036, 268),   STRUCT(RamifyRun, user, 40, 32),
+        STRUCT(RamifySceneInfo, memory, 88, 80),   STRUCT(RamifyObjectInfo, instances, 56, 48),
+        STRUCT(RamifyTarget, high, 32, 24),        STRUCT(RamifyLandInfo, hash, 40, 32),
+        STRUCT(RamifyMeasure, high, 40, 32),       STRUCT(RamifyWorldInfo, mesh_seconds, 56, 48),
+        STRUCT(RamifyPart, variations, 120, 112),  STRUCT(RamifyExportOptions, tube_sides, 24, 20),
+        STRUCT(RamifyExportReport, bytes, 48, 40), STRUCT(RamifyRenderInfo, samples, 40, 32),
+    };
+    for (size_t i = 0; i < sizeof structs / sizeof structs[0]; i++) {
+        if (structs[i].size != structs[i].wanted_size ||
+            structs[i].last != structs[i].wanted_last) {
+            fail_msg("%s: %zu bytes, the last member at %zu; it was %zu and %zu", structs[i].name,
+                     structs[i].size, structs[i].last, structs[i].wanted_size,
+                     structs[i].wanted_last);
+        }
+    }
+}
+
+// Programs hand {0} in for "as usual", so every first choice is 0.
+static void zero_is_the_usual_way(void **state)
+{
+    (void)state;
+    assert_int_equal(RAMIFY_OK, 0);
+    assert_int_equal(RAMIFY_INSTANCES_AUTO, 0);
+    assert_int_equal(RAMIFY_COLORS_ALL, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(structs_lie_as_before),
+        cmocka_unit_test(zero_is_the_usual_way),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
