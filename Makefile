@@ -33,6 +33,8 @@ $(OBJ)/render/%.c.o: CFLAGS += $(LTO)
 $(OUT)/ramify $(OUT)/libramify.so $(OUT)/tests/bench/%: private LDFLAGS += $(LTO)
 
 SOURCES   := $(sort $(wildcard src/*.c src/*/*.c src/*/*.cpp))
+COMMANDS  := render grow measure export info schema completion help
+MANUAL    := $(OUT)/man/ramify.1 $(COMMANDS:%=$(OUT)/man/ramify-%.1) $(OUT)/completion/ramify $(OUT)/completion/_ramify
 LIB_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter-out src/cli/%,$(SOURCES)))
 CLI_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter src/cli/%,$(SOURCES)))
 TESTS     := $(sort $(wildcard tests/*/test_*.c))
@@ -43,9 +45,10 @@ FORMATTED := $(wildcard src/*.h src/*.c src/*/*.[ch] src/*/*.cpp tests/*.h tests
 
 .PHONY: all demo docs test peers bench sanitize lint format format-check install uninstall clean help packages check-packages
 .DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
 
 all: packages ## build build/ramify, build/libramify.a and build/libramify.so
-	@$(MAKE) --no-print-directory -j$$(nproc) $(OUT)/ramify $(OUT)/libramify.a $(OUT)/libramify.so
+	@$(MAKE) --no-print-directory -j$$(nproc) $(OUT)/ramify $(OUT)/libramify.a $(OUT)/libramify.so $(MANUAL)
 
 demo: all ## render the oak of scenes/oak.yaml to build/oak.png (and .exr)
 	$(OUT)/ramify render scenes/oak.yaml -o $(OUT)/oak.png
@@ -87,10 +90,13 @@ INSTALL := $(OUT)/ramify:bin/ramify:755 \
            $(OUT)/libramify.a:lib/libramify.a:644 \
            $(OUT)/libramify.so:lib/libramify.so.$(VERSION):755 \
            $(OUT)/ramify.pc:lib/pkgconfig/ramify.pc:644 \
-           src/ramify.h:include/ramify.h:644
+           src/ramify.h:include/ramify.h:644 \
+           $(foreach page,$(filter %.1,$(MANUAL)),$(page):share/man/man1/$(notdir $(page)):644) \
+           $(OUT)/completion/ramify:share/bash-completion/completions/ramify:644 \
+           $(OUT)/completion/_ramify:share/zsh/site-functions/_ramify:644
 LINKS   := lib/$(SONAME) lib/libramify.so
 
-install: all ramify.pc ## install command, libraries, header and ramify.pc below PREFIX (/usr/local)
+install: all ramify.pc ## install command, libraries, header, manual and completions below PREFIX (/usr/local)
 	@set -e; for entry in $(INSTALL); do \
 	    file=$${entry%%:*}; rest=$${entry#*:}; place="$(DESTDIR)$(PREFIX)/$${rest%:*}"; \
 	    echo "  INST $$place"; install -D -m "$${rest##*:}" "$$file" "$$place"; \
@@ -159,6 +165,25 @@ $(OUT)/ramify: $(CLI_OBJ) $(OUT)/libramify.a
 
 # Its allocations are counted, and one of them fails.
 $(OUT)/tests/api/test_memory: private LDFLAGS += -Wl,--wrap=memory_alloc,--wrap=memory_alloc_zero,--wrap=memory_reserve
+
+# The command writes its own manual.
+$(OUT)/man/ramify.1: $(OUT)/ramify
+	@mkdir -p $(@D)
+	@echo "  MAN  $@"
+	@$< help --man > $@
+
+$(OUT)/man/ramify-%.1: $(OUT)/ramify
+	@mkdir -p $(@D)
+	@echo "  MAN  $@"
+	@$< help $* --man > $@
+
+$(OUT)/completion/ramify: $(OUT)/ramify
+	@mkdir -p $(@D)
+	@$< completion bash > $@
+
+$(OUT)/completion/_ramify: $(OUT)/ramify
+	@mkdir -p $(@D)
+	@$< completion zsh > $@
 
 $(OUT)/tests/%: tests/%.c $(OUT)/libramify.a
 	@mkdir -p $(@D)

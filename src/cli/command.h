@@ -7,12 +7,13 @@
 #include "cli/progress.h"
 
 // Each reads its scene, does its work and prints its data; false and e when it failed.
-bool command_render(const Options *options, RamifyError *e);  // render.c
-bool command_grow(const Options *options, RamifyError *e);    // grow.c
-bool command_measure(const Options *options, RamifyError *e); // measure.c
-bool command_export(const Options *options, RamifyError *e);  // export.c
-bool command_info(const Options *options, RamifyError *e);    // info.c
-bool command_schema(const Options *options, RamifyError *e);  // schema.c
+bool command_render(const Options *options, RamifyError *e);     // render.c
+bool command_grow(const Options *options, RamifyError *e);       // grow.c
+bool command_measure(const Options *options, RamifyError *e);    // measure.c
+bool command_export(const Options *options, RamifyError *e);     // export.c
+bool command_info(const Options *options, RamifyError *e);       // info.c
+bool command_schema(const Options *options, RamifyError *e);     // schema.c
+bool command_completion(const Options *options, RamifyError *e); // completion.c
 
 // Threads as asked, progress and warnings to stderr, Ctrl-C and SIGTERM to cancel.
 RamifyRun command_run(const Options *options, Progress *progress);

@@ -67,8 +67,10 @@ static void print_program_help(void)
         printf("  %-29s %s\n", usage, command_at((CommandId)i)->doc);
     }
     printf("  %-29s %s\n\n", "ramify --version", "print the version");
-    printf("'ramify COMMAND --help' lists a command's options. Exit status: 0 done, 1 failed while "
-           "running,\n2 bad command line or scene, 130 interrupted.\n");
+    printf("'ramify COMMAND --help' lists a command's options, 'ramify help COMMAND --man' prints "
+           "its man "
+           "page.\nExit status: 0 done, 1 failed while running, 2 bad command line or scene, 130 "
+           "interrupted.\n");
 }
 
 void options_print_help(CommandId command)

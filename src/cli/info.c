@@ -2,6 +2,7 @@
 #include "cli/command.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static void print_text(const RamifyScene *scene)
 {
@@ -54,13 +55,61 @@ static void print_json(const RamifyScene *scene)
     printf("], \"lights\": %d, \"memory\": %lld}\n", info.light_count, (long long)info.memory);
 }
 
+// path is "objects.NAME.KIND.KEY": for every object of that kind, or of any where there is no kind.
+static void print_object_path(const RamifyScene *scene, const char *rest, int length)
+{
+    RamifySceneInfo info;
+    ramify_scene_info(scene, &info);
+    int word = (int)strcspn(rest, ".\n");
+    for (int i = 0; i < info.object_count; i++) {
+        RamifyObjectInfo object;
+        ramify_scene_object(scene, i, &object);
+        bool own =
+            (int)strlen(object.kind) == word && strncmp(rest, object.kind, (size_t)word) == 0;
+        if (word == length || own) {
+            printf("objects.%s.%.*s\n", object.name, length, rest);
+        }
+    }
+}
+
+// The keys' paths with the names of this scene's objects and materials.
+static bool print_paths(const RamifyScene *scene, RamifyError *e)
+{
+    static const char objects[] = "objects.NAME.", materials[] = "materials.NAME.";
+    RamifySceneInfo info;
+    ramify_scene_info(scene, &info);
+    char *paths = ramify_schema_paths(e);
+    for (char *line = paths; line && *line; line = strchr(line, '\n') + 1) {
+        for (char *n = line; *n != '\n'; n++) {
+            bool entry = n > line && n[-1] == '.' && n[0] == 'N' && n[1] == '.';
+            *n = entry ? '0' : *n;
+        }
+        int length = (int)strcspn(line, "\n");
+        if (strncmp(line, objects, strlen(objects)) == 0) {
+            print_object_path(scene, line + strlen(objects), length - (int)strlen(objects));
+        } else if (strncmp(line, materials, strlen(materials)) == 0) {
+            for (int i = 0; i < info.material_count; i++) {
+                printf("materials.%s%.*s\n", ramify_scene_material_name(scene, i),
+                       length - (int)strlen(materials) + 1, line + strlen(materials) - 1);
+            }
+        } else {
+            printf("%.*s\n", length, line);
+        }
+    }
+    ramify_free(paths);
+    return paths;
+}
+
 bool command_info(const Options *options, RamifyError *e)
 {
     RamifyScene *scene = command_scene(options, e);
     if (!scene) {
         return false;
     }
-    if (options->resolved) {
+    bool done = true;
+    if (options->paths) {
+        done = print_paths(scene, e);
+    } else if (options->resolved) {
         fputs(ramify_scene_resolved(scene), stdout);
     } else if (options->json) {
         print_json(scene);
@@ -68,5 +117,5 @@ bool command_info(const Options *options, RamifyError *e)
         print_text(scene);
     }
     ramify_scene_free(scene);
-    return true;
+    return done;
 }

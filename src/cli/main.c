@@ -1,5 +1,6 @@
 // The ramify command: parses the command line, runs one command, reports what went wrong.
 #include "cli/command.h"
+#include "cli/manual.h"
 
 #include <stdio.h>
 
@@ -34,7 +35,11 @@ static int help(const Options *options)
         fprintf(stderr, "ramify: unknown command '%.60s'; see ramify --help\n", options->operand);
         return 2;
     }
-    options_print_help(command);
+    if (options->man) {
+        manual_print(command, !options->operand);
+    } else {
+        options_print_help(command);
+    }
     return 0;
 }
 
@@ -51,6 +56,8 @@ static bool run_command(const Options *options, RamifyError *e)
         return command_export(options, e);
     case COMMAND_INFO:
         return command_info(options, e);
+    case COMMAND_COMPLETION:
+        return command_completion(options, e);
     default:
         return command_schema(options, e);
     }

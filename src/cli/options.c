@@ -13,7 +13,7 @@
 #define BIT(command) (1u << (command))
 #define GROWS (BIT(COMMAND_RENDER) | BIT(COMMAND_GROW) | BIT(COMMAND_MEASURE) | BIT(COMMAND_EXPORT))
 #define SCENES (GROWS | BIT(COMMAND_INFO))
-#define EVERY (SCENES | BIT(COMMAND_SCHEMA) | BIT(COMMAND_HELP))
+#define EVERY (SCENES | BIT(COMMAND_SCHEMA) | BIT(COMMAND_COMPLETION) | BIT(COMMAND_HELP))
 #define RENDERS BIT(COMMAND_RENDER)
 #define AT(member) offsetof(Options, member)
 
@@ -149,8 +149,13 @@ static const Option OPTIONS[] = {
     {.name = "paths",
      .offset = AT(paths),
      .type = OPTION_YES,
-     .commands = BIT(COMMAND_SCHEMA),
-     .doc = "print the paths of all keys instead, as --set takes them"},
+     .commands = BIT(COMMAND_SCHEMA) | BIT(COMMAND_INFO),
+     .doc = "print the paths of all keys instead, as --set takes them; info: of this scene"},
+    {.name = "man",
+     .offset = AT(man),
+     .type = OPTION_YES,
+     .commands = BIT(COMMAND_HELP),
+     .doc = "print the man page instead"},
     {.name = "threads",
      .value = "N",
      .offset = AT(threads),
@@ -196,6 +201,9 @@ static const Command COMMANDS[COMMAND_COUNT] = {
                         "holds.\n"},
     [COMMAND_INFO] = {"info", "SCENE", "say what a scene file holds", ""},
     [COMMAND_SCHEMA] = {"schema", "", "print what may stand in a scene file, as JSON Schema", ""},
+    [COMMAND_COMPLETION] = {"completion", "bash|zsh", "print what lets a shell complete commands",
+                            "bash: eval \"$(ramify completion bash)\". zsh: put the output into a "
+                            "file _ramify in a folder of fpath.\n"},
     [COMMAND_HELP] = {"help", "[COMMAND]", "explain a command", ""},
 };
 

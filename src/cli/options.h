@@ -14,6 +14,7 @@ typedef enum CommandId {
     COMMAND_EXPORT,
     COMMAND_INFO,
     COMMAND_SCHEMA,
+    COMMAND_COMPLETION,
     COMMAND_HELP,
     COMMAND_COUNT
 } CommandId;
@@ -27,7 +28,8 @@ typedef struct Options {
     int override_count;
     int threads; // 0 = all processors
     bool quiet, json, resolved, help;
-    bool markdown, paths;             // what schema prints instead of the JSON Schema
+    bool markdown, paths;             // what schema and info print instead
+    bool man;                         // help: the man page
     int samples;                      // 0 = the scene's
     int size[2];                      // 0, 0 = the scene's
     double seconds;                   // negative = the scene's

@@ -48,3 +48,128 @@ for example in example-*.yaml; do
 done
 [ "$count" -ge 20 ] || echo "only $count examples" >>wrong
 verdict scene_reference_examples_are_valid
+
+# ---- man pages ----
+
+commands=$("$RAMIFY" --help | sed -n 's/^  ramify \([a-z]*\) .*/\1/p')
+[ "$(echo "$commands" | wc -l)" -gt 5 ] || echo "few commands in the help" >wrong
+for command in $commands; do
+    "$RAMIFY" help "$command" --man >"ramify-$command.1" || echo "no page of $command"
+done >>wrong
+"$RAMIFY" help --man >ramify.1 || echo "no page of ramify" >>wrong
+for command in $commands; do
+    grep -qx "\.Xr ramify.-$command 1 \." ramify.1 || echo "ramify.1 does not name $command"
+    grep -q '^\.Sh EXAMPLES' "ramify-$command.1" || echo "ramify-$command.1 has no examples"
+done >>wrong
+verdict man_pages_of_all_commands
+
+if command -v mandoc >/dev/null; then
+    for page in ramify*.1; do mandoc -T lint -W warning "$page"; done >wrong 2>&1
+    verdict man_pages_lint
+else
+    echo "skipped man_pages_lint: mandoc is not installed"
+fi
+
+# What `make install` puts there are the pages of all commands.
+: >wrong
+for command in $commands; do
+    grep -qE "^COMMANDS +:=.* $command( |\$)" "$root/Makefile" || echo "Makefile: COMMANDS lacks $command"
+done >wrong
+verdict man_pages_are_installed
+
+# The examples run, with pictures made small and a scene that takes no time.
+cat >pine.yaml <<'END'
+camera: {position: [0, 1.5, 7], target: [0, 1.4, 0]}
+film: {width: 32, height: 20}
+render: {samples: 1}
+objects:
+  - name: pine
+    tree: {height: 3, crown: {lobes: 0, growth: {levels: [{attractors: 60}]}}, leaves: {max_count: 50}}
+END
+mkdir -p bin
+cat >bin/ramify <<END
+#!/bin/sh
+case \$1 in
+render) exec "$RAMIFY" "\$@" --size 32x20 --samples 1 --quiet ;;
+*) exec "$RAMIFY" "\$@" ;;
+esac
+END
+chmod +x bin/ramify
+count=0
+for page in ramify*.1; do
+    awk '/^\.Bd -literal/ {inside = 1; next} /^\.Ed/ {inside = 0} inside' "$page" |
+        sed 's/\\-/-/g; s/\\&//g; s/\\e/\\/g' >lines
+    [ -s lines ] || echo "no example in $page"
+    while read -r line; do
+        PATH=$PWD/bin:$PATH bash -c "set -o pipefail; $line" >out 2>&1 </dev/null || {
+            echo "$page: $line"
+            cat out
+        }
+    done <lines
+done >wrong
+verdict man_page_examples_run
+
+# ---- completion ----
+
+"$RAMIFY" completion bash >bash-script
+mkdir -p zsh-folder sub
+"$RAMIFY" completion zsh >zsh-folder/_ramify
+touch survey.asc notes.txt
+
+# Every option of every command, and every word of the help, is in help, page and both scripts.
+for command in $commands; do
+    "$RAMIFY" "$command" --help | sed -n 's/^  \(-[a-z], \)\{0,1\}--\([a-z-]*\).*/\2/p' >options
+    [ "$command" != help ] || printf 'man\nhelp\n' >options # its --help is the program's
+    grep -qx help options || echo "$command has no --help"
+    sed -n "s/^    $command) echo \"\(.*\)\" ;;/ \1 /p" bash-script >of-bash
+    awk -v name="    $command)" '$0 == name {inside = 1; next} inside && /;;/ {exit} inside' zsh-folder/_ramify >of-zsh
+    while read -r option; do
+        sed 's/\\-/-/g' "ramify-$command.1" | grep -qE "^\.It (Fl . , )?Fl --*$option( |\$)" || echo "page of $command: no --$option"
+        grep -q -- " --$option " of-bash || echo "bash: no $command --$option"
+        grep -qE -- "--$option[]=[}]" of-zsh || echo "zsh: no $command --$option"
+    done <options
+done >wrong
+verdict every_option_is_documented
+
+# offers SHELL NAME LINE WORD...: at the end of LINE these words are offered, among others; "!WORD": not offered.
+offers() {
+    shell=$1 name=$2 line=$3
+    shift 3
+    if [ "$shell" = bash ]; then
+        # Word splitting is meant; a blank at the end begins an empty word.
+        # shellcheck disable=SC2086
+        case $line in *' ') set -- $line '' -- "$@" ;; *) set -- $line -- "$@" ;; esac
+        : >typed
+        while [ "$1" != -- ]; do
+            printf '%s\0' "$1" >>typed
+            shift
+        done
+        shift
+        PATH=$PWD/bin:$PATH xargs -0 bash "$root/tests/cli/completion.bash" ./bash-script <typed >offered 2>&1
+    else
+        PATH=$PWD/bin:$PATH timeout 30 zsh -f "$root/tests/cli/completion.zsh" zsh-folder "$line" >offered 2>&1
+    fi
+    for word; do
+        case $word in
+        !*) ! grep -qxF -- "${word#!}" offered || echo "offers ${word#!}" ;;
+        *) grep -qxF -- "$word" offered || { echo "does not offer $word but:"; cat offered; } ;;
+        esac
+    done >wrong
+    verdict "completion_${shell}_$name"
+}
+for shell in bash zsh; do
+    if ! command -v $shell >/dev/null; then
+        echo "skipped completion_$shell: $shell is not installed"
+        continue
+    fi
+    offers $shell command "ramify re" render '!grow'
+    offers $shell option "ramify render pine.yaml --sa" --samples '!--size'
+    offers $shell scene "ramify render " pine.yaml '!notes.txt' '!survey.asc'
+    offers $shell measured "ramify measure s" survey.asc '!pine.yaml'
+    offers $shell isa "ramify render pine.yaml --isa a" avx2 avx512 '!sse2'
+    offers $shell ending "ramify export pine.yaml -o pine." pine.glb pine.obj '!pine.png'
+    offers $shell object "ramify export pine.yaml --object " pine
+    offers $shell key "ramify render pine.yaml --set camera.fo" camera.fov= camera.focal_length= '!film.'
+    offers $shell object_key "ramify render pine.yaml --set objects.pine.tree.h" objects.pine.tree.height=
+    offers $shell shell "ramify completion z" zsh '!bash'
+done

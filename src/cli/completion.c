@@ -1,0 +1,232 @@
+// ramify completion: scripts that let bash and zsh complete the command line. The parts that follow
+// from the tables of commands and options are written around parts that do not
+// (completion_parts.h).
+#include "cli/command.h"
+#include "cli/completion_parts.h"
+#include "cli/option_table.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+// What a shell offers for a value: "words a b", "file yaml swc" (endings; none = all files),
+// "output png" (the same for a file that is to be written), "folder", "command", "set", "object",
+// "free" (nothing).
+typedef struct Offer {
+    char text[256];
+} Offer;
+
+static void offer_add(Offer *offer, const char *word, size_t length)
+{
+    size_t used = strlen(offer->text);
+    snprintf(offer->text + used, sizeof offer->text - used, "%s%.*s", used ? " " : "", (int)length,
+             word);
+}
+
+// The endings that a text names: ".png or .jpg" gives "png jpg".
+static void offer_add_endings(Offer *offer, const char *text)
+{
+    for (const char *dot = strchr(text, '.'); dot; dot = strchr(dot + 1, '.')) {
+        size_t length = strspn(dot + 1, "abcdefghijklmnopqrstuvwxyz0123456789");
+        if (length > 0 && (dot == text || strchr(" E(/", dot[-1]))) {
+            offer_add(offer, dot + 1, length);
+        }
+    }
+}
+
+static Offer offer_of_option(const Option *option, CommandId command)
+{
+    Offer offer = {""};
+    char doc[512];
+    if (option->choices) {
+        offer_add(&offer, "words", 5);
+        offer_add(&offer, option->choices, strlen(option->choices));
+    } else if (option->type == OPTION_SET || option->type == OPTION_OBJECT) {
+        offer_add(&offer, option->type == OPTION_SET ? "set" : "object", 6);
+    } else if (strcmp(option->name, "output") == 0) {
+        offer_add(&offer, "output", 6);
+        option_doc(option, command, doc, sizeof doc);
+        offer_add_endings(&offer, doc);
+        for (int i = 0; command == COMMAND_EXPORT && i < ramify_export_format_count(); i++) {
+            offer_add_endings(&offer, ramify_export_format_ending(i));
+        }
+    } else if (strncmp(option->value, "FILE", 4) == 0) {
+        offer_add(&offer, "file", 4);
+        offer_add_endings(&offer, option->value);
+    } else {
+        bool folder = strcmp(option->value, "FOLDER") == 0;
+        offer_add(&offer, folder ? "folder" : "free", 6);
+    }
+    return offer;
+}
+
+static Offer offer_of_operand(const char *operand)
+{
+    Offer offer = {""};
+    if (strstr(operand, "COMMAND")) {
+        offer_add(&offer, "command", 7);
+    } else if (strstr(operand, "FOLDER")) {
+        offer_add(&offer, "folder", 6);
+    } else if (islower((unsigned char)*operand)) {
+        offer_add(&offer, "words", 5);
+        for (const char *word = operand; *word; word += strspn(word, "|")) {
+            offer_add(&offer, word, strcspn(word, "|"));
+            word += strcspn(word, "|");
+        }
+    } else if (*operand) {
+        offer_add(&offer, "file", 4);
+        if (strstr(operand, "SCENE")) {
+            offer_add(&offer, "yaml", 4);
+        }
+        offer_add_endings(&offer, operand);
+    } else {
+        offer_add(&offer, "free", 4);
+    }
+    return offer;
+}
+
+// ---- bash ----
+
+static void bash_options(CommandId command)
+{
+    printf("    %s) echo \"", command_at(command)->name);
+    const Option *o;
+    const char *before = "";
+    for (int i = 0; (o = option_at(i)); i++) {
+        if (option_is_of(o, command)) {
+            printf("%s--%s", before, o->name);
+            if (o->letter) {
+                printf(" -%c", o->letter);
+            }
+            before = " ";
+        }
+    }
+    printf("\" ;;\n");
+}
+
+static void bash_values(CommandId command)
+{
+    const char *name = command_at(command)->name;
+    const Option *o;
+    for (int i = 0; (o = option_at(i)); i++) {
+        if (option_is_of(o, command) && o->value) {
+            printf("    \"%s --%s\"", name, o->name);
+            if (o->letter) {
+                printf(" | \"%s -%c\"", name, o->letter);
+            }
+            printf(") echo \"%s\" ;;\n", offer_of_option(o, command).text);
+        }
+    }
+    printf("    \"%s \") echo \"%s\" ;;\n", name,
+           offer_of_operand(command_at(command)->operand).text);
+}
+
+static void print_bash(void)
+{
+    printf("# What bash completes after \"ramify\"; written by ramify completion bash.\n\n"
+           "_ramify_commands=\"");
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        printf("%s%s", i ? " " : "", command_at((CommandId)i)->name);
+    }
+    printf("\"\n\n_ramify_options() { # COMMAND\n    case $1 in\n");
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        bash_options((CommandId)i);
+    }
+    printf(
+        "    esac\n}\n\n_ramify_offer() { # COMMAND OPTION, or COMMAND and \"\" for its operand\n"
+        "    case \"$1 $2\" in\n");
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        bash_values((CommandId)i);
+    }
+    printf("    esac\n}\n\n%s", BASH_PARTS);
+}
+
+// ---- zsh ----
+
+// Within '...' and, in brackets, within _arguments' own signs.
+static void zsh_text(const char *text)
+{
+    for (; *text; text++) {
+        if (*text == '\'') {
+            printf("'\\''");
+        } else {
+            printf(strchr("[]:\\", *text) ? "\\%c" : "%c", *text);
+        }
+    }
+}
+
+static void zsh_option(const Option *o, CommandId command)
+{
+    char doc[512], names[96] = "";
+    bool repeats = o->type == OPTION_SET || o->type == OPTION_OBJECT;
+    option_doc(o, command, doc, sizeof doc);
+    if (o->letter) {
+        snprintf(names, sizeof names, "'(-%c --%s)'{-%c,--%s%s}'", o->letter, o->name, o->letter,
+                 o->name, o->value ? "=" : "");
+    } else {
+        snprintf(names, sizeof names, "'%s--%s%s", repeats ? "*" : "", o->name,
+                 o->value ? "=" : "");
+    }
+    printf("            %s[", names);
+    zsh_text(doc);
+    printf("]");
+    if (o->value) {
+        printf(":");
+        zsh_text(o->value);
+        printf(": _ramify_offer %s", offer_of_option(o, command).text);
+    }
+    printf("' \\\n");
+}
+
+static void zsh_command(CommandId command)
+{
+    const Command *c = command_at(command);
+    printf("    %s)\n        _arguments \\\n", c->name);
+    const Option *o;
+    for (int i = 0; (o = option_at(i)); i++) {
+        if (option_is_of(o, command)) {
+            zsh_option(o, command);
+        }
+    }
+    const char *operand = c->operand;
+    bool two = strcmp(operand, "A B") == 0;
+    if (*operand) {
+        printf("            '%s", two ? "*:" : "1:");
+        zsh_text(operand);
+        printf(": _ramify_offer %s'\n", offer_of_operand(operand).text);
+    } else {
+        printf("            '*: :'\n");
+    }
+    printf("        ;;\n");
+}
+
+static void print_zsh(void)
+{
+    printf("#compdef ramify\n# What zsh completes after \"ramify\"; written by ramify completion "
+           "zsh.\n\n_ramify_commands=(\n");
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        printf("    '%s:", command_at((CommandId)i)->name);
+        zsh_text(command_at((CommandId)i)->doc);
+        printf("'\n");
+    }
+    printf(")\n\n%s", ZSH_PARTS);
+    printf("_ramify_command() {\n    case $1 in\n");
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        zsh_command((CommandId)i);
+    }
+    printf("    esac\n}\n\n_ramify \"$@\"\n");
+}
+
+bool command_completion(const Options *options, RamifyError *e)
+{
+    const char *shell = options->operand ? options->operand : "";
+    if (strcmp(shell, "bash") == 0) {
+        print_bash();
+    } else if (strcmp(shell, "zsh") == 0) {
+        print_zsh();
+    } else {
+        return fail(e, RAMIFY_BAD_INPUT, "%s%.60s%s; it must be bash or zsh",
+                    *shell ? "no completion for '" : "no shell is named", shell, *shell ? "'" : "");
+    }
+    return true;
+}

@@ -1,0 +1,276 @@
+// Man pages in mdoc(7). Text goes through put_text, which escapes what roff would take for its own.
+#include "cli/manual.h"
+#include "cli/manual_text.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void put_character(char c, bool first)
+{
+    if (c == '\\') {
+        printf("\\e");
+    } else if (c == '-') {
+        printf("\\-"); // a sign to be copied, no hyphen
+    } else if (first && (c == '.' || c == '\'')) {
+        printf("\\&%c", c);
+    } else {
+        putchar(c);
+    }
+}
+
+// Text of its own lines, a new one for each sentence.
+static void put_text(const char *text)
+{
+    for (const char *at = text; *at; at++) {
+        bool sentence = at > text && at[-1] == '.' && *at == ' ' && isupper((unsigned char)at[1]);
+        put_character(sentence ? '\n' : *at, at == text || at[-1] == '\n');
+    }
+    putchar('\n');
+}
+
+// A phrase as a sentence: "Use N threads."
+static void put_sentence(const char *phrase)
+{
+    char text[512];
+    size_t length = strlen(phrase), word = strcspn(phrase, " ");
+    bool ends = length > 0 && strchr(".!?", phrase[length - 1]);
+    snprintf(text, sizeof text, "%s%s", phrase, ends ? "" : ".");
+    if (strspn(text, "abcdefghijklmnopqrstuvwxyz") >= word - 1) { // no name such as glTF
+        text[0] = (char)toupper((unsigned char)text[0]);
+    }
+    put_text(text);
+}
+
+// "Ar WxH", for a macro line.
+static void put_argument(const char *value)
+{
+    printf(" Ar ");
+    for (; *value; value++) {
+        put_character(*value, false);
+    }
+}
+
+static void put_header(const char *page, const char *doc)
+{
+    char upper[64];
+    snprintf(upper, sizeof upper, "%s", page);
+    for (char *c = upper; *c; c++) {
+        *c = (char)toupper((unsigned char)*c);
+    }
+    printf(".Dd %s\n.Dt %s 1\n.Os ramify %s\n", MANUAL_DATE, upper, ramify_version());
+    printf(".Sh NAME\n.Nm %s\n.Nd %s\n", page, doc);
+}
+
+// ".Ar SCENE | FILE.swc", ".Op Ar COMMAND"
+static void put_operand(const char *operand)
+{
+    char text[128];
+    bool optional = *operand == '[';
+    snprintf(text, sizeof text, "%s", operand + optional);
+    text[strcspn(text, "]")] = 0;
+    const char *before = optional ? ".Op Ar" : ".Ar";
+    char *rest = NULL;
+    for (const char *word = strtok_r(text, " |", &rest); word; word = strtok_r(NULL, " |", &rest)) {
+        printf("%s %s", before, word);
+        before = strchr(operand, '|') ? " | Ar" : " Ar";
+    }
+    printf("%s", *operand ? "\n" : "");
+}
+
+static void put_synopsis(CommandId command)
+{
+    const Command *c = command_at(command);
+    printf(".Sh SYNOPSIS\n.Nm ramify %s\n", c->name);
+    const Option *o;
+    for (int i = 0; (o = option_at(i)); i++) {
+        if (!option_is_of(o, command)) {
+            continue;
+        }
+        if (o->letter) {
+            printf(".Op Fl %c", o->letter);
+        } else {
+            printf(".Op Fl \\-%s", o->name);
+        }
+        if (o->value) {
+            put_argument(o->value);
+        }
+        printf("\n");
+    }
+    put_operand(c->operand);
+}
+
+// What an option may be: its words, or its range.
+static void put_choices(const Option *option)
+{
+    char text[256];
+    if (option->choices) {
+        printf("One of");
+        const char *before = " ";
+        snprintf(text, sizeof text, "%s", option->choices);
+        char *rest = NULL;
+        for (const char *word = strtok_r(text, " ", &rest); word;
+             word = strtok_r(NULL, " ", &rest)) {
+            printf("%s%s", before, word);
+            before = ", ";
+        }
+        printf(".\n");
+    } else if (option->type == OPTION_INT || option->type == OPTION_REAL) {
+        snprintf(text, sizeof text, "%s, %.9g to %.9g.",
+                 option->type == OPTION_INT ? "A whole number" : "A number", option->low,
+                 option->high);
+        put_text(text);
+    } else if (option->type == OPTION_SET) {
+        printf("May be given several times.\n");
+    }
+}
+
+static void put_options(CommandId command)
+{
+    printf(".Sh OPTIONS\n.Bl -tag -width Ds\n");
+    const Option *o;
+    for (int i = 0; (o = option_at(i)); i++) {
+        if (!option_is_of(o, command)) {
+            continue;
+        }
+        char doc[512];
+        printf(".It ");
+        if (o->letter) {
+            printf("Fl %c , ", o->letter);
+        }
+        printf("Fl \\-%s", o->name);
+        if (o->value) {
+            put_argument(o->value);
+        }
+        printf("\n");
+        option_doc(o, command, doc, sizeof doc);
+        put_sentence(doc);
+        put_choices(o);
+    }
+    printf(".El\n");
+}
+
+static void put_formats(void)
+{
+    printf(".Sh FILES\nThe formats, by the ending of the file:\n.Bl -tag -width .usda\n");
+    for (int i = 0; i < ramify_export_format_count(); i++) {
+        printf(".It Pa \\&%s\n", ramify_export_format_ending(i));
+        put_sentence(ramify_export_format_doc(i));
+    }
+    printf(".El\n");
+}
+
+static void put_examples(const ManualText *text)
+{
+    printf(".Sh EXAMPLES\n");
+    for (const ManualExample *x = text->examples; x->what; x++) {
+        char what[256];
+        snprintf(what, sizeof what, "%s:", x->what);
+        what[0] = (char)toupper((unsigned char)what[0]);
+        if (x > text->examples) {
+            printf(".Pp\n");
+        }
+        put_text(what);
+        printf(".Bd -literal -offset indent\n");
+        put_text(x->command);
+        printf(".Ed\n");
+    }
+}
+
+static void put_exit_status(CommandId command)
+{
+    printf(".Sh EXIT STATUS\n.Bl -tag -width Ds\n.It 0\nDone.\n.It 1\n");
+    printf("Failed while running%s.\n",
+           command == COMMAND_MEASURE ? ", or a target that the scene states is missed" : "");
+    printf(".It 2\nThe command line or the scene is wrong; nothing was done.\n"
+           ".It 130\nInterrupted by Ctrl\\-C or SIGTERM.\n.El\n");
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+// own: the page's command; COMMAND_COUNT = the program itself.
+static void put_see_also(CommandId own)
+{
+    const char *names[COMMAND_COUNT] = {NULL};
+    int count = 0;
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        if (i != (int)own) {
+            names[count++] = command_at((CommandId)i)->name;
+        }
+    }
+    qsort(names, (size_t)count, sizeof *names, compare_names);
+    printf(".Sh SEE ALSO\n");
+    if (own != COMMAND_COUNT) {
+        printf(".Xr ramify 1 ,\n");
+    }
+    for (int i = 0; i < count; i++) {
+        printf(".Xr ramify\\-%s 1%s\n", names[i], i + 1 < count ? " ," : "");
+    }
+    printf(".Pp\nThe scene file, key by key: docs/scene.md, or\n"
+           ".Ql ramify schema \\-\\-markdown .\n");
+}
+
+static void put_paragraphs(const ManualText *text)
+{
+    for (const char *const *p = text->paragraphs; *p; p++) {
+        printf("%s", p > text->paragraphs ? ".Pp\n" : "");
+        put_text(*p);
+    }
+}
+
+static void put_program(void)
+{
+    const ManualText *text = manual_text("");
+    put_header("ramify", "grow branching things and render them");
+    printf(
+        ".Sh SYNOPSIS\n.Nm\n.Ar command\n.Op Ar options\n.Nm\n.Fl \\-version\n.Nm\n.Fl \\-help\n");
+    printf(".Sh DESCRIPTION\n");
+    put_paragraphs(text);
+    printf(".Sh COMMANDS\n.Bl -tag -width completion\n");
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        const Command *c = command_at((CommandId)i);
+        printf(".It Cm %s\n", c->name);
+        put_sentence(c->doc);
+        printf("See\n.Xr ramify\\-%s 1 .\n", c->name);
+    }
+    printf(".El\n");
+    put_exit_status(COMMAND_HELP);
+    put_examples(text);
+    put_see_also(COMMAND_COUNT);
+    printf(".Sh STANDARDS\nThe method is that of T. Tanaka, T. Ito and T. Kikuchi,\n"
+           ".Em Controllable Field Space Colonization .\n");
+}
+
+void manual_print(CommandId command, bool program)
+{
+    if (program) {
+        put_program();
+        return;
+    }
+    const Command *c = command_at(command);
+    const ManualText *text = manual_text(c->name);
+    char page[64];
+    snprintf(page, sizeof page, "ramify-%s", c->name);
+    put_header(page, c->doc);
+    put_synopsis(command);
+    printf(".Sh DESCRIPTION\n");
+    if (text) {
+        put_paragraphs(text);
+    } else {
+        put_sentence(c->doc);
+        put_text(c->more);
+    }
+    put_options(command);
+    if (command == COMMAND_EXPORT) {
+        put_formats();
+    }
+    put_exit_status(command);
+    if (text) {
+        put_examples(text);
+    }
+    put_see_also(command);
+}
