@@ -341,7 +341,7 @@ enum {
 enum {
     RAMIFY_COLORS_ALL = 0,     // patterns, and growth as a second set where a format has two
     RAMIFY_COLORS_PATTERN = 1, // what procedural patterns look like
-    RAMIFY_COLORS_GROWTH = 2,  // red: birth, 0..1; green: radius over the largest of the part
+    RAMIFY_COLORS_GROWTH = 2,  // red: birth, 0..1; green: radius over the object's largest
     RAMIFY_COLORS_NONE = 3
 };
 

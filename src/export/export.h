@@ -20,7 +20,7 @@ typedef enum ExportInstances {
 typedef enum ExportColors {
     EXPORT_COLORS_ALL,     // patterns first, growth second where a format has two sets
     EXPORT_COLORS_PATTERN, // what procedural patterns look like
-    EXPORT_COLORS_GROWTH,  // red: birth, 0..1; green: radius over the largest of the part
+    EXPORT_COLORS_GROWTH,  // red: birth, 0..1; green: radius over the object's largest
     EXPORT_COLORS_NONE
 } ExportColors;
 

@@ -1,6 +1,7 @@
 #include "export/glb.h"
 
 #include "base/memory.h"
+#include "export/vertex_colors.h"
 #include "image/image.h"
 
 #include <stdlib.h>
@@ -12,7 +13,7 @@ bool glb_colors_are_base(const Glb *glb, const Material *material)
 {
     ExportColors colors = glb->source->options.colors;
     return (colors == EXPORT_COLORS_ALL || colors == EXPORT_COLORS_PATTERN) &&
-           material->pattern != PATTERN_NONE && export_material_varies(material);
+           vertex_colors_vary_on(material);
 }
 
 // ---- pictures

@@ -41,26 +41,60 @@ static int64_t chunk_of(const CurveSet *curves, int64_t first)
     return last - first;
 }
 
-// One mesh at all places.
-static bool visit_mesh(const ExportSource *source, int64_t index, const Mesh *mesh, bool placed,
-                       unsigned wants, const Run *run, ExportVisit visit, void *user, Error *e)
+static float largest(const float *radius, int64_t count)
 {
-    const Part *part = &source->world->geometry.part[index];
+    float most = 0.0f;
+    for (int64_t i = 0; radius && i < count; i++) {
+        most = radius[i] > most ? radius[i] : most;
+    }
+    return most;
+}
+
+// Of all branches of the scene's object.
+static float largest_radius(const Geometry *geometry, int object)
+{
+    float most = 0.0f;
+    for (int64_t i = 0; i < geometry->count; i++) {
+        const Part *part = &geometry->part[i];
+        if (part->object == object && part->mesh) {
+            most = fmaxf(most, largest(part->mesh->radius, part->mesh->vertex_count));
+        } else if (part->object == object && part->curves) {
+            most = fmaxf(most, largest(part->curves->radius, part->curves->point_count));
+        }
+    }
+    return most;
+}
+
+typedef struct PartWalk {
+    const ExportSource *source;
+    int64_t index;
+    bool placed;
+    unsigned wants;
+    float largest_radius;
+    const Run *run;
+    ExportVisit visit;
+    void *user;
+} PartWalk;
+
+// One mesh at all places.
+static bool visit_mesh(const PartWalk *walk, const Mesh *mesh, Error *e)
+{
+    const World *world = walk->source->world;
+    const Part *part = &world->geometry.part[walk->index];
     ExportSurface surface;
-    if (!export_surface_prepare(&surface, mesh, &source->world->material[part->material], wants,
-                                e)) {
+    if (!export_surface_prepare(&surface, mesh, &world->material[part->material], walk->wants, e)) {
         return false;
     }
+    surface.largest_radius = walk->largest_radius;
     bool done = true;
-    for (int64_t i = 0; done && i < part_copies(part, placed); i++) {
-        bool instance = part->instance && placed;
-        ExportPiece piece = {.part = index,
-                             .surface = &surface,
-                             .place = instance ? &part->instance[i] : NULL,
-                             .variation = instance         ? part_variation(part, i)
-                                          : part->instance ? -1.0f
-                                                           : 0.5f};
-        done = run_is_cancelled(run) ? run_cancel_error(e) : visit(user, &piece, e);
+    for (int64_t i = 0; done && i < part_copies(part, walk->placed); i++) {
+        ExportPiece piece = {.part = walk->index, .surface = &surface, .variation = 0.5f};
+        if (part->instance) {
+            piece.place = walk->placed ? &part->instance[i] : NULL;
+            piece.variation = walk->placed ? part_variation(part, i) : -1.0f;
+        }
+        done =
+            run_is_cancelled(walk->run) ? run_cancel_error(e) : walk->visit(walk->user, &piece, e);
     }
     export_surface_clear(&surface);
     return done;
@@ -69,16 +103,24 @@ static bool visit_mesh(const ExportSource *source, int64_t index, const Mesh *me
 bool export_part_pieces(const ExportSource *source, int64_t index, bool placed, unsigned wants,
                         const Run *run, ExportVisit visit, void *user, Error *e)
 {
-    const Part *part = &source->world->geometry.part[index];
+    const Geometry *geometry = &source->world->geometry;
+    const Part *part = &geometry->part[index];
+    PartWalk walk = {.source = source,
+                     .index = index,
+                     .placed = placed,
+                     .wants = wants,
+                     .largest_radius = largest_radius(geometry, part->object),
+                     .run = run,
+                     .visit = visit,
+                     .user = user};
     if (part->mesh) {
-        return part->mesh->face_count == 0 ||
-               visit_mesh(source, index, part->mesh, placed, wants, run, visit, user, e);
+        return part->mesh->face_count == 0 || visit_mesh(&walk, part->mesh, e);
     }
     bool done = true;
     for (int64_t i = 0; done && i < part->curves->curve_count;) {
         int64_t count = chunk_of(part->curves, i);
         Mesh *tubes = curve_tubes(part->curves, i, count, tube_sides(source), e);
-        done = tubes && visit_mesh(source, index, tubes, placed, wants, run, visit, user, e);
+        done = tubes && visit_mesh(&walk, tubes, e);
         mesh_free(tubes);
         i += count;
     }

@@ -39,9 +39,6 @@ bool export_surface_prepare(ExportSurface *surface, const Mesh *mesh, const Mate
                             unsigned wants, Error *e)
 {
     *surface = (ExportSurface){.mesh = mesh, .material = material, .wants = wants};
-    for (int64_t i = 0; mesh->radius && i < mesh->vertex_count; i++) {
-        surface->largest_radius = fmaxf(surface->largest_radius, mesh->radius[i]);
-    }
     bool done = (!(wants & EXPORT_WANTS_NORMALS) || mesh->normal || make_normals(surface, e)) &&
                 (!(wants & EXPORT_WANTS_COLORS) || !export_material_varies(material) ||
                  mesh->face_count == 0 || find_faces(surface, e));

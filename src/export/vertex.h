@@ -20,7 +20,7 @@ typedef struct ExportSurface {
     const Mesh *mesh;
     const Material *material;
     unsigned wants;
-    float largest_radius; // that growth is told against
+    float largest_radius; // m: that growth is told against; 0 = growth has no green
     Vec3 *normal;         // owned: where the mesh has none and they are wanted; else NULL
     uint32_t *face;       // owned: some face of each vertex, for colours; else NULL
 } ExportSurface;
