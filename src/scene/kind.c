@@ -21,6 +21,7 @@ static const Kind *const KINDS[] = {
     &kind_vessels,
     &kind_venation,
     &kind_fracture,
+    &kind_skeleton,
     // clang-format on
     &kind_forest,
 };

@@ -13,5 +13,6 @@ extern const Kind kind_terrain;
 extern const Kind kind_vessels;
 extern const Kind kind_venation;
 extern const Kind kind_fracture;
+extern const Kind kind_skeleton;
 
 #endif

@@ -16,6 +16,7 @@
 #include "model/lightning.h"
 #include "model/lsystem_plant.h"
 #include "model/sculpture.h"
+#include "model/skeleton.h"
 #include "model/terrain.h"
 #include "model/tree.h"
 #include "model/venation.h"
@@ -55,6 +56,7 @@ typedef struct SceneObject {
     TerrainParams *terrain;
     VenationParams *venation;
     FractureParams *fracture;
+    SkeletonParams *skeleton;
     // material names, as far as the kind has use for them; NULL = the kind's built-in default
     char *material; // mesh, shape, ground; bark of a tree
     char *twig_material, *leaf_material, *grass_material;
@@ -62,6 +64,7 @@ typedef struct SceneObject {
     char *rime_material;                  // of frost
     char *polyp_material, *rock_material; // of corals
     char *vein_material;
+    char *axon_material;   // of skeletons
     char *inside_material; // of what is broken
 } SceneObject;
 

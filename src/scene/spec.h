@@ -93,6 +93,7 @@ extern const Table sculpture_table;                                   // spec_sc
 extern const Table vessels_table;                                     // spec_vessels.c
 extern const Table venation_table;                                    // spec_venation.c
 extern const Table fracture_table;                                    // spec_fracture.c
+extern const Table skeleton_table;                                    // spec_skeleton.c
 extern const Table shape_table, points_table, growth_table, guide_field_table; // spec_element.c
 
 // The start of a row: key `KEY` of type `TYPE` stored in `MEMBER` of struct `STRUCT`.

@@ -178,6 +178,8 @@ static const Key OBJECT_KEYS[] = {
      .doc = "A leaf and its veins."},
     {KEY_OF(SceneObject, fracture, "fracture", KEY_POINTER), .table = &fracture_table,
      .doc = "A thing broken along grown cracks."},
+    {KEY_OF(SceneObject, skeleton, "skeleton", KEY_POINTER), .table = &skeleton_table,
+     .doc = "A neuron or another out-tree from an SWC file."},
     {KEY_OF(SceneObject, material, "material", KEY_TEXT),
      .doc = "Material of the whole, or of a tree's bark; left out: what the kind usually has, as "
             "bark, ground, coral, ice; clay for a mesh or a shape."},
@@ -198,6 +200,8 @@ static const Key OBJECT_KEYS[] = {
      .doc = "Material of the faces that broke; left out: broken."},
     {KEY_OF(SceneObject, vein_material, "vein_material", KEY_TEXT),
      .doc = "Material of veins; left out: vein."},
+    {KEY_OF(SceneObject, axon_material, "axon_material", KEY_TEXT),
+     .doc = "Material of a skeleton's axon; left out: that of the rest."},
     {0},
 };
 

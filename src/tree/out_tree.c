@@ -70,6 +70,7 @@ OutTree *out_tree_copy(const OutTree *tree, Error *e)
         memcpy(copy->id, tree->id, n * sizeof(uint64_t));
     }
     copy->count = tree->count;
+    copy->typed = tree->typed;
     return copy;
 }
 

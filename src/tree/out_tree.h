@@ -20,6 +20,7 @@ typedef struct OutTree {
     Vec3
         *normal; // unit: across the node's direction, or the surface normal for growth on a surface
     uint64_t *id; // stable name: hash of the parent's id and its place among its siblings
+    bool typed;   // colonies are types as SWC has them (SwcType), which writing one keeps
 } OutTree;
 
 OutTree *out_tree_new(Error *e);

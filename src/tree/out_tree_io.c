@@ -46,8 +46,9 @@ bool out_tree_write_swc(const OutTree *tree, const char *file, Error *e)
     for (int64_t i = 0; i < tree->count; i++) {
         Vec3 p = tree->position[i];
         int64_t parent = tree->parent[i] < 0 ? -1 : tree->parent[i] + (int64_t)1;
-        fprintf(out.stream, "%" PRId64 " 0 %.9g %.9g %.9g %.9g %" PRId64 "\n", i + 1, (double)p.x,
-                (double)p.y, (double)p.z, (double)tree->radius[i], parent);
+        fprintf(out.stream, "%" PRId64 " %" PRId32 " %.9g %.9g %.9g %.9g %" PRId64 "\n", i + 1,
+                tree->typed ? tree->colony[i] : SWC_UNDEFINED, (double)p.x, (double)p.y,
+                (double)p.z, (double)tree->radius[i], parent);
     }
     return new_file_close(&out, e);
 }

@@ -3,11 +3,21 @@
 #ifndef RAMIFY_TREE_OUT_TREE_IO_H
 #define RAMIFY_TREE_OUT_TREE_IO_H
 
-#include "base/error.h"
+#include "base/run.h"
 #include "tree/out_tree.h"
 
-// SWC (Cannon et al. 1998): one line a node: number from 1, type (0, undefined), x y z radius in
-// metres, the parent's number or -1. Births and colonies are lost. ERROR_IO with the reason.
+// Types of SWC's nodes; there may be others.
+typedef enum SwcType {
+    SWC_UNDEFINED = 0,
+    SWC_SOMA = 1,
+    SWC_AXON = 2,
+    SWC_BASAL = 3, // dendrites
+    SWC_APICAL = 4
+} SwcType;
+
+// SWC (Cannon et al. 1998): one line a node: number from 1, type (the colony of typed trees, 0 =
+// undefined of others), x y z radius in metres, the parent's number or -1. Births are lost.
+// ERROR_IO with the reason.
 bool out_tree_write_swc(const OutTree *tree, const char *file, Error *e);
 
 // Reads SWC strictly: every line a comment (#), blank, or exactly seven numbers; node numbers
@@ -16,6 +26,10 @@ bool out_tree_write_swc(const OutTree *tree, const char *file, Error *e);
 // count the nodes from the root, colonies are the types, ids are made anew. ERROR_INPUT with file
 // and line; the caller frees the tree. (swc_read.c)
 OutTree *out_tree_read_swc(const char *file, Error *e);
+
+// The same in a child process with limits (base/child.h), for files that come from anywhere.
+// (swc_import.c)
+OutTree *out_tree_import_swc(const char *file, const Run *run, Error *e);
 
 // JSON: one object with the arrays position ([x, y, z] in metres), parent (-1 at roots), birth,
 // colony, radius (metres) and id (hexadecimal strings). Numbers read back to the same bits.

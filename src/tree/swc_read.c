@@ -255,7 +255,9 @@ static OutTree *make_tree(SwcFile *swc, Error *e)
         done = add_with_ancestors(swc, tree, (int32_t)i, way, e);
     }
     free(way);
-    if (!done) {
+    if (done) {
+        tree->typed = true;
+    } else {
         out_tree_free(tree);
         return NULL;
     }

@@ -281,7 +281,11 @@ typedef struct Seed {
     size_t size;
 } Seed;
 
+#ifdef __SANITIZE_ADDRESS__ // forks slowly
+enum { SEEDS = 6, BROKEN = 50 };
+#else
 enum { SEEDS = 6, BROKEN = 250 };
+#endif
 
 static void put(Seed *seed, const void *data, size_t size)
 {

@@ -1,0 +1,33 @@
+// Skeletons from SWC files as a kind of object.
+#include "scene/kinds.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+{
+    return skeleton_grow(object->skeleton, recipe, e);
+}
+
+static bool place(const Placing *p, const OutTree *tree, Error *e)
+{
+    SkeletonMaterials materials = {.body = placing_material(p, p->object->material, "clay")};
+    materials.axon = p->object->axon_material
+                         ? placing_material(p, p->object->axon_material, "clay")
+                         : materials.body;
+    return skeleton_geometry(tree, p->object->skeleton, &materials, p->index, &p->world->geometry,
+                             p->recipe.run, e);
+}
+
+static void describe(const SceneObject *object, char *text, size_t size)
+{
+    const char *slash = strrchr(object->skeleton->file, '/');
+    snprintf(text, size, ", %s", slash ? slash + 1 : object->skeleton->file);
+}
+
+const Kind kind_skeleton = {.key = "skeleton",
+                            .offset = offsetof(SceneObject, skeleton),
+                            .materials = {"material", "axon_material"},
+                            .grow = grow,
+                            .place = place,
+                            .describe = describe};
