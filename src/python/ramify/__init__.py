@@ -1,0 +1,33 @@
+"""ramify: grows branching things, skins them with watertight meshes and path traces them.
+
+    import ramify
+
+    scene = ramify.Scene.load("oak.yaml", {"camera.fov": 35})
+    tree = scene.grow("oak")                    # tree.positions, tree.parents, ... are NumPy arrays
+    picture = scene.render()                    # height x width x 4, linear, premultiplied
+    picture.save("oak.png")
+
+    ramify.Scene({"sky": {"kind": "sun_sky"}, "objects": [{"name": "oak", "tree": {"height": 9}}]}).export("oak.glb")
+
+Metres, degrees, Y up, right-handed, linear Rec. 709 colours. The same scene and seed give the same bits for any number of
+threads. Arrays are read-only views of the library's memory; copy one to change it. Objects are named by their name in
+the scene or by their number. Everything that takes long takes threads (0 = all processors) and progress, a function of
+(stage, done) with done in 0..1; Ctrl-C and an exception in progress end it early.
+"""
+
+from ._call import BadInput, Error, VERSION as __version__
+from .scene import Scene, schema
+from .tree import Land, Tree
+from .world import Film, Mesh, Curves, World
+
+__all__ = ["BadInput", "Curves", "Error", "Film", "Land", "Mesh", "Scene", "Tree", "World", "schema", "render"]
+
+
+def render(scene, file=None, overrides=None, folder="", **how):
+    """Renders a scene, a dict or the name of a scene file, and writes it to file if there is one. Returns the Film."""
+    if not isinstance(scene, Scene):
+        scene = Scene(scene, overrides, folder) if isinstance(scene, dict) else Scene.load(scene, overrides)
+    film = scene.render(**how)
+    if file is not None:
+        film.save(file)
+    return film

@@ -1,0 +1,269 @@
+"""The functions and structs of ramify.h, as ctypes sees them. tests/python holds them against the header."""
+
+import ctypes as c
+import ctypes.util
+import os
+from pathlib import Path
+
+SONAME = "libramify.so.0"
+
+
+class Error(c.Structure):
+    _fields_ = [
+        ("code", c.c_int32),
+        ("line", c.c_int32),
+        ("column", c.c_int32),
+        ("file", c.c_char * 256),
+        ("message", c.c_char * 768),
+    ]
+
+
+PROGRESS = c.CFUNCTYPE(None, c.c_void_p, c.c_char_p, c.c_double)
+WARN = c.CFUNCTYPE(None, c.c_void_p, c.c_char_p)
+PASS = c.CFUNCTYPE(None, c.c_void_p, c.c_void_p, c.c_int)
+
+
+class Run(c.Structure):
+    _fields_ = [
+        ("threads", c.c_int32),
+        ("cancelled", c.POINTER(c.c_int)),
+        ("progress", PROGRESS),
+        ("warn", WARN),
+        ("user", c.c_void_p),
+    ]
+
+
+class SceneInfo(c.Structure):
+    _fields_ = [
+        ("file", c.c_char_p),
+        ("seed", c.c_uint64),
+        ("width", c.c_int32),
+        ("height", c.c_int32),
+        ("crop", c.c_float * 4),
+        ("samples", c.c_int32),
+        ("denoise", c.c_int32),
+        ("max_seconds", c.c_double),
+        ("max_noise", c.c_float),
+        ("grow_to", c.c_float),
+        ("object_count", c.c_int32),
+        ("material_count", c.c_int32),
+        ("light_count", c.c_int32),
+        ("target_count", c.c_int32),
+        ("memory", c.c_int64),
+    ]
+
+
+class ObjectInfo(c.Structure):
+    _fields_ = [
+        ("name", c.c_char_p),
+        ("kind", c.c_char_p),
+        ("seed", c.c_uint64),
+        ("grows", c.c_int32),
+        ("is_land", c.c_int32),
+        ("paints", c.c_int32),
+        ("attractors", c.c_int64),
+        ("instances", c.c_int64),
+    ]
+
+
+class LandInfo(c.Structure):
+    _fields_ = [
+        ("columns", c.c_int32),
+        ("rows", c.c_int32),
+        ("cell", c.c_float * 2),
+        ("origin", c.c_float * 2),
+        ("low", c.c_float),
+        ("high", c.c_float),
+        ("hash", c.c_uint64),
+    ]
+
+
+class Measure(c.Structure):
+    _fields_ = [
+        ("name", c.c_char_p),
+        ("unit", c.c_char_p),
+        ("value", c.c_double),
+        ("low", c.c_double),
+        ("high", c.c_double),
+    ]
+
+
+class WorldInfo(c.Structure):
+    _fields_ = [
+        ("nodes", c.c_int64),
+        ("triangles", c.c_int64),
+        ("curve_segments", c.c_int64),
+        ("instances", c.c_int64),
+        ("bytes", c.c_int64),
+        ("grow_seconds", c.c_double),
+        ("mesh_seconds", c.c_double),
+    ]
+
+
+class Part(c.Structure):
+    _fields_ = [
+        ("object", c.c_int32),
+        ("face_size", c.c_int32),
+        ("material", c.c_char_p),
+        ("vertex_count", c.c_int64),
+        ("positions", c.c_void_p),
+        ("normals", c.c_void_p),
+        ("uvs", c.c_void_p),
+        ("radii", c.c_void_p),
+        ("births", c.c_void_p),
+        ("face_count", c.c_int64),
+        ("indices", c.c_void_p),
+        ("curve_count", c.c_int64),
+        ("starts", c.c_void_p),
+        ("instance_count", c.c_int64),
+        ("instances", c.c_void_p),
+        ("variations", c.c_void_p),
+    ]
+
+
+class ExportOptions(c.Structure):
+    _fields_ = [
+        ("objects", c.POINTER(c.c_char_p)),
+        ("object_count", c.c_int32),
+        ("instances", c.c_int32),
+        ("colors", c.c_int32),
+        ("tube_sides", c.c_int32),
+    ]
+
+
+class ExportReport(c.Structure):
+    _fields_ = [
+        ("vertices", c.c_int64),
+        ("triangles", c.c_int64),
+        ("low", c.c_float * 3),
+        ("high", c.c_float * 3),
+        ("bytes", c.c_int64),
+    ]
+
+
+class RenderInfo(c.Structure):
+    _fields_ = [
+        ("paths", c.c_int64),
+        ("rays", c.c_int64),
+        ("bytes", c.c_int64),
+        ("seconds", c.c_double),
+        ("samples", c.c_int32),
+    ]
+
+
+# Name in ramify.h of each struct above.
+STRUCTS = {
+    "RamifyError": Error,
+    "RamifyRun": Run,
+    "RamifySceneInfo": SceneInfo,
+    "RamifyObjectInfo": ObjectInfo,
+    "RamifyLandInfo": LandInfo,
+    "RamifyMeasure": Measure,
+    "RamifyWorldInfo": WorldInfo,
+    "RamifyPart": Part,
+    "RamifyExportOptions": ExportOptions,
+    "RamifyExportReport": ExportReport,
+    "RamifyRenderInfo": RenderInfo,
+}
+
+_handle, _text, _int, _error = c.c_void_p, c.c_char_p, c.c_int, c.POINTER(Error)
+_texts, _run = c.POINTER(c.c_char_p), c.POINTER(Run)
+
+# Each function that the module calls: its result, then its arguments.
+FUNCTIONS = {
+    "version": (_text, []),
+    "free": (None, [c.c_void_p]),
+    "memory_peak": (c.c_int64, []),
+    "schema": (c.c_void_p, [_error]),
+    "scene_load": (_handle, [_text, _texts, _int, _error]),
+    "scene_load_text": (_handle, [_text, c.c_size_t, _text, _text, _texts, _int, _error]),
+    "scene_free": (None, [_handle]),
+    "scene_info": (None, [_handle, c.POINTER(SceneInfo)]),
+    "scene_text": (_text, [_handle]),
+    "scene_resolved": (_text, [_handle]),
+    "scene_object": (None, [_handle, _int, c.POINTER(ObjectInfo)]),
+    "grow": (_handle, [_handle, _int, _run, _error]),
+    "tree_read": (_handle, [_text, _error]),
+    "tree_write": (c.c_bool, [_handle, _text, _error]),
+    "tree_free": (None, [_handle]),
+    "tree_count": (c.c_int64, [_handle]),
+    "tree_positions": (c.c_void_p, [_handle]),
+    "tree_parents": (c.c_void_p, [_handle]),
+    "tree_radii": (c.c_void_p, [_handle]),
+    "tree_births": (c.c_void_p, [_handle]),
+    "tree_colonies": (c.c_void_p, [_handle]),
+    "tree_normals": (c.c_void_p, [_handle]),
+    "tree_ids": (c.c_void_p, [_handle]),
+    "tree_hash": (c.c_uint64, [_handle]),
+    "land": (_handle, [_handle, _int, _handle, _run, _error]),
+    "land_read": (_handle, [_text, _error]),
+    "land_free": (None, [_handle]),
+    "land_info": (None, [_handle, c.POINTER(LandInfo)]),
+    "land_heights": (c.c_void_p, [_handle]),
+    "measure": (_handle, [_handle, _int, _run, _error]),
+    "tree_measure": (_handle, [_handle, _error]),
+    "land_measure": (_handle, [_handle, _error]),
+    "measures_free": (None, [_handle]),
+    "measures_count": (_int, [_handle]),
+    "measures_get": (None, [_handle, _int, c.POINTER(Measure)]),
+    "build": (_handle, [_handle, _run, _error]),
+    "world_free": (None, [_handle]),
+    "world_info": (None, [_handle, c.POINTER(WorldInfo)]),
+    "world_part_count": (c.c_int64, [_handle]),
+    "world_part": (None, [_handle, c.c_int64, c.POINTER(Part)]),
+    "export": (
+        c.c_bool,
+        [_handle, _text, c.POINTER(ExportOptions), _run, c.POINTER(ExportReport), _error],
+    ),
+    "film_new": (_handle, [_int, _int, _error]),
+    "film_free": (None, [_handle]),
+    "film_layer": (c.c_void_p, [_handle, _text, c.POINTER(_int)]),
+    "film_write": (c.c_bool, [_handle, _handle, _text, c.c_bool, _run, _error]),
+    "renderer_new": (_handle, [_handle, _text, _run, _error]),
+    "renderer_free": (None, [_handle]),
+    "renderer_render": (
+        c.c_bool,
+        [_handle, _handle, PASS, c.c_void_p, _run, c.POINTER(RenderInfo), _error],
+    ),
+}
+
+
+def _candidates():
+    """Where the library may be: as told, beside this module below the same prefix, where the loader looks."""
+    told = os.environ.get("RAMIFY_LIBRARY")
+    if told:
+        yield told
+        return
+    for folder in Path(__file__).resolve().parents:
+        for name in (SONAME, "libramify.so"):
+            for place in (folder / name, folder / "build" / name):
+                if place.is_file():
+                    yield str(place)
+    yield SONAME
+    found = ctypes.util.find_library("ramify")
+    if found:
+        yield found
+
+
+def load(version):
+    """The library, its functions declared. ImportError when it is not there or of another version."""
+    reasons = []
+    for name in _candidates():
+        try:
+            library = c.CDLL(name)
+        except OSError as reason:
+            reasons.append(str(reason))
+            continue
+        for function, (result, arguments) in FUNCTIONS.items():
+            entry = getattr(library, "ramify_" + function)
+            entry.restype, entry.argtypes = result, arguments
+        found = library.ramify_version().decode()
+        if found != version:
+            raise ImportError(
+                f"{name} is ramify {found}, but this module is of {version}; install both from the same source"
+            )
+        return library
+    raise ImportError(
+        "libramify.so is not found; run 'make install', or name the file in the environment variable "
+        "RAMIFY_LIBRARY (" + "; ".join(reasons) + ")"
+    )

@@ -1,0 +1,22 @@
+"""The library's arrays as NumPy arrays: views, not copies."""
+
+import ctypes as c
+
+import numpy as np
+
+_BYTES = {"f4": c.c_float, "i4": c.c_int32, "u4": c.c_uint32, "i8": c.c_int64, "u8": c.c_uint64}
+
+
+def view(address, kind, shape, owner):
+    """A read-only array of what lies at address and belongs to owner (a Handle), which lives as long as the array. None
+    where there is nothing."""
+    if not address:
+        return None
+    count = int(np.prod(shape))
+    if count == 0:
+        return np.zeros(shape, kind)
+    memory = (_BYTES[kind] * count).from_address(address)
+    memory.owner = owner  # NumPy keeps memory, memory keeps the owner
+    array = np.frombuffer(memory, kind).reshape(shape)
+    array.flags.writeable = False
+    return array

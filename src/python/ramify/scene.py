@@ -1,0 +1,169 @@
+"""Scenes: what everything is made from."""
+
+import ctypes as c
+import json
+import os
+
+import numpy as np
+
+from . import _abi
+from ._call import Handle, call, lib, run
+from .tree import Land, Tree, measures
+from .world import World
+
+_INSTANCES = ("auto", "nodes", "gpu", "flat")
+_COLORS = ("all", "pattern", "growth", "none")
+
+
+def _plain(value):
+    """What json does not know: numbers and arrays of NumPy, paths."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    raise TypeError(f"a scene cannot hold a {type(value).__name__}")
+
+
+def _yaml(value):
+    # JSON is YAML, as long as nothing is escaped that need not be
+    return json.dumps(value, default=_plain, allow_nan=False, ensure_ascii=False)
+
+
+def _overrides(overrides):
+    """{"camera.fov": 35} as the library takes them."""
+    texts = [f"{path}={_yaml(value)}".encode() for path, value in (overrides or {}).items()]
+    return (c.c_char_p * len(texts))(*texts), len(texts)
+
+
+def _choice(name, value, known):
+    if value not in known:
+        raise ValueError(f"{name} is {value!r}; it must be one of {', '.join(known)}")
+    return known.index(value)
+
+
+def schema():
+    """The JSON Schema of scene files, as a dict."""
+    text = call("schema")
+    try:
+        return json.loads(c.string_at(text))
+    finally:
+        lib.ramify_free(text)
+
+
+class Scene:
+    """A scene from a dict of the same keys as a scene file. overrides: {"objects.oak.tree.height": 9}. Files that it names
+    are relative to folder."""
+
+    def __init__(self, description, overrides=None, folder=""):
+        text = _yaml(description).encode()
+        self._take(call("scene_load_text", text, len(text), b"scene", os.fsencode(folder), *_overrides(overrides)))
+
+    @classmethod
+    def load(cls, file, overrides=None):
+        """Reads a scene file."""
+        scene = cls.__new__(cls)
+        scene._take(call("scene_load", os.fsencode(file), *_overrides(overrides)))
+        return scene
+
+    def _take(self, pointer):
+        self._handle = Handle(pointer, "scene_free")
+        info = _abi.SceneInfo()
+        lib.ramify_scene_info(pointer, c.byref(info))
+        self.width, self.height, self.samples, self.seed = info.width, info.height, info.samples, info.seed
+        self.objects = {}
+        for i in range(info.object_count):
+            entry = _abi.ObjectInfo()
+            lib.ramify_scene_object(pointer, i, c.byref(entry))
+            self.objects[entry.name.decode()] = entry.kind.decode()
+
+    @property
+    def resolved(self):
+        """The scene with every default and override written out, as YAML."""
+        return lib.ramify_scene_resolved(self._handle.pointer).decode()
+
+    def _index(self, name):
+        names = list(self.objects)
+        if isinstance(name, str):
+            if name not in self.objects:
+                raise KeyError(f"no object is called {name!r}; there are {', '.join(names)}")
+            return names.index(name)
+        return range(len(names))[name]
+
+    def grow(self, name, threads=0, progress=None):
+        """Grows one object; returns its Tree."""
+        index = self._index(name)
+        return Tree(
+            run(
+                lambda how, _, error: lib.ramify_grow(self._handle.pointer, index, how, error),
+                threads,
+                progress,
+                discard=lib.ramify_tree_free,
+            )
+        )
+
+    def land(self, name, threads=0, progress=None):
+        """Heights of a terrain; returns its Land."""
+        index = self._index(name)
+        return Land(
+            run(
+                lambda how, _, error: lib.ramify_land(self._handle.pointer, index, None, how, error),
+                threads,
+                progress,
+                discard=lib.ramify_land_free,
+            )
+        )
+
+    def measure(self, name, threads=0, progress=None):
+        """Grows one object and measures it, as a dict; nan where there is too little to measure."""
+        index = self._index(name)
+        return measures(
+            run(
+                lambda how, _, error: lib.ramify_measure(self._handle.pointer, index, how, error),
+                threads,
+                progress,
+                discard=lib.ramify_measures_free,
+            )
+        )
+
+    def build(self, threads=0, progress=None):
+        """Grows, skins and places everything; returns the World."""
+        pointer = run(
+            lambda how, _, error: lib.ramify_build(self._handle.pointer, how, error),
+            threads,
+            progress,
+            discard=lib.ramify_world_free,
+        )
+        return World(pointer, self._handle, list(self.objects))
+
+    def render(self, isa=None, threads=0, progress=None, each_pass=None):
+        """Builds and path traces the scene; returns the Film (see World.render)."""
+        return self.build(threads, progress).render(isa, threads, progress, each_pass)
+
+    def export(self, file, objects=(), instances="auto", colors="all", tube_sides=0, threads=0, progress=None):
+        """Writes the scene as another program's file, by the file's ending. objects: names of the only ones to write;
+        instances: "auto", "nodes", "gpu" or "flat"; colors: "all", "pattern", "growth" or "none"; tube_sides: of curves
+        written as tubes. Returns what was written as a dict: vertices, triangles, low, high (m), bytes."""
+        names = [str(name).encode() for name in objects]
+        options = _abi.ExportOptions(
+            (c.c_char_p * len(names))(*names),
+            len(names),
+            _choice("instances", instances, _INSTANCES),
+            _choice("colors", colors, _COLORS),
+            tube_sides,
+        )
+        report = _abi.ExportReport()
+        target = os.fsencode(file)
+        run(
+            lambda how, _, error: lib.ramify_export(
+                self._handle.pointer, target, c.byref(options), how, c.byref(report), error
+            ),
+            threads,
+            progress,
+        )
+        return {
+            "vertices": report.vertices,
+            "triangles": report.triangles,
+            "low": tuple(report.low),
+            "high": tuple(report.high),
+            "bytes": report.bytes,
+        }

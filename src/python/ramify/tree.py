@@ -1,0 +1,95 @@
+"""Out-trees and land: what grows."""
+
+import ctypes as c
+import os
+
+from . import _abi
+from ._arrays import view
+from ._call import Handle, call, lib
+
+
+def measures(pointer):
+    """The list of measures as a dict of numbers; frees it."""
+    handle = Handle(pointer, "measures_free")
+    found = {}
+    for i in range(lib.ramify_measures_count(handle.pointer)):
+        measure = _abi.Measure()
+        lib.ramify_measures_get(handle.pointer, i, c.byref(measure))
+        found[measure.name.decode()] = measure.value
+    return found
+
+
+class Tree:
+    """An out-tree of n nodes, parents before children.
+
+    positions   n x 3 float32, m
+    parents     n int32: index of the parent, smaller than the node's own; -1 at a root
+    radii       n float32, m
+    births      n int32: growth step, 0 for what growth began with
+    colonies    n int32: which root, or which element (trunk, branches, roots), it belongs to
+    normals     n x 3 float32, unit
+    ids         n uint64: stable names
+    """
+
+    def __init__(self, pointer):
+        self._handle = Handle(pointer, "tree_free")
+        self._count = lib.ramify_tree_count(pointer)
+
+    @classmethod
+    def read(cls, file):
+        """Reads an SWC file, coordinates in metres."""
+        return cls(call("tree_read", os.fsencode(file)))
+
+    def write(self, file):
+        """Writes .swc, .json or .graphml, by the file's ending."""
+        call("tree_write", self._handle.pointer, os.fsencode(file))
+
+    def _array(self, name, kind, *width):
+        address = getattr(lib, "ramify_tree_" + name)(self._handle.pointer)
+        return view(address, kind, (self._count, *width), self._handle)
+
+    def __len__(self):
+        return self._count
+
+    positions = property(lambda self: self._array("positions", "f4", 3))
+    parents = property(lambda self: self._array("parents", "i4"))
+    radii = property(lambda self: self._array("radii", "f4"))
+    births = property(lambda self: self._array("births", "i4"))
+    colonies = property(lambda self: self._array("colonies", "i4"))
+    normals = property(lambda self: self._array("normals", "f4", 3))
+    ids = property(lambda self: self._array("ids", "u8"))
+
+    @property
+    def hash(self):
+        """Equal trees, equal hashes."""
+        return lib.ramify_tree_hash(self._handle.pointer)
+
+    def measure(self):
+        """What can be measured on any out-tree, as a dict; nan where there is too little to measure."""
+        return measures(call("tree_measure", self._handle.pointer))
+
+
+class Land:
+    """Heights of land: heights, rows x columns float32 in m (row: z, column: x); cell, m from sample to sample along
+    (x, z); origin, (x, z) of the first sample in m."""
+
+    def __init__(self, pointer):
+        self._handle = Handle(pointer, "land_free")
+        self._info = _abi.LandInfo()
+        lib.ramify_land_info(pointer, c.byref(self._info))
+        self.cell = tuple(self._info.cell)
+        self.origin = tuple(self._info.origin)
+
+    @classmethod
+    def read(cls, file):
+        """Reads an Esri ASCII grid (.asc); missing heights are nan."""
+        return cls(call("land_read", os.fsencode(file)))
+
+    @property
+    def heights(self):
+        address = lib.ramify_land_heights(self._handle.pointer)
+        return view(address, "f4", (self._info.rows, self._info.columns), self._handle)
+
+    def measure(self):
+        """What can be measured on any land, as a dict."""
+        return measures(call("land_measure", self._handle.pointer))

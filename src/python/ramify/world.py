@@ -1,0 +1,161 @@
+"""Geometry and pictures: what is made of a scene."""
+
+import ctypes as c
+import os
+
+import numpy as np
+
+from . import _abi
+from ._arrays import view
+from ._call import Handle, lib, run
+
+
+class _Part:
+    def __init__(self, world, part, name):
+        self._world, self._part = world, part
+        self.object = name
+        self.material = part.material.decode()
+
+    def _vertices(self, name, *width):
+        return view(getattr(self._part, name), "f4", (self._part.vertex_count, *width), self._world)
+
+    positions = property(lambda self: self._vertices("positions", 3), doc="n x 3 float32, m")
+    radii = property(lambda self: self._vertices("radii"), doc="n float32, m, of the branch; or None")
+    births = property(lambda self: self._vertices("births"), doc="n float32, 0..1 of the growth's time; or None")
+
+    @property
+    def instances(self):
+        """k x 3 x 4 float32: where it is drawn, as matrices whose last column is the place in m. None = once, as it is."""
+        return view(self._part.instances, "f4", (self._part.instance_count, 3, 4), self._world)
+
+    @property
+    def variations(self):
+        """k float32, 0..1 an instance, for variation of colour; or None."""
+        return view(self._part.variations, "f4", (self._part.instance_count,), self._world)
+
+
+class Mesh(_Part):
+    """A mesh of a scene's object: positions, radii, births, instances and what follows. object and material are names."""
+
+    normals = property(lambda self: self._vertices("normals", 3), doc="n x 3 float32, unit; None = flat")
+    uvs = property(lambda self: self._vertices("uvs", 2), doc="n x 2 float32; or None")
+
+    @property
+    def faces(self):
+        """m x 3 or m x 4 uint32: indices of corners, counter-clockwise seen from outside."""
+        return view(self._part.indices, "u4", (self._part.face_count, self._part.face_size), self._world)
+
+    @property
+    def triangles(self):
+        """The faces as triangles, m x 3 uint32."""
+        faces = self.faces
+        return faces if faces.shape[1] == 3 else np.concatenate([faces[:, [0, 1, 3]], faces[:, [2, 3, 1]]])
+
+
+class Curves(_Part):
+    """Round curves of a scene's object (twigs, grass): chains of points with radii."""
+
+    @property
+    def starts(self):
+        """curves + 1 int64: curve i has the points starts[i] .. starts[i + 1] - 1."""
+        return view(self._part.starts, "i8", (self._part.curve_count + 1,), self._world)
+
+
+class World:
+    """A scene grown, skinned and placed. parts: its Mesh and Curves, in the order of the scene's objects."""
+
+    def __init__(self, pointer, scene, names):
+        self.handle = Handle(pointer, "world_free", scene)
+        self._scene = scene
+        self.parts = []
+        for i in range(lib.ramify_world_part_count(pointer)):
+            part = _abi.Part()
+            lib.ramify_world_part(pointer, i, c.byref(part))
+            kind = Mesh if part.face_size else Curves
+            self.parts.append(kind(self.handle, part, names[part.object]))
+
+    @property
+    def info(self):
+        """Counts and seconds as a dict: nodes, triangles, curve_segments, instances, bytes, grow_seconds, mesh_seconds."""
+        info = _abi.WorldInfo()
+        lib.ramify_world_info(self.handle.pointer, c.byref(info))
+        return {name: getattr(info, name) for name, _ in info._fields_}
+
+    def render(self, isa=None, threads=0, progress=None, each_pass=None):
+        """Path traces the world. isa: "sse4.2" and others pin the instruction set, for the same bits on every machine.
+        each_pass(film, samples) is called after 1, 2, 4, ... samples with the Film so far. Returns a Film."""
+        size = _abi.SceneInfo()
+        lib.ramify_scene_info(self._scene.pointer, c.byref(size))
+        name = None if isa is None else isa.encode()
+        renderer = Handle(
+            run(
+                lambda how, _, error: lib.ramify_renderer_new(self.handle.pointer, name, how, error),
+                threads,
+                progress,
+                discard=lib.ramify_renderer_free,
+            ),
+            "renderer_free",
+            self.handle,
+        )
+        film = Film(size.width, size.height, self._scene)
+        show = each_pass and (lambda user, so_far, samples: each_pass(film, samples))
+        run(
+            lambda how, each, error: lib.ramify_renderer_render(
+                renderer.pointer, film.handle.pointer, each, None, how, c.byref(film.info), error
+            ),
+            threads,
+            progress,
+            show,
+        )
+        return film
+
+
+class Film:
+    """A picture with all that the path tracer knows of it. Layers are height x width (x 3) float32 arrays: color (linear
+    radiance, premultiplied), alpha, albedo, normal, depth (m), position (m), object (number of the scene's object + 1),
+    samples, variance."""
+
+    def __init__(self, width, height, scene):
+        error = _abi.Error()
+        pointer = lib.ramify_film_new(width, height, c.byref(error))
+        if not pointer:
+            raise MemoryError(error.message.decode())
+        self.handle = Handle(pointer, "film_free")
+        self._scene = scene
+        self.width, self.height = width, height
+        self.info = _abi.RenderInfo()
+
+    def layer(self, name):
+        """The layer of this name; KeyError when there is none."""
+        channels = c.c_int()
+        address = lib.ramify_film_layer(self.handle.pointer, name.encode(), c.byref(channels))
+        if not address:
+            raise KeyError(name)
+        shape = (self.height, self.width) + ((channels.value,) if channels.value > 1 else ())
+        return view(address, "f4", shape, self.handle)
+
+    def __getattr__(self, name):
+        try:
+            return self.layer(name)
+        except KeyError:
+            raise AttributeError(f"a film has no layer '{name}'") from None
+
+    @property
+    def rgba(self):
+        """A copy of color and alpha, height x width x 4."""
+        return np.dstack([self.layer("color"), self.layer("alpha")])
+
+    def save(self, file, denoise=None, threads=0):
+        """Writes .png or .jpg, developed by the scene's film, or .exr, linear with all layers. denoise: None = as the
+        scene says."""
+        if denoise is None:
+            info = _abi.SceneInfo()
+            lib.ramify_scene_info(self._scene.pointer, c.byref(info))
+            denoise = bool(info.denoise)
+        name = os.fsencode(file)
+        run(
+            lambda how, _, error: lib.ramify_film_write(
+                self.handle.pointer, self._scene.pointer, name, denoise, how, error
+            ),
+            threads,
+        )

@@ -1,0 +1,236 @@
+"""What a pipeline does with the module."""
+
+import gc
+import json
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import ramify
+
+BUSH = {
+    "seed": 3,
+    "camera": {"position": [0, 1, 4], "target": [0, 0.6, 0], "fov": 40},
+    "film": {"width": 24, "height": 16},
+    "render": {"samples": 4},
+    "sky": {"kind": "constant", "color": [1, 1, 1]},
+    "objects": [
+        {
+            "name": "bush",
+            "tree": {
+                "height": 3,
+                "crown": {
+                    "lobes": 0,
+                    "growth": {"levels": [{"attractors": 20, "step": 0.1, "kill": 0.4, "influence": 4}, {"attractors": 300}]},
+                },
+                "leaves": {"max_count": 500},
+            },
+        },
+        {"name": "ball", "shape": {"envelope": [{"shape": "sphere", "size": 0.3, "position": [1, 0.3, 0]}]}},
+    ],
+}
+SLOW = {**BUSH, "render": {"samples": 1 << 22}}
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return ramify.Scene(BUSH)
+
+
+@pytest.fixture(scope="module")
+def world(scene):
+    return scene.build()
+
+
+def test_a_scene_tells_what_it_holds(scene):
+    assert scene.objects == {"bush": "tree", "ball": "shape"}
+    assert (scene.width, scene.height, scene.samples, scene.seed) == (24, 16, 4, 3)
+    assert "phyllotaxis" in scene.resolved
+
+
+def test_dict_file_and_overrides_are_the_same_scene(scene, tmp_path):
+    file = tmp_path / "bush.yaml"
+    file.write_text(json.dumps({**BUSH, "seed": 9}))
+    loaded = ramify.Scene.load(file, {"seed": 3})
+    assert loaded.grow("bush").hash == scene.grow("bush").hash
+    assert ramify.Scene.load(file).grow("bush").hash != scene.grow("bush").hash
+
+
+def test_numpy_numbers_and_awkward_names_pass_into_scenes():
+    name = 'a "bush" — ü\n\t#: {x}'
+    described = {**BUSH, "seed": np.int64(3), "objects": [{"name": "b", "ground": {}}]}
+    described["camera"] = {"position": np.array([0, 1, 4], "f4"), "target": (0, 0.6, 1e-7), "fov": np.float32(40)}
+    assert ramify.Scene(described).objects == {"b": "ground"}
+    with pytest.raises(ramify.BadInput) as caught:
+        ramify.Scene({**BUSH, name: 1})
+    assert "unknown key" in str(caught.value)
+    with pytest.raises(TypeError):
+        ramify.Scene({**BUSH, "seed": object()})
+    with pytest.raises(ValueError):
+        ramify.Scene({**BUSH, "camera": {"fov": float("nan")}})
+
+
+def test_errors_say_where_and_what(tmp_path):
+    file = tmp_path / "wrong.yaml"
+    file.write_text("seed: 1\ncamera:\n  fvo: 3\n")
+    with pytest.raises(ramify.BadInput) as caught:
+        ramify.Scene.load(file)
+    assert (caught.value.code, caught.value.line, caught.value.column) == ("bad_input", 3, 3)
+    assert caught.value.file == str(file) and "did you mean 'fov'?" in caught.value.message
+    assert isinstance(caught.value, ValueError) and str(file) in str(caught.value)
+    with pytest.raises(ramify.BadInput, match="does not grow"):
+        ramify.Scene(BUSH).grow("ball")
+    with pytest.raises(KeyError, match="bush"):
+        ramify.Scene(BUSH).grow("bsh")
+
+
+def test_out_trees_are_arrays(scene):
+    tree = scene.grow("bush", threads=1)
+    n = len(tree)
+    assert n > 100 and tree.positions.shape == (n, 3) and tree.positions.dtype == np.float32
+    assert tree.parents[0] == -1 and np.all(tree.parents < np.arange(n))
+    child = tree.parents >= 0
+    assert np.all(tree.births[child] >= tree.births[tree.parents[child]])
+    assert np.all(tree.radii > 0) and len(np.unique(tree.ids)) == n
+    assert np.allclose(np.linalg.norm(tree.normals, axis=1), 1, atol=1e-4)
+    assert scene.grow("bush", threads=2).hash == tree.hash
+    with pytest.raises(ValueError):
+        tree.positions[0, 0] = 1
+
+
+def test_lengths_agree_with_the_measures(scene):
+    tree = scene.grow("bush")
+    child = tree.parents >= 0
+    steps = tree.positions[child].astype("f8") - tree.positions[tree.parents[child]]
+    assert np.isclose(np.linalg.norm(steps, axis=1).sum(), tree.measure()["length"], rtol=1e-5)
+    assert scene.measure("bush")["length"] == tree.measure()["length"]
+
+
+def test_arrays_outlive_what_gave_them(scene):
+    positions = ramify.Scene(BUSH).grow("bush").positions
+    again = scene.grow("bush").positions
+    vertices = ramify.Scene(BUSH).build().parts[0].positions
+    kept = vertices.copy()
+    gc.collect()
+    ballast = [ramify.Scene(BUSH).grow("bush") for _ in range(3)]
+    assert np.array_equal(positions, again) and np.array_equal(vertices, kept) and len(ballast) == 3
+
+
+def test_trees_are_written_and_read(scene, tmp_path):
+    tree = scene.grow("bush")
+    tree.write(tmp_path / "bush.swc")
+    back = ramify.Tree.read(tmp_path / "bush.swc")
+    assert np.array_equal(back.positions, tree.positions) and np.array_equal(back.radii, tree.radii)
+    (tmp_path / "bad.swc").write_text("1 0 0 0 0 x -1\n")
+    with pytest.raises(ramify.BadInput) as caught:
+        ramify.Tree.read(tmp_path / "bad.swc")
+    assert caught.value.line == 1
+
+
+def test_land_is_an_array():
+    scene = ramify.Scene({"objects": [{"name": "hills", "terrain": {"resolution": 64}}]})
+    land = scene.land("hills")
+    assert land.heights.ndim == 2 and land.heights.dtype == np.float32 and np.ptp(land.heights) > 0
+    assert land.cell[0] > 0 and "relief" in land.measure()
+
+
+def test_meshes_are_watertight_arrays(scene, world):
+    ball = next(p for p in world.parts if p.object == "ball")
+    assert isinstance(ball, ramify.Mesh) and ball.instances is None
+    _, same = np.unique(ball.positions, axis=0, return_inverse=True)  # seams of uv hold a place twice
+    t = same.reshape(-1)[ball.triangles]
+    t = t[(t[:, 0] != t[:, 1]) & (t[:, 1] != t[:, 2]) & (t[:, 2] != t[:, 0])]
+    edges = np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]])
+    forward, backward = edges[:, 0] << 32 | edges[:, 1], edges[:, 1] << 32 | edges[:, 0]
+    assert len(np.unique(forward)) == len(forward) and set(forward) == set(backward)
+    a, b, c = (ball.positions[ball.triangles[:, k]].astype("f8") - [1, 0.3, 0] for k in range(3))
+    volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+    assert np.isclose(volume, 4 / 3 * np.pi * 0.3**3, rtol=0.03)
+    stored = sum(len(p.triangles) for p in world.parts if isinstance(p, ramify.Mesh))
+    assert stored == world.info["triangles"]
+    leaves = [p for p in world.parts if p.instances is not None]
+    assert leaves and leaves[0].instances.shape[1:] == (3, 4)
+    for p in world.parts:
+        if isinstance(p, ramify.Curves):
+            assert p.starts[-1] == len(p.positions)
+
+
+def test_pictures_are_arrays_and_files(scene, tmp_path):
+    stages = []
+    film = scene.render(isa="sse4.2", progress=lambda stage, done: stages.append((stage, done)))
+    assert film.rgba.shape == (16, 24, 4) and np.isfinite(film.rgba).all()
+    assert film.color.shape == (16, 24, 3) and film.depth.shape == (16, 24) and film.info.samples == 4
+    assert {"build"} <= {stage for stage, _ in stages} and all(0 <= done <= 1 for _, done in stages)
+    assert np.array_equal(film.rgba, ramify.render(BUSH, tmp_path / "bush.png", isa="sse4.2", threads=1).rgba)
+    assert (tmp_path / "bush.png").read_bytes()[:4] == b"\x89PNG"
+    film.save(tmp_path / "bush.exr")
+    assert (tmp_path / "bush.exr").stat().st_size > 1000
+    with pytest.raises(ramify.Error):
+        film.save(tmp_path / "nowhere" / "bush.png")
+    with pytest.raises(AttributeError):
+        film.colour
+
+
+def test_every_pass_can_be_seen(world):
+    seen = []
+    film = world.render(each_pass=lambda film, samples: seen.append((samples, float(film.samples.min()))))
+    assert [s for s, _ in seen] == sorted({s for s, _ in seen}) and seen[-1][0] == 4
+    assert film.samples.min() == 4
+
+
+def test_export_reports_what_it_wrote(scene, tmp_path):
+    report = scene.export(tmp_path / "ball.ply", objects=["ball"])
+    assert report["bytes"] == (tmp_path / "ball.ply").stat().st_size and report["triangles"] > 100
+    assert np.allclose(report["high"], (1.3, 0.6, 0.3), atol=0.02)
+    with pytest.raises(ramify.BadInput):
+        scene.export(tmp_path / "ball.xyz")
+    with pytest.raises(ValueError, match="auto, nodes"):
+        scene.export(tmp_path / "ball.glb", instances="none")
+
+
+def test_an_exception_in_progress_ends_the_run():
+    class Enough(Exception):
+        pass
+
+    def stop(stage, done):
+        raise Enough
+
+    with pytest.raises(Enough):
+        ramify.Scene(SLOW).render(progress=stop)
+
+
+def test_ctrl_c_ends_the_run():
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    start = time.monotonic()
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        ramify.Scene(SLOW).render()
+    assert time.monotonic() - start < 120
+
+
+def test_threads_of_python_may_grow_at_the_same_time(scene):
+    expected, found = scene.grow("bush").hash, []
+    workers = [threading.Thread(target=lambda: found.append(ramify.Scene(BUSH).grow("bush").hash)) for _ in range(4)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert found == [expected] * 4
+
+
+def test_warnings_are_pythons():
+    far = {"attractors": 300, "influence": 2e-3, "kill": 1e-3, "step": 1e-3}
+    alone = {"name": "bush", "tree": {"height": 3, "crown": {"growth": {"levels": [far]}}}}
+    with pytest.warns(RuntimeWarning, match="raise growth.influence"):
+        try:
+            ramify.Scene({"objects": [alone]}).grow("bush")
+        except ramify.Error:
+            pass
+
+
+def test_the_schema_is_a_dict():
+    assert ramify.schema()["title"] == "ramify scene"
