@@ -86,6 +86,8 @@ format-check: check-packages
 	clang-format --dry-run --Werror $(FORMATTED)
 
 # What `make install` puts below PREFIX, as FILE:PLACE:MODE; `make uninstall` takes the places away again.
+# Where Debian's Python looks for modules below /usr/local, and below /usr with python3 in place of python3.11.
+PYTHON_SITE ?= lib/$(shell python3 -c 'import sys; print("python%d.%d" % sys.version_info[:2])' 2>/dev/null || echo python3)/dist-packages
 INSTALL := $(OUT)/ramify:bin/ramify:755 \
            $(OUT)/libramify.a:lib/libramify.a:644 \
            $(OUT)/libramify.so:lib/libramify.so.$(VERSION):755 \
@@ -93,10 +95,11 @@ INSTALL := $(OUT)/ramify:bin/ramify:755 \
            src/ramify.h:include/ramify.h:644 \
            $(foreach page,$(filter %.1,$(MANUAL)),$(page):share/man/man1/$(notdir $(page)):644) \
            $(OUT)/completion/ramify:share/bash-completion/completions/ramify:644 \
-           $(OUT)/completion/_ramify:share/zsh/site-functions/_ramify:644
+           $(OUT)/completion/_ramify:share/zsh/site-functions/_ramify:644 \
+           $(foreach f,$(notdir $(wildcard src/python/ramify/*.py)),src/python/ramify/$f:$(PYTHON_SITE)/ramify/$f:644)
 LINKS   := lib/$(SONAME) lib/libramify.so
 
-install: all ramify.pc ## install command, libraries, header, manual and completions below PREFIX (/usr/local)
+install: all ramify.pc ## install command, libraries, header, manual, completions, Python module below PREFIX (/usr/local)
 	@set -e; for entry in $(INSTALL); do \
 	    file=$${entry%%:*}; rest=$${entry#*:}; place="$(DESTDIR)$(PREFIX)/$${rest%:*}"; \
 	    echo "  INST $$place"; install -D -m "$${rest##*:}" "$$file" "$$place"; \

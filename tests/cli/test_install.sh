@@ -6,7 +6,7 @@ RAMIFY=${RAMIFY:-build/ramify}
 out=$(dirname "$RAMIFY")
 case $out in */sanitize) exit 0 ;; esac # its library needs the sanitizers' own
 folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT
-prefix=$folder/prefix log=$folder/log
+repository=$PWD prefix=$folder/prefix log=$folder/log
 verdict() { if [ "$2" -eq 0 ]; then echo "ok $1"; else echo "not ok $1"; cat "$log"; fi; }
 
 # DESTDIR keeps it from telling the loader about a folder that is soon gone.
@@ -79,6 +79,17 @@ compile shared
 readelf -d "$folder/shared/grow_print" >"$log" && grep -q 'NEEDED.*\[libramify\.so\.[0-9]*\]' "$log"
 verdict shared_needs_the_numbered_library $?
 LD_LIBRARY_PATH="$prefix/lib" examples shared
+
+python=${RAMIFY_PEERS:-$repository/build/peers}/python/bin/python
+if "$python" -c 'import numpy' 2>/dev/null; then
+    # found below the same prefix, from anywhere, without a word about where
+    (cd / && env -u RAMIFY_LIBRARY PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$(echo "$prefix"/lib/python3*/dist-packages)" \
+        "$python" "$repository/docs/examples/grow_numpy.py" "$folder/scene.yaml" bush) >"$log" 2>&1 &&
+        grep -qE '^bush: [0-9]+ nodes, .* m of branches, [0-9]+ tips$' "$log"
+    verdict installed_python_module $?
+else
+    echo "skipped installed_python_module: NumPy is not installed"
+fi
 rm "$prefix/lib/libramify.so" # so that the archive is what -lramify finds
 compile static --static
 examples static
