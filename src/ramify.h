@@ -410,6 +410,12 @@ RAMIFY_API const float *ramify_film_layer(const RamifyFilm *film, const char *na
 // Copies color and alpha into rgba, 4 * width * height floats as of ramify_render.
 RAMIFY_API void ramify_film_rgba(const RamifyFilm *film, float *rgba);
 
+// Develops the film of this scene: fills rgba with 4 * width * height display values, 0..1 in sRGB,
+// straight beside alpha, as they go to a screen. denoise: take the noise out first; run (may be
+// NULL) is for that.
+RAMIFY_API bool ramify_film_develop(const RamifyFilm *film, const RamifyScene *scene, bool denoise,
+                                    float *rgba, const RamifyRun *run, RamifyError *error);
+
 // Writes the film of this scene. .png, .jpg: developed, and with denoise the noise taken out first.
 // .exr: linear RGBA and the layers albedo, normal, depth, position, object and samples as they are.
 // The scene's text and settings go along as metadata. run (may be NULL) is for the denoiser.

@@ -55,6 +55,21 @@ void ramify_film_rgba(const RamifyFilm *film, float *rgba)
     picture_copy_rgba(film_of(film), rgba);
 }
 
+bool ramify_film_develop(const RamifyFilm *film, const RamifyScene *scene, bool denoise,
+                         float *rgba, const RamifyRun *run, RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    Image *display = picture_develop(scene_of(scene), film_of(film), denoise, &own, &e);
+    if (!display) {
+        return api_fail(error, &e);
+    }
+    memcpy(rgba, display->pixel,
+           sizeof(float) * 4 * (size_t)display->width * (size_t)display->height);
+    image_free(display);
+    return true;
+}
+
 bool ramify_film_write(const RamifyFilm *film, const RamifyScene *scene, const char *file,
                        bool denoise, const RamifyRun *run, RamifyError *error)
 {

@@ -84,8 +84,7 @@ static Image *denoised_image(const Image *beauty, const Film *film, const Run *r
     return clean;
 }
 
-bool picture_write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
-                           const Run *run, Error *e)
+Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run, Error *e)
 {
     Image *beauty = beauty_image(film, e);
     if (beauty && denoise) {
@@ -94,11 +93,18 @@ bool picture_write_display(const char *file, const Scene *scene, const Film *fil
         beauty = clean;
     }
     Image *display = beauty ? tone_map(beauty, &scene->tone, e) : NULL;
+    image_free(beauty);
+    return display;
+}
+
+bool picture_write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
+                           const Run *run, Error *e)
+{
+    Image *display = picture_develop(scene, film, denoise, run, e);
     char *metadata = display ? make_metadata(scene, e) : NULL;
     bool done = metadata && image_write_display(file, display, metadata, e);
     free(metadata);
     image_free(display);
-    image_free(beauty);
     return done;
 }
 

@@ -3,12 +3,17 @@
 #define RAMIFY_SCENE_PICTURE_H
 
 #include "base/run.h"
+#include "image/image.h"
 #include "mesh/height_field.h"
 #include "render/film.h"
 #include "scene/scene.h"
 
 // Does the file's name end in .exr, in any case?
 bool picture_is_exr(const char *file);
+
+// Display values of a film, as tone_map gives them, to be freed. denoise: take the noise out first.
+Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run,
+                       Error *e);
 
 // Develops and writes a .png or .jpg. denoise: take the noise out first.
 bool picture_write_display(const char *file, const Scene *scene, const Film *film, bool denoise,

@@ -404,6 +404,10 @@ static void a_film_has_layers(void **state)
     ramify_film_rgba(film, rgba);
     assert_true(ramify_render(scene, simple, NULL, NULL, &error)); // the same in one call
     assert_memory_equal(rgba, simple, sizeof rgba);
+    assert_true(ramify_film_develop(film, scene, true, simple, NULL, &error));
+    for (int i = 0; i < 4 * WIDTH * HEIGHT; i++) {
+        assert_true(simple[i] >= 0.0f && simple[i] <= 1.0f);
+    }
     assert_false(ramify_film_write(film, scene, "/nope/x.exr", false, NULL, &error));
     assert_int_equal(error.code, RAMIFY_IO);
     assert_null(ramify_renderer_new(world, "sse9", NULL, &error));
