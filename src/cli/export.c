@@ -8,12 +8,13 @@
 static int choice(const char *option, const char *word, const char *const known[], int count,
                   RamifyError *e)
 {
-    char list[128] = "";
-    for (int i = 0; i < count; i++) {
+    char list[128];
+    for (int i = 0, used = 0; i < count; i++) {
         if (!word || strcmp(word, known[i]) == 0) {
             return i;
         }
-        strcat(strcat(list, i > 0 ? ", " : ""), known[i]);
+        used +=
+            snprintf(list + used, sizeof list - (size_t)used, "%s%s", i > 0 ? ", " : "", known[i]);
     }
     fail(e, RAMIFY_BAD_INPUT, "--%s %.60s; it must be one of %s", option, word, list);
     return -1;
@@ -65,7 +66,7 @@ bool command_export(const Options *options, RamifyError *e)
     }
     Progress progress;
     RamifyRun run = command_run(options, &progress);
-    RamifyExportReport report;
+    RamifyExportReport report = {0};
     bool done =
         ramify_export(scene, options->output, &own, &run, options->json ? &report : NULL, e);
     progress_end(&progress);

@@ -228,7 +228,8 @@ static bool write_vertices(void *user, const ExportPiece *piece, Error *e)
     (void)e;
     GlbWriter *writer = user;
     int64_t all = piece->surface->mesh->vertex_count;
-    for (int64_t first = 0; first < all; first += EXPORT_BLOCK) {
+    for (int64_t first = 0; first < all && !run_is_cancelled(writer->glb->run);
+         first += EXPORT_BLOCK) {
         int64_t count = all - first < EXPORT_BLOCK ? all - first : EXPORT_BLOCK;
         export_surface_vertices(piece->surface, piece->place, piece->variation, first, count,
                                 writer->glb->run->threads, writer->block);

@@ -22,8 +22,9 @@ enum {
 
 void json_put_float(FILE *json, float value)
 {
-    char text[FLOAT_TEXT_MOST];
-    fwrite(text, 1, (size_t)(float_text(text, value) - text), json);
+    char text[FLOAT_TEXT_MOST + 1];
+    *float_text(text, value) = 0;
+    fputs(text, json);
 }
 
 void json_put_floats(FILE *json, const char *key, const float *value, int count)

@@ -77,10 +77,11 @@ static float pixel_at(const Image *image, int x, int y, int channel)
     return image->pixel[((int64_t)y * image->width + x) * image->channels + channel];
 }
 
-// Colour from one picture, alpha from another: as material_opacity has it. Either may be NULL.
-static Image *combine(const Image *color, bool linear, const Image *alpha, Error *e)
+// Colour from one picture, alpha from another: as material_opacity has it. Either may be NULL; as
+// large as `size`, which is one of them.
+static Image *combine(const Image *size, const Image *color, bool linear, const Image *alpha,
+                      Error *e)
 {
-    const Image *size = color ? color : alpha;
     Image *out = image_new(size->width, size->height, alpha ? 4 : 3, e);
     int from = alpha && (alpha->channels == 4 || alpha->channels == 2) ? alpha->channels - 1 : 0;
     for (int y = 0; out && y < out->height; y++) {
@@ -120,9 +121,11 @@ static bool make_picture(GlbImage *image, Error *e)
 {
     Image *color = given(image->color) ? image_read(image->color, e) : NULL;
     Image *alpha = given(image->alpha) ? image_read(image->alpha, e) : NULL;
-    bool done = (color || !given(image->color)) && (alpha || !given(image->alpha));
-    Image *both = done ? combine(color, color && is_linear(image->color), alpha, e) : NULL;
-    done = both && take_picture(image, both, e);
+    const Image *size = color ? color : alpha;
+    bool read = (color || !given(image->color)) && (alpha || !given(image->alpha));
+    Image *both =
+        read && size ? combine(size, color, color && is_linear(image->color), alpha, e) : NULL;
+    bool done = both && take_picture(image, both, e);
     image_free(color);
     image_free(alpha);
     image_free(both);

@@ -28,9 +28,10 @@ enum { LINE = 4 + 6 * (FLOAT_TEXT_MOST + 1), FACE = 3 + 12 * (INTEGER_TEXT_MOST 
 
 static char *put_line(char *at, const char *keyword, const float *value, int count)
 {
-    size_t length = strlen(keyword);
-    memcpy(at, keyword, length);
-    at = floats_text(at + length, value, count, ' ');
+    while (*keyword) {
+        *at++ = *keyword++;
+    }
+    at = floats_text(at, value, count, ' ');
     *at++ = '\n';
     return at;
 }
@@ -66,7 +67,7 @@ static void write_vertices(ObjWriter *obj, const ExportPiece *piece)
 {
     const Mesh *mesh = piece->surface->mesh;
     int64_t all = mesh->vertex_count;
-    for (int64_t first = 0; first < all; first += EXPORT_BLOCK) {
+    for (int64_t first = 0; first < all && !run_is_cancelled(obj->run); first += EXPORT_BLOCK) {
         int64_t count = all - first < EXPORT_BLOCK ? all - first : EXPORT_BLOCK;
         export_surface_vertices(piece->surface, piece->place, piece->variation, first, count,
                                 obj->run->threads, obj->block);

@@ -93,8 +93,10 @@ static bool visit_mesh(const PartWalk *walk, const Mesh *mesh, Error *e)
             piece.place = walk->placed ? &part->instance[i] : NULL;
             piece.variation = walk->placed ? part_variation(part, i) : -1.0f;
         }
-        done =
-            run_is_cancelled(walk->run) ? run_cancel_error(e) : walk->visit(walk->user, &piece, e);
+        done = walk->visit(walk->user, &piece, e);
+        if (run_is_cancelled(walk->run)) { // perhaps in the midst of it
+            done = run_cancel_error(e);
+        }
     }
     export_surface_clear(&surface);
     return done;

@@ -50,7 +50,7 @@ static void clear_parts(Parts *parts, int object_count)
 
 static bool make_lands(const Scene *scene, Parts *parts, const Run *run, Error *e)
 {
-    parts->land = memory_alloc_zero(scene->object_count, sizeof *parts->land, e);
+    parts->land = memory_alloc_zero(scene->object_count, sizeof(HeightField *), e);
     bool done = parts->land;
     for (int i = 0; done && i < scene->object_count; i++) {
         if (kind_of(&scene->objects[i])->heights) {
@@ -76,7 +76,7 @@ static bool make_parts(const Scene *scene, unsigned needs, Parts *parts, const R
         parts->tree = scene_grow(scene, run, e);
         done = parts->tree;
     }
-    return done && (!(needs & EXPORT_LAND) || make_lands(scene, parts, run, e));
+    return done && (!(needs & EXPORT_LAND) || !parts->tree || make_lands(scene, parts, run, e));
 }
 
 static bool add_bounds(void *user, const ExportPiece *piece, Error *e)
