@@ -173,3 +173,42 @@ for shell in bash zsh; do
     offers $shell object_key "ramify render pine.yaml --set objects.pine.tree.h" objects.pine.tree.height=
     offers $shell shell "ramify completion z" zsh '!bash'
 done
+
+# ---- docs/tutorial.md ----
+
+# Its scenes, and the pieces of scenes that it shows.
+mkdir -p tutorial
+cp "$root"/docs/tutorial/*.yaml tutorial
+cd tutorial || exit 1
+for scene in [2-9]*.yaml; do
+    "$RAMIFY" info "$scene" >out 2>&1 || { echo "$scene:"; cat out; }
+done >../wrong
+awk '/^```yaml$/ {n++; inside = 1; next} /^```$/ {inside = 0} inside {print > sprintf("../piece-%02d.yaml", n)}' "$root/docs/tutorial.md"
+for piece in ../piece-*.yaml; do
+    # What it shows stands in one of the files, line by line; the first lists of objects are written shorter.
+    for line in $(sed -n 's/^ *\(.*[^ ]\) *$/\1/p' "$piece" | tr ' ' '\001'); do
+        line=$(echo "$line" | tr '\001' ' ')
+        grep -qF -- "$line" [2-9]*.yaml || echo "$piece: no file has: $line"
+    done
+done >>../wrong
+[ "$(ls ../piece-*.yaml | wc -l)" -ge 6 ] || echo "few pieces" >>../wrong
+(cd .. && verdict tutorial_scenes)
+
+# Its commands run, with pictures made small and growth as it is.
+awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$root/docs/tutorial.md" >../lines
+[ "$(wc -l <../lines)" -ge 5 ] || echo "few commands" >../wrong
+while read -r line; do
+    PATH=$folder/bin:$PATH sh -c "$line" >out 2>&1 </dev/null || { echo "$line"; cat out; }
+done <../lines >../wrong
+(cd .. && verdict tutorial_commands)
+
+# Its dialogues: what follows "$ command" is what the command says.
+awk '/^```console$/ {inside = 1; next} /^```$/ {inside = 0} inside' "$root/docs/tutorial.md" >../lines
+while IFS= read -r line; do
+    case $line in
+    '$ '*) PATH=$folder/bin:$PATH sh -c "${line#??}" >out 2>&1 </dev/null ;;
+    *) grep -qF -- "$line" out || { echo "no '$line' in:"; cat out; } ;;
+    esac
+done <../lines >../wrong
+(cd .. && verdict tutorial_dialogues)
+cd ..
