@@ -6,11 +6,14 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <float.h>
+#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 typedef struct AscHeader {
     double columns, rows, x, y, dx, dy, missing;
@@ -60,7 +63,8 @@ static bool read_number(AscText *asc, const char *word, double *value, Error *e)
         return fail_at(asc, e, "the file ends early, after", "the last number");
     }
     *value = strtod(word, &end);
-    return (*end == '\0' && end != word && isfinite(*value)) || fail_at(asc, e, "no number:", word);
+    return (*end == '\0' && end != word && fabs(*value) <= (double)FLT_MAX) ||
+           fail_at(asc, e, "no number:", word);
 }
 
 static double *header_field(AscHeader *header, const char *key, double *half)
@@ -120,6 +124,19 @@ static bool read_header(AscText *asc, AscHeader *header, char **first, Error *e)
     return true;
 }
 
+// A height is a digit and a blank at least: no memory is taken for heights that are not there.
+static bool heights_fit(const AscText *asc, const AscHeader *header, Error *e)
+{
+    double least = 2.0 * header->columns * header->rows - 3.0; // the first word is read already
+    if ((double)strlen(asc->at) >= least) {
+        return true;
+    }
+    error_set(e, ERROR_INPUT, "the file ends early: %g x %g heights are promised; all are needed",
+              header->columns, header->rows);
+    error_locate(e, asc->file, asc->line, 0);
+    return false;
+}
+
 // Cells in metres: degrees on the WGS 84 spheroid, at the middle row.
 static Vec2 cell_metres(const AscHeader *header)
 {
@@ -143,7 +160,7 @@ static HeightField *read_heights(AscText *asc, Error *e)
 {
     AscHeader header = {0};
     char *word;
-    if (!read_header(asc, &header, &word, e)) {
+    if (!read_header(asc, &header, &word, e) || !heights_fit(asc, &header, e)) {
         return NULL;
     }
     HeightField *field = height_field_new((int)header.columns, (int)header.rows,
@@ -168,9 +185,12 @@ static HeightField *read_heights(AscText *asc, Error *e)
 
 static char *read_text(const char *file, Error *e)
 {
-    FILE *stream = fopen(file, "rb");
+    struct stat status;
+    bool there = stat(file, &status) == 0;
+    FILE *stream = there && S_ISREG(status.st_mode) ? fopen(file, "rb") : NULL;
     if (!stream) {
-        error_set(e, ERROR_INPUT, "'%s' cannot be read: %s", file, strerror(errno));
+        error_set(e, ERROR_INPUT, "'%s' cannot be read: %s", file,
+                  there && !S_ISREG(status.st_mode) ? "it is not a file" : strerror(errno));
         return NULL;
     }
     char *text = NULL;
@@ -196,8 +216,19 @@ static char *read_text(const char *file, Error *e)
 HeightField *height_field_read_asc(const char *file, Error *e)
 {
     AscText asc = {.file = file, .line = 1};
+    locale_t c_locale = newlocale(LC_ALL_MASK, "C", NULL);
+    if (!c_locale) {
+        error_set(e, ERROR_MEMORY, "out of memory for the C locale");
+        return NULL;
+    }
+    locale_t before = uselocale(c_locale); // decimal points, whatever the caller's language
     asc.text = asc.at = read_text(file, e);
     HeightField *field = asc.text ? read_heights(&asc, e) : NULL;
+    if (!field) {
+        error_locate(e, file, 0, 0);
+    }
+    uselocale(before);
+    freelocale(c_locale);
     free(asc.text);
     return field;
 }
