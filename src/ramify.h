@@ -175,8 +175,8 @@ RAMIFY_API RamifyTree *ramify_grow(const RamifyScene *scene, int index, const Ra
 // Reads an SWC file, coordinates in metres. RAMIFY_BAD_INPUT with file and line when it is wrong.
 RAMIFY_API RamifyTree *ramify_tree_read(const char *file, RamifyError *error);
 
-// Writes .swc or .json by the file's ending. Written beside and renamed: a failure never harms an
-// existing file.
+// Writes .swc, .json or .graphml by the file's ending. Written beside and renamed: a failure never
+// harms an existing file.
 RAMIFY_API bool ramify_tree_write(const RamifyTree *tree, const char *file, RamifyError *error);
 
 RAMIFY_API void ramify_tree_free(RamifyTree *tree);
@@ -236,8 +236,9 @@ RAMIFY_API void ramify_land_info(const RamifyLand *land, RamifyLandInfo *info);
 // columns * rows heights, m, row by row, x running fastest; borrowed.
 RAMIFY_API const float *ramify_land_heights(const RamifyLand *land);
 
-// Writes a 16-bit grey .png, black at the lowest and white at the highest point, or a float .exr in
-// metres (channel Y); ramify:low, ramify:high and ramify:cell in the metadata are metres.
+// Writes a 16-bit grey .png, black at the lowest and white at the highest point, a float .exr in
+// metres (channel Y), or an Esri ASCII grid (.asc) in metres; ramify:low, ramify:high and
+// ramify:cell in the metadata of pictures are metres.
 RAMIFY_API bool ramify_land_write(const RamifyLand *land, const char *file, RamifyError *error);
 
 // Draws what object number index makes (the veins of a leaf) as a picture of one value a pixel,
@@ -367,6 +368,14 @@ typedef struct RamifyExportReport {
 RAMIFY_API bool ramify_export(const RamifyScene *scene, const char *file,
                               const RamifyExportOptions *options, const RamifyRun *run,
                               RamifyExportReport *report, RamifyError *error);
+
+// Writes what was grown from a scene already: trees[i] and lands[i] belong to object number i, NULL
+// where there is none. Several trees go to FILE-OBJECT.swc (or .json) each, or to one .graphml;
+// several lands to FILE-OBJECT.png (.exr, .asc) each. run may be NULL.
+RAMIFY_API bool ramify_export_trees(const RamifyScene *scene, const RamifyTree *const *trees,
+                                    const char *file, const RamifyRun *run, RamifyError *error);
+RAMIFY_API bool ramify_export_lands(const RamifyScene *scene, const RamifyLand *const *lands,
+                                    const char *file, const RamifyRun *run, RamifyError *error);
 
 // RAMIFY_BAD_INPUT, naming the endings there are, when the file's ending is that of no format.
 RAMIFY_API bool ramify_export_check(const char *file, RamifyError *error);

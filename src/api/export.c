@@ -71,6 +71,26 @@ bool ramify_export(const RamifyScene *scene, const char *file, const RamifyExpor
     return true;
 }
 
+bool ramify_export_trees(const RamifyScene *scene, const RamifyTree *const *trees, const char *file,
+                         const RamifyRun *run, RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    return scene_write_grown(scene_of(scene), (const OutTree *const *)(const void *)trees, NULL,
+                             file, &own, &e) ||
+           api_fail(error, &e);
+}
+
+bool ramify_export_lands(const RamifyScene *scene, const RamifyLand *const *lands, const char *file,
+                         const RamifyRun *run, RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    return scene_write_grown(scene_of(scene), NULL, (const HeightField *const *)(const void *)lands,
+                             file, &own, &e) ||
+           api_fail(error, &e);
+}
+
 bool ramify_export_check(const char *file, RamifyError *error)
 {
     Error e = {0};

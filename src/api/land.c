@@ -1,5 +1,6 @@
 #include "api/handles.h"
 
+#include "export/heights.h"
 #include "mesh/height_measure.h"
 #include "scene/kind.h"
 #include "scene/picture.h"
@@ -65,7 +66,7 @@ const float *ramify_land_heights(const RamifyLand *land)
 bool ramify_land_write(const RamifyLand *land, const char *file, RamifyError *error)
 {
     Error e = {0};
-    return picture_write_land(file, land_of(land), &e) || api_fail(error, &e);
+    return export_height_field(land_of(land), file, &e) || api_fail(error, &e);
 }
 
 static bool paint(const Scene *scene, int index, const OutTree *tree, int width, int height,

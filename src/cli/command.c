@@ -126,13 +126,6 @@ char *output_with_ending(const char *file, const char *ending, RamifyError *e)
     return name;
 }
 
-char *output_of_object(const char *file, const char *name, RamifyError *e)
-{
-    char ending[256];
-    snprintf(ending, sizeof ending, "-%s%s", name, find_ending(file));
-    return output_with_ending(file, ending, e);
-}
-
 bool output_has_ending(const char *file, const char *ending)
 {
     return strcasecmp(find_ending(file), ending) == 0;

@@ -28,9 +28,6 @@ bool output_check(const char *file, RamifyError *e);
 // FILE with its ending (".png") replaced; heap text.
 char *output_with_ending(const char *file, const char *ending, RamifyError *e);
 
-// FILE with "-name" put before its ending, for one of several objects; heap text.
-char *output_of_object(const char *file, const char *name, RamifyError *e);
-
 // Does the file's name end in this, in any case?
 bool output_has_ending(const char *file, const char *ending);
 

@@ -58,6 +58,11 @@ static bool is_picture(const char *file)
     return output_has_ending(file, ".png") || output_has_ending(file, ".exr");
 }
 
+static bool is_heights(const char *file)
+{
+    return is_picture(file) || output_has_ending(file, ".asc");
+}
+
 // The only object whose kind makes a picture; -1 when there is none or several.
 static int find_painter(const RamifyScene *scene)
 {
@@ -77,38 +82,33 @@ static int find_painter(const RamifyScene *scene)
 
 static bool check_request(const Options *options, const RamifyScene *scene, RamifyError *e)
 {
+    const char *file = options->output;
     if (count_growing(scene) == 0) {
         RamifySceneInfo info;
         ramify_scene_info(scene, &info);
         return fail_in(e, info.file, RAMIFY_BAD_INPUT,
                        "no object of this scene grows; it needs a tree or another growing thing");
     }
-    if (options->output && is_picture(options->output)) {
-        if (land_count(scene) == 0 && find_painter(scene) < 0) {
-            return fail(e, RAMIFY_BAD_INPUT,
-                        "--output %s; for a picture the scene must have a terrain, or exactly "
-                        "one leaf (venation)",
-                        options->output);
-        }
-    } else if (options->output && !output_has_ending(options->output, ".swc") &&
-               !output_has_ending(options->output, ".json")) {
+    if (!file) {
+        return true;
+    }
+    if (is_picture(file) && land_count(scene) == 0 && find_painter(scene) < 0) {
         return fail(e, RAMIFY_BAD_INPUT,
-                    "--output %s; its ending must be .swc, .json, .png or .exr", options->output);
+                    "--output %s; for a picture the scene must have a terrain, or exactly one leaf "
+                    "(venation)",
+                    file);
     }
-    return !options->output || output_check(options->output, e);
-}
-
-// One tree goes to FILE.swc, several go to FILE-name.swc.
-static bool write_tree(const Options *options, const RamifyScene *scene, int index,
-                       const RamifyTree *tree, RamifyError *e)
-{
-    if (count_growing(scene) == 1) {
-        return ramify_tree_write(tree, options->output, e);
+    if (output_has_ending(file, ".asc") && land_count(scene) == 0) {
+        return fail(e, RAMIFY_BAD_INPUT, "--output %s; for heights the scene must have a terrain",
+                    file);
     }
-    char *file = output_of_object(options->output, ramify_scene_object_name(scene, index), e);
-    bool done = file && ramify_tree_write(tree, file, e);
-    free(file);
-    return done;
+    if (!is_heights(file) && !output_has_ending(file, ".swc") &&
+        !output_has_ending(file, ".json") && !output_has_ending(file, ".graphml")) {
+        return fail(e, RAMIFY_BAD_INPUT,
+                    "--output %s; its ending must be .swc, .json, .graphml, .png, .exr or .asc",
+                    file);
+    }
+    return output_check(file, e);
 }
 
 // As large as the film.
@@ -127,18 +127,17 @@ static bool write_picture(const Options *options, const RamifyScene *scene, cons
 static bool write_trees(const Options *options, const RamifyScene *scene, RamifyTree *const *trees,
                         const RamifyRun *run, RamifyError *e)
 {
-    bool done = true;
-    if (options->output && is_picture(options->output) && land_count(scene) > 0) {
+    if (!options->output) {
+        return true;
+    }
+    if (is_heights(options->output) && land_count(scene) > 0) {
         return land_write(options, scene, trees, run, e);
     }
-    if (options->output && is_picture(options->output)) {
+    if (is_picture(options->output)) {
         int painter = find_painter(scene);
         return write_picture(options, scene, trees[painter], painter, e);
     }
-    for (int i = 0; options->output && done && i < ramify_scene_object_count(scene); i++) {
-        done = !trees[i] || write_tree(options, scene, i, trees[i], e);
-    }
-    return done;
+    return ramify_export_trees(scene, (const RamifyTree *const *)trees, options->output, run, e);
 }
 
 static bool grow_all(const RamifyScene *scene, RamifyTree **trees, const RamifyRun *run,

@@ -22,40 +22,34 @@ int land_count(const RamifyScene *scene)
     return count;
 }
 
-static bool write_file(const Options *options, const RamifyScene *scene, int index,
-                       const RamifyLand *land, RamifyError *e)
+static void describe(const RamifyScene *scene, int index, const RamifyLand *land)
 {
-    if (land_count(scene) == 1) {
-        return ramify_land_write(land, options->output, e);
-    }
-    char *file = output_of_object(options->output, ramify_scene_object_name(scene, index), e);
-    bool done = file && ramify_land_write(land, file, e);
-    free(file);
-    return done;
-}
-
-static bool write_land(const Options *options, const RamifyScene *scene, int index,
-                       const RamifyTree *tree, const RamifyRun *run, RamifyError *e)
-{
-    RamifyLand *land = ramify_land(scene, index, tree, run, e);
-    bool done = land && write_file(options, scene, index, land, e);
-    if (done && !options->quiet) {
-        RamifyLandInfo info;
-        ramify_land_info(land, &info);
-        fprintf(stderr, "%s: heights %.1f to %.1f m, hash %016" PRIx64 "\n",
-                ramify_scene_object_name(scene, index), (double)info.low, (double)info.high,
-                info.hash);
-    }
-    ramify_land_free(land);
-    return done;
+    RamifyLandInfo info;
+    ramify_land_info(land, &info);
+    fprintf(stderr, "%s: heights %.1f to %.1f m, hash %016" PRIx64 "\n",
+            ramify_scene_object_name(scene, index), (double)info.low, (double)info.high, info.hash);
 }
 
 bool land_write(const Options *options, const RamifyScene *scene, RamifyTree *const *trees,
                 const RamifyRun *run, RamifyError *e)
 {
-    bool done = true;
-    for (int i = 0; done && i < ramify_scene_object_count(scene); i++) {
-        done = !is_land(scene, i) || write_land(options, scene, i, trees[i], run, e);
+    int count = ramify_scene_object_count(scene);
+    RamifyLand **lands = allocate(count, sizeof(RamifyLand *), e);
+    bool done = lands;
+    for (int i = 0; done && i < count; i++) {
+        if (is_land(scene, i)) {
+            lands[i] = ramify_land(scene, i, trees[i], run, e);
+            done = lands[i];
+        }
     }
+    done = done &&
+           ramify_export_lands(scene, (const RamifyLand *const *)lands, options->output, run, e);
+    for (int i = 0; lands && i < count; i++) {
+        if (done && lands[i] && !options->quiet) {
+            describe(scene, i, lands[i]);
+        }
+        ramify_land_free(lands[i]);
+    }
+    free(lands);
     return done;
 }

@@ -8,7 +8,7 @@
 int land_count(const RamifyScene *scene);
 
 // Heights of every object that is land, from its out-tree (trees: one an object, NULL where none
-// grew), to --output as ramify_land_write does. One goes to FILE, several to FILE-name.
+// grew), to --output as ramify_export_lands does.
 bool land_write(const Options *options, const RamifyScene *scene, RamifyTree *const *trees,
                 const RamifyRun *run, RamifyError *e);
 

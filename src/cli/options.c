@@ -25,8 +25,9 @@ static const Option OPTIONS[] = {
      .commands = RENDERS | BIT(COMMAND_GROW) | BIT(COMMAND_EXPORT),
      .letter = 'o',
      .doc =
-         "what to write; render: .png or .jpg with the .exr beside it; grow: .swc, .json or, of "
-         "a leaf's veins or a terrain's heights, .png or .exr; export: the format by its ending"},
+         "what to write; render: .png or .jpg with the .exr beside it; grow: .swc, .json, "
+         ".graphml or, of a leaf's veins or a terrain's heights, .png or .exr (heights also .asc); "
+         "export: the format by its ending"},
     {.name = "samples",
      .value = "N",
      .offset = AT(samples),

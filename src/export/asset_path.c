@@ -60,15 +60,30 @@ char *asset_path(const char *file, const char *asset, Error *e)
     return path;
 }
 
-char *asset_beside(const char *file, const char *ending, Error *e)
+// Characters of the name before its ending.
+static size_t stem_length(const char *file)
 {
     const char *slash = strrchr(file, '/'), *dot = strrchr(file, '.');
-    size_t stem =
-        dot && dot > file && (!slash || dot > slash + 1) ? (size_t)(dot - file) : strlen(file);
-    size_t size = stem + strlen(ending) + 1;
+    const char *base = slash ? slash + 1 : file;
+    return dot && dot > base ? (size_t)(dot - file) : strlen(file);
+}
+
+char *asset_beside(const char *file, const char *ending, Error *e)
+{
+    size_t stem = stem_length(file), size = stem + strlen(ending) + 1;
     char *name = memory_alloc((int64_t)size, 1, e);
     if (name) {
         snprintf(name, size, "%.*s%s", (int)stem, file, ending);
+    }
+    return name;
+}
+
+char *asset_of_object(const char *file, const char *object, Error *e)
+{
+    size_t stem = stem_length(file), size = strlen(file) + strlen(object) + 2;
+    char *name = memory_alloc((int64_t)size, 1, e);
+    if (name) {
+        snprintf(name, size, "%.*s-%s%s", (int)stem, file, object, file + stem);
     }
     return name;
 }

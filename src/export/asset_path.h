@@ -11,4 +11,7 @@ char *asset_path(const char *file, const char *asset, Error *e);
 // The name of a file beside `file`: its name without the ending, and `ending` instead. Heap text.
 char *asset_beside(const char *file, const char *ending, Error *e);
 
+// The file of one of several objects that get one each: "out-oak.swc" of "out.swc". Heap text.
+char *asset_of_object(const char *file, const char *object, Error *e);
+
 #endif

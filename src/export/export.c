@@ -11,16 +11,26 @@ static const ExportFormat FORMATS[] = {
     {".ply", "meshes with radius and birth, binary", EXPORT_WORLD, export_ply},
     {".usda", "USD as text: all of the scene", EXPORT_WORLD, export_usda},
     {".stl", "triangles alone, binary", EXPORT_WORLD, export_stl},
+    {".swc", "an out-tree: nodes with radius and parent", EXPORT_TREES, export_tree_each},
+    {".json", "an out-tree with all that is known of it", EXPORT_TREES, export_tree_each},
+    {".graphml", "all out-trees as graphs", EXPORT_TREES, export_graphml},
+    {".asc", "heights of land, Esri ASCII grid", EXPORT_LAND, export_heights},
+    {".exr", "heights of land, float picture", EXPORT_LAND, export_heights},
+    {".png", "heights of land, 16-bit picture", EXPORT_LAND, export_heights},
 };
 
 enum { FORMAT_COUNT = (int)(sizeof FORMATS / sizeof FORMATS[0]) };
 
+bool export_has_ending(const char *file, const char *ending)
+{
+    size_t length = strlen(file), size = strlen(ending);
+    return length > size && strcasecmp(file + length - size, ending) == 0;
+}
+
 const ExportFormat *export_format(const char *file)
 {
-    size_t length = strlen(file);
     for (int i = 0; i < FORMAT_COUNT; i++) {
-        size_t ending = strlen(FORMATS[i].ending);
-        if (length > ending && strcasecmp(file + length - ending, FORMATS[i].ending) == 0) {
+        if (export_has_ending(file, FORMATS[i].ending)) {
             return &FORMATS[i];
         }
     }

@@ -9,5 +9,8 @@ bool export_obj(const ExportSource *source, const char *file, const Run *run, Er
 bool export_ply(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_usda(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_stl(const ExportSource *source, const char *file, const Run *run, Error *e);
+bool export_tree_each(const ExportSource *source, const char *file, const Run *run, Error *e);
+bool export_graphml(const ExportSource *source, const char *file, const Run *run, Error *e);
+bool export_heights(const ExportSource *source, const char *file, const Run *run, Error *e);
 
 #endif

@@ -48,6 +48,21 @@ static void clear_parts(Parts *parts, int object_count)
     free(parts->name);
 }
 
+// Out-trees of all that grows, or of land alone.
+static bool make_trees(const Scene *scene, bool all, Parts *parts, const Run *run, Error *e)
+{
+    parts->tree = memory_alloc_zero(scene->object_count, sizeof(OutTree *), e);
+    bool done = parts->tree;
+    for (int i = 0; done && i < scene->object_count; i++) {
+        const Kind *kind = kind_of(&scene->objects[i]);
+        if (kind->grow && (all || kind->heights)) {
+            parts->tree[i] = scene_grow_object(scene, i, run, e);
+            done = parts->tree[i];
+        }
+    }
+    return done;
+}
+
 static bool make_lands(const Scene *scene, Parts *parts, const Run *run, Error *e)
 {
     parts->land = memory_alloc_zero(scene->object_count, sizeof(HeightField *), e);
@@ -73,10 +88,10 @@ static bool make_parts(const Scene *scene, unsigned needs, Parts *parts, const R
         done = parts->world;
     }
     if (done && needs & (EXPORT_TREES | EXPORT_LAND)) {
-        parts->tree = scene_grow(scene, run, e);
-        done = parts->tree;
+        done = make_trees(scene, needs & EXPORT_TREES, parts, run, e) &&
+               (!(needs & EXPORT_LAND) || make_lands(scene, parts, run, e));
     }
-    return done && (!(needs & EXPORT_LAND) || !parts->tree || make_lands(scene, parts, run, e));
+    return done;
 }
 
 static bool add_bounds(void *user, const ExportPiece *piece, Error *e)
@@ -163,5 +178,31 @@ bool scene_export(const Scene *scene, const char *file, const ExportOptions *opt
     }
     done = done && write_scene(&few, file, options, run, report, e);
     free(few.objects);
+    return done;
+}
+
+bool scene_write_grown(const Scene *scene, const OutTree *const *trees,
+                       const HeightField *const *lands, const char *file, const Run *run, Error *e)
+{
+    const ExportFormat *format = scene_export_check(file, e) ? export_format(file) : NULL;
+    if (!format) {
+        return false;
+    }
+    if (format->needs != (trees ? EXPORT_TREES : EXPORT_LAND)) {
+        return error_set(e, ERROR_INPUT, "'%s' cannot hold %s", file,
+                         trees ? "out-trees; .swc, .json and .graphml can"
+                               : "heights; .png, .exr and .asc can");
+    }
+    const char **name = memory_alloc(scene->object_count, sizeof *name, e);
+    for (int i = 0; name && i < scene->object_count; i++) {
+        name[i] = scene->objects[i].name;
+    }
+    ExportSource source = {.title = scene->file,
+                           .object_count = scene->object_count,
+                           .object_name = name,
+                           .tree = trees,
+                           .land = lands};
+    bool done = name && format->write(&source, file, run, e);
+    free(name);
     return done;
 }

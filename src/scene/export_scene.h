@@ -18,6 +18,11 @@ typedef struct ExportReport {
 bool scene_export(const Scene *scene, const char *file, const ExportOptions *options,
                   const Run *run, ExportReport *report, Error *e);
 
+// Writes what has been grown already: the out-trees or (the other NULL) the lands of the scene's
+// objects, NULL where one has none, by the file's ending.
+bool scene_write_grown(const Scene *scene, const OutTree *const *trees,
+                       const HeightField *const *lands, const char *file, const Run *run, Error *e);
+
 // ERROR_INPUT when the file's ending is that of no format.
 bool scene_export_check(const char *file, Error *e);
 

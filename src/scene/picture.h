@@ -4,7 +4,6 @@
 
 #include "base/run.h"
 #include "image/image.h"
-#include "mesh/height_field.h"
 #include "render/film.h"
 #include "scene/scene.h"
 
@@ -31,10 +30,5 @@ bool picture_write_rgba(const char *file, const Scene *scene, const float *rgba,
 
 // width * height values, 0..1, as grey .png, .jpg or .exr.
 bool picture_write_grey(const char *file, const float *value, int width, int height, Error *e);
-
-// Heights: 16-bit PNG, black at the lowest and white at the highest point, or float EXR in metres
-// (channel Y). Both say in their metadata (ramify:low, ramify:high, ramify:cell, all in metres)
-// what they hold.
-bool picture_write_land(const char *file, const HeightField *field, Error *e);
 
 #endif

@@ -1,94 +1,91 @@
 #include "tree/out_tree_io.h"
 
-#include "base/file_replace.h"
+#include "base/file_writer.h"
+#include "base/number_text.h"
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-// A file on its way: written to memory first, then put in place whole.
-typedef struct NewFile {
-    const char *file;
-    FILE *stream;
-    char *bytes;
-    size_t size;
-} NewFile;
-
-static bool new_file_open(NewFile *out, const char *file, Error *e)
-{
-    *out = (NewFile){.file = file};
-    out->stream = open_memstream(&out->bytes, &out->size);
-    return out->stream || error_set(e, ERROR_MEMORY, "out of memory for '%s'", file);
-}
-
-static bool new_file_close(NewFile *out, Error *e)
-{
-    bool good = !ferror(out->stream);
-    good = fclose(out->stream) == 0 && good;
-    if (!good) {
-        error_set(e, ERROR_MEMORY, "out of memory for '%s'", out->file);
-    }
-    good = good && file_replace(out->file, out->bytes, out->size, e);
-    free(out->bytes);
-    return good;
-}
+// Room for a line of SWC and for a node of an array.
+enum { LONGEST = 5 * (INTEGER_TEXT_MOST + FLOAT_TEXT_MOST) };
 
 bool out_tree_write_swc(const OutTree *tree, const char *file, Error *e)
 {
-    NewFile out;
-    if (!new_file_open(&out, file, e)) {
+    FileWriter *out = file_writer_open(file, e);
+    if (!out) {
         return false;
     }
-    fprintf(out.stream, "# out-tree grown by ramify; lengths in metres\n"
-                        "# number type x y z radius parent\n");
+    file_writer_text(out, "# out-tree grown by ramify; lengths in metres\n"
+                          "# number type x y z radius parent\n");
     for (int64_t i = 0; i < tree->count; i++) {
-        Vec3 p = tree->position[i];
-        int64_t parent = tree->parent[i] < 0 ? -1 : tree->parent[i] + (int64_t)1;
-        fprintf(out.stream, "%" PRId64 " %" PRId32 " %.9g %.9g %.9g %.9g %" PRId64 "\n", i + 1,
-                tree->typed ? tree->colony[i] : SWC_UNDEFINED, (double)p.x, (double)p.y,
-                (double)p.z, (double)tree->radius[i], parent);
+        char line[LONGEST], *at = integer_text(line, i + 1);
+        *at++ = ' ';
+        at = integer_text(at, tree->typed ? tree->colony[i] : SWC_UNDEFINED);
+        *at++ = ' ';
+        at = floats_text(at, &tree->position[i].x, 3, ' ');
+        *at++ = ' ';
+        at = float_text(at, tree->radius[i]);
+        *at++ = ' ';
+        at = integer_text(at, tree->parent[i] < 0 ? -1 : tree->parent[i] + (int64_t)1);
+        *at++ = '\n';
+        file_writer_bytes(out, line, (size_t)(at - line));
     }
-    return new_file_close(&out, e);
+    return file_writer_close(out, true, e);
 }
 
-static void write_integers(FILE *stream, const char *name, const int32_t *value, int64_t count)
+static void write_integers(FileWriter *out, const char *name, const int32_t *value, int64_t count)
 {
-    fprintf(stream, ",\n\"%s\": [", name);
+    file_writer_print(out, ",\n\"%s\": [", name);
     for (int64_t i = 0; i < count; i++) {
-        fprintf(stream, "%s%" PRId32, i ? "," : "", value[i]);
+        char text[LONGEST] = ",", *start = i > 0 ? text + 1 : text;
+        file_writer_bytes(out, text, (size_t)(integer_text(start, value[i]) - text));
     }
-    fputs("]", stream);
+    file_writer_text(out, "]");
+}
+
+// Groups of `size` floats, in brackets where there are several.
+static void write_floats(FileWriter *out, const char *name, const float *value, int size,
+                         int64_t count)
+{
+    file_writer_print(out, ",\n\"%s\": [", name);
+    for (int64_t i = 0; i < count; i++) {
+        char text[LONGEST], *at = text;
+        if (i > 0) {
+            *at++ = ',';
+        }
+        if (size > 1) {
+            *at++ = '[';
+        }
+        at = floats_text(at, value + i * size, size, ',');
+        if (size > 1) {
+            *at++ = ']';
+        }
+        file_writer_bytes(out, text, (size_t)(at - text));
+    }
+    file_writer_text(out, "]");
 }
 
 bool out_tree_write_json(const OutTree *tree, const char *file, Error *e)
 {
-    NewFile out;
-    if (!new_file_open(&out, file, e)) {
+    FileWriter *out = file_writer_open(file, e);
+    if (!out) {
         return false;
     }
-    fprintf(out.stream, "{\"format\": \"ramify out-tree\", \"version\": 1, \"unit\": \"m\",\n");
-    fprintf(out.stream, "\"count\": %" PRId64 ",\n\"position\": [", tree->count);
+    file_writer_text(out, "{\"format\": \"ramify out-tree\", \"version\": 1, \"unit\": \"m\",\n");
+    file_writer_print(out, "\"count\": %" PRId64, tree->count);
+    write_floats(out, "position", &tree->position->x, 3, tree->count);
+    write_integers(out, "parent", tree->parent, tree->count);
+    write_integers(out, "birth", tree->birth, tree->count);
+    write_integers(out, "colony", tree->colony, tree->count);
+    write_floats(out, "radius", tree->radius, 1, tree->count);
+    file_writer_text(out, ",\n\"id\": [");
     for (int64_t i = 0; i < tree->count; i++) {
-        Vec3 p = tree->position[i];
-        fprintf(out.stream, "%s[%.9g,%.9g,%.9g]", i ? "," : "", (double)p.x, (double)p.y,
-                (double)p.z);
+        file_writer_print(out, "%s\"%016" PRIx64 "\"", i ? "," : "", tree->id[i]);
     }
-    fputs("]", out.stream);
-    write_integers(out.stream, "parent", tree->parent, tree->count);
-    write_integers(out.stream, "birth", tree->birth, tree->count);
-    write_integers(out.stream, "colony", tree->colony, tree->count);
-    fputs(",\n\"radius\": [", out.stream);
-    for (int64_t i = 0; i < tree->count; i++) {
-        fprintf(out.stream, "%s%.9g", i ? "," : "", (double)tree->radius[i]);
-    }
-    fputs("],\n\"id\": [", out.stream);
-    for (int64_t i = 0; i < tree->count; i++) {
-        fprintf(out.stream, "%s\"%016" PRIx64 "\"", i ? "," : "", tree->id[i]);
-    }
-    fputs("]}\n", out.stream);
-    return new_file_close(&out, e);
+    file_writer_text(out, "]}\n");
+    return file_writer_close(out, true, e);
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -105,7 +102,11 @@ bool out_tree_write(const OutTree *tree, const char *file, Error *e)
     if (ends_with(file, ".json")) {
         return out_tree_write_json(tree, file, e);
     }
+    if (ends_with(file, ".graphml")) {
+        return out_trees_write_graphml(&tree, &(const char *){"tree"}, 1, file, e);
+    }
     return error_set(e, ERROR_INPUT,
-                     "cannot tell what kind of file '%s' is to be; .swc and .json are possible",
+                     "cannot tell what kind of file '%s' is to be; .swc, .json and .graphml are "
+                     "possible",
                      file);
 }

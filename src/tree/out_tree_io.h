@@ -20,11 +20,11 @@ typedef enum SwcType {
 // ERROR_IO with the reason.
 bool out_tree_write_swc(const OutTree *tree, const char *file, Error *e);
 
-// Reads SWC strictly: every line a comment (#), blank, or exactly seven numbers; node numbers
-// distinct, parents -1 or the number of some node before or after (no circles), radii not negative;
-// coordinates are taken as metres. Nodes keep the file's order as far as parents come first. Births
-// count the nodes from the root, colonies are the types, ids are made anew. ERROR_INPUT with file
-// and line; the caller frees the tree. (swc_read.c)
+// Reads SWC strictly: every line a comment (#), blank, or exactly seven numbers with perhaps a
+// comment behind them; node numbers distinct, parents -1 or the number of some node before or after
+// (no circles), radii not negative; coordinates are taken as metres. Nodes keep the file's order as
+// far as parents come first. Births count the nodes from the root, colonies are the types, ids are
+// made anew. ERROR_INPUT with file and line; the caller frees the tree. (swc_read.c)
 OutTree *out_tree_read_swc(const char *file, Error *e);
 
 // The same in a child process with limits (base/child.h), for files that come from anywhere.
@@ -35,7 +35,14 @@ OutTree *out_tree_import_swc(const char *file, const Run *run, Error *e);
 // colony, radius (metres) and id (hexadecimal strings). Numbers read back to the same bits.
 bool out_tree_write_json(const OutTree *tree, const char *file, Error *e);
 
-// By the file's ending, .swc or .json; ERROR_INPUT for any other.
+// GraphML (Brandes et al. 2002): a directed graph for each of `count` trees that is not NULL, named
+// name[i], with an edge from each node to its children. Nodes have x, y, z, radius (m), birth,
+// colony and key (the id as hexadecimal text), edges their length (m); numbers read back to the
+// same bits. (graphml_write.c)
+bool out_trees_write_graphml(const OutTree *const *tree, const char *const *name, int count,
+                             const char *file, Error *e);
+
+// By the file's ending, .swc, .json or .graphml; ERROR_INPUT for any other.
 bool out_tree_write(const OutTree *tree, const char *file, Error *e);
 
 #endif

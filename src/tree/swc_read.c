@@ -70,10 +70,11 @@ static bool read_columns(const char *text, double column[COLUMNS], locale_t c_lo
         text = end;
     }
     text += strspn(text, " \t");
-    return !*text || error_set(e, ERROR_INPUT,
-                               "'%.20s' after seven numbers; a line must hold number type x y z "
-                               "radius parent and no more",
-                               text);
+    return !*text || *text == '#' ||
+           error_set(e, ERROR_INPUT,
+                     "'%.20s' after seven numbers; a line must hold number type x y z "
+                     "radius parent and no more",
+                     text);
 }
 
 static bool read_row(const char *text, Row *row, locale_t c_locale, Error *e)
@@ -136,7 +137,9 @@ static bool read_rows(SwcFile *swc, FILE *stream, locale_t c_locale, Error *e)
         if (!read_line(stream, text, &more, e)) {
             return fail_at(swc, line, e);
         }
-        const char *start = text + strspn(text, " \t");
+        bool marked = line == 1 && strncmp(text, "\xef\xbb\xbf", 3) == 0; // by some editors
+        const char *start = text + (marked ? 3 : 0);
+        start += strspn(start, " \t");
         if (!*start || *start == '#') {
             continue;
         }

@@ -72,6 +72,12 @@ static void names_beside_keep_the_folder(void **state)
         assert_string_equal(name, cases[i][1]);
         free(name);
     }
+    char *name = asset_of_object("a.b/scene.swc", "oak", NULL);
+    assert_string_equal(name, "a.b/scene-oak.swc");
+    free(name);
+    name = asset_of_object("scene", "oak", NULL);
+    assert_string_equal(name, "scene-oak");
+    free(name);
 }
 
 int main(void)

@@ -75,6 +75,61 @@ static void any_order_comments_and_line_ends_are_read(void **state)
     out_tree_free(tree);
 }
 
+static OutTree *read_sample(const char *name, int64_t count)
+{
+    char file[128];
+    Error e = {0};
+    snprintf(file, sizeof file, "tests/tree/data/%s", name);
+    OutTree *tree = out_tree_read_swc(file, &e);
+    if (!tree) {
+        fail_msg("%s:%d: %s", file, e.line, e.message);
+    }
+    assert_true(out_tree_check(tree, NULL));
+    assert_int_equal(tree->count, count);
+    return tree;
+}
+
+// A header, all types of a neuron, CRLF, tabs, columns set with blanks, coordinates in micrometres.
+static void files_of_neurons_are_read(void **state)
+{
+    (void)state;
+    OutTree *tree = read_sample("header_types_crlf.swc", 11);
+    static const int32_t type[11] = {1, 1, 1, 3, 3, 4, 4, 2, 5, 6, 7};
+    static const int32_t parent[11] = {-1, 0, 0, 0, 3, 2, 5, 1, 4, 4, 6};
+    for (int i = 0; i < 11; i++) {
+        assert_int_equal(tree->colony[i], type[i]);
+        assert_int_equal(tree->parent[i], parent[i]);
+    }
+    assert_true(tree->radius[0] == 6.25f && tree->radius[8] == 0.5f);
+    assert_true(tree->position[6].y == 25.5f && tree->position[9].z == 1.0f);
+    out_tree_free(tree);
+}
+
+static void children_may_come_before_their_parents(void **state)
+{
+    (void)state;
+    OutTree *tree = read_sample("backwards.swc", 6);
+    static const float x[6] = {0, 0, 0, 0, 5, 5}, y[6] = {0, 1, 2, 3, 0, 1};
+    static const int32_t parent[6] = {-1, 0, 1, 2, -1, 4};
+    for (int i = 0; i < 6; i++) {
+        assert_true(tree->position[i].x == x[i] && tree->position[i].y == y[i]);
+        assert_int_equal(tree->parent[i], parent[i]);
+    }
+    assert_true(tree->radius[0] == 0.4f && tree->radius[5] == 0.1f);
+    out_tree_free(tree);
+}
+
+static void numbers_may_look_as_programs_print_them(void **state)
+{
+    (void)state;
+    OutTree *tree = read_sample("numbers.swc", 2);
+    assert_true(tree->position[0].x == 1.0f && tree->position[0].y == -0.25f);
+    assert_true(tree->position[0].z == 0.125f && tree->radius[0] == 1.0f);
+    assert_int_equal(tree->parent[1], 0);
+    assert_int_equal(tree->colony[1], 3);
+    out_tree_free(tree);
+}
+
 static void wrong_files_are_refused(void **state)
 {
     (void)state;
@@ -138,6 +193,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_was_written_reads_back_the_same),
         cmocka_unit_test(any_order_comments_and_line_ends_are_read),
+        cmocka_unit_test(files_of_neurons_are_read),
+        cmocka_unit_test(children_may_come_before_their_parents),
+        cmocka_unit_test(numbers_may_look_as_programs_print_them),
         cmocka_unit_test(wrong_files_are_refused),
         cmocka_unit_test(bytes_that_are_no_text_are_refused),
     };
