@@ -8,169 +8,9 @@
 #include "base/memory.h"
 #include "export/formats.h"
 #include "export/placement.h"
-#include "export/sky_bake.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-enum { NODES_MOST = 4096 }; // places that become nodes of their own unless told otherwise
-
-// ---- the plan
-
-static bool shears(const Part *part)
-{
-    Placement placement;
-    for (int64_t i = 0; i < part->instance_count; i++) {
-        if (!placement_from_transform(&part->instance[i], &placement)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static GlbPlacing placing_of(const Glb *glb, const Part *part, int64_t instances)
-{
-    static const GlbPlacing asked[] = {[EXPORT_INSTANCES_NODES] = GLB_NODES,
-                                       [EXPORT_INSTANCES_GPU] = GLB_GPU,
-                                       [EXPORT_INSTANCES_FLAT] = GLB_FLAT};
-    ExportInstances how = glb->source->options.instances;
-    if (!part->instance) {
-        return GLB_ONCE;
-    }
-    if (shears(part)) { // no node can do that
-        return GLB_FLAT;
-    }
-    if (how == EXPORT_INSTANCES_AUTO) {
-        return instances <= NODES_MOST ? GLB_NODES : GLB_GPU;
-    }
-    return asked[how];
-}
-
-static void plan_vertex(const Glb *glb, const Part *part, GlbPart *own)
-{
-    const Mesh *mesh = part->mesh; // NULL: tubes, which have everything
-    ExportColors colors = glb->source->options.colors;
-    const Material *material = &glb->source->world->material[part->material];
-    own->normal = !mesh || mesh->normal;
-    own->uv = !mesh || mesh->uv;
-    own->radius = !mesh || mesh->radius;
-    own->birth = !mesh || mesh->birth;
-    own->growth = (own->radius || own->birth) &&
-                  (colors == EXPORT_COLORS_ALL || colors == EXPORT_COLORS_GROWTH);
-    // COLOR_1 needs a COLOR_0
-    own->color = glb_colors_are_base(glb, material) || (own->growth && colors == EXPORT_COLORS_ALL);
-    own->stride = 12 + 12 * own->normal + 8 * own->uv + 8 * own->color + 8 * own->growth +
-                  4 * own->radius + 4 * own->birth;
-}
-
-static bool too_large(Error *e, double bytes)
-{
-    return error_set(e, ERROR_INPUT,
-                     "the file would have more than %.1f GB; a GLB file holds at most 4.29: "
-                     "--instances gpu keeps instances, --object NAME writes only that object, and "
-                     ".ply has no such limit",
-                     bytes * 1e-9);
-}
-
-static bool add_bounds(void *user, const ExportPiece *piece, Error *e)
-{
-    (void)e;
-    Aabb *bounds = user;
-    *bounds = aabb_union(*bounds, export_piece_bounds(piece));
-    return true;
-}
-
-// All but its bounds.
-static bool plan_part(Glb *glb, int64_t index, int64_t instances, Error *e)
-{
-    const Part *part = &glb->source->world->geometry.part[index];
-    GlbPart own = {.index = index, .placing = placing_of(glb, part, instances)};
-    ExportTally tally = export_part_tally(glb->source, index, own.placing == GLB_FLAT);
-    if (tally.triangles == 0 || (part->instance && part->instance_count == 0)) {
-        return true;
-    }
-    if (tally.vertices > UINT32_MAX - 1) {
-        return too_large(e, (double)tally.vertices * 40.0);
-    }
-    own.vertices = tally.vertices;
-    own.triangles = tally.triangles;
-    plan_vertex(glb, part, &own);
-    own.bounds = aabb_empty();
-    own.vertex_at = glb->buffer_size;
-    own.index_at = own.vertex_at + own.vertices * own.stride;
-    own.instance_at = own.index_at + own.triangles * 12;
-    glb->buffer_size = own.instance_at + (own.placing == GLB_GPU ? part->instance_count * 40 : 0);
-    glb->part[glb->part_count++] = own;
-    return glb->buffer_size <= UINT32_MAX || too_large(e, (double)glb->buffer_size);
-}
-
-static bool plan_bounds(Glb *glb, Error *e)
-{
-    bool done = true;
-    for (int64_t i = 0; done && i < glb->part_count; i++) {
-        GlbPart *part = &glb->part[i];
-        run_progress(glb->run, "write", 0.2 * (double)i / (double)glb->part_count);
-        done = export_part_pieces(glb->source, part->index, part->placing == GLB_FLAT, 0, glb->run,
-                                  add_bounds, &part->bounds, e);
-    }
-    return done;
-}
-
-static bool plan_sun(Glb *glb, Error *e)
-{
-    const Sky *sky = &glb->source->world->sky;
-    if (sky->kind != SKY_SUN_SKY && sky->kind != SKY_NIGHT) {
-        return true;
-    }
-    BakedSky baked;
-    if (!sky_bake(sky, 4, glb->run, &baked, e)) {
-        return false;
-    }
-    glb->sun = baked.sun;
-    baked_sky_clear(&baked);
-    return true;
-}
-
-static bool plan(Glb *glb, Error *e)
-{
-    const Geometry *geometry = &glb->source->world->geometry;
-    int64_t instances = 0;
-    for (int64_t i = 0; i < geometry->count; i++) {
-        instances += geometry->part[i].instance_count;
-    }
-    glb->part = memory_alloc_zero(geometry->count, sizeof *glb->part, e);
-    bool done = glb->part;
-    for (int64_t i = 0; done && i < geometry->count; i++) {
-        done = plan_part(glb, i, instances, e);
-    }
-    done = done && plan_bounds(glb, e) && plan_sun(glb, e) && glb_gather_materials(glb, e);
-    for (int64_t i = 0; done && i < glb->image_count; i++) {
-        glb->image[i].at = glb->buffer_size;
-        glb->buffer_size += (glb->image[i].size + 3) & ~(int64_t)3;
-    }
-    return done;
-}
-
-static void warn_of_placing(const Glb *glb)
-{
-    bool gpu = false, flat = false;
-    for (int64_t i = 0; i < glb->part_count; i++) {
-        gpu = gpu || glb->part[i].placing == GLB_GPU;
-        flat = flat || glb->part[i].placing == GLB_FLAT;
-    }
-    if (gpu && glb->source->options.instances == EXPORT_INSTANCES_AUTO) {
-        run_warn(glb->run, "instances need EXT_mesh_gpu_instancing, which Blender knows from 4.0 "
-                           "on; --instances nodes or flat is for readers without it");
-    }
-    if (flat && glb->source->options.instances == EXPORT_INSTANCES_FLAT) {
-        export_warn_of_instances(glb->source, glb->run);
-    } else if (flat) {
-        run_warn(glb->run, "instances that are sheared or flattened are written out: glTF has no "
-                           "such nodes");
-    }
-}
-
-// ---- the bytes
 
 typedef struct GlbWriter {
     const Glb *glb;
@@ -341,7 +181,7 @@ static bool write_file(const Glb *glb, const char *name, const char *json, size_
     int64_t padded = ((int64_t)json_size + 3) & ~(int64_t)3;
     int64_t whole = HEADER + CHUNK + padded + (glb->buffer_size > 0 ? CHUNK + glb->buffer_size : 0);
     if (whole > UINT32_MAX) {
-        return too_large(e, (double)whole);
+        return glb_too_large(e, (double)whole);
     }
     FileWriter *file = file_writer_open(name, e);
     if (!file) {
@@ -365,9 +205,8 @@ bool export_glb(const ExportSource *source, const char *file, const Run *run, Er
     Glb glb = {.source = source, .run = run};
     size_t size = 0;
     char *json = NULL;
-    bool done = plan(&glb, e);
+    bool done = glb_plan(&glb, e);
     if (done) {
-        warn_of_placing(&glb);
         json = glb_json(&glb, &size, e);
         done = json && write_file(&glb, file, json, size, e);
     }

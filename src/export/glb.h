@@ -1,5 +1,6 @@
-// What the files that make up the GLB writer share: glb.c plans and writes the bytes, glb_json.c
-// describes them, glb_material.c has the materials and their pictures.
+// What the files that make up the GLB writer share: glb_plan.c lays them out, glb.c writes the
+// bytes, glb_json.c describes them, glb_nodes.c places them, glb_material.c and glb_image.c have
+// the materials and their pictures.
 #ifndef RAMIFY_EXPORT_GLB_H
 #define RAMIFY_EXPORT_GLB_H
 
@@ -48,18 +49,43 @@ typedef struct Glb {
     Sun sun;             // or moon; radiance 0 = none
 } Glb;
 
+// Fills all of it; source and run are set. Warns of what readers may stumble over.
+bool glb_plan(Glb *glb, Error *e);
+
+// ERROR_INPUT for a file of that many bytes.
+bool glb_too_large(Error *e, double bytes);
+
 // Is COLOR_0 of such parts the whole base colour? Otherwise it is white.
 bool glb_colors_are_base(const Glb *glb, const Material *material);
 
 // Numbers the materials that parts use and reads their pictures.
 bool glb_gather_materials(Glb *glb, Error *e);
 
+// Reads the picture of a material that has one, if it is not there yet, and finds it again: its
+// number, -1 = none.
+bool glb_add_image(Glb *glb, const Material *material, Error *e);
+int64_t glb_image_number(const Glb *glb, const Material *material);
+
+// Textures, images and their sampler, with a comma before.
+void glb_put_images(const Glb *glb, FILE *json);
+
 // "materials": [...], and textures, images and a sampler where there are any; each with a comma
 // before it.
 void glb_put_materials(const Glb *glb, FILE *json);
 
-// Buffer views of a part: vertices, triangles, and places where it has any.
+// Of a part: buffer views (vertices, triangles, and places in tables), accessors (those of
+// vertices, triangles, places), places.
 int64_t glb_part_views(const GlbPart *part);
+int64_t glb_part_accessors(const GlbPart *part);
+int64_t glb_instance_count(const Glb *glb, const GlbPart *part);
+
+void glb_put_part_name(const Glb *glb, const GlbPart *part, FILE *json); // "name":"..."
+
+// Nodes and scene; the camera; lights, where glb_light_count is not 0. Each with a comma before it.
+void glb_put_nodes(const Glb *glb, FILE *json);
+void glb_put_camera(const Glb *glb, FILE *json);
+void glb_put_lights(const Glb *glb, FILE *json);
+int glb_light_count(const Glb *glb);
 
 // The names of the material extensions that are used, each quoted with a comma behind it.
 void glb_put_material_extensions(const Glb *glb, FILE *json);
