@@ -85,8 +85,18 @@ static void animation_defaults(const Node *given, int kind, void *out)
     *(SceneAnimation *)out = (SceneAnimation){.frames = 72, .fps = 24.0, .loop = true};
 }
 
-const Table animation_table = {.name = "animation",
-                               .doc = "What changes over time.",
-                               .size = sizeof(SceneAnimation),
-                               .keys = ANIMATION_KEYS,
-                               .defaults = animation_defaults};
+const Table animation_table = {
+    .name = "animation",
+    .doc = "What changes over time.",
+    .example =
+        "objects:\n"
+        "  - name: oak\n"
+        "    tree: {}\n"
+        "animation:\n"
+        "  frames: 120\n"
+        "  tracks:\n"
+        "    - {path: sky.sun_elevation, keys: [{at: 0, value: 2}, {at: 0.5, value: 30}]}\n"
+        "    - {path: grow_to, ease: smooth, keys: [{at: 0, value: 0.1}, {at: 0.9, value: 1}]}\n",
+    .size = sizeof(SceneAnimation),
+    .keys = ANIMATION_KEYS,
+    .defaults = animation_defaults};

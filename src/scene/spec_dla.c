@@ -31,7 +31,7 @@ static void dla_defaults(const Node *given, int kind, void *out)
 
 const Table dla_table = {.name = "dla",
                          .doc = "A diffusion-limited aggregate, as electrodeposited metal: what "
-                                "the papers compare their method with.",
+                                "the papers compare their method with. Material: copper.",
                          .example = "objects:\n"
                                     "  - name: dendrite\n"
                                     "    dla: {size: 0.3, particles: 20000}\n",

@@ -49,16 +49,16 @@ static void forest_defaults(const Node *given, int kind, void *out)
     *(ForestParams *)out = forest_params_default();
 }
 
-const Table forest_table = {.name = "forest",
-                            .doc = "A forest: stands of trees grown together, competing for the "
-                                   "same light, set over the ground by the thousand.",
-                            .example =
-                                "objects:\n"
-                                "  - name: floor\n"
-                                "    ground: {relief: 4}\n"
-                                "  - name: wood\n"
-                                "    forest: {height: 18, radius: 80, glade: 6, ferns: 2000}\n",
-                            .size = sizeof(ForestParams),
-                            .keys = FOREST_KEYS,
-                            .defaults = forest_defaults,
-                            .check = check_envelope};
+const Table forest_table = {
+    .name = "forest",
+    .doc = "A forest: stands of trees grown together, competing for the same light, set over the "
+           "ground by the thousand. Materials: bark, twig, leaf; grass for the ferns.",
+    .example = "objects:\n"
+               "  - name: floor\n"
+               "    ground: {relief: 4}\n"
+               "  - name: wood\n"
+               "    forest: {height: 18, radius: 80, glade: 6, ferns: 2000}\n",
+    .size = sizeof(ForestParams),
+    .keys = FOREST_KEYS,
+    .defaults = forest_defaults,
+    .check = check_envelope};

@@ -78,7 +78,8 @@ static void frost_defaults(const Node *given, int kind, void *out)
 
 const Table frost_table = {
     .name = "frost",
-    .doc = "Frost on a pane or a bubble (Tanaka et al., section 5.3).",
+    .doc = "Frost on a pane or a bubble (Tanaka et al., section 5.3). Materials: ice, rime; the "
+           "pane or the bubble is an object of its own.",
     .example = "objects:\n"
                "  - name: window\n"
                "    frost: {surface: pane, width: 0.5, height: 0.4, nuclei: 9, turn: 140}\n",

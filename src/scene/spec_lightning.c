@@ -62,7 +62,7 @@ static void lightning_defaults(const Node *given, int kind, void *out)
 const Table lightning_table = {
     .name = "lightning",
     .doc = "Lightning in the air, or (points.place: surface) over the surface of an envelope "
-           "(Tanaka et al., section 5.2).",
+           "(Tanaka et al., section 5.2). Material: lightning.",
     .example = "objects:\n"
                "  - name: bolt\n"
                "    lightning: {height: 900, branching: 1.5, ground_points: 2}\n",

@@ -214,9 +214,8 @@ static void object_defaults(const Node *given, int kind, void *out)
 
 const Table object_table = {
     .name = "object",
-    .doc = "One thing of the scene: a name, exactly one of tree, coral, lsystem, vessels, forest, "
-           "ground, frost, mesh, shape, dla, lightning, sculpture, terrain, venation and fracture, "
-           "and the names of its materials if they are not the usual ones.",
+    .doc = "One thing of the scene: a name, exactly one of the kinds below (those that lead to a "
+           "section), and the names of its materials if they are not the usual ones.",
     .example = "objects:\n"
                "  - name: land\n"
                "    ground: {relief: 10}\n"

@@ -27,7 +27,7 @@ static void sculpture_defaults(const Node *given, int kind, void *out)
 const Table sculpture_table = {
     .name = "sculpture",
     .doc = "A hollow sculpture of branches (Tanaka et al., section 2.4): clusters grown over the "
-           "envelope's surface, merged into one shell of round bars.",
+           "envelope's surface, merged into one shell of round bars. Material: clay.",
     .example =
         "objects:\n"
         "  - name: lampshade\n"

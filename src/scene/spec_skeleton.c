@@ -50,9 +50,14 @@ static void skeleton_defaults(const Node *given, int kind, void *out)
     *(SkeletonParams *)out = skeleton_params_default();
 }
 
-const Table skeleton_table = {.name = "skeleton",
-                              .doc = "A neuron, or another out-tree that a program traced, from an "
-                                     "SWC file.",
-                              .size = sizeof(SkeletonParams),
-                              .keys = SKELETON_KEYS,
-                              .defaults = skeleton_defaults};
+const Table skeleton_table = {
+    .name = "skeleton",
+    .doc = "A neuron, or another out-tree that a program traced, from an "
+           "SWC file.",
+    .example =
+        "objects:\n"
+        "  - name: neuron\n"
+        "    skeleton: {file: neuron.swc, scale: 0.001, origin: middle, position: [0, 1, 0]}\n",
+    .size = sizeof(SkeletonParams),
+    .keys = SKELETON_KEYS,
+    .defaults = skeleton_defaults};

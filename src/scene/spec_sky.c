@@ -21,7 +21,7 @@ static const Key SKY_KEYS[] = {
     {KEY_OF(Sky, sun_elevation, "sun_elevation", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = -10,
      .high = 90, .unit = "degrees",
      .doc = "Height of the sun above the horizon: 2 to 6 makes long shadows and warm light; below "
-            "-1 it has set."},
+            "-0.3 it has set."},
     {KEY_OF(Sky, sun_azimuth, "sun_azimuth", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = -360,
      .high = 360, .unit = "degrees", .doc = "Where the sun stands, from +Z toward +X."},
     {KEY_OF(Sky, sun_size, "sun_size", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .flags = KEY_ABOVE,

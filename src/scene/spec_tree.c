@@ -12,7 +12,7 @@ static const Key TRUNK_KEYS[] = {
     {KEY_OF(TrunkParams, lean_azimuth, "lean_azimuth", KEY_FLOAT), .low = -360, .high = 360,
      .unit = "degrees", .doc = "Where it leans to, from +Z toward +X."},
     {KEY_OF(TrunkParams, stems, "stems", KEY_INT), .low = 1, .high = 1000,
-     .doc = "Stems that start on a circle about the base and merge; 1 = a plain trunk."},
+     .doc = "Stems that start on a circle about the base; 1 = a plain trunk."},
     {KEY_OF(TrunkParams, stem_circle, "stem_circle", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "Radius of that circle; 0 = the trunk's radius."},
     ELEMENT_ROWS(TrunkParams),
@@ -191,18 +191,18 @@ static void tree_defaults(const Node *given, int kind, void *out)
     *(TreeParams *)out = tree_params_default();
 }
 
-const Table tree_table = {.name = "tree",
-                          .doc = "A tree: trunk, crown and roots grown as separate elements "
-                                 "(Tanaka et al., section 5.1). Everything left out makes an oak.",
-                          .example =
-                              "objects:\n"
-                              "  - name: pine\n"
-                              "    tree:\n"
-                              "      height: 9\n"
-                              "      trunk: {lean: 8, radius: 0.2}\n"
-                              "      crown: {width: 6, base: 4, branches: 12, branch_angle: 75}\n"
-                              "      leaves: {length: 0.07, width: 0.004, lobes: 0}\n",
-                          .size = sizeof(TreeParams),
-                          .keys = TREE_KEYS,
-                          .defaults = tree_defaults,
-                          .check = check_tree};
+const Table tree_table = {
+    .name = "tree",
+    .doc = "A tree: trunk, crown and roots grown as separate elements (Tanaka et al., section "
+           "5.1). Everything left out makes an oak. Materials: bark, twig, leaf.",
+    .example = "objects:\n"
+               "  - name: pine\n"
+               "    tree:\n"
+               "      height: 9\n"
+               "      trunk: {lean: 8, radius: 0.2}\n"
+               "      crown: {width: 6, base: 4, branches: 12, branch_angle: 75}\n"
+               "      leaves: {length: 0.07, width: 0.004, lobes: 0}\n",
+    .size = sizeof(TreeParams),
+    .keys = TREE_KEYS,
+    .defaults = tree_defaults,
+    .check = check_tree};
