@@ -64,7 +64,11 @@ static void print_program_help(void)
         char usage[64];
         snprintf(usage, sizeof usage, "ramify %s %s", command_at((CommandId)i)->name,
                  command_at((CommandId)i)->operand);
-        printf("  %-29s %s\n", usage, command_at((CommandId)i)->doc);
+        printf("  %-29s", usage);
+        if (strlen(usage) > 29) {
+            printf("\n%31s", "");
+        }
+        printf(" %s\n", command_at((CommandId)i)->doc);
     }
     printf("  %-29s %s\n\n", "ramify --version", "print the version");
     printf("'ramify COMMAND --help' lists a command's options, 'ramify help COMMAND --man' prints "

@@ -108,7 +108,7 @@ static const ManualText TEXTS[] = {
      .paragraphs =
          {"Prints a script that lets the shell complete commands, options, their values, scene "
           "files and, after --set, the keys of the scene that is named before it. "
-          "`make install` puts both scripts where the shells look for them."},
+          "make install puts both scripts where the shells look for them."},
      .examples = {{"for this session of bash", "eval \"$(ramify completion bash)\""},
                   {"for zsh, in a folder of its fpath", "ramify completion zsh > _ramify"}}},
 };
