@@ -85,9 +85,9 @@ format: check-packages ## lay the code out with clang-format
 format-check: check-packages
 	clang-format --dry-run --Werror $(FORMATTED)
 
-# What `make install` puts below PREFIX, as FILE:PLACE:MODE; `make uninstall` takes the places away again.
 # Where Debian's Python looks for modules below /usr/local, and below /usr with python3 in place of python3.11.
 PYTHON_SITE ?= lib/$(shell python3 -c 'import sys; print("python%d.%d" % sys.version_info[:2])' 2>/dev/null || echo python3)/dist-packages
+# What `make install` puts below PREFIX, as FILE:PLACE:MODE; `make uninstall` takes the places away again.
 INSTALL := $(OUT)/ramify:bin/ramify:755 \
            $(OUT)/libramify.a:lib/libramify.a:644 \
            $(OUT)/libramify.so:lib/libramify.so.$(VERSION):755 \

@@ -11,10 +11,25 @@
 
 #define DENOISE_STRENGTH 1.0f
 
-bool picture_is_exr(const char *file)
+static bool has_ending(const char *file, const char *ending)
 {
     const char *dot = strrchr(file, '.');
-    return dot && strcasecmp(dot, ".exr") == 0;
+    return dot && strcasecmp(dot, ending) == 0;
+}
+
+bool picture_is_exr(const char *file)
+{
+    return has_ending(file, ".exr");
+}
+
+// Before the work of developing it.
+static bool check_ending(const char *file, Error *e)
+{
+    return picture_is_exr(file) || has_ending(file, ".png") || has_ending(file, ".jpg") ||
+           has_ending(file, ".jpeg") ||
+           error_set(e, ERROR_INPUT,
+                     "'%s' cannot be written: a picture's name must end in .png, .jpg or .exr",
+                     file);
 }
 
 // ---- films ----
@@ -100,7 +115,7 @@ Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const
 bool picture_write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
                            const Run *run, Error *e)
 {
-    Image *display = picture_develop(scene, film, denoise, run, e);
+    Image *display = check_ending(file, e) ? picture_develop(scene, film, denoise, run, e) : NULL;
     char *metadata = display ? make_metadata(scene, e) : NULL;
     bool done = metadata && image_write_display(file, display, metadata, e);
     free(metadata);
@@ -139,7 +154,7 @@ bool picture_write_exr(const char *file, const Scene *scene, const Film *film, E
 bool picture_write_rgba(const char *file, const Scene *scene, const float *rgba, Error *e)
 {
     int width = scene->film.width, height = scene->film.height;
-    Image *image = image_new(width, height, 4, e);
+    Image *image = check_ending(file, e) ? image_new(width, height, 4, e) : NULL;
     if (!image) {
         return false;
     }
@@ -161,7 +176,7 @@ bool picture_write_rgba(const char *file, const Scene *scene, const float *rgba,
 
 bool picture_write_grey(const char *file, const float *value, int width, int height, Error *e)
 {
-    Image *image = image_new(width, height, 3, e);
+    Image *image = check_ending(file, e) ? image_new(width, height, 3, e) : NULL;
     if (!image) {
         return false;
     }

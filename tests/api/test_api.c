@@ -226,6 +226,8 @@ static void land_has_heights(void **state)
     assert_true(low == info.low);
     RamifyMeasures *measures = ramify_land_measure(land, &error);
     assert_true(ramify_measures_find(measures, "hypsometric_integral") >= 0);
+    assert_false(ramify_land_write(land, "/tmp/x.tga", &error));
+    assert_int_equal(error.code, RAMIFY_BAD_INPUT);
     assert_null(ramify_land(scene, BALL, NULL, NULL, &error));
     assert_string_equal(error.message, "object 'ball' is no land; a terrain would be");
     ramify_measures_free(measures);
@@ -408,6 +410,10 @@ static void a_film_has_layers(void **state)
     for (int i = 0; i < 4 * WIDTH * HEIGHT; i++) {
         assert_true(simple[i] >= 0.0f && simple[i] <= 1.0f);
     }
+    assert_false(ramify_film_write(film, scene, "x.tga", false, NULL, &error));
+    assert_string_equal(
+        error.message,
+        "'x.tga' cannot be written: a picture's name must end in .png, .jpg or .exr");
     assert_false(ramify_film_write(film, scene, "/nope/x.exr", false, NULL, &error));
     assert_int_equal(error.code, RAMIFY_IO);
     assert_null(ramify_renderer_new(world, "sse9", NULL, &error));
