@@ -168,7 +168,7 @@ for shell in bash zsh; do
     offers $shell scene "ramify render " pine.yaml '!notes.txt' '!survey.asc'
     offers $shell measured "ramify measure s" survey.asc '!pine.yaml'
     offers $shell isa "ramify render pine.yaml --isa a" avx2 avx512 '!sse2'
-    offers $shell ending "ramify export pine.yaml -o pine." pine.glb pine.obj '!pine.png'
+    offers $shell ending "ramify export pine.yaml -o pine." pine.glb pine.obj '!pine.jpg'
     offers $shell object "ramify export pine.yaml --object " pine
     offers $shell key "ramify render pine.yaml --set camera.fo" camera.fov= camera.focal_length= '!film.'
     offers $shell object_key "ramify render pine.yaml --set objects.pine.tree.h" objects.pine.tree.height=
