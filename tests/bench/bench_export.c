@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { AROUND = 1000, ALONG = 2500 };
@@ -93,19 +94,22 @@ int main(void)
                  (long)getpid(), endings[i]);
         int64_t before = memory_peak();
         double start = run_seconds();
+        clock_t processor = clock();
         if (!export_format(file)->write(&source, file, &run, &e)) {
             stop(e.message);
         }
         double seconds = run_seconds() - start;
+        double busy = (double)(clock() - processor) / CLOCKS_PER_SEC;
         struct stat status;
         if (stat(file, &status) != 0) {
             stop("the file is gone");
         }
         double plain = plain_write(file, status.st_size);
         unlink(file);
-        printf("5 million triangles to %s: %.2f s, %.0f MB, %.1f times a plain write (%.2f s); "
+        printf("5 million triangles to %s: %.2f s (%.2f s of processors), %.0f MB, %.1f times a "
+               "plain write (%.2f s); "
                "%.0f MB more memory at most\n",
-               endings[i], seconds, (double)status.st_size * 1e-6, seconds / plain, plain,
+               endings[i], seconds, busy, (double)status.st_size * 1e-6, seconds / plain, plain,
                (double)(memory_peak() - before) * 1e-6);
         if (strcmp(endings[i], ".obj") == 0) {
             snprintf(file + strlen(file) - 4, 5, ".mtl");
