@@ -82,6 +82,22 @@ static bool way_schema(const RamifyScene *scene, RamifyError *error)
     return schema != NULL;
 }
 
+static bool way_reference(const RamifyScene *scene, RamifyError *error)
+{
+    (void)scene;
+    char *reference = ramify_schema_markdown(error);
+    ramify_free(reference);
+    return reference != NULL;
+}
+
+static bool way_paths(const RamifyScene *scene, RamifyError *error)
+{
+    (void)scene;
+    char *paths = ramify_schema_paths(error);
+    ramify_free(paths);
+    return paths != NULL;
+}
+
 static bool way_measure(const RamifyScene *scene, RamifyError *error)
 {
     RamifyRun run = {.threads = 1};
@@ -166,6 +182,8 @@ static void printing_the_schema(void **state)
 {
     (void)state;
     let_each_fail(way_schema, 50);
+    let_each_fail(way_reference, 50);
+    let_each_fail(way_paths, 50);
 }
 
 static void growing_and_measuring(void **state)
