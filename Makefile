@@ -43,7 +43,7 @@ BENCHES   := $(sort $(wildcard tests/bench/*.c))
 BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.h src/*.c src/*/*.[ch] src/*/*.cpp tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
-.PHONY: all demo docs test peers bench sanitize lint format format-check install uninstall clean help packages check-packages
+.PHONY: all demo cross-check docs test peers bench sanitize lint format format-check install uninstall clean help packages check-packages
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 
@@ -54,8 +54,12 @@ demo: all ## render the oak of scenes/oak.yaml to build/oak.png (and .exr)
 	$(OUT)/ramify render scenes/oak.yaml -o $(OUT)/oak.png
 
 test: all $(if $(filter true,$(CI)),peers) ## build and run every test; the last line counts them
-	@$(MAKE) --no-print-directory -j$$(nproc) $(TEST_BIN)
+	@$(MAKE) --no-print-directory -j$$(nproc) $(TEST_BIN) $(OUT)/tests/cross/compare
 	@RAMIFY=$(OUT)/ramify tests/run $(TEST_BIN)
+
+cross-check: all ## render the scenes of tests/cross in POV-Ray too and compare: build/cross-check/index.html
+	@$(MAKE) --no-print-directory $(OUT)/tests/cross/compare
+	@RAMIFY=$(abspath $(OUT)/ramify) COMPARE=$(abspath $(OUT)/tests/cross/compare) tests/cross/run $(OUT)/cross-check
 
 docs: all ## write docs/scene.md anew from the tables of scene files
 	$(OUT)/ramify schema --markdown > docs/scene.md
@@ -125,7 +129,7 @@ clean: ## remove build/
 	rm -rf build
 
 help: ## this list
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | awk -F'|' '{printf "make %-9s %s\n", $$1, $$2}'
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/\1|\2/p' Makefile | awk -F'|' '{printf "make %-12s %s\n", $$1, $$2}'
 
 # $(call need,packages): install those that are missing.
 define need

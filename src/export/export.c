@@ -10,6 +10,8 @@ static const ExportFormat FORMATS[] = {
     {".obj", "meshes with materials beside it (.mtl)", EXPORT_WORLD, export_obj},
     {".ply", "meshes with radius and birth, binary", EXPORT_WORLD, export_ply},
     {".usda", "USD as text: all of the scene", EXPORT_WORLD, export_usda},
+    {".pov", "a scene that POV-Ray renders as it is; pictures in NAME-textures/", EXPORT_WORLD,
+     export_pov},
     {".stl", "triangles alone, binary", EXPORT_WORLD, export_stl},
     {".swc", "an out-tree: nodes with radius and parent", EXPORT_TREES, export_tree_each},
     {".json", "an out-tree with all that is known of it", EXPORT_TREES, export_tree_each},

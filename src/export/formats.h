@@ -8,6 +8,7 @@ bool export_glb(const ExportSource *source, const char *file, const Run *run, Er
 bool export_obj(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_ply(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_usda(const ExportSource *source, const char *file, const Run *run, Error *e);
+bool export_pov(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_stl(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_tree_each(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_graphml(const ExportSource *source, const char *file, const Run *run, Error *e);

@@ -538,6 +538,11 @@ float lights_glow(const Lights *lights, const SurfacePlace *place, Vec3 position
     return glow * bsdf_weight(bsdf_pdf, pdf * lights->share[lights->emitters_index]);
 }
 
+const Sun *lights_sun(const Lights *lights)
+{
+    return lights->sun_index >= 0 ? &lights->sun : NULL;
+}
+
 Vec3 lights_horizon(const Lights *lights, Vec3 direction)
 {
     if (!lights->dome) {

@@ -5,6 +5,7 @@
 
 #include "base/run.h"
 #include "render/emitter_set.h"
+#include "render/sky.h"
 #include "render/water.h"
 #include "render/world.h"
 
@@ -87,6 +88,9 @@ Vec3 lights_emitted(const Lights *lights, int index, Vec3 origin, Vec3 direction
 // glow, weighted as above; bsdf_pdf was drawn at the receiver.
 float lights_glow(const Lights *lights, const SurfacePlace *place, Vec3 position,
                   const LightReceiver *receiver, float bsdf_pdf);
+
+// The sun by day, the moon by night; NULL where neither shines.
+const Sun *lights_sun(const Lights *lights);
 
 // Colour that distant things fade into, looking along direction.
 Vec3 lights_horizon(const Lights *lights, Vec3 direction);

@@ -1,0 +1,56 @@
+// What the files that write POV-Ray scenes share. docs/povray.md says what becomes of what.
+#ifndef RAMIFY_EXPORT_POV_H
+#define RAMIFY_EXPORT_POV_H
+
+#include "base/file_writer.h"
+#include "export/export.h"
+#include "export/pov_palette.h"
+#include "render/lights.h"
+#include "render/pattern.h"
+
+typedef struct Pov {
+    const World *world;
+    FileWriter *out;
+    const Run *run;
+    Error *e;
+    const char *file;   // the .pov
+    char *folder;       // where its pictures go, with the file's own folder before it
+    const char *beside; // the same as the scene names it: without that folder
+    float unit;         // POV-Ray units a metre: a power of ten
+    Vec3 center;        // m, of all there is
+    float radius;       // m, about the center, camera and lamps included
+    World far;          // sky and sun alone ...
+    Lights *lights;     // ... and their light
+    const Sun *sun;     // NULL = none
+    bool glow_lights;   // glowing geometry became light sources
+} Pov;
+
+// Numbers. Points and lengths in metres are turned into units.
+void pov_vector(Pov *pov, Vec3 v);
+void pov_point(Pov *pov, Vec3 p);
+void pov_number(Pov *pov, float value);
+void pov_number_list(Pov *pov, const float *value, int count); // with commas
+
+// Each writes its section of the file. False and pov->e on failure; what goes wrong with the file
+// itself shows when it is closed.
+void pov_camera(Pov *pov);
+bool pov_sky(Pov *pov);
+void pov_medium(Pov *pov);
+void pov_lamps(Pov *pov);
+bool pov_glow(Pov *pov); // light sources along glowing geometry
+bool pov_materials(Pov *pov);
+bool pov_parts(Pov *pov);
+
+// Declares textures P<number>_0, P<number>_1, ... of a part: its material in the palette's colours,
+// and transmittances as what goes with them.
+void pov_textures(Pov *pov, int64_t number, int material, const Palette *colors);
+// What follows a part's texture: its interior and how light treats it.
+void pov_interior(Pov *pov, int material);
+bool pov_has_picture(const Material *material);
+
+// Writes one picture that a material is painted with; what the file calls it.
+bool pov_bake_picture(Pov *pov, int material, char *name, int size);
+// Makes the folder for pictures.
+bool pov_make_folder(Pov *pov);
+
+#endif

@@ -1,0 +1,97 @@
+// Haze and media: as fog of one colour, or, around lamps, as POV-Ray's own scattering media.
+#include "export/pov.h"
+
+// Of all directions: what a medium that scatters evenly shows of the sky.
+static Vec3 mean_sky(const Pov *pov)
+{
+    enum { DRAWS = 256 };
+    Vec3 sum = vec3_splat(0.0f);
+    for (int i = 0; i < DRAWS; i++) { // a Fibonacci spiral
+        float y = 1.0f - (2.0f * (float)i + 1.0f) / DRAWS, turn = 2.39996323f * (float)i;
+        float level = sqrtf(1.0f - y * y);
+        Vec3 d = vec3(level * cosf(turn), y, level * sinf(turn));
+        if (!pov->sun || !sun_covers(pov->sun, d)) {
+            Vec3 c = lights_background(pov->lights, vec3_splat(0.0f), d, 0.0f, 0.1f);
+            sum = vec3_madd(sum, 1.0f / DRAWS, c);
+        }
+    }
+    return sum;
+}
+
+// Fog from the ground to `top`, thinning out above within `rise` (m).
+static void write_fog(Pov *pov, float distance, float top, float rise, Vec3 color)
+{
+    file_writer_print(
+        pov->out, "fog {\n    fog_type 2 distance %.9g fog_offset %.9g fog_alt %.9g\n    rgb ",
+        (double)(distance * pov->unit), (double)(top * pov->unit), (double)(rise * pov->unit));
+    pov_vector(pov, color);
+    file_writer_text(pov->out, "\n}\n\n");
+}
+
+// Haze ends a little above the scene, or it would cover the sky.
+static void write_haze(Pov *pov)
+{
+    Vec3 sum = vec3_splat(0.0f);
+    for (int i = 0; i < 16; i++) {
+        float turn = 2.0f * PI_F * (float)i / 16.0f;
+        Vec3 d = vec3(cosf(turn), 0.0f, sinf(turn));
+        sum = vec3_madd(sum, 1.0f / 16.0f, lights_horizon(pov->lights, d));
+    }
+    float top = pov->center.y + pov->radius;
+    write_fog(pov, pov->world->sky.haze_distance, top, 0.02f * pov->radius, sum);
+}
+
+// A medium's colour far into it: what it scatters of what it takes, under sky and sun.
+static Vec3 medium_color(const Pov *pov)
+{
+    const Medium *m = &pov->world->medium;
+    Vec3 light = mean_sky(pov);
+    if (pov->sun) {
+        light = vec3_madd(light, 0.25f * pov->sun->solid_angle / PI_F, pov->sun->radiance);
+    }
+    Vec3 sum = vec3_add(m->scattering, m->absorption);
+    return vec3(sum.x > 0.0f ? light.x * m->scattering.x / sum.x : 0.0f,
+                sum.y > 0.0f ? light.y * m->scattering.y / sum.y : 0.0f,
+                sum.z > 0.0f ? light.z * m->scattering.z / sum.z : 0.0f);
+}
+
+// POV-Ray's phase functions are 1 where nature's are 1 / 4 pi, and its lights are irradiance over
+// pi: a quarter of the scattering gives the same light, and four times as much fades it as before.
+static void write_scattering(Pov *pov)
+{
+    const Medium *m = &pov->world->medium;
+    float radius = m->extent > 0.0f ? m->extent : 3.0f * pov->radius;
+    file_writer_text(pov->out, "sphere {\n    ");
+    pov_point(pov, pov->center);
+    file_writer_print(pov->out, ", %.9g hollow no_shadow\n    pigment { rgbt 1 }\n",
+                      (double)(radius * pov->unit));
+    file_writer_text(pov->out, "    interior { media {\n        scattering { 5, rgb ");
+    pov_vector(pov, vec3_scale(m->scattering, 0.25f / pov->unit));
+    file_writer_print(pov->out, " eccentricity %.9g extinction 4 }\n        absorption rgb ",
+                      (double)m->anisotropy);
+    pov_vector(pov, vec3_scale(m->absorption, 1.0f / pov->unit));
+    file_writer_text(pov->out, "\n        method 3 intervals 1 samples 24\n    } }\n}\n\n");
+}
+
+void pov_medium(Pov *pov)
+{
+    const Medium *m = &pov->world->medium;
+    float extinction = luminance(vec3_add(m->scattering, m->absorption));
+    if (pov->world->sky.kind != SKY_NONE && pov->world->sky.haze_distance > 0.0f) {
+        write_haze(pov);
+    }
+    if (m->kind == MEDIUM_NONE || !(extinction > 0.0f)) {
+        return;
+    }
+    if (m->kind == MEDIUM_EVERYWHERE) {
+        write_scattering(pov);
+        return;
+    }
+    float rise = m->kind == MEDIUM_LAYER ? m->falloff : 1e-3f * pov->radius;
+    write_fog(pov, 1.0f / extinction, m->height, fmaxf(rise, 1e-6f), medium_color(pov));
+    if (m->kind == MEDIUM_WATER) {
+        run_warn(pov->run,
+                 "water becomes plain fog: its surface, its waves and the sun's network of "
+                 "light are lost");
+    }
+}

@@ -1,0 +1,44 @@
+#!/bin/sh
+# What POV-Ray makes of our export: the same pixels covered, the same direct light, for lamps, curves, pictures and leaves.
+# RAMIFY names the binary. Prints "ok NAME", "not ok NAME" or "skipped NAME: why" for each case. `make cross-check` is all of it.
+RAMIFY=${RAMIFY:-build/ramify}
+case $RAMIFY in /*) ;; *) RAMIFY=$PWD/$RAMIFY ;; esac
+COMPARE=${COMPARE:-$(dirname "$RAMIFY")/tests/cross/compare}
+here=$(cd "$(dirname "$0")" && pwd)
+folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT
+export RAMIFY COMPARE
+
+result() { # result NAME: by the status of the command before
+    if [ $? -eq 0 ]; then echo "ok $1"; else
+        echo "not ok $1"
+        cat "$folder/log"
+    fi
+}
+
+for name in lamps tree picture; do
+    [ $name = picture ] && export CROSS_SHRINK=1 || export CROSS_SHRINK=2 # small texels would need more rays
+    if command -v povray >/dev/null; then
+        "$here/run" "$folder" "$here/$name.yaml" >"$folder/log" 2>&1
+        result "POV-Ray covers the same pixels with the same light: $name"
+    else
+        echo "skipped $name: povray is not installed"
+    fi
+done
+
+cd "$folder" || exit 1
+# A sky needs a picture; a file in the way of its folder must leave the old scene alone.
+cat >day.yaml <<'END_OF_SCENE'
+sky: {kind: sun_sky}
+objects: [{name: ball, shape: {envelope: [{shape: sphere, size: 1}]}}]
+END_OF_SCENE
+echo old >day.pov
+echo file >day-textures
+"$RAMIFY" export day.yaml -q -o day.pov 2>log
+[ $? -eq 1 ] && [ "$(cat day.pov)" = old ] && grep -q "^ramify: 'day-textures" log && [ "$(ls -A | grep -c part)" -eq 0 ]
+result "a picture that cannot be written leaves the old scene alone"
+rm day-textures
+"$RAMIFY" export day.yaml -q -o day.pov 2>log && [ -s day-textures/sky.exr ] && mkdir elsewhere &&
+    mv day.pov day-textures elsewhere && cd elsewhere && "$RAMIFY" export ../day.yaml -q --threads 1 -o again.pov 2>../log &&
+    sed 's/again/day/g' again.pov | cmp -s - day.pov && cmp -s again-textures/sky.exr day-textures/sky.exr
+result "the same scene gives the same bytes for any number of threads"
+cd "$folder" || exit 1
