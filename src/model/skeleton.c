@@ -240,9 +240,9 @@ static bool add_apart(const OutTree *tree, bool *of_axon, const SkeletonParams *
     return done;
 }
 
-bool skeleton_geometry(const OutTree *tree, const SkeletonParams *params,
-                       const SkeletonMaterials *materials, int object, Geometry *geometry,
-                       const Run *run, Error *e)
+static bool add_parts(const OutTree *tree, const SkeletonParams *params,
+                      const SkeletonMaterials *materials, int object, Geometry *geometry,
+                      const Run *run, Error *e)
 {
     if (materials->axon == materials->body) {
         return add_skin(tree, params, materials->body, object, geometry, run, e);
@@ -254,5 +254,21 @@ bool skeleton_geometry(const OutTree *tree, const SkeletonParams *params,
     }
     bool done = of_axon && add_apart(tree, of_axon, params, materials, object, geometry, run, e);
     free(of_axon);
+    return done;
+}
+
+// What grows from a curve is curves: a soma, thin at its pole, must not be one.
+bool skeleton_geometry(const OutTree *tree, const SkeletonParams *params,
+                       const SkeletonMaterials *materials, int object, Geometry *geometry,
+                       const Run *run, Error *e)
+{
+    OutTree *solid = out_tree_copy(tree, e);
+    for (int64_t i = 0; solid && i < solid->count; i++) {
+        if (solid->colony[i] == SWC_SOMA) {
+            solid->radius[i] = fmaxf(solid->radius[i], params->skin.curve_radius);
+        }
+    }
+    bool done = solid && add_parts(solid, params, materials, object, geometry, run, e);
+    out_tree_free(solid);
     return done;
 }

@@ -7,7 +7,10 @@
 
 #include <stdlib.h>
 
-enum { BALL_NODES = 9 };
+enum {
+    BALL_NODES = 13,
+    POLE_NODES = 4 // of them at either end, too thin for ways to leave from
+};
 
 typedef struct Soma {
     Vec3 middle, axis;
@@ -132,7 +135,7 @@ static void find_axes(Rounding *r)
 // takes that off.
 static void ball_node(int k, float *along, float *across)
 {
-    exact_sincos(3.14159265f * ((float)k + 0.5f) / (float)BALL_NODES, across, along);
+    exact_sincos(3.14159265f * ((float)k + 0.12f) / ((float)BALL_NODES - 0.76f), across, along);
     *along = -*along;
     *across *= sqrtf(1.0f + *along * *along);
 }
@@ -165,8 +168,8 @@ static int64_t leaving_at(const Rounding *r, const Soma *soma, int64_t i)
     }
     Vec3 way = vec3_normalize(vec3_sub(r->tree->position[i], soma->middle));
     float wanted = vec3_dot(way, soma->axis), best = INFINITY;
-    int64_t node = soma->first;
-    for (int k = 1; k < BALL_NODES - 1; k++) {
+    int64_t node = soma->first + POLE_NODES;
+    for (int k = POLE_NODES; k < BALL_NODES - POLE_NODES; k++) {
         float along, across;
         ball_node(k, &along, &across);
         if (fabsf(along - wanted) < best) {
