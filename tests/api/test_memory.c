@@ -210,7 +210,10 @@ static void exporting(void **state)
     (void)state;
     for (int i = 0; i < ramify_export_format_count(); i++) {
         ending = ramify_export_format_ending(i);
-        let_each_fail(way_export, 8);
+        bool heights = strstr(".png .exr .asc", ending); // of a terrain, which this scene lacks
+        if (!heights) {
+            let_each_fail(way_export, 8);
+        }
     }
 }
 
