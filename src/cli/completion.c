@@ -23,6 +23,11 @@ static void offer_add(Offer *offer, const char *word, size_t length)
              word);
 }
 
+static void offer_words(Offer *offer, const char *words)
+{
+    offer_add(offer, words, strlen(words));
+}
+
 // The endings that a text names: ".png or .jpg" gives "png jpg".
 static void offer_add_endings(Offer *offer, const char *text)
 {
@@ -39,23 +44,22 @@ static Offer offer_of_option(const Option *option, CommandId command)
     Offer offer = {""};
     char doc[512];
     if (option->choices) {
-        offer_add(&offer, "words", 5);
-        offer_add(&offer, option->choices, strlen(option->choices));
+        offer_words(&offer, "words");
+        offer_words(&offer, option->choices);
     } else if (option->type == OPTION_SET || option->type == OPTION_OBJECT) {
-        offer_add(&offer, option->type == OPTION_SET ? "set" : "object", 6);
+        offer_words(&offer, option->type == OPTION_SET ? "set" : "object");
     } else if (strcmp(option->name, "output") == 0) {
-        offer_add(&offer, "output", 6);
+        offer_words(&offer, "output");
         option_doc(option, command, doc, sizeof doc);
         offer_add_endings(&offer, doc);
         for (int i = 0; command == COMMAND_EXPORT && i < ramify_export_format_count(); i++) {
             offer_add_endings(&offer, ramify_export_format_ending(i));
         }
     } else if (strncmp(option->value, "FILE", 4) == 0) {
-        offer_add(&offer, "file", 4);
+        offer_words(&offer, "file");
         offer_add_endings(&offer, option->value);
     } else {
-        bool folder = strcmp(option->value, "FOLDER") == 0;
-        offer_add(&offer, folder ? "folder" : "free", 6);
+        offer_words(&offer, strcmp(option->value, "FOLDER") == 0 ? "folder" : "free");
     }
     return offer;
 }
@@ -64,23 +68,23 @@ static Offer offer_of_operand(const char *operand)
 {
     Offer offer = {""};
     if (strstr(operand, "COMMAND")) {
-        offer_add(&offer, "command", 7);
+        offer_words(&offer, "command");
     } else if (strstr(operand, "FOLDER")) {
-        offer_add(&offer, "folder", 6);
+        offer_words(&offer, "folder");
     } else if (islower((unsigned char)*operand)) {
-        offer_add(&offer, "words", 5);
+        offer_words(&offer, "words");
         for (const char *word = operand; *word; word += strspn(word, "|")) {
             offer_add(&offer, word, strcspn(word, "|"));
             word += strcspn(word, "|");
         }
     } else if (*operand) {
-        offer_add(&offer, "file", 4);
+        offer_words(&offer, "file");
         if (strstr(operand, "SCENE")) {
-            offer_add(&offer, "yaml", 4);
+            offer_words(&offer, "yaml");
         }
         offer_add_endings(&offer, operand);
     } else {
-        offer_add(&offer, "free", 4);
+        offer_words(&offer, "free");
     }
     return offer;
 }

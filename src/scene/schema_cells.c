@@ -185,29 +185,43 @@ static void add_default(Default *found, int *count, const char *text, const char
     found[i].count++;
 }
 
-void schema_put_default(SchemaText *s, const OutlineSection *section, const Key *row)
+// The place that holds this one: "tree crown" of "tree crown points".
+static const char *holder_title(SchemaText *s, const OutlinePlace *place)
+{
+    const char *last = strrchr(place->title, ' ');
+    size_t length = last ? (size_t)(last - place->title) : strlen(place->title);
+    const char *title = arena_text(s->resolver.arena, place->title, length, s->resolver.e);
+    s->failed |= !title;
+    return title ? title : "";
+}
+
+// Tables with kinds fill in their own defaults, the same everywhere; others differ by place.
+static int find_defaults(SchemaText *s, const OutlineSection *section, const Key *row,
+                         Default *found)
 {
     const Table *table = section->table;
     const Key *kinds = table->kind_key ? table_find(table, table->kind_key) : NULL;
-    Default found[MOST_DEFAULTS];
-    int count = 0, most = 0;
-    for (int i = 0; i < section->place_count; i++) {
-        const OutlinePlace *place = &section->places[i];
-        bool by_kind = kinds && row != kinds && table->defaults;
-        for (const cyaml_strval_t *n = by_kind ? kinds->names : NULL; n && n->str; n++) {
+    int count = 0;
+    if (kinds && row != kinds && table->defaults) {
+        for (const cyaml_strval_t *n = kinds->names; n->str; n++) {
             if (key_in_kind(row, (int)n->val)) {
-                const char *base = schema_base(s, table, (int)n->val, place->base);
-                const char *text = default_text(s, row, base);
-                add_default(found, &count, text, n->str);
+                const char *base = schema_base(s, table, (int)n->val, NULL);
+                add_default(found, &count, default_text(s, row, base), n->str);
             }
         }
-        if (!by_kind) {
-            const char *holder = strrchr(place->title, ' ');
-            size_t length = holder ? (size_t)(holder - place->title) : strlen(place->title);
-            const char *where = arena_text(s->resolver.arena, place->title, length, s->resolver.e);
-            add_default(found, &count, default_text(s, row, place->base), where ? where : "");
-        }
+        return count;
     }
+    for (int i = 0; i < section->place_count; i++) {
+        const OutlinePlace *place = &section->places[i];
+        add_default(found, &count, default_text(s, row, place->base), holder_title(s, place));
+    }
+    return count;
+}
+
+void schema_put_default(SchemaText *s, const OutlineSection *section, const Key *row)
+{
+    Default found[MOST_DEFAULTS];
+    int count = find_defaults(s, section, row, found), most = 0;
     for (int i = 1; i < count; i++) {
         most = found[i].count > found[most].count ? i : most;
     }
@@ -216,8 +230,9 @@ void schema_put_default(SchemaText *s, const OutlineSection *section, const Key 
     }
     for (int i = 0; i < count; i++) {
         if (i != most) {
-            schema_put(s, *found[i].text ? "<br>%s: `%s`" : "<br>%s: none%s", found[i].where,
-                       found[i].text);
+            bool none = !*found[i].text;
+            schema_put(s, "<br>%s: %s%s%s", found[i].where, none ? "none" : "`", found[i].text,
+                       none ? "" : "`");
         }
     }
 }
