@@ -5,8 +5,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <unistd.h>
 
 static bool given(const char *file)
 {
@@ -55,67 +53,47 @@ static bool take_file(GlbImage *image, const char *file, bool *taken, Error *e)
     return true;
 }
 
-static bool is_linear(const char *file)
+// The channel's value at a place of `scale`, which may be finer.
+static float pixel_at(const Image *image, int x, int y, const Image *scale, int channel)
 {
-    size_t length = strlen(file);
-    return length > 4 && (strcasecmp(file + length - 4, ".exr") == 0 ||
-                          strcasecmp(file + length - 4, ".hdr") == 0);
+    int64_t column = (int64_t)x * image->width / scale->width;
+    int64_t row = (int64_t)y * image->height / scale->height;
+    return image->pixel[(row * image->width + column) * image->channels + channel];
 }
 
-static float pixel_at(const Image *image, int x, int y, int channel)
+// Colour from one picture, alpha from another: as material_opacity has it. Either may be NULL, not
+// both.
+static Image *combine(const Image *color, bool linear, const Image *alpha, Error *e)
 {
-    return image->pixel[((int64_t)y * image->width + x) * image->channels + channel];
-}
-
-// Colour from one picture, alpha from another: as material_opacity has it. Either may be NULL; as
-// large as `size`, which is one of them.
-static Image *combine(const Image *size, const Image *color, bool linear, const Image *alpha,
-                      Error *e)
-{
-    Image *out = image_new(size->width, size->height, alpha ? 4 : 3, e);
+    const Image *wide = !alpha || (color && color->width > alpha->width) ? color : alpha;
+    const Image *high = !alpha || (color && color->height > alpha->height) ? color : alpha;
+    Image *out = wide ? image_new(wide->width, high->height, alpha ? 4 : 3, e) : NULL;
     int from = alpha && (alpha->channels == 4 || alpha->channels == 2) ? alpha->channels - 1 : 0;
     for (int y = 0; out && y < out->height; y++) {
         for (int x = 0; x < out->width; x++) {
             float *pixel = out->pixel + ((int64_t)y * out->width + x) * out->channels;
             for (int k = 0; k < 3; k++) {
-                float c = color ? pixel_at(color, x, y, color->channels >= 3 ? k : 0) : 1.0f;
+                float c = color ? pixel_at(color, x, y, out, color->channels >= 3 ? k : 0) : 1.0f;
                 pixel[k] = linear ? (float)export_srgb8(c) / 255.0f : c;
             }
             if (alpha) {
-                pixel[3] = pixel_at(alpha, (int)((int64_t)x * alpha->width / out->width),
-                                    (int)((int64_t)y * alpha->height / out->height), from);
+                pixel[3] = pixel_at(alpha, x, y, out, from);
             }
         }
     }
     return out;
 }
 
-// As PNG, by way of a file in the folder for such.
-static bool take_picture(GlbImage *image, const Image *picture, Error *e)
-{
-    const char *folder = getenv("TMPDIR");
-    char name[4096];
-    snprintf(name, sizeof name, "%s/ramify-XXXXXX.png", given(folder) ? folder : "/tmp");
-    int descriptor = mkstemps(name, 4);
-    if (descriptor < 0) {
-        return error_set(e, ERROR_IO, "no file can be made in '%s'; TMPDIR names another folder",
-                         given(folder) ? folder : "/tmp");
-    }
-    close(descriptor);
-    bool done = image_write_display(name, picture, NULL, e) && read_bytes(name, image, e);
-    unlink(name);
-    return done;
-}
-
 static bool make_picture(GlbImage *image, Error *e)
 {
-    Image *color = given(image->color) ? image_read(image->color, e) : NULL;
+    bool linear = false;
+    size_t size = 0;
+    Image *color = given(image->color) ? image_read_color(image->color, &linear, e) : NULL;
     Image *alpha = given(image->alpha) ? image_read(image->alpha, e) : NULL;
-    const Image *size = color ? color : alpha;
     bool read = (color || !given(image->color)) && (alpha || !given(image->alpha));
-    Image *both =
-        read && size ? combine(size, color, color && is_linear(image->color), alpha, e) : NULL;
-    bool done = both && take_picture(image, both, e);
+    Image *both = read ? combine(color, linear, alpha, e) : NULL;
+    bool done = both && image_encode_png(both, NULL, &image->bytes, &size, e);
+    image->size = done ? (int64_t)size : 0;
     image_free(color);
     image_free(alpha);
     image_free(both);
