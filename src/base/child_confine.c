@@ -63,7 +63,11 @@ static bool leave_files(int file)
             return false;
         }
     }
-    return dup2(output, OUTPUT_FILE) == OUTPUT_FILE && close_range(OUTPUT_FILE + 1, ~0u, 0) == 0;
+    if (dup2(output, OUTPUT_FILE) != OUTPUT_FILE) {
+        return false;
+    }
+    closefrom(OUTPUT_FILE + 1); // also where the kernel has no close_range
+    return true;
 }
 
 // Bytes of this process's address space; 0 when it is not known.
