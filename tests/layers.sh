@@ -11,7 +11,7 @@ allowed() {
     mesh) echo "base shape tree mesh" ;;
     model) echo "base shape field tree grow mesh model" ;;
     render) echo "base mesh image render" ;;
-    export) echo "base tree mesh render image export" ;;
+    export) echo "base shape tree mesh render image export" ;;
     scene) echo "base shape field tree grow mesh model render image export scene" ;;
     golden) echo "base image golden" ;;
     animate) echo "base mesh model render image export scene animate" ;;

@@ -16,6 +16,7 @@ static const ExportFormat FORMATS[] = {
     {".swc", "an out-tree: nodes with radius and parent", EXPORT_TREES, export_tree_each},
     {".json", "an out-tree with all that is known of it", EXPORT_TREES, export_tree_each},
     {".graphml", "all out-trees as graphs", EXPORT_TREES, export_graphml},
+    {".vdb", "envelopes and guide fields as OpenVDB grids", EXPORT_GRIDS, export_vdb},
     {".asc", "heights of land, Esri ASCII grid", EXPORT_LAND, export_heights},
     {".exr", "heights of land, float picture", EXPORT_LAND, export_heights},
     {".png", "heights of land, 16-bit picture", EXPORT_LAND, export_heights},

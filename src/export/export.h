@@ -6,6 +6,7 @@
 #include "base/run.h"
 #include "mesh/height_field.h"
 #include "render/world.h"
+#include "shape/grid_file.h"
 #include "tree/out_tree.h"
 
 // How instances are written by formats that can keep them.
@@ -42,9 +43,10 @@ typedef struct ExportSource {
     const char *const *object_name; // object_count entries
     const OutTree *const *tree;     // EXPORT_TREES; NULL where nothing grew
     const HeightField *const *land; // EXPORT_LAND; NULL where an object is no land
+    const GridFile *grids;          // EXPORT_GRIDS: envelopes and guide fields, named
 } ExportSource;
 
-enum { EXPORT_WORLD = 1, EXPORT_TREES = 2, EXPORT_LAND = 4 };
+enum { EXPORT_WORLD = 1, EXPORT_TREES = 2, EXPORT_LAND = 4, EXPORT_GRIDS = 8 };
 
 typedef struct ExportFormat {
     const char *ending; // ".glb"

@@ -12,6 +12,7 @@ bool export_pov(const ExportSource *source, const char *file, const Run *run, Er
 bool export_stl(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_tree_each(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_graphml(const ExportSource *source, const char *file, const Run *run, Error *e);
+bool export_vdb(const ExportSource *source, const char *file, const Run *run, Error *e);
 bool export_heights(const ExportSource *source, const char *file, const Run *run, Error *e);
 
 #endif

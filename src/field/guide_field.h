@@ -61,4 +61,10 @@ void guide_field_free(GuideField *field); // NULL is fine
 // weighted sum otherwise.
 Vec3 guide_field_at(const GuideField *field, Vec3 p, Vec3 n);
 
+// Adds the field as vectors to the grids of a file: within the envelope and a little about it, at
+// `resolution` voxels along its longest side. Fields that keep to a surface are sampled for nodes
+// whose normal is the gradient of the envelope's distance.
+bool guide_field_add_to(const GuideField *field, const Envelope *envelope, int resolution,
+                        const char *name, GridFile *grids, const Run *run, Error *e);
+
 #endif

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "grow/colonize.h"
+#include "model/element.h"
 #include "shape/points.h"
 #include "tree/radii.h"
 
@@ -312,9 +313,10 @@ static bool grow_upright(Growing *g, Error *e)
         points = flat_room(p, seed, e);
     } else {
         Envelope *envelope = room(p, g->recipe->run, e);
-        points = envelope ? scatter(envelope, p, SCATTER_VOLUME, p->attractors * p->colonies, seed,
-                                    g->recipe->run, e)
-                          : NULL;
+        bool seen = envelope && growth_witness(g->recipe->run, g->recipe->label, envelope, NULL, e);
+        points = seen ? scatter(envelope, p, SCATTER_VOLUME, p->attractors * p->colonies, seed,
+                                g->recipe->run, e)
+                      : NULL;
         envelope_free(envelope);
     }
     bool done = points && grow_in_room(g, points, e);
@@ -326,7 +328,8 @@ static bool grow_on_rock(Growing *g, Error *e)
 {
     const CoralParams *p = g->params;
     Envelope *rock = coral_base(p, g->recipe->seed, g->recipe->run, e);
-    PointSet *points = rock ? scatter(rock, p, SCATTER_SURFACE, p->attractors,
+    bool seen = rock && growth_witness(g->recipe->run, g->recipe->label, rock, NULL, e);
+    PointSet *points = seen ? scatter(rock, p, SCATTER_SURFACE, p->attractors,
                                       random_key(g->recipe->seed, 2), g->recipe->run, e)
                             : NULL;
     bool done = points && plant_on_rock(g, points, e) && grow_in_room(g, points, e);

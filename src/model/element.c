@@ -50,7 +50,12 @@ ScatterParams element_scatter_params(const OutTree *tree, const ElementParams *e
     return params;
 }
 
-// The guide field about the roots of the tree so far, its nuclei (Tanaka et al., eq. (9); J 3.7.3).
+bool growth_witness(const Run *run, const char *label, const Envelope *envelope,
+                    const GuideField *field, Error *e)
+{
+    return !run->witness || run->witness->see(run->witness->user, label, envelope, field, e);
+}
+
 int64_t element_attractors(const ElementParams *element)
 {
     int64_t sum = 0;
@@ -60,6 +65,7 @@ int64_t element_attractors(const ElementParams *element)
     return sum;
 }
 
+// The guide field about the roots of the tree so far, its nuclei (Tanaka et al., eq. (9); J 3.7.3).
 static GuideField *element_field(const OutTree *tree, const ElementParams *element,
                                  const Envelope *envelope, uint64_t seed, const Run *run, Error *e)
 {
@@ -124,8 +130,9 @@ bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope
     ScatterParams scatter = element_scatter_params(tree, element, random_key(seed, 2));
     ColonizeParams params = element_colonize_params(tree, element, field, random_key(seed, 3));
     GrowReport *reports = memory_alloc_zero(element->level_count, sizeof *reports, e);
-    bool done = reports && colonize_levels(tree, envelope, &scatter, element->levels,
-                                           element->level_count, &params, run, reports, e);
+    bool done = reports && growth_witness(run, label, envelope, field, e) &&
+                colonize_levels(tree, envelope, &scatter, element->levels, element->level_count,
+                                &params, run, reports, e);
     if (done) {
         warn_out_of_reach(reports, element, &params, label, run);
     }

@@ -38,6 +38,19 @@ typedef struct ElementParams {
     int64_t max_steps, max_nodes; // 0 = no limit
 } ElementParams;
 
+// Who wants to know of the envelopes and guide fields that things grow in, through Run.witness.
+typedef struct GrowthWitness {
+    // Before something grows. label: as of element_grow. field: NULL = none. Both are gone later.
+    // False and e end the growth.
+    bool (*see)(void *user, const char *label, const Envelope *envelope, const GuideField *field,
+                Error *e);
+    void *user;
+} GrowthWitness;
+
+// Tells the run's witness, if it has one.
+bool growth_witness(const Run *run, const char *label, const Envelope *envelope,
+                    const GuideField *field, Error *e);
+
 // Attractors of all its own levels; 0 where it has none.
 int64_t element_attractors(const ElementParams *element);
 

@@ -144,7 +144,8 @@ OutTree *vessels_grow(const VesselsParams *params, const Recipe *recipe, Error *
                      .label = recipe->label,
                      .run = recipe->run};
     OutTree *tree = NULL;
-    if (envelope && plant(&bed, e) && vessel_bed_grow(&bed, e) && vessel_bed_finish(&bed, e)) {
+    if (envelope && growth_witness(recipe->run, recipe->label, envelope, NULL, e) &&
+        plant(&bed, e) && vessel_bed_grow(&bed, e) && vessel_bed_finish(&bed, e)) {
         report(&bed);
         tree = show(&bed, recipe, e);
     }

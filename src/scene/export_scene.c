@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "export/pieces.h"
 #include "scene/build.h"
+#include "scene/export_grids.h"
 #include "scene/hint.h"
 #include "scene/kind.h"
 
@@ -29,6 +30,7 @@ typedef struct Parts {
     World *world;
     OutTree **tree;
     HeightField **land;
+    GridFile *grids;
     const char **name;
 } Parts;
 
@@ -43,6 +45,7 @@ static void clear_parts(Parts *parts, int object_count)
         }
     }
     world_free(parts->world);
+    grid_file_free(parts->grids);
     free(parts->tree);
     free(parts->land);
     free(parts->name);
@@ -91,6 +94,10 @@ static bool make_parts(const Scene *scene, unsigned needs, Parts *parts, const R
         done = make_trees(scene, needs & EXPORT_TREES, parts, run, e) &&
                (!(needs & EXPORT_LAND) || make_lands(scene, parts, run, e));
     }
+    if (done && needs & EXPORT_GRIDS) {
+        parts->grids = scene_grids(scene, run, e);
+        done = parts->grids;
+    }
     return done;
 }
 
@@ -123,7 +130,8 @@ static bool write_scene(const Scene *scene, const char *file, const ExportOption
                                .object_count = scene->object_count,
                                .object_name = parts.name,
                                .tree = (const OutTree *const *)parts.tree,
-                               .land = (const HeightField *const *)parts.land};
+                               .land = (const HeightField *const *)parts.land,
+                               .grids = parts.grids};
         done = format->write(&source, file, run, e) &&
                (!report || !parts.world || make_report(&source, run, report, e));
     }

@@ -394,3 +394,18 @@ const Mesh *envelope_surface(const Envelope *envelope)
 {
     return envelope->surface;
 }
+
+bool envelope_add_to(const Envelope *envelope, const char *name, GridFile *grids, const Run *run,
+                     Error *e)
+{
+    if (envelope->level_set) {
+        return level_set_add_to(envelope->level_set, name, grids, e);
+    }
+    LevelSetFrame frame = {envelope->bounds.low, largest_extent(envelope->bounds) / VOXELS_DEFAULT};
+    LevelSet *sampled = level_set_from_distance(piece_distance, &envelope->primitive,
+                                                envelope->bounds, frame, run, e);
+    bool done =
+        sampled && level_set_finish(sampled, e) && level_set_add_to(sampled, name, grids, e);
+    level_set_free(sampled);
+    return done;
+}

@@ -8,6 +8,7 @@
 #include "base/mesh.h"
 #include "base/run.h"
 #include "base/vec.h"
+#include "shape/grid_file.h"
 
 typedef enum ShapeKind {
     SHAPE_SPHERE,     // unit sphere about the origin
@@ -65,6 +66,11 @@ bool envelope_contains(const Envelope *envelope, Vec3 p);
 
 // The distance beyond which envelope_distance is clamped, m; INFINITY where it never is.
 float envelope_band(const Envelope *envelope);
+
+// Adds the envelope as a level set to the grids of a file: its own one, or, of a single primitive,
+// one of 128 voxels along the longest side.
+bool envelope_add_to(const Envelope *envelope, const char *name, GridFile *grids, const Run *run,
+                     Error *e);
 
 // The surface as triangles with normals (the imported mesh itself where the envelope is just that).
 // Owned by the envelope.

@@ -6,6 +6,8 @@
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
+#include "shape/grid_file_internal.h"
+
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -355,6 +357,20 @@ extern "C" bool level_set_finish(LevelSet *level_set, Error *e)
 extern "C" void level_set_free(LevelSet *level_set)
 {
     delete level_set;
+}
+
+extern "C" bool level_set_add_to(const LevelSet *set, const char *name, GridFile *grids, Error *e)
+{
+    return guarded(e, [&] {
+        FloatGrid::Ptr copy = set->grid->deepCopy();
+        auto transform = openvdb::math::Transform::createLinearTransform(set->frame.voxel);
+        transform->postTranslate(
+            openvdb::Vec3d(set->frame.origin.x, set->frame.origin.y, set->frame.origin.z));
+        copy->setTransform(transform);
+        copy->setName(name);
+        grids->grids.push_back(copy);
+        return true;
+    });
 }
 
 extern "C" float level_set_distance(const LevelSet *set, Vec3 p)

@@ -5,6 +5,7 @@
 #define RAMIFY_SHAPE_LEVEL_SET_H
 
 #include "shape/envelope.h"
+#include "shape/grid_file.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -44,6 +45,9 @@ bool level_set_smooth(LevelSet *level_set, int steps, const Run *run, Error *e);
 bool level_set_finish(LevelSet *level_set, Error *e);
 
 void level_set_free(LevelSet *level_set); // NULL is fine
+
+// Adds a copy to the grids of a file.
+bool level_set_add_to(const LevelSet *level_set, const char *name, GridFile *grids, Error *e);
 
 // Trilinear; clamped to +- LEVEL_SET_BAND voxels. Safe to call from many threads once finished.
 float level_set_distance(const LevelSet *level_set, Vec3 p);

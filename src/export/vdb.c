@@ -1,0 +1,10 @@
+// OpenVDB grids of what things grow in; grid_file.h writes them.
+#include "export/formats.h"
+
+bool export_vdb(const ExportSource *source, const char *file, const Run *run, Error *e)
+{
+    if (run_is_cancelled(run)) {
+        return run_cancel_error(e);
+    }
+    return grid_file_write(source->grids, file, e);
+}

@@ -1,0 +1,73 @@
+#include "scene/export_grids.h"
+
+#include "scene/build.h"
+#include "scene/kind.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { FIELD_VOXELS = 96, NAME = 192 }; // along the longest side
+
+typedef struct Collecting {
+    GridFile *grids;
+    const char *object;
+    const Run *run;
+    int elements; // of the object so far
+} Collecting;
+
+// "object 'oak', crown" is the oak's crown. What has no name of its own is numbered from the
+// second.
+static bool collect(void *user, const char *label, const Envelope *envelope,
+                    const GuideField *field, Error *e)
+{
+    Collecting *to = user;
+    const char *comma = strstr(label, "', ");
+    char element[64] = "", name[NAME];
+    to->elements++;
+    if (comma) {
+        snprintf(element, sizeof element, "/%s", comma + 3);
+    } else if (to->elements > 1) {
+        snprintf(element, sizeof element, "/%d", to->elements);
+    }
+    snprintf(name, sizeof name, "%s%s/envelope", to->object, element);
+    if (!envelope_add_to(envelope, name, to->grids, to->run, e)) {
+        return false;
+    }
+    snprintf(name, sizeof name, "%s%s/field", to->object, element);
+    return !field || guide_field_add_to(field, envelope, FIELD_VOXELS, name, to->grids, to->run, e);
+}
+
+static bool grow_all(const Scene *scene, GridFile *grids, const Run *run, Error *e)
+{
+    bool done = true;
+    for (int i = 0; done && i < scene->object_count; i++) {
+        if (!kind_of(&scene->objects[i])->grow) {
+            continue;
+        }
+        Collecting to = {grids, scene->objects[i].name, run, 0};
+        const GrowthWitness witness = {collect, &to};
+        Run watched = *run;
+        watched.witness = &witness;
+        OutTree *tree = scene_grow_object(scene, i, &watched, e);
+        done = tree;
+        out_tree_free(tree);
+    }
+    return done;
+}
+
+GridFile *scene_grids(const Scene *scene, const Run *run, Error *e)
+{
+    GridFile *grids = grid_file_new(e);
+    bool done = grids && grow_all(scene, grids, run, e);
+    if (done && grid_file_count(grids) == 0) {
+        done = error_set(e, ERROR_INPUT,
+                         "no object of '%s' grows in an envelope; a tree, coral, sculpture, "
+                         "lightning or vessels would",
+                         scene->file);
+    }
+    if (!done) {
+        grid_file_free(grids);
+        return NULL;
+    }
+    return grids;
+}

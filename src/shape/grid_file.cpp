@@ -1,0 +1,203 @@
+// Beside level_set.cpp the only file that knows OpenVDB; that one is about one kind of grid and how
+// it is made, this one about files of any.
+// openvdb first: its headers want no macros of ours
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Interpolation.h>
+
+#include "shape/grid_file_internal.h"
+
+#include <cstring>
+#include <memory>
+#include <new>
+#include <sstream>
+#include <string>
+#include <vector>
+
+extern "C" {
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers" // usual in C
+#include "base/file_replace.h"
+#include "shape/grid_file.h"
+#pragma GCC diagnostic pop
+}
+
+using openvdb::Coord;
+
+namespace
+{
+
+// Runs f, which returns whether it succeeded, and turns whatever it throws into an Error.
+template <typename F> bool guarded(Error *e, ErrorCode code, const F &f)
+{
+    try {
+        return f();
+    } catch (const std::bad_alloc &) {
+        return error_set(e, ERROR_MEMORY, "out of memory for OpenVDB grids");
+    } catch (const std::exception &x) {
+        return error_set(e, code, "OpenVDB failed: %s", x.what());
+    } catch (...) {
+        return error_set(e, code, "OpenVDB failed");
+    }
+}
+
+// Files can be read in part only when they tell where each grid begins, which needs a seekable
+// stream; the library offers that for its own files alone, whose failures it does not tell.
+struct Writer : openvdb::io::Archive {
+    std::string bytes(const openvdb::GridPtrVec &grids) const
+    {
+        std::ostringstream stream(std::ios_base::binary);
+        openvdb::io::Archive::write(stream, grids, true, openvdb::MetaMap());
+        if (!stream) {
+            throw std::bad_alloc();
+        }
+        return stream.str();
+    }
+};
+
+// The library names each file at random; ours are named after what is in them.
+void name_after_contents(std::string &bytes)
+{
+    const size_t at = 8 + 3 * 4 + 1, length = 36;
+    if (bytes.size() < at + length || bytes[at + 8] != '-' || bytes[at + 23] != '-') {
+        throw std::runtime_error("the name of the file is not where it was");
+    }
+    uint64_t hash[2] = {0xcbf29ce484222325u, 0x84222325cbf29ce4u};
+    for (size_t i = at + length; i < bytes.size(); i++) {
+        auto c = static_cast<unsigned char>(bytes[i]);
+        hash[i & 1] = (hash[i & 1] ^ c) * 0x100000001b3u;
+    }
+    for (size_t i = 0, digit = 0; i < length; i++) {
+        if (bytes[at + i] != '-') {
+            bytes[at + i] = "0123456789abcdef"[hash[digit / 16] >> (digit % 16 * 4) & 15];
+            digit++;
+        }
+    }
+}
+
+template <typename Grid>
+bool value_at(const GridFile *grids, const char *name, Vec3 p, typename Grid::ValueType *value)
+{
+    for (const auto &base : grids->grids) {
+        auto grid = openvdb::gridConstPtrCast<Grid>(base);
+        if (grid && grid->getName() == name) {
+            openvdb::tools::GridSampler<Grid, openvdb::tools::BoxSampler> sampler(*grid);
+            *value = sampler.wsSample(openvdb::Vec3R(p.x, p.y, p.z));
+            return true;
+        }
+    }
+    return false;
+}
+
+// Voxels of one plane of constant x.
+struct Plane {
+    std::vector<Vec3> value;
+    std::vector<char> active;
+};
+
+} // namespace
+
+extern "C" GridFile *grid_file_new(Error *e)
+{
+    GridFile *made = nullptr;
+    guarded(e, ERROR_INTERNAL, [&] {
+        openvdb::initialize();
+        made = new GridFile;
+        return true;
+    });
+    return made;
+}
+
+extern "C" void grid_file_free(GridFile *grids)
+{
+    delete grids;
+}
+
+extern "C" int64_t grid_file_count(const GridFile *grids)
+{
+    return static_cast<int64_t>(grids->grids.size());
+}
+
+extern "C" bool grid_file_add_vectors(GridFile *grids, const char *name, Aabb bounds, float voxel,
+                                      GridVectors vectors, const void *context, const Run *run,
+                                      Error *e)
+{
+    return guarded(e, ERROR_INTERNAL, [&] {
+        auto grid = openvdb::Vec3SGrid::create();
+        auto transform = openvdb::math::Transform::createLinearTransform(voxel);
+        transform->postTranslate(openvdb::Vec3d(bounds.low.x, bounds.low.y, bounds.low.z));
+        grid->setTransform(transform);
+        grid->setName(name);
+        grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
+        Vec3 size = vec3_sub(bounds.high, bounds.low);
+        int nx = static_cast<int>(ceilf(size.x / voxel)) + 1;
+        int ny = static_cast<int>(ceilf(size.y / voxel)) + 1;
+        int nz = static_cast<int>(ceilf(size.z / voxel)) + 1;
+        size_t area = static_cast<size_t>(ny) * static_cast<size_t>(nz);
+        Plane plane{std::vector<Vec3>(area), std::vector<char>(area)};
+        auto accessor = grid->getAccessor();
+        for (int x = 0; x < nx && !run_is_cancelled(run); x++) {
+#pragma omp parallel for num_threads(run->threads) schedule(static)
+            for (int y = 0; y < ny; y++) {
+                for (int z = 0; z < nz; z++) {
+                    Vec3 p = vec3_madd(bounds.low, voxel, vec3(float(x), float(y), float(z)));
+                    size_t at = static_cast<size_t>(y) * static_cast<size_t>(nz) + size_t(z);
+                    plane.active[at] = vectors(context, p, &plane.value[at]);
+                }
+            }
+            for (size_t at = 0; at < area; at++) {
+                if (plane.active[at]) {
+                    const Vec3 &v = plane.value[at];
+                    Coord c(x, static_cast<int>(at) / nz, static_cast<int>(at) % nz);
+                    accessor.setValueOn(c, openvdb::Vec3s(v.x, v.y, v.z));
+                }
+            }
+        }
+        grids->grids.push_back(grid);
+        return !run_is_cancelled(run) || run_cancel_error(e);
+    });
+}
+
+extern "C" bool grid_file_write(const GridFile *grids, const char *file, Error *e)
+{
+    return guarded(e, ERROR_INTERNAL, [&] {
+        std::string bytes = Writer().bytes(grids->grids);
+        name_after_contents(bytes);
+        return file_replace(file, bytes.data(), bytes.size(), e);
+    });
+}
+
+extern "C" GridFile *grid_file_read(const char *file, Error *e)
+{
+    std::unique_ptr<GridFile> made(grid_file_new(e));
+    bool done = made && guarded(e, ERROR_INPUT, [&] {
+                    openvdb::io::File in(file);
+                    in.open(false); // everything now: the file may change
+                    made->grids = *in.getGrids();
+                    in.close();
+                    return true;
+                });
+    if (!done) {
+        if (made) {
+            error_prefix(e, "'%s' cannot be read as OpenVDB grids: ", file);
+        }
+        return nullptr;
+    }
+    return made.release();
+}
+
+extern "C" bool grid_file_float_at(const GridFile *grids, const char *name, Vec3 p, float *value)
+{
+    return value_at<openvdb::FloatGrid>(grids, name, p, value);
+}
+
+extern "C" bool grid_file_vector_at(const GridFile *grids, const char *name, Vec3 p, Vec3 *value)
+{
+    openvdb::Vec3s found;
+    bool there = value_at<openvdb::Vec3SGrid>(grids, name, p, &found);
+    if (there) {
+        *value = vec3(found.x(), found.y(), found.z());
+    }
+    return there;
+}
