@@ -462,6 +462,96 @@ RAMIFY_API bool ramify_renderer_render(RamifyRenderer *renderer, RamifyFilm *fil
                                        void *user, const RamifyRun *run, RamifyRenderInfo *info,
                                        RamifyError *error);
 
+// ---- golden images ----
+
+// What two pictures may differ by and still be alike; negative = no such limit.
+typedef struct RamifyLimits {
+    double max_rmse;    // root mean square over all values
+    double threshold;   // a pixel fails when a channel differs by more; negative = 0.012
+    double max_failing; // share of pixels that may fail, 0..1
+} RamifyLimits;
+
+typedef struct RamifyDifference {
+    int32_t alike;                     // 1 = within the limits
+    int32_t width, height;             // pixels, of the first picture, or ours
+    int32_t other_width, other_height; // when they differ, there are no numbers below
+    double rmse, mean, maximum;        // over all values: display values 0..1, or radiance
+    double failing;                    // share of pixels over the threshold, 0..1
+    double psnr;                       // dB; INFINITY when equal
+    double perceptual;                 // FLIP (Andersson et al. 2020), mean over pixels, 0..1
+    int32_t worst_x, worst_y;          // pixel of the maximum, from the top left
+    int32_t statistical;               // 1 = equal but for noise was asked; then also:
+    double p;                          // least alpha at which any block would differ
+    double z;                          // of the block that differs most surely
+    int64_t tests, rejected;           // blocks times channels; how many differ
+    char message[256];                 // why they are not alike; "" when they are
+} RamifyDifference;
+
+// Compares two picture files of any kind (PNG, JPEG, EXR, HDR, ...): their colour, over black, and
+// alpha. Other sizes are a difference. limits: NULL = every value must be the same. report: HTML
+// page to write, or NULL. RAMIFY_BAD_INPUT when a file cannot be read, or when one holds radiance
+// and the other display values.
+RAMIFY_API bool ramify_compare(const char *ours, const char *other, const RamifyLimits *limits,
+                               const char *report, RamifyDifference *difference,
+                               RamifyError *error);
+
+// Values of RamifyGoldenScene.status.
+enum {
+    RAMIFY_GOLDEN_ALIKE = 0,
+    RAMIFY_GOLDEN_DIFFERENT = 1,
+    RAMIFY_GOLDEN_MISSING = 2, // no stored image
+    RAMIFY_GOLDEN_FAILED = 3,  // the scene or its stored image is wrong, or rendering failed
+    RAMIFY_GOLDEN_STORED = 4,  // by an update
+    RAMIFY_GOLDEN_ORPHAN = 5   // a stored image without a scene
+};
+
+// "alike", "different", ...; static text.
+RAMIFY_API const char *ramify_golden_status_name(int status);
+
+// Values of RamifyGoldenOptions.mode.
+enum {
+    RAMIFY_GOLDEN_AS_SCENE = 0, // what the scene says
+    RAMIFY_GOLDEN_TOLERANCE = 1,
+    RAMIFY_GOLDEN_EXACT = 2,
+    RAMIFY_GOLDEN_STATISTICAL = 3
+};
+
+typedef struct RamifyGoldenScene {
+    const char *name;    // the scene's file without its ending; an orphan's with it
+    const char *message; // what is wrong; "" = nothing
+    int32_t status;
+    int32_t compared; // 1 = difference is filled
+    RamifyDifference difference;
+    RamifyLimits limits; // what it was held to; negative = no limit
+    double alpha;        // chance of a false alarm, when statistical
+    double seconds;
+} RamifyGoldenScene;
+
+typedef struct RamifyGoldenOptions {
+    int32_t update;             // 1 = store what differs or is missing
+    int32_t mode;               // for all scenes
+    uint64_t series;            // statistical: another number, other seeds for our renderings
+    const char *filter;         // names of scenes to take, with * and ?; NULL = all
+    const char *isa;            // NULL = "sse4.2"; "native" = this machine's best
+    const RamifyLimits *limits; // for all scenes, where not negative; NULL = the scenes' own
+    const char *report;         // HTML page to write; NULL = none
+    const char *junit;          // JUnit XML to write; NULL = none
+    // After each scene; what it is given lives until it returns. NULL = not wanted.
+    void (*each)(void *user, const RamifyGoldenScene *scene);
+    void *user;
+} RamifyGoldenOptions;
+
+typedef struct RamifyGoldenCounts {
+    int32_t alike, different, missing, failed, stored, orphans;
+} RamifyGoldenCounts;
+
+// Renders every scene of the folder, pinned (instruction set, seed, samples), and compares it with
+// its stored image: NAME.yaml with NAME.png, or NAME.exr when statistical. What is wrong with one
+// scene is part of its result. options: NULL = compare with the scenes' own limits. run may be
+// NULL. RAMIFY_BAD_INPUT when the folder cannot be read or has no scenes.
+RAMIFY_API bool ramify_golden(const char *folder, const RamifyGoldenOptions *options,
+                              const RamifyRun *run, RamifyGoldenCounts *counts, RamifyError *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -13,7 +13,7 @@ allowed() {
     render) echo "base mesh image render" ;;
     export) echo "base shape tree mesh render image export" ;;
     scene) echo "base shape field tree grow mesh model render image export scene" ;;
-    golden) echo "base image golden" ;;
+    golden) echo "base render image scene golden" ;;
     animate) echo "base mesh model render image export scene animate" ;;
     api) echo "base shape field tree grow mesh model render image export scene golden animate api" ;;
     cli) echo cli ;; # and ramify.h, which is in no folder

@@ -73,6 +73,19 @@ typedef struct SceneTarget { // what a scene says of its own result
     double low, high;        // inclusive
 } SceneTarget;
 
+typedef enum GoldenMode {
+    GOLDEN_TOLERANCE,  // a PNG, equal within max_rmse and max_failing
+    GOLDEN_EXACT,      // a PNG, equal to the bit
+    GOLDEN_STATISTICAL // an EXR of means and variances, equal but for noise
+} GoldenMode;
+
+typedef struct SceneGolden { // how `ramify golden` compares the scene with its stored image
+    GoldenMode mode;
+    double max_rmse, threshold, max_failing; // of display values; shares of 1
+    double alpha;                            // GOLDEN_STATISTICAL: chance of a false alarm
+    int runs;                                // GOLDEN_STATISTICAL: renderings a side
+} SceneGolden;
+
 #define TARGET_NO_BOUND 1e300 // and beyond: that side is open
 
 // How a value goes from one key to the next.
@@ -130,6 +143,7 @@ typedef struct Scene {
     SceneTarget *targets;
     int target_count;
     SceneAnimation *animation; // NULL = a still
+    SceneGolden golden;
 } Scene;
 
 // Reads and checks a scene. overrides: "path=value" strings (objects.0.tree.height=9, or
@@ -154,6 +168,9 @@ typedef struct SceneChange {
 Scene *scene_changed(const Scene *scene, const SceneChange *changes, int count, Error *e);
 
 void scene_free(Scene *scene); // NULL is fine
+
+// What holds where a scene says nothing.
+SceneGolden scene_golden_default(void);
 
 // JSON Schema of scene files (draft 2020-12) as heap text.
 char *scene_schema_json(Error *e);
