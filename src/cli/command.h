@@ -11,6 +11,8 @@ bool command_render(const Options *options, RamifyError *e);     // render.c
 bool command_grow(const Options *options, RamifyError *e);       // grow.c
 bool command_measure(const Options *options, RamifyError *e);    // measure.c
 bool command_export(const Options *options, RamifyError *e);     // export.c
+bool command_compare(const Options *options, RamifyError *e);    // compare.c
+bool command_golden(const Options *options, RamifyError *e);     // golden.c
 bool command_info(const Options *options, RamifyError *e);       // info.c
 bool command_schema(const Options *options, RamifyError *e);     // schema.c
 bool command_completion(const Options *options, RamifyError *e); // completion.c

@@ -54,6 +54,10 @@ static bool run_command(const Options *options, RamifyError *e)
         return command_measure(options, e);
     case COMMAND_EXPORT:
         return command_export(options, e);
+    case COMMAND_COMPARE:
+        return command_compare(options, e);
+    case COMMAND_GOLDEN:
+        return command_golden(options, e);
     case COMMAND_INFO:
         return command_info(options, e);
     case COMMAND_COMPLETION:

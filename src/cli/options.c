@@ -13,7 +13,9 @@
 #define BIT(command) (1u << (command))
 #define GROWS (BIT(COMMAND_RENDER) | BIT(COMMAND_GROW) | BIT(COMMAND_MEASURE) | BIT(COMMAND_EXPORT))
 #define SCENES (GROWS | BIT(COMMAND_INFO))
-#define EVERY (SCENES | BIT(COMMAND_SCHEMA) | BIT(COMMAND_COMPLETION) | BIT(COMMAND_HELP))
+#define COMPARES (BIT(COMMAND_COMPARE) | BIT(COMMAND_GOLDEN))
+#define EVERY \
+    (SCENES | COMPARES | BIT(COMMAND_SCHEMA) | BIT(COMMAND_COMPLETION) | BIT(COMMAND_HELP))
 #define RENDERS BIT(COMMAND_RENDER)
 #define AT(member) offsetof(Options, member)
 
@@ -91,8 +93,9 @@ static const Option OPTIONS[] = {
      .offset = AT(isa),
      .choices = "sse2 sse4.2 avx avx2 avx512",
      .type = OPTION_TEXT,
-     .commands = RENDERS,
-     .doc = "instruction set of the ray tracer, such as sse4.2: the same bits on every machine"},
+     .commands = RENDERS | BIT(COMMAND_GOLDEN),
+     .doc = "instruction set of the ray tracer, such as sse4.2: the same bits on every machine; "
+            "golden: sse4.2 if not given, native for the machine's own"},
     {.name = "grow-to",
      .value = "T",
      .offset = AT(grow_to),
@@ -157,23 +160,88 @@ static const Option OPTIONS[] = {
      .type = OPTION_YES,
      .commands = BIT(COMMAND_HELP),
      .doc = "print the man page instead"},
+    {.name = "max-rmse",
+     .value = "X",
+     .offset = AT(max_rmse),
+     .low = 0,
+     .high = 1e9,
+     .type = OPTION_REAL,
+     .commands = COMPARES,
+     .doc = "most root mean square difference of pictures that are alike"},
+    {.name = "threshold",
+     .value = "T",
+     .offset = AT(threshold),
+     .low = 0,
+     .high = 1e9,
+     .type = OPTION_REAL,
+     .commands = COMPARES,
+     .doc = "a pixel fails when a channel differs by more than T; 0.012 if not given"},
+    {.name = "max-failing",
+     .value = "S",
+     .offset = AT(max_failing),
+     .low = 0,
+     .high = 1,
+     .type = OPTION_REAL,
+     .commands = COMPARES,
+     .doc = "most pixels that fail in pictures that are alike, as a share of 1"},
+    {.name = "exact",
+     .offset = AT(exact),
+     .type = OPTION_YES,
+     .commands = BIT(COMMAND_GOLDEN),
+     .doc = "every value must be the same, whatever the scenes say"},
+    {.name = "statistical",
+     .offset = AT(statistical),
+     .type = OPTION_YES,
+     .commands = BIT(COMMAND_GOLDEN),
+     .doc = "equal but for noise, whatever the scenes say; stored images are EXRs"},
+    {.name = "series",
+     .value = "N",
+     .offset = AT(series),
+     .low = 1,
+     .high = 1 << 24,
+     .type = OPTION_INT,
+     .commands = BIT(COMMAND_GOLDEN),
+     .doc = "other seeds for what is compared statistically"},
+    {.name = "update",
+     .offset = AT(update),
+     .type = OPTION_YES,
+     .commands = BIT(COMMAND_GOLDEN),
+     .doc = "store what is missing or differs"},
+    {.name = "filter",
+     .value = "GLOB",
+     .offset = AT(filter),
+     .type = OPTION_TEXT,
+     .commands = BIT(COMMAND_GOLDEN),
+     .doc = "only scenes of such names, with * and ?"},
+    {.name = "report",
+     .value = "FILE.html",
+     .offset = AT(report),
+     .type = OPTION_TEXT,
+     .commands = COMPARES,
+     .doc = "write a page that shows pictures, differences and numbers"},
+    {.name = "junit",
+     .value = "FILE.xml",
+     .offset = AT(junit),
+     .type = OPTION_TEXT,
+     .commands = BIT(COMMAND_GOLDEN),
+     .doc = "write the results as JUnit XML"},
     {.name = "threads",
      .value = "N",
      .offset = AT(threads),
      .low = 1,
      .high = 1024,
      .type = OPTION_INT,
-     .commands = SCENES,
+     .commands = SCENES | BIT(COMMAND_GOLDEN),
      .doc = "use N threads; the result does not depend on it"},
     {.name = "json",
      .offset = AT(json),
      .type = OPTION_YES,
-     .commands = SCENES,
+     .commands = SCENES | COMPARES,
      .doc = "print the numbers as JSON to stdout"},
     {.name = "quiet",
      .offset = AT(quiet),
      .type = OPTION_YES,
-     .commands = SCENES,
+     .commands = SCENES | BIT(COMMAND_GOLDEN),
      .letter = 'q',
      .doc = "say nothing but errors"},
     {.name = "help",
@@ -200,6 +268,14 @@ static const Command COMMANDS[COMMAND_COUNT] = {
     [COMMAND_EXPORT] = {"export", "SCENE", "write a scene as another program's file",
                         "The ending of -o FILE says the format; docs/formats.md tells what each "
                         "holds.\n"},
+    [COMMAND_COMPARE] = {"compare", "A B", "compare two pictures",
+                         "Alike is what is the same to the last bit, or within --max-rmse and "
+                         "--max-failing where they are\ngiven. Exit status 1 when they are not "
+                         "alike.\n"},
+    [COMMAND_GOLDEN] = {"golden", "FOLDER", "compare a folder's scenes with their stored images",
+                        "Renders every NAME.yaml and compares it with NAME.png, or NAME.exr where "
+                        "the scene's golden.mode\nis statistical. Exit status 1 when one is not "
+                        "alike. docs/golden.md tells more.\n"},
     [COMMAND_INFO] = {"info", "SCENE", "say what a scene file holds", ""},
     [COMMAND_SCHEMA] = {"schema", "", "print what may stand in a scene file, as JSON Schema", ""},
     [COMMAND_COMPLETION] = {"completion", "bash|zsh", "print what lets a shell complete commands",
@@ -216,7 +292,10 @@ Options options_default(void)
                      .exposure = (double)NAN,
                      .grow_to = -1.0,
                      .crop = {-1.0f, -1.0f, -1.0f, -1.0f},
-                     .denoise = -1};
+                     .denoise = -1,
+                     .max_rmse = -1.0,
+                     .threshold = -1.0,
+                     .max_failing = -1.0};
 }
 
 const Option *option_at(int index)
@@ -441,6 +520,32 @@ static bool parse_option(Options *options, int argc, char **argv, int *i, Ramify
     return take_value(options, option, argv[++*i], e);
 }
 
+// False when the command takes no more.
+static bool take_operand(Options *options, const char *word)
+{
+    const char *wanted = COMMANDS[options->command].operand;
+    if (*wanted && !options->operand) {
+        options->operand = word;
+    } else if (strchr(wanted, ' ') && !options->second) {
+        options->second = word;
+    } else {
+        return false;
+    }
+    return true;
+}
+
+static bool check_operands(const Options *options, RamifyError *e)
+{
+    const char *wanted = COMMANDS[options->command].operand;
+    bool needed = *wanted >= 'A' && *wanted <= 'Z', two = strchr(wanted, ' ') != NULL;
+    if (!needed || (options->operand && (!two || options->second))) {
+        return true;
+    }
+    return fail(e, RAMIFY_BAD_INPUT, "no %s is named; usage: ramify %s %s",
+                two ? "pair of pictures" : (*wanted == 'F' ? "folder" : "scene file"),
+                COMMANDS[options->command].name, *wanted == 'S' ? "SCENE" : wanted);
+}
+
 static bool parse_words(Options *options, int argc, char **argv, RamifyError *e)
 {
     bool only_operands = false;
@@ -451,20 +556,13 @@ static bool parse_words(Options *options, int argc, char **argv, RamifyError *e)
             if (!parse_option(options, argc, argv, &i, e)) {
                 return false;
             }
-        } else if (options->operand || !*COMMANDS[options->command].operand) {
+        } else if (!take_operand(options, argv[i])) {
             return fail(e, RAMIFY_BAD_INPUT, "'%.60s' is one word too many; usage: ramify %s %s",
                         argv[i], COMMANDS[options->command].name,
                         COMMANDS[options->command].operand);
-        } else {
-            options->operand = argv[i];
         }
     }
-    bool needs = *COMMANDS[options->command].operand == 'S';
-    if (needs && !options->operand && !options->help) {
-        return fail(e, RAMIFY_BAD_INPUT, "no scene file is named; usage: ramify %s SCENE",
-                    COMMANDS[options->command].name);
-    }
-    return true;
+    return options->help || check_operands(options, e);
 }
 
 bool options_parse(Options *options, int argc, char **argv, bool *version, RamifyError *e)

@@ -12,6 +12,8 @@ typedef enum CommandId {
     COMMAND_GROW,
     COMMAND_MEASURE,
     COMMAND_EXPORT,
+    COMMAND_COMPARE,
+    COMMAND_GOLDEN,
     COMMAND_INFO,
     COMMAND_SCHEMA,
     COMMAND_COMPLETION,
@@ -23,26 +25,31 @@ typedef enum CommandId {
 typedef struct Options {
     CommandId command;
     const char *operand; // SCENE, or the command to be helped with; NULL = none
+    const char *second;  // operand of compare; NULL = none
     const char *output;  // NULL = the command's default
     const char *overrides[MAX_OVERRIDES];
     int override_count;
     int threads; // 0 = all processors
     bool quiet, json, resolved, help;
-    bool markdown, paths;             // what schema and info print instead
-    bool man;                         // help: the man page
-    int samples;                      // 0 = the scene's
-    int size[2];                      // 0, 0 = the scene's
-    double seconds;                   // negative = the scene's
-    double noise;                     // negative = the scene's
-    double exposure;                  // NAN = the scene's
-    double grow_to;                   // negative = the scene's
-    float crop[4];                    // crop[0] negative = the scene's
-    int denoise;                      // 1 yes, 0 no, -1 the scene's
-    const char *isa;                  // NULL = the best there is
-    const char *objects[MAX_OBJECTS]; // to export
-    int object_count;                 // 0 = all
-    const char *instances, *colors;   // NULL = the format's own
-    int tube_sides;                   // 0 = the default
+    bool markdown, paths;                    // what schema and info print instead
+    bool man;                                // help: the man page
+    int samples;                             // 0 = the scene's
+    int size[2];                             // 0, 0 = the scene's
+    double seconds;                          // negative = the scene's
+    double noise;                            // negative = the scene's
+    double exposure;                         // NAN = the scene's
+    double grow_to;                          // negative = the scene's
+    float crop[4];                           // crop[0] negative = the scene's
+    int denoise;                             // 1 yes, 0 no, -1 the scene's
+    const char *isa;                         // NULL = the best there is; golden: its own
+    double max_rmse, threshold, max_failing; // of compare and golden; negative = not given
+    bool update, exact, statistical;         // golden
+    int series;                              // golden; 0 = the first
+    const char *report, *junit, *filter;     // NULL = none
+    const char *objects[MAX_OBJECTS];        // to export
+    int object_count;                        // 0 = all
+    const char *instances, *colors;          // NULL = the format's own
+    int tube_sides;                          // 0 = the default
 } Options;
 
 Options options_default(void);

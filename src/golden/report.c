@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { FIT_WIDTH = 400 }; // pixels that a picture is shown with at first, about
+enum { FIT_WIDTH = 336 }; // pixels that a picture is shown with at first, about
 
 typedef struct Listed {
     const GoldenResult *result;
@@ -91,9 +91,12 @@ static void write_row(const Page *p, const GoldenResult *r, int number)
     file_writer_text(p->w, "</a></td>");
     if (has_numbers(r)) {
         const Comparison *c = &r->comparison;
-        file_writer_print(p->w, "<td>%.6g</td><td>%.6g</td><td>%.6g %%</td><td>%.6g</td>",
-                          c->difference.rmse, c->difference.maximum, 100.0 * c->difference.failing,
-                          c->perceptual);
+        file_writer_print(p->w, "<td>%.6g</td><td>%.6g</td><td>", c->difference.rmse,
+                          c->difference.maximum);
+        if (!c->statistical) {
+            file_writer_print(p->w, "%.6g %%", 100.0 * c->difference.failing);
+        }
+        file_writer_print(p->w, "</td><td>%.6g</td>", c->perceptual);
     } else {
         file_writer_text(p->w, "<td></td><td></td><td></td><td></td>");
     }

@@ -230,17 +230,17 @@ bool write_exr(const char *file, const ImageLayer *layers, int count, const char
            file_replace(file, bytes.data(), bytes.size(), e);
 }
 
-// spec: what the file holds. proxy: the bytes to read instead of the file, or null.
-bool read(const char *file, OIIO::Filesystem::IOProxy *proxy, Image **image, OIIO::ImageSpec *spec,
-          Error *e)
+OIIO::ImageSpec as_stored()
 {
-    OIIO::ImageSpec as_stored;
-    as_stored.attribute("oiio:UnassociatedAlpha", 1);
-    auto input = OIIO::ImageInput::open(file, &as_stored, proxy);
-    if (!input) {
-        std::string reason = OIIO::geterror();
-        return error_set(e, ERROR_INPUT, "image '%s' cannot be read: %s", file, reason.c_str());
-    }
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    return config;
+}
+
+// All of an open input; spec: what it holds. file: its name in messages.
+bool read_open(OIIO::ImageInput *input, const char *file, Image **image, OIIO::ImageSpec *spec,
+               Error *e)
+{
     *spec = input->spec();
     if (spec->depth > 1 || spec->deep) {
         return error_set(e, ERROR_INPUT, "image '%s' cannot be read: it is not flat", file);
@@ -254,6 +254,29 @@ bool read(const char *file, OIIO::Filesystem::IOProxy *proxy, Image **image, OII
                          input->geterror().c_str());
     }
     return true;
+}
+
+bool read(const char *file, Image **image, OIIO::ImageSpec *spec, Error *e)
+{
+    OIIO::ImageSpec config = as_stored();
+    auto input = OIIO::ImageInput::open(file, &config);
+    if (!input) {
+        std::string reason = OIIO::geterror();
+        return error_set(e, ERROR_INPUT, "image '%s' cannot be read: %s", file, reason.c_str());
+    }
+    return read_open(input.get(), file, image, spec, e);
+}
+
+bool decode_png(OIIO::Filesystem::IOProxy *proxy, Image **image, Error *e)
+{
+    static const char name[] = "memory.png";
+    auto input = OIIO::ImageInput::create("png");
+    OIIO::ImageSpec spec;
+    if (!input || !input->set_ioproxy(proxy) || !input->open(name, spec, as_stored())) {
+        return error_set(e, ERROR_INTERNAL, "a PNG in memory cannot be read: %s",
+                         input ? input->geterror().c_str() : "OpenImageIO has no reader");
+    }
+    return read_open(input.get(), name, image, &spec, e);
 }
 
 // Some channels of an image, by index, in this order.
@@ -296,7 +319,7 @@ template <typename Make> Image *read_and_make(const char *file, Error *e, Make m
     Image *image = nullptr, *made = nullptr;
     guarded("image '" + std::string(file) + "' cannot be read", e, [&] {
         OIIO::ImageSpec spec;
-        if (read(file, nullptr, &image, &spec, e)) {
+        if (read(file, &image, &spec, e)) {
             made = make(image, spec);
         }
         return made != nullptr;
@@ -312,7 +335,7 @@ extern "C" Image *image_read(const char *file, Error *e)
     Image *image = nullptr;
     bool done = guarded("image '" + std::string(file) + "' cannot be read", e, [&] {
         OIIO::ImageSpec spec;
-        return read(file, nullptr, &image, &spec, e);
+        return read(file, &image, &spec, e);
     });
     if (!done) {
         image_free(image);
@@ -351,8 +374,7 @@ extern "C" Image *image_decode_png(const unsigned char *bytes, size_t size, Erro
     Image *image = nullptr;
     bool done = guarded("a PNG in memory cannot be read", e, [&] {
         OIIO::Filesystem::IOMemReader proxy(const_cast<unsigned char *>(bytes), size);
-        OIIO::ImageSpec spec;
-        return read("memory.png", &proxy, &image, &spec, e);
+        return decode_png(&proxy, &image, e);
     });
     if (!done) {
         image_free(image);

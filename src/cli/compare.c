@@ -1,0 +1,57 @@
+// ramify compare: how far two pictures are apart.
+#include "cli/command.h"
+#include "cli/difference.h"
+
+#include <stdio.h>
+
+#define DEFAULT_THRESHOLD 0.012
+
+static void print_json(const Options *options, const RamifyDifference *d)
+{
+    printf("{\"a\": ");
+    json_print_string(options->operand);
+    printf(", \"b\": ");
+    json_print_string(options->second);
+    printf(", ");
+    difference_print_json(d);
+    printf(", \"message\": ");
+    json_print_string(d->message);
+    printf("}\n");
+}
+
+// Without a limit, every value must be the same; then the share over the threshold only informs.
+static RamifyLimits limits_of(const Options *options)
+{
+    bool limited = options->max_rmse >= 0.0 || options->max_failing >= 0.0;
+    RamifyLimits limits = {.max_rmse = limited ? options->max_rmse : 0.0,
+                           .threshold = options->threshold,
+                           .max_failing = options->max_failing};
+    if (limits.threshold < 0.0) {
+        limits.threshold = DEFAULT_THRESHOLD;
+    }
+    return limits;
+}
+
+bool command_compare(const Options *options, RamifyError *e)
+{
+    if (options->report && !output_check(options->report, e)) {
+        return false;
+    }
+    RamifyLimits limits = limits_of(options);
+    RamifyDifference d;
+    if (!ramify_compare(options->operand, options->second, &limits, options->report, &d, e)) {
+        return false;
+    }
+    if (options->json) {
+        print_json(options, &d);
+    } else {
+        printf("%s", d.alike ? "alike" : "different");
+        if (d.width == d.other_width && d.height == d.other_height) {
+            printf(": ");
+            difference_print(&d, limits.threshold);
+        }
+        printf("\n");
+    }
+    return d.alike || fail(e, RAMIFY_DIFFERS, "%s and %s are not alike: %s", options->operand,
+                           options->second, d.message);
+}
