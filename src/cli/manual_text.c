@@ -86,6 +86,30 @@ static const ManualText TEXTS[] = {
                    "ramify export pine.yaml --instances flat -o pine.glb"},
                   {"one object, without its colours",
                    "ramify export pine.yaml --object pine --colors none -o pine.obj"}}},
+    {.command = "compare",
+     .paragraphs =
+         {"Compares two pictures of one kind and prints how far they are apart: root mean square, "
+          "maximum and where it is, share of pixels over a threshold, and FLIP, how different they "
+          "look. Alike are pictures that are the same in every value, or within the limits given.",
+          "The page of --report shows both behind a slider and their difference. Pictures of other "
+          "sizes differ; a picture of radiance (EXR, HDR) cannot be compared with display values."},
+     .examples = {{"the same to the bit?", "ramify compare a.png b.png"},
+                  {"near enough, and what is different",
+                   "ramify compare a.exr b.exr --max-rmse 0.01 --report page.html"}}},
+    {.command = "golden",
+     .paragraphs =
+         {"Renders every scene NAME.yaml of a folder, pinned to one instruction set, and compares "
+          "it with its stored image: NAME.png within limits or to the bit, or, for pictures that "
+          "shall be equal but for noise, NAME.exr with mean and variance. The scene's section "
+          "golden says which; docs/golden.md explains the three.",
+          "Fails with status 1 when a picture differs or is missing, or a scene cannot be "
+          "rendered. With --update such pictures are stored instead; what is alike stays as it "
+          "is."},
+     .examples = {{"the first time, and after a change that was meant",
+                   "ramify golden golden --update"},
+                  {"in continuous integration",
+                   "ramify golden golden --report golden.html --junit golden.xml"},
+                  {"some of them, to the bit", "ramify golden golden --filter 'pine*' --exact"}}},
     {.command = "info",
      .paragraphs = {"Reads and checks a scene and says what is in it, what it will cost in memory, "
                     "and, if asked, every value that it has, with nothing grown or rendered."},

@@ -96,6 +96,8 @@ render) exec "$RAMIFY" "\$@" --size 32x20 --samples 1 --quiet ;;
 esac
 END
 chmod +x bin/ramify
+mkdir -p golden && cp pine.yaml golden/
+"$RAMIFY" render pine.yaml -o a.png --quiet && cp a.png b.png && cp a.exr b.exr
 count=0
 for page in ramify*.1; do
     awk '/^\.Bd -literal/ {inside = 1; next} /^\.Ed/ {inside = 0} inside' "$page" |
