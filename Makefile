@@ -33,7 +33,7 @@ $(OBJ)/render/%.c.o: CFLAGS += $(LTO)
 $(OUT)/ramify $(OUT)/libramify.so $(OUT)/tests/bench/%: private LDFLAGS += $(LTO)
 
 SOURCES   := $(sort $(wildcard src/*.c src/*/*.c src/*/*.cpp))
-COMMANDS  := render grow measure export compare golden info schema completion help
+COMMANDS  := render turntable grow measure export compare golden info schema completion help
 MANUAL    := $(OUT)/man/ramify.1 $(COMMANDS:%=$(OUT)/man/ramify-%.1) $(OUT)/completion/ramify $(OUT)/completion/_ramify
 LIB_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter-out src/cli/%,$(SOURCES)))
 CLI_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter src/cli/%,$(SOURCES)))

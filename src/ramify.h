@@ -552,6 +552,71 @@ typedef struct RamifyGoldenCounts {
 RAMIFY_API bool ramify_golden(const char *folder, const RamifyGoldenOptions *options,
                               const RamifyRun *run, RamifyGoldenCounts *counts, RamifyError *error);
 
+// ---- films ----
+
+enum { RAMIFY_MOST_KEYS = 16 };
+
+// Values at even steps of time; count 0 = none. When the last is the first, frame i of N shows the
+// time i/N, so that the film loops without a jump; else i/(N-1), so that it ends on the last value.
+typedef struct RamifyKeys {
+    int32_t count; // at most RAMIFY_MOST_KEYS
+    double value[RAMIFY_MOST_KEYS];
+} RamifyKeys;
+
+// Values of RamifyTurntable.ease.
+enum { RAMIFY_EASE_USUAL = 0, RAMIFY_EASE_LINEAR = 1, RAMIFY_EASE_SMOOTH = 2 };
+
+// What a film shows; all zero: the camera goes once around its target, or, where the scene has an
+// `animation:`, that alone.
+typedef struct RamifyTurntable {
+    int32_t frames;       // 0 = as the scene's animation says, else 72
+    double fps;           // frames a second; 0 likewise, else 24
+    int32_t start, count; // render frames start .. start + count - 1 only; count 0 = to the last
+    double turns;         // full circles, negative the other way; 0 = the usual
+    int32_t still;        // 1 = no turn at all
+    int32_t spin;         // 1 = everything but camera, sky and lamps turns, not the camera
+    RamifyKeys elevation; // degrees of the camera above its target, -89 .. 89
+    RamifyKeys dolly;     // factor on the camera's distance to its target
+    RamifyKeys grow;      // how much of all growth shows, 0..1
+    RamifyKeys sun;       // solar time, hours, at 48 degrees north in mid-May; south is +Z
+    int32_t ease;         // usual: smooth for elevation and dolly, linear for the rest
+    int32_t vary_noise;   // another pattern of noise a frame: 1 yes, -1 no, 0 as the scene says
+    const char *isa;      // as for ramify_renderer_new
+} RamifyTurntable;
+
+typedef struct RamifyTurntableInfo {
+    int32_t frames;            // of the whole film
+    int32_t rendered, skipped; // in this call; skipped: they were there already
+    int32_t geometries;        // how often something was grown or skinned
+    int32_t structures;        // how often acceleration structures were built from nothing
+    int64_t paths;
+    double prepare_seconds, grow_seconds, mesh_seconds, build_seconds, trace_seconds;
+    double finish_seconds; // spent waiting for pictures to be developed and written
+    double video_seconds;
+} RamifyTurntableInfo;
+
+// The scene as it is at a time of the film, 0 .. 1: a scene of its own. turntable NULL = all zero.
+// RAMIFY_BAD_INPUT names the line of the track that asks for what cannot be.
+RAMIFY_API RamifyScene *ramify_scene_at(const RamifyScene *scene, const RamifyTurntable *turntable,
+                                        double time, RamifyError *error);
+
+// The same of frame number frame, 0 .. frames - 1.
+RAMIFY_API RamifyScene *ramify_scene_at_frame(const RamifyScene *scene,
+                                              const RamifyTurntable *turntable, int frame,
+                                              RamifyError *error);
+
+// Renders a film to file: "oak-%04d.png" (.png, .jpg or .exr, the frame's number where %04d is), or
+// "oak.mp4" by ffmpeg (H.264, yuv420p, BT.709). What stays from frame to frame is grown, skinned
+// and built once. Frames that are there, whole and made from the same settings, are skipped, so
+// that a call that was interrupted goes on where it ended; those of a film wait in oak.mp4.frames.
+// turntable NULL = all zero; info and run may be NULL. info is filled when it fails, too.
+RAMIFY_API bool ramify_turntable(const RamifyScene *scene, const RamifyTurntable *turntable,
+                                 const char *file, const RamifyRun *run, RamifyTurntableInfo *info,
+                                 RamifyError *error);
+
+// RAMIFY_BAD_INPUT or RAMIFY_IO when ramify_turntable could not write to such a file.
+RAMIFY_API bool ramify_turntable_check(const char *file, RamifyError *error);
+
 #ifdef __cplusplus
 }
 #endif

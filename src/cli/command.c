@@ -85,6 +85,12 @@ RamifyScene *command_scene(const Options *options, RamifyError *e)
     return ramify_scene_load(options->operand, overrides, count, e);
 }
 
+const char *file_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
 bool output_check(const char *file, RamifyError *e)
 {
     struct stat status;

@@ -8,6 +8,7 @@
 
 // Each reads its scene, does its work and prints its data; false and e when it failed.
 bool command_render(const Options *options, RamifyError *e);     // render.c
+bool command_turntable(const Options *options, RamifyError *e);  // turntable.c
 bool command_grow(const Options *options, RamifyError *e);       // grow.c
 bool command_measure(const Options *options, RamifyError *e);    // measure.c
 bool command_export(const Options *options, RamifyError *e);     // export.c
@@ -22,6 +23,9 @@ RamifyRun command_run(const Options *options, Progress *progress);
 
 // The scene with --set and the render options carried out.
 RamifyScene *command_scene(const Options *options, RamifyError *e);
+
+// The scene's file without its folders.
+const char *file_name(const char *path);
 
 // Can FILE be written when the time comes? RAMIFY_IO when its folder is missing or may not be
 // written to, or when FILE is a folder.

@@ -48,6 +48,8 @@ static bool run_command(const Options *options, RamifyError *e)
     switch (options->command) {
     case COMMAND_RENDER:
         return command_render(options, e);
+    case COMMAND_TURNTABLE:
+        return command_turntable(options, e);
     case COMMAND_GROW:
         return command_grow(options, e);
     case COMMAND_MEASURE:

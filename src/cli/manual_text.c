@@ -49,6 +49,29 @@ static const ManualText TEXTS[] = {
           {"another hour of the day and a longer lens",
            "ramify render pine.yaml --set sky.sun_elevation=3 --set camera.fov=20"},
           {"the tree when it was young", "ramify render pine.yaml --grow-to 0.3 -o young.png"}}},
+    {.command = "turntable",
+     .paragraphs =
+         {"Makes a film of a scene: the camera goes once around its target. What stays from frame "
+          "to frame is grown, skinned and built once. Where the scene has an animation, that is "
+          "played, and the camera circles only if --turns says so. docs/animation.md tells more.",
+          "-o FILE.mp4 makes a film with ffmpeg, for which it must be installed: H.264, yuv420p, "
+          "BT.709; an odd width or height loses its last column or row. The frames wait in "
+          "FILE.mp4.frames until all are there. -o NAME-%04d.png, .jpg or .exr writes frames, "
+          "with their number, from 0, where %04d stands.",
+          "Values with colons between are reached at even steps of time. When the last is the "
+          "first, frame i of N shows the time i/N, so that the film loops without a jump; else "
+          "i/(N-1), so that it ends on the last value.",
+          "After an interruption the same command goes on: a frame that is there, whole and made "
+          "from the same settings is skipped. With --start and --end several machines share the "
+          "work."},
+     .examples =
+         {{"a small film", "ramify turntable pine.yaml --size 320x180 --samples 16 -o pine.mp4"},
+          {"frames, with a camera that rises and comes closer",
+           "ramify turntable pine.yaml --elevation 5:30:5 --dolly 1:0.7:1 -o pine-%04d.png"},
+          {"growth while the camera circles",
+           "ramify turntable pine.yaml --frames 120 --grow 0:1 -o growth.mp4"},
+          {"a summer's day", "ramify turntable pine.yaml --turns 0 --sun 5:19 -o day.mp4"},
+          {"one frame of it", "ramify render pine.yaml --frame 12 -o frame.png"}}},
     {.command = "grow",
      .paragraphs = {"Grows the objects of a scene and prints how many nodes each has, without skin "
                     "or picture. "

@@ -15,6 +15,7 @@ typedef enum OptionType {
     OPTION_TEXT,  // const char *
     OPTION_SIZE,  // int[2], WxH
     OPTION_CROP,  // float[4]
+    OPTION_KEYS,  // RamifyKeys, a:b:c
     OPTION_SET,   // path=value, may be repeated
     OPTION_OBJECT // name, may be repeated
 } OptionType;

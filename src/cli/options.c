@@ -11,12 +11,15 @@
 #include <string.h>
 
 #define BIT(command) (1u << (command))
-#define GROWS (BIT(COMMAND_RENDER) | BIT(COMMAND_GROW) | BIT(COMMAND_MEASURE) | BIT(COMMAND_EXPORT))
+#define GROWS                                                                                  \
+    (BIT(COMMAND_RENDER) | BIT(COMMAND_TURNTABLE) | BIT(COMMAND_GROW) | BIT(COMMAND_MEASURE) | \
+     BIT(COMMAND_EXPORT))
 #define SCENES (GROWS | BIT(COMMAND_INFO))
 #define COMPARES (BIT(COMMAND_COMPARE) | BIT(COMMAND_GOLDEN))
 #define EVERY \
     (SCENES | COMPARES | BIT(COMMAND_SCHEMA) | BIT(COMMAND_COMPLETION) | BIT(COMMAND_HELP))
-#define RENDERS BIT(COMMAND_RENDER)
+#define RENDERS (BIT(COMMAND_RENDER) | BIT(COMMAND_TURNTABLE))
+#define TURNS BIT(COMMAND_TURNTABLE)
 #define AT(member) offsetof(Options, member)
 
 static const Option OPTIONS[] = {
@@ -27,9 +30,117 @@ static const Option OPTIONS[] = {
      .commands = RENDERS | BIT(COMMAND_GROW) | BIT(COMMAND_EXPORT),
      .letter = 'o',
      .doc =
-         "what to write; render: .png or .jpg with the .exr beside it; grow: .swc, .json, "
+         "what to write; render: .png or .jpg with the .exr beside it; turntable: .mp4, or .png, "
+         ".jpg or .exr with the frame's number in the name, as in oak-%04d.png; grow: .swc, .json, "
          ".graphml or, of a leaf's veins or a terrain's heights, .png or .exr (heights also .asc); "
          "export: the format by its ending"},
+    {.name = "frames",
+     .value = "N",
+     .offset = AT(turntable.frames),
+     .low = 1,
+     .high = 1000000,
+     .type = OPTION_INT,
+     .commands = TURNS,
+     .doc = "how many frames; as the scene's animation says, else 72"},
+    {.name = "fps",
+     .value = "F",
+     .offset = AT(turntable.fps),
+     .low = 0.001,
+     .high = 1000,
+     .type = OPTION_REAL,
+     .commands = TURNS,
+     .doc = "frames a second; as the scene's animation says, else 24"},
+    {.name = "start",
+     .value = "I",
+     .offset = AT(turntable.start),
+     .low = 0,
+     .high = 999999,
+     .type = OPTION_INT,
+     .commands = TURNS,
+     .doc = "the first frame to render; they are counted from 0"},
+    {.name = "end",
+     .value = "I",
+     .offset = AT(end),
+     .low = 0,
+     .high = 999999,
+     .type = OPTION_INT,
+     .commands = TURNS,
+     .doc = "the last frame to render"},
+    {.name = "turns",
+     .value = "N",
+     .offset = AT(turns),
+     .low = -1000,
+     .high = 1000,
+     .type = OPTION_REAL,
+     .commands = TURNS,
+     .doc = "circles of the camera about its target, negative the other way; 1, but 0 where the "
+            "scene has an animation"},
+    {.name = "spin",
+     .offset = AT(spin),
+     .type = OPTION_YES,
+     .commands = TURNS,
+     .doc = "turn everything under a camera, a sky and lamps that stay"},
+    {.name = "elevation",
+     .value = "A:B:...",
+     .offset = AT(turntable.elevation),
+     .low = -89,
+     .high = 89,
+     .type = OPTION_KEYS,
+     .commands = TURNS,
+     .doc = "degrees of the camera above its target over time, as in 10:30:10"},
+    {.name = "dolly",
+     .value = "A:B:...",
+     .offset = AT(turntable.dolly),
+     .low = 0.001,
+     .high = 1000,
+     .type = OPTION_KEYS,
+     .commands = TURNS,
+     .doc = "factor on the camera's distance over time, as in 1:0.7"},
+    {.name = "grow",
+     .value = "A:B:...",
+     .offset = AT(turntable.grow),
+     .low = 0,
+     .high = 1,
+     .type = OPTION_KEYS,
+     .commands = TURNS,
+     .doc = "how much of the growth shows over time, as in 0:1"},
+    {.name = "sun",
+     .value = "A:B:...",
+     .offset = AT(turntable.sun),
+     .low = 0,
+     .high = 24,
+     .type = OPTION_KEYS,
+     .commands = TURNS,
+     .doc = "hours of the day that the sun stands at over time, as in 5:19"},
+    {.name = "ease",
+     .value = "HOW",
+     .offset = AT(ease),
+     .choices = "linear smooth",
+     .type = OPTION_TEXT,
+     .commands = TURNS,
+     .doc = "how all of these go from value to value; smooth for elevation and dolly, linear for "
+            "the rest"},
+    {.name = "vary-noise",
+     .offset = AT(vary_noise),
+     .type = OPTION_YES,
+     .commands = TURNS,
+     .doc = "another pattern of noise in every frame, as film grain"},
+    {.name = "frame",
+     .value = "I",
+     .offset = AT(frame),
+     .low = 0,
+     .high = 999999,
+     .type = OPTION_INT,
+     .commands = BIT(COMMAND_RENDER),
+     .doc = "the scene as frame I of its turntable or animation shows it"},
+    {.name = "time",
+     .value = "T",
+     .offset = AT(time),
+     .low = 0,
+     .high = 1,
+     .type = OPTION_REAL,
+     .commands = BIT(COMMAND_RENDER),
+     .doc = "the same at a time, 0 the beginning, 1 the end"},
     {.name = "samples",
      .value = "N",
      .offset = AT(samples),
@@ -259,6 +370,10 @@ static const Command COMMANDS[COMMAND_COUNT] = {
                         "Writes SCENE's name with .png to the current folder if there is no -o, "
                         "and beside it the .exr with\nlinear colours, albedo, normal, depth, "
                         "position, object and samples. Ctrl-C writes what there is.\n"},
+    [COMMAND_TURNTABLE] = {"turntable", "SCENE", "make a film of a scene file",
+                           "Grows, skins and builds once what stays from frame to frame. Writes "
+                           "SCENE's name with .mp4 to the current\nfolder if there is no -o. Run "
+                           "again after an interruption it skips the frames that are finished.\n"},
     [COMMAND_GROW] = {"grow", "SCENE", "grow a scene's trees only",
                       "With -o writes the out-trees; of several, the objects' names are put "
                       "before the ending.\n"},
@@ -295,7 +410,11 @@ Options options_default(void)
                      .denoise = -1,
                      .max_rmse = -1.0,
                      .threshold = -1.0,
-                     .max_failing = -1.0};
+                     .max_failing = -1.0,
+                     .turns = (double)NAN,
+                     .end = -1,
+                     .frame = -1,
+                     .time = -1.0};
 }
 
 const Option *option_at(int index)
@@ -394,6 +513,19 @@ static bool read_crop(const char *text, const Option *option, float *crop)
     return crop[0] < crop[2] && crop[1] < crop[3];
 }
 
+static bool read_keys(const char *text, const Option *option, RamifyKeys *keys)
+{
+    keys->count = 0;
+    do {
+        if (keys->count == RAMIFY_MOST_KEYS ||
+            !read_number(&text, option->low, option->high, &keys->value[keys->count])) {
+            return false;
+        }
+        keys->count++;
+    } while (*text++ == ':');
+    return text[-1] == 0;
+}
+
 static bool bad_value(const Option *option, const char *text, RamifyError *e)
 {
     switch (option->type) {
@@ -405,6 +537,10 @@ static bool bad_value(const Option *option, const char *text, RamifyError *e)
     case OPTION_CROP:
         return fail(e, RAMIFY_BAD_INPUT,
                     "--crop %.60s; it must be x0,y0,x1,y1 in 0..1 with x0 < x1 and y0 < y1", text);
+    case OPTION_KEYS:
+        return fail(e, RAMIFY_BAD_INPUT,
+                    "--%s %.60s; it must be 1 to %d numbers of %.9g to %.9g with colons between",
+                    option->name, text, (int)RAMIFY_MOST_KEYS, option->low, option->high);
     default:
         return fail(e, RAMIFY_BAD_INPUT, "--%s %.60s; it must be a %s of %.9g to %.9g",
                     option->name, text, option->type == OPTION_INT ? "whole number" : "number",
@@ -453,6 +589,8 @@ static bool take_value(Options *options, const Option *option, const char *text,
         return read_size(text, option, (int *)(void *)at) || bad_value(option, text, e);
     case OPTION_CROP:
         return read_crop(text, option, (float *)(void *)at) || bad_value(option, text, e);
+    case OPTION_KEYS:
+        return read_keys(text, option, (RamifyKeys *)(void *)at) || bad_value(option, text, e);
     default:
         break;
     }

@@ -9,6 +9,7 @@
 
 typedef enum CommandId {
     COMMAND_RENDER,
+    COMMAND_TURNTABLE,
     COMMAND_GROW,
     COMMAND_MEASURE,
     COMMAND_EXPORT,
@@ -33,6 +34,7 @@ typedef struct Options {
     bool quiet, json, resolved, help;
     bool markdown, paths;                    // what schema and info print instead
     bool man;                                // help: the man page
+    bool spin, vary_noise;                   // of a turntable
     int samples;                             // 0 = the scene's
     int size[2];                             // 0, 0 = the scene's
     double seconds;                          // negative = the scene's
@@ -50,6 +52,12 @@ typedef struct Options {
     int object_count;                        // 0 = all
     const char *instances, *colors;          // NULL = the format's own
     int tube_sides;                          // 0 = the default
+    int end;                                 // the last frame; -1 = the film's
+    int frame;                               // to be rendered alone; -1 = none
+    double time;                             // likewise; negative = none
+    double turns;                            // NAN = the usual
+    const char *ease;                        // NULL = the usual
+    RamifyTurntable turntable;               // the rest of it
 } Options;
 
 Options options_default(void);

@@ -73,6 +73,13 @@ static void show(Progress *p, double done, double now)
     p->shown = true;
 }
 
+// "frame 3 of 72" and "frame 4 of 72" are.
+static bool same_stage(const char *a, const char *b)
+{
+    size_t word = strcspn(a, " ");
+    return strncmp(a, b, word) == 0 && (b[word] == 0 || b[word] == ' ');
+}
+
 void progress_report(void *user, const char *stage, double done)
 {
     Progress *p = user;
@@ -80,8 +87,9 @@ void progress_report(void *user, const char *stage, double done)
         return; // another thread is talking
     }
     double now = clock_seconds();
-    if (strcmp(p->stage, stage) != 0) {
-        snprintf(p->stage, sizeof p->stage, "%s", stage);
+    bool same = same_stage(p->stage, stage);
+    snprintf(p->stage, sizeof p->stage, "%s", stage);
+    if (!same) {
         p->stage_start = now;
         p->last = p->terminal ? 0.0 : now;
     }

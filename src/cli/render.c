@@ -39,12 +39,6 @@ static void clear_outputs(Outputs *outputs)
     *outputs = (Outputs){0};
 }
 
-static const char *file_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 static bool plan_outputs(const Options *options, Outputs *outputs, RamifyError *e)
 {
     const char *named = options->output ? options->output : file_name(options->operand);
@@ -186,11 +180,31 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
     return done;
 }
 
+// The scene, or one moment of it.
+static RamifyScene *choose_scene(const Options *options, RamifyError *e)
+{
+    RamifyScene *scene = command_scene(options, e);
+    bool moment = options->frame >= 0 || options->time >= 0.0;
+    if (!scene || !moment) {
+        return scene;
+    }
+    RamifyScene *then = NULL;
+    if (options->frame >= 0 && options->time >= 0.0) {
+        fail(e, RAMIFY_BAD_INPUT, "both --frame and --time; give one");
+    } else if (options->frame >= 0) {
+        then = ramify_scene_at_frame(scene, NULL, options->frame, e);
+    } else {
+        then = ramify_scene_at(scene, NULL, options->time, e);
+    }
+    ramify_scene_free(scene);
+    return then;
+}
+
 bool command_render(const Options *options, RamifyError *e)
 {
     Outputs outputs = {0};
     bool sound = ramify_check_isa(options->isa, e) && plan_outputs(options, &outputs, e);
-    RamifyScene *scene = sound ? command_scene(options, e) : NULL;
+    RamifyScene *scene = sound ? choose_scene(options, e) : NULL;
     bool done = scene && render_scene(options, scene, &outputs, e);
     ramify_scene_free(scene);
     clear_outputs(&outputs);

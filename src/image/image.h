@@ -30,6 +30,11 @@ Image *image_read_color(const char *file, bool *linear, Error *e);
 // there.
 Image *image_read_layer(const char *file, const char *layer, const char *channels, Error *e);
 
+// Reads the whole picture to see that nothing is missing, and the text that its metadata has under
+// key into text (size bytes, cut if need be). False when it is no whole picture or has no such
+// text.
+bool image_read_text(const char *file, const char *key, char *text, int size);
+
 // 8-bit PNG or JPEG (by the name's ending) of an image already in display values; 3 or 4 channels,
 // 0..1, alpha straight; JPEG shows it over black. Dithered by a fixed pattern. metadata:
 // "key\0value\0...\0\0" pairs or NULL.

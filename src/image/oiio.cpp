@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <new>
 #include <string>
@@ -328,7 +329,42 @@ template <typename Make> Image *read_and_make(const char *file, Error *e, Make m
     return made;
 }
 
+// JPEGs carry all pairs as lines of one text: see add_metadata.
+std::string find_text(const OIIO::ImageSpec &spec, const std::string &key)
+{
+    std::string value = spec.get_string_attribute(key);
+    std::string lines = "\n" + std::string(spec.get_string_attribute("ImageDescription"));
+    size_t at = lines.find("\n" + key + ": ");
+    if (value.empty() && at != std::string::npos) {
+        at += key.size() + 3;
+        value = lines.substr(at, lines.find('\n', at) - at);
+    }
+    return value;
+}
+
+bool read_text(const char *file, const char *key, char *text, int size)
+{
+    auto input = OIIO::ImageInput::open(file);
+    if (!input) {
+        OIIO::geterror(); // or it would be told on stderr at the end
+        return false;
+    }
+    const OIIO::ImageSpec spec = input->spec();
+    std::vector<float> pixels(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
+    std::string value = find_text(spec, key);
+    bool whole = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()) &&
+                 input->geterror().empty();
+    std::snprintf(text, size_t(size), "%s", value.c_str());
+    return whole && !value.empty();
+}
+
 } // namespace
+
+extern "C" bool image_read_text(const char *file, const char *key, char *text, int size)
+{
+    Error unused = {};
+    return guarded(file, &unused, [&] { return read_text(file, key, text, size); });
+}
 
 extern "C" Image *image_read(const char *file, Error *e)
 {

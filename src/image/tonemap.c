@@ -22,8 +22,7 @@ static float luminance(const float *p)
     return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
 }
 
-// The factor that takes the log-average luminance of what is not black to 0.18.
-static float auto_gain(const Image *image)
+float tone_auto_gain(const Image *image)
 {
     double sum = 0.0, weight = 0.0;
     int64_t count = (int64_t)image->width * image->height;
@@ -42,7 +41,7 @@ static float auto_gain(const Image *image)
 // Linear, straight (not premultiplied), finite, exposed and balanced.
 static void prepare(Image *out, const Image *image, const ToneParams *params)
 {
-    float gain = exp2f(params->exposure) * (params->auto_exposure ? auto_gain(image) : 1.0f);
+    float gain = exp2f(params->exposure) * (params->auto_exposure ? tone_auto_gain(image) : 1.0f);
     float balance[3][3];
     tone_white_balance(params->white_balance, balance);
     int64_t count = (int64_t)image->width * image->height;

@@ -19,6 +19,10 @@ typedef struct ToneParams {
 
 ToneParams tone_params_default(void);
 
+// The factor that takes the log-average luminance of what is not black in linear radiance to 0.18:
+// what auto_exposure multiplies by.
+float tone_auto_gain(const Image *image);
+
 // image: linear radiance, 3 or 4 channels; with alpha, radiance is premultiplied (as films and EXRs
 // hold it). The result has sRGB display values, straight (not premultiplied) beside the same alpha,
 // as PNG wants them.

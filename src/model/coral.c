@@ -370,24 +370,36 @@ static bool narrow_tips(OutTree *tree, Error *e)
     return done;
 }
 
-OutTree *coral_grow(const CoralParams *params, const Recipe *recipe, Error *e)
+// Everything, before it is cut.
+static OutTree *grow_whole(const CoralParams *p, const Recipe *recipe, Error *e)
 {
-    CoralParams p = coral_params_resolve(params);
-    Growing g = {.params = &p, .recipe = recipe, .tree = out_tree_new(e)};
-    bool upright = p.form == CORAL_BRANCHING || p.form == CORAL_TABLE || p.form == CORAL_FAN;
+    Growing g = {.params = p, .recipe = recipe, .tree = out_tree_new(e)};
+    bool upright = p->form == CORAL_BRANCHING || p->form == CORAL_TABLE || p->form == CORAL_FAN;
     bool done = g.tree && prepare_string(&g, e) &&
                 (upright ? grow_upright(&g, e) : grow_on_rock(&g, e)) &&
-                out_tree_keep_births(g.tree, recipe->grow_to, e);
+                recipe_keep(recipe, 0, g.tree, e);
     grow_string_clear(&g.string);
     if (!done) {
-        out_tree_free(g.tree);
-        error_prefix(e, "%s: ", recipe->label);
-        return NULL;
-    }
-    out_tree_pipe_radii(g.tree, p.exponent, p.tip_radius, 0.0f);
-    if (!narrow_tips(g.tree, e)) {
         out_tree_free(g.tree);
         return NULL;
     }
     return g.tree;
+}
+
+OutTree *coral_grow(const CoralParams *params, const Recipe *recipe, Error *e)
+{
+    CoralParams p = coral_params_resolve(params);
+    OutTree *tree =
+        recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(&p, recipe, e);
+    if (!tree || !out_tree_keep_births(tree, recipe->grow_to, e)) {
+        out_tree_free(tree);
+        error_prefix(e, "%s: ", recipe->label);
+        return NULL;
+    }
+    out_tree_pipe_radii(tree, p.exponent, p.tip_radius, 0.0f);
+    if (!narrow_tips(tree, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
 }

@@ -51,13 +51,27 @@ static void heave(OutTree *tree, float swell, uint64_t seed)
     }
 }
 
-OutTree *dla_model_grow(const DlaModel *params, const Recipe *recipe, Error *e)
+// The cluster as it grew, of unit particles.
+static OutTree *grow_cluster(const DlaModel *params, const Recipe *recipe, Error *e)
 {
+    if (recipe_remembers(recipe, 0)) {
+        return recipe_recall(recipe, 0, e);
+    }
     DlaParams grow = dla_params_default();
     grow.dimension = params->dimension;
     grow.count = params->particles;
     grow.seed = random_key(recipe->seed, 1);
     OutTree *tree = dla_grow(&grow, recipe->run, e);
+    if (tree && !recipe_keep(recipe, 0, tree, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}
+
+OutTree *dla_model_grow(const DlaModel *params, const Recipe *recipe, Error *e)
+{
+    OutTree *tree = grow_cluster(params, recipe, e);
     if (!tree) {
         error_prefix(e, "%s: ", recipe->label);
         return NULL;

@@ -153,12 +153,14 @@ static bool grow_stand(OutTree *all, const ForestParams *params, int stand, uint
 
 OutTree *forest_grow(const ForestParams *params, const Recipe *recipe, Error *e)
 {
-    OutTree *all = out_tree_new(e);
+    bool again = recipe_remembers(recipe, 0);
+    OutTree *all = again ? recipe_recall(recipe, 0, e) : out_tree_new(e);
     bool done = all;
-    for (int i = 0; done && i < params->stands; i++) {
+    for (int i = 0; done && !again && i < params->stands; i++) {
         done = grow_stand(all, params, i, random_key(recipe->seed, (uint64_t)i), recipe, e);
     }
-    if (!done || !out_tree_rejuvenate(all, recipe->grow_to, params->radii.tip, e)) {
+    if (!done || !(again || recipe_keep(recipe, 0, all, e)) ||
+        !out_tree_rejuvenate(all, recipe->grow_to, params->radii.tip, e)) {
         out_tree_free(all);
         return NULL;
     }

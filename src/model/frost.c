@@ -218,7 +218,8 @@ static void give_radii(OutTree *tree, const FrostParams *params)
     out_tree_pipe_radii(tree, 6.0f, params->width_share * side_spacing(params), 0.0f);
 }
 
-static OutTree *grow(const FrostParams *params, const Recipe *recipe, Error *e)
+// Everything, before it is cut.
+static OutTree *grow_whole(const FrostParams *params, const Recipe *recipe, Error *e)
 {
     OutTree *tree = out_tree_new(e);
     if (!tree || !add_nuclei(tree, params, random_key(recipe->seed, 1), e) ||
@@ -236,9 +237,20 @@ static OutTree *grow(const FrostParams *params, const Recipe *recipe, Error *e)
         give_births(tree, spine_count);
         done = frost_drop_crossings(tree, recipe->run, e) &&
                (params->sides == 0 || trim_rods(tree, params, e)) &&
-               out_tree_keep_births(tree, recipe->grow_to, e);
+               recipe_keep(recipe, 0, tree, e);
     }
     if (!done) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}
+
+static OutTree *grow(const FrostParams *params, const Recipe *recipe, Error *e)
+{
+    OutTree *tree =
+        recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(params, recipe, e);
+    if (!tree || !out_tree_keep_births(tree, recipe->grow_to, e)) {
         out_tree_free(tree);
         return NULL;
     }

@@ -100,7 +100,7 @@ static bool add_variant(const GroundParams *ground, const GroundMaterials *mater
     TreeParams params = distant_tree(&ground->trees, levels, seed);
     TreeMaterials own = {materials->bark, materials->bark, materials->foliage};
     Geometry single = {0};
-    OutTree *tree = tree_grow(&params, &(Recipe){seed, "distant tree", 1.0f, run}, e);
+    OutTree *tree = tree_grow(&params, &(Recipe){seed, "distant tree", 1.0f, run, NULL}, e);
     bool done = tree && tree_geometry(tree, &params, &own, object, seed, &single, run, e);
     out_tree_free(tree);
     for (int64_t i = 0; done && i < single.count; i++) {

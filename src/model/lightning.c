@@ -8,6 +8,7 @@
 #include "tree/chains.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 LightningParams lightning_params_default(void)
 {
@@ -238,14 +239,31 @@ static bool grow_bolts(OutTree *tree, const LightningParams *params, uint64_t *s
     return true;
 }
 
+// All bolts with their strikes, before they are cut.
+static OutTree *grow_whole(const LightningParams *params, uint64_t *strike_id, int strikes,
+                           const Recipe *recipe, Error *e)
+{
+    if (recipe_remembers(recipe, 0)) {
+        memcpy(strike_id, recipe->memory->id, sizeof *strike_id * (size_t)strikes);
+        return recipe_recall(recipe, 0, e);
+    }
+    OutTree *tree = out_tree_new(e);
+    if (tree &&
+        !(grow_bolts(tree, params, strike_id, recipe, e) &&
+          recipe_keep_ids(recipe, strike_id, strikes, e) && recipe_keep(recipe, 0, tree, e))) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}
+
 static OutTree *grow_in_air(const LightningParams *params, const Recipe *recipe, Error *e)
 {
     int strikes = params->bolts * params->ground_points;
     float size = params->height, core = params->radius > 0.0f ? params->radius : size / 1600.0f;
     uint64_t *strike_id = memory_alloc(strikes, sizeof *strike_id, e);
-    OutTree *tree = strike_id ? out_tree_new(e) : NULL;
-    if (tree && !(grow_bolts(tree, params, strike_id, recipe, e) &&
-                  out_tree_keep_births(tree, recipe->grow_to, e))) {
+    OutTree *tree = strike_id ? grow_whole(params, strike_id, strikes, recipe, e) : NULL;
+    if (tree && !out_tree_keep_births(tree, recipe->grow_to, e)) {
         out_tree_free(tree);
         tree = NULL;
     }

@@ -178,7 +178,8 @@ OutTree *lightning_grow_surface(const LightningParams *params, const Recipe *rec
     const ElementParams *element = &params->element;
     EnvelopeParams shape = {element->shapes, element->shape_count, element->voxel};
     Envelope *envelope = envelope_new(&shape, recipe->run, e);
-    OutTree *tree = envelope ? out_tree_new(e) : NULL;
+    bool again = recipe_remembers(recipe, 0);
+    OutTree *tree = !envelope ? NULL : (again ? recipe_recall(recipe, 0, e) : out_tree_new(e));
     if (!tree) {
         envelope_free(envelope);
         return NULL;
@@ -187,8 +188,9 @@ OutTree *lightning_grow_surface(const LightningParams *params, const Recipe *rec
     Vec3 extent = vec3_sub(box.high, box.low);
     float size = larger(extent.x, larger(extent.y, extent.z));
     Skin skin = {envelope, 0.004f * size};
-    if (plant(tree, params, &skin, random_key(recipe->seed, 3), e) &&
-        grow_over(tree, params, envelope, recipe, e)) {
+    if (again ||
+        (plant(tree, params, &skin, random_key(recipe->seed, 3), e) &&
+         grow_over(tree, params, envelope, recipe, e) && recipe_keep(recipe, 0, tree, e))) {
         tree = finish(tree, params, &skin, size, recipe, e);
     } else {
         out_tree_free(tree);

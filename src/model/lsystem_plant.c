@@ -90,11 +90,13 @@ static OutTree *draw(const LSystemPlantParams *p, const Recipe *recipe, Error *e
 
 OutTree *lsystem_plant_grow(const LSystemPlantParams *p, const Recipe *recipe, Error *e)
 {
-    OutTree *tree = draw(p, recipe, e);
-    if (tree) {
+    bool again = recipe_remembers(recipe, 0);
+    OutTree *tree = again ? recipe_recall(recipe, 0, e) : draw(p, recipe, e);
+    if (tree && !again) {
         scale_to(tree, p->height, p->position);
     }
-    if (!tree || !out_tree_keep_births(tree, recipe->grow_to, e)) {
+    if (!tree || !(again || recipe_keep(recipe, 0, tree, e)) ||
+        !out_tree_keep_births(tree, recipe->grow_to, e)) {
         out_tree_free(tree);
         error_prefix(e, "%s: ", recipe->label);
         return NULL;

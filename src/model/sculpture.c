@@ -128,7 +128,7 @@ static bool grow_shell(OutTree *tree, const SculptureParams *params, const Eleme
         return false;
     }
     compute_radii(tree, grown, 0.5f * params->thickness * (float)spacing, params->contrast);
-    return out_tree_keep_births(tree, recipe->grow_to, e);
+    return recipe_keep(recipe, 0, tree, e);
 }
 
 OutTree *sculpture_grow(const SculptureParams *params, const Recipe *recipe, Error *e)
@@ -146,8 +146,10 @@ OutTree *sculpture_grow(const SculptureParams *params, const Recipe *recipe, Err
         element.levels = levels;
         element.level_count = LEVELS;
     }
-    OutTree *tree = out_tree_new(e);
-    if (!tree || !grow_shell(tree, params, &element, recipe, e)) {
+    bool again = recipe_remembers(recipe, 0);
+    OutTree *tree = again ? recipe_recall(recipe, 0, e) : out_tree_new(e);
+    if (!tree || !(again || grow_shell(tree, params, &element, recipe, e)) ||
+        !out_tree_keep_births(tree, recipe->grow_to, e)) {
         out_tree_free(tree);
         return NULL;
     }

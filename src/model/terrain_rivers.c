@@ -179,7 +179,15 @@ static GuideField *river_field(const OutTree *tree, const TerrainParams *params,
 
 OutTree *terrain_rivers(const TerrainParams *params, const Recipe *recipe, Error *e)
 {
-    OutTree *tree = out_tree_new(e);
+    bool again = recipe_remembers(recipe, 0);
+    OutTree *tree = again ? recipe_recall(recipe, 0, e) : out_tree_new(e);
+    if (again) {
+        if (tree && !out_tree_keep_births(tree, recipe->grow_to, e)) {
+            out_tree_free(tree);
+            return NULL;
+        }
+        return tree;
+    }
     GuideField *field = NULL;
     bool done = tree && add_outlets(tree, params, random_key(recipe->seed, 1), e);
     if (done && params->rivers.field_count > 0) {
@@ -187,7 +195,7 @@ OutTree *terrain_rivers(const TerrainParams *params, const Recipe *recipe, Error
         done = field;
     }
     done = done && grow_levels(&tree, params, field, recipe->seed, recipe->run, e) &&
-           out_tree_keep_births(tree, recipe->grow_to, e);
+           recipe_keep(recipe, 0, tree, e) && out_tree_keep_births(tree, recipe->grow_to, e);
     guide_field_free(field);
     if (!done) {
         out_tree_free(tree);

@@ -252,7 +252,8 @@ static void compute_radii(OutTree *tree, const TreeParams *params)
     out_tree_root_flare(tree, radii->flare, radii->flare_height);
 }
 
-OutTree *tree_grow(const TreeParams *params, const Recipe *recipe, Error *e)
+// Everything, radii and all, before it is cut.
+static OutTree *grow_whole(const TreeParams *params, const Recipe *recipe, Error *e)
 {
     TreePlan plan;
     uint64_t seed = recipe->seed;
@@ -267,7 +268,18 @@ OutTree *tree_grow(const TreeParams *params, const Recipe *recipe, Error *e)
     compute_radii(tree, &plan.params);
     if ((params->roots.count > 0 &&
          !grow_roots(tree, &plan.params, random_key(seed, 3), recipe->label, recipe->run, e)) ||
-        !out_tree_rejuvenate(tree, recipe->grow_to, params->radii.tip, e)) {
+        !recipe_keep(recipe, 0, tree, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}
+
+OutTree *tree_grow(const TreeParams *params, const Recipe *recipe, Error *e)
+{
+    OutTree *tree =
+        recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(params, recipe, e);
+    if (!tree || !out_tree_rejuvenate(tree, recipe->grow_to, params->radii.tip, e)) {
         out_tree_free(tree);
         return NULL;
     }

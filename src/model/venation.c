@@ -86,13 +86,25 @@ static OutTree *with_petiole(const OutTree *veins, const VenationParams *params,
     return tree;
 }
 
+// Everything, before it is cut.
+static OutTree *grow_whole(const VenationParams *params, const Recipe *recipe, Error *e)
+{
+    VeinParams grow = vein_params(params, random_key(recipe->seed, 1));
+    OutTree *veins = veins_grow(&grow, NULL, NULL, recipe->run, e);
+    OutTree *tree = veins ? with_petiole(veins, params, recipe->seed, e) : NULL;
+    out_tree_free(veins);
+    if (tree && !recipe_keep(recipe, 0, tree, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}
+
 OutTree *venation_grow(const VenationParams *given, const Recipe *recipe, Error *e)
 {
     VenationParams params = complete(given);
-    VeinParams grow = vein_params(&params, random_key(recipe->seed, 1));
-    OutTree *veins = veins_grow(&grow, NULL, NULL, recipe->run, e);
-    OutTree *tree = veins ? with_petiole(veins, &params, recipe->seed, e) : NULL;
-    out_tree_free(veins);
+    OutTree *tree =
+        recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(&params, recipe, e);
     if (!tree || !out_tree_keep_births(tree, recipe->grow_to, e)) {
         error_prefix(e, "%s: ", recipe->label);
         out_tree_free(tree);

@@ -131,11 +131,35 @@ static void report(const VesselBed *bed)
     }
 }
 
+// Everything, before it is cut.
+static bool grow_whole(VesselBed *bed, const Recipe *recipe, Error *e)
+{
+    if (!plant(bed, e) || !vessel_bed_grow(bed, e) || !vessel_bed_finish(bed, e)) {
+        return false;
+    }
+    report(bed);
+    bool kept = true;
+    for (int t = bed->tree_count - 1; kept && t >= 0; t--) { // the first, which is asked for, last
+        kept = recipe_keep(recipe, t, bed->trees[t].tree, e);
+    }
+    return kept;
+}
+
+static bool recall(VesselBed *bed, const Recipe *recipe, Error *e)
+{
+    bool done = true;
+    for (int t = 0; done && t < bed->tree_count; t++) {
+        bed->trees[t].tree = recipe_recall(recipe, t, e);
+        done = bed->trees[t].tree;
+    }
+    return done;
+}
+
 OutTree *vessels_grow(const VesselsParams *params, const Recipe *recipe, Error *e)
 {
     EnvelopeParams shapes = {params->element.shapes, params->element.shape_count,
                              params->element.voxel};
-    Envelope *envelope = envelope_new(&shapes, recipe->run, e);
+    Envelope *envelope = recipe_remembers(recipe, 0) ? NULL : envelope_new(&shapes, recipe->run, e);
     VesselBed bed = {.params = params,
                      .envelope = envelope,
                      .tree_count = params->veins ? 2 : 1,
@@ -144,9 +168,10 @@ OutTree *vessels_grow(const VesselsParams *params, const Recipe *recipe, Error *
                      .label = recipe->label,
                      .run = recipe->run};
     OutTree *tree = NULL;
-    if (envelope && growth_witness(recipe->run, recipe->label, envelope, NULL, e) &&
-        plant(&bed, e) && vessel_bed_grow(&bed, e) && vessel_bed_finish(&bed, e)) {
-        report(&bed);
+    bool again = recipe_remembers(recipe, 0);
+    if (again ? recall(&bed, recipe, e)
+              : envelope && growth_witness(recipe->run, recipe->label, envelope, NULL, e) &&
+                    grow_whole(&bed, recipe, e)) {
         tree = show(&bed, recipe, e);
     }
     out_tree_free(bed.trees[0].tree);

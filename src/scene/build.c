@@ -28,6 +28,8 @@ static bool add_materials(World *world, const Scene *scene, Error *e)
 {
     int builtin_count;
     const Material *builtin = builtin_materials(&builtin_count);
+    free(world->material);
+    world->material_count = 0;
     world->material =
         memory_alloc((int64_t)scene->material_count + builtin_count, sizeof *world->material, e);
     if (!world->material) {
@@ -46,6 +48,8 @@ static bool add_materials(World *world, const Scene *scene, Error *e)
 
 static bool add_lights(World *world, const Scene *scene, Error *e)
 {
+    free(world->light);
+    world->light_count = 0;
     world->light = memory_alloc(scene->light_count, sizeof *world->light, e);
     if (!world->light) {
         return false;
@@ -77,7 +81,7 @@ static Recipe make_recipe(const Scene *scene, const SceneObject *object, const R
 {
     snprintf(label, LABEL_SIZE, "object '%s'", object->name);
     return (Recipe){scene_object_seed(scene, (int)(object - scene->objects)), label, scene->grow_to,
-                    run};
+                    run, NULL};
 }
 
 OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error *e)
@@ -165,7 +169,7 @@ bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *l
     return done;
 }
 
-static bool add_object(const Placing *p, Error *e)
+static bool place(const Placing *p, Error *e)
 {
     if (run_is_cancelled(p->recipe.run)) {
         return run_cancel_error(e);
@@ -188,6 +192,30 @@ static bool add_object(const Placing *p, Error *e)
     return done;
 }
 
+bool scene_place_object(World *world, const Scene *scene, int index, RecipeMemory *memory,
+                        const Run *run, BuildStats *stats, Error *e)
+{
+    char label[LABEL_SIZE];
+    Placing placing = {.world = world,
+                       .scene = scene,
+                       .object = &scene->objects[index],
+                       .index = index,
+                       .recipe = make_recipe(scene, &scene->objects[index], run, label),
+                       .stats = stats};
+    placing.recipe.memory = memory;
+    return place(&placing, e);
+}
+
+bool scene_give_settings(const Scene *scene, World *world, Error *e)
+{
+    world->camera = scene->camera;
+    world->film = scene->film;
+    world->render = scene->render;
+    world->sky = scene->sky;
+    world->medium = scene->medium ? *scene->medium : (Medium){0};
+    return add_materials(world, scene, e) && add_lights(world, scene, e);
+}
+
 World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error *e)
 {
     BuildStats own = {0};
@@ -197,23 +225,9 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
     if (!world) {
         return NULL;
     }
-    world->camera = scene->camera;
-    world->film = scene->film;
-    world->render = scene->render;
-    world->sky = scene->sky;
-    if (scene->medium) {
-        world->medium = *scene->medium;
-    }
-    bool done = add_materials(world, scene, e) && add_lights(world, scene, e);
+    bool done = scene_give_settings(scene, world, e);
     for (int i = 0; done && i < scene->object_count; i++) {
-        char label[LABEL_SIZE];
-        Placing placing = {.world = world,
-                           .scene = scene,
-                           .object = &scene->objects[i],
-                           .index = i,
-                           .recipe = make_recipe(scene, &scene->objects[i], run, label),
-                           .stats = stats};
-        done = add_object(&placing, e);
+        done = scene_place_object(world, scene, i, NULL, run, stats, e);
     }
     if (!done) {
         world_free(world);

@@ -4,6 +4,7 @@
 
 #include "base/measures.h"
 #include "mesh/height_field.h"
+#include "model/recipe.h"
 #include "scene/scene.h"
 #include "tree/out_tree.h"
 
@@ -35,5 +36,13 @@ bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *l
 // Everything. The world borrows strings from the scene: free the world first.
 // stats may be NULL.
 World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error *e);
+
+// The steps of scene_build. Everything but geometry, in place of what the world had; the world
+// borrows strings from the scene.
+bool scene_give_settings(const Scene *scene, World *world, Error *e);
+
+// Grows, skins and places object number index and adds to stats. memory: see Recipe; may be NULL.
+bool scene_place_object(World *world, const Scene *scene, int index, RecipeMemory *memory,
+                        const Run *run, BuildStats *stats, Error *e);
 
 #endif

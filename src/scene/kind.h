@@ -21,8 +21,9 @@ typedef struct Placing {
 } Placing;
 
 typedef struct Kind {
-    const char *key; // of SceneObject's mapping in the scene file, and its name for people
-    size_t offset;   // of its pointer in SceneObject
+    const char *key;  // of SceneObject's mapping in the scene file, and its name for people
+    size_t offset;    // of its pointer in SceneObject
+    bool reads_scene; // its geometry depends on materials' values or on other objects
     const char *materials[KIND_MOST_MATERIALS]; // keys of the object that name materials; NULL ends
 
     // The out-tree, radii and all; NULL when nothing of this kind grows. The error names the

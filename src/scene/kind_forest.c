@@ -69,6 +69,7 @@ static int64_t copies(const SceneObject *object)
 const Kind kind_forest = {
     .key = "forest",
     .offset = offsetof(SceneObject, forest),
+    .reads_scene = true,
     .materials = {"material", "twig_material", "leaf_material", "grass_material"},
     .grow = grow,
     .place = place,

@@ -41,6 +41,7 @@ static int64_t attractors(const SceneObject *object)
 
 const Kind kind_lightning = {.key = "lightning",
                              .offset = offsetof(SceneObject, lightning),
+                             .reads_scene = true,
                              .materials = {"material"},
                              .grow = grow,
                              .place = place,

@@ -79,8 +79,8 @@ static Node *step_into(const Override *o, Node *node, const char *token)
             return NULL;
         }
         child->source = o->source;
-        child->line = o->line;
-        child->column = o->column;
+        child->line = child->key_line = o->line;
+        child->column = child->key_column = o->column;
         node_append(node, child, token);
     }
     return child;

@@ -4,6 +4,7 @@
 #include "image/denoise.h"
 #include "ramify.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,20 +63,21 @@ static Image *plane_image(const Film *film, const void *plane, int channels, Err
     return image;
 }
 
-// "key\0value\0 ... \0" on the heap.
-static char *make_metadata(const Scene *scene, Error *e)
+// "key\0value\0 ... \0" on the heap. mark: NULL = none; first, where a JPEG has room for sure.
+static char *make_metadata(const Scene *scene, const char *mark, Error *e)
 {
     static const char program[] = "ramify " RAMIFY_VERSION;
-    const char *const pairs[] = {"Software",  program,           "ramify:scene",
-                                 scene->text, "ramify:settings", scene->resolved};
+    const char *const pairs[] = {PICTURE_MARK,   mark,        "Software",        program,
+                                 "ramify:scene", scene->text, "ramify:settings", scene->resolved};
     enum { COUNT = sizeof pairs / sizeof pairs[0] };
+    int first = mark ? 0 : 2;
     int64_t length = 1;
-    for (int i = 0; i < COUNT; i++) {
+    for (int i = first; i < COUNT; i++) {
         length += (int64_t)strlen(pairs[i]) + 1;
     }
     char *metadata = memory_alloc_zero(length, 1, e);
     char *at = metadata;
-    for (int i = 0; metadata && i < COUNT; i++) {
+    for (int i = first; metadata && i < COUNT; i++) {
         size_t size = strlen(pairs[i]) + 1;
         memcpy(at, pairs[i], size);
         at += size;
@@ -112,18 +114,25 @@ Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const
     return display;
 }
 
-bool picture_write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
-                           const Run *run, Error *e)
+static bool write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
+                          const char *mark, const Run *run, Error *e)
 {
     Image *display = check_ending(file, e) ? picture_develop(scene, film, denoise, run, e) : NULL;
-    char *metadata = display ? make_metadata(scene, e) : NULL;
+    char *metadata = display ? make_metadata(scene, mark, e) : NULL;
     bool done = metadata && image_write_display(file, display, metadata, e);
     free(metadata);
     image_free(display);
     return done;
 }
 
-bool picture_write_exr(const char *file, const Scene *scene, const Film *film, Error *e)
+bool picture_write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
+                           const Run *run, Error *e)
+{
+    return write_display(file, scene, film, denoise, NULL, run, e);
+}
+
+static bool write_exr(const char *file, const Scene *scene, const Film *film, const char *mark,
+                      Error *e)
 {
     Image *const images[] = {beauty_image(film, e),
                              plane_image(film, film->albedo, 3, e),
@@ -142,13 +151,33 @@ bool picture_write_exr(const char *file, const Scene *scene, const Film *film, E
         layers[i] = (ImageLayer){names[i][0], names[i][1], images[i]};
         made = made && images[i];
     }
-    char *metadata = made ? make_metadata(scene, e) : NULL;
+    char *metadata = made ? make_metadata(scene, mark, e) : NULL;
     bool done = metadata && image_write_exr(file, layers, COUNT, metadata, e);
     free(metadata);
     for (int i = 0; i < COUNT; i++) {
         image_free(images[i]);
     }
     return done;
+}
+
+bool picture_write_exr(const char *file, const Scene *scene, const Film *film, Error *e)
+{
+    return write_exr(file, scene, film, NULL, e);
+}
+
+bool picture_write_marked(const char *file, const Scene *scene, const Film *film, const char *mark,
+                          const Run *run, Error *e)
+{
+    return picture_is_exr(file) ? write_exr(file, scene, film, mark, e)
+                                : write_display(file, scene, film, scene->denoise, mark, run, e);
+}
+
+double picture_metered_stops(const Film *film, Error *e)
+{
+    Image *image = beauty_image(film, e);
+    double stops = image ? log2((double)tone_auto_gain(image)) : (double)NAN;
+    image_free(image);
+    return stops;
 }
 
 bool picture_write_rgba(const char *file, const Scene *scene, const float *rgba, Error *e)

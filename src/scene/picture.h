@@ -22,6 +22,15 @@ bool picture_write_display(const char *file, const Scene *scene, const Film *fil
 // text and every setting as metadata.
 bool picture_write_exr(const char *file, const Scene *scene, const Film *film, Error *e);
 
+// One of the two by the file's ending, denoised if the scene says so, with `mark` as metadata under
+// PICTURE_MARK: the same mark, the same picture.
+#define PICTURE_MARK "ramify:frame"
+bool picture_write_marked(const char *file, const Scene *scene, const Film *film, const char *mark,
+                          const Run *run, Error *e);
+
+// Stops by which auto_exposure would brighten the film; NAN and e when memory is short.
+double picture_metered_stops(const Film *film, Error *e);
+
 // Radiance and alpha of a film: 4 * width * height floats.
 void picture_copy_rgba(const Film *film, float *rgba);
 

@@ -92,6 +92,7 @@ cat >bin/ramify <<END
 #!/bin/sh
 case \$1 in
 render) exec "$RAMIFY" "\$@" --size 32x20 --samples 1 --quiet ;;
+turntable) exec "$RAMIFY" "\$@" --size 32x20 --samples 1 --frames 3 --quiet ;;
 *) exec "$RAMIFY" "\$@" ;;
 esac
 END

@@ -26,7 +26,7 @@ static OutTree *grow(const TreeParams *params, float grow_to, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = tree_grow(params, &(Recipe){4, "oak", grow_to, &run}, &e);
+    OutTree *tree = tree_grow(params, &(Recipe){4, "oak", grow_to, &run, NULL}, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }

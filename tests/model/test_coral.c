@@ -14,7 +14,7 @@ static OutTree *grow(const CoralParams *params, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = coral_grow(params, &(Recipe){7, "coral", 1.0f, &run}, &e);
+    OutTree *tree = coral_grow(params, &(Recipe){7, "coral", 1.0f, &run, NULL}, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -151,7 +151,7 @@ static void growth_in_progress_is_a_part_of_the_whole(void **state)
     CoralParams params = small(CORAL_BRANCHING);
     Run run = run_default();
     OutTree *whole = grow(&params, 1);
-    OutTree *half = coral_grow(&params, &(Recipe){7, "coral", 0.5f, &run}, NULL);
+    OutTree *half = coral_grow(&params, &(Recipe){7, "coral", 0.5f, &run, NULL}, NULL);
     assert_true(half->count > 10 && half->count < whole->count);
     assert_memory_equal(half->position, whole->position, (size_t)half->count * sizeof(Vec3));
     out_tree_free(whole);
@@ -208,7 +208,7 @@ static void a_wrong_rule_is_one_clear_error(void **state)
     params.rules = "X -> [+FX";
     Run run = run_default();
     Error e = {0};
-    assert_null(coral_grow(&params, &(Recipe){7, "object 'reef'", 1.0f, &run}, &e));
+    assert_null(coral_grow(&params, &(Recipe){7, "object 'reef'", 1.0f, &run, NULL}, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     assert_string_equal(e.message, "object 'reef': the L-system's rules, line 1, column 10: '[' is "
                                    "not closed; put a ']' for each '['");

@@ -25,7 +25,7 @@ static OutTree *grow(const ForestParams *params, float grow_to, int threads)
     Run run = run_default();
     run.threads = threads;
     Error e = {0};
-    OutTree *tree = forest_grow(params, &(Recipe){9, "forest", grow_to, &run}, &e);
+    OutTree *tree = forest_grow(params, &(Recipe){9, "forest", grow_to, &run, NULL}, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }

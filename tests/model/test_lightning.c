@@ -11,7 +11,7 @@ static OutTree *grow_to(const LightningParams *params, uint64_t seed, float shar
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = lightning_grow(params, &(Recipe){seed, "bolt", share, &run}, &e);
+    OutTree *tree = lightning_grow(params, &(Recipe){seed, "bolt", share, &run, NULL}, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -283,7 +283,7 @@ static void cancelled_growth_says_so(void **state)
     Run run = run_default();
     run.cancelled = &cancelled;
     Error e = {0};
-    assert_null(lightning_grow(&params, &(Recipe){1, "bolt", 1.0f, &run}, &e));
+    assert_null(lightning_grow(&params, &(Recipe){1, "bolt", 1.0f, &run, NULL}, &e));
     assert_int_equal(e.code, ERROR_CANCELLED);
 }
 

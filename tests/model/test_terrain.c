@@ -23,7 +23,7 @@ static OutTree *grow(const TerrainParams *params, uint64_t seed, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = terrain_grow(params, &(Recipe){seed, "land", 1.0f, &run}, &e);
+    OutTree *tree = terrain_grow(params, &(Recipe){seed, "land", 1.0f, &run, NULL}, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -36,7 +36,8 @@ static HeightField *heights(const TerrainParams *params, const OutTree *tree, ui
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    HeightField *field = terrain_heights(params, tree, &(Recipe){seed, "land", 1.0f, &run}, &e);
+    HeightField *field =
+        terrain_heights(params, tree, &(Recipe){seed, "land", 1.0f, &run, NULL}, &e);
     if (!field) {
         fail_msg("%s", e.message);
     }
@@ -490,7 +491,7 @@ static void land_water_and_forest_become_parts(void **state)
     Vec3 eye = {0.0f, 600.0f, 0.0f};
     TerrainMaterials materials = {1, 2, 3};
     assert_true(terrain_geometry(&params, tree, &materials, &eye, 7, &geometry,
-                                 &(Recipe){5, "land", 1.0f, &run}, &e));
+                                 &(Recipe){5, "land", 1.0f, &run, NULL}, &e));
     int64_t trees = 0, parts[4] = {0};
     for (int64_t i = 0; i < geometry.count; i++) {
         const Part *part = &geometry.part[i];

@@ -28,7 +28,7 @@ static OutTree *grow(const TreeParams *params, uint64_t seed, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = tree_grow(params, &(Recipe){seed, "oak", 1.0f, &run}, &e);
+    OutTree *tree = tree_grow(params, &(Recipe){seed, "oak", 1.0f, &run, NULL}, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -252,7 +252,7 @@ static void crowded_branches_have_names_of_their_own(void **state)
     params.roots.count = 0;
     Run run = {.threads = 1};
     Error e = {0};
-    OutTree *tree = tree_grow(&params, &(Recipe){5, "tree", 1.0f, &run}, &e);
+    OutTree *tree = tree_grow(&params, &(Recipe){5, "tree", 1.0f, &run, NULL}, &e);
     assert_non_null(tree);
     qsort(tree->id, (size_t)tree->count, sizeof *tree->id, compare_ids);
     for (int64_t i = 1; i < tree->count; i++) {

@@ -1,0 +1,125 @@
+#include "animate/frames.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "image/image.h"
+#include "ramify.h"
+#include "scene/picture.h"
+#include "scene/sections.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define NAME_DIGITS 6
+#define FILM_NAME "film.part"
+
+static uint64_t hash_text(uint64_t hash, const char *text, int64_t length)
+{
+    for (int64_t i = 0; i < length; i++) {
+        hash = (hash ^ (unsigned char)text[i]) * 0x100000001b3ull;
+    }
+    return random_key(hash, (uint64_t)length);
+}
+
+uint64_t frame_hash(const Scene *scene)
+{
+    uint64_t hash =
+        hash_text(0xcbf29ce484222325ull, RAMIFY_VERSION, (int64_t)strlen(RAMIFY_VERSION));
+    const char *resolved = scene->resolved;
+    TextPart animation = section_find(resolved, "animation"); // tells of other frames only
+    int64_t before = animation.length ? animation.text - resolved : (int64_t)strlen(resolved);
+    hash = hash_text(hash, resolved, before);
+    if (animation.length) {
+        const char *rest = animation.text + animation.length;
+        hash = hash_text(hash, rest, (int64_t)strlen(rest));
+    }
+    return random_key(hash, scene->files);
+}
+
+void frame_mark(const Scene *scene, uint64_t more, char mark[FRAME_MARK_SIZE])
+{
+    snprintf(mark, FRAME_MARK_SIZE, "%016" PRIx64, random_key(frame_hash(scene), more));
+}
+
+bool frame_is_finished(const char *file, const char *mark)
+{
+    char found[FRAME_MARK_SIZE];
+    return access(file, R_OK) == 0 && image_read_text(file, PICTURE_MARK, found, sizeof found) &&
+           strcmp(found, mark) == 0;
+}
+
+static char *join(const char *a, const char *b, Error *e)
+{
+    size_t room = strlen(a) + strlen(b) + 1;
+    char *text = memory_alloc((int64_t)room, 1, e);
+    if (text) {
+        snprintf(text, room, "%s%s", a, b);
+    }
+    return text;
+}
+
+char *frames_folder(const char *film, Error *e)
+{
+    return join(film, ".frames", e);
+}
+
+// Percent signs of the folder's own name are doubled.
+char *frames_pattern(const char *folder, Error *e)
+{
+    char *doubled = memory_alloc_zero(2 * (int64_t)strlen(folder) + 1, 1, e), *at = doubled;
+    for (const char *c = folder; doubled && *c; c++) {
+        *at++ = *c;
+        if (*c == '%') {
+            *at++ = '%';
+        }
+    }
+    char *pattern = doubled ? join(doubled, "/%06d.png", e) : NULL;
+    free(doubled);
+    return pattern;
+}
+
+char *frames_film(const char *folder, Error *e)
+{
+    return join(folder, "/" FILM_NAME, e);
+}
+
+bool frames_folder_make(const char *folder, Error *e)
+{
+    struct stat status;
+    if (mkdir(folder, 0777) == 0) {
+        return true;
+    }
+    int reason = errno;
+    if (reason == EEXIST && stat(folder, &status) == 0 && S_ISDIR(status.st_mode)) {
+        return true;
+    }
+    return error_set(e, ERROR_IO, "folder '%s' cannot be made: %s", folder, strerror(reason));
+}
+
+// "000012.png", or "000012.png.ramify-4711-0.part".
+static bool is_frame(const char *name)
+{
+    size_t digits = strspn(name, "0123456789");
+    return digits >= NAME_DIGITS && strncmp(name + digits, ".png", 4) == 0 &&
+           (name[digits + 4] == 0 || strncmp(name + digits + 4, ".ramify-", 8) == 0);
+}
+
+void frames_folder_remove(const char *folder)
+{
+    DIR *stream = opendir(folder);
+    for (const struct dirent *entry; stream && (entry = readdir(stream));) {
+        if (is_frame(entry->d_name) || strcmp(entry->d_name, FILM_NAME) == 0) {
+            unlinkat(dirfd(stream), entry->d_name, 0);
+        }
+    }
+    if (stream) {
+        closedir(stream);
+    }
+    rmdir(folder);
+}

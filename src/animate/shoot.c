@@ -1,0 +1,418 @@
+#include "animate/shoot.h"
+
+#include "animate/finish.h"
+#include "animate/frames.h"
+#include "animate/pattern.h"
+#include "animate/video.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "scene/picture.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { METERED_FRAMES = 4, METER_SIZE = 96, METER_SAMPLES = 16 };
+
+// A frame that is to be rendered.
+typedef struct Shot {
+    int frame;
+    char mark[FRAME_MARK_SIZE];
+} Shot;
+
+typedef struct Shooting {
+    const Scene *scene;
+    const ShootParams *params;
+    const Run *run;
+    ShootStats *stats;
+    Turntable *turntable;
+    int start, end; // frames, both included
+    char *folder;   // of the frames of a film; NULL = there is none
+    char *pattern;  // of the frames' names
+    Stage *stage;   // NULL until the first frame
+    Film *film[2];  // one is traced while the other is written
+    Finisher *finisher;
+    Shot *shot;
+    int shot_count;
+    int at;     // index of the shot that is traced
+    int handed; // shots that went to the finisher
+} Shooting;
+
+// ---- outputs
+
+static bool has_ending(const char *file, const char *ending)
+{
+    size_t length = strlen(file), own = strlen(ending);
+    return length > own && strcasecmp(file + length - own, ending) == 0;
+}
+
+static bool is_film(const char *output)
+{
+    return has_ending(output, ".mp4");
+}
+
+// Its folder must be there.
+static bool check_folder(const char *output, Error *e)
+{
+    const char *slash = strrchr(output, '/');
+    char *folder = memory_copy_string(slash ? output : ".", e);
+    if (!folder) {
+        return false;
+    }
+    if (slash) {
+        folder[slash == output ? 1 : slash - output] = 0;
+    }
+    struct stat status;
+    bool done =
+        strchr(folder, '%') || // part of the pattern: frames find out
+        (stat(folder, &status) == 0 && S_ISDIR(status.st_mode) && access(folder, W_OK | X_OK) == 0);
+    if (!done) {
+        error_set(e, ERROR_IO, "cannot write '%s': folder '%s': %s", output, folder,
+                  errno ? strerror(errno) : "it is none");
+    }
+    free(folder);
+    return done;
+}
+
+bool shoot_check_output(const char *output, Error *e)
+{
+    errno = 0;
+    if (is_film(output)) {
+        struct stat status;
+        if (stat(output, &status) == 0 && !S_ISREG(status.st_mode)) {
+            return error_set(e, ERROR_IO, "cannot write '%s': it is no regular file; name another",
+                             output);
+        }
+        return check_folder(output, e) && video_check(e);
+    }
+    if (!has_ending(output, ".png") && !has_ending(output, ".jpg") &&
+        !has_ending(output, ".jpeg") && !has_ending(output, ".exr")) {
+        return error_set(e, ERROR_INPUT,
+                         "'%s'; it must end in .mp4, or in .png, .jpg or .exr with the frame's "
+                         "number in the name, as in oak-%%04d.png",
+                         output);
+    }
+    return pattern_check(output, e) && check_folder(output, e);
+}
+
+static bool plan_output(Shooting *s, Error *e)
+{
+    if (!shoot_check_output(s->params->output, e)) {
+        return false;
+    }
+    if (!is_film(s->params->output)) {
+        s->pattern = memory_copy_string(s->params->output, e);
+        return s->pattern;
+    }
+    if (s->scene->film.width < 2 || s->scene->film.height < 2) {
+        return error_set(e, ERROR_INPUT, "a film of %d x %d pixels; it must have 2 x 2 at least",
+                         s->scene->film.width, s->scene->film.height);
+    }
+    s->folder = frames_folder(s->params->output, e);
+    s->pattern = s->folder ? frames_pattern(s->folder, e) : NULL;
+    return s->pattern && frames_folder_make(s->folder, e);
+}
+
+// ---- what is to be done
+
+// The frames whose exposures all frames share the mean of.
+static int metered_frame(const Shooting *s, int index)
+{
+    return (int)((int64_t)turntable_frames(s->turntable) * index / METERED_FRAMES);
+}
+
+// A hash over what the exposure of all frames is metered from; 0 = each is as the scene says.
+static bool hash_metered(const Shooting *s, uint64_t *hash, Error *e)
+{
+    *hash = 0;
+    for (int i = 0; i < METERED_FRAMES && turntable_exposes_itself(s->turntable); i++) {
+        Scene *scene = turntable_scene(s->turntable, metered_frame(s, i), e);
+        if (!scene) {
+            return false;
+        }
+        *hash = random_key(*hash, frame_hash(scene));
+        scene_free(scene);
+    }
+    return true;
+}
+
+static bool check_size(const Shooting *s, const Scene *scene, int frame, Error *e)
+{
+    const FilmParams *first = &s->scene->film, *now = &scene->film;
+    return (now->width == first->width && now->height == first->height) ||
+           error_set(e, ERROR_INPUT,
+                     "frame %d has %d x %d pixels, the scene %d x %d; all frames have one size",
+                     frame, now->width, now->height, first->width, first->height);
+}
+
+// Reads every frame's scene, so that a frame that cannot be is known before hours of rendering.
+static bool find_shots(Shooting *s, Error *e)
+{
+    uint64_t metered;
+    s->shot = memory_alloc(s->end - s->start + 1, sizeof *s->shot, e);
+    if (!s->shot || !hash_metered(s, &metered, e)) {
+        return false;
+    }
+    for (int frame = s->start; frame <= s->end; frame++) {
+        if (run_is_cancelled(s->run)) {
+            return run_cancel_error(e);
+        }
+        Scene *scene = turntable_scene(s->turntable, frame, e);
+        char *file =
+            scene && check_size(s, scene, frame, e) ? pattern_name(s->pattern, frame, e) : NULL;
+        if (file) {
+            Shot shot = {.frame = frame};
+            frame_mark(scene, metered, shot.mark);
+            if (frame_is_finished(file, shot.mark)) {
+                s->stats->skipped++;
+            } else {
+                s->shot[s->shot_count++] = shot;
+            }
+        }
+        bool done = file;
+        free(file);
+        scene_free(scene);
+        if (!done) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// ---- exposure
+
+// Renders a small picture of a frame and measures its light. NAN and e when that failed.
+static double meter_frame(Shooting *s, int frame, Error *e)
+{
+    double stops = (double)NAN;
+    Scene *scene = turntable_scene(s->turntable, frame, e);
+    if (!scene) {
+        return stops;
+    }
+    int most = scene->film.width > scene->film.height ? scene->film.width : scene->film.height;
+    if (most > METER_SIZE) {
+        scene->film.width = (scene->film.width * METER_SIZE + most - 1) / most;
+        scene->film.height = (scene->film.height * METER_SIZE + most - 1) / most;
+    }
+    scene->render.samples = METER_SAMPLES;
+    scene->render.max_seconds = 0.0;
+    scene->render.max_noise = 0.0f;
+    float whole[4] = {0.0f, 0.0f, 1.0f, 1.0f};
+    memcpy(scene->film.crop, whole, sizeof whole);
+    Film *film = film_new(scene->film.width, scene->film.height, e);
+    RenderStats stats;
+    if (!film) {
+        scene_free(scene);
+    } else if (stage_set(s->stage, scene, s->run, e) &&
+               stage_render(s->stage, film, s->run, &stats, e)) {
+        stops = run_is_cancelled(s->run) ? (run_cancel_error(e), (double)NAN)
+                                         : picture_metered_stops(film, e);
+    }
+    film_free(film);
+    return stops;
+}
+
+// Frames that expose themselves would flicker: all get the mean exposure of a few.
+static bool lock_exposure(Shooting *s, Error *e)
+{
+    if (!turntable_exposes_itself(s->turntable)) {
+        return true;
+    }
+    double sum = 0.0;
+    for (int i = METERED_FRAMES - 1; i >= 0; i--) { // the first frame last: it stays set up
+        double stops = meter_frame(s, metered_frame(s, i), e);
+        if (isnan(stops)) {
+            return false;
+        }
+        sum += stops;
+    }
+    turntable_lock_exposure(s->turntable, sum / METERED_FRAMES);
+    return true;
+}
+
+// ---- frames
+
+// Progress of all frames; what else is done for the first one is told, too.
+static void tell(void *user, const char *stage, double done)
+{
+    const Shooting *s = user;
+    if (strcmp(stage, "trace") == 0) {
+        char text[64];
+        snprintf(text, sizeof text, "frame %d of %d", s->stats->skipped + s->at + 1,
+                 s->stats->skipped + s->shot_count);
+        run_progress(s->run, text, ((double)s->at + done) / (double)s->shot_count);
+    } else if (s->at == 0) {
+        run_progress(s->run, stage, done);
+    }
+}
+
+static void pass_warning(void *user, const char *message)
+{
+    const Shooting *s = user;
+    if (s->at == 0 && s->run->warn) { // every frame would say the same
+        s->run->warn(s->run->user, message);
+    }
+}
+
+static Run own_run(Shooting *s)
+{
+    Run run = *s->run;
+    run.progress = tell;
+    run.warn = pass_warning;
+    run.user = s;
+    return run;
+}
+
+static bool trace_frame(Shooting *s, Film *film, Error *e)
+{
+    Run run = own_run(s);
+    Scene *scene = turntable_scene(s->turntable, s->shot[s->at].frame, e);
+    RenderStats stats;
+    if (!scene || !stage_set(s->stage, scene, &run, e) ||
+        !stage_render(s->stage, film, &run, &stats, e)) {
+        return false;
+    }
+    s->stats->trace_seconds += stats.seconds;
+    s->stats->paths += stats.paths;
+    return !run_is_cancelled(s->run) || run_cancel_error(e);
+}
+
+// Hands the film to the finisher as soon as that has done the one before.
+static bool hand_over(Shooting *s, const Film *film, Error *e)
+{
+    const Shot *shot = &s->shot[s->at];
+    double start = run_seconds();
+    bool done = finisher_wait(s->finisher, e);
+    s->stats->finish_seconds += run_seconds() - start;
+    if (!done) {
+        return false;
+    }
+    Scene *scene = turntable_scene(s->turntable, shot->frame, e); // the stage's own goes too early
+    char *file = scene ? pattern_name(s->pattern, shot->frame, e) : NULL;
+    if (!file) {
+        scene_free(scene);
+        return false;
+    }
+    s->handed++;
+    return finisher_begin(s->finisher, file, scene, film, shot->mark, s->run->threads, e);
+}
+
+static bool shoot_frames(Shooting *s, Error *e)
+{
+    bool grows = s->params->turntable.grow.count > 0;
+    const SceneAnimation *animation = s->scene->animation;
+    for (int i = 0; animation && i < animation->track_count; i++) {
+        grows = grows || strcmp(animation->tracks[i].path, "grow_to") == 0;
+    }
+    double start = run_seconds();
+    s->stage = stage_new(&s->scene->camera, s->params->isa, grows, e);
+    if (!s->stage || !lock_exposure(s, e)) {
+        return false;
+    }
+    s->stats->prepare_seconds += run_seconds() - start;
+    bool done = true;
+    for (s->at = 0; done && s->at < s->shot_count; s->at++) {
+        Film **film = &s->film[s->at & 1];
+        if (!*film) {
+            *film = film_new(s->scene->film.width, s->scene->film.height, e);
+        }
+        done = *film && trace_frame(s, *film, e) && hand_over(s, *film, e);
+    }
+    double traced = run_seconds();
+    bool finished = finisher_wait(s->finisher, done ? e : NULL); // also what was begun before
+    s->stats->finish_seconds += run_seconds() - traced;
+    s->stats->rendered = finished || s->handed == 0 ? s->handed : s->handed - 1;
+    s->stats->stage = *stage_stats(s->stage);
+    return done && finished;
+}
+
+// ---- films
+
+static bool add_frames(Shooting *s, Video *video, Error *e)
+{
+    for (int frame = s->start; frame <= s->end; frame++) {
+        if (run_is_cancelled(s->run)) {
+            return run_cancel_error(e);
+        }
+        char *file = pattern_name(s->pattern, frame, e);
+        Image *image = file ? image_read(file, e) : NULL;
+        bool done = image && video_add(video, image, e);
+        image_free(image);
+        free(file);
+        if (!done) {
+            return false;
+        }
+        run_progress(s->run, "film", (double)(frame - s->start + 1) / (s->end - s->start + 1));
+    }
+    return true;
+}
+
+static bool make_film(Shooting *s, Error *e)
+{
+    if (!s->folder) {
+        return true;
+    }
+    double start = run_seconds();
+    char *part = frames_film(s->folder, e);
+    Video *video = part ? video_open(s->params->output, part, s->scene->film.width,
+                                     s->scene->film.height, turntable_fps(s->turntable), e)
+                        : NULL;
+    free(part);
+    bool sound = video && add_frames(s, video, e);
+    bool done = video_close(video, sound, e);
+    if (done) {
+        frames_folder_remove(s->folder);
+    }
+    s->stats->video_seconds = run_seconds() - start;
+    return done;
+}
+
+// ---- all together
+
+static bool choose_range(Shooting *s, Error *e)
+{
+    int last = turntable_frames(s->turntable) - 1;
+    s->stats->frames = last + 1;
+    s->start = s->params->start;
+    s->end = s->params->end < 0 ? last : s->params->end;
+    if (s->start < 0 || s->start > s->end || s->end > last) {
+        return error_set(e, ERROR_INPUT,
+                         "frames %d to %d of %d; the first is number 0, the last number %d",
+                         s->start, s->end, last + 1, last);
+    }
+    return true;
+}
+
+static void clear(Shooting *s)
+{
+    finisher_free(s->finisher);
+    stage_free(s->stage);
+    film_free(s->film[0]);
+    film_free(s->film[1]);
+    turntable_free(s->turntable);
+    free(s->shot);
+    free(s->pattern);
+    free(s->folder);
+}
+
+bool shoot(const Scene *scene, const ShootParams *params, const Run *run, ShootStats *stats,
+           Error *e)
+{
+    Error own = {0};
+    e = e ? e : &own;
+    *stats = (ShootStats){0};
+    Shooting s = {.scene = scene, .params = params, .run = run, .stats = stats};
+    double start = run_seconds();
+    s.turntable = turntable_new(scene, &params->turntable, e);
+    s.finisher = s.turntable ? finisher_new(e) : NULL;
+    bool done = s.finisher && choose_range(&s, e) && plan_output(&s, e) && find_shots(&s, e);
+    stats->prepare_seconds = run_seconds() - start;
+    done = done && (s.shot_count == 0 || shoot_frames(&s, e)) && make_film(&s, e);
+    clear(&s);
+    return done;
+}

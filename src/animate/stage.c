@@ -1,0 +1,112 @@
+#include "animate/stage.h"
+
+#include "base/memory.h"
+#include "scene/sections.h"
+
+#include <stdlib.h>
+
+struct Stage {
+    Camera camera; // see stage_new
+    const char *isa;
+    SceneBuilder *builder;
+    Scene *scene; // set up; owned, as the world borrows from it; NULL at first
+    World *world; // of the builder
+    Renderer *renderer;
+    StageStats stats;
+};
+
+Stage *stage_new(const Camera *camera, const char *isa, bool remember, Error *e)
+{
+    Stage *stage = memory_alloc_zero(1, sizeof *stage, e);
+    if (stage) {
+        stage->camera = *camera;
+        stage->isa = isa;
+        stage->builder = scene_builder_new(remember, e);
+    }
+    if (!stage || !stage->builder) {
+        free(stage);
+        return NULL;
+    }
+    return stage;
+}
+
+void stage_free(Stage *stage)
+{
+    if (stage) {
+        renderer_free(stage->renderer);
+        scene_builder_free(stage->builder);
+        scene_free(stage->scene);
+        free(stage);
+    }
+}
+
+// What renderer_update has to know.
+static unsigned find_changes(const char *old, const char *now)
+{
+    unsigned changed = 0;
+    TextPart sky[2] = {section_find(old, "sky"), section_find(now, "sky")};
+    if (!section_same(sky[0], sky[1])) {
+        bool turned = section_same_but(sky[0], sky[1], "rotation");
+        changed |= turned ? RENDERER_SKY_TURNED : RENDERER_LIGHT;
+    }
+    if (!section_same(section_find(old, "medium"), section_find(now, "medium")) ||
+        !section_same(section_find(old, "seed"), section_find(now, "seed"))) {
+        changed |= RENDERER_LIGHT; // the seed: of clouds and waves
+    }
+    if (!section_same(section_find(old, "materials"), section_find(now, "materials"))) {
+        changed |= RENDERER_MATERIALS;
+    }
+    if (!section_same(section_find(old, "lights"), section_find(now, "lights"))) {
+        changed |= RENDERER_LAMPS;
+    }
+    return changed;
+}
+
+// Builds or updates for the camera of the stage, not that of the scene.
+static bool set_up(Stage *stage, Scene *scene, bool fits, const Run *run, Error *e)
+{
+    unsigned changed = stage->scene ? find_changes(stage->scene->resolved, scene->resolved) : 0;
+    Camera own = scene->camera;
+    scene->camera = stage->camera;
+    stage->stats.geometries += !fits;
+    stage->world = scene_builder_build(stage->builder, scene, run, &stage->stats.build, e);
+    double start = run_seconds();
+    bool done = stage->world;
+    if (done && stage->renderer) {
+        done = renderer_update(stage->renderer, changed, run, e);
+        stage->stats.structures += (changed & RENDERER_LAMPS) != 0;
+    } else if (done) {
+        stage->renderer = renderer_new(stage->world, stage->isa, run, e);
+        stage->stats.structures++;
+        done = stage->renderer;
+    }
+    stage->stats.build_seconds += run_seconds() - start;
+    scene->camera = own;
+    if (done) {
+        stage->world->camera = own;
+    }
+    return done;
+}
+
+bool stage_set(Stage *stage, Scene *scene, const Run *run, Error *e)
+{
+    bool fits = stage->scene && scene_builder_fits(stage->builder, scene);
+    if (!fits) { // before the geometry goes
+        renderer_free(stage->renderer);
+        stage->renderer = NULL;
+    }
+    bool done = set_up(stage, scene, fits, run, e);
+    scene_free(stage->scene); // only now: the renderer compared with it
+    stage->scene = scene;
+    return done;
+}
+
+bool stage_render(Stage *stage, Film *film, const Run *run, RenderStats *stats, Error *e)
+{
+    return renderer_render(stage->renderer, film, run, NULL, NULL, stats, e);
+}
+
+const StageStats *stage_stats(const Stage *stage)
+{
+    return &stage->stats;
+}

@@ -1,0 +1,209 @@
+// What of the geometry is made again from frame to frame, and that it is what a new build makes.
+#include "film_fixture.h"
+
+#include "animate/stage.h"
+
+static Film *shoot_one(Stage *stage, Scene *scene)
+{
+    Run run = run_default();
+    Error e = {0};
+    RenderStats stats;
+    Film *film = film_new(scene->film.width, scene->film.height, NULL);
+    if (!stage_set(stage, scene, &run, &e) || !stage_render(stage, film, &run, &stats, &e)) {
+        fail_msg("%s", e.message);
+    }
+    return film;
+}
+
+static Film *shoot_afresh(Scene *scene)
+{
+    Stage *stage = stage_new(&scene->camera, NULL, false, NULL);
+    Film *film = shoot_one(stage, scene);
+    stage_free(stage);
+    return film;
+}
+
+static double mean_difference(const Film *a, const Film *b)
+{
+    double sum = 0.0;
+    for (int i = 0; i < a->width * a->height; i++) {
+        sum += (double)vec3_distance(a->color[i], b->color[i]);
+    }
+    return sum / (a->width * a->height);
+}
+
+// The table turns by 90 degrees: the picture is that of the scene with its object turned by hand.
+static void spin_is_the_object_turned(void **state)
+{
+    (void)state;
+    const char *sky = "sky: {kind: sun_sky, clouds: 0.5, sun_azimuth: 10}\n"
+                      "lights: [{kind: quad, corner: [-2, 3, 1], radiance: 4}]\n";
+    Scene *scene = read_scene(sky, BALL);
+    // about the vertical x = 0.5: x - 0.5 = 0.5 becomes z = 0.5
+    Scene *by_hand = read_scene(sky, "objects:\n"
+                                     "  - name: ball\n"
+                                     "    shape: {envelope: [{shape: box, size: [0.5, 1, 0.2], "
+                                     "position: [0.5, 1, 0.5], rotation: [0, 90, 0]}]}\n");
+    TurntableParams params = turntable_params_default();
+    params.frames = 4;
+    params.spin = true;
+    Turntable *t = make_turntable(scene, &params);
+    Film *still = shoot_afresh(frame_of(t, 0)), *wanted = shoot_afresh(by_hand);
+    Film *turned = shoot_afresh(frame_of(t, 1)); // the camera's way is against the table's
+    double off = mean_difference(turned, wanted), moved = mean_difference(still, wanted);
+    if (!(off < 0.15 * moved)) { // other voxels, and noise
+        fail_msg("turned by the table: %g off, of %g that it moved", off, moved);
+    }
+    film_free(still);
+    film_free(wanted);
+    film_free(turned);
+    turntable_free(t);
+    scene_free(scene);
+}
+
+static void geometry_is_made_once(void **state)
+{
+    (void)state;
+    Scene *scene = read_scene(
+        "sky: {kind: sun_sky}\n"
+        "materials: [{name: clay, color: 0.5}]\n"
+        "animation:\n"
+        "  frames: 6\n"
+        "  tracks: [{path: materials.clay.color, keys: [{at: 0, value: 0.2}, {at: 0.9, value: "
+        "0.6}]}]\n",
+        "objects:\n"
+        "  - name: bush\n"
+        "    tree: {height: 2, crown: {lobes: 0, growth: {levels: [{attractors: 200}]}}, leaves: "
+        "{max_count: 100}}\n"
+        "  - name: stone\n"
+        "    shape: {envelope: [{shape: sphere, size: 0.3}]}\n"
+        "    material: clay\n");
+    TurntableParams params = turntable_params_default();
+    params.spin = true;
+    params.sun = (TurnValues){{8, 12}, 2};
+    Turntable *t = make_turntable(scene, &params);
+    Stage *stage = stage_new(&scene->camera, NULL, false, NULL);
+    for (int i = 0; i < 6; i++) {
+        Film *film = shoot_one(stage, frame_of(t, i)), *fresh = shoot_afresh(frame_of(t, i));
+        assert_memory_equal(film->color, fresh->color, sizeof(Vec3) * FILM_WIDTH * FILM_HEIGHT);
+        film_free(film);
+        film_free(fresh);
+    }
+    assert_int_equal(stage_stats(stage)->geometries, 1);
+    assert_int_equal(stage_stats(stage)->structures, 1);
+    stage_free(stage);
+    turntable_free(t);
+    scene_free(scene);
+}
+
+// ---- growth
+
+static bool same_part(const Part *p, const Part *q)
+{
+    if (p->kind != q->kind || p->object != q->object || p->material != q->material ||
+        p->instance_count != q->instance_count) {
+        return false;
+    }
+    return p->mesh ? p->mesh->vertex_count == q->mesh->vertex_count &&
+                         memcmp(p->mesh->position, q->mesh->position,
+                                sizeof(Vec3) * (size_t)p->mesh->vertex_count) == 0
+                   : p->curves->point_count == q->curves->point_count &&
+                         memcmp(p->curves->position, q->curves->position,
+                                sizeof(Vec3) * (size_t)p->curves->point_count) == 0;
+}
+
+static bool same_geometry(const Geometry *a, const Geometry *b)
+{
+    bool same = a->count == b->count;
+    for (int64_t i = 0; same && i < a->count; i++) {
+        same = same_part(&a->part[i], &b->part[i]);
+    }
+    return same;
+}
+
+// Objects that are shown at another time of their growth remember it, and are bit for bit what
+// growing them anew gives.
+static void growth_is_remembered(void **state)
+{
+    (void)state;
+    const char *const objects[] = {
+        "tree: {height: 2, crown: {lobes: 0, growth: {levels: [{attractors: 300}]}}, roots: "
+        "{count: "
+        "3}, leaves: {max_count: 50}}",
+        "forest: {stands: 2, stand_trees: 2, height: 8, ferns: 10, leaves: {max_count: 50}}",
+        "lightning: {height: 10, bolts: 2}",
+        "lightning: {points: {place: surface}, envelope: [{shape: sphere, size: 1}]}",
+        "coral: {attractors: 300}",
+        "lsystem: {generations: 4}",
+        "frost: {surface: pane, spines: 40, sides: 600}",
+        "dla: {particles: 800}",
+        "sculpture: {attractors: 60}",
+        "venation: {}",
+        "vessels: {terminals: 60, envelope: [{shape: sphere, size: 0.1}]}",
+        "terrain: {resolution: 64, rivers: {count: 200}}"};
+    const float shares[] = {0.6f, 1.0f, 0.3f};
+    for (size_t i = 0; i < sizeof objects / sizeof objects[0]; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, "objects:\n  - name: a\n    %s\n", objects[i]);
+        Scene *scene = read_scene("", text);
+        SceneBuilder *builder = scene_builder_new(true, NULL);
+        Run run = run_default();
+        for (int k = 0; k < 3; k++) {
+            Error e = {0};
+            BuildStats stats = {0}, fresh = {0};
+            scene->grow_to = shares[k];
+            const World *world = scene_builder_build(builder, scene, &run, &stats, &e);
+            World *anew = scene_build(scene, &run, &fresh, &e);
+            if (!world || !anew) {
+                fail_msg("%s: %s", objects[i], e.message);
+            }
+            if (!same_geometry(&world->geometry, &anew->geometry)) {
+                fail_msg("%s at %g is not what a new build makes", objects[i], (double)shares[k]);
+            }
+            assert_int_equal(stats.nodes, fresh.nodes);
+            assert_true(stats.nodes > 0);
+            assert_true(scene_builder_fits(builder, scene));
+            world_free(anew);
+        }
+        scene_builder_free(builder);
+        scene_free(scene);
+    }
+}
+
+static void only_the_changed_object_is_made_again(void **state)
+{
+    (void)state;
+    Scene *scene = read_scene("", "objects:\n"
+                                  "  - name: a\n"
+                                  "    shape: {envelope: [{shape: sphere, size: 1}]}\n"
+                                  "  - name: b\n"
+                                  "    lsystem: {generations: 3}\n");
+    SceneBuilder *builder = scene_builder_new(false, NULL);
+    Run run = run_default();
+    BuildStats stats = {0};
+    const World *world = scene_builder_build(builder, scene, &run, &stats, NULL);
+    assert_non_null(world);
+    const Mesh *ball = world->geometry.part[0].mesh;
+    int64_t nodes = stats.nodes;
+    SceneChange change = {"objects.b.lsystem.generations", "4", "a test", 0, 0};
+    Scene *later = scene_changed(scene, &change, 1, NULL);
+    assert_non_null(later);
+    assert_false(scene_builder_fits(builder, later));
+    world = scene_builder_build(builder, later, &run, &stats, NULL);
+    assert_ptr_equal(world->geometry.part[0].mesh, ball); // moved, not made
+    assert_true(stats.nodes > 2 * nodes);
+    scene_builder_free(builder);
+    scene_free(scene);
+    scene_free(later);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(spin_is_the_object_turned),
+        cmocka_unit_test(geometry_is_made_once),
+        cmocka_unit_test(growth_is_remembered),
+        cmocka_unit_test(only_the_changed_object_is_made_again),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
