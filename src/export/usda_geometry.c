@@ -26,12 +26,19 @@ Aabb usda_part_bounds(const Part *part)
 
 // ---- one mesh or set of curves
 
+bool usda_colors_vertices(const Usda *usda, const Material *material)
+{
+    ExportColors wanted = usda->source->options.colors;
+    return (wanted == EXPORT_COLORS_ALL || wanted == EXPORT_COLORS_PATTERN) &&
+           vertex_colors_vary_on(material);
+}
+
 // The colour at the vertices where the material has a pattern, else its own colour.
 static bool display_color(Usda *usda, const Part *part, Error *e)
 {
     const World *world = usda->source->world;
     const Material *m = &world->material[part->material];
-    if (!vertex_colors_vary(world, part)) {
+    if (!usda_colors_vertices(usda, m)) {
         Vec3 color = m->kind == MATERIAL_EMISSION ? m->radiance : m->color;
         usda_vec3s(&usda->text, "color3f[] primvars:displayColor", &color, 1, "constant");
         return true;

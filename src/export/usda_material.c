@@ -2,7 +2,6 @@
 // plain transparency, and textures by the mesh's uv.
 #include "export/asset_path.h"
 #include "export/usda.h"
-#include "export/vertex_colors.h"
 
 #include "image/image.h"
 
@@ -125,13 +124,13 @@ static bool opacity_channel(const char *picture, char *channel, Error *e)
     return image;
 }
 
-static void surface(UsdaText *text, const Material *m, const char *name, bool glows,
-                    char opacity_from)
+static void surface(Usda *usda, const Material *m, const char *name, bool glows, char opacity_from)
 {
+    UsdaText *text = &usda->text;
     Preview p = preview_of(m);
     usda_begin(text, NULL, "def Shader \"Surface\"");
     usda_line(text, "uniform token info:id = \"UsdPreviewSurface\"");
-    if (m->texture || vertex_colors_vary_on(m)) {
+    if (m->texture || usda_colors_vertices(usda, m)) {
         usda_line(text, "color3f inputs:diffuseColor.connect = </World/Materials/%s/Color.%s>",
                   name, m->texture ? "outputs:rgb" : "outputs:result");
     } else {
@@ -170,11 +169,11 @@ static bool material(Usda *usda, int index, Error *e)
     usda_begin(text, NULL, "def Material \"%s\"", name);
     usda_line(text, "token outputs:surface.connect = </World/Materials/%s/Surface.outputs:surface>",
               name);
-    surface(text, m, name, usda->glows[index], opacity_from);
+    surface(usda, m, name, usda->glows[index], opacity_from);
     bool done = true;
     if (m->texture) {
         done = texture(usda, "Color", name, m->texture, &m->color, e);
-    } else if (vertex_colors_vary_on(m)) {
+    } else if (usda_colors_vertices(usda, m)) {
         primvar_reader(text, "Color", "displayColor", m->color);
     }
     if (usda->glows[index] && m->kind == MATERIAL_EMISSION) {

@@ -61,6 +61,11 @@ result usd_instances_and_curves_are_all_there
     >log 2>&1
 result usd_sun_and_sky_are_those_of_the_scene
 
+"$RAMIFY" export -q leafy.yaml --object tree --colors none -o plain.usda >log 2>&1 &&
+    "$python" "$check" plain.usda meshes=5 >>log 2>&1 && ! grep -q UsdPrimvarReader_float3 plain.usda &&
+    grep -q UsdPrimvarReader_float3 leafy.usda
+result usd_colours_of_patterns_can_be_left_out
+
 # A texture, a cut-out, and names that USD does not take; the textures in another folder, an environment.
 mkdir pictures out
 cp "$tests/golden/bodies.png" "pictures/a b.png"
