@@ -520,10 +520,9 @@ typedef struct RamifyGoldenScene {
     const char *name;    // the scene's file without its ending; an orphan's with it
     const char *message; // what is wrong; "" = nothing
     int32_t status;
-    int32_t compared; // 1 = difference is filled
-    RamifyDifference difference;
-    RamifyLimits limits; // what it was held to; negative = no limit
-    double alpha;        // chance of a false alarm, when statistical
+    const RamifyDifference *difference; // NULL = there was nothing to compare with
+    const RamifyLimits *limits;         // what it was held to; negative = no limit
+    double alpha;                       // chance of a false alarm, when statistical
     double seconds;
 } RamifyGoldenScene;
 

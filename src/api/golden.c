@@ -98,15 +98,15 @@ bool ramify_compare(const char *ours, const char *other, const RamifyLimits *lim
 static void hand_out(void *user, const GoldenResult *r)
 {
     const RamifyGoldenOptions *options = user;
-    RamifyGoldenScene scene = {
-        .name = r->name,
-        .message = r->message,
-        .status = (int32_t)r->status,
-        .compared = r->compared,
-        .difference = difference_of(&r->comparison),
-        .limits = {r->limits.max_rmse, r->limits.threshold, r->limits.max_failing},
-        .alpha = r->alpha,
-        .seconds = r->seconds};
+    RamifyDifference difference = difference_of(&r->comparison);
+    RamifyLimits limits = {r->limits.max_rmse, r->limits.threshold, r->limits.max_failing};
+    RamifyGoldenScene scene = {.name = r->name,
+                               .message = r->message,
+                               .status = (int32_t)r->status,
+                               .difference = r->compared ? &difference : NULL,
+                               .limits = &limits,
+                               .alpha = r->alpha,
+                               .seconds = r->seconds};
     options->each(options->user, &scene);
 }
 

@@ -17,11 +17,11 @@ typedef struct Listing {
 static void print_line(const RamifyGoldenScene *scene)
 {
     printf("%-*s %-9s", NAME_WIDTH, scene->name, ramify_golden_status_name(scene->status));
-    bool compared = scene->compared && scene->difference.width == scene->difference.other_width &&
-                    scene->difference.height == scene->difference.other_height;
+    const RamifyDifference *d = scene->difference;
+    bool compared = d && d->width == d->other_width && d->height == d->other_height;
     if (compared) {
         printf(" ");
-        difference_print(&scene->difference, scene->limits.threshold);
+        difference_print(d, scene->limits->threshold);
     }
     if (scene->message[0]) {
         printf("%s%s", compared ? "; " : " ", scene->message);
@@ -39,9 +39,9 @@ static void print_scene_json(const RamifyGoldenScene *scene, bool first)
     printf(", \"status\": \"%s\", \"message\": ", ramify_golden_status_name(scene->status));
     json_print_string(scene->message);
     printf(", \"seconds\": %.3f", scene->seconds);
-    if (scene->compared) {
+    if (scene->difference) {
         printf(", ");
-        difference_print_json(&scene->difference);
+        difference_print_json(scene->difference);
     }
     printf("}");
 }

@@ -202,7 +202,7 @@ static void other_seeds_are_alike_but_for_noise(void **state)
     assert_true(alarms <= MOST);
 }
 
-// 1 % more albedo, 3 % more of the lamp; a pixel's noise is many times that.
+// 1 % more albedo, 3.3 % more of the lamp; a pixel's noise is many times that.
 static void a_change_below_the_noise_is_found(void **state)
 {
     (void)state;
