@@ -126,6 +126,23 @@ static void write_head(Pov *pov, const char *title)
                                "#default { finish { ambient 0 diffuse 1 } }\n\n");
 }
 
+static bool write_parts(Pov *pov)
+{
+    const Geometry *geometry = &pov->world->geometry;
+    for (int64_t i = 0; i < geometry->count; i++) {
+        if (run_is_cancelled(pov->run)) {
+            return run_cancel_error(pov->e);
+        }
+        run_progress(pov->run, "export", (double)i / (double)geometry->count);
+        const Part *part = &geometry->part[i];
+        if (!(part->kind == PART_MESH ? pov_mesh_part(pov, i, part)
+                                      : pov_curve_part(pov, i, part))) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool write_scene(Pov *pov, const char *title)
 {
     write_head(pov, title);
@@ -135,7 +152,7 @@ static bool write_scene(Pov *pov, const char *title)
     }
     pov_medium(pov);
     pov_lamps(pov);
-    return pov_glow(pov) && pov_materials(pov) && pov_parts(pov);
+    return pov_glow(pov) && pov_materials(pov) && write_parts(pov);
 }
 
 // "scenes/oak.pov" keeps its pictures in "scenes/oak-textures".

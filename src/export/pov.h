@@ -30,6 +30,11 @@ void pov_vector(Pov *pov, Vec3 v);
 void pov_point(Pov *pov, Vec3 p);
 void pov_number(Pov *pov, float value);
 void pov_number_list(Pov *pov, const float *value, int count); // with commas
+// unit: POV-Ray's units for one of what is placed.
+void pov_matrix(Pov *pov, const Transform *place, float unit);
+
+// Most colours of a part's instances or curves.
+enum { POV_COLORS = 64 };
 
 // Each writes its section of the file. False and pov->e on failure; what goes wrong with the file
 // itself shows when it is closed.
@@ -39,7 +44,9 @@ void pov_medium(Pov *pov);
 void pov_lamps(Pov *pov);
 bool pov_glow(Pov *pov); // light sources along glowing geometry
 bool pov_materials(Pov *pov);
-bool pov_parts(Pov *pov);
+// number: of the part, for the names of what it declares.
+bool pov_mesh_part(Pov *pov, int64_t number, const Part *part);
+bool pov_curve_part(Pov *pov, int64_t number, const Part *part);
 
 // Declares textures P<number>_0, P<number>_1, ... of a part: its material in the palette's colours,
 // and transmittances as what goes with them.

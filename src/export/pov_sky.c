@@ -144,14 +144,14 @@ static bool is_dark(const Sky *sky)
 static void write_radiosity(Pov *pov)
 {
     int bounces = pov->world->render.max_depth - 1;
-    bounces = bounces > 3 ? 3 : bounces;
+    bounces = bounces > 2 ? 2 : bounces;
     file_writer_print(pov->out,
                       "// Light of the sky, and light between surfaces: 0 leaves it out.\n"
                       "#ifndef (Radiosity) #declare Radiosity = 1; #end\n"
                       "#if (Radiosity)\n"
                       "global_settings { radiosity {\n"
-                      "    pretrace_start 0.08 pretrace_end 0.01 count 160 nearest_count 8\n"
-                      "    error_bound 0.6 low_error_factor 0.6 recursion_limit %d\n"
+                      "    pretrace_start 0.08 pretrace_end 0.02 count 100 nearest_count 8\n"
+                      "    error_bound 0.8 low_error_factor 0.8 recursion_limit %d\n"
                       "    gray_threshold 0 brightness 1\n"
                       "} }\n"
                       "#end\n\n",

@@ -11,7 +11,7 @@ export RAMIFY COMPARE
 result() { # result NAME: by the status of the command before
     if [ $? -eq 0 ]; then echo "ok $1"; else
         echo "not ok $1"
-        cat "$folder/log"
+        grep -E '^ramify|Parse|Fatal error|coverage' "$folder/log"
     fi
 }
 
@@ -20,6 +20,33 @@ for name in lamps tree picture; do
     if command -v povray >/dev/null; then
         "$here/run" "$folder" "$here/$name.yaml" >"$folder/log" 2>&1
         result "POV-Ray covers the same pixels with the same light: $name"
+    else
+        echo "skipped $name: povray is not installed"
+    fi
+done
+
+# Every kind of material, sky and medium is something that POV-Ray understands, without a warning.
+cat >"$folder/night.yaml" <<'END_OF_SCENE'
+camera: {position: [0, 1, 5], target: [0, 0.5, 0], aperture: 0.05}
+sky: {kind: night, moon: 1, haze_distance: 100}
+medium: {kind: layer, scattering: 0.01, height: 1, falloff: 2}
+materials:
+  - {name: soap, kind: thin_film}
+  - {name: milk, kind: dielectric, ior: 1.3, scattering: [4, 5, 6], absorption: [1, 0, 0]}
+  - {name: lamp, kind: emission, radiance: [3, 2, 1]}
+objects:
+  - {name: bubble, material: soap, shape: {envelope: [{shape: sphere, size: 0.4, position: [-1, 0.5, 0]}]}}
+  - {name: drop, material: milk, shape: {envelope: [{shape: sphere, size: 0.4, position: [0, 0.5, 0]}]}}
+  - {name: light, material: lamp, shape: {envelope: [{shape: sphere, size: 0.4, position: [1, 0.5, 0]}]}}
+END_OF_SCENE
+for scene in "$folder/night.yaml" "$here"/../golden/bodies.yaml "$here"/../golden/environment.yaml \
+    "$here"/../golden/glow_in_fog.yaml "$here"/../golden/materials.yaml "$here"/../golden/underwater.yaml; do
+    name=$(basename "$scene" .yaml)
+    if command -v povray >/dev/null; then
+        "$RAMIFY" export "$scene" -q -o "$folder/$name.pov" 2>"$folder/log" && (cd "$folder" &&
+            povray +I"$name.pov" +O"$name.png" +W8 +H6 -A -D -V Declare=Radiosity=0 >log 2>&1) &&
+            [ -s "$folder/$name.png" ] && ! grep -E 'Parse (Warning: [^T]|Error)|^Fatal error' "$folder/log"
+        result "POV-Ray understands $name"
     else
         echo "skipped $name: povray is not installed"
     fi

@@ -1,15 +1,14 @@
-// Meshes, curves and instances. A mesh that is drawn many times is declared once.
+// Meshes and their instances: a mesh that is drawn many times is declared once.
 #include "export/pov.h"
 
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "export/pov_shade.h"
 #include "export/vertex.h"
-#include "render/emitter.h"
 
 #include <stdlib.h>
 
-enum { INSTANCE_COLORS = 64, SMALL_MESH = 256 };
+enum { SMALL_MESH = 256 };
 
 // A mesh on its way out.
 typedef struct MeshJob {
@@ -159,8 +158,7 @@ static void write_mesh(Pov *pov, const MeshJob *job, int64_t triangles)
 
 // ---- instances
 
-// unit: POV-Ray's units for one of what is placed.
-static void write_matrix(Pov *pov, const Transform *t, float unit)
+void pov_matrix(Pov *pov, const Transform *t, float unit)
 {
     float s = unit, u = pov->unit;
     const float m[12] = {t->m[0][0] * s, t->m[1][0] * s, t->m[2][0] * s, t->m[0][1] * s,
@@ -187,7 +185,7 @@ static void write_instances(Pov *pov, const MeshJob *job, const Part *part, cons
         if (!job->shade) { // else the mesh has its textures already
             file_writer_print(pov->out, " texture { P%lld_%d }", number, shade ? shade[i] : 0);
         }
-        write_matrix(pov, &part->instance[i], pov->unit);
+        pov_matrix(pov, &part->instance[i], pov->unit);
         pov_interior(pov, part->material);
         file_writer_text(pov->out, " }\n");
     }
@@ -202,8 +200,8 @@ static bool shade_instances(Pov *pov, const Part *part, Palette *colors, uint8_t
         return false;
     }
     *shade = memory_alloc(part->instance_count, 1, pov->e);
-    bool done = *shade && palette_make(shades.color, shades.transmittance, shades.count,
-                                       INSTANCE_COLORS, colors, *shade, pov->e);
+    bool done = *shade && palette_make(shades.color, shades.transmittance, shades.count, POV_COLORS,
+                                       colors, *shade, pov->e);
     pov_shades_clear(&shades);
     return done;
 }
@@ -257,7 +255,7 @@ static bool shade_vertices(Pov *pov, const Part *part, PovShades *shades, Palett
                                   PALETTE_MOST, colors, *shade, pov->e);
 }
 
-static bool write_mesh_part(Pov *pov, int64_t number, const Part *part)
+bool pov_mesh_part(Pov *pov, int64_t number, const Part *part)
 {
     const Material *m = &pov->world->material[part->material];
     int64_t triangles = count_triangles(part->mesh);
@@ -289,132 +287,4 @@ static bool write_mesh_part(Pov *pov, int64_t number, const Part *part)
     free(shade);
     pov_shades_clear(&shades);
     return done;
-}
-
-// ---- curves
-
-// A ball at each point and between two the cone that touches both: just what the ray tracer sees.
-static void write_segment(Pov *pov, const CurveSet *curves, int64_t i, bool last)
-{
-    Vec3 a = curves->position[i], b = curves->position[i + 1];
-    float ra = curves->radius[i], rb = curves->radius[i + 1];
-    Emitter cone = emitter_cone(a, b, ra, rb, 1.0f, 1.0f, 0);
-    file_writer_text(pov->out, "sphere { ");
-    pov_point(pov, a);
-    file_writer_text(pov->out, ",");
-    pov_number(pov, ra * pov->unit);
-    file_writer_text(pov->out, " }\n");
-    if (vec3_dot(cone.b, cone.b) > 0.0f) {
-        file_writer_text(pov->out, "cone { ");
-        pov_point(pov, cone.a);
-        file_writer_text(pov->out, ",");
-        pov_number(pov, cone.radius0 * pov->unit);
-        pov_point(pov, vec3_add(cone.a, cone.b));
-        file_writer_text(pov->out, ",");
-        pov_number(pov, cone.radius1 * pov->unit);
-        file_writer_text(pov->out, " open }\n");
-    }
-    if (last) {
-        file_writer_text(pov->out, "sphere { ");
-        pov_point(pov, b);
-        file_writer_text(pov->out, ",");
-        pov_number(pov, rb * pov->unit);
-        file_writer_text(pov->out, " }\n");
-    }
-}
-
-// The segments of one colour, or of all where shade is NULL.
-static void write_segments(Pov *pov, const CurveSet *curves, const uint8_t *shade, int wanted)
-{
-    int64_t n = 0;
-    for (int64_t k = 0; k < curves->curve_count && !run_is_cancelled(pov->run); k++) {
-        int64_t last = curves->first[k + 1] - 2;
-        for (int64_t i = curves->first[k]; i <= last; i++, n++) {
-            if (!shade || shade[n] == wanted) {
-                write_segment(pov, curves, i, i == last);
-            }
-        }
-    }
-}
-
-static void write_union(Pov *pov, int64_t number, const Part *part, const uint8_t *shade,
-                        int wanted, const Transform *place)
-{
-    file_writer_text(pov->out, "union {\n");
-    write_segments(pov, part->curves, shade, wanted);
-    file_writer_print(pov->out, "texture { P%lld_%d }", (long long)number, wanted);
-    if (place) {
-        write_matrix(pov, place, 1.0f); // the points are in units already
-    }
-    pov_interior(pov, part->material);
-    file_writer_text(pov->out, " }\n");
-}
-
-// Emission is counted from 0 to 1 of the brightest while colours are chosen.
-static float brightest(const PovShades *shades)
-{
-    float most = 1.0f;
-    for (int64_t i = 0; i < shades->count; i++) {
-        Vec3 c = shades->color[i];
-        most = fmaxf(most, fmaxf(c.x, fmaxf(c.y, c.z)));
-    }
-    return most;
-}
-
-static bool write_shaded_curves(Pov *pov, int64_t number, const Part *part, PovShades *shades,
-                                uint8_t *shade)
-{
-    Palette colors;
-    float most = brightest(shades);
-    for (int64_t i = 0; i < shades->count; i++) {
-        shades->color[i] = vec3_scale(shades->color[i], 1.0f / most);
-    }
-    if (!palette_make(shades->color, shades->transmittance, shades->count, INSTANCE_COLORS, &colors,
-                      shade, pov->e)) {
-        return false;
-    }
-    for (int i = 0; i < colors.count; i++) {
-        colors.color[i] = vec3_scale(colors.color[i], most);
-    }
-    pov_textures(pov, number, part->material, &colors);
-    for (int64_t k = 0; k < (part->instance ? part->instance_count : 1); k++) {
-        for (int i = 0; i < colors.count; i++) {
-            write_union(pov, number, part, shade, i, part->instance ? &part->instance[k] : NULL);
-        }
-    }
-    return true;
-}
-
-static bool write_curve_part(Pov *pov, int64_t number, const Part *part)
-{
-    const CurveSet *curves = part->curves;
-    if (curves->curve_count < 1) {
-        return true;
-    }
-    PovShades shades;
-    if (!pov_shade_curves(&pov->world->material[part->material], curves, &shades, pov->e)) {
-        return false;
-    }
-    uint8_t *shade = memory_alloc(shades.count, 1, pov->e);
-    bool done = shade && write_shaded_curves(pov, number, part, &shades, shade);
-    free(shade);
-    pov_shades_clear(&shades);
-    return done;
-}
-
-bool pov_parts(Pov *pov)
-{
-    const Geometry *geometry = &pov->world->geometry;
-    for (int64_t i = 0; i < geometry->count; i++) {
-        if (run_is_cancelled(pov->run)) {
-            return run_cancel_error(pov->e);
-        }
-        run_progress(pov->run, "export", (double)i / (double)geometry->count);
-        const Part *part = &geometry->part[i];
-        if (!(part->kind == PART_MESH ? write_mesh_part(pov, i, part)
-                                      : write_curve_part(pov, i, part))) {
-            return false;
-        }
-    }
-    return true;
 }
