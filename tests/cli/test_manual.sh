@@ -71,6 +71,13 @@ else
     echo "skipped man_pages_lint: mandoc is not installed"
 fi
 
+: >wrong
+"$RAMIFY" completion fish >out 2>err
+[ $? -eq 2 ] && [ ! -s out ] && grep -q "'fish'; it must be bash or zsh" err || cat out err >>wrong
+"$RAMIFY" help nonsense --man >out 2>err
+[ $? -eq 2 ] && [ ! -s out ] && grep -q "unknown command 'nonsense'" err || cat out err >>wrong
+verdict manual_refusals
+
 # What `make install` puts there are the pages of all commands.
 : >wrong
 for command in $commands; do
