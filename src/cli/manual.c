@@ -117,9 +117,11 @@ static void put_choices(const Option *option)
         }
         printf(".\n");
     } else if (option->type == OPTION_INT || option->type == OPTION_REAL) {
-        snprintf(text, sizeof text, "%s, %.9g to %.9g.",
-                 option->type == OPTION_INT ? "A whole number" : "A number", option->low,
-                 option->high);
+        bool open = option->high >= 1e8; // a bound against nonsense, of no use to a reader
+        int used = snprintf(text, sizeof text, "%s, %s%.9g",
+                            option->type == OPTION_INT ? "A whole number" : "A number",
+                            open ? "at least " : "", option->low);
+        snprintf(text + used, sizeof text - (size_t)used, open ? "." : " to %.9g.", option->high);
         put_text(text);
     } else if (option->type == OPTION_SET) {
         printf("May be given several times.\n");
@@ -178,11 +180,11 @@ static void put_examples(const ManualText *text)
     }
 }
 
-static void put_exit_status(CommandId command)
+static void put_exit_status(const ManualText *text)
 {
+    const char *failure = text ? text->failure : NULL;
     printf(".Sh EXIT STATUS\n.Bl -tag -width Ds\n.It 0\nDone.\n.It 1\n");
-    printf("Failed while running%s.\n",
-           command == COMMAND_MEASURE ? ", or a target that the scene states is missed" : "");
+    printf("Failed while running%s%s.\n", failure ? ", or " : "", failure ? failure : "");
     printf(".It 2\nThe command line or the scene is wrong; nothing was done.\n"
            ".It 130\nInterrupted by Ctrl\\-C or SIGTERM.\n.El\n");
 }
@@ -238,7 +240,7 @@ static void put_program(void)
         printf("See\n.Xr ramify\\-%s 1 .\n", c->name);
     }
     printf(".El\n");
-    put_exit_status(COMMAND_HELP);
+    put_exit_status(text);
     put_examples(text);
     put_see_also(COMMAND_COUNT);
     printf(".Sh STANDARDS\nThe method is that of T. Tanaka, T. Ito and T. Kikuchi,\n"
@@ -268,7 +270,7 @@ void manual_print(CommandId command, bool program)
     if (command == COMMAND_EXPORT) {
         put_formats();
     }
-    put_exit_status(command);
+    put_exit_status(text);
     if (text) {
         put_examples(text);
     }

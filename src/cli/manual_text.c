@@ -96,6 +96,7 @@ static const ManualText TEXTS[] = {
           "out-tree, "
           "an ESRI ASCII grid (.asc) as surveyed heights, so that grown and real things are held "
           "against the same numbers."},
+     .failure = "a target that the scene states is missed",
      .examples = {{"a table", "ramify measure pine.yaml"},
                   {"the same of a tree in a file",
                    "ramify grow pine.yaml -o pine.swc && ramify measure pine.swc"},
@@ -116,7 +117,8 @@ static const ManualText TEXTS[] = {
           "look. Alike are pictures that are the same in every value, or within the limits given.",
           "The page of --report shows both behind a slider and their difference. Pictures of other "
           "sizes differ; a picture of radiance (EXR, HDR) cannot be compared with display values."},
-     .examples = {{"the same to the bit?", "ramify compare a.png b.png"},
+     .failure = "the pictures are not alike",
+     .examples = {{"are they the same to the bit", "ramify compare a.png b.png"},
                   {"near enough, and what is different",
                    "ramify compare a.exr b.exr --max-rmse 0.01 --report page.html"}}},
     {.command = "golden",
@@ -128,6 +130,7 @@ static const ManualText TEXTS[] = {
           "Fails with status 1 when a picture differs or is missing, or a scene cannot be "
           "rendered. With --update such pictures are stored instead; what is alike stays as it "
           "is."},
+     .failure = "a picture differs from the stored one, or there is none",
      .examples = {{"the first time, and after a change that was meant",
                    "ramify golden golden --update"},
                   {"in continuous integration",

@@ -13,6 +13,7 @@ typedef struct ManualExample {
 typedef struct ManualText {
     const char *command; // its name; "" = the program itself
     const char *paragraphs[6];
+    const char *failure; // when else it ends with status 1; NULL = only when something failed
     ManualExample examples[6];
 } ManualText;
 
