@@ -30,11 +30,9 @@ void option_doc(const Option *option, CommandId command, char *text, size_t size
         CommandId of = part_command(part, &label);
         if (of == command || of == COMMAND_COUNT) {
             size_t from = of == command ? label : 0;
-            int count = snprintf(text + used, size - used, "%s%.*s",
-                                 !used  ? ""
-                                 : from ? ": "
-                                        : "; ",
-                                 (int)(length - from), part + from);
+            const char *before = !used ? "" : from && !strchr(text, ':') ? ": " : "; ";
+            int count = snprintf(text + used, size - used, "%s%.*s", before, (int)(length - from),
+                                 part + from);
             used += (size_t)count;
         }
         part += length + (end ? 2 : 0);
