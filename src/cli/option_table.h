@@ -1,4 +1,4 @@
-// The tables of commands and options (options.c), from which the command line is parsed and the
+// The tables of commands and options, from which the command line is parsed and the
 // help, the man pages and the shells' completions are written.
 #ifndef RAMIFY_CLI_OPTION_TABLE_H
 #define RAMIFY_CLI_OPTION_TABLE_H
@@ -45,6 +45,10 @@ bool option_is_of(const Option *option, CommandId command);
 
 // What the option does for this command, as a phrase, in text.
 void option_doc(const Option *option, CommandId command, char *text, size_t size);
+
+// Puts what text says where the option goes. RAMIFY_BAD_INPUT when it is no value of the option.
+bool option_take(Options *options, const Option *option, const char *text, RamifyError *e);
+void option_take_flag(Options *options, const Option *option); // of an option without value
 
 const Command *command_at(CommandId command); // command < COMMAND_COUNT
 

@@ -1,4 +1,4 @@
-// The command line: one table of all options (options.c) parses it and prints the help.
+// The command line: one table of all options (option_table.c) parses it and prints the help.
 #ifndef RAMIFY_CLI_OPTIONS_H
 #define RAMIFY_CLI_OPTIONS_H
 
