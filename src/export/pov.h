@@ -30,8 +30,6 @@ void pov_vector(Pov *pov, Vec3 v);
 void pov_point(Pov *pov, Vec3 p);
 void pov_number(Pov *pov, float value);
 void pov_number_list(Pov *pov, const float *value, int count); // with commas
-// unit: POV-Ray's units for one of what is placed.
-void pov_matrix(Pov *pov, const Transform *place, float unit);
 
 // Most colours of a part's instances or curves.
 enum { POV_COLORS = 64 };

@@ -1,8 +1,10 @@
-// Round curves as the balls and cones that they are.
+// Round curves as the balls and cones that they are, or, where they are drawn many times, as tubes:
+// POV-Ray copies unions whole, but meshes not.
 #include "export/pov.h"
 
 #include "base/memory.h"
 #include "export/pov_shade.h"
+#include "mesh/curve_tubes.h"
 #include "render/emitter.h"
 
 #include <stdlib.h>
@@ -52,14 +54,11 @@ static void write_segments(Pov *pov, const CurveSet *curves, const uint8_t *shad
 }
 
 static void write_union(Pov *pov, int64_t number, const Part *part, const uint8_t *shade,
-                        int wanted, const Transform *place)
+                        int wanted)
 {
     file_writer_text(pov->out, "union {\n");
     write_segments(pov, part->curves, shade, wanted);
     file_writer_print(pov->out, "texture { P%lld_%d }", (long long)number, wanted);
-    if (place) {
-        pov_matrix(pov, place, 1.0f); // the points are in units already
-    }
     pov_interior(pov, part->material);
     file_writer_text(pov->out, " }\n");
 }
@@ -91,12 +90,21 @@ static bool write_shaded_curves(Pov *pov, int64_t number, const Part *part, PovS
         colors.color[i] = vec3_scale(colors.color[i], most);
     }
     pov_textures(pov, number, part->material, &colors);
-    for (int64_t k = 0; k < (part->instance ? part->instance_count : 1); k++) {
-        for (int i = 0; i < colors.count; i++) {
-            write_union(pov, number, part, shade, i, part->instance ? &part->instance[k] : NULL);
-        }
+    for (int i = 0; i < colors.count; i++) {
+        write_union(pov, number, part, shade, i);
     }
     return true;
+}
+
+static bool write_tubes(Pov *pov, int64_t number, const Part *part)
+{
+    Part tubes = *part;
+    tubes.kind = PART_MESH;
+    tubes.curves = NULL;
+    tubes.mesh = curve_tubes(part->curves, 0, part->curves->curve_count, CURVE_TUBE_SIDES, pov->e);
+    bool done = tubes.mesh && pov_mesh_part(pov, number, &tubes);
+    mesh_free(tubes.mesh);
+    return done;
 }
 
 bool pov_curve_part(Pov *pov, int64_t number, const Part *part)
@@ -104,6 +112,9 @@ bool pov_curve_part(Pov *pov, int64_t number, const Part *part)
     const CurveSet *curves = part->curves;
     if (curves->curve_count < 1) {
         return true;
+    }
+    if (part->instance) {
+        return write_tubes(pov, number, part);
     }
     PovShades shades;
     if (!pov_shade_curves(&pov->world->material[part->material], curves, &shades, pov->e)) {

@@ -158,12 +158,12 @@ static void write_mesh(Pov *pov, const MeshJob *job, int64_t triangles)
 
 // ---- instances
 
-void pov_matrix(Pov *pov, const Transform *t, float unit)
+static void write_matrix(Pov *pov, const Transform *t)
 {
-    float s = unit, u = pov->unit;
-    const float m[12] = {t->m[0][0] * s, t->m[1][0] * s, t->m[2][0] * s, t->m[0][1] * s,
-                         t->m[1][1] * s, t->m[2][1] * s, t->m[0][2] * s, t->m[1][2] * s,
-                         t->m[2][2] * s, t->m[0][3] * u, t->m[1][3] * u, t->m[2][3] * u};
+    float u = pov->unit;
+    const float m[12] = {t->m[0][0] * u, t->m[1][0] * u, t->m[2][0] * u, t->m[0][1] * u,
+                         t->m[1][1] * u, t->m[2][1] * u, t->m[0][2] * u, t->m[1][2] * u,
+                         t->m[2][2] * u, t->m[0][3] * u, t->m[1][3] * u, t->m[2][3] * u};
     file_writer_text(pov->out, " matrix <");
     pov_number_list(pov, m, 12);
     file_writer_text(pov->out, ">");
@@ -185,7 +185,7 @@ static void write_instances(Pov *pov, const MeshJob *job, const Part *part, cons
         if (!job->shade) { // else the mesh has its textures already
             file_writer_print(pov->out, " texture { P%lld_%d }", number, shade ? shade[i] : 0);
         }
-        pov_matrix(pov, &part->instance[i], pov->unit);
+        write_matrix(pov, &part->instance[i]);
         pov_interior(pov, part->material);
         file_writer_text(pov->out, " }\n");
     }
