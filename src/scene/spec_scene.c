@@ -181,6 +181,7 @@ SceneGolden scene_golden_default(void)
 static const Table GOLDEN_TABLE = {.name = "golden",
                                    .doc = "How `ramify golden` compares the scene's picture with "
                                           "the stored one.",
+                                   .example = "golden: {mode: tolerance, max_failing: 0.002}\n",
                                    .size = sizeof(SceneGolden),
                                    .keys = GOLDEN_KEYS};
 
