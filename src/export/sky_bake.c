@@ -23,6 +23,14 @@ static Image *draw(const Dome *dome, int width, Error *e)
     return image;
 }
 
+// As the sky is turned: see Sky.rotation.
+static void turn(const Sky *sky, Dome *dome, Sun *sun)
+{
+    float angle = sky->rotation * RADIANS_PER_DEGREE;
+    dome->rotation += angle;
+    sun->direction = vec3_rotate(sun->direction, vec3(0, 1, 0), cosf(angle), sinf(angle));
+}
+
 bool sky_bake(const Sky *sky, int width, const Run *run, BakedSky *baked, Error *e)
 {
     *baked = (BakedSky){0};
@@ -34,7 +42,10 @@ bool sky_bake(const Sky *sky, int width, const Run *run, BakedSky *baked, Error 
     } else {
         return true;
     }
-    baked->image = dome ? draw(dome, width, e) : NULL;
+    if (dome) {
+        turn(sky, dome, &baked->sun);
+        baked->image = draw(dome, width, e);
+    }
     dome_free(dome);
     return baked->image;
 }
