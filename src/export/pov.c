@@ -93,6 +93,8 @@ static void measure_world(Pov *pov)
     }
     pov->center = vec3_scale(vec3_add(box.low, box.high), 0.5f);
     pov->radius = fmaxf(0.5f * vec3_distance(box.low, box.high), 1e-4f);
+    pov->top = box.high.y;
+    pov->height = box.high.y - box.low.y;
     const float wanted = 1000.0f; // units
     for (pov->unit = 1.0f; pov->unit * pov->radius < wanted;) {
         pov->unit *= 10.0f;

@@ -20,6 +20,7 @@ typedef struct Pov {
     Vec3 center;        // m, of all there is
     float radius;       // m, about the center, camera and lamps included
     World far;          // sky and sun alone ...
+    float top, height;  // m, of all there is: the highest point, and from the lowest to it
     Lights *lights;     // ... and their light
     const Sun *sun;     // NULL = none
     bool glow_lights;   // glowing geometry became light sources

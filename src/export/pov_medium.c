@@ -37,8 +37,7 @@ static void write_haze(Pov *pov)
         Vec3 d = vec3(cosf(turn), 0.0f, sinf(turn));
         sum = vec3_madd(sum, 1.0f / 16.0f, lights_horizon(pov->lights, d));
     }
-    float top = pov->center.y + pov->radius;
-    write_fog(pov, pov->world->sky.haze_distance, top, 0.02f * pov->radius, sum);
+    write_fog(pov, pov->world->sky.haze_distance, pov->top, fmaxf(0.02f * pov->height, 1e-3f), sum);
 }
 
 // A medium's colour far into it: what it scatters of what it takes, under sky and sun.

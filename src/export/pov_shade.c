@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "export/vertex.h"
 #include "render/pattern.h"
 
 #include <stdlib.h>
@@ -201,26 +202,61 @@ bool pov_shade_curves(const Material *m, const CurveSet *curves, PovShades *shad
 
 // ---- instances
 
-// At most this many vertices stand for a mesh.
-enum { MEAN_VERTICES = 32 };
+// At most this many faces stand for a mesh.
+enum { MEAN_FACES = 32 };
 
-static void mean_shade(const Material *m, const Part *part, const int64_t *face, int64_t instance,
-                       PovShades *shades)
+// The corners' attributes blended within a triangle: vertices stand on veins and edges more often
+// than the surface does.
+static SurfacePoint inner_point(const Mesh *mesh, int64_t face, const uint32_t corner[3],
+                                const float weight[3], const Transform *place, float variation)
 {
+    SurfacePoint point = vertex_point(mesh, corner[0], face, place, variation);
+    Vec3 p = {0, 0, 0}, normal = {0, 0, 0};
+    point.uv = point.site = (Vec2){0, 0};
+    point.radius = point.birth = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        uint32_t v = corner[k];
+        float w = weight[k];
+        p = vec3_madd(p, w, mesh->position[v]);
+        normal = mesh->normal ? vec3_madd(normal, w, mesh->normal[v]) : point.normal;
+        point.uv.x += mesh->uv ? w * mesh->uv[v].x : 0.0f;
+        point.uv.y += mesh->uv ? w * mesh->uv[v].y : 0.0f;
+        point.site.x += mesh->site ? w * mesh->site[v].x : 0.0f;
+        point.site.y += mesh->site ? w * mesh->site[v].y : 0.0f;
+        point.radius += mesh->radius ? w * mesh->radius[v] : 0.0f;
+        point.birth += mesh->birth ? w * mesh->birth[v] : 0.0f;
+    }
+    point.object_position = p;
+    point.position = point.lifted = place ? transform_point(place, p) : p;
+    point.normal = point.facet_normal = point.geometric_normal = vec3_normalize(normal);
+    return point;
+}
+
+static void mean_shade(const Material *m, const Part *part, int64_t instance, PovShades *shades)
+{
+    static const float inside[3][3] = {{2.0f / 3, 1.0f / 6, 1.0f / 6},
+                                       {1.0f / 6, 2.0f / 3, 1.0f / 6},
+                                       {1.0f / 6, 1.0f / 6, 2.0f / 3}};
     const Mesh *mesh = part->mesh;
-    int64_t step = mesh->vertex_count / MEAN_VERTICES + 1, count = 0;
     Vec3 color = {0, 0, 0}, transmittance = {0, 0, 0};
-    for (int64_t v = 0; v < mesh->vertex_count; v += step) {
-        if (face[v] >= 0) {
-            SurfacePoint point = vertex_point(mesh, (uint32_t)v, face[v], &part->instance[instance],
-                                              pov_variation(part, instance));
-            PatternShade shade = shade_at(m, &point);
-            color = vec3_add(color, shade.color);
-            transmittance = vec3_add(transmittance, shade.transmittance);
-            count++;
+    float sum = 0.0f, variation = pov_variation(part, instance);
+    for (int64_t f = 0; f < mesh->face_count; f += mesh->face_count / MEAN_FACES + 1) {
+        uint32_t corner[6];
+        for (int t = 3 * export_face_triangles(mesh, f, false, corner) - 3; t >= 0; t -= 3) {
+            Vec3 a = mesh->position[corner[t]];
+            float area = vec3_length(vec3_cross(vec3_sub(mesh->position[corner[t + 1]], a),
+                                                vec3_sub(mesh->position[corner[t + 2]], a)));
+            for (int k = 0; k < 3; k++) {
+                SurfacePoint point = inner_point(mesh, f, corner + t, inside[k],
+                                                 &part->instance[instance], variation);
+                PatternShade shade = shade_at(m, &point);
+                color = vec3_madd(color, area, shade.color);
+                transmittance = vec3_madd(transmittance, area, shade.transmittance);
+                sum += area;
+            }
         }
     }
-    float scale = count > 0 ? 1.0f / (float)count : 0.0f;
+    float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
     shades->color[instance] = vec3_scale(color, scale);
     shades->transmittance[instance] = vec3_scale(transmittance, scale);
 }
@@ -228,15 +264,12 @@ static void mean_shade(const Material *m, const Part *part, const int64_t *face,
 bool pov_shade_instances(const Material *m, const Part *part, const Run *run, PovShades *shades,
                          Error *e)
 {
-    int64_t *face = faces_of(part->mesh, e);
-    if (!face || !shades_new(shades, part->instance_count, false, e)) {
-        free(face);
+    if (!shades_new(shades, part->instance_count, false, e)) {
         return false;
     }
 #pragma omp parallel for schedule(dynamic, 256) num_threads(run->threads)
     for (int64_t i = 0; i < part->instance_count; i++) {
-        mean_shade(m, part, face, i, shades);
+        mean_shade(m, part, i, shades);
     }
-    free(face);
     return true;
 }
