@@ -16,6 +16,7 @@ typedef struct LeafBatch {
 
 typedef struct Foliage {
     const LeavesParams *leaves;
+    const bool *bare; // per curve; NULL = none
     LeafBatch *batch; // leaves->variants of them
     Vec3 center;
     float spacing; // m, the scene's, widened when the leaves would be too many
@@ -127,7 +128,9 @@ static int64_t all_leaves(Foliage *foliage, const CurveSet *twigs, bool place, b
 {
     int64_t count = 0;
     for (int64_t i = 0; i < twigs->curve_count && !(failed && *failed); i++) {
-        count += twig_leaves(foliage, twigs, i, place, failed, e);
+        if (!foliage->bare || !foliage->bare[i]) {
+            count += twig_leaves(foliage, twigs, i, place, failed, e);
+        }
     }
     return count;
 }
@@ -175,10 +178,10 @@ static void limit_leaves(Foliage *foliage, const CurveSet *twigs)
     }
 }
 
-bool foliage_add(const CurveSet *twigs, const LeavesParams *leaves, Vec3 center, int material,
-                 int object, uint64_t seed, Geometry *geometry, Error *e)
+bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves, Vec3 center,
+                 int material, int object, uint64_t seed, Geometry *geometry, Error *e)
 {
-    Foliage foliage = {leaves, NULL, center, leaves->spacing, seed};
+    Foliage foliage = {leaves, bare, NULL, center, leaves->spacing, seed};
     foliage.batch = memory_alloc_zero(leaves->variants, sizeof *foliage.batch, e);
     if (!foliage.batch) {
         return false;

@@ -52,6 +52,7 @@ static bool add_stand(const OutTree *all, const ForestParams *params,
     TreeMaterials own = {materials->bark, materials->twig, materials->leaf};
     TreeParams tree = tree_params_default();
     tree.height = params->height;
+    tree.roots.count = 0; // colonies are trees of the stand here
     tree.radii = params->radii;
     tree.leaves = params->leaves;
     tree.skin = params->skin;

@@ -118,6 +118,7 @@ bool lsystem_plant_geometry(const OutTree *tree, const LSystemPlantParams *param
     TreeParams as_tree = tree_params_default();
     Aabb box = out_tree_bounds(tree);
     as_tree.position = params->position;
+    as_tree.roots.count = 0;
     as_tree.height = box.high.y - box.low.y;
     as_tree.leaves = params->leaves;
     as_tree.skin = params->skin;

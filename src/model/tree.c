@@ -11,8 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { COLONY_TRUNK, COLONY_CROWN, COLONY_ROOTS };
-
 #define GOLDEN_ANGLE_DEGREES 137.50776f
 
 // Each node's unit direction, from its parent; a root's is that of its first child, or up.
@@ -54,9 +52,9 @@ static bool plant_stems(OutTree *tree, const TreeParams *params, uint64_t seed, 
         Vec3 foot = vec3_madd(params->position, params->trunk.stem_circle, vec3(sine, 0, cosine));
         Vec3 below = vec3_add(foot, vec3(0, -params->trunk.radius, 0));
         uint64_t id = random_key(seed, (uint64_t)i);
-        int64_t root = out_tree_add_node(tree, below, -1, 0, COLONY_TRUNK, id, e);
+        int64_t root = out_tree_add_node(tree, below, -1, 0, TREE_TRUNK, id, e);
         if (root < 0 ||
-            out_tree_add_node(tree, foot, root, 0, COLONY_TRUNK, out_tree_child_id(id, 0), e) < 0) {
+            out_tree_add_node(tree, foot, root, 0, TREE_TRUNK, out_tree_child_id(id, 0), e) < 0) {
             return false;
         }
     }
@@ -92,7 +90,7 @@ static bool start_branch(OutTree *tree, int64_t node, int place, Vec3 normal, fl
     for (int i = 0; i < PIECES; i++) {
         uint64_t id = out_tree_child_id(tree->id[parent], i == 0 ? 1000 + place : 0);
         Vec3 p = vec3_madd(tree->position[parent], length / PIECES, d);
-        parent = out_tree_add_node(tree, p, parent, ++birth, COLONY_CROWN, id, e);
+        parent = out_tree_add_node(tree, p, parent, ++birth, TREE_CROWN, id, e);
         if (parent < 0) {
             return false;
         }
@@ -160,7 +158,7 @@ static bool grow_crown(OutTree *tree, const TreeParams *params, uint64_t seed, c
         return false;
     }
     for (int64_t i = trunk_count; i < tree->count; i++) {
-        tree->colony[i] = COLONY_CROWN;
+        tree->colony[i] = TREE_CROWN;
     }
     return true;
 }
@@ -185,7 +183,7 @@ static bool plant_roots(OutTree *roots, const TreeParams *params, uint64_t seed,
             Vec3 p = vec3_madd(params->position, reach[k] * radius, out);
             p.y += start * (1.0f - drop[k]);
             id = k == 0 ? id : out_tree_child_id(id, 0);
-            parent = out_tree_add_node(roots, p, parent, 0, COLONY_ROOTS, id, e);
+            parent = out_tree_add_node(roots, p, parent, 0, TREE_ROOTS, id, e);
             if (parent < 0) {
                 return false;
             }
@@ -207,8 +205,8 @@ static bool graft_roots(OutTree *tree, const OutTree *roots, int64_t foot, Error
     for (int64_t i = 0; i < roots->count; i++) {
         int64_t parent = roots->parent[i] < 0 ? foot : base + roots->parent[i];
         int32_t birth = (int32_t)(roots->birth[i] * last / last_root);
-        int64_t node = out_tree_add_node(tree, roots->position[i], parent, birth, COLONY_ROOTS,
-                                         roots->id[i], e);
+        int64_t node =
+            out_tree_add_node(tree, roots->position[i], parent, birth, TREE_ROOTS, roots->id[i], e);
         if (node < 0) {
             return false;
         }
@@ -245,7 +243,7 @@ static void compute_radii(OutTree *tree, const TreeParams *params)
     // Stems that wind about each other stay stout whether or not the crown favoured them.
     float least = params->trunk.stems > 1 ? 0.75f * params->trunk.radius : 0.0f;
     for (int64_t i = 0; i < tree->count; i++) {
-        if (tree->colony[i] == COLONY_TRUNK && tree->radius[i] < least) {
+        if (tree->colony[i] == TREE_TRUNK && tree->radius[i] < least) {
             tree->radius[i] = least;
         }
     }

@@ -85,6 +85,9 @@ typedef struct TreeParams {
     SkinningParams skin;
 } TreeParams;
 
+// Colonies of the out-trees that tree_grow makes.
+enum { TREE_TRUNK, TREE_CROWN, TREE_ROOTS };
+
 // Materials, as indices into the world's list.
 typedef struct TreeMaterials {
     int bark, twig, leaf;
@@ -93,7 +96,7 @@ typedef struct TreeMaterials {
 // The documented defaults: an oak of 14 m.
 TreeParams tree_params_default(void);
 
-// Grows the out-tree: all elements joined, radii computed. Colony: 0 trunk, 1 crown, 2 roots.
+// Grows the out-tree: all elements joined, radii computed. Colonies as above.
 OutTree *tree_grow(const TreeParams *params, const Recipe *recipe, Error *e);
 
 // Skins a grown tree and hangs its leaves: adds meshes, curves and leaf instances to geometry.

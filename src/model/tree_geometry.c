@@ -4,7 +4,10 @@
 #include "model/tree.h"
 #include "model/tree_defaults.h"
 
+#include "base/memory.h"
 #include "base/random.h"
+
+#include <stdlib.h>
 
 static bool add_bark(const OutTree *tree, const SkinParams *skin, int material, int object,
                      Geometry *geometry, const Run *run, Error *e)
@@ -23,6 +26,33 @@ static bool add_twigs(CurveSet *curves, int material, int object, Geometry *geom
         (Part){.kind = PART_CURVES, .curves = curves, .material = material, .object = object}, e);
 }
 
+// Which curves are roots, which bear no leaves. A curve has the id of its first node, and curves
+// follow each other as those nodes do.
+static bool *find_roots(const OutTree *tree, const CurveSet *curves, Error *e)
+{
+    bool *root = memory_alloc(curves->curve_count, sizeof *root, e);
+    int64_t node = 0;
+    for (int64_t i = 0; root && i < curves->curve_count; i++) {
+        while (tree->id[node] != curves->id[i]) {
+            node++;
+        }
+        root[i] = tree->colony[node] == TREE_ROOTS;
+    }
+    return root;
+}
+
+static bool add_leaves(const OutTree *tree, const TreeParams *params, const CurveSet *twigs,
+                       int material, int object, uint64_t seed, Geometry *geometry, Error *e)
+{
+    Vec3 center = vec3_add(params->position, vec3(0, 0.5f * params->height, 0));
+    bool rooted = params->roots.count > 0;
+    bool *bare = rooted ? find_roots(tree, twigs, e) : NULL;
+    bool done = (bare || !rooted) && foliage_add(twigs, bare, &params->leaves, center, material,
+                                                 object, random_key(seed, 4), geometry, e);
+    free(bare);
+    return done;
+}
+
 // Leaves stand on the same curves that are drawn as twigs, so that none floats. When every twig is
 // mesh, the curves are made for the leaves alone.
 static bool add_twigs_and_leaves(const OutTree *tree, const TreeParams *params,
@@ -39,9 +69,8 @@ static bool add_twigs_and_leaves(const OutTree *tree, const TreeParams *params,
     if (!twigs) {
         return false;
     }
-    Vec3 center = vec3_add(params->position, vec3(0, 0.5f * params->height, 0));
-    bool done = !leafy || foliage_add(twigs, &params->leaves, center, materials->leaf, object,
-                                      random_key(seed, 4), geometry, e);
+    bool done =
+        !leafy || add_leaves(tree, params, twigs, materials->leaf, object, seed, geometry, e);
     if (!done || !drawn) {
         curves_free(twigs);
         return done;
