@@ -60,7 +60,7 @@ static void last_words(const Video *video, char *text, size_t size)
         all[--end] = 0;
     }
     const char *line = strrchr(all, '\n');
-    snprintf(text, size, "%s", line ? line + 1 : all);
+    snprintf(text, size, "%.*s", (int)size - 1, line ? line + 1 : all);
 }
 
 // Waits for its end; true when it ended well.

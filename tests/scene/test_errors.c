@@ -48,7 +48,8 @@ static const Case scenes[] = {
      "roots, radii, leaves, skin"},
     {"{}", ":1:1: the scene has no 'objects'; it must have one: What there is to see."},
     {"objects: [{tree: }]", ":1:11: objects.0 has no 'name'; it must have one: What messages, "
-                            "--set and the object's random numbers go by."},
+                            "targets, --set and the object's random numbers go by; no two "
+                            "objects have the same."},
     {"objects: [{name: a, mesh: }]",
      ":1:27: objects.a.mesh has no 'file'; it must have one: OBJ, PLY, STL, glTF or GLB file, "
      "relative to the scene's folder."},
@@ -64,7 +65,7 @@ static const Case scenes[] = {
     // types
     {"- 1\n",
      ":1:1: the scene is a list; it must be a mapping of seed, grow_to, camera, film, render, sky, "
-     "medium, lights, materials, objects, targets, animation"},
+     "medium, lights, materials, objects, targets, animation, golden"},
     {"objects: 3\n", ":1:10: objects is 3; it must be a list of mappings ('- ' before each)"},
     {"objects: []\n", ":1:10: objects has 0 entries; it must have 1 to 10000"},
     {TREE "camera: {fov: wide}\n", ":2:15: camera.fov is 'wide'; it must be a number"},
