@@ -1,6 +1,7 @@
 #!/bin/sh
 # The command as a user meets it: exit status, messages, files. RAMIFY names the binary.
 # Prints "ok NAME" or "not ok NAME" for each case.
+. "$(dirname "$0")/checks.sh"
 RAMIFY=${RAMIFY:-build/ramify}
 case $RAMIFY in /*) ;; *) RAMIFY=$PWD/$RAMIFY ;; esac
 folder=$(mktemp -d) && trap 'chmod -R u+w "$folder"; rm -rf "$folder"' EXIT
@@ -23,35 +24,6 @@ objects:
     shape: {envelope: [{shape: sphere, size: 0.5, position: [1.5, 0.5, 1]}]}
 END
 
-# check NAME STATUS COMMAND...: runs the command, wants this exit status; output goes to out, err.
-check() {
-    name=$1 wanted=$2
-    shift 2
-    "$@" >out 2>err
-    status=$?
-    if [ "$status" -eq "$wanted" ]; then echo "ok $name"; else
-        echo "not ok $name"
-        echo "   exit status $status, not $wanted: $*"
-        cat err
-    fi
-}
-# says NAME FILE TEXT: the last command wrote this text there.
-says() {
-    if grep -qF -- "$3" "$2"; then echo "ok $1"; else
-        echo "not ok $1"
-        echo "   no '$3' in:"
-        cat "$2"
-    fi
-}
-# yes NAME COMMAND...
-yes() {
-    name=$1
-    shift
-    if "$@" >log 2>&1; then echo "ok $name"; else
-        echo "not ok $name"
-        cat log
-    fi
-}
 hash() { cksum <"$1"; }
 
 check version 0 "$RAMIFY" --version

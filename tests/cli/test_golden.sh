@@ -2,6 +2,7 @@
 # ramify golden and ramify compare as a user meets them. RAMIFY names the binary.
 # Prints "ok NAME", "not ok NAME" or "skipped NAME: why" for each case.
 here=$(cd "$(dirname "$0")/.." && pwd)
+. "$(dirname "$0")/checks.sh"
 RAMIFY=${RAMIFY:-build/ramify}
 case $RAMIFY in /*) ;; *) RAMIFY=$PWD/$RAMIFY ;; esac
 folder=$(mktemp -d) && trap 'chmod -R u+w "$folder"; rm -rf "$folder"' EXIT
@@ -23,38 +24,9 @@ objects:
 $3
 END
 }
-# check NAME STATUS COMMAND...: runs the command, wants this exit status; output goes to out, err.
-check() {
-    name=$1 wanted=$2
-    shift 2
-    "$@" >out 2>err
-    status=$?
-    if [ "$status" -eq "$wanted" ]; then echo "ok $name"; else
-        echo "not ok $name"
-        echo "   exit status $status, not $wanted: $*"
-        cat out err
-    fi
-}
-# says NAME FILE TEXT: the last command wrote this text there (a basic regular expression).
-says() {
-    if grep -q -- "$3" "$2"; then echo "ok $1"; else
-        echo "not ok $1"
-        echo "   no '$3' in:"
-        cat "$2"
-    fi
-}
-# yes NAME COMMAND...
-yes() {
-    name=$1
-    shift
-    if "$@" >log 2>&1; then echo "ok $name"; else
-        echo "not ok $name"
-        cat log
-    fi
-}
 
 check empty_folder 2 "$RAMIFY" golden g
-says empty_folder_message err "no scene file in 'g'; NAME.yaml beside NAME.png would be one"
+matches empty_folder_message err "no scene file in 'g'; NAME.yaml beside NAME.png would be one"
 check no_folder 2 "$RAMIFY" golden nowhere
 check golden_needs_a_folder 2 "$RAMIFY" golden
 check golden_two_modes 2 "$RAMIFY" golden g --exact --statistical
@@ -64,20 +36,20 @@ scene plain 0.5
 scene glow 0.3 'seed: 7'
 scene noisy 0.5 'golden: {mode: statistical}'
 check missing 1 "$RAMIFY" golden g -q
-says missing_message out "plain  *missing .*there is no g/plain.png; --update stores one"
+matches missing_message out "plain  *missing .*there is no g/plain.png; --update stores one"
 yes missing_stores_nothing test ! -e g/plain.png
 check update 0 "$RAMIFY" golden g -q --update
-says update_says_which out "plain  *stored"
+matches update_says_which out "plain  *stored"
 yes update_stores test -s g/plain.png -a -s g/glow.png -a -s g/noisy.exr
 cksum g/*.png g/*.exr >before
 check alike 0 "$RAMIFY" golden g -q --threads 1
-says alike_counts out "^3 alike, 0 different, 0 missing, 0 failed, 0 stored, 0 orphans$"
+matches alike_counts out "^3 alike, 0 different, 0 missing, 0 failed, 0 stored, 0 orphans$"
 check update_again 0 "$RAMIFY" golden g -q --update
 cksum g/*.png g/*.exr >after
 yes update_leaves_what_is_alike cmp before after
 check exact 0 "$RAMIFY" golden g -q --exact --filter '[pg]*'
 check other_seeds 0 "$RAMIFY" golden g -q --filter noisy --series 5
-says filter out "^1 alike, 0 different"
+matches filter out "^1 alike, 0 different"
 check native_is_alike 0 "$RAMIFY" golden g -q --isa native --max-rmse 0.002 --max-failing 0.005
 
 # Everything that can go wrong at once.
@@ -97,15 +69,15 @@ check different 1 "$RAMIFY" golden g -q --json --report r.html --junit j.xml
 cp out results.json
 yes json_is_json python3 -m json.tool results.json
 check different_in_words 1 "$RAMIFY" golden g -q
-says changed_material out "plain  *different RMSE 0.01.* is allowed"
-says changed_material_in_noise out "noisy  *different .*blocks differ by more than noise"
-says orphan out "gone.png  *orphan "
+matches changed_material out "plain  *different RMSE 0.01.* is allowed"
+matches changed_material_in_noise out "noisy  *different .*blocks differ by more than noise"
+matches orphan out "gone.png  *orphan "
 yes named_picture_is_no_orphan sh -c '! grep -q "kept.png .*orphan" out'
-says broken_scene out 'bro<b>ken & "bad"  *failed  *g/bro.*key .file. means nothing'
-says time_limit out "hurried  *failed .*render.seconds is 3"
-says other_size out "sized  *different 40 x 32 pixels against 48 x 32"
-says harmed_picture out "harmed  *failed .*harmed.png' cannot be read"
-says counts out "^1 alike, 3 different, 0 missing, 3 failed, 0 stored, 1 orphans$"
+matches broken_scene out 'bro<b>ken & "bad"  *failed  *g/bro.*key .file. means nothing'
+matches time_limit out "hurried  *failed .*render.seconds is 3"
+matches other_size out "sized  *different 40 x 32 pixels against 48 x 32"
+matches harmed_picture out "harmed  *failed .*harmed.png' cannot be read"
+matches counts out "^1 alike, 3 different, 0 missing, 3 failed, 0 stored, 1 orphans$"
 cat >junit.py <<'END'
 import sys, xml.etree.ElementTree as tree
 suite = tree.parse("j.xml").getroot().find("testsuite")
@@ -124,28 +96,28 @@ else
 fi
 rm -f g/bro* g/hurried* g/sized* g/harmed* g/gone.png g/kept.png
 check update_changed 0 "$RAMIFY" golden g -q --update
-says update_tells_why out "plain  *stored .*is allowed"
+matches update_tells_why out "plain  *stored .*is allowed"
 cksum g/glow.png >after
 yes update_only_what_changed sh -c 'grep -qF "$(cat after)" before'
 
 check compare_same 0 "$RAMIFY" compare g/plain.png g/plain.png
-says compare_same_message out "^alike: RMSE 0, "
+matches compare_same_message out "^alike: RMSE 0, "
 check compare_other 1 "$RAMIFY" compare g/plain.png g/glow.png --json --report c.html
-says compare_json out '"alike": false, "width": 48, "height": 32'
+matches compare_json out '"alike": false, "width": 48, "height": 32'
 yes compare_report grep -q "data:image/png;base64" c.html
 check compare_within 0 "$RAMIFY" compare g/plain.png g/glow.png --max-rmse 0.5
 check compare_beyond 1 "$RAMIFY" compare g/plain.png g/glow.png --max-rmse 0.5 --max-failing 0.01
 check compare_unreadable 2 "$RAMIFY" compare g/plain.png g/plain.yaml
 check compare_absent 2 "$RAMIFY" compare g/plain.png nowhere.png
 check compare_one 2 "$RAMIFY" compare g/plain.png
-says compare_one_message err "no pair of pictures is named; usage: ramify compare A B"
+matches compare_one_message err "no pair of pictures is named; usage: ramify compare A B"
 check compare_kinds 2 "$RAMIFY" compare g/plain.png g/noisy.exr
-says compare_kinds_message err "'g/noisy.exr' holds radiance and 'g/plain.png' display values"
+matches compare_kinds_message err "'g/noisy.exr' holds radiance and 'g/plain.png' display values"
 check render 0 "$RAMIFY" render g/plain.yaml -o p.png -q
 check compare_exr 1 "$RAMIFY" compare p.exr g/noisy.exr --report e.html
 check compare_exr_alike 0 "$RAMIFY" compare p.exr p.exr
 check compare_sizes 1 "$RAMIFY" compare p.png "$here/golden/twigs.png"
-says compare_sizes_message err "48 x 32 pixels against 144 x 108"
+matches compare_sizes_message err "48 x 32 pixels against 144 x 108"
 
 # FLIP as its authors' own program computes it.
 if [ -x "$RAMIFY_PEERS/python/bin/python" ] && "$RAMIFY_PEERS/python/bin/python" -c "import flip_evaluator" 2>/dev/null; then

@@ -1,6 +1,7 @@
 #!/bin/sh
 # ramify turntable as a user meets it: frames, films, interruptions, mistakes. RAMIFY names the binary.
 # Prints "ok NAME", "not ok NAME" or "skipped NAME: why" for each case.
+. "$(dirname "$0")/checks.sh"
 RAMIFY=${RAMIFY:-build/ramify}
 case $RAMIFY in /*) ;; *) RAMIFY=$PWD/$RAMIFY ;; esac
 folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT
@@ -30,35 +31,6 @@ objects:
   - {name: stone, shape: {envelope: [{shape: box, size: [1, 1, 1]}]}}
 END
 
-# check NAME STATUS COMMAND...: runs the command, wants this exit status; output goes to out, err.
-check() {
-    name=$1 wanted=$2
-    shift 2
-    "$@" >out 2>err
-    status=$?
-    if [ "$status" -eq "$wanted" ]; then echo "ok $name"; else
-        echo "not ok $name"
-        echo "   exit status $status, not $wanted: $*"
-        cat err
-    fi
-}
-# says NAME FILE TEXT: the last command wrote this text there.
-says() {
-    if grep -qF -- "$3" "$2"; then echo "ok $1"; else
-        echo "not ok $1"
-        echo "   no '$3' in:"
-        cat "$2"
-    fi
-}
-# yes NAME COMMAND...
-yes() {
-    name=$1
-    shift
-    if "$@" >log 2>&1; then echo "ok $name"; else
-        echo "not ok $name"
-        cat log
-    fi
-}
 no() {
     name=$1
     shift
