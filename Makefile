@@ -197,7 +197,7 @@ $(OUT)/tests/%: tests/%.c $(OUT)/libramify.a
 	@echo "  TEST $<"
 	@$(CC) $(CFLAGS) -Itests $< $(OUT)/libramify.a $(LDFLAGS) -lcmocka $(LDLIBS) -o $@
 
-# A hundred programs, each of which would optimize the path tracer anew.
-$(TEST_BIN): private LDFLAGS += -fno-lto
+# So many programs, each of which would optimize the path tracer anew.
+$(TEST_BIN) $(OUT)/tests/cross/compare: private LDFLAGS += -fno-lto
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(addsuffix .d,$(TEST_BIN) $(BENCH_BIN))

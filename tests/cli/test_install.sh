@@ -59,7 +59,7 @@ examples() {
     "$kind/grow_export" scene.yaml bush.xyz >"$log" 2>&1
     [ $? -eq 2 ] && grep -qF ".stl" "$log" && [ ! -e bush.xyz ]
     verdict "${kind}_grow_export_refuses" $?
-    "$kind/render_progress" scene.yaml bush.png >"$log" 2>&1 && grep -q '^trace [0-9]* %' "$log" &&
+    "$kind/render_progress" scene.yaml bush.png >"$log" 2>&1 && grep -q '^grow [0-9]* %' "$log" &&
         grep -q '^bush.png has 1 samples' "$log" && "$RAMIFY" render scene.yaml -q -o same.png && cmp bush.png same.png
     verdict "${kind}_render_progress" $?
     sed 's/samples: 4/samples: 1000000/' scene.yaml >long.yaml
