@@ -79,6 +79,7 @@ sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 
 lint: packages check-packages format-check ## clang-tidy, cppcheck and the order of the folders; warnings are errors
 	tests/layers.sh
+	$(CC) $(filter-out -MMD -MP,$(CFLAGS)) -Itests -fsyntax-only $(BENCHES) # which no test builds
 	cppcheck --quiet --std=c17 -j $$(nproc) --enable=warning,performance,portability --inline-suppr --error-exitcode=1 -Isrc src
 	printf '%s\n' $(filter %.c,$(SOURCES)) | xargs -P $$(nproc) -n 1 sh -c \
 	    'clang-tidy --quiet "$$@" -- -std=c17 -D_GNU_SOURCE -Isrc 2>/dev/null || exit 255' sh

@@ -124,7 +124,7 @@ static World *make_world(const char *ply, int samples)
     world->material[0].color = vec3_splat(0.5f);
     world->material[0].roughness = 0.0f;
     world->material_count = 1;
-    Mesh *mesh = mesh_import(ply, &e);
+    Mesh *mesh = mesh_import(ply, &(Run){.threads = 1}, &e);
     Mesh *ground = mesh_new(4, 4, 1, 0, &e);
     if (!mesh || !ground) {
         stop(ply, &e);
