@@ -117,14 +117,16 @@ uninstall: ## take away what `make install` put there
 	    rest=$${entry#*:}; rm -f "$(DESTDIR)$(PREFIX)/$${rest%:*}"; \
 	done
 	@for link in $(LINKS); do rm -f "$(DESTDIR)$(PREFIX)/$$link"; done
+	@module="$(DESTDIR)$(PREFIX)/$(PYTHON_SITE)/ramify"; \
+	rm -rf "$$module/__pycache__" && { [ ! -d "$$module" ] || rmdir --ignore-fail-on-non-empty "$$module"; } # else it can still be imported, empty
 	@[ -n "$(DESTDIR)" ] || [ "$$(id -u)" != 0 ] || ldconfig
 
 .PHONY: ramify.pc # it holds PREFIX, which may be another one each time
 ramify.pc:
 	@mkdir -p $(OUT)
-	@printf '%s\n' 'prefix=$(PREFIX)' 'Name: ramify' 'Description: grows, skins and renders branching things' \
-	    'Version: $(VERSION)' 'Libs: -L$${prefix}/lib -lramify' 'Libs.private: $(LDLIBS) -lgomp -lpthread' \
-	    'Cflags: -I$${prefix}/include' > $(OUT)/ramify.pc
+	@printf '%s\n' 'prefix=$(PREFIX)' 'libdir=$${prefix}/lib' 'includedir=$${prefix}/include' 'Name: ramify' \
+	    'Description: grows, skins and renders branching things' 'Version: $(VERSION)' 'Libs: -L"$${libdir}" -lramify' \
+	    'Libs.private: $(LDLIBS) -lgomp -lpthread' 'Cflags: -I"$${includedir}"' > $(OUT)/ramify.pc
 
 clean: ## remove build/
 	rm -rf build

@@ -15,12 +15,26 @@ static void structs_lie_as_before(void **state)
         const char *name;
         size_t size, wanted_size, last, wanted_last; // bytes; last: where the last member begins
     } structs[] = {
-        STRUCT(RamifyError, message, 1036, 268),   STRUCT(RamifyRun, user, 40, 32),
-        STRUCT(RamifySceneInfo, memory, 88, 80),   STRUCT(RamifyObjectInfo, instances, 56, 48),
-        STRUCT(RamifyTarget, high, 32, 24),        STRUCT(RamifyLandInfo, hash, 40, 32),
-        STRUCT(RamifyMeasure, high, 40, 32),       STRUCT(RamifyWorldInfo, mesh_seconds, 56, 48),
-        STRUCT(RamifyPart, variations, 120, 112),  STRUCT(RamifyExportOptions, tube_sides, 24, 20),
-        STRUCT(RamifyExportReport, bytes, 48, 40), STRUCT(RamifyRenderInfo, samples, 40, 32),
+        STRUCT(RamifyError, message, 1036, 268),
+        STRUCT(RamifyRun, user, 40, 32),
+        STRUCT(RamifySceneInfo, memory, 88, 80),
+        STRUCT(RamifyObjectInfo, instances, 56, 48),
+        STRUCT(RamifyTarget, high, 32, 24),
+        STRUCT(RamifyLandInfo, hash, 40, 32),
+        STRUCT(RamifyMeasure, high, 40, 32),
+        STRUCT(RamifyWorldInfo, mesh_seconds, 56, 48),
+        STRUCT(RamifyPart, variations, 120, 112),
+        STRUCT(RamifyExportOptions, tube_sides, 24, 20),
+        STRUCT(RamifyExportReport, bytes, 48, 40),
+        STRUCT(RamifyRenderInfo, samples, 40, 32),
+        STRUCT(RamifyLimits, max_failing, 24, 16),
+        STRUCT(RamifyDifference, message, 376, 120),
+        STRUCT(RamifyGoldenScene, seconds, 56, 48),
+        STRUCT(RamifyGoldenOptions, user, 72, 64),
+        STRUCT(RamifyGoldenCounts, orphans, 24, 20),
+        STRUCT(RamifyKeys, value, 136, 8),
+        STRUCT(RamifyTurntable, isa, 600, 592),
+        STRUCT(RamifyTurntableInfo, video_seconds, 88, 80),
     };
     for (size_t i = 0; i < sizeof structs / sizeof structs[0]; i++) {
         if (structs[i].size != structs[i].wanted_size ||
@@ -39,6 +53,8 @@ static void zero_is_the_usual_way(void **state)
     assert_int_equal(RAMIFY_OK, 0);
     assert_int_equal(RAMIFY_INSTANCES_AUTO, 0);
     assert_int_equal(RAMIFY_COLORS_ALL, 0);
+    assert_int_equal(RAMIFY_GOLDEN_AS_SCENE, 0);
+    assert_int_equal(RAMIFY_EASE_USUAL, 0);
 }
 
 int main(void)

@@ -44,3 +44,9 @@ inside && !/^ *(const )?(u?int(32|64)_t|float|double|Ramify[A-Z][A-Za-z]*) [a-z]
 ' "$header" >"$log"
 [ ! -s "$log" ]
 verdict struct_members_are_of_fixed_size $?
+
+# The layout of each struct is held fast by test_abi.c.
+sed -n 's/^typedef struct \(Ramify[A-Za-z]*\) {.*/\1/p' "$header" | sort >"$folder/structs"
+grep -o 'STRUCT(Ramify[A-Za-z]*' tests/api/test_abi.c | sed 's/STRUCT(//' | sort >"$folder/held"
+diff "$folder/structs" "$folder/held" >"$log"
+verdict layout_of_every_struct_is_held $?

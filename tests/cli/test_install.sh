@@ -1,19 +1,19 @@
 #!/bin/sh
 # make install: the programs of docs/examples are compiled against the installed library through pkg-config, shared and
-# static, and do what they say; make uninstall leaves nothing. RAMIFY names the binary.
+# static, and do what they say; make uninstall leaves nothing. The prefix has a blank in its name. RAMIFY names the binary.
 # Prints "ok NAME" or "not ok NAME" for each case.
 RAMIFY=${RAMIFY:-build/ramify}
 out=$(dirname "$RAMIFY")
 case $out in */sanitize) exit 0 ;; esac # its library needs the sanitizers' own
 folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT
-repository=$PWD prefix=$folder/prefix log=$folder/log
+repository=$PWD prefix="$folder/a prefix" log=$folder/log
 verdict() { if [ "$2" -eq 0 ]; then echo "ok $1"; else echo "not ok $1"; cat "$log"; fi; }
 
 # DESTDIR keeps it from telling the loader about a folder that is soon gone.
 make -s install OUT="$out" PREFIX="$prefix" DESTDIR=/ >"$log" 2>&1
 verdict install $?
 [ -x "$prefix/bin/ramify" ] && [ "$("$prefix/bin/ramify" --version)" = "$("$RAMIFY" --version)" ] &&
-    [ "ramify $(PKG_CONFIG_PATH=$prefix/lib/pkgconfig pkg-config --modversion ramify)" = "$("$RAMIFY" --version)" ]
+    [ "ramify $(PKG_CONFIG_PATH="$prefix/lib/pkgconfig" pkg-config --modversion ramify)" = "$("$RAMIFY" --version)" ]
 verdict install_has_one_version $?
 
 cat >"$folder/scene.yaml" <<'END'
@@ -28,7 +28,7 @@ objects:
 END
 export PKG_CONFIG_PATH="$prefix/lib/pkgconfig"
 
-# compile KIND OPTION...: all examples into $folder/KIND. Word splitting is meant: pkg-config prints options.
+# compile KIND OPTION...: all examples into $folder/KIND. pkg-config prints options as a shell reads them.
 compile() {
     kind=$1
     shift
@@ -36,8 +36,8 @@ compile() {
     status=0
     for source in docs/examples/*.c; do
         program=$(basename "$source" .c)
-        cc -std=c99 -Wall -Wextra -Werror -pedantic "$source" -o "$folder/$kind/$program" \
-            $(pkg-config "$@" --cflags --libs ramify) >"$log" 2>&1 || status=1
+        eval "cc -std=c99 -Wall -Wextra -Werror -pedantic '$source' -o '$folder/$kind/$program' \
+            $(pkg-config "$@" --cflags --libs ramify)" >"$log" 2>&1 || status=1
     done
     verdict "${kind}_compiles" $status
 }
@@ -83,7 +83,7 @@ LD_LIBRARY_PATH="$prefix/lib" examples shared
 python=${RAMIFY_PEERS:-$repository/build/peers}/python/bin/python
 if "$python" -c 'import numpy' 2>/dev/null; then
     # found below the same prefix, from anywhere, without a word about where
-    (cd / && env -u RAMIFY_LIBRARY PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$(echo "$prefix"/lib/python3*/dist-packages)" \
+    (cd / && env -u RAMIFY_LIBRARY -u PYTHONDONTWRITEBYTECODE PYTHONPATH="$(echo "$prefix"/lib/python3*/dist-packages)" \
         "$python" "$repository/docs/examples/grow_numpy.py" "$folder/scene.yaml" bush) >"$log" 2>&1 &&
         grep -qE '^bush: [0-9]+ nodes, .* m of branches, [0-9]+ tips$' "$log"
     verdict installed_python_module $?
@@ -94,5 +94,5 @@ rm "$prefix/lib/libramify.so" # so that the archive is what -lramify finds
 compile static --static
 examples static
 
-make -s uninstall OUT="$out" PREFIX="$prefix" DESTDIR=/ >"$log" 2>&1 && find "$prefix" ! -type d >"$log" && [ ! -s "$log" ]
+make -s uninstall OUT="$out" PREFIX="$prefix" DESTDIR=/ >"$log" 2>&1 && find "$prefix" ! -type d -o -name ramify >"$log" && [ ! -s "$log" ]
 verdict uninstall_leaves_nothing $?
