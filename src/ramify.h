@@ -172,8 +172,9 @@ typedef struct RamifyTree RamifyTree; // an out-tree
 RAMIFY_API RamifyTree *ramify_grow(const RamifyScene *scene, int index, const RamifyRun *run,
                                    RamifyError *error);
 
-// Reads an SWC file, coordinates in metres. RAMIFY_BAD_INPUT with file and line when it is wrong.
-RAMIFY_API RamifyTree *ramify_tree_read(const char *file, RamifyError *error);
+// Reads an SWC file, coordinates in metres, in a child process with limits on time and memory: the
+// file may be any. RAMIFY_BAD_INPUT with file and line when it is wrong. run may be NULL.
+RAMIFY_API RamifyTree *ramify_tree_read(const char *file, const RamifyRun *run, RamifyError *error);
 
 // Writes .swc, .json or .graphml by the file's ending. Written beside and renamed: a failure never
 // harms an existing file.

@@ -20,10 +20,11 @@ RamifyTree *ramify_grow(const RamifyScene *scene, int index, const RamifyRun *ru
     return hand_tree(scene_grow_object(scene_of(scene), index, &own, &e), &e, error);
 }
 
-RamifyTree *ramify_tree_read(const char *file, RamifyError *error)
+RamifyTree *ramify_tree_read(const char *file, const RamifyRun *run, RamifyError *error)
 {
     Error e = {0};
-    return hand_tree(out_tree_read_swc(file, &e), &e, error);
+    Run own = api_run(run);
+    return hand_tree(out_tree_import_swc(file, &own, &e), &e, error);
 }
 
 bool ramify_tree_write(const RamifyTree *tree, const char *file, RamifyError *error)

@@ -289,7 +289,10 @@ static bool print_file(const Options *options, const char *kind, RamifyMeasures 
 
 static bool measure_swc(const Options *options, RamifyError *e)
 {
-    RamifyTree *tree = ramify_tree_read(options->operand, e);
+    Progress progress;
+    RamifyRun run = command_run(options, &progress);
+    RamifyTree *tree = ramify_tree_read(options->operand, &run, e);
+    progress_end(&progress);
     bool done = tree && print_file(options, "swc", ramify_tree_measure(tree, e));
     ramify_tree_free(tree);
     return done;

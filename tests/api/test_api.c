@@ -148,8 +148,12 @@ static void an_out_tree_survives_its_file(void **state)
     RamifyScene *scene = load();
     RamifyTree *tree = ramify_grow(scene, BUSH, NULL, NULL);
     assert_true(ramify_tree_write(tree, swc, &error));
-    RamifyTree *read = ramify_tree_read(swc, &error);
+    RamifyTree *read = ramify_tree_read(swc, NULL, &error);
     assert_non_null(read);
+    volatile int cancelled = 1;
+    RamifyRun interrupted = {.cancelled = &cancelled};
+    assert_null(ramify_tree_read(swc, &interrupted, &error)); // in a child that is waited for
+    assert_int_equal(error.code, RAMIFY_CANCELLED);
     assert_int_equal(unlink(swc), 0);
     assert_int_equal(ramify_tree_count(tree), ramify_tree_count(read));
     ramify_tree_bounds(tree, low, high);
@@ -167,7 +171,8 @@ static void an_out_tree_survives_its_file(void **state)
     }
     assert_false(ramify_tree_write(tree, "/tmp/x.tga", &error));
     assert_int_equal(error.code, RAMIFY_BAD_INPUT);
-    assert_null(ramify_tree_read("/nope.swc", &error));
+    assert_null(ramify_tree_read("/nope.swc", NULL, &error));
+    assert_int_equal(error.code, RAMIFY_BAD_INPUT);
     ramify_tree_free(again);
     ramify_tree_free(read);
     ramify_tree_free(tree);

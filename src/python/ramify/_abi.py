@@ -183,7 +183,7 @@ FUNCTIONS = {
     "scene_resolved": (_text, [_handle]),
     "scene_object": (None, [_handle, _int, c.POINTER(ObjectInfo)]),
     "grow": (_handle, [_handle, _int, _run, _error]),
-    "tree_read": (_handle, [_text, _error]),
+    "tree_read": (_handle, [_text, _run, _error]),
     "tree_write": (c.c_bool, [_handle, _text, _error]),
     "tree_free": (None, [_handle]),
     "tree_count": (c.c_int64, [_handle]),

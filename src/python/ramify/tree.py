@@ -5,7 +5,7 @@ import os
 
 from . import _abi
 from ._arrays import view
-from ._call import Handle, call, lib
+from ._call import Handle, call, lib, run
 
 
 def measures(pointer):
@@ -37,8 +37,9 @@ class Tree:
 
     @classmethod
     def read(cls, file):
-        """Reads an SWC file, coordinates in metres."""
-        return cls(call("tree_read", os.fsencode(file)))
+        """Reads an SWC file, coordinates in metres; any file, in a child process with limits."""
+        name = os.fsencode(file)
+        return cls(run(lambda how, _, error: lib.ramify_tree_read(name, how, error), discard=lib.ramify_tree_free))
 
     def write(self, file):
         """Writes .swc, .json or .graphml, by the file's ending."""
