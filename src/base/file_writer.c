@@ -158,11 +158,6 @@ void *file_writer_room(FileWriter *writer, size_t size)
     return writer->reason ? NULL : room;
 }
 
-int64_t file_writer_size(const FileWriter *writer)
-{
-    return writer->flushed + (int64_t)writer->used;
-}
-
 // Whole and on the disk, with the permissions of the file that it takes the place of.
 static void bring_to_disk(FileWriter *writer)
 {

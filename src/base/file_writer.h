@@ -25,9 +25,6 @@ void file_writer_print(FileWriter *writer, const char *format, ...)
 enum { FILE_WRITER_ROOM = 4096 };
 void *file_writer_room(FileWriter *writer, size_t size);
 
-// Bytes written so far.
-int64_t file_writer_size(const FileWriter *writer);
-
 // Brings everything to the disk, so that a close that keeps it can hardly fail: for files that
 // belong together. ERROR_IO with the reason.
 bool file_writer_settle(FileWriter *writer, Error *e);

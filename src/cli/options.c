@@ -9,7 +9,7 @@
 
 #define MOST_OPTIONS 128 // that a hint chooses from
 
-Options options_default(void)
+static Options options_default(void)
 {
     return (Options){.command = COMMAND_HELP,
                      .seconds = -1.0,

@@ -22,7 +22,7 @@ typedef enum CommandId {
     COMMAND_COUNT
 } CommandId;
 
-// What the command line says; numbers that it does not give are as options_default sets them.
+// What the command line says; numbers that it does not give are as said here.
 typedef struct Options {
     CommandId command;
     const char *operand; // SCENE, or the command to be helped with; NULL = none
@@ -59,8 +59,6 @@ typedef struct Options {
     const char *ease;                        // NULL = the usual
     RamifyTurntable turntable;               // the rest of it
 } Options;
-
-Options options_default(void);
 
 // Parses argv[1..]. RAMIFY_BAD_INPUT names what is wrong and what would be right. --help and
 // --version set command to COMMAND_HELP and *version.

@@ -6,11 +6,6 @@
 
 #include <stdlib.h>
 
-bool vertex_colors_vary(const World *world, const Part *part)
-{
-    return vertex_colors_vary_on(&world->material[part->material]);
-}
-
 bool vertex_colors_vary_on(const Material *material)
 {
     return material->pattern != PATTERN_NONE && export_material_varies(material);

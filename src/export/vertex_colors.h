@@ -5,8 +5,7 @@
 #include "base/run.h"
 #include "render/world.h"
 
-// True when the part's material has a pattern, so that its colour differs from place to place.
-bool vertex_colors_vary(const World *world, const Part *part);
+// True when a part of this material has a pattern, so that its colour differs from place to place.
 bool vertex_colors_vary_on(const Material *material);
 
 // The colour (reflectance, linear Rec. 709) that the part's material with its pattern has at each

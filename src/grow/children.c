@@ -244,11 +244,18 @@ static Vec3 from_frame(const Grower *grower, Vec3 local)
     return vec3_madd(v, local.z, grower->side);
 }
 
+// May this node not branch, because its sides would be of too high an order?
+static bool is_last_order(const Growth *growth, int32_t node)
+{
+    int limit = growth->params->max_order;
+    return limit > 0 && growth->tree->parent[node] >= 0 && growth->state[node].order >= limit;
+}
+
 static int make_sectors(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
 {
     const ColonizeParams *params = growth->params;
     const NodeState *state = &growth->state[grower->node];
-    bool straight = growth_is_last_order(growth, grower->node);
+    bool straight = is_last_order(growth, grower->node);
     int count = 0, limit = params->max_children > 0 ? params->max_children - state->children
                                                     : growth->sectors.count;
     for (int s = 0; s < growth->sectors.count && count < limit; s++) {
@@ -267,12 +274,6 @@ static int make_sectors(const Growth *growth, const Grower *grower, const Pull *
     return count;
 }
 
-bool growth_is_last_order(const Growth *growth, int32_t node)
-{
-    int limit = growth->params->max_order;
-    return limit > 0 && growth->tree->parent[node] >= 0 && growth->state[node].order >= limit;
-}
-
 // The coral paper, steps b-d: each direction that owns attractors makes one child, toward their
 // mean and as far as their mean growth distance.
 static int make_string(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
@@ -281,7 +282,7 @@ static int make_string(const Growth *growth, const Grower *grower, const Pull *p
     const GrowString *string = params->string;
     const GrowDirection *at = &string->direction[growth->place[grower->node]];
     int limit = params->max_children > 0 ? params->max_children : at->followers, count = 0;
-    limit = growth_is_last_order(growth, grower->node) ? 1 : limit;
+    limit = is_last_order(growth, grower->node) ? 1 : limit;
     for (int i = 0; i < at->followers && count < limit; i++) {
         const GrowDirection *direction = &string->direction[at->first + i];
         uint64_t bud = out_tree_child_id(growth->tree->id[grower->node], -1 - i);
@@ -315,7 +316,7 @@ int growth_make_children(const Growth *growth, const Grower *grower, const Pull 
     }
     child->sector = 0;
     bool lateral = growth->state[grower->node].children > 0;
-    if (lateral && growth_is_last_order(growth, grower->node)) {
+    if (lateral && is_last_order(growth, grower->node)) {
         return 0;
     }
     if (pull->count == 0 || (lateral && is_suppressed(growth, next_child_id(growth, grower, 0)))) {

@@ -90,9 +90,6 @@ void growth_merge_pulls(const Growth *growth, int64_t grower, int parts);
 // Fills in a grower whose node is set.
 void growth_prepare(const Growth *growth, Grower *grower);
 
-// May this node not branch, because its sides would be of too high an order?
-bool growth_is_last_order(const Growth *growth, int32_t node);
-
 // Makes the children of a grower from its pulls (one a sector at most); returns how many.
 int growth_make_children(const Growth *growth, const Grower *grower, const Pull *pull,
                          Child *child);

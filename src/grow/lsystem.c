@@ -436,13 +436,6 @@ bool lsystem_derive(const LSystemParams *params, const Run *run, ModuleString *s
     return done;
 }
 
-bool module_string_read(const char *text, ModuleString *string, Error *e)
-{
-    Run run = run_default();
-    LSystemParams params = {.axiom = text, .rules = ""};
-    return lsystem_derive(&params, &run, string, e);
-}
-
 void module_string_clear(ModuleString *string)
 {
     free(string->module);

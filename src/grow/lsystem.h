@@ -43,8 +43,6 @@ typedef struct LSystemParams {
 // axiom or rules, or the generation that would be longer than most_modules.
 bool lsystem_derive(const LSystemParams *params, const Run *run, ModuleString *string, Error *e);
 
-// Reads a string of modules with numbers for parameters, as an axiom is written.
-bool module_string_read(const char *text, ModuleString *string, Error *e);
 void module_string_clear(ModuleString *string);
 
 // Parameter number `place` of a module, or fallback where it has fewer.

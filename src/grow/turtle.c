@@ -9,7 +9,8 @@
 
 enum { CHECK_EVERY = 65536 };
 
-TurtleFrame turtle_frame_default(void)
+// Heading up (+Y), its back to +Z: drawings in the plane turn in the plane z = 0.
+static TurtleFrame frame_default(void)
 {
     return (TurtleFrame){{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
 }
@@ -19,7 +20,8 @@ TurtleParams turtle_params_default(void)
     return (TurtleParams){.step = 1.0f, .angle = 30.0f, .shrink = 1.0f, .seed = 1};
 }
 
-TurtleFrame turtle_frame_clean(TurtleFrame frame)
+// The frame made exactly right-angled again about its heading.
+static TurtleFrame frame_clean(TurtleFrame frame)
 {
     Vec3 h = vec3_normalize(frame.heading);
     Vec3 up = vec3_madd(frame.up, -vec3_dot(frame.up, h), h);
@@ -31,9 +33,9 @@ static TurtleFrame turn_about(TurtleFrame frame, Vec3 axis, float radians)
 {
     float s, c;
     exact_sincos(radians, &s, &c);
-    return turtle_frame_clean((TurtleFrame){vec3_rotate(frame.heading, axis, c, s),
-                                            vec3_rotate(frame.left, axis, c, s),
-                                            vec3_rotate(frame.up, axis, c, s)});
+    return frame_clean((TurtleFrame){vec3_rotate(frame.heading, axis, c, s),
+                                     vec3_rotate(frame.left, axis, c, s),
+                                     vec3_rotate(frame.up, axis, c, s)});
 }
 
 // L level, U as far up as it goes; a vertical turtle stays as it is.
@@ -219,7 +221,7 @@ OutTree *turtle_draw(const ModuleString *string, const TurtleParams *params, con
     Drawing d = {.string = string,
                  .params = params,
                  .tree = out_tree_new(e),
-                 .now = {turtle_frame_default(), params->position, params->width, -1}};
+                 .now = {frame_default(), params->position, params->width, -1}};
     bool done = d.tree && draw(&d, run, e);
     free(d.stack);
     free(d.children);

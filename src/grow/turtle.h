@@ -17,14 +17,8 @@ typedef struct TurtleFrame {
     Vec3 heading, left, up; // unit, right-handed
 } TurtleFrame;
 
-// Heading up (+Y), its back to +Z: drawings in the plane turn in the plane z = 0.
-TurtleFrame turtle_frame_default(void);
-
 // Applies a turning symbol ( + - & ^ \ / | $ ) to the frame; false when the module is none.
 bool turtle_turn(TurtleFrame *frame, char symbol, float degrees);
-
-// The frame made exactly right-angled again about its heading.
-TurtleFrame turtle_frame_clean(TurtleFrame frame);
 
 typedef struct TurtleParams {
     Vec3 position;    // m, of the start

@@ -86,28 +86,6 @@ static Mesh *copy_with_normals(const Mesh *cage, Error *e)
     return copy;
 }
 
-Mesh *mesh_subdivide(const Mesh *cage, int levels, const Run *run, Error *e)
-{
-    if (cage->face_size != 4 || levels < 0 || levels > 6) {
-        error_set(e, ERROR_INPUT,
-                  "cannot smooth a mesh of %d-sided faces %d times; quads and 0 to "
-                  "6 times are possible",
-                  cage->face_size, levels);
-        return NULL;
-    }
-    if (levels == 0) {
-        return copy_with_normals(cage, e);
-    }
-    uint8_t *face_level = memory_alloc(cage->face_count, 1, e);
-    if (!face_level) {
-        return NULL;
-    }
-    memset(face_level, levels, (size_t)cage->face_count);
-    Mesh *mesh = mesh_refine(cage, face_level, run, e);
-    free(face_level);
-    return mesh;
-}
-
 // Thin branches have few sides and get fewer levels: one less below a 24th of the thickest radius,
 // two less below a 96th, but one at least. (Thick ones have more sides to begin with, so that faces
 // differ little in size.)

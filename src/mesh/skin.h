@@ -30,10 +30,6 @@ SkinParams skin_params_default(void);
 // enlarged so that the limit surface has the out-tree's radius. Carries uv (m), radius and birth.
 Mesh *skin_cage(const OutTree *tree, const SkinParams *params, const Run *run, Error *e);
 
-// Catmull-Clark refinement of a quad cage `levels` times through OpenSubdiv, vertices moved to the
-// limit surface, limit normals, attributes interpolated. Level 0 gives a copy with normals.
-Mesh *mesh_subdivide(const Mesh *cage, int levels, const Run *run, Error *e);
-
 // skin_cage, then refinement to the limit surface: thick branches to `levels`, thin ones to one or
 // two less but 1 at least; made of triangles if levels differ, else of quads. Memory beyond the
 // result is a few tens of MB a thread.

@@ -198,7 +198,8 @@ static Vec3 transport_side(const SkinPoint *from, const SkinPoint *to)
     return fine ? side : vec3_perpendicular(to->tangent);
 }
 
-void skin_axis_frames(SkinPoint *point, int64_t count, Vec3 fallback_tangent)
+// Sets the frames (tangent and side) of an axis whose positions are known.
+static void turn_frames(SkinPoint *point, int64_t count, Vec3 fallback_tangent)
 {
     set_tangents(point, count, fallback_tangent);
     point[0].side = vec3_perpendicular(point[0].tangent);
@@ -335,7 +336,7 @@ bool skin_plan_axis(SkinPlan *plan, int32_t number, Error *e)
         }
         SkinPoint *point = plan->point + chain->axis;
         soften_bends(point, chain->samples);
-        skin_axis_frames(point, chain->samples, default_tangent(plan, chain));
+        turn_frames(point, chain->samples, default_tangent(plan, chain));
         int64_t fold = find_fold(point, chain->samples);
         bool cut = false;
         if (fold >= 0 && !cut_chain(plan, number, point[fold].along, count, &cut, e)) {

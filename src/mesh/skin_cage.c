@@ -48,7 +48,7 @@ void skin_cage_add_face(SkinCage *cage, uint32_t a, uint32_t b, uint32_t c, uint
     cage->face_axis[cage->face_count++] = axis;
 }
 
-SkinVertex skin_cage_vertex(const SkinCage *cage, uint32_t i)
+static SkinVertex vertex_of(const SkinCage *cage, uint32_t i)
 {
     return (SkinVertex){cage->position[i], cage->uv[i], cage->radius[i], cage->birth[i]};
 }
@@ -108,7 +108,7 @@ static SkinVertex cap_vertex(const SkinCage *cage, const CapGrid *grid, int x, i
     SkinVertex sum = {.radius = 0.0f};
     for (int i = 0; i < 8; i++) {
         uint32_t rim = cap_point(grid, term[i].x, term[i].y);
-        sum = skin_vertex_madd(sum, term[i].weight, skin_cage_vertex(cage, rim));
+        sum = skin_vertex_madd(sum, term[i].weight, vertex_of(cage, rim));
     }
     return sum;
 }

@@ -34,8 +34,6 @@ bool skin_cage_reserve(SkinCage *cage, int64_t more_vertices, int64_t more_faces
 uint32_t skin_cage_add_vertex(SkinCage *cage, SkinVertex vertex);
 void skin_cage_add_face(SkinCage *cage, uint32_t a, uint32_t b, uint32_t c, uint32_t d, Vec3 axis);
 
-SkinVertex skin_cage_vertex(const SkinCage *cage, uint32_t i);
-
 // Weighted sums: a + w * b.
 SkinVertex skin_vertex_madd(SkinVertex a, float w, SkinVertex b);
 

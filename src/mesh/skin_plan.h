@@ -68,9 +68,6 @@ bool skin_plan_chains(SkinPlan *plan, Error *e);
 // itself, the rest of the chain becomes a new chain, a child of this one.
 bool skin_plan_axis(SkinPlan *plan, int32_t chain, Error *e);
 
-// Sets the frames (tangent and side) of an axis whose positions are known.
-void skin_axis_frames(SkinPoint *point, int64_t count, Vec3 fallback_tangent);
-
 // The axis at a distance from its start, straight on beyond its ends.
 SkinPoint skin_axis_at(const SkinPlan *plan, int32_t chain, float along);
 

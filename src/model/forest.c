@@ -49,7 +49,8 @@ ForestParams forest_params_default(void)
     return forest;
 }
 
-float forest_spacing(const ForestParams *params)
+// m from trunk to trunk.
+static float forest_spacing(const ForestParams *params)
 {
     return params->spacing > 0.0f ? params->spacing : 0.24f * params->height;
 }

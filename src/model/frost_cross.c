@@ -20,7 +20,8 @@ static float across(Vec3 a, Vec3 b, Vec3 c, Vec3 normal)
     return vec3_dot(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)), normal);
 }
 
-bool frost_segments_cross(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1, Vec3 normal)
+// Do the segments a0-a1 and b0-b1 cross, seen along the normal? Touching ends count.
+static bool segments_cross(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1, Vec3 normal)
 {
     float p = across(a0, a1, b0, normal), q = across(a0, a1, b1, normal);
     float r = across(b0, b1, a0, normal), s = across(b0, b1, a1, normal);
@@ -60,8 +61,8 @@ static bool crosses(const SegmentGrid *grid, int32_t node)
             Vec3 d = vec3_sub(middle_of(tree, i), m);
             bool near = vec3_dot(d, d) * grid->inverse_cell * grid->inverse_cell <= 1.0f;
             if (!joined && near &&
-                frost_segments_cross(a, b, tree->position[other], tree->position[i],
-                                     tree->normal[node])) {
+                segments_cross(a, b, tree->position[other], tree->position[i],
+                               tree->normal[node])) {
                 return true;
             }
         }

@@ -9,8 +9,9 @@
 
 #define WOOD_WAVELENGTH 90.0f // m, from wood to wood where they clump
 
-void stand_land_slope(ForestLand *land, const void *user, float x, float z, float h, float *dx,
-                      float *dz)
+// Rise of the land along x and z at (x, z), over h (m) to both sides.
+static void land_slope(ForestLand *land, const void *user, float x, float z, float h, float *dx,
+                       float *dz)
 {
     *dx = (land(user, x + h, z) - land(user, x - h, z)) / (2.0f * h);
     *dz = (land(user, x, z + h) - land(user, x, z - h)) / (2.0f * h);
@@ -60,7 +61,7 @@ bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t
             x += random_range(random_key(key, 1), -0.06f, 0.06f) * pitch;
             z += random_range(random_key(key, 2), -0.06f, 0.06f) * pitch;
             float dx, dz;
-            stand_land_slope(land, user, x, z, 0.5f * forest_stand_radius(params), &dx, &dz);
+            land_slope(land, user, x, z, 0.5f * forest_stand_radius(params), &dx, &dz);
             if (!is_free(params, seed, key, x, z) ||
                 1.0f / sqrtf(1.0f + dx * dx + dz * dz) < least_cosine) {
                 continue;

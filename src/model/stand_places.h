@@ -4,7 +4,6 @@
 
 #include "model/forest.h"
 
-float forest_spacing(const ForestParams *params);      // m from trunk to trunk
 float forest_stand_radius(const ForestParams *params); // m
 
 // The nodes of one stand of a grown forest, moved to the origin; the caller frees it.
@@ -19,9 +18,5 @@ typedef struct StandPlaces {
 bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t seed,
                        ForestLand *land, const void *user, Error *e);
 void stand_places_free(StandPlaces *places);
-
-// Rise of the land along x and z at (x, z), over h (m) to both sides.
-void stand_land_slope(ForestLand *land, const void *user, float x, float z, float h, float *dx,
-                      float *dz);
 
 #endif

@@ -53,7 +53,7 @@ static void merge_cones(LightBounds *sum, const LightBounds *a, const LightBound
     }
 }
 
-LightBounds light_bounds_union(const LightBounds *a, const LightBounds *b)
+static LightBounds bounds_union(const LightBounds *a, const LightBounds *b)
 {
     if (a->power <= 0.0f || b->power <= 0.0f) {
         return a->power <= 0.0f ? *b : *a;
@@ -112,16 +112,16 @@ static int best_border(const Builder *b, const int32_t *item, int64_t count, int
     for (int64_t i = 0; i < count; i++) {
         const LightBounds *light = &b->bounds[item[i]];
         LightBounds *own = &bucket[bucket_of(centre(light, axis), low, high)];
-        *own = light_bounds_union(own, light);
+        *own = bounds_union(own, light);
     }
     above[BUCKETS - 1] = bucket[BUCKETS - 1];
     for (int i = BUCKETS - 2; i > 0; i--) {
-        above[i] = light_bounds_union(&above[i + 1], &bucket[i]);
+        above[i] = bounds_union(&above[i + 1], &bucket[i]);
     }
     int best = -1;
     LightBounds below = {.power = 0.0f};
     for (int i = 0; i + 1 < BUCKETS; i++) {
-        below = light_bounds_union(&below, &bucket[i]);
+        below = bounds_union(&below, &bucket[i]);
         float here = split_cost(&below, stretch) + split_cost(&above[i + 1], stretch);
         if (below.power > 0.0f && above[i + 1].power > 0.0f && here < *cost) {
             *cost = here;
@@ -188,8 +188,7 @@ static int32_t build(Builder *b, int64_t begin, int64_t count, int32_t parent, i
     int64_t first = split(b, b->item + begin, count, depth);
     int32_t left = build(b, begin, first, index, depth + 1);
     node->right = build(b, begin + first, count - first, index, depth + 1);
-    node->bounds =
-        light_bounds_union(&b->tree->node[left].bounds, &b->tree->node[node->right].bounds);
+    node->bounds = bounds_union(&b->tree->node[left].bounds, &b->tree->node[node->right].bounds);
     return index;
 }
 

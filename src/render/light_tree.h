@@ -38,8 +38,6 @@ typedef struct LightTree LightTree;
 LightTree *light_tree_new(const LightBounds *bounds, int64_t count, Error *e);
 void light_tree_free(LightTree *tree); // NULL is fine
 
-LightBounds light_bounds_union(const LightBounds *a, const LightBounds *b);
-
 float light_tree_power(const LightTree *tree); // sum over all lights
 
 // A light drawn with a uniform number u and the probability of that; -1 where none can reach the

@@ -29,20 +29,13 @@ static void side_reflectances(double ior, double cosine, double *across, double 
     *in_plane = p * p;
 }
 
-// Airy's sum: side is one side's reflectance, half_phase = 2 pi n d cos(t) / wavelength.
+// What both sides together mirror of one wavelength, all inner reflections summed (Airy): side is
+// one side's reflectance, half_phase = 2 pi n d cos(t) / wavelength.
 static double airy(double side, double half_phase_sine2)
 {
     double finesse = 4.0 * side / fmax((1.0 - side) * (1.0 - side), 1e-12);
     double f = finesse * half_phase_sine2;
     return f / (1.0 + f);
-}
-
-double thin_film_reflectance(double thickness, double ior, double cosine, double wavelength)
-{
-    double across, in_plane, inner;
-    side_reflectances(ior, cosine, &across, &in_plane, &inner);
-    double sine = sin(2.0 * M_PI * ior * thickness * inner / wavelength);
-    return 0.5 * (airy(across, sine * sine) + airy(in_plane, sine * sine));
 }
 
 float thin_film_mean(float ior, float cosine)

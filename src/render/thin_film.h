@@ -1,5 +1,4 @@
-// Interference in a thin film that hangs in air, such as a soap bubble's: reflectance of one
-// wavelength in closed form, and the colour of all of them.
+// Interference in a thin film that hangs in air, such as a soap bubble's: the colour it mirrors.
 #ifndef RAMIFY_RENDER_THIN_FILM_H
 #define RAMIFY_RENDER_THIN_FILM_H
 
@@ -13,12 +12,9 @@ typedef struct ThinFilmTable ThinFilmTable; // immutable; the same for all films
 ThinFilmTable *thin_film_table_new(Error *e);
 void thin_film_table_free(ThinFilmTable *table); // NULL is fine
 
-// Reflectance of both sides together, all inner reflections summed (Airy), for unpolarised light of
-// a wavelength (nm); thickness in nm, cosine > 0 of the angle in air. What is not reflected passes.
-double thin_film_reflectance(double thickness, double ior, double cosine, double wavelength);
-
-// The same for light of all wavelengths, as linear Rec. 709 for light whose colour is (1, 1, 1);
-// each channel in 0..1.
+// Reflectance of both sides together, all inner reflections summed, for unpolarised light whose
+// colour is (1, 1, 1): linear Rec. 709, each channel in 0..1. thickness in nm, cosine > 0 of the
+// angle in air. What is not reflected passes.
 Vec3 thin_film_color(const ThinFilmTable *table, float thickness, float ior, float cosine);
 
 // Its mean over thicknesses: no colour, one number. What a film of unknown thickness reflects.

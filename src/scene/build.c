@@ -104,26 +104,6 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
     return kind->grow(object, &recipe, e);
 }
 
-OutTree **scene_grow(const Scene *scene, const Run *run, Error *e)
-{
-    OutTree **trees = memory_alloc_zero(scene->object_count, sizeof(OutTree *), e);
-    bool done = trees;
-    for (int i = 0; done && i < scene->object_count; i++) {
-        if (kind_of(&scene->objects[i])->grow) {
-            trees[i] = scene_grow_object(scene, i, run, e);
-            done = trees[i];
-        }
-    }
-    if (done) {
-        return trees;
-    }
-    for (int i = 0; trees && i < scene->object_count; i++) {
-        out_tree_free(trees[i]);
-    }
-    free(trees);
-    return NULL;
-}
-
 HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, const Run *run,
                            Error *e)
 {

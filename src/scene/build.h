@@ -14,10 +14,6 @@ typedef struct BuildStats {
     GeometryCounts geometry;
 } BuildStats;
 
-// All out-trees of the scene, one per growing object (NULL for objects that do not grow), as an
-// array of scene->object_count; free each, then the array.
-OutTree **scene_grow(const Scene *scene, const Run *run, Error *e);
-
 // The out-tree of object number index alone. ERROR_INPUT when it does not grow or does not exist.
 OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error *e);
 

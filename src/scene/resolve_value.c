@@ -35,7 +35,8 @@ const char *node_describe(Resolver *r, const Node *node)
     return text ? text : "";
 }
 
-void key_range(const Key *row, char *text, int size)
+// "greater than 0 and at most 90 degrees", "a finite number": what a number must be.
+static void key_range(const Key *row, char *text, int size)
 {
     bool whole = row->type == KEY_INT || row->type == KEY_INT64 || row->type == KEY_UINT64;
     const char *unit = row->unit ? row->unit : "", *space = row->unit ? " " : "";

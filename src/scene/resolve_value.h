@@ -13,7 +13,4 @@ bool resolve_default(Resolver *r, const Key *row, const char *base, Node **node)
 // "a list", "'blue'", "200", ... for messages.
 const char *node_describe(Resolver *r, const Node *node);
 
-// "greater than 0 and at most 90 degrees", "a finite number": what a number must be.
-void key_range(const Key *row, char *text, int size);
-
 #endif

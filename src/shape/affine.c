@@ -9,13 +9,6 @@ void affine_point(const double m[3][4], const double p[3], double out[3])
     }
 }
 
-void affine_vector(const double m[3][4], const double v[3], double out[3])
-{
-    for (int i = 0; i < 3; i++) {
-        out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
-    }
-}
-
 void affine_cofactors(const double m[3][4], double cofactor[3][3])
 {
     for (int i = 0; i < 3; i++) {

@@ -7,9 +7,6 @@
 // m * (p, 1).
 void affine_point(const double m[3][4], const double p[3], double out[3]);
 
-// m's linear part times v.
-void affine_vector(const double m[3][4], const double v[3], double out[3]);
-
 double affine_determinant(const double m[3][4]);
 
 // Cofactors of the linear part: map area vectors (and, but for length, normals) of surfaces.

@@ -67,7 +67,9 @@ static void write_floats(FileWriter *out, const char *name, const float *value, 
     file_writer_text(out, "]");
 }
 
-bool out_tree_write_json(const OutTree *tree, const char *file, Error *e)
+// One object with the arrays position ([x, y, z] in metres), parent (-1 at roots), birth, colony,
+// radius (metres) and id (hexadecimal strings). Numbers read back to the same bits.
+static bool write_json(const OutTree *tree, const char *file, Error *e)
 {
     FileWriter *out = file_writer_open(file, e);
     if (!out) {
@@ -100,7 +102,7 @@ bool out_tree_write(const OutTree *tree, const char *file, Error *e)
         return out_tree_write_swc(tree, file, e);
     }
     if (ends_with(file, ".json")) {
-        return out_tree_write_json(tree, file, e);
+        return write_json(tree, file, e);
     }
     if (ends_with(file, ".graphml")) {
         return out_trees_write_graphml(&tree, &(const char *){"tree"}, 1, file, e);

@@ -31,10 +31,6 @@ OutTree *out_tree_read_swc(const char *file, Error *e);
 // (swc_import.c)
 OutTree *out_tree_import_swc(const char *file, const Run *run, Error *e);
 
-// JSON: one object with the arrays position ([x, y, z] in metres), parent (-1 at roots), birth,
-// colony, radius (metres) and id (hexadecimal strings). Numbers read back to the same bits.
-bool out_tree_write_json(const OutTree *tree, const char *file, Error *e);
-
 // GraphML (Brandes et al. 2002): a directed graph for each of `count` trees that is not NULL, named
 // name[i], with an edge from each node to its children. Nodes have x, y, z, radius (m), birth,
 // colony and key (the id as hexadecimal text), edges their length (m); numbers read back to the

@@ -93,7 +93,8 @@ static void vertices_have_the_colours_that_rays_meet(void **state)
     int compared = 0;
     for (int64_t i = 0; i < world->geometry.count; i++) {
         const Part *part = &world->geometry.part[i];
-        if (!part->mesh || part->instance || !vertex_colors_vary(world, part)) {
+        if (!part->mesh || part->instance ||
+            !vertex_colors_vary_on(&world->material[part->material])) {
             continue;
         }
         Vec3 *color = vertex_colors(world, part, &run, &e);

@@ -68,7 +68,9 @@ static void strings_that_cannot_grow_are_refused(void **state)
         ModuleString modules;
         GrowString string;
         Error e = {0};
-        assert_true(module_string_read(cases[i][0], &modules, &e));
+        LSystemParams written = {.axiom = cases[i][0], .rules = ""};
+        Run run = run_default();
+        assert_true(lsystem_derive(&written, &run, &modules, &e));
         assert_false(grow_string_init(&string, &modules, 30.0f, &e));
         assert_string_equal(e.message, cases[i][1]);
         module_string_clear(&modules);

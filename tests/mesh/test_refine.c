@@ -1,3 +1,4 @@
+#include "base/memory.h"
 #include "catmull_clark.h"
 #include "mesh/refine.h"
 #include "mesh/skin.h"
@@ -26,7 +27,11 @@ static Mesh *subdivide(const Mesh *cage, int levels, int threads)
     Run run = run_default();
     run.threads = threads;
     Error e = {0};
-    Mesh *mesh = mesh_subdivide(cage, levels, &run, &e);
+    uint8_t *level = memory_alloc(cage->face_count, 1, &e);
+    assert_non_null(level);
+    memset(level, levels, (size_t)cage->face_count);
+    Mesh *mesh = mesh_refine(cage, level, &run, &e);
+    free(level);
     if (!mesh) {
         fail_msg("%s", e.message);
     }
@@ -157,21 +162,28 @@ static void graded_levels_leave_no_cracks(void **state)
     out_tree_free(tree);
 }
 
-static void level_0_is_a_copy_with_normals(void **state)
+static void level_0_is_the_cage_with_normals(void **state)
 {
     (void)state;
-    Mesh *cube = make_cube(), *copy = subdivide(cube, 0, 1);
-    assert_memory_equal(copy->position, cube->position, 8 * sizeof(Vec3));
-    assert_memory_equal(copy->index, cube->index, 24 * sizeof(uint32_t));
-    for (int i = 0; i < 8; i++) {
-        assert_true(vec3_distance(copy->normal[i], vec3_normalize(cube->position[i])) < 1e-6f);
-    }
+    OutTree *tree = sample_walk(4, 60, 0.1f, 0.2f, false);
+    SkinParams params = skin_params_default();
+    params.levels = 0;
     Run run = run_default();
-    Error e = {0};
-    assert_null(mesh_subdivide(cube, 7, &run, &e));
-    assert_int_equal(e.code, ERROR_INPUT);
-    mesh_free(copy);
-    mesh_free(cube);
+    Mesh *cage = skin_cage(tree, &params, &run, NULL), *skin = skin_tree(tree, &params, &run, NULL);
+    assert_non_null(cage);
+    assert_non_null(skin);
+    assert_int_equal(skin->vertex_count, cage->vertex_count);
+    assert_int_equal(skin->face_count, cage->face_count);
+    size_t vertices = (size_t)cage->vertex_count, corners = (size_t)cage->face_count * 4;
+    assert_memory_equal(skin->position, cage->position, vertices * sizeof(Vec3));
+    assert_memory_equal(skin->radius, cage->radius, vertices * sizeof(float));
+    assert_memory_equal(skin->index, cage->index, corners * sizeof(uint32_t));
+    for (int64_t i = 0; i < skin->vertex_count; i++) {
+        assert_float_equal(vec3_length(skin->normal[i]), 1.0f, 1e-5f);
+    }
+    mesh_free(skin);
+    mesh_free(cage);
+    out_tree_free(tree);
 }
 
 static void borders_are_kept(void **state)
@@ -195,7 +207,7 @@ int main(void)
         cmocka_unit_test(refinement_is_catmull_clark_by_the_book),
         cmocka_unit_test(patches_leave_no_trace),
         cmocka_unit_test(graded_levels_leave_no_cracks),
-        cmocka_unit_test(level_0_is_a_copy_with_normals),
+        cmocka_unit_test(level_0_is_the_cage_with_normals),
         cmocka_unit_test(borders_are_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
