@@ -400,6 +400,10 @@ RAMIFY_API bool ramify_render(const RamifyScene *scene, float *rgba, int *sample
 RAMIFY_API bool ramify_write_image(const RamifyScene *scene, const float *rgba, const char *file,
                                    RamifyError *error);
 
+// RAMIFY_BAD_INPUT or RAMIFY_IO when no picture could be written to such a file: its name has
+// another ending, its folder is not there. For before the work.
+RAMIFY_API bool ramify_image_check(const char *file, RamifyError *error);
+
 // The same step by step, with previews and every layer of the film.
 
 typedef struct RamifyFilm RamifyFilm;

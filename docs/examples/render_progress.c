@@ -78,6 +78,9 @@ int main(int argc, char **argv)
     signal(SIGINT, on_interrupt);
     RamifyError error = {0};
     RamifyRenderInfo info = {0};
+    if (!ramify_image_check(argv[2], &error)) {
+        return report(&error); // before the work, not after it
+    }
     RamifyScene *scene = ramify_scene_load(argv[1], NULL, 0, &error);
     Job job = {.scene = scene, .file = argv[2]};
     RamifyRun run = {.cancelled = &cancelled, .progress = on_progress, .user = &job};

@@ -4,18 +4,16 @@
 #include "animate/frames.h"
 #include "animate/pattern.h"
 #include "animate/video.h"
+#include "base/file_replace.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "scene/picture.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 enum { METERED_FRAMES = 4, METER_SIZE = 96, METER_SAMPLES = 16 };
 
@@ -56,38 +54,16 @@ static bool is_film(const char *output)
     return has_ending(output, ".mp4");
 }
 
-// Its folder must be there.
+// A pattern in the folder's name is not: the frames find out.
 static bool check_folder(const char *output, Error *e)
 {
-    const char *slash = strrchr(output, '/');
-    char *folder = memory_copy_string(slash ? output : ".", e);
-    if (!folder) {
-        return false;
-    }
-    if (slash) {
-        folder[slash == output ? 1 : slash - output] = 0;
-    }
-    struct stat status;
-    bool done =
-        strchr(folder, '%') || // part of the pattern: frames find out
-        (stat(folder, &status) == 0 && S_ISDIR(status.st_mode) && access(folder, W_OK | X_OK) == 0);
-    if (!done) {
-        error_set(e, ERROR_IO, "cannot write '%s': folder '%s': %s", output, folder,
-                  errno ? strerror(errno) : "it is none");
-    }
-    free(folder);
-    return done;
+    const char *slash = strrchr(output, '/'), *percent = strchr(output, '%');
+    return (slash && percent && percent < slash) || file_replace_check(output, e);
 }
 
 bool shoot_check_output(const char *output, Error *e)
 {
-    errno = 0;
     if (is_film(output)) {
-        struct stat status;
-        if (stat(output, &status) == 0 && !S_ISREG(status.st_mode)) {
-            return error_set(e, ERROR_IO, "cannot write '%s': it is no regular file; name another",
-                             output);
-        }
         return check_folder(output, e) && video_check(e);
     }
     if (!has_ending(output, ".png") && !has_ending(output, ".jpg") &&

@@ -88,6 +88,12 @@ bool ramify_write_image(const RamifyScene *scene, const float *rgba, const char 
     return picture_write_rgba(file, scene_of(scene), rgba, &e) || api_fail(error, &e);
 }
 
+bool ramify_image_check(const char *file, RamifyError *error)
+{
+    Error e = {0};
+    return picture_check(file, &e) || api_fail(error, &e);
+}
+
 // ---- rendering ----
 
 bool ramify_check_isa(const char *isa, RamifyError *error)

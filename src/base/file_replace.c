@@ -1,6 +1,13 @@
 #include "base/file_replace.h"
 
 #include "base/file_writer.h"
+#include "base/memory.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 bool file_replace(const char *file, const void *bytes, size_t size, Error *e)
 {
@@ -10,4 +17,37 @@ bool file_replace(const char *file, const void *bytes, size_t size, Error *e)
     }
     file_writer_bytes(writer, bytes, size);
     return file_writer_close(writer, true, e);
+}
+
+static bool is_folder(const char *name)
+{
+    struct stat status;
+    errno = 0;
+    if (stat(name, &status) == 0 && !S_ISDIR(status.st_mode)) {
+        errno = ENOTDIR;
+    }
+    return errno == 0;
+}
+
+bool file_replace_check(const char *file, Error *e)
+{
+    struct stat status;
+    if (stat(file, &status) == 0 && !S_ISREG(status.st_mode)) {
+        return error_set(e, ERROR_IO, "cannot write '%s': it is no regular file; name another",
+                         file);
+    }
+    const char *slash = strrchr(file, '/');
+    char *folder = memory_copy_string(slash ? file : ".", e);
+    if (!folder) {
+        return false;
+    }
+    if (slash) {
+        folder[slash == file ? 1 : slash - file] = 0;
+    }
+    bool done = is_folder(folder) && access(folder, W_OK | X_OK) == 0;
+    if (!done) {
+        error_set(e, ERROR_IO, "cannot write '%s': folder '%s': %s", file, folder, strerror(errno));
+    }
+    free(folder);
+    return done;
 }

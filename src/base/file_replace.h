@@ -11,4 +11,8 @@
 // `file` as it was, the new file gone. Refuses what is not a regular file.
 bool file_replace(const char *file, const void *bytes, size_t size, Error *e);
 
+// Whether it could be written, before the work that is to go there: ERROR_IO when its folder is not
+// there or not to be written to, or when `file` is there and no regular file.
+bool file_replace_check(const char *file, Error *e);
+
 #endif

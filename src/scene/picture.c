@@ -1,5 +1,6 @@
 #include "scene/picture.h"
 
+#include "base/file_replace.h"
 #include "base/memory.h"
 #include "image/denoise.h"
 #include "ramify.h"
@@ -31,6 +32,11 @@ static bool check_ending(const char *file, Error *e)
            error_set(e, ERROR_INPUT,
                      "'%s' cannot be written: a picture's name must end in .png, .jpg or .exr",
                      file);
+}
+
+bool picture_check(const char *file, Error *e)
+{
+    return check_ending(file, e) && file_replace_check(file, e);
 }
 
 // ---- films ----

@@ -10,6 +10,10 @@
 // Does the file's name end in .exr, in any case?
 bool picture_is_exr(const char *file);
 
+// Whether a picture could be written there, before the work: ERROR_INPUT when its name ends in none
+// of .png, .jpg, .jpeg and .exr, ERROR_IO as file_replace_check.
+bool picture_check(const char *file, Error *e);
+
 // Display values of a film, as tone_map gives them, to be freed. denoise: take the noise out first.
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run,
                        Error *e);

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { WIDTH = 24, HEIGHT = 16 };
@@ -368,6 +369,31 @@ static void a_picture_is_traced_and_written(void **state)
     ramify_scene_free(scene);
 }
 
+static void where_a_picture_cannot_go_is_known_before(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *file;
+        int32_t code;
+    } files[] = {
+        {"x.png", RAMIFY_OK},          {"/tmp/x.JPEG", RAMIFY_OK}, {"/tmp/x.tga", RAMIFY_BAD_INPUT},
+        {"png", RAMIFY_BAD_INPUT},     {"", RAMIFY_BAD_INPUT},     {"/nope/x.png", RAMIFY_IO},
+        {"/dev/null/x.exr", RAMIFY_IO}};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        RamifyError error = {0};
+        assert_int_equal(ramify_image_check(files[i].file, &error), files[i].code == RAMIFY_OK);
+        assert_int_equal(error.code, files[i].code);
+    }
+    char folder[] = "/tmp/ramify_api_XXXXXX", file[64];
+    RamifyError error = {0};
+    assert_non_null(mkdtemp(folder));
+    snprintf(file, sizeof file, "%s/x.png", folder);
+    assert_int_equal(mkdir(file, 0700), 0);
+    assert_false(ramify_image_check(file, &error));
+    assert_non_null(strstr(error.message, "it is no regular file; name another"));
+    assert_int_equal(rmdir(file) | rmdir(folder), 0);
+}
+
 typedef struct Passes {
     int count, samples;
     bool sound;
@@ -468,6 +494,7 @@ int main(void)
         cmocka_unit_test(a_world_hands_out_its_parts),
         cmocka_unit_test(export_knows_its_formats),
         cmocka_unit_test(a_picture_is_traced_and_written),
+        cmocka_unit_test(where_a_picture_cannot_go_is_known_before),
         cmocka_unit_test(a_film_has_layers),
         cmocka_unit_test(cancelling_ends_early),
         cmocka_unit_test(the_schema_is_handed_out),

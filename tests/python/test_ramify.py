@@ -1,16 +1,21 @@
 """What a pipeline does with the module."""
 
+import copy
+import ctypes
 import gc
 import json
 import os
+import pickle
 import signal
 import threading
 import time
+import weakref
 
 import numpy as np
 import pytest
 
 import ramify
+from ramify._call import lib, run
 
 BUSH = {
     "seed": 3,
@@ -120,6 +125,43 @@ def test_arrays_outlive_what_gave_them(scene):
     assert np.array_equal(positions, again) and np.array_equal(vertices, kept) and len(ballast) == 3
 
 
+def test_memory_goes_with_the_last_that_needs_it(scene):
+    """At once: pictures are large, and the garbage collector does not see how large."""
+    gc.collect()
+    gc.disable()
+    try:
+        film = scene.render(progress=lambda stage, done: None, each_pass=lambda film, samples: film.samples)
+        tree, world = scene.grow("bush", progress=lambda stage, done: None), scene.build()
+        vertices = world.parts[0].positions
+        held = [weakref.ref(thing) for thing in (film.handle, tree._handle, world.handle)]
+        film = tree = world = None
+        assert [ref() is None for ref in held] == [True, True, False]
+        vertices = None
+        assert held[2]() is None
+    finally:
+        gc.enable()
+
+
+def test_what_the_library_holds_is_not_copied(scene):
+    for thing in (scene, scene.grow("bush"), scene.render()):
+        with pytest.raises(TypeError, match="copy its arrays"):
+            copy.deepcopy(thing)
+        with pytest.raises(TypeError, match="copy its arrays"):
+            pickle.dumps(thing)
+    film = scene.render()
+    again = copy.copy(film)
+    assert again.color.base is not None and np.array_equal(again.color, film.color)
+
+
+def test_names_of_files_end_where_they_end(scene, tmp_path):
+    for write in (scene.grow("bush").write, scene.export, scene.render().save, ramify.Scene.load, ramify.Tree.read):
+        with pytest.raises(ValueError, match="NUL"):
+            write(f"{tmp_path}/a.swc\0.glb")
+        with pytest.raises(TypeError):
+            write(None)
+    assert not list(tmp_path.iterdir())
+
+
 def test_trees_are_written_and_read(scene, tmp_path):
     tree = scene.grow("bush")
     tree.write(tmp_path / "bush.swc")
@@ -131,11 +173,13 @@ def test_trees_are_written_and_read(scene, tmp_path):
     assert caught.value.line == 1
 
 
-def test_land_is_an_array():
+def test_land_is_an_array(tmp_path):
     scene = ramify.Scene({"objects": [{"name": "hills", "terrain": {"resolution": 64}}]})
     land = scene.land("hills")
     assert land.heights.ndim == 2 and land.heights.dtype == np.float32 and np.ptp(land.heights) > 0
     assert land.cell[0] > 0 and "relief" in land.measure()
+    land.write(tmp_path / "hills.asc")
+    assert np.allclose(ramify.Land.read(tmp_path / "hills.asc").heights, land.heights, atol=1e-3)
 
 
 def test_meshes_are_watertight_arrays(scene, world):
@@ -175,6 +219,25 @@ def test_pictures_are_arrays_and_files(scene, tmp_path):
         film.colour
 
 
+def test_a_wrong_file_is_refused_before_the_work(tmp_path):
+    for file in (tmp_path / "x.xyz", tmp_path / "nowhere" / "x.png", tmp_path):
+        start = time.monotonic()
+        with pytest.raises(ramify.Error):
+            ramify.render(SLOW, file)
+        assert time.monotonic() - start < 5
+
+
+def test_an_argument_that_c_cannot_take_is_an_error_and_no_hang(scene, world):
+    film = scene.render()
+    with pytest.raises(ValueError):
+        film.save("x.png", denoise=np.zeros(2))
+    for what in ({"progress": 3}, {"threads": "two"}, {"each_pass": 3}):
+        with pytest.raises(TypeError):
+            world.render(**what)
+    with pytest.raises(ctypes.ArgumentError):
+        run(lambda how, _, error: lib.ramify_grow(scene._handle.pointer, "bush", how, error))
+
+
 def test_every_pass_can_be_seen(world):
     seen = []
     film = world.render(each_pass=lambda film, samples: seen.append((samples, float(film.samples.min()))))
@@ -186,6 +249,9 @@ def test_export_reports_what_it_wrote(scene, tmp_path):
     report = scene.export(tmp_path / "ball.ply", objects=["ball"])
     assert report["bytes"] == (tmp_path / "ball.ply").stat().st_size and report["triangles"] > 100
     assert np.allclose(report["high"], (1.3, 0.6, 0.3), atol=0.02)
+    assert scene.export(tmp_path / "ball.ply", objects="ball") == report == scene.export(tmp_path / "ball.ply", objects=[1])
+    with pytest.raises(ramify.BadInput, match="did you mean 'ball'"):
+        scene.export(tmp_path / "ball.ply", objects=["bal"])
     with pytest.raises(ramify.BadInput):
         scene.export(tmp_path / "ball.xyz")
     with pytest.raises(ValueError, match="auto, nodes"):

@@ -4,8 +4,8 @@
 
     scene = ramify.Scene.load("oak.yaml", {"camera.fov": 35})
     tree = scene.grow("oak")                    # tree.positions, tree.parents, ... are NumPy arrays
-    picture = scene.render()                    # height x width x 4, linear, premultiplied
-    picture.save("oak.png")
+    film = scene.render()                       # film.rgba is height x width x 4, linear, premultiplied
+    film.save("oak.png")
 
     ramify.Scene({"sky": {"kind": "sun_sky"}, "objects": [{"name": "oak", "tree": {"height": 9}}]}).export("oak.glb")
 
@@ -15,7 +15,7 @@ the scene or by their number. Everything that takes long takes threads (0 = all 
 (stage, done) with done in 0..1; Ctrl-C and an exception in progress end it early.
 """
 
-from ._call import BadInput, Error, VERSION as __version__
+from ._call import BadInput, Error, VERSION as __version__, call, path
 from .scene import Scene, schema
 from .tree import Land, Tree
 from .world import Film, Mesh, Curves, World
@@ -27,6 +27,8 @@ def render(scene, file=None, overrides=None, folder="", **how):
     """Renders a scene, a dict or the name of a scene file, and writes it to file if there is one. Returns the Film."""
     if not isinstance(scene, Scene):
         scene = Scene(scene, overrides, folder) if isinstance(scene, dict) else Scene.load(scene, overrides)
+    if file is not None:
+        call("image_check", path(file))  # before the work, not after it
     film = scene.render(**how)
     if file is not None:
         film.save(file)

@@ -200,6 +200,7 @@ FUNCTIONS = {
     "land_free": (None, [_handle]),
     "land_info": (None, [_handle, c.POINTER(LandInfo)]),
     "land_heights": (c.c_void_p, [_handle]),
+    "land_write": (c.c_bool, [_handle, _text, _error]),
     "measure": (_handle, [_handle, _int, _run, _error]),
     "tree_measure": (_handle, [_handle, _error]),
     "land_measure": (_handle, [_handle, _error]),
@@ -219,6 +220,7 @@ FUNCTIONS = {
     "film_free": (None, [_handle]),
     "film_layer": (c.c_void_p, [_handle, _text, c.POINTER(_int)]),
     "film_write": (c.c_bool, [_handle, _handle, _text, c.c_bool, _run, _error]),
+    "image_check": (c.c_bool, [_text, _error]),
     "renderer_new": (_handle, [_handle, _text, _run, _error]),
     "renderer_free": (None, [_handle]),
     "renderer_render": (
@@ -254,14 +256,16 @@ def load(version):
         except OSError as reason:
             reasons.append(str(reason))
             continue
+        lacking = []
         for function, (result, arguments) in FUNCTIONS.items():
-            entry = getattr(library, "ramify_" + function)
-            entry.restype, entry.argtypes = result, arguments
-        found = library.ramify_version().decode()
-        if found != version:
-            raise ImportError(
-                f"{name} is ramify {found}, but this module is of {version}; install both from the same source"
-            )
+            try:
+                entry = getattr(library, "ramify_" + function)
+                entry.restype, entry.argtypes = result, arguments
+            except AttributeError:
+                lacking.append(function)
+        found = "another program" if "version" in lacking else "ramify " + library.ramify_version().decode()
+        if lacking or found != "ramify " + version:
+            raise ImportError(f"{name} is {found}, which is not of this module, {version}; install both from the same source")
         return library
     raise ImportError(
         "libramify.so is not found; run 'make install', or name the file in the environment variable "

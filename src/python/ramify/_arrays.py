@@ -14,9 +14,10 @@ def view(address, kind, shape, owner):
         return None
     count = int(np.prod(shape))
     if count == 0:
-        return np.zeros(shape, kind)
-    memory = (_BYTES[kind] * count).from_address(address)
-    memory.owner = owner  # NumPy keeps memory, memory keeps the owner
-    array = np.frombuffer(memory, kind).reshape(shape)
+        array = np.zeros(shape, kind)
+    else:
+        memory = (_BYTES[kind] * count).from_address(address)
+        memory.owner = owner  # NumPy keeps memory, memory keeps the owner
+        array = np.frombuffer(memory, kind).reshape(shape)
     array.flags.writeable = False
     return array

@@ -7,7 +7,7 @@ import os
 import numpy as np
 
 from . import _abi
-from ._call import Handle, call, lib, run
+from ._call import Handle, call, lib, path, run
 from .tree import Land, Tree, measures
 from .world import World
 
@@ -56,13 +56,13 @@ class Scene:
 
     def __init__(self, description, overrides=None, folder=""):
         text = _yaml(description).encode()
-        self._take(call("scene_load_text", text, len(text), b"scene", os.fsencode(folder), *_overrides(overrides)))
+        self._take(call("scene_load_text", text, len(text), b"scene", path(folder), *_overrides(overrides)))
 
     @classmethod
     def load(cls, file, overrides=None):
         """Reads a scene file."""
         scene = cls.__new__(cls)
-        scene._take(call("scene_load", os.fsencode(file), *_overrides(overrides)))
+        scene._take(call("scene_load", path(file), *_overrides(overrides)))
         return scene
 
     def _take(self, pointer):
@@ -140,10 +140,12 @@ class Scene:
         return self.build(threads, progress).render(isa, threads, progress, each_pass)
 
     def export(self, file, objects=(), instances="auto", colors="all", tube_sides=0, threads=0, progress=None):
-        """Writes the scene as another program's file, by the file's ending. objects: names of the only ones to write;
+        """Writes the scene as another program's file, by the file's ending. objects: the only ones to write, or the only one;
         instances: "auto", "nodes", "gpu" or "flat"; colors: "all", "pattern", "growth" or "none"; tube_sides: of curves
         written as tubes. Returns what was written as a dict: vertices, triangles, low, high (m), bytes."""
-        names = [str(name).encode() for name in objects]
+        objects = [objects] if isinstance(objects, (str, int)) else objects
+        known = list(self.objects)
+        names = [(name if isinstance(name, str) else known[name]).encode() for name in objects]
         options = _abi.ExportOptions(
             (c.c_char_p * len(names))(*names),
             len(names),
@@ -152,7 +154,7 @@ class Scene:
             tube_sides,
         )
         report = _abi.ExportReport()
-        target = os.fsencode(file)
+        target = path(file)
         run(
             lambda how, _, error: lib.ramify_export(
                 self._handle.pointer, target, c.byref(options), how, c.byref(report), error

@@ -1,11 +1,10 @@
 """Out-trees and land: what grows."""
 
 import ctypes as c
-import os
 
 from . import _abi
 from ._arrays import view
-from ._call import Handle, call, lib, run
+from ._call import Handle, call, lib, path, run
 
 
 def measures(pointer):
@@ -38,12 +37,12 @@ class Tree:
     @classmethod
     def read(cls, file):
         """Reads an SWC file, coordinates in metres; any file, in a child process with limits."""
-        name = os.fsencode(file)
+        name = path(file)
         return cls(run(lambda how, _, error: lib.ramify_tree_read(name, how, error), discard=lib.ramify_tree_free))
 
     def write(self, file):
         """Writes .swc, .json or .graphml, by the file's ending."""
-        call("tree_write", self._handle.pointer, os.fsencode(file))
+        call("tree_write", self._handle.pointer, path(file))
 
     def _array(self, name, kind, *width):
         address = getattr(lib, "ramify_tree_" + name)(self._handle.pointer)
@@ -84,7 +83,11 @@ class Land:
     @classmethod
     def read(cls, file):
         """Reads an Esri ASCII grid (.asc); missing heights are nan."""
-        return cls(call("land_read", os.fsencode(file)))
+        return cls(call("land_read", path(file)))
+
+    def write(self, file):
+        """Writes .png (16 bits, from the lowest to the highest point), .exr or .asc (m), by the file's ending."""
+        call("land_write", self._handle.pointer, path(file))
 
     @property
     def heights(self):

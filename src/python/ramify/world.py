@@ -1,13 +1,12 @@
 """Geometry and pictures: what is made of a scene."""
 
 import ctypes as c
-import os
 
 import numpy as np
 
 from . import _abi
 from ._arrays import view
-from ._call import Handle, lib, run
+from ._call import Handle, lib, path, run
 
 
 class _Part:
@@ -111,9 +110,7 @@ class World:
 
 
 class Film:
-    """A picture with all that the path tracer knows of it. Layers are height x width (x 3) float32 arrays: color (linear
-    radiance, premultiplied), alpha, albedo, normal, depth (m), position (m), object (number of the scene's object + 1),
-    samples, variance."""
+    """A picture with all that the path tracer knows of it. Its layers are height x width (x 3) float32 arrays."""
 
     def __init__(self, width, height, scene):
         error = _abi.Error()
@@ -134,11 +131,15 @@ class Film:
         shape = (self.height, self.width) + ((channels.value,) if channels.value > 1 else ())
         return view(address, "f4", shape, self.handle)
 
-    def __getattr__(self, name):
-        try:
-            return self.layer(name)
-        except KeyError:
-            raise AttributeError(f"a film has no layer '{name}'") from None
+    color = property(lambda self: self.layer("color"), doc="x 3: linear mean radiance, premultiplied")
+    alpha = property(lambda self: self.layer("alpha"), doc="share that met something, 0..1")
+    albedo = property(lambda self: self.layer("albedo"), doc="x 3: of the first hit, 0..1")
+    normal = property(lambda self: self.layer("normal"), doc="x 3: of the first hit, mean, not unit")
+    depth = property(lambda self: self.layer("depth"), doc="m; inf where nothing was hit")
+    position = property(lambda self: self.layer("position"), doc="x 3: of the first hit, m")
+    object = property(lambda self: self.layer("object"), doc="number of the scene's object + 1; 0 = none")
+    samples = property(lambda self: self.layer("samples"), doc="taken")
+    variance = property(lambda self: self.layer("variance"), doc="of the mean luminance")
 
     @property
     def rgba(self):
@@ -151,8 +152,9 @@ class Film:
         if denoise is None:
             info = _abi.SceneInfo()
             lib.ramify_scene_info(self._scene.pointer, c.byref(info))
-            denoise = bool(info.denoise)
-        name = os.fsencode(file)
+            denoise = info.denoise
+        name = path(file)
+        denoise = bool(denoise)
         run(
             lambda how, _, error: lib.ramify_film_write(
                 self.handle.pointer, self._scene.pointer, name, denoise, how, error
