@@ -61,6 +61,8 @@ bool glb_colors_are_base(const Glb *glb, const Material *material);
 // Numbers the materials that parts use and reads their pictures.
 bool glb_gather_materials(Glb *glb, Error *e);
 
+bool glb_has_image(const Material *material);
+
 // Reads the picture of a material that has one, if it is not there yet, and finds it again: its
 // number, -1 = none.
 bool glb_add_image(Glb *glb, const Material *material, Error *e);

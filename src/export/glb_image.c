@@ -11,6 +11,11 @@ static bool given(const char *file)
     return file && file[0];
 }
 
+bool glb_has_image(const Material *m)
+{
+    return given(m->texture) || given(m->alpha_texture);
+}
+
 static bool same(const char *a, const char *b)
 {
     return given(a) == given(b) && (!given(a) || strcmp(a, b) == 0);
@@ -36,6 +41,14 @@ static bool read_bytes(const char *file, GlbImage *image, Error *e)
     return good || error_set(e, ERROR_IO, "'%s' cannot be read", file);
 }
 
+// Is it whole? Nobody looks at what is taken as it is.
+static bool check_picture(const char *file, Error *e)
+{
+    Image *picture = image_read(file, e);
+    image_free(picture);
+    return picture != NULL;
+}
+
 // PNG or JPEG, as it is.
 static bool take_file(GlbImage *image, const char *file, bool *taken, Error *e)
 {
@@ -45,11 +58,12 @@ static bool take_file(GlbImage *image, const char *file, bool *taken, Error *e)
     }
     image->jpeg = image->size > 3 && memcmp(image->bytes, jpeg, sizeof jpeg) == 0;
     *taken = image->jpeg || (image->size > 4 && memcmp(image->bytes, png, sizeof png) == 0);
-    if (!*taken) {
-        free(image->bytes);
-        image->bytes = NULL;
-        image->size = 0;
+    if (*taken) {
+        return check_picture(file, e);
     }
+    free(image->bytes);
+    image->bytes = NULL;
+    image->size = 0;
     return true;
 }
 
@@ -112,7 +126,7 @@ int64_t glb_image_number(const Glb *glb, const Material *m)
 
 bool glb_add_image(Glb *glb, const Material *m, Error *e)
 {
-    if ((!given(m->texture) && !given(m->alpha_texture)) || glb_image_number(glb, m) >= 0) {
+    if (!glb_has_image(m) || glb_image_number(glb, m) >= 0) {
         return true;
     }
     if (!memory_reserve(&glb->image, &glb->image_capacity, glb->image_count + 1, sizeof *glb->image,

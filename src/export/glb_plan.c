@@ -41,7 +41,7 @@ static void plan_vertex(const Glb *glb, const Part *part, GlbPart *own)
     ExportColors colors = glb->source->options.colors;
     const Material *material = &glb->source->world->material[part->material];
     own->normal = !mesh || mesh->normal;
-    own->uv = !mesh || mesh->uv;
+    own->uv = !mesh || mesh->uv || glb_has_image(material); // a picture needs some
     own->radius = !mesh || mesh->radius;
     own->birth = !mesh || mesh->birth;
     own->growth = (own->radius || own->birth) &&

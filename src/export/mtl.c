@@ -1,19 +1,37 @@
 #include "export/mtl.h"
 
+#include "base/memory.h"
 #include "base/number_text.h"
 #include "export/asset_path.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-void mtl_name(const Material *material, char name[MTL_NAME])
+static bool is_taken(char (*name)[MTL_NAME], int count, const char *wanted)
 {
-    size_t length = strnlen(material->name, MTL_NAME - 1);
-    for (size_t i = 0; i < length; i++) {
-        char c = material->name[i];
-        name[i] = c == ' ' || c == '\t' || c == '\n' || c == '\r' ? '_' : c;
+    bool taken = false;
+    for (int i = 0; i < count; i++) {
+        taken = taken || strcmp(name[i], wanted) == 0;
     }
-    name[length] = 0;
+    return taken;
+}
+
+char (*mtl_names(const World *world, Error *e))[MTL_NAME]
+{
+    char(*name)[MTL_NAME] = memory_alloc(world->material_count, sizeof *name, e);
+    for (int i = 0; name && i < world->material_count; i++) {
+        char own[MTL_NAME - 16];
+        snprintf(own, sizeof own, "%s", world->material[i].name);
+        for (char *c = own; *c; c++) {
+            *c = (unsigned char)*c <= ' ' ? '_' : *c;
+        }
+        snprintf(name[i], sizeof name[i], "%s", own);
+        for (int k = 2; is_taken(name, i, name[i]); k++) {
+            snprintf(name[i], sizeof name[i], "%s_%d", own, k);
+        }
+    }
+    return name;
 }
 
 static void write_numbers(FileWriter *writer, const char *keyword, const float *value, int count)
@@ -49,10 +67,9 @@ static bool write_map(FileWriter *writer, const char *keyword, const char *pictu
     return path != NULL;
 }
 
-static bool write_material(FileWriter *writer, const Material *m, const char *file, Error *e)
+static bool write_material(FileWriter *writer, const Material *m, const char *name,
+                           const char *file, Error *e)
 {
-    char name[MTL_NAME];
-    mtl_name(m, name);
     bool clear = m->kind == MATERIAL_DIELECTRIC || m->kind == MATERIAL_THIN_FILM;
     bool metal = m->kind == MATERIAL_CONDUCTOR;
     bool plain = m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_EMISSION;
@@ -77,7 +94,8 @@ static bool write_material(FileWriter *writer, const Material *m, const char *fi
            write_map(writer, "map_d", m->alpha_texture, file, e);
 }
 
-bool mtl_write(FileWriter *writer, const ExportSource *source, const char *file, Error *e)
+bool mtl_write(FileWriter *writer, const ExportSource *source, char (*name)[MTL_NAME],
+               const char *file, Error *e)
 {
     const World *world = source->world;
     file_writer_text(writer, "# materials written by ramify\n");
@@ -87,7 +105,7 @@ bool mtl_write(FileWriter *writer, const ExportSource *source, const char *file,
         for (int64_t k = 0; k < world->geometry.count && !used; k++) {
             used = world->geometry.part[k].material == i;
         }
-        done = !used || write_material(writer, &world->material[i], file, e);
+        done = !used || write_material(writer, &world->material[i], name[i], file, e);
     }
     return done;
 }

@@ -5,13 +5,15 @@
 #include "base/file_writer.h"
 #include "export/export.h"
 
-enum { MTL_NAME = 64 };
+enum { MTL_NAME = 80 };
 
-// The material's name as OBJ and MTL have it: without blanks.
-void mtl_name(const Material *material, char name[MTL_NAME]);
+// The names of all of the world's materials as OBJ and MTL have them: without blanks, each its own.
+// The caller frees them.
+char (*mtl_names(const World *world, Error *e))[MTL_NAME];
 
-// All materials that the source's parts use; pictures by their path from the folder of `file`.
-// ERROR_IO when a picture is not there.
-bool mtl_write(FileWriter *writer, const ExportSource *source, const char *file, Error *e);
+// All materials that the source's parts use, by these names; pictures by their path from the folder
+// of `file`. ERROR_IO when a picture is not there.
+bool mtl_write(FileWriter *writer, const ExportSource *source, char (*name)[MTL_NAME],
+               const char *file, Error *e);
 
 #endif

@@ -19,6 +19,7 @@ typedef struct ObjWriter {
     const Run *run;
     FileWriter *writer;
     ExportVertex *block;            // EXPORT_BLOCK
+    char (*material)[MTL_NAME];     // names
     int64_t vertices, uvs, normals; // written so far
     int64_t part;                   // at hand; -1 = none yet
     int object;                     // likewise
@@ -132,8 +133,7 @@ static void begin_part(ObjWriter *obj, int64_t index)
 {
     const Part *part = &obj->source->world->geometry.part[index];
     const char *object = obj->source->object_name[part->object];
-    char material[MTL_NAME];
-    mtl_name(&obj->source->world->material[part->material], material);
+    const char *material = obj->material[part->material];
     if (part->object != obj->object) {
         write_name(obj->writer, "o ", object);
         file_writer_text(obj->writer, "\n");
@@ -177,8 +177,8 @@ static bool write_both(ObjWriter *obj, const char *file, const char *library, Er
 {
     obj->writer = file_writer_open(file, e);
     FileWriter *materials = obj->writer ? file_writer_open(library, e) : NULL;
-    bool done =
-        materials && mtl_write(materials, obj->source, library, e) && write_all(obj, library, e);
+    bool done = materials && mtl_write(materials, obj->source, obj->material, library, e) &&
+                write_all(obj, library, e);
     done = done && file_writer_settle(obj->writer, e);
     done = file_writer_close(materials, done, e);
     return file_writer_close(obj->writer, done, e);
@@ -188,13 +188,15 @@ bool export_obj(const ExportSource *source, const char *file, const Run *run, Er
 {
     char *library = asset_beside(file, ".mtl", e);
     ObjWriter obj = {.source = source, .run = run, .part = -1, .object = -1};
-    obj.block = library ? memory_alloc(EXPORT_BLOCK, sizeof *obj.block, e) : NULL;
+    obj.material = library ? mtl_names(source->world, e) : NULL;
+    obj.block = obj.material ? memory_alloc(EXPORT_BLOCK, sizeof *obj.block, e) : NULL;
     bool done = false;
     if (obj.block) {
         export_warn_of_instances(source, run);
         done = write_both(&obj, file, library, e);
     }
     free(obj.block);
+    free(obj.material);
     free(library);
     return done;
 }

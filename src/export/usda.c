@@ -9,17 +9,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool is_taken(char (*name)[USDA_NAME], int count, const char *wanted)
+{
+    bool taken = false;
+    for (int i = 0; i < count; i++) {
+        taken = taken || strcmp(name[i], wanted) == 0;
+    }
+    return taken;
+}
+
 // Identifiers of all materials, each its own.
 static void name_materials(const World *world, char (*name)[USDA_NAME])
 {
     for (int i = 0; i < world->material_count; i++) {
-        usda_identifier(world->material[i].name, name[i]);
-        for (int k = 0; k < i; k++) {
-            if (strcmp(name[k], name[i]) == 0) {
-                char again[USDA_NAME];
-                snprintf(again, sizeof again, "%.80s_%d", name[i], i);
-                memcpy(name[i], again, sizeof again);
-            }
+        char own[USDA_NAME];
+        usda_identifier(world->material[i].name, own);
+        memcpy(name[i], own, sizeof own);
+        for (int k = 2; is_taken(name, i, name[i]); k++) {
+            snprintf(name[i], sizeof name[i], "%.80s_%d", own, k);
         }
     }
 }

@@ -61,6 +61,17 @@ yes sides_count [ "$(number triangles)" -gt $((triangles - 2 * ball)) ]
 check half_grown 0 "$RAMIFY" export scene.yaml -o half.stl --json -q --grow-to 0.5 --object bush
 yes half_grown_is_less [ "$(number triangles)" -lt $((triangles - 2 * ball)) ]
 
+# A picture that is cut off is found out, also where it would go into the file as it is.
+printf '\211PNG\r\n\032\n' >cut.png
+cat >pictured.yaml <<'END'
+materials:
+  - {name: pictured, kind: diffuse, texture: cut.png}
+objects:
+  - {name: ball, material: pictured, shape: {envelope: [{shape: sphere, size: 0.5}]}}
+END
+check broken_picture 2 "$RAMIFY" export pictured.yaml -o a.glb -q
+says broken_picture_message err "'cut.png'"
+
 # ---- nothing harms an old file
 
 old() { for file in a.glb a.obj a.mtl a.ply a.stl; do echo old >$file; done; }

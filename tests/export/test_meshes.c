@@ -270,6 +270,25 @@ static void an_obj_names_objects_and_materials(void **state)
     world_free(world);
 }
 
+// "plain one" and "plain_one" are two materials.
+static void materials_keep_apart_without_blanks(void **state)
+{
+    World *world = make_world(false);
+    ExportSource source = source_of(world);
+    strcpy(world->material[0].name, "plain_one");
+    write_format(&source, path_of(*state, "x.obj"));
+    size_t size;
+    char *text = read_file(path_of(*state, "x.obj"), &size);
+    assert_non_null(strstr(text, "\no a\ng a_plain_one_0\nusemtl plain_one\n"));
+    assert_non_null(strstr(text, "\nusemtl plain_one_2\n"));
+    free(text);
+    text = read_file(path_of(*state, "x.mtl"), &size);
+    assert_non_null(strstr(text, "\nnewmtl plain_one\n"));
+    assert_non_null(strstr(text, "\nnewmtl plain_one_2\n"));
+    free(text);
+    world_free(world);
+}
+
 static void any_number_of_threads_writes_the_same(void **state)
 {
     World *world = make_world(false);
@@ -386,6 +405,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(sheared_copies_are_written_out, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_ply_holds_radius_birth_and_colours, set_up, tear_down),
         cmocka_unit_test_setup_teardown(an_obj_names_objects_and_materials, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(materials_keep_apart_without_blanks, set_up, tear_down),
         cmocka_unit_test_setup_teardown(any_number_of_threads_writes_the_same, set_up, tear_down),
         cmocka_unit_test_setup_teardown(an_interrupt_leaves_the_old_file, set_up, tear_down),
         cmocka_unit_test_setup_teardown(too_much_is_refused_at_once, set_up, tear_down),

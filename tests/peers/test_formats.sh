@@ -56,10 +56,11 @@ materials:
   - {name: pictured, kind: diffuse, color: 1, texture: color.png, alpha_texture: holes.png}
   - {name: plain picture, kind: principled, color: 1, texture: color.png}
   - {name: other picture, kind: principled, color: 1, texture: color.ppm}
+  - {name: picture nowhere, kind: diffuse, texture: color.png}
 objects:
 END
 x=0
-for name in matt metal frosted glass coated sheet lamp dim film; do
+for name in matt metal frosted glass coated sheet lamp dim film "picture nowhere"; do # spheres have no coordinates for one
     echo "  - {name: $name, material: $name, shape: {envelope: [{shape: sphere, size: 0.4, position: [$x, 0, 0]}]}}" >>materials.yaml
     x=$((x + 1))
 done

@@ -74,15 +74,18 @@ cat >names.yaml <<'END'
 camera: {position: [0, 1, 5], target: [0, 1, 0]}
 sky: {kind: environment, file: pictures/sky.hdr, rotation: 30, strength: 2}
 materials:
+  - {name: coat_a_2, kind: diffuse}
   - {name: coat-a, kind: principled, texture: "pictures/a b.png", alpha_texture: "pictures/a b.png", metallic: 0.5}
   - {name: coat a, kind: diffuse}
 objects:
   - {name: Materials, material: coat-a, shape: {envelope: [{shape: sphere, size: 1}]}}
   - {name: box 1, material: coat a, shape: {envelope: [{shape: box, size: [1, 1, 1]}]}}
+  - {name: box 2, material: coat_a_2, shape: {envelope: [{shape: box, size: [1, 1, 1]}]}}
   - {name: box-1, material: coat a, shape: {envelope: [{shape: box, size: [1, 1, 1]}]}}
 END
 "$RAMIFY" export -q names.yaml -o out/names.usda >log 2>&1 &&
-    "$python" "$check" out/names.usda meshes=3 Sky=2,2,2 Sky.pictures=1 >>log 2>&1
+    "$python" "$check" out/names.usda meshes=4 Sky=2,2,2 Sky.pictures=1 >>log 2>&1 &&
+    [ "$(grep -c 'def Material' out/names.usda)" -eq "$(grep 'def Material' out/names.usda | sort -u | wc -l)" ]
 result usd_names_and_textures_resolve
 
 cp out/names.usda before
