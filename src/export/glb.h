@@ -12,6 +12,7 @@
 typedef enum GlbPlacing {
     GLB_ONCE,  // no instances
     GLB_NODES, // a node each
+    GLB_PAIRS, // two nodes each, one turned within the other: together they shear
     GLB_GPU,   // EXT_mesh_gpu_instancing
     GLB_FLAT   // written out
 } GlbPlacing;

@@ -11,7 +11,8 @@ static const float LUMENS_PER_WATT = 683.0f;
 
 static int64_t part_nodes(const Glb *glb, const GlbPart *part)
 {
-    return part->placing == GLB_NODES ? glb_instance_count(glb, part) : 1;
+    int64_t count = glb_instance_count(glb, part);
+    return part->placing == GLB_NODES ? count : part->placing == GLB_PAIRS ? 2 * count : 1;
 }
 
 static void put_placement(FILE *json, const Placement *p)
@@ -38,28 +39,58 @@ static void put_looking(FILE *json, Vec3 position, Vec3 x, Vec3 back)
     }
 }
 
-static void put_part_nodes(const Glb *glb, int64_t mesh, int64_t accessor, FILE *json)
+// The node of number `node`, and the one within it that has the mesh.
+static void put_pair(FILE *json, int64_t node, int64_t mesh, const Transform *place)
+{
+    Placement p;
+    float turn[4];
+    placement_of_turned(place, turn, &p); // planned: it can
+    fprintf(json, "{\"children\":[%" PRId64 "]", node + 1);
+    put_placement(json, &p);
+    fprintf(json, "},\n{\"mesh\":%" PRId64 ",", mesh);
+    json_put_floats(json, "rotation", turn, 4);
+    fputc('}', json);
+}
+
+static void put_instance(FILE *json, int64_t mesh, const Transform *place)
+{
+    Placement p;
+    placement_from_transform(place, &p); // planned: it can
+    fprintf(json, "{\"mesh\":%" PRId64, mesh);
+    put_placement(json, &p);
+    fputc('}', json);
+}
+
+static void put_whole(const Glb *glb, int64_t mesh, int64_t accessor, FILE *json)
+{
+    const GlbPart *part = &glb->part[mesh];
+    fputc('{', json);
+    glb_put_part_name(glb, part, json);
+    fprintf(json, ",\"mesh\":%" PRId64, mesh);
+    if (part->placing == GLB_GPU) {
+        fprintf(json,
+                ",\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"TRANSLATION\":"
+                "%" PRId64 ",\"ROTATION\":%" PRId64 ",\"SCALE\":%" PRId64 "}}}",
+                accessor - 3, accessor - 2, accessor - 1);
+    }
+    fputc('}', json);
+}
+
+// accessor: the first one behind the part's; node: the number of the part's first.
+static void put_part_nodes(const Glb *glb, int64_t mesh, int64_t accessor, int64_t node, FILE *json)
 {
     const GlbPart *part = &glb->part[mesh];
     const Transform *place = glb->source->world->geometry.part[part->index].instance;
-    for (int64_t i = 0; i < part_nodes(glb, part); i++) {
-        fprintf(json, "%s\n{", mesh > 0 || i > 0 ? "," : "");
-        if (part->placing != GLB_NODES) {
-            glb_put_part_name(glb, part, json);
-            fputc(',', json);
+    int step = part->placing == GLB_PAIRS ? 2 : 1;
+    for (int64_t i = 0; i < part_nodes(glb, part); i += step) {
+        fputs(node + i > 0 ? ",\n" : "\n", json);
+        if (part->placing == GLB_PAIRS) {
+            put_pair(json, node + i, mesh, &place[i / 2]);
+        } else if (part->placing == GLB_NODES) {
+            put_instance(json, mesh, &place[i]);
+        } else {
+            put_whole(glb, mesh, accessor, json);
         }
-        fprintf(json, "\"mesh\":%" PRId64, mesh);
-        if (part->placing == GLB_NODES) {
-            Placement p;
-            placement_from_transform(&place[i], &p); // planned: it can
-            put_placement(json, &p);
-        } else if (part->placing == GLB_GPU) {
-            fprintf(json,
-                    ",\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"TRANSLATION\":"
-                    "%" PRId64 ",\"ROTATION\":%" PRId64 ",\"SCALE\":%" PRId64 "}}}",
-                    accessor - 3, accessor - 2, accessor - 1);
-        }
-        fputc('}', json);
     }
 }
 
@@ -72,7 +103,7 @@ static bool put_object_node(const Glb *glb, int object, FILE *json)
         const GlbPart *part = &glb->part[i];
         int64_t count = part_nodes(glb, part);
         bool own = glb->source->world->geometry.part[part->index].object == object;
-        for (int64_t k = 0; k < count && own; k++) {
+        for (int64_t k = 0; k < count && own; k += part->placing == GLB_PAIRS ? 2 : 1) {
             if (!any) {
                 fputs(",\n{\"name\":", json);
                 json_put_string(json, glb->source->object_name[object]);
@@ -194,7 +225,7 @@ void glb_put_nodes(const Glb *glb, FILE *json)
     fputs(",\n\"nodes\":[", json);
     for (int64_t i = 0; i < glb->part_count; i++) {
         accessor += glb_part_accessors(&glb->part[i]);
-        put_part_nodes(glb, i, accessor, json);
+        put_part_nodes(glb, i, accessor, nodes, json);
         nodes += part_nodes(glb, &glb->part[i]);
     }
     put_camera_node(glb, json);

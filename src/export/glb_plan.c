@@ -6,15 +6,24 @@
 
 enum { NODES_MOST = 4096 }; // places that become nodes of their own unless told otherwise
 
-static bool shears(const Part *part)
+// What one node, or two, cannot say of a part's instances.
+typedef enum Trouble { TROUBLE_NONE, TROUBLE_SHEARED, TROUBLE_FLATTENED } Trouble;
+
+static Trouble trouble_of(const Part *part)
 {
-    Placement placement;
+    Trouble trouble = TROUBLE_NONE;
     for (int64_t i = 0; i < part->instance_count; i++) {
-        if (!placement_from_transform(&part->instance[i], &placement)) {
-            return true;
+        Placement placement;
+        float turn[4];
+        if (placement_from_transform(&part->instance[i], &placement)) {
+            continue;
         }
+        if (!placement_of_turned(&part->instance[i], turn, &placement)) {
+            return TROUBLE_FLATTENED;
+        }
+        trouble = TROUBLE_SHEARED;
     }
-    return false;
+    return trouble;
 }
 
 static GlbPlacing placing_of(const Glb *glb, const Part *part, int64_t instances)
@@ -26,8 +35,10 @@ static GlbPlacing placing_of(const Glb *glb, const Part *part, int64_t instances
     if (!part->instance) {
         return GLB_ONCE;
     }
-    if (shears(part)) { // no node can do that
-        return GLB_FLAT;
+    Trouble trouble = trouble_of(part);
+    if (trouble != TROUBLE_NONE) { // no table can say it
+        bool pairs = trouble == TROUBLE_SHEARED && part->instance_count <= NODES_MOST;
+        return pairs && how != EXPORT_INSTANCES_FLAT ? GLB_PAIRS : GLB_FLAT;
     }
     if (how == EXPORT_INSTANCES_AUTO) {
         return instances <= NODES_MOST ? GLB_NODES : GLB_GPU;
@@ -134,8 +145,10 @@ static void warn_of_placing(const Glb *glb)
     if (flat && glb->source->options.instances == EXPORT_INSTANCES_FLAT) {
         export_warn_of_instances(glb->source, glb->run);
     } else if (flat) {
-        run_warn(glb->run, "instances that are sheared or flattened are written out: glTF has no "
-                           "such nodes");
+        run_warn(glb->run,
+                 "instances that are flattened, or sheared and more than %d, are written "
+                 "out: glTF has no such nodes",
+                 NODES_MOST);
     }
 }
 

@@ -1,5 +1,7 @@
 #include "export/placement.h"
 
+#include "shape/affine.h"
+
 // The quaternion of a rotation given by its columns; from the largest of its parts, so that
 // nothing is divided by a small number (Shepperd 1978).
 static void quaternion(Vec3 x, Vec3 y, Vec3 z, float out[4])
@@ -31,6 +33,15 @@ static void quaternion(Vec3 x, Vec3 y, Vec3 z, float out[4])
     }
 }
 
+static void unit_quaternion(Vec3 x, Vec3 y, Vec3 z, float q[4])
+{
+    quaternion(x, y, z, q);
+    float length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (int i = 0; i < 4; i++) {
+        q[i] /= length;
+    }
+}
+
 bool placement_from_transform(const Transform *t, Placement *placement)
 {
     Vec3 x = vec3(t->m[0][0], t->m[1][0], t->m[2][0]);
@@ -51,11 +62,46 @@ bool placement_from_transform(const Transform *t, Placement *placement)
     }
     placement->position = vec3(t->m[0][3], t->m[1][3], t->m[2][3]);
     placement->scale = scale;
-    quaternion(x, y, z, placement->rotation);
-    float *q = placement->rotation;
-    float length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    for (int i = 0; i < 4; i++) {
-        q[i] /= length;
+    unit_quaternion(x, y, z, placement->rotation);
+    return true;
+}
+
+// Of the column of a 3 x 3 matrix.
+static Vec3 column_of(const double m[3][3], int k)
+{
+    return vec3((float)m[0][k], (float)m[1][k], (float)m[2][k]);
+}
+
+// The singular value decomposition t = axes * length * turn.
+bool placement_of_turned(const Transform *t, float turn[4], Placement *placement)
+{
+    double m[3][4], axes[3][3], length[3], back[3][3];
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 4; k++) {
+            m[i][k] = (double)t->m[i][k];
+        }
     }
+    affine_principal_axes(m, axes, length);
+    double most = fmax(length[0], fmax(length[1], length[2]));
+    double least = fmin(length[0], fmin(length[1], length[2]));
+    if (!(isfinite(most) && least > 1e-5 * most)) {
+        return false;
+    }
+    Vec3 x = column_of(axes, 0), y = column_of(axes, 1), z = column_of(axes, 2);
+    double sign = vec3_dot(x, vec3_cross(y, z)) < 0.0f ? -1.0 : 1.0; // both are to be rotations
+    for (int i = 0; i < 3; i++) {
+        axes[i][0] *= sign;
+    }
+    length[0] *= affine_determinant(m) < 0.0 ? -1.0 : 1.0;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            back[i][k] =
+                (axes[0][i] * m[0][k] + axes[1][i] * m[1][k] + axes[2][i] * m[2][k]) / length[i];
+        }
+    }
+    placement->position = vec3(t->m[0][3], t->m[1][3], t->m[2][3]);
+    placement->scale = vec3((float)length[0], (float)length[1], (float)length[2]);
+    unit_quaternion(column_of(axes, 0), y, z, placement->rotation);
+    unit_quaternion(column_of(back, 0), column_of(back, 1), column_of(back, 2), turn);
     return true;
 }

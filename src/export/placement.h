@@ -14,4 +14,8 @@ typedef struct Placement {
 // False when the transform shears or flattens, so that no placement is the same.
 bool placement_from_transform(const Transform *t, Placement *placement);
 
+// Any transform that does not flatten as a placement of a turned thing: first turn by the unit
+// quaternion turn, then place. False when the transform flattens.
+bool placement_of_turned(const Transform *t, float turn[4], Placement *placement);
+
 #endif

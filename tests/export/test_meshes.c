@@ -126,6 +126,19 @@ static void write_format(const ExportSource *source, const char *file)
     }
 }
 
+static char *read_file(const char *file, size_t *size)
+{
+    FILE *stream = fopen(file, "rb");
+    assert_non_null(stream);
+    fseek(stream, 0, SEEK_END);
+    *size = (size_t)ftell(stream);
+    rewind(stream);
+    char *bytes = calloc(*size + 1, 1);
+    assert_int_equal(fread(bytes, 1, *size, stream), *size);
+    fclose(stream);
+    return bytes;
+}
+
 static double signed_volume(const Mesh *mesh)
 {
     double volume = 0.0;
@@ -189,30 +202,42 @@ static void assimp_reads_everything_back(void **state)
     world_free(world);
 }
 
-// No node can shear: such copies are written out.
-static void sheared_copies_are_written_out(void **state)
+// No node can shear, but two can, one within the other.
+static void sheared_copies_are_read_back(void **state)
 {
     World *world = make_world(true);
     ExportSource source = source_of(world);
     for (ExportInstances how = EXPORT_INSTANCES_AUTO; how <= EXPORT_INSTANCES_FLAT; how++) {
         source.options.instances = how;
-        write_format(&source, path_of(*state, "sheared.glb"));
-        assert_read_back(&source, path_of(*state, "sheared.glb"));
+        const char *file = path_of(*state, "sheared.glb");
+        write_format(&source, file);
+        assert_read_back(&source, file);
+        size_t size;
+        char *bytes = read_file(file, &size);
+        bool copied = !strstr(bytes + 20, "{\"children\":[2],\"translation\":");
+        assert_int_equal(copied, how == EXPORT_INSTANCES_FLAT);
+        free(bytes);
     }
     world_free(world);
 }
 
-static char *read_file(const char *file, size_t *size)
+// A flattened one has no normals to turn: its copies are written out.
+static void flattened_copies_are_written_out(void **state)
 {
-    FILE *stream = fopen(file, "rb");
-    assert_non_null(stream);
-    fseek(stream, 0, SEEK_END);
-    *size = (size_t)ftell(stream);
-    rewind(stream);
-    char *bytes = calloc(*size + 1, 1);
-    assert_int_equal(fread(bytes, 1, *size, stream), *size);
-    fclose(stream);
-    return bytes;
+    World *world = make_world(true);
+    ExportSource source = source_of(world);
+    Transform *last = &world->geometry.part[1].instance[5];
+    for (int i = 0; i < 3; i++) {
+        last->m[i][1] = 0.0f;
+    }
+    const char *file = path_of(*state, "flattened.glb");
+    write_format(&source, file);
+    size_t size;
+    char *bytes = read_file(file, &size);
+    assert_null(strstr(bytes + 20, "{\"children\":[2],\"translation\":"));
+    assert_non_null(strstr(bytes + 20, "\"name\":\"b plain one\",\"mesh\":1}"));
+    free(bytes);
+    world_free(world);
 }
 
 static void a_ply_holds_radius_birth_and_colours(void **state)
@@ -402,7 +427,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(assimp_reads_everything_back, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(sheared_copies_are_written_out, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(sheared_copies_are_read_back, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(flattened_copies_are_written_out, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_ply_holds_radius_birth_and_colours, set_up, tear_down),
         cmocka_unit_test_setup_teardown(an_obj_names_objects_and_materials, set_up, tear_down),
         cmocka_unit_test_setup_teardown(materials_keep_apart_without_blanks, set_up, tear_down),
