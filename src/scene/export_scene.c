@@ -176,6 +176,7 @@ bool scene_export(const Scene *scene, const char *file, const ExportOptions *opt
     Scene few = *scene;
     few.objects = memory_alloc(options->object_count, sizeof *few.objects, e);
     few.object_count = 0;
+    few.whole = scene; // what they stand on
     bool done = few.objects;
     for (int i = 0; done && i < options->object_count; i++) {
         int index = find_object(scene, options->object[i], e);

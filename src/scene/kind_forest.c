@@ -23,6 +23,7 @@ static float land_height(const void *user, float x, float z)
 
 static Land find_land(const Scene *scene)
 {
+    scene = scene->whole ? scene->whole : scene;
     for (int i = 0; i < scene->object_count; i++) {
         if (scene->objects[i].ground) {
             return (Land){scene->objects[i].ground, scene_object_seed(scene, i)};

@@ -144,6 +144,7 @@ typedef struct Scene {
     int target_count;
     SceneAnimation *animation; // NULL = a still
     SceneGolden golden;
+    const struct Scene *whole; // that this holds some of the objects of; NULL = it is all there is
 } Scene;
 
 // Reads and checks a scene. overrides: "path=value" strings (objects.0.tree.height=9, or

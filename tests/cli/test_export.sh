@@ -61,6 +61,19 @@ yes sides_count [ "$(number triangles)" -gt $((triangles - 2 * ball)) ]
 check half_grown 0 "$RAMIFY" export scene.yaml -o half.stl --json -q --grow-to 0.5 --object bush
 yes half_grown_is_less [ "$(number triangles)" -lt $((triangles - 2 * ball)) ]
 
+# A forest stands on its land also where that is left out.
+cat >slope.yaml <<'END'
+seed: 4
+objects:
+  - {name: floor, ground: {relief: 6, wavelength: 60, flat_radius: 6, grass_tufts: 0, fallen_leaves: 0, trees: {count: 0}}}
+  - {name: forest, forest: {height: 8, spacing: 4, stand_trees: 2, stands: 1, radius: 20, glade: 4, density: 1, ferns: 20, leaves: {max_count: 50}, growth: {levels: [{attractors: 30}]}}}
+END
+check forest_alone 0 "$RAMIFY" export slope.yaml -o forest.stl -q --object forest
+check floor_alone 0 "$RAMIFY" export slope.yaml -o floor.stl -q --object floor
+check forest_and_floor 0 "$RAMIFY" export slope.yaml -o both.stl -q
+tail -c +85 both.stl >both # triangles alone
+yes a_forest_alone_stands_where_it_stood sh -c '{ tail -c +85 floor.stl; tail -c +85 forest.stl; } | cmp - both'
+
 # A picture that is cut off is found out, also where it would go into the file as it is.
 printf '\211PNG\r\n\032\n' >cut.png
 cat >pictured.yaml <<'END'
