@@ -182,7 +182,13 @@ for shell in bash zsh; do
     offers $shell object "ramify export pine.yaml --object " pine
     offers $shell key "ramify render pine.yaml --set camera.fo" camera.fov= camera.focal_length= '!film.'
     offers $shell object_key "ramify render pine.yaml --set objects.pine.tree.h" objects.pine.tree.height=
+    offers $shell value "ramify render pine.yaml --set sky.kind=" '!pine.yaml'
+    offers $shell frames "ramify turntable pine.yaml -o pine" pine-%04d.png pine.mp4 '!pine-%04d.mp4'
     offers $shell shell "ramify completion z" zsh '!bash'
+done
+# So that folders get a slash and names with blanks their quotes.
+for line in "ramify render s" "ramify golden s" "ramify export pine.yaml -o s"; do
+    offers bash "names_of_$(echo "$line" | cut -d" " -f2)" "$line" sub "[-o filenames]"
 done
 
 # ---- docs/tutorial.md ----
