@@ -6,6 +6,7 @@
 #include "golden/report.h"
 #include "render/accel.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -55,6 +56,16 @@ static RamifyDifference difference_of(const Comparison *c)
     return d;
 }
 
+// A limit that is no number would let everything pass.
+static bool check_limits(const RamifyLimits *limits, Error *e)
+{
+    if (limits &&
+        (isnan(limits->max_rmse) || isnan(limits->threshold) || isnan(limits->max_failing))) {
+        return error_set(e, ERROR_INPUT, "a limit is not a number; negative stands for no limit");
+    }
+    return true;
+}
+
 // ---- two files
 
 static bool report_two(const char *report, const char *ours, const char *other,
@@ -86,7 +97,8 @@ bool ramify_compare(const char *ours, const char *other, const RamifyLimits *lim
                      limits->threshold < 0.0 ? scene_golden_default().threshold : limits->threshold,
                      limits->max_failing};
     }
-    bool done = compare_files(ours, other, &own, report != NULL, &comparison, &e) &&
+    bool done = check_limits(limits, &e) &&
+                compare_files(ours, other, &own, report != NULL, &comparison, &e) &&
                 (!report || report_two(report, ours, other, &own, &comparison, &e));
     *difference = difference_of(&comparison);
     comparison_clear(&comparison);
@@ -127,6 +139,14 @@ static GoldenOptions options_of(const RamifyGoldenOptions *o)
     return own;
 }
 
+static bool check_options(const RamifyGoldenOptions *o, Error *e)
+{
+    if ((unsigned)o->mode > RAMIFY_GOLDEN_STATISTICAL) {
+        return error_set(e, ERROR_INPUT, "mode %d; it must be of its list", o->mode);
+    }
+    return check_limits(o->limits, e);
+}
+
 static bool write_results(const char *folder, const RamifyGoldenOptions *options,
                           const GoldenResults *results, Error *e)
 {
@@ -146,7 +166,8 @@ bool ramify_golden(const char *folder, const RamifyGoldenOptions *options, const
     Run own_run = api_run(run);
     GoldenOptions own = options_of(asked);
     GoldenResults results = {0};
-    bool done = accel_check_isa(own.isa, &e) && golden_run(folder, &own, &own_run, &results, &e) &&
+    bool done = check_options(asked, &e) && accel_check_isa(own.isa, &e) &&
+                golden_run(folder, &own, &own_run, &results, &e) &&
                 write_results(folder, asked, &results, &e);
     *counts = (RamifyGoldenCounts){.alike = results.counts[GOLDEN_ALIKE],
                                    .different = results.counts[GOLDEN_DIFFERENT],

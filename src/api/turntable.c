@@ -17,6 +17,16 @@ static bool take_keys(const RamifyKeys *keys, const char *name, TurnValues *valu
     return true;
 }
 
+static bool check_choices(const RamifyTurntable *given, Error *e)
+{
+    if ((unsigned)given->ease > RAMIFY_EASE_SMOOTH || isnan(given->turns)) {
+        return error_set(e, ERROR_INPUT,
+                         "ease %d and %g turns; ease must be of its list, turns a number",
+                         given->ease, given->turns);
+    }
+    return true;
+}
+
 static bool take_params(const RamifyTurntable *given, TurntableParams *params, Error *e)
 {
     *params = turntable_params_default();
@@ -28,7 +38,8 @@ static bool take_params(const RamifyTurntable *given, TurntableParams *params, E
                        ? -1
                        : (int)(given->ease == RAMIFY_EASE_SMOOTH ? EASE_SMOOTH : EASE_LINEAR);
     params->vary_noise = given->vary_noise == 0 ? -1 : given->vary_noise > 0;
-    return take_keys(&given->elevation, "elevation", &params->elevation, e) &&
+    return check_choices(given, e) &&
+           take_keys(&given->elevation, "elevation", &params->elevation, e) &&
            take_keys(&given->dolly, "dolly", &params->dolly, e) &&
            take_keys(&given->grow, "grow", &params->grow, e) &&
            take_keys(&given->sun, "sun", &params->sun, e);
@@ -110,6 +121,18 @@ static void hand_info(const ShootStats *stats, RamifyTurntableInfo *info)
                                   .video_seconds = stats->video_seconds};
 }
 
+// The last frame to render; -1 = the last there is.
+static bool take_end(const RamifyTurntable *given, int *end, Error *e)
+{
+    if (given->count < 0 || given->start < 0) {
+        return error_set(e, ERROR_INPUT, "%d frames from frame %d; neither may be negative",
+                         given->count, given->start);
+    }
+    int64_t last = (int64_t)given->start + given->count - 1;
+    *end = given->count == 0 ? -1 : (int)(last > INT32_MAX ? INT32_MAX : last);
+    return true;
+}
+
 bool ramify_turntable(const RamifyScene *scene, const RamifyTurntable *turntable, const char *file,
                       const RamifyRun *run, RamifyTurntableInfo *info, RamifyError *error)
 {
@@ -118,11 +141,8 @@ bool ramify_turntable(const RamifyScene *scene, const RamifyTurntable *turntable
     Error e = {0};
     Run own = api_run(run);
     ShootStats stats = {0};
-    ShootParams params = {.output = file,
-                          .start = given->start,
-                          .end = given->count > 0 ? given->start + given->count - 1 : -1,
-                          .isa = given->isa};
-    bool done = take_params(given, &params.turntable, &e) &&
+    ShootParams params = {.output = file, .start = given->start, .isa = given->isa};
+    bool done = take_end(given, &params.end, &e) && take_params(given, &params.turntable, &e) &&
                 shoot(scene_of(scene), &params, &own, &stats, &e);
     if (info) {
         hand_info(&stats, info);
