@@ -40,6 +40,17 @@ enum { POV_COLORS = 64 };
 void pov_camera(Pov *pov);
 bool pov_sky(Pov *pov);
 void pov_medium(Pov *pov);
+
+// Haze as POV-Ray's fog, which covers the sky too: its colour, and its optical depth straight up
+// from the camera. All zero without haze.
+typedef struct PovHaze {
+    Vec3 color;
+    float depth;
+} PovHaze;
+PovHaze pov_haze(const Pov *pov);
+// The colour of the sky that shows as `color` behind that fog.
+Vec3 pov_haze_undo(const PovHaze *haze, Vec3 direction, Vec3 color);
+
 void pov_lamps(Pov *pov);
 bool pov_glow(Pov *pov); // light sources along glowing geometry
 bool pov_materials(Pov *pov);

@@ -1,6 +1,8 @@
 // Haze and media: as fog of one colour, or, around lamps, as POV-Ray's own scattering media.
 #include "export/pov.h"
 
+#include "render/camera.h"
+
 // Of all directions: what a medium that scatters evenly shows of the sky.
 static Vec3 mean_sky(const Pov *pov)
 {
@@ -28,16 +30,65 @@ static void write_fog(Pov *pov, float distance, float top, float rise, Vec3 colo
     file_writer_text(pov->out, "\n}\n\n");
 }
 
-// Haze ends a little above the scene, or it would cover the sky.
-static void write_haze(Pov *pov)
+// Of the film's columns, or of all directions for a camera that looks straight up or down.
+static Vec3 horizon_direction(const Pov *pov, const CameraFrame *frame, float t)
 {
-    Vec3 sum = vec3_splat(0.0f);
-    for (int i = 0; i < 16; i++) {
-        float turn = 2.0f * PI_F * (float)i / 16.0f;
-        Vec3 d = vec3(cosf(turn), 0.0f, sinf(turn));
-        sum = vec3_madd(sum, 1.0f / 16.0f, lights_horizon(pov->lights, d));
+    const FilmParams *film = &pov->world->film;
+    float pixels = (float)film->width * (t - 0.5f);
+    pixels += (float)film->height * pov->world->camera.shift_x;
+    Vec3 d = vec3_madd(frame->forward, pixels, frame->across);
+    d.y = 0.0f;
+    if (vec3_length(d) < 0.1f) {
+        d = vec3(cosf(2.0f * PI_F * t), 0.0f, sinf(2.0f * PI_F * t));
     }
-    write_fog(pov, pov->world->sky.haze_distance, pov->top, fmaxf(0.02f * pov->height, 1e-3f), sum);
+    return vec3_normalize(d);
+}
+
+static bool has_haze(const Sky *sky)
+{
+    return sky->kind != SKY_NONE && sky->haze_distance > 0.0f;
+}
+
+// Fog has one colour and haze that of the horizon behind it: what counts is the horizon that the
+// camera sees, which may be a third as bright as the mean of all when the sun is low.
+static Vec3 haze_color(const Pov *pov)
+{
+    enum { COLUMNS = 16 };
+    const FilmParams *film = &pov->world->film;
+    CameraFrame frame = camera_frame(&pov->world->camera, film->width, film->height);
+    Vec3 sum = vec3_splat(0.0f);
+    for (int i = 0; i < COLUMNS; i++) {
+        Vec3 d = horizon_direction(pov, &frame, ((float)i + 0.5f) / COLUMNS);
+        sum = vec3_madd(sum, 1.0f / COLUMNS, lights_horizon(pov->lights, d));
+    }
+    return sum;
+}
+
+// Haze ends a little above the scene, or it would cover the sky.
+static float haze_rise(const Pov *pov)
+{
+    return fmaxf(0.02f * pov->height, 1e-3f);
+}
+
+PovHaze pov_haze(const Pov *pov)
+{
+    if (!has_haze(&pov->world->sky)) {
+        return (PovHaze){0};
+    }
+    float above = fmaxf(0.0f, pov->top - pov->world->camera.position.y);
+    float depth = above + 0.5f * PI_F * haze_rise(pov); // its density is 1 / (1 + (y / rise)^2)
+    return (PovHaze){haze_color(pov), depth / pov->world->sky.haze_distance};
+}
+
+Vec3 pov_haze_undo(const PovHaze *haze, Vec3 direction, Vec3 color)
+{
+    const float least = 0.25f; // what is left of the sky's own light; below that, haze alone shows
+    if (!(haze->depth > 0.0f) || !(direction.y > 0.0f)) {
+        return color;
+    }
+    float left = expf(-haze->depth / direction.y);
+    Vec3 own = vec3_madd(color, left - 1.0f, haze->color);
+    return vec3_max(vec3_scale(own, 1.0f / fmaxf(left, least)), vec3_splat(0.0f));
 }
 
 // A medium's colour far into it: what it scatters of what it takes, under sky and sun.
@@ -76,8 +127,8 @@ void pov_medium(Pov *pov)
 {
     const Medium *m = &pov->world->medium;
     float extinction = luminance(vec3_add(m->scattering, m->absorption));
-    if (pov->world->sky.kind != SKY_NONE && pov->world->sky.haze_distance > 0.0f) {
-        write_haze(pov);
+    if (has_haze(&pov->world->sky)) {
+        write_fog(pov, pov->world->sky.haze_distance, pov->top, haze_rise(pov), haze_color(pov));
     }
     if (m->kind == MEDIUM_NONE || !(extinction > 0.0f)) {
         return;

@@ -42,11 +42,13 @@ static void bake_sky(const Pov *pov, Image *image)
 {
     const Vec3 origin = {0.0f, 0.0f, 0.0f};
     float spread = PI_F / (float)image->height;
+    PovHaze haze = pov_haze(pov);
 #pragma omp parallel for schedule(dynamic) num_threads(pov->run->threads)
     for (int y = 0; y < image->height; y++) {
         for (int x = 0; x < image->width; x++) {
             Vec3 d = texel_direction(x, y, image->width, image->height);
             Vec3 c = lights_background(pov->lights, origin, beside_sun(pov->sun, d), 0.0f, spread);
+            c = pov_haze_undo(&haze, d, c);
             float *pixel = image->pixel + ((int64_t)y * image->width + x) * 3;
             pixel[0] = c.x;
             pixel[1] = c.y;
