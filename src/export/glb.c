@@ -19,6 +19,7 @@ typedef struct GlbWriter {
     ExportVertex *block; // EXPORT_BLOCK
     int64_t vertices;    // of the part's pieces before
     bool white;          // COLOR_0
+    float strongest;     // of the material's glows
 } GlbWriter;
 
 static char *put_floats(char *at, const float *value, int count)
@@ -48,6 +49,9 @@ static void write_vertex(const GlbWriter *writer, const ExportVertex *v)
     }
     if (part->uv) { // v runs down
         at = put_floats(at, (const float[]){v->uv.x, 1.0f - v->uv.y}, 2);
+    }
+    if (part->glow) {
+        at = put_floats(at, (const float[]){glb_ramp_place(v->glow / writer->strongest), 0.5f}, 2);
     }
     if (part->color) {
         at = put_color(at, writer->white ? vec3_splat(1.0f) : v->color);
@@ -128,6 +132,7 @@ static bool write_part(GlbWriter *writer, Error *e)
     bool flat = part->placing == GLB_FLAT;
     writer->vertices = 0;
     writer->white = !glb_colors_are_base(glb, material);
+    writer->strongest = glb->strongest[world->geometry.part[part->index].material];
     unsigned wants = part->color && !writer->white ? EXPORT_WANTS_COLORS : 0;
     bool done =
         export_part_pieces(glb->source, part->index, flat, wants, glb->run, write_vertices, writer,
@@ -216,6 +221,7 @@ bool export_glb(const ExportSource *source, const char *file, const Run *run, Er
     free(json);
     free(glb.image);
     free(glb.material);
+    free(glb.strongest);
     free(glb.part);
     return done;
 }

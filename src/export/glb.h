@@ -24,6 +24,7 @@ typedef struct GlbPart {
     int64_t vertices, triangles;
     bool normal, uv, radius, birth;
     bool color, growth; // COLOR_0; COLOR_1, or COLOR_0 where there is no color
+    bool glow;          // TEXCOORD_1: places on the ramp of glows
     Aabb bounds;        // of what is written, so of one instance unless flat
     int stride;         // bytes a vertex
     int64_t vertex_at, index_at, instance_at; // bytes into the buffer
@@ -32,6 +33,7 @@ typedef struct GlbPart {
 // A picture as it stands in the file.
 typedef struct GlbImage {
     const char *color, *alpha; // the files it comes from; borrowed; NULL or "" = none
+    const Material *ramp;      // borrowed: whose glows it has, or NULL
     unsigned char *bytes;      // owned
     int64_t size, at;
     bool jpeg; // otherwise PNG
@@ -44,7 +46,8 @@ typedef struct Glb {
     int64_t part_count;
     int *material; // owned; of each of the world's: its number in the file, -1 = not used
     int material_count;
-    GlbImage *image; // owned
+    float *strongest; // owned; of each of the world's: the largest glow where it varies, else 0
+    GlbImage *image;  // owned
     int64_t image_count, image_capacity;
     int64_t buffer_size; // bytes
     Sun sun;             // or moon; radiance 0 = none
@@ -69,7 +72,13 @@ bool glb_has_image(const Material *material);
 bool glb_add_image(Glb *glb, const Material *material, Error *e);
 int64_t glb_image_number(const Glb *glb, const Material *material);
 
-// Textures, images and their sampler, with a comma before.
+// Glows of curves that vary, which nothing else in glTF can say: a picture of 256 shades of the
+// material's light, from none to the strongest, that an emissive texture looks up at TEXCOORD_1.
+bool glb_add_ramp(Glb *glb, const Material *material, Error *e);
+int64_t glb_ramp_number(const Glb *glb, const Material *material); // -1 = none
+float glb_ramp_place(float share); // of the strongest glow, 0..1: u on the ramp
+
+// Textures, images and their samplers, with a comma before.
 void glb_put_images(const Glb *glb, FILE *json);
 
 // "materials": [...], and textures, images and a sampler where there are any; each with a comma

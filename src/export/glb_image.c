@@ -2,6 +2,9 @@
 
 #include "base/memory.h"
 #include "image/image.h"
+#include "image/tone_curve.h"
+
+#include <math.h>
 
 #include <stdlib.h>
 #include <string.h>
@@ -116,7 +119,7 @@ static bool make_picture(GlbImage *image, Error *e)
 
 int64_t glb_image_number(const Glb *glb, const Material *m)
 {
-    for (int64_t i = 0; i < glb->image_count; i++) {
+    for (int64_t i = 0; i < glb->image_count && glb_has_image(m); i++) {
         if (same(glb->image[i].color, m->texture) && same(glb->image[i].alpha, m->alpha_texture)) {
             return i;
         }
@@ -124,17 +127,25 @@ int64_t glb_image_number(const Glb *glb, const Material *m)
     return -1;
 }
 
+static GlbImage *new_image(Glb *glb, GlbImage image, Error *e)
+{
+    if (!memory_reserve(&glb->image, &glb->image_capacity, glb->image_count + 1, sizeof *glb->image,
+                        e)) {
+        return NULL;
+    }
+    glb->image[glb->image_count] = image;
+    return &glb->image[glb->image_count++];
+}
+
 bool glb_add_image(Glb *glb, const Material *m, Error *e)
 {
     if (!glb_has_image(m) || glb_image_number(glb, m) >= 0) {
         return true;
     }
-    if (!memory_reserve(&glb->image, &glb->image_capacity, glb->image_count + 1, sizeof *glb->image,
-                        e)) {
+    GlbImage *image = new_image(glb, (GlbImage){.color = m->texture, .alpha = m->alpha_texture}, e);
+    if (!image) {
         return false;
     }
-    GlbImage *image = &glb->image[glb->image_count++];
-    *image = (GlbImage){.color = m->texture, .alpha = m->alpha_texture};
     bool taken = false;
     bool done = given(m->alpha_texture) || take_file(image, m->texture, &taken, e);
     done = done && (taken || make_picture(image, e));
@@ -142,6 +153,58 @@ bool glb_add_image(Glb *glb, const Material *m, Error *e)
         error_prefix(e, "material '%s': ", m->name);
     }
     return done;
+}
+
+enum { RAMP = 256 }; // shades: as many as 8 bits have, each where its own value is
+
+static float linear_from_srgb(float c)
+{
+    return c <= 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f);
+}
+
+// The material's hue is in the picture, because Blender 3.4 loses a factor beside an emissive
+// texture.
+static Image *make_ramp(const Material *m, Error *e)
+{
+    float most = fmaxf(m->radiance.x, fmaxf(m->radiance.y, m->radiance.z));
+    Vec3 hue = vec3_scale(m->radiance, most > 0.0f ? 1.0f / most : 0.0f);
+    Image *ramp = image_new(RAMP, 1, 3, e);
+    for (int i = 0; ramp && i < RAMP; i++) {
+        float share = linear_from_srgb((float)i / (float)(RAMP - 1));
+        const float shade[3] = {share * hue.x, share * hue.y, share * hue.z};
+        for (int k = 0; k < 3; k++) {
+            ramp->pixel[3 * i + k] = (float)export_srgb8(shade[k]) / 255.0f;
+        }
+    }
+    return ramp;
+}
+
+bool glb_add_ramp(Glb *glb, const Material *m, Error *e)
+{
+    Image *ramp = make_ramp(m, e);
+    GlbImage *image = ramp ? new_image(glb, (GlbImage){.ramp = m}, e) : NULL;
+    size_t size = 0;
+    bool done = image && image_encode_png(ramp, NULL, &image->bytes, &size, e);
+    if (done) {
+        image->size = (int64_t)size;
+    }
+    image_free(ramp);
+    return done;
+}
+
+int64_t glb_ramp_number(const Glb *glb, const Material *m)
+{
+    for (int64_t i = 0; i < glb->image_count; i++) {
+        if (glb->image[i].ramp == m) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+float glb_ramp_place(float share)
+{
+    return (tone_srgb_from_linear(share) * (float)(RAMP - 1) + 0.5f) / (float)RAMP;
 }
 
 static int64_t first_image_view(const Glb *glb)
@@ -155,12 +218,25 @@ static int64_t first_image_view(const Glb *glb)
 
 void glb_put_images(const Glb *glb, FILE *json)
 {
-    int64_t view = first_image_view(glb);
+    int64_t view = first_image_view(glb), ramps = 0;
+    for (int64_t i = 0; i < glb->image_count; i++) {
+        ramps += glb->image[i].ramp != NULL;
+    }
+    bool both = ramps > 0 && ramps < glb->image_count;
     fputs(",\n\"textures\":[", json);
     for (int64_t i = 0; i < glb->image_count; i++) {
-        fprintf(json, "%s{\"sampler\":0,\"source\":%d}", i > 0 ? "," : "", (int)i);
+        fprintf(json, "%s{\"sampler\":%d,\"source\":%d}", i > 0 ? "," : "",
+                both && glb->image[i].ramp, (int)i);
     }
-    fputs("],\n\"samplers\":[{\"magFilter\":9729,\"minFilter\":9987}],\n\"images\":[", json);
+    fputs("],\n\"samplers\":[", json);
+    if (ramps < glb->image_count) {
+        fputs("{\"magFilter\":9729,\"minFilter\":9987}", json);
+    }
+    if (ramps > 0) { // no coarser levels, no repeating
+        fprintf(json, "%s{\"magFilter\":9729,\"minFilter\":9729,\"wrapS\":33071,\"wrapT\":33071}",
+                both ? "," : "");
+    }
+    fputs("],\n\"images\":[", json);
     for (int64_t i = 0; i < glb->image_count; i++) {
         fprintf(json, "%s{\"bufferView\":%d,\"mimeType\":\"image/%s\"}", i > 0 ? "," : "",
                 (int)(view + i), glb->image[i].jpeg ? "jpeg" : "png");

@@ -60,8 +60,8 @@ void json_put_string(FILE *json, const char *text)
 
 int64_t glb_part_accessors(const GlbPart *part)
 {
-    return 2 + part->normal + part->uv + part->color + part->growth + part->radius + part->birth +
-           (part->placing == GLB_GPU ? 3 : 0);
+    return 2 + part->normal + part->uv + part->glow + part->color + part->growth + part->radius +
+           part->birth + (part->placing == GLB_GPU ? 3 : 0);
 }
 
 int64_t glb_part_views(const GlbPart *part)
@@ -146,6 +146,9 @@ static void put_vertex_accessors(AccessorList *list, const GlbPart *part)
     if (part->uv) {
         put_accessor(list, "VEC2", TYPE_FLOAT, 8, "}");
     }
+    if (part->glow) {
+        put_accessor(list, "VEC2", TYPE_FLOAT, 8, "}");
+    }
     for (int i = 0; i < part->color + part->growth; i++) {
         put_accessor(list, "VEC4", TYPE_USHORT, 8, ",\"normalized\":true}");
     }
@@ -189,6 +192,9 @@ static void put_attributes(const GlbPart *part, FILE *json, int64_t accessor)
     }
     if (part->uv) {
         fprintf(json, ",\"TEXCOORD_0\":%" PRId64, accessor++);
+    }
+    if (part->glow) {
+        fprintf(json, ",\"TEXCOORD_1\":%" PRId64, accessor++);
     }
     if (part->color) {
         fprintf(json, ",\"COLOR_0\":%" PRId64, accessor++);

@@ -22,7 +22,9 @@ bool glb_gather_materials(Glb *glb, Error *e)
                 glb->material[i] = glb->material_count++;
             }
         }
-        done = glb->material[i] < 0 || glb_add_image(glb, &world->material[i], e);
+        const Material *m = &world->material[i];
+        done = glb->material[i] < 0 ||
+               (glb_add_image(glb, m, e) && (glb->strongest[i] <= 0.0f || glb_add_ramp(glb, m, e)));
     }
     return done;
 }
@@ -58,11 +60,24 @@ static bool is_coated(const Material *m)
     return m->kind == MATERIAL_PRINCIPLED || m->kind == MATERIAL_LEAF;
 }
 
-static bool uses(const Material *m, Extension extension)
+static float strongest_glow(const Glb *glb, const Material *m)
+{
+    return glb->strongest[m - glb->source->world->material];
+}
+
+// The strongest part of the radiance, where it is strongest.
+static float brightness(const Glb *glb, const Material *m)
+{
+    float glow = strongest_glow(glb, m);
+    return most(m->radiance) * (glow > 0.0f ? glow : 1.0f);
+}
+
+static bool uses(const Glb *glb, const Material *m, Extension extension)
 {
     switch (extension) {
     case EMISSIVE_STRENGTH:
-        return m->kind == MATERIAL_EMISSION && most(m->radiance) > 1.0f;
+        return m->kind == MATERIAL_EMISSION &&
+               (strongest_glow(glb, m) > 0.0f || most(m->radiance) > 1.0f);
     case IOR:
         return is_clear(m) || (is_coated(m) && m->specular > 0.5f);
     case IRIDESCENCE:
@@ -85,7 +100,8 @@ void glb_put_material_extensions(const Glb *glb, FILE *json)
     for (Extension x = 0; x < EXTENSION_COUNT; x++) {
         bool used = false;
         for (int i = 0; i < glb->source->world->material_count; i++) {
-            used = used || (glb->material[i] >= 0 && uses(&glb->source->world->material[i], x));
+            used =
+                used || (glb->material[i] >= 0 && uses(glb, &glb->source->world->material[i], x));
         }
         if (used) {
             fprintf(json, "\"%s\",", EXTENSION_NAMES[x]);
@@ -142,7 +158,7 @@ static void put_extension(const Glb *glb, const Material *m, Extension x, FILE *
     fprintf(json, "\"%s\":{", EXTENSION_NAMES[x]);
     switch (x) {
     case EMISSIVE_STRENGTH:
-        put_number(json, "emissiveStrength", most(m->radiance));
+        put_number(json, "emissiveStrength", brightness(glb, m));
         break;
     case IOR:
         put_number(json, "ior", is_clear(m) ? fmaxf(m->ior, 1.0f) : coat_ior(m->specular));
@@ -198,7 +214,11 @@ static void put_material(const Glb *glb, const Material *m, FILE *json)
     fputs("{\"name\":", json);
     json_put_string(json, m->name);
     put_surface(glb, m, json);
-    if (m->kind == MATERIAL_EMISSION) {
+    if (strongest_glow(glb, m) > 0.0f) {
+        fprintf(json,
+                ",\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":%d,\"texCoord\":1}",
+                (int)glb_ramp_number(glb, m));
+    } else if (m->kind == MATERIAL_EMISSION) {
         fputc(',', json);
         json_put_color(json, "emissiveFactor",
                        vec3_scale(m->radiance, 1.0f / fmaxf(most(m->radiance), 1.0f)));
@@ -211,7 +231,7 @@ static void put_material(const Glb *glb, const Material *m, FILE *json)
     }
     bool any = false;
     for (Extension x = 0; x < EXTENSION_COUNT; x++) {
-        if (uses(m, x)) {
+        if (uses(glb, m, x)) {
             fputs(any ? "," : ",\"extensions\":{", json);
             put_extension(glb, m, x, json);
             any = true;

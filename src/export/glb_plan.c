@@ -52,15 +52,17 @@ static void plan_vertex(const Glb *glb, const Part *part, GlbPart *own)
     ExportColors colors = glb->source->options.colors;
     const Material *material = &glb->source->world->material[part->material];
     own->normal = !mesh || mesh->normal;
-    own->uv = !mesh || mesh->uv || glb_has_image(material); // a picture needs some
+    own->glow = glb->strongest[part->material] > 0.0f;
+    // a picture needs some, and a second set a first
+    own->uv = !mesh || mesh->uv || glb_has_image(material) || own->glow;
     own->radius = !mesh || mesh->radius;
     own->birth = !mesh || mesh->birth;
     own->growth = (own->radius || own->birth) &&
                   (colors == EXPORT_COLORS_ALL || colors == EXPORT_COLORS_GROWTH);
     // COLOR_1 needs a COLOR_0
     own->color = glb_colors_are_base(glb, material) || (own->growth && colors == EXPORT_COLORS_ALL);
-    own->stride = 12 + 12 * own->normal + 8 * own->uv + 8 * own->color + 8 * own->growth +
-                  4 * own->radius + 4 * own->birth;
+    own->stride = 12 + 12 * own->normal + 8 * own->uv + 8 * own->glow + 8 * own->color +
+                  8 * own->growth + 4 * own->radius + 4 * own->birth;
 }
 
 bool glb_too_large(Error *e, double bytes)
@@ -116,6 +118,33 @@ static bool plan_bounds(Glb *glb, Error *e)
     return done;
 }
 
+static bool varies(const World *world, const Part *part)
+{
+    return part->curves && part->curves->glow &&
+           world->material[part->material].kind == MATERIAL_EMISSION;
+}
+
+static bool plan_glows(Glb *glb, Error *e)
+{
+    const World *world = glb->source->world;
+    const Geometry *geometry = &world->geometry;
+    glb->strongest = memory_alloc_zero(world->material_count, sizeof *glb->strongest, e);
+    for (int64_t i = 0; glb->strongest && i < geometry->count; i++) {
+        const Part *part = &geometry->part[i];
+        float *strongest = &glb->strongest[part->material];
+        for (int64_t k = 0; varies(world, part) && k < part->curves->point_count; k++) {
+            *strongest = fmaxf(*strongest, fmaxf(part->curves->glow[k], 1e-20f));
+        }
+    }
+    for (int64_t i = 0; glb->strongest && i < geometry->count; i++) { // parts that glow evenly
+        float *strongest = &glb->strongest[geometry->part[i].material];
+        if (*strongest > 0.0f && !varies(world, &geometry->part[i])) {
+            *strongest = fmaxf(*strongest, 1.0f);
+        }
+    }
+    return glb->strongest;
+}
+
 static bool plan_sun(Glb *glb, Error *e)
 {
     const Sky *sky = &glb->source->world->sky;
@@ -160,7 +189,7 @@ bool glb_plan(Glb *glb, Error *e)
         instances += geometry->part[i].instance_count;
     }
     glb->part = memory_alloc_zero(geometry->count, sizeof *glb->part, e);
-    bool done = glb->part;
+    bool done = glb->part && plan_glows(glb, e);
     for (int64_t i = 0; done && i < geometry->count; i++) {
         done = plan_part(glb, i, instances, e);
     }

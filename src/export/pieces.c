@@ -1,8 +1,9 @@
 #include "export/pieces.h"
 
+#include "base/memory.h"
 #include "mesh/curve_tubes.h"
 
-#include <stddef.h>
+#include <stdlib.h>
 
 static const double MANY_TRIANGLES = 20e6; // a gigabyte or so
 
@@ -76,8 +77,8 @@ typedef struct PartWalk {
     void *user;
 } PartWalk;
 
-// One mesh at all places.
-static bool visit_mesh(const PartWalk *walk, const Mesh *mesh, Error *e)
+// One mesh at all places. glow: of its vertices, or NULL.
+static bool visit_mesh(const PartWalk *walk, const Mesh *mesh, const float *glow, Error *e)
 {
     const World *world = walk->source->world;
     const Part *part = &world->geometry.part[walk->index];
@@ -86,6 +87,7 @@ static bool visit_mesh(const PartWalk *walk, const Mesh *mesh, Error *e)
         return false;
     }
     surface.largest_radius = walk->largest_radius;
+    surface.glow = glow;
     bool done = true;
     for (int64_t i = 0; done && i < part_copies(part, walk->placed); i++) {
         ExportPiece piece = {.part = walk->index, .surface = &surface, .variation = 0.5f};
@@ -99,6 +101,26 @@ static bool visit_mesh(const PartWalk *walk, const Mesh *mesh, Error *e)
         }
     }
     export_surface_clear(&surface);
+    return done;
+}
+
+static bool visit_tubes(const PartWalk *walk, const CurveSet *curves, int64_t first, int64_t count,
+                        Error *e)
+{
+    int sides = tube_sides(walk->source);
+    Mesh *tubes = curve_tubes(curves, first, count, sides, e);
+    float *glow = NULL;
+    bool done = tubes;
+    if (done && curves->glow) {
+        glow = memory_alloc(tubes->vertex_count, sizeof *glow, e);
+        done = glow;
+        if (done) {
+            curve_tubes_spread(curves, first, count, sides, curves->glow, glow);
+        }
+    }
+    done = done && visit_mesh(walk, tubes, glow, e);
+    free(glow);
+    mesh_free(tubes);
     return done;
 }
 
@@ -116,14 +138,12 @@ bool export_part_pieces(const ExportSource *source, int64_t index, bool placed, 
                      .visit = visit,
                      .user = user};
     if (part->mesh) {
-        return part->mesh->face_count == 0 || visit_mesh(&walk, part->mesh, e);
+        return part->mesh->face_count == 0 || visit_mesh(&walk, part->mesh, NULL, e);
     }
     bool done = true;
     for (int64_t i = 0; done && i < part->curves->curve_count;) {
         int64_t count = chunk_of(part->curves, i);
-        Mesh *tubes = curve_tubes(part->curves, i, count, tube_sides(source), e);
-        done = tubes && visit_mesh(&walk, tubes, e);
-        mesh_free(tubes);
+        done = visit_tubes(&walk, part->curves, i, count, e);
         i += count;
     }
     return done;

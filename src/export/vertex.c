@@ -1,6 +1,7 @@
 #include "export/vertex.h"
 
 #include "base/memory.h"
+#include "image/tone_curve.h"
 #include "render/pattern.h"
 
 #include <stdlib.h>
@@ -145,6 +146,7 @@ void export_surface_vertices(const ExportSurface *surface, const Transform *plac
         vertex->uv = mesh->uv ? mesh->uv[v] : (Vec2){0, 0};
         vertex->radius = mesh->radius ? mesh->radius[v] : 0.0f;
         vertex->birth = mesh->birth ? mesh->birth[v] : 0.0f;
+        vertex->glow = surface->glow ? surface->glow[v] : 1.0f;
         vertex->growth = clamp_color(vec3(vertex->birth, vertex->radius * per_radius, 0.0f));
         vertex->color = clamp_color(patterned ? pattern_color(surface, place, variation, vertex, v)
                                               : surface->material->color);
@@ -173,7 +175,5 @@ int export_face_triangles(const Mesh *mesh, int64_t face, bool mirrored, uint32_
 
 uint8_t export_srgb8(float linear)
 {
-    float c = clampf(linear, 0.0f, 1.0f);
-    c = c <= 0.0031308f ? 12.92f * c : 1.055f * powf(c, 1.0f / 2.4f) - 0.055f;
-    return (uint8_t)(255.0f * c + 0.5f);
+    return (uint8_t)(255.0f * tone_srgb_from_linear(linear) + 0.5f);
 }

@@ -9,6 +9,7 @@ typedef struct ExportVertex {
     Vec3 position, normal; // the normal is unit
     Vec2 uv;
     float radius, birth;
+    float glow;  // factor on the radiance of an emitting material
     Vec3 color;  // linear, 0..1: pattern and variation between instances; without textures
     Vec3 growth; // EXPORT_COLORS_GROWTH
 } ExportVertex;
@@ -21,6 +22,7 @@ typedef struct ExportSurface {
     const Material *material;
     unsigned wants;
     float largest_radius; // m: that growth is told against; 0 = growth has no green
+    const float *glow;    // of each vertex; borrowed; NULL = 1
     Vec3 *normal;         // owned: where the mesh has none and they are wanted; else NULL
     uint32_t *face;       // owned: some face of each vertex, for colours; else NULL
 } ExportSurface;

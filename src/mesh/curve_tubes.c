@@ -158,3 +158,18 @@ Mesh *curve_tubes(const CurveSet *curves, int64_t first, int64_t count, int side
     }
     return builder.mesh;
 }
+
+void curve_tubes_spread(const CurveSet *curves, int64_t first, int64_t count, int sides,
+                        const float *of_point, float *of_vertex)
+{
+    for (int64_t i = first; i < first + count; i++) {
+        int64_t last = curves->first[i + 1] - 1;
+        *of_vertex++ = of_point[curves->first[i]]; // caps and rings in the order of add_tube
+        for (int64_t point = curves->first[i]; point <= last; point++) {
+            for (int k = 0; k < sides; k++) {
+                *of_vertex++ = of_point[point];
+            }
+        }
+        *of_vertex++ = of_point[last];
+    }
+}

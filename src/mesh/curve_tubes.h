@@ -20,4 +20,9 @@ void curve_tubes_count(const CurveSet *curves, int64_t first, int64_t count, int
 // NULL and e when memory is short, or with ERROR_INPUT for 2^32 vertices and more.
 Mesh *curve_tubes(const CurveSet *curves, int64_t first, int64_t count, int sides, Error *e);
 
+// What those curves have at their points (of_point: of all of the set's), at the vertices of their
+// tubes.
+void curve_tubes_spread(const CurveSet *curves, int64_t first, int64_t count, int sides,
+                        const float *of_point, float *of_vertex);
+
 #endif

@@ -3,9 +3,10 @@
 Imports files that ramify wrote and holds them against what it reported. CHECK is NAME:FILE:REPORT:WHAT, where REPORT holds
 the line that ramify export --json printed and WHAT is a list of: closed (every edge of every mesh joins two faces, which look
 outward), normals (those of the file's vertices are those of PLY.ply, whose vertices stand in the same order), instances,
-textured, lit. Prints "ok NAME" or "not ok NAME: why" a line.
+textured, lit, glow=SCENE.usda (the light of one part's tubes is that of the curves in that file). Prints "ok NAME" or "not ok NAME: why" a line.
 """
 import json
+import re
 import struct
 import sys
 
@@ -106,6 +107,45 @@ def wrong_cards(meshes):
     return "" if len(cards) == 3 else "%d cards" % len(cards)
 
 
+def numbers_of(text, declaration):
+    """The numbers of an array in a USD file."""
+    start = text.index(" = [", text.index(declaration)) + 4
+    return numpy.array(re.findall(r"[-+.\de]+", text[start : text.index("]", start)]), dtype=float)
+
+
+def linear(c):
+    return numpy.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+
+
+def wrong_glow(meshes, usda):
+    """The emission that Blender's nodes make at each vertex against that of the curves' points."""
+    mesh = meshes[0].data
+    nodes = mesh.materials[0].node_tree.nodes
+    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    picture = shader.inputs["Emission"].links[0].from_node
+    where = picture.inputs["Vector"].links[0].from_node.uv_map
+    shades = linear(numpy.array(picture.image.pixels).reshape(-1, 4)[:, :3])
+    u = numpy.zeros(len(mesh.vertices))
+    for loop, uv in zip(mesh.loops, mesh.uv_layers[where].data):
+        u[loop.vertex_index] = uv.uv.x
+    at = u * len(shades) - 0.5
+    got = numpy.stack([numpy.interp(at, range(len(shades)), shades[:, k]) for k in range(3)], axis=1)
+    got *= shader.inputs["Emission Strength"].default_value
+    with open(usda) as stream:
+        text = stream.read()
+    light = numbers_of(text, "color3f[] primvars:emission").reshape(-1, 3)
+    wanted, first = [], 0
+    for count in numbers_of(text, "int[] curveVertexCounts").astype(int):
+        own = light[first : first + count]  # a tube is a cap, a ring of six at each point, a cap
+        wanted += [own[:1], numpy.repeat(own, 6, axis=0), own[-1:]]
+        first += count
+    wanted = numpy.concatenate(wanted)
+    if len(wanted) != len(got) or wanted.max() < 10 * wanted.min():
+        return "%d glowing vertices, not %d" % (len(got), len(wanted))
+    worst = (abs(got - wanted) / wanted).max()
+    return "glow differs by %g" % worst if worst > 0.05 else ""
+
+
 def agree(path, report, what, folder):
     meshes = load(path)
     triangles, low, high = measure(path, meshes)
@@ -126,6 +166,8 @@ def agree(path, report, what, folder):
         return "%d objects share %d meshes" % (len(meshes), len({o.data.name for o in meshes}))
     if "textured" in what:
         return wrong_cards(meshes)
+    if "glow" in what:
+        return wrong_glow(meshes, folder + "/" + what.split("glow=")[1])
     if "lit" in what and not (bpy.data.lights and bpy.data.cameras):
         return "no light or no camera came along"
     if "colored" in what and not all(o.data.color_attributes for o in meshes):

@@ -47,6 +47,12 @@ objects:
   - {name: floor, ground: {relief: 6, wavelength: 60, flat_radius: 6, grass_tufts: 0, fallen_leaves: 0, trees: {count: 0}}}
   - {name: forest, forest: {height: 8, spacing: 4, stand_trees: 2, stands: 1, radius: 20, glade: 4, density: 1, ferns: 20, leaves: {max_count: 200}, growth: {levels: [{attractors: 30}]}}}
 END
+# Light that is stronger in the main channel than in the others.
+cat >bolt.yaml <<END
+seed: 5
+objects:
+  - {name: bolt, lightning: {streamers: 1}}
+END
 # Every kind of material; a texture with transparency from another file, one that is no PNG.
 cat >materials.yaml <<END
 sky: {kind: constant, color: 0.2}
@@ -96,6 +102,8 @@ export_file leafy.glb leafy.yaml
 export_file gpu.glb leafy.yaml --instances gpu
 export_file flat.glb leafy.yaml --instances flat --colors pattern
 for format in obj ply stl; do export_file "leafy.$format" leafy.yaml; done
+export_file bolt.glb bolt.yaml
+export_file bolt.usda bolt.yaml
 export_file slope.glb slope.yaml --object forest
 export_file growth.glb bare.yaml --colors growth
 export_file none.glb bare.yaml --colors none
@@ -103,7 +111,7 @@ export_file land.glb land.yaml
 
 # ---- the Khronos validator
 
-checked="bare leafy gpu flat slope growth none land$(have oiiotool && echo " materials")"
+checked="bare leafy gpu flat bolt slope growth none land$(have oiiotool && echo " materials")"
 if have node && [ -d "$RAMIFY_PEERS/node_modules/gltf-validator" ]; then
     for name in $checked; do
         if node "$here/validate_gltf.js" "$name.glb" >log 2>&1; then echo "ok gltf_validator_$name"; else
@@ -130,6 +138,7 @@ if have blender; then
         blender_stl:bare.stl:bare.stl.json:closed \
         blender_glb_instances:leafy.glb:leafy.glb.json:instances,lit \
         blender_glb_flat:flat.glb:flat.glb.json:lit \
+        blender_glb_glow:bolt.glb:bolt.glb.json:glow=bolt.usda \
         blender_glb_sheared:slope.glb:slope.glb.json:instances \
         blender_obj_instances:leafy.obj:leafy.obj.json: \
         blender_land:land.glb:land.glb.json:colored,lit \
