@@ -101,7 +101,7 @@ INSTALL := $(OUT)/ramify:bin/ramify:755 \
            $(foreach page,$(filter %.1,$(MANUAL)),$(page):share/man/man1/$(notdir $(page)):644) \
            $(OUT)/completion/ramify:share/bash-completion/completions/ramify:644 \
            $(OUT)/completion/_ramify:share/zsh/site-functions/_ramify:644 \
-           $(foreach f,$(notdir $(wildcard src/python/ramify/*.py)),src/python/ramify/$f:$(PYTHON_SITE)/ramify/$f:644)
+           $(foreach f,$(notdir $(wildcard src/python/ramify/*.py src/python/ramify/py.typed)),src/python/ramify/$f:$(PYTHON_SITE)/ramify/$f:644)
 LINKS   := lib/$(SONAME) lib/libramify.so
 
 install: all ramify.pc ## install command, libraries, header, manual, completions, Python module below PREFIX (/usr/local)

@@ -25,22 +25,21 @@ static int report(const RamifyError *e)
     return exit_status(e);
 }
 
-static int help(const Options *options)
+static bool help(const Options *options, RamifyError *e)
 {
     CommandId command = options->command;
     if (options->operand && command == COMMAND_HELP) {
         command = command_by_name(options->operand);
     }
     if (command == COMMAND_COUNT) {
-        fprintf(stderr, "ramify: unknown command '%.60s'; see ramify --help\n", options->operand);
-        return 2;
+        return options_unknown_command(options->operand, e);
     }
     if (options->man) {
         manual_print(command, !options->operand);
     } else {
         options_print_help(command);
     }
-    return 0;
+    return true;
 }
 
 static bool run_command(const Options *options, RamifyError *e)
@@ -77,17 +76,15 @@ int main(int argc, char **argv)
     if (!options_parse(&options, argc, argv, &version, &e)) {
         return report(&e);
     }
-    int status = 0;
+    bool helps = options.help || options.command == COMMAND_HELP;
     if (version) {
         printf("ramify %s\n", ramify_version());
-    } else if (options.help || options.command == COMMAND_HELP) {
-        status = help(&options);
-    } else if (!run_command(&options, &e)) {
+    } else if (!(helps ? help(&options, &e) : run_command(&options, &e))) {
         return report(&e);
     }
     if (fflush(stdout) != 0 || ferror(stdout)) {
         fprintf(stderr, "ramify: cannot write to stdout\n");
         return 1;
     }
-    return status;
+    return 0;
 }

@@ -27,7 +27,7 @@ static Options options_default(void)
                      .time = -1.0};
 }
 
-static bool unknown_command(const char *name, RamifyError *e)
+bool options_unknown_command(const char *name, RamifyError *e)
 {
     const char *names[COMMAND_COUNT];
     char hint[256];
@@ -161,7 +161,7 @@ bool options_parse(Options *options, int argc, char **argv, bool *version, Ramif
     }
     options->command = command_by_name(argv[1]);
     if (options->command == COMMAND_COUNT) {
-        return unknown_command(argv[1], e);
+        return options_unknown_command(argv[1], e);
     }
     return parse_words(options, argc, argv, e);
 }

@@ -70,4 +70,7 @@ void options_print_help(CommandId command);
 // The command of this name; COMMAND_COUNT when there is none.
 CommandId command_by_name(const char *name);
 
+// RAMIFY_BAD_INPUT, naming the command that may have been meant. Returns false.
+bool options_unknown_command(const char *name, RamifyError *e);
+
 #endif

@@ -76,6 +76,8 @@ fi
 [ $? -eq 2 ] && [ ! -s out ] && grep -q "'fish'; it must be bash or zsh" err || cat out err >>wrong
 "$RAMIFY" help nonsense --man >out 2>err
 [ $? -eq 2 ] && [ ! -s out ] && grep -q "unknown command 'nonsense'" err || cat out err >>wrong
+"$RAMIFY" help rendr >out 2>err
+[ $? -eq 2 ] && [ ! -s out ] && grep -q "did you mean 'render'?" err || cat out err >>wrong
 verdict manual_refusals
 
 # What `make install` puts there are the pages of all commands.
@@ -178,6 +180,7 @@ for shell in bash zsh; do
     offers $shell scene "ramify render " pine.yaml '!notes.txt' '!survey.asc'
     offers $shell measured "ramify measure s" survey.asc '!pine.yaml'
     offers $shell isa "ramify render pine.yaml --isa a" avx2 avx512 '!sse2'
+    offers $shell isa_of_golden "ramify golden --isa n" native
     offers $shell ending "ramify export pine.yaml -o pine." pine.glb pine.obj '!pine.jpg'
     offers $shell object "ramify export pine.yaml --object " pine
     offers $shell key "ramify render pine.yaml --set camera.fo" camera.fov= camera.focal_length= '!film.'

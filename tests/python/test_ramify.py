@@ -3,12 +3,14 @@
 import copy
 import ctypes
 import gc
+import inspect
 import json
 import os
 import pickle
 import signal
 import threading
 import time
+import typing
 import weakref
 
 import numpy as np
@@ -296,6 +298,16 @@ def test_warnings_are_pythons():
             ramify.Scene({"objects": [alone]}).grow("bush")
         except ramify.Error:
             pass
+
+
+def test_what_is_public_has_types():
+    public = [ramify.render, ramify.schema]
+    for kind in (ramify.Scene, ramify.Tree, ramify.Land, ramify.World, ramify.Film):
+        public += [getattr(kind, name) for name, f in vars(kind).items() if name[0] != "_" and not isinstance(f, property)]
+    assert len(public) > 15
+    for function in public:
+        taken = [name for name in inspect.signature(function).parameters if name != "self"]
+        assert {"return", *taken} <= set(typing.get_type_hints(function)), function
 
 
 def test_the_schema_is_a_dict():

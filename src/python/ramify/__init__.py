@@ -15,7 +15,9 @@ the scene or by their number. Everything that takes long takes threads (0 = all 
 (stage, done) with done in 0..1; Ctrl-C and an exception in progress end it early.
 """
 
-from ._call import BadInput, Error, VERSION as __version__, call, path
+from typing import Any, Dict, Mapping, Optional, Union
+
+from ._call import BadInput, Error, File, VERSION as __version__, call, path
 from .scene import Scene, schema
 from .tree import Land, Tree
 from .world import Film, Mesh, Curves, World
@@ -23,7 +25,13 @@ from .world import Film, Mesh, Curves, World
 __all__ = ["BadInput", "Curves", "Error", "Film", "Land", "Mesh", "Scene", "Tree", "World", "schema", "render"]
 
 
-def render(scene, file=None, overrides=None, folder="", **how):
+def render(
+    scene: Union[Scene, Dict[str, Any], File],
+    file: Optional[File] = None,
+    overrides: Optional[Mapping[str, Any]] = None,
+    folder: File = "",
+    **how: Any,
+) -> Film:
     """Renders a scene, a dict or the name of a scene file, and writes it to file if there is one. Returns the Film."""
     if not isinstance(scene, Scene):
         scene = Scene(scene, overrides, folder) if isinstance(scene, dict) else Scene.load(scene, overrides)

@@ -4,11 +4,17 @@ import ctypes as c
 import os
 import threading
 import warnings
+from typing import Callable, Optional, Union
 
 from . import _abi
 
 VERSION = "0.1.0"
 lib = _abi.load(VERSION)
+
+# How functions that take long tell how far they are: (stage, done), done in 0..1.
+Progress = Optional[Callable[[str, float], object]]
+# How files are named.
+File = Union[str, bytes, os.PathLike]
 
 
 class Error(Exception):
@@ -18,11 +24,11 @@ class Error(Exception):
     CODES = ("ok", "bad_input", "io", "memory", "cancelled", "internal", "differs")
 
     def __init__(self, error):
-        self.code = self.CODES[error.code]
-        self.file = error.file.decode(errors="replace") or None
-        self.line = error.line or None
-        self.column = error.column or None
-        self.message = error.message.decode(errors="replace")
+        self.code: str = self.CODES[error.code]
+        self.file: Optional[str] = error.file.decode(errors="replace") or None
+        self.line: Optional[int] = error.line or None
+        self.column: Optional[int] = error.column or None
+        self.message: str = error.message.decode(errors="replace")
         place = ":".join(str(part) for part in (self.file, self.line, self.column) if part)
         super().__init__(f"{place}: {self.message}" if place else self.message)
 
@@ -123,7 +129,7 @@ def call(name, *arguments):
     return check(getattr(lib, "ramify_" + name)(*arguments, c.byref(error)), error)
 
 
-def path(file):
+def path(file: File) -> bytes:
     """The name of a file (text, bytes or a path) as the library takes it."""
     name = os.fsencode(file)
     if b"\0" in name:

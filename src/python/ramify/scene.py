@@ -1,15 +1,21 @@
 """Scenes: what everything is made from."""
 
+from __future__ import annotations
+
 import ctypes as c
 import json
 import os
+from typing import Any, Callable, Dict, Iterable, Mapping, Optional, Union
 
 import numpy as np
 
 from . import _abi
-from ._call import Handle, call, lib, path, run
+from ._call import File, Handle, Progress, call, lib, path, run
 from .tree import Land, Tree, measures
-from .world import World
+from .world import Film, World
+
+Name = Union[str, int]  # of an object, or its number
+Overrides = Optional[Mapping[str, Any]]
 
 _INSTANCES = ("auto", "nodes", "gpu", "flat")
 _COLORS = ("all", "pattern", "growth", "none")
@@ -41,7 +47,7 @@ def _choice(name, value, known):
     return known.index(value)
 
 
-def schema():
+def schema() -> Dict[str, Any]:
     """The JSON Schema of scene files, as a dict."""
     text = call("schema")
     try:
@@ -54,12 +60,12 @@ class Scene:
     """A scene from a dict of the same keys as a scene file. overrides: {"objects.oak.tree.height": 9}. Files that it names
     are relative to folder."""
 
-    def __init__(self, description, overrides=None, folder=""):
+    def __init__(self, description: Dict[str, Any], overrides: Overrides = None, folder: File = ""):
         text = _yaml(description).encode()
         self._take(call("scene_load_text", text, len(text), b"scene", path(folder), *_overrides(overrides)))
 
     @classmethod
-    def load(cls, file, overrides=None):
+    def load(cls, file: File, overrides: Overrides = None) -> Scene:
         """Reads a scene file."""
         scene = cls.__new__(cls)
         scene._take(call("scene_load", path(file), *_overrides(overrides)))
@@ -69,15 +75,18 @@ class Scene:
         self._handle = Handle(pointer, "scene_free")
         info = _abi.SceneInfo()
         lib.ramify_scene_info(pointer, c.byref(info))
-        self.width, self.height, self.samples, self.seed = info.width, info.height, info.samples, info.seed
-        self.objects = {}
+        self.width: int = info.width
+        self.height: int = info.height
+        self.samples: int = info.samples
+        self.seed: int = info.seed
+        self.objects: Dict[str, str] = {}
         for i in range(info.object_count):
             entry = _abi.ObjectInfo()
             lib.ramify_scene_object(pointer, i, c.byref(entry))
             self.objects[entry.name.decode()] = entry.kind.decode()
 
     @property
-    def resolved(self):
+    def resolved(self) -> str:
         """The scene with every default and override written out, as YAML."""
         return lib.ramify_scene_resolved(self._handle.pointer).decode()
 
@@ -89,7 +98,7 @@ class Scene:
             return names.index(name)
         return range(len(names))[name]
 
-    def grow(self, name, threads=0, progress=None):
+    def grow(self, name: Name, threads: int = 0, progress: Progress = None) -> Tree:
         """Grows one object; returns its Tree."""
         index = self._index(name)
         return Tree(
@@ -101,7 +110,7 @@ class Scene:
             )
         )
 
-    def land(self, name, threads=0, progress=None):
+    def land(self, name: Name, threads: int = 0, progress: Progress = None) -> Land:
         """Heights of a terrain; returns its Land."""
         index = self._index(name)
         return Land(
@@ -113,7 +122,7 @@ class Scene:
             )
         )
 
-    def measure(self, name, threads=0, progress=None):
+    def measure(self, name: Name, threads: int = 0, progress: Progress = None) -> Dict[str, float]:
         """Grows one object and measures it, as a dict; nan where there is too little to measure."""
         index = self._index(name)
         return measures(
@@ -125,7 +134,7 @@ class Scene:
             )
         )
 
-    def build(self, threads=0, progress=None):
+    def build(self, threads: int = 0, progress: Progress = None) -> World:
         """Grows, skins and places everything; returns the World."""
         pointer = run(
             lambda how, _, error: lib.ramify_build(self._handle.pointer, how, error),
@@ -135,11 +144,26 @@ class Scene:
         )
         return World(pointer, self._handle, list(self.objects))
 
-    def render(self, isa=None, threads=0, progress=None, each_pass=None):
+    def render(
+        self,
+        isa: Optional[str] = None,
+        threads: int = 0,
+        progress: Progress = None,
+        each_pass: Optional[Callable[[Film, int], object]] = None,
+    ) -> Film:
         """Builds and path traces the scene; returns the Film (see World.render)."""
         return self.build(threads, progress).render(isa, threads, progress, each_pass)
 
-    def export(self, file, objects=(), instances="auto", colors="all", tube_sides=0, threads=0, progress=None):
+    def export(
+        self,
+        file: File,
+        objects: Union[Name, Iterable[Name]] = (),
+        instances: str = "auto",
+        colors: str = "all",
+        tube_sides: int = 0,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> Dict[str, Any]:
         """Writes the scene as another program's file, by the file's ending. objects: the only ones to write, or the only one;
         instances: "auto", "nodes", "gpu" or "flat"; colors: "all", "pattern", "growth" or "none"; tube_sides: of curves
         written as tubes. Returns what was written as a dict: vertices, triangles, low, high (m), bytes."""

@@ -1,13 +1,18 @@
 """Out-trees and land: what grows."""
 
+from __future__ import annotations
+
 import ctypes as c
+from typing import Dict, Tuple
+
+import numpy as np
 
 from . import _abi
 from ._arrays import view
-from ._call import Handle, call, lib, path, run
+from ._call import File, Handle, call, lib, path, run
 
 
-def measures(pointer):
+def measures(pointer: int) -> Dict[str, float]:
     """The list of measures as a dict of numbers; frees it."""
     handle = Handle(pointer, "measures_free")
     found = {}
@@ -35,12 +40,12 @@ class Tree:
         self._count = lib.ramify_tree_count(pointer)
 
     @classmethod
-    def read(cls, file):
+    def read(cls, file: File) -> Tree:
         """Reads an SWC file, coordinates in metres; any file, in a child process with limits."""
         name = path(file)
         return cls(run(lambda how, _, error: lib.ramify_tree_read(name, how, error), discard=lib.ramify_tree_free))
 
-    def write(self, file):
+    def write(self, file: File) -> None:
         """Writes .swc, .json or .graphml, by the file's ending."""
         call("tree_write", self._handle.pointer, path(file))
 
@@ -48,7 +53,7 @@ class Tree:
         address = getattr(lib, "ramify_tree_" + name)(self._handle.pointer)
         return view(address, kind, (self._count, *width), self._handle)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return self._count
 
     positions = property(lambda self: self._array("positions", "f4", 3))
@@ -60,11 +65,11 @@ class Tree:
     ids = property(lambda self: self._array("ids", "u8"))
 
     @property
-    def hash(self):
+    def hash(self) -> int:
         """Equal trees, equal hashes."""
         return lib.ramify_tree_hash(self._handle.pointer)
 
-    def measure(self):
+    def measure(self) -> Dict[str, float]:
         """What can be measured on any out-tree, as a dict; nan where there is too little to measure."""
         return measures(call("tree_measure", self._handle.pointer))
 
@@ -77,23 +82,23 @@ class Land:
         self._handle = Handle(pointer, "land_free")
         self._info = _abi.LandInfo()
         lib.ramify_land_info(pointer, c.byref(self._info))
-        self.cell = tuple(self._info.cell)
-        self.origin = tuple(self._info.origin)
+        self.cell: Tuple[float, float] = tuple(self._info.cell)
+        self.origin: Tuple[float, float] = tuple(self._info.origin)
 
     @classmethod
-    def read(cls, file):
+    def read(cls, file: File) -> Land:
         """Reads an Esri ASCII grid (.asc); missing heights are nan."""
         return cls(call("land_read", path(file)))
 
-    def write(self, file):
+    def write(self, file: File) -> None:
         """Writes .png (16 bits, from the lowest to the highest point), .exr or .asc (m), by the file's ending."""
         call("land_write", self._handle.pointer, path(file))
 
     @property
-    def heights(self):
+    def heights(self) -> np.ndarray:
         address = lib.ramify_land_heights(self._handle.pointer)
         return view(address, "f4", (self._info.rows, self._info.columns), self._handle)
 
-    def measure(self):
+    def measure(self) -> Dict[str, float]:
         """What can be measured on any land, as a dict."""
         return measures(call("land_measure", self._handle.pointer))

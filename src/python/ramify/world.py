@@ -1,19 +1,22 @@
 """Geometry and pictures: what is made of a scene."""
 
+from __future__ import annotations
+
 import ctypes as c
+from typing import Any, Callable, Dict, List, Optional, Union
 
 import numpy as np
 
 from . import _abi
 from ._arrays import view
-from ._call import Handle, lib, path, run
+from ._call import File, Handle, Progress, lib, path, run
 
 
 class _Part:
     def __init__(self, world, part, name):
         self._world, self._part = world, part
-        self.object = name
-        self.material = part.material.decode()
+        self.object: str = name
+        self.material: str = part.material.decode()
 
     def _vertices(self, name, *width):
         return view(getattr(self._part, name), "f4", (self._part.vertex_count, *width), self._world)
@@ -23,12 +26,12 @@ class _Part:
     births = property(lambda self: self._vertices("births"), doc="n float32, 0..1 of the growth's time; or None")
 
     @property
-    def instances(self):
+    def instances(self) -> Optional[np.ndarray]:
         """k x 3 x 4 float32: where it is drawn, as matrices whose last column is the place in m. None = once, as it is."""
         return view(self._part.instances, "f4", (self._part.instance_count, 3, 4), self._world)
 
     @property
-    def variations(self):
+    def variations(self) -> Optional[np.ndarray]:
         """k float32, 0..1 an instance, for variation of colour; or None."""
         return view(self._part.variations, "f4", (self._part.instance_count,), self._world)
 
@@ -40,12 +43,12 @@ class Mesh(_Part):
     uvs = property(lambda self: self._vertices("uvs", 2), doc="n x 2 float32; or None")
 
     @property
-    def faces(self):
+    def faces(self) -> np.ndarray:
         """m x 3 or m x 4 uint32: indices of corners, counter-clockwise seen from outside."""
         return view(self._part.indices, "u4", (self._part.face_count, self._part.face_size), self._world)
 
     @property
-    def triangles(self):
+    def triangles(self) -> np.ndarray:
         """The faces as triangles, m x 3 uint32."""
         faces = self.faces
         return faces if faces.shape[1] == 3 else np.concatenate([faces[:, [0, 1, 3]], faces[:, [2, 3, 1]]])
@@ -55,7 +58,7 @@ class Curves(_Part):
     """Round curves of a scene's object (twigs, grass): chains of points with radii."""
 
     @property
-    def starts(self):
+    def starts(self) -> np.ndarray:
         """curves + 1 int64: curve i has the points starts[i] .. starts[i + 1] - 1."""
         return view(self._part.starts, "i8", (self._part.curve_count + 1,), self._world)
 
@@ -66,7 +69,7 @@ class World:
     def __init__(self, pointer, scene, names):
         self.handle = Handle(pointer, "world_free", scene)
         self._scene = scene
-        self.parts = []
+        self.parts: List[Union[Mesh, Curves]] = []
         for i in range(lib.ramify_world_part_count(pointer)):
             part = _abi.Part()
             lib.ramify_world_part(pointer, i, c.byref(part))
@@ -74,13 +77,19 @@ class World:
             self.parts.append(kind(self.handle, part, names[part.object]))
 
     @property
-    def info(self):
+    def info(self) -> Dict[str, Any]:
         """Counts and seconds as a dict: nodes, triangles, curve_segments, instances, bytes, grow_seconds, mesh_seconds."""
         info = _abi.WorldInfo()
         lib.ramify_world_info(self.handle.pointer, c.byref(info))
-        return {name: getattr(info, name) for name, _ in info._fields_}
+        return {name: getattr(info, name) for name, *_ in info._fields_}
 
-    def render(self, isa=None, threads=0, progress=None, each_pass=None):
+    def render(
+        self,
+        isa: Optional[str] = None,
+        threads: int = 0,
+        progress: Progress = None,
+        each_pass: Optional[Callable[[Film, int], object]] = None,
+    ) -> Film:
         """Path traces the world. isa: "sse4.2" and others pin the instruction set, for the same bits on every machine.
         each_pass(film, samples) is called after 1, 2, 4, ... samples with the Film so far. Returns a Film."""
         size = _abi.SceneInfo()
@@ -97,14 +106,17 @@ class World:
             self.handle,
         )
         film = Film(size.width, size.height, self._scene)
-        show = each_pass and (lambda user, so_far, samples: each_pass(film, samples))
+
+        def show(_user, _pointer, samples):
+            each_pass(film, samples)
+
         run(
             lambda how, each, error: lib.ramify_renderer_render(
                 renderer.pointer, film.handle.pointer, each, None, how, c.byref(film.info), error
             ),
             threads,
             progress,
-            show,
+            show if each_pass else None,
         )
         return film
 
@@ -122,7 +134,7 @@ class Film:
         self.width, self.height = width, height
         self.info = _abi.RenderInfo()
 
-    def layer(self, name):
+    def layer(self, name: str) -> np.ndarray:
         """The layer of this name; KeyError when there is none."""
         channels = c.c_int()
         address = lib.ramify_film_layer(self.handle.pointer, name.encode(), c.byref(channels))
@@ -142,11 +154,11 @@ class Film:
     variance = property(lambda self: self.layer("variance"), doc="of the mean luminance")
 
     @property
-    def rgba(self):
+    def rgba(self) -> np.ndarray:
         """A copy of color and alpha, height x width x 4."""
         return np.dstack([self.layer("color"), self.layer("alpha")])
 
-    def save(self, file, denoise=None, threads=0):
+    def save(self, file: File, denoise: Optional[bool] = None, threads: int = 0) -> None:
         """Writes .png or .jpg, developed by the scene's film, or .exr, linear with all layers. denoise: None = as the
         scene says."""
         if denoise is None:
