@@ -149,25 +149,23 @@ static bool compare_means(const GoldenOptions *options, const Scene *scene,
     return done;
 }
 
-static bool compare_with_exr(const GoldenOptions *options, const Scene *scene, const char *file,
-                             const Run *run, GoldenResult *result, Error *e)
+static bool compare_with_exr(const GoldenOptions *options, const Scene *scene, Pinned *pinned,
+                             const char *file, const Run *run, GoldenResult *result, Error *e)
 {
     NoisyPicture kept = {0}, ours = {0};
     bool done = noisy_picture_read(&kept, file, e) &&
-                pinned_render_noisy(scene, options->isa, options->series, scene->golden.runs, run,
-                                    &ours, e) &&
+                pinned_render_noisy(pinned, options->series, scene->golden.runs, run, &ours, e) &&
                 compare_means(options, scene, &ours, &kept, result, e);
     noisy_picture_clear(&kept);
     noisy_picture_clear(&ours);
     return done;
 }
 
-static bool store_exr(const GoldenOptions *options, const Scene *scene, const char *file,
-                      const Run *run, GoldenResult *result, Error *e)
+static bool store_exr(const Scene *scene, Pinned *pinned, const char *file, const Run *run,
+                      GoldenResult *result, Error *e)
 {
     NoisyPicture picture;
-    bool done = pinned_render_noisy(scene, options->isa, STORED_SERIES, scene->golden.runs, run,
-                                    &picture, e) &&
+    bool done = pinned_render_noisy(pinned, STORED_SERIES, scene->golden.runs, run, &picture, e) &&
                 noisy_picture_write(&picture, file, e);
     noisy_picture_clear(&picture);
     if (done) {
@@ -183,10 +181,15 @@ static bool work_with_exr(const GoldenOptions *options, const Scene *scene, cons
     if (!pinned_check(scene, e)) {
         return false;
     }
-    bool done = is_missing(result, file) || compare_with_exr(options, scene, file, run, result, e);
+    bool missing = is_missing(result, file);
+    Pinned *pinned = !missing || options->update ? pinned_open(scene, options->isa, run, e) : NULL;
+    bool done =
+        (missing && !options->update) ||
+        (pinned && (missing || compare_with_exr(options, scene, pinned, file, run, result, e)));
     if (done && options->update && result->status != GOLDEN_ALIKE) {
-        done = store_exr(options, scene, file, run, result, e);
+        done = store_exr(scene, pinned, file, run, result, e);
     }
+    pinned_close(pinned);
     return done;
 }
 

@@ -1,9 +1,11 @@
 #include "golden/pinned.h"
 
+#include "base/memory.h"
 #include "base/random.h"
 #include "render/renderer.h"
 #include "scene/build.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 bool pinned_check(const Scene *scene, Error *e)
@@ -61,43 +63,51 @@ static Image *picture_of(const Film *film, Error *e)
     return image;
 }
 
-// What both ways of rendering need.
-typedef struct Studio {
+struct Pinned {
+    uint64_t seed; // the scene's
     World *world;
     Renderer *renderer;
     Film *film;
-} Studio;
+};
 
-static bool studio_open(Studio *s, const Scene *scene, const char *isa, const Run *run, Error *e)
+Pinned *pinned_open(const Scene *scene, const char *isa, const Run *run, Error *e)
 {
-    *s = (Studio){0};
-    s->world = pinned_check(scene, e) ? scene_build(scene, run, NULL, e) : NULL;
-    s->renderer = s->world ? renderer_new(s->world, isa, run, e) : NULL;
-    s->film = s->renderer ? film_new(s->world->film.width, s->world->film.height, e) : NULL;
-    return s->film;
+    Pinned *p = pinned_check(scene, e) ? memory_alloc_zero(1, sizeof *p, e) : NULL;
+    if (!p) {
+        return NULL;
+    }
+    p->seed = scene->render.seed;
+    p->world = scene_build(scene, run, NULL, e);
+    p->renderer = p->world ? renderer_new(p->world, isa, run, e) : NULL;
+    p->film = p->renderer ? film_new(p->world->film.width, p->world->film.height, e) : NULL;
+    if (!p->film) {
+        pinned_close(p);
+        return NULL;
+    }
+    return p;
 }
 
-static void studio_close(Studio *s)
+void pinned_close(Pinned *p)
 {
-    film_free(s->film);
-    renderer_free(s->renderer);
-    world_free(s->world);
+    if (p) {
+        film_free(p->film);
+        renderer_free(p->renderer);
+        world_free(p->world);
+        free(p);
+    }
 }
 
 Image *pinned_render(const Scene *scene, const char *isa, const Run *run, Error *e)
 {
-    Studio s;
-    Image *image = NULL;
-    if (studio_open(&s, scene, isa, run, e) && trace(s.renderer, s.film, run, e)) {
-        image = picture_of(s.film, e);
-    }
-    studio_close(&s);
+    Pinned *p = pinned_open(scene, isa, run, e);
+    Image *image = p && trace(p->renderer, p->film, run, e) ? picture_of(p->film, e) : NULL;
+    pinned_close(p);
     return image;
 }
 
-static bool add_run(Studio *s, const Run *run, NoisyPicture *picture, Error *e)
+static bool add_run(Pinned *p, const Run *run, NoisyPicture *picture, Error *e)
 {
-    Image *rendering = trace(s->renderer, s->film, run, e) ? color_of(s->film, e) : NULL;
+    Image *rendering = trace(p->renderer, p->film, run, e) ? color_of(p->film, e) : NULL;
     if (rendering) {
         noisy_picture_add(picture, rendering);
     }
@@ -105,19 +115,15 @@ static bool add_run(Studio *s, const Run *run, NoisyPicture *picture, Error *e)
     return rendering;
 }
 
-bool pinned_render_noisy(const Scene *scene, const char *isa, uint64_t series, int runs,
-                         const Run *run, NoisyPicture *picture, Error *e)
+bool pinned_render_noisy(Pinned *p, uint64_t series, int runs, const Run *run,
+                         NoisyPicture *picture, Error *e)
 {
-    Studio s;
-    *picture = (NoisyPicture){0};
-    bool done = studio_open(&s, scene, isa, run, e) &&
-                noisy_picture_make(picture, s.film->width, s.film->height, e);
-    uint64_t key = random_key(scene->render.seed, series);
+    bool done = noisy_picture_make(picture, p->film->width, p->film->height, e);
+    uint64_t key = random_key(p->seed, series);
     for (int i = 0; done && i < runs; i++) {
-        s.world->render.seed = random_key(key, (uint64_t)i);
-        done = add_run(&s, run, picture, e);
+        p->world->render.seed = random_key(key, (uint64_t)i);
+        done = add_run(p, run, picture, e);
     }
-    studio_close(&s);
     if (!done) {
         noisy_picture_clear(picture);
     }

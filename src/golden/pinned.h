@@ -16,10 +16,16 @@ bool pinned_check(const Scene *scene, Error *e);
 // (premultiplied). isa: NULL = this machine's best. ERROR_CANCELLED when the user interrupts.
 Image *pinned_render(const Scene *scene, const char *isa, const Run *run, Error *e);
 
-// The mean of `runs` renderings (at least 2) and its variance; grown and built once. Runs of
-// different `series` share no random numbers of the renderer.
-bool pinned_render_noisy(const Scene *scene, const char *isa, uint64_t series, int runs,
-                         const Run *run, NoisyPicture *picture, Error *e);
+// A scene that is grown and built, to be rendered any number of times. It borrows from the scene.
+// NULL and e as for pinned_render.
+typedef struct Pinned Pinned;
+Pinned *pinned_open(const Scene *scene, const char *isa, const Run *run, Error *e);
+void pinned_close(Pinned *pinned); // NULL is fine
+
+// The mean of `runs` renderings (at least 2) and its variance. Runs of different `series` share no
+// random numbers of the renderer.
+bool pinned_render_noisy(Pinned *pinned, uint64_t series, int runs, const Run *run,
+                         NoisyPicture *picture, Error *e);
 
 // As the scene's film shows it: display values, 3 channels, or 4 with straight alpha.
 Image *pinned_develop(const Scene *scene, const Image *linear, Error *e);

@@ -17,8 +17,9 @@
 // Per-material tables (energy compensation) and textures, made once per world.
 typedef struct MaterialSet MaterialSet;
 
-// Copies the materials. ERROR_INPUT names the material and the file when a texture cannot be read.
-MaterialSet *material_set_new(const Material *materials, int count, Error *e);
+// Copies the materials. used: which of them anything is made of; what is costly is made for those
+// alone; NULL = all. ERROR_INPUT names the material and the file when a texture cannot be read.
+MaterialSet *material_set_new(const Material *materials, const bool *used, int count, Error *e);
 void material_set_free(MaterialSet *set); // NULL is fine
 
 struct GgxTable;

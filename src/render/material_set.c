@@ -57,7 +57,7 @@ static bool prepare_film(MaterialSet *set, const Material *m, Error *e)
 }
 
 static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material *material,
-                          Error *e)
+                          bool used, Error *e)
 {
     entry->material = *material;
     Material *m = &entry->material;
@@ -68,12 +68,12 @@ static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material
     m->color = vec3_max(vec3_min(m->color, vec3_splat(1.0f)), vec3_splat(0.0f));
     entry->plain = m->kind == MATERIAL_DIFFUSE && m->pattern == PATTERN_NONE &&
                    m->variation <= 0.0f && !(m->texture && m->texture[0]);
-    return prepare_table(entry, e) && prepare_film(set, m, e) &&
+    return (!used || (prepare_table(entry, e) && prepare_film(set, m, e))) &&
            open_texture(set, m, m->texture, &entry->color, e) &&
            open_texture(set, m, m->alpha_texture, &entry->opacity, e);
 }
 
-MaterialSet *material_set_new(const Material *materials, int count, Error *e)
+MaterialSet *material_set_new(const Material *materials, const bool *used, int count, Error *e)
 {
     MaterialSet *set = memory_alloc_zero(1, sizeof *set, e);
     if (!set) {
@@ -83,7 +83,7 @@ MaterialSet *material_set_new(const Material *materials, int count, Error *e)
     bool done = set->entry != NULL;
     set->count = done ? count : 0;
     for (int i = 0; done && i < count; i++) {
-        done = prepare_entry(set, &set->entry[i], &materials[i], e);
+        done = prepare_entry(set, &set->entry[i], &materials[i], !used || used[i], e);
     }
     if (!done) {
         material_set_free(set);

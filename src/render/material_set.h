@@ -11,7 +11,7 @@ typedef struct MaterialEntry {
     Material material;
     bool plain;       // diffuse of one colour
     float alpha;      // GGX; 0 = mirror
-    GgxTable *table;  // owned; NULL where the kind needs none
+    GgxTable *table;  // owned; NULL where the kind needs none, or nothing is made of it
     Texture *color;   // borrowed from the cache; NULL = none
     Texture *opacity; // likewise
 } MaterialEntry;

@@ -35,6 +35,21 @@ static bool build_accel(Renderer *renderer, const Run *run, Error *e)
     return renderer->accel;
 }
 
+// A scene's world has every built-in material, and most of them are on nothing.
+static MaterialSet *prepare_materials(const World *world, Error *e)
+{
+    bool *used = memory_alloc_zero(world->material_count, sizeof *used, e);
+    if (!used) {
+        return NULL;
+    }
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        used[world->geometry.part[i].material] = true;
+    }
+    MaterialSet *set = material_set_new(world->material, used, world->material_count, e);
+    free(used);
+    return set;
+}
+
 Renderer *renderer_new(const World *world, const char *isa, const Run *run, Error *e)
 {
     Renderer *renderer = memory_alloc_zero(1, sizeof *renderer, e);
@@ -43,7 +58,7 @@ Renderer *renderer_new(const World *world, const char *isa, const Run *run, Erro
     }
     renderer->world = world;
     renderer->isa = isa;
-    renderer->materials = material_set_new(world->material, world->material_count, e);
+    renderer->materials = prepare_materials(world, e);
     if (!renderer->materials || !build_accel(renderer, run, e) || !build_lights(renderer, run, e)) {
         renderer_free(renderer);
         return NULL;
@@ -55,7 +70,7 @@ bool renderer_update(Renderer *renderer, unsigned changed, const Run *run, Error
 {
     const World *world = renderer->world;
     if (changed & RENDERER_MATERIALS) {
-        MaterialSet *fresh = material_set_new(world->material, world->material_count, e);
+        MaterialSet *fresh = prepare_materials(world, e);
         if (!fresh) {
             return false;
         }

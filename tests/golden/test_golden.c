@@ -147,9 +147,14 @@ static void the_bits_are_the_same_for_any_threads(void **state)
 
 // ---- statistics on real renderings
 
-// A small scene with soft shadows and a glossy ball that mirrors its lamp: noise as it is. change:
-// one override.
-static NoisyPicture noisy_rendering(const char *change, uint64_t series)
+// A small scene, built once for all its renderings.
+typedef struct Subject {
+    Scene *scene;
+    Pinned *pinned;
+} Subject;
+
+// Soft shadows and a glossy ball that mirrors its lamp: noise as it is. change: one override.
+static Subject make_subject(const char *change)
 {
     static const char text[] =
         "camera: {position: [0, 1.2, 5], target: [0, 0.5, 0], fov: 32}\n"
@@ -169,18 +174,31 @@ static NoisyPicture noisy_rendering(const char *change, uint64_t series)
         "position: [-0.6, 0.5, 0]}]}}\n";
     Error e = {0};
     Run run = two_threads();
-    Scene *scene = scene_read_text(text, sizeof text - 1, "noise", "", &change, 1, &e);
-    NoisyPicture picture;
-    if (!scene || !pinned_render_noisy(scene, PINNED_ISA, series, 4, &run, &picture, &e)) {
+    Subject subject = {scene_read_text(text, sizeof text - 1, "noise", "", &change, 1, &e), NULL};
+    subject.pinned = subject.scene ? pinned_open(subject.scene, PINNED_ISA, &run, &e) : NULL;
+    if (!subject.pinned) {
         fail_msg("%s", e.message);
     }
-    scene_free(scene);
+    return subject;
+}
+
+static void clear_subject(Subject *subject)
+{
+    pinned_close(subject->pinned);
+    scene_free(subject->scene);
+}
+
+static NoisyPicture noisy_rendering(const Subject *subject, uint64_t series)
+{
+    Run run = two_threads();
+    NoisyPicture picture;
+    assert_true(pinned_render_noisy(subject->pinned, series, 4, &run, &picture, NULL));
     return picture;
 }
 
-static NoiseVerdict verdict_on(const NoisyPicture *stored, const char *change, uint64_t series)
+static NoiseVerdict verdict_on(const NoisyPicture *stored, const Subject *subject, uint64_t series)
 {
-    NoisyPicture ours = noisy_rendering(change, series);
+    NoisyPicture ours = noisy_rendering(subject, series);
     NoiseVerdict verdict;
     assert_true(noise_compare(&ours, stored, 0.01, &verdict, NULL, NULL));
     noisy_picture_clear(&ours);
@@ -191,13 +209,14 @@ static void other_seeds_are_alike_but_for_noise(void **state)
 {
     (void)state;
     enum { TRIALS = 50, MOST = 3 }; // 0.5 expected; more than 3 in 2 of 1000 such tests
-    static const char few[] = "render.samples=3";
     int alarms = 0;
-    NoisyPicture stored = noisy_rendering(few, 0);
+    Subject subject = make_subject("render.samples=3");
+    NoisyPicture stored = noisy_rendering(&subject, 0);
     for (uint64_t series = 1; series <= TRIALS; series++) {
-        alarms += verdict_on(&stored, few, series).rejected > 0;
+        alarms += verdict_on(&stored, &subject, series).rejected > 0;
     }
     noisy_picture_clear(&stored);
+    clear_subject(&subject);
     print_message("%d alarms in %d trials\n", alarms, TRIALS);
     assert_true(alarms <= MOST);
 }
@@ -207,15 +226,19 @@ static void a_change_below_the_noise_is_found(void **state)
 {
     (void)state;
     static const char *const changes[] = {"materials.grey.color=0.505", "lights.0.radiance=62"};
-    NoisyPicture stored = noisy_rendering("render.samples=24", 0);
+    Subject unchanged = make_subject("render.samples=24");
+    NoisyPicture stored = noisy_rendering(&unchanged, 0);
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
+        Subject changed = make_subject(changes[i]);
         for (uint64_t series = 1; series <= 3; series++) {
-            NoiseVerdict verdict = verdict_on(&stored, changes[i], series);
+            NoiseVerdict verdict = verdict_on(&stored, &changed, series);
             print_message("%s: p %.2g\n", changes[i], verdict.p);
             assert_true(verdict.rejected > 0);
         }
+        clear_subject(&changed);
     }
     noisy_picture_clear(&stored);
+    clear_subject(&unchanged);
 }
 
 static char *scene_name(const char *path)
