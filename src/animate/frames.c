@@ -9,10 +9,12 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -40,6 +42,13 @@ uint64_t frame_hash(const Scene *scene)
         hash = hash_text(hash, rest, (int64_t)strlen(rest));
     }
     return random_key(hash, scene->files);
+}
+
+uint64_t frames_hash(const Scene *still, const char *isa)
+{
+    TextPart camera = section_find(still->resolved, "camera");
+    uint64_t hash = hash_text(0xcbf29ce484222325ull, camera.text, camera.length);
+    return hash_text(hash, isa ? isa : "", isa ? (int64_t)strlen(isa) : 0);
 }
 
 void frame_mark(const Scene *scene, uint64_t more, char mark[FRAME_MARK_SIZE])
@@ -89,7 +98,7 @@ char *frames_film(const char *folder, Error *e)
     return join(folder, "/" FILM_NAME, e);
 }
 
-bool frames_folder_make(const char *folder, Error *e)
+static bool make_folder(const char *folder, Error *e)
 {
     struct stat status;
     if (mkdir(folder, 0777) == 0) {
@@ -100,6 +109,32 @@ bool frames_folder_make(const char *folder, Error *e)
         return true;
     }
     return error_set(e, ERROR_IO, "folder '%s' cannot be made: %s", folder, strerror(reason));
+}
+
+int frames_folder_take(const char *folder, Error *e)
+{
+    struct stat status;
+    for (;;) {
+        if (!make_folder(folder, e)) {
+            return -1;
+        }
+        int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (descriptor < 0) {
+            error_set(e, ERROR_IO, "folder '%s' cannot be read: %s", folder, strerror(errno));
+            return -1;
+        }
+        if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            close(descriptor);
+            error_set(e, ERROR_IO,
+                      "another run has its frames in '%s'; wait for it, or name another film",
+                      folder);
+            return -1;
+        } // file systems without locks do without
+        if (fstat(descriptor, &status) == 0 && status.st_nlink > 0) {
+            return descriptor;
+        }
+        close(descriptor); // another run removed it just now, as it was done
+    }
 }
 
 // "000012.png", or "000012.png.ramify-4711-0.part".

@@ -13,6 +13,10 @@ void frame_mark(const Scene *scene, uint64_t more, char mark[FRAME_MARK_SIZE]);
 // The hash in it.
 uint64_t frame_hash(const Scene *scene);
 
+// A hash over what all frames of a film share and no frame's scene tells: the camera for which is
+// made what depends on the point of view, and the instruction set (NULL = this machine's best).
+uint64_t frames_hash(const Scene *still, const char *isa);
+
 // Is the file there, whole, and of this mark?
 bool frame_is_finished(const char *file, const char *mark);
 
@@ -22,8 +26,10 @@ char *frames_folder(const char *film, Error *e);
 char *frames_pattern(const char *folder, Error *e);
 char *frames_film(const char *folder, Error *e);
 
-// Makes the folder unless it is there. ERROR_IO.
-bool frames_folder_make(const char *folder, Error *e);
+// Makes the folder unless it is there and takes it for this run alone: a descriptor, to be closed
+// when the work is done; closed by the system when the run is killed. -1 and ERROR_IO when it
+// cannot be made or another run has it.
+int frames_folder_take(const char *folder, Error *e);
 
 // Removes the frames, what a killed run left of one, and the folder if nothing else is in it.
 void frames_folder_remove(const char *folder);

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 enum { METERED_FRAMES = 4, METER_SIZE = 96, METER_SAMPLES = 16 };
 
@@ -31,6 +32,7 @@ typedef struct Shooting {
     Turntable *turntable;
     int start, end; // frames, both included
     char *folder;   // of the frames of a film; NULL = there is none
+    int hold;       // keeps other runs from it; -1 = nothing is held
     char *pattern;  // of the frames' names
     Stage *stage;   // NULL until the first frame
     Film *film[2];  // one is traced while the other is written
@@ -91,7 +93,8 @@ static bool plan_output(Shooting *s, Error *e)
     }
     s->folder = frames_folder(s->params->output, e);
     s->pattern = s->folder ? frames_pattern(s->folder, e) : NULL;
-    return s->pattern && frames_folder_make(s->folder, e);
+    s->hold = s->pattern ? frames_folder_take(s->folder, e) : -1;
+    return s->hold >= 0;
 }
 
 // ---- what is to be done
@@ -134,6 +137,7 @@ static bool find_shots(Shooting *s, Error *e)
     if (!s->shot || !hash_metered(s, &metered, e)) {
         return false;
     }
+    uint64_t more = random_key(metered, frames_hash(s->scene, s->params->isa));
     for (int frame = s->start; frame <= s->end; frame++) {
         if (run_is_cancelled(s->run)) {
             return run_cancel_error(e);
@@ -143,7 +147,7 @@ static bool find_shots(Shooting *s, Error *e)
             scene && check_size(s, scene, frame, e) ? pattern_name(s->pattern, frame, e) : NULL;
         if (file) {
             Shot shot = {.frame = frame};
-            frame_mark(scene, metered, shot.mark);
+            frame_mark(scene, more, shot.mark);
             if (frame_is_finished(file, shot.mark)) {
                 s->stats->skipped++;
             } else {
@@ -278,13 +282,21 @@ static bool hand_over(Shooting *s, const Film *film, Error *e)
     return finisher_begin(s->finisher, file, scene, film, shot->mark, s->run->threads, e);
 }
 
-static bool shoot_frames(Shooting *s, Error *e)
+static bool has_track(const Shooting *s, const char *path)
 {
-    bool grows = s->params->turntable.grow.count > 0;
     const SceneAnimation *animation = s->scene->animation;
     for (int i = 0; animation && i < animation->track_count; i++) {
-        grows = grows || strcmp(animation->tracks[i].path, "grow_to") == 0;
+        if (strncmp(animation->tracks[i].path, path, strlen(path)) == 0) {
+            return true;
+        }
     }
+    return false;
+}
+
+static bool shoot_frames(Shooting *s, Error *e)
+{
+    bool grows = s->params->turntable.grow.count > 0 || has_track(s, "grow_to");
+    bool cropped = has_track(s, "film.crop"); // a film keeps what is beyond the crop
     double start = run_seconds();
     s->stage = stage_new(&s->scene->camera, s->params->isa, grows, e);
     if (!s->stage || !lock_exposure(s, e)) {
@@ -294,6 +306,10 @@ static bool shoot_frames(Shooting *s, Error *e)
     bool done = true;
     for (s->at = 0; done && s->at < s->shot_count; s->at++) {
         Film **film = &s->film[s->at & 1];
+        if (cropped) {
+            film_free(*film);
+            *film = NULL;
+        }
         if (!*film) {
             *film = film_new(s->scene->film.width, s->scene->film.height, e);
         }
@@ -374,6 +390,9 @@ static void clear(Shooting *s)
     free(s->shot);
     free(s->pattern);
     free(s->folder);
+    if (s->hold >= 0) {
+        close(s->hold);
+    }
 }
 
 bool shoot(const Scene *scene, const ShootParams *params, const Run *run, ShootStats *stats,
@@ -382,7 +401,7 @@ bool shoot(const Scene *scene, const ShootParams *params, const Run *run, ShootS
     Error own = {0};
     e = e ? e : &own;
     *stats = (ShootStats){0};
-    Shooting s = {.scene = scene, .params = params, .run = run, .stats = stats};
+    Shooting s = {.scene = scene, .params = params, .run = run, .stats = stats, .hold = -1};
     double start = run_seconds();
     s.turntable = turntable_new(scene, &params->turntable, e);
     s.finisher = s.turntable ? finisher_new(e) : NULL;

@@ -387,3 +387,17 @@ Scene *turntable_scene_at(const Turntable *turntable, double time, Error *e)
     }
     return scene;
 }
+
+bool turntable_check_tracks(const Scene *scene, Error *e)
+{
+    if (!scene->animation || scene->animation->track_count == 0) {
+        return true;
+    }
+    TurntableParams params = turntable_params_default();
+    Turntable *turntable = turntable_new(scene, &params, e);
+    Scene *first = turntable ? turntable_scene(turntable, 0, e) : NULL;
+    bool done = first;
+    scene_free(first);
+    turntable_free(turntable);
+    return done;
+}

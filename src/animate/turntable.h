@@ -46,6 +46,10 @@ double turntable_fps(const Turntable *turntable);
 // line of the track that asks for what cannot be.
 Scene *turntable_scene(const Turntable *turntable, int frame, Error *e);
 
+// Do the tracks of the scene name values that it has? Looks at the first frame only. True where
+// there is no animation.
+bool turntable_check_tracks(const Scene *scene, Error *e);
+
 // The scene at a time, 0 .. 1, between frames or on one.
 Scene *turntable_scene_at(const Turntable *turntable, double time, Error *e);
 

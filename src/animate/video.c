@@ -164,6 +164,9 @@ Video *video_open(const char *file, const char *part, int width, int height, dou
     if (sound && video->said < 0) {
         sound = error_set(e, ERROR_IO, "'%s' cannot be written: %s", file, strerror(errno));
     }
+    if (sound) {
+        unlink(part); // the ffmpeg of a killed run may still write to it
+    }
     if (!sound || !start(video, fps, e)) {
         video_close(video, false, NULL);
         return NULL;

@@ -1,3 +1,4 @@
+#include "animate/turntable.h"
 #include "api/handles.h"
 
 #include "scene/kind.h"
@@ -5,8 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-static RamifyScene *hand_scene(Scene *scene, const Error *e, RamifyError *error)
+static RamifyScene *hand_scene(Scene *scene, Error *e, RamifyError *error)
 {
+    if (scene && !turntable_check_tracks(scene, e)) {
+        scene_free(scene);
+        scene = NULL;
+    }
     if (!scene) {
         api_fail(error, e);
     }

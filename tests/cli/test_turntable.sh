@@ -62,6 +62,10 @@ yes mends_to_the_same_bits [ "$(sum a/*)" = "$before" ]
 check changed_scene 0 "$RAMIFY" turntable scene.yaml --frames 6 -o a/f-%02d.png --set camera.fov=30 --json
 says changed_scene_renders out '"rendered": 6, "skipped": 0'
 
+check other_isa 0 "$RAMIFY" turntable scene.yaml --frames 6 -o b/f-%02d.png --isa sse4.2 --end 1 --json
+says other_isa_renders out '"rendered": 2, "skipped": 0'
+"$RAMIFY" turntable scene.yaml --frames 6 -o b/f-%02d.png -q
+
 # other endings know their frames, too
 for ending in jpg exr; do
     check "$ending" 0 "$RAMIFY" turntable scene.yaml --frames 2 -o "x-%d.$ending" -q
@@ -102,6 +106,18 @@ says no_such_frame_says err 'no frame 4; there are 4, counted from 0'
 sed 's/value: 40/value: 400/' moves.yaml >bad.yaml
 check bad_track 2 "$RAMIFY" turntable bad.yaml -o t-%d.png
 says bad_track_names_its_line err 'bad.yaml:9:14: frame 1: camera.fov is 210'
+sed 's/path: camera.fov/path: camera.fow/' moves.yaml >lost.yaml
+for command in info 'render -o t.png'; do # tracks name what is there, also for a still
+    check "lost_track_${command%% *}" 2 "$RAMIFY" $command lost.yaml
+    says "lost_track_${command%% *}_says" err "lost.yaml:9:14: frame 0: unknown key 'fow' in camera; did you mean 'fov'?"
+done
+
+# a crop that moves leaves nothing of earlier frames beyond it
+cat moves.yaml >crop.yaml
+sed -i 's/{path: camera.fov.*/{path: film.crop, ease: step, keys: [{at: 0, value: [0, 0, 1, 1]}, {at: 0.25, value: [0.4, 0.4, 0.6, 0.6]}]}/' crop.yaml
+check crops 0 "$RAMIFY" turntable crop.yaml -o w-%d.png -q
+"$RAMIFY" turntable crop.yaml -o v2-%d.png --start 2 --end 2 -q
+yes crop_is_of_its_frame cmp w-2.png v2-2.png
 yes bad_track_before_any_frame [ "$(count t-*)" -eq 0 ]
 
 # ---- films
@@ -163,6 +179,21 @@ echo half >k.mp4.frames/000009.png.ramify-1-0.part
 check film_goes_on 0 $long -o k.mp4 --json
 says film_goes_on_from_its_frames out '"rendered": 28, "skipped": 2'
 no film_clears_up [ -e k.mp4.frames ]
+
+# Two runs do not make one film: the later one says so, and harms nothing.
+setsid sh -c 'exec "$@"' sh $long -o two.mp4 -q 2>first &
+child=$!
+tries=0
+while [ "$(count two.mp4.frames/*.png)" -lt 2 ] && [ $tries -lt 1200 ]; do sleep 0.05; tries=$((tries + 1)); done
+check second_run 1 "$RAMIFY" turntable scene.yaml --frames 2 -o two.mp4 -q
+says second_run_says err "another run has its frames in 'two.mp4.frames'"
+kill -KILL $child
+wait $child
+yes killed_run_leaves_frames [ "$(count two.mp4.frames/*.png)" -ge 2 ]
+check after_a_killed_run 0 "$RAMIFY" turntable scene.yaml --frames 2 -o two.mp4 -q
+no after_a_killed_run_clears_up [ -e two.mp4.frames ]
+check one_frame 0 "$RAMIFY" turntable scene.yaml --frames 1 -o one.mp4 -q
+yes one_frame_is_a_film [ "$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 one.mp4)" = 1 ]
 
 # ---- mistakes
 for bad in oak.png oak-%s.png oak-%n%d.png oak-%04d-%d.png oak-%04d.gif %04d oak; do

@@ -455,7 +455,7 @@ static void test_emission_and_glass_body(void **state)
     Material m[2] = {material_default(MATERIAL_EMISSION), material_default(MATERIAL_DIELECTRIC)};
     m[0].radiance = vec3(3, 2, 1);
     m[1].absorption = vec3(0.1f, 0.2f, 0.3f);
-    MaterialSet *set = material_set_new(m, 2, NULL);
+    MaterialSet *set = material_set_new(m, NULL, 2, NULL);
     SurfacePoint point = flat_point(false);
     Vec3 wo = vec3(0, 0, 1);
     Bsdf lamp = bsdf_at(set, &point, wo);
