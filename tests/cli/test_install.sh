@@ -28,15 +28,15 @@ objects:
 END
 export PKG_CONFIG_PATH="$prefix/lib/pkgconfig"
 
-# compile KIND OPTION...: all examples into $folder/KIND. pkg-config prints options as a shell reads them.
+# compile KIND ARCHIVE OPTION...: all examples into $folder/KIND. pkg-config prints options as a shell reads them.
 compile() {
-    kind=$1
-    shift
+    kind=$1 archive=$2
+    shift 2
     mkdir "$folder/$kind"
     status=0
     for source in docs/examples/*.c; do
         program=$(basename "$source" .c)
-        eval "cc -std=c99 -Wall -Wextra -Werror -pedantic '$source' -o '$folder/$kind/$program' \
+        eval "cc -std=c99 -Wall -Wextra -Werror -pedantic '$source' -o '$folder/$kind/$program' $archive \
             $(pkg-config "$@" --cflags --libs ramify)" >"$log" 2>&1 || status=1
     done
     verdict "${kind}_compiles" $status
@@ -75,7 +75,7 @@ examples() {
 }
 case $RAMIFY in /*) ;; *) RAMIFY=$PWD/$RAMIFY ;; esac
 
-compile shared
+compile shared ''
 readelf -d "$folder/shared/grow_print" >"$log" && grep -q 'NEEDED.*\[libramify\.so\.[0-9]*\]' "$log"
 verdict shared_needs_the_numbered_library $?
 LD_LIBRARY_PATH="$prefix/lib" examples shared
@@ -90,8 +90,9 @@ if "$python" -c 'import numpy' 2>/dev/null; then
 else
     echo "skipped installed_python_module: NumPy is not installed"
 fi
-rm "$prefix/lib/libramify.so" # so that the archive is what -lramify finds
-compile static --static
+compile static "-Wl,--as-needed '$(pkg-config --variable=libdir ramify)/libramify.a'" --static
+readelf -d "$folder/static/grow_print" >"$log" && ! grep -q 'libramify' "$log"
+verdict static_needs_no_library $?
 examples static
 
 make -s uninstall OUT="$out" PREFIX="$prefix" DESTDIR=/ >"$log" 2>&1 && find "$prefix" ! -type d -o -name ramify >"$log" && [ ! -s "$log" ]
