@@ -77,9 +77,11 @@ bool export_usda(const ExportSource *source, const char *file, const Run *run, E
     bool done = look_through(&usda, e);
     if (done) {
         usda.text.out = file_writer_open(file, e);
-        done = usda.text.out && write_stage(&usda, e);
+        done = usda.text.out && write_stage(&usda, e) && file_writer_settle(usda.text.out, e) &&
+               usda_write_sky(&usda, e);
         done = usda.text.out && file_writer_close(usda.text.out, done, e);
     }
+    image_free(usda.sky);
     free(usda.material);
     free(usda.used);
     free(usda.glows);

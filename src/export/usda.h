@@ -4,6 +4,7 @@
 
 #include "export/export.h"
 #include "export/usda_text.h"
+#include "image/image.h"
 
 typedef struct Usda {
     UsdaText text;
@@ -13,6 +14,7 @@ typedef struct Usda {
     char (*material)[USDA_NAME]; // identifier of each of the world's materials
     bool *used;                  // of each: whether a part has it
     bool *glows;                 // of each: whether some of its curves glow unevenly
+    Image *sky;                  // owned: the dome's picture, that is yet to be written; or NULL
 } Usda;
 
 // The prims /World/Camera and /World/Lights (usda_light.c), /World/Materials (usda_material.c),
@@ -22,6 +24,9 @@ void usda_camera(Usda *usda);
 bool usda_lights(Usda *usda, Error *e);
 bool usda_materials(Usda *usda, Error *e);
 bool usda_objects(Usda *usda, Error *e);
+
+// Writes the dome's picture, if there is one: last, so that no failure before it harms an old one.
+bool usda_write_sky(const Usda *usda, Error *e);
 
 // True when the material's colour is read from the vertices: it has a pattern, and its colours were
 // asked for.

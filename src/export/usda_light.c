@@ -6,8 +6,10 @@
 #include "render/camera.h"
 #include "render/dome.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { SKY_COLUMNS = 1024 };
 
@@ -127,12 +129,17 @@ static void sun_light(UsdaText *text, const Sun *sun)
     usda_end(text);
 }
 
+static void dome_texture(UsdaText *text, const char *path)
+{
+    usda_asset(text, "asset inputs:texture:file", path);
+    usda_line(text, "token inputs:texture:format = \"latlong\"");
+}
+
 static bool dome_picture(Usda *usda, const char *picture, Error *e)
 {
     char *path = asset_path(usda->file, picture, e);
     if (path) {
-        usda_asset(&usda->text, "asset inputs:texture:file", path);
-        usda_line(&usda->text, "token inputs:texture:format = \"latlong\"");
+        dome_texture(&usda->text, path);
     }
     bool done = path;
     free(path);
@@ -140,20 +147,33 @@ static bool dome_picture(Usda *usda, const char *picture, Error *e)
 }
 
 // The picture of the sky is a file beside the one being written.
-static bool baked_dome(Usda *usda, const Image *image, Error *e)
+static bool baked_dome(Usda *usda, Error *e)
 {
-    char *picture = asset_beside(usda->file, "-sky.exr", e);
-    ImageLayer layer = {"", "RGB", image};
-    bool done = picture && image_write_exr(picture, &layer, 1, NULL, e);
-    if (done) {
+    const char *slash = strrchr(usda->file, '/');
+    char *name = asset_beside(slash ? slash + 1 : usda->file, "-sky.exr", e);
+    char path[PATH_MAX] = "";
+    if (name) {
+        snprintf(path, sizeof path, "./%s", name);
         radiance(&usda->text, vec3_splat(1.0f));
-        done = dome_picture(usda, picture, e);
+        dome_texture(&usda->text, path);
     }
+    free(name);
+    return path[0];
+}
+
+bool usda_write_sky(const Usda *usda, Error *e)
+{
+    if (!usda->sky) {
+        return true;
+    }
+    char *picture = asset_beside(usda->file, "-sky.exr", e);
+    ImageLayer layer = {"", "RGB", usda->sky};
+    bool done = picture && image_write_exr(picture, &layer, 1, NULL, e);
     free(picture);
     return done;
 }
 
-static bool dome_light(Usda *usda, const Sky *sky, const Image *image, Error *e)
+static bool dome_light(Usda *usda, const Sky *sky, Error *e)
 {
     if (sky->kind == SKY_NONE) {
         return true;
@@ -166,8 +186,8 @@ static bool dome_light(Usda *usda, const Sky *sky, const Image *image, Error *e)
         done = dome_picture(usda, sky->file, e);
         usda_float(text, "float xformOp:rotateY", sky->rotation);
         usda_line(text, "uniform token[] xformOpOrder = [\"xformOp:rotateY\"]");
-    } else if (image) {
-        done = baked_dome(usda, image, e);
+    } else if (usda->sky) {
+        done = baked_dome(usda, e);
     } else {
         radiance(text, vec3_scale(sky->color, sky->strength));
     }
@@ -183,8 +203,10 @@ bool usda_lights(Usda *usda, Error *e)
     if (!sky_bake(&world->sky, SKY_COLUMNS, usda->run, &baked, e)) {
         return false;
     }
+    usda->sky = baked.image;
+    baked.image = NULL;
     usda_begin(text, NULL, "def Scope \"Lights\"");
-    bool done = dome_light(usda, &world->sky, baked.image, e);
+    bool done = dome_light(usda, &world->sky, e);
     sun_light(text, &baked.sun);
     for (int i = 0; i < world->light_count; i++) {
         if (world->light[i].kind == LIGHT_QUAD) {

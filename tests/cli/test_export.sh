@@ -95,6 +95,15 @@ for format in glb obj ply stl; do
     says "full_disk_${format}_message" err "cannot be written"
 done
 yes full_disk_keeps_old_files still_old
+# A picture of the sky that would fit beside a scene that does not.
+sed 's/^sky: .*/sky: {kind: sun_sky}/' scene.yaml >day.yaml
+echo old >day.usda && echo old >day-sky.exr
+limit=$("$RAMIFY" export day.yaml -o other.usda -q && wc -c <other.usda)
+check full_disk_usda 1 bash -c "trap '' XFSZ; ulimit -f $((limit / 1024 - 1)); exec '$RAMIFY' export day.yaml -o day.usda -q"
+says full_disk_usda_message err "day.usda' cannot be written"
+yes the_sky_fits [ "$(wc -c <other-sky.exr)" -lt $((limit - 2048)) ]
+yes full_disk_keeps_the_sky sh -c '[ "$(cat day.usda day-sky.exr)" = "old
+old" ]'
 yes full_disk_leaves_no_parts sh -c '! ls -A | grep -q part'
 if [ "$(id -u)" -ne 0 ]; then
     mkdir locked && echo old >locked/a.ply && chmod a-w locked
