@@ -24,13 +24,15 @@ comm -23 keys rows >wrong
 verdict scene_reference_has_every_key
 
 # Links of the documents: #sections as GitHub names them, and files.
+sections_of() { sed -n 's/^##* //p' "$1" | tr 'A-Z ' 'a-z-' | tr -cd 'a-z0-9_\n-' | sort; }
 for document in "$root"/README.md "$root"/docs/*.md; do
-    sed -n 's/^##* //p' "$document" | tr 'A-Z ' 'a-z-' | tr -cd 'a-z0-9_\n-' | sort >sections
+    sections_of "$document" >sections
     sort -u sections | comm -23 sections - | sed "s|^|${document##*/}: two sections are called |"
     grep -oE '\]\([^)]+\)' "$document" | sed 's/^](//; s/)$//' | sort -u | while read -r link; do
         case $link in
         \#*) grep -qxF -- "${link#\#}" sections ;;
         http*) ;;
+        *.md\#*) sections_of "$(dirname "$document")/${link%%\#*}" | grep -qxF -- "${link#*\#}" ;;
         *) [ -e "$(dirname "$document")/${link%%\#*}" ] ;;
         esac || echo "${document##*/}: no $link"
     done
