@@ -96,12 +96,38 @@ static bool write_shaded_curves(Pov *pov, int64_t number, const Part *part, PovS
     return true;
 }
 
+// Sides of tubes: as many as keep a part small, since each corner is some 60 bytes of the file.
+static int tube_sides(int64_t points)
+{
+    const int64_t corners = 300000, most = 2 * CURVE_TUBE_SIDES;
+    int64_t sides = corners / points;
+    return (int)(sides < CURVE_TUBE_SIDES ? CURVE_TUBE_SIDES : sides > most ? most : sides);
+}
+
+// A polygon with its corners on a circle is narrower from most sides; so much wider, it is as wide
+// as the circle on average.
+static float tube_width(int sides)
+{
+    float half_turn = PI_F / (float)sides;
+    return half_turn / sinf(half_turn);
+}
+
 static bool write_tubes(Pov *pov, int64_t number, const Part *part)
 {
+    CurveSet wide = *part->curves;
+    int sides = tube_sides(wide.point_count);
+    wide.radius = memory_alloc(wide.point_count, sizeof *wide.radius, pov->e);
+    if (!wide.radius) {
+        return false;
+    }
+    for (int64_t i = 0; i < wide.point_count; i++) {
+        wide.radius[i] = tube_width(sides) * part->curves->radius[i];
+    }
     Part tubes = *part;
     tubes.kind = PART_MESH;
     tubes.curves = NULL;
-    tubes.mesh = curve_tubes(part->curves, 0, part->curves->curve_count, CURVE_TUBE_SIDES, pov->e);
+    tubes.mesh = curve_tubes(&wide, 0, wide.curve_count, sides, pov->e);
+    free(wide.radius);
     bool done = tubes.mesh && pov_mesh_part(pov, number, &tubes);
     mesh_free(tubes.mesh);
     return done;
