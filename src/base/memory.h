@@ -25,4 +25,7 @@ char *memory_copy_string(const char *text, Error *e);
 // Largest resident set of this process so far, bytes.
 int64_t memory_peak(void);
 
+// Bytes of memory that the machine has: what needs more need not be tried.
+double memory_of_machine(void);
+
 #endif

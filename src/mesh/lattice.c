@@ -177,7 +177,7 @@ static void grid_free(BarGrid *grid)
     free(grid->slot);
 }
 
-static bool grid_init(BarGrid *grid, const Lattice *lattice, Aabb box, Error *e)
+static bool grid_init(BarGrid *grid, const Lattice *lattice, Aabb box, const Run *run, Error *e)
 {
     grid->low = box.low;
     const float extent[3] = {box.high.x - box.low.x, box.high.y - box.low.y,
@@ -186,6 +186,9 @@ static bool grid_init(BarGrid *grid, const Lattice *lattice, Aabb box, Error *e)
         grid->size[i] = (int64_t)(extent[i] / grid->cell) + 1;
     }
     for (int64_t i = 0; i < lattice->count; i++) {
+        if (run_is_cancelled(run)) {
+            return run_cancel_error(e);
+        }
         if (!enter_bar(grid, (int32_t)i, e)) {
             return false;
         }
@@ -211,10 +214,6 @@ static double solid_distance(const void *solid, Vec3 p, double *bound)
 
 Mesh *lattice_surface(const Lattice *lattice, float voxel, int smoothing, const Run *run, Error *e)
 {
-    if (!(voxel > 0.0f) || !isfinite(voxel)) {
-        error_set(e, ERROR_INPUT, "a voxel of %g m; it must be above 0", (double)voxel);
-        return NULL;
-    }
     BarGrid grid = {.bar = lattice->bar,
                     .cell = CELL_VOXELS * voxel,
                     .margin = MARGIN_VOXELS * voxel,
@@ -223,13 +222,16 @@ Mesh *lattice_surface(const Lattice *lattice, float voxel, int smoothing, const 
     for (int64_t i = 0; i < lattice->count; i++) {
         box = aabb_union(box, bar_box(&grid, &lattice->bar[i]));
     }
+    LevelSetFrame frame = {box.low, voxel};
+    if (!level_set_fits(box, frame, e)) {
+        return NULL;
+    }
     if (aabb_is_empty(box)) {
         return mesh_new(3, 0, 0, MESH_NORMAL, e);
     }
     Mesh *mesh = NULL;
     LevelSet *set = NULL;
-    if (grid_init(&grid, lattice, box, e)) {
-        LevelSetFrame frame = {box.low, voxel};
+    if (grid_init(&grid, lattice, box, run, e)) {
         set = level_set_from_distance(solid_distance, &grid, box, frame, run, e);
     }
     if (set && level_set_smooth(set, smoothing, run, e) && level_set_finish(set, e)) {

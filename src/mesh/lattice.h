@@ -28,8 +28,8 @@ void lattice_clear(Lattice *lattice);
 
 // The union of the bars as a closed surface with normals. voxel: m; bars thinner than about 1.5
 // voxels in radius are lost. smoothing: steps of Laplacian flow that round off where bars meet;
-// radii are enlarged beforehand by what the flow takes from a cylinder. ERROR_INPUT for voxels
-// that are not positive.
+// radii are enlarged beforehand by what the flow takes from a cylinder. Errors: those of
+// level_set_fits, ERROR_CANCELLED.
 Mesh *lattice_surface(const Lattice *lattice, float voxel, int smoothing, const Run *run, Error *e);
 
 #endif

@@ -13,6 +13,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <new>
 #include <vector>
@@ -20,6 +21,7 @@
 extern "C" {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers" // usual in C
+#include "base/memory.h"
 #include "shape/level_set.h"
 #pragma GCC diagnostic pop
 }
@@ -33,6 +35,9 @@ static_assert(Leaf::DIM == 8, "level_set_distance knows the layout of a leaf");
 struct LevelSet {
     LevelSetFrame frame{};
     float band = 0.0f; // m
+    // OpenVDB takes small voxels for no size at all: its lengths are metres times this power of
+    // two, 1 where voxels are large enough, so that it changes no other bits.
+    float unit = 1.0f, metres = 1.0f; // metres: 1 / unit
     FloatGrid::Ptr grid;
     // One entry a block of 8^3 voxels, of blocks[0] x blocks[1] x blocks[2]: the block's 512
     // values.
@@ -74,8 +79,15 @@ std::unique_ptr<LevelSet> make_empty(LevelSetFrame frame)
     auto made = std::make_unique<LevelSet>();
     made->frame = frame;
     made->band = LEVEL_SET_BAND * frame.voxel;
-    made->grid = FloatGrid::create(made->band);
-    made->grid->setTransform(openvdb::math::Transform::createLinearTransform(frame.voxel));
+    if (frame.voxel < LEVEL_SET_FILE_VOXEL) {
+        int exponent;
+        frexpf(frame.voxel, &exponent);
+        made->unit = ldexpf(1.0f, -exponent);
+        made->metres = ldexpf(1.0f, exponent);
+    }
+    made->grid = FloatGrid::create(made->band * made->unit);
+    made->grid->setTransform(
+        openvdb::math::Transform::createLinearTransform(frame.voxel * made->unit));
     made->grid->setGridClass(openvdb::GRID_LEVEL_SET);
     return made;
 }
@@ -145,15 +157,15 @@ void fill_block(Block &block, LevelSetDistance distance, const void *shape, cons
     if (bound > reach + static_cast<double>(set.band)) {
         return;
     }
-    block.leaf = std::make_unique<Leaf>(o, set.band, false);
+    block.leaf = std::make_unique<Leaf>(o, set.band * set.unit, false);
     for (openvdb::Index n = 0; n < Leaf::SIZE; n++) {
         Coord c = block.leaf->offsetToGlobalCoord(n);
         double d = distance(shape, voxel_position(set.frame, c.x(), c.y(), c.z()), &bound);
         float value = clampf(static_cast<float>(d), -set.band, set.band);
         if (fabsf(value) < set.band) {
-            block.leaf->setValueOn(n, value);
+            block.leaf->setValueOn(n, value * set.unit);
         } else {
-            block.leaf->setValueOff(n, value);
+            block.leaf->setValueOff(n, value * set.unit);
         }
     }
 }
@@ -188,8 +200,8 @@ std::vector<Block> blocks_of(const Aabb &bounds, const LevelSetFrame &frame)
 void make_table(LevelSet &set)
 {
     openvdb::CoordBBox box;
-    set.inside.assign(Leaf::SIZE, -set.band);
-    set.outside.assign(Leaf::SIZE, set.band);
+    set.inside.assign(Leaf::SIZE, -set.band * set.unit);
+    set.outside.assign(Leaf::SIZE, set.band * set.unit);
     if (!set.grid->tree().evalLeafBoundingBox(box)) {
         return;
     }
@@ -264,9 +276,38 @@ void add_triangle(Mesh *mesh, uint32_t a, uint32_t b, uint32_t c)
 
 } // namespace
 
+extern "C" bool level_set_fits(Aabb bounds, LevelSetFrame frame, Error *e)
+{
+    const double voxel = static_cast<double>(frame.voxel), least = 1e-30;
+    if (!(voxel >= least) || !std::isfinite(voxel)) {
+        return error_set(e, ERROR_INPUT, "a voxel of %g m; it must be at least %g m", voxel, least);
+    }
+    if (aabb_is_empty(bounds)) {
+        return true;
+    }
+    Vec3 size = vec3_sub(bounds.high, bounds.low);
+    const double across[3] = {static_cast<double>(size.x), static_cast<double>(size.y),
+                              static_cast<double>(size.z)};
+    double blocks = 1.0, most = std::max({across[0], across[1], across[2]});
+    for (double x : across) {
+        blocks *= x / voxel / 8.0 + 2.0;
+    }
+    double needed = blocks * sizeof(Block), there = memory_of_machine();
+    if (!(needed <= there) || !(most / voxel < 1e9)) {
+        return error_set(e, ERROR_MEMORY,
+                         "details of %g m in a body of %g m need %.1f GB, and this machine has "
+                         "%.1f GB; thicker parts or larger voxels are needed",
+                         voxel, most, needed * 1e-9, there * 1e-9);
+    }
+    return true;
+}
+
 extern "C" LevelSet *level_set_from_mesh(const Mesh *mesh, LevelSetFrame frame, const Run *run,
                                          Error *e)
 {
+    if (!level_set_fits(mesh_bounds(mesh), frame, e)) {
+        return nullptr;
+    }
     std::unique_ptr<LevelSet> made;
     bool done = guarded(e, [&] {
         made = make_empty(frame);
@@ -285,6 +326,9 @@ extern "C" LevelSet *level_set_from_distance(LevelSetDistance distance, const vo
                                              Aabb bounds, LevelSetFrame frame, const Run *run,
                                              Error *e)
 {
+    if (!level_set_fits(bounds, frame, e)) {
+        return nullptr;
+    }
     std::unique_ptr<LevelSet> made;
     bool done = guarded(e, [&] {
         made = make_empty(frame);
@@ -300,7 +344,7 @@ extern "C" LevelSet *level_set_from_distance(LevelSetDistance distance, const vo
             if (block.leaf) {
                 made->grid->tree().addLeaf(block.leaf.release());
             } else if (block.inside) {
-                made->grid->tree().addTile(1, block.origin, -made->band, false);
+                made->grid->tree().addTile(1, block.origin, -made->band * made->unit, false);
             }
         }
         return !run_is_cancelled(run) || run_cancel_error(e);
@@ -361,6 +405,11 @@ extern "C" void level_set_free(LevelSet *level_set)
 
 extern "C" bool level_set_add_to(const LevelSet *set, const char *name, GridFile *grids, Error *e)
 {
+    if (set->frame.voxel < LEVEL_SET_FILE_VOXEL) {
+        return error_set(
+            e, ERROR_INPUT, "grid '%s' has voxels of %g m; OpenVDB's files hold none below %g m",
+            name, static_cast<double>(set->frame.voxel), static_cast<double>(LEVEL_SET_FILE_VOXEL));
+    }
     return guarded(e, [&] {
         FloatGrid::Ptr copy = set->grid->deepCopy();
         auto transform = openvdb::math::Transform::createLinearTransform(set->frame.voxel);
@@ -391,7 +440,7 @@ extern "C" float level_set_distance(const LevelSet *set, Vec3 p)
     for (int i = 0; i < 4; i++) {
         v[i] = lerpf(v[i], v[i + 4], t[0]);
     }
-    return lerpf(lerpf(v[0], v[2], t[1]), lerpf(v[1], v[3], t[1]), t[2]);
+    return set->metres * lerpf(lerpf(v[0], v[2], t[1]), lerpf(v[1], v[3], t[1]), t[2]);
 }
 
 extern "C" float level_set_band(const LevelSet *set)
@@ -440,8 +489,8 @@ extern "C" Mesh *level_set_surface(const LevelSet *set, Error *e)
         return nullptr;
     }
     for (size_t i = 0; i < points.size(); i++) {
-        mesh->position[i] =
-            vec3_add(set->frame.origin, vec3(points[i].x(), points[i].y(), points[i].z()));
+        Vec3 p = vec3(points[i].x(), points[i].y(), points[i].z());
+        mesh->position[i] = vec3_add(set->frame.origin, vec3_scale(p, set->metres));
     }
     mesh->face_count = 0; // OpenVDB's faces are clockwise
     for (const auto &t : triangles) {

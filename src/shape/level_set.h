@@ -18,13 +18,18 @@ typedef struct LevelSetFrame {
     float voxel; // m
 } LevelSetFrame;
 
-#define LEVEL_SET_BAND 3.0f // half width of the narrow band, voxels
+#define LEVEL_SET_BAND 3.0f           // half width of the narrow band, voxels
+#define LEVEL_SET_FILE_VOXEL 1.45e-5f // m: the smallest that OpenVDB's files hold
 
 typedef struct LevelSet LevelSet;
 
 // Signed distance of a shape, m; *bound is set to a number that the true distance's magnitude is
 // not below. Called from several threads.
 typedef double (*LevelSetDistance)(const void *shape, Vec3 p, double *bound);
+
+// Whether a level set over these bounds can be made at all: ERROR_INPUT for a voxel that is none,
+// ERROR_MEMORY when it has more of them than the machine has memory. The makers below ask, too.
+bool level_set_fits(Aabb bounds, LevelSetFrame frame, Error *e);
 
 // The inside of a closed triangle mesh, whichever way its faces are turned. Holes larger than a
 // voxel let the outside in.
@@ -46,7 +51,7 @@ bool level_set_finish(LevelSet *level_set, Error *e);
 
 void level_set_free(LevelSet *level_set); // NULL is fine
 
-// Adds a copy to the grids of a file.
+// Adds a copy to the grids of a file. ERROR_INPUT when its voxels are too small for one.
 bool level_set_add_to(const LevelSet *level_set, const char *name, GridFile *grids, Error *e);
 
 // Trilinear; clamped to +- LEVEL_SET_BAND voxels. Safe to call from many threads once finished.

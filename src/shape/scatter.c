@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #define PILOT_SEED 0x70696c6f74ull // of the draws that measure mean densities
 enum { PILOT_DRAWS = 1 << 15, PILOT_TRIES = 1 << 22 };
@@ -151,7 +150,7 @@ static bool check_count(int64_t count, Error *e)
                          (long long)count, INT32_MAX);
     }
     double needed = (double)count * (2.0 * sizeof(Vec3) + sizeof(uint64_t));
-    double there = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    double there = memory_of_machine();
     if (needed > there) {
         return error_set(e, ERROR_MEMORY,
                          "%lld points need %.1f GB and this machine has %.1f GB; a smaller count "

@@ -117,6 +117,50 @@ static void nothing_makes_an_empty_mesh(void **state)
     assert_non_null(strstr(e.message, "voxel"));
 }
 
+// A body of a few micrometres is the same body, smaller.
+static void size_does_not_matter(void **state)
+{
+    (void)state;
+    const float scale = 0x1p-20f;
+    Lattice large = {0}, small = {0};
+    add_ring(&large, vec3(0, 0, 0), 1.0f, 0.2f);
+    add_ring(&large, vec3(1, 0, 0.1f), 0.8f, 0.15f);
+    for (int64_t i = 0; i < large.count; i++) {
+        Bar bar = large.bar[i];
+        assert_true(lattice_add(&small,
+                                (Bar){vec3_scale(bar.a, scale), vec3_scale(bar.b, scale),
+                                      scale * bar.radius_a, scale * bar.radius_b},
+                                NULL));
+    }
+    Mesh *wide = surface(&large, 0.05f, 2, 2), *tiny = surface(&small, 0.05f * scale, 2, 2);
+    assert_true(wide->face_count > 1000);
+    assert_int_equal(tiny->face_count, wide->face_count);
+    for (int64_t i = 0; i < wide->vertex_count; i++) {
+        assert_true(vec3_distance(vec3_scale(tiny->position[i], 1.0f / scale), wide->position[i]) <
+                    1e-5f);
+    }
+    mesh_free(wide);
+    mesh_free(tiny);
+    lattice_clear(&large);
+    lattice_clear(&small);
+}
+
+// Hair-thin bars in a large body are refused at once, not counted out until memory ends.
+static void what_cannot_fit_is_refused(void **state)
+{
+    (void)state;
+    Lattice lattice = {0};
+    add_ring(&lattice, vec3(0, 0, 0), 1.0f, 0.2f);
+    const float voxel[3] = {1e-7f, 1e-20f, 1e-38f};
+    for (int i = 0; i < 3; i++) {
+        Error e = {0};
+        Run run = run_default();
+        assert_null(lattice_surface(&lattice, voxel[i], 2, &run, &e));
+        assert_int_equal(e.code, i < 2 ? ERROR_MEMORY : ERROR_INPUT);
+    }
+    lattice_clear(&lattice);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -124,6 +168,8 @@ int main(void)
         cmocka_unit_test(rings_that_touch_become_one),
         cmocka_unit_test(threads_do_not_show),
         cmocka_unit_test(nothing_makes_an_empty_mesh),
+        cmocka_unit_test(size_does_not_matter),
+        cmocka_unit_test(what_cannot_fit_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
