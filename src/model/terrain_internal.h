@@ -27,6 +27,9 @@ OutTree *terrain_rivers(const TerrainParams *params, const Recipe *recipe, Error
 // terrain_uplift.c: the factor on gradients at a place, at least 0.02.
 float terrain_uplift(const TerrainParams *params, uint64_t seed, float x, float z);
 
+// terrain_areas.c: fills terrain->area: every bit of land drains through its nearest node.
+bool terrain_areas(Terrain *terrain, const Run *run, Error *e);
+
 // terrain_profile.c: one pass over the rivers: areas, then heights for hillslopes of gradient
 // uplift * 1, from the outlets up. A river that would run below another's slope is captured by it,
 // and river ends on another's slope are dropped: *captures counts both. Nodes are sorted by height.

@@ -1,143 +1,16 @@
-// Drainage areas and heights of rivers. From the outlet up a river rises as streams in a steady
-// state do, slope = S0 min(1, (A / A0)^-concavity) (Flint 1974), times the uplift. All rivers rise
-// at once, the lowest first; where a river would have to cross the slope of one that is lower it is
-// captured and runs down that slope instead, as brooks are when divides move.
+// Heights of rivers. From the outlet up a river rises as streams in a steady state do, slope =
+// S0 min(1, (A / A0)^-concavity) (Flint 1974), times the uplift. All rivers rise at once, the
+// lowest first; where a river would have to cross the slope of one that is lower it is captured and
+// runs down that slope instead, as brooks are when divides move.
 #include "model/terrain_internal.h"
 
 #include "base/exact_math.h"
 #include "base/lowest_queue.h"
 #include "base/memory.h"
+#include "model/terrain_cells.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-// ---- drainage areas
-
-// Nodes sorted into the cells of a square grid.
-typedef struct NodeGrid {
-    int side;
-    float size, scale; // of the terrain; cells a metre
-    int64_t *start;    // side * side + 1
-    int32_t *node;
-} NodeGrid;
-
-static int grid_cell(const NodeGrid *grid, float x)
-{
-    int i = (int)((x + 0.5f * grid->size) * grid->scale);
-    return i < 0 ? 0 : i >= grid->side ? grid->side - 1 : i;
-}
-
-static int64_t grid_place(const NodeGrid *grid, Vec3 p)
-{
-    return (int64_t)grid_cell(grid, p.z) * grid->side + grid_cell(grid, p.x);
-}
-
-static bool grid_fill(NodeGrid *grid, const OutTree *tree, float size, Error *e)
-{
-    grid->side = 1;
-    while (grid->side < 1024 && (int64_t)grid->side * grid->side < tree->count / 2) {
-        grid->side *= 2;
-    }
-    grid->size = size;
-    grid->scale = (float)grid->side / size;
-    int64_t cells = (int64_t)grid->side * grid->side;
-    grid->start = memory_alloc_zero(cells + 2, sizeof *grid->start, e);
-    grid->node = memory_alloc(tree->count, sizeof *grid->node, e);
-    if (!grid->start || !grid->node) {
-        return false;
-    }
-    for (int64_t i = 0; i < tree->count; i++) {
-        grid->start[grid_place(grid, tree->position[i]) + 2]++;
-    }
-    for (int64_t c = 0; c < cells; c++) {
-        grid->start[c + 2] += grid->start[c + 1];
-    }
-    for (int64_t i = 0; i < tree->count; i++) {
-        grid->node[grid->start[grid_place(grid, tree->position[i]) + 1]++] = (int32_t)i;
-    }
-    return true;
-}
-
-static void grid_clear(NodeGrid *grid)
-{
-    free(grid->start);
-    free(grid->node);
-}
-
-// The node nearest to (x, z); ties: the lowest index.
-static int32_t nearest_node(const NodeGrid *grid, const OutTree *tree, float x, float z)
-{
-    int column = grid_cell(grid, x), row = grid_cell(grid, z);
-    float best = 3e38f;
-    int32_t found = 0;
-    for (int ring = 0; ring < grid->side; ring++) {
-        float clear = (float)(ring - 1) / grid->scale;
-        if (ring > 1 && clear * clear > best) {
-            break;
-        }
-        for (int r = row - ring; r <= row + ring; r++) {
-            bool edge = r == row - ring || r == row + ring;
-            for (int c = column - ring; c <= column + ring; c += edge || ring == 0 ? 1 : 2 * ring) {
-                if (r < 0 || c < 0 || r >= grid->side || c >= grid->side) {
-                    continue;
-                }
-                int64_t cell = (int64_t)r * grid->side + c;
-                for (int64_t k = grid->start[cell]; k < grid->start[cell + 1]; k++) {
-                    int32_t i = grid->node[k];
-                    float dx = tree->position[i].x - x, dz = tree->position[i].z - z;
-                    float d2 = dx * dx + dz * dz;
-                    if (d2 < best || (d2 == best && i < found)) {
-                        best = d2;
-                        found = i;
-                    }
-                }
-            }
-        }
-    }
-    return found;
-}
-
-// Land belongs to its nearest node: counted on a grid that the number of rivers decides, not the
-// resolution asked for.
-static bool count_areas(Terrain *terrain, const Run *run, Error *e)
-{
-    const OutTree *tree = terrain->rivers;
-    float size = terrain->params->size;
-    int side = 256;
-    while (side < 2048 && (int64_t)side * side < 12 * tree->count) {
-        side *= 2;
-    }
-    NodeGrid grid = {0};
-    int32_t *owner = memory_alloc((int64_t)side * side, sizeof *owner, e);
-    bool done = owner && grid_fill(&grid, tree, size, e);
-    if (done) {
-#pragma omp parallel for schedule(static) num_threads(run->threads)
-        for (int row = 0; row < side; row++) {
-            for (int column = 0; column < side; column++) {
-                float x = ((float)column + 0.5f) / (float)side - 0.5f;
-                float z = ((float)row + 0.5f) / (float)side - 0.5f;
-                owner[(int64_t)row * side + column] = nearest_node(&grid, tree, x * size, z * size);
-            }
-        }
-        float cell = size / (float)side * (size / (float)side);
-        memset(terrain->area, 0, sizeof *terrain->area * (size_t)tree->count);
-        for (int64_t i = 0; i < (int64_t)side * side; i++) {
-            terrain->area[owner[i]] += cell;
-        }
-        for (int64_t i = tree->count - 1; i >= 0; i--) {
-            float least = 0.25f * cell; // a node between others, nearest to no sample
-            terrain->area[i] = terrain->area[i] > least ? terrain->area[i] : least;
-            if (tree->parent[i] >= 0) {
-                terrain->area[tree->parent[i]] += terrain->area[i];
-            }
-        }
-    }
-    free(owner);
-    grid_clear(&grid);
-    return done;
-}
-
-// ---- heights
 
 Trough terrain_trough(const Terrain *terrain, int64_t i, float gradient)
 {
@@ -171,8 +44,8 @@ typedef struct TroughCell {
 typedef struct Ascent {
     Terrain *terrain;
     LowestQueue queue;
-    NodeGrid grid; // only its cells
-    TroughCell *cell;
+    TerrainCells cells;
+    TroughCell *cell; // of each
     Trough *trough;
     int32_t *next;
     int32_t *child, *sibling; // first child, next sibling
@@ -199,7 +72,7 @@ static void link_children(Ascent *a)
 static void settle(Ascent *a, int32_t i)
 {
     Trough t = terrain_trough(a->terrain, i, 1.0f);
-    TroughCell *cell = &a->cell[grid_place(&a->grid, a->terrain->rivers->position[i])];
+    TroughCell *cell = &a->cell[terrain_cell_index(&a->cells, a->terrain->rivers->position[i])];
     float reach = t.length + t.width;
     a->trough[i] = t;
     a->next[i] = cell->first;
@@ -213,10 +86,10 @@ static void settle(Ascent *a, int32_t i)
 
 static void search_cell(const Ascent *a, int column, int row, Vec3 p, float *best, int32_t *found)
 {
-    const TroughCell *cell = &a->cell[(int64_t)row * a->grid.side + column];
-    float side = 1.0f / a->grid.scale;
-    float dx = fabsf(p.x - (((float)column + 0.5f) * side - 0.5f * a->grid.size)) - 0.5f * side;
-    float dz = fabsf(p.z - (((float)row + 0.5f) * side - 0.5f * a->grid.size)) - 0.5f * side;
+    const TroughCell *cell = &a->cell[(int64_t)row * a->cells.side + column];
+    float side = 1.0f / a->cells.scale;
+    float dx = fabsf(p.x - (((float)column + 0.5f) * side - 0.5f * a->cells.size)) - 0.5f * side;
+    float dz = fabsf(p.z - (((float)row + 0.5f) * side - 0.5f * a->cells.size)) - 0.5f * side;
     dx = dx > 0.0f ? dx : 0.0f;
     dz = dz > 0.0f ? dz : 0.0f;
     float clear = sqrtf(dx * dx + dz * dz) - cell->reach;
@@ -235,10 +108,11 @@ static void search_cell(const Ascent *a, int column, int row, Vec3 p, float *bes
 // The lowest settled slope at p that is below `best`; -1 = none.
 static int32_t lowest_slope(const Ascent *a, Vec3 p, float *best)
 {
-    int column = grid_cell(&a->grid, p.x), row = grid_cell(&a->grid, p.z), side = a->grid.side;
+    int column = terrain_cell(&a->cells, p.x), row = terrain_cell(&a->cells, p.z),
+        side = a->cells.side;
     int32_t found = -1;
     for (int ring = 0; ring < side; ring++) {
-        float clear = (float)(ring - 1) / a->grid.scale - a->largest_reach;
+        float clear = (float)(ring - 1) / a->cells.scale - a->largest_reach;
         if (clear > 0.0f && clear * a->least_gradient > *best) {
             break;
         }
@@ -360,13 +234,8 @@ static bool ascend_all(Terrain *terrain, uint8_t *drop, int64_t *captures, Error
 {
     int64_t count = terrain->rivers->count;
     Ascent a = {.terrain = terrain, .least_gradient = 3e38f};
-    a.grid.side = 1;
-    while (a.grid.side < 512 && (int64_t)a.grid.side * a.grid.side < count / 3) {
-        a.grid.side *= 2;
-    }
-    a.grid.size = terrain->params->size;
-    a.grid.scale = (float)a.grid.side / a.grid.size;
-    int64_t cells = (int64_t)a.grid.side * a.grid.side;
+    a.cells = terrain_cells(terrain->params->size, count / 3, 512);
+    int64_t cells = (int64_t)a.cells.side * a.cells.side;
     a.cell = memory_alloc(cells, sizeof *a.cell, e);
     a.trough = memory_alloc(count, sizeof *a.trough, e);
     a.next = memory_alloc(count, sizeof *a.next, e);
@@ -468,7 +337,7 @@ bool terrain_profile(Terrain *terrain, const Run *run, int64_t *captures, Error 
     }
     int64_t dropped = 0;
     uint8_t *drop = memory_alloc_zero(terrain->rivers->count, 1, e);
-    bool done = drop && count_areas(terrain, run, e) && ascend_all(terrain, drop, captures, e) &&
+    bool done = drop && terrain_areas(terrain, run, e) && ascend_all(terrain, drop, captures, e) &&
                 sort_by_height(terrain, drop, &dropped, e);
     free(drop);
     *captures += dropped;

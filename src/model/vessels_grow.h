@@ -32,7 +32,15 @@ typedef struct VesselBed {
 bool vessel_bed_grow(VesselBed *bed, Error *e);
 
 // Leaves out what touches, then the terminals that are too many; gives the final radii and angles.
+// (vessels_finish.c)
 bool vessel_bed_finish(VesselBed *bed, Error *e);
+
+// Terminals that each tree shall have.
+static inline int64_t vessel_wanted_terminals(const VesselBed *bed)
+{
+    int64_t wanted = bed->params->terminals / bed->tree_count;
+    return wanted > 1 ? wanted : 1;
+}
 
 // How many children each node has; the caller frees it. *terminals (may be NULL): nodes without.
 int32_t *vessel_child_counts(const OutTree *tree, int64_t *terminals, Error *e);
