@@ -68,7 +68,9 @@ const char *const REPORT_STYLE =
     "dd{margin:0;font-weight:600}"
     "dd small{font-weight:400;color:var(--soft)}"
     ".only section.alike,.only tr.alike{display:none}"
-    "footer{max-width:1720px;margin:0 auto;padding:4px 28px 30px;color:var(--soft);font-size:13px}";
+    "footer{max-width:1720px;margin:0 auto;padding:4px 28px 30px;color:var(--soft);font-size:13px}"
+    "@media(max-width:560px){header,main,footer{padding-left:8px;padding-right:8px}"
+    "section{padding:12px 10px}}";
 
 const char *const REPORT_SCRIPT =
     "'use strict';"

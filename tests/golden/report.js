@@ -59,6 +59,27 @@ async function check_slider(page) {
     check("report_flips", flipped === "100", "to " + flipped);
 }
 
+// A finger on a small screen.
+async function check_touch(browser) {
+    const context = await browser.newContext({ hasTouch: true, isMobile: true, viewport: { width: 412, height: 800 } });
+    const page = await context.newPage(), session = await context.newCDPSession(page);
+    await page.goto("file://" + page_file);
+    const pair = page.locator(".pair").first();
+    await pair.scrollIntoViewIfNeeded();
+    const box = await pair.boundingBox();
+    const touch = (type, share) => session.send("Input.dispatchTouchEvent", { type,
+        touchPoints: share === null ? [] : [{ x: box.x + share * box.width, y: box.y + box.height / 2 }] });
+    await touch("touchStart", 0.5);
+    for (const share of [0.6, 0.7, 0.8]) await touch("touchMove", share);
+    await touch("touchEnd", null);
+    await page.waitForTimeout(100);
+    const value = Number(await pair.locator("input").inputValue());
+    check("report_slider_follows_the_finger", Math.abs(value - 80) < 4, "at " + value);
+    const over = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+    check("report_fits_a_small_screen", over <= 0, over + " pixels too wide");
+    await context.close();
+}
+
 async function check_zoom(page) {
     const image = page.locator("img.plain").first();
     const natural = await image.evaluate((i) => i.naturalWidth);
@@ -92,6 +113,7 @@ async function check_order(page) {
     await check_pictures(page);
     await check_numbers(page);
     await check_slider(page);
+    await check_touch(browser);
     await check_zoom(page);
     await check_order(page);
     const injected = await page.locator("section b").count();
