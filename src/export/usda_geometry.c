@@ -247,6 +247,13 @@ static bool instanced_part(Usda *usda, const Part *part, const char *object, con
 
 // ---- objects
 
+// Nothing to see, and no bounds to tell.
+static bool is_empty(const Part *part)
+{
+    bool bare = part->mesh ? part->mesh->face_count == 0 : part->curves->curve_count == 0;
+    return bare || (part->instance && part->instance_count == 0);
+}
+
 static bool object_prim(Usda *usda, int object, const char *name, Error *e)
 {
     const Geometry *geometry = &usda->source->world->geometry;
@@ -254,7 +261,7 @@ static bool object_prim(Usda *usda, int object, const char *name, Error *e)
     usda_begin(&usda->text, "kind = \"component\"", "def Xform \"%s\"", name);
     for (int64_t i = 0, number = 0; done && i < geometry->count; i++) {
         const Part *part = &geometry->part[i];
-        if (part->object != object) {
+        if (part->object != object || is_empty(part)) {
             continue;
         }
         char part_name[USDA_NAME + 24];

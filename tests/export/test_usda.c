@@ -211,6 +211,22 @@ static void an_empty_world_is_a_stage(void **state)
     world_free(world);
 }
 
+// Of young trees: there are curves, but none yet.
+static void what_is_empty_is_left_out(void **state)
+{
+    (void)state;
+    need_openusd();
+    Error e = {0};
+    Run run = run_default();
+    World *world = world_of_places(0, 1);
+    CurveSet *curves = curves_new(0, 0, &e);
+    assert_non_null(curves);
+    add_part(world, (Part){.kind = PART_CURVES, .curves = curves});
+    assert_true(write_world(world, "young.usda", &run, &e));
+    expect("young.usda", "meshes=1 segments=0");
+    world_free(world);
+}
+
 static void what_is_cancelled_leaves_nothing(void **state)
 {
     (void)state;
@@ -235,6 +251,7 @@ int main(void)
         cmocka_unit_test(only_sheared_instances_are_fine),
         cmocka_unit_test(curves_glow_and_lines_are_long),
         cmocka_unit_test(an_empty_world_is_a_stage),
+        cmocka_unit_test(what_is_empty_is_left_out),
         cmocka_unit_test(what_is_cancelled_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
