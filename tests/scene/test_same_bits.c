@@ -1,0 +1,124 @@
+// One small object of each kind, grown and skinned: its bits are those that were recorded, with any
+// compiler's options and on any machine. Whoever means to change growth records what the failing
+// test prints.
+#include "testing.h"
+
+#include "base/random.h"
+#include "scene/builder.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
+{
+    for (size_t i = 0; bytes && i + 4 <= size; i += 4) {
+        uint32_t word;
+        memcpy(&word, (const char *)bytes + i, sizeof word);
+        hash = random_key(hash, word);
+    }
+    return hash;
+}
+
+static uint64_t hash_mesh(uint64_t hash, const Mesh *mesh)
+{
+    size_t n = (size_t)mesh->vertex_count;
+    hash = hash_bytes(hash, mesh->index,
+                      sizeof *mesh->index * (size_t)(mesh->face_count * mesh->face_size));
+    hash = hash_bytes(hash, mesh->position, sizeof(Vec3) * n);
+    hash = hash_bytes(hash, mesh->normal, sizeof(Vec3) * n);
+    hash = hash_bytes(hash, mesh->uv, sizeof(Vec2) * n);
+    hash = hash_bytes(hash, mesh->radius, sizeof(float) * n);
+    return hash_bytes(hash, mesh->birth, sizeof(float) * n);
+}
+
+static uint64_t hash_curves(uint64_t hash, const CurveSet *curves)
+{
+    size_t n = (size_t)curves->point_count;
+    hash =
+        hash_bytes(hash, curves->first, sizeof *curves->first * (size_t)(curves->curve_count + 1));
+    hash = hash_bytes(hash, curves->position, sizeof(Vec3) * n);
+    hash = hash_bytes(hash, curves->radius, sizeof(float) * n);
+    hash = hash_bytes(hash, curves->birth, sizeof(float) * n);
+    return hash_bytes(hash, curves->glow, sizeof(float) * n);
+}
+
+static uint64_t hash_geometry(const Geometry *geometry)
+{
+    uint64_t hash = random_mix((uint64_t)geometry->count);
+    for (int64_t i = 0; i < geometry->count; i++) {
+        const Part *part = &geometry->part[i];
+        hash = part->mesh ? hash_mesh(hash, part->mesh) : hash_curves(hash, part->curves);
+        hash = hash_bytes(hash, part->instance, sizeof(Transform) * (size_t)part->instance_count);
+    }
+    return hash;
+}
+
+static uint64_t hash_of(const char *object)
+{
+    char text[1024];
+    Error e = {0};
+    snprintf(text, sizeof text, "seed: 3\nobjects:\n  - name: a\n    %s\n", object);
+    Scene *scene = scene_read_text(text, strlen(text), "s.yaml", "", NULL, 0, &e);
+    Run run = run_default();
+    BuildStats stats = {0};
+    World *world = scene ? scene_build(scene, &run, &stats, &e) : NULL;
+    if (!world) {
+        fail_msg("%s: %s", object, e.message);
+    }
+    uint64_t hash = hash_geometry(&world->geometry);
+    world_free(world);
+    scene_free(scene);
+    return hash;
+}
+
+static void every_kind_has_the_bits_that_were_recorded(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *object;
+        uint64_t hash;
+    } kinds[] = {
+        {"tree: {height: 2, crown: {lobes: 0, growth: {levels: [{attractors: 120}]}}, "
+         "roots: {count: 3}, leaves: {max_count: 50}}",
+         0x330206d249855e33},
+        {"forest: {stands: 2, stand_trees: 2, height: 8, ferns: 10, leaves: {max_count: 50}}",
+         0xfaccc68900828821},
+        {"ground: {grass_tufts: 200}", 0x75671227db500027},
+        {"lightning: {height: 10, bolts: 2}", 0xa6955bc433e5bd28},
+        {"lightning: {points: {place: surface}, envelope: [{shape: sphere, size: 1}]}",
+         0x82e1227cfba8a34c},
+        {"coral: {attractors: 200}", 0x94b4e32eca4fb10e},
+        {"coral: {form: massive, attractors: 100}", 0x6cd5c5236530e4fa},
+        {"lsystem: {generations: 4}", 0xb26e7379cdd8e999},
+        {"frost: {surface: pane, spines: 40, sides: 400}", 0xf1e223ba3726ed12},
+        {"frost: {surface: bubble, spines: 20, sides: 200}", 0x72100e15b56990cd},
+        {"dla: {particles: 1000}", 0xb153aa8f718541f4},
+        {"sculpture: {attractors: 20}", 0xb7095b46207de548},
+        {"venation: {}", 0x88c1ce75c8e51c3b},
+        {"vessels: {terminals: 100, envelope: [{shape: sphere, size: 0.1}]}", 0xd58fe64fbd8fa372},
+        {"fracture: {envelope: [{shape: sphere, size: 1}], attractors: 60, resolution: 50}",
+         0xfca9fc4aa1fc53b2},
+        {"terrain: {resolution: 64, rivers: {count: 200}}", 0x4c78c5c2b96835f2},
+        {"shape: {envelope: [{shape: capsule, size: [0.3, 1, 0.3]}, "
+         "{shape: box, size: 0.5, rotation: [10, 20, 30]}]}",
+         0x02ae3c4879220b89}};
+    int wrong = 0;
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        uint64_t hash = hash_of(kinds[i].object);
+        if (hash != kinds[i].hash) {
+            print_error("%s has 0x%016" PRIx64 ", not the 0x%016" PRIx64 " that was recorded\n",
+                        kinds[i].object, hash, kinds[i].hash);
+            wrong++;
+        }
+    }
+    assert_int_equal(wrong, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kind_has_the_bits_that_were_recorded),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
