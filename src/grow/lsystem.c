@@ -388,19 +388,19 @@ static bool derive(const Grammar *grammar, const LSystemParams *params, const Ru
                    ModuleString *string, Error *e)
 {
     int64_t most = params->most_modules > 0 ? params->most_modules : DEFAULT_MOST_MODULES;
-    for (int g = 1; g <= params->generations; g++) {
-        if (run_is_cancelled(run)) {
-            return run_cancel_error(e);
-        }
-        ModuleString next = {0};
-        if (!rewrite(grammar, string, &next, random_key(params->seed, (uint64_t)g), g, most, e)) {
-            module_string_clear(&next);
-            return false;
-        }
-        module_string_clear(string);
+    ModuleString last = {0}; // its arrays serve the generation after the next
+    bool done = true;
+    for (int g = 1; done && g <= params->generations; g++) {
+        ModuleString next = last;
+        next.count = next.value_count = 0;
+        last = *string;
         *string = next;
+        done = run_is_cancelled(run) ? run_cancel_error(e)
+                                     : rewrite(grammar, &last, string,
+                                               random_key(params->seed, (uint64_t)g), g, most, e);
     }
-    return true;
+    module_string_clear(&last);
+    return done;
 }
 
 static bool read_axiom(const char *text, const Grammar *grammar, ModuleString *string, Error *e)
