@@ -272,6 +272,7 @@ def test_an_exception_in_progress_ends_the_run():
 
 
 def test_ctrl_c_ends_the_run():
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # which a program in the background is started without
     timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
     start = time.monotonic()
     timer.start()
