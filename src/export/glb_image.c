@@ -157,11 +157,6 @@ bool glb_add_image(Glb *glb, const Material *m, Error *e)
 
 enum { RAMP = 256 }; // shades: as many as 8 bits have, each where its own value is
 
-static float linear_from_srgb(float c)
-{
-    return c <= 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f);
-}
-
 // The material's hue is in the picture, because Blender 3.4 loses a factor beside an emissive
 // texture.
 static Image *make_ramp(const Material *m, Error *e)
@@ -170,7 +165,7 @@ static Image *make_ramp(const Material *m, Error *e)
     Vec3 hue = vec3_scale(m->radiance, most > 0.0f ? 1.0f / most : 0.0f);
     Image *ramp = image_new(RAMP, 1, 3, e);
     for (int i = 0; ramp && i < RAMP; i++) {
-        float share = linear_from_srgb((float)i / (float)(RAMP - 1));
+        float share = tone_linear_from_srgb((float)i / (float)(RAMP - 1));
         const float shade[3] = {share * hue.x, share * hue.y, share * hue.z};
         for (int k = 0; k < 3; k++) {
             ramp->pixel[3 * i + k] = (float)export_srgb8(shade[k]) / 255.0f;

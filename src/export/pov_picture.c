@@ -3,6 +3,7 @@
 #include "export/pov.h"
 
 #include "image/image.h"
+#include "image/tone_curve.h"
 #include "render/texture.h"
 
 #include <errno.h>
@@ -16,13 +17,6 @@ bool pov_make_folder(Pov *pov)
     return mkdir(pov->folder, 0777) == 0 || errno == EEXIST ||
            error_set(pov->e, ERROR_IO, "folder '%s' cannot be made: %s", pov->folder,
                      strerror(errno));
-}
-
-// IEC 61966-2-1.
-static float to_srgb(float v)
-{
-    v = clampf(v, 0.0f, 1.0f);
-    return v <= 0.0031308f ? 12.92f * v : 1.055f * powf(v, 1.0f / 2.4f) - 0.055f;
 }
 
 // Alpha if there is any, else the first channel; as the renderer has it, but not smoothed: POV-Ray
@@ -44,9 +38,9 @@ static void fill_picture(const Material *m, const Texture *color, const Image *a
             Vec2 uv = {((float)x + 0.5f) * du, 1.0f - ((float)y + 0.5f) * dv};
             Vec3 c = color ? vec3_mul(m->color, texture_color(color, uv, du, dv)) : m->color;
             float *to = out->pixel + ((int64_t)y * out->width + x) * out->channels;
-            to[0] = to_srgb(c.x);
-            to[1] = to_srgb(c.y);
-            to[2] = to_srgb(c.z);
+            to[0] = tone_srgb_from_linear(c.x);
+            to[1] = tone_srgb_from_linear(c.y);
+            to[2] = tone_srgb_from_linear(c.z);
             if (alpha) {
                 to[3] = opacity_at(alpha, x, y, out);
             }

@@ -1,6 +1,7 @@
 #include "image/flip.h"
 
 #include "base/memory.h"
+#include "image/tone_curve.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -33,11 +34,6 @@ static void multiply(const float m[3][3], const float v[3], float out[3])
     }
 }
 
-static float linear_of_srgb(float v)
-{
-    return v <= 0.04045f ? v / 12.92f : powf((v + 0.055f) / 1.055f, 2.4f);
-}
-
 static float clamp01(float v)
 {
     return v > 0.0f ? fminf(v, 1.0f) : 0.0f; // NaN becomes 0
@@ -48,7 +44,7 @@ static void opponent_of_srgb(const float *srgb, float out[3])
 {
     float rgb[3], xyz[3];
     for (int c = 0; c < 3; c++) {
-        rgb[c] = linear_of_srgb(clamp01(srgb[c]));
+        rgb[c] = tone_linear_from_srgb(srgb[c]);
     }
     multiply(XYZ_OF_RGB, rgb, xyz);
     float x = xyz[0] / WHITE[0], y = xyz[1] / WHITE[1], z = xyz[2] / WHITE[2];

@@ -54,6 +54,12 @@ float tone_srgb_from_linear(float x)
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1.0f / 2.4f) - 0.055f;
 }
 
+float tone_linear_from_srgb(float x)
+{
+    x = clamp_unit(x);
+    return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
+}
+
 // CIE xy of a light: Planckian locus by Kim et al. 2002 below 4000 K, daylight locus above.
 static void chromaticity(double t, double *x, double *y)
 {

@@ -17,7 +17,9 @@ void tone_film(const ToneCurveFit *fit, float saturation, float rgb[3]);
 // Moves rgb from (below 1) or away from (above 1) its luminance; never negative.
 void tone_saturate(float saturation, float rgb[3]);
 
-float tone_srgb_from_linear(float x); // IEC 61966-2-1; clamps to 0..1
+// IEC 61966-2-1, there and back; both clamp to 0..1.
+float tone_srgb_from_linear(float x);
+float tone_linear_from_srgb(float x);
 
 // Linear Rec. 709 matrix that makes light of this colour temperature (K; CIE daylight above 4000,
 // Planckian below) neutral, by von Kries adaptation in the CAT16 space. Identity at 0 and 6500.

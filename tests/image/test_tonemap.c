@@ -110,6 +110,8 @@ static void test_linear_and_exposure(void **state)
     assert_float_equal(out[0], out[2], 1e-6f);
     // IEC 61966-2-1
     assert_float_equal(tone_srgb_from_linear(0.5f), 0.735357f, 1e-5f);
+    assert_float_equal(tone_linear_from_srgb(0.735357f), 0.5f, 1e-5f);
+    assert_float_equal(tone_linear_from_srgb(0.04f), 0.04f / 12.92f, 1e-8f);
     assert_float_equal(tone_srgb_from_linear(0.002f), 0.02584f, 1e-6f);
 }
 
