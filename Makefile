@@ -37,6 +37,9 @@ $(OUT)/ramify $(OUT)/libramify.so $(OUT)/tests/bench/%: private LDFLAGS += $(LTO
 SOURCES   := $(sort $(wildcard src/*.c src/*/*.c src/*/*.cpp))
 COMMANDS  := render turntable grow measure export compare golden info schema completion help
 MANUAL    := $(OUT)/man/ramify.1 $(COMMANDS:%=$(OUT)/man/ramify-%.1) $(OUT)/completion/ramify $(OUT)/completion/_ramify
+# Text files that become arrays of the program: report.css is report_css[].
+EMBEDDED  := $(sort $(foreach e,css html js bash zsh,$(wildcard src/*/*.$e)))
+SOURCES   += $(EMBEDDED)
 LIB_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter-out src/cli/%,$(SOURCES)))
 CLI_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter src/cli/%,$(SOURCES)))
 TESTS     := $(sort $(wildcard tests/*/test_*.c))
@@ -161,6 +164,14 @@ $(OBJ)/%.cpp.o: src/%.cpp
 	@mkdir -p $(@D)
 	@echo "  CXX  $<"
 	@$(CXX) $(CXXFLAGS) -c $< -o $@
+
+# The file's bytes and a NUL as an array that is called like the file.
+name = $(subst .,_,$(notdir $<))
+$(patsubst src/%,$(OBJ)/%.o,$(EMBEDDED)): $(OBJ)/%.o: src/%
+	@mkdir -p $(@D)
+	@echo "  TEXT $<"
+	@printf '%s\n' '.section .rodata' '.globl $(name)' '$(name): .incbin "$<"' '.byte 0' \
+	    '.section .note.GNU-stack,"",@progbits' | $(CC) -x assembler -c - -o $@
 
 $(OUT)/libramify.a: $(LIB_OBJ)
 	@echo "  AR   $@"

@@ -1,13 +1,15 @@
 // ramify completion: scripts that let bash and zsh complete the command line. The parts that follow
-// from the tables of commands and options are written around parts that do not
-// (completion_parts.h).
+// from the tables of commands and options are written around parts that do not (completion.bash,
+// completion.zsh).
 #include "cli/command.h"
-#include "cli/completion_parts.h"
 #include "cli/option_table.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
+
+// Embedded while building (see the Makefile).
+extern const char completion_bash[], completion_zsh[];
 
 // What a shell offers for a value: "words a b", "file yaml swc" (endings; none = all files),
 // "output png" (the same for a file that is to be written), "folder", "command", "set", "object",
@@ -142,7 +144,7 @@ static void print_bash(void)
     for (int i = 0; i < COMMAND_COUNT; i++) {
         bash_values((CommandId)i);
     }
-    printf("    esac\n}\n\n%s", BASH_PARTS);
+    printf("    esac\n}\n\n%s", completion_bash);
 }
 
 // ---- zsh ----
@@ -213,7 +215,7 @@ static void print_zsh(void)
         zsh_text(command_at((CommandId)i)->doc);
         printf("'\n");
     }
-    printf(")\n\n%s", ZSH_PARTS);
+    printf(")\n\n%s", completion_zsh);
     printf("_ramify_command() {\n    case $1 in\n");
     for (int i = 0; i < COMMAND_COUNT; i++) {
         zsh_command((CommandId)i);

@@ -2,10 +2,13 @@
 
 #include "base/memory.h"
 #include "golden/markup.h"
-#include "golden/report_page.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+// report.html, report.css and report.js, embedded while building (see the Makefile).
+extern const char report_html[], report_css[], report_js[];
 
 enum { FIT_WIDTH = 336 }; // pixels that a picture is shown with at first, about
 
@@ -15,7 +18,9 @@ typedef struct Listed {
 
 typedef struct Page {
     FileWriter *w;
-    const char *ours, *stored;
+    const char *title, *ours, *stored;
+    const Listed *sorted;
+    const GoldenResults *results;
 } Page;
 
 // What needs eyes first.
@@ -39,45 +44,21 @@ static bool has_numbers(const GoldenResult *r)
     return r->compared && r->comparison.same_size;
 }
 
-// ---- the head
+// ---- sum and table
 
-static void write_head(const Page *p, const char *title)
-{
-    FileWriter *w = p->w;
-    file_writer_text(w,
-                     "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-                     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-                     "img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
-                     "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
-                     "<link rel=\"icon\" href=\"data:,\">\n<title>");
-    markup_text(w, title);
-    file_writer_text(w, "</title>\n<style>");
-    file_writer_text(w, REPORT_STYLE);
-    file_writer_text(w, "</style></head>\n<body>\n<header><h1>");
-    markup_text(w, title);
-    file_writer_text(w, "</h1>\n");
-}
-
-static void write_sum(const Page *p, const GoldenResults *results)
+static void write_sum(const Page *p)
 {
     static const GoldenStatus order[] = {GOLDEN_FAILED, GOLDEN_DIFFERENT, GOLDEN_MISSING,
                                          GOLDEN_STORED, GOLDEN_ORPHAN,    GOLDEN_ALIKE};
+    const int *counts = p->results->counts;
     const char *separator = "";
-    file_writer_text(p->w, "<p class=\"sum\">");
     for (size_t i = 0; i < sizeof order / sizeof order[0]; i++) {
-        if (results->counts[order[i]] > 0) {
-            file_writer_print(p->w, "%s%d %s", separator, results->counts[order[i]],
+        if (counts[order[i]] > 0) {
+            file_writer_print(p->w, "%s%d %s", separator, counts[order[i]],
                               golden_status_name(order[i]));
             separator = ", ";
         }
     }
-    file_writer_text(p->w,
-                     "</p>\n<div class=\"bar\"><label>Zoom <select id=\"zoom\">"
-                     "<option value=\"fit\">fit</option><option value=\"1\">1 : 1</option>"
-                     "<option value=\"2\">2 ×</option><option value=\"4\">4 ×</option>"
-                     "<option value=\"8\">8 ×</option><option value=\"16\">16 ×</option></select>"
-                     "</label>\n<label><input type=\"checkbox\" id=\"only\"> only what is not alike"
-                     "</label></div>\n");
 }
 
 static void write_row(const Page *p, const GoldenResult *r, int number)
@@ -103,15 +84,11 @@ static void write_row(const Page *p, const GoldenResult *r, int number)
     file_writer_print(p->w, "<td>%.2f</td></tr>\n", r->seconds);
 }
 
-static void write_table(const Page *p, const Listed *sorted, int64_t count)
+static void write_rows(const Page *p)
 {
-    file_writer_text(p->w, "<div class=\"wide\"><table><thead><tr><th>Result</th><th>Picture</th>"
-                           "<th>RMSE</th><th>Maximum</th><th>Over threshold</th><th>Perceptual</th>"
-                           "<th>Seconds</th></tr></thead><tbody>\n");
-    for (int64_t i = 0; i < count; i++) {
-        write_row(p, sorted[i].result, (int)i);
+    for (int64_t i = 0; i < p->results->count; i++) {
+        write_row(p, p->sorted[i].result, (int)i);
     }
-    file_writer_text(p->w, "</tbody></table></div></header>\n<main>\n");
 }
 
 // ---- one picture's section
@@ -280,35 +257,74 @@ static void write_section(const Page *p, const GoldenResult *r, int number)
     file_writer_text(p->w, "</section>\n");
 }
 
-static void write_page(const Page *p, const char *title, const Listed *sorted,
-                       const GoldenResults *results)
+static void write_sections(const Page *p)
 {
-    write_head(p, title);
-    write_sum(p, results);
-    write_table(p, sorted, results->count);
-    for (int64_t i = 0; i < results->count; i++) {
-        write_section(p, sorted[i].result, (int)i);
+    for (int64_t i = 0; i < p->results->count; i++) {
+        write_section(p, p->sorted[i].result, (int)i);
     }
-    file_writer_text(p->w, "</main>\n<footer>Drag in the first picture of a row, or use the arrow "
-                           "keys. Differences: red where ");
+}
+
+// ---- the page
+
+static void write_title(const Page *p)
+{
+    markup_text(p->w, p->title);
+}
+
+static void write_ours(const Page *p)
+{
     markup_text(p->w, p->ours);
-    file_writer_text(p->w, " is larger, blue where it is smaller.</footer>\n<script>");
-    file_writer_text(p->w, REPORT_SCRIPT);
-    file_writer_text(p->w, "</script>\n</body></html>\n");
+}
+
+static void write_style(const Page *p)
+{
+    file_writer_text(p->w, report_css);
+}
+
+static void write_script(const Page *p)
+{
+    file_writer_text(p->w, report_js);
+}
+
+// What stands in report.html as {{name}}.
+static const struct Placeholder {
+    const char *name;
+    void (*write)(const Page *p);
+} PLACEHOLDERS[] = {
+    {"{{title}}", write_title},       {"{{ours}}", write_ours}, {"{{style}}", write_style},
+    {"{{script}}", write_script},     {"{{sum}}", write_sum},   {"{{rows}}", write_rows},
+    {"{{sections}}", write_sections},
+};
+
+static void write_page(const Page *p)
+{
+    const char *text = report_html, *mark;
+    while ((mark = strstr(text, "{{"))) {
+        file_writer_bytes(p->w, text, (size_t)(mark - text));
+        text = mark + 2;
+        for (size_t i = 0; i < sizeof PLACEHOLDERS / sizeof PLACEHOLDERS[0]; i++) {
+            size_t length = strlen(PLACEHOLDERS[i].name);
+            if (strncmp(mark, PLACEHOLDERS[i].name, length) == 0) {
+                PLACEHOLDERS[i].write(p);
+                text = mark + length;
+            }
+        }
+    }
+    file_writer_text(p->w, text);
 }
 
 bool report_write(const char *file, const char *title, const char *ours, const char *stored,
                   const GoldenResults *results, Error *e)
 {
     Listed *sorted = memory_alloc(results->count, sizeof *sorted, e);
-    Page page = {sorted ? file_writer_open(file, e) : NULL, ours, stored};
+    Page page = {sorted ? file_writer_open(file, e) : NULL, title, ours, stored, sorted, results};
     bool done = page.w;
     if (done) {
         for (int64_t i = 0; i < results->count; i++) {
             sorted[i] = (Listed){&results->item[i]};
         }
         qsort(sorted, (size_t)results->count, sizeof *sorted, by_rank);
-        write_page(&page, title, sorted, results);
+        write_page(&page);
         done = file_writer_close(page.w, true, e);
     }
     free(sorted);
