@@ -1,14 +1,28 @@
 #include "base/exact_math.h"
 
+#include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
 #define PI_D 3.14159265358979323846
 #define LN2_D 0.69314718055994530942
 
+// fmod is exact, so the same everywhere; what has more turns than this has lost its angle anyway.
+#define MOST_ANGLE 1e6
+#define MOST_EXPONENT 709.782712893384 // e to it is the largest double
+#define LEAST_EXPONENT -700.0
+
 void exact_sincos(float angle, float *sine, float *cosine)
 {
+    if (!isfinite(angle)) {
+        *sine = *cosine = NAN;
+        return;
+    }
+    if (fabsf(angle) > (float)MOST_ANGLE) {
+        angle = (float)fmod((double)angle, 2.0 * PI_D);
+    }
     // Reduce to |r| <= pi/4 about the nearest quarter turn, then Taylor.
     double quarters = (double)angle * (2.0 / PI_D);
     int64_t n = (int64_t)(quarters + (quarters < 0.0 ? -0.5 : 0.5));
@@ -56,9 +70,17 @@ void exact_sincos_double(double angle, double *sine, double *cosine)
 
 double exact_log(double x)
 {
+    if (!(x > 0.0) || isinf(x)) {
+        return x == 0.0 ? -INFINITY : x > 0.0 ? x : NAN;
+    }
+    int64_t exponent = -1022;
+    if (x < DBL_MIN) { // its exponent is all zeros
+        x *= 0x1p54;
+        exponent -= 54;
+    }
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
-    int64_t exponent = (int64_t)(bits >> 52) - 1022;
+    exponent += (int64_t)(bits >> 52);
     bits = (bits & 0x000fffffffffffffull) | 0x3fe0000000000000ull; // mantissa in [0.5, 1)
     double m;
     memcpy(&m, &bits, sizeof m);
@@ -76,18 +98,19 @@ double exact_log(double x)
 
 double exact_exp(double x)
 {
-    if (x < -700.0) {
-        return 0.0;
+    if (!(x >= LEAST_EXPONENT && x <= MOST_EXPONENT)) {
+        return x < 0.0 ? 0.0 : x > 0.0 ? INFINITY : x;
     }
     double k = (double)(int64_t)(x / LN2_D + (x < 0.0 ? -0.5 : 0.5));
     double r = x - k * LN2_D, sum = 1.0;
     for (int i = 13; i >= 1; i--) {
         sum = 1.0 + sum * r / i;
     }
-    uint64_t bits = (uint64_t)((int64_t)k + 1023) << 52;
+    bool top = k > 1023.0; // 2^1024 is no double, though this result is one
+    uint64_t bits = (uint64_t)((int64_t)k + (top ? 1022 : 1023)) << 52;
     double scale;
     memcpy(&scale, &bits, sizeof scale);
-    return sum * scale;
+    return sum * scale * (top ? 2.0 : 1.0);
 }
 
 float exact_pow(float x, float y)
@@ -95,7 +118,10 @@ float exact_pow(float x, float y)
     if (y == 0.0f) {
         return 1.0f;
     }
-    return x > 0.0f ? (float)exact_exp((double)y * exact_log((double)x)) : 0.0f;
+    if (x > 0.0f) {
+        return x == 1.0f ? 1.0f : (float)exact_exp((double)y * exact_log((double)x));
+    }
+    return isnan(x) || isnan(y) ? NAN : y < 0.0f ? INFINITY : 0.0f;
 }
 
 // Arc tangent of t in [0, 1]: halve the angle twice, then the series.

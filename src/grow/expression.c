@@ -215,6 +215,9 @@ void expression_clear(Expression *expression)
 
 static double apply(int code, double a, double b)
 {
+    if (isnan(a) || isnan(b)) { // also of comparisons, which could not tell otherwise
+        return NAN;
+    }
     switch (code) {
     case OP_POWER:
         return a < 0.0 ? NAN : (double)exact_pow((float)a, (float)b);
@@ -258,7 +261,7 @@ double expression_value(const Expression *expression, const double *values)
         } else if (op->code == OP_NEGATE) {
             stack[top - 1] = -stack[top - 1];
         } else if (op->code == OP_NOT) {
-            stack[top - 1] = stack[top - 1] == 0.0;
+            stack[top - 1] = isnan(stack[top - 1]) ? NAN : stack[top - 1] == 0.0;
         } else {
             top--;
             stack[top - 1] = apply(op->code, stack[top - 1], stack[top]);

@@ -45,8 +45,8 @@ typedef struct Names {
 bool expression_read(Reader *reader, const Names *names, Expression *expression, Error *e);
 void expression_clear(Expression *expression);
 
-// The value; comparisons give 1 or 0. Powers of negative numbers and divisions by zero give what
-// IEEE arithmetic gives; callers check that results are finite.
+// The value; comparisons give 1 or 0. What is undefined (a power of a negative number, 0 / 0) makes
+// the whole NaN, comparisons too; a division by zero is infinite. Callers check results.
 double expression_value(const Expression *expression, const double *values);
 
 #endif

@@ -5,9 +5,14 @@
 #include "grow/expression.h"
 
 #include <ctype.h>
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define WANTED_NUMBER                                                                          \
+    "it must be a number within 3.4e38; keep divisors from 0, powers to positive numbers and " \
+    "results small"
 
 enum { MOST_RULES = 64, MOST_NAMES = 64, DEFAULT_MOST_MODULES = 4000000 };
 
@@ -15,18 +20,21 @@ enum { MOST_RULES = 64, MOST_NAMES = 64, DEFAULT_MOST_MODULES = 4000000 };
 typedef struct Pattern {
     char symbol;
     int count;
+    const char *at; // where it stands in the text
     Expression parameter[MODULE_MOST_PARAMETERS];
 } Pattern;
 
 typedef struct Successor {
     Pattern *pattern; // owned
     int64_t count, capacity;
+    Reader place; // where it stands, for errors
 } Successor;
 
 typedef struct Rule {
     char symbol;
     int count; // of parameters
     bool has_condition, has_probability;
+    Reader place; // where it stands, for errors
     double probability;
     Expression condition;
     Successor successor;
@@ -108,6 +116,7 @@ static bool read_parameters(Reader *r, const Names *names, Pattern *pattern, Err
 static bool read_successor(Reader *r, const Names *names, Successor *out, Error *e)
 {
     int64_t open = 0;
+    out->place = *r;
     for (;;) {
         reader_skip_blanks(r);
         if (!is_symbol(*r->at)) {
@@ -122,7 +131,8 @@ static bool read_successor(Reader *r, const Names *names, Successor *out, Error 
             return false;
         }
         Pattern *pattern = &out->pattern[out->count++];
-        *pattern = (Pattern){.symbol = *r->at++};
+        *pattern = (Pattern){.symbol = *r->at, .at = r->at};
+        r->at++;
         if (*r->at == '(' && r->at++ && !read_parameters(r, names, pattern, e)) {
             return false;
         }
@@ -199,7 +209,7 @@ static bool read_rule(Reader *r, Grammar *grammar, Error *e)
         return false;
     }
     Rule *rule = &grammar->rule[grammar->count++];
-    *rule = (Rule){0};
+    *rule = (Rule){.place = *r};
     if (!read_predecessor(r, grammar, rule, e)) {
         return false;
     }
@@ -213,6 +223,12 @@ static bool read_rule(Reader *r, Grammar *grammar, Error *e)
     }
     r->at += 2;
     return read_successor(r, &names, &rule->successor, e) && read_probability(r, grammar, rule, e);
+}
+
+// The turtle counts in floats.
+static bool fits_float(double value)
+{
+    return fabs(value) <= (double)FLT_MAX;
 }
 
 // "name = expression", known by its '='; false in *is when this line is none.
@@ -234,11 +250,16 @@ static bool read_constant(Reader *r, Grammar *grammar, bool *is, Error *e)
     Expression x = {0};
     const Names names = {(const char(*)[NAME_SIZE])grammar->name, grammar->constants};
     bool read = expression_read(r, &names, &x, e);
+    double value = read ? expression_value(&x, grammar->value) : 0.0;
+    expression_clear(&x);
+    if (read && !fits_float(value)) {
+        const Reader place = {r->text, start, r->what};
+        return reader_fail(&place, e, "constant '%s' is %g; " WANTED_NUMBER, name, value);
+    }
     if (read) {
         memcpy(grammar->name[grammar->constants], name, sizeof name);
-        grammar->value[grammar->constants++] = expression_value(&x, grammar->value);
+        grammar->value[grammar->constants++] = value;
     }
-    expression_clear(&x);
     return read;
 }
 
@@ -277,8 +298,7 @@ static bool read_grammar(const char *text, Grammar *grammar, Error *e)
 
 // ---- rewriting ----
 
-// Appends the modules of a successor under these values. *place: of a module whose parameter is not
-// finite.
+// Appends the modules of a successor under these values.
 static bool append(const Successor *successor, const double *values, ModuleString *string, Error *e)
 {
     int64_t count = string->count + successor->count;
@@ -295,11 +315,10 @@ static bool append(const Successor *successor, const double *values, ModuleStrin
             (Module){pattern->symbol, (int8_t)pattern->count, string->value_count};
         for (int p = 0; p < pattern->count; p++) {
             double value = expression_value(&pattern->parameter[p], values);
-            if (!isfinite(value)) {
-                return error_set(e, ERROR_INPUT,
-                                 "parameter %d of '%c' is no finite number; keep divisors from 0 "
-                                 "and powers to positive numbers",
-                                 p + 1, pattern->symbol);
+            if (!fits_float(value)) {
+                const Reader place = {successor->place.text, pattern->at, successor->place.what};
+                return reader_fail(&place, e, "parameter %d of '%c' is %g; " WANTED_NUMBER, p + 1,
+                                   pattern->symbol, value);
             }
             string->value[string->value_count++] = value;
         }
@@ -307,8 +326,9 @@ static bool append(const Successor *successor, const double *values, ModuleStrin
     return true;
 }
 
+// *undefined: becomes the rule when its condition is neither true nor false.
 static bool fits(const Rule *rule, const ModuleString *from, int64_t place, const Grammar *grammar,
-                 double *values)
+                 double *values, const Rule **undefined)
 {
     const Module *module = &from->module[place];
     if (rule->symbol != module->symbol || rule->count != module->count) {
@@ -317,17 +337,21 @@ static bool fits(const Rule *rule, const ModuleString *from, int64_t place, cons
     for (int p = 0; p < rule->count; p++) {
         values[grammar->constants + p] = from->value[module->first + p];
     }
-    return !rule->has_condition || expression_value(&rule->condition, values) != 0.0;
+    double met = rule->has_condition ? expression_value(&rule->condition, values) : 1.0;
+    if (isnan(met)) {
+        *undefined = rule;
+    }
+    return met != 0.0;
 }
 
 // The rule for a module; NULL = it stays as it is.
 static const Rule *choose(const Grammar *grammar, const ModuleString *from, int64_t place,
-                          double *values, uint64_t key)
+                          double *values, uint64_t key, const Rule **undefined)
 {
     double sum = 0.0;
     for (int64_t i = 0; i < grammar->count; i++) {
         const Rule *rule = &grammar->rule[i];
-        if (fits(rule, from, place, grammar, values)) {
+        if (fits(rule, from, place, grammar, values, undefined)) {
             if (!rule->has_probability && sum == 0.0) {
                 return rule;
             }
@@ -338,7 +362,7 @@ static const Rule *choose(const Grammar *grammar, const ModuleString *from, int6
     const Rule *chosen = NULL;
     for (int64_t i = 0; sum > 0.0 && i < grammar->count && draw >= 0.0; i++) {
         const Rule *rule = &grammar->rule[i];
-        if (rule->has_probability && fits(rule, from, place, grammar, values)) {
+        if (rule->has_probability && fits(rule, from, place, grammar, values, undefined)) {
             chosen = rule;
             draw -= rule->probability;
         }
@@ -367,9 +391,16 @@ static bool rewrite(const Grammar *grammar, const ModuleString *from, ModuleStri
     double values[MOST_NAMES + MODULE_MOST_PARAMETERS];
     memcpy(values, grammar->value, sizeof values);
     for (int64_t i = 0; i < from->count; i++) {
-        const Rule *rule = choose(grammar, from, i, values, random_key(key, (uint64_t)i));
-        if (rule) {
-            fits(rule, from, i, grammar, values); // its parameters again, after the others' look
+        const Rule *undefined = NULL;
+        const Rule *rule =
+            choose(grammar, from, i, values, random_key(key, (uint64_t)i), &undefined);
+        if (rule) { // its parameters again, after the others' look
+            fits(rule, from, i, grammar, values, &undefined);
+        }
+        if (undefined) {
+            return reader_fail(&undefined->place, e,
+                               "the condition of '%c' has no value; " WANTED_NUMBER,
+                               undefined->symbol);
         }
         if (!(rule ? append(&rule->successor, values, to, e) : copy_module(from, i, to, e))) {
             return false;

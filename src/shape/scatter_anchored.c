@@ -14,7 +14,8 @@
 enum { LEVELS = 8, CANDIDATES_A_CELL = 7 };
 #define SPACINGS_AN_OCTAVE 4.0 // the mean spacing is one of these, so that it stays too
 #define MOST_CANDIDATES 4e9
-#define SLAB 0.5 // half the thickness that becomes the surface, in spacings
+#define MOST_LEVELS 100.0 // of halving: finer than any candidates that could be counted
+#define SLAB 0.5          // half the thickness that becomes the surface, in spacings
 
 typedef struct LatticeLevel {
     double size; // m, of a cell
@@ -84,7 +85,8 @@ static bool lattice_init(Lattice *lattice, const Scatter *s, double spacing, Err
         lattice->slab = fminf((float)(SLAB * spacing), band);
         density *= spacing / (2.0 * (double)lattice->slab);
     }
-    int finest = (int)ceil(exact_log(density / 8.0) / (3.0 * exact_log(2.0)));
+    double levels = ceil(exact_log(density / 8.0) / (3.0 * exact_log(2.0)));
+    int finest = (int)fmin(levels, MOST_LEVELS); // refused below: an int has to hold it first
     Aabb bounds = region_bounds(s, lattice->slab);
     Vec3 size = vec3_sub(bounds.high, bounds.low);
     double cell = power_of_two(-finest), candidates = 10.0;

@@ -30,6 +30,32 @@ static void exact_functions_agree_with_libm(void **state)
     }
 }
 
+// Beyond their domains they are what IEEE arithmetic says, not whatever the bits happen to be.
+static void exact_functions_have_values_everywhere(void **state)
+{
+    (void)state;
+    const double reach[] = {-1e300, -800.0, 709.0, 709.78, 709.79, 1e4, 1e300, INFINITY, -INFINITY};
+    for (size_t i = 0; i < sizeof reach / sizeof reach[0]; i++) {
+        double x = reach[i], wanted = x < -700.0 ? 0.0 : exp(x);
+        assert_true(exact_exp(x) == wanted || fabs(exact_exp(x) / wanted - 1.0) < 1e-12);
+    }
+    const double small[] = {5e-324, 1e-310, 2.2250738585072014e-308, 1.7e308};
+    for (size_t i = 0; i < sizeof small / sizeof small[0]; i++) {
+        assert_true(fabs(exact_log(small[i]) - log(small[i])) < 1e-11);
+    }
+    assert_true(exact_log(0.0) == -INFINITY && exact_log(INFINITY) == INFINITY);
+    assert_true(isnan(exact_log(-1.0)) && isnan(exact_log(NAN)) && isnan(exact_exp(NAN)));
+    assert_true(exact_pow(9999.0f, 1e32f) == INFINITY && exact_pow(0.5f, 1e32f) == 0.0f);
+    assert_true(exact_pow(0.0f, -1.0f) == INFINITY && exact_pow(1.0f, INFINITY) == 1.0f);
+    assert_true(isnan(exact_pow(NAN, 2.0f)) && isnan(exact_pow(2.0f, NAN)));
+    const float far[] = {1e7f, -3e9f, 1e30f, INFINITY, NAN};
+    for (size_t i = 0; i < sizeof far / sizeof far[0]; i++) {
+        float s, c;
+        exact_sincos(far[i], &s, &c);
+        assert_true(isfinite(far[i]) ? fabsf(s * s + c * c - 1.0f) < 1e-6f : isnan(s) && isnan(c));
+    }
+}
+
 static void normal_numbers_have_mean_0_and_variance_1(void **state)
 {
     (void)state;
@@ -134,6 +160,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_functions_agree_with_libm),
+        cmocka_unit_test(exact_functions_have_values_everywhere),
         cmocka_unit_test(normal_numbers_have_mean_0_and_variance_1),
         cmocka_unit_test(uniform_numbers_fill_every_bin),
         cmocka_unit_test(a_transform_and_its_inverse_cancel),

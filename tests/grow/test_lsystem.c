@@ -190,9 +190,28 @@ static void errors_name_the_place(void **state)
         "A", "A -> B : 0", 1,
         "the L-system's rules, line 1, column 11: the probability is 0; it must be above "
         "0");
+}
+
+#define WANTED                                                                                 \
+    "it must be a number within 3.4e38; keep divisors from 0, powers to positive numbers and " \
+    "results small"
+
+static void undefined_and_boundless_numbers_are_refused(void **state)
+{
+    (void)state;
     assert_refused("A(0)", "A(x) -> A(1/x)", 1,
-                   "parameter 1 of 'A' is no finite number; keep divisors from 0 and powers to "
-                   "positive numbers");
+                   "the L-system's rules, line 1, column 9: parameter 1 of 'A' is inf; " WANTED);
+    assert_refused("A", "k = 9999 ^ 99999999999999999999999999999999; A -> F(k)F", 1,
+                   "the L-system's rules, line 1, column 1: constant 'k' is inf; " WANTED);
+    assert_refused("A", "k = 2\nj = k - 1e999", 1,
+                   "the L-system's rules, line 2, column 1: constant 'j' is -inf; " WANTED);
+    assert_refused("F(1e39)", "", 1,
+                   "the L-system's axiom, line 1, column 1: parameter 1 of 'F' is 1e+39; " WANTED);
+    assert_refused("A(0)", "A(x) -> B(x ^ -1)", 1,
+                   "the L-system's rules, line 1, column 9: parameter 1 of 'B' is inf; " WANTED);
+    assert_refused(
+        "A(0)", "B -> A\nA(x) : 0 / x < 2 -> F", 1,
+        "the L-system's rules, line 2, column 1: the condition of 'A' has no value; " WANTED);
 }
 
 static void exponential_rules_end_with_one_error(void **state)
@@ -337,6 +356,7 @@ int main(void)
         cmocka_unit_test(expressions_obey_the_usual_order),
         cmocka_unit_test(stochastic_rules_keep_their_probabilities),
         cmocka_unit_test(errors_name_the_place),
+        cmocka_unit_test(undefined_and_boundless_numbers_are_refused),
         cmocka_unit_test(exponential_rules_end_with_one_error),
         cmocka_unit_test(the_turtle_goes_where_geometry_says),
         cmocka_unit_test(the_snowflake_closes),
