@@ -1,36 +1,32 @@
 #!/bin/sh
-# Checks that data flows one way: no folder of src/ includes a header of a folder that docs/architecture.md does not
-# allow it. Prints each breach; exits 1 when there is one.
-cd "$(dirname "$0")/../src" || exit 1
-allowed() {
-    case $1 in
-    base) echo base ;;
-    shape | tree | image) echo "base $1" ;;
-    field) echo "base shape field" ;;
-    grow) echo "base shape field tree grow" ;;
-    mesh) echo "base shape tree mesh" ;;
-    model) echo "base shape field tree grow mesh model" ;;
-    render) echo "base mesh image render" ;;
-    export) echo "base shape tree mesh render image export" ;;
-    scene) echo "base shape field tree grow mesh model render image export scene" ;;
-    golden) echo "base render image scene golden" ;;
-    animate) echo "base mesh model render image export scene animate" ;;
-    api) echo "base shape field tree grow mesh model render image export scene golden animate api" ;;
-    cli) echo cli ;; # and ramify.h, which is in no folder
-    *) echo "" ;;
-    esac
-}
-breaches=0
-for folder in */; do
-    folder=${folder%/}
-    for file in "$folder"/*.[ch] "$folder"/*.cpp; do
-        [ -f "$file" ] || continue
-        for include in $(sed -n 's/^#include "\([a-z]*\)\/.*"/\1/p' "$file" | sort -u); do
-            case " $(allowed "$folder") " in
-            *" $include "*) ;;
-            *) echo "src/$file includes $include/, which $folder/ may not"; breaches=1 ;;
-            esac
-        done
+# Checks that data flows one way: each folder of src/ includes headers of just those folders that the table of
+# docs/architecture.md allows it, and the table allows none that no file uses and none from below. Prints each breach;
+# exits 1 when there is one.
+cd "$(dirname "$0")/.." || exit 1
+{
+    sed -n 's/^| `\([a-z]*\)\/` |.*| \([^|]*\) |$/row \1, \2/p' docs/architecture.md | tr -d ','
+    for file in src/*/*.[ch] src/*/*.cpp; do
+        folder=${file#src/}
+        sed -n "s/^#include \"\([a-z]*\)\/.*\"/use ${folder%%/*} \1/p" "$file" | sort -u | sed "s|\$| $file|"
     done
-done
-exit $breaches
+} | awk '
+    $1 == "row" {
+        above[$2] = 1
+        for (i = 3; i <= NF && !/nothing|alone/; i++) {
+            allowed[$2, $i] = 1
+            if (!($i in above)) complain("docs/architecture.md: " $2 "/ may include " $i "/, which is not above it")
+        }
+    }
+    $1 == "use" && $2 != $3 {
+        if (($2, $3) in allowed) used[$2, $3] = 1
+        else complain($4 " includes " $3 "/, which " $2 "/ may not")
+    }
+    $1 == "use" && !($2 in above) { complain("docs/architecture.md has no row for " $2 "/") }
+    function complain(text) { if (!(text in told)) print text; told[text] = breach = 1 }
+    END {
+        for (edge in allowed) {
+            split(edge, of, SUBSEP)
+            if (!(edge in used)) complain("docs/architecture.md: " of[1] "/ may include " of[2] "/, but no file does")
+        }
+        exit breach
+    }'

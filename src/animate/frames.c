@@ -1,5 +1,6 @@
 #include "animate/frames.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "image/image.h"
@@ -23,16 +24,12 @@
 
 static uint64_t hash_text(uint64_t hash, const char *text, int64_t length)
 {
-    for (int64_t i = 0; i < length; i++) {
-        hash = (hash ^ (unsigned char)text[i]) * 0x100000001b3ull;
-    }
-    return random_key(hash, (uint64_t)length);
+    return random_key(hash_bytes(hash, text, (size_t)length), (uint64_t)length);
 }
 
 uint64_t frame_hash(const Scene *scene)
 {
-    uint64_t hash =
-        hash_text(0xcbf29ce484222325ull, RAMIFY_VERSION, (int64_t)strlen(RAMIFY_VERSION));
+    uint64_t hash = hash_text(HASH_START, RAMIFY_VERSION, (int64_t)strlen(RAMIFY_VERSION));
     const char *resolved = scene->resolved;
     TextPart animation = section_find(resolved, "animation"); // tells of other frames only
     int64_t before = animation.length ? animation.text - resolved : (int64_t)strlen(resolved);
@@ -47,7 +44,7 @@ uint64_t frame_hash(const Scene *scene)
 uint64_t frames_hash(const Scene *still, const char *isa)
 {
     TextPart camera = section_find(still->resolved, "camera");
-    uint64_t hash = hash_text(0xcbf29ce484222325ull, camera.text, camera.length);
+    uint64_t hash = hash_text(HASH_START, camera.text, camera.length);
     return hash_text(hash, isa ? isa : "", isa ? (int64_t)strlen(isa) : 0);
 }
 

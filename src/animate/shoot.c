@@ -4,6 +4,7 @@
 #include "animate/frames.h"
 #include "animate/pattern.h"
 #include "animate/video.h"
+#include "base/file_name.h"
 #include "base/file_replace.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -13,7 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <unistd.h>
 
 enum { METERED_FRAMES = 4, METER_SIZE = 96, METER_SAMPLES = 16 };
@@ -45,15 +45,9 @@ typedef struct Shooting {
 
 // ---- outputs
 
-static bool has_ending(const char *file, const char *ending)
-{
-    size_t length = strlen(file), own = strlen(ending);
-    return length > own && strcasecmp(file + length - own, ending) == 0;
-}
-
 static bool is_film(const char *output)
 {
-    return has_ending(output, ".mp4");
+    return file_name_ends(output, ".mp4");
 }
 
 // A pattern in the folder's name is not: the frames find out.
@@ -68,8 +62,8 @@ bool shoot_check_output(const char *output, Error *e)
     if (is_film(output)) {
         return check_folder(output, e) && video_check(e);
     }
-    if (!has_ending(output, ".png") && !has_ending(output, ".jpg") &&
-        !has_ending(output, ".jpeg") && !has_ending(output, ".exr")) {
+    if (!file_name_ends(output, ".png") && !file_name_ends(output, ".jpg") &&
+        !file_name_ends(output, ".jpeg") && !file_name_ends(output, ".exr")) {
         return error_set(e, ERROR_INPUT,
                          "'%s'; it must end in .mp4, or in .png, .jpg or .exr with the frame's "
                          "number in the name, as in oak-%%04d.png",

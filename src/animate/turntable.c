@@ -2,13 +2,12 @@
 
 #include "animate/keys.h"
 #include "animate/timeline.h"
+#include "base/c_locale.h"
 #include "base/memory.h"
 
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define DEGREES (3.14159265358979323846 / 180.0)
 #define HIGHEST_ELEVATION 89.0
@@ -23,7 +22,6 @@ struct Turntable {
     bool loop; // of the tracks
     bool locked;
     double stops;
-    locale_t c_locale;
 };
 
 // When: what loops and what does not go by different clocks.
@@ -112,13 +110,10 @@ Turntable *turntable_new(const Scene *scene, const TurntableParams *params, Erro
         return NULL;
     }
     *t = (Turntable){.scene = scene, .params = full, .loop = animation && animation->loop};
-    t->c_locale = newlocale(LC_ALL_MASK, "C", NULL);
-    if (t->c_locale) {
-        locale_t before = uselocale(t->c_locale);
+    CLocale locale;
+    if (c_locale_enter(&locale, e)) {
         t->timeline = timeline_new(animation, e);
-        uselocale(before);
-    } else {
-        error_set(e, ERROR_MEMORY, "out of memory for the C locale");
+        c_locale_leave(&locale);
     }
     if (!t->timeline) {
         turntable_free(t);
@@ -131,9 +126,6 @@ void turntable_free(Turntable *turntable)
 {
     if (turntable) {
         timeline_free(turntable->timeline);
-        if (turntable->c_locale) {
-            freelocale(turntable->c_locale);
-        }
         free(turntable);
     }
 }
@@ -361,9 +353,12 @@ static Scene *make_scene(const Turntable *t, const Moment *now, Changes *changes
 static Scene *scene_at(const Turntable *t, const Moment *now, Error *e)
 {
     Changes changes = {0};
-    locale_t before = uselocale(t->c_locale);
-    Scene *scene = make_scene(t, now, &changes, e);
-    uselocale(before);
+    Scene *scene = NULL;
+    CLocale locale;
+    if (c_locale_enter(&locale, e)) {
+        scene = make_scene(t, now, &changes, e);
+        c_locale_leave(&locale);
+    }
     changes_clear(&changes);
     return scene;
 }

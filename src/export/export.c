@@ -1,9 +1,9 @@
 #include "export/export.h"
 
+#include "base/file_name.h"
 #include "export/formats.h"
 
-#include <string.h>
-#include <strings.h>
+#include <stddef.h>
 
 static const ExportFormat FORMATS[] = {
     {".glb", "glTF 2.0 in one file: meshes, materials, camera, lights", EXPORT_WORLD, export_glb},
@@ -24,16 +24,10 @@ static const ExportFormat FORMATS[] = {
 
 enum { FORMAT_COUNT = (int)(sizeof FORMATS / sizeof FORMATS[0]) };
 
-bool export_has_ending(const char *file, const char *ending)
-{
-    size_t length = strlen(file), size = strlen(ending);
-    return length > size && strcasecmp(file + length - size, ending) == 0;
-}
-
 const ExportFormat *export_format(const char *file)
 {
     for (int i = 0; i < FORMAT_COUNT; i++) {
-        if (export_has_ending(file, FORMATS[i].ending)) {
+        if (file_name_ends(file, FORMATS[i].ending)) {
             return &FORMATS[i];
         }
     }

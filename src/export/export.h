@@ -60,9 +60,6 @@ typedef struct ExportFormat {
 // The format that the file's name ends in; NULL when there is none.
 const ExportFormat *export_format(const char *file);
 
-// Does the name end like this, in any case?
-bool export_has_ending(const char *file, const char *ending);
-
 // All of them, for help and messages.
 int export_format_count(void);
 const ExportFormat *export_format_at(int index);

@@ -1,6 +1,7 @@
 // Heights of land: pictures and Esri ASCII grids. One land goes to FILE, several to FILE-OBJECT.
 #include "export/heights.h"
 
+#include "base/file_name.h"
 #include "base/file_writer.h"
 #include "base/number_text.h"
 #include "export/asset_path.h"
@@ -31,7 +32,7 @@ static bool write_picture(const HeightField *field, const char *file, Error *e)
     char metadata[256];
     height_field_range(field, &low, &high);
     describe_field(field, low, high, metadata, sizeof metadata);
-    if (export_has_ending(file, ".exr")) {
+    if (file_name_ends(file, ".exr")) {
         Image image = {field->columns, field->rows, 1, field->height};
         ImageLayer layer = {"", "Y", &image};
         return image_write_exr(file, &layer, 1, metadata, e);
@@ -87,10 +88,10 @@ static bool write_asc(const HeightField *field, const char *file, Error *e)
 
 bool export_height_field(const HeightField *field, const char *file, Error *e)
 {
-    if (export_has_ending(file, ".asc")) {
+    if (file_name_ends(file, ".asc")) {
         return write_asc(field, file, e);
     }
-    if (export_has_ending(file, ".png") || export_has_ending(file, ".exr")) {
+    if (file_name_ends(file, ".png") || file_name_ends(file, ".exr")) {
         return write_picture(field, file, e);
     }
     return error_set(e, ERROR_INPUT, "heights in '%s'; its ending must be .png, .exr or .asc",

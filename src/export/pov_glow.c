@@ -2,6 +2,7 @@
 // it: POV-Ray's surfaces that emit are only seen.
 #include "export/pov.h"
 
+#include "base/color.h"
 #include "base/memory.h"
 
 #include <stdlib.h>

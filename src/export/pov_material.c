@@ -1,6 +1,7 @@
 // Materials, each a macro of the colours that differ from place to place.
 #include "export/pov.h"
 
+#include "base/color.h"
 #include "render/thin_film.h"
 
 #include <ctype.h>

@@ -1,6 +1,7 @@
 // Haze and media: as fog of one colour, or, around lamps, as POV-Ray's own scattering media.
 #include "export/pov.h"
 
+#include "base/color.h"
 #include "render/camera.h"
 
 // Of all directions: what a medium that scatters evenly shows of the sky.

@@ -1,6 +1,7 @@
 // Sky, sun, haze and media.
 #include "export/pov.h"
 
+#include "base/color.h"
 #include "base/memory.h"
 #include "image/image.h"
 

@@ -1,4 +1,5 @@
 // Camera, lamps, sky and sun in USD's text format.
+#include "base/color.h"
 #include "export/asset_path.h"
 #include "export/sky_bake.h"
 #include "export/usda.h"

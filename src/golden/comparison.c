@@ -1,5 +1,6 @@
 #include "golden/comparison.h"
 
+#include "base/color.h"
 #include "base/memory.h"
 #include "golden/heat.h"
 #include "image/flip.h"
@@ -8,7 +9,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 void comparison_clear(Comparison *comparison)
 {
@@ -186,7 +186,7 @@ static float gain_of(const Image *linear)
     int64_t count = 0;
     for (int64_t i = 0; i < (int64_t)linear->width * linear->height; i++) {
         const float *p = linear->pixel + i * linear->channels;
-        float y = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+        float y = luminance_rgb(p);
         if (y > 1e-7f && isfinite(y)) {
             sum += log((double)y);
             count++;

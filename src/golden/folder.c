@@ -1,5 +1,6 @@
 #include "golden/folder.h"
 
+#include "base/file_name.h"
 #include "base/memory.h"
 
 #include <dirent.h>
@@ -8,12 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static bool has_ending(const char *name, const char *ending)
-{
-    size_t length = strlen(name), own = strlen(ending);
-    return length > own && strcmp(name + length - own, ending) == 0;
-}
 
 // The name without its ending, of 4 or 5 characters.
 static char *stem_of(const char *name, Error *e)
@@ -115,7 +110,7 @@ static bool list_names(const char *path, struct dirent ***entries, int *count, E
 static bool add_entry(Folder *folder, const char *path, const char *filter, const char *name,
                       Error *e)
 {
-    if (name[0] == '.' || !has_ending(name, ".yaml")) {
+    if (name[0] == '.' || !file_name_ends(name, ".yaml")) {
         return true;
     }
     char *stem = stem_of(name, e);
@@ -137,7 +132,7 @@ static bool is_claimed(const Entries *entries, const char *path, const char *ima
     size_t stem = (size_t)(strrchr(image, '.') - image);
     for (int i = 0; i < entries->count; i++) {
         const char *name = entries->entry[i]->d_name;
-        if (!has_ending(name, ".yaml")) {
+        if (!file_name_ends(name, ".yaml")) {
             continue;
         }
         char *file = path_of(path, name, NULL);
@@ -156,7 +151,7 @@ static bool find_orphans(Folder *folder, const Entries *entries, const char *pat
 {
     for (int i = 0; i < entries->count; i++) {
         const char *name = entries->entry[i]->d_name;
-        if (name[0] == '.' || (!has_ending(name, ".png") && !has_ending(name, ".exr"))) {
+        if (name[0] == '.' || (!file_name_ends(name, ".png") && !file_name_ends(name, ".exr"))) {
             continue;
         }
         char *stem = stem_of(name, e);

@@ -1,6 +1,6 @@
 #include "golden/junit.h"
 
-#include "golden/markup.h"
+#include "base/markup.h"
 
 static void attribute(FileWriter *w, const char *name, const char *text)
 {

@@ -1,7 +1,7 @@
 #include "golden/report.h"
 
+#include "base/markup.h"
 #include "base/memory.h"
-#include "golden/markup.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 #include "image/denoise.h"
 
+#include "base/color.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -49,11 +50,6 @@ static bool planes_new(Planes *p, int width, int height, Error *e)
         p->plane[k] = p->data + size * k + p->stride * BORDER + BORDER;
     }
     return p->data != NULL;
-}
-
-static float luminance(const float *p)
-{
-    return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
 }
 
 // What radiance is divided by, so that texture is no obstacle. The sky, lamps and haze have albedo
@@ -106,7 +102,7 @@ static void fill_pixel(const Planes *p, const Guides *g, int x, int y)
         p->plane[PLANE_ALBEDO + c][to] = albedo[c];
         p->plane[PLANE_NORMAL + c][to] = finite_or_zero(g->normal->pixel[3 * from + c]);
     }
-    float scale = luminance(divisor);
+    float scale = luminance_rgb(divisor);
     p->plane[PLANE_VARIANCE][to] = smoothed_variance(g->variance, i, j) / (scale * scale);
     float z = log_depth(g->depth, i, j);
     float dx =

@@ -1,16 +1,13 @@
 #include "image/tone_curve.h"
 
+#include "base/color.h"
+
 #include <math.h>
 #include <string.h>
 
 static float clamp_unit(float x)
 {
     return x > 0.0f ? fminf(x, 1.0f) : 0.0f;
-}
-
-static float luminance(const float rgb[3])
-{
-    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
 }
 
 ToneCurveFit tone_curve_fit(float contrast)
@@ -31,7 +28,7 @@ static float curve(const ToneCurveFit *fit, float x)
 
 void tone_saturate(float saturation, float rgb[3])
 {
-    float y = luminance(rgb);
+    float y = luminance_rgb(rgb);
     for (int i = 0; i < 3; i++) {
         rgb[i] = fmaxf(0.0f, y + (rgb[i] - y) * saturation);
     }
@@ -40,7 +37,7 @@ void tone_saturate(float saturation, float rgb[3])
 void tone_film(const ToneCurveFit *fit, float saturation, float rgb[3])
 {
     const float crossover = 0.15f; // also takes back the saturation that the power adds
-    float mixed[3], y = luminance(rgb);
+    float mixed[3], y = luminance_rgb(rgb);
     for (int i = 0; i < 3; i++) {
         mixed[i] = curve(fit, rgb[i] + crossover * (y - rgb[i]));
     }

@@ -1,5 +1,6 @@
 #include "image/tonemap.h"
 
+#include "base/color.h"
 #include "base/memory.h"
 #include "image/lens.h"
 #include "image/tone_curve.h"
@@ -17,11 +18,6 @@ ToneParams tone_params_default(void)
                         .vignette = 0.15f};
 }
 
-static float luminance(const float *p)
-{
-    return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
-}
-
 float tone_auto_gain(const Image *image)
 {
     double sum = 0.0, weight = 0.0;
@@ -29,7 +25,7 @@ float tone_auto_gain(const Image *image)
     for (int64_t i = 0; i < count; i++) {
         const float *p = image->pixel + i * image->channels;
         float cover = image->channels == 4 ? p[3] : 1.0f;
-        float y = luminance(p);
+        float y = luminance_rgb(p);
         if (cover > 0.0f && y > 1e-7f && isfinite(y)) {
             sum += (double)cover * log((double)(y / cover));
             weight += (double)cover;

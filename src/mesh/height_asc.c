@@ -1,13 +1,13 @@
 // Esri ASCII grids.
 #include "mesh/height_measure.h"
 
+#include "base/c_locale.h"
 #include "base/exact_math.h"
 #include "base/memory.h"
 
 #include <ctype.h>
 #include <errno.h>
 #include <float.h>
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -216,19 +216,16 @@ static char *read_text(const char *file, Error *e)
 HeightField *height_field_read_asc(const char *file, Error *e)
 {
     AscText asc = {.file = file, .line = 1};
-    locale_t c_locale = newlocale(LC_ALL_MASK, "C", NULL);
-    if (!c_locale) {
-        error_set(e, ERROR_MEMORY, "out of memory for the C locale");
+    CLocale locale;
+    if (!c_locale_enter(&locale, e)) {
         return NULL;
     }
-    locale_t before = uselocale(c_locale); // decimal points, whatever the caller's language
     asc.text = asc.at = read_text(file, e);
     HeightField *field = asc.text ? read_heights(&asc, e) : NULL;
     if (!field) {
         error_locate(e, file, 0, 0);
     }
-    uselocale(before);
-    freelocale(c_locale);
+    c_locale_leave(&locale);
     free(asc.text);
     return field;
 }

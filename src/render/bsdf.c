@@ -16,7 +16,7 @@ static Vec3 normal_toward(Vec3 n, Vec3 wo)
 static void leaf_colors(Bsdf *b, const SurfacePoint *point)
 {
     if (point->backface) { // the underside: paler, greyer
-        float grey = luminance_of(b->color);
+        float grey = luminance(b->color);
         b->color = vec3_scale(vec3_lerp(b->color, vec3_splat(grey), 0.3f), 1.45f);
     }
     Vec3 sum = vec3_max(vec3_add(b->color, b->transmittance), vec3_splat(1.0f));

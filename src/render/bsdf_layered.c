@@ -47,10 +47,10 @@ static void prepare_coat(Bsdf *b, float specular, float weight, float cos_o)
 static void choose_probabilities(Bsdf *b, float cos_o)
 {
     float scale = ggx_table_at(b->table->scale, cos_o), bias = ggx_table_at(b->table->bias, cos_o);
-    float glossy = luminance_of(b->specular) * scale + b->grazing * bias;
+    float glossy = luminance(b->specular) * scale + b->grazing * bias;
     float below = left_at(b->table, b->coat_f0, b->coat_f90, cos_o);
-    float reflected = luminance_of(b->color) * below;
-    float transmitted = luminance_of(b->transmittance) * below;
+    float reflected = luminance(b->color) * below;
+    float transmitted = luminance(b->transmittance) * below;
     float diffuse = reflected + transmitted;
     b->through = transmitted > 0.0f ? transmitted / diffuse : 0.0f;
     b->probability = glossy > 0.0f ? glossy / (glossy + diffuse) : 0.0f;

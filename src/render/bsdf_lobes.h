@@ -4,6 +4,7 @@
 #ifndef RAMIFY_RENDER_BSDF_LOBES_H
 #define RAMIFY_RENDER_BSDF_LOBES_H
 
+#include "base/color.h"
 #include "render/bsdf.h"
 
 // Sine and cosine of 2 pi u for u in [0, 1]; error below 1e-6.
@@ -30,11 +31,6 @@ static inline Vec3 draw_cosine(Vec3 n, float u0, float u1)
     Vec3 d = vec3(n.x + r * c, n.y + r * s, n.z + z);
     float square = vec3_dot(d, d);
     return square > 1e-12f ? vec3_scale(d, 1.0f / sqrtf(square)) : n;
-}
-
-static inline float luminance_of(Vec3 c)
-{
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 
 // Rough diffuse reflection after Fujii, Oren and Nayar with multiple scattering between facets

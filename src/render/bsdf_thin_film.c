@@ -24,7 +24,7 @@ void thin_film_prepare(Bsdf *b, const Material *m, const ThinFilmTable *table,
     b->specular = thin_film_color(table, thickness_at(m, point), m->ior, cos_o);
     Vec3 passed = vec3_sub(vec3_splat(1.0f), b->specular);
     b->transmittance = vec3_mul(b->color, passed);
-    float r = sqrtf(luminance_of(b->specular)), t = sqrtf(luminance_of(passed));
+    float r = sqrtf(luminance(b->specular)), t = sqrtf(luminance(passed));
     b->probability = r / (r + t); // least noise where both sides are about as bright
     b->albedo = vec3_splat(1.0f);
 }

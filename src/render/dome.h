@@ -4,8 +4,8 @@
 #ifndef RAMIFY_RENDER_DOME_H
 #define RAMIFY_RENDER_DOME_H
 
+#include "base/color.h"
 #include "base/error.h"
-#include "base/vec.h"
 
 // Row 0 is at the zenith. Column 0 begins at azimuth +180 degrees (from +Z toward +X) and azimuth
 // falls with the column, so that seen from inside the picture is not mirrored (as in OpenEXR).
@@ -38,11 +38,5 @@ Vec3 dome_lookup(const Dome *dome, Vec3 direction);
 // Unit direction for two uniform numbers, and its density per steradian.
 Vec3 dome_sample(const Dome *dome, float u, float v, float *density);
 float dome_density(const Dome *dome, Vec3 direction);
-
-// Rec. 709 luminance.
-static inline float luminance(Vec3 c)
-{
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
-}
 
 #endif

@@ -1,5 +1,6 @@
 #include "scene/build.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "mesh/height_measure.h"
@@ -63,15 +64,12 @@ static bool add_lights(World *world, const Scene *scene, Error *e)
 
 // ---- objects ----
 
-// FNV-1a, then mixed with the scene's seed: an object keeps its form when others come and go.
+// From its name and the scene's seed: an object keeps its form when others come and go.
 uint64_t scene_object_seed(const Scene *scene, int index)
 {
     const SceneObject *object = &scene->objects[index];
-    uint64_t hash = 0xcbf29ce484222325ull;
-    for (const char *c = object->name; *c; c++) {
-        hash = (hash ^ (unsigned char)*c) * 0x100000001b3ull;
-    }
-    return object->seed ? object->seed : random_key(hash, scene->seed);
+    uint64_t name = hash_bytes(HASH_START, object->name, strlen(object->name));
+    return object->seed ? object->seed : random_key(name, scene->seed);
 }
 
 enum { LABEL_SIZE = 128 };

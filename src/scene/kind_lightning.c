@@ -1,4 +1,5 @@
 // Lightning as a kind of object.
+#include "base/color.h"
 #include "model/lightning.h"
 #include "scene/kinds.h"
 
@@ -12,9 +13,8 @@ static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
     int material = placing_material(p, p->object->material, "lightning");
-    Vec3 radiance = p->world->material[material].radiance;
-    float luminance = vec3_dot(radiance, vec3(0.2126f, 0.7152f, 0.0722f));
-    return lightning_geometry(tree, p->object->lightning, material, luminance, p->index,
+    float radiance = luminance(p->world->material[material].radiance);
+    return lightning_geometry(tree, p->object->lightning, material, radiance, p->index,
                               &p->world->geometry, e);
 }
 

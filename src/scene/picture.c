@@ -1,5 +1,6 @@
 #include "scene/picture.h"
 
+#include "base/file_name.h"
 #include "base/file_replace.h"
 #include "base/memory.h"
 #include "image/denoise.h"
@@ -9,26 +10,19 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #define DENOISE_STRENGTH 1.0f
 
-static bool has_ending(const char *file, const char *ending)
-{
-    const char *dot = strrchr(file, '.');
-    return dot && strcasecmp(dot, ending) == 0;
-}
-
 bool picture_is_exr(const char *file)
 {
-    return has_ending(file, ".exr");
+    return file_name_ends(file, ".exr");
 }
 
 // Before the work of developing it.
 static bool check_ending(const char *file, Error *e)
 {
-    return picture_is_exr(file) || has_ending(file, ".png") || has_ending(file, ".jpg") ||
-           has_ending(file, ".jpeg") ||
+    return picture_is_exr(file) || file_name_ends(file, ".png") || file_name_ends(file, ".jpg") ||
+           file_name_ends(file, ".jpeg") ||
            error_set(e, ERROR_INPUT,
                      "'%s' cannot be written: a picture's name must end in .png, .jpg or .exr",
                      file);

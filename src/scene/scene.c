@@ -1,5 +1,6 @@
 #include "scene/scene.h"
 
+#include "base/c_locale.h"
 #include "base/memory.h"
 #include "scene/emit.h"
 #include "scene/load.h"
@@ -9,7 +10,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -101,22 +101,16 @@ static Scene *read_source(const SceneSource *source, Error *e)
     }
     *e = (Error){0};
     Arena *arena = arena_new(e);
-    locale_t c_locale = newlocale(LC_ALL_MASK, "C", NULL);
     Scene *scene = NULL;
-    if (arena && c_locale) {
-        locale_t before = uselocale(c_locale); // decimal points, whatever the caller's language
+    CLocale locale;
+    if (arena && c_locale_enter(&locale, e)) {
         Resolver resolver = {arena, source->name, source->folder, e, 0};
         const Node *document = complete_document(arena, &resolver, source, e);
         scene = document ? load_scene(document, arena, source, e) : NULL;
         if (scene) {
             scene->files = resolver.files;
         }
-        uselocale(before);
-    }
-    if (c_locale) {
-        freelocale(c_locale);
-    } else {
-        error_set(e, ERROR_MEMORY, "out of memory for the C locale");
+        c_locale_leave(&locale);
     }
     arena_free(arena);
     return scene;

@@ -1,8 +1,8 @@
 #include "scene/schema_text.h"
 
+#include "base/c_locale.h"
 #include "base/memory.h"
 
-#include <locale.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,20 +50,14 @@ const Node *schema_default(SchemaText *s, const Key *row, const char *base)
 char *schema_write(void (*write)(SchemaText *), Error *e)
 {
     Arena *arena = arena_new(e);
-    locale_t c_locale = newlocale(LC_ALL_MASK, "C", NULL);
-    if (!arena || !c_locale) {
-        error_set(e, ERROR_MEMORY, "out of memory for the schema");
+    CLocale locale;
+    if (!arena || !c_locale_enter(&locale, e)) {
         arena_free(arena);
-        if (c_locale) {
-            freelocale(c_locale);
-        }
         return NULL;
     }
-    locale_t before = uselocale(c_locale);
     SchemaText s = {.resolver = {.arena = arena, .file = "", .folder = "", .e = e}};
     write(&s);
-    uselocale(before);
-    freelocale(c_locale);
+    c_locale_leave(&locale);
     arena_free(arena);
     if (s.failed) {
         free(s.text);

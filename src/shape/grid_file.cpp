@@ -6,6 +6,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 
+#include "base/hash.h"
 #include "shape/grid_file_internal.h"
 
 #include <cstring>
@@ -63,10 +64,9 @@ void name_after_contents(std::string &bytes)
     if (bytes.size() < at + length || bytes[at + 8] != '-' || bytes[at + 23] != '-') {
         throw std::runtime_error("the name of the file is not where it was");
     }
-    uint64_t hash[2] = {0xcbf29ce484222325u, 0x84222325cbf29ce4u};
+    uint64_t hash[2] = {HASH_START, 0x84222325cbf29ce4u};
     for (size_t i = at + length; i < bytes.size(); i++) {
-        auto c = static_cast<unsigned char>(bytes[i]);
-        hash[i & 1] = (hash[i & 1] ^ c) * 0x100000001b3u;
+        hash[i & 1] = hash_byte(hash[i & 1], static_cast<unsigned char>(bytes[i]));
     }
     for (size_t i = 0, digit = 0; i < length; i++) {
         if (bytes[at + i] != '-') {

@@ -1,6 +1,7 @@
 #include "shape/import.h"
 
 #include "base/child.h"
+#include "base/file_name.h"
 #include "base/memory.h"
 #include "shape/import_read.h"
 
@@ -9,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 #define COORDINATE_LIMIT 1e7f // m: beyond, a float cannot tell points a metre apart
@@ -40,8 +40,7 @@ static double size_of_buffers(const char *file)
     DIR *entries = opendir(path);
     double size = 0.0;
     for (struct dirent *entry; entries && (entry = readdir(entries));) {
-        const char *ending = strrchr(entry->d_name, '.');
-        if (ending && strcasecmp(ending, ".bin") == 0) {
+        if (file_name_ends(entry->d_name, ".bin")) {
             snprintf(path, sizeof path, "%.*s%s", folder, file, entry->d_name);
             size += size_of(path);
         }
@@ -54,9 +53,8 @@ static double size_of_buffers(const char *file)
 
 static void set_limits(const char *file, ChildJob *job)
 {
-    const char *ending = strrchr(file, '.');
     double size = size_of(file);
-    if (ending && strcasecmp(ending, ".gltf") == 0) {
+    if (file_name_ends(file, ".gltf")) {
         size += size_of_buffers(file);
     }
     job->seconds = LEAST_SECONDS + SECONDS_A_BYTE * size;

@@ -1,5 +1,7 @@
 #include "shape/import_check.h"
 
+#include "base/file_name.h"
+
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -9,17 +11,11 @@
 
 #define COUNT_LIMIT 1000000000.0 // vertices or faces a file may promise
 
-static const char *extension(const char *file)
-{
-    const char *dot = strrchr(file, '.'), *slash = strrchr(file, '/');
-    return dot && (!slash || dot > slash) ? dot + 1 : "";
-}
-
 static bool check_extension(const char *file, Error *e)
 {
-    static const char *const known[] = {"obj", "ply", "stl", "gltf", "glb"};
+    static const char *const known[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-        if (strcasecmp(extension(file), known[i]) == 0) {
+        if (strcasecmp(file_name_ending(file), known[i]) == 0) {
             return true;
         }
     }
@@ -185,10 +181,10 @@ static bool check_contents(FILE *stream, const char *file, int64_t size, Error *
     if (size == 0) {
         return error_set(e, ERROR_INPUT, "the file is empty; a mesh is needed");
     }
-    if (strcasecmp(extension(file), "ply") == 0) {
+    if (strcasecmp(file_name_ending(file), ".ply") == 0) {
         return check_ply(stream, size, e);
     }
-    if (strcasecmp(extension(file), "stl") == 0) {
+    if (strcasecmp(file_name_ending(file), ".stl") == 0) {
         return check_stl(stream, size, e);
     }
     return true;

@@ -1,25 +1,11 @@
 // Writing GraphML.
 #include "base/file_writer.h"
+#include "base/markup.h"
 #include "base/number_text.h"
 #include "tree/out_tree_io.h"
 
 #include <inttypes.h>
 #include <stddef.h>
-
-static void write_escaped(FileWriter *out, const char *text)
-{
-    for (; *text; text++) {
-        const char *name = *text == '&'   ? "&amp;"
-                           : *text == '<' ? "&lt;"
-                           : *text == '>' ? "&gt;"
-                                          : NULL;
-        if (name) {
-            file_writer_text(out, name);
-        } else {
-            file_writer_bytes(out, text, 1);
-        }
-    }
-}
 
 static void write_data(FileWriter *out, const char *key, float value)
 {
@@ -33,7 +19,7 @@ static void write_graph(FileWriter *out, const OutTree *tree, const char *name, 
 {
     file_writer_print(out, "  <graph id=\"g%d\" edgedefault=\"directed\">\n", number);
     file_writer_text(out, "    <data key=\"name\">");
-    write_escaped(out, name);
+    markup_text(out, name);
     file_writer_text(out, "</data>\n");
     for (int64_t i = 0; i < tree->count; i++) {
         Vec3 p = tree->position[i];

@@ -1,12 +1,11 @@
 #include "tree/out_tree_io.h"
 
+#include "base/file_name.h"
 #include "base/file_writer.h"
 #include "base/number_text.h"
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
-#include <strings.h>
 
 // Room for a line of SWC and for a node of an array.
 enum { LONGEST = 5 * (INTEGER_TEXT_MOST + FLOAT_TEXT_MOST) };
@@ -90,21 +89,15 @@ static bool write_json(const OutTree *tree, const char *file, Error *e)
     return file_writer_close(out, true, e);
 }
 
-static bool ends_with(const char *text, const char *end)
-{
-    size_t a = strlen(text), b = strlen(end);
-    return a >= b && strcasecmp(text + a - b, end) == 0;
-}
-
 bool out_tree_write(const OutTree *tree, const char *file, Error *e)
 {
-    if (ends_with(file, ".swc")) {
+    if (file_name_ends(file, ".swc")) {
         return out_tree_write_swc(tree, file, e);
     }
-    if (ends_with(file, ".json")) {
+    if (file_name_ends(file, ".json")) {
         return write_json(tree, file, e);
     }
-    if (ends_with(file, ".graphml")) {
+    if (file_name_ends(file, ".graphml")) {
         return out_trees_write_graphml(&tree, &(const char *){"tree"}, 1, file, e);
     }
     return error_set(e, ERROR_INPUT,

@@ -1,11 +1,11 @@
 // Reading SWC files (Cannon et al. 1998), which come from many programs and may hold anything.
+#include "base/c_locale.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "tree/out_tree_io.h"
 
 #include <errno.h>
 #include <float.h>
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -53,11 +53,11 @@ static bool read_whole(double value, int64_t low, int64_t high, int64_t *out)
 }
 
 // The seven numbers of a line into column; false with e.
-static bool read_columns(const char *text, double column[COLUMNS], locale_t c_locale, Error *e)
+static bool read_columns(const char *text, double column[COLUMNS], Error *e)
 {
     for (int i = 0; i < COLUMNS; i++) {
         char *end;
-        column[i] = strtod_l(text, &end, c_locale);
+        column[i] = strtod(text, &end);
         if (end == text || (*end && !strchr(" \t", *end))) {
             text += strspn(text, " \t");
             return error_set(e, ERROR_INPUT,
@@ -77,11 +77,11 @@ static bool read_columns(const char *text, double column[COLUMNS], locale_t c_lo
                      text);
 }
 
-static bool read_row(const char *text, Row *row, locale_t c_locale, Error *e)
+static bool read_row(const char *text, Row *row, Error *e)
 {
     double c[COLUMNS] = {0};
     int64_t type;
-    if (!read_columns(text, c, c_locale, e)) {
+    if (!read_columns(text, c, e)) {
         return false;
     }
     if (!read_whole(c[0], 0, INT64_C(1) << 53, &row->number) ||
@@ -129,7 +129,7 @@ static bool read_line(FILE *stream, char text[LONGEST_LINE], bool *more, Error *
     return true;
 }
 
-static bool read_rows(SwcFile *swc, FILE *stream, locale_t c_locale, Error *e)
+static bool read_rows(SwcFile *swc, FILE *stream, Error *e)
 {
     char text[LONGEST_LINE];
     bool more = true;
@@ -151,7 +151,7 @@ static bool read_rows(SwcFile *swc, FILE *stream, locale_t c_locale, Error *e)
         }
         Row *row = &swc->row[swc->count++];
         *row = (Row){.line = (int32_t)line, .above = -1, .node = -1};
-        if (!read_row(start, row, c_locale, e)) {
+        if (!read_row(start, row, e)) {
             return fail_at(swc, line, e);
         }
     }
@@ -293,14 +293,11 @@ OutTree *out_tree_read_swc(const char *file, Error *e)
     }
     SwcFile swc = {.file = file};
     OutTree *tree = NULL;
-    locale_t c_locale = newlocale(LC_ALL_MASK, "C", NULL);
-    if (!c_locale) {
-        error_set(e, ERROR_MEMORY, "out of memory for the C locale");
-    } else if (read_rows(&swc, stream, c_locale, e) && link_rows(&swc, e)) {
-        tree = make_tree(&swc, e);
-    }
-    if (c_locale) {
-        freelocale(c_locale);
+    CLocale locale;
+    if (c_locale_enter(&locale, e)) {
+        bool read = read_rows(&swc, stream, e) && link_rows(&swc, e);
+        tree = read ? make_tree(&swc, e) : NULL;
+        c_locale_leave(&locale);
     }
     fclose(stream);
     free(swc.row);

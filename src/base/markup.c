@@ -1,4 +1,4 @@
-#include "golden/markup.h"
+#include "base/markup.h"
 
 #define REPLACEMENT "\xef\xbf\xbd"
 

@@ -1,6 +1,6 @@
 // Text as part of HTML and XML.
-#ifndef RAMIFY_GOLDEN_MARKUP_H
-#define RAMIFY_GOLDEN_MARKUP_H
+#ifndef RAMIFY_BASE_MARKUP_H
+#define RAMIFY_BASE_MARKUP_H
 
 #include "base/file_writer.h"
 
