@@ -1,5 +1,5 @@
 #include "base/random.h"
-#include "grow/growth.h"
+#include "grow/rule.h"
 
 #include <stddef.h>
 
@@ -64,14 +64,14 @@ static bool is_zero(Vec3 v)
     return v.x == 0.0f && v.y == 0.0f && v.z == 0.0f;
 }
 
-static uint64_t next_child_id(const Growth *growth, const Grower *grower, int place)
+uint64_t growth_child_id(const Growth *growth, const Grower *grower, int place)
 {
     return out_tree_child_id(growth->tree->id[grower->node],
                              growth->state[grower->node].children + place);
 }
 
-// A root has no parent to head away from. For its sectors: the way its first initial child stands,
-// else the normal in space, or some direction on the surface, named by the root.
+// A root has no parent to head away from. Its bins stand about the way its first initial child
+// stands, else the normal in space, or some direction on the surface, named by the root.
 static Vec3 root_heading(const Growth *growth, int32_t node)
 {
     const OutTree *tree = growth->tree;
@@ -85,8 +85,7 @@ static Vec3 root_heading(const Growth *growth, int32_t node)
     return random_direction(random_key(random_key(tree->id[node], growth->params->seed), 4));
 }
 
-// v without its part along the unit vector n, as a unit vector; any such vector when none is left.
-static Vec3 unit_across(Vec3 v, Vec3 n)
+Vec3 growth_unit_across(Vec3 v, Vec3 n)
 {
     v = vec3_madd(v, -vec3_dot(v, n), n);
     return vec3_dot(v, v) > 1e-6f ? vec3_normalize(v) : vec3_perpendicular(n);
@@ -100,24 +99,22 @@ void growth_prepare(const Growth *growth, Grower *grower)
     grower->heading = vec3(0, 0, 0);
     if (parent >= 0) {
         grower->heading = vec3_normalize(vec3_sub(grower->position, tree->position[parent]));
-    } else if (growth->params->rule == GROW_SECTORS || growth->params->rule == GROW_STRING) {
+    } else if (growth->rule->roots_head) {
         grower->heading = vec3_normalize(root_heading(growth, node));
     }
     grower->has_heading = !is_zero(grower->heading);
     grower->normal = vec3_normalize(tree->normal[node]);
     if (grower->has_heading && growth->params->on_surface) {
-        grower->heading = unit_across(grower->heading, grower->normal);
+        grower->heading = growth_unit_across(grower->heading, grower->normal);
     } else if (grower->has_heading) {
-        grower->normal = unit_across(grower->normal, grower->heading);
+        grower->normal = growth_unit_across(grower->normal, grower->heading);
     }
     grower->side = vec3_cross(grower->normal, grower->heading);
-    grower->lean = growth->params->rule == GROW_SNAP
-                       ? lean_of(growth, grower, next_child_id(growth, grower, 0))
-                       : vec3(0, 0, 0);
+    grower->lean = growth->rule->picks ? lean_of(growth, grower, growth_child_id(growth, grower, 0))
+                                       : vec3(0, 0, 0);
 }
 
-// Mean of the unit pulls as a direction; zero where they cancel out (eq. 7).
-static Vec3 mean_direction(const Pull *pull)
+Vec3 growth_mean_direction(const Pull *pull)
 {
     Vec3 sum =
         vec3_scale(vec3((float)pull->toward[0], (float)pull->toward[1], (float)pull->toward[2]),
@@ -142,10 +139,10 @@ static Vec3 limit_angle(const Growth *growth, const Grower *grower, bool lateral
         return d;
     }
     float cosine = vec3_dot(d, grower->heading), c, s;
-    if (cosine < growth->max_cos) {
-        c = growth->max_cos, s = growth->max_sin;
-    } else if (lateral && cosine > growth->min_cos) {
-        c = growth->min_cos, s = growth->min_sin;
+    if (cosine < growth->limits.max_cos) {
+        c = growth->limits.max_cos, s = growth->limits.max_sin;
+    } else if (lateral && cosine > growth->limits.min_cos) {
+        c = growth->limits.min_cos, s = growth->limits.min_sin;
     } else {
         return d;
     }
@@ -157,14 +154,15 @@ static Vec3 limit_angle(const Growth *growth, const Grower *grower, bool lateral
 // Turns d toward the cone's axis until it lies within the cone.
 static Vec3 limit_cone(const Growth *growth, Vec3 d)
 {
-    Vec3 axis = growth->cone_axis;
+    Vec3 axis = growth->limits.cone_axis;
     float cosine = vec3_dot(d, axis);
-    if (growth->params->on_surface || cosine >= growth->cone_cos || is_zero(axis)) {
+    if (growth->params->on_surface || cosine >= growth->limits.cone_cos || is_zero(axis)) {
         return d;
     }
     Vec3 across = vec3_madd(d, -cosine, axis);
     across = vec3_dot(across, across) > 1e-12f ? vec3_normalize(across) : vec3_perpendicular(axis);
-    return vec3_normalize(vec3_madd(vec3_scale(axis, growth->cone_cos), growth->cone_sin, across));
+    return vec3_normalize(
+        vec3_madd(vec3_scale(axis, growth->limits.cone_cos), growth->limits.cone_sin, across));
 }
 
 // Into the tangent plane, and back toward the surface where the steps have left it.
@@ -176,7 +174,7 @@ static Vec3 keep_on_surface(const Growth *growth, const Pull *pull, Vec3 normal,
     return vec3_normalize(vec3_madd(d, -clampf(rise, -0.7f, 0.7f), normal));
 }
 
-static Vec3 add_field(const Growth *growth, const Grower *grower, Vec3 p)
+Vec3 growth_add_field(const Growth *growth, const Grower *grower, Vec3 p)
 {
     const ColonizeParams *params = growth->params;
     if (!params->field || params->field_weight == 0.0f || params->field_mode != FIELD_ADDITIVE) {
@@ -186,13 +184,12 @@ static Vec3 add_field(const Growth *growth, const Grower *grower, Vec3 p)
     return vec3_madd(p, params->step * params->field_weight, x); // E13, X_f scaled by the step
 }
 
-// One child a step (m) along `axis` (a sector's) or the mean pull, bent, limited.
-static bool make_child(const Growth *growth, const Grower *grower, const Pull *pull,
+bool growth_make_child(const Growth *growth, const Grower *grower, const Pull *pull,
                        const Vec3 *axis, float step, int place, Child *child)
 {
     const ColonizeParams *params = growth->params;
-    Vec3 d = axis ? *axis : mean_direction(pull);
-    Vec3 lean = lean_of(growth, grower, next_child_id(growth, grower, place));
+    Vec3 d = axis ? *axis : growth_mean_direction(pull);
+    Vec3 lean = lean_of(growth, grower, growth_child_id(growth, grower, place));
     if (!is_zero(lean)) {
         d = vec3_normalize(vec3_add(d, lean));
     }
@@ -207,122 +204,50 @@ static bool make_child(const Growth *growth, const Grower *grower, const Pull *p
     d = limit_angle(growth, grower, growth->state[grower->node].children + place > 0, d);
     d = limit_cone(growth, d);
     // in space the parent's normal is carried along without twist
-    child->normal = params->on_surface ? normal : unit_across(grower->normal, d);
+    child->normal = params->on_surface ? normal : growth_unit_across(grower->normal, d);
     Vec3 p = vec3_madd(grower->position, step, d); // eq. (6)
-    child->position = add_field(growth, grower, p);
+    child->position = growth_add_field(growth, grower, p);
     return true;
 }
 
-// A draw that keeps a lateral child from growing, the same however often it is asked.
-static bool is_suppressed(const Growth *growth, uint64_t child_id)
+bool growth_is_suppressed(const Growth *growth, uint64_t child_id)
 {
     return growth->params->apical > 0.0f &&
            random_unit(random_key(random_key(child_id, growth->params->seed), 3)) <
                growth->params->apical;
 }
 
-static int make_snap(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
+bool growth_is_last_order(const Growth *growth, int32_t node)
 {
-    if (pull->pick == UINT64_MAX) {
-        return 0;
-    }
-    int64_t attractor = (int64_t)(pull->pick & 0xffffffffu);
-    Vec3 p = growth->attractors->position[attractor];
-    Vec3 d = vec3_normalize(vec3_sub(p, grower->position));
-    child->normal = growth->params->on_surface
-                        ? vec3_normalize(growth->attractors->normal[attractor])
-                        : unit_across(grower->normal, d);
-    child->position = add_field(growth, grower, p);
-    return 1;
+    int limit = growth->params->max_order;
+    return limit > 0 && growth->tree->parent[node] >= 0 && growth->state[node].order >= limit;
 }
 
-// A vector given in (heading, normal, side) components.
-static Vec3 from_frame(const Grower *grower, Vec3 local)
+Vec3 growth_from_frame(const Grower *grower, Vec3 local)
 {
     Vec3 v = vec3_scale(grower->heading, local.x);
     v = vec3_madd(v, local.y, grower->normal);
     return vec3_madd(v, local.z, grower->side);
 }
 
-// May this node not branch, because its sides would be of too high an order?
-static bool is_last_order(const Growth *growth, int32_t node)
+Vec3 growth_to_frame(const Grower *grower, Vec3 v)
 {
-    int limit = growth->params->max_order;
-    return limit > 0 && growth->tree->parent[node] >= 0 && growth->state[node].order >= limit;
-}
-
-static int make_sectors(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
-{
-    const ColonizeParams *params = growth->params;
-    const NodeState *state = &growth->state[grower->node];
-    bool straight = is_last_order(growth, grower->node);
-    int count = 0, limit = params->max_children > 0 ? params->max_children - state->children
-                                                    : growth->sectors.count;
-    for (int s = 0; s < growth->sectors.count && count < limit; s++) {
-        uint64_t bud = out_tree_child_id(growth->tree->id[grower->node], -1 - s);
-        bool beyond = growth->sectors.axis[s].x < growth->max_cos - 1e-6f;
-        if (pull[s].count == 0 || beyond || (growth->used[grower->node] >> s & 1) ||
-            (s > 0 && (straight || is_suppressed(growth, bud)))) {
-            continue;
-        }
-        Vec3 axis = from_frame(grower, growth->sectors.axis[s]);
-        if (make_child(growth, grower, &pull[s], params->sector_axis ? &axis : NULL, params->step,
-                       count, &child[count])) {
-            child[count++].sector = s;
-        }
-    }
-    return count;
-}
-
-// The coral paper, steps b-d: each direction that owns attractors makes one child, toward their
-// mean and as far as their mean growth distance.
-static int make_string(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
-{
-    const ColonizeParams *params = growth->params;
-    const GrowString *string = params->string;
-    const GrowDirection *at = &string->direction[growth->place[grower->node]];
-    int limit = params->max_children > 0 ? params->max_children : at->followers, count = 0;
-    limit = is_last_order(growth, grower->node) ? 1 : limit;
-    for (int i = 0; i < at->followers && count < limit; i++) {
-        const GrowDirection *direction = &string->direction[at->first + i];
-        uint64_t bud = out_tree_child_id(growth->tree->id[grower->node], -1 - i);
-        if (pull[i].count == 0 || (i > 0 && is_suppressed(growth, bud))) {
-            continue;
-        }
-        Vec3 axis = from_frame(grower, direction->heading);
-        Vec3 d = vec3_lerp(mean_direction(&pull[i]), axis, params->regularity);
-        d = vec3_dot(d, d) > 1e-12f ? vec3_normalize(d) : axis;
-        float mean = (float)((double)pull[i].length / (double)pull[i].count) / PULL_ONE;
-        float step = direction->length * mean * growth->longest;
-        if (make_child(growth, grower, &pull[i], &d, step, count, &child[count])) {
-            if (!params->on_surface) {
-                Vec3 way = vec3_normalize(vec3_sub(child[count].position, grower->position));
-                child[count].normal = unit_across(from_frame(grower, direction->normal), way);
-            }
-            child[count++].sector = at->first + i;
-        }
-    }
-    return count;
+    return vec3(vec3_dot(v, grower->heading), vec3_dot(v, grower->normal),
+                vec3_dot(v, grower->side));
 }
 
 int growth_make_children(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
 {
-    GrowRule rule = growth->params->rule;
-    if (rule == GROW_SECTORS && grower->has_heading) {
-        return make_sectors(growth, grower, pull, child);
-    }
-    if (rule == GROW_STRING) {
-        return make_string(growth, grower, pull, child);
-    }
-    child->sector = 0;
+    return growth->rule->make_children(growth, grower, pull, child);
+}
+
+int growth_make_single(const Growth *growth, const Grower *grower, const Pull *pull, Child *child,
+                       MakeChild *make)
+{
+    child->bin = 0;
     bool lateral = growth->state[grower->node].children > 0;
-    if (lateral && is_last_order(growth, grower->node)) {
-        return 0;
-    }
-    if (pull->count == 0 || (lateral && is_suppressed(growth, next_child_id(growth, grower, 0)))) {
-        return 0;
-    }
-    return rule == GROW_SNAP
-               ? make_snap(growth, grower, pull, child)
-               : make_child(growth, grower, pull, NULL, growth->params->step, 0, child);
+    bool barred = pull->count == 0 ||
+                  (lateral && (growth_is_last_order(growth, grower->node) ||
+                               growth_is_suppressed(growth, growth_child_id(growth, grower, 0))));
+    return !barred && make(growth, grower, pull, child);
 }

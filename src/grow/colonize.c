@@ -1,6 +1,6 @@
 #include "base/memory.h"
-#include "grow/growth.h"
 #include "grow/report.h"
+#include "grow/rule.h"
 
 #include "base/exact_math.h"
 
@@ -63,18 +63,21 @@ static bool check_params(const OutTree *tree, const ColonizeParams *params, Erro
 static void set_angle_limits(Growth *growth)
 {
     const ColonizeParams *p = growth->params;
-    growth->min_cos = 2.0f; // off: no cosine is above it
-    growth->max_cos = -2.0f;
+    growth->limits.min_cos = 2.0f; // off: no cosine is above it
+    growth->limits.max_cos = -2.0f;
     if (p->min_angle > 0.0f) {
-        exact_sincos(p->min_angle * RADIANS_PER_DEGREE, &growth->min_sin, &growth->min_cos);
+        exact_sincos(p->min_angle * RADIANS_PER_DEGREE, &growth->limits.min_sin,
+                     &growth->limits.min_cos);
     }
     if (p->max_angle > 0.0f && p->max_angle < 180.0f) {
-        exact_sincos(p->max_angle * RADIANS_PER_DEGREE, &growth->max_sin, &growth->max_cos);
+        exact_sincos(p->max_angle * RADIANS_PER_DEGREE, &growth->limits.max_sin,
+                     &growth->limits.max_cos);
     }
-    growth->cone_cos = -2.0f;
-    growth->cone_axis = vec3_normalize(p->cone_axis);
+    growth->limits.cone_cos = -2.0f;
+    growth->limits.cone_axis = vec3_normalize(p->cone_axis);
     if (p->cone_angle > 0.0f && p->cone_angle < 180.0f) {
-        exact_sincos(p->cone_angle * RADIANS_PER_DEGREE, &growth->cone_sin, &growth->cone_cos);
+        exact_sincos(p->cone_angle * RADIANS_PER_DEGREE, &growth->limits.cone_sin,
+                     &growth->limits.cone_cos);
     }
 }
 
@@ -90,55 +93,25 @@ static bool reserve_nodes(Growth *growth, int64_t from, int64_t count, Error *e)
     }
     memset(growth->changed.word + words, 0,
            (size_t)(growth->changed.capacity - words) * sizeof *growth->changed.word);
-    if (growth->params->rule == GROW_SECTORS) {
-        if (!memory_reserve(&growth->used, &growth->used_capacity, count, sizeof *growth->used,
-                            e)) {
-            return false;
-        }
-        memset(growth->used + from, 0, (size_t)(count - from) * sizeof *growth->used);
-    }
-    if (growth->params->rule == GROW_STRING) { // those that growth made have their place already
-        if (!memory_reserve(&growth->place, &growth->place_capacity, count, sizeof *growth->place,
-                            e)) {
-            return false;
-        }
-        for (int64_t i = from; i < growth->initial_count; i++) {
-            growth->place[i] = 0;
-        }
-    }
     for (int64_t i = from; i < count; i++) {
         growth->state[i] = (NodeState){.first_child = -1};
         growth->slot[i] = -1;
     }
-    return true;
+    return !growth->rule->reserve || growth->rule->reserve(growth, from, count, e);
 }
 
-// sector: that it stands in; 0 = forward, or the rule has none.
-static void count_child(Growth *growth, int32_t parent, int32_t child, int sector)
+static void count_child(Growth *growth, int32_t parent, int32_t child, int bin)
 {
     NodeState *state = &growth->state[parent];
-    bool side = growth->params->rule == GROW_SECTORS ? sector > 0 : state->children > 0;
+    const Rule *rule = growth->rule;
+    bool side = rule->is_side ? rule->is_side(bin) : state->children > 0;
     growth->state[child].order = state->order + (side && growth->tree->parent[parent] >= 0);
     if (state->children++ == 0) {
         state->first_child = child;
     }
 }
 
-// Marks the sector in which a node stands as used up.
-static int use_sector(Growth *growth, int64_t node)
-{
-    const OutTree *tree = growth->tree;
-    Grower parent = {.node = tree->parent[node]};
-    growth_prepare(growth, &parent);
-    Vec3 d = vec3_sub(tree->position[node], parent.position);
-    Vec3 local =
-        vec3(vec3_dot(d, parent.heading), vec3_dot(d, parent.normal), vec3_dot(d, parent.side));
-    int sector = sectors_find(&growth->sectors, local);
-    growth->used[parent.node] |= 1ull << sector;
-    return sector;
-}
-
-// Takes over the tree as it is: children counted, the sectors they stand in used up.
+// Takes over the tree as it is: children counted, the bins they stand in taken.
 static bool begin(Growth *growth, Error *e)
 {
     const OutTree *tree = growth->tree;
@@ -153,8 +126,8 @@ static bool begin(Growth *growth, Error *e)
     }
     for (int64_t i = 0; i < tree->count; i++) {
         if (tree->parent[i] >= 0) {
-            int sector = growth->params->rule == GROW_SECTORS ? use_sector(growth, i) : 0;
-            count_child(growth, tree->parent[i], (int32_t)i, sector);
+            int bin = growth->rule->seat ? growth->rule->seat(growth, i) : 0;
+            count_child(growth, tree->parent[i], (int32_t)i, bin);
         }
     }
     for (int64_t i = 0; growth->params->new_orders && i < tree->count; i++) {
@@ -169,8 +142,7 @@ static void drop_fruitless(Growth *growth)
 {
     for (int64_t i = 0; i < growth->grew_count; i++) {
         int32_t node = growth->grew[i];
-        if (growth->params->rule == GROW_STRING || // it had its turn
-            !(growth->changed.word[node >> 6] >> (node & 63) & 1)) {
+        if (growth->rule->once || !(growth->changed.word[node >> 6] >> (node & 63) & 1)) {
             growth->state[node].stalled = true;
         }
     }
@@ -179,7 +151,7 @@ static void drop_fruitless(Growth *growth)
 static bool may_grow(const Growth *growth, int64_t node)
 {
     int limit = growth->params->max_children;
-    if (growth->params->rule == GROW_STRING && growth->state[node].children > 0) {
+    if (growth->rule->once && growth->state[node].children > 0) {
         return false;
     }
     return !growth->state[node].stalled && (limit <= 0 || growth->state[node].children < limit);
@@ -205,7 +177,7 @@ static bool choose_growers(Growth *growth, Error *e)
         }
         growth->changed.word[w] = 0;
     }
-    int64_t count = growth->grower_count, children = count * growth->sectors.count;
+    int64_t count = growth->grower_count, children = count * growth->bins;
     return memory_reserve(&growth->pull, &growth->pull_capacity, children * growth->threads,
                           sizeof *growth->pull, e) &&
            memory_reserve(&growth->child, &growth->child_capacity, children, sizeof *growth->child,
@@ -217,7 +189,7 @@ static bool choose_growers(Growth *growth, Error *e)
 
 static void make_children(Growth *growth)
 {
-    int64_t growers = growth->grower_count, sectors = growth->sectors.count;
+    int64_t growers = growth->grower_count, bins = growth->bins;
     bool shared = growers >= LEAST_SHARED && growth->grid.active_count >= LEAST_SHARED;
     int threads = shared ? growth->grid.slab_count : 1;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
@@ -232,7 +204,7 @@ static void make_children(Growth *growth)
     for (int64_t i = 0; i < growers; i++) {
         growth_merge_pulls(growth, i, threads);
         growth->child_count[i] = growth_make_children(
-            growth, &growth->grower[i], &growth->pull[i * sectors], &growth->child[i * sectors]);
+            growth, &growth->grower[i], &growth->pull[i * bins], &growth->child[i * bins]);
     }
 }
 
@@ -246,16 +218,9 @@ static bool add_child(Growth *growth, int32_t parent, const Child *child, int32_
         return false;
     }
     tree->normal[node] = child->normal;
-    count_child(growth, parent, (int32_t)node, child->sector);
-    if (growth->params->rule == GROW_STRING) {
-        if (!memory_reserve(&growth->place, &growth->place_capacity, node + 1,
-                            sizeof *growth->place, e)) {
-            return false;
-        }
-        growth->place[node] = child->sector;
-    }
-    if (growth->params->rule == GROW_SECTORS) {
-        growth->used[parent] |= 1ull << child->sector;
+    count_child(growth, parent, (int32_t)node, child->bin);
+    if (growth->rule->note) {
+        growth->rule->note(growth, parent, node, child->bin);
     }
     return true;
 }
@@ -277,7 +242,7 @@ static bool add_children(Growth *growth, int32_t birth, bool *full, Error *e)
         for (int j = 0; j < growth->child_count[i] && !*full; j++) {
             *full = max_nodes > 0 && growth->tree->count >= max_nodes;
             if (!*full &&
-                !add_child(growth, node, &growth->child[i * growth->sectors.count + j], birth, e)) {
+                !add_child(growth, node, &growth->child[i * growth->bins + j], birth, e)) {
                 return false;
             }
         }
@@ -338,58 +303,14 @@ static bool grow(Growth *growth, const Run *run, GrowReport *report, Error *e)
     }
 }
 
-static float distance_to_root(const Growth *growth, int64_t attractor)
-{
-    const OutTree *tree = growth->tree;
-    float least = INFINITY;
-    for (int64_t i = 0; i < growth->initial_count; i++) {
-        if (tree->parent[i] < 0) {
-            Vec3 d = vec3_sub(growth->attractors->position[attractor], tree->position[i]);
-            float d2 = vec3_dot(d, d);
-            least = d2 < least ? d2 : least;
-        }
-    }
-    return sqrtf(least);
-}
-
-// Each attractor's own growth distance (the coral paper, step c): between the user's two lengths,
-// by its distance from the nearest root as a share of the largest.
-static bool prepare_string(Growth *growth, Error *e)
-{
-    const ColonizeParams *p = growth->params;
-    int64_t count = growth->attractors->count;
-    if (!p->string || !(p->sector_angle > 0.0f && p->sector_angle <= 360.0f)) {
-        return error_set(e, ERROR_INPUT,
-                         "growth by a string needs one, and groups above 0 and up to 360 degrees");
-    }
-    float near = p->length_near > 0.0f ? p->length_near : p->step;
-    float far = p->length_far > 0.0f ? p->length_far : p->step, half;
-    exact_sincos(0.5f * p->sector_angle * RADIANS_PER_DEGREE, &half, &growth->group_cos);
-    growth->longest = near > far ? near : far;
-    growth->sectors.count = p->string->most_followers;
-    growth->length = memory_alloc(count, sizeof *growth->length, e);
-    if (!growth->length) {
-        return false;
-    }
-    float furthest = 0.0f;
-    for (int64_t i = 0; i < count; i++) {
-        growth->length[i] = distance_to_root(growth, i);
-        furthest = growth->length[i] > furthest ? growth->length[i] : furthest;
-    }
-    for (int64_t i = 0; i < count; i++) {
-        growth->length[i] = lerpf(near, far, furthest > 0.0f ? growth->length[i] / furthest : 0.0f);
-    }
-    return true;
-}
-
 static void free_growth(Growth *growth)
 {
     attractor_grid_free(&growth->grid);
-    free(growth->length);
-    free(growth->place);
+    if (growth->rule->end) {
+        growth->rule->end(growth);
+    }
     free(growth->state);
     free(growth->slot);
-    free(growth->used);
     free(growth->changed.word);
     free(growth->grower);
     free(growth->pull);
@@ -405,18 +326,23 @@ static bool prepare(Growth *growth, Error *e)
         return false;
     }
     set_angle_limits(growth);
-    growth->sectors.count = 1;
-    if (params->rule == GROW_SECTORS &&
-        !sectors_init(&growth->sectors, params->sector_angle, params->on_surface, e)) {
-        return false;
-    }
-    if (params->rule == GROW_STRING && !prepare_string(growth, e)) {
+    growth->bins = 1;
+    if (growth->rule->begin && !growth->rule->begin(growth, e)) {
         return false;
     }
     return begin(growth, e) &&
            (growth->attractors->count == 0 ||
             attractor_grid_init(&growth->grid, growth->attractors, params->influence, params->kill,
                                 growth->threads, e));
+}
+
+static const Rule *rule_of(GrowRule rule)
+{
+    static const Rule *const rules[] = {[GROW_MEAN] = &rule_mean,
+                                        [GROW_SNAP] = &rule_snap,
+                                        [GROW_SECTORS] = &rule_sectors,
+                                        [GROW_STRING] = &rule_string};
+    return rules[rule];
 }
 
 static int clamp_threads(int threads)
@@ -431,6 +357,7 @@ bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *p
     Growth growth = {.tree = tree,
                      .attractors = attractors,
                      .params = params,
+                     .rule = rule_of(params->rule),
                      .initial_count = tree->count,
                      .threads = clamp_threads(run->threads)};
     int64_t before = tree->count;

@@ -6,7 +6,6 @@
 
 #include "grow/attractor_grid.h"
 #include "grow/colonize.h"
-#include "grow/sectors.h"
 
 // What growth remembers of a node.
 typedef struct NodeState {
@@ -21,28 +20,36 @@ typedef struct Grower {
     int32_t node;
     bool has_heading;
     Vec3 position;
-    Vec3 heading; // unit: from its parent to it; sectors give one to roots too
+    Vec3 heading; // unit: from its parent to it; some rules give one to roots too
     Vec3 normal;  // unit
-    Vec3 side;    // normal x heading: with them the frame of the sectors
+    Vec3 side;    // normal x heading: with them the grower's frame
     Vec3 lean;    // w X_f + tropism + noise, for the rule that picks attractors by it
 } Grower;
 
-// What pulls a grower (or one sector of it). Fixed point, units of 1 / PULL_ONE.
+// What pulls a grower (or one bin of it: a sector, a direction). Fixed point, units of 1 /
+// PULL_ONE.
 typedef struct Pull {
     int64_t toward[3]; // sum of unit vectors to the attractors (E7)
     int64_t count;
     int64_t normal[3]; // sum of the attractors' normals, on surfaces
     int64_t height;    // sum of the heights of the node above the attractors' surface / influence
-    int64_t length;    // GROW_STRING: sum of the attractors' growth distances / the largest
-    uint64_t pick;     // GROW_SNAP: least (cost as float bits, attractor); UINT64_MAX = none
+    int64_t length;    // rule "string": sum of the attractors' growth distances / the largest
+    uint64_t pick;     // rule "snap": least (cost as float bits, attractor); UINT64_MAX = none
 } Pull;
 
 #define PULL_ONE 1073741824.0f // 2^30: a product with it only changes the exponent
 
 typedef struct Child {
     Vec3 position, normal;
-    int sector;
+    int bin; // that it grew from
 } Child;
+
+// Cosines and sines of the angle limits; a cosine of 2 (least) or -2 (most) = off.
+typedef struct AngleLimits {
+    float min_cos, min_sin, max_cos, max_sin; // between a child and its parent's direction
+    float cone_cos, cone_sin;                 // between a child and cone_axis
+    Vec3 cone_axis;                           // unit
+} AngleLimits;
 
 typedef struct Growth {
     OutTree *tree;
@@ -51,30 +58,22 @@ typedef struct Growth {
     int threads;
     int64_t initial_count; // nodes the tree began with: the type-0 points
     AttractorGrid grid;
-    SectorTable sectors;                      // GROW_SECTORS; else one sector
-    float min_cos, min_sin, max_cos, max_sin; // of the angle limits; max_cos = -2 when off
-    float cone_cos, cone_sin;                 // likewise
-    Vec3 cone_axis;                           // unit
-
-    float group_cos; // GROW_STRING: of half a group
-    float *length;   // GROW_STRING: growth distance of each attractor, m
-    float longest;   // m, of them
-    int32_t *place;  // GROW_STRING: per node, the direction of the string that it stands at
-    int64_t place_capacity;
+    AngleLimits limits;
+    const struct Rule *rule;
+    void *rule_state; // the rule's own; freed by Rule.end
+    int bins;         // pulls a grower: at most one child grows from each
 
     NodeState *state; // per node
     int64_t state_capacity;
     int32_t *slot; // per node: its place among the growers, -1
     int64_t slot_capacity;
-    uint64_t *used; // per node: bits of the sectors that have their child; GROW_SECTORS only
-    int64_t used_capacity;
     NodeBits changed;
 
     Grower *grower;
     int64_t grower_count, grower_capacity;
-    Pull *pull; // threads x growers x sectors; the first thread's end up as the sums
+    Pull *pull; // threads x growers x bins; the first thread's end up as the sums
     int64_t pull_capacity;
-    Child *child; // growers x sectors
+    Child *child; // growers x bins
     int64_t child_capacity;
     int32_t *child_count; // per grower
     int64_t child_count_capacity;
@@ -83,14 +82,14 @@ typedef struct Growth {
 } Growth;
 
 // Pulls are summed in parts (at most as many as the grid has slabs): part by part, each by one
-// thread, then all parts of a grower into part 0, growth->pull[grower * sectors + sector].
+// thread, then all parts of a grower into part 0, growth->pull[grower * bins + bin].
 void growth_sum_part(const Growth *growth, int part, int parts);
 void growth_merge_pulls(const Growth *growth, int64_t grower, int parts);
 
 // Fills in a grower whose node is set.
 void growth_prepare(const Growth *growth, Grower *grower);
 
-// Makes the children of a grower from its pulls (one a sector at most); returns how many.
+// Makes the children of a grower from its pulls (one a bin at most); returns how many.
 int growth_make_children(const Growth *growth, const Grower *grower, const Pull *pull,
                          Child *child);
 

@@ -1,6 +1,4 @@
-#include "grow/growth.h"
-
-#include <string.h>
+#include "grow/rule.h"
 
 static int64_t fixed(float x)
 {
@@ -24,53 +22,6 @@ static void add_surface(const Growth *growth, const Grower *grower, Vec3 offset,
     pull->height -= fixed(vec3_dot(offset, between) / growth->params->influence);
 }
 
-// The angle limits as a yes or no, for the rule that cannot turn a direction.
-static bool is_angle_allowed(const Growth *growth, const Grower *grower, Vec3 unit)
-{
-    if (!grower->has_heading) {
-        return true;
-    }
-    float cosine = vec3_dot(unit, grower->heading);
-    bool lateral = growth->state[grower->node].children > 0;
-    return cosine >= growth->max_cos && (!lateral || cosine <= growth->min_cos);
-}
-
-// Least cost wins: the distance, lengthened where it does not agree with the grower's lean.
-static void add_pick(const Growth *growth, const Grower *grower, Vec3 unit, float distance,
-                     int32_t attractor, Pull *pull)
-{
-    if (!is_angle_allowed(growth, grower, unit)) {
-        return;
-    }
-    Vec3 lean = grower->lean;
-    float cost = distance * (1.0f + vec3_length(lean) - vec3_dot(lean, unit));
-    cost = cost > 0.0f ? cost : 0.0f;
-    uint32_t bits;
-    memcpy(&bits, &cost, sizeof bits);
-    uint64_t key = (uint64_t)bits << 32 | (uint32_t)attractor;
-    pull->pick = key < pull->pick ? key : pull->pick;
-}
-
-// The direction of the string that owns an attractor: the nearest in angle, within half a group; -1
-// = none.
-static int find_direction(const Growth *growth, const Grower *grower, Vec3 unit)
-{
-    const GrowString *string = growth->params->string;
-    const GrowDirection *at = &string->direction[growth->place[grower->node]];
-    Vec3 local = vec3(vec3_dot(unit, grower->heading), vec3_dot(unit, grower->normal),
-                      vec3_dot(unit, grower->side));
-    float best = growth->group_cos;
-    int found = -1;
-    for (int i = 0; i < at->followers; i++) {
-        float cosine = vec3_dot(local, string->direction[at->first + i].heading);
-        if (cosine > best) {
-            best = cosine;
-            found = i;
-        }
-    }
-    return found;
-}
-
 static void add_attractor(const Growth *growth, const AttractorBlock *a, int lane,
                           int32_t attractor, Pull *pulls)
 {
@@ -82,27 +33,19 @@ static void add_attractor(const Growth *growth, const AttractorBlock *a, int lan
     Vec3 offset = vec3_sub(vec3(a->x[lane], a->y[lane], a->z[lane]), grower->position);
     float distance = sqrtf(a->best[lane]);
     Vec3 unit = vec3_scale(offset, 1.0f / distance);
-    Pull *pull = pulls + slot * growth->sectors.count;
-    if (growth->params->rule == GROW_SECTORS && grower->has_heading) {
-        Vec3 local = vec3(vec3_dot(unit, grower->heading), vec3_dot(unit, grower->normal),
-                          vec3_dot(unit, grower->side));
-        pull += sectors_find(&growth->sectors, local);
+    const Rule *rule = growth->rule;
+    int bin = rule->bin ? rule->bin(growth, grower, unit) : 0;
+    if (bin < 0) {
+        return;
     }
-    if (growth->params->rule == GROW_STRING) {
-        int direction = find_direction(growth, grower, unit);
-        if (direction < 0) {
-            return;
-        }
-        pull += direction;
-        pull->length += fixed(growth->length[attractor] / growth->longest);
-    }
+    Pull *pull = pulls + slot * growth->bins + bin;
     add_vector(pull->toward, unit);
     pull->count++;
     if (growth->params->on_surface) {
         add_surface(growth, grower, offset, growth->attractors->normal[attractor], pull);
     }
-    if (growth->params->rule == GROW_SNAP) {
-        add_pick(growth, grower, unit, distance, attractor, pull);
+    if (rule->pull) {
+        rule->pull(growth, grower, unit, distance, attractor, pull);
     }
 }
 
@@ -121,7 +64,7 @@ static void add_cell(const Growth *growth, int32_t cell, Pull *pulls)
 void growth_sum_part(const Growth *growth, int part, int parts)
 {
     const AttractorGrid *grid = &growth->grid;
-    int64_t count = growth->grower_count * growth->sectors.count;
+    int64_t count = growth->grower_count * growth->bins;
     Pull *pulls = growth->pull + part * count;
     for (int64_t i = 0; i < count; i++) {
         pulls[i] = (Pull){.pick = UINT64_MAX};
@@ -149,8 +92,8 @@ static void merge(Pull *sum, const Pull *part)
 
 void growth_merge_pulls(const Growth *growth, int64_t grower, int parts)
 {
-    int64_t sectors = growth->sectors.count, pulls = growth->grower_count * sectors;
-    for (int64_t i = grower * sectors; i < (grower + 1) * sectors; i++) {
+    int64_t bins = growth->bins, pulls = growth->grower_count * bins;
+    for (int64_t i = grower * bins; i < (grower + 1) * bins; i++) {
         for (int part = 1; part < parts; part++) {
             merge(&growth->pull[i], &growth->pull[part * pulls + i]);
         }
