@@ -4,13 +4,11 @@
 
 #include "scene/scene.h"
 
-enum { KEYS_MOST_NUMBERS = 16 };
-
 typedef struct Keys {
     Ease ease;
     bool loop;           // after the last key comes the first again, one whole time later
     int count;           // >= 1
-    int width;           // numbers a key, 1 .. KEYS_MOST_NUMBERS
+    int width;           // numbers a key, 1 .. SCENE_KEY_MOST_NUMBERS
     const double *at;    // count times, rising, in 0..1
     const double *value; // count * width
 } Keys;

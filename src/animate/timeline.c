@@ -19,7 +19,7 @@ struct Timeline {
 };
 
 // The numbers of a key: "3", "[1, 2]", "#rrggbb" as linear light. Their count; 0 = a word.
-static int read_numbers(const char *text, double numbers[KEYS_MOST_NUMBERS])
+static int read_numbers(const char *text, double numbers[SCENE_KEY_MOST_NUMBERS])
 {
     float rgb[3];
     if (scalar_color(text, rgb)) {
@@ -32,7 +32,7 @@ static int read_numbers(const char *text, double numbers[KEYS_MOST_NUMBERS])
         return scalar_number(text, numbers) ? 1 : 0;
     }
     int count = 0;
-    for (const char *at = text + 1; *at && count < KEYS_MOST_NUMBERS; count++) {
+    for (const char *at = text + 1; *at && count < SCENE_KEY_MOST_NUMBERS; count++) {
         char number[64];
         at += strspn(at, " ");
         size_t length = strcspn(at, ",]");
@@ -51,11 +51,11 @@ static int read_numbers(const char *text, double numbers[KEYS_MOST_NUMBERS])
 
 static bool fill_lane(Lane *lane, const SceneTrack *track, bool loop, Error *e)
 {
-    double numbers[KEYS_MOST_NUMBERS];
+    double numbers[SCENE_KEY_MOST_NUMBERS];
     int width = read_numbers(track->keys[0].value, numbers);
     lane->track = track;
     lane->times = memory_alloc(track->key_count, sizeof(double), e);
-    lane->value = memory_alloc((int64_t)track->key_count * KEYS_MOST_NUMBERS, sizeof(double), e);
+    lane->value = memory_alloc((int64_t)track->key_count * SCENE_KEY_MOST_NUMBERS, sizeof(double), e);
     if (!lane->times || !lane->value) {
         return false;
     }
@@ -113,7 +113,7 @@ bool timeline_add(const Timeline *timeline, double time, Changes *changes, Error
             change.value = track->keys[keys_step(&lane->keys, time)].value;
             done = changes_add(changes, &change, e);
         } else {
-            double value[KEYS_MOST_NUMBERS];
+            double value[SCENE_KEY_MOST_NUMBERS];
             keys_at(&lane->keys, time, value);
             done = changes_add_numbers(changes, &change, value, lane->keys.width, e);
         }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define BLOCK_SIZE 65536
+#define TEXT_A_VALUE 64 // bytes of text that count as one more value where aliases unfold
 
 typedef struct Block {
     struct Block *next;
@@ -131,7 +132,8 @@ const char *node_get_text(const Node *map, const char *key)
 
 Node *node_copy(Arena *arena, const Node *node, int *budget, Error *e)
 {
-    if (--*budget < 0) {
+    *budget -= 1 + (node->text ? (int)(strlen(node->text) / TEXT_A_VALUE) : 0);
+    if (*budget < 0) {
         error_set(e, ERROR_INPUT,
                   "the aliases of this file unfold to too much; at most a million values in all "
                   "are read");

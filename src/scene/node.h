@@ -52,8 +52,8 @@ Node *node_get(const Node *map, const char *key);
 // Text of a scalar child; NULL when there is none.
 const char *node_get_text(const Node *map, const char *key);
 
-// A copy of the whole tree below node. *budget is the number of nodes still allowed; running out
-// is ERROR_INPUT.
+// A copy of the whole tree below node. *budget is the number of nodes still allowed, where a long
+// text counts as several; running out is ERROR_INPUT.
 Node *node_copy(Arena *arena, const Node *node, int *budget, Error *e);
 
 // Takes child out of parent.

@@ -275,8 +275,26 @@ static Node *resolve_color(Resolver *r, const Key *row, const Node *given, const
     return resolver_number_list(r, values, 3);
 }
 
+// A list of numbers as one text, "[1, 2]".
+static const char *list_text(Resolver *r, const Node *list)
+{
+    size_t length = 3;
+    for (const Node *item = list->first; item; item = item->next) {
+        length += strlen(item->text) + 2;
+    }
+    char *text = arena_alloc(r->arena, length, r->e), *at = text;
+    for (const Node *item = list->first; text && item; item = item->next) {
+        at = stpcpy(at, item == list->first ? "[" : ", ");
+        at = stpcpy(at, item->text);
+    }
+    if (text) {
+        stpcpy(at, "]");
+    }
+    return text;
+}
+
 // A number, a word or a list of numbers, kept as it is written; loaded as text.
-static Node *resolve_any(Resolver *r, const Node *given, const char *name)
+static Node *resolve_any(Resolver *r, const Key *row, const Node *given, const char *name)
 {
     const char *right = "a number, a list of numbers, a colour or a word";
     if (given->kind == NODE_SCALAR && !node_is_null(given) && *given->text) {
@@ -289,9 +307,13 @@ static Node *resolve_any(Resolver *r, const Node *given, const char *name)
     if (given->kind != NODE_LIST || given->count == 0) {
         return wrong_type(r, given, name, right);
     }
+    if (given->count > row->count) {
+        resolver_fail(r, given, "%s has %d numbers; it must have at most %d", name, given->count,
+                      row->count);
+        return NULL;
+    }
     Node *list = node_new(r->arena, NODE_LIST, r->e);
-    const char *text = "[";
-    for (const Node *item = given->first; list && text && item; item = item->next) {
+    for (const Node *item = given->first; list && item; item = item->next) {
         double value;
         if (item->kind != NODE_SCALAR || !is_plain(item) || !scalar_number(item->text, &value)) {
             return wrong_type(r, item, name, right);
@@ -301,13 +323,11 @@ static Node *resolve_any(Resolver *r, const Node *given, const char *name)
             return NULL;
         }
         node_append(list, copy, NULL);
-        text = arena_format(r->arena, r->e, "%s%s%s", text, item->text, item->next ? ", " : "]");
     }
-    if (!list || !text) {
-        return NULL;
+    if (list) {
+        list->resolved = list_text(r, list);
     }
-    list->resolved = text;
-    return list;
+    return list && list->resolved ? list : NULL;
 }
 
 Node *resolve_value(Resolver *r, const Key *row, const Node *given, const Path *up)
@@ -335,7 +355,7 @@ Node *resolve_value(Resolver *r, const Key *row, const Node *given, const Path *
     case KEY_COLOR:
         return resolve_color(r, row, given, name);
     case KEY_ANY:
-        return resolve_any(r, given, name);
+        return resolve_any(r, row, given, name);
     default:
         error_set(r->e, ERROR_INTERNAL, "key '%s' has no values of its own", row->key);
         return NULL;

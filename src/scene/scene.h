@@ -96,6 +96,8 @@ typedef enum Ease {
     EASE_SPLINE  // a smooth curve through the keys that never overshoots them
 } Ease;
 
+enum { SCENE_KEY_MOST_NUMBERS = 16 }; // more than any value of a scene has
+
 typedef struct SceneKey {
     double at;   // 0..1, share of the animation
     char *value; // YAML: a number, a list of numbers, a colour, a word

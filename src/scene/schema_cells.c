@@ -130,7 +130,7 @@ void schema_put_value(SchemaText *s, const Outline *o, const Key *row)
         schema_put(s, "text");
         break;
     case KEY_ANY:
-        schema_put(s, "number, word or list of numbers");
+        schema_put(s, "number, word or list of at most %d numbers", row->count);
         break;
     case KEY_FILE:
         schema_put(s, "file");

@@ -157,7 +157,8 @@ static void put_key(Writer *w, const Table *table, const Key *row, const char *b
         break;
     case KEY_ANY:
         put(w, ", \"type\": [\"number\", \"boolean\", \"string\", \"array\"], "
-               "\"items\": {\"type\": \"number\"}");
+               "\"items\": {\"type\": \"number\"}, \"maxItems\": %d",
+            row->count);
         break;
     case KEY_GROUP:
         put(w, ", ");

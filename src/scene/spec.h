@@ -49,7 +49,7 @@ typedef struct Key {
     const struct Table *table;   // of groups, pointers and lists
     const char *unit;
     const char *doc;
-    int count;      // components of a vector; most entries of a list; size of a name
+    int count;      // components of a vector; most entries of a list or of KEY_ANY; size of a name
     unsigned kinds; // bits of the kinds (see Table.kind_key) that have this key; 0 = all
 } Key;
 

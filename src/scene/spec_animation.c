@@ -12,6 +12,7 @@ static const Key KEY_KEYS[] = {
     {KEY_OF(SceneKey, at, "at", KEY_DOUBLE), .flags = KEY_REQUIRED, .high = 1,
      .doc = "When: 0 = the animation's beginning, 1 = its end."},
     {KEY_OF(SceneKey, value, "value", KEY_ANY), .flags = KEY_REQUIRED,
+     .count = SCENE_KEY_MOST_NUMBERS,
      .doc = "The value at that time: a number, a list of numbers, a colour or a word."},
     {0},
 };

@@ -2,6 +2,7 @@
 #include "mutate.h"
 #include "testing.h"
 
+#include "base/memory.h"
 #include "scene/scene.h"
 
 #include <stdio.h>
@@ -162,9 +163,28 @@ static void refuses_size(void **state)
     refuses_repeated("objects: ", "!t ", 1000, "x", NULL);
 }
 
+// Peak memory of this process must not grow with the square of a list's length, nor with a text
+// times its aliases.
+static void refuses_long_values_in_little_memory(void **state)
+{
+    (void)state;
+    static const char before[] = "objects: [{name: a, ground: {}}]\n"
+                                 "animation: {tracks: [{path: camera.fov, keys: [{at: 0, value: [";
+    int64_t peak = memory_peak();
+    refuses_repeated(before, "1,", 60000, "2]}]}]}", "60001 numbers; it must have at most 16");
+    char *word = repeat("x: &w \"", "w", 100000, "\"\ny: [");
+    refuses_repeated(word, "*w,", 10000, "]", "a million values");
+    free(word);
+    int64_t grown = (memory_peak() - peak) >> 20;
+    if (grown > 1000) {
+        fail_msg("%lld MB to refuse 120 kB", (long long)grown);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(refuses_long_values_in_little_memory), // first: it watches the peak
         cmocka_unit_test(survives_broken_copies),
         cmocka_unit_test(refuses_depth),
         cmocka_unit_test(refuses_bombs),
