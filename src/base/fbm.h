@@ -1,6 +1,7 @@
-// Fractional Brownian motion (Mandelbrot and Van Ness 1968; Tanaka et al., eq. (14); J 17): the
-// Gaussian process with B(0) = 0 and covariance E B(s) B(t) = (s^2H + t^2H - |s - t|^2H) / 2, drawn
-// exactly at the integers by circulant embedding (Davies and Harte 1987) in O(n log n).
+// Fractional Brownian motion (Mandelbrot and Van Ness 1968; Tanaka et al., eq. (14); Tanaka report
+// eq. (17)): the Gaussian process with B(0) = 0 and covariance E B(s) B(t) = (s^2H + t^2H - |s -
+// t|^2H) / 2, drawn exactly at the integers by circulant embedding (Davies and Harte 1987) in O(n
+// log n).
 #ifndef RAMIFY_BASE_FBM_H
 #define RAMIFY_BASE_FBM_H
 

@@ -17,7 +17,8 @@ typedef enum FieldKind {
     FIELD_VORTEX,  // about the axis `vector` through `center`
     FIELD_NUCLEI,  // the papers': away from the nearest initial node, turned about the normal by
                    // `turn`
-    FIELD_GRID,    // FIELD_NUCLEI sampled on a sparse voxel grid, trilinear between voxels (E 4.4)
+    FIELD_GRID,    // FIELD_NUCLEI sampled on a sparse voxel grid, trilinear between voxels
+                   // (Tanaka 4.4)
     FIELD_CURL,    // direction of divergence-free noise of wavelength `scale`
     FIELD_POINT    // control point: along `vector` at `center`, falling to 0 at distance `scale`
 } FieldKind;

@@ -39,8 +39,8 @@ static Vec3 space_noise(Vec3 p, uint64_t key)
     return vec3_scale(sum, 1.0f / sqrtf(squares));
 }
 
-// w X_f + tropism + noise: what bends the unit pull (E13 in the steering form). The noise is named
-// by the child it is for.
+// w X_f + tropism + noise: what bends the unit pull (Tanaka eq. (13) in the steering form). The
+// noise is named by the child it is for.
 static Vec3 lean_of(const Growth *growth, const Grower *grower, uint64_t child_id)
 {
     const ColonizeParams *p = growth->params;
@@ -181,7 +181,8 @@ Vec3 growth_add_field(const Growth *growth, const Grower *grower, Vec3 p)
         return p;
     }
     Vec3 x = guide_field_at(params->field, grower->position, grower->normal);
-    return vec3_madd(p, params->step * params->field_weight, x); // E13, X_f scaled by the step
+    return vec3_madd(p, params->step * params->field_weight,
+                     x); // Tanaka eq. (13), X_f scaled by the step
 }
 
 bool growth_make_child(const Growth *growth, const Grower *grower, const Pull *pull,

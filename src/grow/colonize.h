@@ -10,17 +10,17 @@
 #include "tree/out_tree.h"
 
 typedef enum GrowRule {
-    GROW_MEAN,    // one child a step along the mean pull (E6-7)
-    GROW_SNAP,    // the nearest reached attractor itself becomes the node (E fig. 5-6, J 3.3); what
+    GROW_MEAN,    // one child a step along the mean pull (Tanaka eq. (6)-(7))
+    GROW_SNAP,    // the nearest reached attractor itself becomes the node (Tanaka fig. 5-6); what
                   // bends the other rules' directions makes attractors that way count as nearer
     GROW_SECTORS, // pulls binned by angle about the heading; at most one child a sector, ever
     GROW_STRING // directions that an L-system string picks; each owns the attractors nearest to it
-                // in angle, within half a group (the coral paper, steps a-f)
+                // in angle, within half a group (Horiuchi, steps a to f)
 } GrowRule;
 
 typedef enum FieldMode {
     FIELD_STEER,   // direction normalize(n + w X_f); step stays exact
-    FIELD_ADDITIVE // E13 as printed, X_f scaled by the step
+    FIELD_ADDITIVE // Tanaka eq. (13) as printed, X_f scaled by the step
 } FieldMode;
 
 // Lengths in metres; colonize_auto fills them in from multiples of the attractors' spacing.
@@ -45,7 +45,7 @@ typedef struct ColonizeParams {
     FieldMode field_mode;
     bool on_surface; // growth on a surface: directions are kept in the tangent plane of the nearest
                      // attractors' normals
-    float sector_angle; // degrees a sector (GROW_SECTORS) or group (GROW_STRING), 60 in the paper
+    float sector_angle; // degrees a sector (GROW_SECTORS) or group (GROW_STRING), 60 in Horiuchi
     bool sector_axis;   // GROW_SECTORS: grow along the sector's axis instead of its mean
     int max_order;      // orders of branching: sides of sides ...; 0 = no limit. What continues its
                         // parent (first child; GROW_SECTORS: forward sector) keeps its order; a
@@ -53,7 +53,7 @@ typedef struct ColonizeParams {
     bool new_orders;    // orders count from the nodes there are at first, all of which have order 0
     const GrowString *string; // GROW_STRING: a node without children stands at its start
     float regularity; // GROW_STRING: share of the string's own direction in a child's; 0 = the mean
-                      // of what the direction owns, as in the paper
+                      // of what the direction owns, as in Horiuchi
     float length_near, length_far; // GROW_STRING, m: growth distance of the attractors next to
                                    // their root and of the farthest; 0 = step
     float apical; // apical dominance 0..1: probability that a lateral child is suppressed

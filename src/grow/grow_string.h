@@ -1,4 +1,4 @@
-// What an L-system string means to growth (the coral paper, step b): each F is a direction in which
+// What an L-system string means to growth (Horiuchi, step b): each F is a direction in which
 // a node may grow, + - & ^ \ / | turn it, [ ] branch. The string as a tree of directions: a node
 // that stands at an F may grow into the F's that follow it.
 #ifndef RAMIFY_GROW_GROW_STRING_H

@@ -29,7 +29,7 @@ typedef struct Grower {
 // What pulls a grower (or one bin of it: a sector, a direction). Fixed point, units of 1 /
 // PULL_ONE.
 typedef struct Pull {
-    int64_t toward[3]; // sum of unit vectors to the attractors (E7)
+    int64_t toward[3]; // sum of unit vectors to the attractors (Tanaka eq. (7))
     int64_t count;
     int64_t normal[3]; // sum of the attractors' normals, on surfaces
     int64_t height;    // sum of the heights of the node above the attractors' surface / influence

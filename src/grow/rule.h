@@ -58,7 +58,8 @@ typedef bool MakeChild(const Growth *growth, const Grower *grower, const Pull *p
 int growth_make_single(const Growth *growth, const Grower *grower, const Pull *pull, Child *child,
                        MakeChild *make);
 
-// The additive form of the field (E13), where it is in force: p moved by the scaled X_f.
+// The additive form of the field (Tanaka eq. (13)), where it is in force: p moved by the scaled
+// X_f.
 Vec3 growth_add_field(const Growth *growth, const Grower *grower, Vec3 p);
 
 // Does apical dominance keep a lateral child from growing? The same whenever it is asked.

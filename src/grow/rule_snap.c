@@ -1,4 +1,4 @@
-// The reached attractor itself becomes the node (Tanaka et al., figures 5 and 6).
+// The reached attractor itself becomes the node (Tanaka figures 5 and 6).
 #include "grow/rule.h"
 
 #include <string.h>

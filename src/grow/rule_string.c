@@ -1,5 +1,5 @@
-// Directions that an L-system string picks; each owns the attractors nearest to it in angle (the
-// coral paper, steps a-f).
+// Directions that an L-system string picks; each owns the attractors nearest to it in angle
+// (Horiuchi, steps a to f).
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "grow/rule.h"

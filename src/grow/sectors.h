@@ -1,4 +1,4 @@
-// Sectors: directions about a heading, binned by angle (the coral papers' six groups of 60 degrees;
+// Sectors: directions about a heading, binned by angle (Horiuchi's six groups of 60 degrees;
 // any angle here). On a surface they lie in the tangent plane, in space on rings of polar angle.
 #ifndef RAMIFY_GROW_SECTORS_H
 #define RAMIFY_GROW_SECTORS_H

@@ -65,7 +65,8 @@ int64_t element_attractors(const ElementParams *element)
     return sum;
 }
 
-// The guide field about the roots of the tree so far, its nuclei (Tanaka et al., eq. (9); J 3.7.3).
+// The guide field about the roots of the tree so far, its nuclei (Tanaka eq. (9); Tanaka
+// report 3.7.3).
 static GuideField *element_field(const OutTree *tree, const ElementParams *element,
                                  const Envelope *envelope, uint64_t seed, const Run *run, Error *e)
 {

@@ -72,7 +72,7 @@ static GuideField *make_field(const OutTree *tree, const FrostParams *params,
     return guide_field_new(&field, 1, tree->position, tree->normal, tree->count, bounds, run, e);
 }
 
-// The spines: the papers' plain growth, steered by the turned field (E9-E13).
+// The spines: the papers' plain growth, steered by the turned field (Tanaka eq. (9)-(13)).
 static bool grow_spines(OutTree *tree, const FrostParams *params, const Recipe *recipe, Error *e)
 {
     PointSet *points = frost_points(params, params->spines, random_key(recipe->seed, 2), e);

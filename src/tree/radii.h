@@ -11,8 +11,8 @@
 // evenly from root_radius to tip_radius. exponent and tip_radius > 0.
 void out_tree_pipe_radii(OutTree *tree, float exponent, float tip_radius, float root_radius);
 
-// By birth (E 5.1): radius falls from root_radius at the oldest node to tip_radius at the youngest,
-// and never grows from parent to child.
+// By birth (Tanaka 5.1): radius falls from root_radius at the oldest node to tip_radius at the
+// youngest, and never grows from parent to child.
 void out_tree_birth_radii(OutTree *tree, float tip_radius, float root_radius);
 
 // Swells radii near the ground: r *= 1 + flare (1 - d / height)^2, where d is the distance (m)
