@@ -454,15 +454,17 @@ typedef struct RamifyRenderInfo {
     int64_t paths, rays;
     int64_t bytes;   // held by the renderer
     double seconds;  // of tracing
-    int32_t samples; // taken a pixel, the least over all pixels
+    int32_t samples; // taken a pixel, the least over all pixels; 0 = some have none
 } RamifyRenderInfo;
 
 // Called after every pass over the picture (1, 2, 4, ... samples) with the film so far.
 typedef void (*RamifyPass)(void *user, const RamifyFilm *film, int samples);
 
 // Renders into a film of the scene's size; what was in it is replaced, but for pixels outside the
-// crop. pass may be NULL and is called with user. Cancelled or out of time it leaves a whole
-// picture of fewer samples and returns true; info->samples tells. info and run may be NULL.
+// crop. pass may be NULL and is called with user. Out of time it leaves a whole picture of fewer
+// samples and returns true; info->samples tells. Cancelled it does so too, at once: 0 samples means
+// that some pixels were not reached and are black and transparent, and where none was reached it
+// fails with RAMIFY_CANCELLED. info and run may be NULL.
 RAMIFY_API bool ramify_renderer_render(RamifyRenderer *renderer, RamifyFilm *film, RamifyPass pass,
                                        void *user, const RamifyRun *run, RamifyRenderInfo *info,
                                        RamifyError *error);

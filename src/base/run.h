@@ -31,6 +31,13 @@ static inline bool run_is_cancelled(const Run *run)
 // Fills e with ERROR_CANCELLED and returns false.
 bool run_cancel_error(Error *e);
 
+// For loops over as many things as a user asks for: false and ERROR_CANCELLED when the user
+// interrupts. Looks only every 1024 turns, which costs next to nothing.
+static inline bool run_goes_on(const Run *run, int64_t turn, Error *e)
+{
+    return (turn & 1023) != 0 || !run_is_cancelled(run) || run_cancel_error(e);
+}
+
 static inline void run_progress(const Run *run, const char *stage, double done)
 {
     if (run->progress) {

@@ -143,9 +143,13 @@ static bool write_pictures(Job *job, const RamifyFilm *film, const RamifyRun *ru
     double start = clock_seconds();
     RamifyRun patient = *run; // an interrupted picture is still to be written
     patient.cancelled = NULL;
-    bool denoise = job->info.denoise && !*run->cancelled;
-    bool done = ramify_film_write(film, job->scene, job->outputs->display, denoise, &patient, e) &&
-                ramify_film_write(film, job->scene, job->outputs->exr, false, &patient, e);
+    bool cut_short = *run->cancelled; // before, and not while this writes
+    bool done = ramify_film_write(film, job->scene, job->outputs->display, job->info.denoise,
+                                  cut_short ? &patient : run, e);
+    if (!done && !cut_short && *run->cancelled) { // while it was denoised: as it is, then
+        done = ramify_film_write(film, job->scene, job->outputs->display, false, &patient, e);
+    }
+    done = done && ramify_film_write(film, job->scene, job->outputs->exr, false, &patient, e);
     job->write += clock_seconds() - start;
     return done;
 }
@@ -174,8 +178,12 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
     ramify_film_free(film);
     ramify_world_free(world);
     if (done && *run.cancelled) {
-        return fail(e, RAMIFY_CANCELLED, "interrupted; %s has %d samples a pixel", outputs->display,
-                    job.render.samples);
+        return job.render.samples > 0
+                   ? fail(e, RAMIFY_CANCELLED, "interrupted; %s has %d samples a pixel",
+                          outputs->display, job.render.samples)
+                   : fail(e, RAMIFY_CANCELLED,
+                          "interrupted in the first pass; %s is whole only in part",
+                          outputs->display);
     }
     return done;
 }

@@ -59,17 +59,19 @@ static void block_of(const FieldGrid *grid, int64_t b, int block[3])
     block[0] = (int)(b / grid->blocks[2] / grid->blocks[1]);
 }
 
-static void sample_corners(FieldGrid *grid, FieldFunction *f, const void *context, const Run *run)
+static bool sample_corners(FieldGrid *grid, FieldFunction *f, const void *context, const Run *run,
+                           Error *e)
 {
 #pragma omp parallel for schedule(static) num_threads(run->threads)
     for (int x = 0; x <= grid->blocks[0]; x++) {
-        for (int y = 0; y <= grid->blocks[1]; y++) {
+        for (int y = 0; y <= grid->blocks[1] && !run_is_cancelled(run); y++) {
             for (int z = 0; z <= grid->blocks[2]; z++) {
                 grid->corner[corner_index(grid, x, y, z)] =
                     f(context, voxel_position(grid, x * BLOCK, y * BLOCK, z * BLOCK));
             }
         }
     }
+    return !run_is_cancelled(run) || run_cancel_error(e);
 }
 
 // First which blocks need a leaf, then their numbers, then their values: the same layout for any
@@ -82,8 +84,14 @@ static bool sample_leaves(FieldGrid *grid, FieldFunction *f, const void *context
     for (int64_t b = 0; b < blocks; b++) {
         int block[3];
         Vec3 value[LEAF];
+        if (run_is_cancelled(run)) {
+            continue;
+        }
         block_of(grid, b, block);
         grid->leaf[b] = sample_leaf(grid, f, context, block, value) ? -1 : 0;
+    }
+    if (run_is_cancelled(run)) {
+        return run_cancel_error(e);
     }
     for (int64_t b = 0; b < blocks; b++) {
         grid->leaf[b] = grid->leaf[b] < 0 ? -1 : (int32_t)grid->leaf_count++;
@@ -94,13 +102,13 @@ static bool sample_leaves(FieldGrid *grid, FieldFunction *f, const void *context
     }
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
     for (int64_t b = 0; b < blocks; b++) {
-        if (grid->leaf[b] >= 0) {
+        if (grid->leaf[b] >= 0 && !run_is_cancelled(run)) {
             int block[3];
             block_of(grid, b, block);
             sample_leaf(grid, f, context, block, grid->value + (int64_t)grid->leaf[b] * LEAF);
         }
     }
-    return true;
+    return !run_is_cancelled(run) || run_cancel_error(e);
 }
 
 bool field_grid_init(FieldGrid *grid, FieldFunction *f, const void *context, Aabb bounds,
@@ -129,8 +137,7 @@ bool field_grid_init(FieldGrid *grid, FieldFunction *f, const void *context, Aab
     if (!grid->corner || !grid->leaf) {
         return false;
     }
-    sample_corners(grid, f, context, run);
-    return sample_leaves(grid, f, context, run, e);
+    return sample_corners(grid, f, context, run, e) && sample_leaves(grid, f, context, run, e);
 }
 
 void field_grid_free(FieldGrid *grid)

@@ -38,10 +38,13 @@ static int64_t cell_of(const AttractorGrid *grid, Vec3 p)
            attractor_grid_cell_along(grid, 2, p.z - grid->low.z);
 }
 
-static bool bounds_of(const PointSet *points, Aabb *box, Error *e)
+static bool bounds_of(const PointSet *points, Aabb *box, const Run *run, Error *e)
 {
     *box = aabb_empty();
     for (int64_t i = 0; i < points->count; i++) {
+        if (!run_goes_on(run, i, e)) {
+            return false;
+        }
         if (!vec3_finite(points->position[i])) {
             return error_set(e, ERROR_INPUT, "attractor %lld is not a finite position",
                              (long long)i);
@@ -133,13 +136,13 @@ static void clear_block(AttractorBlock *block)
 }
 
 // Sorts the points into their cells, in order of their index.
-static bool fill_cells(AttractorGrid *grid, const PointSet *points, int threads, Error *e)
+static bool fill_cells(AttractorGrid *grid, const PointSet *points, const Run *run, Error *e)
 {
     int32_t *cell = memory_alloc(points->count, sizeof *cell, e);
     if (!cell) {
         return false;
     }
-    count_cells(grid, points, threads, cell);
+    count_cells(grid, points, run->threads, cell);
     int64_t blocks = place_blocks(grid);
     grid->block = alloc_table(blocks, sizeof *grid->block, e);
     grid->source = alloc_table(blocks * BLOCK_LANES, sizeof *grid->source, e);
@@ -147,11 +150,13 @@ static bool fill_cells(AttractorGrid *grid, const PointSet *points, int threads,
         free(cell);
         return false;
     }
-#pragma omp parallel for schedule(static) num_threads(threads)
+#pragma omp parallel for schedule(static) num_threads(run->threads)
     for (int64_t b = 0; b < blocks; b++) {
-        clear_block(&grid->block[b]);
+        if (!run_is_cancelled(run)) {
+            clear_block(&grid->block[b]);
+        }
     }
-    for (int64_t i = 0; i < points->count; i++) {
+    for (int64_t i = 0; i < points->count && run_goes_on(run, i, NULL); i++) {
         int32_t place = grid->cells[cell[i]].count++;
         int64_t b = grid->cells[cell[i]].first_block + place / BLOCK_LANES;
         int lane = place % BLOCK_LANES;
@@ -162,15 +167,15 @@ static bool fill_cells(AttractorGrid *grid, const PointSet *points, int threads,
         grid->source[b * BLOCK_LANES + lane] = (int32_t)i;
     }
     free(cell);
-    return true;
+    return !run_is_cancelled(run) || run_cancel_error(e);
 }
 
 bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reach, float kill,
-                         int threads, Error *e)
+                         const Run *run, Error *e)
 {
     *grid = (AttractorGrid){.reach = reach, .reach2 = reach * reach, .kill2 = kill * kill};
     Aabb box;
-    if (!bounds_of(points, &box, e)) {
+    if (!bounds_of(points, &box, run, e)) {
         return false;
     }
     grid->alive = points->count;
@@ -185,7 +190,7 @@ bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reac
     grid->gap2 = memory_alloc((int64_t)ATTRACTOR_MAX_SLABS * (grid->size[2] + BLOCK_LANES),
                               sizeof *grid->gap2, e);
     return grid->work && grid->gap2 && grid->cells && grid->furthest && grid->touched &&
-           grid->active && fill_cells(grid, points, threads, e);
+           grid->active && fill_cells(grid, points, run, e);
 }
 
 void attractor_grid_free(AttractorGrid *grid)

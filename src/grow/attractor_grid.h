@@ -61,7 +61,7 @@ typedef struct NodeBits {
 // reach: influence radius R_m, kill: D_k, m. ERROR_INPUT names the first attractor that is not
 // finite.
 bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reach, float kill,
-                         int threads, Error *e);
+                         const Run *run, Error *e);
 void attractor_grid_free(AttractorGrid *grid);
 
 // The cell along an axis of a point at this offset from the grid's low corner, m; clamped.
@@ -70,7 +70,8 @@ int attractor_grid_cell_along(const AttractorGrid *grid, int axis, float offset)
 // Takes nodes first..tree->count-1 into account: updates the nearest nodes, removes attractors
 // closer than kill to any node, and sets in `changed` the bits of all nodes that gained or lost a
 // living attractor. The same result for any number of threads; ties go to the lowest node index.
-void attractor_grid_update(AttractorGrid *grid, const OutTree *tree, int64_t first, int threads,
-                           const NodeBits *changed);
+// Interrupted (ask run), it stops in the midst of it and the grid is of no more use.
+void attractor_grid_update(AttractorGrid *grid, const OutTree *tree, int64_t first, const Run *run,
+                           int threads, const NodeBits *changed);
 
 #endif

@@ -242,13 +242,13 @@ static void plan_slabs(AttractorGrid *grid, const OutTree *tree, int64_t first, 
 }
 
 static int64_t update_slab(AttractorGrid *grid, Slab *slab, const OutTree *tree, int64_t first,
-                           const NodeBits *changed)
+                           const Run *run, const NodeBits *changed)
 {
-    for (int64_t k = first; k < tree->count; k++) {
+    for (int64_t k = first; k < tree->count && run_goes_on(run, k, NULL); k++) {
         offer_node(grid, slab, tree->position[k], (int32_t)k);
     }
     int64_t removed = 0;
-    for (int64_t i = 0; i < slab->touched_count; i++) {
+    for (int64_t i = 0; i < slab->touched_count && run_goes_on(run, i, NULL); i++) {
         removed += settle_cell(grid, slab->touched[i], changed);
     }
     return removed;
@@ -270,8 +270,8 @@ static void drop_idle_cells(AttractorGrid *grid)
     grid->idle_count = 0;
 }
 
-void attractor_grid_update(AttractorGrid *grid, const OutTree *tree, int64_t first, int threads,
-                           const NodeBits *changed)
+void attractor_grid_update(AttractorGrid *grid, const OutTree *tree, int64_t first, const Run *run,
+                           int threads, const NodeBits *changed)
 {
     bool shared = threads > 1 && tree->count - first >= LEAST_SHARED;
     plan_slabs(grid, tree, first, shared ? threads : 1);
@@ -282,7 +282,7 @@ void attractor_grid_update(AttractorGrid *grid, const OutTree *tree, int64_t fir
         Slab slab = {.begin = s > 0 ? grid->slab_end[s - 1] : 0, .end = grid->slab_end[s]};
         slab.touched = grid->touched + slab.begin * slice;
         slab.gap2 = grid->gap2 + (int64_t)s * row;
-        removed += update_slab(grid, &slab, tree, first, changed);
+        removed += update_slab(grid, &slab, tree, first, run, changed);
     }
     grid->alive -= removed;
     drop_idle_cells(grid);

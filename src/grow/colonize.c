@@ -273,7 +273,11 @@ static bool grow(Growth *growth, const Run *run, GrowReport *report, Error *e)
     int64_t seen = 0;
     bool full = false;
     for (;;) {
-        attractor_grid_update(&growth->grid, growth->tree, seen, growth->threads, &growth->changed);
+        attractor_grid_update(&growth->grid, growth->tree, seen, run, growth->threads,
+                              &growth->changed);
+        if (run_is_cancelled(run)) {
+            return run_cancel_error(e);
+        }
         seen = growth->tree->count;
         if (report->steps == 0) {
             check_reach(growth, run, report);
@@ -282,15 +286,15 @@ static bool grow(Growth *growth, const Run *run, GrowReport *report, Error *e)
             report->stop = full ? STOP_MAX_NODES : STOP_MAX_STEPS;
             return true;
         }
-        if (run_is_cancelled(run)) {
-            return run_cancel_error(e);
-        }
         run_progress(run, "grow", 1.0 - (double)growth->grid.alive / attractors);
         drop_fruitless(growth);
         if (!choose_growers(growth, e)) {
             return false;
         }
         make_children(growth);
+        if (run_is_cancelled(run)) {
+            return run_cancel_error(e);
+        }
         int64_t birth = params->first_step + report->steps + 1;
         if (!add_children(growth, (int32_t)birth, &full, e)) {
             return false;
@@ -333,7 +337,7 @@ static bool prepare(Growth *growth, Error *e)
     return begin(growth, e) &&
            (growth->attractors->count == 0 ||
             attractor_grid_init(&growth->grid, growth->attractors, params->influence, params->kill,
-                                growth->threads, e));
+                                growth->run, e));
 }
 
 static const Rule *rule_of(GrowRule rule)
@@ -359,6 +363,7 @@ bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *p
                      .params = params,
                      .rule = rule_of(params->rule),
                      .initial_count = tree->count,
+                     .run = run,
                      .threads = clamp_threads(run->threads)};
     int64_t before = tree->count;
     bool grown = prepare(&growth, e);

@@ -55,6 +55,7 @@ typedef struct Growth {
     OutTree *tree;
     const PointSet *attractors;
     const ColonizeParams *params;
+    const Run *run;
     int threads;
     int64_t initial_count; // nodes the tree began with: the type-0 points
     AttractorGrid grid;

@@ -71,7 +71,7 @@ void growth_sum_part(const Growth *growth, int part, int parts)
     }
     int begin = part > 0 ? grid->slab_end[part - 1] : 0;
     int end = part < parts - 1 ? grid->slab_end[part] : INT32_MAX;
-    for (int64_t i = 0; i < grid->active_count; i++) {
+    for (int64_t i = 0; i < grid->active_count && run_goes_on(growth->run, i, NULL); i++) {
         if (grid->active[i].slice >= begin && grid->active[i].slice < end) {
             add_cell(growth, grid->active[i].cell, pulls);
         }

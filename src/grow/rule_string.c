@@ -35,6 +35,9 @@ static void set_lengths(const Growth *growth, State *state, float near, float fa
     int64_t count = growth->attractors->count;
     float furthest = 0.0f;
     for (int64_t i = 0; i < count; i++) {
+        if (!run_goes_on(growth->run, i, e)) {
+            return false;
+        }
         state->length[i] = distance_to_root(growth, i);
         furthest = state->length[i] > furthest ? state->length[i] : furthest;
     }

@@ -93,13 +93,17 @@ static void bake_instance(Mesh *out, const Part *part, int64_t instance)
     }
 }
 
-Mesh *geometry_bake(const Part *part, Error *e)
+Mesh *geometry_bake(const Part *part, const Run *run, Error *e)
 {
     const Mesh *mesh = part->mesh;
     int64_t count = part->instance_count;
     Mesh *out = mesh_new(mesh->face_size, count * mesh->vertex_count, count * mesh->face_count,
                          (mesh->normal ? MESH_NORMAL : 0) | (mesh->uv ? MESH_UV : 0), e);
     for (int64_t i = 0; out && i < count; i++) {
+        if (!run_goes_on(run, i, e)) {
+            mesh_free(out);
+            return NULL;
+        }
         bake_instance(out, part, i);
     }
     return out;

@@ -5,6 +5,7 @@
 
 #include "base/mesh.h"
 #include "base/random.h"
+#include "base/run.h"
 #include "mesh/curves.h"
 
 typedef enum PartKind { PART_MESH, PART_CURVES } PartKind;
@@ -40,7 +41,7 @@ void geometry_clear(Geometry *geometry); // frees the parts, leaves an empty Geo
 
 // The part's mesh copied to every instance's place, as one mesh: cheaper to trace than instances
 // where they are many, small and far away, and instances of it are possible again.
-Mesh *geometry_bake(const Part *part, Error *e);
+Mesh *geometry_bake(const Part *part, const Run *run, Error *e);
 
 typedef struct GeometryCounts {
     int64_t triangles; // stored once; a quad counts as two

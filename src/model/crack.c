@@ -104,11 +104,14 @@ static void add_sheets(Crack *crack, Vec3 a, Vec3 b)
     }
 }
 
-static bool list_sheets(Crack *crack, Error *e)
+static bool list_sheets(Crack *crack, const Run *run, Error *e)
 {
     int64_t cells = crack->size[0] * crack->size[1] * crack->size[2], count = 0;
     float reach = crack->params.known + 0.8660255f * crack->cell;
     for (int64_t c = 0; c < cells; c++) {
+        if (run_is_cancelled(run)) {
+            return run_cancel_error(e);
+        }
         crack->first[c] = count;
         int64_t z = c % crack->size[2], row = c / crack->size[2];
         int64_t y = row % crack->size[1], x = row / crack->size[1];
@@ -129,7 +132,7 @@ static bool list_sheets(Crack *crack, Error *e)
     return true;
 }
 
-static bool crack_fill(Crack *crack, const OutTree *network, Aabb box, Error *e)
+static bool crack_fill(Crack *crack, const OutTree *network, Aabb box, const Run *run, Error *e)
 {
     float margin = 2.0f * crack->params.roughness; // displaced points stay in the grid
     crack->low = vec3_sub(box.low, vec3_splat(margin));
@@ -150,17 +153,18 @@ static bool crack_fill(Crack *crack, const OutTree *network, Aabb box, Error *e)
             add_sheets(crack, network->position[network->parent[i]], network->position[i]);
         }
     }
-    return list_sheets(crack, e);
+    return list_sheets(crack, run, e);
 }
 
-Crack *crack_new(const OutTree *network, const CrackParams *params, Aabb box, Error *e)
+Crack *crack_new(const OutTree *network, const CrackParams *params, Aabb box, const Run *run,
+                 Error *e)
 {
     Crack *crack = memory_alloc_zero(1, sizeof *crack, e);
     if (!crack) {
         return NULL;
     }
     crack->params = *params;
-    if (!crack_fill(crack, network, box, e)) {
+    if (!crack_fill(crack, network, box, run, e)) {
         crack_free(crack);
         return NULL;
     }

@@ -4,6 +4,7 @@
 #define RAMIFY_MODEL_CRACK_H
 
 #include "base/error.h"
+#include "base/run.h"
 #include "tree/out_tree.h"
 
 typedef struct CrackParams {
@@ -19,7 +20,8 @@ typedef struct CrackParams {
 typedef struct Crack Crack;
 
 // The sheets of all bars of the network, for points within the box.
-Crack *crack_new(const OutTree *network, const CrackParams *params, Aabb box, Error *e);
+Crack *crack_new(const OutTree *network, const CrackParams *params, Aabb box, const Run *run,
+                 Error *e);
 void crack_free(Crack *crack); // NULL is fine
 
 // Distance to the nearest sheet, m, at most `known`. Safe to call from many threads.

@@ -66,7 +66,8 @@ Mesh *fern_mesh_new(float height, uint64_t seed, Error *e)
                          random_key(key, 10 + (uint64_t)i));
             }
         }
-        mesh = geometry_bake(&part, e);
+        Run run = run_default();
+        mesh = geometry_bake(&part, &run, e);
     }
     mesh_free(part.mesh);
     free(part.instance);

@@ -21,6 +21,7 @@ typedef struct Foliage {
     Vec3 center;
     float spacing; // m, the scene's, widened when the leaves would be too many
     uint64_t seed;
+    const Run *run;
 } Foliage;
 
 Mesh *foliage_leaf_mesh(const LeavesParams *leaves, int variant, uint64_t seed, Error *e)
@@ -127,7 +128,12 @@ static int64_t all_leaves(Foliage *foliage, const CurveSet *twigs, bool place, b
                           Error *e)
 {
     int64_t count = 0;
-    for (int64_t i = 0; i < twigs->curve_count && !(failed && *failed); i++) {
+    for (int64_t i = 0; i < twigs->curve_count && !*failed; i++) {
+        if (run_is_cancelled(foliage->run)) {
+            *failed = true;
+            run_cancel_error(e);
+            break;
+        }
         if (!foliage->bare || !foliage->bare[i]) {
             count += twig_leaves(foliage, twigs, i, place, failed, e);
         }
@@ -167,27 +173,29 @@ static bool add_parts(Foliage *foliage, int material, int object, Geometry *geom
 
 // Widens the spacing until there are no more leaves than asked for. Every twig keeps its first leaf
 // for long, so that one step by the ratio does not do; the least factor makes an end certain.
-static void limit_leaves(Foliage *foliage, const CurveSet *twigs)
+static bool limit_leaves(Foliage *foliage, const CurveSet *twigs, Error *e)
 {
+    bool failed = false;
     int64_t most = foliage->leaves->max_count;
-    int64_t count = all_leaves(foliage, twigs, false, NULL, NULL);
-    while (count > most) {
+    int64_t count = all_leaves(foliage, twigs, false, &failed, e);
+    while (count > most && !failed) {
         float ratio = (float)count / (float)most;
         foliage->spacing *= ratio > 1.01f ? ratio : 1.01f;
-        count = all_leaves(foliage, twigs, false, NULL, NULL);
+        count = all_leaves(foliage, twigs, false, &failed, e);
     }
+    return !failed;
 }
 
 bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves, Vec3 center,
-                 int material, int object, uint64_t seed, Geometry *geometry, Error *e)
+                 int material, int object, uint64_t seed, Geometry *geometry, const Run *run,
+                 Error *e)
 {
-    Foliage foliage = {leaves, bare, NULL, center, leaves->spacing, seed};
+    Foliage foliage = {leaves, bare, NULL, center, leaves->spacing, seed, run};
     foliage.batch = memory_alloc_zero(leaves->variants, sizeof *foliage.batch, e);
     if (!foliage.batch) {
         return false;
     }
-    bool failed = false;
-    limit_leaves(&foliage, twigs);
+    bool failed = !limit_leaves(&foliage, twigs, e);
     all_leaves(&foliage, twigs, true, &failed, e);
     bool done = !failed && add_parts(&foliage, material, object, geometry, e);
     for (int v = 0; v < leaves->variants; v++) {

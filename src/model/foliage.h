@@ -10,7 +10,8 @@
 // leaves->max_count they stand farther apart. center: of the crown, from which leaves turn outward
 // to the light.
 bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves, Vec3 center,
-                 int material, int object, uint64_t seed, Geometry *geometry, Error *e);
+                 int material, int object, uint64_t seed, Geometry *geometry, const Run *run,
+                 Error *e);
 
 // The mesh of leaf variant number `variant`.
 Mesh *foliage_leaf_mesh(const LeavesParams *leaves, int variant, uint64_t seed, Error *e);

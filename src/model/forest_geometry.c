@@ -14,7 +14,8 @@ enum { FERN_VARIANTS = 3 };
 #define FERN_PATCH 7.0f // m, from patch to patch
 
 // Adds a part of a single stand at every place of that stand; leaves are baked into one mesh first.
-static bool add_part(Geometry *geometry, Part *part, const StandPlaces *places, int stand, Error *e)
+static bool add_part(Geometry *geometry, Part *part, const StandPlaces *places, int stand,
+                     const Run *run, Error *e)
 {
     Part copy = {.kind = part->kind, .material = part->material, .object = part->object};
     copy.instance = memory_alloc(places->count, sizeof *copy.instance, e);
@@ -27,7 +28,7 @@ static bool add_part(Geometry *geometry, Part *part, const StandPlaces *places, 
         }
     }
     if (part->instance_count > 0) {
-        copy.mesh = geometry_bake(part, e);
+        copy.mesh = geometry_bake(part, run, e);
     } else {
         copy.mesh = part->mesh;
         copy.curves = part->curves;
@@ -60,19 +61,23 @@ static bool add_stand(const OutTree *all, const ForestParams *params,
     OutTree *nodes = forest_stand(all, params, stand, e);
     bool done = nodes && tree_geometry(nodes, &tree, &own, object, seed, &single, run, e);
     for (int64_t i = 0; done && i < single.count; i++) {
-        done = add_part(geometry, &single.part[i], places, stand, e);
+        done = add_part(geometry, &single.part[i], places, stand, run, e);
     }
     out_tree_free(nodes);
     geometry_clear(&single);
     return done;
 }
 
-// Ferns of one variant, in patches, larger in their middle.
+// Ferns of one variant, in patches, larger in their middle. -1 when interrupted.
 static int64_t place_ferns(const ForestParams *params, uint64_t seed, uint64_t patches,
-                           int64_t wanted, ForestLand *land, const void *user, Transform *place)
+                           int64_t wanted, ForestLand *land, const void *user, Transform *place,
+                           const Run *run, Error *e)
 {
     int64_t count = 0;
     for (int64_t i = 0; i < wanted; i++) {
+        if (!run_goes_on(run, i, e)) {
+            return -1;
+        }
         uint64_t key = random_key(seed, (uint64_t)i);
         float r = params->fern_radius * exact_pow(random_unit(random_key(key, 1)), 0.65f);
         float sine, cosine;
@@ -92,18 +97,19 @@ static int64_t place_ferns(const ForestParams *params, uint64_t seed, uint64_t p
 }
 
 static bool add_ferns(const ForestParams *params, int material, int object, uint64_t seed,
-                      ForestLand *land, const void *user, Geometry *geometry, Error *e)
+                      ForestLand *land, const void *user, Geometry *geometry, const Run *run,
+                      Error *e)
 {
     for (int v = 0; v < FERN_VARIANTS; v++) {
         uint64_t key = random_key(seed, (uint64_t)v);
         int64_t wanted = grove_share(params->ferns, FERN_VARIANTS, v);
         Transform *place = memory_alloc(wanted, sizeof *place, e);
         int64_t count = place ? place_ferns(params, random_key(key, 1), random_key(seed, 100),
-                                            wanted, land, user, place)
-                              : 0;
-        if (count == 0) {
+                                            wanted, land, user, place, run, e)
+                              : -1;
+        if (count <= 0) {
             free(place);
-            if (!place) {
+            if (count < 0) {
                 return false;
             }
             continue;
@@ -130,7 +136,7 @@ bool forest_geometry(const OutTree *tree, const ForestParams *params,
                      const void *user, Geometry *geometry, const Run *run, Error *e)
 {
     StandPlaces places;
-    if (!stand_places_init(&places, params, random_key(seed, 20), land, user, e)) {
+    if (!stand_places_init(&places, params, random_key(seed, 20), land, user, run, e)) {
         return false;
     }
     bool done = true;
@@ -139,6 +145,7 @@ bool forest_geometry(const OutTree *tree, const ForestParams *params,
                          random_key(seed, 30 + (uint64_t)i), geometry, run, e);
     }
     stand_places_free(&places);
-    return done && (params->ferns == 0 || add_ferns(params, materials->fern, object,
-                                                    random_key(seed, 21), land, user, geometry, e));
+    return done &&
+           (params->ferns == 0 || add_ferns(params, materials->fern, object, random_key(seed, 21),
+                                            land, user, geometry, run, e));
 }

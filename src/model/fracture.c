@@ -152,7 +152,7 @@ static bool workpiece_init(Workpiece *work, const OutTree *network, const Fractu
                          .roughness = params->roughness * work->extent,
                          .wavelength = 0.12f * work->extent,
                          .seed = random_key(recipe->seed, 5)};
-    work->crack = crack_new(network, &crack, work->box, e);
+    work->crack = crack_new(network, &crack, work->box, recipe->run, e);
     work->broken = (Broken){.envelope = work->envelope,
                             .crack = work->crack,
                             .hollow = params->hollow,

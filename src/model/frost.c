@@ -75,7 +75,8 @@ static GuideField *make_field(const OutTree *tree, const FrostParams *params,
 // The spines: the papers' plain growth, steered by the turned field (Tanaka eq. (9)-(13)).
 static bool grow_spines(OutTree *tree, const FrostParams *params, const Recipe *recipe, Error *e)
 {
-    PointSet *points = frost_points(params, params->spines, random_key(recipe->seed, 2), e);
+    PointSet *points =
+        frost_points(params, params->spines, random_key(recipe->seed, 2), recipe->run, e);
     GuideField *field = points ? make_field(tree, params, points, recipe->run, e) : NULL;
     bool done = field != NULL;
     if (done) {
@@ -141,7 +142,8 @@ static OutTree *refine_spines(OutTree *tree, const FrostParams *params, Error *e
 // Sides leave along their sector's axis, not along the mean of what pulls: else they are hair.
 static bool grow_sides(OutTree *tree, const FrostParams *params, const Recipe *recipe, Error *e)
 {
-    PointSet *points = frost_points(params, params->sides, random_key(recipe->seed, 4), e);
+    PointSet *points =
+        frost_points(params, params->sides, random_key(recipe->seed, 4), recipe->run, e);
     if (!points) {
         return false;
     }

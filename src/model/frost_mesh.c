@@ -174,13 +174,18 @@ static Mesh *grain_mesh(uint64_t seed, Error *e)
     return mesh;
 }
 
-// Grains are dense near the border (on a bubble: near the nucleus) and rare elsewhere.
+// Grains are dense near the border (on a bubble: near the nucleus) and rare elsewhere. -1 and e
+// when they cannot be placed.
 static int64_t place_grains(const FrostParams *params, uint64_t seed, int64_t wanted, float size,
-                            Transform *instance, Error *e)
+                            Transform *instance, const Run *run, Error *e)
 {
-    PointSet *points = frost_points(params, wanted, seed, e);
-    int64_t count = 0;
+    PointSet *points = frost_points(params, wanted, seed, run, e);
+    int64_t count = points ? 0 : -1;
     for (int64_t i = 0; points && i < points->count && count < wanted; i++) {
+        if (!run_goes_on(run, i, e)) {
+            count = -1;
+            break;
+        }
         uint64_t key = random_key(seed, (uint64_t)i);
         float depth = frost_depth(params, points->position[i]) / 0.3f;
         float chance = 0.06f + 0.94f / (1.0f + depth * depth * depth);
@@ -196,17 +201,18 @@ static int64_t place_grains(const FrostParams *params, uint64_t seed, int64_t wa
                                 vec3_madd(points->position[i], -0.1f * s, points->normal[i]));
     }
     points_free(points);
-    return points ? count : -1;
+    return count;
 }
 
 static bool add_grains(const FrostParams *params, float size, int material, int object,
-                       uint64_t seed, int variant, int64_t wanted, Geometry *geometry, Error *e)
+                       uint64_t seed, int variant, int64_t wanted, Geometry *geometry,
+                       const Run *run, Error *e)
 {
     uint64_t key = random_key(seed, (uint64_t)variant);
     Mesh *mesh = grain_mesh(key, e);
     Transform *instance = memory_alloc(wanted, sizeof *instance, e);
     int64_t count = mesh && instance
-                        ? place_grains(params, random_key(key, 99), wanted, size, instance, e)
+                        ? place_grains(params, random_key(key, 99), wanted, size, instance, run, e)
                         : -1;
     if (count <= 0) {
         mesh_free(mesh);
@@ -256,7 +262,7 @@ bool frost_geometry(const OutTree *tree, const FrostParams *params, const FrostM
     for (int v = 0; params->grains >= VARIANTS && v < VARIANTS; v++) {
         int material = v % 2 ? materials->rime : materials->ice;
         if (!add_grains(params, size, material, object, random_key(recipe->seed, 6), v,
-                        params->grains / VARIANTS, geometry, e)) {
+                        params->grains / VARIANTS, geometry, recipe->run, e)) {
             return false;
         }
     }

@@ -29,7 +29,7 @@ Vec3 frost_project(const FrostParams *params, Vec3 *p)
 
 // A square cell each, the point at random in its middle 80 %.
 static bool fill_pane(const FrostParams *params, int64_t count, uint64_t seed, PointSet *points,
-                      Error *e)
+                      const Run *run, Error *e)
 {
     float cell = sqrtf(frost_area(params) / (float)count);
     int64_t columns = (int64_t)(params->width / cell + 0.5f);
@@ -43,7 +43,7 @@ static bool fill_pane(const FrostParams *params, int64_t count, uint64_t seed, P
         float y = (float)row + random_range(random_key(key, 1), 0.1f, 0.9f);
         Vec3 p = vec3_add(params->position, vec3((x / (float)columns - 0.5f) * params->width,
                                                  (y / (float)rows - 0.5f) * params->height, 0.0f));
-        if (!points_add(points, p, vec3(0, 0, 1), key, e)) {
+        if (!run_goes_on(run, i, e) || !points_add(points, p, vec3(0, 0, 1), key, e)) {
             return false;
         }
     }
@@ -52,7 +52,7 @@ static bool fill_pane(const FrostParams *params, int64_t count, uint64_t seed, P
 
 // Fibonacci's spiral, each point moved at random within about its own cell.
 static bool fill_bubble(const FrostParams *params, int64_t count, uint64_t seed, PointSet *points,
-                        Error *e)
+                        const Run *run, Error *e)
 {
     float cell = sqrtf(4.0f * PI_F / (float)count);
     for (int64_t i = 0; i < count; i++) {
@@ -64,14 +64,15 @@ static bool fill_bubble(const FrostParams *params, int64_t count, uint64_t seed,
         Vec3 d = vec3_madd(vec3(r * s, y, r * c), 0.4f * cell, random_direction(key));
         Vec3 p = vec3_madd(params->position, params->radius, vec3_normalize(d));
         Vec3 normal = frost_project(params, &p);
-        if (!points_add(points, p, normal, key, e)) {
+        if (!run_goes_on(run, i, e) || !points_add(points, p, normal, key, e)) {
             return false;
         }
     }
     return true;
 }
 
-PointSet *frost_points(const FrostParams *params, int64_t count, uint64_t seed, Error *e)
+PointSet *frost_points(const FrostParams *params, int64_t count, uint64_t seed, const Run *run,
+                       Error *e)
 {
     PointSet *points = points_new(e);
     if (!points) {
@@ -79,8 +80,8 @@ PointSet *frost_points(const FrostParams *params, int64_t count, uint64_t seed, 
     }
     points->measure = (double)frost_area(params);
     points->dimension = 2;
-    bool done = params->surface == FROST_PANE ? fill_pane(params, count, seed, points, e)
-                                              : fill_bubble(params, count, seed, points, e);
+    bool done = params->surface == FROST_PANE ? fill_pane(params, count, seed, points, run, e)
+                                              : fill_bubble(params, count, seed, points, run, e);
     if (!done) {
         points_free(points);
         return NULL;

@@ -11,7 +11,8 @@ float frost_area(const FrostParams *params); // m^2
 Vec3 frost_project(const FrostParams *params, Vec3 *p);
 
 // About `count` attractors, one at random in each cell of an even pattern. Owned by the caller.
-PointSet *frost_points(const FrostParams *params, int64_t count, uint64_t seed, Error *e);
+PointSet *frost_points(const FrostParams *params, int64_t count, uint64_t seed, const Run *run,
+                       Error *e);
 
 // Nucleus number i and the normal there.
 Vec3 frost_nucleus(const FrostParams *params, int i, uint64_t seed, Vec3 *normal);

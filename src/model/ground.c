@@ -129,12 +129,17 @@ static Transform upright(const GroundParams *params, uint64_t seed, float x, flo
                                ground_point(params, seed, x, z));
 }
 
-// Tufts of one variant: dense in the middle, thinner but larger toward the rim, in patches.
+// Tufts of one variant: dense in the middle, thinner but larger toward the rim, in patches. -1 when
+// interrupted.
 static int64_t place_tufts(const GroundParams *params, uint64_t ground_seed, uint64_t seed,
-                           int64_t wanted, Transform *instance, float *variation)
+                           int64_t wanted, Transform *instance, float *variation, const Run *run,
+                           Error *e)
 {
     int64_t count = 0;
     for (int64_t i = 0; i < wanted; i++) {
+        if (!run_goes_on(run, i, e)) {
+            return -1;
+        }
         uint64_t key = random_key(seed, (uint64_t)i);
         float share = exact_pow(random_unit(random_key(key, 1)), 0.75f), sine, cosine;
         exact_sincos(random_range(random_key(key, 2), 0.0f, 2.0f * PI_F), &sine, &cosine);
@@ -170,7 +175,7 @@ static bool add_instances(Geometry *geometry, Mesh *mesh, int material, int obje
 }
 
 static bool add_grass_variant(const GroundParams *params, int variant, int material, int object,
-                              uint64_t seed, Geometry *geometry, Error *e)
+                              uint64_t seed, Geometry *geometry, const Run *run, Error *e)
 {
     uint64_t key = random_key(random_key(seed, 4), (uint64_t)variant);
     GrassParams tuft = {.blades = 22,
@@ -183,18 +188,14 @@ static bool add_grass_variant(const GroundParams *params, int variant, int mater
     Mesh *mesh = grass_tuft_new(&tuft, key, e);
     Transform *instance = memory_alloc(wanted, sizeof *instance, e);
     float *variation = memory_alloc(wanted, sizeof *variation, e);
-    if (!mesh || !instance || !variation) {
+    int64_t count = mesh && instance && variation ? place_tufts(params, seed, random_key(key, 1),
+                                                                wanted, instance, variation, run, e)
+                                                  : -1;
+    if (count <= 0) { // an instance count of 0 would draw the tuft once, at the origin
         mesh_free(mesh);
         free(instance);
         free(variation);
-        return false;
-    }
-    int64_t count = place_tufts(params, seed, random_key(key, 1), wanted, instance, variation);
-    if (count == 0) { // an instance count of 0 would draw the tuft once, at the origin
-        mesh_free(mesh);
-        free(instance);
-        free(variation);
-        return true;
+        return count == 0;
     }
     return add_instances(geometry, mesh, material, object, instance, variation, count, e);
 }
@@ -215,7 +216,7 @@ static Transform lying_leaf(const GroundParams *params, uint64_t seed, uint64_t 
 }
 
 static bool add_fallen_leaves(const GroundParams *params, int material, int object, uint64_t seed,
-                              Geometry *geometry, Error *e)
+                              Geometry *geometry, const Run *run, Error *e)
 {
     LeavesParams leaves = tree_params_default().leaves;
     for (int v = 0; v < leaves.variants; v++) {
@@ -227,13 +228,15 @@ static bool add_fallen_leaves(const GroundParams *params, int material, int obje
         leaves.curl = 60.0f; // dry leaves roll up
         Mesh *mesh = foliage_leaf_mesh(&leaves, v, key, e);
         Transform *instance = memory_alloc(each, sizeof *instance, e);
-        if (!mesh || !instance) {
+        bool done = mesh && instance;
+        for (int64_t i = 0; done && i < each; i++) {
+            done = run_goes_on(run, i, e);
+            instance[i] = lying_leaf(params, seed, random_key(key, 100 + (uint64_t)i));
+        }
+        if (!done) {
             mesh_free(mesh);
             free(instance);
             return false;
-        }
-        for (int64_t i = 0; i < each; i++) {
-            instance[i] = lying_leaf(params, seed, random_key(key, 100 + (uint64_t)i));
         }
         if (!add_instances(geometry, mesh, material, object, instance, NULL, each, e)) {
             return false;
@@ -255,12 +258,12 @@ bool ground_geometry(const GroundParams *params, const GroundMaterials *material
         return false;
     }
     for (int v = 0; params->grass_tufts > 0 && v < params->grass_variants; v++) {
-        if (!add_grass_variant(params, v, materials->grass, object, seed, geometry, e)) {
+        if (!add_grass_variant(params, v, materials->grass, object, seed, geometry, run, e)) {
             return false;
         }
     }
     if (params->fallen_leaves > 0 &&
-        !add_fallen_leaves(params, materials->fallen, object, seed, geometry, e)) {
+        !add_fallen_leaves(params, materials->fallen, object, seed, geometry, run, e)) {
         return false;
     }
     return params->trees.count == 0 || grove_add(params, materials, object, seed, geometry, run, e);

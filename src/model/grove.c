@@ -37,13 +37,17 @@ static TreeParams distant_tree(const GroveParams *grove, GrowLevel levels[3], ui
     return tree;
 }
 
-// Where the trees of one variant stand; transforms from the origin to the land.
+// Where the trees of one variant stand; transforms from the origin to the land. -1 when
+// interrupted.
 static int64_t place_trees(const GroundParams *ground, uint64_t ground_seed, uint64_t seed,
-                           int wanted, Transform *place)
+                           int64_t wanted, Transform *place, const Run *run, Error *e)
 {
     const GroveParams *grove = &ground->trees;
     int64_t count = 0;
-    for (int i = 0; i < 40 * wanted && count < wanted; i++) {
+    for (int64_t i = 0; i < 40 * wanted && count < wanted; i++) {
+        if (!run_goes_on(run, i, e)) {
+            return -1;
+        }
         uint64_t key = random_key(seed, (uint64_t)i);
         float u = random_unit(random_key(key, 1)), sine, cosine;
         float r = sqrtf(lerpf(grove->inner * grove->inner, grove->outer * grove->outer, u));
@@ -66,7 +70,7 @@ static int64_t place_trees(const GroundParams *ground, uint64_t ground_seed, uin
 // Moves a part of a single tree into the geometry, instanced at every place; leaves are baked
 // first.
 static bool add_part(Geometry *geometry, Part *part, const Transform *place, int64_t count,
-                     Error *e)
+                     const Run *run, Error *e)
 {
     Part copy = {.kind = part->kind, .material = part->material, .object = part->object};
     copy.instance = memory_alloc(count, sizeof *copy.instance, e);
@@ -78,7 +82,7 @@ static bool add_part(Geometry *geometry, Part *part, const Transform *place, int
     }
     copy.instance_count = count;
     if (part->instance_count > 0) {
-        copy.mesh = geometry_bake(part, e);
+        copy.mesh = geometry_bake(part, run, e);
         if (!copy.mesh) {
             free(copy.instance);
             return false;
@@ -104,7 +108,7 @@ static bool add_variant(const GroundParams *ground, const GroundMaterials *mater
     bool done = tree && tree_geometry(tree, &params, &own, object, seed, &single, run, e);
     out_tree_free(tree);
     for (int64_t i = 0; done && i < single.count; i++) {
-        done = add_part(geometry, &single.part[i], place, count, e);
+        done = add_part(geometry, &single.part[i], place, count, run, e);
     }
     geometry_clear(&single);
     return done;
@@ -119,10 +123,10 @@ bool grove_add(const GroundParams *ground, const GroundMaterials *materials, int
     bool done = place != NULL;
     for (int v = 0; done && v < grove->variants; v++) {
         uint64_t key = random_key(random_key(ground_seed, 6), (uint64_t)v);
-        int wanted = (int)grove_share(grove->count, grove->variants, v);
-        int64_t count = place_trees(ground, ground_seed, random_key(key, 1), wanted, place);
-        done = count == 0 || add_variant(ground, materials, object, place, count,
-                                         random_key(key, 2), geometry, run, e);
+        int64_t wanted = grove_share(grove->count, grove->variants, v);
+        int64_t count = place_trees(ground, ground_seed, random_key(key, 1), wanted, place, run, e);
+        done = count == 0 || (count > 0 && add_variant(ground, materials, object, place, count,
+                                                       random_key(key, 2), geometry, run, e));
     }
     free(place);
     return done;

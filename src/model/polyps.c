@@ -161,15 +161,18 @@ static bool spread_over(Spread *s, const Mesh *mesh, const PolypPlaces *places, 
     float per_area = (float)TRIES / (s->spacing * s->spacing);
     for (uint64_t round = 0; round < 2; round++) { // twice, so that later faces do not lose
         for (int64_t t = 0; t < triangles; t++) {
-            if (t % 65536 == 0 && run_is_cancelled(run)) {
-                return run_cancel_error(e);
+            if (!run_goes_on(run, t, e)) {
+                return false;
             }
             Facet f = facet_of(mesh, t);
             uint64_t key = random_key(random_key(places->seed, (uint64_t)t), round);
             float wanted = 0.5f * f.area * per_area;
-            int draws = (int)wanted;
+            int64_t draws = (int64_t)wanted;
             draws += random_unit(random_key(key, 0)) < wanted - (float)draws;
-            for (int i = 0; i < draws; i++) {
+            for (int64_t i = 0; i < draws; i++) {
+                if (!run_goes_on(run, i, e)) {
+                    return false;
+                }
                 Place place = place_on(mesh, &f, random_key(key, 1 + (uint64_t)i));
                 if (place.position.y > places->floor && is_free(s, place.position) &&
                     !put(s, place, e)) {
@@ -209,7 +212,7 @@ static Transform cup_frame(const Place *place, const PolypPlaces *places, uint64
 }
 
 static bool add_age(const Spread *s, const PolypPlaces *places, int age, int material, int object,
-                    Geometry *geometry, Error *e)
+                    Geometry *geometry, const Run *run, Error *e)
 {
     Part part = {.kind = PART_MESH, .material = material, .object = object};
     int64_t count = 0;
@@ -227,6 +230,11 @@ static bool add_age(const Spread *s, const PolypPlaces *places, int age, int mat
         return false;
     }
     for (int64_t i = 0; i < s->count; i++) {
+        if (!run_goes_on(run, i, e)) {
+            mesh_free(part.mesh);
+            free(part.instance);
+            return false;
+        }
         if ((int)(s->place[i].youth * ((float)AGES - 0.01f)) == age) {
             part.instance[part.instance_count++] =
                 cup_frame(&s->place[i], places, random_key(places->seed, (uint64_t)i));
@@ -250,7 +258,7 @@ bool polyps_add(const Mesh *skin, const PolypPlaces *places, int material, int o
         done = spread_over(&s, skin, places, run, e);
     }
     for (int age = 0; done && age < AGES; age++) {
-        done = add_age(&s, places, age, material, object, geometry, e);
+        done = add_age(&s, places, age, material, object, geometry, run, e);
     }
     free(s.bucket);
     free(s.next);

@@ -45,7 +45,8 @@ static void fill_levels(GrowLevel levels[LEVELS], int64_t attractors, float nois
 }
 
 // Farthest-point sampling (Gonzalez 1985) among points of the surface, from the lowest on.
-static bool plant(OutTree *tree, const PointSet *points, int clusters, uint64_t seed, Error *e)
+static bool plant(OutTree *tree, const PointSet *points, int clusters, uint64_t seed,
+                  const Run *run, Error *e)
 {
     float *gap = memory_alloc(points->count, sizeof *gap, e);
     if (!gap) {
@@ -60,7 +61,7 @@ static bool plant(OutTree *tree, const PointSet *points, int clusters, uint64_t 
     for (int c = 0; done && c < clusters && gap[next] > 0.0f; c++) {
         Vec3 at = points->position[next];
         int64_t node = out_tree_add_node(tree, at, -1, 0, c, random_key(seed, (uint64_t)c), e);
-        done = node >= 0;
+        done = node >= 0 && run_goes_on(run, 0, e);
         if (done) {
             tree->normal[node] = points->normal[next];
         }
@@ -89,7 +90,8 @@ static bool plant_roots(OutTree *tree, const SculptureParams *params, const Elem
     scatter.count = (int64_t)params->clusters * CANDIDATES_A_ROOT;
     scatter.seed = random_key(recipe->seed, 2);
     PointSet *points = points_scatter(envelope, &scatter, recipe->run, e);
-    bool done = points && plant(tree, points, params->clusters, random_key(recipe->seed, 1), e);
+    bool done = points &&
+                plant(tree, points, params->clusters, random_key(recipe->seed, 1), recipe->run, e);
     if (done) {
         const GrowLevel *finest = &element->levels[element->level_count - 1];
         *spacing = sqrt(points->measure / (double)finest->attractors);
@@ -124,7 +126,7 @@ static bool grow_shell(OutTree *tree, const SculptureParams *params, const Eleme
                        .least_cosine = -0.5f,
                        .all_one = true};
     int64_t grown = tree->count;
-    if (!out_tree_join_tips(tree, &join, NULL, e)) {
+    if (!out_tree_join_tips(tree, &join, NULL, recipe->run, e)) {
         return false;
     }
     compute_radii(tree, grown, 0.5f * params->thickness * (float)spacing, params->contrast);

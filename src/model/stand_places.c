@@ -45,17 +45,21 @@ static bool add_place(StandPlaces *places, Transform place, int stand, Error *e)
 
 // Stands lie on a triangular lattice, each as far from its neighbours as its crowns reach.
 bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t seed,
-                       ForestLand *land, const void *user, Error *e)
+                       ForestLand *land, const void *user, const Run *run, Error *e)
 {
     *places = (StandPlaces){0};
     float pitch = 1.86f * forest_stand_radius(params), row = 0.8660254f * pitch;
-    int rows = (int)(params->radius / row) + 1, columns = (int)(params->radius / pitch) + 1;
+    int64_t rows = (int64_t)(params->radius / row) + 1;
+    int64_t columns = (int64_t)(params->radius / pitch) + 1;
     float most_sine, least_cosine;
     exact_sincos(params->max_slope * RADIANS_PER_DEGREE, &most_sine, &least_cosine);
     bool done = true;
-    for (int j = -rows; done && j <= rows; j++) {
-        for (int i = -columns; done && i <= columns; i++) {
-            uint64_t key = random_key(random_key(seed, (uint64_t)(int64_t)j), (uint64_t)(int64_t)i);
+    for (int64_t j = -rows; done && j <= rows; j++) {
+        for (int64_t i = -columns; done && i <= columns; i++) {
+            if (!(done = run_goes_on(run, i + columns, e))) {
+                break;
+            }
+            uint64_t key = random_key(random_key(seed, (uint64_t)j), (uint64_t)i);
             float x = params->center.x + pitch * ((float)i + (j & 1 ? 0.5f : 0.0f));
             float z = params->center.z + row * (float)j, sine, cosine;
             x += random_range(random_key(key, 1), -0.06f, 0.06f) * pitch;

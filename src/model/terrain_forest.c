@@ -9,6 +9,8 @@
 
 enum { FORMS = 3, WHORLS = 13, BOUGHS = 12 };
 
+#define MOST_ROWS 2e9f // of trees; their square must be a 64-bit number
+
 // A tree of height 1: whorls of drooping boughs, each a bent triangle of two faces.
 static Mesh *conifer_mesh(uint64_t seed, Error *e)
 {
@@ -87,14 +89,17 @@ static float tree_size(const Planting *p, float x, float z, uint64_t key)
 
 // Trees stand in a jittered grid. Where there are too many for `count`, far ones are left out
 // first.
-static bool plant(const Planting *p, Transform **place, int64_t *count, Error *e)
+static bool plant(const Planting *p, Transform **place, int64_t *count, const Run *run, Error *e)
 {
     const TerrainForestParams *forest = &p->params->forest;
     float spacing = 0.36f * forest->height, size = p->params->size;
-    int side = (int)(size / spacing);
+    int64_t side = (int64_t)fminf(size / spacing, MOST_ROWS);
     float full = 0.32f * sqrtf((float)forest->count) * spacing; // all trees stand nearer than this
     int64_t capacity = 0;
-    for (int64_t i = 0; i < (int64_t)side * side && *count < forest->count; i++) {
+    for (int64_t i = 0; i < side * side && *count < forest->count; i++) {
+        if (!run_goes_on(run, i, e)) {
+            return false;
+        }
         uint64_t key = random_key(p->seed, 1000 + (uint64_t)i);
         float x = ((float)(i % side) + random_unit(random_key(key, 1))) * spacing - 0.5f * size;
         int64_t row = i / side;
@@ -145,7 +150,8 @@ static bool add_form(const Transform *place, int64_t count, int form, uint64_t s
 }
 
 bool terrain_add_forest(const TerrainParams *params, const HeightField *field, const Vec3 *eye,
-                        int material, int object, uint64_t seed, Geometry *geometry, Error *e)
+                        int material, int object, uint64_t seed, Geometry *geometry, const Run *run,
+                        Error *e)
 {
     Planting p = {.params = params, .field = field, .has_eye = eye, .seed = random_key(seed, 61)};
     if (eye) {
@@ -161,7 +167,7 @@ bool terrain_add_forest(const TerrainParams *params, const HeightField *field, c
     }
     Transform *place = NULL;
     int64_t count = 0;
-    bool done = plant(&p, &place, &count, e);
+    bool done = plant(&p, &place, &count, run, e);
     for (int form = 0; done && form < FORMS; form++) {
         done = add_form(place, count, form, p.seed, material, object, geometry, e);
     }

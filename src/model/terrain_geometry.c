@@ -30,11 +30,11 @@ bool terrain_geometry(const TerrainParams *params, const OutTree *rivers,
     OutTree *copy = out_tree_copy(rivers, e);
     Terrain *terrain = copy ? terrain_new(params, copy, recipe, e) : NULL;
     HeightField *field = terrain ? terrain_sample(terrain, recipe->run, e) : NULL;
-    bool done =
-        field && add_land(params, field, eye, materials->land, object, geometry, e) &&
-        terrain_add_water(terrain, field, materials->water, object, geometry, e) &&
-        (params->forest.count <= 0 || terrain_add_forest(params, field, eye, materials->foliage,
-                                                         object, recipe->seed, geometry, e));
+    bool done = field && add_land(params, field, eye, materials->land, object, geometry, e) &&
+                terrain_add_water(terrain, field, materials->water, object, geometry, e) &&
+                (params->forest.count <= 0 ||
+                 terrain_add_forest(params, field, eye, materials->foliage, object, recipe->seed,
+                                    geometry, recipe->run, e));
     height_field_free(field);
     terrain_free(terrain);
     return done;

@@ -56,6 +56,7 @@ HeightField *terrain_sample(Terrain *terrain, const Run *run, Error *e);
 bool terrain_add_water(const Terrain *terrain, const HeightField *field, int material, int object,
                        Geometry *geometry, Error *e);
 bool terrain_add_forest(const TerrainParams *params, const HeightField *field, const Vec3 *eye,
-                        int material, int object, uint64_t seed, Geometry *geometry, Error *e);
+                        int material, int object, uint64_t seed, Geometry *geometry, const Run *run,
+                        Error *e);
 
 #endif

@@ -42,13 +42,14 @@ static bool *find_roots(const OutTree *tree, const CurveSet *curves, Error *e)
 }
 
 static bool add_leaves(const OutTree *tree, const TreeParams *params, const CurveSet *twigs,
-                       int material, int object, uint64_t seed, Geometry *geometry, Error *e)
+                       int material, int object, uint64_t seed, Geometry *geometry, const Run *run,
+                       Error *e)
 {
     Vec3 center = vec3_add(params->position, vec3(0, 0.5f * params->height, 0));
     bool rooted = params->roots.count > 0;
     bool *bare = rooted ? find_roots(tree, twigs, e) : NULL;
     bool done = (bare || !rooted) && foliage_add(twigs, bare, &params->leaves, center, material,
-                                                 object, random_key(seed, 4), geometry, e);
+                                                 object, random_key(seed, 4), geometry, run, e);
     free(bare);
     return done;
 }
@@ -57,7 +58,7 @@ static bool add_leaves(const OutTree *tree, const TreeParams *params, const Curv
 // mesh, the curves are made for the leaves alone.
 static bool add_twigs_and_leaves(const OutTree *tree, const TreeParams *params,
                                  const SkinParams *skin, const TreeMaterials *materials, int object,
-                                 uint64_t seed, Geometry *geometry, Error *e)
+                                 uint64_t seed, Geometry *geometry, const Run *run, Error *e)
 {
     bool drawn = params->skin.curve_radius > 0.0f;
     bool leafy = params->leaves.max_count > 0;
@@ -70,7 +71,7 @@ static bool add_twigs_and_leaves(const OutTree *tree, const TreeParams *params,
         return false;
     }
     bool done =
-        !leafy || add_leaves(tree, params, twigs, materials->leaf, object, seed, geometry, e);
+        !leafy || add_leaves(tree, params, twigs, materials->leaf, object, seed, geometry, run, e);
     if (!done || !drawn) {
         curves_free(twigs);
         return done;
@@ -88,5 +89,5 @@ bool tree_geometry(const OutTree *tree, const TreeParams *params, const TreeMate
         skin.ring_spacing = params->skin.ring_spacing;
     }
     return add_bark(tree, &skin, materials->bark, object, geometry, run, e) &&
-           add_twigs_and_leaves(tree, params, &skin, materials, object, seed, geometry, e);
+           add_twigs_and_leaves(tree, params, &skin, materials, object, seed, geometry, run, e);
 }

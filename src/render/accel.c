@@ -176,11 +176,15 @@ static bool attach_instances(Accel *accel, RTCGeometry geometry, int32_t number,
 {
     AccelPart *part = &accel->part[number];
     part->scene = rtcNewScene(accel->device);
+    rtcSetSceneProgressMonitorFunction(part->scene, on_progress, accel);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(part->scene, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(part->scene);
     for (int64_t i = 0; i < part->part->instance_count; i++) {
+        if (!run_goes_on(accel->run, i, e)) {
+            return false;
+        }
         RTCGeometry instance = rtcNewGeometry(accel->device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(instance, part->scene);
         rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,

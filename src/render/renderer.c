@@ -200,11 +200,13 @@ typedef struct Job {
     _Atomic int64_t settled; // paths traced or saved by adaptive stopping
 } Job;
 
-static int64_t render_tile(Job *job, Tile *tile, int end)
+// Brings the tile's pixels to `end` samples and counts rays and paths. Interrupted, the pixels left
+// over keep what they had, and the tile counts as it was: no pass comes after.
+static void render_tile(Job *job, Tile *tile, int end)
 {
-    int64_t rays = 0;
+    int64_t rays = 0, pixels = 0;
     for (int y = tile->y0; y < tile->y1; y++) {
-        for (int x = tile->x0; x < tile->x1; x++) {
+        for (int x = tile->x0; x < tile->x1 && !run_is_cancelled(job->run); x++) {
             PixelSum sum = {.object = 0};
             for (int k = tile->samples, count; k < end; k += count) {
                 PathResult path[PACKET_SIZE];
@@ -217,10 +219,14 @@ static int64_t render_tile(Job *job, Tile *tile, int end)
             film_merge(job->film, (int64_t)y * job->film->width + x, tile->samples,
                        end - tile->samples, &sum);
             rays += sum.rays;
+            pixels++;
         }
     }
-    tile->samples = end;
-    return rays;
+    job->rays += rays;
+    job->paths += pixels * (end - tile->samples);
+    if (pixels == (int64_t)(tile->x1 - tile->x0) * (tile->y1 - tile->y0)) {
+        tile->samples = end;
+    }
 }
 
 // Mean over the tile of a pixel's standard error relative to its luminance, with a floor that keeps
@@ -253,8 +259,8 @@ static void tell_progress(const Job *job)
     run_progress(job->run, "trace", fmin(done, 1.0));
 }
 
-// Brings every tile from `before` to `end` samples. Interrupted, it finishes the tiles that were
-// begun; only the first pass is always completed, so that there is a whole picture.
+// Brings every tile from `before` to `end` samples. Out of time, it finishes the tiles that were
+// begun, and the whole first pass, so that there is a whole picture; interrupted, it ends at once.
 static void render_pass(Job *job, int before, int end)
 {
     const RenderParams *params = &job->renderer->world->render;
@@ -268,12 +274,11 @@ static void render_pass(Job *job, int before, int end)
             int64_t area = (int64_t)(tile->x1 - tile->x0) * (tile->y1 - tile->y0);
             job->settled += area * (end - before);
             if (!tile->quiet) {
-                job->paths += area * (end - tile->samples);
-                job->rays += render_tile(job, tile, end);
+                render_tile(job, tile, end);
                 tile->quiet = params->max_noise > 0.0f && end >= LEAST_ADAPTIVE_SAMPLES &&
                               tile_noise(job->film, tile) < params->max_noise;
             }
-            stop = stop || (end > 1 && must_stop(job));
+            stop = stop || run_is_cancelled(job->run) || (end > 1 && must_stop(job));
             if (pthread_equal(pthread_self(), job->caller)) {
                 tell_progress(job);
             }
@@ -334,8 +339,39 @@ static void render_passes(Job *job, RenderPass *pass, void *user)
         done = done + more < samples ? done + more : samples;
         render_pass(job, before, done);
         bool doubled = (done & (done - 1)) == 0;
-        if (pass && (doubled || done == samples)) {
+        if (pass && (doubled || done == samples) && !run_is_cancelled(job->run)) {
             pass(user, job->film, done);
+        }
+    }
+}
+
+// Nothing is known of the pixels that this rendering is to make.
+static void mark_unseen(const Job *job)
+{
+    for (int i = 0; i < job->tile_count; i++) {
+        const Tile *tile = &job->tile[i];
+        for (int y = tile->y0; y < tile->y1; y++) {
+            for (int x = tile->x0; x < tile->x1; x++) {
+                job->film->samples[(int64_t)y * job->film->width + x] = 0.0f;
+            }
+        }
+    }
+}
+
+// What an interrupted first pass did not reach is black and transparent, not an earlier picture.
+static void clear_unseen(const Job *job)
+{
+    const PixelSum nothing = {.object = 0};
+    for (int i = 0; i < job->tile_count; i++) {
+        const Tile *tile = &job->tile[i];
+        for (int y = tile->y0; y < tile->y1 && tile->samples == 0; y++) {
+            for (int x = tile->x0; x < tile->x1; x++) {
+                int64_t pixel = (int64_t)y * job->film->width + x;
+                if (job->film->samples[pixel] <= 0.0f) {
+                    film_merge(job->film, pixel, 0, 1, &nothing);
+                    job->film->samples[pixel] = 0.0f;
+                }
+            }
         }
     }
 }
@@ -380,6 +416,7 @@ bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass 
         filter_fill(&tracer->filter, world->film.filter, world->film.filter_radius);
         sobol_table_fill(&tracer->sobol);
         tracer_set_media(tracer, accel_bounds(renderer->accel));
+        mark_unseen(&job);
         render_passes(&job, pass, user);
         *stats = (RenderStats){.paths = job.paths,
                                .rays = job.rays,
@@ -388,6 +425,10 @@ bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass 
                                .samples = least_samples(&job)};
     }
     bool done = job.tile != NULL;
+    if (done && run_is_cancelled(run)) {
+        clear_unseen(&job);
+        done = job.paths > 0 || run_cancel_error(e); // before there was anything to show
+    }
     free(job.tile);
     free(tracer);
     return done;

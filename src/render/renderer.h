@@ -33,7 +33,7 @@ typedef struct RenderStats {
     int64_t paths, rays;
     double seconds;
     int64_t memory; // bytes held by the acceleration structures
-    int samples;    // taken per pixel (least over the pixels)
+    int samples;    // taken per pixel (least over the pixels); 0 = some have none
 } RenderStats;
 
 // Called after every pass over the image with what there is so far (passes double: 1, 2, 4, ...
@@ -41,8 +41,10 @@ typedef struct RenderStats {
 typedef void RenderPass(void *user, const Film *film, int samples);
 
 // Renders into film (made by film_new with the world's size; what was in it is replaced, but for
-// pixels outside the crop); progress stage "trace". Interrupted by run->cancelled or by
-// max_seconds it leaves a complete image of fewer samples and returns true; stats->samples tells.
+// pixels outside the crop); progress stage "trace". Out of max_seconds it leaves a complete image
+// of fewer samples and returns true; stats->samples tells. Interrupted by run->cancelled it does
+// the same within some milliseconds; pixels that the first pass had not reached by then are black
+// and transparent, stats->samples is 0 then, and with no pixel at all it fails (ERROR_CANCELLED).
 bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass *pass, void *user,
                      RenderStats *stats, Error *e);
 

@@ -87,12 +87,16 @@ static bool add_join(Joining *joining, int64_t from, int64_t to, Error *e)
     return true;
 }
 
-// The nearest two nodes of which one belongs to node 0's piece; false when there is only that one.
-static bool find_gap(const Joining *joining, int64_t *from, int64_t *to)
+// The nearest two nodes of which one belongs to node 0's piece; false when there is only that one,
+// or when interrupted.
+static bool find_gap(const Joining *joining, const Run *run, int64_t *from, int64_t *to)
 {
     const OutTree *tree = joining->tree;
     float nearest = INFINITY;
     for (int64_t i = 0; i < joining->count; i++) {
+        if (run_is_cancelled(run)) {
+            return false;
+        }
         if (find_piece(joining->piece, (int32_t)i) == 0) {
             continue;
         }
@@ -108,7 +112,7 @@ static bool find_gap(const Joining *joining, int64_t *from, int64_t *to)
     return nearest < INFINITY;
 }
 
-static bool join(Joining *joining, Error *e)
+static bool join(Joining *joining, const Run *run, Error *e)
 {
     OutTree *tree = joining->tree;
     memset(joining->is_tip, 1, (size_t)joining->count);
@@ -120,7 +124,7 @@ static bool join(Joining *joining, Error *e)
             unite(joining->piece, (int32_t)i, tree->parent[i]);
         }
     }
-    for (int64_t i = 0; i < joining->count; i++) {
+    for (int64_t i = 0; i < joining->count && !run_is_cancelled(run); i++) {
         if (joining->is_tip[i] && tree->parent[i] >= 0) {
             joining->partner[i] = find_partner(joining, i);
             if (joining->partner[i] >= 0 && !add_join(joining, i, joining->partner[i], e)) {
@@ -129,21 +133,22 @@ static bool join(Joining *joining, Error *e)
         }
     }
     int64_t from = 0, to = 0;
-    while (joining->params->all_one && find_gap(joining, &from, &to)) {
+    while (joining->params->all_one && find_gap(joining, run, &from, &to)) {
         if (!add_join(joining, from, to, e)) {
             return false;
         }
     }
-    return true;
+    return !run_is_cancelled(run) || run_cancel_error(e);
 }
 
-bool out_tree_join_tips(OutTree *tree, const JoinParams *params, int64_t *joins, Error *e)
+bool out_tree_join_tips(OutTree *tree, const JoinParams *params, int64_t *joins, const Run *run,
+                        Error *e)
 {
     Joining joining = {.tree = tree, .params = params, .count = tree->count};
     joining.is_tip = memory_alloc(tree->count, 1, e);
     joining.partner = memory_alloc(tree->count, sizeof *joining.partner, e);
     joining.piece = memory_alloc(tree->count, sizeof *joining.piece, e);
-    bool done = joining.is_tip && joining.partner && joining.piece && join(&joining, e);
+    bool done = joining.is_tip && joining.partner && joining.piece && join(&joining, run, e);
     if (joins) {
         *joins = tree->count - joining.count;
     }

@@ -5,6 +5,7 @@
 #define RAMIFY_TREE_JOIN_H
 
 #include "base/error.h"
+#include "base/run.h"
 #include "tree/out_tree.h"
 
 typedef struct JoinParams {
@@ -17,7 +18,8 @@ typedef struct JoinParams {
 // Joins each tip to the nearest node that suits (ties: the lowest index) and has a normal on the
 // same side; two tips join once. A join's birth is one after the later of its ends. *joins = how
 // many nodes were added; may be NULL. Takes time with tips x nodes.
-bool out_tree_join_tips(OutTree *tree, const JoinParams *params, int64_t *joins, Error *e);
+bool out_tree_join_tips(OutTree *tree, const JoinParams *params, int64_t *joins, const Run *run,
+                        Error *e);
 
 // Pieces that the tree and its joins (nodes at the same place) make, and the loops in them that do
 // not follow from one another (edges - places + pieces; may be NULL).

@@ -18,7 +18,8 @@ static int64_t join(OutTree *tree, JoinParams params)
 {
     Error e = {0};
     int64_t joins;
-    assert_true(out_tree_join_tips(tree, &params, &joins, &e));
+    Run run = run_default();
+    assert_true(out_tree_join_tips(tree, &params, &joins, &run, &e));
     assert_true(out_tree_check(tree, &e));
     return joins;
 }
