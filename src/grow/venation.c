@@ -20,6 +20,7 @@ typedef struct Pull {
 
 // A leaf as it grows.
 typedef struct Leaf {
+    const Run *run;
     const VeinParams *params;
     OutTree *tree;
     int32_t *children; // per node: how many
@@ -113,6 +114,9 @@ static bool throw_darts(Leaf *leaf, int round, Error *e)
     }
     uint64_t key = random_key(params->seed, 1 + (uint64_t)round);
     for (int64_t i = 0; i < darts; i++) {
+        if (!run_goes_on(leaf->run, i, e)) {
+            return false;
+        }
         uint64_t dart = random_key(key, (uint64_t)i);
         Vec3 p = vec3(random_range(random_key(dart, 0), box.low.x, box.high.x),
                       random_range(random_key(dart, 1), box.low.y, box.high.y), 0);
@@ -212,6 +216,9 @@ static bool gather_pulls(Leaf *leaf, Error *e)
     }
     for (int64_t i = leaf->source_count - 1; i >= 0; i--) {
         bool done;
+        if (!run_goes_on(leaf->run, i, e)) {
+            return false;
+        }
         if (!(leaf->params->closed ? pull_closed(leaf, leaf->source[i], &done, e)
                                    : pull_open(leaf, leaf->source[i], &done))) {
             return false;
@@ -258,6 +265,9 @@ static bool grow_step(Leaf *leaf, bool *grew, Error *e)
     step = young < step ? young : step;
     for (int64_t i = 0; i < count; i++) {
         Vec3 p;
+        if (!run_goes_on(leaf->run, i, e)) {
+            return false;
+        }
         if (!(leaf->pull[i].distance < INFINITY) || !find_place(leaf, i, step, slant, &p)) {
             continue;
         }
@@ -288,15 +298,12 @@ static void enlarge(Leaf *leaf, float factor)
     }
 }
 
-static bool grow_leaf(Leaf *leaf, const Run *run, Error *e)
+static bool grow_leaf(Leaf *leaf, Error *e)
 {
     const VeinParams *params = leaf->params;
     bool grew = true;
     for (int round = 0;; round++) {
-        if (run_is_cancelled(run)) {
-            return run_cancel_error(e);
-        }
-        run_progress(run, "veins", (double)(leaf->scale * leaf->scale));
+        run_progress(leaf->run, "veins", (double)(leaf->scale * leaf->scale));
         if (!throw_darts(leaf, round, e)) {
             return false;
         }
@@ -362,9 +369,9 @@ OutTree *veins_grow(const VeinParams *params, PointSet *sources, VeinReport *rep
     if (!check_params(params, e)) {
         return NULL;
     }
-    Leaf leaf = {.params = params, .all_sources = sources, .scale = params->start};
+    Leaf leaf = {.params = params, .run = run, .all_sources = sources, .scale = params->start};
     leaf.tree = out_tree_new(e);
-    bool done = leaf.tree && plant(&leaf, e) && grow_leaf(&leaf, run, e);
+    bool done = leaf.tree && plant(&leaf, e) && grow_leaf(&leaf, e);
     leaf.report.sources_left = leaf.source_count;
     if (report) {
         *report = leaf.report;

@@ -3,6 +3,7 @@
 
 #include "image/image.h"
 
+#include <string.h>
 #include <unistd.h>
 
 #define ASSERT_NEAR(value, wanted, tolerance)                                             \
@@ -547,9 +548,52 @@ static void cancel_leaves_a_whole_picture(void **state)
     for (int i = 0; i < 50 * 37; i++) {
         assert_true(film->samples[i] >= 2.0f && film->alpha[i] > 0.0f);
     }
-    // Asked to stop before it began, it still leaves one sample everywhere.
+    // Asked to stop before it began, it makes nothing of it, whatever the film held.
+    Error e = {0};
+    assert_false(renderer_render(renderer, film, &run, NULL, NULL, &stats, &e));
+    assert_int_equal(e.code, ERROR_CANCELLED);
+    film_free(film);
+    renderer_free(renderer);
+    world_free(world);
+}
+
+static void cancel_at_a_report(void *user, const char *stage, double done)
+{
+    Stop *stop = user;
+    (void)done;
+    stop->cancelled = strcmp(stage, "trace") == 0 && ++stop->passes >= 3;
+}
+
+// After the request a thread finishes at most the pixel it is at, also in the first pass.
+static void cancel_ends_the_first_pass(void **state)
+{
+    (void)state;
+    World *world = varied_world();
+    world->film.width = 320;
+    world->film.height = 160;
+    Stop stop = {0, 0, 0};
+    Run run = run_default();
+    Renderer *renderer = renderer_new(world, "sse4.2", &run, NULL);
+    Film *film = film_new(320, 160, NULL);
+    assert_non_null(renderer);
+    assert_non_null(film);
+    RenderStats stats;
+    assert_true(renderer_render(renderer, film, &run, NULL, NULL, &stats, NULL)); // a whole one
+    run.threads = 2;
+    run.cancelled = &stop.cancelled;
+    run.progress = cancel_at_a_report;
+    run.user = &stop;
     assert_true(renderer_render(renderer, film, &run, NULL, NULL, &stats, NULL));
-    assert_int_equal(stats.samples, 1);
+    assert_int_equal(stats.samples, 0);
+    int64_t seen = 0;
+    for (int i = 0; i < 320 * 160; i++) {
+        seen += film->samples[i] > 0.0f;
+        if (film->samples[i] <= 0.0f && (film->color[i].x != 0.0f || film->alpha[i] != 0.0f)) {
+            fail_msg("pixel %d shows what an earlier picture had there", i);
+        }
+    }
+    assert_int_equal(seen, stats.paths);
+    assert_true(seen > 0 && seen < 320 * 160);
     film_free(film);
     renderer_free(renderer);
     world_free(world);
@@ -633,6 +677,7 @@ int main(void)
         cmocka_unit_test(lens_shift),
         cmocka_unit_test(haze_fades_with_distance),
         cmocka_unit_test(cancel_leaves_a_whole_picture),
+        cmocka_unit_test(cancel_ends_the_first_pass),
         cmocka_unit_test(passes_double),
         cmocka_unit_test(errors_are_told),
     };
