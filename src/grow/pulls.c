@@ -1,5 +1,7 @@
 #include "grow/rule.h"
 
+#include <stddef.h>
+
 static int64_t fixed(float x)
 {
     return (int64_t)(x * PULL_ONE);

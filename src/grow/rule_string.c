@@ -30,7 +30,7 @@ static float distance_to_root(const Growth *growth, int64_t attractor)
 
 // Each attractor's own growth distance (step c): between the user's two lengths, by its distance
 // from the nearest root as a share of the largest.
-static void set_lengths(const Growth *growth, State *state, float near, float far)
+static bool set_lengths(const Growth *growth, State *state, float near, float far, Error *e)
 {
     int64_t count = growth->attractors->count;
     float furthest = 0.0f;
@@ -44,6 +44,7 @@ static void set_lengths(const Growth *growth, State *state, float near, float fa
     for (int64_t i = 0; i < count; i++) {
         state->length[i] = lerpf(near, far, furthest > 0.0f ? state->length[i] / furthest : 0.0f);
     }
+    return true;
 }
 
 static bool begin(Growth *growth, Error *e)
@@ -63,8 +64,7 @@ static bool begin(Growth *growth, Error *e)
     exact_sincos(0.5f * p->sector_angle * RADIANS_PER_DEGREE, &half, &state->group_cos);
     state->longest = near > far ? near : far;
     growth->bins = p->string->most_followers;
-    set_lengths(growth, state, near, far);
-    return true;
+    return set_lengths(growth, state, near, far, e);
 }
 
 static void end(Growth *growth)
