@@ -191,6 +191,9 @@ Mesh *height_mesh_new(const HeightField *field, const HeightMeshParams *params, 
     bool done = m.active && m.vertex;
     if (done) {
         memset(m.vertex, 0xff, sizeof *m.vertex * (size_t)count);
+        if (params->keep) {
+            memcpy(m.active, params->keep, (size_t)count);
+        }
         judge_all(&m);
         Point nw = {0, 0}, se = {side, side}, ne = {side, 0}, sw = {0, side};
         done = add_triangle(&m, nw, se, ne, e) && add_triangle(&m, se, nw, sw, e);
@@ -201,4 +204,23 @@ Mesh *height_mesh_new(const HeightField *field, const HeightMeshParams *params, 
     free(m.index);
     free(m.sample);
     return mesh;
+}
+
+float height_mesh_finest_at(const HeightField *field, float x, float z)
+{
+    float u = (x - field->origin.x) / field->cell.x, v = (z - field->origin.y) / field->cell.y;
+    u = clampf(u, 0.0f, (float)(field->columns - 1));
+    v = clampf(v, 0.0f, (float)(field->rows - 1));
+    int column = u < (float)(field->columns - 1) ? (int)u : field->columns - 2;
+    int row = v < (float)(field->rows - 1) ? (int)v : field->rows - 2;
+    u -= (float)column;
+    v -= (float)row;
+    const float *h = field->height + (int64_t)row * field->columns + column;
+    float a = h[0], b = h[1], c = h[field->columns], d = h[field->columns + 1];
+    // Diagonals end where row and column are both even or both odd.
+    if ((row + column) % 2 == 0) {
+        return u > v ? a + u * (b - a) + v * (d - b) : a + v * (c - a) + u * (d - c);
+    }
+    return u + v < 1.0f ? a + u * (b - a) + v * (c - a)
+                        : d + (1.0f - u) * (c - d) + (1.0f - v) * (b - d);
 }

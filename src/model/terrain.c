@@ -38,6 +38,9 @@ void terrain_free(Terrain *terrain)
         free(terrain->uplift);
         trough_envelope_free(terrain->land);
         trough_envelope_free(terrain->distance);
+        out_tree_free(terrain->water);
+        trough_envelope_free(terrain->shore);
+        free(terrain->bank);
         free(terrain);
     }
 }
@@ -207,10 +210,7 @@ static float land_at(const Terrain *terrain, float x, float z, float *wetness)
     }
     float valley = 1.5f * terrain_valley(params, terrain->area[nearest]) + 0.002f * params->size;
     *wetness = 1.0f - smoothstepf(0.0f, 1.0f, away / valley);
-    // The bed of the water, a quarter as deep as half its width.
-    float half = terrain->rivers->radius[nearest];
-    float bank = half > 0.0f ? 1.0f - away * away / (half * half) : 0.0f;
-    return bank > 0.0f ? height - 0.25f * half * bank : height;
+    return height;
 }
 
 static bool sample_land(const Terrain *terrain, HeightField *field, const Run *run)
@@ -271,7 +271,7 @@ static void carve_piece(HeightField *field, Vec3 from, Vec3 to)
         }
         float *height = &field->height[(int64_t)row * field->columns + column];
         float river = lerpf(from.y, to.y, t);
-        *height = *height < river ? *height : river; // water beds are lower already
+        *height = *height < river ? *height : river;
     }
 }
 
@@ -284,7 +284,7 @@ static void carve_rivers(HeightField *field, const OutTree *rivers)
     }
 }
 
-static bool finish_field(const Terrain *terrain, HeightField *field, const Run *run, Error *e)
+static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
     const TerrainParams *params = terrain->params;
     if (!terrain_erode(field, &params->erosion, run, e)) {
@@ -295,7 +295,8 @@ static bool finish_field(const Terrain *terrain, HeightField *field, const Run *
         return false;
     }
     make_terraces(field, &params->terraces, random_key(terrain->seed, 41));
-    return params->terraces.count <= 0 || height_field_fill(field, 0.0f, e);
+    return (params->terraces.count <= 0 || height_field_fill(field, 0.0f, e)) &&
+           terrain_lay_rivers(terrain, field, run, e); // on what all else has left
 }
 
 HeightField *terrain_sample(Terrain *terrain, const Run *run, Error *e)

@@ -96,12 +96,13 @@ typedef struct TerrainParams {
 
 TerrainParams terrain_params_default(void); // 12 km of mountains
 
-// The rivers as an out-tree, roots at their outlets: positions are on the land (y = the river's
-// height), radii half the width of the water. In the terrain's own space, position not added.
+// The rivers as an out-tree, roots at their outlets: y is the height that the land follows, before
+// erosion and terraces; radii are half the width of the water. In the terrain's own space, position
+// not added.
 OutTree *terrain_grow(const TerrainParams *params, const Recipe *recipe, Error *e);
 
 // Heights and wetness from the rivers; square, resolution + 1 samples a side. Every sample off the
-// rim drains. The same bits for any number of threads.
+// rim drains. Beds of rivers that are wide enough for the grid are dug last. The same bits for any number of threads.
 HeightField *terrain_heights(const TerrainParams *params, const OutTree *rivers,
                              const Recipe *recipe, Error *e);
 

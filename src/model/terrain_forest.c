@@ -56,6 +56,7 @@ static Mesh *conifer_mesh(uint64_t seed, Error *e)
 }
 
 typedef struct Planting {
+    const Terrain *terrain;
     const TerrainParams *params;
     const HeightField *field;
     Vec3 eye; // in the field's space
@@ -84,7 +85,10 @@ static float tree_size(const Planting *p, float x, float z, uint64_t key)
     if (altitude < forest->low || h < p->lake || random_unit(random_key(key, 3)) > keep) {
         return 0.0f;
     }
-    return forest->height * random_range(random_key(key, 4), 0.45f, 1.0f) * (0.55f + 0.45f * line);
+    float tall =
+        forest->height * random_range(random_key(key, 4), 0.45f, 1.0f) * (0.55f + 0.45f * line);
+    // Its lowest boughs, too, keep out of rivers.
+    return terrain_shore(p->terrain, x, z) > 0.2f * tall ? tall : 0.0f;
 }
 
 // Trees stand in a jittered grid. Where there are too many for `count`, far ones are left out
@@ -149,11 +153,15 @@ static bool add_form(const Transform *place, int64_t count, int form, uint64_t s
     return geometry_add(geometry, part, e);
 }
 
-bool terrain_add_forest(const TerrainParams *params, const HeightField *field, const Vec3 *eye,
-                        int material, int object, uint64_t seed, Geometry *geometry, const Run *run,
-                        Error *e)
+bool terrain_add_forest(const Terrain *terrain, const HeightField *field, const Vec3 *eye,
+                        int material, int object, Geometry *geometry, const Run *run, Error *e)
 {
-    Planting p = {.params = params, .field = field, .has_eye = eye, .seed = random_key(seed, 61)};
+    const TerrainParams *params = terrain->params;
+    Planting p = {.terrain = terrain,
+                  .params = params,
+                  .field = field,
+                  .has_eye = eye,
+                  .seed = random_key(terrain->seed, 61)};
     if (eye) {
         p.eye = vec3_sub(*eye, params->position);
     }

@@ -1,7 +1,9 @@
 // Water surfaces: a level lake, and ribbons along the rivers.
 #include "base/memory.h"
+#include "mesh/height_mesh.h"
 #include "model/terrain_internal.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static bool add_mesh(Mesh *mesh, int material, int object, Geometry *geometry, Error *e)
@@ -33,100 +35,139 @@ static Mesh *lake_mesh(const HeightField *field, Vec3 move, float level, Error *
 
 // ---- rivers
 
-// The child that carries most water on; -1 at the end of what is wide enough to show.
-static void find_heaviest(const Terrain *terrain, float least, int32_t *heaviest)
+typedef struct Ribbons {
+    const Terrain *terrain;
+    const OutTree *water;
+    const HeightField *field;
+    const int32_t *main; // of each node the child that carries most water on; -1 = none
+    float lake;          // level below which the lake's surface covers the river's
+    Mesh *mesh;          // NULL = only count
+    int64_t vertices, faces;
+} Ribbons;
+
+// A vertex `side` times half the width from the middle: at the river's level, but in cascades,
+// which the cells only show roughly, always on the land. The outermost, beyond 1, go under the
+// shore.
+static Vec3 water_vertex(const Ribbons *r, Vec3 middle, Vec3 across, float half, float side)
 {
-    const OutTree *tree = terrain->rivers;
-    for (int64_t i = 0; i < tree->count; i++) {
-        heaviest[i] = -1;
+    const float border = 0.5f * r->terrain->params->size;
+    Vec3 p = vec3_madd(middle, side * half, across);
+    p.x = clampf(p.x, -border, border);
+    p.z = clampf(p.z, -border, border);
+    float land = height_mesh_finest_at(r->field, p.x, p.z), film = terrain_bed_depth(half, half);
+    if (fabsf(side) > 1.0f) {
+        p.y = land - film;
+        return p;
     }
-    for (int64_t i = 0; i < tree->count; i++) {
-        int32_t parent = tree->parent[i];
-        if (parent >= 0 && tree->radius[i] >= least &&
-            (heaviest[parent] < 0 || terrain->area[i] > terrain->area[heaviest[parent]])) {
-            heaviest[parent] = (int32_t)i;
-        }
+    float depth = terrain_bed_depth(half, fabsf(side) * half);
+    p.y = clampf(middle.y, land + 0.5f * film, land + depth + film);
+    return p;
+}
+
+// The normal of the water that falls from `above` to `below`.
+static Vec3 water_normal(Vec3 below, Vec3 above)
+{
+    float dx = above.x - below.x, dz = above.z - below.z, squared = dx * dx + dz * dz;
+    float slope = squared > 0.0f ? (above.y - below.y) / squared : 0.0f; // a metre, per metre
+    return vec3_normalize(vec3(-slope * dx, 1.0f, -slope * dz));
+}
+
+// One row of `columns` vertices across the river, which comes from `above` and goes to `below`.
+static void add_row(Ribbons *r, Vec3 middle, Vec3 below, Vec3 above, float half, int columns)
+{
+    Vec3 across = vec3_normalize(vec3(above.z - below.z, 0.0f, below.x - above.x));
+    Vec3 normal = water_normal(below, above);
+    float cell = r->field->cell.x, under = 1.0f + (half > 5.0f * cell ? 0.5f * cell / half : 0.1f);
+    for (int i = 0; i < columns; i++) {
+        float side = 2.0f * (float)(i - 1) / (float)(columns - 3) - 1.0f;
+        side = i == 0 ? -under : i == columns - 1 ? under : side;
+        Vec3 p = water_vertex(r, middle, across, half, side);
+        int64_t v = r->vertices + i;
+        r->mesh->position[v] = vec3_add(p, r->terrain->params->position);
+        r->mesh->normal[v] = normal;
+        r->mesh->uv[v] = (Vec2){r->mesh->position[v].x, r->mesh->position[v].z};
     }
 }
 
-// Unit direction across the river at a node, in the plane.
-static Vec3 across_at(const OutTree *tree, int32_t below, int32_t here, int32_t above)
+// Faces to the row that was added last from the one before, counter-clockwise from above; also
+// where rows cross each other, at the inner bank of a sharp bend.
+static void add_faces(Ribbons *r, int columns)
 {
-    Vec3 from = tree->position[below >= 0 ? below : here];
-    Vec3 to = tree->position[above >= 0 ? above : here];
-    return vec3_normalize(vec3(to.z - from.z, 0.0f, from.x - to.x));
+    for (int i = 0; i + 1 < columns; i++) {
+        uint32_t *corner = r->mesh->index + (r->faces + i) * 4;
+        uint32_t after = (uint32_t)(r->vertices + i), before = after - (uint32_t)columns;
+        const Vec3 *p = r->mesh->position;
+        bool folded =
+            vec3_cross(vec3_sub(p[after + 1], p[before]), vec3_sub(p[before + 1], p[after])).y <
+            0.0f;
+        corner[0] = before;
+        corner[1] = folded ? before + 1 : after;
+        corner[2] = after + 1;
+        corner[3] = folded ? after : before + 1;
+    }
 }
 
-// Two vertices a node from `first` up its main stem; faces between. Counts when mesh is NULL.
-static void add_stem(const Terrain *terrain, const int32_t *heaviest, int32_t first, Mesh *mesh,
-                     int64_t *vertices, int64_t *faces)
+// A river from its root, or a tributary from the river that it enters (the parent of `first`).
+static void add_stem(Ribbons *r, int32_t first)
 {
-    const OutTree *tree = terrain->rivers;
-    int32_t below = tree->parent[first], here = below >= 0 ? below : first;
-    below = -1;
-    for (int64_t k = 0; here >= 0; k++) {
-        int32_t above = k == 0 && here != first ? first : heaviest[here];
-        if (mesh) {
-            Vec3 across = across_at(tree, below, here, above);
+    enum { MOST_PIECES = 16 }; // to each side
+    const OutTree *water = r->water;
+    float pieces = water->radius[first] / r->field->cell.x;
+    int columns = 2 * (1 + (int)(pieces < MOST_PIECES ? pieces : MOST_PIECES)) + 3;
+    int32_t below = -1, here = water->parent[first] >= 0 ? water->parent[first] : first;
+    while (here >= 0) {
+        int32_t above = below < 0 && here != first ? first : r->main[here];
+        bool shows = below >= 0 && water->position[here].y >= r->lake;
+        if (r->mesh) {
+            Vec3 from = water->position[below >= 0 ? below : here];
+            Vec3 to = water->position[above >= 0 ? above : here];
             // A brook enters a wider river with its own width.
-            float half = 1.35f * (k == 0 ? tree->radius[first] : tree->radius[here]);
-            Vec3 p = vec3_add(tree->position[here], terrain->params->position);
-            p.y -= 0.08f * tree->radius[here];
-            for (int side = 0; side < 2; side++) {
-                int64_t v = *vertices + side;
-                mesh->position[v] = vec3_madd(p, side == 0 ? -half : half, across);
-                mesh->normal[v] = vec3(0, 1, 0);
-                mesh->uv[v] = (Vec2){mesh->position[v].x, mesh->position[v].z};
-            }
-            if (above >= 0) {
-                uint32_t *corner = mesh->index + *faces * 4, v = (uint32_t)*vertices;
-                corner[0] = v;
-                corner[1] = v + 1;
-                corner[2] = v + 3;
-                corner[3] = v + 2;
+            float half = below < 0 ? water->radius[first] : water->radius[here];
+            add_row(r, water->position[here], from, to, half, columns);
+            if (shows) {
+                add_faces(r, columns);
             }
         }
-        *vertices += 2;
-        *faces += above >= 0 ? 1 : 0;
+        r->vertices += columns;
+        r->faces += shows ? columns - 1 : 0;
         below = here;
         here = above;
     }
 }
 
-static void add_stems(const Terrain *terrain, const int32_t *heaviest, float least, Mesh *mesh,
-                      int64_t *vertices, int64_t *faces)
+static void add_stems(Ribbons *r)
 {
-    const OutTree *tree = terrain->rivers;
-    *vertices = *faces = 0;
-    for (int64_t i = 0; i < tree->count; i++) {
-        int32_t parent = tree->parent[i];
-        bool begins =
-            parent < 0 ? heaviest[i] >= 0 : tree->radius[i] >= least && heaviest[parent] != i;
-        if (begins) {
-            add_stem(terrain, heaviest, (int32_t)i, mesh, vertices, faces);
+    r->vertices = r->faces = 0;
+    for (int64_t i = 0; i < r->water->count; i++) {
+        int32_t parent = r->water->parent[i];
+        if (parent < 0 ? r->main[i] >= 0 : r->main[parent] != i) {
+            add_stem(r, (int32_t)i);
         }
     }
 }
 
-static bool add_rivers(const Terrain *terrain, float least, int material, int object,
+static bool add_rivers(const Terrain *terrain, const HeightField *field, int material, int object,
                        Geometry *geometry, Error *e)
 {
-    int32_t *heaviest = memory_alloc(terrain->rivers->count, sizeof *heaviest, e);
-    if (!heaviest) {
+    Ribbons r = {.terrain = terrain, .water = terrain->water, .field = field, .lake = -INFINITY};
+    if (terrain->params->water_level > 0.0f) {
+        r.lake = terrain_water_height(terrain->params, field);
+    }
+    int32_t *main = terrain_main_children(r.water, e);
+    if (!main) {
         return false;
     }
-    int64_t vertices, faces;
-    find_heaviest(terrain, least, heaviest);
-    add_stems(terrain, heaviest, least, NULL, &vertices, &faces);
+    r.main = main;
+    add_stems(&r);
     bool done = true;
-    if (faces > 0) {
-        Mesh *mesh = mesh_new(4, vertices, faces, MESH_NORMAL | MESH_UV, e);
-        if (mesh) {
-            add_stems(terrain, heaviest, least, mesh, &vertices, &faces);
+    if (r.faces > 0) {
+        r.mesh = mesh_new(4, r.vertices, r.faces, MESH_NORMAL | MESH_UV, e);
+        if (r.mesh) {
+            add_stems(&r);
         }
-        done = add_mesh(mesh, material, object, geometry, e);
+        done = add_mesh(r.mesh, material, object, geometry, e);
     }
-    free(heaviest);
+    free(main);
     return done;
 }
 
@@ -141,7 +182,5 @@ bool terrain_add_water(const Terrain *terrain, const HeightField *field, int mat
             return false;
         }
     }
-    // Narrower channels than the grid can hold would float on their banks.
-    return params->rivers.water <= 0.0f ||
-           add_rivers(terrain, 0.6f * field->cell.x, material, object, geometry, e);
+    return !terrain->water || add_rivers(terrain, field, material, object, geometry, e);
 }

@@ -296,6 +296,45 @@ static void the_mesh_has_no_cracks_and_keeps_its_error(void **state)
     height_field_free(field);
 }
 
+// Samples to keep are corners, and where all are, the mesh is the finest one.
+static void samples_to_keep_become_corners(void **state)
+{
+    (void)state;
+    enum { SIDE = 32 };
+    HeightField *field = hills(SIDE);
+    uint8_t keep[(SIDE + 1) * (SIDE + 1)] = {0};
+    for (int i = 0; i < (SIDE + 1) * (SIDE + 1); i++) {
+        int column = i % (SIDE + 1), row = i / (SIDE + 1);
+        keep[i] = column >= 9 && column <= 14 && row >= 4 && row <= 11;
+    }
+    Error e = {0};
+    Mesh *mesh = height_mesh_new(field, &(HeightMeshParams){.error = 1e3f, .keep = keep}, &e);
+    assert_non_null(mesh);
+    MeshTopology t;
+    assert_true(mesh_topology(mesh, &t, &e));
+    assert_true(t.overused_edges == 0 && t.degenerate_faces == 0 && t.euler_number == 1);
+    int corners = 0, inside = 0;
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        Vec3 p = mesh->position[i];
+        corners += keep[(int)p.z * (SIDE + 1) + (int)p.x];
+    }
+    assert_int_equal(corners, 6 * 8);
+    for (int64_t f = 0; f < mesh->face_count; f++) {
+        const uint32_t *c = mesh->index + 3 * f;
+        Vec3 a = mesh->position[c[0]], b = mesh->position[c[1]], d = mesh->position[c[2]];
+        Vec3 middle = vec3_scale(vec3_add(a, vec3_add(b, d)), 1.0f / 3.0f);
+        if (middle.x > 9.0f && middle.x < 14.0f && middle.z > 4.0f && middle.z < 11.0f) {
+            assert_true(fabsf(height_mesh_finest_at(field, middle.x, middle.z) - middle.y) < 1e-4f);
+            inside++;
+        }
+    }
+    assert_int_equal(inside, 5 * 7 * 2);
+    assert_true(mesh->face_count < SIDE * SIDE);
+    assert_true(height_mesh_finest_at(field, -5.0f, 99.0f) == field->height[SIDE * (SIDE + 1)]);
+    mesh_free(mesh);
+    height_field_free(field);
+}
+
 static void splines_pass_through_the_samples(void **state)
 {
     (void)state;
@@ -319,6 +358,7 @@ int main(void)
         cmocka_unit_test(concavity_of_a_made_river),
         cmocka_unit_test(grids_are_read_and_bad_ones_refused),
         cmocka_unit_test(the_mesh_has_no_cracks_and_keeps_its_error),
+        cmocka_unit_test(samples_to_keep_become_corners),
         cmocka_unit_test(splines_pass_through_the_samples),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

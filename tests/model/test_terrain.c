@@ -482,7 +482,7 @@ static void land_water_and_forest_become_parts(void **state)
     TerrainParams params = small_terrain();
     params.water_level = 0.1f;
     params.rivers.water = 0.02f;
-    params.forest.count = 500;
+    params.forest.count = 800;
     params.position = vec3(100.0f, 50.0f, -30.0f);
     OutTree *tree = grow(&params, 5, 2);
     Geometry geometry = {0};
@@ -503,9 +503,200 @@ static void land_water_and_forest_become_parts(void **state)
     }
     assert_int_equal(parts[1], 1);
     assert_int_equal(parts[2], 2); // the lake and the rivers
-    assert_true(trees > 50 && trees <= 500);
+    assert_true(trees > 50 && trees <= 800);
     geometry_clear(&geometry);
     out_tree_free(tree);
+}
+
+// ---- water
+
+// Triangles of a land mesh by the square of a grid over the plane that they touch.
+typedef struct LandIndex {
+    const Mesh *mesh;
+    Aabb box;
+    int32_t *first, *next; // next: of entries
+    int32_t *triangle;
+    int64_t count, capacity;
+} LandIndex;
+
+enum { INDEX_SIDE = 128 };
+
+static int index_cell(float x, float low, float high)
+{
+    int i = (int)((x - low) / (high - low) * INDEX_SIDE);
+    return i < 0 ? 0 : i >= INDEX_SIDE ? INDEX_SIDE - 1 : i;
+}
+
+static LandIndex index_land(const Mesh *mesh)
+{
+    LandIndex land = {.mesh = mesh, .box = mesh_bounds(mesh)};
+    land.first = malloc(sizeof(int32_t) * INDEX_SIDE * INDEX_SIDE);
+    memset(land.first, 0xff, sizeof(int32_t) * INDEX_SIDE * INDEX_SIDE);
+    for (int64_t t = 0; t < mesh->face_count; t++) {
+        Aabb box = {mesh->position[mesh->index[3 * t]], mesh->position[mesh->index[3 * t]]};
+        for (int k = 1; k < 3; k++) {
+            Vec3 p = mesh->position[mesh->index[3 * t + k]];
+            box.low = vec3_min(box.low, p);
+            box.high = vec3_max(box.high, p);
+        }
+        int c0 = index_cell(box.low.x, land.box.low.x, land.box.high.x);
+        int c1 = index_cell(box.high.x, land.box.low.x, land.box.high.x);
+        int r0 = index_cell(box.low.z, land.box.low.z, land.box.high.z);
+        int r1 = index_cell(box.high.z, land.box.low.z, land.box.high.z);
+        for (int r = r0; r <= r1; r++) {
+            for (int c = c0; c <= c1; c++) {
+                if (land.count == land.capacity) {
+                    land.capacity = 2 * land.capacity + 1024;
+                    size_t bytes = sizeof(int32_t) * (size_t)land.capacity;
+                    land.next = realloc(land.next, bytes);
+                    land.triangle = realloc(land.triangle, bytes);
+                }
+                land.triangle[land.count] = (int32_t)t;
+                land.next[land.count] = land.first[r * INDEX_SIDE + c];
+                land.first[r * INDEX_SIDE + c] = (int32_t)land.count++;
+            }
+        }
+    }
+    return land;
+}
+
+static void free_index(LandIndex *land)
+{
+    free(land->first);
+    free(land->next);
+    free(land->triangle);
+}
+
+// Height of the land's mesh under a place.
+static float land_under(const LandIndex *land, Vec3 p)
+{
+    int c = index_cell(p.x, land->box.low.x, land->box.high.x);
+    int r = index_cell(p.z, land->box.low.z, land->box.high.z);
+    for (int32_t i = land->first[r * INDEX_SIDE + c]; i >= 0; i = land->next[i]) {
+        const uint32_t *corner = land->mesh->index + (int64_t)3 * land->triangle[i];
+        Vec3 a = land->mesh->position[corner[0]], b = land->mesh->position[corner[1]],
+             d = land->mesh->position[corner[2]];
+        float area = (b.x - a.x) * (d.z - a.z) - (b.z - a.z) * (d.x - a.x);
+        float u = ((p.x - a.x) * (d.z - a.z) - (p.z - a.z) * (d.x - a.x)) / area;
+        float v = ((b.x - a.x) * (p.z - a.z) - (b.z - a.z) * (p.x - a.x)) / area;
+        if (u >= -1e-4f && v >= -1e-4f && u + v <= 1.0002f) {
+            return a.y + u * (b.y - a.y) + v * (d.y - a.y);
+        }
+    }
+    fail_msg("no land under (%g, %g)", (double)p.x, (double)p.z);
+    return 0.0f;
+}
+
+// Half the width of the widest river whose water a place lies in or within a cell of.
+static float width_near(const OutTree *tree, Vec3 p, float cell)
+{
+    float widest = 0.0f;
+    for (int64_t i = 0; i < tree->count; i++) {
+        Vec3 b = tree->position[i], a = tree->parent[i] < 0 ? b : tree->position[tree->parent[i]];
+        float lower = tree->parent[i] < 0 ? tree->radius[i] : tree->radius[tree->parent[i]];
+        float dx = b.x - a.x, dz = b.z - a.z, squared = dx * dx + dz * dz;
+        if (fabsf(p.x - b.x) > fabsf(dx) + lower + cell) {
+            continue;
+        }
+        float t = squared > 0.0f ? ((p.x - a.x) * dx + (p.z - a.z) * dz) / squared : 0.0f;
+        t = clampf(t, 0.0f, 1.0f);
+        float away = hypotf(p.x - a.x - t * dx, p.z - a.z - t * dz);
+        float width = lerpf(lower, tree->radius[i], t);
+        widest = away < width + cell && width > widest ? width : widest;
+    }
+    return widest;
+}
+
+typedef struct WaterCase {
+    int resolution;
+    float water, sea, relief, thermal, streams, terraces;
+    int octaves;
+    bool eye;
+} WaterCase;
+
+static const WaterCase WATER_CASES[] = {
+    {128, 0.02f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 6, false},
+    {256, 0.01f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 6, true},
+    {256, 0.01f, 0.0f, 650.0f, 1.0f, 1.0f, 0.0f, 6, true},
+    {128, 0.02f, 0.1f, 2000.0f, 1.0f, 1.0f, 0.9f, 0, false},
+    {512, 0.005f, 0.1f, 2000.0f, 1.0f, 1.0f, 1.0f, 6, true},
+    {256, 0.03f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0, true}, // as wide as its valley, on flat land
+};
+
+static Geometry water_scene(const WaterCase *c, OutTree **tree)
+{
+    TerrainParams params = small_terrain();
+    params.resolution = c->resolution;
+    params.rivers.water = c->water;
+    params.water_level = c->sea;
+    params.relief = c->relief;
+    params.noise.iterations = c->octaves;
+    params.erosion.thermal = c->thermal;
+    params.erosion.streams = c->streams;
+    params.terraces = (TerrainTerraceParams){c->terraces > 0.0f ? 8 : 0, c->terraces};
+    *tree = grow(&params, 4, 2);
+    Geometry geometry = {0};
+    Error e = {0};
+    Run run = run_default();
+    run.threads = 2;
+    Vec3 eye = {0.0f, 2500.0f, 9000.0f};
+    TerrainMaterials materials = {1, 2, 3};
+    assert_true(terrain_geometry(&params, *tree, &materials, c->eye ? &eye : NULL, 0, &geometry,
+                                 &(Recipe){4, "land", 1.0f, &run, NULL}, &e));
+    assert_int_equal(geometry.count, c->sea > 0.0f ? 3 : 2);
+    return geometry;
+}
+
+// Does face i of a mesh of quads look down? Those cut off at the border have no area.
+static bool looks_down(const Mesh *mesh, int64_t i)
+{
+    const uint32_t *corner = mesh->index + 4 * i;
+    Vec3 a = mesh->position[corner[0]], b = mesh->position[corner[1]];
+    Vec3 c = mesh->position[corner[2]], d = mesh->position[corner[3]];
+    return vec3_cross(vec3_sub(c, a), vec3_sub(d, b)).y < -1.0f;
+}
+
+static Vec3 quad_middle(const Mesh *mesh, int64_t i)
+{
+    Vec3 p = vec3_splat(0.0f);
+    for (int64_t j = 0; j < 4; j++) {
+        p = vec3_madd(p, 0.25f, mesh->position[mesh->index[4 * i + j]]);
+    }
+    return p;
+}
+
+// The water of a river is nowhere higher over the land than its bed is deep, nor under it, on the
+// land as it is drawn, whatever erosion, terraces and noise made of it.
+static void rivers_lie_in_their_beds(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof WATER_CASES / sizeof WATER_CASES[0]; k++) {
+        OutTree *tree;
+        Geometry geometry = water_scene(&WATER_CASES[k], &tree);
+        LandIndex land = index_land(geometry.part[0].mesh);
+        const Mesh *water = geometry.part[geometry.count - 1].mesh;
+        float cell = 12000.0f / (float)WATER_CASES[k].resolution;
+        assert_true(water->vertex_count > 1000);
+        for (int64_t i = 0; i < water->vertex_count; i++) {
+            Vec3 p = water->position[i];
+            float over = p.y - land_under(&land, p), width = width_near(tree, p, cell);
+            if (!(over < 0.32f * width && over > -0.04f * width)) {
+                fail_msg("case %d: %g m over the land in a river of half width %g", (int)k,
+                         (double)over, (double)width);
+            }
+        }
+        int64_t under = 0, down = 0;
+        for (int64_t i = 0; i < water->face_count; i++) {
+            Vec3 p = quad_middle(water, i);
+            under += p.y < land_under(&land, p) - 0.05f * width_near(tree, p, cell);
+            down += looks_down(water, i);
+        }
+        assert_true(under <= water->face_count / 400); // in cascades: no gaps elsewhere
+        assert_int_equal(down, 0);
+        free_index(&land);
+        geometry_clear(&geometry);
+        out_tree_free(tree);
+    }
 }
 
 int main(void)
@@ -529,6 +720,7 @@ int main(void)
         cmocka_unit_test(measures_are_those_of_nature),
         cmocka_unit_test(erosion_lowers_what_is_too_steep),
         cmocka_unit_test(land_water_and_forest_become_parts),
+        cmocka_unit_test(rivers_lie_in_their_beds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
