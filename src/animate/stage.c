@@ -1,6 +1,7 @@
 #include "animate/stage.h"
 
 #include "base/memory.h"
+#include "scene/place.h"
 #include "scene/sections.h"
 
 #include <stdlib.h>
@@ -73,12 +74,12 @@ static bool set_up(Stage *stage, Scene *scene, bool fits, const Run *run, Error 
     double start = run_seconds();
     bool done = stage->world;
     if (done && stage->renderer) {
-        done = renderer_update(stage->renderer, changed, run, e);
+        done = renderer_update(stage->renderer, changed, run, e) || scene_fail_at(scene, "", e);
         stage->stats.structures += (changed & RENDERER_LAMPS) != 0;
     } else if (done) {
         stage->renderer = renderer_new(stage->world, stage->isa, run, e);
         stage->stats.structures++;
-        done = stage->renderer;
+        done = stage->renderer || scene_fail_at(scene, "", e);
     }
     stage->stats.build_seconds += run_seconds() - start;
     scene->camera = own;

@@ -9,7 +9,8 @@
 #include "scene/build.h"
 
 struct RamifyWorld {
-    World *world; // owned
+    World *world;       // owned
+    const Scene *scene; // what it was built from, borrowed: for messages
     BuildStats stats;
 };
 

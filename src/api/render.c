@@ -3,6 +3,7 @@
 #include "image/image.h"
 #include "render/accel.h"
 #include "scene/picture.h"
+#include "scene/place.h"
 
 #include <string.h>
 
@@ -109,6 +110,7 @@ RamifyRenderer *ramify_renderer_new(const RamifyWorld *world, const char *isa, c
     Run own = api_run(run);
     Renderer *renderer = renderer_new(world->world, isa, &own, &e);
     if (!renderer) {
+        scene_fail_at(world->scene, "", &e);
         api_fail(error, &e);
     }
     return (RamifyRenderer *)(void *)renderer;

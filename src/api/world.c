@@ -10,6 +10,7 @@ RamifyWorld *ramify_build(const RamifyScene *scene, const RamifyRun *run, Ramify
     Run own = api_run(run);
     RamifyWorld *world = memory_alloc_zero(1, sizeof *world, &e);
     if (world) {
+        world->scene = scene_of(scene);
         world->world = scene_build(scene_of(scene), &own, &world->stats, &e);
     }
     if (!world || !world->world) {

@@ -41,8 +41,8 @@ bool child_write(ChildOutput *output, const void *data, int64_t count, size_t si
     while (left > 0) {
         ssize_t put = write(output->file, at, left < LARGEST_WRITE ? left : LARGEST_WRITE);
         if (put < 0 && errno != EINTR) {
-            return error_set(e, ERROR_MEMORY, "cannot hand back what was read: %s",
-                             strerror(errno));
+            return error_set(e, errno == EFBIG || errno == ENOMEM ? ERROR_MEMORY : ERROR_IO,
+                             "cannot hand back what was read: %s", strerror(errno));
         }
         at += put > 0 ? put : 0;
         left -= put > 0 ? (size_t)put : 0;
@@ -174,13 +174,28 @@ static bool crashed(const ChildJob *job, int signal, Error *e)
                      name ? name : "unknown signal", job->wanted);
 }
 
-static bool task_failed(const ChildJob *job, const Error *said, Error *e)
+// The file is to blame when it asked for more than any such file needs, the machine when it or the
+// user's own limits (ulimit) leave less than that.
+static bool short_of_memory(const ChildJob *job, const ChildReport *report, Error *e)
 {
-    Error copy = *said;
+    if (report->own_limit) {
+        return error_set(
+            e, ERROR_INPUT,
+            "the reader asked for more than the %.3g GB that it may have; %s is needed",
+            (double)job->memory * 1e-9, job->wanted);
+    }
+    return error_set(e, ERROR_MEMORY,
+                     "out of memory while it is read: this process may have less than the %.3g GB "
+                     "that are set aside for it; raise its limit (ulimit -v)",
+                     (double)job->memory * 1e-9);
+}
+
+static bool task_failed(const ChildJob *job, const ChildReport *report, Error *e)
+{
+    Error copy = report->error;
     clean(copy.message, sizeof copy.message);
     if (copy.code == ERROR_MEMORY) {
-        return error_set(e, ERROR_INPUT, "the reader needed more than %.3g GB; %s is needed",
-                         (double)job->memory * 1e-9, job->wanted);
+        return short_of_memory(job, report, e);
     }
     bool known = copy.code == ERROR_INPUT || copy.code == ERROR_IO;
     error_set(e, known ? copy.code : ERROR_INTERNAL, "%s", copy.message);
@@ -206,7 +221,7 @@ static bool judge(const ChildJob *job, Outcome outcome, const Child *child,
         return error_set(e, ERROR_INPUT, "the reader ended without a result; %s is needed",
                          job->wanted);
     }
-    return report->error.code == ERROR_NONE || task_failed(job, &report->error, e);
+    return report->error.code == ERROR_NONE || task_failed(job, report, e);
 }
 
 // From the output's start; its size is known only now that no one writes to it any more.

@@ -83,25 +83,25 @@ static int64_t mapped_bytes(void)
     return strtoll(text, NULL, 10) * sysconf(_SC_PAGESIZE);
 }
 
-// Never above what the user allows already.
-static void lower_limit(__rlimit_resource_t what, int64_t value)
+// Never above what the user allows already. Is the value the limit now?
+static bool lower_limit(__rlimit_resource_t what, int64_t value)
 {
-    struct rlimit limit;
+    struct rlimit limit = {0};
     if (getrlimit(what, &limit) == 0 && limit.rlim_max > (rlim_t)value) {
         limit.rlim_max = (rlim_t)value;
     }
     limit.rlim_cur = limit.rlim_cur > limit.rlim_max ? limit.rlim_max : limit.rlim_cur;
-    setrlimit(what, &limit);
+    return setrlimit(what, &limit) == 0 && limit.rlim_cur == (rlim_t)value;
 }
 
-static void set_limits(const ChildJob *job)
+static void set_limits(const ChildJob *job, ChildReport *report)
 {
     int64_t seconds = (int64_t)ceil(job->seconds);
     int64_t mapped = mapped_bytes(), memory;
     struct rlimit processor = {.rlim_cur = (rlim_t)seconds, .rlim_max = (rlim_t)seconds + 1};
     setrlimit(RLIMIT_CPU, &processor);
     if (mapped > 0 && !__builtin_add_overflow(mapped, job->memory, &memory)) {
-        lower_limit(RLIMIT_AS, memory);
+        report->own_limit = lower_limit(RLIMIT_AS, memory);
     }
     lower_limit(RLIMIT_FSIZE, job->memory);
     lower_limit(RLIMIT_CORE, 0);
@@ -135,7 +135,7 @@ _Noreturn void child_confined(const ChildJob *job, ChildReport *report, int file
     if (!leave_files(file)) {
         error_set(&e, ERROR_IO, "files cannot be closed before it is read; too many are open");
     } else {
-        set_limits(job);
+        set_limits(job, report);
         ChildOutput output = {.file = OUTPUT_FILE};
         if (job->task(job->data, &output, &e)) {
             e.code = ERROR_NONE;

@@ -27,6 +27,31 @@ void error_locate(Error *e, const char *file, int line, int column)
     e->column = column;
 }
 
+bool error_key(Error *e, const char *format, ...)
+{
+    if (!e) {
+        return false;
+    }
+    char inner[sizeof e->key];
+    memcpy(inner, e->key, sizeof inner);
+    va_list arguments;
+    va_start(arguments, format);
+    int used = vsnprintf(e->key, sizeof e->key, format, arguments);
+    va_end(arguments);
+    if (inner[0] && used >= 0 && used < (int)sizeof e->key) {
+        snprintf(e->key + used, sizeof e->key - (size_t)used, ".%s", inner);
+    }
+    return false;
+}
+
+void error_quote_file(Error *e)
+{
+    if (e && e->file[0] && e->line == 0) {
+        error_prefix(e, "%s: ", e->file);
+        e->file[0] = 0;
+    }
+}
+
 void error_prefix(Error *e, const char *format, ...)
 {
     if (!e) {
@@ -47,6 +72,8 @@ void error_format(const Error *e, char *text, int size)
 {
     if (!e->file[0]) {
         snprintf(text, (size_t)size, "%s", e->message);
+    } else if (e->line > 0 && e->column == 0) {
+        snprintf(text, (size_t)size, "%s:%d: %s", e->file, e->line, e->message);
     } else if (e->line > 0) {
         snprintf(text, (size_t)size, "%s:%d:%d: %s", e->file, e->line, e->column, e->message);
     } else {

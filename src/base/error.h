@@ -19,6 +19,9 @@ typedef struct Error {
     ErrorCode code;
     int line, column; // 1-based; 0 when unknown
     char file[256];   // "" when unknown
+    char
+        key[128]; // of the parameters, as in a scene file below what was called: "growth.levels.0";
+                  // "" when unknown
     char message[768];
 } Error;
 
@@ -31,10 +34,19 @@ bool error_set(Error *e, ErrorCode code, const char *format, ...)
 // unknown.
 void error_locate(Error *e, const char *file, int line, int column);
 
+// Puts a key before the error's own on the way up, joined by a dot: whoever reads the parameters
+// from a file can tell their place then. Returns false. Keys may be too long to fit: then the inner
+// end is lost.
+bool error_key(Error *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// Moves the file's name, if no line of it is known, from the place to the front of the message, so
+// that another place can be named: that where the file is asked for.
+void error_quote_file(Error *e);
+
 // Puts words before the message, once on the way up: error_prefix(e, "object 'oak': ").
 void error_prefix(Error *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// Writes "file:line:column: message" (as much of it as is known) into text.
+// Writes "file:line:column: message" (as much of it as is known) into text; column 0 is left out.
 void error_format(const Error *e, char *text, int size);
 
 #endif

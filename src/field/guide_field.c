@@ -73,11 +73,11 @@ static bool fill(GuideField *field, const FieldParams *params, int64_t nucleus_c
 {
     for (int i = 0; i < field->count; i++) {
         if (!check_params(&params[i], nucleus_count, e)) {
-            return false;
+            return error_key(e, "%d", i);
         }
         field->params[i] = params[i];
         if (params[i].kind == FIELD_GRID && !make_grid(field, i, run, e)) {
-            return false;
+            return error_key(e, "%d", i);
         }
     }
     return true;

@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "render/renderer.h"
 #include "scene/build.h"
+#include "scene/place.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -79,6 +80,9 @@ Pinned *pinned_open(const Scene *scene, const char *isa, const Run *run, Error *
     p->seed = scene->render.seed;
     p->world = scene_build(scene, run, NULL, e);
     p->renderer = p->world ? renderer_new(p->world, isa, run, e) : NULL;
+    if (p->world && !p->renderer) {
+        scene_fail_at(scene, "", e);
+    }
     p->film = p->renderer ? film_new(p->world->film.width, p->world->film.height, e) : NULL;
     if (!p->film) {
         pinned_close(p);

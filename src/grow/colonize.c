@@ -32,21 +32,22 @@ static bool check_params(const OutTree *tree, const ColonizeParams *params, Erro
     const float length[3] = {params->step, params->kill, params->influence};
     for (int i = 0; i < 3; i++) {
         if (!(length[i] >= 1e-12f && length[i] <= 1e12f)) {
-            return error_set(e, ERROR_INPUT, "growth.%s is %g m; it must be positive and finite",
-                             name[i], (double)length[i]);
+            error_set(e, ERROR_INPUT, "%s is %g m; it must be at least 1e-12 and at most 1e12 m",
+                      name[i], (double)length[i]);
+            return error_key(e, "%s", name[i]);
         }
     }
     if (params->kill >= params->influence) {
-        return error_set(e, ERROR_INPUT,
-                         "growth.kill %.3g m is not below growth.influence %.3g m, so nothing can "
-                         "grow; lower growth.kill or raise growth.influence",
-                         (double)params->kill, (double)params->influence);
+        error_set(e, ERROR_INPUT,
+                  "kill %.3g m is not below influence %.3g m, so nothing can grow; lower kill or "
+                  "raise influence",
+                  (double)params->kill, (double)params->influence);
+        return error_key(e, "kill");
     }
     if (!vec3_finite(params->tropism) || !isfinite(params->noise) || params->noise < 0.0f ||
         !isfinite(params->field_weight)) {
         return error_set(e, ERROR_INPUT,
-                         "growth.noise, tropism and field weight must be finite, and noise not "
-                         "negative");
+                         "noise, tropism and field_weight must be finite, and noise not negative");
     }
     if (tree->count < 1) {
         return error_set(e, ERROR_INPUT, "growth has no point to start from; give it a root");

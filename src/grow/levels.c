@@ -44,7 +44,8 @@ static PointSet *scatter_level(const Envelope *envelope, const ScatterParams *sc
 }
 
 static bool grow_level(OutTree *tree, const PointSet *attractors, const GrowLevel *level,
-                       ColonizeParams *params, const Run *run, GrowReport *report, Error *e)
+                       int number, ColonizeParams *params, const Run *run, GrowReport *report,
+                       Error *e)
 {
     double spacing = points_spacing(attractors);
     ColonizeParams mine = *params;
@@ -53,7 +54,8 @@ static bool grow_level(OutTree *tree, const PointSet *attractors, const GrowLeve
     mine.tropism = vec3_scale(params->tropism, level->tropism);
     int64_t first = tree->count;
     if (!colonize(tree, attractors, &mine, run, report, e)) {
-        return false;
+        error_prefix(e, "level %d: ", number);
+        return error_key(e, "growth.levels.%d", number - 1);
     }
     params->first_step += (int32_t)report->steps;
     relax(tree, first, level->relax);
@@ -68,10 +70,11 @@ bool colonize_levels(OutTree *tree, const Envelope *envelope, const ScatterParam
     for (int i = 0; i < level_count; i++) {
         GrowReport report = {.stop = STOP_NO_PULL};
         if (!check_level(&levels[i], i + 1, e)) {
-            return false;
+            return error_key(e, "growth.levels.%d", i);
         }
         PointSet *attractors = scatter_level(envelope, scatter, &levels[i], i, run, e);
-        bool grown = attractors && grow_level(tree, attractors, &levels[i], &mine, run, &report, e);
+        bool grown =
+            attractors && grow_level(tree, attractors, &levels[i], i + 1, &mine, run, &report, e);
         points_free(attractors);
         if (reports) {
             reports[i] = report;

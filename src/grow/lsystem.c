@@ -403,13 +403,14 @@ static bool rewrite(const Grammar *grammar, const ModuleString *from, ModuleStri
                                undefined->symbol);
         }
         if (!(rule ? append(&rule->successor, values, to, e) : copy_module(from, i, to, e))) {
-            return false;
+            return error_key(e, "rules");
         }
         if (to->count > most) {
-            return error_set(e, ERROR_INPUT,
-                             "generation %d of the L-system has more than %lld symbols; lower "
-                             "generations or the rules' growth",
-                             generation, (long long)most);
+            error_set(e, ERROR_INPUT,
+                      "generation %d of the L-system has more than %lld symbols; lower "
+                      "generations or the rules' growth",
+                      generation, (long long)most);
+            return error_key(e, "generations");
         }
     }
     return true;
@@ -450,13 +451,31 @@ static bool read_axiom(const char *text, const Grammar *grammar, ModuleString *s
     return read;
 }
 
+static bool read_both(const LSystemParams *params, Grammar *grammar, ModuleString *string, Error *e)
+{
+    if (!read_grammar(params->rules, grammar, e)) {
+        return error_key(e, "rules");
+    }
+    return read_axiom(params->axiom, grammar, string, e) || error_key(e, "axiom");
+}
+
+bool lsystem_check(const LSystemParams *params, Error *e)
+{
+    LSystemParams unchanged = *params;
+    unchanged.generations = 0;
+    ModuleString string;
+    Run run = run_default();
+    bool done = lsystem_derive(&unchanged, &run, &string, e);
+    module_string_clear(&string);
+    return done;
+}
+
 bool lsystem_derive(const LSystemParams *params, const Run *run, ModuleString *string, Error *e)
 {
     Grammar *grammar = memory_alloc_zero(1, sizeof *grammar, e); // large for the stack
     *string = (ModuleString){0};
-    bool done = grammar && read_grammar(params->rules, grammar, e) &&
-                read_axiom(params->axiom, grammar, string, e) &&
-                derive(grammar, params, run, string, e);
+    bool done =
+        grammar && read_both(params, grammar, string, e) && derive(grammar, params, run, string, e);
     if (grammar) {
         grammar_clear(grammar);
     }

@@ -40,8 +40,12 @@ typedef struct LSystemParams {
 } LSystemParams;
 
 // The string after the last generation. ERROR_INPUT names the line and column of what is wrong with
-// axiom or rules, or the generation that would be longer than most_modules.
+// axiom or rules, or the generation that would be longer than most_modules; its key is that of the
+// text.
 bool lsystem_derive(const LSystemParams *params, const Run *run, ModuleString *string, Error *e);
+
+// Are axiom and rules right? ERROR_INPUT as for lsystem_derive.
+bool lsystem_check(const LSystemParams *params, Error *e);
 
 void module_string_clear(ModuleString *string);
 

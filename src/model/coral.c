@@ -347,7 +347,7 @@ static bool prepare_string(Growing *g, Error *e)
                             .seed = random_key(g->recipe->seed, 5)};
     ModuleString modules;
     bool done = lsystem_derive(&params, g->recipe->run, &modules, e) &&
-                grow_string_init(&g->string, &modules, p->angle, e);
+                (grow_string_init(&g->string, &modules, p->angle, e) || error_key(e, "axiom"));
     module_string_clear(&modules);
     return done;
 }
@@ -393,7 +393,6 @@ OutTree *coral_grow(const CoralParams *params, const Recipe *recipe, Error *e)
         recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(&p, recipe, e);
     if (!tree || !out_tree_keep_births(tree, recipe->grow_to, e)) {
         out_tree_free(tree);
-        error_prefix(e, "%s: ", recipe->label);
         return NULL;
     }
     out_tree_pipe_radii(tree, p.exponent, p.tip_radius, 0.0f);

@@ -73,7 +73,6 @@ OutTree *dla_model_grow(const DlaModel *params, const Recipe *recipe, Error *e)
 {
     OutTree *tree = grow_cluster(params, recipe, e);
     if (!tree) {
-        error_prefix(e, "%s: ", recipe->label);
         return NULL;
     }
     relax(tree);

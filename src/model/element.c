@@ -91,6 +91,9 @@ static GuideField *element_field(const OutTree *tree, const ElementParams *eleme
         }
         field = guide_field_new(fields, element->field_count, position, normal, count,
                                 envelope_bounds(envelope), run, e);
+        if (!field) {
+            error_key(e, "fields");
+        }
     }
     free(fields);
     free(position);

@@ -263,8 +263,5 @@ static OutTree *grow(const FrostParams *params, const Recipe *recipe, Error *e)
 OutTree *frost_grow(const FrostParams *params, const Recipe *recipe, Error *e)
 {
     OutTree *tree = grow(params, recipe, e);
-    if (!tree) {
-        error_prefix(e, "%s: ", recipe->label);
-    }
     return tree;
 }

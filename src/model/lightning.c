@@ -178,6 +178,9 @@ OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float si
         bool done = set_radii(next, params, size, core, strike_id, strike_count, e);
         if (done && i < 2) {
             next = out_tree_resample(tree, length[i], e);
+            if (!next) {
+                error_key(e, "%s", i == 0 ? "step" : "segment");
+            }
             jitter.amplitude = params->jitter * size * (i == 0 ? 1.0f : 0.4f);
             jitter.amplitude *= wander->project ? 0.7f : 1.0f; // in one direction, round bends
             jitter.seed = random_key(wander->seed, (uint64_t)i);

@@ -98,7 +98,6 @@ OutTree *lsystem_plant_grow(const LSystemPlantParams *p, const Recipe *recipe, E
     if (!tree || !(again || recipe_keep(recipe, 0, tree, e)) ||
         !out_tree_keep_births(tree, recipe->grow_to, e)) {
         out_tree_free(tree);
-        error_prefix(e, "%s: ", recipe->label);
         return NULL;
     }
     Aabb box = out_tree_bounds(tree);

@@ -104,11 +104,14 @@ static bool put_in_place(OutTree *tree, const SkeletonParams *params, Error *e)
         tree->position[i] = transform_point(&t, vec3_sub(tree->position[i], from));
         tree->radius[i] *= s * params->radius_factor;
     }
-    return is_placed_well(tree) ||
-           error_set(e, ERROR_INPUT,
-                     "'%s' reaches farther than %g m; its lengths are often in micrometres, so "
-                     "that scale should be less than %g",
-                     params->file, (double)FARTHEST, (double)s);
+    if (!is_placed_well(tree)) {
+        error_set(e, ERROR_INPUT,
+                  "'%s' reaches farther than %g m; its lengths are often in micrometres, so that "
+                  "scale should be less than %g",
+                  params->file, (double)FARTHEST, (double)s);
+        return error_key(e, "scale");
+    }
+    return true;
 }
 
 static void thicken(OutTree *tree, float min_radius)
@@ -146,6 +149,9 @@ OutTree *skeleton_grow(const SkeletonParams *params, const Recipe *recipe, Error
 {
     OutTree *file = out_tree_import_swc(params->file, recipe->run, e);
     OutTree *tree = file ? pick(file, params, e) : NULL;
+    if (!file) {
+        error_key(e, "file");
+    }
     bool done = tree && put_in_place(tree, params, e);
     out_tree_free(file);
     if (done) {
@@ -155,7 +161,6 @@ OutTree *skeleton_grow(const SkeletonParams *params, const Recipe *recipe, Error
     }
     if (!done) {
         out_tree_free(tree);
-        error_prefix(e, "%s: ", recipe->label);
         return NULL;
     }
     return tree;

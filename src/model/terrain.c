@@ -170,7 +170,6 @@ OutTree *terrain_grow(const TerrainParams *params, const Recipe *recipe, Error *
     OutTree *rivers = terrain_rivers(params, recipe, e);
     Terrain *terrain = rivers ? terrain_new(params, rivers, recipe, e) : NULL;
     if (!terrain) {
-        error_prefix(e, "%s: ", recipe->label);
         return NULL;
     }
     OutTree *tree = terrain->rivers;

@@ -141,6 +141,7 @@ static bool grow_trunk(OutTree *tree, const TreeParams *params, uint64_t seed, c
     snprintf(name, sizeof name, "%s, trunk", label);
     if (!plant_stems(tree, params, seed, e) ||
         !element_grow(tree, &params->trunk.element, seed, name, run, e)) {
+        error_key(e, "trunk");
         return false;
     }
     transport_normals(tree);
@@ -155,6 +156,7 @@ static bool grow_crown(OutTree *tree, const TreeParams *params, uint64_t seed, c
     int64_t trunk_count = tree->count;
     if (!start_branches(tree, params, random_key(seed, 1), e) ||
         !element_grow(tree, &params->crown.element, seed, name, run, e)) {
+        error_key(e, "crown");
         return false;
     }
     for (int64_t i = trunk_count; i < tree->count; i++) {
@@ -221,8 +223,9 @@ static bool grow_roots(OutTree *tree, const TreeParams *params, uint64_t seed, c
     char name[128];
     snprintf(name, sizeof name, "%s, roots", label);
     OutTree *roots = out_tree_new(e);
-    bool done = roots && plant_roots(roots, params, random_key(seed, 1), e) &&
-                element_grow(roots, &params->roots.element, seed, name, run, e);
+    bool done =
+        roots && plant_roots(roots, params, random_key(seed, 1), e) &&
+        (element_grow(roots, &params->roots.element, seed, name, run, e) || error_key(e, "roots"));
     if (done) {
         out_tree_pipe_radii(roots, params->radii.exponent, 2.0f * params->radii.tip,
                             params->roots.radius * params->trunk.radius);

@@ -106,7 +106,6 @@ OutTree *venation_grow(const VenationParams *given, const Recipe *recipe, Error 
     OutTree *tree =
         recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(&params, recipe, e);
     if (!tree || !out_tree_keep_births(tree, recipe->grow_to, e)) {
-        error_prefix(e, "%s: ", recipe->label);
         out_tree_free(tree);
         return NULL;
     }

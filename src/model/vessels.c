@@ -177,8 +177,5 @@ OutTree *vessels_grow(const VesselsParams *params, const Recipe *recipe, Error *
     out_tree_free(bed.trees[0].tree);
     out_tree_free(bed.trees[1].tree);
     envelope_free(envelope);
-    if (!tree) {
-        error_prefix(e, "%s: ", recipe->label);
-    }
     return tree;
 }

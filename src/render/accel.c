@@ -281,8 +281,12 @@ static RTCDevice open_device(Accel *accel, const char *isa, int threads, Error *
     char config[128];
     snprintf(config, sizeof config, "threads=%d%s%s", threads, isa ? ",isa=" : "", isa ? isa : "");
     RTCDevice device = rtcNewDevice(config);
+    if (!device && rtcGetDeviceError(NULL) == RTC_ERROR_OUT_OF_MEMORY) { // of this thread
+        error_set(e, ERROR_MEMORY, "out of memory while Embree starts its %d threads", threads);
+        return NULL;
+    }
     if (!device) {
-        error_set(e, ERROR_INPUT, "Embree does not start with '%s' on this machine", config);
+        error_set(e, ERROR_INTERNAL, "Embree does not start with '%s' on this machine", config);
         return NULL;
     }
     rtcSetDeviceErrorFunction(device, on_error, accel);

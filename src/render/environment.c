@@ -32,6 +32,7 @@ Dome *environment_dome(const Sky *sky, Error *e)
     }
     Image *image = image_read(sky->file, e);
     if (!image) {
+        error_key(e, "sky.file");
         return NULL;
     }
     Dome *dome = NULL;
@@ -46,6 +47,8 @@ Dome *environment_dome(const Sky *sky, Error *e)
     image_free(image);
     if (dome) {
         dome_prepare(dome);
+    } else {
+        error_key(e, "sky.file");
     }
     return dome;
 }

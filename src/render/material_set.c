@@ -31,8 +31,8 @@ static bool prepare_table(MaterialEntry *entry, Error *e)
     return true;
 }
 
-static bool open_texture(MaterialSet *set, const Material *m, const char *file, Texture **texture,
-                         Error *e)
+static bool open_texture(MaterialSet *set, const Material *m, const char *key, const char *file,
+                         Texture **texture, Error *e)
 {
     if (!file || !file[0]) {
         return true;
@@ -43,6 +43,7 @@ static bool open_texture(MaterialSet *set, const Material *m, const char *file, 
     *texture = set->textures ? texture_open(set->textures, file, e) : NULL;
     if (!*texture) {
         error_prefix(e, "material '%s': ", m->name);
+        error_key(e, "materials.%s.%s", m->name, key);
     }
     return *texture != NULL;
 }
@@ -69,8 +70,8 @@ static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material
     entry->plain = m->kind == MATERIAL_DIFFUSE && m->pattern == PATTERN_NONE &&
                    m->variation <= 0.0f && !(m->texture && m->texture[0]);
     return (!used || (prepare_table(entry, e) && prepare_film(set, m, e))) &&
-           open_texture(set, m, m->texture, &entry->color, e) &&
-           open_texture(set, m, m->alpha_texture, &entry->opacity, e);
+           open_texture(set, m, "texture", m->texture, &entry->color, e) &&
+           open_texture(set, m, "alpha_texture", m->alpha_texture, &entry->opacity, e);
 }
 
 MaterialSet *material_set_new(const Material *materials, const bool *used, int count, Error *e)

@@ -91,6 +91,8 @@ extern "C" TextureCache *texture_cache_new(Error *e)
         cache->system->attribute("autotile", 64);
         cache->system->attribute("max_memory_MB", 1024.0f);
         return cache.release();
+    } catch (const std::bad_alloc &) {
+        error_set(e, ERROR_MEMORY, "out of memory for the texture cache");
     } catch (const std::exception &failure) {
         error_set(e, ERROR_INTERNAL, "no texture cache: %s", failure.what());
     } catch (...) {
@@ -108,6 +110,8 @@ extern "C" Texture *texture_open(TextureCache *cache, const char *file, Error *e
 {
     try {
         return open_texture(cache, file, e);
+    } catch (const std::bad_alloc &) {
+        error_set(e, ERROR_MEMORY, "out of memory while texture '%s' is read", file);
     } catch (const std::exception &failure) {
         error_set(e, ERROR_INTERNAL, "texture '%s' cannot be read: %s", file, failure.what());
     } catch (...) {

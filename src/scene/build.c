@@ -6,6 +6,7 @@
 #include "mesh/height_measure.h"
 #include "scene/builtin.h"
 #include "scene/kind.h"
+#include "scene/place.h"
 #include "tree/measure.h"
 
 #include <stdio.h>
@@ -92,14 +93,18 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
     const SceneObject *object = &scene->objects[index];
     const Kind *kind = kind_of(object);
     if (!kind->grow) {
-        error_set(e, ERROR_INPUT, "object '%s' does not grow; a %s never does", object->name,
-                  kind->key);
+        error_set(e, ERROR_INPUT, "it does not grow; a %s never does", kind->key);
+        scene_fail_object(scene, index, e);
         return NULL;
     }
     char label[LABEL_SIZE];
     Recipe recipe = make_recipe(scene, object, run, label);
+    OutTree *tree = kind->grow(object, &recipe, e);
+    if (!tree) {
+        scene_fail_object(scene, index, e);
+    }
     // cppcheck-suppress returnDanglingLifetime ; the tree keeps nothing of the recipe
-    return kind->grow(object, &recipe, e);
+    return tree;
 }
 
 HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, const Run *run,
@@ -108,13 +113,18 @@ HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, c
     const SceneObject *object = &scene->objects[index];
     const Kind *kind = kind_of(object);
     if (!kind->heights) {
-        error_set(e, ERROR_INPUT, "object '%s' is no land; a terrain would be", object->name);
+        error_set(e, ERROR_INPUT, "it is no land; a terrain would be");
+        scene_fail_object(scene, index, e);
         return NULL;
     }
     char label[LABEL_SIZE];
     Recipe recipe = make_recipe(scene, object, run, label);
+    HeightField *field = kind->heights(object, tree, &recipe, e);
+    if (!field) {
+        scene_fail_object(scene, index, e);
+    }
     // cppcheck-suppress returnDanglingLifetime ; neither does the land
-    return kind->heights(object, tree, &recipe, e);
+    return field;
 }
 
 // Measures of the land that a kind with heights makes; others have none.
@@ -124,7 +134,10 @@ static bool measure_land(const Scene *scene, int index, const OutTree *tree, con
     if (!kind_of(&scene->objects[index])->heights) {
         return true;
     }
-    HeightField *field = scene_heights(scene, index, tree, run, e);
+    char label[LABEL_SIZE];
+    Recipe recipe = make_recipe(scene, &scene->objects[index], run, label);
+    HeightField *field =
+        kind_of(&scene->objects[index])->heights(&scene->objects[index], tree, &recipe, e);
     bool done = field && height_field_measure(field, 0.0, list, e);
     height_field_free(field);
     return done;
@@ -144,7 +157,7 @@ bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *l
                 measure_land(scene, index, tree, run, list, e) &&
                 (!kind->measure || kind->measure(object, tree, &recipe, list, e));
     out_tree_free(tree);
-    return done;
+    return done || scene_fail_object(scene, index, e);
 }
 
 static bool place(const Placing *p, Error *e)
@@ -156,7 +169,7 @@ static bool place(const Placing *p, Error *e)
     double start = run_seconds();
     OutTree *tree = kind->grow ? kind->grow(p->object, &p->recipe, e) : NULL;
     if (kind->grow && !tree) {
-        return false; // growing objects name themselves
+        return false;
     }
     double grown = run_seconds();
     bool done = kind->place(p, tree, e);
@@ -164,9 +177,6 @@ static bool place(const Placing *p, Error *e)
     p->stats->grow_seconds += grown - start;
     p->stats->mesh_seconds += run_seconds() - grown;
     out_tree_free(tree);
-    if (!done && e && e->code != ERROR_CANCELLED) {
-        error_prefix(e, "%s: ", p->recipe.label);
-    }
     return done;
 }
 
@@ -181,7 +191,7 @@ bool scene_place_object(World *world, const Scene *scene, int index, RecipeMemor
                        .recipe = make_recipe(scene, &scene->objects[index], run, label),
                        .stats = stats};
     placing.recipe.memory = memory;
-    return place(&placing, e);
+    return place(&placing, e) || scene_fail_object(scene, index, e);
 }
 
 bool scene_give_settings(const Scene *scene, World *world, Error *e)

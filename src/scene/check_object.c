@@ -1,8 +1,11 @@
 // Checks of objects and what they are made of.
+#include "grow/lsystem.h"
+#include "grow/sectors.h"
 #include "scene/kind.h"
 #include "scene/node_number.h"
 #include "scene/scalar.h"
 #include "scene/spec_check.h"
+#include "shape/import_check.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -139,9 +142,22 @@ static bool add_transform(Resolver *r, const Path *path, const Node *given, Node
     return rows;
 }
 
+// What a look at the file's name, size and header tells.
+static bool check_mesh_file(Resolver *r, const Path *path, const Node *given, const Node *resolved)
+{
+    const Node *file = node_get(resolved, "file");
+    Error e = {0};
+    if (!file || import_check(file->resolved, &e)) {
+        return true;
+    }
+    return resolver_fail(r, node_place(given, "file"), "%s: '%s': %s",
+                         resolver_path(r, path, "file"), file->text, e.message);
+}
+
 bool check_mesh(Resolver *r, const Path *path, const Node *given, Node *resolved)
 {
-    return add_transform(r, path, given, resolved, 1.0f);
+    return check_mesh_file(r, path, given, resolved) &&
+           add_transform(r, path, given, resolved, 1.0f);
 }
 
 // The components of size that a kind of shape needs to be greater than 0.
@@ -172,14 +188,49 @@ bool check_shape(Resolver *r, const Path *path, const Node *given, Node *resolve
         }
     }
     bool sphere = strcmp(kind, "sphere") == 0;
-    return add_transform(r, path, given, resolved, sphere ? node_component(size, 0) : 1.0f);
+    return check_mesh_file(r, path, given, resolved) &&
+           add_transform(r, path, given, resolved, sphere ? node_component(size, 0) : 1.0f);
+}
+
+// What growth would refuse only once it is the object's turn.
+static bool check_scattering(Resolver *r, const Path *path, const Node *given, const Node *resolved)
+{
+    const Node *points = node_get(resolved, "points");
+    const char *pattern = node_get_text(points, "pattern");
+    const char *anchored = node_get_text(points, "anchored");
+    if (pattern && strcmp(pattern, "poisson") == 0 && anchored && strcmp(anchored, "true") == 0) {
+        return resolver_fail(r, node_place(node_get(given, "points"), "anchored"),
+                             "%s.anchored: anchored points keep no distance; use the pattern "
+                             "random, or anchored: false",
+                             resolver_path(r, path, "points"));
+    }
+    return true;
+}
+
+static bool check_sectors(Resolver *r, const Path *path, const Node *given, const Node *resolved)
+{
+    const Node *growth = node_get(resolved, "growth"), *points = node_get(resolved, "points");
+    const char *rule = node_get_text(growth, "rule"), *place = node_get_text(points, "place");
+    float angle = (float)node_number(growth, "sector_angle");
+    if (!rule || strcmp(rule, "sectors") != 0 || angle == 0.0f) {
+        return true;
+    }
+    SectorTable table;
+    Error e = {0};
+    if (!sectors_init(&table, angle, place && strcmp(place, "surface") == 0, &e)) {
+        return resolver_fail(r, node_place(node_get(given, "growth"), "sector_angle"), "%s: %s",
+                             resolver_path(r, path, "growth.sector_angle"), e.message);
+    }
+    return true;
 }
 
 bool check_envelope(Resolver *r, const Path *path, const Node *given, Node *resolved)
 {
     const char *name = resolver_path(r, path, "envelope");
     const Node *list = node_get(resolved, "envelope");
-    (void)given;
+    if (!check_scattering(r, path, given, resolved) || !check_sectors(r, path, given, resolved)) {
+        return false;
+    }
     for (const Node *shape = list ? list->first : NULL; shape; shape = shape->next) {
         bool adds = strcmp(node_get_text(shape, "op"), "union") == 0;
         if (shape == list->first && !adds) {
@@ -268,4 +319,34 @@ bool check_field(Resolver *r, const Path *path, const Node *given, Node *resolve
                              resolver_path(r, path, NULL));
     }
     return true;
+}
+
+// Axiom and rules that the file gives. An axiom alone may use constants of the form's own rules, so
+// that coral's is left to the growth, which begins with it.
+static bool check_grammar(Resolver *r, const Path *path, const Node *given, bool whole)
+{
+    const char *axiom = node_get_text(given, "axiom"), *rules = node_get_text(given, "rules");
+    if (!rules && !(axiom && whole)) {
+        return true;
+    }
+    Error e = {0};
+    LSystemParams params = {.axiom = axiom ? axiom : "F", .rules = rules ? rules : ""};
+    if (lsystem_check(&params, &e)) {
+        return true;
+    }
+    const char *key = axiom && strcmp(e.key, "axiom") == 0 ? "axiom" : "rules";
+    return resolver_fail(r, node_place(given, key), "%s: %s", resolver_path(r, path, key),
+                         e.message);
+}
+
+bool check_lsystem(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    (void)resolved;
+    return check_grammar(r, path, given, true);
+}
+
+bool check_coral(Resolver *r, const Path *path, const Node *given, Node *resolved)
+{
+    (void)resolved;
+    return check_grammar(r, path, given, false);
 }

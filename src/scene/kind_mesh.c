@@ -8,7 +8,7 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
     const SceneMesh *params = p->object->mesh;
     Mesh *mesh = mesh_import(params->file, p->recipe.run, e);
     if (!mesh) {
-        return false;
+        return error_key(e, "file");
     }
     if (!mesh_transform(mesh, &params->transform, e) ||
         (params->smooth && !mesh->normal && !mesh_compute_normals(mesh, e))) {

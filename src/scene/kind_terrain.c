@@ -21,7 +21,7 @@ static bool load(const TerrainParams *given, LoadedTerrain *loaded, Error *e)
     }
     loaded->image = image_read(given->uplift.image, e);
     if (!loaded->image) {
-        return false;
+        return error_key(e, "uplift.image");
     }
     Image *image = loaded->image;
     int64_t count = (int64_t)image->width * image->height;

@@ -49,9 +49,12 @@ static void key_range(const Key *row, char *text, int size)
         snprintf(text, (size_t)size, "a whole number, at least 0 and below 2^64");
         return;
     }
-    snprintf(text, (size_t)size, "%s%s %.17g and %s %.17g%s%s", whole ? "a whole number, " : "",
-             row->flags & KEY_ABOVE ? "greater than" : "at least", row->low,
-             row->flags & KEY_BELOW ? "less than" : "at most", row->high, space, unit);
+    char low[32], high[32];
+    scalar_from_double(row->low, low);
+    scalar_from_double(row->high, high);
+    snprintf(text, (size_t)size, "%s%s %s and %s %s%s%s", whole ? "a whole number, " : "",
+             row->flags & KEY_ABOVE ? "greater than" : "at least", low,
+             row->flags & KEY_BELOW ? "less than" : "at most", high, space, unit);
 }
 
 static Node *out_of_range(Resolver *r, const Key *row, const Node *given, const char *name)

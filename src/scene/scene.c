@@ -41,6 +41,9 @@ static Node *complete_document(Arena *arena, Resolver *resolver, const SceneSour
         return NULL;
     }
     Node *root = yaml_parse(arena, source->text, source->length, resolver->file, NULL, e);
+    if (root && root->kind != NODE_MAP && !node_is_null(root)) { // nothing that could be overridden
+        return resolve_document(resolver, &scene_table, root);
+    }
     for (int i = 0; root && i < source->override_count; i++) {
         if (!override_apply(arena, root, source->overrides[i], e)) {
             return NULL;

@@ -32,10 +32,11 @@ TableCheck check_object;                          // exactly one kind; material 
 TableCheck check_tree, check_ground, check_grove; // lengths that must be in order
 TableCheck check_shape, check_mesh;               // also add `transform`
 TableCheck check_vessels;                         // an envelope there must be
-TableCheck check_envelope;                        // the list under `envelope`
+TableCheck check_envelope;                        // the list under `envelope`; points, sectors
 TableCheck check_level, check_growth; // check_growth also fills in what levels leave out
 TableCheck check_terrain;             // cells a power of two
 TableCheck check_field;
-TableCheck check_lightning; // also what check_envelope does
+TableCheck check_lsystem, check_coral; // grammars that can be read
+TableCheck check_lightning;            // also what check_envelope does
 
 #endif

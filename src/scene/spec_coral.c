@@ -101,4 +101,5 @@ const Table coral_table = {
                "    coral: {form: branching, size: 0.4, colonies: 3}\n",
     .size = sizeof(CoralParams),
     .keys = CORAL_KEYS,
-    .defaults = coral_defaults};
+    .defaults = coral_defaults,
+    .check = check_coral};

@@ -187,7 +187,7 @@ static const Key GROWTH_KEYS[] = {
      .doc = "A pull that is the same everywhere, added to the unit direction: [0, 1, 0] is up."},
     {KEY_OF(ElementParams, apical, "apical", KEY_FLOAT), .high = 1,
      .doc = "Apical dominance: probability that a side branch is suppressed."},
-    {KEY_OF(ElementParams, sector_angle, "sector_angle", KEY_FLOAT), .high = 360, .unit = "degrees",
+    {KEY_OF(ElementParams, sector_angle, "sector_angle", KEY_FLOAT), .high = 180, .unit = "degrees",
      .doc = "Width of a sector for the rule sectors; 0 = 60."},
     {KEY_OF(ElementParams, sector_axis, "sector_axis", KEY_BOOL),
      .doc = "Grow along a sector's axis rather than along the mean of its pulls."},

@@ -53,4 +53,5 @@ const Table lsystem_table = {.name = "lsystem",
                                         "F[+X][-X]FX; F -> FF\", generations: 5, angle: 26}\n",
                              .size = sizeof(LSystemPlantParams),
                              .keys = LSYSTEM_KEYS,
-                             .defaults = lsystem_defaults};
+                             .defaults = lsystem_defaults,
+                             .check = check_lsystem};

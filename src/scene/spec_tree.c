@@ -146,9 +146,8 @@ static const Key SKIN_KEYS[] = {
      .doc = "Twigs thinner than this are traced as round curves; 0 = everything is mesh."},
     {KEY_OF(SkinningParams, levels, "levels", KEY_INT), .high = 4,
      .doc = "How often the surface is subdivided: each level has four times as many faces."},
-    {KEY_OF(SkinningParams, ring_spacing, "ring_spacing", KEY_FLOAT), .flags = KEY_ABOVE,
-     .high = 100, .unit = "radii",
-     .doc = "Distance between the rings of the coarse cage that is subdivided."},
+    {KEY_OF(SkinningParams, ring_spacing, "ring_spacing", KEY_FLOAT), .low = 0.1, .high = 100,
+     .unit = "radii", .doc = "Distance between the rings of the coarse cage that is subdivided."},
     {0},
 };
 

@@ -98,7 +98,10 @@ static bool load_mesh(Piece *piece, const Run *run, Error *e)
 {
     const char *file = piece->shape->file;
     piece->mesh = mesh_import(file, run, e);
-    if (!piece->mesh || !mesh_transform(piece->mesh, &piece->shape->transform, e) ||
+    if (!piece->mesh) {
+        return error_key(e, "file");
+    }
+    if (!mesh_transform(piece->mesh, &piece->shape->transform, e) ||
         (!piece->mesh->normal && !mesh_compute_normals(piece->mesh, e))) {
         return false;
     }
@@ -157,7 +160,9 @@ static Piece *pieces_load(const EnvelopeParams *params, const Run *run, Error *e
     for (int i = 0; pieces && i < params->shape_count; i++) {
         const Shape *shape = &params->shapes[i];
         if (!piece_load(shape, &pieces[i], run, e)) {
+            error_quote_file(e);
             error_prefix(e, "shape %d (%s): ", i + 1, kind_name(shape->kind));
+            error_key(e, "envelope.%d", i);
             pieces_free(pieces, params->shape_count);
             return NULL;
         }
@@ -181,23 +186,23 @@ static bool choose_frame(const Piece *pieces, int count, float voxel, LevelSetFr
     float extent = largest_extent(*inside);
     *frame = (LevelSetFrame){inside->low, voxel > 0.0f ? voxel : extent / VOXELS_DEFAULT};
     if (!(extent / frame->voxel >= VOXELS_LEAST)) {
-        return error_set(e, ERROR_INPUT,
-                         "voxel %g m is too coarse for an envelope of %g m; set voxel to %g or "
-                         "less, or to 0 for 1/%d of the extent",
-                         (double)voxel, (double)extent, (double)(extent / VOXELS_LEAST),
-                         VOXELS_DEFAULT);
+        error_set(e, ERROR_INPUT,
+                  "voxel %g m is too coarse for an envelope of %g m; set voxel to %g or "
+                  "less, or to 0 for 1/%d of the extent",
+                  (double)voxel, (double)extent, (double)(extent / VOXELS_LEAST), VOXELS_DEFAULT);
+        return error_key(e, "voxel");
     }
     for (int i = 0; i < count; i++) {
         bool is_mesh =
             pieces[i].shape->kind == SHAPE_MESH; // the others are made only within the box
         float across = is_mesh ? largest_extent(pieces[i].bounds) : extent;
         if (across / frame->voxel > VOXELS_MOST) {
-            return error_set(e, ERROR_INPUT,
-                             "shape %d (%s): voxel %g m makes a level set of %.0f voxels across; "
-                             "at most %d are possible: set voxel to %g or more",
-                             i + 1, kind_name(pieces[i].shape->kind), (double)frame->voxel,
-                             (double)(across / frame->voxel), VOXELS_MOST,
-                             (double)(across / VOXELS_MOST));
+            error_set(e, ERROR_INPUT,
+                      "shape %d (%s): voxel %g m makes a level set of %.0f voxels across; "
+                      "at most %d are possible: set voxel to %g or more",
+                      i + 1, kind_name(pieces[i].shape->kind), (double)frame->voxel,
+                      (double)(across / frame->voxel), VOXELS_MOST, (double)(across / VOXELS_MOST));
+            return error_key(e, "voxel");
         }
     }
     return true;
@@ -255,9 +260,10 @@ static bool become_primitive(Envelope *envelope, const Primitive *primitive, Err
     envelope->area = primitive_area(primitive);
     if (!isfinite(envelope->volume) || !vec3_finite(envelope->bounds.low) ||
         !vec3_finite(envelope->bounds.high)) {
-        return error_set(e, ERROR_INPUT,
-                         "the envelope is larger than numbers can say; its sizes "
-                         "and scales must be moderate");
+        error_set(e, ERROR_INPUT,
+                  "the envelope is larger than numbers can say; its sizes "
+                  "and scales must be moderate");
+        return error_key(e, "envelope");
     }
     envelope->surface = primitive_surface(primitive, e);
     return envelope->surface;
@@ -292,9 +298,10 @@ static bool measure_level_set(Envelope *envelope, Aabb inside, Error *e)
     envelope->volume = mesh_signed_volume(envelope->surface);
     envelope->area = mesh_area(envelope->surface);
     if (!(envelope->volume > 0.0)) {
-        return error_set(e, ERROR_INPUT,
-                         "the envelope is empty: its cuts leave nothing of it; "
-                         "make the cutting shapes smaller or move them");
+        error_set(e, ERROR_INPUT,
+                  "the envelope is empty: its cuts leave nothing of it; "
+                  "make the cutting shapes smaller or move them");
+        return error_key(e, "envelope");
     }
     return true;
 }

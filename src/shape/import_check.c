@@ -1,6 +1,7 @@
 #include "shape/import_check.h"
 
 #include "base/file_name.h"
+#include "shape/import_read.h"
 
 #include <errno.h>
 #include <stdint.h>
@@ -176,6 +177,23 @@ static bool check_stl(FILE *stream, int64_t size, Error *e)
                      count, promised, (long long)size);
 }
 
+// Does a line begin with an f? Nothing else of an OBJ file has an area.
+static bool check_obj(FILE *stream, Error *e)
+{
+    bool at_start = true; // of a line, blanks aside
+    for (int c = getc_unlocked(stream); c != EOF; c = getc_unlocked(stream)) {
+        bool blank = c == ' ' || c == '\t';
+        if (at_start && c == 'f') {
+            c = getc_unlocked(stream);
+            if (c == ' ' || c == '\t') {
+                return true;
+            }
+        }
+        at_start = c == '\n' || c == '\r' || (at_start && blank);
+    }
+    return error_set(e, ERROR_INPUT, IMPORT_NO_TRIANGLES);
+}
+
 static bool check_contents(FILE *stream, const char *file, int64_t size, Error *e)
 {
     if (size == 0) {
@@ -187,7 +205,7 @@ static bool check_contents(FILE *stream, const char *file, int64_t size, Error *
     if (strcasecmp(file_name_ending(file), ".stl") == 0) {
         return check_stl(stream, size, e);
     }
-    return true;
+    return strcasecmp(file_name_ending(file), ".obj") != 0 || check_obj(stream, e);
 }
 
 bool import_check(const char *file, Error *e)

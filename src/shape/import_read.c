@@ -14,8 +14,6 @@
 #include <string.h>
 #include <strings.h>
 
-#define NO_TRIANGLES "the file holds no triangles; a surface of triangles or polygons is needed"
-
 // What a file holds in all, over every node that shows a mesh.
 typedef struct Tally {
     int64_t vertices, triangles;
@@ -121,7 +119,7 @@ static Mesh *gather(const struct aiScene *scene, Error *e)
     Tally tally = {.normals = true, .uvs = true};
     tally_node(scene, scene->mRootNode, &tally);
     if (tally.triangles == 0) {
-        error_set(e, ERROR_INPUT, NO_TRIANGLES);
+        error_set(e, ERROR_INPUT, IMPORT_NO_TRIANGLES);
         return NULL;
     }
     Mesh *mesh =
@@ -146,7 +144,7 @@ static void read_error(const char *why, Error *e)
     if (strncmp(why, "std::bad_alloc", 14) == 0) {
         error_set(e, ERROR_MEMORY, "out of memory");
     } else if (strncmp(why, "No meshes remaining", 19) == 0) { // lines and points are left out
-        error_set(e, ERROR_INPUT, NO_TRIANGLES);
+        error_set(e, ERROR_INPUT, IMPORT_NO_TRIANGLES);
     } else {
         error_set(e, ERROR_INPUT, "not readable as a mesh: %.*s; " IMPORT_WANTED " is needed",
                   length > 0 ? length : 19, length > 0 ? why : "no reason is known");

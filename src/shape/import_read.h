@@ -13,6 +13,8 @@ typedef struct ImportHeader {
 } ImportHeader;
 
 #define IMPORT_WANTED "a whole OBJ, PLY, STL, glTF or GLB file"
+#define IMPORT_NO_TRIANGLES \
+    "the file holds no triangles; a surface of triangles or polygons is needed"
 
 // A ChildTask; data: the file's name.
 ChildTask import_read;

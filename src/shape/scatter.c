@@ -171,28 +171,30 @@ static bool check_params(const Envelope *envelope, const ScatterParams *params, 
         return error_set(e, ERROR_INPUT, "scale is %g; it must be positive", (double)params->scale);
     }
     if (params->anchored && params->pattern == SCATTER_POISSON) {
-        return error_set(e, ERROR_INPUT,
-                         "anchored points keep no distance; use the pattern random, or anchored: "
-                         "false");
+        error_set(e, ERROR_INPUT,
+                  "anchored points keep no distance; use the pattern random, or anchored: false");
+        return error_key(e, "points.anchored");
     }
     if (params->place == SCATTER_VOLUME && !(envelope_volume(envelope) > 0.0)) {
-        return error_set(e, ERROR_INPUT,
-                         "the envelope has no inside to put points in; close its mesh, make its "
-                         "voxel smaller, or put the points on its surface");
+        error_set(e, ERROR_INPUT,
+                  "the envelope has no inside to put points in; close its mesh, make its voxel "
+                  "smaller, or put the points on its surface");
+        return error_key(e, "envelope");
     }
     if (params->place == SCATTER_SURFACE && !(envelope_area(envelope) > 0.0)) {
-        return error_set(e, ERROR_INPUT,
-                         "the envelope has no surface to put points on; make it larger");
+        error_set(e, ERROR_INPUT, "the envelope has no surface to put points on; make it larger");
+        return error_key(e, "envelope");
     }
     return true;
 }
 
 bool scatter_empty_error(const Scatter *scatter, int64_t draws, Error *e)
 {
-    return error_set(e, ERROR_INPUT,
-                     "only a vanishing part of the envelope's box is to be filled: %lld draws "
-                     "were not enough for %lld points; make the envelope thicker, or count smaller",
-                     (long long)draws, (long long)scatter->params->count);
+    error_set(e, ERROR_INPUT,
+              "only a vanishing part of the envelope's box is to be filled: %lld draws "
+              "were not enough for %lld points; make the envelope thicker, or count smaller",
+              (long long)draws, (long long)scatter->params->count);
+    return error_key(e, "envelope");
 }
 
 // ---- preparing ----

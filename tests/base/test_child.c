@@ -238,7 +238,8 @@ static void survives_them(void **state)
 {
     (void)state;
     const char *overflow = "the reader crashed (Segmentation fault); a better one is needed";
-    const char *memory = "the reader needed more than 0.5 GB; a better one is needed";
+    const char *memory =
+        "the reader asked for more than the 0.5 GB that it may have; a better one is needed";
     fails_with(segfault, 60, overflow);
     fails_with(overflow_stack, 60, overflow);
     fails_with(abort_itself, 60, "the reader crashed (Aborted); a better one is needed");
@@ -246,7 +247,10 @@ static void survives_them(void **state)
     fails_with(kill_itself, 60,
                "the reader was killed from outside, as the system does when memory runs out; try "
                "again with more of it free");
-    fails_with(close_everything, 60, memory);
+    Error e;
+    assert_false(runs(close_everything, NULL, 60, &quiet, &e)); // its memory was never short
+    assert_int_equal(e.code, ERROR_IO);
+    assert_string_equal(e.message, "cannot hand back what was read: Bad file descriptor");
     fails_with(write_for_ever, 60, memory);
     fails_with(loop, 0.2, "the reader took longer than 0.2 s; a better one is needed");
     fails_with(sleep_long, 0.2, "the reader took longer than 0.2 s; a better one is needed");
@@ -254,6 +258,33 @@ static void survives_them(void **state)
         fails_with(allocate, 60, memory);
     }
     assert_true(no_child_is_left());
+}
+
+// Less than the job's limit is left to this process: the file is not to blame.
+static void the_users_limit_is_no_fault_of_the_file(void **state)
+{
+    (void)state;
+    struct rlimit before;
+    assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
+    if (SANITIZED) {
+        skip();
+    }
+    long long pages = 0;
+    FILE *statm = fopen("/proc/self/statm", "r");
+    assert_non_null(statm);
+    assert_int_equal(fscanf(statm, "%lld", &pages), 1); // NOLINT
+    fclose(statm);
+    struct rlimit tight = before;
+    tight.rlim_cur = (rlim_t)(pages * sysconf(_SC_PAGESIZE) + 200000000);
+    assert_int_equal(setrlimit(RLIMIT_AS, &tight), 0);
+    Error e;
+    bool done = runs(allocate, NULL, 60, &quiet, &e);
+    assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
+    assert_false(done);
+    assert_int_equal(e.code, ERROR_MEMORY);
+    assert_string_equal(e.message,
+                        "out of memory while it is read: this process may have less than the 0.5 "
+                        "GB that are set aside for it; raise its limit (ulimit -v)");
 }
 
 static void *raise_flag(void *flag)
@@ -378,6 +409,7 @@ int main(void)
         cmocka_unit_test(passes_its_errors_on),
         cmocka_unit_test(is_confined_and_silent),
         cmocka_unit_test(survives_them),
+        cmocka_unit_test(the_users_limit_is_no_fault_of_the_file),
         cmocka_unit_test(ends_when_cancelled),
         cmocka_unit_test(works_whatever_the_host_does_with_sigchld),
         cmocka_unit_test(leaves_other_children_alone),

@@ -210,7 +210,7 @@ static void a_wrong_rule_is_one_clear_error(void **state)
     Error e = {0};
     assert_null(coral_grow(&params, &(Recipe){7, "object 'reef'", 1.0f, &run, NULL}, &e));
     assert_int_equal(e.code, ERROR_INPUT);
-    assert_string_equal(e.message, "object 'reef': the L-system's rules, line 1, column 10: '[' is "
+    assert_string_equal(e.message, "the L-system's rules, line 1, column 10: '[' is "
                                    "not closed; put a ']' for each '['");
 }
 

@@ -3,7 +3,10 @@
 
 #include "image/image.h"
 
+#include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #define ASSERT_NEAR(value, wanted, tolerance)                                             \
@@ -655,9 +658,42 @@ static void errors_are_told(void **state)
     world_free(world);
 }
 
+// In a process of its own, with 16 MB more than it has mapped: Embree's threads need more.
+static int start_with_little(void)
+{
+    long long pages = 0;
+    FILE *statm = fopen("/proc/self/statm", "r");
+    if (!statm || fscanf(statm, "%lld", &pages) != 1) { // NOLINT
+        return 2;
+    }
+    fclose(statm);
+    World *world = tiny_world(4, 4, 1, 0.5f);
+    rlim_t limit = (rlim_t)(pages * sysconf(_SC_PAGESIZE) + 16000000);
+    setrlimit(RLIMIT_AS, &(struct rlimit){limit, limit});
+    Error e = {0};
+    Run run = {.threads = 2};
+    return !renderer_new(world, NULL, &run, &e) && e.code == ERROR_MEMORY ? 0 : 1;
+}
+
+static void too_little_memory_is_no_bad_input(void **state)
+{
+    (void)state;
+#ifdef __SANITIZE_ADDRESS__
+    skip(); // its memory is reserved beforehand
+#endif
+    int status = 0;
+    pid_t child = fork();
+    if (child == 0) {
+        _exit(start_with_little());
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(too_little_memory_is_no_bad_input), // before any thread is there
         cmocka_unit_test(white_under_white_sky_is_white),
         cmocka_unit_test(closed_furnace),
         cmocka_unit_test(roulette_is_unbiased),

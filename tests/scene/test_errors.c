@@ -168,6 +168,23 @@ static const Case scenes[] = {
      "relative to the scene's folder"},
     {"objects: [{name: a, mesh: {file: /tmp}}]\n",
      ":1:34: objects.a.mesh.file: '/tmp' is a folder; it must be a file"},
+    // what growth would refuse after minutes
+    {"objects: [{name: a, tree: {skin: {ring_spacing: 0.05}}}]\n",
+     ":1:49: objects.a.tree.skin.ring_spacing is 0.05; it must be at least 0.1 and "
+     "at most 100 radii"},
+    {"objects: [{name: a, tree: {crown: {points: {anchored: true, pattern: poisson}}}}]\n",
+     ":1:55: objects.a.tree.crown.points.anchored: anchored points keep no distance; use the "
+     "pattern random, or anchored: false"},
+    {"objects: [{name: a, tree: {crown: {growth: {rule: sectors, sector_angle: 9}}}}]\n",
+     ":1:74: objects.a.tree.crown.growth.sector_angle: sector angle 9 makes more than 64 sectors; "
+     "use a larger angle"},
+    {"objects: [{name: a, lsystem: {axiom: \"F[\"}}]\n",
+     ":1:38: objects.a.lsystem.axiom: the L-system's axiom, line 1, column 3: '[' is not closed; "
+     "put a ']' for each '['"},
+    {"objects: [{name: a, coral: {rules: \"q\"}}]\n",
+     ":1:36: objects.a.coral.rules: the L-system's rules, line 1, column 2: '->' is missing; a "
+     "rule "
+     "is written A : condition -> BA"},
     {TREE "materials: [{name: m, texture: bark.jpg}]\n",
      ":2:32: materials.m.texture: cannot read 'bark.jpg': No such file or directory; paths are "
      "relative to the scene's folder"},
@@ -235,8 +252,25 @@ static void bad_overrides_are_refused_in_exact_words(void **state)
     assert_int_equal(wrong, 0);
 }
 
+// A document that no override can mend is to blame itself.
+static void overrides_are_not_blamed_for_the_document(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"3", "hello", "- 1\n- camera: {fov: 3}\n"};
+    const char *set = "camera.fov=3";
+    for (int i = 0; i < 3; i++) {
+        Error e = {0};
+        assert_null(scene_read_text(texts[i], strlen(texts[i]), "s.yaml", "", &set, 1, &e));
+        assert_string_equal(e.file, "s.yaml");
+        assert_int_equal(e.line, 1);
+        assert_int_equal(strncmp(e.message, "the scene is ", 13), 0);
+    }
+}
+
 typedef struct MeshCase {
-    const char *name, *text, *message;
+    const char *name, *text;
+    bool late; // told only when it is built
+    const char *message;
 } MeshCase;
 
 #define PLY_HEAD                                                                    \
@@ -245,22 +279,23 @@ typedef struct MeshCase {
     "end_header\n"
 
 static const MeshCase meshes[] = {
-    {"empty.ply", "", "object 'a': the file is empty; a mesh is needed"},
-    {"cut.ply", PLY_HEAD "0 0 0\n1 0 0\n",
-     "object 'a': truncated: the header promises 3 vertices and 1 faces, which need 4 lines, but "
-     "2 follow; the whole file is needed"},
-    {"head.ply", "ply\nformat ascii 1.0\n",
-     "object 'a': not a PLY file, or its header is cut off; a header from 'ply' to 'end_header' is "
-     "needed"},
-    {"mesh.xyz", "0 0 0\n",
-     "object 'a': the name does not end in a mesh format that can be read; .obj, .ply, .stl, .gltf "
-     "or .glb would be right"},
-    {"nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n",
-     "object 'a': vertex 1 has a coordinate that is not finite; coordinates must be numbers in "
-     "metres"},
+    {"empty.ply", "", false, "the file is empty; a mesh is needed"},
+    {"empty.obj", "", false, "the file is empty; a mesh is needed"},
+    {"points.obj", "v 0 0 0\nv 1 0 0\nl 1 2\nvn 0 1 0\n# f 1 2 1\n", false,
+     "the file holds no triangles; a surface of triangles or polygons is needed"},
+    {"cut.ply", PLY_HEAD "0 0 0\n1 0 0\n", false,
+     "truncated: the header promises 3 vertices and 1 faces, which need 4 lines, but 2 follow; the "
+     "whole file is needed"},
+    {"head.ply", "ply\nformat ascii 1.0\n", false,
+     "not a PLY file, or its header is cut off; a header from 'ply' to 'end_header' is needed"},
+    {"mesh.xyz", "0 0 0\n", false,
+     "the name does not end in a mesh format that can be read; .obj, .ply, .stl, .gltf or .glb "
+     "would be right"},
+    {"nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", true,
+     "vertex 1 has a coordinate that is not finite; coordinates must be numbers in metres"},
 };
 
-// Builds a scene that draws the mesh.
+// Reads, and if it must, builds a scene that draws the mesh.
 static int refuse_mesh(Fixture *fixture, const MeshCase *mesh)
 {
     Error e = {0};
@@ -269,10 +304,16 @@ static int refuse_mesh(Fixture *fixture, const MeshCase *mesh)
     snprintf(text, sizeof text, "objects: [{name: a, mesh: {file: %s}}]", mesh->name);
     strcpy(scene_path, fixture_write(fixture, "s.yaml", text, strlen(text)));
     Scene *scene = scene_read(scene_path, NULL, 0, &e);
-    assert_non_null(scene);
-    Run run = run_default();
-    assert_null(scene_build(scene, &run, NULL, &e));
-    snprintf(wanted, sizeof wanted, "%s/%s: %s", fixture->folder, mesh->name, mesh->message);
+    assert_int_equal(scene != NULL, mesh->late);
+    if (mesh->late) {
+        Run run = run_default();
+        assert_null(scene_build(scene, &run, NULL, &e));
+        snprintf(wanted, sizeof wanted, "%s:1:34: object 'a': %s/%s: %s", scene_path,
+                 fixture->folder, mesh->name, mesh->message);
+    } else {
+        snprintf(wanted, sizeof wanted, "%s:1:34: objects.a.mesh.file: '%s': %s", scene_path,
+                 mesh->name, mesh->message);
+    }
     int wrong = expect(mesh->name, &e, wanted);
     scene_free(scene);
     return wrong;
@@ -407,6 +448,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_scenes_are_refused_in_exact_words),
         cmocka_unit_test(bad_overrides_are_refused_in_exact_words),
+        cmocka_unit_test(overrides_are_not_blamed_for_the_document),
         cmocka_unit_test_setup_teardown(bad_meshes_are_refused_in_exact_words, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(files_that_are_no_scene_are_refused, fixture_set_up,

@@ -1,0 +1,102 @@
+#include "scene/place.h"
+
+#include "scene/kind.h"
+#include "scene/overrides.h"
+#include "scene/yaml.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LONGEST_PATH = 512 };
+
+// The document as it was read; NULL when memory is short. Reading it again costs nothing while all
+// goes well.
+static const Node *read_again(Arena *arena, const Scene *scene)
+{
+    Node *root = yaml_parse(arena, scene->text, strlen(scene->text), scene->file, NULL, NULL);
+    const char *at = scene->overrides;
+    while (root && *at && override_apply(arena, root, at, NULL)) {
+        at += strlen(at) + 1;
+    }
+    return *at ? NULL : root;
+}
+
+// The entry of a list that a number or a name tells.
+static const Node *entry_of(const Node *list, const char *token)
+{
+    char *end;
+    long index = strtol(token, &end, 10);
+    bool number = end != token && *end == 0;
+    long i = 0;
+    for (const Node *entry = list->first; entry; entry = entry->next, i++) {
+        const char *name = node_get_text(entry, "name");
+        if (number ? i == index : name && strcmp(name, token) == 0) {
+            return entry;
+        }
+    }
+    return NULL;
+}
+
+// The deepest node on the path.
+static const Node *follow(const Node *root, const char *path)
+{
+    const Node *node = root;
+    char token[LONGEST_PATH];
+    while (*path) {
+        size_t length = strcspn(path, ".");
+        snprintf(token, sizeof token, "%.*s", (int)length, path);
+        path += length + (path[length] == '.');
+        const Node *next = node->kind == NODE_LIST ? entry_of(node, token) : node_get(node, token);
+        if (!next) {
+            break;
+        }
+        node = next;
+    }
+    return node;
+}
+
+static void locate(const Node *node, const Scene *scene, Error *e)
+{
+    bool by_key = node->key && node->kind != NODE_SCALAR; // what is below it starts lines later
+    if (node->source) {
+        error_locate(e, node->source, 0, 0);
+    } else {
+        error_locate(e, scene->file, by_key ? node->key_line : node->line,
+                     by_key ? node->key_column : node->column);
+    }
+}
+
+bool scene_fail_at(const Scene *scene, const char *path, Error *e)
+{
+    if (!e || e->code == ERROR_CANCELLED) {
+        return false;
+    }
+    error_quote_file(e);
+    char whole[LONGEST_PATH];
+    snprintf(whole, sizeof whole, "%s%s%s", path, *path && e->key[0] ? "." : "", e->key);
+    Arena *arena = *whole ? arena_new(NULL) : NULL;
+    const Node *root = arena ? read_again(arena, scene) : NULL;
+    if (root) {
+        locate(follow(root, whole), scene, e);
+    }
+    arena_free(arena);
+    error_locate(e, scene->file, 0, 0);
+    return false;
+}
+
+bool scene_fail_object(const Scene *scene, int index, Error *e)
+{
+    if (!e || e->code == ERROR_CANCELLED) {
+        return false;
+    }
+    const SceneObject *object = &scene->objects[index];
+    char label[128], path[128];
+    int length = snprintf(label, sizeof label, "object '%s'", object->name);
+    error_quote_file(e);
+    if (strncmp(e->message, label, (size_t)length) != 0) { // some growth names a part of it, too
+        error_prefix(e, "%s: ", label);
+    }
+    snprintf(path, sizeof path, "objects.%s.%s", object->name, kind_of(object)->key);
+    return scene_fail_at(scene, path, e);
+}
