@@ -3,8 +3,6 @@
 #include "cli/interrupt.h"
 
 #include <errno.h>
-#include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,67 +20,25 @@ RamifyRun command_run(const Options *options, Progress *progress)
                        .user = progress};
 }
 
-// The options that stand for keys of the scene, as overrides, so that they show in the settings
-// that pictures carry.
-typedef struct KeyOptions {
-    char text[16][160];
-    int count;
-} KeyOptions;
-
-static void add_key(KeyOptions *keys, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-static void add_key(KeyOptions *keys, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(keys->text[keys->count++], sizeof keys->text[0], format, arguments);
-    va_end(arguments);
-}
-
-static void add_keys(KeyOptions *keys, const Options *o)
-{
-    if (o->samples > 0) {
-        add_key(keys, "render.samples=%d", o->samples);
-    }
-    if (o->size[0] > 0) {
-        add_key(keys, "film.width=%d", o->size[0]);
-        add_key(keys, "film.height=%d", o->size[1]);
-    }
-    if (o->seconds >= 0.0) {
-        add_key(keys, "render.seconds=%.17g", o->seconds);
-    }
-    if (o->noise >= 0.0) {
-        add_key(keys, "render.noise=%.17g", o->noise);
-    }
-    if (!isnan(o->exposure)) {
-        add_key(keys, "film.exposure=%.17g", o->exposure);
-    }
-    if (o->grow_to >= 0.0) {
-        add_key(keys, "grow_to=%.17g", o->grow_to);
-    }
-    if (o->crop[0] >= 0.0f) {
-        add_key(keys, "film.crop=[%.9g, %.9g, %.9g, %.9g]", (double)o->crop[0], (double)o->crop[1],
-                (double)o->crop[2], (double)o->crop[3]);
-    }
-    if (o->denoise >= 0) {
-        add_key(keys, "film.denoise=%s", o->denoise ? "true" : "false");
-    }
-}
-
 RamifyScene *command_scene(const Options *options, RamifyError *e)
 {
-    KeyOptions keys = {.count = 0};
-    const char *overrides[MAX_OVERRIDES + 16];
+    const char *overrides[MAX_OVERRIDES + MAX_KEYS];
     int count = 0;
-    add_keys(&keys, options);
     for (int i = 0; i < options->override_count; i++) {
         overrides[count++] = options->overrides[i];
     }
-    for (int i = 0; i < keys.count; i++) {
-        overrides[count++] = keys.text[i];
+    for (int i = 0; i < options->key_count; i++) {
+        overrides[count++] = options->keys[i];
     }
     return ramify_scene_load(options->operand, overrides, count, e);
+}
+
+RamifyLimits command_limits(const Options *options)
+{
+    return (RamifyLimits){
+        .max_rmse = option_given(options, "max-rmse") ? options->max_rmse : -1.0,
+        .threshold = option_given(options, "threshold") ? options->threshold : -1.0,
+        .max_failing = option_given(options, "max-failing") ? options->max_failing : -1.0};
 }
 
 const char *file_name(const char *path)

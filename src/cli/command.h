@@ -24,6 +24,9 @@ RamifyRun command_run(const Options *options, Progress *progress);
 // The scene with --set and the render options carried out.
 RamifyScene *command_scene(const Options *options, RamifyError *e);
 
+// What pictures may differ by; negative where the command line does not say.
+RamifyLimits command_limits(const Options *options);
+
 // The scene's file without its folders.
 const char *file_name(const char *path);
 

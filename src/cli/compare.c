@@ -22,10 +22,10 @@ static void print_json(const Options *options, const RamifyDifference *d)
 // Without a limit, every value must be the same; then the share over the threshold only informs.
 static RamifyLimits limits_of(const Options *options)
 {
-    bool limited = options->max_rmse >= 0.0 || options->max_failing >= 0.0;
-    RamifyLimits limits = {.max_rmse = limited ? options->max_rmse : 0.0,
-                           .threshold = options->threshold,
-                           .max_failing = options->max_failing};
+    RamifyLimits limits = command_limits(options);
+    if (limits.max_rmse < 0.0 && limits.max_failing < 0.0) {
+        limits.max_rmse = 0.0;
+    }
     if (limits.threshold < 0.0) {
         limits.threshold = DEFAULT_THRESHOLD;
     }

@@ -98,7 +98,7 @@ bool command_golden(const Options *options, RamifyError *e)
     Progress progress;
     RamifyRun run = command_run(options, &progress);
     Listing listing = {.options = options, .progress = &progress};
-    RamifyLimits limits = {options->max_rmse, options->threshold, options->max_failing};
+    RamifyLimits limits = command_limits(options);
     RamifyGoldenOptions golden = {
         .update = options->update,
         .mode = options->statistical

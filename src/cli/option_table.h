@@ -8,13 +8,13 @@
 #include <stddef.h>
 
 typedef enum OptionType {
-    OPTION_YES,   // int or bool set to 1
-    OPTION_NO,    // int set to 0
+    OPTION_YES,   // bool
+    OPTION_NO,    // bool, of a scene_key alone
     OPTION_INT,   // int
     OPTION_REAL,  // double
     OPTION_TEXT,  // const char *
-    OPTION_SIZE,  // int[2], WxH
-    OPTION_CROP,  // float[4]
+    OPTION_SIZE,  // WxH: width and height of the scene_key
+    OPTION_CROP,  // x0,y0,x1,y1, of a scene_key
     OPTION_KEYS,  // RamifyKeys, a:b:c
     OPTION_SET,   // path=value, may be repeated
     OPTION_OBJECT // name, may be repeated
@@ -23,8 +23,9 @@ typedef enum OptionType {
 typedef struct Option {
     const char *name;  // without the dashes
     const char *value; // as the help calls it: NULL = takes none, FILE and DIR are such, else free
-    const char *choices; // words that it may be, parted by blanks; NULL = anything
-    size_t offset;       // in Options
+    const char *choices;   // words that it may be, parted by blanks; NULL = anything
+    size_t offset;         // in Options; not used where there is a scene_key
+    const char *scene_key; // the key of the scene that it stands for; NULL = none
     double low, high;
     const char *doc; // parts "; COMMAND: ..." are of that command alone
     OptionType type;

@@ -4,6 +4,8 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,7 +19,27 @@ static bool read_number(const char **text, double low, double high, double *valu
     return valid;
 }
 
-static bool read_size(const char *text, const Option *option, int *size)
+// Puts `key=value` where the key has been given before, else at the end.
+static void put_key(Options *options, const char *key, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static void put_key(Options *options, const char *key, const char *format, ...)
+{
+    int at = 0, length = (int)strlen(key);
+    while (at < options->key_count && (strncmp(options->keys[at], key, (size_t)length) != 0 ||
+                                       options->keys[at][length] != '=')) {
+        at++;
+    }
+    options->key_count += at == options->key_count;
+    va_list arguments;
+    va_start(arguments, format);
+    snprintf(options->keys[at], MAX_KEY_TEXT, "%s=", key);
+    vsnprintf(options->keys[at] + length + 1, (size_t)(MAX_KEY_TEXT - length - 1), format,
+              arguments);
+    va_end(arguments);
+}
+
+static bool take_size(const char *text, const Option *option, Options *options)
 {
     double width, height;
     if (!read_number(&text, option->low, option->high, &width) || (*text != 'x' && *text != 'X')) {
@@ -28,22 +50,24 @@ static bool read_size(const char *text, const Option *option, int *size)
         floor(height) != height || width * height > 1e8) {
         return false;
     }
-    size[0] = (int)width;
-    size[1] = (int)height;
+    put_key(options, "film.width", "%.0f", width);
+    put_key(options, "film.height", "%.0f", height);
     return true;
 }
 
-static bool read_crop(const char *text, const Option *option, float *crop)
+static bool take_crop(const char *text, const Option *option, Options *options)
 {
+    double crop[4];
     for (int i = 0; i < 4; i++) {
-        double value;
-        if (!read_number(&text, option->low, option->high, &value) || *text != (i < 3 ? ',' : 0)) {
+        if (!read_number(&text, option->low, option->high, &crop[i]) ||
+            *text != (i < 3 ? ',' : 0)) {
             return false;
         }
         text += i < 3;
-        crop[i] = (float)value;
     }
-    return crop[0] < crop[2] && crop[1] < crop[3];
+    put_key(options, option->scene_key, "[%.9g, %.9g, %.9g, %.9g]", crop[0], crop[1], crop[2],
+            crop[3]);
+    return (float)crop[0] < (float)crop[2] && (float)crop[1] < (float)crop[3];
 }
 
 static bool read_keys(const char *text, const Option *option, RamifyKeys *keys)
@@ -119,9 +143,9 @@ bool option_take(Options *options, const Option *option, const char *text, Ramif
     case OPTION_OBJECT:
         return add_object(options, text, e);
     case OPTION_SIZE:
-        return read_size(text, option, (int *)(void *)at) || bad_value(option, text, e);
+        return take_size(text, option, options) || bad_value(option, text, e);
     case OPTION_CROP:
-        return read_crop(text, option, (float *)(void *)at) || bad_value(option, text, e);
+        return take_crop(text, option, options) || bad_value(option, text, e);
     case OPTION_KEYS:
         return read_keys(text, option, (RamifyKeys *)(void *)at) || bad_value(option, text, e);
     default:
@@ -130,23 +154,26 @@ bool option_take(Options *options, const Option *option, const char *text, Ramif
     if (!read_number(&rest, option->low, option->high, &value) || *rest) {
         return bad_value(option, text, e);
     }
-    if (option->type == OPTION_REAL) {
-        memcpy(at, &value, sizeof value);
-        return true;
-    }
     int whole = (int)value;
-    memcpy(at, &whole, sizeof whole);
-    return (double)whole == value || bad_value(option, text, e);
+    if (option->type == OPTION_INT && (double)whole != value) {
+        return bad_value(option, text, e);
+    }
+    if (option->scene_key) {
+        put_key(options, option->scene_key, "%.17g", value);
+    } else if (option->type == OPTION_REAL) {
+        memcpy(at, &value, sizeof value);
+    } else {
+        memcpy(at, &whole, sizeof whole);
+    }
+    return true;
 }
 
 void option_take_flag(Options *options, const Option *option)
 {
-    char *at = (char *)options + option->offset;
-    if (option->offset == offsetof(Options, denoise)) {
-        int value = option->type == OPTION_YES;
-        memcpy(at, &value, sizeof value);
+    bool value = option->type == OPTION_YES;
+    if (option->scene_key) {
+        put_key(options, option->scene_key, "%s", value ? "true" : "false");
     } else {
-        bool value = true;
-        memcpy(at, &value, sizeof value);
+        memcpy((char *)options + option->offset, &value, sizeof value);
     }
 }

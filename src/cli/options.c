@@ -3,29 +3,10 @@
 #include "cli/fail.h"
 #include "cli/option_table.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #define MOST_OPTIONS 128 // that a hint chooses from
-
-static Options options_default(void)
-{
-    return (Options){.command = COMMAND_HELP,
-                     .seconds = -1.0,
-                     .noise = -1.0,
-                     .exposure = (double)NAN,
-                     .grow_to = -1.0,
-                     .crop = {-1.0f, -1.0f, -1.0f, -1.0f},
-                     .denoise = -1,
-                     .max_rmse = -1.0,
-                     .threshold = -1.0,
-                     .max_failing = -1.0,
-                     .turns = (double)NAN,
-                     .end = -1,
-                     .frame = -1,
-                     .time = -1.0};
-}
 
 bool options_unknown_command(const char *name, RamifyError *e)
 {
@@ -75,6 +56,17 @@ static const Option *find_option(CommandId command, const char *name, size_t len
     return NULL;
 }
 
+bool option_given(const Options *options, const char *name)
+{
+    const Option *o;
+    for (int i = 0; (o = option_at(i)); i++) {
+        if (options->given >> i & 1 && strcmp(o->name, name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // argv[*i] begins with a dash: takes it and, where needed, the word after it.
 static bool parse_option(Options *options, int argc, char **argv, int *i, RamifyError *e)
 {
@@ -84,6 +76,7 @@ static bool parse_option(Options *options, int argc, char **argv, int *i, Ramify
     if (!option) {
         return unknown_option(options->command, word, (int)length, e);
     }
+    options->given |= 1ull << (option - option_at(0));
     if (!option->value) {
         if (equals) {
             return fail(e, RAMIFY_BAD_INPUT, "--%s takes no value", option->name);
@@ -148,7 +141,7 @@ static bool parse_words(Options *options, int argc, char **argv, RamifyError *e)
 
 bool options_parse(Options *options, int argc, char **argv, bool *version, RamifyError *e)
 {
-    *options = options_default();
+    *options = (Options){.command = COMMAND_HELP};
     *version = argc > 1 && strcmp(argv[1], "--version") == 0;
     if (argc < 2) {
         return fail(e, RAMIFY_BAD_INPUT, "no command; try ramify render SCENE, or ramify --help");

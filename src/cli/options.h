@@ -7,6 +7,8 @@
 #define MAX_OVERRIDES 256
 #define MAX_OBJECTS 64
 
+enum { MAX_KEYS = 16, MAX_KEY_TEXT = 160 };
+
 typedef enum CommandId {
     COMMAND_RENDER,
     COMMAND_TURNTABLE,
@@ -22,29 +24,25 @@ typedef enum CommandId {
     COMMAND_COUNT
 } CommandId;
 
-// What the command line says; numbers that it does not give are as said here.
+// What the command line says. Options that stand for keys of the scene become overrides; of the
+// others option_given tells whether they are there.
 typedef struct Options {
     CommandId command;
-    const char *operand; // SCENE, or the command to be helped with; NULL = none
-    const char *second;  // operand of compare; NULL = none
-    const char *output;  // NULL = the command's default
-    const char *overrides[MAX_OVERRIDES];
+    const char *operand;                  // SCENE, or the command to be helped with; NULL = none
+    const char *second;                   // operand of compare; NULL = none
+    const char *output;                   // NULL = the command's default
+    const char *overrides[MAX_OVERRIDES]; // of --set
     int override_count;
-    int threads; // 0 = all processors
+    char keys[MAX_KEYS][MAX_KEY_TEXT]; // overrides that other options stand for; they come last
+    int key_count;
+    uint64_t given; // bit i: option_at(i) is there
+    int threads;    // 0 = all processors
     bool quiet, json, resolved, help;
     bool markdown, paths;                    // what schema and info print instead
     bool man;                                // help: the man page
     bool spin, vary_noise;                   // of a turntable
-    int samples;                             // 0 = the scene's
-    int size[2];                             // 0, 0 = the scene's
-    double seconds;                          // negative = the scene's
-    double noise;                            // negative = the scene's
-    double exposure;                         // NAN = the scene's
-    double grow_to;                          // negative = the scene's
-    float crop[4];                           // crop[0] negative = the scene's
-    int denoise;                             // 1 yes, 0 no, -1 the scene's
     const char *isa;                         // NULL = the best there is; golden: its own
-    double max_rmse, threshold, max_failing; // of compare and golden; negative = not given
+    double max_rmse, threshold, max_failing; // of compare and golden
     bool update, exact, statistical;         // golden
     int series;                              // golden; 0 = the first
     const char *report, *junit, *filter;     // NULL = none
@@ -52,17 +50,20 @@ typedef struct Options {
     int object_count;                        // 0 = all
     const char *instances, *colors;          // NULL = the format's own
     int tube_sides;                          // 0 = the default
-    int end;                                 // the last frame; -1 = the film's
-    int frame;                               // to be rendered alone; -1 = none
-    double time;                             // likewise; negative = none
-    double turns;                            // NAN = the usual
-    const char *ease;                        // NULL = the usual
-    RamifyTurntable turntable;               // the rest of it
+    int end;                                 // the last frame
+    int frame;                               // to be rendered alone
+    double time;                             // likewise
+    double turns;
+    const char *ease;          // NULL = the usual
+    RamifyTurntable turntable; // the rest of it
 } Options;
 
 // Parses argv[1..]. RAMIFY_BAD_INPUT names what is wrong and what would be right. --help and
 // --version set command to COMMAND_HELP and *version.
 bool options_parse(Options *options, int argc, char **argv, bool *version, RamifyError *e);
+
+// Is the option of this name, without its dashes, on the command line?
+bool option_given(const Options *options, const char *name);
 
 // Prints the help of a command, or of the program when command is COMMAND_HELP, to stdout.
 void options_print_help(CommandId command);

@@ -192,14 +192,14 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
 static RamifyScene *choose_scene(const Options *options, RamifyError *e)
 {
     RamifyScene *scene = command_scene(options, e);
-    bool moment = options->frame >= 0 || options->time >= 0.0;
-    if (!scene || !moment) {
+    bool frame = option_given(options, "frame"), time = option_given(options, "time");
+    if (!scene || !(frame || time)) {
         return scene;
     }
     RamifyScene *then = NULL;
-    if (options->frame >= 0 && options->time >= 0.0) {
+    if (frame && time) {
         fail(e, RAMIFY_BAD_INPUT, "both --frame and --time; give one");
-    } else if (options->frame >= 0) {
+    } else if (frame) {
         then = ramify_scene_at_frame(scene, NULL, options->frame, e);
     } else {
         then = ramify_scene_at(scene, NULL, options->time, e);

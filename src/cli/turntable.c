@@ -1,7 +1,6 @@
 // ramify turntable: a scene file becomes a film.
 #include "cli/command.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,8 +11,8 @@ static bool fill_turntable(const Options *options, RamifyTurntable *turntable, R
     turntable->isa = options->isa;
     turntable->spin = options->spin;
     turntable->vary_noise = options->vary_noise;
-    turntable->turns = isnan(options->turns) ? 0.0 : options->turns;
-    turntable->still = options->turns == 0.0;
+    turntable->turns = options->turns;
+    turntable->still = option_given(options, "turns") && options->turns == 0.0;
     if (options->ease && strcmp(options->ease, "smooth") == 0) {
         turntable->ease = RAMIFY_EASE_SMOOTH;
     } else if (options->ease && strcmp(options->ease, "linear") == 0) {
@@ -22,11 +21,12 @@ static bool fill_turntable(const Options *options, RamifyTurntable *turntable, R
         return fail(e, RAMIFY_BAD_INPUT, "--ease %.60s; it must be linear or smooth",
                     options->ease);
     }
-    if (options->end >= 0 && options->end < turntable->start) {
+    bool ends = option_given(options, "end");
+    if (ends && options->end < turntable->start) {
         return fail(e, RAMIFY_BAD_INPUT, "--start %d comes after --end %d; turn them round",
                     turntable->start, options->end);
     }
-    turntable->count = options->end < 0 ? 0 : options->end - turntable->start + 1;
+    turntable->count = ends ? options->end - turntable->start + 1 : 0;
     return true;
 }
 
