@@ -373,6 +373,9 @@ bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *p
         mine.nearest = INFINITY;
     } else if (grown) {
         grown = grow(&growth, run, &mine, e);
+        if (grown && mine.stop == STOP_NO_PULL) {
+            reach_measure_left(tree, &growth.grid, attractors->count, &mine);
+        }
     }
     mine.new_nodes = tree->count - before;
     mine.attractors_left = growth.grid.alive;

@@ -75,8 +75,11 @@ typedef enum GrowStop {
 typedef struct GrowReport {
     GrowStop stop;
     int64_t steps, new_nodes, attractors_left;
-    float nearest;   // m: distance from the roots to the nearest attractor when STOP_OUT_OF_REACH
-    int32_t root;    // the root it was measured from
+    int64_t unreached; // of those left: no node is within influence of them
+    float nearest;  // m: distance from the tree to the nearest attractor when STOP_OUT_OF_REACH, or
+                    // to the nearest unreached one when a tenth of all attractors or more are
+    float furthest; // m: to the furthest unreached one then
+    int32_t root;   // the root that `nearest` was measured from when STOP_OUT_OF_REACH
     float influence; // m: the influence radius that was in force
 } GrowReport;
 

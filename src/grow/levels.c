@@ -1,3 +1,4 @@
+#include "base/exact_math.h"
 #include "base/random.h"
 #include "grow/colonize.h"
 
@@ -43,11 +44,42 @@ static PointSet *scatter_level(const Envelope *envelope, const ScatterParams *sc
     return points_scatter(envelope, &mine, run, e);
 }
 
+static Vec3 furthest_from(const PointSet *points, Vec3 p)
+{
+    Vec3 best = p;
+    float best2 = -1.0f;
+    for (int64_t i = 0; i < points->count; i++) {
+        Vec3 apart = vec3_sub(points->position[i], p);
+        float distance2 = vec3_dot(apart, apart);
+        if (distance2 > best2) {
+            best2 = distance2;
+            best = points->position[i];
+        }
+    }
+    return best;
+}
+
+// The spacing that a level's lengths are multiples of, m. In an envelope that is thinner than the
+// spacing of a volume or surface, attractors follow each other along a line, and n random points on
+// a line of length L leave a gap of about L/n ln n somewhere. An influence of 2 spacings or more
+// bridges it when the spacing is at least half of that.
+static double level_spacing(const PointSet *attractors)
+{
+    double spacing = points_spacing(attractors), count = (double)attractors->count;
+    if (attractors->count < 2) {
+        return spacing;
+    }
+    Vec3 end = furthest_from(attractors, attractors->position[0]);
+    double length = (double)vec3_distance(end, furthest_from(attractors, end));
+    double along = 0.5 * length / count * exact_log(count);
+    return along > spacing ? along : spacing;
+}
+
 static bool grow_level(OutTree *tree, const PointSet *attractors, const GrowLevel *level,
                        int number, ColonizeParams *params, const Run *run, GrowReport *report,
                        Error *e)
 {
-    double spacing = points_spacing(attractors);
+    double spacing = level_spacing(attractors);
     ColonizeParams mine = *params;
     colonize_auto(&mine, spacing, level->step, level->kill, level->influence);
     mine.noise = level->noise;

@@ -76,6 +76,52 @@ void reach_measure(const OutTree *tree, const PointSet *attractors, GrowReport *
     report->root = root_of(tree, node);
 }
 
+static float nearest_node(const OutTree *tree, Vec3 p)
+{
+    float best = INFINITY;
+    for (int64_t i = 0; i < tree->count; i++) {
+        Vec3 v = vec3_sub(tree->position[i], p);
+        float d = vec3_dot(v, v);
+        best = d < best ? d : best;
+    }
+    return sqrtf(best);
+}
+
+// Counts the attractors without a nearest node; every stride-th of them is measured, none at 0.
+static int64_t visit_unreached(const OutTree *tree, const AttractorGrid *grid, int64_t stride,
+                               GrowReport *report)
+{
+    int64_t count = 0;
+    for (int64_t c = 0; c < grid->cell_count; c++) {
+        for (int32_t i = 0; i < grid->cells[c].count; i++) {
+            int64_t b = grid->cells[c].first_block + i / BLOCK_LANES;
+            const AttractorBlock *block = &grid->block[b];
+            int lane = i % BLOCK_LANES;
+            if (block->nearest[lane] >= 0) {
+                continue;
+            }
+            if (stride > 0 && count % stride == 0) {
+                float d = nearest_node(tree, vec3(block->x[lane], block->y[lane], block->z[lane]));
+                report->nearest = d < report->nearest ? d : report->nearest;
+                report->furthest = d > report->furthest ? d : report->furthest;
+            }
+            count++;
+        }
+    }
+    return count;
+}
+
+void reach_measure_left(const OutTree *tree, const AttractorGrid *grid, int64_t attractors,
+                        GrowReport *report)
+{
+    enum { MOST_MEASURED = 256 };
+    report->unreached = visit_unreached(tree, grid, 0, report);
+    if (report->unreached > 0 && 10 * report->unreached >= attractors) {
+        report->nearest = INFINITY;
+        visit_unreached(tree, grid, 1 + report->unreached / MOST_MEASURED, report);
+    }
+}
+
 // Whether an attractor pulls any node of the tree that begins at `root`.
 static bool is_pulled(const OutTree *tree, int32_t root, const NodeBits *pulled)
 {

@@ -9,6 +9,11 @@
 // an attractor, named by its root.
 void reach_measure(const OutTree *tree, const PointSet *attractors, GrowReport *report);
 
+// Fills report->unreached after growth, and where they are a tenth of all attractors or more,
+// report->nearest and report->furthest as well (of 256 of them).
+void reach_measure_left(const OutTree *tree, const AttractorGrid *grid, int64_t attractors,
+                        GrowReport *report);
+
 // Warns, naming the number to change, about roots none of whose nodes has an attractor within
 // influence, though others have. pulled: the nodes with attractors after the first update.
 void reach_warn(const OutTree *tree, const ColonizeParams *params, const PointSet *attractors,

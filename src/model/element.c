@@ -112,6 +112,32 @@ static void warn_out_of_reach(const GrowReport *reports, const ElementParams *el
     }
 }
 
+// Warns when a tenth of the last level's attractors or more were never reached. The level with the
+// longest reach is the one to change.
+static void warn_ends_short(const GrowReport *reports, const ElementParams *element,
+                            const char *label, const Run *run)
+{
+    int last = element->level_count - 1, far = 0;
+    if (last < 0 || reports[last].stop != STOP_NO_PULL || reports[last].unreached == 0 ||
+        10 * reports[last].unreached < element->levels[last].attractors) {
+        return;
+    }
+    for (int i = 1; i <= last; i++) {
+        far = reports[i].influence > reports[far].influence ? i : far;
+    }
+    far = reports[far].influence > reports[last].nearest ? last : far;
+    float multiple = element->levels[far].influence;
+    float wanted = multiple * reports[last].nearest / reports[far].influence;
+    run_warn(
+        run,
+        "%s ends up to %.3g m short of its envelope: %lld of %lld attractors are out of reach, "
+        "the nearest %.3g m from all nodes; give level %d an influence above %.3g (it has "
+        "%.3g) or more attractors",
+        label, (double)reports[last].furthest, (long long)reports[last].unreached,
+        (long long)element->levels[last].attractors, (double)reports[last].nearest, far + 1,
+        (double)wanted, (double)multiple);
+}
+
 bool element_guide_field(const OutTree *tree, const ElementParams *element,
                          const Envelope *envelope, uint64_t seed, const Run *run,
                          GuideField **field, Error *e)
@@ -139,6 +165,7 @@ bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope
                                 &params, run, reports, e);
     if (done) {
         warn_out_of_reach(reports, element, &params, label, run);
+        warn_ends_short(reports, element, label, run);
     }
     free(reports);
     guide_field_free(field);

@@ -1,0 +1,123 @@
+// Whether a tree's elements fill their envelopes: slender trunks, crowns out of the trunk's reach,
+// and what is said about those that end short.
+#include "model/tree.h"
+#include "testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static GrowLevel crown_level[] = {{30, 0.10f, 0.4f, 4.0f, 0.70f, 0.3f, 0.0f, 0.5f}};
+
+static TreeParams plain_tree(void)
+{
+    TreeParams params = tree_params_default();
+    params.crown.element.levels = crown_level;
+    params.crown.element.level_count = 1;
+    params.crown.lobes = 0;
+    params.roots.count = 0;
+    return params;
+}
+
+static void keep_trunks(void *user, const char *message)
+{
+    if (strncmp(message, "oak, trunk ", 11) == 0) {
+        snprintf(user, 512, "%s", message);
+    }
+}
+
+// warning: the last one of the trunk, 512 bytes; may be NULL.
+static OutTree *grow(const TreeParams *params, uint64_t seed, char *warning)
+{
+    Error e = {0};
+    Run run = run_default();
+    if (warning) {
+        warning[0] = '\0';
+        run.warn = keep_trunks;
+        run.user = warning;
+    }
+    OutTree *tree = tree_grow(params, &(Recipe){seed, "oak", 1.0f, &run, NULL}, &e);
+    if (!tree) {
+        fail_msg("%s", e.message);
+    }
+    return tree;
+}
+
+static float top_of(const OutTree *tree, int32_t colony)
+{
+    float top = -INFINITY;
+    for (int64_t i = 0; i < tree->count; i++) {
+        float y = tree->position[i].y;
+        top = tree->colony[i] == colony && y > top ? y : top;
+    }
+    return top;
+}
+
+static void a_slender_trunk_is_as_long_as_asked(void **state)
+{
+    (void)state;
+    static const float radius[5] = {0.01f, 0.03f, 0.1f, 0.25f, 0.5f};
+    TreeParams params = plain_tree();
+    params.trunk.height = 9.0f;
+    for (int r = 0; r < 5; r++) {
+        params.trunk.radius = radius[r];
+        for (uint64_t seed = 1; seed <= 12; seed++) {
+            OutTree *tree = grow(&params, seed, NULL);
+            float top = top_of(tree, TREE_TRUNK);
+            if (top < 0.85f * params.trunk.height || top > 1.1f * params.trunk.height) {
+                fail_msg("radius %g m, seed %llu: %g m of trunk", (double)radius[r],
+                         (unsigned long long)seed, (double)top);
+            }
+            out_tree_free(tree);
+        }
+    }
+}
+
+// A trunk whose level reaches less far than its attractors stand apart stops, and that is said with
+// the numbers and with what would do; an influence of what is advised does.
+static void an_element_that_ends_short_is_told_of(void **state)
+{
+    (void)state;
+    GrowLevel level = {
+        .attractors = 40, .step = 0.2f, .kill = 0.4f, .influence = 1.3f, .scale = 1.0f};
+    TreeParams params = plain_tree();
+    params.trunk.height = 9.0f;
+    params.trunk.radius = 0.1f;
+    params.trunk.element.levels = &level;
+    params.trunk.element.level_count = 1;
+    char warning[512];
+    int advices = 0;
+    for (;; advices++) {
+        OutTree *tree = grow(&params, 3, warning);
+        float top = top_of(tree, TREE_TRUNK);
+        out_tree_free(tree);
+        const char *advice = strstr(warning, "give level 1 an influence above ");
+        if (!advice) {
+            assert_true(top > 0.85f * params.trunk.height);
+            break;
+        }
+        assert_true(top < 0.9f * params.trunk.height);
+        float off = 0.0f;
+        int out = 0;
+        assert_int_equal(sscanf(warning,
+                                "oak, trunk ends up to %g m short of its envelope: %d of 40", &off,
+                                &out),
+                         2);
+        assert_true(out >= 4 && out < 40);
+        assert_true(fabsf(off - (params.trunk.height - top)) < 0.5f);
+        float wanted = (float)atof(advice + strlen("give level 1 an influence above "));
+        assert_true(wanted > level.influence && wanted < 10.0f);
+        level.influence = 1.01f * wanted;
+    }
+    assert_in_range(advices, 1, 10);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_slender_trunk_is_as_long_as_asked),
+        cmocka_unit_test(an_element_that_ends_short_is_told_of),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
