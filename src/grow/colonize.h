@@ -118,4 +118,10 @@ bool colonize_levels(OutTree *tree, const Envelope *envelope, const ScatterParam
                      const GrowLevel *levels, int level_count, const ColonizeParams *params,
                      const Run *run, GrowReport *reports, Error *e);
 
+// The attractors that colonize_levels scatters for its first level, owned by the caller, and that
+// level's influence, m.
+PointSet *colonize_first_attractors(const Envelope *envelope, const ScatterParams *scatter,
+                                    const GrowLevel *level, float *influence, const Run *run,
+                                    Error *e);
+
 #endif

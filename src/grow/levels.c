@@ -2,6 +2,8 @@
 #include "base/random.h"
 #include "grow/colonize.h"
 
+#include <stddef.h>
+
 // Moves the nodes from `first` on toward their parents, all at once: children come after their
 // parents, so going back every parent still stands where it grew (Runions et al. 2007).
 static void relax(OutTree *tree, int64_t first, float share)
@@ -92,6 +94,18 @@ static bool grow_level(OutTree *tree, const PointSet *attractors, const GrowLeve
     params->first_step += (int32_t)report->steps;
     relax(tree, first, level->relax);
     return true;
+}
+
+PointSet *colonize_first_attractors(const Envelope *envelope, const ScatterParams *scatter,
+                                    const GrowLevel *level, float *influence, const Run *run,
+                                    Error *e)
+{
+    PointSet *attractors =
+        check_level(level, 1, e) ? scatter_level(envelope, scatter, level, 0, run, e) : NULL;
+    if (attractors) {
+        *influence = (float)((double)level->influence * level_spacing(attractors));
+    }
+    return attractors;
 }
 
 bool colonize_levels(OutTree *tree, const Envelope *envelope, const ScatterParams *scatter,

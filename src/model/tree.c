@@ -5,6 +5,7 @@
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "model/tree_bole.h"
 #include "model/tree_defaults.h"
 #include "tree/radii.h"
 
@@ -100,8 +101,9 @@ static bool start_branch(OutTree *tree, int64_t node, int place, Vec3 normal, fl
 }
 
 // Branches stand on the trunk's upper nodes, taken in order of height, each turned by the golden
-// angle from the last about the trunk and along the node's normal.
-static bool start_branches(OutTree *tree, const TreeParams *params, uint64_t seed, Error *e)
+// angle from the last about the trunk and along the node's normal. height: of the trunk, m.
+static bool start_branches(OutTree *tree, const TreeParams *params, float height, uint64_t seed,
+                           Error *e)
 {
     const CrownParams *crown = &params->crown;
     HeightOrder *order = memory_alloc(tree->count, sizeof *order, e);
@@ -109,7 +111,7 @@ static bool start_branches(OutTree *tree, const TreeParams *params, uint64_t see
         return false;
     }
     int64_t count = 0;
-    float from = params->position.y + crown->branch_from * params->trunk.height;
+    float from = params->position.y + crown->branch_from * height;
     for (int64_t i = 0; i < tree->count; i++) {
         if (tree->position[i].y >= from) {
             order[count++] = (HeightOrder){tree->position[i].y, (int32_t)i};
@@ -148,21 +150,74 @@ static bool grow_trunk(OutTree *tree, const TreeParams *params, uint64_t seed, c
     return true;
 }
 
+// Whether a starting piece came to nothing: no node but its own three grew from it. count[i]: nodes
+// that grew from node i.
+static bool is_barren(const OutTree *tree, int64_t i, const int32_t *count)
+{
+    return tree->parent[i] >= 0 && tree->colony[tree->parent[i]] == TREE_TRUNK && count[i] < 3;
+}
+
+// Drops the branches that found nothing to grow toward, which would stick out of the trunk as
+// stubs. pieces: the nodes that branches started with, from `first` on.
+static bool drop_barren(OutTree *tree, int64_t first, int64_t pieces, Error *e)
+{
+    int32_t *count = memory_alloc_zero(tree->count, sizeof *count, e);
+    bool *keep = memory_alloc(tree->count, sizeof *keep, e);
+    bool done = count && keep;
+    for (int64_t i = tree->count - 1; done && i >= first; i--) {
+        count[tree->parent[i]] += 1 + count[i];
+    }
+    for (int64_t i = 0; done && i < tree->count; i++) {
+        keep[i] = i < first || i >= first + pieces || !is_barren(tree, i, count);
+    }
+    done = done && out_tree_keep_nodes(tree, keep, e);
+    free(count);
+    free(keep);
+    return done;
+}
+
+static bool grow_crown_in(OutTree *tree, const TreeParams *params, const Envelope *envelope,
+                          uint64_t seed, const char *name, const Run *run, Error *e)
+{
+    const ElementParams *crown = &params->crown.element;
+    int64_t trunk = tree->count;
+    float height = params->trunk.height;
+    if (!tree_grow_bole(tree, params, envelope, seed, name, run, e)) {
+        return false;
+    }
+    int64_t first = tree->count;
+    if (first > trunk) {
+        transport_normals(tree);
+        height = tree->position[tree_highest_node(tree)].y - params->position.y;
+    }
+    if (!start_branches(tree, params, height, random_key(seed, 1), e)) {
+        return false;
+    }
+    int64_t pieces = tree->count - first;
+    if (!element_grow_in(tree, crown, envelope, seed, name, run, e)) {
+        return false;
+    }
+    for (int64_t i = first; i < tree->count; i++) {
+        tree->colony[i] = TREE_CROWN;
+    }
+    return drop_barren(tree, first, pieces, e);
+}
+
 static bool grow_crown(OutTree *tree, const TreeParams *params, uint64_t seed, const char *label,
                        const Run *run, Error *e)
 {
     char name[128];
     snprintf(name, sizeof name, "%s, crown", label);
-    int64_t trunk_count = tree->count;
-    if (!start_branches(tree, params, random_key(seed, 1), e) ||
-        !element_grow(tree, &params->crown.element, seed, name, run, e)) {
+    const ElementParams *crown = &params->crown.element;
+    EnvelopeParams shapes = {crown->shapes, crown->shape_count, crown->voxel};
+    Envelope *envelope = envelope_new(&shapes, run, e);
+    bool done = envelope && grow_crown_in(tree, params, envelope, seed, name, run, e);
+    envelope_free(envelope);
+    if (!done) {
+        error_prefix(e, "%s: ", name);
         error_key(e, "crown");
-        return false;
     }
-    for (int64_t i = trunk_count; i < tree->count; i++) {
-        tree->colony[i] = TREE_CROWN;
-    }
-    return true;
+    return done;
 }
 
 // Main roots leave the foot evenly spread about it; `foot` is the centre of the trunk's base.

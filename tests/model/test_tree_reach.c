@@ -113,11 +113,86 @@ static void an_element_that_ends_short_is_told_of(void **state)
     assert_in_range(advices, 1, 10);
 }
 
+// A crown that begins far above the trunk is grown toward; on the way the trunk stays over its
+// foot.
+static void a_trunk_grows_up_to_a_crown_out_of_its_reach(void **state)
+{
+    (void)state;
+    TreeParams params = plain_tree();
+    for (int base = 5; base <= 12; base++) {
+        params.crown.base = (float)base;
+        for (uint64_t seed = 1; seed <= 3; seed++) {
+            OutTree *tree = grow(&params, seed, NULL);
+            Vec3 high = vec3(0, -1, 0);
+            int64_t crown = 0;
+            for (int64_t i = 0; i < tree->count; i++) {
+                Vec3 p = tree->position[i];
+                high = tree->colony[i] == TREE_TRUNK && p.y > high.y ? p : high;
+                crown += tree->colony[i] == TREE_CROWN && p.y > params.crown.base;
+            }
+            if (crown < 20) {
+                fail_msg("base %d m: %lld nodes in the crown", base, (long long)crown);
+            }
+            assert_true(high.y < params.height);
+            assert_true(fabsf(high.x) < 0.4f * high.y && fabsf(high.z) < 0.4f * high.y);
+            out_tree_free(tree);
+        }
+    }
+}
+
+static int64_t nodes_above(const OutTree *tree, int64_t node)
+{
+    int64_t count = 0;
+    for (int64_t i = node + 1; i < tree->count; i++) {
+        int64_t at = i;
+        while (at > node) {
+            at = tree->parent[at];
+        }
+        count += at == node;
+    }
+    return count;
+}
+
+// Branches that find nothing to grow toward are left out: the three nodes that every branch starts
+// with never stand alone. The crown is a pad beside the trunk's top; branches start far below it.
+static void no_branch_is_a_stub(void **state)
+{
+    (void)state;
+    TreeParams params = plain_tree();
+    Shape pad = {.kind = SHAPE_ELLIPSOID,
+                 .size = {2.2f, 0.42f, 1.6f},
+                 .transform = transform_compose(vec3(1.6f, 5.6f, 0), vec3_splat(0), vec3_splat(1))};
+    params.crown.element.shapes = &pad;
+    params.crown.element.shape_count = 1;
+    params.crown.branches = 16;
+    params.crown.branch_from = 0.2f;
+    int64_t branches = 0;
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        OutTree *tree = grow(&params, seed, NULL);
+        for (int64_t i = 0; i < tree->count; i++) {
+            int32_t parent = tree->parent[i];
+            if (parent < 0 || tree->colony[parent] != TREE_TRUNK) {
+                continue;
+            }
+            for (int place = 0; place < params.crown.branches; place++) {
+                if (tree->id[i] == out_tree_child_id(tree->id[parent], 1000 + place)) {
+                    branches++;
+                    assert_true(nodes_above(tree, i) >= 3);
+                }
+            }
+        }
+        out_tree_free(tree);
+    }
+    assert_true(branches >= 4 && branches < 4 * params.crown.branches);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_slender_trunk_is_as_long_as_asked),
         cmocka_unit_test(an_element_that_ends_short_is_told_of),
+        cmocka_unit_test(a_trunk_grows_up_to_a_crown_out_of_its_reach),
+        cmocka_unit_test(no_branch_is_a_stub),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
