@@ -22,6 +22,7 @@ bool frame_is_finished(const char *file, const char *mark);
 
 // The folder beside a film's file in which its frames wait: "oak.mp4.frames"; the pattern of their
 // names in it; and the film there until it is whole. Heap text.
+enum { FRAMES_EXTRA = 7 }; // bytes that it is longer by
 char *frames_folder(const char *film, Error *e);
 char *frames_pattern(const char *folder, Error *e);
 char *frames_film(const char *folder, Error *e);

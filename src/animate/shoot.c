@@ -60,7 +60,8 @@ static bool check_folder(const char *output, Error *e)
 bool shoot_check_output(const char *output, Error *e)
 {
     if (is_film(output)) {
-        return check_folder(output, e) && video_check(e);
+        return file_replace_fits(output, FRAMES_EXTRA, e) && check_folder(output, e) &&
+               video_check(e);
     }
     if (!file_name_ends(output, ".png") && !file_name_ends(output, ".jpg") &&
         !file_name_ends(output, ".jpeg") && !file_name_ends(output, ".exr")) {

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -29,9 +30,25 @@ static bool is_folder(const char *name)
     return errno == 0;
 }
 
+bool file_replace_fits(const char *file, int extra, Error *e)
+{
+    const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file;
+    if ((int64_t)strlen(name) + extra <= NAME_MAX) {
+        return true;
+    }
+    return error_set(
+        e, ERROR_IO,
+        "cannot write '%.40s...': %zu bytes are too long a name; at most %d are possible "
+        "here",
+        name, strlen(name), NAME_MAX - extra);
+}
+
 bool file_replace_check(const char *file, Error *e)
 {
     struct stat status;
+    if (!file_replace_fits(file, 0, e)) {
+        return false;
+    }
     if (stat(file, &status) == 0 && !S_ISREG(status.st_mode)) {
         return error_set(e, ERROR_IO, "cannot write '%s': it is no regular file; name another",
                          file);

@@ -15,4 +15,8 @@ bool file_replace(const char *file, const void *bytes, size_t size, Error *e);
 // there or not to be written to, or when `file` is there and no regular file.
 bool file_replace_check(const char *file, Error *e);
 
+// Is there room in the last part of the name, with `extra` bytes that are put to it (names of files
+// beside it)? ERROR_IO tells the longest.
+bool file_replace_fits(const char *file, int extra, Error *e);
+
 #endif

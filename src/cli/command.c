@@ -50,7 +50,12 @@ const char *file_name(const char *path)
 bool output_check(const char *file, RamifyError *e)
 {
     struct stat status;
-    if (stat(file, &status) == 0 && !S_ISREG(status.st_mode)) {
+    errno = 0;
+    if (stat(file, &status) != 0 && errno == ENAMETOOLONG) {
+        return fail(e, RAMIFY_IO, "cannot write '%.40s...': %s; give it a shorter one", file,
+                    strerror(errno));
+    }
+    if (errno == 0 && !S_ISREG(status.st_mode)) {
         return fail(e, RAMIFY_IO, "cannot write '%s': it is no regular file; name another", file);
     }
     const char *slash = strrchr(file, '/');

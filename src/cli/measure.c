@@ -206,7 +206,6 @@ static bool judge_targets(const RamifyScene *scene, const double *values, Ramify
 
 // ---- scenes and files ----
 
-// The ground and the like have no numbers and are left out.
 static bool measure_objects(const Options *options, const RamifyScene *scene, Subject *subjects,
                             int *count, RamifyError *e)
 {

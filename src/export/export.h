@@ -51,6 +51,7 @@ enum { EXPORT_WORLD = 1, EXPORT_TREES = 2, EXPORT_LAND = 4, EXPORT_GRIDS = 8 };
 typedef struct ExportFormat {
     const char *ending; // ".glb"
     const char *doc;    // for people: what it is
+    int extra;          // bytes by which the longest name of what is written beside it is longer
     unsigned needs;     // of the source
     // Writes the file, and nothing but it and what docs/formats.md names beside it. A failure
     // leaves what was there.

@@ -15,10 +15,11 @@ void grow_report_format(const GrowReport *report, const ColonizeParams *params, 
             snprintf(
                 text, n,
                 "no attractor in reach of root %d: influence %.3g m, nearest attractor %.3g m; "
-                "raise growth.influence",
+                "raise growth.levels[].influence",
                 report->root, (double)report->influence, (double)report->nearest);
         } else {
-            snprintf(text, n, "there are no attractors to grow toward; raise growth.attractors");
+            snprintf(text, n,
+                     "there are no attractors to grow toward; raise growth.levels[].attractors");
         }
         break;
     case STOP_MAX_STEPS:

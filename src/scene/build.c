@@ -3,6 +3,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "mesh/geometry_measure.h"
 #include "mesh/height_measure.h"
 #include "scene/builtin.h"
 #include "scene/kind.h"
@@ -143,11 +144,27 @@ static bool measure_land(const Scene *scene, int index, const OutTree *tree, con
     return done;
 }
 
+// What neither grows nor has measures of its own is built and measured by its geometry.
+static bool measure_built(const Scene *scene, int index, const Run *run, MeasureList *list,
+                          Error *e)
+{
+    BuildStats stats = {0};
+    World *world = world_new(e);
+    bool done = world && scene_give_settings(scene, world, e) &&
+                scene_place_object(world, scene, index, NULL, run, &stats, e) &&
+                geometry_measure(&world->geometry, list, e);
+    world_free(world);
+    return done;
+}
+
 bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *list, Error *e)
 {
     const SceneObject *object = &scene->objects[index];
     const Kind *kind = kind_of(object);
     OutTree *tree = NULL;
+    if (!kind->grow && !kind->measure) {
+        return measure_built(scene, index, run, list, e);
+    }
     if (kind->grow && !(tree = scene_grow_object(scene, index, run, e))) {
         return false;
     }

@@ -25,8 +25,8 @@ HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, c
 // The seed of object number index: its own, or one made from the scene's and its name.
 uint64_t scene_object_seed(const Scene *scene, int index);
 
-// Measures of object number index: of its out-tree, and its kind's own. One that neither grows nor
-// has anything to measure adds nothing.
+// Measures of object number index: of its out-tree, and its kind's own. Of its geometry
+// where a kind neither grows nor has measures of its own.
 bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *list, Error *e);
 
 // Everything. The world borrows strings from the scene: free the world first.

@@ -1,5 +1,6 @@
 #include "scene/export_scene.h"
 
+#include "base/file_replace.h"
 #include "base/memory.h"
 #include "export/pieces.h"
 #include "scene/build.h"
@@ -13,8 +14,9 @@
 
 bool scene_export_check(const char *file, Error *e)
 {
-    if (export_format(file)) {
-        return true;
+    const ExportFormat *format = export_format(file);
+    if (format) {
+        return file_replace_fits(file, format->extra, e);
     }
     char endings[256] = "";
     for (int i = 0, used = 0; i < export_format_count(); i++) {

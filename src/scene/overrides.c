@@ -1,5 +1,6 @@
 #include "scene/overrides.h"
 
+#include "scene/builtin.h"
 #include "scene/hint.h"
 #include "scene/yaml.h"
 
@@ -58,6 +59,17 @@ static Node *find_entry(const Override *o, const Node *list, const char *token)
     return fail(o);
 }
 
+static Node *new_node(const Override *o, NodeKind kind)
+{
+    Node *node = node_new(o->arena, kind, o->e);
+    if (node) {
+        node->source = o->source;
+        node->line = node->key_line = o->line;
+        node->column = node->key_column = o->column;
+    }
+    return node;
+}
+
 // The child that token names, made when a mapping lacks it.
 static Node *step_into(const Override *o, Node *node, const char *token)
 {
@@ -74,13 +86,10 @@ static Node *step_into(const Override *o, Node *node, const char *token)
     }
     Node *child = node_get(node, token);
     if (!child) {
-        child = node_new(o->arena, NODE_SCALAR, o->e);
+        child = new_node(o, NODE_SCALAR);
         if (!child) {
             return NULL;
         }
-        child->source = o->source;
-        child->line = child->key_line = o->line;
-        child->column = child->key_column = o->column;
         node_append(node, child, token);
     }
     return child;
@@ -96,10 +105,74 @@ static void replace(Node *node, const Node *value)
     node->next = old.next;
 }
 
+// All names that a material may be called by: the file's, then the built-in ones.
+static Node *unknown_material(const Override *o, const Node *list, const char *token)
+{
+    const char *names[MAX_NAMES];
+    char hint[512];
+    int count = 0, builtin_count;
+    const Material *builtin = builtin_materials(&builtin_count);
+    for (const Node *entry = list->first; entry && count < MAX_NAMES; entry = entry->next) {
+        const char *name = node_get_text(entry, "name");
+        if (name) {
+            names[count++] = name;
+        }
+    }
+    for (int i = 0; i < builtin_count && count < MAX_NAMES; i++) {
+        names[count++] = builtin[i].name;
+    }
+    hint_format(token, names, count, hint, sizeof hint);
+    error_set(o->e, ERROR_INPUT, "there is no material '%.60s'; %s", token, hint);
+    return fail(o);
+}
+
+// The root's list of materials, made when there is none.
+static Node *material_list(const Override *o, Node *root)
+{
+    Node *list = node_get(root, "materials");
+    if (list && node_is_null(list)) {
+        list->kind = NODE_LIST;
+    }
+    if (!list && (list = new_node(o, NODE_LIST))) {
+        node_append(root, list, "materials");
+    }
+    return list;
+}
+
+// A built-in material that the file does not list is listed as soon as something of it is set.
+static Node *step_into_materials(const Override *o, Node *list, const char *token)
+{
+    if (list->kind != NODE_LIST || (*token >= '0' && *token <= '9')) {
+        return step_into(o, list, token);
+    }
+    for (Node *entry = list->first; entry; entry = entry->next) {
+        const char *name = node_get_text(entry, "name");
+        if (name && strcmp(name, token) == 0) {
+            return entry;
+        }
+    }
+    if (!builtin_material(token)) {
+        return unknown_material(o, list, token);
+    }
+    Node *entry = new_node(o, NODE_MAP), *name = entry ? new_node(o, NODE_SCALAR) : NULL;
+    if (!name) {
+        return NULL;
+    }
+    name->text = token;
+    name->quoted = true;
+    node_append(entry, name, "name");
+    node_append(list, entry, NULL);
+    return entry;
+}
+
 // Puts value where path (which is cut up) leads.
 static bool apply(const Override *o, Node *root, char *path, const Node *value)
 {
-    Node *node = root;
+    Node *node = root, *materials = NULL;
+    if (strncmp(path, "materials.", 10) == 0 && root->kind == NODE_MAP &&
+        !(materials = material_list(o, root))) {
+        return false;
+    }
     while (node && path) {
         char *dot = strchr(path, '.');
         if (dot) {
@@ -109,7 +182,7 @@ static bool apply(const Override *o, Node *root, char *path, const Node *value)
             error_set(o->e, ERROR_INPUT, "an empty name in the path; write a.b=value");
             return fail(o);
         }
-        node = step_into(o, node, path);
+        node = node == materials ? step_into_materials(o, node, path) : step_into(o, node, path);
         path = dot ? dot + 1 : NULL;
     }
     if (node) {

@@ -142,19 +142,18 @@ static bool check_share(const char *name, float value, float low, Error *e)
 static bool check_count(int64_t count, Error *e)
 {
     if (count < 1) {
-        return error_set(e, ERROR_INPUT, "count is %lld; one point at least is needed",
-                         (long long)count);
+        return error_set(e, ERROR_INPUT, "%lld points; one at least is needed", (long long)count);
     }
     if (count > INT32_MAX) {
-        return error_set(e, ERROR_INPUT, "count is %lld; at most %d points are possible",
-                         (long long)count, INT32_MAX);
+        return error_set(e, ERROR_INPUT, "%lld points; at most %d are possible", (long long)count,
+                         INT32_MAX);
     }
     double needed = (double)count * (2.0 * sizeof(Vec3) + sizeof(uint64_t));
     double there = memory_of_machine();
     if (needed > there) {
         return error_set(e, ERROR_MEMORY,
-                         "%lld points need %.1f GB and this machine has %.1f GB; a smaller count "
-                         "is needed",
+                         "%lld points need %.1f GB and this machine has %.1f GB; fewer are "
+                         "needed",
                          (long long)count, needed * 1e-9, there * 1e-9);
     }
     return true;
@@ -192,7 +191,7 @@ bool scatter_empty_error(const Scatter *scatter, int64_t draws, Error *e)
 {
     error_set(e, ERROR_INPUT,
               "only a vanishing part of the envelope's box is to be filled: %lld draws "
-              "were not enough for %lld points; make the envelope thicker, or count smaller",
+              "were not enough for %lld points; make the envelope thicker, or the points fewer",
               (long long)draws, (long long)scatter->params->count);
     return error_key(e, "envelope");
 }

@@ -104,6 +104,14 @@ yes default_name test -s scene.png -a -s scene.exr
 check wrong_ending 2 "$RAMIFY" render scene.yaml -o a.tga
 check no_folder 1 "$RAMIFY" render scene.yaml -o nope/a.png
 says no_folder_message err "cannot write 'nope/a.png': folder 'nope': No such file or directory"
+long=$(printf 'n%.0s' $(seq 252))
+check name_too_long 1 "$RAMIFY" render scene.yaml -o "$long.png"
+says name_too_long_message err "File name too long"
+check name_too_long_for_pov 1 "$RAMIFY" export scene.yaml -o "${long%??}.pov"
+says name_too_long_for_pov_message err "at most 250 are possible here"
+check name_too_long_for_film 1 "$RAMIFY" turntable scene.yaml -o "${long%??}.mp4"
+says name_too_long_for_film_message err "at most 248 are possible here"
+yes nothing_of_long_names sh -c '! ls | grep -q nnnn'
 mkdir -p taken.png
 check output_is_folder 1 "$RAMIFY" render scene.yaml -o taken.png
 if [ "$(id -u)" -ne 0 ]; then

@@ -54,7 +54,18 @@ measures unknown_measure 2 "$folder/bush.yaml" --set targets.0.measure=heigth
 says unknown_measure_hint "did you mean 'height'?"
 measures unknown_object 2 "$folder/bush.yaml" --set targets.0.object=bosh
 says unknown_object_hint "did you mean 'bush'?"
-measures nothing_to_measure 2 "$folder/bush.yaml" --set targets.0.object=floor
+measures not_of_this_kind 2 "$folder/bush.yaml" --set targets.0.object=floor --set targets.0.measure=terminals
+measures ground_too 0 "$folder/bush.yaml"
+says ground_has_a_header "floor (ground)"
+matches_line() { if grep -qE "$2" "$out"; then echo "ok $1"; else echo "not ok $1"; cat "$out"; fi; }
+matches_line ground_triangles '^  triangles +[1-9]'
+matches_line ground_extent '^  width +[1-9][0-9]* m'
+for body in 'mesh: {file: one.obj}' 'shape: {envelope: [{shape: sphere}]}'; do
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$folder/one.obj"
+    printf 'objects: [{name: x, %s}]\n' "$body" >"$folder/body.yaml"
+    measures "body_${body%%:*}" 0 "$folder/body.yaml"
+    matches_line "triangles_of_${body%%:*}" '^  triangles +[1-9]'
+done
 measures bounds_the_wrong_way_round 2 "$folder/bush.yaml" --set targets.0.low=5
 measures as_json 0 "$folder/bush.yaml" --json --quiet
 says json_value '"terminals": {"value": '

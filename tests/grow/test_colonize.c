@@ -217,7 +217,7 @@ static void stop_reasons_read_as_promised(void **state)
     assert_int_equal(report.stop, STOP_OUT_OF_REACH);
     grow_report_format(&report, &params, text, sizeof text);
     assert_string_equal(text, "no attractor in reach of root 0: influence 0.12 m, nearest "
-                              "attractor 0.31 m; raise growth.influence");
+                              "attractor 0.31 m; raise growth.levels[].influence");
 
     points_put(points, vec3(0, 0.1f, 0), vec3(0, 1, 0));
     params.max_steps = 3;
@@ -259,7 +259,7 @@ static void a_root_out_of_reach_is_warned_about(void **state)
     run.user = warning;
     assert_true(colonize(tree, points, &params, &run, NULL, NULL));
     assert_non_null(strstr(warning, "no attractor in reach of root 1: influence"));
-    assert_non_null(strstr(warning, "; raise growth.influence"));
+    assert_non_null(strstr(warning, "; raise growth.levels[].influence"));
     out_tree_free(tree);
     points_free(points);
 }
@@ -321,7 +321,8 @@ static void odd_inputs_end_well(void **state)
     assert_int_equal(report.stop, STOP_OUT_OF_REACH);
     char text[256];
     grow_report_format(&report, &params, text, sizeof text);
-    assert_string_equal(text, "there are no attractors to grow toward; raise growth.attractors");
+    assert_string_equal(text,
+                        "there are no attractors to grow toward; raise growth.levels[].attractors");
 
     points_put(points, vec3(0, 1, 0), vec3(0, 1, 0)); // one
     report = grow_with(tree, points, &params, 1);

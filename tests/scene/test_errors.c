@@ -234,6 +234,9 @@ static const Case overrides[] = {
     {"objects.b.seed=3", ": no entry named 'b' in this list; did you mean 'a'?"},
     {"objects.7.seed=3", ": no entry 7 in this list; it has 1, counted from 0"},
     {"objects.a.name.x=3", ": 'x' lies below a value that is no mapping; the path ends before it"},
+    {"materials.leav.color=0.3", ": there is no material 'leav'; did you mean 'leaf'?"},
+    {"materials.leaf.colour=0.3",
+     ": unknown key 'colour' in materials.leaf; did you mean 'color'?"},
     {"camera={fov: [}", ": not valid YAML: did not find expected node content while parsing a flow "
                         "node; check indentation, brackets and quotes here and just above"},
 };
@@ -250,6 +253,30 @@ static void bad_overrides_are_refused_in_exact_words(void **state)
         wrong += expect(overrides[i].text, &e, wanted);
     }
     assert_int_equal(wrong, 0);
+}
+
+// Built-in materials need not be listed to be changed.
+static void built_in_materials_can_be_set(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {TREE, TREE "materials:\n",
+                                        TREE "materials: [{name: gold, kind: conductor}]\n",
+                                        TREE "materials: [{name: leaf, roughness: 0.25}]\n"};
+    const char *const set[] = {"materials.leaf.color=0.5", "materials.leaf.specular=0.125"};
+    for (int i = 0; i < 4; i++) {
+        Error e = {0};
+        Scene *scene = scene_read_text(texts[i], strlen(texts[i]), "s.yaml", "", set, 2, &e);
+        if (!scene) {
+            fail_msg("%s: %s", e.file, e.message);
+        }
+        const Material *leaf = &scene->materials[scene->material_count - 1];
+        assert_int_equal(scene->material_count, i == 2 ? 2 : 1);
+        assert_string_equal(leaf->name, "leaf");
+        assert_int_equal(leaf->kind, MATERIAL_LEAF);
+        assert_true(leaf->color.y == 0.5f && leaf->specular == 0.125f);
+        assert_true(i != 3 || leaf->roughness == 0.25f);
+        scene_free(scene);
+    }
 }
 
 // A document that no override can mend is to blame itself.
@@ -448,6 +475,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_scenes_are_refused_in_exact_words),
         cmocka_unit_test(bad_overrides_are_refused_in_exact_words),
+        cmocka_unit_test(built_in_materials_can_be_set),
         cmocka_unit_test(overrides_are_not_blamed_for_the_document),
         cmocka_unit_test_setup_teardown(bad_meshes_are_refused_in_exact_words, fixture_set_up,
                                         fixture_tear_down),

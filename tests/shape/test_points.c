@@ -306,14 +306,13 @@ static void refuses_absurd_params(void **state)
     list[4].gradient = NAN;
     list[5].depth_gradient = -2.0f;
     list[6].count = (int64_t)INT32_MAX + 1;
-    static const char *const messages[7] = {
-        "count is 1000000000000; at most 2147483647 points are possible",
-        "count is 0; one point at least is needed",
-        "scale is -1; it must be positive",
-        "shell is 1.5; it must lie between 0 and 1",
-        "gradient is nan; it must lie between -1 and 1",
-        "depth_gradient is -2; it must lie between -1 and 1",
-        "count is 2147483648; at most 2147483647 points are possible"};
+    static const char *const messages[7] = {"1000000000000 points; at most 2147483647 are possible",
+                                            "0 points; one at least is needed",
+                                            "scale is -1; it must be positive",
+                                            "shell is 1.5; it must lie between 0 and 1",
+                                            "gradient is nan; it must lie between -1 and 1",
+                                            "depth_gradient is -2; it must lie between -1 and 1",
+                                            "2147483648 points; at most 2147483647 are possible"};
     for (int i = 0; i < 7; i++) {
         Error e = {0};
         Run run = run_default();
