@@ -239,7 +239,7 @@ static void land_has_heights(void **state)
     assert_false(ramify_land_write(land, "/tmp/x.tga", &error));
     assert_int_equal(error.code, RAMIFY_BAD_INPUT);
     assert_null(ramify_land(scene, BALL, NULL, NULL, &error));
-    assert_string_equal(error.message, "object 'ball' is no land; a terrain would be");
+    assert_string_equal(error.message, "object 'ball': it is no land; a terrain would be");
     ramify_measures_free(measures);
     ramify_land_free(grown);
     ramify_land_free(land);

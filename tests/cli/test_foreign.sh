@@ -122,7 +122,7 @@ objects:
 END_OF_SCENE
 echo "an old picture" >deep.png
 "$RAMIFY" render deep.yaml -o deep.png 2>err
-[ $? -eq 2 ] && grep -qF "deep.gltf: object 'thing': the reader crashed (Segmentation fault); a whole OBJ" err
+[ $? -eq 2 ] && grep -qF "deep.yaml:3:32: object 'thing': deep.gltf: the reader crashed (Segmentation fault); a whole OBJ" err
 result crash_of_the_reader_is_an_error
 [ "$(cat deep.png)" = "an old picture" ] && [ "$(ls deep.* | wc -l)" -eq 3 ]
 result crash_of_the_reader_harms_no_file

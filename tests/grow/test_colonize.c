@@ -278,7 +278,7 @@ static void bad_lengths_are_errors(void **state)
             Error e = {0};
             assert_false(colonize(tree, points, &params, &run, NULL, &e));
             assert_int_equal(e.code, ERROR_INPUT);
-            assert_non_null(strstr(e.message, "it must be positive and finite"));
+            assert_non_null(strstr(e.message, "it must be at least 1e-12 and at most 1e12 m"));
             assert_int_equal(tree->count, 1);
             out_tree_free(tree);
         }
