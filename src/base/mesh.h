@@ -49,4 +49,10 @@ typedef struct MeshTopology {
 
 bool mesh_topology(const Mesh *mesh, MeshTopology *topology, Error *e);
 
+// closed[f] (face_count of them) becomes 1 where face f belongs to a piece that encloses a body and
+// is turned outward: as many of its faces run along each edge one way as the other, and its volume
+// is positive. Vertices at the same place count as one; pieces hang together by vertices. 0 on all
+// else: sheets, bodies with holes, and bodies turned inside out.
+bool mesh_closed_faces(const Mesh *mesh, uint8_t *closed, Error *e);
+
 #endif

@@ -128,6 +128,13 @@ static inline Vec3 vec3_max(Vec3 a, Vec3 b)
     return vec3(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
 }
 
+// The largest of the coordinates' magnitudes.
+static inline float vec3_largest(Vec3 a)
+{
+    float x = fabsf(a.x), y = fabsf(a.y), z = fabsf(a.z), yz = y > z ? y : z;
+    return x > yz ? x : yz;
+}
+
 static inline bool vec3_finite(Vec3 a)
 {
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
@@ -151,6 +158,14 @@ static inline Vec3 vec3_rotate(Vec3 v, Vec3 axis, float cosine, float sine)
 static inline Transform transform_identity(void)
 {
     return (Transform){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+}
+
+// Of the 3 x 3 part: how far volumes grow; negative when it mirrors.
+static inline float transform_determinant(const Transform *t)
+{
+    return vec3_dot(vec3(t->m[0][0], t->m[0][1], t->m[0][2]),
+                    vec3_cross(vec3(t->m[1][0], t->m[1][1], t->m[1][2]),
+                               vec3(t->m[2][0], t->m[2][1], t->m[2][2])));
 }
 
 // Columns x, y, z (need not be unit or orthogonal) and the image of the origin.

@@ -17,6 +17,7 @@ typedef struct Cell {
 
 typedef struct Glow {
     const World *world;
+    uint8_t **closed; // owned: of each part, which of its faces shine outward only; or NULL
     Aabb box;
     int side; // cells along each axis
     Cell *cell;
@@ -90,35 +91,13 @@ static void add_face(Glow *glow, const Material *m, const Mesh *mesh, int64_t fa
     }
 }
 
-// Does the surface enclose a body, though its seams may be open? Then its faces' vectors cancel and
-// it has volume.
-static bool encloses(const Mesh *mesh)
-{
-    Vec3 sum = {0, 0, 0};
-    double area = 0.0, volume = 0.0;
-    Vec3 origin = mesh->vertex_count > 0 ? mesh->position[0] : sum;
-    for (int64_t f = 0; f < mesh->face_count; f++) {
-        const uint32_t *corner = mesh->index + f * mesh->face_size;
-        Vec3 a = vec3_sub(mesh->position[corner[0]], origin);
-        for (int k = 2; k < mesh->face_size; k++) {
-            Vec3 b = vec3_sub(mesh->position[corner[k - 1]], origin);
-            Vec3 c = vec3_sub(mesh->position[corner[k]], origin);
-            Vec3 across = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
-            sum = vec3_add(sum, across);
-            area += 0.5 * (double)vec3_length(across);
-            volume += (double)vec3_dot(a, vec3_cross(b, c)) / 6.0;
-        }
-    }
-    double ball = area * sqrt(area) / 10.6347; // 6 sqrt(pi): the volume of a ball of that area
-    return (double)vec3_length(sum) < 1e-3 * area && volume > 1e-3 * ball;
-}
-
-static void add_part(Glow *glow, const Part *part, const Material *m, const Transform *place)
+// closed: of each of a mesh's faces, or NULL.
+static void add_part(Glow *glow, const Part *part, const uint8_t *closed, const Material *m,
+                     const Transform *place)
 {
     if (part->kind == PART_MESH) {
-        bool closed = encloses(part->mesh);
         for (int64_t f = 0; f < part->mesh->face_count; f++) {
-            add_face(glow, m, part->mesh, f, place, closed ? 0.125f : 0.25f);
+            add_face(glow, m, part->mesh, f, place, closed[f] ? 0.125f : 0.25f);
         }
         return;
     }
@@ -140,9 +119,36 @@ static void add_all(Glow *glow)
             continue;
         }
         for (int64_t k = 0; k < (part->instance ? part->instance_count : 1); k++) {
-            add_part(glow, part, m, part->instance ? &part->instance[k] : NULL);
+            add_part(glow, part, glow->closed[i], m, part->instance ? &part->instance[k] : NULL);
         }
     }
+}
+
+static bool find_closed(Glow *glow, Error *e)
+{
+    const Geometry *geometry = &glow->world->geometry;
+    glow->closed = memory_alloc_zero(geometry->count, sizeof *glow->closed, e);
+    for (int64_t i = 0; glow->closed && i < geometry->count; i++) {
+        const Part *part = &geometry->part[i];
+        if (part->kind != PART_MESH || part->mesh->face_count < 1 ||
+            glow->world->material[part->material].kind != MATERIAL_EMISSION) {
+            continue;
+        }
+        glow->closed[i] = memory_alloc(part->mesh->face_count, 1, e);
+        if (!glow->closed[i] || !mesh_closed_faces(part->mesh, glow->closed[i], e)) {
+            return false;
+        }
+    }
+    return glow->closed != NULL;
+}
+
+static void glow_clear(Glow *glow)
+{
+    for (int64_t i = 0; glow->closed && i < glow->world->geometry.count; i++) {
+        free(glow->closed[i]);
+    }
+    free(glow->closed);
+    free(glow->cell);
 }
 
 // The finest grid of which few enough cells shine.
@@ -183,12 +189,18 @@ static void write_light(Pov *pov, const Cell *cell)
 bool pov_glow(Pov *pov)
 {
     Glow glow = {.world = pov->world, .box = aabb_empty()};
+    if (!find_closed(&glow, pov->e)) {
+        glow_clear(&glow);
+        return false;
+    }
     add_all(&glow);
     if (aabb_is_empty(glow.box)) {
+        glow_clear(&glow);
         return true;
     }
     glow.cell = memory_alloc((int64_t)FINEST * FINEST * FINEST, sizeof *glow.cell, pov->e);
     if (!glow.cell) {
+        glow_clear(&glow);
         return false;
     }
     pov->glow_lights = fill_grid(&glow) > 0;
@@ -198,6 +210,6 @@ bool pov_glow(Pov *pov)
         }
     }
     file_writer_text(pov->out, "\n");
-    free(glow.cell);
+    glow_clear(&glow);
     return true;
 }

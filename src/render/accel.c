@@ -216,6 +216,12 @@ static bool wants_film(const Accel *accel, const Part *part)
            accel->world->material[part->material].kind == MATERIAL_THIN_FILM;
 }
 
+static bool wants_glow(const Accel *accel, const Part *part)
+{
+    return part->kind == PART_CURVES &&
+           accel->world->material[part->material].kind == MATERIAL_EMISSION;
+}
+
 static bool add_part(Accel *accel, int32_t number, Error *e)
 {
     const Part *part = &accel->world->geometry.part[number];
@@ -228,6 +234,7 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
     bool mesh = part->kind == PART_MESH;
     own->alpha = wants_alpha(accel, part);
     own->film = wants_film(accel, part);
+    own->glow = wants_glow(accel, part);
     if ((mesh ? part->mesh->face_count : part->curves->curve_count) < 1 ||
         (part->instance && part->instance_count < 1)) {
         return true;
@@ -250,6 +257,11 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
     if (own->film) {
         rtcSetGeometryUserData(geometry, own);
         rtcSetGeometryOccludedFilterFunction(geometry, accel_film_filter);
+    }
+    if (own->glow) {
+        rtcSetGeometryUserData(geometry, own);
+        rtcSetGeometryIntersectFilterFunction(geometry, accel_glow_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, accel_glow_filter);
     }
     return part->instance && !own->copied ? attach_instances(accel, geometry, number, e)
                                           : attach(accel, geometry, number, 0, e);
@@ -370,7 +382,8 @@ bool accel_fits_materials(const Accel *accel)
     for (int64_t i = 0; i < accel->world->geometry.count; i++) {
         const Part *part = &accel->world->geometry.part[i];
         if (accel->part[i].alpha != wants_alpha(accel, part) ||
-            accel->part[i].film != wants_film(accel, part)) {
+            accel->part[i].film != wants_film(accel, part) ||
+            accel->part[i].glow != wants_glow(accel, part)) {
             return false;
         }
     }

@@ -14,6 +14,8 @@ typedef struct Accel Accel;
 typedef struct Ray {
     Vec3 origin, direction; // unit direction
     float far;              // m
+    float slack;            // m: how far before `far` the glowing curves of `part`, toward which a
+    int part;               // shadow ray goes, are not met; 0 = everything is
     uint32_t key;           // random: decides whether the ray passes half-transparent surfaces
 } Ray;
 
@@ -47,8 +49,8 @@ void accel_thread_end(unsigned state);
 
 bool accel_intersect(const Accel *accel, const Ray *ray, Hit *hit);
 
-// The same for up to PACKET_SIZE rays that start and go nearly alike, together: faster. met[i] is
-// false where ray i meets nothing.
+// The same for up to PACKET_SIZE rays that start and go nearly alike, together: faster. They have
+// no slack, and there is at least one. met[i] is false where ray i meets nothing.
 enum { PACKET_SIZE = 8 };
 void accel_intersect_packet(const Accel *accel, const Ray *const ray[], int count, Hit hit[],
                             bool met[]);

@@ -15,7 +15,7 @@ typedef struct AccelPart {
     const uint32_t *segment; // curves: first point of each segment; Embree's buffer
     float base_variation;    // of a part that is drawn once
     bool plain;              // a mesh without anything at its vertices
-    bool alpha, film;        // rays are filtered: see accel_alpha_filter, accel_film_filter
+    bool alpha, film, glow;  // rays are filtered: see accel_alpha_filter and those below it
     bool copied;             // instances were copied out: primitive = instance * faces + face
 } AccelPart;
 
@@ -77,5 +77,17 @@ void accel_alpha_filter(const struct RTCFilterFunctionNArguments *arguments);
 // Embree filter for shadow rays: a thin film lets pass what it does not mirror, by its mean over
 // thicknesses and colours.
 void accel_film_filter(const struct RTCFilterFunctionNArguments *arguments);
+
+// Embree filter for rays toward glowing curves, whose part is not met within the ray's slack: light
+// is drawn from each segment as a cone of its own, which lies in its neighbours at bends, and
+// Embree meets slender segments early (the error is about 1e-7 of length^2 / radius).
+void accel_glow_filter(const struct RTCFilterFunctionNArguments *arguments);
+
+// What a ray tells the filters.
+typedef struct AccelContext {
+    struct RTCIntersectContext embree; // first: Embree hands its address on
+    float from;                        // m along the ray: from there its part is not met
+    int part;
+} AccelContext;
 
 #endif

@@ -81,6 +81,31 @@ void accel_film_filter(const struct RTCFilterFunctionNArguments *arguments)
     }
 }
 
+// Word 8 of RTCRayN is tfar: where the hit is.
+void accel_glow_filter(const struct RTCFilterFunctionNArguments *arguments)
+{
+    const AccelContext *context = (const AccelContext *)arguments->context;
+    const AccelPart *own = arguments->geometryUserPtr;
+    unsigned n = arguments->N;
+    const unsigned *ray = (const unsigned *)arguments->ray;
+    if (own - own->accel->part != context->part) {
+        return;
+    }
+    for (unsigned i = 0; i < n; i++) {
+        if (arguments->valid[i] && packet_float(ray, n, 8, i) > context->from) {
+            arguments->valid[i] = 0;
+        }
+    }
+}
+
+static AccelContext context_of(const Ray *ray)
+{
+    AccelContext context = {.from = ray->far - ray->slack,
+                            .part = ray->slack > 0.0f ? ray->part : -1};
+    rtcInitIntersectContext(&context.embree);
+    return context;
+}
+
 static struct RTCRay embree_ray(const Ray *ray)
 {
     return (struct RTCRay){.org_x = ray->origin.x,
@@ -96,12 +121,11 @@ static struct RTCRay embree_ray(const Ray *ray)
 
 bool accel_intersect(const Accel *accel, const Ray *ray, Hit *hit)
 {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    AccelContext context = context_of(ray);
+    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     struct RTCRayHit query = {.ray = embree_ray(ray)};
     query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(accel->scene, &context, &query);
+    rtcIntersect1(accel->scene, &context.embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return false;
     }
@@ -132,16 +156,15 @@ static void set_packet_ray(struct RTCRayHit8 *query, int i, const Ray *ray)
 void accel_intersect_packet(const Accel *accel, const Ray *const ray[], int count, Hit hit[],
                             bool met[])
 {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    AccelContext context = context_of(ray[0]);
+    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     struct RTCRayHit8 query = {.ray.tnear = {0.0f}};
     int valid[PACKET_SIZE] __attribute__((aligned(32))) = {0};
     for (int i = 0; i < count; i++) {
         set_packet_ray(&query, i, ray[i]);
         valid[i] = -1;
     }
-    rtcIntersect8(valid, accel->scene, &context, &query);
+    rtcIntersect8(valid, accel->scene, &context.embree, &query);
     for (int i = 0; i < count; i++) {
         met[i] = query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
         bool instanced = query.hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID;
@@ -156,11 +179,10 @@ void accel_intersect_packet(const Accel *accel, const Ray *const ray[], int coun
 
 bool accel_occluded(const Accel *accel, const Ray *ray)
 {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    AccelContext context = context_of(ray);
+    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     struct RTCRay query = embree_ray(ray);
-    rtcOccluded1(accel->scene, &context, &query);
+    rtcOccluded1(accel->scene, &context.embree, &query);
     return query.tfar < 0.0f;
 }
 
@@ -242,12 +264,6 @@ static Vec3 smooth_normal(Vec3 n, Vec3 facet, Vec3 direction)
     return cosine >= least ? n : vec3_normalize(vec3_madd(n, cosine - 2.0f * least, direction));
 }
 
-static float largest(Vec3 p)
-{
-    float x = fabsf(p.x), y = fabsf(p.y), z = fabsf(p.z), yz = y > z ? y : z;
-    return x > yz ? x : yz;
-}
-
 static void mesh_surface(const Mesh *mesh, const Hit *hit, int64_t face, const Transform *t,
                          Vec3 direction, SurfacePoint *point)
 {
@@ -296,7 +312,7 @@ static void mesh_surface(const Mesh *mesh, const Hit *hit, int64_t face, const T
         point->site.x += c.weight[i] * mesh->site[c.vertex[i]].x;
         point->site.y += c.weight[i] * mesh->site[c.vertex[i]].y;
     }
-    point->epsilon = 4e-6f * largest(point->position) + 1e-7f;
+    point->epsilon = 4e-6f * vec3_largest(point->position) + 1e-7f;
 }
 
 // Without attributes at the vertices the hit itself tells all, and the vertices need not be fetched
@@ -313,7 +329,7 @@ static void plain_surface(const Ray *ray, const Hit *hit, const Transform *t, Su
     if (t && transform_inverse(t, &inverse)) {
         point->object_position = transform_point(&inverse, point->position);
     }
-    float reach = largest(point->position);
+    float reach = vec3_largest(point->position);
     point->epsilon = 4e-6f * (reach > hit->t ? reach : hit->t) + 1e-7f;
 }
 

@@ -2,10 +2,14 @@
 
 #include "render/warp.h"
 
-Emitter emitter_triangle(Vec3 a, Vec3 b, Vec3 c, int material)
+// Of what is met as good as edge on: below it rounding tells whether it faces at all.
+static const float LEAST_COSINE = 1e-6f;
+
+Emitter emitter_triangle(Vec3 a, Vec3 b, Vec3 c, bool two_sided, int part)
 {
     return (Emitter){.kind = EMITTER_TRIANGLE,
-                     .material = material,
+                     .two_sided = two_sided,
+                     .part = part,
                      .a = a,
                      .b = vec3_sub(b, a),
                      .c = vec3_sub(c, a),
@@ -16,10 +20,9 @@ Emitter emitter_triangle(Vec3 a, Vec3 b, Vec3 c, int material)
 // The tangent cone touches a ball of radius r in a circle of radius r cos t, displaced by r sin t,
 // where sin t is the difference of the radii over the distance.
 Emitter emitter_cone(Vec3 from, Vec3 to, float radius0, float radius1, float glow0, float glow1,
-                     int material)
+                     int part)
 {
-    Emitter e = {
-        .kind = EMITTER_CONE, .material = material, .a = from, .glow0 = glow0, .glow1 = glow1};
+    Emitter e = {.kind = EMITTER_CONE, .part = part, .a = from, .glow0 = glow0, .glow1 = glow1};
     Vec3 between = vec3_sub(to, from);
     float length = vec3_length(between);
     if (!(length > fabsf(radius0 - radius1) * 1.0001f)) {
@@ -35,10 +38,10 @@ Emitter emitter_cone(Vec3 from, Vec3 to, float radius0, float radius1, float glo
     return e;
 }
 
-Emitter emitter_cap(Vec3 center, float radius, Vec3 axis, float glow, int material)
+Emitter emitter_cap(Vec3 center, float radius, Vec3 axis, float glow, int part)
 {
     return (Emitter){.kind = EMITTER_CAP,
-                     .material = material,
+                     .part = part,
                      .a = center,
                      .b = axis,
                      .radius0 = radius,
@@ -139,21 +142,24 @@ static inline float rim_density(const Rim *rim, float cosine)
                                 : 1.0f / (2.0f * rim->most);
 }
 
-// Density per steradian of the point of the rim in the direction (cosine, sine) from `toward`; 0
-// where its back is seen.
+// Density per steradian of a place on a surface drawn with a density per area. The cosine at which
+// it is left is positive but for rounding, which must not turn a place that was met away.
+static float steradian_density(float area_density, Vec3 normal, Vec3 to)
+{
+    float distance = vec3_length(to);
+    float cosine = fmaxf(vec3_dot(normal, to), LEAST_COSINE * distance) / distance;
+    return area_density * distance * distance / cosine;
+}
+
+// Density per steradian of the point of the rim in the direction (cosine, sine) from `toward`.
 static float cone_pdf_at(const Emitter *e, const Cone *cone, const Rim *rim, Vec3 from,
-                         float cosine, float sine, float density_along, Vec3 *position)
+                         float cosine, float sine, float density_along, EmitterSample *at)
 {
     Vec3 out = vec3_madd(vec3_scale(rim->toward, cosine), sine, rim->aside);
-    *position = vec3_madd(rim->center, rim->radius, out);
-    Vec3 normal = vec3_madd(vec3_scale(out, cone->cosine), e->tilt, cone->axis);
-    Vec3 to = vec3_sub(from, *position);
-    float square = vec3_dot(to, to), facing = vec3_dot(normal, to); // distance * cosine
-    if (!(facing > 0.0f) || !(square > 0.0f)) {
-        return 0.0f;
-    }
+    at->position = vec3_madd(rim->center, rim->radius, out);
+    at->normal = vec3_madd(vec3_scale(out, cone->cosine), e->tilt, cone->axis);
     float area_density = density_along * rim_density(rim, cosine) / (rim->radius * cone->slant);
-    return area_density * square * sqrtf(square) / facing;
+    return steradian_density(area_density, at->normal, vec3_sub(from, at->position));
 }
 
 static bool cone_sample(const Emitter *e, Vec3 from, const float u[2], bool pivoted,
@@ -182,8 +188,8 @@ static bool cone_sample(const Emitter *e, Vec3 from, const float u[2], bool pivo
     sample->glow = lerpf(e->glow0, e->glow1, s);
     sample->pivot = rim.center;
     sample->pivot_ratio = 1.0f / density_along;
-    sample->pdf = cone_pdf_at(e, &cone, &rim, from, cosine, sine, density_along, &sample->position);
-    return sample->pdf > 0.0f;
+    sample->pdf = cone_pdf_at(e, &cone, &rim, from, cosine, sine, density_along, sample);
+    return true;
 }
 
 static float cone_pdf(const Emitter *e, Vec3 from, Vec3 position)
@@ -201,18 +207,33 @@ static float cone_pdf(const Emitter *e, Vec3 from, Vec3 position)
     Vec3 out = vec3_sub(position, rim.center);
     float x = vec3_dot(out, rim.toward), y = vec3_dot(out, rim.aside);
     float length = fmaxf(sqrtf(x * x + y * y), 1e-20f);
-    Vec3 ideal;
-    return cone_pdf_at(e, &cone, &rim, from, x / length, y / length, axis_density(&view, &cone, s),
+    float cosine = fmaxf(x / length, cosf(rim.most) + LEAST_COSINE);
+    EmitterSample ideal;
+    return cone_pdf_at(e, &cone, &rim, from, cosine, y / length, axis_density(&view, &cone, s),
                        &ideal);
+}
+
+// Outside the ball about the nearest place of the axis?
+static bool cone_faces(const Emitter *e, Vec3 from)
+{
+    Cone cone = cone_of(e);
+    float foot = vec3_dot(vec3_sub(from, e->a), cone.axis);
+    float s = cone.length > 0.0f ? clampf(foot / cone.length, 0.0f, 1.0f) : 0.0f;
+    float radius = lerpf(e->radius0, e->radius1, s);
+    return vec3_distance(from, vec3_madd(e->a, s, e->b)) > radius;
 }
 
 // ---- triangles and caps: even over the area
 
-static float triangle_pdf(const Emitter *e, Vec3 to)
+static float triangle_pdf(const Emitter *e, Vec3 from, Vec3 position, Vec3 *normal)
 {
-    float square = vec3_dot(to, to);
-    float facing = 0.5f * fabsf(vec3_dot(vec3_cross(e->b, e->c), to)); // area * cosine * distance
-    return facing > 0.0f ? square * sqrtf(square) / facing : 0.0f;
+    Vec3 across = vec3_cross(e->b, e->c), to = vec3_sub(from, position);
+    float area = 0.5f * vec3_length(across);
+    *normal = vec3_scale(across, 0.5f / area);
+    if (e->two_sided && vec3_dot(*normal, to) < 0.0f) {
+        *normal = vec3_neg(*normal);
+    }
+    return steradian_density(1.0f / area, *normal, to);
 }
 
 static Vec3 triangle_point(const Emitter *e, const float u[2])
@@ -221,12 +242,11 @@ static Vec3 triangle_point(const Emitter *e, const float u[2])
     return vec3_madd(vec3_madd(e->a, root * (1.0f - u[1]), e->b), root * u[1], e->c);
 }
 
-static float cap_pdf(const Emitter *e, Vec3 from, Vec3 position)
+static float cap_pdf(const Emitter *e, Vec3 from, Vec3 position, Vec3 *normal)
 {
-    Vec3 to = vec3_sub(from, position), out = vec3_sub(position, e->a);
-    float square = vec3_dot(to, to), facing = vec3_dot(out, to); // radius * distance * cosine
-    float least = e->radius0 * sqrtf(square) * 1e-4f;
-    return facing > least ? square * sqrtf(square) / (2.0f * PI_F * e->radius0 * facing) : 0.0f;
+    float area = 2.0f * PI_F * e->radius0 * e->radius0;
+    *normal = vec3_normalize(vec3_sub(position, e->a));
+    return steradian_density(1.0f / area, *normal, vec3_sub(from, position));
 }
 
 static Vec3 cap_point(const Emitter *e, const float u[2])
@@ -237,31 +257,62 @@ static Vec3 cap_point(const Emitter *e, const float u[2])
 
 // ---- all of them
 
+bool emitter_faces(const Emitter *emitter, Vec3 from)
+{
+    switch (emitter->kind) {
+    case EMITTER_TRIANGLE:
+        return emitter->two_sided ||
+               vec3_dot(vec3_cross(emitter->b, emitter->c), vec3_sub(from, emitter->a)) > 0.0f;
+    case EMITTER_CONE:
+        return cone_faces(emitter, from);
+    case EMITTER_CAP:
+        break;
+    }
+    return vec3_distance(from, emitter->a) > emitter->radius0;
+}
+
+// Neighbours overlap at bends by about a radius. Embree 3.13 lengthens segments of a millimetre or
+// less by some radii at their first point (by 1e-7 m^2 over the length).
+static float slack_of(const Emitter *e)
+{
+    switch (e->kind) {
+    case EMITTER_TRIANGLE:
+        return 0.0f;
+    case EMITTER_CONE:
+        return fmaxf(e->radius0, e->radius1);
+    case EMITTER_CAP:
+        break;
+    }
+    return 3.0f * e->radius0;
+}
+
 static bool sample_emitter(const Emitter *e, Vec3 from, const float u[2], bool pivoted,
                            EmitterSample *sample)
 {
-    bool seen;
+    if (!emitter_faces(e, from)) {
+        return false;
+    }
     if (e->kind == EMITTER_CONE) {
-        seen = cone_sample(e, from, u, pivoted, sample);
+        if (!cone_sample(e, from, u, pivoted, sample)) {
+            return false;
+        }
     } else {
         bool triangle = e->kind == EMITTER_TRIANGLE;
         sample->position = triangle ? triangle_point(e, u) : cap_point(e, u);
-        sample->pdf = triangle ? triangle_pdf(e, vec3_sub(sample->position, from))
-                               : cap_pdf(e, from, sample->position);
+        sample->pdf = triangle ? triangle_pdf(e, from, sample->position, &sample->normal)
+                               : cap_pdf(e, from, sample->position, &sample->normal);
         sample->pivot = sample->position;
         sample->glow = e->glow0;
         sample->pivot_ratio = 1.0f;
-        seen = sample->pdf > 0.0f;
     }
     Vec3 to = vec3_sub(sample->position, from);
-    sample->distance = seen ? vec3_length(to) : 0.0f;
-    if (!(sample->distance > 0.0f)) {
-        return false;
-    }
+    sample->distance = vec3_length(to);
     sample->direction = vec3_scale(to, 1.0f / sample->distance);
-    // Embree meets long curves up to about a radius early.
-    sample->slack = e->kind == EMITTER_TRIANGLE ? 0.0f : fmaxf(e->radius0, e->radius1);
-    return isfinite(sample->pdf);
+    sample->extent = e->kind == EMITTER_CAP ? e->radius0 : vec3_length(e->b);
+    sample->extent += e->kind == EMITTER_TRIANGLE ? vec3_length(e->c) : 0.0f;
+    sample->slack = slack_of(e);
+    bool seen = vec3_dot(sample->normal, to) < 0.0f; // else its back
+    return seen && sample->pdf > 0.0f && isfinite(sample->pdf);
 }
 
 bool emitter_sample(const Emitter *emitter, Vec3 from, const float u[2], EmitterSample *sample)
@@ -290,15 +341,16 @@ bool emitter_sample_pivoted(const Emitter *emitter, Vec3 from, const float u[2],
 
 float emitter_pdf(const Emitter *emitter, Vec3 from, Vec3 position)
 {
+    Vec3 normal;
     switch (emitter->kind) {
     case EMITTER_TRIANGLE:
-        return triangle_pdf(emitter, vec3_sub(position, from));
+        return triangle_pdf(emitter, from, position, &normal);
     case EMITTER_CONE:
         return cone_pdf(emitter, from, position);
     case EMITTER_CAP:
         break;
     }
-    return cap_pdf(emitter, from, position);
+    return cap_pdf(emitter, from, position, &normal);
 }
 
 static LightBounds triangle_bounds(const Emitter *e, float luminance)
@@ -310,8 +362,8 @@ static LightBounds triangle_bounds(const Emitter *e, float luminance)
     return (LightBounds){.box = box,
                          .axis = vec3_normalize(across),
                          .cos_normal = 1.0f,
-                         .power = 2.0f * PI_F * area * luminance,
-                         .two_sided = true};
+                         .power = (e->two_sided ? 2.0f : 1.0f) * PI_F * area * luminance,
+                         .two_sided = e->two_sided};
 }
 
 LightBounds emitter_bounds(const Emitter *e, float luminance)

@@ -33,19 +33,23 @@ static Vec3 placed(const Transform *t, Vec3 p)
     return t ? transform_point(t, p) : p;
 }
 
-// Quads as Embree cuts them: corners 0, 1, 3, then 2, 3, 1.
-static void add_triangles(EmitterSet *set, const Part *part, const Transform *t)
+// Quads as Embree cuts them: corners 0, 1, 3, then 2, 3, 1. closed: of each face, or NULL.
+static void add_triangles(EmitterSet *set, const Part *part, int number, const uint8_t *closed,
+                          const Transform *t)
 {
     const Mesh *mesh = part->mesh;
     static const int corner[2][3] = {{0, 1, 3}, {2, 3, 1}}, plain[3] = {0, 1, 2};
     int cuts = mesh->face_size - 2;
+    bool mirrored = t && transform_determinant(t) < 0.0f; // turns the faces round
     for (int64_t i = 0; i < mesh->face_count * cuts; i++) {
         const uint32_t *index = mesh->index + i / cuts * mesh->face_size;
         const int *k = cuts == 1 ? plain : corner[i % 2];
         Vec3 a = placed(t, mesh->position[index[k[0]]]);
         Vec3 b = placed(t, mesh->position[index[k[1]]]);
         Vec3 c = placed(t, mesh->position[index[k[2]]]);
-        set->emitter[set->count++] = emitter_triangle(a, b, c, part->material);
+        bool two_sided = !closed || !closed[i / cuts];
+        set->emitter[set->count++] = mirrored ? emitter_triangle(a, c, b, two_sided, number)
+                                              : emitter_triangle(a, b, c, two_sided, number);
     }
 }
 
@@ -57,16 +61,11 @@ static float glow_at(const CurveSet *curves, int64_t point)
 // How far the transform enlarges radii, on the mean.
 static float enlargement(const Transform *t)
 {
-    if (!t) {
-        return 1.0f;
-    }
-    Vec3 x = vec3(t->m[0][0], t->m[1][0], t->m[2][0]), y = vec3(t->m[0][1], t->m[1][1], t->m[2][1]);
-    Vec3 z = vec3(t->m[0][2], t->m[1][2], t->m[2][2]);
-    return cbrtf(fabsf(vec3_dot(x, vec3_cross(y, z))));
+    return t ? cbrtf(fabsf(transform_determinant(t))) : 1.0f;
 }
 
 // All sides, then the two ends of each curve.
-static void add_curves(EmitterSet *set, const Part *part, const Transform *t)
+static void add_curves(EmitterSet *set, const Part *part, int number, const Transform *t)
 {
     const CurveSet *curves = part->curves;
     float scale = enlargement(t);
@@ -75,7 +74,7 @@ static void add_curves(EmitterSet *set, const Part *part, const Transform *t)
             set->emitter[set->count++] =
                 emitter_cone(placed(t, curves->position[i]), placed(t, curves->position[i + 1]),
                              curves->radius[i] * scale, curves->radius[i + 1] * scale,
-                             glow_at(curves, i), glow_at(curves, i + 1), part->material);
+                             glow_at(curves, i), glow_at(curves, i + 1), number);
         }
     }
     for (int64_t c = 0; c < curves->curve_count; c++) {
@@ -84,22 +83,33 @@ static void add_curves(EmitterSet *set, const Part *part, const Transform *t)
             Vec3 p = placed(t, curves->position[tip]);
             Vec3 next = placed(t, curves->position[end ? tip - 1 : tip + 1]);
             Vec3 axis = vec3_normalize(vec3_sub(p, next));
-            set->emitter[set->count++] = emitter_cap(p, curves->radius[tip] * scale, axis,
-                                                     glow_at(curves, tip), part->material);
+            set->emitter[set->count++] =
+                emitter_cap(p, curves->radius[tip] * scale, axis, glow_at(curves, tip), number);
         }
     }
 }
 
-static void add_part(EmitterSet *set, const Part *part)
+static bool add_part(EmitterSet *set, const World *world, int number, Error *e)
 {
+    const Part *part = &world->geometry.part[number];
+    uint8_t *closed = NULL;
+    if (part->kind == PART_MESH && part->mesh->face_count > 0) {
+        closed = memory_alloc(part->mesh->face_count, 1, e);
+        if (!closed || !mesh_closed_faces(part->mesh, closed, e)) {
+            free(closed);
+            return false;
+        }
+    }
     for (int64_t i = 0; i < copies(part); i++) {
         const Transform *t = part->instance ? &part->instance[i] : NULL;
         if (part->kind == PART_MESH) {
-            add_triangles(set, part, t);
+            add_triangles(set, part, number, closed, t);
         } else {
-            add_curves(set, part, t);
+            add_curves(set, part, number, t);
         }
     }
+    free(closed);
+    return true;
 }
 
 static bool plant_tree(EmitterSet *set, const World *world, Error *e)
@@ -107,7 +117,8 @@ static bool plant_tree(EmitterSet *set, const World *world, Error *e)
     LightBounds *bounds = memory_alloc(set->count, sizeof *bounds, e);
     for (int64_t i = 0; bounds && i < set->count; i++) {
         const Emitter *emitter = &set->emitter[i];
-        bounds[i] = emitter_bounds(emitter, luminance(world->material[emitter->material].radiance));
+        int material = world->geometry.part[emitter->part].material;
+        bounds[i] = emitter_bounds(emitter, luminance(world->material[material].radiance));
     }
     set->tree = bounds ? light_tree_new(bounds, set->count, e) : NULL;
     free(bounds);
@@ -127,14 +138,13 @@ bool emitter_set_fill(EmitterSet *set, const World *world, Error *e)
     }
     set->first = memory_alloc(world->geometry.count, sizeof *set->first, e);
     set->emitter = memory_alloc(total, sizeof *set->emitter, e);
-    for (int64_t i = 0; set->first && set->emitter && i < world->geometry.count; i++) {
+    bool made = set->first && set->emitter;
+    for (int64_t i = 0; made && i < world->geometry.count; i++) {
         const Part *part = &world->geometry.part[i];
         set->first[i] = glows(world, part) ? set->count : -1;
-        if (set->first[i] >= 0) {
-            add_part(set, part);
-        }
+        made = set->first[i] < 0 || add_part(set, world, (int)i, e);
     }
-    if (!set->first || !set->emitter || !plant_tree(set, world, e)) {
+    if (!made || !plant_tree(set, world, e)) {
         emitter_set_clear(set);
         return false;
     }

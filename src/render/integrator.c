@@ -15,15 +15,15 @@ void path_add_light(Path *path, Vec3 radiance)
 }
 
 // Makes *ray start at the point, on the side that direction goes to.
-static void leave(Path *path, const SurfacePoint *point, Vec3 direction, float far, Ray *ray)
+static void leave(Path *path, const SurfacePoint *point, Vec3 direction, Ray *ray)
 {
     bool outside = vec3_dot(direction, point->geometric_normal) > 0.0f;
     Vec3 start = outside ? point->lifted : point->position;
     float step = outside ? point->epsilon : -point->epsilon;
-    ray->origin = vec3_madd(start, step, point->facet_normal);
-    ray->direction = direction;
-    ray->far = far;
-    ray->key = path->key++;
+    *ray = (Ray){.origin = vec3_madd(start, step, point->facet_normal),
+                 .direction = direction,
+                 .far = INFINITY,
+                 .key = path->key++};
 }
 
 // Light from behind reaches leaves and glass only.
@@ -47,7 +47,8 @@ static void add_direct_light(Path *path, const SurfacePoint *point, const Bsdf *
         return;
     }
     Ray shadow;
-    leave(path, point, light.direction, light.far, &shadow);
+    leave(path, point, light.direction, &shadow);
+    path_aim(&shadow, &light);
     Vec3 radiance =
         vec3_scale(vec3_mul(f, light.radiance), power_heuristic(light.pdf, pdf) / light.pdf);
     if (path->tracer->has_clear || path->media.now.present || path->tracer->outside.present) {
@@ -57,7 +58,7 @@ static void add_direct_light(Path *path, const SurfacePoint *point, const Bsdf *
             vec3_dot(light.direction, point->geometric_normal) < 0.0f) {
             media_cross(&media, path->tracer, point->material, point->backface);
         }
-        if (!path_lets_through(path, &shadow, &media, &share)) {
+        if (!path_lets_through(path, &shadow, &light, &media, &share)) {
             return;
         }
         radiance = vec3_mul(radiance, share);
@@ -184,7 +185,7 @@ static bool bounce(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3
         return false;
     }
     path->throughput = vec3_mul(path->throughput, sample.weight);
-    leave(path, point, sample.wi, INFINITY, &path->ray);
+    leave(path, point, sample.wi, &path->ray);
     path->depth++;
     path->footprint = point->footprint;
     if (bsdf->kind == MATERIAL_THIN_FILM && sample.transmitted) {
@@ -210,7 +211,7 @@ static bool pass_clear(Path *path, const SurfacePoint *point)
     media_cross(&path->media, path->tracer, point->material, point->backface);
     path->throughput =
         vec3_mul(path->throughput, path->tracer->world->material[point->material].color);
-    leave(path, point, path->ray.direction, INFINITY, &path->ray);
+    leave(path, point, path->ray.direction, &path->ray);
     path->footprint = point->footprint;
     return ++path->crossings < MOST_CLEAR_CROSSINGS;
 }

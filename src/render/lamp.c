@@ -1,5 +1,6 @@
 #include "render/lamp.h"
 
+#include "render/lights_internal.h"
 #include "render/warp.h"
 
 float lamp_power(const Light *light, float scene_radius)
@@ -27,6 +28,9 @@ static bool quad_sample(const Light *light, Vec3 point, const float u[2], LightS
     }
     sample->direction = vec3_scale(to, 1.0f / sample->distance);
     sample->pdf = quad_density(light, sample->direction, sample->distance);
+    Vec3 normal = vec3_normalize(vec3_cross(light->edge_u, light->edge_v));
+    sample->end =
+        lights_end(on, normal, vec3_length(vec3_add(light->edge_u, light->edge_v)), point);
     return sample->pdf > 0.0f;
 }
 
@@ -48,18 +52,23 @@ static bool sphere_sample(const Light *light, Vec3 point, const float u[2], Ligh
     float along = vec3_dot(to, sample->direction);
     Vec3 aside = vec3_madd(to, -along, sample->direction);
     float half = sqrtf(fmaxf(0.0f, light->radius * light->radius - vec3_dot(aside, aside)));
-    sample->distance = cap < 2.0f ? along - half : along + half;
+    bool outside = cap < 2.0f;
+    half = outside ? half : -half;
+    sample->distance = along - half;
     sample->pdf = 1.0f / (2.0f * PI_F * cap);
+    Vec3 out = vec3_normalize(vec3_neg(vec3_madd(aside, half, sample->direction)));
+    sample->end = lights_end(vec3_madd(light->center, light->radius, out),
+                             outside ? out : vec3_neg(out), light->radius, point);
     return sample->distance > 0.0f;
 }
 
 bool lamp_sample(const Light *light, Vec3 point, const float u[2], LightSample *sample)
 {
     sample->radiance = light->radiance;
-    bool seen = light->kind == LIGHT_QUAD ? quad_sample(light, point, u, sample)
-                                          : sphere_sample(light, point, u, sample);
-    sample->far = sample->distance * 0.999f;
-    return seen;
+    sample->slack = 0.0f;
+    sample->part = -1;
+    return light->kind == LIGHT_QUAD ? quad_sample(light, point, u, sample)
+                                     : sphere_sample(light, point, u, sample);
 }
 
 float lamp_density(const Light *light, Vec3 origin, Vec3 direction, float distance)

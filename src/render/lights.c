@@ -99,13 +99,27 @@ LightChoice lights_choose(const Lights *lights, float u)
     return (LightChoice){low, rest, low != lights->dome_index && low != lights->sun_index};
 }
 
-static void take_emitter_sample(const Lights *lights, int64_t emitter, const EmitterSample *on,
-                                float probability, LightSample *sample)
+// A place just off a light's surface, on the side of its unit normal, so that a shadow ray from
+// about `point` to there ends before the surface: farther off than rounding may shift the ray's end
+// and Embree's intersection, which works with the distances of the surface's corners or centre.
+Vec3 lights_end(Vec3 place, Vec3 normal, float extent, Vec3 point)
 {
-    const Material *m = &lights->world->material[lights->emitters.emitter[emitter].material];
+    float reach = vec3_largest(place) + vec3_distance(place, point) + extent;
+    float rounding = 1e-6f * reach + 1e-8f;
+    return vec3_madd(place, rounding, normal);
+}
+
+static void take_emitter_sample(const Lights *lights, int64_t emitter, Vec3 point,
+                                const EmitterSample *on, float probability, LightSample *sample)
+{
+    const Emitter *e = &lights->emitters.emitter[emitter];
+    const World *world = lights->world;
+    const Material *m = &world->material[world->geometry.part[e->part].material];
     sample->direction = on->direction;
     sample->distance = on->distance;
-    sample->far = fmaxf(on->distance * 0.999f - on->slack, 0.0f);
+    sample->end = lights_end(on->position, on->normal, on->extent, point);
+    sample->slack = on->slack;
+    sample->part = e->part;
     sample->radiance = vec3_scale(m->radiance, on->glow);
     sample->pdf = on->pdf * probability;
 }
@@ -119,7 +133,7 @@ static bool sample_emitters(const Lights *lights, const LightReceiver *receiver,
     if (i < 0 || !emitter_sample(&lights->emitters.emitter[i], receiver->position, u, &on)) {
         return false;
     }
-    take_emitter_sample(lights, i, &on, probability, sample);
+    take_emitter_sample(lights, i, receiver->position, &on, probability, sample);
     return true;
 }
 
@@ -174,7 +188,7 @@ static bool sample_emitters_along(const Lights *lights, const LightChoice *choic
     if (pivot) {
         probability = light_tree_probability(tree, &receiver, i);
     }
-    take_emitter_sample(lights, i, &on, probability, &sample->light);
+    take_emitter_sample(lights, i, point, &on, probability, &sample->light);
     float along = pivot ? pivot->probability : light_tree_probability_segment(tree, segment, i);
     sample->pivot = (LightPivot){i, along, on.pivot};
     sample->pivot_pdf = along * on.pdf * on.pivot_ratio;
@@ -222,10 +236,16 @@ float lights_glow(const Lights *lights, const SurfacePlace *place, Vec3 position
 {
     const EmitterSet *set = &lights->emitters;
     float glow = emitter_set_glow(lights->world, place);
-    if (bsdf_pdf <= 0.0f || !set->tree) {
+    if (!set->tree) {
         return glow;
     }
     int64_t i = emitter_set_find(set, lights->world, place, position);
+    if (!emitter_faces(&set->emitter[i], receiver->position)) {
+        return 0.0f;
+    }
+    if (bsdf_pdf <= 0.0f) {
+        return glow;
+    }
     float pdf = emitter_pdf(&set->emitter[i], receiver->position, position);
     if (pdf > 0.0f) {
         pdf *= light_tree_probability(set->tree, receiver, i);

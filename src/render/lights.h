@@ -22,7 +22,9 @@ void lights_turn_sky(Lights *lights);
 typedef struct LightSample {
     Vec3 direction; // unit, toward the light
     float distance; // m; INFINITY for sky and sun
-    float far;      // m: as far as nothing may be in between
+    Vec3 end;       // of a near light: where shadow rays end, just off its surface
+    float slack;    // m: how far before `end` the glowing curves of `part` cast no shadow
+    int part;       // of glowing geometry; -1 of other lights
     Vec3 radiance;
     float pdf; // per steradian, with the choice of the light in it
 } LightSample;

@@ -113,7 +113,9 @@ static bool into_water(const Lights *lights, Vec3 point, bool sun, LightSample *
 bool lights_sample_above(const Lights *lights, int index, Vec3 point, const float u[2],
                          LightSample *sample)
 {
-    sample->distance = sample->far = INFINITY;
+    sample->distance = INFINITY;
+    sample->slack = 0.0f;
+    sample->part = -1;
     if (index == lights->dome_index) {
         sample->direction = dome_sample(lights->dome, u[0], u[1], &sample->pdf);
         sample->radiance = dome_lookup(lights->dome, sample->direction);

@@ -25,6 +25,10 @@ struct Lights {
 // what it makes belongs to `lights`, after a failure too.
 bool lights_make_above(Lights *lights, const Run *run, Error *e);
 
+// Where a shadow ray from about `point` ends before the place of a light whose unit normal is
+// given. extent: m, of the surface that the place lies on.
+Vec3 lights_end(Vec3 place, Vec3 normal, float extent, Vec3 point);
+
 // A sample of the dome or the sun, which `index` is; without the choice in its pdf.
 bool lights_sample_above(const Lights *lights, int index, Vec3 point, const float u[2],
                          LightSample *sample);

@@ -78,8 +78,12 @@ static inline bool is_clear(const Tracer *tracer, int material)
 bool media_line(const Media *media, const Tracer *tracer, const Ray *ray, float far,
                 MediumLine *line);
 
+// Turns a ray toward where shadow rays end at the light, and makes it end there.
+void path_aim(Ray *ray, const LightSample *light);
+
 // Does light come along the ray, and how much of it? media: where the ray starts.
-bool path_lets_through(Path *path, const Ray *ray, const Media *media, Vec3 *share);
+bool path_lets_through(Path *path, const Ray *ray, const LightSample *light, const Media *media,
+                       Vec3 *share);
 
 // ---- path_scatter.c
 

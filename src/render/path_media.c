@@ -78,8 +78,23 @@ static void lose(const Media *media, const Tracer *tracer, const Ray *ray, float
     }
 }
 
+// From the ray's own start, which lies off its surface: aimed from the surface itself, the ray
+// would pass by the end, or meet the light's other faces on the way.
+void path_aim(Ray *ray, const LightSample *light)
+{
+    if (isinf(light->distance)) {
+        return;
+    }
+    Vec3 to = vec3_sub(light->end, ray->origin);
+    float distance = vec3_length(to);
+    ray->direction = distance > 0.0f ? vec3_scale(to, 1.0f / distance) : ray->direction;
+    ray->far = distance;
+    ray->slack = light->slack;
+    ray->part = light->part;
+}
+
 // Stretch by stretch, through films and the surfaces of clear bodies.
-static bool passes_bodies(Path *path, Ray ray, Media media, Vec3 *share)
+static bool passes_bodies(Path *path, Ray ray, const LightSample *light, Media media, Vec3 *share)
 {
     const Tracer *tracer = path->tracer;
     for (int i = 0; i < MOST_CROSSINGS; i++) {
@@ -106,18 +121,19 @@ static bool passes_bodies(Path *path, Ray ray, Media media, Vec3 *share)
             return false;
         }
         ray.origin = vec3_madd(point.position, -point.epsilon, point.facet_normal);
-        ray.far -= hit.t;
+        path_aim(&ray, light);
         ray.key++;
     }
     return false;
 }
 
-bool path_lets_through(Path *path, const Ray *ray, const Media *media, Vec3 *share)
+bool path_lets_through(Path *path, const Ray *ray, const LightSample *light, const Media *media,
+                       Vec3 *share)
 {
     const Tracer *tracer = path->tracer;
     *share = vec3_splat(1.0f);
     if (tracer->has_clear) {
-        return passes_bodies(path, *ray, *media, share);
+        return passes_bodies(path, *ray, light, *media, share);
     }
     path->rays++;
     if (accel_occluded(tracer->accel, ray)) {

@@ -104,10 +104,11 @@ static Vec3 gather_once(Path *path, const Stretch *stretch, const float u[4], co
     const LightSample *light = &on.light;
     Ray shadow = {.origin = vec3_madd(path->ray.origin, t, path->ray.direction),
                   .direction = light->direction,
-                  .far = light->far,
+                  .far = INFINITY,
                   .key = path->key++};
+    path_aim(&shadow, light);
     Vec3 share;
-    if (!path_lets_through(path, &shadow, &path->media, &share)) {
+    if (!path_lets_through(path, &shadow, light, &path->media, &share)) {
         return vec3_splat(0.0f);
     }
     float phase =

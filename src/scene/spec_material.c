@@ -30,9 +30,11 @@ static const Key MATERIAL_KEYS[] = {
      .doc = "What objects call it. The name of a built-in material changes that one, and starts "
             "from its values."},
     {KEY_OF(Material, kind, "kind", KEY_ENUM), .names = MATERIAL_KINDS,
-     .doc = "diffuse: matt; conductor: metal; dielectric: glass or ice; principled: matt under a "
-            "coat, or metallic; leaf: a thin sheet that lets light through; emission: shines; "
-            "thin_film: a soap bubble's, clear, with interference colours."},
+     .doc =
+         "diffuse: matt; conductor: metal; dielectric: glass or ice; principled: matt under a "
+         "coat, or metallic; leaf: a thin sheet that lets light through; emission: shines, closed "
+         "meshes and curves outward, sheets to both sides; thin_film: a soap bubble's, clear, with "
+         "interference colours."},
     {KEY_OF(Material, color, "color", KEY_COLOR), .kinds = COLOURED, .high = 1,
      .doc = "Reflectance (of a leaf's upper side; the tint of what passes a dielectric)."},
     {KEY_OF(Material, color2, "color2", KEY_COLOR), .kinds = PATTERNED, .high = 1,

@@ -142,10 +142,45 @@ static void a_mirror_keeps_the_outside_outside(void **state)
     mesh_free(mesh);
 }
 
+// Seams split vertices without opening the surface; one open, flat or inverted piece does not make
+// the others open.
+static void closed_faces_enclose_a_body(void **state)
+{
+    (void)state;
+    Mesh *mesh = make_cubes(4);
+    uint8_t closed[24];
+    Mesh *split = mesh_new(4, 24, 6, 0, NULL); // the first cube, six faces of their own
+    assert_non_null(split);
+    for (uint32_t i = 0; i < 24; i++) {
+        split->position[i] = mesh->position[mesh->index[i]];
+        split->index[i] = i;
+    }
+    assert_true(mesh_closed_faces(split, closed, NULL));
+    for (int f = 0; f < 6; f++) {
+        assert_int_equal(closed[f], 1);
+    }
+    memcpy(mesh->index + 24, mesh->index + 28, 4 * sizeof(uint32_t)); // the second lacks a face
+    for (int f = 12; f < 18; f++) {                                   // the third is inside out
+        uint32_t *c = mesh->index + 4 * f, swap = c[1];
+        c[1] = c[3];
+        c[3] = swap;
+    }
+    for (int i = 24; i < 32; i++) { // the fourth is flat
+        mesh->position[i].y = 0.0f;
+    }
+    assert_true(mesh_closed_faces(mesh, closed, NULL));
+    for (int f = 0; f < 24; f++) {
+        assert_int_equal(closed[f], f < 6);
+    }
+    mesh_free(split);
+    mesh_free(mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(closed_surfaces_are_recognised),
+        cmocka_unit_test(closed_faces_enclose_a_body),
         cmocka_unit_test(faults_are_counted),
         cmocka_unit_test(vertices_without_faces_do_not_count),
         cmocka_unit_test(normals_of_a_cube_point_along_its_diagonals),

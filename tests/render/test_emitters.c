@@ -114,7 +114,7 @@ static void samples_cover_the_solid_angle(void **state)
 {
     (void)state;
     // a triangle that spans an octant
-    Emitter triangle = emitter_triangle(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), 0);
+    Emitter triangle = emitter_triangle(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), true, 0);
     expect_solid_angle(&triangle, vec3(0, 0, 0), 0.5 * (double)PI_F, 0.003);
     // a long cylinder seen from near: a strip of half angle asin(r / h)
     Emitter cone = emitter_cone(vec3(-500, 0, 0), vec3(500, 0, 0), 0.3f, 0.3f, 1, 1, 0);
@@ -169,7 +169,7 @@ static Emitter *scattered(int count)
         Vec3 q = vec3_madd(p, 0.05f, random_direction(random_key(key, 3)));
         float glow = i % 100 == 0 ? 20.0f : 1.0f;
         emitter[i] = i % 3 ? emitter_cone(p, q, 0.01f, 0.008f, glow, glow, 0)
-                           : emitter_triangle(p, q, vec3_add(q, vec3(0, 0.02f, 0.01f)), 0);
+                           : emitter_triangle(p, q, vec3_add(q, vec3(0, 0.02f, 0.01f)), true, 0);
     }
     return emitter;
 }
