@@ -1,6 +1,7 @@
 #include "animate/video.h"
 
 #include "base/memory.h"
+#include "image/quantise.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -201,10 +202,9 @@ bool video_add(Video *video, const Image *frame, Error *e)
     for (int y = 0; y < video->height; y++) {
         const float *p = frame->pixel + (int64_t)y * frame->width * frame->channels;
         for (int x = 0; x < video->width; x++, p += frame->channels) {
-            float over = frame->channels == 4 ? 255.0f * p[3] : 255.0f;
+            float over = frame->channels == 4 ? p[3] : 1.0f;
             for (int c = 0; c < 3; c++) {
-                float v = p[c] > 0.0f ? (p[c] < 1.0f ? p[c] : 1.0f) : 0.0f;
-                *out++ = (uint8_t)(v * over + 0.5f);
+                *out++ = quantise_dithered(p[c] * over, x, y, c);
             }
         }
     }

@@ -15,6 +15,7 @@ extern "C" {
 #include "base/file_replace.h"
 #include "base/memory.h"
 #include "image/image.h"
+#include "image/quantise.h"
 }
 
 namespace
@@ -84,21 +85,6 @@ bool encode(const char *file, const char *format, const OIIO::ImageSpec &spec, O
     return true;
 }
 
-// A threshold in (0, 1) that differs between neighbours like blue noise does: interleaved gradient
-// noise (Jimenez 2014), shifted from channel to channel.
-float dither_threshold(int x, int y, int channel)
-{
-    float a = 0.06711056f * float(x + 47 * channel) + 0.00583715f * float(y + 17 * channel);
-    float b = 52.9829189f * (a - std::floor(a));
-    return std::clamp(b - std::floor(b), 1.0f / 64.0f, 63.0f / 64.0f);
-}
-
-unsigned char quantise(float value, float threshold)
-{
-    float v = value > 0.0f ? std::min(value, 1.0f) : 0.0f; // NaN becomes 0
-    return (unsigned char)std::min(255.0f, std::floor(v * 255.0f + threshold));
-}
-
 // 8 bits; without_alpha: over black.
 Bytes quantise_image(const Image *image, bool without_alpha)
 {
@@ -111,8 +97,8 @@ Bytes quantise_image(const Image *image, bool without_alpha)
                                                 size_t(image->channels);
             float over = without_alpha && image->channels == 4 ? p[3] : 1.0f;
             for (int c = 0; c < channels; c++) {
-                float threshold = c == 3 ? 0.5f : dither_threshold(x, y, c);
-                bytes[out++] = quantise(p[c] * over, threshold);
+                bytes[out++] =
+                    c == 3 ? quantise_nearest(p[c]) : quantise_dithered(p[c] * over, x, y, c);
             }
         }
     }

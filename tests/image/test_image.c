@@ -1,5 +1,6 @@
 // Image files: round trips with metadata, and failures that harm nothing.
 #include "image/image.h"
+#include "image/quantise.h"
 
 #include "base/file_replace.h"
 
@@ -127,6 +128,26 @@ static void test_dither(void **state)
     assert_true(fabs(sum / (64 * 64 * 3) - 100.25) < 0.02);
     image_free(image);
     image_free(back);
+}
+
+// Pictures and films: within a step of the value, black stays black, and all of a dark gradient's
+// levels are there on the mean.
+static void test_quantise(void **state)
+{
+    (void)state;
+    for (int level = 0; level <= 80; level++) {
+        double value = 0.05 * level, sum = 0.0;
+        for (int i = 0; i < 64 * 64; i++) {
+            int x = i % 64, y = i / 64, step = quantise_dithered((float)(value / 255.0), x, y, 1);
+            assert_true(fabs(step - value) < 1.0);
+            sum += step;
+        }
+        assert_true(fabs(sum / (64 * 64) - value) < 0.03);
+    }
+    assert_int_equal(quantise_dithered(NAN, 3, 4, 0), 0);
+    assert_int_equal(quantise_dithered(-1.0f, 3, 4, 0), 0);
+    assert_int_equal(quantise_dithered(2.0f, 3, 4, 0), 255);
+    assert_int_equal(quantise_nearest(0.5f), 128);
 }
 
 static void test_jpeg(void **state)
@@ -367,11 +388,12 @@ static void test_link_and_mode(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_png_round_trip), cmocka_unit_test(test_dither),
-        cmocka_unit_test(test_jpeg),           cmocka_unit_test(test_exr_round_trip),
-        cmocka_unit_test(test_same_bytes),     cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_broken_file),    cmocka_unit_test(test_full_disk),
-        cmocka_unit_test(test_link_and_mode),  cmocka_unit_test(test_height_round_trips),
+        cmocka_unit_test(test_png_round_trip),     cmocka_unit_test(test_dither),
+        cmocka_unit_test(test_quantise),           cmocka_unit_test(test_jpeg),
+        cmocka_unit_test(test_exr_round_trip),     cmocka_unit_test(test_same_bytes),
+        cmocka_unit_test(test_refusals),           cmocka_unit_test(test_broken_file),
+        cmocka_unit_test(test_full_disk),          cmocka_unit_test(test_link_and_mode),
+        cmocka_unit_test(test_height_round_trips),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
