@@ -6,6 +6,7 @@
 #define RAMIFY_MODEL_FOREST_H
 
 #include "mesh/geometry.h"
+#include "model/flood.h"
 #include "model/recipe.h"
 #include "model/tree.h"
 
@@ -43,10 +44,12 @@ ForestParams forest_params_default(void);
 // All stands as one out-tree, side by side along x: one colony a tree, stand by stand.
 OutTree *forest_grow(const ForestParams *params, const Recipe *recipe, Error *e);
 
-// Sets the stands of a grown forest over the land, and ferns under them.
+// Sets the stands of a grown forest over the land, and ferns under them, none in water (flood; NULL
+// = none).
 bool forest_geometry(const OutTree *tree, const ForestParams *params,
                      const ForestMaterials *materials, int object, uint64_t seed, ForestLand *land,
-                     const void *user, Geometry *geometry, const Run *run, Error *e);
+                     const void *user, const Flood *flood, Geometry *geometry, const Run *run,
+                     Error *e);
 
 // How far tips keep from the nearest branch of another tree in the stand, m, the median over those
 // tips that have one within half a trunk spacing; NAN without. 0 would be crowns that interleave.

@@ -70,8 +70,8 @@ static bool add_stand(const OutTree *all, const ForestParams *params,
 
 // Ferns of one variant, in patches, larger in their middle. -1 when interrupted.
 static int64_t place_ferns(const ForestParams *params, uint64_t seed, uint64_t patches,
-                           int64_t wanted, ForestLand *land, const void *user, Transform *place,
-                           const Run *run, Error *e)
+                           int64_t wanted, ForestLand *land, const void *user, const Flood *flood,
+                           Transform *place, const Run *run, Error *e)
 {
     int64_t count = 0;
     for (int64_t i = 0; i < wanted; i++) {
@@ -84,28 +84,29 @@ static int64_t place_ferns(const ForestParams *params, uint64_t seed, uint64_t p
         exact_sincos(random_range(random_key(key, 2), 0.0f, 2.0f * PI_F), &sine, &cosine);
         float x = params->glade_center.x + r * sine, z = params->glade_center.z + r * cosine;
         float patch = noise_plane_fractal(x / FERN_PATCH, z / FERN_PATCH, 2, patches);
-        if (patch < random_range(random_key(key, 3), -0.25f, 0.25f)) {
+        Vec3 foot = vec3(x, land(user, x, z), z);
+        if (patch < random_range(random_key(key, 3), -0.25f, 0.25f) || flood_covers(flood, foot)) {
             continue;
         }
         float size = random_range(random_key(key, 4), 0.6f, 1.0f) * (0.8f + 0.8f * patch);
         exact_sincos(random_range(random_key(key, 5), 0.0f, 2.0f * PI_F), &sine, &cosine);
-        place[count++] = transform_from_axes(vec3(size * cosine, 0, -size * sine), vec3(0, size, 0),
-                                             vec3(size * sine, 0, size * cosine),
-                                             vec3(x, land(user, x, z) - 0.02f, z));
+        place[count++] =
+            transform_from_axes(vec3(size * cosine, 0, -size * sine), vec3(0, size, 0),
+                                vec3(size * sine, 0, size * cosine), vec3(x, foot.y - 0.02f, z));
     }
     return count;
 }
 
 static bool add_ferns(const ForestParams *params, int material, int object, uint64_t seed,
-                      ForestLand *land, const void *user, Geometry *geometry, const Run *run,
-                      Error *e)
+                      ForestLand *land, const void *user, const Flood *flood, Geometry *geometry,
+                      const Run *run, Error *e)
 {
     for (int v = 0; v < FERN_VARIANTS; v++) {
         uint64_t key = random_key(seed, (uint64_t)v);
         int64_t wanted = grove_share(params->ferns, FERN_VARIANTS, v);
         Transform *place = memory_alloc(wanted, sizeof *place, e);
         int64_t count = place ? place_ferns(params, random_key(key, 1), random_key(seed, 100),
-                                            wanted, land, user, place, run, e)
+                                            wanted, land, user, flood, place, run, e)
                               : -1;
         if (count <= 0) {
             free(place);
@@ -133,10 +134,11 @@ static bool add_ferns(const ForestParams *params, int material, int object, uint
 
 bool forest_geometry(const OutTree *tree, const ForestParams *params,
                      const ForestMaterials *materials, int object, uint64_t seed, ForestLand *land,
-                     const void *user, Geometry *geometry, const Run *run, Error *e)
+                     const void *user, const Flood *flood, Geometry *geometry, const Run *run,
+                     Error *e)
 {
     StandPlaces places;
-    if (!stand_places_init(&places, params, random_key(seed, 20), land, user, run, e)) {
+    if (!stand_places_init(&places, params, random_key(seed, 20), land, user, flood, run, e)) {
         return false;
     }
     bool done = true;
@@ -147,5 +149,5 @@ bool forest_geometry(const OutTree *tree, const ForestParams *params,
     stand_places_free(&places);
     return done &&
            (params->ferns == 0 || add_ferns(params, materials->fern, object, random_key(seed, 21),
-                                            land, user, geometry, run, e));
+                                            land, user, flood, geometry, run, e));
 }

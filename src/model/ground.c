@@ -132,8 +132,8 @@ static Transform upright(const GroundParams *params, uint64_t seed, float x, flo
 // Tufts of one variant: dense in the middle, thinner but larger toward the rim, in patches. -1 when
 // interrupted.
 static int64_t place_tufts(const GroundParams *params, uint64_t ground_seed, uint64_t seed,
-                           int64_t wanted, Transform *instance, float *variation, const Run *run,
-                           Error *e)
+                           const Flood *flood, int64_t wanted, Transform *instance,
+                           float *variation, const Run *run, Error *e)
 {
     int64_t count = 0;
     for (int64_t i = 0; i < wanted; i++) {
@@ -148,7 +148,8 @@ static int64_t place_tufts(const GroundParams *params, uint64_t ground_seed, uin
         float patch = noise_plane_fractal(x * 0.55f, z * 0.55f, 3, random_key(ground_seed, 3));
         float keep = 1.0f - params->grass_clumping * smoothstepf(0.25f, -0.35f, patch);
         keep *= smoothstepf(1.0f, 0.55f, share); // no edge where the grass ends
-        if (random_unit(random_key(key, 3)) > keep) {
+        if (random_unit(random_key(key, 3)) > keep ||
+            flood_covers(flood, ground_point(params, ground_seed, x, z))) {
             continue;
         }
         float scale = random_range(random_key(key, 4), 0.55f, 1.0f) * (1.0f + 0.35f * patch);
@@ -175,7 +176,8 @@ static bool add_instances(Geometry *geometry, Mesh *mesh, int material, int obje
 }
 
 static bool add_grass_variant(const GroundParams *params, int variant, int material, int object,
-                              uint64_t seed, Geometry *geometry, const Run *run, Error *e)
+                              uint64_t seed, const Flood *flood, Geometry *geometry, const Run *run,
+                              Error *e)
 {
     uint64_t key = random_key(random_key(seed, 4), (uint64_t)variant);
     GrassParams tuft = {.blades = 22,
@@ -188,9 +190,10 @@ static bool add_grass_variant(const GroundParams *params, int variant, int mater
     Mesh *mesh = grass_tuft_new(&tuft, key, e);
     Transform *instance = memory_alloc(wanted, sizeof *instance, e);
     float *variation = memory_alloc(wanted, sizeof *variation, e);
-    int64_t count = mesh && instance && variation ? place_tufts(params, seed, random_key(key, 1),
-                                                                wanted, instance, variation, run, e)
-                                                  : -1;
+    int64_t count = mesh && instance && variation
+                        ? place_tufts(params, seed, random_key(key, 1), flood, wanted, instance,
+                                      variation, run, e)
+                        : -1;
     if (count <= 0) { // an instance count of 0 would draw the tuft once, at the origin
         mesh_free(mesh);
         free(instance);
@@ -246,7 +249,8 @@ static bool add_fallen_leaves(const GroundParams *params, int material, int obje
 }
 
 bool ground_geometry(const GroundParams *params, const GroundMaterials *materials, int object,
-                     uint64_t seed, Geometry *geometry, const Run *run, Error *e)
+                     uint64_t seed, const Flood *flood, Geometry *geometry, const Run *run,
+                     Error *e)
 {
     Mesh *mesh = ground_mesh(params, seed, e);
     if (!mesh || !geometry_add(geometry,
@@ -258,7 +262,8 @@ bool ground_geometry(const GroundParams *params, const GroundMaterials *material
         return false;
     }
     for (int v = 0; params->grass_tufts > 0 && v < params->grass_variants; v++) {
-        if (!add_grass_variant(params, v, materials->grass, object, seed, geometry, run, e)) {
+        if (!add_grass_variant(params, v, materials->grass, object, seed, flood, geometry, run,
+                               e)) {
             return false;
         }
     }
@@ -266,5 +271,6 @@ bool ground_geometry(const GroundParams *params, const GroundMaterials *material
         !add_fallen_leaves(params, materials->fallen, object, seed, geometry, run, e)) {
         return false;
     }
-    return params->trees.count == 0 || grove_add(params, materials, object, seed, geometry, run, e);
+    return params->trees.count == 0 ||
+           grove_add(params, materials, object, seed, flood, geometry, run, e);
 }

@@ -4,6 +4,7 @@
 
 #include "base/run.h"
 #include "mesh/geometry.h"
+#include "model/flood.h"
 
 // Woods in the distance: a few trees, grown once and instanced.
 typedef struct GroveParams {
@@ -41,7 +42,9 @@ GroundParams ground_params_default(void); // 2 km of meadow, 60,000 tufts
 // Height of the land at (x, z), m.
 float ground_height(const GroundParams *params, uint64_t seed, float x, float z);
 
+// flood: where no grass and no trees stand; NULL = none.
 bool ground_geometry(const GroundParams *params, const GroundMaterials *materials, int object,
-                     uint64_t seed, Geometry *geometry, const Run *run, Error *e);
+                     uint64_t seed, const Flood *flood, Geometry *geometry, const Run *run,
+                     Error *e);
 
 #endif

@@ -40,7 +40,8 @@ static TreeParams distant_tree(const GroveParams *grove, GrowLevel levels[3], ui
 // Where the trees of one variant stand; transforms from the origin to the land. -1 when
 // interrupted.
 static int64_t place_trees(const GroundParams *ground, uint64_t ground_seed, uint64_t seed,
-                           int64_t wanted, Transform *place, const Run *run, Error *e)
+                           int64_t wanted, const Flood *flood, Transform *place, const Run *run,
+                           Error *e)
 {
     const GroveParams *grove = &ground->trees;
     int64_t count = 0;
@@ -54,15 +55,16 @@ static int64_t place_trees(const GroundParams *ground, uint64_t ground_seed, uin
         exact_sincos(random_range(random_key(key, 2), 0.0f, 2.0f * PI_F), &sine, &cosine);
         float x = r * sine, z = r * cosine;
         float wood = noise_plane_fractal(x * 0.008f, z * 0.008f, 3, random_key(ground_seed, 7));
-        if (random_unit(random_key(key, 3)) < grove->clumping && wood < 0.12f) {
+        Vec3 foot = vec3(x, ground_height(ground, ground_seed, x, z), z);
+        if ((random_unit(random_key(key, 3)) < grove->clumping && wood < 0.12f) ||
+            flood_covers(flood, foot)) {
             continue;
         }
         float size = random_range(random_key(key, 4), 0.7f, 1.0f);
         exact_sincos(random_range(random_key(key, 5), 0.0f, 2.0f * PI_F), &sine, &cosine);
         place[count++] =
             transform_from_axes(vec3(size * cosine, 0, -size * sine), vec3(0, size, 0),
-                                vec3(size * sine, 0, size * cosine),
-                                vec3(x, ground_height(ground, ground_seed, x, z) - 0.2f, z));
+                                vec3(size * sine, 0, size * cosine), vec3(x, foot.y - 0.2f, z));
     }
     return count;
 }
@@ -115,7 +117,8 @@ static bool add_variant(const GroundParams *ground, const GroundMaterials *mater
 }
 
 bool grove_add(const GroundParams *ground, const GroundMaterials *materials, int object,
-               uint64_t ground_seed, Geometry *geometry, const Run *run, Error *e)
+               uint64_t ground_seed, const Flood *flood, Geometry *geometry, const Run *run,
+               Error *e)
 {
     const GroveParams *grove = &ground->trees;
     Transform *place =
@@ -124,7 +127,8 @@ bool grove_add(const GroundParams *ground, const GroundMaterials *materials, int
     for (int v = 0; done && v < grove->variants; v++) {
         uint64_t key = random_key(random_key(ground_seed, 6), (uint64_t)v);
         int64_t wanted = grove_share(grove->count, grove->variants, v);
-        int64_t count = place_trees(ground, ground_seed, random_key(key, 1), wanted, place, run, e);
+        int64_t count =
+            place_trees(ground, ground_seed, random_key(key, 1), wanted, flood, place, run, e);
         done = count == 0 || (count > 0 && add_variant(ground, materials, object, place, count,
                                                        random_key(key, 2), geometry, run, e));
     }

@@ -12,6 +12,7 @@ static inline int64_t grove_share(int64_t count, int variants, int variant)
 }
 
 bool grove_add(const GroundParams *ground, const GroundMaterials *materials, int object,
-               uint64_t ground_seed, Geometry *geometry, const Run *run, Error *e);
+               uint64_t ground_seed, const Flood *flood, Geometry *geometry, const Run *run,
+               Error *e);
 
 #endif

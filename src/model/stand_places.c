@@ -30,6 +30,22 @@ static bool is_free(const ForestParams *params, uint64_t seed, uint64_t key, flo
     return random_unit(random_key(key, 5)) >= params->clumping || wood > 0.0f;
 }
 
+// Does water reach any of a stand's trees, wherever they are within its radius?
+static bool is_wet(const ForestParams *params, ForestLand *land, const void *user,
+                   const Flood *flood, float x, float z)
+{
+    enum { AROUND = 8, RINGS = 3 };
+    for (int i = 0; flood && i < AROUND * RINGS; i++) {
+        float r = forest_stand_radius(params) * (float)(1 + i % RINGS) / RINGS, sine, cosine;
+        exact_sincos(2.0f * PI_F * (float)i / (AROUND * RINGS), &sine, &cosine);
+        float px = x + r * sine, pz = z + r * cosine;
+        if (flood_covers(flood, vec3(px, land(user, px, pz), pz))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool add_place(StandPlaces *places, Transform place, int stand, Error *e)
 {
     if (!memory_reserve(&places->place, &places->place_capacity, places->count + 1,
@@ -45,7 +61,8 @@ static bool add_place(StandPlaces *places, Transform place, int stand, Error *e)
 
 // Stands lie on a triangular lattice, each as far from its neighbours as its crowns reach.
 bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t seed,
-                       ForestLand *land, const void *user, const Run *run, Error *e)
+                       ForestLand *land, const void *user, const Flood *flood, const Run *run,
+                       Error *e)
 {
     *places = (StandPlaces){0};
     float pitch = 1.86f * forest_stand_radius(params), row = 0.8660254f * pitch;
@@ -67,7 +84,8 @@ bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t
             float dx, dz;
             land_slope(land, user, x, z, 0.5f * forest_stand_radius(params), &dx, &dz);
             if (!is_free(params, seed, key, x, z) ||
-                1.0f / sqrtf(1.0f + dx * dx + dz * dz) < least_cosine) {
+                1.0f / sqrtf(1.0f + dx * dx + dz * dz) < least_cosine ||
+                is_wet(params, land, user, flood, x, z)) {
                 continue;
             }
             exact_sincos(random_range(random_key(key, 3), 0.0f, 2.0f * PI_F), &sine, &cosine);

@@ -16,7 +16,8 @@ typedef struct StandPlaces {
 } StandPlaces;
 
 bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t seed,
-                       ForestLand *land, const void *user, const Run *run, Error *e);
+                       ForestLand *land, const void *user, const Flood *flood, const Run *run,
+                       Error *e);
 void stand_places_free(StandPlaces *places);
 
 #endif

@@ -14,21 +14,65 @@ static bool add_mesh(Mesh *mesh, int material, int object, Geometry *geometry, E
 
 // ---- the lake
 
-static Mesh *lake_mesh(const HeightField *field, Vec3 move, float level, Error *e)
+enum { LAKE_BLOCKS = 64 }; // a side
+
+typedef struct Lake {
+    const HeightField *field;
+    float level, over; // m; land up to this far over the level may be drawn lower
+} Lake;
+
+// Is any of the land in a block of the field under water?
+static bool is_wet(const Lake *lake, int column, int row)
 {
-    Mesh *mesh = mesh_new(4, 4, 1, MESH_NORMAL | MESH_UV, e);
+    const HeightField *field = lake->field;
+    int first = column * (field->columns - 1) / LAKE_BLOCKS;
+    int last = (column + 1) * (field->columns - 1) / LAKE_BLOCKS;
+    int bottom = (row + 1) * (field->rows - 1) / LAKE_BLOCKS;
+    for (int r = row * (field->rows - 1) / LAKE_BLOCKS; r <= bottom; r++) {
+        for (int c = first; c <= last; c++) {
+            if (field->height[(int64_t)r * field->columns + c] < lake->level + lake->over) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// Level squares over all blocks with land under water, so that no water shows under the mountains
+// where they end at the border.
+static Mesh *lake_mesh(const Lake *lake, Vec3 move, Error *e)
+{
+    const HeightField *field = lake->field;
+    enum { SIDE = LAKE_BLOCKS + 1 };
+    bool wet[LAKE_BLOCKS * LAKE_BLOCKS];
+    int64_t faces = 0;
+    for (int i = 0; i < LAKE_BLOCKS * LAKE_BLOCKS; i++) {
+        wet[i] = is_wet(lake, i % LAKE_BLOCKS, i / LAKE_BLOCKS);
+        faces += wet[i];
+    }
+    Mesh *mesh = mesh_new(4, SIDE * SIDE, faces, MESH_NORMAL | MESH_UV, e);
     if (!mesh) {
         return NULL;
     }
-    float width = field->cell.x * (float)(field->columns - 1);
-    float depth = field->cell.y * (float)(field->rows - 1);
-    for (uint32_t i = 0; i < 4; i++) { // counter-clockwise from above
-        float x = field->origin.x + (i == 2 || i == 3 ? width : 0.0f);
-        float z = field->origin.y + (i == 1 || i == 2 ? depth : 0.0f);
-        mesh->position[i] = vec3(move.x + x, move.y + level, move.z + z);
+    float width = field->cell.x * (float)(field->columns - 1) / LAKE_BLOCKS;
+    float depth = field->cell.y * (float)(field->rows - 1) / LAKE_BLOCKS;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        int row = i / SIDE;
+        float x = field->origin.x + (float)(i % SIDE) * width;
+        float z = field->origin.y + (float)row * depth;
+        mesh->position[i] = vec3(move.x + x, move.y + lake->level, move.z + z);
         mesh->normal[i] = vec3(0, 1, 0);
         mesh->uv[i] = (Vec2){x, z};
-        mesh->index[i] = i;
+    }
+    uint32_t *corner = mesh->index;
+    for (uint32_t i = 0; i < LAKE_BLOCKS * LAKE_BLOCKS; i++) {
+        uint32_t v = i / LAKE_BLOCKS * SIDE + i % LAKE_BLOCKS;
+        if (wet[i]) { // counter-clockwise from above
+            *corner++ = v;
+            *corner++ = v + SIDE;
+            *corner++ = v + SIDE + 1;
+            *corner++ = v + 1;
+        }
     }
     return mesh;
 }
@@ -176,9 +220,8 @@ bool terrain_add_water(const Terrain *terrain, const HeightField *field, int mat
 {
     const TerrainParams *params = terrain->params;
     if (params->water_level > 0.0f) {
-        float level = terrain_water_height(params, field);
-        if (!add_mesh(lake_mesh(field, params->position, level, e), material, object, geometry,
-                      e)) {
+        Lake lake = {field, terrain_water_height(params, field), params->mesh_error * params->size};
+        if (!add_mesh(lake_mesh(&lake, params->position, e), material, object, geometry, e)) {
             return false;
         }
     }

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "scene/kind.h"
+#include "scene/scene_flood.h"
 #include "scene/sections.h"
 
 #include <stdlib.h>
@@ -12,6 +13,7 @@ typedef struct Built {
     char *text; // its entry in Scene.resolved; owned
     uint64_t seed;
     float grow_to;
+    uint64_t flood; // hash of the scene's water
     RecipeMemory memory;
 } Built;
 
@@ -116,6 +118,7 @@ static bool object_fits(const SceneBuilder *builder, const Scene *scene, int ind
 {
     const Kind *kind = kind_of(&scene->objects[index]);
     return same_growth(builder, scene, index) && (alike || !kind->reads_scene) &&
+           (!kind->reads_water || builder->object[index].flood == scene_flood_hash(scene)) &&
            (!kind->grow || builder->object[index].grow_to == scene->grow_to);
 }
 
@@ -154,6 +157,7 @@ static bool note_object(SceneBuilder *builder, const Scene *scene, int index, Er
     built->text = text;
     built->seed = scene_object_seed(scene, index);
     built->grow_to = scene->grow_to;
+    built->flood = scene_flood_hash(scene);
     return true;
 }
 

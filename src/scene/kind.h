@@ -24,6 +24,7 @@ typedef struct Kind {
     const char *key;  // of SceneObject's mapping in the scene file, and its name for people
     size_t offset;    // of its pointer in SceneObject
     bool reads_scene; // its geometry depends on materials' values or on other objects
+    bool reads_water; // it keeps out of the scene's water
     const char *materials[KIND_MOST_MATERIALS]; // keys of the object that name materials; NULL ends
 
     // The out-tree, radii and all; NULL when nothing of this kind grows. The error names the

@@ -1,5 +1,6 @@
 // A forest as a kind of object. It stands on the scene's ground, if there is one.
 #include "scene/kinds.h"
+#include "scene/scene_flood.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -39,8 +40,15 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
                                  .leaf = placing_material(p, p->object->leaf_material, "leaf"),
                                  .fern = placing_material(p, p->object->grass_material, "grass")};
     Land land = find_land(p->scene);
-    return forest_geometry(tree, p->object->forest, &materials, p->index, p->recipe.seed,
-                           land_height, &land, &p->world->geometry, p->recipe.run, e);
+    SceneFlood water;
+    if (!scene_flood_init(&water, p->scene, p->recipe.run, e)) {
+        return false;
+    }
+    bool done =
+        forest_geometry(tree, p->object->forest, &materials, p->index, p->recipe.seed, land_height,
+                        &land, &water.flood, &p->world->geometry, p->recipe.run, e);
+    scene_flood_clear(&water);
+    return done;
 }
 
 static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
@@ -71,6 +79,7 @@ const Kind kind_forest = {
     .key = "forest",
     .offset = offsetof(SceneObject, forest),
     .reads_scene = true,
+    .reads_water = true,
     .materials = {"material", "twig_material", "leaf_material", "grass_material"},
     .grow = grow,
     .place = place,

@@ -64,8 +64,11 @@ static void ground_defaults(const Node *given, int kind, void *out)
 
 static const Table GROUND_TABLE = {
     .name = "ground",
-    .doc = "Gently rolling land with grass on it, out to the "
-           "horizon. Materials: ground, grass, fallen.",
+    .doc =
+        "Gently rolling land with grass on it, out to the horizon. Neither grass nor trees stand "
+        "in "
+        "water: a `medium` of water, or a shape or mesh of a material with the pattern `water` or "
+        "of a dielectric with water's index. Materials: ground, grass, fallen.",
     .example =
         "objects:\n"
         "  - name: meadow\n"

@@ -68,7 +68,8 @@ static const Key RIVER_KEYS[] = {
      .doc = "Half width of valley floors, as a share of the root of the drainage area."},
     {KEY_OF(RiverParams, water, "water", KEY_FLOAT), .high = 1,
      .doc =
-         "Half width of the water, likewise as a share of the root of the drainage area; 0 = dry."},
+         "Half width of the water, likewise as a share of the root of the drainage area; 0 = dry. "
+         "Only rivers wider than 1.2 cells show."},
     {KEY_OF(RiverParams, fields, "fields", KEY_LIST),
      .count_offset = offsetof(RiverParams, field_count), .count = 100, .table = &guide_field_table,
      .doc = "Guide vector fields that steer the rivers' growth, summed with their weights."},

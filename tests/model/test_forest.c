@@ -104,7 +104,7 @@ static void stands_follow_slope_glade_and_density(void **state)
     Run run = run_default();
     Geometry geometry = {0};
     assert_true(
-        forest_geometry(tree, &params, &materials, 0, 9, hill, NULL, &geometry, &run, NULL));
+        forest_geometry(tree, &params, &materials, 0, 9, hill, NULL, NULL, &geometry, &run, NULL));
     int64_t stands = 0;
     for (int64_t p = 0; p < geometry.count; p++) {
         const Part *part = &geometry.part[p];
@@ -128,7 +128,7 @@ static void stands_follow_slope_glade_and_density(void **state)
     geometry_clear(&geometry);
     params.density = 0.0f;
     assert_true(
-        forest_geometry(tree, &params, &materials, 0, 9, hill, NULL, &geometry, &run, NULL));
+        forest_geometry(tree, &params, &materials, 0, 9, hill, NULL, NULL, &geometry, &run, NULL));
     for (int64_t p = 0; p < geometry.count; p++) {
         assert_true(geometry.part[p].material == materials.fern);
     }

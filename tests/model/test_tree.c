@@ -147,7 +147,7 @@ static void grass_stands_on_the_ground(void **state)
     Run run = run_default();
     Geometry geometry = {0};
     GroundMaterials materials = {0, 1, 2, 3, 4};
-    assert_true(ground_geometry(&params, &materials, 0, 9, &geometry, &run, &e));
+    assert_true(ground_geometry(&params, &materials, 0, 9, NULL, &geometry, &run, &e));
     int64_t tufts = 0;
     for (int64_t p = 1; p < geometry.count; p++) {
         for (int64_t i = 0; i < geometry.part[p].instance_count; i++) {
@@ -222,7 +222,7 @@ static void a_few_things_are_not_lost_among_variants(void **state)
     Run run = {.threads = 1};
     Geometry geometry = {0};
     Error e = {0};
-    assert_true(ground_geometry(&params, &materials, 0, 9, &geometry, &run, &e));
+    assert_true(ground_geometry(&params, &materials, 0, 9, NULL, &geometry, &run, &e));
     assert_int_equal(copies_of(&geometry, 2), 3);
     assert_int_equal(copies_of(&geometry, 3), 2);
     const Mesh *land = geometry.part[0].mesh;
@@ -331,7 +331,7 @@ static void distant_trees_stand_on_the_ground(void **state)
     Run run = run_default();
     Geometry geometry = {0};
     GroundMaterials materials = {0, 1, 2, 3, 4};
-    assert_true(ground_geometry(&params, &materials, 0, 9, &geometry, &run, &e));
+    assert_true(ground_geometry(&params, &materials, 0, 9, NULL, &geometry, &run, &e));
     const Mesh *land = geometry.part[0].mesh;
     int64_t trunks = 0, crowns = 0;
     for (int64_t p = 1; p < geometry.count; p++) {

@@ -1,0 +1,178 @@
+#include "mesh/cover.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { MOST_CELLS = 256 }; // a side
+
+typedef struct Triangle {
+    Vec3 a, b, c;
+} Triangle;
+
+struct Cover {
+    Triangle *triangle;
+    int64_t count, capacity;
+    float x, z, width, depth; // of all triangles, in the plane
+    int side;                 // cells
+    int64_t *start;           // of each cell in item; side * side + 1
+    int32_t *item;            // triangles
+};
+
+Cover *cover_new(Error *e)
+{
+    return memory_alloc_zero(1, sizeof(Cover), e);
+}
+
+void cover_free(Cover *cover)
+{
+    if (cover) {
+        free(cover->triangle);
+        free(cover->start);
+        free(cover->item);
+        free(cover);
+    }
+}
+
+bool cover_add(Cover *cover, const Mesh *mesh, Error *e)
+{
+    int64_t more = mesh->face_count * (mesh->face_size - 2);
+    if (!memory_reserve(&cover->triangle, &cover->capacity, cover->count + more,
+                        sizeof *cover->triangle, e)) {
+        return false;
+    }
+    for (int64_t f = 0; f < mesh->face_count; f++) {
+        const uint32_t *corner = mesh->index + f * mesh->face_size;
+        for (int k = 2; k < mesh->face_size; k++) {
+            cover->triangle[cover->count++] =
+                (Triangle){mesh->position[corner[0]], mesh->position[corner[k - 1]],
+                           mesh->position[corner[k]]};
+        }
+    }
+    return true;
+}
+
+static float least(float a, float b, float c)
+{
+    float d = a < b ? a : b;
+    return c < d ? c : d;
+}
+
+static int cell_of(float x, float low, float extent, int side)
+{
+    float t = extent > 0.0f ? (x - low) / extent * (float)side : 0.0f;
+    return (int)clampf(t, 0.0f, (float)(side - 1));
+}
+
+// The cells that a triangle's bounds touch: columns, then rows.
+static void cells_of(const Cover *cover, const Triangle *t, int range[4])
+{
+    range[0] = cell_of(least(t->a.x, t->b.x, t->c.x), cover->x, cover->width, cover->side);
+    range[1] = cell_of(-least(-t->a.x, -t->b.x, -t->c.x), cover->x, cover->width, cover->side);
+    range[2] = cell_of(least(t->a.z, t->b.z, t->c.z), cover->z, cover->depth, cover->side);
+    range[3] = cell_of(-least(-t->a.z, -t->b.z, -t->c.z), cover->z, cover->depth, cover->side);
+}
+
+// Counts triangles of cells (item NULL) or enters them; start[i + 1] counts up from cell i's start.
+static void enter_all(Cover *cover)
+{
+    for (int64_t i = 0; i < cover->count; i++) {
+        int range[4];
+        cells_of(cover, &cover->triangle[i], range);
+        for (int row = range[2]; row <= range[3]; row++) {
+            for (int column = range[0]; column <= range[1]; column++) {
+                int64_t *next = &cover->start[(int64_t)row * cover->side + column + 1];
+                if (cover->item) {
+                    cover->item[*next] = (int32_t)i;
+                }
+                ++*next;
+            }
+        }
+    }
+}
+
+static void find_bounds(Cover *cover)
+{
+    Aabb box = aabb_empty();
+    for (int64_t i = 0; i < cover->count; i++) {
+        box = aabb_add(box, cover->triangle[i].a);
+        box = aabb_add(box, cover->triangle[i].b);
+        box = aabb_add(box, cover->triangle[i].c);
+    }
+    cover->x = box.low.x;
+    cover->z = box.low.z;
+    cover->width = box.high.x - box.low.x;
+    cover->depth = box.high.z - box.low.z;
+}
+
+bool cover_finish(Cover *cover, Error *e)
+{
+    find_bounds(cover);
+    cover->side = 1;
+    while (cover->side < MOST_CELLS && (int64_t)cover->side * cover->side < cover->count) {
+        cover->side *= 2;
+    }
+    int64_t cells = (int64_t)cover->side * cover->side;
+    cover->start = memory_alloc_zero(cells + 2, sizeof *cover->start, e);
+    if (!cover->start) {
+        return false;
+    }
+    enter_all(cover);
+    // What cell i holds stands in start[i + 1]: sums of all before it, as enter_all wants them.
+    int64_t sum = 0;
+    for (int64_t i = 0; i <= cells; i++) {
+        int64_t own = cover->start[i + 1];
+        cover->start[i + 1] = sum;
+        sum += own;
+    }
+    cover->item = memory_alloc(sum, sizeof *cover->item, e);
+    if (!cover->item) {
+        return false;
+    }
+    enter_all(cover);
+    return true;
+}
+
+// The height of a triangle over (x, z), if it has one there; *up: does it look up?
+static bool height_over(const Triangle *t, float x, float z, float *height, bool *up)
+{
+    float bx = t->b.x - t->a.x, bz = t->b.z - t->a.z, cx = t->c.x - t->a.x, cz = t->c.z - t->a.z;
+    float area = bz * cx - bx * cz; // positive seen from above, counter-clockwise
+    float px = x - t->a.x, pz = z - t->a.z;
+    float u = pz * cx - px * cz, v = bz * px - bx * pz;
+    if (area < 0.0f) {
+        u = -u;
+        v = -v;
+    }
+    float size = fabsf(area);
+    if (!(size > 0.0f) || u < 0.0f || v < 0.0f || u + v > size) {
+        return false;
+    }
+    *height = t->a.y + (u * (t->b.y - t->a.y) + v * (t->c.y - t->a.y)) / size;
+    *up = area > 0.0f;
+    return true;
+}
+
+bool cover_hides(const Cover *cover, Vec3 p)
+{
+    if (cover->count == 0 || p.x < cover->x || p.z < cover->z || p.x > cover->x + cover->width ||
+        p.z > cover->z + cover->depth) {
+        return false;
+    }
+    int column = cell_of(p.x, cover->x, cover->width, cover->side);
+    int row = cell_of(p.z, cover->z, cover->depth, cover->side);
+    int64_t cell = (int64_t)row * cover->side + column;
+    float nearest = INFINITY;
+    bool hidden = false;
+    for (int64_t k = cover->start[cell]; k < cover->start[cell + 1]; k++) {
+        float height;
+        bool up;
+        if (height_over(&cover->triangle[cover->item[k]], p.x, p.z, &height, &up) && height > p.y &&
+            height < nearest) {
+            nearest = height;
+            hidden = up;
+        }
+    }
+    return hidden;
+}

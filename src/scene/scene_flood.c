@@ -1,0 +1,109 @@
+#include "scene/scene_flood.h"
+
+#include "base/random.h"
+#include "scene/builtin.h"
+#include "scene/sections.h"
+#include "shape/envelope.h"
+#include "shape/import.h"
+
+#include <math.h>
+#include <string.h>
+
+// A pattern of ripples, or a dielectric of about water's index.
+static bool is_water(const Scene *scene, const char *name)
+{
+    if (!name) {
+        return false;
+    }
+    const Material *material = NULL;
+    for (int i = 0; !material && i < scene->material_count; i++) {
+        material = strcmp(scene->materials[i].name, name) == 0 ? &scene->materials[i] : NULL;
+    }
+    material = material ? material : builtin_material(name);
+    return material &&
+           (material->pattern == PATTERN_WATER || (material->kind == MATERIAL_DIELECTRIC &&
+                                                   material->ior > 1.3f && material->ior < 1.36f));
+}
+
+static bool is_body_of_water(const Scene *scene, const SceneObject *object)
+{
+    return (object->shape || object->mesh) && is_water(scene, object->material);
+}
+
+static bool add_body(Cover *cover, const SceneObject *object, const Run *run, Error *e)
+{
+    if (object->shape) {
+        const SceneShape *shape = object->shape;
+        EnvelopeParams params = {shape->shapes, shape->shape_count, shape->voxel};
+        Envelope *envelope = envelope_new(&params, run, e);
+        bool done = envelope && cover_add(cover, envelope_surface(envelope), e);
+        envelope_free(envelope);
+        return done;
+    }
+    Mesh *mesh = mesh_import(object->mesh->file, run, e);
+    bool done =
+        mesh && mesh_transform(mesh, &object->mesh->transform, e) && cover_add(cover, mesh, e);
+    mesh_free(mesh);
+    return done;
+}
+
+static bool covers(const void *user, Vec3 foot)
+{
+    const SceneFlood *flood = user;
+    return foot.y < flood->level || (flood->cover && cover_hides(flood->cover, foot));
+}
+
+bool scene_flood_init(SceneFlood *flood, const Scene *scene, const Run *run, Error *e)
+{
+    scene = scene->whole ? scene->whole : scene;
+    *flood = (SceneFlood){.level = -INFINITY, .flood = {covers, flood}};
+    if (scene->medium && scene->medium->kind == MEDIUM_WATER) {
+        flood->level = scene->medium->height;
+    }
+    for (int i = 0; i < scene->object_count; i++) {
+        const SceneObject *object = &scene->objects[i];
+        if (!is_body_of_water(scene, object)) {
+            continue;
+        }
+        flood->cover = flood->cover ? flood->cover : cover_new(e);
+        if (!flood->cover || !add_body(flood->cover, object, run, e)) {
+            scene_flood_clear(flood);
+            return false;
+        }
+    }
+    if (flood->cover && !cover_finish(flood->cover, e)) {
+        scene_flood_clear(flood);
+        return false;
+    }
+    return true;
+}
+
+void scene_flood_clear(SceneFlood *flood)
+{
+    cover_free(flood->cover);
+    flood->cover = NULL;
+}
+
+static uint64_t text_hash(uint64_t hash, TextPart part)
+{
+    hash = random_key(hash, (uint64_t)part.length);
+    for (int64_t i = 0; i < part.length; i++) {
+        hash = random_key(hash, (uint8_t)part.text[i]);
+    }
+    return hash;
+}
+
+uint64_t scene_flood_hash(const Scene *scene)
+{
+    scene = scene->whole ? scene->whole : scene;
+    uint64_t hash = 0;
+    if (scene->medium && scene->medium->kind == MEDIUM_WATER) {
+        hash = text_hash(1, section_find(scene->resolved, "medium"));
+    }
+    for (int i = 0; i < scene->object_count; i++) {
+        if (is_body_of_water(scene, &scene->objects[i])) {
+            hash = text_hash(hash, section_entry(section_find(scene->resolved, "objects"), i));
+        }
+    }
+    return hash;
+}
