@@ -213,7 +213,7 @@ static Bolt make_bolt(const LightningParams *params, int number, uint64_t seed)
     bolt.depth = vec3_dot(bolt.depth, bolt.depth) > 1e-4f ? vec3_normalize(bolt.depth)
                                                           : vec3_perpendicular(up);
     bolt.side = vec3_cross(up, bolt.depth);
-    float apart = params->bolt_spread > 0.0f ? params->bolt_spread : 0.45f * params->height;
+    float apart = params->bolt_spread;
     // 0, +1, -1, +2, ... places to the side, a little uneven and in depth
     int rank = (number + 1) / 2;
     float place = (float)rank * (number % 2 ? 1.0f : -1.0f);
@@ -263,7 +263,7 @@ static OutTree *grow_whole(const LightningParams *params, uint64_t *strike_id, i
 static OutTree *grow_in_air(const LightningParams *params, const Recipe *recipe, Error *e)
 {
     int strikes = params->bolts * params->ground_points;
-    float size = params->height, core = params->radius > 0.0f ? params->radius : size / 1600.0f;
+    float size = params->height, core = params->radius;
     uint64_t *strike_id = memory_alloc(strikes, sizeof *strike_id, e);
     OutTree *tree = strike_id ? grow_whole(params, strike_id, strikes, recipe, e) : NULL;
     if (tree && !out_tree_keep_births(tree, recipe->grow_to, e)) {
@@ -278,8 +278,22 @@ static OutTree *grow_in_air(const LightningParams *params, const Recipe *recipe,
     return tree;
 }
 
+LightningParams lightning_params_resolve(const LightningParams *given)
+{
+    LightningParams params = *given;
+    float size = params.height;
+    if (params.element.place != SCATTER_SURFACE) { // where all follows the surface's extent
+        params.step = params.step > 0.0f ? params.step : size / 40.0f;
+        params.segment = params.segment > 0.0f ? params.segment : size / 400.0f;
+        params.radius = params.radius > 0.0f ? params.radius : size / 1600.0f;
+        params.bolt_spread = params.bolt_spread > 0.0f ? params.bolt_spread : 0.45f * size;
+    }
+    return params;
+}
+
 OutTree *lightning_grow(const LightningParams *params, const Recipe *recipe, Error *e)
 {
+    LightningParams whole = lightning_params_resolve(params);
     return params->element.place == SCATTER_SURFACE ? lightning_grow_surface(params, recipe, e)
-                                                    : grow_in_air(params, recipe, e);
+                                                    : grow_in_air(&whole, recipe, e);
 }

@@ -42,6 +42,10 @@ typedef struct LightningParams {
 // The documented defaults: a bolt of 1,000 m.
 LightningParams lightning_params_default(void);
 
+// The same parameters with the open numbers (0) filled in that follow from the height: in the air,
+// not over a surface.
+LightningParams lightning_params_resolve(const LightningParams *given);
+
 // Grows the out-tree of all bolts. A node's radius is the core's, and its cube in units of
 // lightning_radius()'s is its power in units of the main channel's. Colony: the bolt's number, and
 // bolts + that number for its streamers. Normals: of the surface where there is one.

@@ -24,8 +24,7 @@ VenationParams venation_params_default(void)
                             .blade = true};
 }
 
-// Numbers that are 0 in proportion to the others.
-static VenationParams complete(const VenationParams *given)
+VenationParams venation_params_resolve(const VenationParams *given)
 {
     VenationParams params = *given;
     float length = params.outline.length, mesh = length / (float)params.detail;
@@ -102,7 +101,7 @@ static OutTree *grow_whole(const VenationParams *params, const Recipe *recipe, E
 
 OutTree *venation_grow(const VenationParams *given, const Recipe *recipe, Error *e)
 {
-    VenationParams params = complete(given);
+    VenationParams params = venation_params_resolve(given);
     OutTree *tree =
         recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(&params, recipe, e);
     if (!tree || !out_tree_keep_births(tree, recipe->grow_to, e)) {
@@ -190,7 +189,7 @@ static Mesh *blade_mesh(const VenationParams *params, const Transform *place, Er
 bool venation_geometry(const OutTree *tree, const VenationParams *given,
                        const VenationMaterials *materials, int object, Geometry *geometry, Error *e)
 {
-    VenationParams params = complete(given);
+    VenationParams params = venation_params_resolve(given);
     Transform place = transform_compose(params.position, params.rotation, vec3_splat(1.0f));
     Part veins = {.kind = PART_CURVES, .material = materials->vein, .object = object};
     veins.curves = vein_curves(tree, &params, &place, e);
@@ -256,7 +255,7 @@ bool venation_paint(const OutTree *tree, const VenationParams *given, int width,
         return error_set(e, ERROR_INPUT, "a picture of %d x %d; both must be above 0", width,
                          height);
     }
-    VenationParams params = complete(given);
+    VenationParams params = venation_params_resolve(given);
     Canvas canvas = {&params, width, height, pixel};
     for (int64_t i = 0; i < (int64_t)width * height; i++) {
         pixel[i] = 0.0f;
@@ -283,7 +282,7 @@ static double blade_area(const LeafOutline *outline)
 
 bool venation_measure(const OutTree *tree, const VenationParams *given, MeasureList *list, Error *e)
 {
-    VenationParams params = complete(given);
+    VenationParams params = venation_params_resolve(given);
     int64_t pieces, loops;
     double length = 0.0, area = 1e6 * blade_area(&params.outline), none = (double)NAN;
     for (int64_t i = 0; i < tree->count; i++) {

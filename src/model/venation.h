@@ -30,6 +30,9 @@ typedef struct VenationMaterials {
 
 VenationParams venation_params_default(void); // closed, 0.1 m
 
+// The same parameters with every open number (0) filled in, in proportion to the others.
+VenationParams venation_params_resolve(const VenationParams *given);
+
 // The veins with radii, flat in the plane z = 0, the base at the origin: venation_geometry bends
 // and places them. Nodes below the base are the petiole's.
 OutTree *venation_grow(const VenationParams *params, const Recipe *recipe, Error *e);

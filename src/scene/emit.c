@@ -126,6 +126,10 @@ static void put_block(Emitter *out, const Node *node, int depth, bool continued)
         if (fits_a_line(child)) {
             put(out, " ");
             put_flow(out, child);
+            if (child->note && out->mode == EMIT_READABLE) {
+                put(out, " # used: ");
+                put(out, child->note);
+            }
             put(out, "\n");
         } else {
             put(out, "\n");

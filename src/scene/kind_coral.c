@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
@@ -43,6 +44,12 @@ static void describe(const SceneObject *object, char *text, size_t size)
              object->coral->colonies == 1 ? "colony" : "colonies");
 }
 
+static void settle(const SceneObject *object, void *params)
+{
+    CoralParams p = coral_params_resolve(object->coral);
+    memcpy(params, &p, sizeof p);
+}
+
 static int64_t attractors(const SceneObject *object)
 {
     CoralParams p = coral_params_resolve(object->coral);
@@ -61,5 +68,6 @@ const Kind kind_coral = {.key = "coral",
                          .place = place,
                          .measure = measure,
                          .describe = describe,
+                         .settle = settle,
                          .attractors = attractors,
                          .copies = copies};

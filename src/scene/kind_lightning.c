@@ -4,6 +4,7 @@
 #include "scene/kinds.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
@@ -39,6 +40,12 @@ static int64_t attractors(const SceneObject *object)
     return lightning_attractors(object->lightning);
 }
 
+static void settle(const SceneObject *object, void *params)
+{
+    LightningParams p = lightning_params_resolve(object->lightning);
+    memcpy(params, &p, sizeof p);
+}
+
 const Kind kind_lightning = {.key = "lightning",
                              .offset = offsetof(SceneObject, lightning),
                              .reads_scene = true,
@@ -47,4 +54,5 @@ const Kind kind_lightning = {.key = "lightning",
                              .place = place,
                              .measure = measure,
                              .describe = describe,
+                             .settle = settle,
                              .attractors = attractors};

@@ -3,6 +3,7 @@
 #include "scene/kinds.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
@@ -21,6 +22,13 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
 static void describe(const SceneObject *object, char *text, size_t size)
 {
     snprintf(text, size, ", %g m", (double)object->tree->height);
+}
+
+static void settle(const SceneObject *object, void *params)
+{
+    TreePlan plan;
+    tree_plan_make(&plan, object->tree, 0); // no seed changes a number of the file's keys
+    memcpy(params, &plan.params, sizeof plan.params);
 }
 
 // Those of the model's own levels too.
@@ -60,5 +68,6 @@ const Kind kind_tree = {.key = "tree",
                         .place = place,
                         .measure = measure,
                         .describe = describe,
+                        .settle = settle,
                         .attractors = attractors,
                         .copies = copies};

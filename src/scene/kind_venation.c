@@ -2,6 +2,7 @@
 #include "scene/kinds.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
@@ -35,6 +36,12 @@ static void describe(const SceneObject *object, char *text, size_t size)
              (double)object->venation->outline.length);
 }
 
+static void settle(const SceneObject *object, void *params)
+{
+    VenationParams p = venation_params_resolve(object->venation);
+    memcpy(params, &p, sizeof p);
+}
+
 const Kind kind_venation = {.key = "venation",
                             .offset = offsetof(SceneObject, venation),
                             .materials = {"material", "leaf_material"},
@@ -42,4 +49,5 @@ const Kind kind_venation = {.key = "venation",
                             .place = place,
                             .measure = measure,
                             .paint = paint,
-                            .describe = describe};
+                            .describe = describe,
+                            .settle = settle};

@@ -32,6 +32,7 @@ typedef struct Node {
     const char *source;   // "--set path=value" it comes from; NULL = the scene file
     const char *text;     // scalar
     const char *resolved; // scalar: what to load instead of text (a file's full path); or NULL
+    const char *note;     // scalar: what a reader shall know of it, or NULL
     const char *key;      // when the parent is a map
     int key_line, key_column;
     struct Node *first, *last, *next; // children of a list or a map; the next sibling

@@ -6,6 +6,7 @@
 #include "scene/load.h"
 #include "scene/overrides.h"
 #include "scene/resolve.h"
+#include "scene/settle.h"
 #include "scene/yaml.h"
 
 #include <errno.h>
@@ -75,7 +76,7 @@ static char *keep_overrides(const SceneSource *source, Error *e)
     return kept;
 }
 
-static Scene *load_scene(const Node *document, Arena *arena, const SceneSource *source, Error *e)
+static Scene *load_scene(Node *document, Arena *arena, const SceneSource *source, Error *e)
 {
     Scene *scene = load_struct(&scene_table, document, arena, e);
     if (!scene) {
@@ -86,7 +87,9 @@ static Scene *load_scene(const Node *document, Arena *arena, const SceneSource *
     scene->folder = memory_copy_string(source->folder, e);
     scene->overrides = keep_overrides(source, e);
     scene->text = memory_alloc_zero((int64_t)source->length + 1, 1, e);
-    scene->resolved = emit_yaml(document, EMIT_READABLE, &unused, e);
+    scene->resolved = settle_notes(scene, document, arena, e)
+                          ? emit_yaml(document, EMIT_READABLE, &unused, e)
+                          : NULL;
     if (!scene->file || !scene->folder || !scene->overrides || !scene->text || !scene->resolved) {
         scene_free(scene);
         return NULL;
@@ -108,7 +111,7 @@ static Scene *read_source(const SceneSource *source, Error *e)
     CLocale locale;
     if (arena && c_locale_enter(&locale, e)) {
         Resolver resolver = {arena, source->name, source->folder, e, 0};
-        const Node *document = complete_document(arena, &resolver, source, e);
+        Node *document = complete_document(arena, &resolver, source, e);
         scene = document ? load_scene(document, arena, source, e) : NULL;
         if (scene) {
             scene->files = resolver.files;

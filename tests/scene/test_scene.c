@@ -186,7 +186,8 @@ static void files_are_found_beside_the_scene(void **state)
     Fixture *fixture = *state;
     char wanted[160];
     Error e = {0};
-    fixture_write(fixture, "stone.obj", "v 0 0 0\n", 8);
+    static const char mesh[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    fixture_write(fixture, "stone.obj", mesh, sizeof mesh - 1);
     snprintf(wanted, sizeof wanted, "%s/stone.obj", fixture->folder);
     const char text[] = "objects: [{name: a, mesh: {file: stone.obj}}]";
     Scene *scene = scene_read(fixture_write(fixture, "s.yaml", text, sizeof text - 1), NULL, 0, &e);
@@ -214,6 +215,23 @@ static void the_resolved_scene_reads_back_to_itself(void **state)
                              NULL, 0);
     Scene *again = read_text(scene->resolved, NULL, 0);
     assert_string_equal(again->resolved, scene->resolved);
+    // 0 stands for what follows from other keys: what is used is noted
+    Scene *grown = read_text("objects:\n"
+                             "  - {name: a, tree: {height: 10, trunk: {radius: 0.5}}}\n"
+                             "  - {name: b, lightning: {height: 400}}\n"
+                             "  - {name: c, venation: {length: 0.2}}\n"
+                             "  - {name: d, coral: {size: 1}}\n"
+                             "camera: {position: [0, 0, 3], target: [0, 0, 0]}\n",
+                             NULL, 0);
+    assert_non_null(strstr(grown->resolved, "      stem_circle: 0 # used: 0.5\n"));
+    assert_non_null(
+        strstr(grown->resolved, "      step: 0 # used: 10\n      segment: 0 # used: 1\n"));
+    assert_non_null(strstr(grown->resolved, "      width: 0 # used: 0.1\n"));
+    assert_non_null(strstr(grown->resolved, "      height: 0 # used: 0.62\n"));
+    assert_non_null(strstr(grown->resolved, "  focus_distance: 0 # used: 3\n"));
+    assert_non_null(strstr(grown->resolved, "    seed: 0 # used: "));
+    assert_non_null(strstr(grown->resolved, "      voxel: 0\n")); // nothing is known of it yet
+    scene_free(grown);
     assert_memory_equal(&again->camera, &scene->camera, sizeof scene->camera);
     assert_int_equal(again->light_count, 2);
     assert_memory_equal(again->lights, scene->lights, 2 * sizeof(Light));
