@@ -145,7 +145,7 @@ static bool grow_stand(OutTree *all, const ForestParams *params, int stand, uint
     if (done) {
         float trunk = 0.0105f * params->height;
         out_tree_pipe_radii(tree, params->radii.exponent, params->radii.tip, trunk);
-        out_tree_root_flare(tree, params->radii.flare, 3.0f * trunk);
+        out_tree_root_flare(tree, params->radii.flare, 0.0f, 3.0f * trunk);
         done = out_tree_append(all, tree, e);
     }
     out_tree_free(tree);

@@ -220,10 +220,16 @@ static bool grow_crown(OutTree *tree, const TreeParams *params, uint64_t seed, c
     return done;
 }
 
-// Main roots leave the foot evenly spread about it; `foot` is the centre of the trunk's base.
+// Main roots leave the foot evenly spread about it, the centre of the trunk's base.
 static bool plant_roots(OutTree *roots, const TreeParams *params, uint64_t seed, Error *e)
 {
-    float radius = params->trunk.radius, start = 0.35f * radius;
+    // Each comes down inside the flare, where it stands out as a buttress, leaves it close to the
+    // ground and goes on just under the turf. In trunk radii: outward from the axis, the part that
+    // the flare widens and the part beyond it; upward from the ground.
+    static const float inside[TREE_ROOT_PIECES] = {0.4f, 0.66f, 0.98f, 1.0f, 1.0f, 1.0f};
+    static const float beyond[TREE_ROOT_PIECES] = {0.0f, 0.0f, 0.1f, 0.6f, 1.3f, 2.1f};
+    static const float up[TREE_ROOT_PIECES] = {1.0f, 0.5f, 0.12f, -0.06f, -0.18f, -0.36f};
+    float radius = params->trunk.radius, flared = radius * (1.0f + params->radii.flare);
     float offset = random_range(random_key(seed, 1), 0.0f, 2.0f * PI_F);
     for (int i = 0; i < params->roots.count; i++) {
         uint64_t key = random_key(seed, 10 + (uint64_t)i);
@@ -233,12 +239,9 @@ static bool plant_roots(OutTree *roots, const TreeParams *params, uint64_t seed,
         Vec3 out = vec3(sine, 0, cosine);
         uint64_t id = random_key(key, 2);
         int64_t parent = -1;
-        // A buttress that comes down the flare, then runs just under the turf.
-        static const float reach[4] = {0.6f, 1.3f, 2.0f, 2.8f};
-        static const float drop[4] = {0.0f, 0.75f, 1.15f, 1.45f};
-        for (int k = 0; k < 4; k++) {
-            Vec3 p = vec3_madd(params->position, reach[k] * radius, out);
-            p.y += start * (1.0f - drop[k]);
+        for (int k = 0; k < TREE_ROOT_PIECES; k++) {
+            Vec3 p = vec3_madd(params->position, inside[k] * flared + beyond[k] * radius, out);
+            p.y += up[k] * radius;
             id = k == 0 ? id : out_tree_child_id(id, 0);
             parent = out_tree_add_node(roots, p, parent, 0, TREE_ROOTS, id, e);
             if (parent < 0) {
@@ -305,7 +308,8 @@ static void compute_radii(OutTree *tree, const TreeParams *params)
             tree->radius[i] = least;
         }
     }
-    out_tree_root_flare(tree, radii->flare, radii->flare_height);
+    // the first node stands a radius below the ground
+    out_tree_root_flare(tree, radii->flare, params->trunk.radius, radii->flare_height);
 }
 
 // Everything, radii and all, before it is cut.

@@ -85,6 +85,9 @@ typedef struct TreeParams {
     SkinningParams skin;
 } TreeParams;
 
+// Nodes that a main root starts with, from inside the trunk's flare to where growth takes over.
+enum { TREE_ROOT_PIECES = 6 };
+
 // Colonies of the out-trees that tree_grow makes.
 enum { TREE_TRUNK, TREE_CROWN, TREE_ROOTS };
 

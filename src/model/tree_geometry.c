@@ -2,6 +2,7 @@
 #include "mesh/skin.h"
 #include "model/foliage.h"
 #include "model/tree.h"
+#include "model/tree_buttress.h"
 #include "model/tree_defaults.h"
 
 #include "base/memory.h"
@@ -9,10 +10,14 @@
 
 #include <stdlib.h>
 
-static bool add_bark(const OutTree *tree, const SkinParams *skin, int material, int object,
-                     Geometry *geometry, const Run *run, Error *e)
+static bool add_bark(const OutTree *tree, const TreeParams *params, const SkinParams *skin,
+                     int material, int object, Geometry *geometry, const Run *run, Error *e)
 {
     Mesh *mesh = skin_tree(tree, skin, run, e);
+    if (mesh && !tree_buttress(mesh, tree, params, e)) {
+        mesh_free(mesh);
+        return false;
+    }
     return mesh &&
            geometry_add(
                geometry,
@@ -88,6 +93,6 @@ bool tree_geometry(const OutTree *tree, const TreeParams *params, const TreeMate
     if (params->skin.ring_spacing > 0.0f) {
         skin.ring_spacing = params->skin.ring_spacing;
     }
-    return add_bark(tree, &skin, materials->bark, object, geometry, run, e) &&
+    return add_bark(tree, params, &skin, materials->bark, object, geometry, run, e) &&
            add_twigs_and_leaves(tree, params, &skin, materials, object, seed, geometry, run, e);
 }

@@ -103,13 +103,14 @@ static float distance_to_root(const OutTree *tree, int64_t i, float far)
     return distance < far ? distance : far;
 }
 
-void out_tree_root_flare(OutTree *tree, float flare, float height)
+void out_tree_root_flare(OutTree *tree, float flare, float ground, float height)
 {
     if (flare <= 0.0f || height <= 0.0f) {
         return;
     }
     for (int64_t i = 0; i < tree->count; i++) {
-        float left = 1.0f - distance_to_root(tree, i, height) / height;
+        float above = distance_to_root(tree, i, ground + height) - ground;
+        float left = 1.0f - clampf(above / height, 0.0f, 1.0f);
         tree->radius[i] *= 1.0f + flare * left * left;
     }
 }

@@ -15,8 +15,8 @@ void out_tree_pipe_radii(OutTree *tree, float exponent, float tip_radius, float 
 // youngest, and never grows from parent to child.
 void out_tree_birth_radii(OutTree *tree, float tip_radius, float root_radius);
 
-// Swells radii near the ground: r *= 1 + flare (1 - d / height)^2, where d is the distance (m)
-// along the branches from the root, up to `height`.
-void out_tree_root_flare(OutTree *tree, float flare, float height);
+// Swells radii near the ground: r *= 1 + flare up to `ground` (m along the branches from the root),
+// and above that 1 + flare (1 - d / height)^2, where d is the distance from there, up to `height`.
+void out_tree_root_flare(OutTree *tree, float flare, float ground, float height);
 
 #endif

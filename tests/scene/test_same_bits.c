@@ -81,7 +81,7 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
     } kinds[] = {
         {"tree: {height: 2, crown: {lobes: 0, growth: {levels: [{attractors: 120}]}}, "
          "roots: {count: 3}, leaves: {max_count: 50}}",
-         0xc7b11d24c96a3858},
+         0xe372e1cb8b2bc5d7},
         {"forest: {stands: 2, stand_trees: 2, height: 8, ferns: 10, leaves: {max_count: 50}}",
          0xfaccc68900828821},
         {"ground: {grass_tufts: 200}", 0x75671227db500027},

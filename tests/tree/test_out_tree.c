@@ -91,7 +91,7 @@ static void flare_swells_only_the_foot(void **state)
     for (int i = 0; i < 9; i++) {
         tree->radius[i] = 0.1f;
     }
-    out_tree_root_flare(tree, 0.5f, 2.0f);
+    out_tree_root_flare(tree, 0.5f, 0.0f, 2.0f);
     float step = sqrtf(1.01f), left = 1.0f - step / 2.0f;
     assert_true(fabsf(tree->radius[0] - 0.15f) < 1e-6f);
     assert_true(fabsf(tree->radius[1] - 0.1f * (1.0f + 0.5f * left * left)) < 1e-6f);
