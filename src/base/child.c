@@ -3,6 +3,7 @@
 #include "base/child_confine.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
@@ -17,7 +18,8 @@
 enum {
     TICK = 20,      // ms between looks at run->cancelled
     SHORT_TICK = 2, // the same where the kernel has no pidfd that tells of the end
-    LARGEST_WRITE = 1 << 30
+    LARGEST_WRITE = 1 << 30,
+    LARGEST_READ = 1 << 26 // what is in memory twice meanwhile
 };
 #define LONGEST_TICK 1.0 // s: what lies beyond does not count, the machine slept or we were stopped
 
@@ -50,6 +52,15 @@ bool child_write(ChildOutput *output, const void *data, int64_t count, size_t si
     return true;
 }
 
+// What was taken over last is not kept in memory twice.
+static void give_back(int file, ssize_t size)
+{
+    off_t end = lseek(file, 0, SEEK_CUR);
+    if (size > 0 && end >= size) {
+        fallocate(file, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, end - size, size);
+    }
+}
+
 bool child_read(ChildOutput *output, void *data, int64_t count, size_t size, Error *e)
 {
     char *at = data;
@@ -60,11 +71,12 @@ bool child_read(ChildOutput *output, void *data, int64_t count, size_t size, Err
     }
     output->left -= (int64_t)left;
     while (left > 0) {
-        ssize_t got = read(output->file, at, left < LARGEST_WRITE ? left : LARGEST_WRITE);
+        ssize_t got = read(output->file, at, left < LARGEST_READ ? left : LARGEST_READ);
         if (got == 0 || (got < 0 && errno != EINTR)) {
             return error_set(e, ERROR_IO, "cannot take over what was read: %s",
                              got == 0 ? "it shrank" : strerror(errno));
         }
+        give_back(output->file, got);
         at += got > 0 ? got : 0;
         left -= got > 0 ? (size_t)got : 0;
     }

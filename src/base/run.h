@@ -6,6 +6,7 @@
 #include "base/error.h"
 
 #include <stdint.h>
+#include <string.h>
 
 typedef struct Run {
     int threads;                   // >= 1; results never depend on it
@@ -20,7 +21,10 @@ typedef struct Run {
 // One thread, silent.
 static inline Run run_default(void)
 {
-    return (Run){.threads = 1};
+    Run run;
+    memset(&run, 0, sizeof run); // C++ reads this, too
+    run.threads = 1;
+    return run;
 }
 
 static inline bool run_is_cancelled(const Run *run)

@@ -32,3 +32,11 @@ void image_free(Image *image)
         free(image);
     }
 }
+
+void texels_free(Texels *texels)
+{
+    if (texels) {
+        free(texels->data);
+        free(texels);
+    }
+}

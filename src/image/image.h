@@ -1,5 +1,7 @@
-// Reading and writing pictures through OpenImageIO. Files are written beside and renamed: a failure
-// never leaves half a file or harms an old one.
+// Reading and writing pictures through OpenImageIO. Files are read in a child process with limits
+// (base/child.h): of 2^27 pixels (16384 x 8192) and 2 GB of what is wanted of them, checked before
+// any pixel is decoded; ERROR_INPUT names the file, its size and the limit. Files are written
+// beside and renamed: a failure never leaves half a file or harms an old one.
 #ifndef RAMIFY_IMAGE_IMAGE_H
 #define RAMIFY_IMAGE_IMAGE_H
 
@@ -29,6 +31,27 @@ Image *image_read_color(const char *file, bool *linear, Error *e);
 // "variance" and channels "RGB" are variance.R, variance.G, variance.B. ERROR_INPUT when one is not
 // there.
 Image *image_read_layer(const char *file, const char *layer, const char *channels, Error *e);
+
+// A picture as stored, for looking up single places.
+typedef enum TexelType { TEXEL_BYTE, TEXEL_SHORT, TEXEL_HALF, TEXEL_FLOAT } TexelType;
+
+static inline int texel_bytes(TexelType type)
+{
+    return type == TEXEL_BYTE ? 1 : type == TEXEL_FLOAT ? 4 : 2;
+}
+
+// width * height * channels values of type, row by row from the top left; colours are multiplied
+// by alpha.
+typedef struct Texels {
+    int width, height, channels;
+    TexelType type; // of the file, or TEXEL_FLOAT where it has another
+    int window[6];  // the left top of the pixels; left, top, width and height of the whole picture
+    void *data;
+} Texels;
+
+// Any format OpenImageIO reads.
+Texels *image_read_texels(const char *file, Error *e);
+void texels_free(Texels *texels); // NULL is fine
 
 // Reads the whole picture to see that nothing is missing, and the text that its metadata has under
 // key into text (size bytes, cut if need be). False when it is no whole picture or has no such

@@ -1,9 +1,14 @@
-// The only file that knows OpenImageIO's texture system.
+// The only file that knows OpenImageIO's texture system. It filters and caches; files are read in a
+// child process (image/image.h), whose pixels it takes for a file of its own.
 #include <math.h>
 
+#include <OpenImageIO/imagecache.h>
+#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/texture.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <new>
@@ -11,14 +16,26 @@
 #include <vector>
 
 extern "C" {
+#include "image/image.h"
 #include "render/texture.h"
 }
 
 struct Texture {
+    std::string file;
     OIIO::TextureSystem *system = nullptr;
     OIIO::TextureSystem::TextureHandle *handle = nullptr;
+    OIIO::ustring name; // in the system
+    Texels *texels = nullptr;
     int channels = 0;
     bool srgb = false;
+
+    ~Texture()
+    {
+        if (!name.empty()) {
+            system->imagecache()->invalidate(name, true); // closed before its pixels go
+        }
+        texels_free(texels);
+    }
 };
 
 struct TextureCache {
@@ -27,6 +44,7 @@ struct TextureCache {
 
     ~TextureCache()
     {
+        textures.clear();
         if (system) {
             OIIO::TextureSystem::destroy(system);
         }
@@ -41,21 +59,117 @@ float linear_from_srgb(float x)
     return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
 }
 
+const char TEXELS[] = "ramify:texels"; // the attribute that leads to them
+
+// A "file" of texels in memory.
+class TexelInput final : public OIIO::ImageInput
+{
+  public:
+    const char *format_name() const override
+    {
+        return "texels";
+    }
+
+    bool open(const std::string &, OIIO::ImageSpec &) override
+    {
+        return false;
+    }
+
+    bool open(const std::string &, OIIO::ImageSpec &spec, const OIIO::ImageSpec &config) override
+    {
+        void *data = nullptr;
+        if (!config.getattribute(TEXELS, OIIO::TypeDesc::PTR, &data) || !data) {
+            return false;
+        }
+        texels = static_cast<const Texels *>(data);
+        m_spec = OIIO::ImageSpec(texels->width, texels->height, texels->channels, format());
+        m_spec.x = texels->window[0];
+        m_spec.y = texels->window[1];
+        m_spec.full_x = texels->window[2];
+        m_spec.full_y = texels->window[3];
+        m_spec.full_width = texels->window[4];
+        m_spec.full_height = texels->window[5];
+        spec = m_spec;
+        return true;
+    }
+
+    bool close() override
+    {
+        return true;
+    }
+
+    bool read_native_scanline(int subimage, int miplevel, int y, int, void *data) override
+    {
+        int row = y - m_spec.y;
+        if (subimage != 0 || miplevel != 0 || row < 0 || row >= texels->height) {
+            return false;
+        }
+        size_t bytes =
+            size_t(texels->width) * size_t(texels->channels) * size_t(texel_bytes(texels->type));
+        std::memcpy(data, static_cast<const char *>(texels->data) + size_t(row) * bytes, bytes);
+        return true;
+    }
+
+  private:
+    OIIO::TypeDesc format() const
+    {
+        switch (texels->type) {
+        case TEXEL_BYTE:
+            return OIIO::TypeDesc::UINT8;
+        case TEXEL_SHORT:
+            return OIIO::TypeDesc::UINT16;
+        case TEXEL_HALF:
+            return OIIO::TypeDesc::HALF;
+        default:
+            return OIIO::TypeDesc::FLOAT;
+        }
+    }
+
+    const Texels *texels = nullptr;
+};
+
+OIIO::ImageInput *new_texel_input()
+{
+    return new TexelInput;
+}
+
+// Makes the texels known to the system. Their name there is their place in memory, which no two
+// have at a time.
+bool hand_over(Texture *texture)
+{
+    char name[64];
+    std::snprintf(name, sizeof name, "ramify texels %p", static_cast<void *>(texture->texels));
+    OIIO::ImageSpec config;
+    const void *data = texture->texels;
+    config.attribute(TEXELS, OIIO::TypeDesc::PTR, &data);
+    texture->name = OIIO::ustring(name);
+    bool added =
+        texture->system->imagecache()->add_file(texture->name, new_texel_input, &config, true);
+    texture->handle = added ? texture->system->get_texture_handle(texture->name) : nullptr;
+    return texture->handle && texture->system->good(texture->handle);
+}
+
 Texture *open_texture(TextureCache *cache, const char *file, Error *e)
 {
+    for (auto &known : cache->textures) {
+        if (known->file == file) {
+            return known.get();
+        }
+    }
     auto texture = std::make_unique<Texture>();
+    texture->file = file;
     texture->system = cache->system;
-    texture->handle = cache->system->get_texture_handle(OIIO::ustring(file));
-    OIIO::ImageSpec spec;
-    if (!texture->handle || !cache->system->good(texture->handle) ||
-        !cache->system->get_imagespec(texture->handle, nullptr, 0, spec)) {
-        std::string reason = cache->system->geterror();
-        error_set(e, ERROR_INPUT, "texture '%s' cannot be read: %s", file,
-                  reason.empty() ? "no such image" : reason.c_str());
+    texture->texels = image_read_texels(file, e);
+    if (!texture->texels) {
         return nullptr;
     }
-    texture->channels = spec.nchannels;
-    texture->srgb = spec.format == OIIO::TypeDesc::UINT8;
+    if (!hand_over(texture.get())) {
+        error_set(e, ERROR_INTERNAL, "texture '%s' cannot be read: %s", file,
+                  cache->system->geterror().c_str());
+        return nullptr;
+    }
+    texture->channels = texture->texels->channels;
+    texture->srgb = texture->texels->type == TEXEL_BYTE;
     cache->textures.push_back(std::move(texture));
     return cache->textures.back().get();
 }
@@ -86,7 +200,6 @@ extern "C" TextureCache *texture_cache_new(Error *e)
         auto cache = std::make_unique<TextureCache>();
         // the process's own: destroying a private one frees memory with a size it was not made with
         cache->system = OIIO::TextureSystem::create(true);
-        cache->system->invalidate_all(false); // files that changed since the last rendering
         cache->system->attribute("automip", 1);
         cache->system->attribute("autotile", 64);
         cache->system->attribute("max_memory_MB", 1024.0f);

@@ -1,5 +1,5 @@
-// Picture files looked up by uv, through OpenImageIO's texture cache: tiles are read when needed,
-// shared by all threads, filtered by the footprint.
+// Picture files looked up by uv, through OpenImageIO's texture cache: read whole, in a child
+// process with limits; shared by all threads, filtered by the footprint.
 #ifndef RAMIFY_RENDER_TEXTURE_H
 #define RAMIFY_RENDER_TEXTURE_H
 
@@ -12,7 +12,8 @@ typedef struct Texture Texture;
 TextureCache *texture_cache_new(Error *e);
 void texture_cache_free(TextureCache *cache); // NULL is fine; frees its textures
 
-// Owned by the cache. ERROR_INPUT naming the file when it cannot be read as an image.
+// Owned by the cache, which reads a file once. ERROR_INPUT naming the file when it cannot be read
+// as an image.
 Texture *texture_open(TextureCache *cache, const char *file, Error *e);
 
 // Linear colour at uv (v up, repeating), averaged over a patch of du by dv. 8-bit files are sRGB.

@@ -1,5 +1,5 @@
-// The only file that knows OpenImageIO's image input and output. Pictures are encoded in memory
-// and written by file_replace, so that every failure of the disk is seen.
+// Pictures are encoded in memory by OpenImageIO and written by file_replace, so that every failure
+// of the disk is seen.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -217,179 +217,26 @@ bool write_exr(const char *file, const ImageLayer *layers, int count, const char
            file_replace(file, bytes.data(), bytes.size(), e);
 }
 
-OIIO::ImageSpec as_stored()
-{
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    return config;
-}
-
-// All of an open input; spec: what it holds. file: its name in messages.
-bool read_open(OIIO::ImageInput *input, const char *file, Image **image, OIIO::ImageSpec *spec,
-               Error *e)
-{
-    *spec = input->spec();
-    if (spec->depth > 1 || spec->deep) {
-        return error_set(e, ERROR_INPUT, "image '%s' cannot be read: it is not flat", file);
-    }
-    *image = image_new(spec->width, spec->height, spec->nchannels, e);
-    if (!*image) {
-        return false;
-    }
-    if (!input->read_image(0, 0, 0, spec->nchannels, OIIO::TypeDesc::FLOAT, (*image)->pixel)) {
-        return error_set(e, ERROR_INPUT, "image '%s' cannot be read: %s", file,
-                         input->geterror().c_str());
-    }
-    return true;
-}
-
-bool read(const char *file, Image **image, OIIO::ImageSpec *spec, Error *e)
-{
-    OIIO::ImageSpec config = as_stored();
-    auto input = OIIO::ImageInput::open(file, &config);
-    if (!input) {
-        std::string reason = OIIO::geterror();
-        return error_set(e, ERROR_INPUT, "image '%s' cannot be read: %s", file, reason.c_str());
-    }
-    return read_open(input.get(), file, image, spec, e);
-}
-
+// Our own PNG, so no child is needed.
 bool decode_png(OIIO::Filesystem::IOProxy *proxy, Image **image, Error *e)
 {
     static const char name[] = "memory.png";
     auto input = OIIO::ImageInput::create("png");
     OIIO::ImageSpec spec;
-    if (!input || !input->set_ioproxy(proxy) || !input->open(name, spec, as_stored())) {
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1); // as stored
+    if (!input || !input->set_ioproxy(proxy) || !input->open(name, spec, config)) {
         return error_set(e, ERROR_INTERNAL, "a PNG in memory cannot be read: %s",
                          input ? input->geterror().c_str() : "OpenImageIO has no reader");
     }
-    return read_open(input.get(), name, image, &spec, e);
-}
-
-// Some channels of an image, by index, in this order.
-Image *pick_channels(const Image *image, const std::vector<int> &channels, Error *e)
-{
-    Image *picked = image_new(image->width, image->height, (int)channels.size(), e);
-    size_t pixels = size_t(image->width) * size_t(image->height), out = 0;
-    for (size_t p = 0; picked && p < pixels; p++) {
-        for (int c : channels) {
-            picked->pixel[out++] = image->pixel[p * size_t(image->channels) + size_t(c)];
-        }
-    }
-    return picked;
-}
-
-// R, G, B and, where there is one, A of a file; grey, as three equal channels, where it has no R,
-// G, B.
-std::vector<int> color_channels(const OIIO::ImageSpec &spec)
-{
-    int red = spec.channelindex("R"), green = spec.channelindex("G"), blue = spec.channelindex("B");
-    std::vector<int> channels = {red, green, blue};
-    if (red < 0 || green < 0 || blue < 0) {
-        bool grey = spec.nchannels < 3;
-        channels = {0, grey ? 0 : 1, grey ? 0 : 2};
-    }
-    if (spec.alpha_channel >= 0) {
-        channels.push_back(spec.alpha_channel);
-    }
-    return channels;
-}
-
-bool is_linear(const OIIO::ImageSpec &spec)
-{
-    return spec.format == OIIO::TypeDesc::FLOAT || spec.format == OIIO::TypeDesc::HALF;
-}
-
-// Reads, then makes of what was read what is wanted; frees the former.
-template <typename Make> Image *read_and_make(const char *file, Error *e, Make make)
-{
-    Image *image = nullptr, *made = nullptr;
-    guarded("image '" + std::string(file) + "' cannot be read", e, [&] {
-        OIIO::ImageSpec spec;
-        if (read(file, &image, &spec, e)) {
-            made = make(image, spec);
-        }
-        return made != nullptr;
-    });
-    image_free(image);
-    return made;
-}
-
-// JPEGs carry all pairs as lines of one text: see add_metadata.
-std::string find_text(const OIIO::ImageSpec &spec, const std::string &key)
-{
-    std::string value = spec.get_string_attribute(key);
-    std::string lines = "\n" + std::string(spec.get_string_attribute("ImageDescription"));
-    size_t at = lines.find("\n" + key + ": ");
-    if (value.empty() && at != std::string::npos) {
-        at += key.size() + 3;
-        value = lines.substr(at, lines.find('\n', at) - at);
-    }
-    return value;
-}
-
-bool read_text(const char *file, const char *key, char *text, int size)
-{
-    auto input = OIIO::ImageInput::open(file);
-    if (!input) {
-        OIIO::geterror(); // or it would be told on stderr at the end
-        return false;
-    }
-    const OIIO::ImageSpec spec = input->spec();
-    std::vector<float> pixels(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
-    std::string value = find_text(spec, key);
-    bool whole = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()) &&
-                 input->geterror().empty();
-    std::snprintf(text, size_t(size), "%s", value.c_str());
-    return whole && !value.empty();
+    *image = image_new(spec.width, spec.height, spec.nchannels, e);
+    return *image &&
+           (input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, (*image)->pixel) ||
+            error_set(e, ERROR_INTERNAL, "a PNG in memory cannot be read: %s",
+                      input->geterror().c_str()));
 }
 
 } // namespace
-
-extern "C" bool image_read_text(const char *file, const char *key, char *text, int size)
-{
-    Error unused = {};
-    return guarded(file, &unused, [&] { return read_text(file, key, text, size); });
-}
-
-extern "C" Image *image_read(const char *file, Error *e)
-{
-    Image *image = nullptr;
-    bool done = guarded("image '" + std::string(file) + "' cannot be read", e, [&] {
-        OIIO::ImageSpec spec;
-        return read(file, &image, &spec, e);
-    });
-    if (!done) {
-        image_free(image);
-        return nullptr;
-    }
-    return image;
-}
-
-extern "C" Image *image_read_color(const char *file, bool *linear, Error *e)
-{
-    return read_and_make(file, e, [&](const Image *image, const OIIO::ImageSpec &spec) {
-        *linear = is_linear(spec);
-        return pick_channels(image, color_channels(spec), e);
-    });
-}
-
-extern "C" Image *image_read_layer(const char *file, const char *layer, const char *channels,
-                                   Error *e)
-{
-    return read_and_make(file, e, [&](const Image *image, const OIIO::ImageSpec &spec) -> Image * {
-        std::vector<int> picked;
-        for (const char *c = channels; *c; c++) {
-            std::string name = (layer[0] ? std::string(layer) + "." : "") + *c;
-            picked.push_back(spec.channelindex(name));
-            if (picked.back() < 0) {
-                error_set(e, ERROR_INPUT, "image '%s' has no channel '%s'", file, name.c_str());
-                return nullptr;
-            }
-        }
-        return pick_channels(image, picked, e);
-    });
-}
 
 extern "C" Image *image_decode_png(const unsigned char *bytes, size_t size, Error *e)
 {

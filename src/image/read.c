@@ -1,0 +1,158 @@
+// Pictures are decoded in a child process with limits; what it hands back is checked here.
+#include "image/decode.h"
+
+#include "base/memory.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define WANTED "a whole picture, as PNG, JPEG, EXR, HDR or TIFF,"
+
+// What decoding may take: a format that is decoded as a whole holds all once more beside the
+// result; 16384 x 8192 pixels take some ten seconds.
+#define MOST_SECONDS 120.0
+#define MOST_MEMORY (2 * DECODE_MOST_BYTES + 1000000000)
+
+// A pipe or a device would never end, and a name without a file means things of its own to
+// OpenImageIO.
+static bool check_file(const char *file, Error *e)
+{
+    struct stat status;
+    if (!file || !file[0]) {
+        return error_set(e, ERROR_INPUT, "no name is given");
+    }
+    if (stat(file, &status) != 0) {
+        return error_set(e, ERROR_INPUT, "%s", strerror(errno));
+    }
+    return S_ISREG(status.st_mode) ||
+           error_set(e, ERROR_INPUT, "it is no regular file; " WANTED " is needed");
+}
+
+static bool check_header(const DecodeHeader *h, const DecodeJob *job, int64_t left, Error *e)
+{
+    bool sane = h->width >= 1 && h->height >= 1 && h->channels >= 1 && h->channels <= 1024 &&
+                h->type >= TEXEL_BYTE && h->type <= TEXEL_FLOAT &&
+                (job->kind == DECODE_TEXTURE || h->type == TEXEL_FLOAT) && h->window[4] >= 1 &&
+                h->window[5] >= 1 && h->text[DECODE_TEXT_SIZE - 1] == '\0' &&
+                (int64_t)h->width * h->height <= DECODE_MOST_PIXELS;
+    int64_t bytes =
+        sane ? (int64_t)h->width * h->height * h->channels * texel_bytes((TexelType)h->type) : 0;
+    return (sane && left == (job->kind == DECODE_TEXT ? 0 : bytes)) ||
+           error_set(e, ERROR_INPUT, "the reader's result makes no sense; " WANTED " is needed");
+}
+
+static bool fail(const DecodeJob *job, Error *e)
+{
+    if (e) {
+        e->file[0] = '\0'; // the name stands in the message; the place is the scene's to tell
+        e->line = e->column = 0;
+        error_prefix(e,
+                     "%s '%s' cannot be read: ", job->kind == DECODE_TEXTURE ? "texture" : "image",
+                     job->file ? job->file : "");
+    }
+    return false;
+}
+
+// The header, and output open at the pixels, to be closed.
+static bool start(const DecodeJob *job, DecodeHeader *header, ChildOutput *output, Error *e)
+{
+    const ChildJob child = {.task = decode_picture,
+                            .data = job,
+                            .file = job->file,
+                            .wanted = WANTED,
+                            .seconds = MOST_SECONDS,
+                            .memory = MOST_MEMORY};
+    Run run = run_default();
+    *output = (ChildOutput){.file = -1};
+    bool done = check_file(job->file, e) && child_run(&child, &run, output, e) &&
+                child_read(output, header, 1, sizeof *header, e) &&
+                check_header(header, job, output->left, e);
+    if (!done) {
+        child_output_close(output);
+        return fail(job, e);
+    }
+    return true;
+}
+
+static Image *read_floats(const DecodeJob *job, bool *linear, Error *e)
+{
+    ChildOutput output;
+    DecodeHeader h;
+    if (!start(job, &h, &output, e)) {
+        return NULL;
+    }
+    Image *image = image_new(h.width, h.height, h.channels, e);
+    int64_t count = (int64_t)h.width * h.height * h.channels;
+    if (!image || !child_read(&output, image->pixel, count, sizeof *image->pixel, e)) {
+        image_free(image);
+        image = NULL;
+        fail(job, e);
+    }
+    child_output_close(&output);
+    *linear = h.linear != 0;
+    return image;
+}
+
+Image *image_read(const char *file, Error *e)
+{
+    bool linear;
+    return read_floats(&(DecodeJob){.file = file, .kind = DECODE_ALL}, &linear, e);
+}
+
+Image *image_read_color(const char *file, bool *linear, Error *e)
+{
+    return read_floats(&(DecodeJob){.file = file, .kind = DECODE_COLOR}, linear, e);
+}
+
+Image *image_read_layer(const char *file, const char *layer, const char *channels, Error *e)
+{
+    bool linear;
+    return read_floats(
+        &(DecodeJob){.file = file, .kind = DECODE_LAYER, .layer = layer, .channels = channels},
+        &linear, e);
+}
+
+bool image_read_text(const char *file, const char *key, char *text, int size)
+{
+    const DecodeJob job = {.file = file, .kind = DECODE_TEXT, .key = key};
+    ChildOutput output;
+    DecodeHeader h;
+    if (!start(&job, &h, &output, NULL)) {
+        return false;
+    }
+    child_output_close(&output);
+    snprintf(text, (size_t)size, "%s", h.text);
+    return h.text[0] != '\0';
+}
+
+Texels *image_read_texels(const char *file, Error *e)
+{
+    const DecodeJob job = {.file = file, .kind = DECODE_TEXTURE};
+    ChildOutput output;
+    DecodeHeader h;
+    if (!start(&job, &h, &output, e)) {
+        return NULL;
+    }
+    int64_t count = (int64_t)h.width * h.height * h.channels;
+    int bytes = texel_bytes((TexelType)h.type);
+    Texels *texels = memory_alloc(1, sizeof *texels, e);
+    void *data = texels ? memory_alloc(count, (size_t)bytes, e) : NULL;
+    if (!data || !child_read(&output, data, count, (size_t)bytes, e)) {
+        free(texels);
+        free(data);
+        texels = NULL;
+        fail(&job, e);
+    } else {
+        *texels = (Texels){.width = h.width,
+                           .height = h.height,
+                           .channels = h.channels,
+                           .type = (TexelType)h.type,
+                           .data = data};
+        memcpy(texels->window, h.window, sizeof texels->window);
+    }
+    child_output_close(&output);
+    return texels;
+}
