@@ -1,6 +1,7 @@
 #include "base/child.h"
 
 #include "base/child_confine.h"
+#include "base/child_filter.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -171,8 +172,16 @@ static bool too_late(const ChildJob *job, Error *e)
                      job->wanted);
 }
 
-static bool crashed(const ChildJob *job, int signal, Error *e)
+static bool crashed(const ChildJob *job, int signal, int call, Error *e)
 {
+    if (signal == SIGSYS) {
+        char name[64];
+        child_filter_name(call, name, sizeof name);
+        return error_set(e, ERROR_INPUT,
+                         "the reader was stopped at the system call '%s', which reading does not "
+                         "need; the file may be an attack: %s is needed",
+                         name, job->wanted);
+    }
     if (signal == SIGXCPU) {
         return too_late(job, e);
     }
@@ -227,7 +236,7 @@ static bool judge(const ChildJob *job, Outcome outcome, const Child *child,
         return too_late(job, e);
     }
     if (signal != 0) {
-        return crashed(job, signal, e);
+        return crashed(job, signal, report->call, e);
     }
     if (!report->ended) {
         return error_set(e, ERROR_INPUT, "the reader ended without a result; %s is needed",

@@ -2,8 +2,9 @@
 // Error here: readers of other programs' files run in one.
 //
 // The child is a fork of this process: it shares nothing but a report and a file in memory, talks
-// to no terminal, and dies with its parent. It guards against crashes, hangs and bombs, not against
-// an attacker who takes the reader over: such a one may still read what the user may read.
+// to no terminal, and dies with its parent. A filter (base/child_filter.h) lets it read files and
+// no more, where the kernel has such filters: an attacker who takes the reader over may read what
+// the user may read, but cannot write, run or send anything; only its result is his.
 #ifndef RAMIFY_BASE_CHILD_H
 #define RAMIFY_BASE_CHILD_H
 

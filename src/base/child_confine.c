@@ -1,5 +1,7 @@
 #include "base/child_confine.h"
 
+#include "base/child_filter.h"
+
 #include <fcntl.h>
 #include <math.h>
 #include <signal.h>
@@ -16,8 +18,10 @@ enum { OUTPUT_FILE = 3, MOST_FILES = 64, SIGNAL_STACK = 65536 };
 // Where the handler of a crash can find it; set in the child alone.
 static ChildReport *crash_report;
 
-static void on_crash(int number)
+static void on_crash(int number, siginfo_t *info, void *context)
 {
+    (void)context;
+    crash_report->call = number == SIGSYS ? info->si_syscall : 0;
     crash_report->signal = number;
     _exit(EXIT_FAILURE);
 }
@@ -40,8 +44,8 @@ static void catch_crashes(ChildReport *report)
     stack_t stack = {.ss_sp = memory, .ss_size = SIGNAL_STACK};
     if (memory != MAP_FAILED && sigaltstack(&stack, NULL) == 0) {
         crash_report = report;
-        action.sa_handler = on_crash;
-        action.sa_flags = SA_ONSTACK;
+        action.sa_sigaction = on_crash;
+        action.sa_flags = SA_ONSTACK | SA_SIGINFO;
         for (size_t i = 0; i < sizeof crashes / sizeof crashes[0]; i++) {
             sigaction(crashes[i], &action, NULL);
         }
@@ -136,6 +140,7 @@ _Noreturn void child_confined(const ChildJob *job, ChildReport *report, int file
         error_set(&e, ERROR_IO, "files cannot be closed before it is read; too many are open");
     } else {
         set_limits(job, report);
+        child_filter(); // without it, on a kernel that has none, the limits still hold
         ChildOutput output = {.file = OUTPUT_FILE};
         if (job->task(job->data, &output, &e)) {
             e.code = ERROR_NONE;

@@ -11,6 +11,7 @@ typedef struct ChildReport {
     volatile int ended;  // the task returned; then error says whether well
     volatile int signal; // that ended it; 0 = none
     bool own_limit;      // of memory: the job's, which is lower than what the user allows anyway
+    volatile int call;   // the system call that SIGSYS was for
     Error error;
 } ChildReport;
 

@@ -1,6 +1,7 @@
 // Decodes a picture in a child process through OpenImageIO and hands its pixels back in blocks of
 // rows, so that one block is all that is held here where the format's reader goes row by row.
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/thread.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -230,7 +231,7 @@ bool hand_back(OIIO::ImageInput *input, const OIIO::ImageSpec &spec, const Decod
 
 bool decode(const DecodeJob *job, ChildOutput *output, Error *e)
 {
-    // No threads: those of the process that this is a fork of are not here.
+    // The threads of the process that this is a fork of are not here.
     OIIO::attribute("threads", 1);
     OIIO::attribute("exr_threads", -1);
     OIIO::ImageSpec config;
@@ -254,6 +255,14 @@ bool decode(const DecodeJob *job, ChildOutput *output, Error *e)
 }
 
 } // namespace
+
+extern "C" void decode_prepare(void)
+{
+    try {
+        OIIO::default_thread_pool();
+    } catch (...) { // no threads here either: the child tells
+    }
+}
 
 extern "C" bool decode_picture(const void *data, ChildOutput *output, Error *e)
 {

@@ -11,7 +11,10 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/ptrace.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -234,6 +237,100 @@ static bool kill_itself(const void *data, ChildOutput *output, Error *e)
     return kill(getpid(), SIGKILL) == 0;
 }
 
+// ---- children that want more than to read ----
+
+static bool open_socket(const void *data, ChildOutput *output, Error *e)
+{
+    (void)data, (void)output;
+    return socket(AF_INET, SOCK_STREAM, 0) >= 0 || error_set(e, ERROR_INPUT, "no socket");
+}
+
+static bool run_program(const void *data, ChildOutput *output, Error *e)
+{
+    char *const arguments[] = {(char[]){"true"}, NULL};
+    (void)data, (void)output;
+    execv("/bin/true", arguments);
+    return error_set(e, ERROR_INPUT, "no program");
+}
+
+static bool trace_parent(const void *data, ChildOutput *output, Error *e)
+{
+    (void)data, (void)output;
+    return ptrace(PTRACE_ATTACH, getppid(), NULL, NULL) == 0 ||
+           error_set(e, ERROR_INPUT, "no ptrace");
+}
+
+static bool kill_parent(const void *data, ChildOutput *output, Error *e)
+{
+    (void)data, (void)output;
+    return kill(getppid(), SIGWINCH) == 0 || error_set(e, ERROR_INPUT, "no signal");
+}
+
+static bool append_to_file(const void *data, ChildOutput *output, Error *e)
+{
+    (void)output;
+    return open(data, O_WRONLY | O_APPEND) >= 0 || error_set(e, ERROR_INPUT, "no file");
+}
+
+static bool remove_file(const void *data, ChildOutput *output, Error *e)
+{
+    (void)output;
+    return unlink(data) == 0 || error_set(e, ERROR_INPUT, "not removed");
+}
+
+static void *nothing(void *data)
+{
+    return data;
+}
+
+// Reading and threads that cannot be started harm nobody: libraries go on without.
+static bool read_without_threads(const void *data, ChildOutput *output, Error *e)
+{
+    pthread_t thread;
+    struct stat status;
+    (void)output;
+    int file = open(data, O_RDONLY | O_CLOEXEC);
+    char *memory = malloc(1 << 22);
+    bool done = file >= 0 && memory && fstat(file, &status) == 0 && read(file, memory, 2) == 2 &&
+                pthread_create(&thread, NULL, nothing, NULL) == EAGAIN && fork() == -1;
+    free(memory);
+    return done || error_set(e, ERROR_INPUT, "too tight");
+}
+
+static void stopped_at(ChildTask *task, const void *data, const char *call)
+{
+    char words[64];
+    Error e;
+    assert_false(runs(task, data, 60, &quiet, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    assert_string_equal(e.file, "some.obj");
+    snprintf(words, sizeof words, "was stopped at the system call '%s'", call);
+    if (!strstr(e.message, words)) {
+        fail_msg("no '%s' in '%s'", words, e.message);
+    }
+}
+
+static void may_only_read(void **state)
+{
+    (void)state;
+    char file[] = "/tmp/ramify_child_XXXXXX";
+    int number = mkstemp(file);
+    assert_int_equal(write(number, "ab", 2), 2);
+    close(number);
+    stopped_at(open_socket, NULL, "socket");
+    stopped_at(run_program, NULL, "execve");
+    stopped_at(trace_parent, NULL, "ptrace");
+    stopped_at(kill_parent, NULL, "kill");
+    stopped_at(append_to_file, file, "openat");
+    stopped_at(remove_file, file, "unlink");
+    Error e;
+    if (!runs(read_without_threads, file, 60, &quiet, &e)) {
+        fail_msg("%s", e.message);
+    }
+    assert_int_equal(unlink(file), 0);
+    assert_true(no_child_is_left());
+}
+
 static void survives_them(void **state)
 {
     (void)state;
@@ -408,6 +505,7 @@ int main(void)
         cmocka_unit_test(hands_back_what_it_wrote),
         cmocka_unit_test(passes_its_errors_on),
         cmocka_unit_test(is_confined_and_silent),
+        cmocka_unit_test(may_only_read),
         cmocka_unit_test(survives_them),
         cmocka_unit_test(the_users_limit_is_no_fault_of_the_file),
         cmocka_unit_test(ends_when_cancelled),
