@@ -21,12 +21,14 @@ OBJ    := $(OUT)/obj
 # change no value; they let sqrtf become one instruction.) GCC 12 fuses the products of complex numbers that it vectorizes in
 # spite of the first: straight code is vectorized in the path tracer alone, and the Fourier transform not at all.
 OPT      := $(if $(filter sanitize,$(CONFIG)),-O1 -fsanitize=address$(,)undefined -fno-omit-frame-pointer,-O3)
+# What makes a flaw of memory harder to use, in what is installed; sanitizers have their own ways.
+HARDEN   := $(if $(filter sanitize,$(CONFIG)),,-fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3)
 COMMON   := -g $(OPT) -march=$(ARCH) -ffp-contract=off -fno-tree-slp-vectorize -fno-math-errno -fno-trapping-math -fopenmp -fPIC -MMD -MP -Isrc \
             -Wall -Wextra -Werror
 CFLAGS   := -std=c17 -D_GNU_SOURCE $(COMMON) -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 CXXFLAGS := -std=c++17 $(COMMON)
 LDLIBS   := -lembree3 -losdCPU -lopenvdb -lImath -lOpenImageIO -lOpenImageIO_Util -lassimp -lcyaml -lyaml -ltbb -lseccomp -lstdc++ -lm
-LDFLAGS  := -fopenmp $(if $(filter sanitize,$(CONFIG)),-fsanitize=address$(,)undefined)
+LDFLAGS  := -Wl,-z,relro,-z,now,-z,noexecstack -fopenmp $(if $(filter sanitize,$(CONFIG)),-fsanitize=address$(,)undefined)
 
 # The path tracer's small functions call each other across files: inlining them while linking makes it 1.1 x faster.
 LTO := $(if $(filter sanitize,$(CONFIG)),,-flto=auto -ffat-lto-objects)
@@ -158,12 +160,12 @@ check-packages:
 $(OBJ)/%.c.o: src/%.c
 	@mkdir -p $(@D)
 	@echo "  CC   $<"
-	@$(CC) $(CFLAGS) -c $< -o $@
+	@$(CC) $(CFLAGS) $(HARDEN) -c $< -o $@
 
 $(OBJ)/%.cpp.o: src/%.cpp
 	@mkdir -p $(@D)
 	@echo "  CXX  $<"
-	@$(CXX) $(CXXFLAGS) -c $< -o $@
+	@$(CXX) $(CXXFLAGS) $(HARDEN) -c $< -o $@
 
 # The file's bytes and a NUL as an array that is called like the file.
 name = $(subst .,_,$(notdir $<))
@@ -184,7 +186,7 @@ $(OUT)/libramify.so: $(LIB_OBJ) src/ramify.map
 
 $(OUT)/ramify: $(CLI_OBJ) $(OUT)/libramify.a
 	@echo "  LINK $@"
-	@$(CC) $^ $(LDFLAGS) $(LDLIBS) -o $@
+	@$(CC) -pie $^ $(LDFLAGS) $(LDLIBS) -o $@
 
 # Its allocations are counted, and one of them fails.
 $(OUT)/tests/api/test_memory: private LDFLAGS += -Wl,--wrap=memory_alloc,--wrap=memory_alloc_zero,--wrap=memory_reserve

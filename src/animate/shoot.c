@@ -4,6 +4,7 @@
 #include "animate/frames.h"
 #include "animate/pattern.h"
 #include "animate/video.h"
+#include "base/file_beside.h"
 #include "base/file_name.h"
 #include "base/file_replace.h"
 #include "base/memory.h"
@@ -31,6 +32,7 @@ typedef struct Shooting {
     ShootStats *stats;
     Turntable *turntable;
     int start, end; // frames, both included
+    char *video;    // the film's file, where links lead; NULL = there is none
     char *folder;   // of the frames of a film; NULL = there is none
     int hold;       // keeps other runs from it; -1 = nothing is held
     char *pattern;  // of the frames' names
@@ -86,7 +88,9 @@ static bool plan_output(Shooting *s, Error *e)
         return error_set(e, ERROR_INPUT, "a film of %d x %d pixels; it must have 2 x 2 at least",
                          s->scene->film.width, s->scene->film.height);
     }
-    s->folder = frames_folder(s->params->output, e);
+    char target[PATH_MAX];
+    s->video = file_target(s->params->output, target, e) ? memory_copy_string(target, e) : NULL;
+    s->folder = s->video ? frames_folder(s->video, e) : NULL;
     s->pattern = s->folder ? frames_pattern(s->folder, e) : NULL;
     s->hold = s->pattern ? frames_folder_take(s->folder, e) : -1;
     return s->hold >= 0;
@@ -346,8 +350,8 @@ static bool make_film(Shooting *s, Error *e)
     }
     double start = run_seconds();
     char *part = frames_film(s->folder, e);
-    Video *video = part ? video_open(s->params->output, part, s->scene->film.width,
-                                     s->scene->film.height, turntable_fps(s->turntable), e)
+    Video *video = part ? video_open(s->video, part, s->scene->film.width, s->scene->film.height,
+                                     turntable_fps(s->turntable), e)
                         : NULL;
     free(part);
     bool sound = video && add_frames(s, video, e);
@@ -385,6 +389,7 @@ static void clear(Shooting *s)
     free(s->shot);
     free(s->pattern);
     free(s->folder);
+    free(s->video);
     if (s->hold >= 0) {
         close(s->hold);
     }

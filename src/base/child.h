@@ -19,9 +19,9 @@ typedef struct ChildOutput {
     int64_t left; // bytes not read yet
 } ChildOutput;
 
-// Runs in the child, on one thread (no OpenMP, no locks that threads of the host may hold; malloc
-// and stdio are fine): writes its result to output, or returns false with an error, of which the
-// parent keeps code, message, line and column.
+// Runs in the child, on one thread (no OpenMP of ours, no locks that threads of the host may hold;
+// malloc and stdio are fine): writes its result to output, or returns false with an error, of which
+// the parent keeps code, message, line and column.
 typedef bool ChildTask(const void *data, ChildOutput *output, Error *e);
 
 typedef struct ChildJob {

@@ -109,7 +109,6 @@ static void set_limits(const ChildJob *job, ChildReport *report)
     }
     lower_limit(RLIMIT_FSIZE, job->memory);
     lower_limit(RLIMIT_CORE, 0);
-    lower_limit(RLIMIT_NPROC, 0);
     lower_limit(RLIMIT_NOFILE, MOST_FILES);
 }
 

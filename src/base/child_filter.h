@@ -4,10 +4,9 @@
 
 #include <stdbool.h>
 
-// From here on this process may read files, take memory and end, and no more. What only an attacker
-// wants (network, other programs and processes, files opened for writing, made or taken away)
-// raises SIGSYS; threads cannot be started (EAGAIN), and all else fails with EPERM. False when
-// the kernel has no such filters.
+// From here on this process may read files, take memory, start threads and end, and no more. What
+// only an attacker wants (network, other programs and processes, files opened for writing, made or
+// taken away) raises SIGSYS; all else fails with EPERM. False when the kernel has no such filters.
 bool child_filter(void);
 
 // The name of a system call by its number, for errors, into name.

@@ -1,5 +1,6 @@
 #include "base/file_replace.h"
 
+#include "base/file_beside.h"
 #include "base/file_writer.h"
 #include "base/memory.h"
 
@@ -53,13 +54,17 @@ bool file_replace_check(const char *file, Error *e)
         return error_set(e, ERROR_IO, "cannot write '%s': it is no regular file; name another",
                          file);
     }
-    const char *slash = strrchr(file, '/');
-    char *folder = memory_copy_string(slash ? file : ".", e);
+    char target[PATH_MAX];
+    if (!file_target(file, target, e)) {
+        return false;
+    }
+    const char *slash = strrchr(target, '/');
+    char *folder = memory_copy_string(slash ? target : ".", e);
     if (!folder) {
         return false;
     }
     if (slash) {
-        folder[slash == file ? 1 : slash - file] = 0;
+        folder[slash == target ? 1 : slash - target] = 0;
     }
     bool done = is_folder(folder) && access(folder, W_OK | X_OK) == 0;
     if (!done) {

@@ -1,9 +1,9 @@
 #include "base/file_writer.h"
 
+#include "base/file_beside.h"
 #include "base/memory.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -15,10 +15,10 @@
 enum { BUFFER = 1 << 20 };
 
 struct FileWriter {
-    char *file;                           // as the caller named it
-    char target[PATH_MAX], new[PATH_MAX]; // what it stands for; the file beside that
-    int descriptor;
-    int reason; // errno of the first failure; 0 = none
+    char *file;            // as the caller named it
+    char target[PATH_MAX]; // what it stands for
+    FileBeside beside;     // the new file
+    int reason;            // errno of the first failure; 0 = none
     size_t used;
     int64_t flushed;
     char buffer[BUFFER];
@@ -27,44 +27,6 @@ struct FileWriter {
 static bool io_error(Error *e, const char *file)
 {
     return error_set(e, ERROR_IO, "'%s' cannot be written: %s", file, strerror(errno));
-}
-
-// The file behind a symbolic link, or the name itself; refuses folders, pipes and devices.
-static bool resolve_target(const char *file, char target[PATH_MAX], Error *e)
-{
-    struct stat status;
-    if (stat(file, &status) == 0) {
-        if (!S_ISREG(status.st_mode)) {
-            return error_set(e, ERROR_IO, "'%s' cannot be written: it is not a regular file", file);
-        }
-        return realpath(file, target) ? true : io_error(e, file);
-    }
-    if (strlen(file) >= PATH_MAX) {
-        errno = ENAMETOOLONG;
-        return io_error(e, file);
-    }
-    memcpy(target, file, strlen(file) + 1);
-    return true;
-}
-
-// Makes a file nobody else has, in the folder of target, with the permissions of any new file.
-static int open_beside(const char *target, char name[PATH_MAX])
-{
-    const char *slash = strrchr(target, '/');
-    int folder = slash ? (int)(slash - target) + 1 : 0;
-    for (int attempt = 0; attempt < 10000; attempt++) {
-        int length = snprintf(name, PATH_MAX, "%.*s.ramify-%ld-%d.part", folder, target,
-                              (long)getpid(), attempt);
-        if (length < 0 || length >= PATH_MAX) {
-            errno = ENAMETOOLONG;
-            return -1;
-        }
-        int descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor >= 0 || errno != EEXIST) {
-            return descriptor;
-        }
-    }
-    return -1;
 }
 
 FileWriter *file_writer_open(const char *file, Error *e)
@@ -76,11 +38,9 @@ FileWriter *file_writer_open(const char *file, Error *e)
     writer->reason = 0;
     writer->used = 0;
     writer->flushed = 0;
-    writer->descriptor = -1;
     writer->file = memory_copy_string(file, e);
-    if (writer->file && resolve_target(file, writer->target, e)) {
-        writer->descriptor = open_beside(writer->target, writer->new);
-        if (writer->descriptor >= 0) {
+    if (writer->file && file_target(file, writer->target, e)) {
+        if (file_beside_open(&writer->beside, writer->target)) {
             return writer;
         }
         io_error(e, file);
@@ -93,7 +53,7 @@ FileWriter *file_writer_open(const char *file, Error *e)
 static void write_all(FileWriter *writer, const char *bytes, size_t size)
 {
     while (size > 0 && !writer->reason) {
-        ssize_t written = write(writer->descriptor, bytes, size);
+        ssize_t written = write(writer->beside.descriptor, bytes, size);
         if (written < 0 && errno == EINTR) {
             continue;
         }
@@ -165,9 +125,9 @@ static void bring_to_disk(FileWriter *writer)
     flush(writer);
     bool done = !writer->reason;
     if (done && stat(writer->target, &old) == 0) {
-        done = fchmod(writer->descriptor, old.st_mode & 0777) == 0;
+        done = fchmod(writer->beside.descriptor, old.st_mode & 0777) == 0;
     }
-    if (done && fsync(writer->descriptor) != 0) {
+    if (done && fsync(writer->beside.descriptor) != 0) {
         done = false;
     }
     if (!done && !writer->reason) {
@@ -190,16 +150,12 @@ bool file_writer_close(FileWriter *writer, bool keep, Error *e)
     if (keep) {
         bring_to_disk(writer);
     }
-    if (close(writer->descriptor) != 0 && !writer->reason) {
-        writer->reason = errno;
-    }
-    if (keep && !writer->reason && rename(writer->new, writer->target) != 0) {
-        writer->reason = errno;
-    }
     bool done = keep && !writer->reason;
-    if (!done) {
-        unlink(writer->new);
+    if (done && !file_beside_publish(&writer->beside, writer->target)) {
+        writer->reason = errno;
+        done = false;
     }
+    file_beside_close(&writer->beside); // all that can fail did so with fsync
     if (keep && !done) {
         errno = writer->reason;
         io_error(e, writer->file);

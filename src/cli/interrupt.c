@@ -18,5 +18,9 @@ const volatile int *interrupt_flag(void)
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    struct sigaction before;
+    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) { // not under nohup
+        sigaction(SIGHUP, &action, NULL);
+    }
     return &interrupted;
 }

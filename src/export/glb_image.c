@@ -1,5 +1,6 @@
 #include "export/glb.h"
 
+#include "base/file_beside.h"
 #include "base/memory.h"
 #include "image/image.h"
 #include "image/tone_curve.h"
@@ -26,7 +27,7 @@ static bool same(const char *a, const char *b)
 
 static bool read_bytes(const char *file, GlbImage *image, Error *e)
 {
-    FILE *stream = fopen(file, "rb");
+    FILE *stream = file_open_regular(file, e);
     int64_t capacity = 0;
     size_t got = 1;
     while (stream && got > 0) {
@@ -37,10 +38,11 @@ static bool read_bytes(const char *file, GlbImage *image, Error *e)
         got = fread(image->bytes + image->size, 1, 65536, stream);
         image->size += (int64_t)got;
     }
-    bool good = stream && !ferror(stream);
-    if (stream) {
-        fclose(stream);
+    if (!stream) {
+        return false;
     }
+    bool good = !ferror(stream);
+    fclose(stream);
     return good || error_set(e, ERROR_IO, "'%s' cannot be read", file);
 }
 

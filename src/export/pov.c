@@ -12,6 +12,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 // ---- numbers
 
@@ -189,6 +190,7 @@ bool export_pov(const ExportSource *source, const char *file, const Run *run, Er
     measure_world(&pov);
     bool whole = make_lights(&pov) && write_scene(&pov, source->title);
     lights_free(pov.lights);
+    rmdir(pov.folder); // nothing was put there, now or by a run that was killed; else it stays
     free(pov.folder);
     if (whole && run_is_cancelled(run)) {
         whole = run_cancel_error(e);

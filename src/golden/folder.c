@@ -1,5 +1,6 @@
 #include "golden/folder.h"
 
+#include "base/file_beside.h"
 #include "base/file_name.h"
 #include "base/memory.h"
 
@@ -85,7 +86,7 @@ static bool add_orphan(Folder *folder, const char *name, Error *e)
 // Does the file hold this text? What cannot be read holds nothing.
 static bool file_says(const char *file, const char *text)
 {
-    FILE *stream = fopen(file, "r");
+    FILE *stream = file_open_regular(file, NULL);
     char *line = NULL;
     size_t size = 0;
     bool found = false;

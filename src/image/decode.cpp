@@ -1,7 +1,6 @@
 // Decodes a picture in a child process through OpenImageIO and hands its pixels back in blocks of
 // rows, so that one block is all that is held here where the format's reader goes row by row.
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/thread.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -255,14 +254,6 @@ bool decode(const DecodeJob *job, ChildOutput *output, Error *e)
 }
 
 } // namespace
-
-extern "C" void decode_prepare(void)
-{
-    try {
-        OIIO::default_thread_pool();
-    } catch (...) { // no threads here either: the child tells
-    }
-}
 
 extern "C" bool decode_picture(const void *data, ChildOutput *output, Error *e)
 {

@@ -37,10 +37,6 @@ typedef struct DecodeHeader {
     char text[DECODE_TEXT_SIZE]; // DECODE_TEXT: what was found
 } DecodeHeader;
 
-// To be called before the fork: OpenImageIO starts its threads at the first need, even of one, and
-// the child can start none.
-void decode_prepare(void);
-
 // A ChildTask on a DecodeJob. Sizes are checked before any pixel is decoded.
 bool decode_picture(const void *data, ChildOutput *output, Error *e);
 

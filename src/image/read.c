@@ -67,7 +67,6 @@ static bool start(const DecodeJob *job, DecodeHeader *header, ChildOutput *outpu
                             .memory = MOST_MEMORY};
     Run run = run_default();
     *output = (ChildOutput){.file = -1};
-    decode_prepare();
     bool done = check_file(job->file, e) && child_run(&child, &run, output, e) &&
                 child_read(output, header, 1, sizeof *header, e) &&
                 check_header(header, job, output->left, e);

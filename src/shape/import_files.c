@@ -1,12 +1,12 @@
 #include "shape/import_files.h"
 
-#include <fcntl.h>
+#include "base/file_beside.h"
+
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 static FILE *stream_of(struct aiFile *file)
 {
@@ -65,28 +65,13 @@ static bool is_near(const char *path, const char *main)
     return true;
 }
 
-// A stream of a regular file: a pipe or a device would never end.
-static FILE *open_regular(const char *path)
-{
-    int number = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    struct stat status;
-    FILE *stream = NULL;
-    if (number >= 0 && fstat(number, &status) == 0 && S_ISREG(status.st_mode)) {
-        stream = fdopen(number, "rb");
-    }
-    if (!stream && number >= 0) {
-        close(number);
-    }
-    return stream;
-}
-
 static struct aiFile *open_file(struct aiFileIO *files, const char *path, const char *mode)
 {
     const char *main = files->UserData;
     if (mode[0] != 'r' || (strcmp(path, main) != 0 && !is_near(path, main))) {
         return NULL;
     }
-    FILE *stream = open_regular(path);
+    FILE *stream = file_open_regular(path, NULL);
     struct aiFile *file = stream ? malloc(sizeof *file) : NULL;
     if (!file) {
         if (stream) {

@@ -118,13 +118,14 @@ elif mkdir small && mount -t tmpfs -o size=64k,ro tmpfs small 2>/dev/null; then
     umount small
 fi
 
-# Ctrl-C in the middle of it: the file on its way is there already.
+# Ctrl-C in the middle of it: the file on its way is there already, with a name or without one.
+on_its_way() { ls -A | grep -q '\.part$' || ls -l "/proc/$1/fd" 2>/dev/null | grep -q '/#[0-9]* (deleted)'; }
 sed 's/attractors: 300/attractors: 20000/; s/max_count: 500/max_count: 400000/' scene.yaml >large.yaml
 for format in obj glb; do
     "$RAMIFY" export large.yaml -o a.$format -q --instances flat 2>err &
     process=$!
     tries=0
-    while ! ls -A | grep -q '\.part$' && kill -0 $process 2>/dev/null && [ $tries -lt 6000 ]; do
+    while ! on_its_way $process && kill -0 $process 2>/dev/null && [ $tries -lt 6000 ]; do
         sleep 0.01
         tries=$((tries + 1))
     done
@@ -134,3 +135,37 @@ for format in obj glb; do
 done
 yes interrupt_keeps_old_files still_old
 yes interrupt_leaves_no_parts sh -c '! ls -A | grep -q part'
+# A terminal that is closed, and a kill that nothing can hear.
+for signal in HUP KILL; do
+    "$RAMIFY" export large.yaml -o a.obj -q --instances flat 2>err &
+    process=$!
+    tries=0
+    while ! on_its_way $process && kill -0 $process 2>/dev/null && [ $tries -lt 6000 ]; do
+        sleep 0.01
+        tries=$((tries + 1))
+    done
+    kill -$signal $process 2>/dev/null
+    wait $process
+done
+"$RAMIFY" export scene.yaml -o b.obj -q # where files need names, the next run clears up
+yes killed_runs_keep_old_files still_old
+yes killed_runs_leave_no_parts sh -c '! ls -A | grep -v "^b" | grep -q part'
+rm -f b.*
+# POV-Ray's folder of pictures goes when nothing came to lie in it.
+mkdir c-textures
+check no_pictures_for_povray 0 "$RAMIFY" export scene.yaml -o c.pov -q
+yes empty_folder_of_pictures_goes [ ! -e c-textures ]
+# A pipe as a picture is not waited for.
+mkfifo pipe.png
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n' >sheet.obj
+cat >piped.yaml <<'END'
+materials:
+  - {name: painted, kind: diffuse, alpha_texture: pipe.png}
+objects:
+  - {name: sheet, material: painted, mesh: {file: sheet.obj}}
+END
+for format in glb pov usda; do
+    check "pipe_as_texture_$format" 2 timeout 60 "$RAMIFY" export piped.yaml -o d.$format -q
+    says "pipe_as_texture_${format}_is_named" err "'pipe.png' is a device; it must be a file"
+done
+rm -f pipe.png c.pov piped.yaml sheet.obj

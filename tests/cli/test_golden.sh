@@ -65,6 +65,8 @@ cp g/glow.png g/sized.png
 sed -i 's/width: 48/width: 40/' g/sized.yaml
 scene harmed 0.5
 echo "no picture" >g/harmed.png
+scene piped 0.5
+mkfifo g/piped.png # nobody ever writes to it
 check different 1 "$RAMIFY" golden g -q --json --report r.html --junit j.xml
 cp out results.json
 yes json_is_json python3 -m json.tool results.json
@@ -77,12 +79,13 @@ matches broken_scene out 'bro<b>ken & "bad"  *failed  *g/bro.*key .file. means n
 matches time_limit out "hurried  *failed .*render.seconds is 3"
 matches other_size out "sized  *different 40 x 32 pixels against 48 x 32"
 matches harmed_picture out "harmed  *failed .*harmed.png' cannot be read"
-matches counts out "^1 alike, 3 different, 0 missing, 3 failed, 0 stored, 1 orphans$"
+matches pipe_as_picture out "piped  *failed .*piped.png' cannot be read: it is no regular file"
+matches counts out "^1 alike, 3 different, 0 missing, 4 failed, 0 stored, 1 orphans$"
 cat >junit.py <<'END'
 import sys, xml.etree.ElementTree as tree
 suite = tree.parse("j.xml").getroot().find("testsuite")
 cases = {case.get("name"): case for case in suite}
-assert suite.get("tests") == "7" and suite.get("failures") == "3" and suite.get("errors") == "3", suite.attrib
+assert suite.get("tests") == "8" and suite.get("failures") == "3" and suite.get("errors") == "4", suite.attrib
 assert cases["plain"].find("failure").get("message").startswith("RMSE"), cases["plain"]
 assert len(cases["glow"]) == 0 and float(cases["glow"].get("time")) > 0
 assert cases['bro<b>ken & "bad"'].find("error") is not None
@@ -94,7 +97,7 @@ if [ -d "$RAMIFY_PEERS/node_modules/playwright-core" ] && command -v node >/dev/
 else
     echo "skipped report_in_a_browser: playwright-core, node or chromium is not installed"
 fi
-rm -f g/bro* g/hurried* g/sized* g/harmed* g/gone.png g/kept.png
+rm -f g/bro* g/hurried* g/sized* g/harmed* g/piped* g/gone.png g/kept.png
 check update_changed 0 "$RAMIFY" golden g -q --update
 matches update_tells_why out "plain  *stored .*is allowed"
 cksum g/glow.png >after
