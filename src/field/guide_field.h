@@ -36,7 +36,8 @@ typedef struct FieldParams {
     FieldKind kind;
     float weight; // share in a sum of fields
     Vec3 vector, center;
-    float turn;  // degrees
+    bool centered; // center is a place that the scene names, not just the object's origin
+    float turn;    // degrees
     float scale; // m; nuclei and grid: distance of the rim from the nucleus, 0 = the farthest side
                  // of the attractors' bounds
     FieldProfile profile;

@@ -65,6 +65,18 @@ int64_t element_attractors(const ElementParams *element)
     return sum;
 }
 
+// Of the sphere that polar angles count on: the middle of the envelope's first shape where that has
+// one, else that of the envelope's box.
+static Vec3 sphere_center(const ElementParams *element, Aabb bounds)
+{
+    const Shape *first = element->shape_count > 0 ? &element->shapes[0] : NULL;
+    if (first && (first->kind == SHAPE_SPHERE || first->kind == SHAPE_ELLIPSOID ||
+                  first->kind == SHAPE_BOX)) {
+        return transform_point(&first->transform, vec3(0, 0, 0));
+    }
+    return vec3_lerp(bounds.low, bounds.high, 0.5f);
+}
+
 // The guide field about the roots of the tree so far, its nuclei (Tanaka eq. (9); Tanaka
 // report 3.7.3).
 static GuideField *element_field(const OutTree *tree, const ElementParams *element,
@@ -84,13 +96,17 @@ static GuideField *element_field(const OutTree *tree, const ElementParams *eleme
     }
     FieldParams *fields = memory_alloc(element->field_count, sizeof *fields, e);
     GuideField *field = NULL;
+    Aabb bounds = envelope_bounds(envelope);
     if (fields) {
         for (int i = 0; i < element->field_count; i++) {
             fields[i] = element->fields[i];
             fields[i].seed = random_key(seed, (uint64_t)i);
+            if (fields[i].spherical) {
+                fields[i].center = sphere_center(element, bounds);
+            }
         }
-        field = guide_field_new(fields, element->field_count, position, normal, count,
-                                envelope_bounds(envelope), run, e);
+        field =
+            guide_field_new(fields, element->field_count, position, normal, count, bounds, run, e);
         if (!field) {
             error_key(e, "fields");
         }

@@ -72,9 +72,10 @@ static bool plant_trunk(OutTree *tree, const ForestParams *params, Vec3 foot, in
 {
     float top = params->height * (1.0f - 0.8f * params->crown) *
                 random_range(random_key(seed, 1), 0.85f, 1.05f);
-    float length = (top + 0.3f) / TRUNK_PIECES;
+    float sunk = 0.014f * params->height; // no foot hangs over a slope
+    float length = (top + sunk) / TRUNK_PIECES;
     Vec3 lean = vec3_scale(random_direction(random_key(seed, 2)), 0.04f);
-    Vec3 p = vec3_add(foot, vec3(0, -0.3f, 0));
+    Vec3 p = vec3_add(foot, vec3(0, -sunk, 0));
     uint64_t id = random_key(seed, 3);
     int64_t parent = -1;
     for (int i = 0; i <= TRUNK_PIECES; i++) {
@@ -119,6 +120,21 @@ static Shape canopy(const ForestParams *params, int stand)
                    .transform = transform_compose(base, vec3_splat(0), vec3_splat(1))};
 }
 
+// The stand's guide fields: those whose centre is left out stand about the stand. Copies; free
+// them.
+static FieldParams *stand_fields(const ForestParams *params, int stand, Error *e)
+{
+    int count = params->element.field_count;
+    FieldParams *fields = memory_alloc(count, sizeof *fields, e);
+    for (int i = 0; fields && i < count; i++) {
+        fields[i] = params->element.fields[i];
+        if (!fields[i].centered) {
+            fields[i].center = stand_center(params, stand);
+        }
+    }
+    return fields;
+}
+
 static bool grow_stand(OutTree *all, const ForestParams *params, int stand, uint64_t seed,
                        const Recipe *recipe, Error *e)
 {
@@ -139,8 +155,10 @@ static bool grow_stand(OutTree *all, const ForestParams *params, int stand, uint
         element.shapes = &shape;
         element.shape_count = 1;
     }
+    element.fields = stand_fields(params, stand, e);
     OutTree *tree = out_tree_new(e);
-    bool done = tree && plant_stand(tree, params, stand, random_key(seed, 1), e) &&
+    bool done = tree && element.fields &&
+                plant_stand(tree, params, stand, random_key(seed, 1), e) &&
                 element_grow(tree, &element, random_key(seed, 2), recipe->label, recipe->run, e);
     if (done) {
         float trunk = 0.0105f * params->height;
@@ -149,6 +167,7 @@ static bool grow_stand(OutTree *all, const ForestParams *params, int stand, uint
         done = out_tree_append(all, tree, e);
     }
     out_tree_free(tree);
+    free(element.fields);
     return done;
 }
 

@@ -82,8 +82,9 @@ static int64_t place_ferns(const ForestParams *params, uint64_t seed, uint64_t p
         float r = params->fern_radius * exact_pow(random_unit(random_key(key, 1)), 0.65f);
         float sine, cosine;
         exact_sincos(random_range(random_key(key, 2), 0.0f, 2.0f * PI_F), &sine, &cosine);
-        float x = params->glade_center.x + r * sine, z = params->glade_center.z + r * cosine;
-        float patch = noise_plane_fractal(x / FERN_PATCH, z / FERN_PATCH, 2, patches);
+        float dx = r * sine, dz = r * cosine; // from the glade's middle
+        float x = params->glade_center.x + dx, z = params->glade_center.z + dz;
+        float patch = noise_plane_fractal(dx / FERN_PATCH, dz / FERN_PATCH, 2, patches);
         Vec3 foot = vec3(x, land(user, x, z), z);
         if (patch < random_range(random_key(key, 3), -0.25f, 0.25f) || flood_covers(flood, foot)) {
             continue;

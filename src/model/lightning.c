@@ -26,6 +26,7 @@ LightningParams lightning_params_default(void)
     params.element.max_children = 2;
     params.element.cone_angle = 60.0f;
     params.element.gradient = 0.35f;
+    params.element.field_weight = 1.0f;
     return params;
 }
 

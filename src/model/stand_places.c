@@ -26,7 +26,7 @@ static bool is_free(const ForestParams *params, uint64_t seed, uint64_t key, flo
         random_unit(random_key(key, 4)) >= params->density) {
         return false;
     }
-    float wood = noise_plane_fractal(x / WOOD_WAVELENGTH, z / WOOD_WAVELENGTH, 3, seed);
+    float wood = noise_plane_fractal(cx / WOOD_WAVELENGTH, cz / WOOD_WAVELENGTH, 3, seed);
     return random_unit(random_key(key, 5)) >= params->clumping || wood > 0.0f;
 }
 

@@ -100,7 +100,13 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
     }
     char label[LABEL_SIZE];
     Recipe recipe = make_recipe(scene, object, run, label);
-    OutTree *tree = kind->grow(object, &recipe, e);
+    OwnSpace own;
+    if (!own_space_enter(&own, object, e)) {
+        return NULL;
+    }
+    OutTree *tree = kind->grow(&own.object, &recipe, e);
+    own_space_carry_tree(&own, tree);
+    own_space_leave(&own);
     if (!tree) {
         scene_fail_object(scene, index, e);
     }
@@ -161,28 +167,32 @@ bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *l
 {
     const SceneObject *object = &scene->objects[index];
     const Kind *kind = kind_of(object);
-    OutTree *tree = NULL;
     if (!kind->grow && !kind->measure) {
         return measure_built(scene, index, run, list, e);
     }
-    if (kind->grow && !(tree = scene_grow_object(scene, index, run, e))) {
-        return false;
-    }
     char label[LABEL_SIZE];
     Recipe recipe = make_recipe(scene, object, run, label);
-    bool done = (!tree || out_tree_measure(tree, list, e)) &&
+    OwnSpace own;
+    if (!own_space_enter(&own, object, e)) {
+        return false;
+    }
+    OutTree *tree = kind->grow ? kind->grow(&own.object, &recipe, e) : NULL;
+    bool done = (tree || !kind->grow) && (!tree || out_tree_measure(tree, list, e)) &&
                 measure_land(scene, index, tree, run, list, e) &&
-                (!kind->measure || kind->measure(object, tree, &recipe, list, e));
+                (!kind->measure || kind->measure(&own.object, tree, &recipe, list, e));
     out_tree_free(tree);
+    own_space_leave(&own);
     return done || scene_fail_object(scene, index, e);
 }
 
-static bool place(const Placing *p, Error *e)
+// Grows and meshes the object in its own space, and carries its parts into the scene.
+static bool place(const Placing *p, const OwnSpace *own, Error *e)
 {
     if (run_is_cancelled(p->recipe.run)) {
         return run_cancel_error(e);
     }
     const Kind *kind = kind_of(p->object);
+    int64_t first = p->world->geometry.count;
     double start = run_seconds();
     OutTree *tree = kind->grow ? kind->grow(p->object, &p->recipe, e) : NULL;
     if (kind->grow && !tree) {
@@ -190,6 +200,7 @@ static bool place(const Placing *p, Error *e)
     }
     double grown = run_seconds();
     bool done = kind->place(p, tree, e);
+    done = done && own_space_carry_parts(own, &p->world->geometry, first, e);
     p->stats->nodes += tree ? tree->count : 0;
     p->stats->grow_seconds += grown - start;
     p->stats->mesh_seconds += run_seconds() - grown;
@@ -201,14 +212,20 @@ bool scene_place_object(World *world, const Scene *scene, int index, RecipeMemor
                         const Run *run, BuildStats *stats, Error *e)
 {
     char label[LABEL_SIZE];
+    OwnSpace own;
+    if (!own_space_enter(&own, &scene->objects[index], e)) {
+        return false;
+    }
     Placing placing = {.world = world,
                        .scene = scene,
-                       .object = &scene->objects[index],
+                       .object = &own.object,
                        .index = index,
                        .recipe = make_recipe(scene, &scene->objects[index], run, label),
                        .stats = stats};
     placing.recipe.memory = memory;
-    return place(&placing, e) || scene_fail_object(scene, index, e);
+    bool done = place(&placing, &own, e);
+    own_space_leave(&own);
+    return done || scene_fail_object(scene, index, e);
 }
 
 bool scene_give_settings(const Scene *scene, World *world, Error *e)

@@ -310,6 +310,17 @@ bool check_growth(Resolver *r, const Path *path, const Node *given, Node *resolv
     return true;
 }
 
+// Says whether the file gives a field its centre.
+static bool add_centered(Resolver *r, Node *resolved)
+{
+    Node *node = node_scalar(r->arena, node_get(resolved, "center") ? "true" : "false", r->e);
+    if (node) {
+        node->flags = KEY_HIDDEN;
+        node_append(resolved, node, "centered");
+    }
+    return node;
+}
+
 bool check_field(Resolver *r, const Path *path, const Node *given, Node *resolved)
 {
     const Node *vector = node_get(resolved, "vector");
@@ -318,7 +329,7 @@ bool check_field(Resolver *r, const Path *path, const Node *given, Node *resolve
                              "%s.vector is zero; it must point somewhere",
                              resolver_path(r, path, NULL));
     }
-    return true;
+    return add_centered(r, resolved);
 }
 
 // Axiom and rules that the file gives. An axiom alone may use constants of the form's own rules, so

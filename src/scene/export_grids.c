@@ -2,6 +2,7 @@
 
 #include "scene/build.h"
 #include "scene/kind.h"
+#include "scene/own_space.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -37,6 +38,16 @@ static bool collect(void *user, const char *label, const Envelope *envelope,
     return !field || guide_field_add_to(field, envelope, FIELD_VOXELS, name, to->grids, to->run, e);
 }
 
+// Objects grow in their own space; grids from number first on are carried from there.
+static bool carry_grids(const SceneObject *object, GridFile *grids, int64_t first, Error *e)
+{
+    OwnSpace own;
+    bool done = own_space_enter(&own, object, e) &&
+                (!own.moved || grid_file_move(grids, first, &own.to_scene, e));
+    own_space_leave(&own);
+    return done;
+}
+
 static bool grow_all(const Scene *scene, GridFile *grids, const Run *run, Error *e)
 {
     bool done = true;
@@ -48,8 +59,9 @@ static bool grow_all(const Scene *scene, GridFile *grids, const Run *run, Error 
         const GrowthWitness witness = {collect, &to};
         Run watched = *run;
         watched.witness = &witness;
+        int64_t first = grid_file_count(grids);
         OutTree *tree = scene_grow_object(scene, i, &watched, e);
-        done = tree;
+        done = tree && carry_grids(&scene->objects[i], grids, first, e);
         out_tree_free(tree);
     }
     return done;

@@ -7,6 +7,7 @@
 #include "mesh/height_field.h"
 #include "model/recipe.h"
 #include "scene/build.h"
+#include "scene/own_space.h"
 
 enum { KIND_MOST_MATERIALS = 6 };
 
@@ -26,6 +27,11 @@ typedef struct Kind {
     bool reads_scene; // its geometry depends on materials' values or on other objects
     bool reads_water; // it keeps out of the scene's water
     const char *materials[KIND_MOST_MATERIALS]; // keys of the object that name materials; NULL ends
+
+    // Says where the object's own space is and puts own->object, so far the scene's, into it; NULL
+    // = it is the scene's space. grow, place and measure are given the object in its own space, and
+    // what they make is carried into the scene.
+    bool (*own_space)(OwnSpace *own, Error *e);
 
     // The out-tree, radii and all; NULL when nothing of this kind grows. The error names the
     // object (Recipe.label).

@@ -6,6 +6,18 @@
 #include <stdio.h>
 #include <string.h>
 
+static bool own_space(OwnSpace *own, Error *e)
+{
+    CoralParams *coral = own_space_copy(own, own->object.coral, sizeof *coral, e);
+    if (!coral) {
+        return false;
+    }
+    own->object.coral = coral;
+    own_space_stand(own, coral->position, vec3(0, 0, 0));
+    coral->position = vec3(0, 0, 0);
+    return own_space_take_shapes(own, &coral->base, coral->base_count, e);
+}
+
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
     return coral_grow(object->coral, recipe, e);
@@ -64,6 +76,7 @@ static int64_t copies(const SceneObject *object)
 const Kind kind_coral = {.key = "coral",
                          .offset = offsetof(SceneObject, coral),
                          .materials = {"material", "polyp_material", "rock_material"},
+                         .own_space = own_space,
                          .grow = grow,
                          .place = place,
                          .measure = measure,

@@ -5,6 +5,17 @@
 #include <math.h>
 #include <stdio.h>
 
+static bool own_space(OwnSpace *own, Error *e)
+{
+    DlaModel *dla = own_space_copy(own, own->object.dla, sizeof *dla, e);
+    if (dla) {
+        own->object.dla = dla;
+        own_space_stand(own, dla->position, dla->rotation);
+        dla->position = dla->rotation = vec3(0, 0, 0);
+    }
+    return dla;
+}
+
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
     return dla_model_grow(object->dla, recipe, e);
@@ -35,6 +46,7 @@ static void describe(const SceneObject *object, char *text, size_t size)
 const Kind kind_dla = {.key = "dla",
                        .offset = offsetof(SceneObject, dla),
                        .materials = {"material"},
+                       .own_space = own_space,
                        .grow = grow,
                        .place = place,
                        .measure = measure,

@@ -3,6 +3,17 @@
 
 #include <stdio.h>
 
+static bool own_space(OwnSpace *own, Error *e)
+{
+    FractureParams *fracture = own_space_copy(own, own->object.fracture, sizeof *fracture, e);
+    if (!fracture) {
+        return false;
+    }
+    own->object.fracture = fracture;
+    own_space_of_element(own, &fracture->element);
+    return own_space_take_element(own, &fracture->element, e);
+}
+
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
     return fracture_grow(object->fracture, recipe, e);
@@ -39,6 +50,7 @@ static int64_t attractors(const SceneObject *object)
 const Kind kind_fracture = {.key = "fracture",
                             .offset = offsetof(SceneObject, fracture),
                             .materials = {"material", "inside_material"},
+                            .own_space = own_space,
                             .grow = grow,
                             .place = place,
                             .measure = measure,

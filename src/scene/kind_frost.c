@@ -3,6 +3,23 @@
 
 #include <stdio.h>
 
+static bool own_space(OwnSpace *own, Error *e)
+{
+    FrostParams *frost = own_space_copy(own, own->object.frost, sizeof *frost, e);
+    if (!frost) {
+        return false;
+    }
+    own->object.frost = frost;
+    own_space_stand(own, frost->position, vec3(0, 0, 0));
+    frost->position = vec3(0, 0, 0);
+    size_t size = sizeof *frost->nucleus * (size_t)frost->nucleus_count;
+    frost->nucleus = size > 0 ? own_space_copy(own, frost->nucleus, size, e) : NULL;
+    for (int i = 0; frost->nucleus && i < frost->nucleus_count; i++) {
+        frost->nucleus[i].position = own_space_place(own, frost->nucleus[i].position);
+    }
+    return frost->nucleus || size == 0;
+}
+
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
     return frost_grow(object->frost, recipe, e);
@@ -46,6 +63,7 @@ static int64_t copies(const SceneObject *object)
 const Kind kind_frost = {.key = "frost",
                          .offset = offsetof(SceneObject, frost),
                          .materials = {"material", "rime_material"},
+                         .own_space = own_space,
                          .grow = grow,
                          .place = place,
                          .measure = measure,

@@ -6,6 +6,24 @@
 #include <stdio.h>
 #include <string.h>
 
+// A bolt stands at its strike; what crawls over a surface belongs to that.
+static bool own_space(OwnSpace *own, Error *e)
+{
+    LightningParams *lightning = own_space_copy(own, own->object.lightning, sizeof *lightning, e);
+    if (!lightning) {
+        return false;
+    }
+    own->object.lightning = lightning;
+    if (lightning->element.place == SCATTER_SURFACE) {
+        own_space_of_element(own, &lightning->element);
+    } else {
+        own_space_stand(own, lightning->position, vec3(0, 0, 0));
+    }
+    lightning->position = own_space_place(own, lightning->position);
+    lightning->lean_azimuth = own_space_azimuth(own, lightning->lean_azimuth);
+    return own_space_take_element(own, &lightning->element, e);
+}
+
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
     return lightning_grow(object->lightning, recipe, e);
@@ -50,6 +68,7 @@ const Kind kind_lightning = {.key = "lightning",
                              .offset = offsetof(SceneObject, lightning),
                              .reads_scene = true,
                              .materials = {"material"},
+                             .own_space = own_space,
                              .grow = grow,
                              .place = place,
                              .measure = measure,

@@ -4,6 +4,17 @@
 
 #include <stdio.h>
 
+static bool own_space(OwnSpace *own, Error *e)
+{
+    LSystemPlantParams *plant = own_space_copy(own, own->object.lsystem, sizeof *plant, e);
+    if (plant) {
+        own->object.lsystem = plant;
+        own_space_stand(own, plant->position, vec3(0, 0, 0));
+        plant->position = vec3(0, 0, 0);
+    }
+    return plant;
+}
+
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
     return lsystem_plant_grow(object->lsystem, recipe, e);
@@ -32,6 +43,7 @@ static int64_t copies(const SceneObject *object)
 const Kind kind_lsystem = {.key = "lsystem",
                            .offset = offsetof(SceneObject, lsystem),
                            .materials = {"material", "twig_material", "leaf_material"},
+                           .own_space = own_space,
                            .grow = grow,
                            .place = place,
                            .describe = describe,

@@ -5,6 +5,17 @@
 #include <math.h>
 #include <stdio.h>
 
+static bool own_space(OwnSpace *own, Error *e)
+{
+    SculptureParams *sculpture = own_space_copy(own, own->object.sculpture, sizeof *sculpture, e);
+    if (!sculpture) {
+        return false;
+    }
+    own->object.sculpture = sculpture;
+    own_space_of_element(own, &sculpture->element);
+    return own_space_take_element(own, &sculpture->element, e);
+}
+
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
     return sculpture_grow(object->sculpture, recipe, e);
@@ -43,6 +54,7 @@ static int64_t attractors(const SceneObject *object)
 const Kind kind_sculpture = {.key = "sculpture",
                              .offset = offsetof(SceneObject, sculpture),
                              .materials = {"material"},
+                             .own_space = own_space,
                              .grow = grow,
                              .place = place,
                              .measure = measure,

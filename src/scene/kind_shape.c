@@ -23,6 +23,17 @@ static Mesh *copy_mesh(const Mesh *mesh, Error *e)
     return copy;
 }
 
+static bool own_space(OwnSpace *own, Error *e)
+{
+    SceneShape *shape = own_space_copy(own, own->object.shape, sizeof *shape, e);
+    if (!shape) {
+        return false;
+    }
+    own->object.shape = shape;
+    own_space_of_shapes(own, shape->shapes, shape->shape_count);
+    return own_space_take_shapes(own, &shape->shapes, shape->shape_count, e);
+}
+
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
     (void)tree;
@@ -40,4 +51,5 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
 const Kind kind_shape = {.key = "shape",
                          .offset = offsetof(SceneObject, shape),
                          .materials = {"material"},
+                         .own_space = own_space,
                          .place = place};

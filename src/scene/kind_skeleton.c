@@ -4,6 +4,17 @@
 #include <stdio.h>
 #include <string.h>
 
+static bool own_space(OwnSpace *own, Error *e)
+{
+    SkeletonParams *skeleton = own_space_copy(own, own->object.skeleton, sizeof *skeleton, e);
+    if (skeleton) {
+        own->object.skeleton = skeleton;
+        own_space_stand(own, skeleton->position, skeleton->rotation);
+        skeleton->position = skeleton->rotation = vec3(0, 0, 0);
+    }
+    return skeleton;
+}
+
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
     return skeleton_grow(object->skeleton, recipe, e);
@@ -28,6 +39,7 @@ static void describe(const SceneObject *object, char *text, size_t size)
 const Kind kind_skeleton = {.key = "skeleton",
                             .offset = offsetof(SceneObject, skeleton),
                             .materials = {"material", "axon_material"},
+                            .own_space = own_space,
                             .grow = grow,
                             .place = place,
                             .describe = describe};

@@ -5,6 +5,21 @@
 #include <stdio.h>
 #include <string.h>
 
+// It stands on its trunk and has no turn.
+static bool own_space(OwnSpace *own, Error *e)
+{
+    TreeParams *tree = own_space_copy(own, own->object.tree, sizeof *tree, e);
+    if (!tree) {
+        return false;
+    }
+    own->object.tree = tree;
+    own_space_stand(own, tree->position, vec3(0, 0, 0));
+    tree->position = vec3(0, 0, 0);
+    return own_space_take_element(own, &tree->trunk.element, e) &&
+           own_space_take_element(own, &tree->crown.element, e) &&
+           own_space_take_element(own, &tree->roots.element, e);
+}
+
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
     return tree_grow(object->tree, recipe, e);
@@ -64,6 +79,7 @@ static bool measure(const SceneObject *object, const OutTree *tree, const Recipe
 const Kind kind_tree = {.key = "tree",
                         .offset = offsetof(SceneObject, tree),
                         .materials = {"material", "twig_material", "leaf_material"},
+                        .own_space = own_space,
                         .grow = grow,
                         .place = place,
                         .measure = measure,

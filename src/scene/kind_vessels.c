@@ -1,7 +1,30 @@
 // Blood vessels as a kind of object.
 #include "scene/kinds.h"
 
+#include <float.h>
 #include <stdio.h>
+
+// An inlet at the origin stands for the hilum, so one that comes to lie there stays a little aside.
+static Vec3 take_inlet(const OwnSpace *own, Vec3 inlet)
+{
+    if (!own->moved || vec3_dot(inlet, inlet) == 0.0f) {
+        return inlet;
+    }
+    Vec3 mine = own_space_place(own, inlet);
+    return vec3_dot(mine, mine) > 0.0f ? mine : vec3(FLT_MIN, 0, 0);
+}
+
+static bool own_space(OwnSpace *own, Error *e)
+{
+    VesselsParams *vessels = own_space_copy(own, own->object.vessels, sizeof *vessels, e);
+    if (!vessels) {
+        return false;
+    }
+    own->object.vessels = vessels;
+    own_space_of_element(own, &vessels->element);
+    vessels->inlet = take_inlet(own, vessels->inlet);
+    return own_space_take_element(own, &vessels->element, e);
+}
 
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
@@ -37,6 +60,7 @@ static void describe(const SceneObject *object, char *text, size_t size)
 const Kind kind_vessels = {.key = "vessels",
                            .offset = offsetof(SceneObject, vessels),
                            .materials = {"material", "vein_material"},
+                           .own_space = own_space,
                            .grow = grow,
                            .place = place,
                            .measure = measure,

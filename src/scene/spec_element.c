@@ -234,9 +234,11 @@ static const Key FIELD_KEYS[] = {
     {KEY_OF(FieldParams, vector, "vector", KEY_VECTOR), .count = 3,
      .kinds = BIT(FIELD_UNIFORM) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT) | NUCLEI,
      .doc = "The direction; of a vortex, nuclei and grid the axis to turn about."},
-    {KEY_OF(FieldParams, center, "center", KEY_VECTOR), .count = 3,
+    {KEY_OF(FieldParams, center, "center", KEY_VECTOR), .flags = KEY_NO_DEFAULT, .count = 3,
      .kinds = BIT(FIELD_RADIAL) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT), .unit = "m",
-     .doc = "Middle of the field."},
+     .doc = "Middle of the field; left out: where the object stands, or where the origin of its "
+            "envelope's first shape is."},
+    {KEY_OF(FieldParams, centered, "centered", KEY_BOOL), .flags = KEY_HIDDEN, .doc = ""},
     {KEY_OF(FieldParams, turn, "turn", KEY_FLOAT), .kinds = NUCLEI, .low = -36000, .high = 36000,
      .unit = "degrees",
      .doc = "Azimuth that a streamline sweeps from the nucleus to the rim (profile swept), or by "
@@ -249,7 +251,9 @@ static const Key FIELD_KEYS[] = {
      .doc = "swept: streamlines wind more and more on their way from the nucleus; constant: every "
             "vector is turned by the same angle."},
     {KEY_OF(FieldParams, spherical, "spherical", KEY_BOOL), .kinds = NUCLEI,
-     .doc = "Sweep by polar angle on a sphere instead of by distance."},
+     .doc =
+         "Sweep by polar angle on a sphere about the middle of the envelope's first shape, instead "
+         "of by distance."},
     {KEY_OF(FieldParams, surface, "surface", KEY_BOOL), .kinds = NUCLEI,
      .doc = "Turn about the attractors' surface normals rather than about `vector`."},
     {KEY_OF(FieldParams, resolution, "resolution", KEY_INT), .kinds = BIT(FIELD_GRID), .high = 1024,

@@ -159,6 +159,34 @@ extern "C" bool grid_file_add_vectors(GridFile *grids, const char *name, Aabb bo
     });
 }
 
+extern "C" bool grid_file_move(GridFile *grids, int64_t first, const Transform *motion, Error *e)
+{
+    return guarded(e, ERROR_INTERNAL, [&] {
+        const float(*m)[4] = motion->m;
+        // the library's vectors are rows, and multiply from the left
+        const float rows[16] = {m[0][0], m[1][0], m[2][0], 0, m[0][1], m[1][1], m[2][1], 0,
+                                m[0][2], m[1][2], m[2][2], 0, 0,       0,       0,       1};
+        const openvdb::math::Mat4d turn(rows);
+        bool turns = turn != openvdb::math::Mat4d::identity();
+        for (auto i = static_cast<size_t>(first); i < grids->grids.size(); i++) {
+            if (turns) { // a plain move keeps the map a plain one
+                grids->grids[i]->transform().postMult(turn);
+            }
+            grids->grids[i]->transform().postTranslate(openvdb::Vec3d(m[0][3], m[1][3], m[2][3]));
+            auto vectors = openvdb::gridPtrCast<openvdb::Vec3SGrid>(grids->grids[i]);
+            if (!turns || !vectors) {
+                continue;
+            }
+            for (auto value = vectors->beginValueOn(); value; ++value) {
+                openvdb::Vec3s v = *value;
+                Vec3 turned = transform_vector(motion, vec3(v.x(), v.y(), v.z()));
+                value.setValue(openvdb::Vec3s(turned.x, turned.y, turned.z));
+            }
+        }
+        return true;
+    });
+}
+
 extern "C" bool grid_file_write(const GridFile *grids, const char *file, Error *e)
 {
     return guarded(e, ERROR_INTERNAL, [&] {

@@ -24,6 +24,9 @@ typedef bool (*GridVectors)(const void *context, Vec3 p, Vec3 *vector);
 bool grid_file_add_vectors(GridFile *grids, const char *name, Aabb bounds, float voxel,
                            GridVectors vectors, const void *context, const Run *run, Error *e);
 
+// Turns and moves grids from number first on, and turns their vectors.
+bool grid_file_move(GridFile *grids, int64_t first, const Transform *motion, Error *e);
+
 // The same grids give the same bytes. A failure leaves an old file as it was.
 bool grid_file_write(const GridFile *grids, const char *file, Error *e);
 

@@ -5,13 +5,13 @@
 #include "model/sculpture.h"
 #include "tree/join.h"
 
-static OutTree *grow(SculptureParams *params, float size, int threads)
+static OutTree *grow_at(SculptureParams *params, Vec3 place, float size, int threads)
 {
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
     Shape ball = {.kind = SHAPE_SPHERE, .size = {1, 1, 1}};
-    ball.transform = transform_compose(vec3(0, 0, 0), vec3(0, 0, 0), vec3_splat(size));
+    ball.transform = transform_compose(place, vec3(0, 0, 0), vec3_splat(size));
     params->element.shapes = &ball;
     params->element.shape_count = 1;
     Recipe recipe = {.seed = 4, .label = "ball", .grow_to = 1.0f, .run = &run};
@@ -21,6 +21,11 @@ static OutTree *grow(SculptureParams *params, float size, int threads)
     }
     assert_true(out_tree_check(tree, &e));
     return tree;
+}
+
+static OutTree *grow(SculptureParams *params, float size, int threads)
+{
+    return grow_at(params, vec3(0, 0, 0), size, threads);
 }
 
 static void a_sculpture_is_one_closed_shell_with_loops(void **state)
@@ -70,10 +75,35 @@ static void threads_do_not_show_and_size_does_not_matter(void **state)
     out_tree_free(large);
 }
 
+// The field sweeps by the polar angle on the envelope's own sphere, wherever that is.
+static void polar_angles_count_about_the_middle_of_the_envelope(void **state)
+{
+    (void)state;
+    SculptureParams params = sculpture_params_default();
+    params.attractors = 200;
+    params.clusters = 1;
+    FieldParams field = field_params_default(FIELD_NUCLEI);
+    field.turn = 120.0f;
+    field.spherical = true;
+    field.surface = true;
+    params.element.fields = &field;
+    params.element.field_count = 1;
+    OutTree *here = grow_at(&params, vec3(0, 0, 0), 1.0f, 1);
+    OutTree *there = grow_at(&params, vec3(4, 0, -3), 1.0f, 1);
+    assert_int_equal(here->count, there->count);
+    for (int64_t i = 0; i < here->count; i++) {
+        Vec3 back = vec3_sub(there->position[i], vec3(4, 0, -3));
+        assert_true(vec3_distance(here->position[i], back) < 1e-4f);
+    }
+    out_tree_free(here);
+    out_tree_free(there);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sculpture_is_one_closed_shell_with_loops),
+        cmocka_unit_test(polar_angles_count_about_the_middle_of_the_envelope),
         cmocka_unit_test(threads_do_not_show_and_size_does_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

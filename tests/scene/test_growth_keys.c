@@ -125,12 +125,56 @@ static void limits_hold_on_the_grown_tree(void **state)
     out_tree_free(single);
 }
 
+// The out-tree's hash of an object alone in its scene.
+static uint64_t hash_of(Fixture *fixture, const char *object)
+{
+    char text[512];
+    int size = snprintf(text, sizeof text, "objects:\n  - name: a\n    %s\n", object);
+    Error e = {0};
+    Run run = run_default();
+    Scene *scene = scene_read(fixture_write(fixture, "a.yaml", text, (size_t)size), NULL, 0, &e);
+    OutTree *tree = scene ? scene_grow_object(scene, 0, &run, &e) : NULL;
+    if (!tree) {
+        fail_msg("%s:%d: %s", e.file, e.line, e.message);
+    }
+    uint64_t hash = out_tree_hash(tree);
+    out_tree_free(tree);
+    scene_free(scene);
+    return hash;
+}
+
+static void fields_that_are_listed_bend_growth(void **state)
+{
+    static const char *const objects[] = {
+        "tree: {crown: {lobes: 0, growth: {levels: [{attractors: 80}]}, fields: [%s]}}",
+        "lightning: {height: 10, fields: [%s]}",
+        "lightning: {points: {place: surface}, branching: 0.2, envelope: [{shape: sphere, size: "
+        "1}], "
+        "fields: [%s]}",
+        "sculpture: {attractors: 30, fields: [%s]}",
+        "fracture: {attractors: 30, fields: [%s]}",
+        "forest: {stands: 1, stand_trees: 1, growth: {levels: [{attractors: 80}]}, fields: [%s]}",
+        "vessels: {terminals: 60, envelope: [{shape: sphere, size: 0.1}], fields: [%s]}",
+        "terrain: {resolution: 64, rivers: {count: 200, fields: [%s]}}"};
+    for (size_t i = 0; i < sizeof objects / sizeof objects[0]; i++) {
+        char none[256], one[320];
+        snprintf(none, sizeof none, objects[i],
+                 "{kind: uniform, vector: [1, 0, 0], weight: 0}");                   // NOLINT
+        snprintf(one, sizeof one, objects[i], "{kind: uniform, vector: [1, 0, 0]}"); // NOLINT
+        if (hash_of(*state, none) == hash_of(*state, one)) {
+            fail_msg("%s: the field does nothing", one);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_control_point_bends_growth_near_it, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(limits_hold_on_the_grown_tree, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(fields_that_are_listed_bend_growth, fixture_set_up,
                                         fixture_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

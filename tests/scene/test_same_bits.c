@@ -83,7 +83,7 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
          "roots: {count: 3}, leaves: {max_count: 50}}",
          0xe372e1cb8b2bc5d7},
         {"forest: {stands: 2, stand_trees: 2, height: 8, ferns: 10, leaves: {max_count: 50}}",
-         0xfaccc68900828821},
+         0x1926e882d6db2c18},
         {"ground: {grass_tufts: 200}", 0x75671227db500027},
         {"lightning: {height: 10, bolts: 2}", 0xa6955bc433e5bd28},
         {"lightning: {points: {place: surface}, envelope: [{shape: sphere, size: 1}]}",

@@ -188,11 +188,48 @@ static void what_is_no_grid_file_is_refused(void **state)
     assert_null(grid_file_read("none.vdb", NULL));
 }
 
+// A quarter turn about Y takes x to -z and z to x.
+static void grids_that_move_take_their_vectors_along(void **state)
+{
+    (void)state;
+    Run run = run_default();
+    GridFile *grids = grid_file_new(NULL);
+    Envelope *envelope = make_envelope(1);
+    FieldParams params = field_params_default(FIELD_RADIAL);
+    params.center = vec3(3, 4, -1);
+    Aabb box = envelope_bounds(envelope);
+    GuideField *field = guide_field_new(&params, 1, NULL, NULL, 0, box, &run, NULL);
+    assert_true(envelope_add_to(envelope, "stays", grids, &run, NULL));
+    assert_true(envelope_add_to(envelope, "level", grids, &run, NULL));
+    assert_true(guide_field_add_to(field, envelope, 40, "field", grids, &run, NULL));
+    Transform motion =
+        transform_from_axes(vec3(0, 0, -1), vec3(0, 1, 0), vec3(1, 0, 0), vec3(7, -2, 0.5f));
+    assert_true(grid_file_move(grids, 1, &motion, NULL));
+    GridFile *back = write_and_read(grids, "moved.vdb");
+    for (uint64_t i = 0; i < 200; i++) {
+        Vec3 p = point_about(box, i, 0.6f), v, wanted = vec3_normalize(vec3_sub(p, params.center));
+        Vec3 q = transform_point(&motion, p);
+        float d, stays;
+        assert_true(grid_file_float_at(back, "level", q, &d));
+        assert_true(grid_file_float_at(back, "stays", p, &stays));
+        assert_float_equal(d, stays, 1e-4);
+        assert_true(grid_file_vector_at(back, "field", q, &v));
+        if (vec3_distance(p, params.center) > 0.5f) { // no kink within a voxel
+            assert_true(vec3_distance(v, transform_vector(&motion, wanted)) < 0.02f);
+        }
+    }
+    guide_field_free(field);
+    envelope_free(envelope);
+    grid_file_free(grids);
+    grid_file_free(back);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(envelopes_read_back_as_their_distance),
         cmocka_unit_test(fields_read_back_as_they_are),
+        cmocka_unit_test(grids_that_move_take_their_vectors_along),
         cmocka_unit_test(the_same_grids_give_the_same_bytes),
         cmocka_unit_test(what_is_no_grid_file_is_refused),
     };
