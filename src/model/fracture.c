@@ -1,9 +1,9 @@
 #include "model/fracture.h"
 
 #include "base/memory.h"
-#include "base/noise.h"
 #include "base/random.h"
-#include "model/crack.h"
+#include "model/crack_cells.h"
+#include "model/fracture_body.h"
 #include "model/sculpture.h"
 #include "shape/level_set.h"
 #include "shape/mesh_close.h"
@@ -11,10 +11,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { BUMP_OCTAVES = 4 };
-
-#define KNOWN_VOXELS 11.0f // how far from a crack its distance matters: half a block and the band
-#define TIMID 0.5          // distances to displaced sheets are off by less than this factor
+#define CELL_VOXELS 1.6f   // spacing of the grid that tells cells apart, over a voxel
+#define CELL_SPACINGS 2.0f // inner radius of the smallest cell, in those
+#define MOST_ACROSS 340.0f // of those
+#define DUST 30.0          // voxels of volume: less is no piece
+#define CHANGE_MOST 0.01   // of the volume: beyond that a warning tells
+#define TIMID 0.5          // bumps put distances off by less than this factor
 
 FractureParams fracture_params_default(void)
 {
@@ -46,166 +48,206 @@ OutTree *fracture_grow(const FractureParams *params, const Recipe *recipe, Error
     return sculpture_grow(&net, recipe, e);
 }
 
-// ---- the level sets ----
+// ---- cutting ----
 
-typedef struct Broken {
-    const Envelope *envelope;
-    const Crack *crack; // NULL = the base alone
-    float hollow, gap;
-    float bumps, wavelength; // m, of the outside
-    uint64_t seed;
-    bool removed; // what the cracks take instead of what they leave
-} Broken;
+typedef struct Workpiece {
+    FractureBody body;
+    CrackCells *cells;
+    float gap, least; // m; of the cells: see CrackCellsParams
+} Workpiece;
 
-// Of the base's outside, negative inside: the envelope's, and bumps.
-static double outer_distance(const Broken *broken, Vec3 p)
+// A piece of it; without cells all of it.
+typedef struct Cut {
+    const Workpiece *work;
+    int32_t cell;
+} Cut;
+
+static float body_distance(const void *shape, Vec3 p, float *outer)
 {
-    float d = envelope_distance(broken->envelope, p), height = broken->bumps;
-    Vec3 q = vec3_scale(p, 1.0f / broken->wavelength);
-    for (uint64_t k = 0; k < BUMP_OCTAVES && height > 0.0f && fabsf(d) < 8.0f * height; k++) {
-        d += height * noise_space(q, random_key(broken->seed, k));
-        q = vec3_scale(q, 2.1f);
-        height *= 0.5f;
-    }
-    return (double)d;
+    const FractureBody *body = shape;
+    *outer = (float)fracture_body_outer(body, p);
+    return (float)fracture_body_distance(body, p);
 }
 
-// Of the base with its hollow.
-static double base_distance(const Broken *broken, Vec3 p)
+static void workpiece_clear(Workpiece *work)
 {
-    double d = outer_distance(broken, p);
-    if (broken->hollow > 0.0f) {
-        double inner = -(d + (double)broken->hollow);
-        d = inner > d ? inner : d;
-    }
-    return d;
+    crack_cells_free(work->cells);
+    fracture_body_clear(&work->body);
 }
 
-static double broken_distance(const void *shape, Vec3 p, double *bound)
+static bool workpiece_new(Workpiece *work, const OutTree *network, const FractureParams *params,
+                          const Recipe *recipe, Error *e)
 {
-    const Broken *broken = shape;
-    double d = base_distance(broken, p);
-    // Outside the base what the cracks leave is as far as the base is.
-    if (broken->crack && (broken->removed || d < (double)broken->gap)) {
-        double cut = (double)(crack_distance(broken->crack, p) - 0.5f * broken->gap);
-        double side = broken->removed ? cut : -cut;
-        d = side > d ? side : d;
+    *work = (Workpiece){.gap = params->gap};
+    if (!fracture_body_new(&work->body, params, recipe, e)) {
+        return false;
     }
-    *bound = TIMID * (d < 0.0 ? -d : d);
-    return d;
+    const FractureBody *body = &work->body;
+    float spacing = fmaxf(CELL_VOXELS * body->voxel, body->extent / MOST_ACROSS);
+    work->least = fmaxf(CELL_SPACINGS * spacing, params->gap);
+    CrackCellsParams cells = {.distance = body_distance,
+                              .body = body,
+                              .box = body->box,
+                              .spacing = spacing,
+                              .least = work->least,
+                              .known = params->gap + 5.0f * body->voxel,
+                              .roughness = 2.0f * params->roughness * body->extent,
+                              .wavelength = 0.12f * body->extent,
+                              .seed = random_key(recipe->seed, 5)};
+    work->cells = crack_cells_new(network, &cells, recipe->run, e);
+    return work->cells;
 }
 
-static Mesh *broken_surface(const Broken *broken, Aabb box, float voxel, const Run *run, Error *e)
+static double cut_distance(const void *shape, Vec3 p, double *bound)
 {
-    LevelSet *set = level_set_from_distance(broken_distance, broken, box,
-                                            (LevelSetFrame){box.low, voxel}, run, e);
+    const Cut *cut = shape;
+    const Workpiece *work = cut->work;
+    double wall = -INFINITY, near = INFINITY, half = 0.5 * (double)work->gap;
+    if (work->cells) {
+        wall = crack_cells_distance(work->cells, cut->cell, p, &near) + half;
+        near -= half;
+        if (wall > 0.0 && near > 4.0 * (double)work->body.voxel) {
+            *bound = near; // in another piece
+            return wall;
+        }
+    }
+    double body = fracture_body_distance(&work->body, p);
+    double far = TIMID * fabs(body);
+    *bound = body > 0.0 ? far : fmin(far, fmax(near, 0.0));
+    return body > wall ? body : wall;
+}
+
+static Mesh *cut_surface(const Cut *cut, Aabb box, const Run *run, Error *e)
+{
+    const FractureBody *body = &cut->work->body;
+    LevelSet *set = level_set_from_distance(cut_distance, cut, box,
+                                            (LevelSetFrame){body->box.low, body->voxel}, run, e);
     Mesh *mesh = set && level_set_finish(set, e) ? level_set_surface(set, e) : NULL;
     level_set_free(set);
     return mesh;
 }
 
-// ---- the base and its cracks ----
-
-typedef struct Workpiece {
-    Envelope *envelope;
-    Crack *crack;
-    Broken broken;
-    Aabb box;
-    Vec3 center;
-    float extent, voxel;
-} Workpiece;
-
-static void workpiece_free(Workpiece *work)
+static bool holds_hollow(const MeshPieces *parts, double dust)
 {
-    crack_free(work->crack);
-    envelope_free(work->envelope);
-}
-
-static bool workpiece_init(Workpiece *work, const OutTree *network, const FractureParams *params,
-                           const Recipe *recipe, Error *e)
-{
-    *work = (Workpiece){0};
-    Shape ball = {.kind = SHAPE_SPHERE, .size = {1, 1, 1}, .transform = transform_identity()};
-    EnvelopeParams form = {params->element.shapes, params->element.shape_count,
-                           params->element.voxel};
-    if (form.shape_count == 0) {
-        form.shapes = &ball;
-        form.shape_count = 1;
-    }
-    work->envelope = envelope_new(&form, recipe->run, e);
-    if (!work->envelope) {
-        return false;
-    }
-    work->box = envelope_bounds(work->envelope);
-    Vec3 size = vec3_sub(work->box.high, work->box.low);
-    work->extent = fmaxf(size.x, fmaxf(size.y, size.z));
-    Vec3 bumps = vec3_splat(2.0f * params->weathering * work->extent);
-    work->box = (Aabb){vec3_sub(work->box.low, bumps), vec3_add(work->box.high, bumps)};
-    work->center = vec3_lerp(work->box.low, work->box.high, 0.5f);
-    work->voxel = work->extent / (float)params->resolution;
-    float gap = params->gap > 0.0f ? params->gap : 0.012f * work->extent;
-    gap = gap > 3.0f * work->voxel ? gap : 3.0f * work->voxel; // or the pieces would grow together
-    CrackParams crack = {.center = work->center,
-                         .to_axis = params->to_axis,
-                         .outward = 0.1f * work->extent,
-                         .known = KNOWN_VOXELS * work->voxel + gap,
-                         .roughness = params->roughness * work->extent,
-                         .wavelength = 0.12f * work->extent,
-                         .seed = random_key(recipe->seed, 5)};
-    work->crack = crack_new(network, &crack, work->box, recipe->run, e);
-    work->broken = (Broken){.envelope = work->envelope,
-                            .crack = work->crack,
-                            .hollow = params->hollow,
-                            .gap = gap,
-                            .bumps = params->weathering * work->extent,
-                            .wavelength = 0.25f * work->extent,
-                            .seed = random_key(recipe->seed, 7)};
-    return work->crack;
-}
-
-static bool measure_volume(const Workpiece *work, bool removed, const Run *run, double *volume,
-                           Error *e)
-{
-    Broken broken = work->broken;
-    broken.crack = removed ? broken.crack : NULL;
-    broken.removed = removed;
-    Mesh *mesh = broken_surface(&broken, work->box, work->voxel, run, e);
-    if (mesh) {
-        *volume = mesh_signed_volume(mesh);
-    }
-    mesh_free(mesh);
-    return mesh;
-}
-
-// Splits the base; hollows inside a piece count as pieces of their own and go, and so does dust.
-static bool split(const Workpiece *work, const Run *run, MeshPieces *pieces, Error *e)
-{
-    Mesh *mesh = broken_surface(&work->broken, work->box, work->voxel, run, e);
-    bool done = mesh && mesh_split(mesh, pieces, e);
-    mesh_free(mesh);
-    int64_t kept = 0;
-    double dust = 30.0 * (double)work->voxel * (double)work->voxel * (double)work->voxel;
-    for (int64_t i = 0; done && i < pieces->count; i++) {
-        if (mesh_signed_volume(pieces->piece[i]) > dust) {
-            pieces->piece[kept++] = pieces->piece[i];
-        } else {
-            mesh_free(pieces->piece[i]);
+    for (int64_t i = 0; i < parts->count; i++) {
+        if (mesh_signed_volume(parts->piece[i]) < -dust) {
+            return true;
         }
     }
-    pieces->count = done ? kept : 0;
+    return false;
+}
+
+// What hangs together of a cell is a piece, chips too; dust goes. A mesh about a hollow is one
+// piece. Takes what it keeps out of parts, or *mesh, of which these are the parts.
+static bool add_parts(MeshPieces *parts, Mesh **mesh, double dust, MeshPieces *pieces,
+                      int64_t *capacity, Error *e)
+{
+    if (!memory_reserve(&pieces->piece, capacity, pieces->count + parts->count + 1, sizeof(Mesh *),
+                        e)) {
+        return false;
+    }
+    if (holds_hollow(parts, dust)) {
+        pieces->piece[pieces->count++] = *mesh;
+        *mesh = NULL;
+        return true;
+    }
+    for (int64_t i = 0; i < parts->count; i++) {
+        if (mesh_signed_volume(parts->piece[i]) > dust) {
+            pieces->piece[pieces->count++] = parts->piece[i];
+            parts->piece[i] = NULL;
+        }
+    }
+    return true;
+}
+
+static bool cut_cell(const Workpiece *work, int32_t cell, MeshPieces *pieces, int64_t *capacity,
+                     const Run *run, Error *e)
+{
+    Cut cut = {work, cell};
+    MeshPieces parts = {0};
+    double voxel = (double)work->body.voxel, dust = DUST * voxel * voxel * voxel;
+    Aabb box = crack_cells_bounds(work->cells, cell);
+    box = (Aabb){vec3_max(box.low, work->body.box.low), vec3_min(box.high, work->body.box.high)};
+    if (aabb_is_empty(box)) {
+        return true;
+    }
+    Mesh *mesh = cut_surface(&cut, box, run, e);
+    bool done =
+        mesh && mesh_split(mesh, &parts, e) && add_parts(&parts, &mesh, dust, pieces, capacity, e);
+    mesh_pieces_clear(&parts);
+    mesh_free(mesh);
     return done;
 }
 
+// Says what did not break as the scene asks.
+static void warn_of_pieces(const Workpiece *work, const FractureParams *params,
+                           const MeshPieces *pieces, int32_t gone, const Recipe *recipe)
+{
+    int32_t cells = crack_cells_count(work->cells), small = crack_cells_small(work->cells);
+    double kept = 0.0, own = envelope_volume(work->body.envelope);
+    if (cells == 1) {
+        run_warn(recipe->run,
+                 "%s: %d impacts with %lld attractors close no crack, and it stays in one piece; "
+                 "more of either break it",
+                 recipe->label, params->impacts,
+                 (long long)(params->element.level_count ? element_attractors(&params->element)
+                                                         : params->attractors));
+    }
+    if (small > 0) {
+        run_warn(
+            recipe->run,
+            "%s: %d cells between cracks are less than %.2g m wide and stay with a "
+            "neighbour; %d are left; a resolution above %d, a narrower gap or fewer attractors "
+            "keep them apart",
+            recipe->label, small, 2.0 * (double)work->least, cells, params->resolution);
+    }
+    if (gone > 0) {
+        run_warn(recipe->run, "%s: %d of %d pieces are thinner than the gap of %g m and are gone",
+                 recipe->label, gone, cells, (double)params->gap);
+    }
+    for (int64_t i = 0; i < pieces->count; i++) {
+        kept += mesh_signed_volume(pieces->piece[i]);
+    }
+    if (params->hollow <= 0.0f && params->gap <= 0.0f && fabs(kept / own - 1.0) > CHANGE_MOST) {
+        run_warn(recipe->run,
+                 "%s: the pieces have %.1f %% of the body's volume; a resolution above %d or "
+                 "less weathering (%g now) keep more of its shape",
+                 recipe->label, 100.0 * kept / own, params->resolution, (double)params->weathering);
+    }
+}
+
+static bool split(const Workpiece *work, const FractureParams *params, const Recipe *recipe,
+                  MeshPieces *pieces, Error *e)
+{
+    int32_t count = crack_cells_count(work->cells), gone = 0;
+    int64_t capacity = 0;
+    for (int32_t i = 0; i < count; i++) {
+        int64_t before = pieces->count;
+        run_progress(recipe->run, "pieces", (double)i / (double)count);
+        if (!cut_cell(work, i, pieces, &capacity, recipe->run, e)) {
+            return false;
+        }
+        gone += pieces->count == before;
+    }
+    warn_of_pieces(work, params, pieces, gone, recipe);
+    return true;
+}
+
 bool fracture_pieces(const OutTree *network, const FractureParams *params, const Recipe *recipe,
-                     MeshPieces *pieces, double *base, double *removed, Error *e)
+                     MeshPieces *pieces, double *base, Error *e)
 {
     Workpiece work;
     *pieces = (MeshPieces){0};
-    bool done = workpiece_init(&work, network, params, recipe, e) &&
-                split(&work, recipe->run, pieces, e) &&
-                (!base || measure_volume(&work, false, recipe->run, base, e)) &&
-                (!removed || measure_volume(&work, true, recipe->run, removed, e));
-    workpiece_free(&work);
+    bool done =
+        workpiece_new(&work, network, params, recipe, e) && split(&work, params, recipe, pieces, e);
+    if (done && base) {
+        Workpiece whole = {.body = work.body};
+        Mesh *mesh = cut_surface(&(Cut){&whole, 0}, work.body.box, recipe->run, e);
+        done = mesh;
+        *base = mesh ? mesh_signed_volume(mesh) : 0.0;
+        mesh_free(mesh);
+    }
+    workpiece_clear(&work);
     if (!done) {
         mesh_pieces_clear(pieces);
     }
@@ -217,7 +259,7 @@ bool fracture_measure(const OutTree *network, const FractureParams *params, cons
 {
     MeshPieces pieces;
     double base, kept = 0.0, largest = 0.0, none = (double)NAN;
-    if (!fracture_pieces(network, params, recipe, &pieces, &base, NULL, e)) {
+    if (!fracture_pieces(network, params, recipe, &pieces, &base, e)) {
         return false;
     }
     for (int64_t i = 0; i < pieces.count; i++) {
@@ -251,7 +293,7 @@ static Transform piece_motion(const Workpiece *work, const FractureParams *param
                             params->turn * random_unit(random_key(key, 2)));
     Vec3 zero = vec3(0, 0, 0), one = vec3_splat(1.0f);
     float far = params->explode * (0.8f + 0.4f * random_unit(random_key(key, 3)));
-    Vec3 goal = vec3_madd(middle, far, vec3_sub(middle, work->center));
+    Vec3 goal = vec3_madd(middle, far, vec3_sub(middle, work->body.center));
     Transform back = transform_compose(vec3_neg(middle), zero, one);
     Transform turn = transform_compose(goal, angle, one);
     return transform_multiply(&turn, &back);
@@ -273,8 +315,8 @@ static Mesh *part_of(const Workpiece *work, const Mesh *piece, bool outside, Err
         const uint32_t *c = piece->index + 3 * f;
         Vec3 sum =
             vec3_add(piece->position[c[0]], vec3_add(piece->position[c[1]], piece->position[c[2]]));
-        double depth = outer_distance(&work->broken, vec3_scale(sum, 1.0f / 3.0f));
-        if ((depth > -0.8 * (double)work->voxel) == outside) {
+        double depth = fracture_body_outer(&work->body, vec3_scale(sum, 1.0f / 3.0f));
+        if ((depth > -0.8 * (double)work->body.voxel) == outside) {
             uint32_t *to = part->index + 3 * part->face_count++;
             to[0] = c[0], to[1] = c[1], to[2] = c[2];
         }
@@ -310,8 +352,8 @@ bool fracture_geometry(const OutTree *network, const FractureParams *params,
 {
     Workpiece work;
     MeshPieces pieces = {0};
-    bool done =
-        workpiece_init(&work, network, params, recipe, e) && split(&work, recipe->run, &pieces, e);
+    bool done = workpiece_new(&work, network, params, recipe, e) &&
+                split(&work, params, recipe, &pieces, e);
     for (int64_t i = 0; done && i < pieces.count; i++) {
         uint64_t key = random_key(random_key(recipe->seed, 6), (uint64_t)i);
         if (random_unit(key) >= params->missing) {
@@ -319,6 +361,6 @@ bool fracture_geometry(const OutTree *network, const FractureParams *params,
         }
     }
     mesh_pieces_clear(&pieces);
-    workpiece_free(&work);
+    workpiece_clear(&work);
     return done;
 }

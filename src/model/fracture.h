@@ -1,7 +1,7 @@
 // Fracture (the earlier paper, section 3.7.5): an out-tree over the base object's surface is a
-// network of cracks; the points of the base within a distance of it are removed, and the base falls
-// into pieces. A network of lines cuts nothing off, so the cracks are closed into cells
-// (tree/join.h) and swept inward to sheets, which are rough.
+// network of cracks, and the base falls into the pieces between them. A network of lines cuts
+// nothing off, so the pieces are the cells of crack_cells.h: gaps in the cracks are closed, and
+// inward a cell goes on as its surface does. Nothing is lost but the gap that the scene asks for.
 #ifndef RAMIFY_MODEL_FRACTURE_H
 #define RAMIFY_MODEL_FRACTURE_H
 
@@ -16,14 +16,13 @@ typedef struct FractureParams {
     int impacts;           // where cracks begin, spread over the surface
     int64_t attractors;    // how many cracks, where growth.levels are left out
     float hollow;          // m, thickness of the base's wall; 0 = solid
-    bool to_axis;     // cracks are swept to the vertical through the middle, else to the middle
-    float gap;        // m, width of the cracks; 0 = 0.012 of the largest extent
-    float roughness;  // of the broken faces: height over the largest extent
-    float weathering; // of the outside: height of its bumps over the largest extent
-    float explode;    // how far pieces are moved apart: 0.3 = by 0.3 of their way from the middle
-    float turn;       // degrees, by which pieces are turned at most
-    float missing;    // 0..1: share of the pieces that are gone
-    int resolution;   // voxels of the level set along the largest extent
+    float gap;             // m, width of the cracks, which the pieces lack; 0 = they fit together
+    float roughness;       // of the broken faces: height over the largest extent
+    float weathering;      // of the outside: height of its bumps over the largest extent
+    float explode;  // how far pieces are moved apart: 0.3 = by 0.3 of their way from the middle
+    float turn;     // degrees, by which pieces are turned at most
+    float missing;  // 0..1: share of the pieces that are gone
+    int resolution; // voxels of the level set along the largest extent
 } FractureParams;
 
 typedef struct FractureMaterials {
@@ -35,10 +34,10 @@ FractureParams fracture_params_default(void); // a ball of 1 m radius
 // The network of cracks on the surface.
 OutTree *fracture_grow(const FractureParams *params, const Recipe *recipe, Error *e);
 
-// The pieces where they were before they moved: closed surfaces. Volumes in m^3: of the base, and
-// of what was removed as cracks (both may be NULL).
+// The pieces where they were before they moved: closed surfaces. *base (may be NULL): volume of the
+// base, m^3.
 bool fracture_pieces(const OutTree *network, const FractureParams *params, const Recipe *recipe,
-                     MeshPieces *pieces, double *base, double *removed, Error *e);
+                     MeshPieces *pieces, double *base, Error *e);
 
 // Appends pieces, largest_piece (its share of the base's volume), removed (the share that
 // the pieces lack: cracks and dust).

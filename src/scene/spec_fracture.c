@@ -10,12 +10,8 @@ static const Key FRACTURE_KEYS[] = {
          "Attractors of the cracks, where growth.levels are left out: more make smaller pieces."},
     {KEY_OF(FractureParams, hollow, "hollow", KEY_FLOAT), .high = 1e6, .unit = "m",
      .doc = "Thickness of the base's wall; 0 = solid."},
-    {KEY_OF(FractureParams, to_axis, "to_axis", KEY_BOOL),
-     .doc = "Cracks run inward to the vertical through the middle, as in a vase; false: to the "
-            "middle."},
     {KEY_OF(FractureParams, gap, "gap", KEY_FLOAT), .high = 1e6, .unit = "m",
-     .doc = "Width of the cracks: what is nearer to them is removed; 0 = 0.012 of the largest "
-            "extent. At least 3 voxels."},
+     .doc = "Width of the cracks, which is taken off the pieces; 0 = the pieces fit together."},
     {KEY_OF(FractureParams, roughness, "roughness", KEY_FLOAT), .high = 0.2,
      .doc = "Height of the bumps of the broken faces, over the largest extent."},
     {KEY_OF(FractureParams, weathering, "weathering", KEY_FLOAT), .high = 0.2,
@@ -27,7 +23,8 @@ static const Key FRACTURE_KEYS[] = {
     {KEY_OF(FractureParams, missing, "missing", KEY_FLOAT), .high = 1,
      .doc = "Share of the pieces that are gone."},
     {KEY_OF(FractureParams, resolution, "resolution", KEY_INT), .low = 16, .high = 1000,
-     .doc = "Voxels of the level set along the largest extent."},
+     .doc = "Voxels of the level sets along the largest extent; thin parts of the thing and of a "
+            "hollow one's wall get up to 480."},
     ELEMENT_ROWS(FractureParams),
     {0},
 };
@@ -41,7 +38,8 @@ static void fracture_defaults(const Node *given, int kind, void *out)
 
 const Table fracture_table = {
     .name = "fracture",
-    .doc = "A thing split along a network of cracks grown over it. The envelope is the thing. "
+    .doc = "A thing split into the cells of a network of cracks grown over it. The envelope is the "
+           "thing. "
            "Materials: the object's material outside, inside_material where it broke.",
     .example =
         "objects:\n"

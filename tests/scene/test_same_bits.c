@@ -98,7 +98,7 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"venation: {}", 0x88c1ce75c8e51c3b},
         {"vessels: {terminals: 100, envelope: [{shape: sphere, size: 0.1}]}", 0xd58fe64fbd8fa372},
         {"fracture: {envelope: [{shape: sphere, size: 1}], attractors: 60, resolution: 50}",
-         0xfca9fc4aa1fc53b2},
+         0xedf82202aa939c1e},
         {"terrain: {resolution: 64, rivers: {count: 200}}", 0xfaa674fa934997ce},
         {"shape: {envelope: [{shape: capsule, size: [0.3, 1, 0.3]}, "
          "{shape: box, size: 0.5, rotation: [10, 20, 30]}]}",
