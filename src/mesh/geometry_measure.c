@@ -33,10 +33,10 @@ static void take_in_instance(Aabb *box, Aabb own, const Transform *instance)
     }
 }
 
-static Aabb bounds(const Geometry *geometry)
+Aabb geometry_bounds(const Geometry *geometry, int64_t first)
 {
     Aabb box = aabb_empty();
-    for (int64_t i = 0; i < geometry->count; i++) {
+    for (int64_t i = first; i < geometry->count; i++) {
         const Part *part = &geometry->part[i];
         Aabb own = own_bounds(part);
         if (aabb_is_empty(own)) {
@@ -74,7 +74,7 @@ static bool add(MeasureList *list, const char *name, double value, const char *u
 bool geometry_measure(const Geometry *geometry, MeasureList *list, Error *e)
 {
     GeometryCounts counts = geometry_counts(geometry);
-    Aabb box = bounds(geometry);
+    Aabb box = geometry_bounds(geometry, 0);
     Vec3 size = aabb_is_empty(box) ? vec3(0, 0, 0) : vec3_sub(box.high, box.low);
     return add(list, "parts", (double)geometry->count, "", e) &&
            add(list, "triangles", (double)counts.triangles, "", e) &&

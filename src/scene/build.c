@@ -105,7 +105,10 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
         return NULL;
     }
     OutTree *tree = kind->grow(&own.object, &recipe, e);
-    own_space_carry_tree(&own, tree);
+    if (tree && !own_space_carry_tree(&own, tree, e)) {
+        out_tree_free(tree);
+        tree = NULL;
+    }
     own_space_leave(&own);
     if (!tree) {
         scene_fail_object(scene, index, e);

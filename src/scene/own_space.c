@@ -1,9 +1,13 @@
 #include "scene/own_space.h"
 
 #include "base/exact_math.h"
+#include "mesh/geometry_measure.h"
 #include "scene/kind.h"
 
+#include <float.h>
 #include <string.h>
+
+#define COARSEST 1e-2f // steps of coordinates over the size of an object
 
 bool own_space_enter(OwnSpace *own, const SceneObject *object, Error *e)
 {
@@ -151,12 +155,30 @@ bool own_space_take_element(OwnSpace *own, ElementParams *element, Error *e)
 
 // ---- and back ----
 
-void own_space_carry_tree(const OwnSpace *own, OutTree *tree)
+// May what fits this box be carried so far without losing its shape?
+static bool check_place(const OwnSpace *own, Aabb box, Error *e)
 {
-    for (int64_t i = 0; tree && own->moved && i < tree->count; i++) {
+    float way = vec3_length(column(&own->to_scene, 3)), size = vec3_distance(box.low, box.high);
+    float step = way * FLT_EPSILON; // between neighbouring numbers there
+    return aabb_is_empty(box) || step <= size * COARSEST ||
+           error_set(e, ERROR_INPUT,
+                     "it is %.3g m large and stands %.3g m from the origin, where coordinates come "
+                     "in steps of %.3g m; move it nearer",
+                     (double)size, (double)way, (double)step);
+}
+
+bool own_space_carry_tree(const OwnSpace *own, OutTree *tree, Error *e)
+{
+    if (!tree || !own->moved) {
+        return true;
+    }
+    Aabb box = aabb_empty();
+    for (int64_t i = 0; i < tree->count; i++) {
+        box = aabb_add(box, tree->position[i]);
         tree->position[i] = transform_point(&own->to_scene, tree->position[i]);
         tree->normal[i] = transform_vector(&own->to_scene, tree->normal[i]);
     }
+    return check_place(own, box, e);
 }
 
 static bool carry_part(const OwnSpace *own, Part *part, Error *e)
@@ -176,7 +198,7 @@ static bool carry_part(const OwnSpace *own, Part *part, Error *e)
 
 bool own_space_carry_parts(const OwnSpace *own, Geometry *geometry, int64_t first, Error *e)
 {
-    bool done = true;
+    bool done = !own->moved || check_place(own, geometry_bounds(geometry, first), e);
     for (int64_t i = first; done && own->moved && i < geometry->count; i++) {
         done = carry_part(own, &geometry->part[i], e);
     }

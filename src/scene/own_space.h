@@ -20,8 +20,9 @@ bool own_space_enter(OwnSpace *own, const SceneObject *object, Error *e);
 void own_space_leave(OwnSpace *own); // frees what object has of its own
 
 // Carries what was made in the object's own space into the scene: an out-tree (NULL is fine), the
-// parts of geometry from number first on.
-void own_space_carry_tree(const OwnSpace *own, OutTree *tree);
+// parts of geometry from number first on. ERROR_INPUT where single precision is too coarse so far
+// from the origin to keep its shape.
+bool own_space_carry_tree(const OwnSpace *own, OutTree *tree, Error *e);
 bool own_space_carry_parts(const OwnSpace *own, Geometry *geometry, int64_t first, Error *e);
 
 // ---- for kinds, which say what of their parameters is a place (Kind.own_space)

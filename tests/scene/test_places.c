@@ -77,7 +77,7 @@ static const Place places[] = {
     {"tree", "height: 5, roots: {count: 3, " GONE "}", 4, 41, "roots: the envelope is empty"},
     {"tree", "height: 5, roots: {count: 3, " LINE "}", 0, 0, "degenerate"},
     // sizes that numbers cannot hold
-    {"tree", "position: [1e30, 0, 0]", 4, 5, "voxels across"},
+    {"tree", "position: [1e30, 0, 0]", 4, 5, "move it nearer"},
     {"tree", "height: 1e-30", 4, 5, "capsule of radius 0"},
     {"tree",
      "height: 5, crown: {growth: {levels: [{attractors: 99}, {attractors: 99, kill: 1e-30}]}}", 4,
