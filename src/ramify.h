@@ -257,7 +257,8 @@ RAMIFY_API bool ramify_paint_write(const float *pixel, int width, int height, co
 typedef struct RamifyMeasures RamifyMeasures; // a list of named numbers
 
 // Measures object number index: its out-tree, and what its kind adds. What neither grows
-// nor has measures of its kind is built: triangles, instances, materials, extents. RAMIFY_BAD_INPUT when it does not exist. run may be NULL.
+// nor has measures of its kind is built: triangles, instances, materials, extents. RAMIFY_BAD_INPUT
+// when it does not exist. run may be NULL.
 RAMIFY_API RamifyMeasures *ramify_measure(const RamifyScene *scene, int index, const RamifyRun *run,
                                           RamifyError *error);
 

@@ -55,7 +55,8 @@ static bool fill_lane(Lane *lane, const SceneTrack *track, bool loop, Error *e)
     int width = read_numbers(track->keys[0].value, numbers);
     lane->track = track;
     lane->times = memory_alloc(track->key_count, sizeof(double), e);
-    lane->value = memory_alloc((int64_t)track->key_count * SCENE_KEY_MOST_NUMBERS, sizeof(double), e);
+    lane->value =
+        memory_alloc((int64_t)track->key_count * SCENE_KEY_MOST_NUMBERS, sizeof(double), e);
     if (!lane->times || !lane->value) {
         return false;
     }

@@ -102,7 +102,8 @@ TerrainParams terrain_params_default(void); // 12 km of mountains
 OutTree *terrain_grow(const TerrainParams *params, const Recipe *recipe, Error *e);
 
 // Heights and wetness from the rivers; square, resolution + 1 samples a side. Every sample off the
-// rim drains. Beds of rivers that are wide enough for the grid are dug last. The same bits for any number of threads.
+// rim drains. Beds of rivers that are wide enough for the grid are dug last. The same bits for any
+// number of threads.
 HeightField *terrain_heights(const TerrainParams *params, const OutTree *rivers,
                              const Recipe *recipe, Error *e);
 

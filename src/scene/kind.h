@@ -57,9 +57,9 @@ typedef struct Kind {
     // For `ramify info`: prints ", 14 m, ..." after the name of the kind; NULL = nothing to add.
     void (*describe)(const SceneObject *object, char *text, size_t size);
 
-    // Fills a copy of the kind's parameters (of its table's struct) in which what follows from other
-    // parameters is no longer 0, as the recipe uses it: for readers. Lists in it are not to be
-    // looked at. NULL = nothing follows.
+    // Fills a copy of the kind's parameters (of its table's struct) in which what follows from
+    // other parameters is no longer 0, as the recipe uses it: for readers. Lists in it are not to
+    // be looked at. NULL = nothing follows.
     void (*settle)(const SceneObject *object, void *params);
 
     // Attractors asked for, and copies (leaves, tufts) at most; NULL = none.

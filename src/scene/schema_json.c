@@ -156,8 +156,9 @@ static void put_key(Writer *w, const Table *table, const Key *row, const char *b
         put(w, ", \"type\": \"string\", \"minLength\": 1");
         break;
     case KEY_ANY:
-        put(w, ", \"type\": [\"number\", \"boolean\", \"string\", \"array\"], "
-               "\"items\": {\"type\": \"number\"}, \"maxItems\": %d",
+        put(w,
+            ", \"type\": [\"number\", \"boolean\", \"string\", \"array\"], "
+            "\"items\": {\"type\": \"number\"}, \"maxItems\": %d",
             row->count);
         break;
     case KEY_GROUP:
