@@ -137,7 +137,7 @@ yes interrupt_keeps_old_files still_old
 yes interrupt_leaves_no_parts sh -c '! ls -A | grep -q part'
 # A terminal that is closed, and a kill that nothing can hear.
 for signal in HUP KILL; do
-    "$RAMIFY" export large.yaml -o a.obj -q --instances flat 2>err &
+    env --default-signal=HUP "$RAMIFY" export large.yaml -o a.obj -q --instances flat 2>err & # also under nohup
     process=$!
     tries=0
     while ! on_its_way $process && kill -0 $process 2>/dev/null && [ $tries -lt 6000 ]; do
