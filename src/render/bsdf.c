@@ -26,7 +26,7 @@ static void leaf_colors(Bsdf *b, const SurfacePoint *point)
     b->albedo = vec3_add(b->color, b->transmittance);
 }
 
-// What the material's picture multiplies its colour with.
+// What the material's picture multiplies its colours with.
 static Vec3 texture_at(const Texture *texture, const SurfacePoint *point)
 {
     float u = vec3_length(point->tangent_u), v = vec3_length(point->tangent_v);
@@ -71,7 +71,9 @@ void bsdf_fill(const MaterialSet *set, const SurfacePoint *point, Vec3 wo, Bsdf 
         b->normal = shade.normal;
     }
     if (entry->color) {
-        b->color = vec3_mul(b->color, texture_at(entry->color, point));
+        Vec3 texel = texture_at(entry->color, point);
+        b->color = vec3_mul(b->color, texel);
+        transmittance = vec3_mul(transmittance, texel); // what absorbs light absorbs it both ways
     }
     b->normal = normal_toward(b->normal, wo);
     b->color = vec3_max(vec3_min(b->color, vec3_splat(1.0f)), vec3_splat(0.0f));

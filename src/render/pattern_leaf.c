@@ -7,6 +7,9 @@
 
 enum { SIDE_VEINS = 7 }; // on each half
 
+static const float blotch_share = 0.35f;  // how far the strongest blotch leans to the second colour
+static const float blotch_mean = 0.0127f; // of a blotch's strength over a blade
+
 // 1 in the middle of a line, 0 from `width` away; widened to the footprint, and fainter then.
 static float line(float distance, float width, float blur)
 {
@@ -27,6 +30,14 @@ static float veins(Vec2 uv, float blur)
     return fmaxf(midrib, 0.75f * vein);
 }
 
+// Channel by channel: how a blotch of this strength (0..1) filters light that passes, about 1 in
+// the mean over a blade. Blotches lean toward the second colour by transmission as by reflection.
+static float blotch_filter(float color, float color2, float spot)
+{
+    float change = blotch_share * (clampf(color2 / fmaxf(color, 1e-3f), 0.0f, 4.0f) - 1.0f);
+    return (1.0f + change * spot) / (1.0f + change * blotch_mean);
+}
+
 void pattern_leaf(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     float length = vec3_length(point->tangent_v);
@@ -35,16 +46,20 @@ void pattern_leaf(const Material *m, const SurfacePoint *point, PatternShade *sh
     Vec3 p = vec3(5.0f * point->uv.x, 7.0f * point->uv.y, seed);
     float blotch = noise_fractal(p, blur < 0.05f ? 3 : 1, 41);
     float vein = blur < 0.2f ? veins(point->uv, blur) : 0.0f;
+    Vec3 own = shade->color;
     // Blotches lean toward the second colour where the material has one that matters.
     float spot = smoothstepf(0.25f, 0.75f, blotch);
     Vec3 blade =
-        vec3_lerp(vec3_scale(shade->color, 1.0f + 0.22f * blotch), m->color2, 0.35f * spot);
+        vec3_lerp(vec3_scale(shade->color, 1.0f + 0.22f * blotch), m->color2, blotch_share * spot);
     Vec3 pale = vec3(1.5f * shade->color.x + 0.03f, 1.35f * shade->color.y + 0.03f,
                      1.4f * shade->color.z + 0.015f);
     shade->color = vec3_lerp(blade, pale, 0.7f * vein);
     // Veins are thick: they let less light through; blotches thin or thicken the blade.
     float clear = (1.0f - 0.55f * vein) * (1.0f + 0.18f * blotch);
-    shade->transmittance = vec3_scale(shade->transmittance, clear);
+    Vec3 filter =
+        vec3(blotch_filter(own.x, m->color2.x, spot), blotch_filter(own.y, m->color2.y, spot),
+             blotch_filter(own.z, m->color2.z, spot));
+    shade->transmittance = vec3_mul(shade->transmittance, vec3_scale(filter, clear));
     if (m->pattern_depth > 0.0f && blur < 0.05f && length > 0.0f) {
         const float h = 0.004f;
         float du = veins((Vec2){point->uv.x + h, point->uv.y}, blur) - vein;

@@ -87,7 +87,7 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, variation, "variation", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "How far hue and brightness differ from instance to instance."},
     {KEY_OF(Material, texture, "texture", KEY_FILE), .kinds = PATTERNED,
-     .doc = "Image that multiplies color, by the mesh's UVs."},
+     .doc = "Image that multiplies color (and a leaf's transmittance), by the mesh's UVs."},
     {KEY_OF(Material, alpha_texture, "alpha_texture", KEY_FILE), .kinds = COLOURED & ~FILM,
      .doc = "Image that cuts the surface out, by the mesh's UVs."},
     {0},

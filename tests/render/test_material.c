@@ -85,6 +85,31 @@ static void test_texture(void **state)
     material_set_free(set);
 }
 
+// A leaf's picture tints what passes as it tints what comes back, on both sides.
+static void test_leaf_texture(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_LEAF);
+    m.color = vec3(0.8f, 0.8f, 0.8f);
+    m.transmittance = vec3(0.1f, 0.15f, 0.19f);
+    m.texture = files.color;
+    Error e = {0};
+    MaterialSet *set = material_set_new(&m, NULL, 1, &e);
+    assert_non_null(set);
+    for (int under = 0; under < 2; under++) {
+        SurfacePoint left = point_at(0.25f, 0.5f), right = point_at(0.75f, 0.5f);
+        left.backface = right.backface = under == 1;
+        Vec3 red = bsdf_at(set, &left, vec3(0, 0, 1)).transmittance;
+        Vec3 grey = bsdf_at(set, &right, vec3(0, 0, 1)).transmittance;
+        assert_true(red.x > 0.07f && red.y < 0.01f && red.z < 0.01f);
+        assert_float_equal(grey.y, 0.2159f * 0.15f, 0.002f);
+        assert_float_equal(grey.z, 0.2159f * 0.19f, 0.002f);
+        Vec3 albedo = bsdf_at(set, &left, vec3(0, 0, 1)).albedo;
+        assert_true(albedo.x <= 1.0f + 1e-6f && albedo.y <= 1.0f && albedo.z <= 1.0f);
+    }
+    material_set_free(set);
+}
+
 static void test_missing(void **state)
 {
     (void)state;
@@ -146,9 +171,8 @@ static void test_none(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_texture),
-        cmocka_unit_test(test_missing),
-        cmocka_unit_test(test_wild_numbers),
+        cmocka_unit_test(test_texture), cmocka_unit_test(test_leaf_texture),
+        cmocka_unit_test(test_missing), cmocka_unit_test(test_wild_numbers),
         cmocka_unit_test(test_none),
     };
     return cmocka_run_group_tests(tests, write_files, remove_files);

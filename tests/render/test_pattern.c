@@ -247,6 +247,40 @@ static void test_leaf_veins(void **state)
     assert_true((double)midrib.transmittance.y < 0.8 * through);
 }
 
+// Light that passes a blotch takes on the second colour too; over many blades the mean is that of a
+// material whose second colour is its own.
+static void test_leaf_blotches_tint_light_that_passes(void **state)
+{
+    (void)state;
+    Material plain = material_default(MATERIAL_LEAF);
+    plain.pattern = PATTERN_LEAF;
+    plain.color2 = plain.color;
+    Material spotted = plain;
+    spotted.color2 = vec3(3.0f * plain.color.x, 0.5f * plain.color.y, plain.color.z);
+    SurfacePoint p = {.normal = vec3(0, 0, 1),
+                      .geometric_normal = vec3(0, 0, 1),
+                      .tangent_u = vec3(0.06f, 0, 0),
+                      .tangent_v = vec3(0, 0.1f, 0),
+                      .footprint = 1e-5f};
+    double sum[2] = {0}, own[2] = {0};
+    float least = INFINITY, most = 0.0f;
+    for (int i = 0; i < 20000; i++) {
+        p.uv = (Vec2){random_unit(random_key(1, (uint64_t)i)),
+                      random_unit(random_key(2, (uint64_t)i))};
+        p.variation = random_unit(random_key(3, (uint64_t)i));
+        Vec3 a = shade_of(&plain, &p).transmittance, b = shade_of(&spotted, &p).transmittance;
+        own[0] += (double)a.x;
+        own[1] += (double)a.y;
+        sum[0] += (double)b.x;
+        sum[1] += (double)b.y;
+        least = fminf(least, b.x / b.y);
+        most = fmaxf(most, b.x / b.y);
+        assert_float_equal(b.z, a.z, 1e-6f);
+    }
+    assert_true(most > 1.5f * least);
+    assert_true(fabs(sum[0] / own[0] - 1.0) < 0.005 && fabs(sum[1] / own[1] - 1.0) < 0.005);
+}
+
 // Instances differ as far as `variation` says, and not at all without it.
 static void test_variation(void **state)
 {
@@ -299,6 +333,7 @@ int main(void)
         cmocka_unit_test(test_bark_without_branch),
         cmocka_unit_test(test_ground),
         cmocka_unit_test(test_leaf_veins),
+        cmocka_unit_test(test_leaf_blotches_tint_light_that_passes),
         cmocka_unit_test(test_variation),
         cmocka_unit_test(test_noise_pattern),
     };
