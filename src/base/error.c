@@ -39,7 +39,8 @@ bool error_key(Error *e, const char *format, ...)
     int used = vsnprintf(e->key, sizeof e->key, format, arguments);
     va_end(arguments);
     if (inner[0] && used >= 0 && used < (int)sizeof e->key) {
-        snprintf(e->key + used, sizeof e->key - (size_t)used, ".%s", inner);
+        size_t room = sizeof e->key - (size_t)used; // what does not fit is cut off
+        snprintf(e->key + used, room, ".%.*s", room > 1 ? (int)room - 2 : 0, inner);
     }
     return false;
 }
