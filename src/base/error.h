@@ -19,7 +19,9 @@ typedef struct Error {
     ErrorCode code;
     int line, column; // 1-based; 0 when unknown
     char file[256];   // "" when unknown
-    char key[128];    // of the parameters, below what was called: "growth.levels.0"; "" when unknown
+    char
+        key[128]; // of the parameters, as in a scene file below what was called: "growth.levels.0";
+                  // "" when unknown
     char message[768];
 } Error;
 
