@@ -233,7 +233,8 @@ static const Option OPTIONS[] = {
      .type = OPTION_TEXT,
      .commands = BIT(COMMAND_EXPORT),
      .doc = "what .glb makes of instances: nodes, gpu (EXT_mesh_gpu_instancing), flat (copies) or "
-            "auto (nodes up to 4096 of them, then gpu)"},
+            "auto (flat for leaves and grass up to 2 million triangles; else nodes up to 4096, "
+            "then gpu)"},
     {.name = "colors",
      .value = "WHAT",
      .offset = AT(colors),

@@ -21,6 +21,7 @@ typedef enum GlbPlacing {
 typedef struct GlbPart {
     int64_t index; // of the geometry's part
     GlbPlacing placing;
+    bool refused; // written out since no node can say its instances
     int64_t vertices, triangles;
     bool normal, uv, radius, birth;
     bool color, growth; // COLOR_0; COLOR_1, or COLOR_0 where there is no color

@@ -4,7 +4,43 @@
 #include "export/placement.h"
 #include "export/sky_bake.h"
 
-enum { NODES_MOST = 4096 }; // places that become nodes of their own unless told otherwise
+enum {
+    NODES_MOST = 4096, // places that become nodes of their own unless told otherwise
+    // Leaves and grass: Blender makes an object of each node, thousands in all. They are merged
+    // instead, which costs no more than about 100 MB of file.
+    COPIES_LEAST = 16,            // of a mesh that is merged
+    SMALL_MOST = 1024,            // triangles of such a mesh
+    MERGED_MOST = 2 * 1000 * 1000 // triangles of all that is merged
+};
+
+// How a whole scene's instances are written.
+typedef struct Plan {
+    bool merges;       // those of small meshes with many copies
+    int64_t instances; // that are not merged
+} Plan;
+
+static bool is_small(const Glb *glb, int64_t index)
+{
+    const Part *part = &glb->source->world->geometry.part[index];
+    return part->instance_count >= COPIES_LEAST &&
+           export_part_tally(glb->source, index, false).triangles <= SMALL_MOST;
+}
+
+static Plan plan_placing(const Glb *glb)
+{
+    const Geometry *geometry = &glb->source->world->geometry;
+    int64_t all = 0, small = 0, triangles = 0;
+    for (int64_t i = 0; i < geometry->count; i++) {
+        all += geometry->part[i].instance_count;
+        if (is_small(glb, i)) {
+            small += geometry->part[i].instance_count;
+            triangles += export_part_tally(glb->source, i, true).triangles;
+        }
+    }
+    bool merges =
+        glb->source->options.instances == EXPORT_INSTANCES_AUTO && triangles <= MERGED_MOST;
+    return (Plan){.merges = merges, .instances = merges ? all - small : all};
+}
 
 // What one node, or two, cannot say of a part's instances.
 typedef enum Trouble { TROUBLE_NONE, TROUBLE_SHEARED, TROUBLE_FLATTENED } Trouble;
@@ -26,22 +62,26 @@ static Trouble trouble_of(const Part *part)
     return trouble;
 }
 
-static GlbPlacing placing_of(const Glb *glb, const Part *part, int64_t instances)
+static GlbPlacing placing_of(const Glb *glb, int64_t index, const Plan *plan, bool *refused)
 {
     static const GlbPlacing asked[] = {[EXPORT_INSTANCES_NODES] = GLB_NODES,
                                        [EXPORT_INSTANCES_GPU] = GLB_GPU,
                                        [EXPORT_INSTANCES_FLAT] = GLB_FLAT};
+    const Part *part = &glb->source->world->geometry.part[index];
     ExportInstances how = glb->source->options.instances;
     if (!part->instance) {
         return GLB_ONCE;
     }
+    if (how == EXPORT_INSTANCES_FLAT || (plan->merges && is_small(glb, index))) {
+        return GLB_FLAT;
+    }
     Trouble trouble = trouble_of(part);
     if (trouble != TROUBLE_NONE) { // no table can say it
-        bool pairs = trouble == TROUBLE_SHEARED && part->instance_count <= NODES_MOST;
-        return pairs && how != EXPORT_INSTANCES_FLAT ? GLB_PAIRS : GLB_FLAT;
+        *refused = trouble == TROUBLE_FLATTENED || part->instance_count > NODES_MOST;
+        return *refused ? GLB_FLAT : GLB_PAIRS;
     }
     if (how == EXPORT_INSTANCES_AUTO) {
-        return instances <= NODES_MOST ? GLB_NODES : GLB_GPU;
+        return plan->instances <= NODES_MOST ? GLB_NODES : GLB_GPU;
     }
     return asked[how];
 }
@@ -83,10 +123,11 @@ static bool add_bounds(void *user, const ExportPiece *piece, Error *e)
 }
 
 // All but its bounds.
-static bool plan_part(Glb *glb, int64_t index, int64_t instances, Error *e)
+static bool plan_part(Glb *glb, int64_t index, const Plan *plan, Error *e)
 {
     const Part *part = &glb->source->world->geometry.part[index];
-    GlbPart own = {.index = index, .placing = placing_of(glb, part, instances)};
+    GlbPart own = {.index = index};
+    own.placing = placing_of(glb, index, plan, &own.refused);
     ExportTally tally = export_part_tally(glb->source, index, own.placing == GLB_FLAT);
     if (tally.triangles == 0 || (part->instance && part->instance_count == 0)) {
         return true;
@@ -162,18 +203,19 @@ static bool plan_sun(Glb *glb, Error *e)
 
 static void warn_of_placing(const Glb *glb)
 {
-    bool gpu = false, flat = false;
+    bool gpu = false, refused = false;
     for (int64_t i = 0; i < glb->part_count; i++) {
         gpu = gpu || glb->part[i].placing == GLB_GPU;
-        flat = flat || glb->part[i].placing == GLB_FLAT;
+        refused = refused || glb->part[i].refused;
     }
     if (gpu && glb->source->options.instances == EXPORT_INSTANCES_AUTO) {
         run_warn(glb->run, "instances need EXT_mesh_gpu_instancing, which Blender knows from 4.0 "
                            "on; --instances nodes or flat is for readers without it");
     }
-    if (flat && glb->source->options.instances == EXPORT_INSTANCES_FLAT) {
+    if (glb->source->options.instances == EXPORT_INSTANCES_FLAT) {
         export_warn_of_instances(glb->source, glb->run);
-    } else if (flat) {
+    }
+    if (refused) {
         run_warn(glb->run,
                  "instances that are flattened, or sheared and more than %d, are written "
                  "out: glTF has no such nodes",
@@ -184,14 +226,11 @@ static void warn_of_placing(const Glb *glb)
 bool glb_plan(Glb *glb, Error *e)
 {
     const Geometry *geometry = &glb->source->world->geometry;
-    int64_t instances = 0;
-    for (int64_t i = 0; i < geometry->count; i++) {
-        instances += geometry->part[i].instance_count;
-    }
+    Plan plan = plan_placing(glb);
     glb->part = memory_alloc_zero(geometry->count, sizeof *glb->part, e);
     bool done = glb->part && plan_glows(glb, e);
     for (int64_t i = 0; done && i < geometry->count; i++) {
-        done = plan_part(glb, i, instances, e);
+        done = plan_part(glb, i, &plan, e);
     }
     done = done && plan_bounds(glb, e) && plan_sun(glb, e) && glb_gather_materials(glb, e);
     for (int64_t i = 0; done && i < glb->image_count; i++) {

@@ -69,3 +69,14 @@ rm day-textures
     sed 's/again/day/g' again.pov | cmp -s - day.pov && cmp -s again-textures/sky.exr day-textures/sky.exr
 result "the same scene gives the same bytes for any number of threads"
 cd "$folder" || exit 1
+
+# Light of the sky in leaves must stay affordable: rays that radiosity shoots a pixel, which no clock has to measure.
+if command -v povray >/dev/null; then
+    "$RAMIFY" export "$here/sky.yaml" -q -o leaves.pov 2>log &&
+        povray +Ileaves.pov +Oleaves.png +W48 +H48 -A -D +WT1 >log 2>&1
+    rays=$(tr '\r' '\n' <log | sed -n 's/^Radiosity sample rays shot: *\([0-9]*\)$/\1/p')
+    [ "${rays:-0}" -gt 0 ] && [ "$rays" -lt $((30 * 48 * 48)) ]
+    result "radiosity takes few rays a pixel in leaves"
+else
+    echo "skipped radiosity: povray is not installed"
+fi

@@ -221,6 +221,61 @@ static void sheared_copies_are_read_back(void **state)
     world_free(world);
 }
 
+// Copies of the second part, which leaves it with that many.
+static void set_copies(World *world, int64_t count)
+{
+    Part *part = &world->geometry.part[1];
+    free(part->instance);
+    part->instance_count = count;
+    part->instance = memory_alloc(count, sizeof *part->instance, NULL);
+    assert_non_null(part->instance);
+    for (int64_t i = 0; i < count; i++) {
+        part->instance[i] = transform_compose(vec3((float)(i % 100), (float)(i / 100), 0),
+                                              vec3_splat(10), vec3_splat(0.5f));
+    }
+}
+
+static int nodes_of(const ExportSource *source, const char *file)
+{
+    write_format(source, file);
+    size_t size;
+    char *bytes = read_file(file, &size);
+    int count = 0;
+    for (const char *at = strstr(bytes + 20, "\"mesh\":"); at; at = strstr(at + 1, "\"mesh\":")) {
+        count++;
+    }
+    free(bytes);
+    return count;
+}
+
+// Leaves are one mesh; a few boxes, and what would make the file too large, are not.
+static void small_copies_are_merged_into_one_mesh(void **state)
+{
+    World *world = make_world(false);
+    ExportSource source = source_of(world);
+    const char *file = path_of(*state, "merged.glb");
+    assert_int_equal(nodes_of(&source, file), 1 + 6 + 1);
+    set_copies(world, 300);
+    assert_int_equal(nodes_of(&source, file), 1 + 1 + 1);
+    Error e = {0};
+    Run run = run_default();
+    Mesh *mesh = mesh_import(file, &run, &e);
+    assert_non_null(mesh);
+    assert_int_equal(mesh->face_count, export_all_tally(&source).triangles);
+    mesh_free(mesh);
+    source.options.instances = EXPORT_INSTANCES_NODES;
+    assert_int_equal(nodes_of(&source, file), 1 + 300 + 1);
+    source.options.instances = EXPORT_INSTANCES_AUTO;
+    set_copies(world, 170000); // 12 triangles each: over 2 million
+    write_format(&source, file);
+    size_t size;
+    char *bytes = read_file(file, &size);
+    assert_non_null(strstr(bytes + 20, "EXT_mesh_gpu_instancing"));
+    assert_true(size < 170000 * 12 * 12);
+    free(bytes);
+    world_free(world);
+}
+
 // A flattened one has no normals to turn: its copies are written out.
 static void flattened_copies_are_written_out(void **state)
 {
@@ -428,6 +483,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(assimp_reads_everything_back, set_up, tear_down),
         cmocka_unit_test_setup_teardown(sheared_copies_are_read_back, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(small_copies_are_merged_into_one_mesh, set_up, tear_down),
         cmocka_unit_test_setup_teardown(flattened_copies_are_written_out, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_ply_holds_radius_birth_and_colours, set_up, tear_down),
         cmocka_unit_test_setup_teardown(an_obj_names_objects_and_materials, set_up, tear_down),

@@ -3,7 +3,7 @@
 Imports files that ramify wrote and holds them against what it reported. CHECK is NAME:FILE:REPORT:WHAT, where REPORT holds
 the line that ramify export --json printed and WHAT is a list of: closed (every edge of every mesh joins two faces, which look
 outward), normals (those of the file's vertices are those of PLY.ply, whose vertices stand in the same order), instances,
-textured, lit, glow=SCENE.usda (the light of one part's tubes is that of the curves in that file). Prints "ok NAME" or "not ok NAME: why" a line.
+objects=N (at most so many), textured, lit, glow=SCENE.usda (the light of one part's tubes is that of the curves in that file). Prints "ok NAME" or "not ok NAME: why" a line.
 """
 import json
 import re
@@ -164,6 +164,8 @@ def agree(path, report, what, folder):
             return "normals differ by 1 - cosine = %g" % worst
     if "instances" in what and len({o.data.name for o in meshes}) * 10 > len(meshes):
         return "%d objects share %d meshes" % (len(meshes), len({o.data.name for o in meshes}))
+    if "objects=" in what and len(bpy.data.objects) > int(what.split("objects=")[1].split(",")[0]):
+        return "%d objects" % len(bpy.data.objects)
     if "textured" in what:
         return wrong_cards(meshes)
     if "glow" in what:

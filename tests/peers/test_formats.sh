@@ -99,6 +99,7 @@ if have oiiotool; then
 fi
 for format in glb obj ply stl; do export_file "bare.$format" bare.yaml; done
 export_file leafy.glb leafy.yaml
+export_file nodes.glb leafy.yaml --instances nodes
 export_file gpu.glb leafy.yaml --instances gpu
 export_file flat.glb leafy.yaml --instances flat --colors pattern
 for format in obj ply stl; do export_file "leafy.$format" leafy.yaml; done
@@ -111,7 +112,7 @@ export_file land.glb land.yaml
 
 # ---- the Khronos validator
 
-checked="bare leafy gpu flat bolt slope growth none land$(have oiiotool && echo " materials")"
+checked="bare leafy nodes gpu flat bolt slope growth none land$(have oiiotool && echo " materials")"
 if have node && [ -d "$RAMIFY_PEERS/node_modules/gltf-validator" ]; then
     for name in $checked; do
         if node "$here/validate_gltf.js" "$name.glb" >log 2>&1; then echo "ok gltf_validator_$name"; else
@@ -136,7 +137,8 @@ if have blender; then
         blender_obj:bare.obj:bare.obj.json:closed,normals=bare.ply \
         blender_ply:bare.ply:bare.ply.json:closed,colored \
         blender_stl:bare.stl:bare.stl.json:closed \
-        blender_glb_instances:leafy.glb:leafy.glb.json:instances,lit \
+        blender_glb_instances:nodes.glb:nodes.glb.json:instances,lit \
+        blender_glb_merged:leafy.glb:leafy.glb.json:lit,objects=80 \
         blender_glb_flat:flat.glb:flat.glb.json:lit \
         blender_glb_glow:bolt.glb:bolt.glb.json:glow=bolt.usda \
         blender_glb_sheared:slope.glb:slope.glb.json:instances \
