@@ -1,5 +1,8 @@
 #include "base/memory.h"
 
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -79,7 +82,84 @@ int64_t memory_peak(void)
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (int64_t)usage.ru_maxrss * 1024 : 0;
 }
 
-double memory_of_machine(void)
+// The number that a file of one line holds; INFINITY when it holds a word ("max") or is not there.
+static double number_in(const char *file)
 {
-    return (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    FILE *stream = fopen(file, "r");
+    double number = INFINITY;
+    if (stream) {
+        if (fscanf(stream, "%lf", &number) != 1) {
+            number = INFINITY;
+        }
+        fclose(stream);
+    }
+    return number;
+}
+
+// The least limit of the control groups from this one up to the root. root: where their hierarchy is
+// mounted.
+static double least_in_groups(const char *root, char *group, const char *file)
+{
+    char path[1024];
+    double least = INFINITY;
+    for (char *end = group + strlen(group); end; end = strrchr(group, '/')) {
+        *end = '\0';
+        snprintf(path, sizeof path, "%s%s/%s", root, group, file);
+        least = fmin(least, number_in(path));
+    }
+    return least;
+}
+
+// Of both versions of control groups: "0::/path", "4:memory:/path".
+static double control_group_limit(void)
+{
+    char line[768];
+    double least = INFINITY;
+    FILE *stream = fopen("/proc/self/cgroup", "r");
+    while (stream && fgets(line, sizeof line, stream)) {
+        char *kinds = strchr(line, ':'), *group = kinds ? strchr(kinds + 1, ':') : NULL;
+        if (!group) {
+            continue;
+        }
+        *group++ = '\0';
+        group[strcspn(group, "\n")] = '\0';
+        if (kinds[1] == '\0') {
+            least = fmin(least, least_in_groups("/sys/fs/cgroup", group, "memory.max"));
+        } else if (strstr(kinds, "memory")) {
+            least = fmin(least, least_in_groups("/sys/fs/cgroup/memory", group,
+                                                "memory.limit_in_bytes"));
+        }
+    }
+    if (stream) {
+        fclose(stream);
+    }
+    return least;
+}
+
+double memory_allowed(void)
+{
+    double least = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    const __rlimit_resource_t kinds[] = {RLIMIT_AS, RLIMIT_DATA};
+    for (int i = 0; i < 2; i++) {
+        struct rlimit limit;
+        if (getrlimit(kinds[i], &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+            least = fmin(least, (double)limit.rlim_cur);
+        }
+    }
+    return fmin(least, control_group_limit());
+}
+
+bool memory_check(double needed, Error *e, const char *format, ...)
+{
+    double there = memory_allowed();
+    if (needed <= there) {
+        return true;
+    }
+    char what[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    return error_set(e, ERROR_MEMORY, "%s would take %.1f GB, and %.1f GB are there", what,
+                     needed * 1e-9, there * 1e-9);
 }

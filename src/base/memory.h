@@ -25,7 +25,14 @@ char *memory_copy_string(const char *text, Error *e);
 // Largest resident set of this process so far, bytes.
 int64_t memory_peak(void);
 
-// Bytes of memory that the machine has: what needs more need not be tried.
-double memory_of_machine(void);
+// Bytes of memory that this process may have at most: the machine's, or less where a limit on its
+// address space (ulimit -v) or data (ulimit -d) or a control group (a container) says so.
+double memory_allowed(void);
+
+// For work whose size is known before it begins: false and ERROR_MEMORY when `needed` bytes are more
+// than there may be. The message is the words of `format`, which end in what takes the memory, and
+// " would take 12.3 GB, and 4.0 GB are there".
+bool memory_check(double needed, Error *e, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 #endif

@@ -96,6 +96,10 @@ static bool sample_leaves(FieldGrid *grid, FieldFunction *f, const void *context
     for (int64_t b = 0; b < blocks; b++) {
         grid->leaf[b] = grid->leaf[b] < 0 ? -1 : (int32_t)grid->leaf_count++;
     }
+    if (!memory_check((double)grid->leaf_count * LEAF * sizeof *grid->value, e,
+                      "the %lld blocks of a field's grid", (long long)grid->leaf_count)) {
+        return false;
+    }
     grid->value = memory_alloc(grid->leaf_count, LEAF * sizeof *grid->value, e);
     if (!grid->value) {
         return false;

@@ -14,6 +14,9 @@ typedef struct LeafBatch {
     int64_t count, capacity, variation_capacity;
 } LeafBatch;
 
+// Of a leaf: here, and the least that the ray tracer makes of it.
+#define LEAF_BYTES (1.5 * (sizeof(Transform) + sizeof(float)) + 100.0)
+
 typedef struct Foliage {
     const LeavesParams *leaves;
     const bool *bare; // per curve; NULL = none
@@ -173,6 +176,7 @@ static bool add_parts(Foliage *foliage, int material, int object, Geometry *geom
 
 // Widens the spacing until there are no more leaves than asked for. Every twig keeps its first leaf
 // for long, so that one step by the ratio does not do; the least factor makes an end certain.
+// Also false when there is no memory for so many.
 static bool limit_leaves(Foliage *foliage, const CurveSet *twigs, Error *e)
 {
     bool failed = false;
@@ -183,7 +187,10 @@ static bool limit_leaves(Foliage *foliage, const CurveSet *twigs, Error *e)
         foliage->spacing *= ratio > 1.01f ? ratio : 1.01f;
         count = all_leaves(foliage, twigs, false, &failed, e);
     }
-    return !failed;
+    return !failed && memory_check((double)count * LEAF_BYTES, e,
+                                   "%lld leaves (fewer by leaves.max_count or a wider "
+                                   "leaves.spacing)",
+                                   (long long)count);
 }
 
 bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves, Vec3 center,

@@ -62,6 +62,8 @@ typedef struct Place {
 } Place;
 
 // The cups so far, in a hash table of cells a spacing wide.
+#define POLYP_BYTES (1.5 * sizeof(Place) + 3.0 * sizeof(int32_t) + sizeof(Transform) + 100.0)
+
 typedef struct Spread {
     Place *place;
     int64_t count, capacity;
@@ -251,6 +253,11 @@ bool polyps_add(const Mesh *skin, const PolypPlaces *places, int material, int o
     double fitting = 0.7 * area / ((double)places->spacing * (double)places->spacing);
     Spread s = {.spacing = places->spacing * (float)(fitting > most ? sqrt(fitting / most) : 1.0)};
     s.buckets = (int64_t)(fitting > most ? most : fitting) * 2 + 64;
+    double count = fitting > most ? most : fitting;
+    if (!memory_check(count * POLYP_BYTES, e, "%.0f cups (polyps.max_count allows %.0f)", count,
+                      most)) {
+        return false;
+    }
     s.bucket = memory_alloc(s.buckets, sizeof *s.bucket, e);
     bool done = s.bucket;
     if (done) {

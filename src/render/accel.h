@@ -11,6 +11,11 @@
 
 typedef struct Accel Accel;
 
+// Small meshes (leaves, grass) copied out trace 1.3 times as fast as instanced one by one, but cost
+// about 130 bytes a face, so the copies of all parts together are bounded. A large mesh is traced
+// as well through its instances.
+enum { ACCEL_COPY_FACES_LIMIT = 4000000, ACCEL_COPY_MESH_LIMIT = 256 };
+
 typedef struct Ray {
     Vec3 origin, direction; // unit direction
     float far;              // m

@@ -7,6 +7,10 @@
 static bool film_make_planes(Film *film, Error *e)
 {
     int64_t count = (int64_t)film->width * film->height;
+    if (!memory_check((double)count * FILM_PIXEL_BYTES, e, "a film of %d x %d pixels", film->width,
+                      film->height)) {
+        return false;
+    }
     Vec3 **vectors[] = {&film->color, &film->albedo, &film->normal, &film->position};
     float **scalars[] = {&film->alpha, &film->depth,   &film->object,
                          &film->hits,  &film->samples, &film->variance};

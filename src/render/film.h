@@ -22,6 +22,10 @@ typedef struct Film {
     float *variance; // of the pixel's mean luminance, estimated; for adaptive stopping, denoising
 } Film;
 
+// Bytes of a pixel in all planes.
+#define FILM_PIXEL_BYTES (4.0 * sizeof(Vec3) + 6.0 * sizeof(float))
+
+// ERROR_MEMORY before anything is made of it when there is too little.
 Film *film_new(int width, int height, Error *e);
 void film_free(Film *film); // NULL is fine
 

@@ -292,14 +292,14 @@ extern "C" bool level_set_fits(Aabb bounds, LevelSetFrame frame, Error *e)
     for (double x : across) {
         blocks *= x / voxel / 8.0 + 2.0;
     }
-    double needed = blocks * sizeof(Block), there = memory_of_machine();
-    if (!(needed <= there) || !(most / voxel < 1e9)) {
-        return error_set(e, ERROR_MEMORY,
-                         "details of %g m in a body of %g m need %.1f GB, and this machine has "
-                         "%.1f GB; thicker parts or larger voxels are needed",
-                         voxel, most, needed * 1e-9, there * 1e-9);
+    if (!(most / voxel < 1e9)) {
+        return error_set(e, ERROR_INPUT,
+                         "details of %g m in a body of %g m; thicker parts or larger voxels are "
+                         "needed",
+                         voxel, most);
     }
-    return true;
+    return memory_check(blocks * sizeof(Block), e, "details of %g m in a body of %g m", voxel,
+                        most);
 }
 
 extern "C" LevelSet *level_set_from_mesh(const Mesh *mesh, LevelSetFrame frame, const Run *run,

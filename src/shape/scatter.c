@@ -149,14 +149,7 @@ static bool check_count(int64_t count, Error *e)
                          INT32_MAX);
     }
     double needed = (double)count * (2.0 * sizeof(Vec3) + sizeof(uint64_t));
-    double there = memory_of_machine();
-    if (needed > there) {
-        return error_set(e, ERROR_MEMORY,
-                         "%lld points need %.1f GB and this machine has %.1f GB; fewer are "
-                         "needed",
-                         (long long)count, needed * 1e-9, there * 1e-9);
-    }
-    return true;
+    return memory_check(needed, e, "%lld points", (long long)count);
 }
 
 static bool check_params(const Envelope *envelope, const ScatterParams *params, Error *e)

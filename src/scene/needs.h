@@ -1,0 +1,38 @@
+// What a scene will take in memory, told by the counts it names before anything is made of them.
+//
+// Estimates are measured averages. They are meant to be right within a factor of NEEDS_FACTOR for
+// what a count is made for: arrays while it grows, its geometry and what the ray tracer makes of it.
+#ifndef RAMIFY_SCENE_NEEDS_H
+#define RAMIFY_SCENE_NEEDS_H
+
+#include "scene/scene.h"
+
+#define NEEDS_FACTOR 3.0
+
+// The needs of some objects, as kinds add them (Kind.needs).
+typedef struct Needs {
+    double bytes;        // of all
+    double copied_faces; // that the ray tracer copies out so far; see COPY_FACES_LIMIT
+    int object;          // that is adding
+    int largest_object;  // of the largest single need; -1 = none
+    double largest;      // bytes of it
+    char largest_key[64];
+} Needs;
+
+// count things of `each` bytes. key: of the object's kind that says how many, "leaves.max_count".
+void needs_add(Needs *needs, const char *key, double count, double each);
+
+// count instances of a mesh of so many faces.
+void needs_add_copies(Needs *needs, const char *key, double count, double faces);
+
+// Growth to so many attractors, with a skin of so many levels over the thick part of it.
+void needs_add_growth(Needs *needs, const char *key, double attractors, int skin_levels);
+
+// Bytes that rendering the scene will take in all.
+double scene_memory(const Scene *scene);
+
+// Refuses a scene, or one object of it (-1 = all), that needs more than there is, whatever is true
+// of the estimate: ERROR_MEMORY with file, line and column of the largest need's key.
+bool scene_check_memory(const Scene *scene, int object, Error *e);
+
+#endif
