@@ -57,20 +57,6 @@ static int64_t object_instances(const SceneObject *object)
     return kind->copies ? kind->copies(object) : 0;
 }
 
-// Attractors and their search grid (~100 bytes each), instances with their place in the
-// acceleration structure (~200), and the film with one copy for development.
-static int64_t expected_memory(const Scene *scene)
-{
-    int64_t attractors = 0, instances = 0;
-    for (int i = 0; i < scene->object_count; i++) {
-        attractors += object_attractors(&scene->objects[i]);
-        instances += object_instances(&scene->objects[i]);
-    }
-    int64_t pixels = (int64_t)scene->film.width * scene->film.height;
-    int64_t pixel_bytes = (int64_t)(4 * sizeof(Vec3) + 6 * sizeof(float) + 8 * sizeof(float));
-    return 100 * attractors + 200 * instances + pixel_bytes * pixels;
-}
-
 void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *info)
 {
     const Scene *own = scene_of(scene);
@@ -87,7 +73,7 @@ void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *info)
                               .material_count = own->material_count,
                               .light_count = own->light_count,
                               .target_count = own->target_count,
-                              .memory = expected_memory(own)};
+                              .memory = (int64_t)scene_memory(own)};
     memcpy(info->crop, own->film.crop, sizeof info->crop);
 }
 

@@ -100,6 +100,9 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
     }
     char label[LABEL_SIZE];
     Recipe recipe = make_recipe(scene, object, run, label);
+    if (!scene_check_memory(scene, index, e)) {
+        return NULL;
+    }
     OwnSpace own;
     if (!own_space_enter(&own, object, e)) {
         return NULL;
@@ -129,6 +132,9 @@ HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, c
     }
     char label[LABEL_SIZE];
     Recipe recipe = make_recipe(scene, object, run, label);
+    if (!scene_check_memory(scene, index, e)) {
+        return NULL;
+    }
     HeightField *field = kind->heights(object, tree, &recipe, e);
     if (!field) {
         scene_fail_object(scene, index, e);
@@ -246,7 +252,7 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
     BuildStats own = {0};
     stats = stats ? stats : &own;
     *stats = (BuildStats){0};
-    World *world = world_new(e);
+    World *world = scene_check_memory(scene, -1, e) ? world_new(e) : NULL;
     if (!world) {
         return NULL;
     }

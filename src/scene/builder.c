@@ -219,6 +219,9 @@ static bool begin_anew(SceneBuilder *builder, const Scene *scene, Error *e)
 World *scene_builder_build(SceneBuilder *builder, const Scene *scene, const Run *run,
                            BuildStats *stats, Error *e)
 {
+    if (!scene_check_memory(scene, -1, e)) {
+        return NULL;
+    }
     bool anew = !same_kind_of_scene(builder, scene);
     bool *stays = memory_alloc_zero(scene->object_count, sizeof *stays, e);
     if (!stays || (anew && !begin_anew(builder, scene, e))) {

@@ -7,6 +7,7 @@
 #include "mesh/height_field.h"
 #include "model/recipe.h"
 #include "scene/build.h"
+#include "scene/needs.h"
 #include "scene/own_space.h"
 
 enum { KIND_MOST_MATERIALS = 6 };
@@ -61,6 +62,9 @@ typedef struct Kind {
     // other parameters is no longer 0, as the recipe uses it: for readers. Lists in it are not to
     // be looked at. NULL = nothing follows.
     void (*settle)(const SceneObject *object, void *params);
+
+    // Adds what the object's counts will take in memory; NULL = nothing worth telling beforehand.
+    void (*needs)(const SceneObject *object, Needs *needs);
 
     // Attractors asked for, and copies (leaves, tufts) at most; NULL = none.
     int64_t (*attractors)(const SceneObject *object);

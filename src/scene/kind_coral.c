@@ -73,11 +73,24 @@ static int64_t copies(const SceneObject *object)
     return object->coral->polyps.max_count;
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    enum {
+        ATTRACTOR_BYTES = 20000,
+        CUP_FACES = 75,
+        CUPS = 30000
+    }; // as many as fit a colony of usual proportions
+    CoralParams p = coral_params_resolve(object->coral);
+    needs_add(needs, "attractors", (double)attractors(object), ATTRACTOR_BYTES); // thick branches
+    needs_add_copies(needs, "polyps.max_count", fmin((double)p.polyps.max_count, CUPS), CUP_FACES);
+}
+
 const Kind kind_coral = {.key = "coral",
                          .offset = offsetof(SceneObject, coral),
                          .materials = {"material", "polyp_material", "rock_material"},
                          .own_space = own_space,
                          .grow = grow,
+                         .needs = needs,
                          .place = place,
                          .measure = measure,
                          .describe = describe,

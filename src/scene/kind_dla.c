@@ -43,11 +43,18 @@ static void describe(const SceneObject *object, char *text, size_t size)
              object->dla->dimension);
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    enum { PARTICLE_BYTES = 500 };
+    needs_add(needs, "particles", (double)object->dla->particles, PARTICLE_BYTES);
+}
+
 const Kind kind_dla = {.key = "dla",
                        .offset = offsetof(SceneObject, dla),
                        .materials = {"material"},
                        .own_space = own_space,
                        .grow = grow,
+                       .needs = needs,
                        .place = place,
                        .measure = measure,
                        .describe = describe};

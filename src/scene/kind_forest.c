@@ -1,4 +1,5 @@
 // A forest as a kind of object. It stands on the scene's ground, if there is one.
+#include "model/stand_places.h"
 #include "scene/kinds.h"
 #include "scene/scene_flood.h"
 
@@ -75,6 +76,22 @@ static int64_t copies(const SceneObject *object)
     return object->forest->ferns + object->forest->leaves.max_count * object->forest->stands;
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    enum { OWN_ATTRACTORS = 2320, LEAVES_AN_ATTRACTOR = 6, LEAF_BYTES = 2500, PARTS = 4 };
+    const ForestParams *forest = object->forest;
+    double pitch = 1.86 * (double)forest_stand_radius(forest), radius = (double)forest->radius;
+    double each = forest->element.level_count > 0 ? (double)element_attractors(&forest->element)
+                                                  : (double)OWN_ATTRACTORS * forest->stand_trees;
+    double leaves = fmin((double)forest->leaves.max_count, LEAVES_AN_ATTRACTOR * each);
+    needs_add_growth(needs, "stand_trees", each * forest->stands, forest->skin.levels);
+    needs_add(needs, "leaves.max_count", leaves * forest->stands, LEAF_BYTES);
+    double places =
+        3.628 * radius * radius / (pitch * pitch) * (double)forest->density; // 2 pi / sqrt 3
+    needs_add_copies(needs, "radius", PARTS * places, 1e9);
+    needs_add_copies(needs, "ferns", 0.5 * (double)forest->ferns, 1e9);
+}
+
 const Kind kind_forest = {
     .key = "forest",
     .offset = offsetof(SceneObject, forest),
@@ -82,6 +99,7 @@ const Kind kind_forest = {
     .reads_water = true,
     .materials = {"material", "twig_material", "leaf_material", "grass_material"},
     .grow = grow,
+    .needs = needs,
     .place = place,
     .measure = measure,
     .describe = describe,

@@ -47,11 +47,20 @@ static int64_t attractors(const SceneObject *object)
                                             : element_attractors(&params->element);
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    enum { VOXEL_BYTES = 900 }; // of one along the surfaces, old and new
+    double voxels = object->fracture->resolution;
+    needs_add(needs, "resolution", 6.0 * voxels * voxels, VOXEL_BYTES);
+    needs_add_growth(needs, "attractors", (double)attractors(object), -1);
+}
+
 const Kind kind_fracture = {.key = "fracture",
                             .offset = offsetof(SceneObject, fracture),
                             .materials = {"material", "inside_material"},
                             .own_space = own_space,
                             .grow = grow,
+                            .needs = needs,
                             .place = place,
                             .measure = measure,
                             .describe = describe,

@@ -60,11 +60,20 @@ static int64_t copies(const SceneObject *object)
     return object->frost->grains;
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    enum { SPINE_BYTES = 500, SIDE_BYTES = 2400, GRAIN_FACES = 20 }; // blades are meshes
+    needs_add(needs, "spines", (double)object->frost->spines, SPINE_BYTES);
+    needs_add(needs, "sides", (double)object->frost->sides, SIDE_BYTES);
+    needs_add_copies(needs, "grains", 0.5 * (double)object->frost->grains, GRAIN_FACES);
+}
+
 const Kind kind_frost = {.key = "frost",
                          .offset = offsetof(SceneObject, frost),
                          .materials = {"material", "rime_material"},
                          .own_space = own_space,
                          .grow = grow,
+                         .needs = needs,
                          .place = place,
                          .measure = measure,
                          .describe = describe,

@@ -64,12 +64,18 @@ static void settle(const SceneObject *object, void *params)
     memcpy(params, &p, sizeof p);
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    needs_add_growth(needs, "bolts", (double)attractors(object), -1);
+}
+
 const Kind kind_lightning = {.key = "lightning",
                              .offset = offsetof(SceneObject, lightning),
                              .reads_scene = true,
                              .materials = {"material"},
                              .own_space = own_space,
                              .grow = grow,
+                             .needs = needs,
                              .place = place,
                              .measure = measure,
                              .describe = describe,

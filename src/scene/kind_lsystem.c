@@ -2,6 +2,7 @@
 #include "model/lsystem_plant.h"
 #include "scene/kinds.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static bool own_space(OwnSpace *own, Error *e)
@@ -40,11 +41,18 @@ static int64_t copies(const SceneObject *object)
     return object->lsystem->leaves.max_count;
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    enum { LEAF_FACES = 25, LEAVES = 50000 }; // of a large plant
+    needs_add_copies(needs, "leaves.max_count", fmin((double)copies(object), LEAVES), LEAF_FACES);
+}
+
 const Kind kind_lsystem = {.key = "lsystem",
                            .offset = offsetof(SceneObject, lsystem),
                            .materials = {"material", "twig_material", "leaf_material"},
                            .own_space = own_space,
                            .grow = grow,
+                           .needs = needs,
                            .place = place,
                            .describe = describe,
                            .copies = copies};

@@ -51,11 +51,18 @@ static int64_t attractors(const SceneObject *object)
                                             : element_attractors(&params->element);
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    enum { ATTRACTOR_BYTES = 150000 }; // of bars through a level set
+    needs_add(needs, "attractors", (double)attractors(object), ATTRACTOR_BYTES);
+}
+
 const Kind kind_sculpture = {.key = "sculpture",
                              .offset = offsetof(SceneObject, sculpture),
                              .materials = {"material"},
                              .own_space = own_space,
                              .grow = grow,
+                             .needs = needs,
                              .place = place,
                              .measure = measure,
                              .describe = describe,

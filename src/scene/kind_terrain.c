@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "image/image.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -88,10 +89,21 @@ static int64_t copies(const SceneObject *object)
     return object->terrain->forest.count;
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    enum { CELL_BYTES = 200, RIVER_BYTES = 1500 };
+    const TerrainParams *terrain = object->terrain;
+    double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // a tree each
+    needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, CELL_BYTES);
+    needs_add(needs, "rivers.count", (double)attractors(object), RIVER_BYTES);
+    needs_add_copies(needs, "forest.count", fmin(terrain->forest.count, rows * rows), 1e9);
+}
+
 const Kind kind_terrain = {.key = "terrain",
                            .offset = offsetof(SceneObject, terrain),
                            .materials = {"material", "water_material"},
                            .grow = grow,
+                           .needs = needs,
                            .place = place,
                            .heights = heights,
                            .describe = describe,

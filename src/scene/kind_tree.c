@@ -2,6 +2,7 @@
 #include "model/tree_defaults.h"
 #include "scene/kinds.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -76,11 +77,22 @@ static bool measure(const SceneObject *object, const OutTree *tree, const Recipe
     return true;
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    enum { LEAF_FACES = 25, LEAVES_AN_ATTRACTOR = 6 };
+    double count = (double)attractors(object);
+    double leaves = (double)object->tree->leaves.max_count;
+    needs_add_growth(needs, "crown.growth.levels", count, object->tree->skin.levels);
+    needs_add_copies(needs, "leaves.max_count", fmin(leaves, LEAVES_AN_ATTRACTOR * count),
+                     LEAF_FACES);
+}
+
 const Kind kind_tree = {.key = "tree",
                         .offset = offsetof(SceneObject, tree),
                         .materials = {"material", "twig_material", "leaf_material"},
                         .own_space = own_space,
                         .grow = grow,
+                        .needs = needs,
                         .place = place,
                         .measure = measure,
                         .describe = describe,

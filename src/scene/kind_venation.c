@@ -42,10 +42,18 @@ static void settle(const SceneObject *object, void *params)
     memcpy(params, &p, sizeof p);
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    enum { MESH_BYTES = 500 }; // of the net of veins, in a blade half as wide as long
+    double detail = object->venation->detail;
+    needs_add(needs, "detail", 0.4 * detail * detail, MESH_BYTES);
+}
+
 const Kind kind_venation = {.key = "venation",
                             .offset = offsetof(SceneObject, venation),
                             .materials = {"material", "leaf_material"},
                             .grow = grow,
+                            .needs = needs,
                             .place = place,
                             .measure = measure,
                             .paint = paint,

@@ -57,11 +57,18 @@ static void describe(const SceneObject *object, char *text, size_t size)
     snprintf(text, size, ", %lld terminals", (long long)object->vessels->terminals);
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    enum { TERMINAL_BYTES = 1800 };
+    needs_add(needs, "terminals", (double)object->vessels->terminals, TERMINAL_BYTES);
+}
+
 const Kind kind_vessels = {.key = "vessels",
                            .offset = offsetof(SceneObject, vessels),
                            .materials = {"material", "vein_material"},
                            .own_space = own_space,
                            .grow = grow,
+                           .needs = needs,
                            .place = place,
                            .measure = measure,
                            .describe = describe};

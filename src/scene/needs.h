@@ -1,7 +1,8 @@
 // What a scene will take in memory, told by the counts it names before anything is made of them.
 //
 // Estimates are measured averages. They are meant to be right within a factor of NEEDS_FACTOR for
-// what a count is made for: arrays while it grows, its geometry and what the ray tracer makes of it.
+// what a count is made for: arrays while it grows, its geometry and what the ray tracer makes of
+// it.
 #ifndef RAMIFY_SCENE_NEEDS_H
 #define RAMIFY_SCENE_NEEDS_H
 

@@ -1,0 +1,51 @@
+#!/bin/sh
+# What a scene takes in memory is told beforehand, and refused where it cannot be. RAMIFY names the binary.
+set -u
+RAMIFY=${RAMIFY:-build/ramify}
+RAMIFY=$(realpath "$RAMIFY")
+checks=$(realpath "$(dirname "$0")/checks.sh")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+. "$checks"
+
+scene() { # scene NAME OBJECT: a small picture of one object
+    printf 'film: {width: 48, height: 32}\nrender: {samples: 1, max_depth: 2}\nsky: {kind: constant}\nobjects:\n  - name: a\n    %s\n' "$2" >"$1.yaml"
+}
+
+bytes() { # the number under "memory" in what the last command wrote
+    sed -n 's/.*"memory": \([0-9]*\).*/\1/p' out
+}
+
+tells() { # tells NAME OBJECT: `info` is right within a factor of 3
+    scene "$1" "$2"
+    check "$1_info" 0 "$RAMIFY" info "$1.yaml" --json
+    told=$(bytes)
+    check "$1_render" 0 "$RAMIFY" render "$1.yaml" -o "$1.png" -q --json
+    taken=$(bytes)
+    yes "$1_told_${told}_took_$taken" [ "$told" -lt $((3 * taken)) -a "$taken" -lt $((3 * told)) ]
+}
+
+refuses() { # refuses NAME KEY OBJECT: before anything is made, by name and line
+    scene "$1" "$3"
+    check "$1" 1 timeout 60 "$RAMIFY" render "$1.yaml" -o "$1.png" -q
+    says "$1_place" err "$1.yaml:6:"
+    says "$1_key" err "$2 asks for about"
+}
+
+# AddressSanitizer takes memory of its own.
+if ! "$RAMIFY" --version 2>/dev/null | grep -qi sanitize && ! nm "$RAMIFY" 2>/dev/null | grep -q __asan_init; then
+    tells grass 'ground: {grass_tufts: 150000}'
+    tells leaves 'tree: {leaves: {max_count: 100000}}'
+    tells sides 'frost: {sides: 120000}'
+    tells grains 'frost: {sides: 1000, grains: 400000}'
+fi
+refuses tufts grass_tufts 'ground: {grass_tufts: 1000000000}'
+refuses fallen fallen_leaves 'ground: {fallen_leaves: 1000000000}'
+refuses many_sides sides 'frost: {sides: 2147483647}'
+refuses many_terminals attractors 'coral: {attractors: 100000000}'
+refuses wide radius 'forest: {radius: 100000, spacing: 0.01}'
+refuses aggregate particles 'dla: {particles: 2147483647}'
+scene small 'ground: {grass_tufts: 60000000}'
+check limit_of_address_space 1 sh -c "ulimit -v 2000000; exec '$RAMIFY' render small.yaml -o small.png -q"
+says limit_is_told err '2.0 GB are there'
