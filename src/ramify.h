@@ -108,7 +108,8 @@ typedef struct RamifySceneInfo {
     float max_noise;       // 0 = off
     float grow_to;         // 0..1: how much of all growth shows
     int32_t object_count, material_count, light_count, target_count;
-    int64_t memory; // about how many bytes rendering takes in all, within a factor of 3
+    int64_t memory; // bytes that rendering takes in all, estimated from counts: about
+                    // within a factor of 3, without imported meshes and level sets
 } RamifySceneInfo;
 
 // What the scene says, without growing anything.

@@ -96,8 +96,8 @@ static double number_in(const char *file)
     return number;
 }
 
-// The least limit of the control groups from this one up to the root. root: where their hierarchy is
-// mounted.
+// The least limit of the control groups from this one up to the root. root: where their hierarchy
+// is mounted.
 static double least_in_groups(const char *root, char *group, const char *file)
 {
     char path[1024];
@@ -126,8 +126,8 @@ static double control_group_limit(void)
         if (kinds[1] == '\0') {
             least = fmin(least, least_in_groups("/sys/fs/cgroup", group, "memory.max"));
         } else if (strstr(kinds, "memory")) {
-            least = fmin(least, least_in_groups("/sys/fs/cgroup/memory", group,
-                                                "memory.limit_in_bytes"));
+            least = fmin(least,
+                         least_in_groups("/sys/fs/cgroup/memory", group, "memory.limit_in_bytes"));
         }
     }
     if (stream) {

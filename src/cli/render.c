@@ -144,7 +144,9 @@ static bool write_pictures(Job *job, const RamifyFilm *film, const RamifyRun *ru
     RamifyRun patient = *run; // an interrupted picture is still to be written
     patient.cancelled = NULL;
     bool cut_short = *run->cancelled; // before, and not while this writes
-    bool done = ramify_film_write(film, job->scene, job->outputs->display, job->info.denoise,
+    // Before one sample a pixel is whole, denoising would smooth what is not there, for long.
+    bool denoise = job->info.denoise && job->render.samples > 0;
+    bool done = ramify_film_write(film, job->scene, job->outputs->display, denoise,
                                   cut_short ? &patient : run, e);
     if (!done && !cut_short && *run->cancelled) { // while it was denoised: as it is, then
         done = ramify_film_write(film, job->scene, job->outputs->display, false, &patient, e);

@@ -45,7 +45,7 @@ static void describe(const SceneObject *object, char *text, size_t size)
 
 static void needs(const SceneObject *object, Needs *needs)
 {
-    enum { PARTICLE_BYTES = 500 };
+    enum { PARTICLE_BYTES = 20000 }; // of the level set through it, at its thinnest
     needs_add(needs, "particles", (double)object->dla->particles, PARTICLE_BYTES);
 }
 

@@ -73,7 +73,7 @@ bool scene_check_memory(const Scene *scene, int object, Error *e)
         return true;
     }
     error_set(
-        e, ERROR_MEMORY,
+        e, ERROR_INPUT,
         "%s asks for about %.1f GB of memory, and %.1f GB are there; a smaller number would be "
         "right",
         needs.largest_key, needs.largest * 1e-9, there * 1e-9);

@@ -33,7 +33,7 @@ void needs_add_growth(Needs *needs, const char *key, double attractors, int skin
 double scene_memory(const Scene *scene);
 
 // Refuses a scene, or one object of it (-1 = all), that needs more than there is, whatever is true
-// of the estimate: ERROR_MEMORY with file, line and column of the largest need's key.
+// of the estimate: ERROR_INPUT with file, line and column of the largest need's key.
 bool scene_check_memory(const Scene *scene, int object, Error *e);
 
 #endif

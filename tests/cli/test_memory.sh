@@ -28,7 +28,7 @@ tells() { # tells NAME OBJECT: `info` is right within a factor of 3
 
 refuses() { # refuses NAME KEY OBJECT: before anything is made, by name and line
     scene "$1" "$3"
-    check "$1" 1 timeout 60 "$RAMIFY" render "$1.yaml" -o "$1.png" -q
+    check "$1" 2 timeout 60 "$RAMIFY" render "$1.yaml" -o "$1.png" -q
     says "$1_place" err "$1.yaml:6:"
     says "$1_key" err "$2 asks for about"
 }
@@ -38,6 +38,7 @@ if ! "$RAMIFY" --version 2>/dev/null | grep -qi sanitize && ! nm "$RAMIFY" 2>/de
     tells grass 'ground: {grass_tufts: 150000}'
     tells leaves 'tree: {leaves: {max_count: 100000}}'
     tells sides 'frost: {sides: 120000}'
+    tells particles 'dla: {particles: 2000}'
     tells grains 'frost: {sides: 1000, grains: 400000}'
 fi
 refuses tufts grass_tufts 'ground: {grass_tufts: 1000000000}'
@@ -47,5 +48,5 @@ refuses many_terminals attractors 'coral: {attractors: 100000000}'
 refuses wide radius 'forest: {radius: 100000, spacing: 0.01}'
 refuses aggregate particles 'dla: {particles: 2147483647}'
 scene small 'ground: {grass_tufts: 60000000}'
-check limit_of_address_space 1 sh -c "ulimit -v 2000000; exec '$RAMIFY' render small.yaml -o small.png -q"
+check limit_of_address_space 2 sh -c "ulimit -v 2000000; exec '$RAMIFY' render small.yaml -o small.png -q"
 says limit_is_told err '2.0 GB are there'
