@@ -29,9 +29,9 @@ int64_t memory_peak(void);
 // address space (ulimit -v) or data (ulimit -d) or a control group (a container) says so.
 double memory_allowed(void);
 
-// For work whose size is known before it begins: false and ERROR_MEMORY when `needed` bytes are more
-// than there may be. The message is the words of `format`, which end in what takes the memory, and
-// " would take 12.3 GB, and 4.0 GB are there".
+// For work whose size is known before it begins: false and ERROR_MEMORY when `needed` bytes are
+// more than there may be. The message is the words of `format`, which end in what takes the memory,
+// and " would take 12.3 GB, and 4.0 GB are there".
 bool memory_check(double needed, Error *e, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
