@@ -49,10 +49,19 @@ ForestParams forest_params_default(void)
     return forest;
 }
 
+ForestParams forest_params_resolve(const ForestParams *params)
+{
+    ForestParams resolved = *params;
+    if (resolved.spacing == 0.0f) {
+        resolved.spacing = 0.24f * params->height;
+    }
+    return resolved;
+}
+
 // m from trunk to trunk.
 static float forest_spacing(const ForestParams *params)
 {
-    return params->spacing > 0.0f ? params->spacing : 0.24f * params->height;
+    return forest_params_resolve(params).spacing;
 }
 
 float forest_stand_radius(const ForestParams *params)

@@ -41,6 +41,9 @@ typedef float ForestLand(const void *land, float x, float z);
 
 ForestParams forest_params_default(void);
 
+// The same with what is 0 as it follows from the other parameters. Borrows what params owns.
+ForestParams forest_params_resolve(const ForestParams *params);
+
 // All stands as one out-tree, side by side along x: one colony a tree, stand by stand.
 OutTree *forest_grow(const ForestParams *params, const Recipe *recipe, Error *e);
 

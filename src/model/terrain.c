@@ -45,15 +45,22 @@ void terrain_free(Terrain *terrain)
     }
 }
 
+TerrainParams terrain_params_resolve(const TerrainParams *params)
+{
+    TerrainParams resolved = *params;
+    if (resolved.noise.wavelength == 0.0f) {
+        resolved.noise.wavelength = 6.0f / sqrtf((float)params->rivers.count); // brooks
+    }
+    return resolved;
+}
+
 // How far the noise pushes places about, m.
 static float warp_reach(const TerrainParams *params);
 
 // The wavelength of the noise's first iteration, m.
 static float noise_wavelength(const TerrainParams *params)
 {
-    float brooks = 6.0f / sqrtf((float)params->rivers.count);
-    float share = params->noise.wavelength > 0.0f ? params->noise.wavelength : brooks;
-    return share * params->size;
+    return terrain_params_resolve(params).noise.wavelength * params->size;
 }
 
 static float warp_reach(const TerrainParams *params)

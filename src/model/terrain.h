@@ -96,6 +96,9 @@ typedef struct TerrainParams {
 
 TerrainParams terrain_params_default(void); // 12 km of mountains
 
+// The same with what is 0 as it follows from the other parameters. Borrows what params owns.
+TerrainParams terrain_params_resolve(const TerrainParams *params);
+
 // The rivers as an out-tree, roots at their outlets: y is the height that the land follows, before
 // erosion and terraces; radii are half the width of the water. In the terrain's own space, position
 // not added.

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
 {
@@ -92,6 +93,12 @@ static void needs(const SceneObject *object, Needs *needs)
     needs_add_copies(needs, "ferns", 0.5 * (double)forest->ferns, 1e9);
 }
 
+static void settle(const SceneObject *object, void *params)
+{
+    ForestParams p = forest_params_resolve(object->forest);
+    memcpy(params, &p, sizeof p);
+}
+
 const Kind kind_forest = {
     .key = "forest",
     .offset = offsetof(SceneObject, forest),
@@ -103,4 +110,5 @@ const Kind kind_forest = {
     .place = place,
     .measure = measure,
     .describe = describe,
-    .copies = copies};
+    .copies = copies,
+    .settle = settle};

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 // The parameters with the uplift's picture read in.
 typedef struct LoadedTerrain {
@@ -99,6 +100,12 @@ static void needs(const SceneObject *object, Needs *needs)
     needs_add_copies(needs, "forest.count", fmin(terrain->forest.count, rows * rows), 1e9);
 }
 
+static void settle(const SceneObject *object, void *params)
+{
+    TerrainParams p = terrain_params_resolve(object->terrain);
+    memcpy(params, &p, sizeof p);
+}
+
 const Kind kind_terrain = {.key = "terrain",
                            .offset = offsetof(SceneObject, terrain),
                            .materials = {"material", "water_material"},
@@ -108,4 +115,5 @@ const Kind kind_terrain = {.key = "terrain",
                            .heights = heights,
                            .describe = describe,
                            .attractors = attractors,
-                           .copies = copies};
+                           .copies = copies,
+                           .settle = settle};

@@ -221,6 +221,8 @@ static void the_resolved_scene_reads_back_to_itself(void **state)
                              "  - {name: b, lightning: {height: 400}}\n"
                              "  - {name: c, venation: {length: 0.2}}\n"
                              "  - {name: d, coral: {size: 1}}\n"
+                             "  - {name: e, forest: {height: 10}}\n"
+                             "  - {name: f, terrain: {rivers: {count: 36}}}\n"
                              "camera: {position: [0, 0, 3], target: [0, 0, 0]}\n",
                              NULL, 0);
     assert_non_null(strstr(grown->resolved, "      stem_circle: 0 # used: 0.5\n"));
@@ -228,6 +230,8 @@ static void the_resolved_scene_reads_back_to_itself(void **state)
         strstr(grown->resolved, "      step: 0 # used: 10\n      segment: 0 # used: 1\n"));
     assert_non_null(strstr(grown->resolved, "      width: 0 # used: 0.1\n"));
     assert_non_null(strstr(grown->resolved, "      height: 0 # used: 0.62\n"));
+    assert_non_null(strstr(grown->resolved, "      spacing: 0 # used: 2.3999999\n"));
+    assert_non_null(strstr(grown->resolved, "        wavelength: 0 # used: 1\n"));
     assert_non_null(strstr(grown->resolved, "  focus_distance: 0 # used: 3\n"));
     assert_non_null(strstr(grown->resolved, "    seed: 0 # used: "));
     assert_non_null(strstr(grown->resolved, "      voxel: 0\n")); // nothing is known of it yet
