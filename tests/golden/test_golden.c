@@ -117,14 +117,27 @@ static void expect_different(const char *name, const char *change)
 static void small_changes_are_seen(void **state)
 {
     (void)state;
-    static const char *const changes[][2] = {{"cut_shape", "sky.sun_azimuth=82"},
-                                             {"environment", "sky.rotation=31"},
-                                             {"materials", "materials.matt.roughness=0.8"},
-                                             {"materials", "materials.coated.roughness=0.3"},
-                                             {"twigs", "camera.aperture=0.21"},
-                                             {"bodies", "materials.flesh.anisotropy=0.6"},
-                                             {"glow_in_fog", "medium.falloff=1.6"},
-                                             {"underwater", "medium.height=4.1"}};
+    static const char *const changes[][2] = {
+        {"cut_shape", "sky.sun_azimuth=82"},
+        {"environment", "sky.rotation=31"},
+        {"materials", "materials.matt.roughness=0.8"},
+        {"materials", "materials.coated.roughness=0.3"},
+        {"twigs", "camera.aperture=0.21"},
+        {"bodies", "materials.flesh.anisotropy=0.6"},
+        {"glow_in_fog", "medium.falloff=1.6"},
+        {"underwater", "medium.height=4.1"},
+        {"leafy_tree", "objects.tree.tree.radii.flare=0.8"},
+        {"mesh_crown", "objects.hare.tree.leaves.length=0.082"},
+        {"coral", "objects.staghorn.coral.light=0.55"},
+        {"dla", "objects.dendrite.dla.swell=5.2"},
+        {"fracture", "objects.ball.fracture.roughness=0.014"},
+        {"frost", "objects.frost.frost.angle=58"},
+        {"lightning", "objects.bolt.lightning.jitter=0.105"},
+        {"lsystem", "objects.written.lsystem.elasticity=0.145"},
+        {"sculpture", "objects.lamp.sculpture.thickness=0.43"},
+        {"terrain", "objects.range.terrain.erosion.talus=43"},
+        {"venation", "objects.leaf.venation.curl=13"},
+        {"vessels", "objects.kidney.vessels.exponent=2.72"}};
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
         expect_different(changes[i][0], changes[i][1]);
     }
