@@ -12,7 +12,7 @@
 // fmod is exact, so the same everywhere; what has more turns than this has lost its angle anyway.
 #define MOST_ANGLE 1e6
 #define MOST_EXPONENT 709.782712893384 // e to it is the largest double
-#define LEAST_EXPONENT -700.0
+#define LEAST_EXPONENT (-700.0)
 
 void exact_sincos(float angle, float *sine, float *cosine)
 {

@@ -34,7 +34,7 @@ bool file_target(const char *file, char target[PATH_MAX], Error *e)
     if (strlen(file) >= PATH_MAX) {
         return io_error(e, file, ENAMETOOLONG);
     }
-    strcpy(target, file);
+    memcpy(target, file, strlen(file) + 1);
     for (int i = 0; i <= MOST_LINKS; i++) {
         char link[PATH_MAX], next[2 * PATH_MAX];
         ssize_t length = readlink(target, link, sizeof link - 1);
@@ -48,7 +48,7 @@ bool file_target(const char *file, char target[PATH_MAX], Error *e)
         if (size >= PATH_MAX) {
             return io_error(e, file, ENAMETOOLONG);
         }
-        strcpy(target, next);
+        memcpy(target, next, (size_t)size + 1);
     }
     return io_error(e, file, ELOOP);
 }
