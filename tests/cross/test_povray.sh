@@ -1,5 +1,5 @@
 #!/bin/sh
-# What POV-Ray makes of our export: the same pixels covered, the same direct light, for lamps, curves, pictures, leaves and haze.
+# What POV-Ray makes of our export: the same pixels covered, the same light, in every scene of tests/cross at small size.
 # RAMIFY names the binary. Prints "ok NAME", "not ok NAME" or "skipped NAME: why" for each case. `make cross-check` is all of it.
 RAMIFY=${RAMIFY:-build/ramify}
 case $RAMIFY in /*) ;; *) RAMIFY=$PWD/$RAMIFY ;; esac
@@ -15,7 +15,7 @@ result() { # result NAME: by the status of the command before
     fi
 }
 
-for name in lamps tree picture haze; do
+for name in lamps tree twigs picture haze glass glow sky coral stand terrain; do
     [ $name = picture ] && export CROSS_SHRINK=1 || export CROSS_SHRINK=2 # small texels would need more rays
     if command -v povray >/dev/null; then
         "$here/run" "$folder" "$here/$name.yaml" >"$folder/log" 2>&1
