@@ -31,7 +31,7 @@ interrupt() { # interrupt NAME SECONDS OBJECT: Ctrl-C so long after it listens
     says "$1_says_so" err interrupted
 }
 
-interrupt places 1 'forest: {radius: 100000, height: 0.001, stands: 1, stand_trees: 1, density: 0.00000001}'
+interrupt places 1 'forest: {radius: 100000, height: 0.001, stands: 1, stand_trees: 1, density: 0.00000000000001}'
 interrupt field 1 'tree: {crown: {fields: [{kind: grid, resolution: 1024}]}}'
 interrupt cracks 1 'fracture: {impacts: 10000}'
 interrupt veins 1 'venation: {detail: 2000}'
