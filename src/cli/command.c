@@ -52,7 +52,7 @@ bool output_check(const char *file, RamifyError *e)
     struct stat status;
     errno = 0;
     if (stat(file, &status) != 0 && errno == ENAMETOOLONG) {
-        return fail(e, RAMIFY_IO, "cannot write '%.40s...': %s; give it a shorter one", file,
+        return fail(e, RAMIFY_BAD_INPUT, "cannot write '%.40s...': %s; give it a shorter one", file,
                     strerror(errno));
     }
     if (errno == 0 && !S_ISREG(status.st_mode)) {

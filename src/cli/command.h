@@ -31,7 +31,7 @@ RamifyLimits command_limits(const Options *options);
 const char *file_name(const char *path);
 
 // Can FILE be written when the time comes? RAMIFY_IO when its folder is missing or may not be
-// written to, or when FILE is a folder.
+// written to, or when FILE is a folder; RAMIFY_BAD_INPUT when its name is too long.
 bool output_check(const char *file, RamifyError *e);
 
 // FILE with its ending (".png") replaced; heap text.

@@ -105,7 +105,7 @@ check wrong_ending 2 "$RAMIFY" render scene.yaml -o a.tga
 check no_folder 1 "$RAMIFY" render scene.yaml -o nope/a.png
 says no_folder_message err "cannot write 'nope/a.png': folder 'nope': No such file or directory"
 long=$(printf 'n%.0s' $(seq 252))
-check name_too_long 1 "$RAMIFY" render scene.yaml -o "$long.png"
+check name_too_long 2 "$RAMIFY" render scene.yaml -o "$long.png"
 says name_too_long_message err "File name too long"
 check name_too_long_for_pov 1 "$RAMIFY" export scene.yaml -o "${long%??}.pov"
 says name_too_long_for_pov_message err "at most 250 are possible here"
