@@ -160,6 +160,6 @@ bool memory_check(double needed, Error *e, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    return error_set(e, ERROR_MEMORY, "%s would take %.1f GB, and %.1f GB are there", what,
-                     needed * 1e-9, there * 1e-9);
+    return error_set(e, ERROR_MEMORY, "%s would take %.1f GB, and %.1f GB are there; ask for less",
+                     what, needed * 1e-9, there * 1e-9);
 }
