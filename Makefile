@@ -36,7 +36,7 @@ $(OBJ)/render/%.c.o: CFLAGS += $(LTO) -ftree-slp-vectorize
 $(OBJ)/base/fft.c.o: CFLAGS += -fno-tree-vectorize
 $(OUT)/ramify $(OUT)/libramify.so $(OUT)/tests/bench/%: private LDFLAGS += $(LTO)
 
-SOURCES   := $(sort $(wildcard src/*.c src/*/*.c src/*/*.cpp))
+SOURCES   := $(sort $(wildcard src/*.c $(foreach d,src/* src/*/*,$d/*.c $d/*.cpp)))
 COMMANDS  := render turntable grow measure export compare golden info schema completion help
 MANUAL    := $(OUT)/man/ramify.1 $(COMMANDS:%=$(OUT)/man/ramify-%.1) $(OUT)/completion/ramify $(OUT)/completion/_ramify
 # Text files that become arrays of the program: report.css is report_css[].
@@ -48,7 +48,7 @@ TESTS     := $(sort $(wildcard tests/*/test_*.c))
 TEST_BIN  := $(patsubst tests/%.c,$(OUT)/tests/%,$(TESTS))
 BENCHES   := $(sort $(wildcard tests/bench/*.c))
 BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
-FORMATTED := $(wildcard src/*.h src/*.c src/*/*.[ch] src/*/*.cpp tests/*.h tests/*/*.[ch] docs/examples/*.c)
+FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp) tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
 .PHONY: all demo cross-check docs test peers bench sanitize lint format format-check install uninstall clean help packages check-packages
 .DEFAULT_GOAL := all

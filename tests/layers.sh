@@ -5,7 +5,7 @@
 cd "$(dirname "$0")/.." || exit 1
 {
     sed -n 's/^| `\([a-z]*\)\/` |.*| \([^|]*\) |$/row \1, \2/p' docs/architecture.md | tr -d ','
-    for file in src/*/*.[ch] src/*/*.cpp; do
+    for file in $(find src -mindepth 2 -name '*.[ch]' -o -mindepth 2 -name '*.cpp'); do
         folder=${file#src/}
         sed -n "s/^#include \"\([a-z]*\)\/.*\"/use ${folder%%/*} \1/p" "$file" | sort -u | sed "s|\$| $file|"
     done

@@ -1,7 +1,7 @@
 #include "animate/changes.h"
 
 #include "base/memory.h"
-#include "scene/scalar.h"
+#include "config/scalar.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 
 #include "animate/keys.h"
 #include "base/memory.h"
-#include "scene/scalar.h"
+#include "config/scalar.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 #include "api/handles.h"
 
 #include "base/memory.h"
-#include "scene/hint.h"
+#include "config/hint.h"
 
 #include <stdlib.h>
 #include <string.h>

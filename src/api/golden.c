@@ -4,7 +4,7 @@
 #include "api/handles.h"
 #include "golden/junit.h"
 #include "golden/report.h"
-#include "render/accel.h"
+#include "render/accel/accel.h"
 
 #include <math.h>
 #include <stdio.h>

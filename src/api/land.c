@@ -1,7 +1,7 @@
 #include "api/handles.h"
 
 #include "export/heights.h"
-#include "mesh/height_measure.h"
+#include "land/height_measure.h"
 #include "scene/kind.h"
 #include "scene/picture.h"
 

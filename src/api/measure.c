@@ -1,8 +1,8 @@
 #include "api/handles.h"
 
 #include "base/memory.h"
-#include "mesh/height_measure.h"
-#include "tree/measure.h"
+#include "land/height_measure.h"
+#include "outtree/measure.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 #include "api/handles.h"
 
 #include "image/image.h"
-#include "render/accel.h"
+#include "render/accel/accel.h"
 #include "scene/picture.h"
 #include "scene/place.h"
 

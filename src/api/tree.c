@@ -1,6 +1,6 @@
 #include "api/handles.h"
 
-#include "tree/out_tree_io.h"
+#include "outtree/out_tree_io.h"
 
 #include <string.h>
 

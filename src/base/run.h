@@ -14,8 +14,8 @@ typedef struct Run {
     void (*progress)(void *user, const char *stage, double done); // done in [0, 1]; may be NULL
     void (*warn)(void *user, const char *message);                // may be NULL
     void *user;
-    const struct GrowthWitness *witness; // told of what things grow in (model/element.h); may be
-                                         // NULL
+    const struct GrowthWitness *witness; // told of what things grow in (objects/common/element.h);
+                                         // may be NULL
 } Run;
 
 // One thread, silent.

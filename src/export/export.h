@@ -4,10 +4,10 @@
 #define RAMIFY_EXPORT_EXPORT_H
 
 #include "base/run.h"
-#include "mesh/height_field.h"
+#include "land/height_field.h"
+#include "outtree/out_tree.h"
 #include "render/world.h"
 #include "shape/grid_file.h"
-#include "tree/out_tree.h"
 
 // How instances are written by formats that can keep them.
 typedef enum ExportInstances {

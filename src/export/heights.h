@@ -3,7 +3,7 @@
 #define RAMIFY_EXPORT_HEIGHTS_H
 
 #include "base/error.h"
-#include "mesh/height_field.h"
+#include "land/height_field.h"
 
 // By the file's ending: 16-bit .png, black at the lowest and white at the highest point; float .exr
 // in metres (channel Y); .asc, an Esri ASCII grid in metres, rows from north (-z) to south, missing

@@ -1,6 +1,6 @@
 #include "export/sky_bake.h"
 
-#include "render/night.h"
+#include "render/sky/night.h"
 
 #include <stddef.h>
 

@@ -2,7 +2,7 @@
 #include "export/formats.h"
 
 #include "export/asset_path.h"
-#include "tree/out_tree_io.h"
+#include "outtree/out_tree_io.h"
 
 #include <stdlib.h>
 

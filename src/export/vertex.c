@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "image/tone_curve.h"
-#include "render/pattern.h"
+#include "render/material/pattern.h"
 
 #include <stdlib.h>
 

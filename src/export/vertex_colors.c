@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "export/vertex.h"
-#include "render/pattern.h"
+#include "render/material/pattern.h"
 
 #include <stdlib.h>
 

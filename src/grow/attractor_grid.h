@@ -5,8 +5,8 @@
 #define RAMIFY_GROW_ATTRACTOR_GRID_H
 
 #include "base/run.h"
+#include "outtree/out_tree.h"
 #include "shape/points.h"
-#include "tree/out_tree.h"
 
 #include <stdint.h>
 

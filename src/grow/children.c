@@ -1,5 +1,5 @@
 #include "base/random.h"
-#include "grow/rule.h"
+#include "grow/rules/rule.h"
 
 #include <stddef.h>
 

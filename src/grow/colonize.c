@@ -1,6 +1,6 @@
 #include "base/memory.h"
 #include "grow/report.h"
-#include "grow/rule.h"
+#include "grow/rules/rule.h"
 
 #include "base/exact_math.h"
 

@@ -5,9 +5,9 @@
 
 #include "base/run.h"
 #include "field/guide_field.h"
-#include "grow/grow_string.h"
+#include "grow/rules/grow_string.h"
+#include "outtree/out_tree.h"
 #include "shape/points.h"
-#include "tree/out_tree.h"
 
 typedef enum GrowRule {
     GROW_MEAN,    // one child a step along the mean pull (Tanaka eq. (6)-(7))

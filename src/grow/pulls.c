@@ -1,4 +1,4 @@
-#include "grow/rule.h"
+#include "grow/rules/rule.h"
 
 #include <stddef.h>
 

@@ -15,7 +15,7 @@ void curve_tubes_count(const CurveSet *curves, int64_t first, int64_t count, int
 // tube that looks outward: a ring of `sides` (3 .. CURVE_TUBE_SIDES_MOST) corners on the curve's
 // surface at every point, and a pointed cap as long as the radius at either end, so that it lies
 // within the round curve that the ray tracer sees (but for bends sharper than a radius). uv is as
-// on skins (mesh/skin.h): metres around, mirrored, and along. A radius below a hundredth of the
+// on skins (skin/skin.h): metres around, mirrored, and along. A radius below a hundredth of the
 // curve's largest is raised to that, so that no triangle is without area.
 // NULL and e when memory is short, or with ERROR_INPUT for 2^32 vertices and more.
 Mesh *curve_tubes(const CurveSet *curves, int64_t first, int64_t count, int sides, Error *e);

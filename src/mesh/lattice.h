@@ -6,7 +6,7 @@
 
 #include "base/mesh.h"
 #include "base/run.h"
-#include "tree/out_tree.h"
+#include "outtree/out_tree.h"
 
 // A bar from a to b whose radius runs evenly from radius_a to radius_b. m.
 typedef struct Bar {

@@ -3,10 +3,10 @@
 #ifndef RAMIFY_RENDER_INTEGRATOR_H
 #define RAMIFY_RENDER_INTEGRATOR_H
 
-#include "render/accel.h"
+#include "render/accel/accel.h"
 #include "render/camera.h"
 #include "render/filter.h"
-#include "render/lights.h"
+#include "render/light/lights.h"
 #include "render/sampler.h"
 
 // What all paths share, read only.

@@ -3,8 +3,8 @@
 #ifndef RAMIFY_RENDER_PATH_H
 #define RAMIFY_RENDER_PATH_H
 
-#include "render/dome.h"
 #include "render/integrator.h"
+#include "render/sky/dome.h"
 
 // Sets of random numbers: one for the camera, two for each bounce, and, for each stretch of a ray
 // through a medium, three more.

@@ -1,7 +1,7 @@
 // Bodies that a path is in, and what shadow rays lose on their way.
 #include "render/path.h"
 
-#include "render/thin_film.h"
+#include "render/material/thin_film.h"
 
 enum { MOST_CROSSINGS = 64 };
 

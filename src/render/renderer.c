@@ -2,8 +2,8 @@
 
 #include "base/memory.h"
 #include "base/random.h"
-#include "render/dome.h"
 #include "render/integrator.h"
+#include "render/sky/dome.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

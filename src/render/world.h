@@ -5,8 +5,8 @@
 
 #include "base/vec.h"
 #include "mesh/geometry.h"
-#include "render/material.h"
-#include "render/medium.h"
+#include "render/material/material.h"
+#include "render/medium/medium.h"
 
 typedef struct Camera {
     Vec3 position, target, up;

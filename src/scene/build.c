@@ -3,12 +3,12 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "land/height_measure.h"
 #include "mesh/geometry_measure.h"
-#include "mesh/height_measure.h"
+#include "outtree/measure.h"
 #include "scene/builtin.h"
 #include "scene/kind.h"
 #include "scene/place.h"
-#include "tree/measure.h"
 
 #include <stdio.h>
 #include <stdlib.h>

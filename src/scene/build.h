@@ -3,10 +3,10 @@
 #define RAMIFY_SCENE_BUILD_H
 
 #include "base/measures.h"
-#include "mesh/height_field.h"
-#include "model/recipe.h"
+#include "land/height_field.h"
+#include "objects/common/recipe.h"
+#include "outtree/out_tree.h"
 #include "scene/scene.h"
-#include "tree/out_tree.h"
 
 typedef struct BuildStats {
     int64_t nodes;

@@ -2,7 +2,7 @@
 #ifndef RAMIFY_SCENE_BUILTIN_H
 #define RAMIFY_SCENE_BUILTIN_H
 
-#include "render/material.h"
+#include "render/material/material.h"
 
 // Built-in materials as an array; *count of them: bark, twig, leaf, ground, grass, fallen, clay.
 const Material *builtin_materials(int *count);

@@ -1,6 +1,6 @@
 // Checks of tracks: keys in order of time, all of one kind.
-#include "scene/node_number.h"
-#include "scene/scalar.h"
+#include "config/node_number.h"
+#include "config/scalar.h"
 #include "scene/spec_check.h"
 
 #include <stdio.h>

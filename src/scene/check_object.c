@@ -1,9 +1,9 @@
 // Checks of objects and what they are made of.
-#include "grow/lsystem.h"
-#include "grow/sectors.h"
+#include "config/node_number.h"
+#include "config/scalar.h"
+#include "grow/lsystem/lsystem.h"
+#include "grow/rules/sectors.h"
 #include "scene/kind.h"
-#include "scene/node_number.h"
-#include "scene/scalar.h"
 #include "scene/spec_check.h"
 #include "shape/import_check.h"
 

@@ -1,8 +1,8 @@
 // Checks of camera, film, lamps, and of the scene as a whole.
+#include "config/hint.h"
+#include "config/node_number.h"
+#include "config/scalar.h"
 #include "scene/builtin.h"
-#include "scene/hint.h"
-#include "scene/node_number.h"
-#include "scene/scalar.h"
 #include "scene/spec_check.h"
 
 #include <ctype.h>

@@ -2,10 +2,10 @@
 
 #include "base/file_replace.h"
 #include "base/memory.h"
+#include "config/hint.h"
 #include "export/pieces.h"
 #include "scene/build.h"
 #include "scene/export_grids.h"
-#include "scene/hint.h"
 #include "scene/kind.h"
 
 #include <stdio.h>

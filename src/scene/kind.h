@@ -4,8 +4,8 @@
 #define RAMIFY_SCENE_KIND_H
 
 #include "base/measures.h"
-#include "mesh/height_field.h"
-#include "model/recipe.h"
+#include "land/height_field.h"
+#include "objects/common/recipe.h"
 #include "scene/build.h"
 #include "scene/needs.h"
 #include "scene/own_space.h"

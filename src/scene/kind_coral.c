@@ -1,5 +1,5 @@
 // Corals as a kind of object.
-#include "model/coral.h"
+#include "objects/coral/coral.h"
 #include "scene/kinds.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 // A diffusion-limited aggregate as a kind of object.
-#include "grow/dla.h"
+#include "grow/aggregate/dla.h"
 #include "scene/kinds.h"
 
 #include <math.h>

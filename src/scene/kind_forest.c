@@ -1,5 +1,5 @@
 // A forest as a kind of object. It stands on the scene's ground, if there is one.
-#include "model/stand_places.h"
+#include "objects/forest/stand_places.h"
 #include "scene/kinds.h"
 #include "scene/scene_flood.h"
 

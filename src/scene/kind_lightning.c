@@ -1,6 +1,6 @@
 // Lightning as a kind of object.
 #include "base/color.h"
-#include "model/lightning.h"
+#include "objects/lightning/lightning.h"
 #include "scene/kinds.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 // Plants written as L-systems as a kind of object.
-#include "model/lsystem_plant.h"
+#include "objects/lsystem/plant.h"
 #include "scene/kinds.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 // A hollow branch sculpture as a kind of object.
+#include "outtree/join.h"
 #include "scene/kinds.h"
-#include "tree/join.h"
 
 #include <math.h>
 #include <stdio.h>

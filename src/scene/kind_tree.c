@@ -1,5 +1,5 @@
 // A tree as a kind of object.
-#include "model/tree_defaults.h"
+#include "objects/tree/defaults.h"
 #include "scene/kinds.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 #include "scene/needs.h"
 
 #include "base/memory.h"
-#include "render/accel.h"
+#include "render/accel/accel.h"
 #include "render/film.h"
 #include "scene/kind.h"
 #include "scene/place.h"

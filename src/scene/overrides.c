@@ -1,8 +1,8 @@
 #include "scene/overrides.h"
 
+#include "config/hint.h"
+#include "config/yaml.h"
 #include "scene/builtin.h"
-#include "scene/hint.h"
-#include "scene/yaml.h"
 
 #include <stdlib.h>
 #include <string.h>

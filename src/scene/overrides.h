@@ -2,7 +2,7 @@
 #ifndef RAMIFY_SCENE_OVERRIDES_H
 #define RAMIFY_SCENE_OVERRIDES_H
 
-#include "scene/node.h"
+#include "config/node.h"
 #include "scene/scene.h"
 
 // Carries out one override, "camera.fov=35" or "objects.oak.tree.leaves.max_count=0". Entries of a

@@ -5,7 +5,7 @@
 #ifndef RAMIFY_SCENE_OWN_SPACE_H
 #define RAMIFY_SCENE_OWN_SPACE_H
 
-#include "scene/node.h"
+#include "config/node.h"
 #include "scene/scene.h"
 
 // Begins with own_space_enter, ends with own_space_leave.

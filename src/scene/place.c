@@ -1,8 +1,8 @@
 #include "scene/place.h"
 
+#include "config/yaml.h"
 #include "scene/kind.h"
 #include "scene/overrides.h"
-#include "scene/yaml.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,12 +2,13 @@
 
 #include "base/c_locale.h"
 #include "base/memory.h"
-#include "scene/emit.h"
-#include "scene/load.h"
+#include "config/emit.h"
+#include "config/load.h"
+#include "config/resolve.h"
+#include "config/yaml.h"
 #include "scene/overrides.h"
-#include "scene/resolve.h"
 #include "scene/settle.h"
-#include "scene/yaml.h"
+#include "scene/spec.h"
 
 #include <errno.h>
 #include <fcntl.h>

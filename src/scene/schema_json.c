@@ -1,6 +1,7 @@
 // The JSON Schema (draft 2020-12) of scene files, written from the tables of spec.h.
 #include "scene/scene.h"
 #include "scene/schema_text.h"
+#include "scene/spec.h"
 
 #include <stdio.h>
 

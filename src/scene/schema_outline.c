@@ -1,5 +1,7 @@
 #include "scene/schema_outline.h"
 
+#include "scene/spec.h"
+
 #include <string.h>
 
 // "objects.NAME.tree.trunk" as a reader calls it: "tree trunk". Of a list's entry the list's name.

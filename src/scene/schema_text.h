@@ -3,7 +3,7 @@
 #ifndef RAMIFY_SCENE_SCHEMA_TEXT_H
 #define RAMIFY_SCENE_SCHEMA_TEXT_H
 
-#include "scene/resolve_value.h"
+#include "config/resolve_value.h"
 
 typedef struct SchemaText {
     char *text; // heap, ended by NUL once something was put

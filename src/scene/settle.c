@@ -1,8 +1,8 @@
 #include "scene/settle.h"
 
 #include "base/memory.h"
+#include "config/scalar.h"
 #include "scene/kind.h"
-#include "scene/scalar.h"
 #include "scene/spec.h"
 
 #include <inttypes.h>

@@ -2,7 +2,7 @@
 #ifndef RAMIFY_SCENE_SETTLE_H
 #define RAMIFY_SCENE_SETTLE_H
 
-#include "scene/node.h"
+#include "config/node.h"
 #include "scene/scene.h"
 
 // Notes at the numbers that are 0 in the resolved document, but something else in what the object's

@@ -3,8 +3,9 @@
 #ifndef RAMIFY_SCENE_SPEC_CHECK_H
 #define RAMIFY_SCENE_SPEC_CHECK_H
 
-#include "scene/resolve.h"
+#include "config/resolve.h"
 #include "scene/scene.h"
+#include "scene/spec.h"
 
 // Defaults of mappings whose position, rotation and scale become one transform.
 typedef struct PlacedShape {

@@ -1,5 +1,5 @@
 // The coral: form, L-system, colonies, corallites, rock.
-#include "model/coral.h"
+#include "objects/coral/coral.h"
 #include "scene/spec_check.h"
 
 static const cyaml_strval_t FORMS[] = {

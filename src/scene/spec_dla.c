@@ -1,5 +1,5 @@
 // Diffusion-limited aggregates.
-#include "model/dla.h"
+#include "objects/dla/dla.h"
 #include "scene/spec_check.h"
 
 static const Key DLA_KEYS[] = {

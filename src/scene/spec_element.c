@@ -1,5 +1,5 @@
 // What elements (trunk, crown, roots) are made of: shapes, points, growth levels, guide fields.
-#include "model/element.h"
+#include "objects/common/element.h"
 #include "scene/spec_check.h"
 
 #define BIT(kind) (1u << (kind))

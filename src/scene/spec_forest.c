@@ -1,5 +1,5 @@
 // Forests.
-#include "model/forest.h"
+#include "objects/forest/forest.h"
 #include "scene/spec_check.h"
 
 static const Key FOREST_KEYS[] = {

@@ -1,5 +1,5 @@
 // Broken things.
-#include "model/fracture.h"
+#include "objects/fracture/fracture.h"
 #include "scene/spec_check.h"
 
 static const Key FRACTURE_KEYS[] = {

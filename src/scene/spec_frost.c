@@ -1,5 +1,5 @@
 // Frost: the surface, the nuclei, the field, spines and sides.
-#include "model/frost.h"
+#include "objects/frost/frost.h"
 #include "scene/spec_check.h"
 
 #define BIT(kind) (1u << (kind))

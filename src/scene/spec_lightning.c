@@ -1,5 +1,5 @@
 // Lightning.
-#include "model/lightning.h"
+#include "objects/lightning/lightning.h"
 #include "scene/spec_check.h"
 
 static const Key LIGHTNING_KEYS[] = {

@@ -1,5 +1,5 @@
 // A plant written as an L-system.
-#include "model/lsystem_plant.h"
+#include "objects/lsystem/plant.h"
 #include "scene/spec_check.h"
 
 static const Key LSYSTEM_KEYS[] = {

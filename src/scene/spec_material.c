@@ -1,6 +1,6 @@
 // Materials.
-#include "render/material.h"
-#include "render/thin_film.h"
+#include "render/material/material.h"
+#include "render/material/thin_film.h"
 #include "scene/builtin.h"
 #include "scene/spec_check.h"
 

@@ -1,5 +1,5 @@
 // What fills the space of a scene.
-#include "render/medium.h"
+#include "render/medium/medium.h"
 #include "scene/spec.h"
 
 #define BIT(kind) (1u << (kind))

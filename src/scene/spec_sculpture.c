@@ -1,5 +1,5 @@
 // Hollow branch sculptures.
-#include "model/sculpture.h"
+#include "objects/sculpture/sculpture.h"
 #include "scene/spec_check.h"
 
 static const Key SCULPTURE_KEYS[] = {

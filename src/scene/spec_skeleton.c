@@ -1,5 +1,5 @@
 // Skeletons from SWC files.
-#include "model/skeleton.h"
+#include "objects/skeleton/skeleton.h"
 #include "scene/spec_check.h"
 
 static const cyaml_strval_t ORIGINS[] = {

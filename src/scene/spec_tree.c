@@ -1,5 +1,5 @@
 // The tree: trunk, crown, roots, radii, leaves, skin.
-#include "model/tree_defaults.h"
+#include "objects/tree/defaults.h"
 #include "scene/spec_check.h"
 
 static const Key TRUNK_KEYS[] = {

@@ -1,5 +1,5 @@
 // Leaves with their veins.
-#include "model/venation.h"
+#include "objects/venation/venation.h"
 #include "scene/spec_check.h"
 
 static const Key VENATION_KEYS[] = {

@@ -1,5 +1,5 @@
 // Blood vessels.
-#include "model/vessels.h"
+#include "objects/vessels/vessels.h"
 #include "scene/spec_check.h"
 
 static const Key VESSELS_KEYS[] = {

@@ -1,8 +1,8 @@
 // Colonization against diffusion-limited aggregation, the papers' claim that theirs is the faster:
 // nodes per second of both for plane clusters of as many nodes over as large a disc, on one thread.
 #include "base/random.h"
+#include "grow/aggregate/dla.h"
 #include "grow/colonize.h"
-#include "grow/dla.h"
 
 #include <math.h>
 #include <stdio.h>

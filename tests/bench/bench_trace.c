@@ -9,9 +9,9 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "grow/colonize.h"
+#include "outtree/radii.h"
 #include "render/renderer.h"
 #include "shape/import.h"
-#include "tree/radii.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // Figures of speed of blood vessels: an organ filled with arteries and veins, all of it (level set,
 // growth, clearing, radii, angles). RAMIFY_ORGAN names a mesh to fill; without it a bean of
 // ellipsoids, a level set too, is filled. User time of all threads counts, wall time is beside it.
-#include "model/vessels.h"
+#include "objects/vessels/vessels.h"
 
 #include <stdio.h>
 #include <stdlib.h>

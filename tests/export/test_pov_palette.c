@@ -2,7 +2,7 @@
 #include "testing.h"
 
 #include "base/random.h"
-#include "export/pov_palette.h"
+#include "export/pov/palette.h"
 
 #include <stdlib.h>
 

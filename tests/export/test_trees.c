@@ -3,8 +3,8 @@
 
 #include "export/formats.h"
 #include "export/heights.h"
-#include "mesh/height_measure.h"
-#include "tree/out_tree_io.h"
+#include "land/height_measure.h"
+#include "outtree/out_tree_io.h"
 
 #include <stdio.h>
 #include <stdlib.h>

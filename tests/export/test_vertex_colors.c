@@ -2,8 +2,8 @@
 #include "testing.h"
 
 #include "export/vertex_colors.h"
-#include "render/accel.h"
-#include "render/pattern.h"
+#include "render/accel/accel.h"
+#include "render/material/pattern.h"
 #include "scene/build.h"
 
 #include <stdlib.h>

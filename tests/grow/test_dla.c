@@ -3,8 +3,8 @@
 #include "testing.h"
 
 #include "base/random.h"
-#include "grow/dla.h"
-#include "grow/dla_grid.h"
+#include "grow/aggregate/dla.h"
+#include "grow/aggregate/dla_grid.h"
 
 #include <math.h>
 #include <string.h>

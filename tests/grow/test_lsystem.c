@@ -2,9 +2,9 @@
 #include "testing.h"
 
 #include "base/exact_math.h"
-#include "grow/expression.h"
-#include "grow/lsystem.h"
-#include "grow/turtle.h"
+#include "grow/lsystem/expression.h"
+#include "grow/lsystem/lsystem.h"
+#include "grow/lsystem/turtle.h"
 
 #include <math.h>
 #include <stdio.h>

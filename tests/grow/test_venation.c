@@ -3,8 +3,8 @@
 #include "testing.h"
 
 #include "base/random.h"
-#include "grow/venation.h"
-#include "tree/join.h"
+#include "grow/venation/venation.h"
+#include "outtree/join.h"
 
 #include <math.h>
 #include <stdlib.h>

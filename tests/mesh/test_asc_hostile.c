@@ -3,7 +3,7 @@
 #include "testing.h"
 
 #include "base/memory.h"
-#include "mesh/height_measure.h"
+#include "land/height_measure.h"
 
 #include <locale.h>
 #include <math.h>

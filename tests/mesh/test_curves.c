@@ -1,6 +1,6 @@
 #include "mesh/curves.h"
 #include "mesh/geometry.h"
-#include "mesh/skin.h"
+#include "skin/skin.h"
 #include "testing.h"
 #include "tree_samples.h"
 

@@ -1,7 +1,7 @@
 #include "base/random.h"
-#include "mesh/height_drainage.h"
-#include "mesh/height_measure.h"
-#include "mesh/height_mesh.h"
+#include "land/height_drainage.h"
+#include "land/height_measure.h"
+#include "land/height_mesh.h"
 #include "testing.h"
 
 #include <math.h>

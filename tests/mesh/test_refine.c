@@ -1,7 +1,7 @@
 #include "base/memory.h"
 #include "catmull_clark.h"
 #include "mesh/refine.h"
-#include "mesh/skin.h"
+#include "skin/skin.h"
 #include "testing.h"
 #include "tree_samples.h"
 

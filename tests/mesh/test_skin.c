@@ -1,5 +1,5 @@
-#include "mesh/skin.h"
-#include "mesh/skin_cage.h"
+#include "skin/cage.h"
+#include "skin/skin.h"
 #include "testing.h"
 #include "tree_samples.h"
 

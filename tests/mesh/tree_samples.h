@@ -3,9 +3,9 @@
 #define RAMIFY_TESTS_TREE_SAMPLES_H
 
 #include "base/random.h"
+#include "outtree/out_tree.h"
+#include "outtree/radii.h"
 #include "testing.h"
-#include "tree/out_tree.h"
-#include "tree/radii.h"
 
 static inline int64_t sample_add(OutTree *tree, Vec3 at, int64_t parent, float radius)
 {

@@ -1,8 +1,8 @@
 // Energy, densities, reciprocity and sampling of every material.
-#include "render/bsdf.h"
+#include "render/material/bsdf.h"
 
 #include "base/random.h"
-#include "render/bsdf_ggx.h"
+#include "render/material/bsdf_ggx.h"
 
 #include <math.h>
 #include <setjmp.h>

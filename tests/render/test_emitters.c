@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "mesh/curves.h"
-#include "render/accel.h"
+#include "render/accel/accel.h"
 
 #define ASSERT_NEAR(value, wanted, tolerance)                                             \
     do {                                                                                  \

@@ -2,7 +2,7 @@
 #include "tiny_world.h"
 
 #include "image/image.h"
-#include "render/lights.h"
+#include "render/light/lights.h"
 
 #include <stdio.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // Materials with pictures: colour and opacity from files, and what is said when they are missing.
-#include "render/bsdf.h"
+#include "render/material/bsdf.h"
 
 #include "image/image.h"
 

@@ -3,7 +3,7 @@
 
 #include "base/random.h"
 #include "mesh/curves.h"
-#include "render/medium.h"
+#include "render/medium/medium.h"
 
 #define ASSERT_NEAR(value, wanted, tolerance)                                             \
     do {                                                                                  \

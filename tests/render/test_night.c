@@ -1,8 +1,8 @@
 // The night sky: stars keep their light at any resolution, the moon lights what it should.
 #include "tiny_world.h"
 
-#include "render/lights.h"
-#include "render/night.h"
+#include "render/light/lights.h"
+#include "render/sky/night.h"
 
 #define ASSERT_NEAR(value, wanted, tolerance)                                             \
     do {                                                                                  \

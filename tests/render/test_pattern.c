@@ -1,9 +1,9 @@
 // Noise and the patterns made of it.
-#include "render/pattern.h"
+#include "render/material/pattern.h"
 
 #include "base/random.h"
-#include "render/bsdf.h"
-#include "render/pattern_noise.h"
+#include "render/material/bsdf.h"
+#include "render/material/pattern_noise.h"
 
 #include <math.h>
 #include <setjmp.h>

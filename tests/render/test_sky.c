@@ -1,9 +1,9 @@
 // The sky against what photometers read under the real one, and the dome it is baked into.
 #include "tiny_world.h"
 
-#include "render/atmosphere.h"
-#include "render/lights.h"
-#include "render/sky.h"
+#include "render/light/lights.h"
+#include "render/sky/atmosphere.h"
+#include "render/sky/sky.h"
 
 static Dome *make_sky(float elevation, float turbidity, Sun *sun)
 {

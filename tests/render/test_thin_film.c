@@ -2,9 +2,9 @@
 #include "render/tiny_world.h"
 
 #include "base/random.h"
-#include "render/atmosphere.h"
-#include "render/bsdf.h"
-#include "render/thin_film.h"
+#include "render/material/bsdf.h"
+#include "render/material/thin_film.h"
+#include "render/sky/atmosphere.h"
 
 #include <complex.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 #include "tiny_world.h"
 
 #include "base/random.h"
-#include "render/lights.h"
+#include "render/light/lights.h"
 
 #define ASSERT_NEAR(value, wanted, tolerance)                                             \
     do {                                                                                  \

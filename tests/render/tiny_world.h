@@ -5,8 +5,8 @@
 #include "testing.h"
 
 #include "base/memory.h"
-#include "render/dome.h"
 #include "render/renderer.h"
+#include "render/sky/dome.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 // Scenes that are right: defaults, overrides, anchors, merges, numbers, files, round trips.
 #include "scene_fixture.h"
 
-#include "model/tree.h"
-#include "scene/hint.h"
-#include "scene/scalar.h"
+#include "config/hint.h"
+#include "config/scalar.h"
+#include "objects/tree/tree.h"
 #include "scene/spec.h"
 
 #include <locale.h>

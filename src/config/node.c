@@ -1,0 +1,184 @@
+#include "config/node.h"
+
+#include "base/memory.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define BLOCK_SIZE 65536
+#define TEXT_A_VALUE 64 // bytes of text that count as one more value where aliases unfold
+
+typedef struct Block {
+    struct Block *next;
+    size_t used, size;
+    _Alignas(max_align_t) unsigned char bytes[];
+} Block;
+
+struct Arena {
+    Block *block;
+};
+
+Arena *arena_new(Error *e)
+{
+    return memory_alloc_zero(1, sizeof(Arena), e);
+}
+
+void arena_free(Arena *arena)
+{
+    if (!arena) {
+        return;
+    }
+    for (Block *block = arena->block; block;) {
+        Block *next = block->next;
+        free(block);
+        block = next;
+    }
+    free(arena);
+}
+
+void *arena_alloc(Arena *arena, size_t size, Error *e)
+{
+    size = (size + _Alignof(max_align_t) - 1) / _Alignof(max_align_t) * _Alignof(max_align_t);
+    Block *block = arena->block;
+    if (!block || block->size - block->used < size) {
+        size_t wanted = size > BLOCK_SIZE ? size : BLOCK_SIZE;
+        block = memory_alloc_zero((int64_t)(sizeof(Block) + wanted), 1, e);
+        if (!block) {
+            return NULL;
+        }
+        block->size = wanted;
+        block->next = arena->block;
+        arena->block = block;
+    }
+    void *memory = block->bytes + block->used;
+    block->used += size;
+    return memory;
+}
+
+char *arena_text(Arena *arena, const char *bytes, size_t length, Error *e)
+{
+    char *text = arena_alloc(arena, length + 1, e);
+    return text ? memcpy(text, bytes, length) : NULL;
+}
+
+char *arena_format(Arena *arena, Error *e, const char *format, ...)
+{
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    int length = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    char *text = length < 0 ? NULL : arena_alloc(arena, (size_t)length + 1, e);
+    if (text) {
+        vsnprintf(text, (size_t)length + 1, format, again);
+    }
+    va_end(again);
+    return text;
+}
+
+Node *node_new(Arena *arena, NodeKind kind, Error *e)
+{
+    Node *node = arena_alloc(arena, sizeof *node, e);
+    if (node) {
+        node->kind = kind;
+        node->text = kind == NODE_SCALAR ? "" : NULL;
+    }
+    return node;
+}
+
+Node *node_scalar(Arena *arena, const char *text, Error *e)
+{
+    Node *node = text ? node_new(arena, NODE_SCALAR, e) : NULL;
+    if (node) {
+        node->text = text;
+    }
+    return node;
+}
+
+void node_append(Node *parent, Node *child, const char *key)
+{
+    child->key = key;
+    child->next = NULL;
+    if (parent->last) {
+        parent->last->next = child;
+    } else {
+        parent->first = child;
+    }
+    parent->last = child;
+    parent->count++;
+    parent->height = parent->height > child->height ? parent->height : child->height + 1;
+}
+
+Node *node_get(const Node *map, const char *key)
+{
+    if (!map || map->kind != NODE_MAP) {
+        return NULL;
+    }
+    for (Node *child = map->first; child; child = child->next) {
+        if (strcmp(child->key, key) == 0) {
+            return child;
+        }
+    }
+    return NULL;
+}
+
+const char *node_get_text(const Node *map, const char *key)
+{
+    const Node *child = node_get(map, key);
+    return child && child->kind == NODE_SCALAR ? child->text : NULL;
+}
+
+Node *node_copy(Arena *arena, const Node *node, int *budget, Error *e)
+{
+    *budget -= 1 + (node->text ? (int)(strlen(node->text) / TEXT_A_VALUE) : 0);
+    if (*budget < 0) {
+        error_set(e, ERROR_INPUT,
+                  "the aliases of this file unfold to too much; at most a million values in all "
+                  "are read");
+        return NULL;
+    }
+    Node *copy = node_new(arena, node->kind, e);
+    if (!copy) {
+        return NULL;
+    }
+    *copy = *node;
+    copy->first = copy->last = copy->next = NULL;
+    copy->count = copy->height = 0;
+    for (const Node *child = node->first; child; child = child->next) {
+        Node *twin = node_copy(arena, child, budget, e);
+        if (!twin) {
+            return NULL;
+        }
+        node_append(copy, twin, child->key);
+    }
+    return copy;
+}
+
+void node_remove(Node *parent, const Node *child)
+{
+    Node *before = NULL;
+    for (Node *here = parent->first; here; before = here, here = here->next) {
+        if (here != child) {
+            continue;
+        }
+        if (before) {
+            before->next = here->next;
+        } else {
+            parent->first = here->next;
+        }
+        if (parent->last == here) {
+            parent->last = before;
+        }
+        parent->count--;
+        return;
+    }
+}
+
+bool node_is_null(const Node *node)
+{
+    return node->kind == NODE_SCALAR && !node->quoted &&
+           (!*node->text || strcmp(node->text, "~") == 0 || strcmp(node->text, "null") == 0 ||
+            strcmp(node->text, "Null") == 0 || strcmp(node->text, "NULL") == 0);
+}

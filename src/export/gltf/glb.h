@@ -1,0 +1,115 @@
+// What the files that make up the GLB writer share: glb_plan.c lays them out, glb.c writes the
+// bytes, glb_json.c describes them, glb_nodes.c places them, glb_material.c and glb_image.c have
+// the materials and their pictures.
+#ifndef RAMIFY_EXPORT_GLTF_GLB_H
+#define RAMIFY_EXPORT_GLTF_GLB_H
+
+#include "export/pieces.h"
+#include "render/sky/sky.h"
+
+#include <stdio.h>
+
+typedef enum GlbPlacing {
+    GLB_ONCE,  // no instances
+    GLB_NODES, // a node each
+    GLB_PAIRS, // two nodes each, one turned within the other: together they shear
+    GLB_GPU,   // EXT_mesh_gpu_instancing
+    GLB_FLAT   // written out
+} GlbPlacing;
+
+// One part of the geometry as a mesh with one primitive. Its vertices are interleaved.
+typedef struct GlbPart {
+    int64_t index; // of the geometry's part
+    GlbPlacing placing;
+    bool refused; // written out since no node can say its instances
+    int64_t vertices, triangles;
+    bool normal, uv, radius, birth;
+    bool color, growth; // COLOR_0; COLOR_1, or COLOR_0 where there is no color
+    bool glow;          // TEXCOORD_1: places on the ramp of glows
+    Aabb bounds;        // of what is written, so of one instance unless flat
+    int stride;         // bytes a vertex
+    int64_t vertex_at, index_at, instance_at; // bytes into the buffer
+} GlbPart;
+
+// A picture as it stands in the file.
+typedef struct GlbImage {
+    const char *color, *alpha; // the files it comes from; borrowed; NULL or "" = none
+    const Material *ramp;      // borrowed: whose glows it has, or NULL
+    unsigned char *bytes;      // owned
+    int64_t size, at;
+    bool jpeg; // otherwise PNG
+} GlbImage;
+
+typedef struct Glb {
+    const ExportSource *source;
+    const Run *run;
+    GlbPart *part; // owned
+    int64_t part_count;
+    int *material; // owned; of each of the world's: its number in the file, -1 = not used
+    int material_count;
+    float *strongest; // owned; of each of the world's: the largest glow where it varies, else 0
+    GlbImage *image;  // owned
+    int64_t image_count, image_capacity;
+    int64_t buffer_size; // bytes
+    Sun sun;             // or moon; radiance 0 = none
+} Glb;
+
+// Fills all of it; source and run are set. Warns of what readers may stumble over.
+bool glb_plan(Glb *glb, Error *e);
+
+// ERROR_INPUT for a file of that many bytes.
+bool glb_too_large(Error *e, double bytes);
+
+// Is COLOR_0 of such parts the whole base colour? Otherwise it is white.
+bool glb_colors_are_base(const Glb *glb, const Material *material);
+
+// Numbers the materials that parts use and reads their pictures.
+bool glb_gather_materials(Glb *glb, Error *e);
+
+bool glb_has_image(const Material *material);
+
+// Reads the picture of a material that has one, if it is not there yet, and finds it again: its
+// number, -1 = none.
+bool glb_add_image(Glb *glb, const Material *material, Error *e);
+int64_t glb_image_number(const Glb *glb, const Material *material);
+
+// Glows of curves that vary, which nothing else in glTF can say: a picture of 256 shades of the
+// material's light, from none to the strongest, that an emissive texture looks up at TEXCOORD_1.
+bool glb_add_ramp(Glb *glb, const Material *material, Error *e);
+int64_t glb_ramp_number(const Glb *glb, const Material *material); // -1 = none
+float glb_ramp_place(float share); // of the strongest glow, 0..1: u on the ramp
+
+// Textures, images and their samplers, with a comma before.
+void glb_put_images(const Glb *glb, FILE *json);
+
+// "materials": [...], and textures, images and a sampler where there are any; each with a comma
+// before it.
+void glb_put_materials(const Glb *glb, FILE *json);
+
+// Of a part: buffer views (vertices, triangles, and places in tables), accessors (those of
+// vertices, triangles, places), places.
+int64_t glb_part_views(const GlbPart *part);
+int64_t glb_part_accessors(const GlbPart *part);
+int64_t glb_instance_count(const Glb *glb, const GlbPart *part);
+
+void glb_put_part_name(const Glb *glb, const GlbPart *part, FILE *json); // "name":"..."
+
+// Nodes and scene; the camera; lights, where glb_light_count is not 0. Each with a comma before it.
+void glb_put_nodes(const Glb *glb, FILE *json);
+void glb_put_camera(const Glb *glb, FILE *json);
+void glb_put_lights(const Glb *glb, FILE *json);
+int glb_light_count(const Glb *glb);
+
+// The names of the material extensions that are used, each quoted with a comma behind it.
+void glb_put_material_extensions(const Glb *glb, FILE *json);
+
+// All of the JSON as heap text that the caller frees.
+char *glb_json(const Glb *glb, size_t *size, Error *e);
+
+// Pieces of JSON: numbers are the shortest that read back to the same.
+void json_put_float(FILE *json, float value);
+void json_put_floats(FILE *json, const char *key, const float *value, int count); // "key":[...]
+void json_put_color(FILE *json, const char *key, Vec3 value);
+void json_put_string(FILE *json, const char *text); // quoted
+
+#endif

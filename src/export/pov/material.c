@@ -1,0 +1,262 @@
+// Materials, each a macro of the colours that differ from place to place.
+#include "export/pov/pov.h"
+
+#include "base/color.h"
+#include "render/material/thin_film.h"
+
+#include <ctype.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+
+bool pov_has_picture(const Material *m)
+{
+    return m->texture || m->alpha_texture;
+}
+
+// "2_bark": POV-Ray's names are letters, digits and underscores.
+static void write_name(Pov *pov, int material)
+{
+    char name[sizeof pov->world->material->name + 1];
+    const char *from = pov->world->material[material].name;
+    size_t i = 0;
+    for (; from[i] && i + 1 < sizeof name; i++) {
+        name[i] = (char)(isalnum((unsigned char)from[i]) ? from[i] : '_');
+    }
+    name[i] = 0;
+    file_writer_print(pov->out, "%d_%s", material, name);
+}
+
+// ---- finishes
+
+// POV-Ray mirrors sharply or not at all: how much of a glossy lobe is drawn as a mirror.
+static float mirror_share(float roughness)
+{
+    return 1.0f - smoothstepf(0.15f, 0.55f, roughness);
+}
+
+// POV-Ray's highlight is the cosine of the half vector to the power of 1 / roughness; the lobe of a
+// GGX alpha is about as wide as that to the power of 2 / alpha^2 - 2.
+static float highlight_roughness(float roughness)
+{
+    float a2 = fmaxf(powf(roughness, 4.0f), 1e-6f);
+    return clampf(a2 / fmaxf(2.0f - 2.0f * a2, 1e-3f), 1e-4f, 1.0f);
+}
+
+static void write_highlight(Pov *pov, float albedo, float roughness, bool metallic)
+{
+    if (albedo > 0.0f) {
+        file_writer_print(pov->out, " specular albedo %.5g roughness %.5g%s", (double)albedo,
+                          (double)highlight_roughness(roughness), metallic ? " metallic" : "");
+    }
+}
+
+// Reflection that grows from straight on to grazing by Schlick's law, as ours does. Half of what a
+// rough metal gives back from lamps is drawn as a highlight, half as if it were
+// matt, which is also how it shows the sky.
+static void write_conductor_finish(Pov *pov, float roughness)
+{
+    float share = mirror_share(roughness), rest = 0.5f * (1.0f - share);
+    file_writer_print(pov->out, "finish { diffuse %.5g", (double)rest);
+    write_highlight(pov, rest, roughness, true);
+    if (share > 0.0f) {
+        file_writer_print(pov->out, " reflection { rgb C * %.5g, rgb %.5g falloff 5 }",
+                          (double)share, (double)share);
+    }
+    file_writer_text(pov->out, " }");
+}
+
+static void write_principled_finish(Pov *pov, const Material *m)
+{
+    float f0 = 0.08f * m->specular, metal = m->metallic;
+    float share = mirror_share(m->roughness), rest = 1.0f - share;
+    float matt = (1.0f - metal) * (1.0f - f0) + 0.5f * metal * rest;
+    file_writer_print(pov->out, "finish { diffuse %.5g", (double)matt);
+    write_highlight(pov, f0 * (1.0f - metal) * rest + 0.5f * metal * rest, m->roughness,
+                    metal > 0.5f);
+    if (share > 0.0f && (f0 > 0.0f || metal > 0.0f)) {
+        file_writer_print(pov->out,
+                          " reflection { rgb (C * %.5g + %.5g) * %.5g, rgb %.5g falloff 5 }",
+                          (double)metal, (double)(f0 * (1.0f - metal)), (double)share,
+                          (double)(share * lerpf(fminf(1.0f, 50.0f * f0), 1.0f, metal)));
+    }
+    file_writer_text(pov->out, " }");
+}
+
+// Two layers, each half clear and of twice the strength: POV-Ray has one colour for both sides of
+// light, a leaf has two.
+static void write_leaf(Pov *pov, const Material *m, const char *pigment)
+{
+    float f0 = 0.08f * m->specular, under = 1.0f - f0;
+    if (pov_has_picture(m)) {
+        float t = luminance(m->transmittance), c = fmaxf(luminance(m->color), 1e-3f);
+        file_writer_print(pov->out, "texture { %s finish { diffuse %.5g, %.5g", pigment,
+                          (double)under, (double)(under * t / c));
+        write_highlight(pov, f0, m->roughness, false);
+        file_writer_text(pov->out, " } }");
+        return;
+    }
+    file_writer_print(pov->out, "texture { pigment { rgb T } finish { diffuse 0, %.5g } }\n",
+                      (double)(2.0f * under));
+    file_writer_print(pov->out, "texture { pigment { rgb C transmit 0.5 } finish { diffuse %.5g, 0",
+                      (double)(2.0f * under));
+    write_highlight(pov, f0, m->roughness, false);
+    file_writer_text(pov->out, " } }");
+}
+
+// Two waves meet: reflectance swings between 0 and twice its mean with the film's thickness.
+static void write_film(Pov *pov, const Material *m)
+{
+    float mean = thin_film_mean(m->ior, 1.0f);
+    file_writer_print(pov->out,
+                      "texture { pigment { rgb C filter 1 } finish { diffuse 0 reflection "
+                      "{ rgb %.5g, rgb 1 falloff 5 } conserve_energy\n"
+                      "    irid { 1 thickness %.5g turbulence %.5g } } }",
+                      (double)mean, (double)(m->ior * m->film_thickness * 1e-3f),
+                      (double)(0.5f * fmaxf(m->film_swirl, m->film_drainage)));
+}
+
+static void write_textures(Pov *pov, const Material *m, const char *pigment)
+{
+    switch (m->kind) {
+    case MATERIAL_LEAF:
+        write_leaf(pov, m, pigment);
+        return;
+    case MATERIAL_THIN_FILM:
+        write_film(pov, m);
+        return;
+    case MATERIAL_EMISSION:
+        file_writer_text(pov->out, "texture { pigment { rgb C } finish { diffuse 0 emission 1 } }");
+        return;
+    case MATERIAL_DIELECTRIC:
+        file_writer_print(pov->out, "texture { pigment { rgb C filter 1 } finish { diffuse 0%s } }",
+                          m->ior > 1.0f ? " reflection { 0, 1 fresnel on } conserve_energy" : "");
+        return;
+    case MATERIAL_DIFFUSE:
+    case MATERIAL_CONDUCTOR:
+    case MATERIAL_PRINCIPLED:
+        break;
+    }
+    file_writer_print(pov->out, "texture { %s ", pigment);
+    if (m->kind == MATERIAL_DIFFUSE) {
+        file_writer_text(pov->out, "finish { diffuse 1 }");
+    } else if (m->kind == MATERIAL_CONDUCTOR) {
+        write_conductor_finish(pov, m->roughness);
+    } else {
+        write_principled_finish(pov, m);
+    }
+    file_writer_text(pov->out, " }");
+}
+
+// ---- interiors
+
+static bool has_interior(const Material *m)
+{
+    return m->kind == MATERIAL_DIELECTRIC;
+}
+
+// POV-Ray's fade_power 1001 is Beer and Lambert's law: exp(-(1 - fade_color) depth / distance).
+static void write_absorption(Pov *pov, Vec3 absorption)
+{
+    float most = fmaxf(absorption.x, fmaxf(absorption.y, absorption.z));
+    if (most > 0.0f) {
+        file_writer_print(pov->out, " fade_power 1001 fade_distance %.9g fade_color rgb ",
+                          (double)(pov->unit / most));
+        pov_vector(pov, vec3(1.0f - absorption.x / most, 1.0f - absorption.y / most,
+                             1.0f - absorption.z / most));
+    }
+}
+
+// See pov_medium.c about the quarter.
+static void write_scattering(Pov *pov, const Material *m)
+{
+    if (luminance(m->scattering) > 0.0f) {
+        file_writer_text(pov->out, "\n    media { scattering { 5, rgb ");
+        pov_vector(pov, vec3_scale(m->scattering, 0.25f / pov->unit));
+        file_writer_print(pov->out, " eccentricity %.5g extinction 4 } method 3 samples 8 }",
+                          (double)m->anisotropy);
+    }
+}
+
+static void write_interior(Pov *pov, int material)
+{
+    const Material *m = &pov->world->material[material];
+    file_writer_text(pov->out, "#declare I");
+    write_name(pov, material);
+    file_writer_print(pov->out, " = interior { ior %.9g", (double)m->ior);
+    write_absorption(pov, m->absorption);
+    write_scattering(pov, m);
+    file_writer_text(pov->out, " }\n");
+}
+
+void pov_interior(Pov *pov, int material)
+{
+    const Material *m = &pov->world->material[material];
+    if (has_interior(m)) {
+        file_writer_text(pov->out, luminance(m->scattering) > 0.0f ? " hollow interior { I"
+                                                                   : " interior { I");
+        write_name(pov, material);
+        file_writer_text(pov->out, " }");
+    }
+    if (m->kind == MATERIAL_EMISSION && pov->glow_lights) {
+        file_writer_text(pov->out, " no_shadow no_radiosity");
+    }
+}
+
+// ---- all of them
+
+void pov_textures(Pov *pov, int64_t number, int material, const Palette *colors)
+{
+    for (int i = 0; i < colors->count; i++) {
+        file_writer_print(pov->out, "#declare P%lld_%d = M", (long long)number, i);
+        write_name(pov, material);
+        file_writer_text(pov->out, "(");
+        pov_vector(pov, colors->color[i]);
+        file_writer_text(pov->out, ",");
+        pov_vector(pov, colors->second[i]);
+        file_writer_text(pov->out, ")\n");
+    }
+}
+
+static bool write_material(Pov *pov, int material)
+{
+    const Material *m = &pov->world->material[material];
+    char pigment[PATH_MAX + 64] = "pigment { rgb C }", picture[PATH_MAX];
+    if (pov_has_picture(m)) {
+        if (!pov_bake_picture(pov, material, picture, sizeof picture)) {
+            return false;
+        }
+        snprintf(pigment, sizeof pigment, "uv_mapping pigment { image_map { %s interpolate 2 } }",
+                 picture);
+    }
+    file_writer_text(pov->out, "#macro M");
+    write_name(pov, material);
+    file_writer_text(pov->out, "(C, T)\n");
+    write_textures(pov, m, pigment);
+    file_writer_text(pov->out, "\n#end\n");
+    if (has_interior(m)) {
+        write_interior(pov, material);
+    }
+    return true;
+}
+
+static bool is_used(const World *world, int material)
+{
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        if (world->geometry.part[i].material == material) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool pov_materials(Pov *pov)
+{
+    for (int i = 0; i < pov->world->material_count; i++) {
+        if (is_used(pov->world, i) && !write_material(pov, i)) {
+            return false;
+        }
+    }
+    file_writer_text(pov->out, "\n");
+    return true;
+}

@@ -1,0 +1,201 @@
+// Materials as UsdPreviewSurface, which knows a diffuse colour under a coat, metal, emission and
+// plain transparency, and textures by the mesh's uv.
+#include "export/asset_path.h"
+#include "export/usd/usda.h"
+
+#include "image/image.h"
+
+#include <stdlib.h>
+
+// What UsdPreviewSurface can say of a material.
+typedef struct Preview {
+    Vec3 diffuse, emissive;
+    float metallic, roughness, ior, opacity;
+} Preview;
+
+// The index of refraction whose reflectance head-on is that of this coat.
+static float coat_ior(float specular)
+{
+    float root = sqrtf(0.08f * specular);
+    return (1.0f + root) / (1.0f - root);
+}
+
+// What clouds a dielectric hides what is behind it: as much as a centimetre of it does.
+static float cloudiness(const Material *m)
+{
+    float mean = (m->scattering.x + m->scattering.y + m->scattering.z) / 3.0f;
+    return 1.0f - expf(-0.01f * mean);
+}
+
+static Preview preview_of(const Material *m)
+{
+    Preview p = {.diffuse = m->color, .roughness = m->roughness, .ior = 1.0f, .opacity = 1.0f};
+    switch (m->kind) {
+    case MATERIAL_DIFFUSE: // an index of 1 has no coat
+        p.roughness = 1.0f;
+        break;
+    case MATERIAL_CONDUCTOR:
+        p.metallic = 1.0f;
+        break;
+    case MATERIAL_DIELECTRIC:
+        p.ior = m->ior;
+        p.opacity = cloudiness(m);
+        break;
+    case MATERIAL_PRINCIPLED:
+        p.metallic = m->metallic;
+        p.ior = coat_ior(m->specular);
+        break;
+    case MATERIAL_LEAF:
+        p.ior = coat_ior(m->specular);
+        break;
+    case MATERIAL_EMISSION:
+        p.diffuse = vec3_splat(0.0f);
+        p.roughness = 1.0f;
+        p.emissive = m->radiance;
+        break;
+    case MATERIAL_THIN_FILM:
+        p.roughness = 0.0f;
+        p.ior = m->ior;
+        p.opacity = 0.0f;
+        break;
+    }
+    return p;
+}
+
+// ---- shaders beside the surface, each named by what it feeds
+
+// Reads a colour from the vertices.
+static void primvar_reader(UsdaText *text, const char *name, const char *primvar, Vec3 fallback)
+{
+    usda_begin(text, NULL, "def Shader \"%s\"", name);
+    usda_line(text, "uniform token info:id = \"UsdPrimvarReader_float3\"");
+    usda_line(text, "string inputs:varname = \"%s\"", primvar);
+    usda_vec3(text, "float3 inputs:fallback", fallback);
+    usda_line(text, "float3 outputs:result");
+    usda_end(text);
+}
+
+static bool texture(Usda *usda, const char *name, const char *material, const char *picture,
+                    const Vec3 *scale, Error *e)
+{
+    UsdaText *text = &usda->text;
+    char *path = asset_path(usda->file, picture, e);
+    if (!path) {
+        return false;
+    }
+    usda_begin(text, NULL, "def Shader \"%s\"", name);
+    usda_line(text, "uniform token info:id = \"UsdUVTexture\"");
+    usda_asset(text, "asset inputs:file", path);
+    usda_line(text, "float2 inputs:st.connect = </World/Materials/%s/Place.outputs:result>",
+              material);
+    usda_line(text, "token inputs:sourceColorSpace = \"%s\"", scale ? "auto" : "raw");
+    usda_line(text, "token inputs:wrapS = \"repeat\"");
+    usda_line(text, "token inputs:wrapT = \"repeat\"");
+    if (scale) {
+        usda_line(text, "float4 inputs:scale = (%.9g, %.9g, %.9g, 1)", (double)scale->x,
+                  (double)scale->y, (double)scale->z);
+        usda_line(text, "float3 outputs:rgb");
+    } else {
+        usda_line(text, "float outputs:r");
+        usda_line(text, "float outputs:a");
+    }
+    usda_end(text);
+    free(path);
+    return true;
+}
+
+static void place_reader(UsdaText *text)
+{
+    usda_begin(text, NULL, "def Shader \"Place\"");
+    usda_line(text, "uniform token info:id = \"UsdPrimvarReader_float2\"");
+    usda_line(text, "string inputs:varname = \"st\"");
+    usda_line(text, "float2 outputs:result");
+    usda_end(text);
+}
+
+// An alpha texture's last channel is its alpha if it has one, else its first counts.
+static bool opacity_channel(const char *picture, char *channel, Error *e)
+{
+    Image *image = image_read(picture, e);
+    if (image) {
+        *channel = image->channels == 2 || image->channels == 4 ? 'a' : 'r';
+    }
+    image_free(image);
+    return image;
+}
+
+static void surface(Usda *usda, const Material *m, const char *name, bool glows, char opacity_from)
+{
+    UsdaText *text = &usda->text;
+    Preview p = preview_of(m);
+    usda_begin(text, NULL, "def Shader \"Surface\"");
+    usda_line(text, "uniform token info:id = \"UsdPreviewSurface\"");
+    if (m->texture || usda_colors_vertices(usda, m)) {
+        usda_line(text, "color3f inputs:diffuseColor.connect = </World/Materials/%s/Color.%s>",
+                  name, m->texture ? "outputs:rgb" : "outputs:result");
+    } else {
+        usda_vec3(text, "color3f inputs:diffuseColor", p.diffuse);
+    }
+    if (glows && m->kind == MATERIAL_EMISSION) {
+        usda_line(text,
+                  "color3f inputs:emissiveColor.connect = </World/Materials/%s/"
+                  "Emission.outputs:result>",
+                  name);
+    } else {
+        usda_vec3(text, "color3f inputs:emissiveColor", p.emissive);
+    }
+    if (opacity_from) {
+        usda_line(text, "float inputs:opacity.connect = </World/Materials/%s/Opacity.outputs:%c>",
+                  name, opacity_from);
+    } else {
+        usda_float(text, "float inputs:opacity", p.opacity);
+    }
+    usda_float(text, "float inputs:metallic", p.metallic);
+    usda_float(text, "float inputs:roughness", p.roughness);
+    usda_float(text, "float inputs:ior", p.ior);
+    usda_line(text, "token outputs:surface");
+    usda_end(text);
+}
+
+static bool material(Usda *usda, int index, Error *e)
+{
+    const Material *m = &usda->source->world->material[index];
+    const char *name = usda->material[index];
+    UsdaText *text = &usda->text;
+    char opacity_from = 0;
+    if (m->alpha_texture && !opacity_channel(m->alpha_texture, &opacity_from, e)) {
+        return false;
+    }
+    usda_begin(text, NULL, "def Material \"%s\"", name);
+    usda_line(text, "token outputs:surface.connect = </World/Materials/%s/Surface.outputs:surface>",
+              name);
+    surface(usda, m, name, usda->glows[index], opacity_from);
+    bool done = true;
+    if (m->texture) {
+        done = texture(usda, "Color", name, m->texture, &m->color, e);
+    } else if (usda_colors_vertices(usda, m)) {
+        primvar_reader(text, "Color", "displayColor", m->color);
+    }
+    if (usda->glows[index] && m->kind == MATERIAL_EMISSION) {
+        primvar_reader(text, "Emission", "emission", m->radiance);
+    }
+    if (done && m->alpha_texture) {
+        done = texture(usda, "Opacity", name, m->alpha_texture, NULL, e);
+    }
+    if (m->texture || m->alpha_texture) {
+        place_reader(text);
+    }
+    usda_end(text);
+    return done;
+}
+
+bool usda_materials(Usda *usda, Error *e)
+{
+    bool done = true;
+    usda_begin(&usda->text, NULL, "def Scope \"Materials\"");
+    for (int i = 0; done && i < usda->source->world->material_count; i++) {
+        done = !usda->used[i] || material(usda, i, e);
+    }
+    usda_end(&usda->text);
+    return done;
+}

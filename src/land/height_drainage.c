@@ -1,0 +1,232 @@
+#include "land/height_drainage.h"
+
+#include "base/lowest_queue.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const int STEP_X[8] = {1, 1, 0, -1, -1, -1, 0, 1};
+static const int STEP_Z[8] = {0, 1, 1, 1, 0, -1, -1, -1};
+
+// ---- neighbours
+
+static float step_length(const HeightField *field, int k)
+{
+    float x = field->cell.x * (float)STEP_X[k], z = field->cell.y * (float)STEP_Z[k];
+    return sqrtf(x * x + z * z);
+}
+
+// The neighbour of a sample in direction k; -1 beyond the rim.
+static int64_t neighbour(const HeightField *field, int64_t i, int k)
+{
+    int column = (int)(i % field->columns) + STEP_X[k];
+    int row = (int)(i / field->columns) + STEP_Z[k];
+    if (column < 0 || row < 0 || column >= field->columns || row >= field->rows) {
+        return -1;
+    }
+    return (int64_t)row * field->columns + column;
+}
+
+static bool on_rim(const HeightField *field, int64_t i)
+{
+    for (int k = 0; k < 8; k++) {
+        int64_t n = neighbour(field, i, k);
+        if (n < 0 || !isfinite(field->height[n])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_pit(const HeightField *field, int64_t i)
+{
+    for (int k = 0; k < 8; k++) {
+        int64_t n = neighbour(field, i, k);
+        if (n < 0 || !(field->height[n] >= field->height[i])) {
+            return false;
+        }
+    }
+    return isfinite(field->height[i]) && !on_rim(field, i);
+}
+
+int64_t height_field_pits(const HeightField *field)
+{
+    int64_t pits = 0;
+    for (int64_t i = 0; i < height_field_count(field); i++) {
+        pits += is_pit(field, i);
+    }
+    return pits;
+}
+
+// ---- the flood
+
+static float next_above(float x)
+{
+    uint32_t bits;
+    x = x == 0.0f ? 0.0f : x; // no negative zero
+    memcpy(&bits, &x, sizeof bits);
+    bits += x >= 0.0f ? 1u : (uint32_t)-1;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+typedef struct Flood {
+    const HeightField *field;
+    Drainage *out;
+    LowestQueue queue;
+    uint8_t *seen;
+    float fall;
+} Flood;
+
+static bool begin_at_rim(Flood *flood, Error *e)
+{
+    const HeightField *field = flood->field;
+    for (int64_t i = 0; i < flood->out->count; i++) {
+        flood->out->filled[i] = field->height[i];
+        flood->out->receiver[i] = (int32_t)i;
+        if (!isfinite(field->height[i])) {
+            flood->seen[i] = 1;
+        } else if (on_rim(field, i)) {
+            flood->seen[i] = 1;
+            if (!lowest_queue_push(&flood->queue, field->height[i], (int32_t)i, e)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// Every sample is reached from the lowest flooded one beside it: its way out when it stands in a
+// pit. Others run down the steepest side, which point_downhill finds.
+static bool flood_all(Flood *flood, Error *e)
+{
+    int64_t reached = 0;
+    while (flood->queue.count > 0) {
+        int32_t here = lowest_queue_pop(&flood->queue).index;
+        flood->out->order[reached++] = here;
+        for (int k = 0; k < 8; k++) {
+            int64_t n = neighbour(flood->field, here, k);
+            if (n < 0 || flood->seen[n]) {
+                continue;
+            }
+            float least = flood->out->filled[here] + flood->fall * step_length(flood->field, k);
+            float above = next_above(flood->out->filled[here]);
+            least = least > above ? least : above;
+            float h = flood->field->height[n];
+            flood->seen[n] = 1;
+            flood->out->filled[n] = h > least ? h : least;
+            flood->out->receiver[n] = here;
+            if (!lowest_queue_push(&flood->queue, flood->out->filled[n], (int32_t)n, e)) {
+                return false;
+            }
+        }
+    }
+    flood->out->count = reached;
+    return true;
+}
+
+// Order is by filled height, so a strictly lower neighbour always stands earlier in it.
+static void point_downhill(const HeightField *field, Drainage *out)
+{
+    for (int64_t k = 0; k < out->count; k++) {
+        int32_t i = out->order[k];
+        if (out->receiver[i] == i) {
+            continue;
+        }
+        float steepest = 0.0f;
+        for (int d = 0; d < 8; d++) {
+            int64_t n = neighbour(field, i, d);
+            float slope = n < 0 ? 0.0f : (out->filled[i] - out->filled[n]) / step_length(field, d);
+            if (slope > steepest) {
+                steepest = slope;
+                out->receiver[i] = (int32_t)n;
+            }
+        }
+    }
+}
+
+static void gather_areas(const HeightField *field, Drainage *out)
+{
+    double cell = (double)field->cell.x * (double)field->cell.y;
+    for (int64_t k = 0; k < out->count; k++) {
+        out->area[out->order[k]] = cell;
+    }
+    for (int64_t k = out->count - 1; k >= 0; k--) {
+        int32_t i = out->order[k], to = out->receiver[i];
+        if (to != i) {
+            out->area[to] += out->area[i];
+        }
+    }
+}
+
+static Drainage *allocate(const HeightField *field, Error *e)
+{
+    int64_t count = height_field_count(field);
+    Drainage *out = memory_alloc_zero(1, sizeof *out, e);
+    if (!out) {
+        return NULL;
+    }
+    out->count = count;
+    out->receiver = memory_alloc(count, sizeof *out->receiver, e);
+    out->order = memory_alloc(count, sizeof *out->order, e);
+    out->area = memory_alloc_zero(count, sizeof *out->area, e);
+    out->filled = memory_alloc(count, sizeof *out->filled, e);
+    if (!out->receiver || !out->order || !out->area || !out->filled) {
+        drainage_free(out);
+        return NULL;
+    }
+    return out;
+}
+
+static Drainage *flood_field(const HeightField *field, float fall, Error *e)
+{
+    Flood flood = {.field = field, .out = allocate(field, e), .fall = fall};
+    bool done = flood.out != NULL;
+    if (done) {
+        flood.seen = memory_alloc_zero(height_field_count(field), 1, e);
+        done = flood.seen && begin_at_rim(&flood, e) && flood_all(&flood, e);
+    }
+    free(flood.seen);
+    free(flood.queue.item);
+    if (!done) {
+        drainage_free(flood.out);
+        return NULL;
+    }
+    return flood.out;
+}
+
+Drainage *drainage_new(const HeightField *field, Error *e)
+{
+    Drainage *out = flood_field(field, 0.0f, e);
+    if (out) {
+        point_downhill(field, out);
+        gather_areas(field, out);
+        out->pits = height_field_pits(field);
+    }
+    return out;
+}
+
+void drainage_free(Drainage *drainage)
+{
+    if (drainage) {
+        free(drainage->receiver);
+        free(drainage->order);
+        free(drainage->area);
+        free(drainage->filled);
+        free(drainage);
+    }
+}
+
+bool height_field_fill(HeightField *field, float fall, Error *e)
+{
+    Drainage *flooded = flood_field(field, fall, e);
+    if (!flooded) {
+        return false;
+    }
+    memcpy(field->height, flooded->filled,
+           sizeof *field->height * (size_t)height_field_count(field));
+    drainage_free(flooded);
+    return true;
+}

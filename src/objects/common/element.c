@@ -1,0 +1,202 @@
+#include "objects/common/element.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+
+#include <stdlib.h>
+
+ColonizeParams element_colonize_params(const OutTree *tree, const ElementParams *element,
+                                       const GuideField *field, uint64_t seed)
+{
+    ColonizeParams params = colonize_params_default();
+    params.rule = element->rule;
+    params.max_children = element->max_children;
+    params.min_angle = element->min_angle;
+    params.max_angle = element->max_angle;
+    params.cone_angle = element->cone_angle;
+    params.cone_axis = element->cone_axis;
+    params.noise = element->noise;
+    params.noise_in_space = element->anchored;
+    params.anchor = tree->count > 0 ? tree->position[0] : vec3(0, 0, 0);
+    params.tropism = element->tropism;
+    params.field = field;
+    params.field_weight = element->field_weight;
+    params.field_mode = element->field_mode;
+    params.on_surface = element->place == SCATTER_SURFACE;
+    params.sector_angle = element->sector_angle > 0.0f ? element->sector_angle : 60.0f;
+    params.sector_axis = element->sector_axis;
+    params.apical = element->apical;
+    params.seed = seed;
+    for (int64_t i = 0; i < tree->count; i++) { // what grows now is younger than what is there
+        params.first_step = tree->birth[i] > params.first_step ? tree->birth[i] : params.first_step;
+    }
+    params.max_steps = element->max_steps;
+    params.max_nodes = element->max_nodes;
+    return params;
+}
+
+ScatterParams element_scatter_params(const OutTree *tree, const ElementParams *element,
+                                     uint64_t seed)
+{
+    ScatterParams params = scatter_params_default();
+    params.place = element->place;
+    params.pattern = element->pattern;
+    params.shell = element->shell;
+    params.gradient = element->gradient;
+    params.depth_gradient = element->depth_gradient;
+    params.anchored = element->anchored;
+    params.anchor = tree->count > 0 ? tree->position[0] : vec3(0, 0, 0);
+    params.seed = seed;
+    return params;
+}
+
+bool growth_witness(const Run *run, const char *label, const Envelope *envelope,
+                    const GuideField *field, Error *e)
+{
+    return !run->witness || run->witness->see(run->witness->user, label, envelope, field, e);
+}
+
+int64_t element_attractors(const ElementParams *element)
+{
+    int64_t sum = 0;
+    for (int i = 0; i < element->level_count; i++) {
+        sum += element->levels[i].attractors;
+    }
+    return sum;
+}
+
+// Of the sphere that polar angles count on: the middle of the envelope's first shape where that has
+// one, else that of the envelope's box.
+static Vec3 sphere_center(const ElementParams *element, Aabb bounds)
+{
+    const Shape *first = element->shape_count > 0 ? &element->shapes[0] : NULL;
+    if (first && (first->kind == SHAPE_SPHERE || first->kind == SHAPE_ELLIPSOID ||
+                  first->kind == SHAPE_BOX)) {
+        return transform_point(&first->transform, vec3(0, 0, 0));
+    }
+    return vec3_lerp(bounds.low, bounds.high, 0.5f);
+}
+
+// The guide field about the roots of the tree so far, its nuclei (Tanaka eq. (9); Tanaka
+// report 3.7.3).
+static GuideField *element_field(const OutTree *tree, const ElementParams *element,
+                                 const Envelope *envelope, uint64_t seed, const Run *run, Error *e)
+{
+    Vec3 *position = memory_alloc(tree->count, 2 * sizeof *position, e);
+    if (!position) {
+        return NULL;
+    }
+    Vec3 *normal = position + tree->count;
+    int64_t count = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->parent[i] < 0) {
+            position[count] = tree->position[i];
+            normal[count++] = tree->normal[i];
+        }
+    }
+    FieldParams *fields = memory_alloc(element->field_count, sizeof *fields, e);
+    GuideField *field = NULL;
+    Aabb bounds = envelope_bounds(envelope);
+    if (fields) {
+        for (int i = 0; i < element->field_count; i++) {
+            fields[i] = element->fields[i];
+            fields[i].seed = random_key(seed, (uint64_t)i);
+            if (fields[i].spherical) {
+                fields[i].center = sphere_center(element, bounds);
+            }
+        }
+        field =
+            guide_field_new(fields, element->field_count, position, normal, count, bounds, run, e);
+        if (!field) {
+            error_key(e, "fields");
+        }
+    }
+    free(fields);
+    free(position);
+    return field;
+}
+
+static void warn_out_of_reach(const GrowReport *reports, const ElementParams *element,
+                              const ColonizeParams *params, const char *label, const Run *run)
+{
+    for (int i = 0; i < element->level_count; i++) {
+        if (reports[i].stop == STOP_OUT_OF_REACH) {
+            char text[256];
+            grow_report_format(&reports[i], params, text, sizeof text);
+            run_warn(run, "%s, level %d: %s", label, i + 1, text);
+        }
+    }
+}
+
+// Warns when a tenth of the last level's attractors or more were never reached. The level with the
+// longest reach is the one to change.
+static void warn_ends_short(const GrowReport *reports, const ElementParams *element,
+                            const char *label, const Run *run)
+{
+    int last = element->level_count - 1, far = 0;
+    if (last < 0 || reports[last].stop != STOP_NO_PULL || reports[last].unreached == 0 ||
+        10 * reports[last].unreached < element->levels[last].attractors) {
+        return;
+    }
+    for (int i = 1; i <= last; i++) {
+        far = reports[i].influence > reports[far].influence ? i : far;
+    }
+    far = reports[far].influence > reports[last].nearest ? last : far;
+    float multiple = element->levels[far].influence;
+    float wanted = multiple * reports[last].nearest / reports[far].influence;
+    run_warn(
+        run,
+        "%s ends up to %.3g m short of its envelope: %lld of %lld attractors are out of reach, "
+        "the nearest %.3g m from all nodes; give level %d an influence above %.3g (it has "
+        "%.3g) or more attractors",
+        label, (double)reports[last].furthest, (long long)reports[last].unreached,
+        (long long)element->levels[last].attractors, (double)reports[last].nearest, far + 1,
+        (double)wanted, (double)multiple);
+}
+
+bool element_guide_field(const OutTree *tree, const ElementParams *element,
+                         const Envelope *envelope, uint64_t seed, const Run *run,
+                         GuideField **field, Error *e)
+{
+    *field = NULL;
+    if (element->field_count > 0) {
+        *field = element_field(tree, element, envelope, seed, run, e);
+        return *field;
+    }
+    return true;
+}
+
+bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope *envelope,
+                     uint64_t seed, const char *label, const Run *run, Error *e)
+{
+    GuideField *field;
+    if (!element_guide_field(tree, element, envelope, random_key(seed, 1), run, &field, e)) {
+        return false;
+    }
+    ScatterParams scatter = element_scatter_params(tree, element, random_key(seed, 2));
+    ColonizeParams params = element_colonize_params(tree, element, field, random_key(seed, 3));
+    GrowReport *reports = memory_alloc_zero(element->level_count, sizeof *reports, e);
+    bool done = reports && growth_witness(run, label, envelope, field, e) &&
+                colonize_levels(tree, envelope, &scatter, element->levels, element->level_count,
+                                &params, run, reports, e);
+    if (done) {
+        warn_out_of_reach(reports, element, &params, label, run);
+        warn_ends_short(reports, element, label, run);
+    }
+    free(reports);
+    guide_field_free(field);
+    return done;
+}
+
+bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, const char *label,
+                  const Run *run, Error *e)
+{
+    EnvelopeParams params = {element->shapes, element->shape_count, element->voxel};
+    Envelope *envelope = envelope_new(&params, run, e);
+    bool done = envelope && element_grow_in(tree, element, envelope, seed, label, run, e);
+    envelope_free(envelope);
+    if (!done) {
+        error_prefix(e, "%s: ", label);
+    }
+    return done;
+}

@@ -1,0 +1,77 @@
+// An element of a model: one out-tree's worth of envelope, points, growth and field (Tanaka et al.,
+// section 5.1: trunk, branches and roots are grown as separate elements). Every kind of model is
+// made of these.
+#ifndef RAMIFY_OBJECTS_COMMON_ELEMENT_H
+#define RAMIFY_OBJECTS_COMMON_ELEMENT_H
+
+#include "field/guide_field.h"
+#include "grow/colonize.h"
+#include "shape/envelope.h"
+#include "shape/points.h"
+
+// What the scene file says of an element. Lists that are empty and numbers that are 0 take the
+// model's own defaults.
+typedef struct ElementParams {
+    Shape *shapes; // the envelope
+    int shape_count;
+    float voxel; // m, of level sets; 0 = automatic
+    ScatterPlace place;
+    ScatterPattern pattern;
+    float shell, gradient, depth_gradient; // see ScatterParams
+    bool anchored;                         // to the element's first node; see ScatterParams
+    GrowLevel *levels;
+    int level_count;
+    GrowRule rule;
+    int max_children;
+    float min_angle, max_angle; // degrees
+    float cone_angle;           // degrees
+    Vec3 cone_axis;
+    float noise; // for levels that name none
+    Vec3 tropism;
+    float apical;
+    float sector_angle; // degrees
+    bool sector_axis;
+    FieldParams *fields;
+    int field_count;
+    float field_weight;
+    FieldMode field_mode;
+    int64_t max_steps, max_nodes; // 0 = no limit
+} ElementParams;
+
+// Who wants to know of the envelopes and guide fields that things grow in, through Run.witness.
+typedef struct GrowthWitness {
+    // Before something grows. label: as of element_grow. field: NULL = none. Both are gone later.
+    // False and e end the growth.
+    bool (*see)(void *user, const char *label, const Envelope *envelope, const GuideField *field,
+                Error *e);
+    void *user;
+} GrowthWitness;
+
+// Tells the run's witness, if it has one.
+bool growth_witness(const Run *run, const char *label, const Envelope *envelope,
+                    const GuideField *field, Error *e);
+
+// Attractors of all its own levels; 0 where it has none.
+int64_t element_attractors(const ElementParams *element);
+
+// Grows the element into tree, whose nodes so far are the type-0 points. seed: the element's own.
+// label names the element in warnings and errors ("object 'oak', crown").
+bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, const char *label,
+                  const Run *run, Error *e);
+
+// The same in an envelope that is there already; the element's shapes are not looked at.
+bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope *envelope,
+                     uint64_t seed, const char *label, const Run *run, Error *e);
+
+// The parts of element_grow, for recipes that grow level by level themselves.
+ColonizeParams element_colonize_params(const OutTree *tree, const ElementParams *element,
+                                       const GuideField *field, uint64_t seed);
+ScatterParams element_scatter_params(const OutTree *tree, const ElementParams *element,
+                                     uint64_t seed);
+
+// The element's guide fields about the roots of the tree so far; *field is NULL when it has none.
+bool element_guide_field(const OutTree *tree, const ElementParams *element,
+                         const Envelope *envelope, uint64_t seed, const Run *run,
+                         GuideField **field, Error *e);
+
+#endif

@@ -1,0 +1,214 @@
+#include "objects/common/foliage.h"
+
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "mesh/leaf.h"
+
+#include <stdlib.h>
+
+// Instances of one leaf variant on their way to a part.
+typedef struct LeafBatch {
+    Transform *instance;
+    float *variation;
+    int64_t count, capacity, variation_capacity;
+} LeafBatch;
+
+// Of a leaf: here, and the least that the ray tracer makes of it.
+#define LEAF_BYTES (1.5 * (sizeof(Transform) + sizeof(float)) + 100.0)
+
+typedef struct Foliage {
+    const LeavesParams *leaves;
+    const bool *bare; // per curve; NULL = none
+    LeafBatch *batch; // leaves->variants of them
+    Vec3 center;
+    float spacing; // m, the scene's, widened when the leaves would be too many
+    uint64_t seed;
+    const Run *run;
+} Foliage;
+
+Mesh *foliage_leaf_mesh(const LeavesParams *leaves, int variant, uint64_t seed, Error *e)
+{
+    uint64_t key = random_key(seed, (uint64_t)variant);
+    LeafParams params = {
+        .length = leaves->length * random_range(random_key(key, 1), 0.9f, 1.1f),
+        .width = leaves->width * random_range(random_key(key, 2), 0.9f, 1.1f),
+        .petiole = leaves->petiole,
+        .fold = leaves->fold * random_range(random_key(key, 3), 0.4f, 1.3f),
+        .curl = leaves->curl * random_range(random_key(key, 4), -0.4f, 1.5f),
+        .wave = 0.05f,
+        .lobes = leaves->lobes,
+        .lobe_depth = 0.42f,
+        .detail = leaves->detail,
+    };
+    return leaf_mesh_new(&params, key, e);
+}
+
+// Distance from leaf to leaf, counted from the twig's tip: leaves crowd at the end.
+static float leaf_gap(const Foliage *foliage, int64_t number)
+{
+    float crowding = number < 5 ? 0.25f + 0.15f * (float)number : 1.0f;
+    return foliage->spacing * crowding;
+}
+
+// A leaf at p on the side `out` of a twig that runs along `along`.
+static Transform leaf_frame(const Foliage *foliage, Vec3 p, Vec3 along, Vec3 out, uint64_t key)
+{
+    const LeavesParams *leaves = foliage->leaves;
+    float angle = leaves->angle * random_range(random_key(key, 1), 0.7f, 1.3f), sine, cosine;
+    exact_sincos(angle * RADIANS_PER_DEGREE, &sine, &cosine);
+    Vec3 y = vec3_madd(vec3_scale(along, cosine), sine, out);
+    Vec3 z = vec3_madd(vec3_scale(along, sine), -cosine, out);
+    // Blades sink with their weight and turn their upper side to the light, each a little
+    // differently.
+    y = vec3_normalize(vec3_madd(y, leaves->droop * 0.6f, vec3(0, -1, 0)));
+    Vec3 light = vec3_normalize(vec3_sub(p, foliage->center));
+    light = vec3_add(vec3(0, 1.2f, 0), vec3_scale(light, 0.7f));
+    light = vec3_madd(light, 0.55f, random_direction(random_key(key, 2)));
+    z = vec3_add(vec3_scale(z, 1.0f - leaves->droop), vec3_scale(light, leaves->droop));
+    z = vec3_madd(z, -vec3_dot(z, y), y);
+    z = vec3_dot(z, z) > 1e-6f ? vec3_normalize(z) : vec3_perpendicular(y);
+    float size = 1.0f - leaves->size_variation * random_unit(random_key(key, 3));
+    return transform_from_axes(vec3_scale(vec3_cross(y, z), size), vec3_scale(y, size),
+                               vec3_scale(z, size), p);
+}
+
+static bool batch_add(LeafBatch *batch, Transform instance, float variation, Error *e)
+{
+    if (!memory_reserve(&batch->instance, &batch->capacity, batch->count + 1,
+                        sizeof *batch->instance, e) ||
+        !memory_reserve(&batch->variation, &batch->variation_capacity, batch->count + 1,
+                        sizeof *batch->variation, e)) {
+        return false;
+    }
+    batch->instance[batch->count] = instance;
+    batch->variation[batch->count++] = variation;
+    return true;
+}
+
+// Walks one twig from its tip toward its start and calls for a leaf at every gap while the twig is
+// thin enough. Without `place` leaves are only counted, and nothing fails.
+static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curve, bool place,
+                           bool *failed, Error *e)
+{
+    const LeavesParams *leaves = foliage->leaves;
+    uint64_t twig_key = random_key(foliage->seed, twigs->id[curve]);
+    int64_t first = twigs->first[curve], last = twigs->first[curve + 1] - 1, number = 0;
+    float until = 0.2f * foliage->spacing * random_unit(random_key(twig_key, 1));
+    Vec3 reference = random_direction(random_key(twig_key, 2));
+    for (int64_t i = last; i > first && twigs->radius[i] < leaves->twig_radius; i--) {
+        Vec3 a = twigs->position[i], b = twigs->position[i - 1];
+        float length = vec3_distance(a, b);
+        Vec3 along = vec3_normalize(vec3_sub(a, b));
+        reference = vec3_madd(reference, -vec3_dot(reference, along), along);
+        reference = vec3_dot(reference, reference) > 1e-6f ? vec3_normalize(reference)
+                                                           : vec3_perpendicular(along);
+        while (until < length) {
+            if (place) {
+                uint64_t key = random_key(twig_key, 100 + (uint64_t)number);
+                float turn = (float)number * leaves->phyllotaxis +
+                             8.0f * (random_unit(random_key(key, 8)) - 0.5f);
+                float sine, cosine;
+                exact_sincos(turn * RADIANS_PER_DEGREE, &sine, &cosine);
+                Vec3 out = vec3_rotate(reference, along, cosine, sine);
+                Vec3 p = vec3_lerp(a, b, until / length);
+                p = vec3_madd(p, 0.8f * twigs->radius[i], out);
+                int variant = (int)(random_unit(random_key(key, 9)) * (float)leaves->variants);
+                if (!batch_add(&foliage->batch[variant], leaf_frame(foliage, p, along, out, key),
+                               random_unit(random_key(key, 10)), e)) {
+                    *failed = true;
+                    return number;
+                }
+            }
+            until += leaf_gap(foliage, number++);
+        }
+        until -= length;
+    }
+    return number;
+}
+
+static int64_t all_leaves(Foliage *foliage, const CurveSet *twigs, bool place, bool *failed,
+                          Error *e)
+{
+    int64_t count = 0;
+    for (int64_t i = 0; i < twigs->curve_count && !*failed; i++) {
+        if (run_is_cancelled(foliage->run)) {
+            *failed = true;
+            run_cancel_error(e);
+            break;
+        }
+        if (!foliage->bare || !foliage->bare[i]) {
+            count += twig_leaves(foliage, twigs, i, place, failed, e);
+        }
+    }
+    return count;
+}
+
+// Hands a batch over to a new part of the geometry.
+static bool add_part(LeafBatch *batch, Mesh *mesh, int material, int object, Geometry *geometry,
+                     Error *e)
+{
+    Part part = {.kind = PART_MESH,
+                 .mesh = mesh,
+                 .material = material,
+                 .object = object,
+                 .instance = batch->instance,
+                 .variation = batch->variation,
+                 .instance_count = batch->count};
+    batch->instance = NULL;
+    batch->variation = NULL;
+    return geometry_add(geometry, part, e);
+}
+
+static bool add_parts(Foliage *foliage, int material, int object, Geometry *geometry, Error *e)
+{
+    for (int v = 0; v < foliage->leaves->variants; v++) {
+        if (foliage->batch[v].count == 0) {
+            continue;
+        }
+        Mesh *mesh = foliage_leaf_mesh(foliage->leaves, v, foliage->seed, e);
+        if (!mesh || !add_part(&foliage->batch[v], mesh, material, object, geometry, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Widens the spacing until there are no more leaves than asked for. Every twig keeps its first leaf
+// for long, so that one step by the ratio does not do; the least factor makes an end certain.
+// Also false when there is no memory for so many.
+static bool limit_leaves(Foliage *foliage, const CurveSet *twigs, Error *e)
+{
+    bool failed = false;
+    int64_t most = foliage->leaves->max_count;
+    int64_t count = all_leaves(foliage, twigs, false, &failed, e);
+    while (count > most && !failed) {
+        float ratio = (float)count / (float)most;
+        foliage->spacing *= ratio > 1.01f ? ratio : 1.01f;
+        count = all_leaves(foliage, twigs, false, &failed, e);
+    }
+    return !failed && memory_check((double)count * LEAF_BYTES, e,
+                                   "%lld leaves (fewer by leaves.max_count or a wider "
+                                   "leaves.spacing)",
+                                   (long long)count);
+}
+
+bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves, Vec3 center,
+                 int material, int object, uint64_t seed, Geometry *geometry, const Run *run,
+                 Error *e)
+{
+    Foliage foliage = {leaves, bare, NULL, center, leaves->spacing, seed, run};
+    foliage.batch = memory_alloc_zero(leaves->variants, sizeof *foliage.batch, e);
+    if (!foliage.batch) {
+        return false;
+    }
+    bool failed = !limit_leaves(&foliage, twigs, e);
+    all_leaves(&foliage, twigs, true, &failed, e);
+    bool done = !failed && add_parts(&foliage, material, object, geometry, e);
+    for (int v = 0; v < leaves->variants; v++) {
+        free(foliage.batch[v].instance);
+        free(foliage.batch[v].variation);
+    }
+    free(foliage.batch);
+    return done;
+}

@@ -1,0 +1,404 @@
+// Growth of corals: room to grow, roots, the string's directions, thickness.
+#include "objects/coral/coral.h"
+
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "grow/colonize.h"
+#include "objects/common/element.h"
+#include "outtree/radii.h"
+#include "shape/points.h"
+
+#include <stdlib.h>
+
+#define GOLDEN_ANGLE 2.39996323f
+
+enum { STEM_NODES = 4, MOST_COLONIES = 256 };
+
+// One coral on its way to an out-tree.
+typedef struct Growing {
+    const CoralParams *params; // resolved
+    const Recipe *recipe;
+    OutTree *tree;
+    GrowString string;
+} Growing;
+
+static Vec3 colony_foot(const CoralParams *p, int colony)
+{
+    if (p->colonies == 1) {
+        return p->position;
+    }
+    float s, c;
+    exact_sincos(2.0f * PI_F * (float)colony / (float)p->colonies, &s, &c);
+    if (p->form == CORAL_FAN) { // side by side in the plane
+        float along = 2.0f * (float)colony / (float)(p->colonies - 1) - 1.0f;
+        return vec3_madd(p->position, p->spread, vec3(along, 0, 0));
+    }
+    return vec3_madd(p->position, p->spread, vec3(c, 0, s));
+}
+
+static Shape ellipsoid(Vec3 center, Vec3 half)
+{
+    return (Shape){.kind = SHAPE_ELLIPSOID,
+                   .op = SHAPE_UNION,
+                   .size = half,
+                   .transform = transform_compose(center, vec3_splat(0), vec3_splat(1))};
+}
+
+// Boulders: an ellipsoid sunk into the ground with smaller ones about it.
+static int boulder(const CoralParams *p, uint64_t seed, Shape *shapes, int most)
+{
+    int lumps = p->form == CORAL_MASSIVE ? 9 : 12;
+    float r = 0.5f * p->size, h = p->height;
+    shapes[0] = ellipsoid(p->position, vec3(0.84f * r, 0.86f * h, 0.8f * r));
+    int count = 1;
+    for (int i = 0; i < lumps && count < most; i++) {
+        uint64_t key = random_key(seed, (uint64_t)i);
+        float s, c, y = ((float)i + 0.3f) / (float)lumps, across = sqrtf(1.0f - y * y);
+        exact_sincos((float)i * GOLDEN_ANGLE + random_range(random_key(key, 1), -0.4f, 0.4f), &s,
+                     &c);
+        float size = random_range(random_key(key, 2), 0.3f, 0.5f) * r;
+        Vec3 at =
+            vec3(c * across * (r - 0.9f * size), y * 0.62f * h, s * across * (r - 0.9f * size));
+        shapes[count++] = ellipsoid(vec3_add(p->position, at),
+                                    vec3(size, 0.8f * size * h / r + 0.1f * size, size));
+    }
+    return count;
+}
+
+Envelope *coral_base(const CoralParams *p, uint64_t seed, const Run *run, Error *e)
+{
+    Shape shapes[16];
+    EnvelopeParams params = {p->base, p->base_count, p->size / 110.0f};
+    if (p->base_count == 0) {
+        params.shapes = shapes;
+        params.shape_count = boulder(p, random_key(seed, 40), shapes, 16);
+    }
+    return envelope_new(&params, run, e);
+}
+
+// A dome over each colony's foot, all joined; a disc for tables.
+static Envelope *room(const CoralParams *p, const Run *run, Error *e)
+{
+    Shape *shapes = memory_alloc(p->colonies + 1, sizeof *shapes, e);
+    if (!shapes) {
+        return NULL;
+    }
+    float r = 0.5f * p->size;
+    int count = 0;
+    for (int i = 0; i < p->colonies; i++) {
+        Vec3 foot = colony_foot(p, i);
+        bool table = p->form == CORAL_TABLE;
+        float middle = (table ? 0.9f : 0.5f) * p->height;
+        float half = table ? 0.022f * p->size : 0.52f * p->height;
+        shapes[count++] = ellipsoid(vec3_add(foot, vec3(0, middle, 0)), vec3(r, half, r));
+    }
+    if (p->form == CORAL_BRANCHING) { // nothing below the ground
+        shapes[count] = (Shape){
+            .kind = SHAPE_HALF_SPACE, .op = SHAPE_DIFFERENCE, .transform = transform_identity()};
+        shapes[count++].transform.m[1][3] = p->position.y + 0.06f * p->size;
+    }
+    EnvelopeParams params = {shapes, count, p->size / 64.0f};
+    Envelope *envelope = envelope_new(&params, run, e);
+    free(shapes);
+    return envelope;
+}
+
+// In the plane z = position.z: half discs over the feet.
+static PointSet *flat_room(const CoralParams *p, uint64_t seed, Error *e)
+{
+    PointSet *points = points_new(e);
+    float r = 0.5f * p->size, wide = r + (p->colonies > 1 ? p->spread : 0.0f);
+    int64_t wanted = p->attractors * p->colonies;
+    for (uint64_t draw = 0; points && points->count < wanted; draw++) {
+        uint64_t key = random_key(seed, draw);
+        Vec3 at = vec3(random_range(random_key(key, 0), -wide, wide),
+                       random_range(random_key(key, 1), 0.0f, p->height), 0.0f);
+        bool inside = false;
+        for (int i = 0; i < p->colonies && !inside; i++) {
+            Vec3 foot = vec3_sub(colony_foot(p, i), p->position);
+            float x = (at.x - foot.x) / r, y = at.y / p->height;
+            inside = x * x + y * y < 1.0f;
+        }
+        // light from above: below there is less of it
+        float lit = lerpf(1.0f - p->light, 1.0f, at.y / p->height);
+        if (inside && random_unit(random_key(key, 2)) < lit &&
+            !points_add(points, vec3_add(p->position, at), vec3(0, 0, 1), key, e)) {
+            points_free(points);
+            return NULL;
+        }
+    }
+    if (points) {
+        points->dimension = 2;
+        points->measure = 0.5 * (double)PI_F * (double)(wide * p->height);
+    }
+    return points;
+}
+
+static PointSet *scatter(const Envelope *envelope, const CoralParams *p, ScatterPlace place,
+                         int64_t count, uint64_t seed, const Run *run, Error *e)
+{
+    ScatterParams params = scatter_params_default();
+    params.place = place;
+    params.count = count;
+    params.seed = seed;
+    params.gradient = p->light;
+    return points_scatter(envelope, &params, run, e);
+}
+
+// ---- roots ----
+
+static int64_t plant(OutTree *tree, Vec3 at, Vec3 normal, int colony, uint64_t seed, Error *e)
+{
+    int64_t node =
+        out_tree_add_node(tree, at, -1, 0, colony, random_key(seed, (uint64_t)colony), e);
+    if (node >= 0) {
+        tree->normal[node] = normal;
+    }
+    return node;
+}
+
+// A foot in the ground and a node (a table: a whole stem) above it, which gives the heading.
+static bool plant_upright(Growing *g, int colony, Error *e)
+{
+    const CoralParams *p = g->params;
+    bool flat = p->form == CORAL_FAN;
+    float stem = p->form == CORAL_TABLE ? 0.9f * p->height : (flat ? 0.02f : 0.05f) * p->size;
+    int pieces = p->form == CORAL_TABLE ? STEM_NODES : 1;
+    Vec3 at = colony_foot(p, colony);
+    at.y -= flat ? 0.0f : 0.06f * p->size;
+    stem += flat ? 0.0f : 0.06f * p->size;
+    int64_t node = plant(g->tree, at, vec3(0, 0, 1), colony, g->recipe->seed, e);
+    float s, c;
+    exact_sincos(
+        flat ? 0.0f : 2.0f * PI_F * random_unit(random_key(g->recipe->seed, 90 + (uint64_t)colony)),
+        &s, &c);
+    for (int i = 0; node >= 0 && i < pieces; i++) {
+        at.y += stem / (float)pieces;
+        uint64_t id = out_tree_child_id(g->tree->id[node], 0);
+        node = out_tree_add_node(g->tree, at, node, 0, colony, id, e);
+        if (node >= 0) {
+            g->tree->normal[node] = vec3(s, 0, c);
+        }
+    }
+    if (node >= 0 && p->form == CORAL_TABLE) {
+        g->tree->normal[node] = vec3(0, 1, 0); // of the plate that it bears
+    }
+    return node >= 0;
+}
+
+// On the rock: at the attractors nearest to where the colonies stand on their circle, high up.
+static bool plant_on_rock(Growing *g, const PointSet *points, Error *e)
+{
+    const CoralParams *p = g->params;
+    for (int i = 0; i < p->colonies; i++) {
+        Vec3 wanted = vec3_add(colony_foot(p, i), vec3(0, p->height, 0));
+        int64_t best = 0;
+        float least = INFINITY;
+        for (int64_t k = 0; k < points->count; k++) {
+            Vec3 d = vec3_sub(points->position[k], wanted);
+            float d2 = vec3_dot(d, d);
+            if (d2 < least) {
+                least = d2;
+                best = k;
+            }
+        }
+        if (plant(g->tree, points->position[best], points->normal[best], i, g->recipe->seed, e) <
+            0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// ---- growth ----
+
+static ColonizeParams colonize_params(const Growing *g, double spacing)
+{
+    const CoralParams *p = g->params;
+    ColonizeParams c = colonize_params_default();
+    c.seed = random_key(g->recipe->seed, 3);
+    c.noise = p->noise;
+    c.tropism = vec3(0, p->form == CORAL_BRANCHING ? 0.12f * p->light : 0.0f, 0);
+    // a table's plate is as good as a surface: its attractors' normals point up
+    c.on_surface =
+        p->form == CORAL_TABLE || p->form == CORAL_ENCRUSTING || p->form == CORAL_MASSIVE;
+    c.length_near = p->length;
+    c.length_far = p->length_tip;
+    c.sector_angle = p->group;
+    c.regularity = p->regularity;
+    c.rule = p->rule == CORAL_STRING ? GROW_STRING : GROW_MEAN;
+    c.string = &g->string;
+    c.step = 0.5f * (p->length + p->length_tip);
+    // what a node uses up: a little less than a step, so that its children find something
+    c.kill = (p->form == CORAL_FAN ? 0.55f : 0.85f) * c.step;
+    c.influence = 5.0f * c.step;
+    float reach = (float)(3.0 * spacing);
+    c.influence = c.influence > reach ? c.influence : reach;
+    return c;
+}
+
+static bool colonize_points(Growing *g, const PointSet *points, ColonizeParams *c, Error *e)
+{
+    GrowReport report;
+    if (!colonize(g->tree, points, c, g->recipe->run, &report, e)) {
+        return false;
+    }
+    c->first_step += (int32_t)report.steps;
+    if (report.stop == STOP_OUT_OF_REACH) {
+        char text[256];
+        grow_report_format(&report, c, text, sizeof text);
+        run_warn(g->recipe->run, "%s: %s", g->recipe->label, text);
+    }
+    return true;
+}
+
+// Upright branchlets on a table's plate: room just above it, filled from below.
+static bool grow_branchlets(Growing *g, int32_t first_step, Error *e)
+{
+    const CoralParams *p = g->params;
+    PointSet *points = points_new(e);
+    int64_t plate = g->tree->count;
+    bool done = points;
+    for (int64_t i = 0; done && i < plate; i++) {
+        uint64_t key = random_key(g->tree->id[i], 77);
+        if (g->tree->birth[i] == 0) {
+            continue;
+        }
+        for (uint64_t k = 0; done && k < 4; k++) {
+            float rise = p->size * random_range(random_key(key, 4 * k), 0.016f, 0.05f);
+            Vec3 d = vec3(random_range(random_key(key, 4 * k + 1), -0.012f, 0.012f) * p->size, rise,
+                          random_range(random_key(key, 4 * k + 2), -0.012f, 0.012f) * p->size);
+            done = points_add(points, vec3_add(g->tree->position[i], d), vec3(0, 1, 0), key + k, e);
+        }
+    }
+    if (done) {
+        points->dimension = 3;
+        points->measure = 0.2 * (double)(p->size * p->size * p->size);
+        ColonizeParams c = colonize_params_default();
+        c.seed = random_key(g->recipe->seed, 6);
+        c.first_step = first_step;
+        c.step = 0.011f * p->size;
+        c.kill = 0.0125f * p->size;
+        c.influence = 0.045f * p->size;
+        c.tropism = vec3(0, 0.7f, 0);
+        c.noise = 0.07f;
+        c.max_children = 2;
+        done = colonize_points(g, points, &c, e);
+    }
+    points_free(points);
+    return done;
+}
+
+static bool grow_in_room(Growing *g, const PointSet *points, Error *e)
+{
+    ColonizeParams c = colonize_params(g, points_spacing(points));
+    return colonize_points(g, points, &c, e) &&
+           (g->params->form != CORAL_TABLE || grow_branchlets(g, c.first_step, e));
+}
+
+static bool grow_upright(Growing *g, Error *e)
+{
+    const CoralParams *p = g->params;
+    uint64_t seed = random_key(g->recipe->seed, 2);
+    bool planted = true;
+    for (int i = 0; planted && i < p->colonies; i++) {
+        planted = plant_upright(g, i, e);
+    }
+    if (!planted) {
+        return false;
+    }
+    PointSet *points = NULL;
+    if (p->form == CORAL_FAN) {
+        points = flat_room(p, seed, e);
+    } else {
+        Envelope *envelope = room(p, g->recipe->run, e);
+        bool seen = envelope && growth_witness(g->recipe->run, g->recipe->label, envelope, NULL, e);
+        points = seen ? scatter(envelope, p, SCATTER_VOLUME, p->attractors * p->colonies, seed,
+                                g->recipe->run, e)
+                      : NULL;
+        envelope_free(envelope);
+    }
+    bool done = points && grow_in_room(g, points, e);
+    points_free(points);
+    return done;
+}
+
+static bool grow_on_rock(Growing *g, Error *e)
+{
+    const CoralParams *p = g->params;
+    Envelope *rock = coral_base(p, g->recipe->seed, g->recipe->run, e);
+    bool seen = rock && growth_witness(g->recipe->run, g->recipe->label, rock, NULL, e);
+    PointSet *points = seen ? scatter(rock, p, SCATTER_SURFACE, p->attractors,
+                                      random_key(g->recipe->seed, 2), g->recipe->run, e)
+                            : NULL;
+    bool done = points && plant_on_rock(g, points, e) && grow_in_room(g, points, e);
+    points_free(points);
+    envelope_free(rock);
+    return done;
+}
+
+static bool prepare_string(Growing *g, Error *e)
+{
+    const CoralParams *p = g->params;
+    LSystemParams params = {.axiom = p->axiom,
+                            .rules = p->rules,
+                            .generations = p->generations,
+                            .seed = random_key(g->recipe->seed, 5)};
+    ModuleString modules;
+    bool done = lsystem_derive(&params, g->recipe->run, &modules, e) &&
+                (grow_string_init(&g->string, &modules, p->angle, e) || error_key(e, "axiom"));
+    module_string_clear(&modules);
+    return done;
+}
+
+// Growing ends: the last stretch of every branch narrows toward its axial corallite.
+static bool narrow_tips(OutTree *tree, Error *e)
+{
+    const float share = 0.72f;
+    bool *bears = memory_alloc_zero(tree->count, sizeof *bears, e);
+    for (int64_t i = tree->count - 1; bears && i > 0; i--) {
+        if (!bears[i]) {
+            tree->radius[i] *= share;
+        }
+        if (tree->parent[i] >= 0) {
+            bears[tree->parent[i]] = true;
+        }
+    }
+    bool done = bears;
+    free(bears);
+    return done;
+}
+
+// Everything, before it is cut.
+static OutTree *grow_whole(const CoralParams *p, const Recipe *recipe, Error *e)
+{
+    Growing g = {.params = p, .recipe = recipe, .tree = out_tree_new(e)};
+    bool upright = p->form == CORAL_BRANCHING || p->form == CORAL_TABLE || p->form == CORAL_FAN;
+    bool done = g.tree && prepare_string(&g, e) &&
+                (upright ? grow_upright(&g, e) : grow_on_rock(&g, e)) &&
+                recipe_keep(recipe, 0, g.tree, e);
+    grow_string_clear(&g.string);
+    if (!done) {
+        out_tree_free(g.tree);
+        return NULL;
+    }
+    return g.tree;
+}
+
+OutTree *coral_grow(const CoralParams *params, const Recipe *recipe, Error *e)
+{
+    CoralParams p = coral_params_resolve(params);
+    OutTree *tree =
+        recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(&p, recipe, e);
+    if (!tree || !out_tree_keep_births(tree, recipe->grow_to, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    out_tree_pipe_radii(tree, p.exponent, p.tip_radius, 0.0f);
+    if (!narrow_tips(tree, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}

@@ -1,0 +1,90 @@
+// Corals (Horiuchi et al., growth rules and territorial battle): an L-system string says where a
+// colony may branch, attractors (light and room) say where it can, and colonies that share them
+// stop where another was first. Branching and table forms grow in space, fans in a plane,
+// encrusting and massive ones over a rock, which they cover with a crust.
+#ifndef RAMIFY_OBJECTS_CORAL_CORAL_H
+#define RAMIFY_OBJECTS_CORAL_CORAL_H
+
+#include "mesh/geometry.h"
+#include "objects/common/recipe.h"
+#include "outtree/out_tree.h"
+#include "shape/envelope.h"
+
+typedef enum CoralForm {
+    CORAL_BRANCHING,  // staghorn: long rounded branches that fork in space
+    CORAL_TABLE,      // corymbose: a plate of radiating branches with upright branchlets
+    CORAL_FAN,        // in the plane z = 0, the paper's own case
+    CORAL_ENCRUSTING, // a crust that creeps over a rock
+    CORAL_MASSIVE     // a boulder of coral
+} CoralForm;
+
+typedef enum CoralRule {
+    CORAL_STRING, // the paper's method
+    CORAL_MEAN    // plain space colonization, to compare with
+} CoralRule;
+
+// Corallites: the cups that polyps sit in, as geometry.
+typedef struct PolypParams {
+    int64_t max_count; // 0 = none: the material's pattern alone shows them
+    float diameter;    // m, of a cup's rim; 0 = 0.0044 of the colony's size
+    float spacing;     // m, between the cups' centres; 0 = 1.6 diameters
+    float height;      // m, of a cup's wall; 0 = 0.9 diameters
+    float lean;        // degrees that cups lean toward the branch's tip
+} PolypParams;
+
+typedef struct CoralParams {
+    CoralForm form;
+    CoralRule rule;
+    Vec3 position;            // m: of the middle of the colonies, on the sea floor
+    float size;               // m: width of one colony
+    float height;             // m; 0 = the form's own share of the size
+    int colonies;             // that compete for the same room
+    float spread;             // m: radius of the circle they stand on; 0 = 0.42 of the size
+    int64_t attractors;       // a colony; 0 = the form's own
+    char *axiom, *rules;      // the L-system; NULL = the form's own; borrowed
+    int generations;          // of the string; 0 = the form's own
+    float angle;              // degrees, of turns; 0 = the form's own
+    float group;              // degrees, of a direction's group; 0 = the form's own
+    float regularity;         // 0..1; -1 = the form's own. See ColonizeParams
+    float noise;              // Gaussian, on each direction; -1 = the form's own
+    float length, length_tip; // m: growth distance at the root, and farthest from it; 0 = auto
+    float light;              // 0..1: how much more room to grow there is above than below
+    float tip_radius;         // m; 0 = the form's own share of the size
+    float exponent;           // of the radii: 4 keeps branches nearly as thick as their tips
+    float pale;               // m from a growing tip (or margin) that are pale; 0 = 4 tip radii
+    PolypParams polyps;
+    Shape *base; // of encrusting and massive forms: the rock; empty = a boulder of the size
+    int base_count;
+    int levels; // subdivision of the skin, 0..4
+} CoralParams;
+
+typedef struct CoralMaterials {
+    int coral, polyp, rock;
+} CoralMaterials;
+
+CoralParams coral_params_default(void); // staghorn, half a metre wide
+
+// The same with every number that was left to the form filled in. axiom and rules point to static
+// text where they were NULL.
+CoralParams coral_params_resolve(const CoralParams *params);
+
+// Grows the colonies with their radii: one root (or its stem) and one OutTree.colony each. Births
+// count the steps. ERROR_INPUT, with the object's label, for L-systems that are wrong.
+OutTree *coral_grow(const CoralParams *params, const Recipe *recipe, Error *e);
+
+// Skin or crust, corallites, and the rock below a crust.
+bool coral_geometry(const OutTree *tree, const CoralParams *params, const CoralMaterials *materials,
+                    int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e);
+
+typedef struct CoralMeasures {
+    double branch_thickness; // m, mean diameter over the nodes
+    double branch_spacing;   // m, mean distance from a tip to the nearest other
+    double seam; // m, least distance between nodes of different colonies; NAN = one colony
+} CoralMeasures;
+
+bool coral_measure(const OutTree *tree, CoralMeasures *measures, Error *e);
+
+// The rock that encrusting and massive forms grow on. Free with envelope_free.
+Envelope *coral_base(const CoralParams *resolved, uint64_t seed, const Run *run, Error *e);
+
+#endif

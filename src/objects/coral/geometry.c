@@ -1,0 +1,167 @@
+// From grown colonies to geometry: skins of branches, crusts over rocks, corallites.
+#include "objects/coral/coral.h"
+
+#include "base/memory.h"
+#include "base/noise.h"
+#include "base/random.h"
+#include "objects/coral/crust.h"
+#include "objects/coral/polyps.h"
+#include "skin/skin.h"
+
+#include <stdlib.h>
+
+enum { YOUTH_STEPS = 1000 };
+
+// A copy of the tree whose births tell how near a growing tip is (YOUTH_STEPS there, 0 from `pale`
+// metres on): what living coral shows is the age of its tissue, not of its skeleton.
+static OutTree *with_youth(const OutTree *tree, float pale, Error *e)
+{
+    OutTree *copy = out_tree_copy(tree, e);
+    float *to_tip = copy ? memory_alloc(tree->count, sizeof *to_tip, e) : NULL;
+    if (!to_tip) {
+        out_tree_free(copy);
+        return NULL;
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        to_tip[i] = INFINITY;
+    }
+    for (int64_t i = tree->count - 1; i >= 0; i--) {
+        to_tip[i] = to_tip[i] == INFINITY ? 0.0f : to_tip[i];
+        int32_t parent = tree->parent[i];
+        if (parent >= 0) {
+            float way = to_tip[i] + vec3_distance(tree->position[i], tree->position[parent]);
+            to_tip[parent] = way < to_tip[parent] ? way : to_tip[parent];
+        }
+        float youth = clampf(1.0f - to_tip[i] / pale, 0.0f, 1.0f);
+        copy->birth[i] = (int32_t)(youth * (float)YOUTH_STEPS + 0.5f);
+    }
+    free(to_tip);
+    return copy;
+}
+
+static Mesh *branches(const OutTree *tree, const CoralParams *p, const Run *run, Error *e)
+{
+    OutTree *young = with_youth(tree, p->pale, e);
+    SkinParams skin = skin_params_default();
+    skin.levels = p->levels;
+    skin.ring_spacing = 0.8f;
+    Mesh *mesh = young ? skin_tree(young, &skin, run, e) : NULL;
+    out_tree_free(young);
+    return mesh;
+}
+
+static bool add_mesh(Geometry *geometry, Mesh *mesh, int material, int object, Error *e)
+{
+    return mesh &&
+           geometry_add(
+               geometry,
+               (Part){.kind = PART_MESH, .mesh = mesh, .material = material, .object = object}, e);
+}
+
+// The rock: its surface knobbly and eaten into by weather; `depth` (m) is that of its hollows.
+static Mesh *weathered(const Mesh *from, float depth, uint64_t seed, Error *e)
+{
+    Mesh *to = mesh_new(from->face_size, from->vertex_count, from->face_count, 0, e);
+    for (int64_t i = 0; to && i < from->vertex_count; i++) {
+        Vec3 p = vec3_scale(from->position[i], 0.2f / depth);
+        float rise = noise_plane_fractal(p.x + 0.4f * p.y, p.z, 4, seed) +
+                     noise_plane_fractal(p.y, p.x - 0.4f * p.z, 4, seed + 1);
+        to->position[i] = vec3_madd(from->position[i], depth * rise, from->normal[i]);
+    }
+    for (int64_t i = 0; to && i < from->face_count * from->face_size; i++) {
+        to->index[i] = from->index[i];
+    }
+    if (to && !mesh_compute_normals(to, e)) {
+        mesh_free(to);
+        return NULL;
+    }
+    return to;
+}
+
+static CrustParams crust_params(const CoralParams *p, uint64_t seed)
+{
+    bool massive = p->form == CORAL_MASSIVE;
+    return (CrustParams){.thickness = 1.3f * p->tip_radius,
+                         .reach = (massive ? 2.5f : 1.5f) * p->length,
+                         .seam = 0.35f * p->length_tip,
+                         .pale = (massive ? 0.03f : 0.025f) * p->size,
+                         .lump = (massive ? 0.10f : 0.05f) * p->size,
+                         .seed = random_key(seed, 8)};
+}
+
+// Adds a colony's skin and its corallites. variation: the colony's own, 0..1. Takes the mesh.
+static bool add_colony(Mesh *mesh, float variation, const CoralParams *p,
+                       const CoralMaterials *materials, int object, uint64_t seed,
+                       Geometry *geometry, const Run *run, Error *e)
+{
+    PolypPlaces places = {.max_count = p->polyps.max_count,
+                          .spacing = p->polyps.spacing,
+                          .diameter = p->polyps.diameter,
+                          .height = p->polyps.height,
+                          .lean = p->polyps.lean,
+                          .floor = p->position.y,
+                          .seed = random_key(seed, 9)};
+    if (p->polyps.max_count > 0 &&
+        !polyps_add(mesh, &places, materials->polyp, object, geometry, run, e)) {
+        mesh_free(mesh);
+        return false;
+    }
+    Part part = {.kind = PART_MESH,
+                 .mesh = mesh,
+                 .material = materials->coral,
+                 .object = object,
+                 .instance = memory_alloc(1, sizeof(Transform), e),
+                 .variation = memory_alloc(1, sizeof(float), e),
+                 .instance_count = 1};
+    if (!part.instance || !part.variation) {
+        mesh_free(mesh);
+        free(part.instance);
+        free(part.variation);
+        return false;
+    }
+    part.instance[0] = transform_identity();
+    part.variation[0] = variation;
+    return geometry_add(geometry, part, e);
+}
+
+// A crust each colony, and the rock below them.
+static bool add_crusts(const OutTree *tree, const CoralParams *p, const CoralMaterials *materials,
+                       int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e)
+{
+    Envelope *base = coral_base(p, seed, run, e);
+    Mesh *rock =
+        base ? weathered(envelope_surface(base), 0.035f * p->size, random_key(seed, 12), e) : NULL;
+    envelope_free(base);
+    CrustParams params = crust_params(p, seed);
+    CrustPoint *points = rock ? crust_points(rock, tree, &params, run, e) : NULL;
+    bool done = points;
+    for (int c = 0; done && c < p->colonies; c++) {
+        Mesh *mesh = crust_mesh(rock, points, c, e);
+        done = mesh;
+        if (mesh && mesh->face_count == 0) {
+            mesh_free(mesh);
+        } else if (mesh) {
+            float variation = random_unit(random_key(seed, 50 + (uint64_t)c));
+            done = add_colony(mesh, variation, p, materials, object,
+                              random_key(seed, 60 + (uint64_t)c), geometry, run, e);
+        }
+    }
+    free(points);
+    if (!done) {
+        mesh_free(rock);
+        return false;
+    }
+    return add_mesh(geometry, rock, materials->rock, object, e);
+}
+
+bool coral_geometry(const OutTree *tree, const CoralParams *params, const CoralMaterials *materials,
+                    int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e)
+{
+    CoralParams p = coral_params_resolve(params);
+    if (p.form == CORAL_ENCRUSTING || p.form == CORAL_MASSIVE) {
+        return add_crusts(tree, &p, materials, object, seed, geometry, run, e);
+    }
+    Mesh *mesh = branches(tree, &p, run, e);
+    return mesh && add_colony(mesh, random_unit(random_key(seed, 50)), &p, materials, object, seed,
+                              geometry, run, e);
+}

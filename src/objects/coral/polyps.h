@@ -1,0 +1,27 @@
+// Corallites: the stony cups that coral polyps sit in, spread over a skin at an even distance and
+// leaning toward the branch's tip.
+#ifndef RAMIFY_OBJECTS_CORAL_POLYPS_H
+#define RAMIFY_OBJECTS_CORAL_POLYPS_H
+
+#include "base/run.h"
+#include "mesh/geometry.h"
+
+typedef struct PolypPlaces {
+    int64_t max_count;
+    float spacing;          // m, least distance between centres
+    float diameter, height; // m, of a cup
+    float lean;             // degrees from the skin's normal toward +v of its uv
+    float floor;            // m: none below this height
+    uint64_t seed;
+} PolypPlaces;
+
+// Adds the cups as instances of a few meshes, by the age (Mesh.birth) of the skin they stand on.
+// Where more than max_count would be, they stand farther apart.
+bool polyps_add(const Mesh *skin, const PolypPlaces *places, int material, int object,
+                Geometry *geometry, const Run *run, Error *e);
+
+// One cup about +Y, open at the top, of unit rim diameter; youth: its births (0..1), the rim's
+// more.
+Mesh *polyp_cup(float height, float youth, Error *e);
+
+#endif

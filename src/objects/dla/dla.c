@@ -1,0 +1,119 @@
+#include "objects/dla/dla.h"
+
+#include "base/noise.h"
+#include "base/random.h"
+#include "grow/aggregate/dla.h"
+#include "mesh/lattice.h"
+#include "outtree/radii.h"
+
+#include <stddef.h>
+
+enum { SMOOTHING = 4 };
+
+#define VOXELS_A_TIP 2.2f // voxels of the surface's level set to a tip's radius
+
+DlaModel dla_model_default(void)
+{
+    return (DlaModel){.size = 1.0f,
+                      .dimension = 2,
+                      .particles = 40000,
+                      .thickness = 1.0f,
+                      .exponent = 7.0f,
+                      .swell = 3.0f};
+}
+
+// Moves every particle half-way to its parent, twice: the chains' zigzag is that of the particles'
+// size, which metal does not show.
+static void relax(OutTree *tree)
+{
+    for (int pass = 0; pass < 2; pass++) {
+        for (int64_t i = tree->count - 1; i > 0; i--) {
+            tree->position[i] = vec3_lerp(tree->position[i], tree->position[tree->parent[i]], 0.5f);
+        }
+    }
+}
+
+static float largest_extent(const OutTree *tree)
+{
+    Aabb box = out_tree_bounds(tree);
+    Vec3 extent = vec3_sub(box.high, box.low);
+    float most = extent.x > extent.y ? extent.x : extent.y;
+    return most > extent.z ? most : extent.z;
+}
+
+// Heaves a plane cluster (of unit particles) out of its plane by smooth noise.
+static void heave(OutTree *tree, float swell, uint64_t seed)
+{
+    float extent = largest_extent(tree), wave = 6.0f / (extent > 1.0f ? extent : 1.0f);
+    for (int64_t i = 0; i < tree->count; i++) {
+        Vec3 *p = &tree->position[i];
+        p->z += 2.0f * swell * noise_plane_fractal(p->x * wave, p->y * wave, 4, seed);
+    }
+}
+
+// The cluster as it grew, of unit particles.
+static OutTree *grow_cluster(const DlaModel *params, const Recipe *recipe, Error *e)
+{
+    if (recipe_remembers(recipe, 0)) {
+        return recipe_recall(recipe, 0, e);
+    }
+    DlaParams grow = dla_params_default();
+    grow.dimension = params->dimension;
+    grow.count = params->particles;
+    grow.seed = random_key(recipe->seed, 1);
+    OutTree *tree = dla_grow(&grow, recipe->run, e);
+    if (tree && !recipe_keep(recipe, 0, tree, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}
+
+OutTree *dla_model_grow(const DlaModel *params, const Recipe *recipe, Error *e)
+{
+    OutTree *tree = grow_cluster(params, recipe, e);
+    if (!tree) {
+        return NULL;
+    }
+    relax(tree);
+    float extent = largest_extent(tree);
+    float scale = params->size / (extent > 1.0f ? extent : 1.0f); // of the whole cluster
+    if (params->dimension == 2) {
+        heave(tree, params->swell, random_key(recipe->seed, 2));
+    }
+    if (!out_tree_keep_births(tree, recipe->grow_to, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    Transform place = transform_compose(params->position, params->rotation, vec3_splat(scale));
+    Transform turn = transform_compose(vec3(0, 0, 0), params->rotation, vec3_splat(1.0f));
+    for (int64_t i = 0; i < tree->count; i++) {
+        tree->position[i] = transform_point(&place, tree->position[i]);
+        tree->normal[i] = transform_vector(&turn, tree->normal[i]);
+    }
+    out_tree_pipe_radii(tree, params->exponent, 0.5f * params->thickness * scale, 0.0f);
+    return tree;
+}
+
+static float thinnest(const OutTree *tree)
+{
+    float least = INFINITY;
+    for (int64_t i = 0; i < tree->count; i++) {
+        least = tree->radius[i] < least ? tree->radius[i] : least;
+    }
+    return least;
+}
+
+bool dla_model_geometry(const OutTree *tree, int material, int object, Geometry *geometry,
+                        const Run *run, Error *e)
+{
+    Lattice lattice = {0};
+    Mesh *mesh = lattice_add_tree(&lattice, tree, e)
+                     ? lattice_surface(&lattice, thinnest(tree) / VOXELS_A_TIP, SMOOTHING, run, e)
+                     : NULL;
+    lattice_clear(&lattice);
+    return mesh &&
+           geometry_add(
+               geometry,
+               (Part){.kind = PART_MESH, .mesh = mesh, .material = material, .object = object}, e);
+}

@@ -1,0 +1,61 @@
+// A forest: trees that compete for the same light and space. A few stands of some trees each are
+// grown as one growth with a colony per tree, so that every crown ends where its neighbour's begins
+// (crown shyness) and a tree that is overtopped stays thin; then the stands are set side by side
+// over the land, turned and scaled, by the thousand. Under them grow ferns.
+#ifndef RAMIFY_OBJECTS_FOREST_FOREST_H
+#define RAMIFY_OBJECTS_FOREST_FOREST_H
+
+#include "mesh/geometry.h"
+#include "objects/common/recipe.h"
+#include "objects/ground/flood.h"
+#include "objects/tree/tree.h"
+
+typedef struct ForestParams {
+    float height;    // m, of the tallest trees
+    float spacing;   // m from trunk to trunk; 0 = 0.24 of the height
+    int stand_trees; // trees that are grown together
+    int stands;      // different ones
+    float crown;     // share of the height that bears branches, from the top
+    float radius;    // m, how far the forest goes about `center`
+    Vec3 center;     // m
+    float glade;     // m: no stand within this of glade_center
+    Vec3 glade_center;
+    float density;         // 0..1, share of the places taken where the forest is thickest
+    float clumping;        // 0 = even .. 1 = woods with open land between
+    float max_slope;       // degrees: nothing stands on steeper land
+    int64_t ferns;         // 0 = none
+    float fern_height;     // m
+    float fern_radius;     // m about glade_center that bear ferns
+    ElementParams element; // growth of the crowns
+    RadiiParams radii;
+    LeavesParams leaves; // max_count of one stand
+    SkinningParams skin;
+} ForestParams;
+
+typedef struct ForestMaterials {
+    int bark, twig, leaf, fern;
+} ForestMaterials;
+
+// Height of the land (m) at (x, z).
+typedef float ForestLand(const void *land, float x, float z);
+
+ForestParams forest_params_default(void);
+
+// The same with what is 0 as it follows from the other parameters. Borrows what params owns.
+ForestParams forest_params_resolve(const ForestParams *params);
+
+// All stands as one out-tree, side by side along x: one colony a tree, stand by stand.
+OutTree *forest_grow(const ForestParams *params, const Recipe *recipe, Error *e);
+
+// Sets the stands of a grown forest over the land, and ferns under them, none in water (flood; NULL
+// = none).
+bool forest_geometry(const OutTree *tree, const ForestParams *params,
+                     const ForestMaterials *materials, int object, uint64_t seed, ForestLand *land,
+                     const void *user, const Flood *flood, Geometry *geometry, const Run *run,
+                     Error *e);
+
+// How far tips keep from the nearest branch of another tree in the stand, m, the median over those
+// tips that have one within half a trunk spacing; NAN without. 0 would be crowns that interleave.
+bool forest_crown_gap(const OutTree *tree, const ForestParams *params, double *gap, Error *e);
+
+#endif

@@ -1,0 +1,112 @@
+#include "objects/forest/stand_places.h"
+
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/noise.h"
+#include "base/random.h"
+
+#include <stdlib.h>
+
+#define WOOD_WAVELENGTH 90.0f // m, from wood to wood where they clump
+
+// Rise of the land along x and z at (x, z), over h (m) to both sides.
+static void land_slope(ForestLand *land, const void *user, float x, float z, float h, float *dx,
+                       float *dz)
+{
+    *dx = (land(user, x + h, z) - land(user, x - h, z)) / (2.0f * h);
+    *dz = (land(user, x, z + h) - land(user, x, z - h)) / (2.0f * h);
+}
+
+static bool is_free(const ForestParams *params, uint64_t seed, uint64_t key, float x, float z)
+{
+    float gx = x - params->glade_center.x, gz = z - params->glade_center.z;
+    float cx = x - params->center.x, cz = z - params->center.z;
+    float glade = params->glade > 0.0f ? params->glade + forest_stand_radius(params) : 0.0f;
+    if (gx * gx + gz * gz < glade * glade || cx * cx + cz * cz > params->radius * params->radius ||
+        random_unit(random_key(key, 4)) >= params->density) {
+        return false;
+    }
+    float wood = noise_plane_fractal(cx / WOOD_WAVELENGTH, cz / WOOD_WAVELENGTH, 3, seed);
+    return random_unit(random_key(key, 5)) >= params->clumping || wood > 0.0f;
+}
+
+// Does water reach any of a stand's trees, wherever they are within its radius?
+static bool is_wet(const ForestParams *params, ForestLand *land, const void *user,
+                   const Flood *flood, float x, float z)
+{
+    enum { AROUND = 8, RINGS = 3 };
+    for (int i = 0; flood && i < AROUND * RINGS; i++) {
+        float r = forest_stand_radius(params) * (float)(1 + i % RINGS) / RINGS, sine, cosine;
+        exact_sincos(2.0f * PI_F * (float)i / (AROUND * RINGS), &sine, &cosine);
+        float px = x + r * sine, pz = z + r * cosine;
+        if (flood_covers(flood, vec3(px, land(user, px, pz), pz))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool add_place(StandPlaces *places, Transform place, int stand, Error *e)
+{
+    if (!memory_reserve(&places->place, &places->place_capacity, places->count + 1,
+                        sizeof *places->place, e) ||
+        !memory_reserve(&places->stand, &places->stand_capacity, places->count + 1,
+                        sizeof *places->stand, e)) {
+        return false;
+    }
+    places->place[places->count] = place;
+    places->stand[places->count++] = stand;
+    return true;
+}
+
+// Stands lie on a triangular lattice, each as far from its neighbours as its crowns reach.
+bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t seed,
+                       ForestLand *land, const void *user, const Flood *flood, const Run *run,
+                       Error *e)
+{
+    *places = (StandPlaces){0};
+    float pitch = 1.86f * forest_stand_radius(params), row = 0.8660254f * pitch;
+    int64_t rows = (int64_t)(params->radius / row) + 1;
+    int64_t columns = (int64_t)(params->radius / pitch) + 1;
+    float most_sine, least_cosine;
+    exact_sincos(params->max_slope * RADIANS_PER_DEGREE, &most_sine, &least_cosine);
+    bool done = true;
+    for (int64_t j = -rows; done && j <= rows; j++) {
+        for (int64_t i = -columns; done && i <= columns; i++) {
+            if (!(done = run_goes_on(run, i + columns, e))) {
+                break;
+            }
+            uint64_t key = random_key(random_key(seed, (uint64_t)j), (uint64_t)i);
+            float x = params->center.x + pitch * ((float)i + (j & 1 ? 0.5f : 0.0f));
+            float z = params->center.z + row * (float)j, sine, cosine;
+            x += random_range(random_key(key, 1), -0.06f, 0.06f) * pitch;
+            z += random_range(random_key(key, 2), -0.06f, 0.06f) * pitch;
+            float dx, dz;
+            land_slope(land, user, x, z, 0.5f * forest_stand_radius(params), &dx, &dz);
+            if (!is_free(params, seed, key, x, z) ||
+                1.0f / sqrtf(1.0f + dx * dx + dz * dz) < least_cosine ||
+                is_wet(params, land, user, flood, x, z)) {
+                continue;
+            }
+            exact_sincos(random_range(random_key(key, 3), 0.0f, 2.0f * PI_F), &sine, &cosine);
+            float tall = random_range(random_key(key, 6), 0.88f, 1.06f);
+            // trunks stay upright, their feet follow the slope
+            Transform place = transform_from_axes(
+                vec3(cosine, dx * cosine - dz * sine, -sine), vec3(0, tall, 0),
+                vec3(sine, dx * sine + dz * cosine, cosine), vec3(x, land(user, x, z), z));
+            int stand = (int)(random_unit(random_key(key, 7)) * (float)params->stands);
+            done = add_place(places, place, stand, e);
+        }
+    }
+    if (!done) {
+        stand_places_free(places);
+    }
+    return done;
+}
+
+void stand_places_free(StandPlaces *places)
+{
+    free(places->place);
+    free(places->stand);
+    *places = (StandPlaces){0};
+}

@@ -1,0 +1,116 @@
+// What frost is held to: the angle of its sides, their orders, how far its spines turn.
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "objects/frost/frost.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static double angle_between(Vec3 a, Vec3 b)
+{
+    return (double)(exact_atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b)) /
+                    RADIANS_PER_DEGREE);
+}
+
+// Degrees between the step to a side's node and the one before; 0 for nodes of spines.
+static double turn_at(const OutTree *tree, int64_t node)
+{
+    int32_t parent = tree->parent[node], before = parent < 0 ? -1 : tree->parent[parent];
+    bool spine = before < 0 || tree->birth[node] - tree->birth[parent] == 1;
+    return spine ? 0.0
+                 : angle_between(vec3_sub(tree->position[node], tree->position[parent]),
+                                 vec3_sub(tree->position[parent], tree->position[before]));
+}
+
+// Sides are what leaves by more than half the angle of ice, the growth's own border between forward
+// and to the side.
+static bool measure_sides(const OutTree *tree, MeasureList *list, Error *e)
+{
+    int32_t *order = memory_alloc(tree->count, sizeof *order, e), highest = 0;
+    double sum = 0.0, squares = 0.0;
+    int64_t sides = 0;
+    for (int64_t i = 0; order && i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        double angle = turn_at(tree, i);
+        order[i] = (parent < 0 ? 0 : order[parent]) + (angle > 30.0);
+        highest = order[i] > highest ? order[i] : highest;
+        if (angle > 30.0) {
+            sum += angle;
+            squares += angle * angle;
+            sides++;
+        }
+    }
+    bool done = order != NULL;
+    free(order);
+    double mean = sides > 0 ? sum / (double)sides : NAN;
+    double spread = sides > 0 ? sqrt(fmax(0.0, squares / (double)sides - mean * mean)) : NAN;
+    return done && measures_add(list, "orders", (double)highest, "", NAN, NAN, e) &&
+           measures_add(list, "side_angle", mean, "degrees", 57.0, 63.0, e) &&
+           measures_add(list, "side_angle_spread", spread, "degrees", NAN, NAN, e);
+}
+
+// Azimuth of p about a nucleus, radians: on a bubble about the axis through it, on a pane in its
+// plane. False where it says nothing: near a bubble's poles.
+static bool azimuth(const FrostParams *params, Vec3 nucleus, Vec3 p, float *out)
+{
+    if (params->surface == FROST_PANE) {
+        *out = exact_atan2(p.y - nucleus.y, p.x - nucleus.x);
+        return true;
+    }
+    Vec3 axis = vec3_normalize(vec3_sub(nucleus, params->position));
+    Vec3 x = vec3_perpendicular(axis), y = vec3_cross(axis, x);
+    Vec3 d = vec3_normalize(vec3_sub(p, params->position));
+    *out = exact_atan2(vec3_dot(d, y), vec3_dot(d, x));
+    return fabsf(vec3_dot(d, axis)) < 0.95f;
+}
+
+// What is swept on the way from `parent` to `node`, degrees.
+static double step_swept(const OutTree *tree, const FrostParams *params, Vec3 nucleus,
+                         int32_t parent, int64_t node)
+{
+    float from, to;
+    if (!azimuth(params, nucleus, tree->position[parent], &from) ||
+        !azimuth(params, nucleus, tree->position[node], &to)) {
+        return 0.0;
+    }
+    float turn = to - from;
+    turn += turn > PI_F ? -2.0f * PI_F : (turn < -PI_F ? 2.0f * PI_F : 0.0f);
+    return (double)(turn / RADIANS_PER_DEGREE);
+}
+
+// Mean over the nodes at least half as far along their way as the furthest.
+static bool measure_swept(const OutTree *tree, const FrostParams *params, MeasureList *list,
+                          Error *e)
+{
+    double *swept = memory_alloc_zero(tree->count, sizeof *swept, e);
+    double *reach = memory_alloc_zero(tree->count, sizeof *reach, e), furthest = 0.0, sum = 0.0;
+    int32_t *root = memory_alloc(tree->count, sizeof *root, e);
+    int64_t count = 0;
+    bool done = swept && reach && root;
+    for (int64_t i = 0; done && i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        root[i] = parent < 0 ? (int32_t)i : root[parent];
+        if (parent >= 0 && tree->parent[parent] >= 0) {
+            swept[i] = swept[parent] + step_swept(tree, params, tree->position[root[i]], parent, i);
+            reach[i] =
+                reach[parent] + (double)vec3_distance(tree->position[i], tree->position[parent]);
+            furthest = reach[i] > furthest ? reach[i] : furthest;
+        }
+    }
+    for (int64_t i = 0; done && i < tree->count; i++) {
+        if (reach[i] > 0.5 * furthest) {
+            sum += fabs(swept[i]);
+            count++;
+        }
+    }
+    free(swept);
+    free(reach);
+    free(root);
+    return done && measures_add(list, "swept", count > 0 ? sum / (double)count : NAN, "degrees",
+                                NAN, NAN, e);
+}
+
+bool frost_measure(const OutTree *tree, const FrostParams *params, MeasureList *list, Error *e)
+{
+    return measure_sides(tree, list, e) && measure_swept(tree, params, list, e);
+}

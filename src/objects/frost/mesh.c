@@ -1,0 +1,270 @@
+// Blades of ice: each chain of the out-tree becomes a closed flat body with a raised rib.
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "objects/frost/frost.h"
+#include "objects/frost/surface.h"
+#include "outtree/chains.h"
+
+#include <stdlib.h>
+
+// The section of a blade, across (in half-widths) and up (in heights of the rib), from its left
+// edge over the rib to its right edge; the flat underside closes it.
+enum { SECTION = 7 };
+static const float SECTION_ACROSS[SECTION] = {-1.0f, -0.94f, -0.30f, 0.0f, 0.30f, 0.94f, 1.0f};
+static const float SECTION_UP[SECTION] = {0.0f, 0.22f, 0.46f, 1.0f, 0.46f, 0.22f, 0.0f};
+
+typedef struct BladeMesh {
+    const OutTree *tree;
+    const FrostParams *params;
+    Mesh *mesh;
+    int64_t vertex, face;
+} BladeMesh;
+
+static int64_t chain_length(const ChainSet *chains, int64_t chain)
+{
+    return chains->first[chain + 1] - chains->first[chain];
+}
+
+// Unit, along the chain at place k.
+static Vec3 direction_at(const OutTree *tree, const int32_t *node, int64_t count, int64_t k)
+{
+    int64_t before = k > 0 ? k - 1 : 0, after = k + 1 < count ? k + 1 : k;
+    return vec3_normalize(vec3_sub(tree->position[node[after]], tree->position[node[before]]));
+}
+
+// Half-width of a chain's blade: full where it begins, narrower toward its tip.
+static float width_at(const OutTree *tree, const int32_t *node, int64_t count, int64_t k)
+{
+    float radius = tree->radius[node[k]];
+    if (k == 0 && count > 1) { // the node that it leaves has its own, greater one
+        radius = tree->radius[node[1]];
+    }
+    float t = (float)k / (float)(count - 1);
+    uint64_t key = random_key(tree->id[node[k]], 77);
+    return radius * (1.0f - 0.6f * t * t) * random_range(key, 0.82f, 1.15f);
+}
+
+// Where the ring at place k stands. A side begins under its parent's flank, not under its rib.
+static Vec3 ring_center(const OutTree *tree, const int32_t *node, int64_t k)
+{
+    Vec3 p = tree->position[node[k]];
+    if (k > 0 || tree->parent[node[0]] < 0) {
+        return p;
+    }
+    Vec3 next = tree->position[node[1]];
+    float length = vec3_distance(p, next);
+    float share = length > 0.0f ? 0.55f * tree->radius[node[0]] / length : 0.0f;
+    return vec3_lerp(p, next, share < 0.8f ? share : 0.8f);
+}
+
+// The corners of the ring at place k. Blades of ice are not alike: ribs run a little to one side.
+static void add_ring(BladeMesh *b, const int32_t *node, int64_t count, int64_t k)
+{
+    const OutTree *tree = b->tree;
+    Vec3 normal = tree->normal[node[k]], along = direction_at(tree, node, count, k);
+    Vec3 across = vec3_normalize(vec3_cross(along, normal));
+    Vec3 center = ring_center(tree, node, k);
+    uint64_t key = random_key(tree->id[node[k]], 78);
+    float width = width_at(tree, node, count, k);
+    float height = width * b->params->relief * random_range(random_key(key, 0), 0.75f, 1.25f);
+    float shift = random_range(random_key(key, 1), -0.12f, 0.12f);
+    for (int i = 0; i < SECTION; i++) {
+        float x = SECTION_ACROSS[i] + (i > 0 && i < SECTION - 1 ? shift : 0.0f);
+        Vec3 p = vec3_madd(center, x * width, across);
+        b->mesh->position[b->vertex++] = vec3_madd(p, SECTION_UP[i] * height, normal);
+    }
+}
+
+static void add_face(BladeMesh *b, int64_t u, int64_t v, int64_t w)
+{
+    uint32_t *corner = b->mesh->index + 3 * b->face++;
+    corner[0] = (uint32_t)u;
+    corner[1] = (uint32_t)v;
+    corner[2] = (uint32_t)w;
+}
+
+// All but the last node of the chain have a ring; that one is the point.
+static void add_blade(BladeMesh *b, const int32_t *node, int64_t count)
+{
+    int64_t first = b->vertex;
+    for (int64_t k = 0; k + 1 < count; k++) {
+        add_ring(b, node, count, k);
+    }
+    int64_t point = b->vertex;
+    b->mesh->position[b->vertex++] = b->tree->position[node[count - 1]];
+    for (int64_t k = 0; k + 1 < count; k++) {
+        int64_t here = first + k * SECTION, next = here + SECTION;
+        for (int i = 0; i < SECTION; i++) {
+            int j = (i + 1) % SECTION;
+            if (next < point) {
+                add_face(b, here + i, here + j, next + j);
+                add_face(b, here + i, next + j, next + i);
+            } else {
+                add_face(b, here + i, here + j, point);
+            }
+        }
+    }
+    for (int i = 1; i + 1 < SECTION; i++) { // where it begins
+        add_face(b, first, first + i + 1, first + i);
+    }
+}
+
+// Is the chain one of rime, or of clear ice? Spines are clear.
+static bool is_rime(const OutTree *tree, const FrostParams *params, const ChainSet *chains,
+                    int64_t chain)
+{
+    uint64_t id = tree->id[chains->node[chains->first[chain + 1] - 1]];
+    return chains->order[chain] > 0 && random_unit(random_key(id, 79)) < params->rime;
+}
+
+static Mesh *blade_mesh(const OutTree *tree, const FrostParams *params, const ChainSet *chains,
+                        bool rime, const Run *run, Error *e)
+{
+    int64_t vertices = 0, faces = 0;
+    for (int64_t c = 0; c < chains->count; c++) {
+        int64_t rings = chain_length(chains, c) - 1;
+        if (rings > 0 && is_rime(tree, params, chains, c) == rime) {
+            vertices += rings * SECTION + 1;
+            faces += (rings - 1) * 2 * SECTION + SECTION + SECTION - 2;
+        }
+    }
+    BladeMesh b = {.tree = tree, .params = params, .mesh = mesh_new(3, vertices, faces, 0, e)};
+    for (int64_t c = 0; b.mesh && c < chains->count; c++) {
+        if ((c & 1023) == 0 && run_is_cancelled(run)) {
+            run_cancel_error(e);
+            mesh_free(b.mesh);
+            return NULL;
+        }
+        if (chain_length(chains, c) > 1 && is_rime(tree, params, chains, c) == rime) {
+            add_blade(&b, chains->node + chains->first[c], chain_length(chains, c));
+        }
+    }
+    return b.mesh;
+}
+
+// A grain: a six-sided low pyramid without its top, unit half-width, closed.
+static Mesh *grain_mesh(uint64_t seed, Error *e)
+{
+    enum { SIDES = 6 };
+    Mesh *mesh = mesh_new(3, 2 * SIDES, 2 * SIDES + 2 * (SIDES - 2), 0, e);
+    if (!mesh) {
+        return NULL;
+    }
+    uint32_t *corner = mesh->index;
+    for (uint32_t i = 0; i < SIDES; i++) {
+        float s, c, r = random_range(random_key(seed, i), 0.75f, 1.1f);
+        exact_sincos(2.0f * PI_F * (float)i / SIDES, &s, &c);
+        float top = random_range(random_key(seed, 10 + i), 0.25f, 0.6f);
+        mesh->position[i] = vec3(r * c, r * s, 0.0f);
+        mesh->position[SIDES + i] =
+            vec3(top * r * c, top * r * s, random_range(random_key(seed, 20 + i), 0.4f, 0.75f));
+        uint32_t j = (i + 1) % SIDES;
+        const uint32_t sides[6] = {i, j, SIDES + j, i, SIDES + j, SIDES + i};
+        for (int k = 0; k < 6; k++) {
+            *corner++ = sides[k];
+        }
+    }
+    for (uint32_t i = 1; i + 1 < SIDES; i++) {
+        const uint32_t caps[6] = {0, i + 1, i, SIDES, SIDES + i, SIDES + i + 1};
+        for (int k = 0; k < 6; k++) {
+            *corner++ = caps[k];
+        }
+    }
+    return mesh;
+}
+
+// Grains are dense near the border (on a bubble: near the nucleus) and rare elsewhere. -1 and e
+// when they cannot be placed.
+static int64_t place_grains(const FrostParams *params, uint64_t seed, int64_t wanted, float size,
+                            Transform *instance, const Run *run, Error *e)
+{
+    PointSet *points = frost_points(params, wanted, seed, run, e);
+    int64_t count = points ? 0 : -1;
+    for (int64_t i = 0; points && i < points->count && count < wanted; i++) {
+        if (!run_goes_on(run, i, e)) {
+            count = -1;
+            break;
+        }
+        uint64_t key = random_key(seed, (uint64_t)i);
+        float depth = frost_depth(params, points->position[i]) / 0.3f;
+        float chance = 0.06f + 0.94f / (1.0f + depth * depth * depth);
+        if (random_unit(random_key(key, 1)) > chance) {
+            continue;
+        }
+        Vec3 z = vec3_normalize(
+            vec3_madd(points->normal[i], 0.25f, random_direction(random_key(key, 2))));
+        Vec3 x = vec3_normalize(vec3_cross(random_direction(random_key(key, 3)), z));
+        float u = random_unit(random_key(key, 4)), s = size * (0.35f + 1.1f * u * u * u);
+        instance[count++] =
+            transform_from_axes(vec3_scale(x, s), vec3_scale(vec3_cross(z, x), s), vec3_scale(z, s),
+                                vec3_madd(points->position[i], -0.1f * s, points->normal[i]));
+    }
+    points_free(points);
+    return count;
+}
+
+static bool add_grains(const FrostParams *params, float size, int material, int object,
+                       uint64_t seed, int variant, int64_t wanted, Geometry *geometry,
+                       const Run *run, Error *e)
+{
+    uint64_t key = random_key(seed, (uint64_t)variant);
+    Mesh *mesh = grain_mesh(key, e);
+    Transform *instance = memory_alloc(wanted, sizeof *instance, e);
+    int64_t count = mesh && instance
+                        ? place_grains(params, random_key(key, 99), wanted, size, instance, run, e)
+                        : -1;
+    if (count <= 0) {
+        mesh_free(mesh);
+        free(instance);
+        return count == 0;
+    }
+    return geometry_add(geometry,
+                        (Part){.kind = PART_MESH,
+                               .mesh = mesh,
+                               .material = material,
+                               .object = object,
+                               .instance = instance,
+                               .instance_count = count},
+                        e);
+}
+
+static bool add_blades(const OutTree *tree, const FrostParams *params,
+                       const FrostMaterials *materials, int object, const Run *run,
+                       Geometry *geometry, Error *e)
+{
+    ChainSet *chains = out_tree_chains(tree, e);
+    bool done = chains != NULL;
+    for (int rime = 0; done && rime < 2; rime++) {
+        Mesh *mesh = blade_mesh(tree, params, chains, rime == 1, run, e);
+        done = mesh && geometry_add(geometry,
+                                    (Part){.kind = PART_MESH,
+                                           .mesh = mesh,
+                                           .material = rime ? materials->rime : materials->ice,
+                                           .object = object},
+                                    e);
+    }
+    chains_free(chains);
+    return done;
+}
+
+bool frost_geometry(const OutTree *tree, const FrostParams *params, const FrostMaterials *materials,
+                    int object, const Recipe *recipe, Geometry *geometry, Error *e)
+{
+    enum { VARIANTS = 6 };
+    if (!add_blades(tree, params, materials, object, recipe->run, geometry, e)) {
+        return false;
+    }
+    float size = 0.0f; // as wide as the finest blades
+    for (int64_t i = 0; i < tree->count; i++) {
+        size = size == 0.0f || tree->radius[i] < size ? tree->radius[i] : size;
+    }
+    for (int v = 0; params->grains >= VARIANTS && v < VARIANTS; v++) {
+        int material = v % 2 ? materials->rime : materials->ice;
+        if (!add_grains(params, size, material, object, random_key(recipe->seed, 6), v,
+                        params->grains / VARIANTS, geometry, recipe->run, e)) {
+            return false;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,276 @@
+#include "objects/ground/ground.h"
+
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/noise.h"
+#include "base/random.h"
+#include "mesh/leaf.h"
+#include "objects/common/foliage.h"
+#include "objects/ground/grove.h"
+
+#include <stdlib.h>
+
+GroundParams ground_params_default(void)
+{
+    return (GroundParams){.radius = 2000.0f,
+                          .relief = 22.0f,
+                          .wavelength = 420.0f,
+                          .flat_radius = 40.0f,
+                          .grass_tufts = 60000,
+                          .grass_radius = 45.0f,
+                          .grass_height = 0.32f,
+                          .grass_clumping = 0.5f,
+                          .grass_variants = 6,
+                          .fallen_leaves = 0,
+                          .fallen_radius = 9.0f,
+                          .trees = {.count = 0,
+                                    .inner = 150.0f,
+                                    .outer = 900.0f,
+                                    .height = 16.0f,
+                                    .clumping = 0.9f,
+                                    .variants = 3}};
+}
+
+float ground_height(const GroundParams *params, uint64_t seed, float x, float z)
+{
+    float r = sqrtf(x * x + z * z), scale = 1.0f / params->wavelength;
+    float hills = noise_plane_fractal(x * scale, z * scale, 4, random_key(seed, 1));
+    float bumps = noise_plane_fractal(x * 0.35f, z * 0.35f, 2, random_key(seed, 2));
+    float flat = params->flat_radius > 1e-3f ? params->flat_radius : 1e-3f; // a step has no slope
+    float near = smoothstepf(flat, 8.0f * flat, r);
+    return params->relief * hills * near + 0.07f * bumps * smoothstepf(0.5f, 4.0f, r);
+}
+
+// Rings of a polar grid: half a metre apart near the middle, then in geometric progression to the
+// horizon.
+enum { GROUND_SECTORS = 256 };
+
+static int64_t ground_rings(const GroundParams *params, float *radius, int64_t most)
+{
+    int64_t count = 0;
+    for (float r = 0.5f; r < params->radius && count + 1 < most; r += 0.3f + 0.02f * r) {
+        radius[count++] = r;
+    }
+    radius[count++] = params->radius;
+    return count;
+}
+
+static Vec3 ground_point(const GroundParams *params, uint64_t seed, float x, float z)
+{
+    return vec3(x, ground_height(params, seed, x, z), z);
+}
+
+static void ground_vertices(Mesh *mesh, const GroundParams *params, uint64_t seed,
+                            const float *radius, int64_t rings)
+{
+    for (int64_t ring = 0; ring < rings; ring++) {
+        for (int s = 0; s < GROUND_SECTORS; s++) {
+            float sine, cosine;
+            exact_sincos(2.0f * PI_F * (float)s / GROUND_SECTORS, &sine, &cosine);
+            Vec3 p = ground_point(params, seed, radius[ring] * sine, radius[ring] * cosine);
+            mesh->position[ring * GROUND_SECTORS + s] = p;
+            mesh->uv[ring * GROUND_SECTORS + s] = (Vec2){p.x, p.z};
+        }
+    }
+}
+
+static void ground_faces(Mesh *mesh, int64_t rings)
+{
+    uint32_t *corner = mesh->index;
+    for (int64_t ring = 0; ring + 1 < rings; ring++) {
+        for (int s = 0; s < GROUND_SECTORS; s++) {
+            uint32_t inner = (uint32_t)(ring * GROUND_SECTORS);
+            uint32_t next = (uint32_t)((s + 1) % GROUND_SECTORS), here = (uint32_t)s;
+            *corner++ = inner + here;
+            *corner++ = inner + GROUND_SECTORS + here;
+            *corner++ = inner + GROUND_SECTORS + next;
+            *corner++ = inner + next;
+        }
+    }
+    // The innermost ring is closed by a fan of quads, two sectors each.
+    uint32_t middle = (uint32_t)(rings * GROUND_SECTORS);
+    for (uint32_t s = 0; s < GROUND_SECTORS; s += 2) {
+        *corner++ = middle;
+        *corner++ = s;
+        *corner++ = s + 1;
+        *corner++ = (s + 2) % GROUND_SECTORS;
+    }
+}
+
+static Mesh *ground_mesh(const GroundParams *params, uint64_t seed, Error *e)
+{
+    enum { MOST_RINGS = 1024 };
+    float radius[MOST_RINGS];
+    int64_t rings = ground_rings(params, radius, MOST_RINGS);
+    Mesh *mesh =
+        mesh_new(4, rings * GROUND_SECTORS + 1, (rings - 1) * GROUND_SECTORS + GROUND_SECTORS / 2,
+                 MESH_NORMAL | MESH_UV, e);
+    if (!mesh) {
+        return NULL;
+    }
+    ground_vertices(mesh, params, seed, radius, rings);
+    mesh->position[rings * GROUND_SECTORS] = ground_point(params, seed, 0.0f, 0.0f);
+    ground_faces(mesh, rings);
+    if (!mesh_compute_normals(mesh, e)) {
+        mesh_free(mesh);
+        return NULL;
+    }
+    return mesh;
+}
+
+// An upright instance at (x, z), turned and scaled.
+static Transform upright(const GroundParams *params, uint64_t seed, float x, float z, float turn,
+                         float scale)
+{
+    float sine, cosine;
+    exact_sincos(turn, &sine, &cosine);
+    return transform_from_axes(vec3(scale * cosine, 0, -scale * sine), vec3(0, scale, 0),
+                               vec3(scale * sine, 0, scale * cosine),
+                               ground_point(params, seed, x, z));
+}
+
+// Tufts of one variant: dense in the middle, thinner but larger toward the rim, in patches. -1 when
+// interrupted.
+static int64_t place_tufts(const GroundParams *params, uint64_t ground_seed, uint64_t seed,
+                           const Flood *flood, int64_t wanted, Transform *instance,
+                           float *variation, const Run *run, Error *e)
+{
+    int64_t count = 0;
+    for (int64_t i = 0; i < wanted; i++) {
+        if (!run_goes_on(run, i, e)) {
+            return -1;
+        }
+        uint64_t key = random_key(seed, (uint64_t)i);
+        float share = exact_pow(random_unit(random_key(key, 1)), 0.75f), sine, cosine;
+        exact_sincos(random_range(random_key(key, 2), 0.0f, 2.0f * PI_F), &sine, &cosine);
+        float x = params->grass_center.x + params->grass_radius * share * sine;
+        float z = params->grass_center.z + params->grass_radius * share * cosine;
+        float patch = noise_plane_fractal(x * 0.55f, z * 0.55f, 3, random_key(ground_seed, 3));
+        float keep = 1.0f - params->grass_clumping * smoothstepf(0.25f, -0.35f, patch);
+        keep *= smoothstepf(1.0f, 0.55f, share); // no edge where the grass ends
+        if (random_unit(random_key(key, 3)) > keep ||
+            flood_covers(flood, ground_point(params, ground_seed, x, z))) {
+            continue;
+        }
+        float scale = random_range(random_key(key, 4), 0.55f, 1.0f) * (1.0f + 0.35f * patch);
+        variation[count] =
+            clampf(0.5f + 0.6f * patch + 0.4f * random_unit(random_key(key, 5)) - 0.2f, 0.0f, 1.0f);
+        instance[count++] = upright(params, ground_seed, x, z,
+                                    random_range(random_key(key, 6), 0.0f, 2.0f * PI_F), scale);
+    }
+    return count;
+}
+
+// Adds mesh (taken over) with room for `most` instances that `place` fills in.
+static bool add_instances(Geometry *geometry, Mesh *mesh, int material, int object,
+                          Transform *instance, float *variation, int64_t count, Error *e)
+{
+    Part part = {.kind = PART_MESH,
+                 .mesh = mesh,
+                 .material = material,
+                 .object = object,
+                 .instance = instance,
+                 .variation = variation,
+                 .instance_count = count};
+    return geometry_add(geometry, part, e);
+}
+
+static bool add_grass_variant(const GroundParams *params, int variant, int material, int object,
+                              uint64_t seed, const Flood *flood, Geometry *geometry, const Run *run,
+                              Error *e)
+{
+    uint64_t key = random_key(random_key(seed, 4), (uint64_t)variant);
+    GrassParams tuft = {.blades = 22,
+                        .height = params->grass_height,
+                        .width = 0.0065f,
+                        .spread = 0.09f,
+                        .lean = 32.0f,
+                        .bend = 85.0f};
+    int64_t wanted = grove_share(params->grass_tufts, params->grass_variants, variant);
+    Mesh *mesh = grass_tuft_new(&tuft, key, e);
+    Transform *instance = memory_alloc(wanted, sizeof *instance, e);
+    float *variation = memory_alloc(wanted, sizeof *variation, e);
+    int64_t count = mesh && instance && variation
+                        ? place_tufts(params, seed, random_key(key, 1), flood, wanted, instance,
+                                      variation, run, e)
+                        : -1;
+    if (count <= 0) { // an instance count of 0 would draw the tuft once, at the origin
+        mesh_free(mesh);
+        free(instance);
+        free(variation);
+        return count == 0;
+    }
+    return add_instances(geometry, mesh, material, object, instance, variation, count, e);
+}
+
+// A leaf lying at (x, z): upper side up or down, tilted a little, on the tips of the short grass.
+static Transform lying_leaf(const GroundParams *params, uint64_t seed, uint64_t key)
+{
+    float r = params->fallen_radius * sqrtf(random_unit(random_key(key, 1))), sine, cosine;
+    exact_sincos(random_range(random_key(key, 2), 0.0f, 2.0f * PI_F), &sine, &cosine);
+    Vec3 p = ground_point(params, seed, r * sine, r * cosine);
+    p.y += random_range(random_key(key, 3), 0.005f, 0.06f);
+    Vec3 z = vec3_normalize(vec3_madd(vec3(0, 1, 0), 0.35f, random_direction(random_key(key, 4))));
+    if (random_unit(random_key(key, 5)) < 0.4f) {
+        z = vec3_neg(z);
+    }
+    Vec3 y = vec3_normalize(vec3_cross(z, random_direction(random_key(key, 6))));
+    return transform_from_axes(vec3_cross(y, z), y, z, p);
+}
+
+static bool add_fallen_leaves(const GroundParams *params, int material, int object, uint64_t seed,
+                              Geometry *geometry, const Run *run, Error *e)
+{
+    LeavesParams leaves = tree_params_default().leaves;
+    for (int v = 0; v < leaves.variants; v++) {
+        int64_t each = grove_share(params->fallen_leaves, leaves.variants, v);
+        if (each == 0) {
+            break;
+        }
+        uint64_t key = random_key(random_key(seed, 5), (uint64_t)v);
+        leaves.curl = 60.0f; // dry leaves roll up
+        Mesh *mesh = foliage_leaf_mesh(&leaves, v, key, e);
+        Transform *instance = memory_alloc(each, sizeof *instance, e);
+        bool done = mesh && instance;
+        for (int64_t i = 0; done && i < each; i++) {
+            done = run_goes_on(run, i, e);
+            instance[i] = lying_leaf(params, seed, random_key(key, 100 + (uint64_t)i));
+        }
+        if (!done) {
+            mesh_free(mesh);
+            free(instance);
+            return false;
+        }
+        if (!add_instances(geometry, mesh, material, object, instance, NULL, each, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool ground_geometry(const GroundParams *params, const GroundMaterials *materials, int object,
+                     uint64_t seed, const Flood *flood, Geometry *geometry, const Run *run,
+                     Error *e)
+{
+    Mesh *mesh = ground_mesh(params, seed, e);
+    if (!mesh || !geometry_add(geometry,
+                               (Part){.kind = PART_MESH,
+                                      .mesh = mesh,
+                                      .material = materials->ground,
+                                      .object = object},
+                               e)) {
+        return false;
+    }
+    for (int v = 0; params->grass_tufts > 0 && v < params->grass_variants; v++) {
+        if (!add_grass_variant(params, v, materials->grass, object, seed, flood, geometry, run,
+                               e)) {
+            return false;
+        }
+    }
+    if (params->fallen_leaves > 0 &&
+        !add_fallen_leaves(params, materials->fallen, object, seed, geometry, run, e)) {
+        return false;
+    }
+    return params->trees.count == 0 ||
+           grove_add(params, materials, object, seed, flood, geometry, run, e);
+}

@@ -1,0 +1,50 @@
+// Ground to stand on: gently rolling land out to the horizon, and grass near the camera's subject.
+#ifndef RAMIFY_OBJECTS_GROUND_GROUND_H
+#define RAMIFY_OBJECTS_GROUND_GROUND_H
+
+#include "base/run.h"
+#include "mesh/geometry.h"
+#include "objects/ground/flood.h"
+
+// Woods in the distance: a few trees, grown once and instanced.
+typedef struct GroveParams {
+    int count;          // trees; 0 = none
+    float inner, outer; // m from the origin between which they stand
+    float height;       // m, of the tallest
+    float clumping;     // 0 = even .. 1 = in woods with open land between
+    int variants;       // different trees
+    bool bare;          // without leaves
+} GroveParams;
+
+typedef struct GroundParams {
+    float radius;        // m, to the horizon
+    float relief;        // m, height of the hills
+    float wavelength;    // m, from hill to hill
+    float flat_radius;   // m about the origin that stay flat (height 0), where the subject stands
+    int64_t grass_tufts; // 0 = no grass
+    float grass_radius;  // m about grass_center that bear grass; density falls toward the rim
+    Vec3 grass_center;
+    float grass_height;    // m, of the tallest blades
+    float grass_clumping;  // 0 = even .. 1 = in patches
+    int grass_variants;    // different tuft meshes
+    int64_t fallen_leaves; // leaves lying about the origin; 0 = none
+    float fallen_radius;   // m
+    GroveParams trees;
+} GroundParams;
+
+typedef struct GroundMaterials {
+    int ground, grass, fallen;
+    int bark, foliage; // of the trees in the distance
+} GroundMaterials;
+
+GroundParams ground_params_default(void); // 2 km of meadow, 60,000 tufts
+
+// Height of the land at (x, z), m.
+float ground_height(const GroundParams *params, uint64_t seed, float x, float z);
+
+// flood: where no grass and no trees stand; NULL = none.
+bool ground_geometry(const GroundParams *params, const GroundMaterials *materials, int object,
+                     uint64_t seed, const Flood *flood, Geometry *geometry, const Run *run,
+                     Error *e);
+
+#endif

@@ -1,0 +1,18 @@
+// Woods in the distance: a few trees grown coarsely, their leaves baked into one mesh each, and
+// instanced over the land.
+#ifndef RAMIFY_OBJECTS_GROUND_GROVE_H
+#define RAMIFY_OBJECTS_GROUND_GROVE_H
+
+#include "objects/ground/ground.h"
+
+// How many of `count` things fall to variant number `variant`: evenly, the first take the rest.
+static inline int64_t grove_share(int64_t count, int variants, int variant)
+{
+    return count / variants + (variant < count % variants ? 1 : 0);
+}
+
+bool grove_add(const GroundParams *ground, const GroundMaterials *materials, int object,
+               uint64_t ground_seed, const Flood *flood, Geometry *geometry, const Run *run,
+               Error *e);
+
+#endif

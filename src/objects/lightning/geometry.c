@@ -1,0 +1,75 @@
+// The bolts as round curves that glow.
+#include "base/memory.h"
+#include "objects/lightning/lightning.h"
+#include "outtree/chains.h"
+
+// Radiance of the main channel when its power is left out, W/(m^2 sr).
+#define OWN_RADIANCE 40.0f
+
+static void fill_curve(CurveSet *curves, int64_t curve, const OutTree *tree, const int32_t *node,
+                       int64_t count, float core, float glow, float last_birth)
+{
+    int64_t first = curves->first[curve];
+    curves->first[curve + 1] = first + count;
+    float along = 0.0f;
+    for (int64_t k = 0; k < count; k++) {
+        // a branch is as thin as itself where it leaves another, not as thick as that one
+        int32_t own = k == 0 && count > 1 && tree->radius[node[0]] > tree->radius[node[1]]
+                          ? node[1]
+                          : node[k];
+        along += k > 0 ? vec3_distance(tree->position[node[k - 1]], tree->position[node[k]]) : 0.0f;
+        curves->position[first + k] = tree->position[node[k]];
+        curves->radius[first + k] = tree->radius[own];
+        float thin = tree->radius[own] / core; // power is its cube, so radiance its square
+        curves->glow[first + k] = glow * thin * thin;
+        curves->along[first + k] = along;
+        curves->birth[first + k] = (float)tree->birth[node[k]] / last_birth;
+    }
+}
+
+bool lightning_geometry(const OutTree *tree, const LightningParams *params, int material,
+                        float luminance, int object, Geometry *geometry, Error *e)
+{
+    ChainSet *chains = out_tree_chains(tree, e);
+    if (!chains) {
+        return false;
+    }
+    int64_t points = 0, drawn = 0;
+    for (int64_t c = 0; c < chains->count; c++) {
+        int64_t count = chains->first[c + 1] - chains->first[c];
+        points += count > 1 ? count : 0;
+        drawn += count > 1;
+    }
+    CurveSet *curves = drawn > 0 ? curves_new(points, drawn, e) : NULL;
+    if (curves) {
+        curves->glow = memory_alloc(points, sizeof *curves->glow, e);
+    }
+    bool done = drawn == 0 || (curves && curves->glow);
+    if (done && drawn > 0) {
+        // A cylinder of radius r and radiance L all around sends out 2 pi^2 r L a metre.
+        float core = lightning_radius(params, tree);
+        float radiance =
+            params->power > 0.0f ? params->power / (2.0f * PI_F * PI_F * core) : OWN_RADIANCE;
+        float glow = luminance > 0.0f ? radiance / luminance : 1.0f;
+        float last_birth = 1.0f;
+        for (int64_t i = 0; i < tree->count; i++) {
+            float birth = (float)tree->birth[i];
+            last_birth = birth > last_birth ? birth : last_birth;
+        }
+        int64_t curve = 0;
+        for (int64_t c = 0; c < chains->count; c++) {
+            int64_t count = chains->first[c + 1] - chains->first[c];
+            if (count > 1) {
+                fill_curve(curves, curve++, tree, chains->node + chains->first[c], count, core,
+                           glow, last_birth);
+            }
+        }
+    }
+    chains_free(chains);
+    if (!done) {
+        curves_free(curves);
+        return false;
+    }
+    Part part = {.kind = PART_CURVES, .curves = curves, .material = material, .object = object};
+    return drawn == 0 || geometry_add(geometry, part, e);
+}

@@ -1,0 +1,300 @@
+// Bolts put together: where they run, one out-tree for all of them, radii from powers.
+#include "objects/lightning/lightning.h"
+
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "objects/lightning/parts.h"
+#include "outtree/chains.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+LightningParams lightning_params_default(void)
+{
+    LightningParams params = {.height = 1000.0f,
+                              .lean = 6.0f,
+                              .lean_azimuth = 90.0f,
+                              .bolts = 1,
+                              .ground_points = 1,
+                              .spread = 0.4f,
+                              .branching = 1.0f,
+                              .hurst = 0.65f,
+                              .jitter = 0.1f,
+                              .branch_power = 0.2f};
+    params.element.pattern = SCATTER_POISSON;
+    params.element.max_children = 2;
+    params.element.cone_angle = 60.0f;
+    params.element.gradient = 0.35f;
+    params.element.field_weight = 1.0f;
+    return params;
+}
+
+// ---- levels ----
+
+int lightning_own_levels(const LightningParams *params, GrowLevel levels[LIGHTNING_MOST_LEVELS])
+{
+    static const GrowLevel AIR[2] = {{12, 0.10f, 0.5f, 2.6f, 1.0f, 0.45f, 1.0f, 0.3f},
+                                     {80, 0.25f, 0.8f, 1.7f, 1.0f, 0.5f, 1.0f, 0.3f}};
+    static const GrowLevel SURFACE[3] = {{30, 0.08f, 0.4f, 4.0f, 1.0f, 0.40f, 1.0f, 0.3f},
+                                         {175, 0.15f, 0.6f, 2.2f, 1.0f, 0.45f, 1.0f, 0.3f},
+                                         {1050, 0.30f, 0.8f, 1.6f, 1.0f, 0.5f, 1.0f, 0.3f}};
+    bool air = params->element.place == SCATTER_VOLUME;
+    const GrowLevel *own = air ? AIR : SURFACE;
+    int count = 0;
+    for (int i = 0; i < (air ? 2 : 3); i++) {
+        levels[count] = own[i];
+        float attractors = (float)own[i].attractors * params->branching + 0.5f;
+        levels[count].attractors = (int64_t)attractors;
+        count += levels[count].attractors > 0;
+    }
+    return count;
+}
+
+int64_t lightning_attractors(const LightningParams *params)
+{
+    GrowLevel own[LIGHTNING_MOST_LEVELS];
+    const GrowLevel *levels = params->element.levels;
+    int count = params->element.level_count;
+    if (count == 0) {
+        count = lightning_own_levels(params, own);
+        levels = own;
+    }
+    int64_t sum = 0;
+    for (int i = 0; i < count; i++) {
+        sum += levels[i].attractors;
+    }
+    return params->element.place == SCATTER_VOLUME ? sum * params->bolts : sum;
+}
+
+// ---- radii ----
+
+// Walks from the strike back to the root and marks the way with radius 1.
+static void mark_main(OutTree *tree, uint64_t strike_id)
+{
+    int32_t node = (int32_t)tree->count - 1;
+    while (node >= 0 && tree->id[node] != strike_id) {
+        node--;
+    }
+    for (; node >= 0; node = tree->parent[node]) {
+        tree->radius[node] = 1.0f;
+    }
+}
+
+static float chain_length(const OutTree *tree, const int32_t *node, int64_t count)
+{
+    float length = 0.0f;
+    for (int64_t k = 1; k < count; k++) {
+        length += vec3_distance(tree->position[node[k - 1]], tree->position[node[k]]);
+    }
+    return length;
+}
+
+// Powers along one chain, as shares of the main channel's. rank: 0 = the main channel, 1 = what
+// leaves it, ...
+static void chain_powers(OutTree *tree, const LightningParams *params, float size, int rank,
+                         bool from_root, const int32_t *node, int64_t count)
+{
+    enum { LONG = 4 };               // a branch of 1 / LONG of the bolt has its full power
+    static const float faded = 0.1f; // share of it that is left at the tip
+    float share = 1.0f, length = chain_length(tree, node, count), done = 0.0f;
+    if (rank > 0) {
+        share = params->branch_power * exact_pow((float)rank, -1.2f);
+        share *= from_root ? 1.0f : clampf(sqrtf(LONG * length / size), 0.2f, 1.0f);
+    }
+    for (int64_t k = from_root ? 0 : 1; k < count; k++) {
+        if (k > 0) {
+            done += vec3_distance(tree->position[node[k - 1]], tree->position[node[k]]);
+        }
+        float t = length > 0.0f ? done / length : 0.0f;
+        bool fades = rank > 0 && !from_root;
+        tree->radius[node[k]] = fades ? share * lerpf(1.0f, faded, t) : share;
+    }
+}
+
+static bool set_radii(OutTree *tree, const LightningParams *params, float size, float core,
+                      const uint64_t *strike_id, int strike_count, Error *e)
+{
+    for (int64_t i = 0; i < tree->count; i++) {
+        tree->radius[i] = 0.0f;
+    }
+    for (int i = 0; i < strike_count; i++) {
+        mark_main(tree, strike_id[i]);
+    }
+    ChainSet *chains = out_tree_chains(tree, e);
+    int *rank = chains ? memory_alloc(chains->count, sizeof *rank, e) : NULL;
+    if (!rank) {
+        chains_free(chains);
+        return false;
+    }
+    for (int64_t c = 0; c < chains->count; c++) {
+        const int32_t *node = chains->node + chains->first[c];
+        int64_t count = chains->first[c + 1] - chains->first[c];
+        bool main = tree->radius[node[count - 1]] == 1.0f;
+        int parent = chains->parent[c];
+        rank[c] = main ? 0 : (parent < 0 ? 1 : rank[parent] + 1);
+    }
+    for (int64_t c = 0; c < chains->count; c++) {
+        chain_powers(tree, params, size, rank[c], chains->parent[c] < 0,
+                     chains->node + chains->first[c], chains->first[c + 1] - chains->first[c]);
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        tree->radius[i] = core * exact_pow(tree->radius[i], 1.0f / 3.0f);
+    }
+    free(rank);
+    chains_free(chains);
+    return true;
+}
+
+float lightning_radius(const LightningParams *params, const OutTree *tree)
+{
+    if (params->element.place == SCATTER_VOLUME) {
+        return params->radius > 0.0f ? params->radius : params->height / 1600.0f;
+    }
+    float most = 0.0f;
+    for (int64_t i = 0; i < tree->count; i++) {
+        most = tree->radius[i] > most ? tree->radius[i] : most;
+    }
+    return most;
+}
+
+// ---- the way ----
+
+// Powers first, so that chains follow the main channel; and again in the end, along the ways as
+// they are drawn.
+OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float size, float core,
+                          const uint64_t *strike_id, int strike_count, const Wander *wander,
+                          Error *e)
+{
+    float length[2] = {params->step > 0.0f ? params->step : size / 40.0f,
+                       params->segment > 0.0f ? params->segment : size / 400.0f};
+    JitterParams jitter = jitter_params_default();
+    jitter.hurst = params->hurst;
+    jitter.reference = size;
+    jitter.project = wander->project;
+    jitter.surface = wander->surface;
+    jitter.stride = wander->stride;
+    for (int i = 0; tree && i < 3; i++) {
+        OutTree *next = tree;
+        bool done = set_radii(next, params, size, core, strike_id, strike_count, e);
+        if (done && i < 2) {
+            next = out_tree_resample(tree, length[i], e);
+            if (!next) {
+                error_key(e, "%s", i == 0 ? "step" : "segment");
+            }
+            jitter.amplitude = params->jitter * size * (i == 0 ? 1.0f : 0.4f);
+            jitter.amplitude *= wander->project ? 0.7f : 1.0f; // in one direction, round bends
+            jitter.seed = random_key(wander->seed, (uint64_t)i);
+            done = next && out_tree_jitter(next, &jitter, wander->run, e);
+            out_tree_free(tree);
+        }
+        if (!done) {
+            out_tree_free(next);
+            next = NULL;
+        }
+        tree = next;
+    }
+    return tree;
+}
+
+// ---- all bolts ----
+
+static Bolt make_bolt(const LightningParams *params, int number, uint64_t seed)
+{
+    float sine, cosine, east, south;
+    exact_sincos(params->lean * RADIANS_PER_DEGREE, &sine, &cosine);
+    exact_sincos(params->lean_azimuth * RADIANS_PER_DEGREE, &east, &south);
+    Vec3 up = vec3(sine * east, cosine, sine * south);
+    Bolt bolt = {.params = params,
+                 .axis = vec3_neg(up),
+                 .height = params->height,
+                 .colony = number,
+                 .seed = random_key(seed, (uint64_t)number)};
+    bolt.depth = vec3_madd(vec3(0, 0, 1), -up.z, up);
+    bolt.depth = vec3_dot(bolt.depth, bolt.depth) > 1e-4f ? vec3_normalize(bolt.depth)
+                                                          : vec3_perpendicular(up);
+    bolt.side = vec3_cross(up, bolt.depth);
+    float apart = params->bolt_spread;
+    // 0, +1, -1, +2, ... places to the side, a little uneven and in depth
+    int rank = (number + 1) / 2;
+    float place = (float)rank * (number % 2 ? 1.0f : -1.0f);
+    uint64_t key = random_key(bolt.seed, 77);
+    float across = place * apart * random_range(random_key(key, 0), 0.8f, 1.2f);
+    float away = place * apart * random_range(random_key(key, 1), -0.3f, 0.3f);
+    bolt.strike = vec3_add(params->position, vec3(across, 0.0f, away));
+    bolt.start = vec3_madd(bolt.strike, params->height, up);
+    return bolt;
+}
+
+static bool grow_bolts(OutTree *tree, const LightningParams *params, uint64_t *strike_id,
+                       const Recipe *recipe, Error *e)
+{
+    for (int i = 0; i < params->bolts; i++) {
+        Bolt bolt = make_bolt(params, i, recipe->seed);
+        OutTree *one =
+            lightning_grow_bolt(&bolt, strike_id + (int64_t)i * params->ground_points, recipe, e);
+        bool done = one && lightning_add_streamers(one, &bolt, out_tree_last_birth(one), e) &&
+                    out_tree_append(tree, one, e);
+        out_tree_free(one);
+        if (!done) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// All bolts with their strikes, before they are cut.
+static OutTree *grow_whole(const LightningParams *params, uint64_t *strike_id, int strikes,
+                           const Recipe *recipe, Error *e)
+{
+    if (recipe_remembers(recipe, 0)) {
+        memcpy(strike_id, recipe->memory->id, sizeof *strike_id * (size_t)strikes);
+        return recipe_recall(recipe, 0, e);
+    }
+    OutTree *tree = out_tree_new(e);
+    if (tree &&
+        !(grow_bolts(tree, params, strike_id, recipe, e) &&
+          recipe_keep_ids(recipe, strike_id, strikes, e) && recipe_keep(recipe, 0, tree, e))) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}
+
+static OutTree *grow_in_air(const LightningParams *params, const Recipe *recipe, Error *e)
+{
+    int strikes = params->bolts * params->ground_points;
+    float size = params->height, core = params->radius;
+    uint64_t *strike_id = memory_alloc(strikes, sizeof *strike_id, e);
+    OutTree *tree = strike_id ? grow_whole(params, strike_id, strikes, recipe, e) : NULL;
+    if (tree && !out_tree_keep_births(tree, recipe->grow_to, e)) {
+        out_tree_free(tree);
+        tree = NULL;
+    }
+    uint64_t seed = random_key(recipe->seed, 9);
+    tree = tree ? lightning_wander(tree, params, size, core, strike_id, strikes,
+                                   &(Wander){.seed = seed, .run = recipe->run}, e)
+                : NULL;
+    free(strike_id);
+    return tree;
+}
+
+LightningParams lightning_params_resolve(const LightningParams *given)
+{
+    LightningParams params = *given;
+    float size = params.height;
+    if (params.element.place != SCATTER_SURFACE) { // where all follows the surface's extent
+        params.step = params.step > 0.0f ? params.step : size / 40.0f;
+        params.segment = params.segment > 0.0f ? params.segment : size / 400.0f;
+        params.radius = params.radius > 0.0f ? params.radius : size / 1600.0f;
+        params.bolt_spread = params.bolt_spread > 0.0f ? params.bolt_spread : 0.45f * size;
+    }
+    return params;
+}
+
+OutTree *lightning_grow(const LightningParams *params, const Recipe *recipe, Error *e)
+{
+    LightningParams whole = lightning_params_resolve(params);
+    return params->element.place == SCATTER_SURFACE ? lightning_grow_surface(params, recipe, e)
+                                                    : grow_in_air(&whole, recipe, e);
+}

@@ -1,0 +1,201 @@
+// Discharges that crawl over an object: growth on its surface, jitter that stays on it.
+#include "base/memory.h"
+#include "base/random.h"
+#include "objects/lightning/parts.h"
+
+#include "base/exact_math.h"
+
+#include <stdlib.h>
+
+typedef struct Skin {
+    const Envelope *envelope;
+    float probe; // m, half the distance over which the distance's slope is taken
+} Skin;
+
+static Vec3 slope_at(const Skin *skin, Vec3 p)
+{
+    float h = skin->probe, g[3];
+    for (int i = 0; i < 3; i++) {
+        Vec3 d = vec3(i == 0 ? h : 0.0f, i == 1 ? h : 0.0f, i == 2 ? h : 0.0f);
+        g[i] = envelope_distance(skin->envelope, vec3_add(p, d)) -
+               envelope_distance(skin->envelope, vec3_sub(p, d));
+    }
+    return vec3_scale(vec3(g[0], g[1], g[2]), 0.5f / h);
+}
+
+// Down the slope of the distance to the surface; where it is flat (beyond a level set's band),
+// along the normal of where p came from.
+static void project(const void *surface, Vec3 *p, Vec3 *normal)
+{
+    enum { ROUNDS = 6 };
+    const Skin *skin = surface;
+    for (int i = 0; i < ROUNDS; i++) {
+        float d = envelope_distance(skin->envelope, *p);
+        Vec3 g = slope_at(skin, *p);
+        float steep = vec3_dot(g, g);
+        if (steep > 0.04f) {
+            *normal = vec3_normalize(g);
+        }
+        *p = vec3_madd(*p, -d / (steep > 0.25f ? sqrtf(steep) : 1.0f), *normal);
+    }
+}
+
+// The vertex that lies furthest along d.
+static Vec3 extreme_point(const Envelope *envelope, Vec3 d)
+{
+    const Mesh *mesh = envelope_surface(envelope);
+    Vec3 best = mesh->position[0];
+    for (int64_t i = 1; i < mesh->vertex_count; i++) {
+        best = vec3_dot(mesh->position[i], d) > vec3_dot(best, d) ? mesh->position[i] : best;
+    }
+    return best;
+}
+
+static bool plant(OutTree *tree, const LightningParams *params, const Skin *skin, uint64_t seed,
+                  Error *e)
+{
+    for (int i = 0; i < params->bolts; i++) {
+        float sine, cosine, east, south;
+        exact_sincos(params->lean * RADIANS_PER_DEGREE, &sine, &cosine);
+        exact_sincos(params->lean_azimuth * RADIANS_PER_DEGREE, &east, &south);
+        Vec3 d = vec3(sine * east, cosine, sine * south);
+        uint64_t key = random_key(seed, (uint64_t)i);
+        d = i == 0 ? d : random_direction(key);
+        Vec3 p = extreme_point(skin->envelope, d), normal = d;
+        project(skin, &p, &normal);
+        int64_t node = out_tree_add_node(tree, p, -1, 0, i, random_key(key, 1), e);
+        if (node < 0) {
+            return false;
+        }
+        tree->normal[node] = normal;
+    }
+    return true;
+}
+
+static bool grow_over(OutTree *tree, const LightningParams *params, const Envelope *envelope,
+                      const Recipe *recipe, Error *e)
+{
+    GrowLevel levels[LIGHTNING_MOST_LEVELS];
+    ElementParams element = params->element;
+    if (element.level_count == 0) {
+        element.levels = levels;
+        element.level_count = lightning_own_levels(params, levels);
+    }
+    // Away from where it started, and no hairpins: discharges do not come back over their own
+    // charge.
+    FieldParams away = field_params_default(FIELD_NUCLEI);
+    away.surface = true;
+    if (element.field_count == 0) {
+        element.fields = &away;
+        element.field_count = 1;
+        element.field_weight = 0.7f;
+    }
+    if (element.max_angle == 0.0f) {
+        element.max_angle = 60.0f;
+    }
+    return element.level_count == 0 ||
+           element_grow_in(tree, &element, envelope, random_key(recipe->seed, 4), recipe->label,
+                           recipe->run, e);
+}
+
+// The node of each colony that is furthest from its root along the branches: there the main channel
+// goes.
+static bool find_ends(const OutTree *tree, int bolts, uint64_t *end_id, Error *e)
+{
+    float *distance = memory_alloc(tree->count, sizeof *distance, e);
+    float *furthest = memory_alloc_zero(bolts, sizeof *furthest, e);
+    bool done = distance && furthest;
+    for (int64_t i = 0; done && i < tree->count; i++) {
+        int32_t parent = tree->parent[i], colony = tree->colony[i];
+        float step = parent < 0 ? 0.0f : vec3_distance(tree->position[i], tree->position[parent]);
+        distance[i] = parent < 0 ? 0.0f : distance[parent] + step;
+        if (parent < 0 || distance[i] > furthest[colony]) {
+            furthest[colony] = distance[i];
+            end_id[colony] = tree->id[i];
+        }
+    }
+    free(distance);
+    free(furthest);
+    return done;
+}
+
+// Drops what leads through the air or the body, across an armpit: nodes that were not found on the
+// surface, and jumps. What is left may skip a dent, as discharges do.
+static bool drop_strays(OutTree *tree, const Skin *skin, float size, Error *e)
+{
+    bool *keep = memory_alloc(tree->count, sizeof *keep, e);
+    if (!keep) {
+        return false;
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        float off = envelope_distance(skin->envelope, tree->position[i]);
+        float jump = parent < 0 ? 0.0f : vec3_distance(tree->position[i], tree->position[parent]);
+        keep[i] = parent < 0 || (off < skin->probe && off > -skin->probe && jump < 0.05f * size);
+    }
+    bool done = out_tree_keep_nodes(tree, keep, e);
+    free(keep);
+    return done;
+}
+
+static OutTree *finish(OutTree *tree, const LightningParams *params, const Skin *skin, float size,
+                       const Recipe *recipe, Error *e)
+{
+    float core = params->radius > 0.0f ? params->radius : size / 700.0f;
+    uint64_t *end_id = memory_alloc(params->bolts, sizeof *end_id, e);
+    if (end_id && out_tree_keep_births(tree, recipe->grow_to, e) &&
+        find_ends(tree, params->bolts, end_id, e)) {
+        float band = envelope_band(skin->envelope);
+        Wander wander = {.project = project,
+                         .surface = skin,
+                         .stride = band < 0.04f * size ? 0.5f * band : 0.02f * size,
+                         .seed = random_key(recipe->seed, 9),
+                         .run = recipe->run};
+        tree = lightning_wander(tree, params, size, core, end_id, params->bolts, &wander, e);
+    } else {
+        out_tree_free(tree);
+        tree = NULL;
+    }
+    free(end_id);
+    if (tree && !drop_strays(tree, skin, size, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    float lift = params->lift > 0.0f ? params->lift : 2.0f * core;
+    for (int64_t i = 0; tree && i < tree->count; i++) {
+        tree->position[i] = vec3_madd(tree->position[i], lift, tree->normal[i]);
+    }
+    return tree;
+}
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+OutTree *lightning_grow_surface(const LightningParams *params, const Recipe *recipe, Error *e)
+{
+    const ElementParams *element = &params->element;
+    EnvelopeParams shape = {element->shapes, element->shape_count, element->voxel};
+    Envelope *envelope = envelope_new(&shape, recipe->run, e);
+    bool again = recipe_remembers(recipe, 0);
+    OutTree *tree = !envelope ? NULL : (again ? recipe_recall(recipe, 0, e) : out_tree_new(e));
+    if (!tree) {
+        envelope_free(envelope);
+        return NULL;
+    }
+    Aabb box = envelope_bounds(envelope);
+    Vec3 extent = vec3_sub(box.high, box.low);
+    float size = larger(extent.x, larger(extent.y, extent.z));
+    Skin skin = {envelope, 0.004f * size};
+    if (again ||
+        (plant(tree, params, &skin, random_key(recipe->seed, 3), e) &&
+         grow_over(tree, params, envelope, recipe, e) && recipe_keep(recipe, 0, tree, e))) {
+        tree = finish(tree, params, &skin, size, recipe, e);
+    } else {
+        out_tree_free(tree);
+        tree = NULL;
+    }
+    envelope_free(envelope);
+    return tree;
+}

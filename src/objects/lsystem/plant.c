@@ -1,0 +1,125 @@
+#include "objects/lsystem/plant.h"
+
+#include "base/random.h"
+#include "grow/lsystem/turtle.h"
+#include "outtree/radii.h"
+
+#include <stddef.h>
+
+// Monopodial and sympodial forks by divergence angles, bent by gravity (The Algorithmic Beauty of
+// Plants, figure 2.8): a trunk that forks in three, branches that fork again.
+static const char TREE_AXIOM[] = "!(1)F(1.2)/(45)A";
+static const char TREE_RULES[] =
+    "d1 = 94.74; d2 = 132.63; a = 18.95; l = 1.109; w = 1.732\n"
+    "A -> !(w)F(0.5)[&(a)F(0.5)A]/(d1)[&(a)F(0.5)A]/(d2)[&(a)F(0.5)A]\n"
+    "F(x) -> F(x*l)\n"
+    "!(x) -> !(x*w)";
+
+LSystemPlantParams lsystem_plant_params_default(void)
+{
+    TreeParams tree = tree_params_default();
+    return (LSystemPlantParams){.height = 12.0f,
+                                .generations = 7,
+                                .angle = 30.0f,
+                                .step = 1.0f,
+                                .tropism = {0, -1, 0},
+                                .elasticity = 0.14f,
+                                .radii = tree.radii,
+                                .leaves = tree.leaves,
+                                .skin = tree.skin};
+}
+
+static bool sets_widths(const OutTree *tree)
+{
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->radius[i] <= 0.0f) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// To the wanted height about the first root, which goes to the position.
+static void scale_to(OutTree *tree, float height, Vec3 position)
+{
+    float top = 0.0f;
+    for (int64_t i = 0; i < tree->count; i++) {
+        float y = tree->position[i].y - tree->position[0].y;
+        top = y > top ? y : top;
+    }
+    float scale = height > 0.0f && top > 0.0f ? height / top : 1.0f;
+    Vec3 foot = tree->position[0];
+    for (int64_t i = 0; i < tree->count; i++) {
+        tree->position[i] = vec3_madd(position, scale, vec3_sub(tree->position[i], foot));
+    }
+}
+
+// Widths are drawn in the string's own unit: the widest becomes the root's radius.
+static void scale_widths(OutTree *tree, float radius)
+{
+    float widest = 0.0f;
+    for (int64_t i = 0; i < tree->count; i++) {
+        widest = tree->radius[i] > widest ? tree->radius[i] : widest;
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        tree->radius[i] *= radius / widest;
+    }
+}
+
+static OutTree *draw(const LSystemPlantParams *p, const Recipe *recipe, Error *e)
+{
+    LSystemParams system = {.axiom = p->axiom ? p->axiom : TREE_AXIOM,
+                            .rules = p->rules ? p->rules : (p->axiom ? "" : TREE_RULES),
+                            .generations = p->generations,
+                            .seed = random_key(recipe->seed, 1)};
+    ModuleString string;
+    if (!lsystem_derive(&system, recipe->run, &string, e)) {
+        return NULL;
+    }
+    TurtleParams turtle = turtle_params_default();
+    turtle.step = p->step;
+    turtle.angle = p->angle;
+    turtle.tropism = p->tropism;
+    turtle.elasticity = p->elasticity;
+    turtle.noise = p->noise;
+    turtle.seed = random_key(recipe->seed, 2);
+    OutTree *tree = turtle_draw(&string, &turtle, recipe->run, e);
+    module_string_clear(&string);
+    return tree;
+}
+
+OutTree *lsystem_plant_grow(const LSystemPlantParams *p, const Recipe *recipe, Error *e)
+{
+    bool again = recipe_remembers(recipe, 0);
+    OutTree *tree = again ? recipe_recall(recipe, 0, e) : draw(p, recipe, e);
+    if (tree && !again) {
+        scale_to(tree, p->height, p->position);
+    }
+    if (!tree || !(again || recipe_keep(recipe, 0, tree, e)) ||
+        !out_tree_keep_births(tree, recipe->grow_to, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    Aabb box = out_tree_bounds(tree);
+    float radius = p->radius > 0.0f ? p->radius : 0.02f * (box.high.y - box.low.y);
+    if (sets_widths(tree)) {
+        scale_widths(tree, radius);
+    } else {
+        out_tree_pipe_radii(tree, p->radii.exponent, p->radii.tip, p->radius);
+    }
+    return tree;
+}
+
+bool lsystem_plant_geometry(const OutTree *tree, const LSystemPlantParams *params,
+                            const TreeMaterials *materials, int object, uint64_t seed,
+                            Geometry *geometry, const Run *run, Error *e)
+{
+    TreeParams as_tree = tree_params_default();
+    Aabb box = out_tree_bounds(tree);
+    as_tree.position = params->position;
+    as_tree.roots.count = 0;
+    as_tree.height = box.high.y - box.low.y;
+    as_tree.leaves = params->leaves;
+    as_tree.skin = params->skin;
+    return tree_geometry(tree, &as_tree, materials, object, seed, geometry, run, e);
+}

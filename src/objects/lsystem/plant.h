@@ -1,0 +1,35 @@
+// A plant written as an L-system: what trees were before they grew (Tanaka et al., figure 19 a), to
+// stand beside ours.
+#ifndef RAMIFY_OBJECTS_LSYSTEM_PLANT_H
+#define RAMIFY_OBJECTS_LSYSTEM_PLANT_H
+
+#include "mesh/geometry.h"
+#include "objects/common/recipe.h"
+#include "objects/tree/tree.h"
+
+typedef struct LSystemPlantParams {
+    Vec3 position;       // m, of the root
+    float height;        // m: the drawing is scaled to it; 0 = as the turtle draws it
+    char *axiom, *rules; // NULL = a tree of the book, figure 2.7 a; borrowed
+    int generations;
+    float angle;       // degrees, of turns that name none
+    float step;        // m, of an F(1)
+    Vec3 tropism;      // the vector that segments bend toward
+    float elasticity;  // radians a segment across it
+    float noise;       // degrees, of every turn
+    float radius;      // m, at the root; 0 = 0.02 of the height
+    RadiiParams radii; // used when the string sets no widths (!)
+    LeavesParams leaves;
+    SkinningParams skin;
+} LSystemPlantParams;
+
+LSystemPlantParams lsystem_plant_params_default(void);
+
+// Derives, draws, scales to the height, gives radii.
+OutTree *lsystem_plant_grow(const LSystemPlantParams *params, const Recipe *recipe, Error *e);
+
+bool lsystem_plant_geometry(const OutTree *tree, const LSystemPlantParams *params,
+                            const TreeMaterials *materials, int object, uint64_t seed,
+                            Geometry *geometry, const Run *run, Error *e);
+
+#endif

@@ -1,0 +1,175 @@
+#include "objects/sculpture/sculpture.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "mesh/lattice.h"
+#include "outtree/join.h"
+#include "outtree/radii.h"
+
+#include <stdlib.h>
+
+enum { CANDIDATES_A_ROOT = 60, SMOOTHING = 6, LEVELS = 2 };
+
+#define VOXELS_A_BAR 3.0f // voxels of the surface's level set to the thinnest bar's radius
+#define EXPONENT 3.0f     // of the pipe model, before radii are mapped onto the contrast
+
+SculptureParams sculpture_params_default(void)
+{
+    SculptureParams params = {
+        .clusters = 9, .attractors = 1800, .thickness = 0.42f, .contrast = 2.6f, .reach = 3.2f};
+    params.element.place = SCATTER_SURFACE;
+    params.element.pattern = SCATTER_POISSON;
+    params.element.max_children = 2;
+    params.element.noise = 0.12f;
+    params.element.field_weight = 1.0f;
+    return params;
+}
+
+// Coarse bars first, then what fills the surface between them.
+static void fill_levels(GrowLevel levels[LEVELS], int64_t attractors, float noise)
+{
+    levels[0] = (GrowLevel){.attractors = attractors / 9 > 0 ? attractors / 9 : 1,
+                            .step = 0.15f,
+                            .kill = 0.7f,
+                            .influence = 3.5f,
+                            .scale = 1.0f,
+                            .noise = noise,
+                            .relax = 0.5f};
+    levels[1] = (GrowLevel){.attractors = attractors,
+                            .step = 0.3f,
+                            .kill = 0.9f,
+                            .influence = 2.5f,
+                            .scale = 1.0f,
+                            .noise = noise,
+                            .relax = 0.5f};
+}
+
+// Farthest-point sampling (Gonzalez 1985) among points of the surface, from the lowest on.
+static bool plant(OutTree *tree, const PointSet *points, int clusters, uint64_t seed,
+                  const Run *run, Error *e)
+{
+    float *gap = memory_alloc(points->count, sizeof *gap, e);
+    if (!gap) {
+        return false;
+    }
+    int64_t next = 0;
+    for (int64_t i = 0; i < points->count; i++) {
+        gap[i] = INFINITY;
+        next = points->position[i].y < points->position[next].y ? i : next;
+    }
+    bool done = true;
+    for (int c = 0; done && c < clusters && gap[next] > 0.0f; c++) {
+        Vec3 at = points->position[next];
+        int64_t node = out_tree_add_node(tree, at, -1, 0, c, random_key(seed, (uint64_t)c), e);
+        done = node >= 0 && run_goes_on(run, 0, e);
+        if (done) {
+            tree->normal[node] = points->normal[next];
+        }
+        next = 0;
+        for (int64_t i = 0; i < points->count; i++) {
+            float distance = vec3_distance(points->position[i], at);
+            gap[i] = distance < gap[i] ? distance : gap[i];
+            next = gap[i] > gap[next] ? i : next;
+        }
+    }
+    free(gap);
+    return done;
+}
+
+// Roots on the surface; *spacing = mean spacing of as many attractors as the finest level has.
+static bool plant_roots(OutTree *tree, const SculptureParams *params, const ElementParams *element,
+                        const Recipe *recipe, double *spacing, Error *e)
+{
+    EnvelopeParams form = {element->shapes, element->shape_count, element->voxel};
+    Envelope *envelope = envelope_new(&form, recipe->run, e);
+    if (!envelope) {
+        return false;
+    }
+    ScatterParams scatter = scatter_params_default();
+    scatter.place = SCATTER_SURFACE;
+    scatter.count = (int64_t)params->clusters * CANDIDATES_A_ROOT;
+    scatter.seed = random_key(recipe->seed, 2);
+    PointSet *points = points_scatter(envelope, &scatter, recipe->run, e);
+    bool done = points &&
+                plant(tree, points, params->clusters, random_key(recipe->seed, 1), recipe->run, e);
+    if (done) {
+        const GrowLevel *finest = &element->levels[element->level_count - 1];
+        *spacing = sqrt(points->measure / (double)finest->attractors);
+    }
+    points_free(points);
+    envelope_free(envelope);
+    return done;
+}
+
+// A bar that closes a loop is as thick as the one it goes on from.
+static void compute_radii(OutTree *tree, int64_t grown, float thin, float contrast)
+{
+    int64_t all = tree->count;
+    tree->count = grown;
+    out_tree_pipe_radii(tree, EXPONENT, thin, contrast > 1.0f ? contrast * thin : 0.0f);
+    tree->count = all;
+    for (int64_t i = grown; i < all; i++) {
+        tree->radius[i] = tree->radius[tree->parent[i]];
+    }
+}
+
+static bool grow_shell(OutTree *tree, const SculptureParams *params, const ElementParams *element,
+                       const Recipe *recipe, Error *e)
+{
+    double spacing;
+    if (!plant_roots(tree, params, element, recipe, &spacing, e) ||
+        !element_grow(tree, element, random_key(recipe->seed, 3), recipe->label, recipe->run, e)) {
+        return false;
+    }
+    JoinParams join = {.reach = params->reach * (float)spacing,
+                       .least_path = 3.0f * params->reach * (float)spacing,
+                       .least_cosine = -0.5f,
+                       .all_one = true};
+    int64_t grown = tree->count;
+    if (!out_tree_join_tips(tree, &join, NULL, recipe->run, e)) {
+        return false;
+    }
+    compute_radii(tree, grown, 0.5f * params->thickness * (float)spacing, params->contrast);
+    return recipe_keep(recipe, 0, tree, e);
+}
+
+OutTree *sculpture_grow(const SculptureParams *params, const Recipe *recipe, Error *e)
+{
+    Shape ball = {.kind = SHAPE_SPHERE, .size = {1, 1, 1}, .transform = transform_identity()};
+    GrowLevel levels[LEVELS];
+    ElementParams element = params->element;
+    element.place = SCATTER_SURFACE;
+    if (element.shape_count == 0) {
+        element.shapes = &ball;
+        element.shape_count = 1;
+    }
+    if (element.level_count == 0) {
+        fill_levels(levels, params->attractors, element.noise);
+        element.levels = levels;
+        element.level_count = LEVELS;
+    }
+    bool again = recipe_remembers(recipe, 0);
+    OutTree *tree = again ? recipe_recall(recipe, 0, e) : out_tree_new(e);
+    if (!tree || !(again || grow_shell(tree, params, &element, recipe, e)) ||
+        !out_tree_keep_births(tree, recipe->grow_to, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}
+
+bool sculpture_geometry(const OutTree *tree, int material, int object, Geometry *geometry,
+                        const Run *run, Error *e)
+{
+    float thinnest = INFINITY;
+    for (int64_t i = 0; i < tree->count; i++) {
+        thinnest = tree->radius[i] < thinnest ? tree->radius[i] : thinnest;
+    }
+    Lattice lattice = {0};
+    Mesh *mesh = lattice_add_tree(&lattice, tree, e)
+                     ? lattice_surface(&lattice, thinnest / VOXELS_A_BAR, SMOOTHING, run, e)
+                     : NULL;
+    lattice_clear(&lattice);
+    Part part = {.kind = PART_MESH, .mesh = mesh, .material = material, .object = object};
+    return mesh && geometry_add(geometry, part, e);
+}

@@ -1,0 +1,28 @@
+// Hollow branch sculptures (Tanaka et al., section 2.4 and figure 22; after the shrub-branch shells
+// of Zhang et al.): several clusters grow over an envelope's surface and merge where they meet,
+// into one shell of round bars.
+#ifndef RAMIFY_OBJECTS_SCULPTURE_SCULPTURE_H
+#define RAMIFY_OBJECTS_SCULPTURE_SCULPTURE_H
+
+#include "mesh/geometry.h"
+#include "objects/common/element.h"
+#include "objects/common/recipe.h"
+
+typedef struct SculptureParams {
+    ElementParams element; // its envelope is the sculpture's form; points lie on the surface
+    int clusters;          // roots, spread evenly over the surface
+    int64_t attractors;    // how fine the shell is, where growth.levels are left out
+    float thickness;       // of the thinnest bars, mean spacings of the finest attractors
+    float contrast;        // thickest bar over thinnest
+    float reach;           // how far tips reach to merge, mean spacings
+} SculptureParams;
+
+SculptureParams sculpture_params_default(void); // a ball of 1 m radius, 9 clusters
+
+// The clusters with radii, merged: see outtree/join.h for how an out-tree holds the loops.
+OutTree *sculpture_grow(const SculptureParams *params, const Recipe *recipe, Error *e);
+
+bool sculpture_geometry(const OutTree *tree, int material, int object, Geometry *geometry,
+                        const Run *run, Error *e);
+
+#endif

@@ -1,0 +1,279 @@
+#include "objects/skeleton/skeleton.h"
+
+#include "base/memory.h"
+#include "outtree/out_tree_io.h"
+#include "skin/skin.h"
+
+#include <stdlib.h>
+
+#define LEAST_RADIUS 0.0003f // of the extent, where the file says 0
+#define FARTHEST 1e7f        // m: beyond, a float cannot tell points a metre apart
+
+SkeletonParams skeleton_params_default(void)
+{
+    return (SkeletonParams){.scale = 1.0f,
+                            .axon = true,
+                            .basal = true,
+                            .apical = true,
+                            .rest = true,
+                            .radius_factor = 1.0f,
+                            .smoothing = 2,
+                            .skin = {.levels = 2, .ring_spacing = 1.0f}};
+}
+
+// ---- picking ----
+
+static bool is_shown(const SkeletonParams *params, int32_t type)
+{
+    switch (type) {
+    case SWC_SOMA:
+        return params->soma != SKELETON_NO_SOMA;
+    case SWC_AXON:
+        return params->axon;
+    case SWC_BASAL:
+        return params->basal;
+    case SWC_APICAL:
+        return params->apical;
+    default:
+        return params->rest;
+    }
+}
+
+// The nodes of the types that show; what grew from one that does not is a root.
+static OutTree *pick(const OutTree *tree, const SkeletonParams *params, Error *e)
+{
+    OutTree *out = out_tree_new(e);
+    int32_t *place = memory_alloc(tree->count, sizeof *place, e);
+    bool done = out && place;
+    for (int64_t i = 0; done && i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        place[i] = -1;
+        if (is_shown(params, tree->colony[i])) {
+            int64_t node =
+                out_tree_add_node(out, tree->position[i], parent < 0 ? -1 : place[parent],
+                                  tree->birth[i], tree->colony[i], tree->id[i], e);
+            done = node >= 0;
+            if (done) {
+                out->radius[node] = tree->radius[i];
+                place[i] = (int32_t)node;
+            }
+        }
+    }
+    free(place);
+    if (done && out->count == 0) {
+        done =
+            error_set(e, ERROR_INPUT, "nothing of '%s' shows; one of the types in it must be shown",
+                      params->file);
+    }
+    if (!done) {
+        out_tree_free(out);
+        return NULL;
+    }
+    out->typed = true;
+    return out;
+}
+
+// ---- placing ----
+
+static Vec3 origin_of(const OutTree *tree, SkeletonOrigin origin)
+{
+    if (origin == SKELETON_ROOT) {
+        return tree->position[0];
+    }
+    Aabb box = out_tree_bounds(tree);
+    return origin == SKELETON_MIDDLE ? vec3_lerp(box.low, box.high, 0.5f) : vec3(0, 0, 0);
+}
+
+static bool is_placed_well(const OutTree *tree)
+{
+    for (int64_t i = 0; i < tree->count; i++) {
+        Vec3 p = tree->position[i];
+        if (!(vec3_length(p) <= FARTHEST) || !(tree->radius[i] <= FARTHEST)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool put_in_place(OutTree *tree, const SkeletonParams *params, Error *e)
+{
+    float s = params->scale;
+    Vec3 from = origin_of(tree, params->origin);
+    Transform t = transform_compose(params->position, params->rotation, vec3(s, s, s));
+    for (int64_t i = 0; i < tree->count; i++) {
+        tree->position[i] = transform_point(&t, vec3_sub(tree->position[i], from));
+        tree->radius[i] *= s * params->radius_factor;
+    }
+    if (!is_placed_well(tree)) {
+        error_set(e, ERROR_INPUT,
+                  "'%s' reaches farther than %g m; its lengths are often in micrometres, so that "
+                  "scale should be less than %g",
+                  params->file, (double)FARTHEST, (double)s);
+        return error_key(e, "scale");
+    }
+    return true;
+}
+
+static void thicken(OutTree *tree, float min_radius)
+{
+    Aabb box = out_tree_bounds(tree);
+    float nothing = fmaxf(LEAST_RADIUS * vec3_distance(box.low, box.high), 1e-9f);
+    float least = min_radius > 0.0f ? min_radius : nothing;
+    for (int64_t i = 0; i < tree->count; i++) {
+        bool thin = min_radius > 0.0f ? tree->radius[i] < least : tree->radius[i] <= 0.0f;
+        tree->radius[i] = thin ? least : tree->radius[i];
+    }
+}
+
+static float thinnest(const OutTree *tree)
+{
+    float least = INFINITY;
+    for (int64_t i = 0; i < tree->count; i++) {
+        least = fminf(least, tree->radius[i]);
+    }
+    return least;
+}
+
+// Takes the tree; NULL and e on failure.
+static OutTree *with_soma(OutTree *tree, SkeletonSoma soma, Error *e)
+{
+    if (soma != SKELETON_ROUND) {
+        return tree;
+    }
+    OutTree *round = skeleton_round_soma(tree, e);
+    out_tree_free(tree);
+    return round;
+}
+
+OutTree *skeleton_grow(const SkeletonParams *params, const Recipe *recipe, Error *e)
+{
+    OutTree *file = out_tree_import_swc(params->file, recipe->run, e);
+    OutTree *tree = file ? pick(file, params, e) : NULL;
+    if (!file) {
+        error_key(e, "file");
+    }
+    bool done = tree && put_in_place(tree, params, e);
+    out_tree_free(file);
+    if (done) {
+        thicken(tree, params->min_radius);
+        tree = with_soma(tree, params->soma, e);
+        done = tree && out_tree_rejuvenate(tree, recipe->grow_to, thinnest(tree), e);
+    }
+    if (!done) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}
+
+// ---- geometry ----
+
+// Thick ways as a smooth skin, thin ones as round curves.
+static bool add_skin(const OutTree *tree, const SkeletonParams *params, int material, int object,
+                     Geometry *geometry, const Run *run, Error *e)
+{
+    SkinParams skin = skin_params_default();
+    skin.levels = params->skin.levels;
+    skin.ring_spacing = params->skin.ring_spacing;
+    skin.min_radius = params->skin.curve_radius;
+    skin.smoothing = params->smoothing;
+    Part part = {.kind = PART_MESH, .material = material, .object = object};
+    part.mesh = skin_tree(tree, &skin, run, e);
+    if (!part.mesh || !geometry_add(geometry, part, e)) {
+        return false;
+    }
+    if (!(skin.min_radius > 0.0f)) {
+        return true;
+    }
+    part = (Part){.kind = PART_CURVES, .material = material, .object = object};
+    part.curves = skin_curves(tree, skin.min_radius, &skin, e);
+    return part.curves && geometry_add(geometry, part, e);
+}
+
+// The axons with all that grew from them, each from inside of what it leaves.
+static OutTree *axons_of(const OutTree *tree, const bool *of_axon, Error *e)
+{
+    OutTree *axons = out_tree_new(e);
+    int32_t *place = memory_alloc(tree->count, sizeof *place, e);
+    bool done = axons && place;
+    for (int64_t i = 0; done && i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        if (!of_axon[i]) {
+            continue;
+        }
+        int64_t above = parent >= 0 && of_axon[parent] ? place[parent] : -1;
+        if (above < 0 && parent >= 0) {
+            above = out_tree_add_node(axons, tree->position[parent], -1, tree->birth[parent],
+                                      SWC_AXON, tree->id[parent], e);
+            done = above >= 0;
+            if (done) {
+                axons->radius[above] = tree->radius[i];
+            }
+        }
+        int64_t node = done ? out_tree_add_node(axons, tree->position[i], above, tree->birth[i],
+                                                tree->colony[i], tree->id[i], e)
+                            : -1;
+        done = node >= 0;
+        if (done) {
+            axons->radius[node] = tree->radius[i];
+            place[i] = (int32_t)node;
+        }
+    }
+    free(place);
+    if (!done) {
+        out_tree_free(axons);
+        return NULL;
+    }
+    return axons;
+}
+
+static bool add_apart(const OutTree *tree, bool *of_axon, const SkeletonParams *params,
+                      const SkeletonMaterials *materials, int object, Geometry *geometry,
+                      const Run *run, Error *e)
+{
+    OutTree *axons = axons_of(tree, of_axon, e), *body = out_tree_copy(tree, e);
+    for (int64_t i = 0; i < tree->count; i++) {
+        of_axon[i] = !of_axon[i];
+    }
+    bool done = axons && body && out_tree_keep_nodes(body, of_axon, e);
+    done = done &&
+           (body->count == 0 || add_skin(body, params, materials->body, object, geometry, run, e));
+    done = done && (axons->count == 0 ||
+                    add_skin(axons, params, materials->axon, object, geometry, run, e));
+    out_tree_free(axons);
+    out_tree_free(body);
+    return done;
+}
+
+static bool add_parts(const OutTree *tree, const SkeletonParams *params,
+                      const SkeletonMaterials *materials, int object, Geometry *geometry,
+                      const Run *run, Error *e)
+{
+    if (materials->axon == materials->body) {
+        return add_skin(tree, params, materials->body, object, geometry, run, e);
+    }
+    bool *of_axon = memory_alloc(tree->count, sizeof *of_axon, e);
+    for (int64_t i = 0; of_axon && i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        of_axon[i] = tree->colony[i] == SWC_AXON || (parent >= 0 && of_axon[parent]);
+    }
+    bool done = of_axon && add_apart(tree, of_axon, params, materials, object, geometry, run, e);
+    free(of_axon);
+    return done;
+}
+
+// What grows from a curve is curves: a soma, thin at its pole, must not be one.
+bool skeleton_geometry(const OutTree *tree, const SkeletonParams *params,
+                       const SkeletonMaterials *materials, int object, Geometry *geometry,
+                       const Run *run, Error *e)
+{
+    OutTree *solid = out_tree_copy(tree, e);
+    for (int64_t i = 0; solid && i < solid->count; i++) {
+        if (solid->colony[i] == SWC_SOMA) {
+            solid->radius[i] = fmaxf(solid->radius[i], params->skin.curve_radius);
+        }
+    }
+    bool done = solid && add_parts(solid, params, materials, object, geometry, run, e);
+    out_tree_free(solid);
+    return done;
+}

@@ -1,0 +1,285 @@
+// Rivers on the finished land: how high their water stands, and their beds. Noise, erosion and
+// terraces change the heights that rivers had when they grew; so the water is laid into what is
+// there in the end, and always falls.
+#include "base/memory.h"
+#include "base/random.h"
+#include "land/height_drainage.h"
+#include "objects/terrain/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// ---- the water as an out-tree
+
+// The child that carries most water on; -1 where none does.
+static int32_t *heaviest_children(const Terrain *terrain, Error *e)
+{
+    const OutTree *rivers = terrain->rivers;
+    int32_t *heaviest = memory_alloc(rivers->count, sizeof *heaviest, e);
+    for (int64_t i = 0; heaviest && i < rivers->count; i++) {
+        int32_t parent = rivers->parent[i];
+        heaviest[i] = -1;
+        if (parent >= 0 &&
+            (heaviest[parent] < 0 || terrain->area[i] > terrain->area[heaviest[parent]])) {
+            heaviest[parent] = (int32_t)i;
+        }
+    }
+    return heaviest;
+}
+
+// Adds the piece of river from its lower end (a node of `water`) up to river node i, in steps of at
+// most `step`. A tributary enters a wider river with its own width. Returns the upper end or -1.
+static int64_t add_piece(OutTree *water, const OutTree *rivers, int64_t i, int64_t lower, bool main,
+                         float step, Error *e)
+{
+    Vec3 from = rivers->position[rivers->parent[i]], to = rivers->position[i];
+    float wide = main ? rivers->radius[rivers->parent[i]] : rivers->radius[i];
+    float dx = to.x - from.x, dz = to.z - from.z;
+    int steps = 1 + (int)(sqrtf(dx * dx + dz * dz) / step);
+    for (int k = 1; k <= steps && lower >= 0; k++) {
+        float t = (float)k / (float)steps;
+        lower = out_tree_add_node(water, vec3_lerp(from, to, t), lower, 0, 0,
+                                  random_key(rivers->id[i], (uint64_t)k), e);
+        if (lower >= 0) {
+            water->radius[lower] = lerpf(wide, rivers->radius[i], t);
+        }
+    }
+    return lower;
+}
+
+// The rivers that the grid can show, in steps of at most half a cell; empty when there are none.
+static OutTree *wide_rivers(const Terrain *terrain, float cell, Error *e)
+{
+    const OutTree *rivers = terrain->rivers;
+    float least = 0.6f * cell; // narrower channels would be gaps in the grid's cells
+    OutTree *water = out_tree_new(e);
+    int32_t *heaviest = water ? heaviest_children(terrain, e) : NULL;
+    int64_t *place = heaviest ? memory_alloc(rivers->count, sizeof *place, e) : NULL;
+    bool done = place;
+    for (int64_t i = 0; done && i < rivers->count; i++) {
+        int32_t parent = rivers->parent[i];
+        place[i] = -1;
+        if (rivers->radius[i] < least || (parent >= 0 && place[parent] < 0)) {
+            continue;
+        }
+        if (parent < 0) {
+            place[i] = out_tree_add_node(water, rivers->position[i], -1, 0, 0, rivers->id[i], e);
+            if (place[i] >= 0) {
+                water->radius[place[i]] = rivers->radius[i];
+            }
+        } else {
+            place[i] =
+                add_piece(water, rivers, i, place[parent], heaviest[parent] == i, 0.5f * cell, e);
+        }
+        done = place[i] >= 0;
+    }
+    free(place);
+    free(heaviest);
+    if (!done) {
+        out_tree_free(water);
+        return NULL;
+    }
+    return water;
+}
+
+// The child that is the widest; -1 where there is none.
+int32_t *terrain_main_children(const OutTree *water, Error *e)
+{
+    int32_t *main = memory_alloc(water->count, sizeof *main, e);
+    for (int64_t i = 0; main && i < water->count; i++) {
+        int32_t parent = water->parent[i];
+        main[i] = -1;
+        if (parent >= 0 && (main[parent] < 0 || water->radius[i] > water->radius[main[parent]])) {
+            main[parent] = (int32_t)i;
+        }
+    }
+    return main;
+}
+
+// Rounds bends over a cell or two: each node goes toward the middle of its neighbours, and stays
+// where a river begins or ends.
+static bool round_bends(OutTree *water, Error *e)
+{
+    enum { TIMES = 24 };
+    int32_t *main = terrain_main_children(water, e);
+    Vec3 *moved = main ? memory_alloc(water->count, sizeof *moved, e) : NULL;
+    for (int k = 0; moved && k < TIMES; k++) {
+        for (int64_t i = 0; i < water->count; i++) {
+            int32_t below = water->parent[i], above = main[i];
+            moved[i] = water->position[i];
+            if (below >= 0 && above >= 0) {
+                Vec3 middle = vec3_lerp(water->position[below], water->position[above], 0.5f);
+                moved[i] = vec3_lerp(moved[i], middle, 0.5f);
+            }
+        }
+        memcpy(water->position, moved, sizeof *moved * (size_t)water->count);
+    }
+    bool done = moved;
+    free(moved);
+    free(main);
+    return done;
+}
+
+// ---- how high it stands
+
+static float nearest_sample(const HeightField *field, float x, float z)
+{
+    float u = (x - field->origin.x) / field->cell.x, v = (z - field->origin.y) / field->cell.y;
+    int column = (int)clampf(u + 0.5f, 0.0f, (float)(field->columns - 1));
+    int row = (int)clampf(v + 0.5f, 0.0f, (float)(field->rows - 1));
+    return field->height[(int64_t)row * field->columns + column];
+}
+
+// The lowest land from bank to bank at node i: water that stands no higher floats nowhere.
+static float lowest_across(const OutTree *water, int64_t i, const HeightField *field)
+{
+    Vec3 p = water->position[i], q = water->position[water->parent[i]];
+    float low = nearest_sample(field, p.x, p.z), half = water->radius[i];
+    Vec3 across = vec3_normalize(vec3(p.z - q.z, 0.0f, q.x - p.x));
+    int count = 1 + (int)(half / field->cell.x);
+    for (int k = -count; k <= count; k++) {
+        Vec3 at = vec3_madd(p, half * (float)k / (float)count, across);
+        float h = nearest_sample(field, at.x, at.z);
+        low = h < low ? h : low;
+    }
+    return low;
+}
+
+// Each level becomes the mean of itself and those some cells downstream, which are lower, twice:
+// samples of the land would let the water fall in steps of a cell.
+static bool smooth_levels(OutTree *water, Error *e)
+{
+    enum { REACH = 8, TIMES = 2 };
+    float *mean = memory_alloc(water->count, sizeof *mean, e);
+    for (int time = 0; mean && time < TIMES; time++) {
+        for (int64_t i = 0; i < water->count; i++) {
+            int64_t below = i;
+            float sum = 0.0f;
+            for (int k = 0; k < REACH; k++) {
+                sum += water->position[below].y;
+                below = water->parent[below] >= 0 ? water->parent[below] : below;
+            }
+            mean[i] = sum / REACH;
+        }
+        for (int64_t i = 0; i < water->count; i++) {
+            water->position[i].y = mean[i];
+        }
+    }
+    bool done = mean;
+    free(mean);
+    return done;
+}
+
+// Sets each node's height to that of the water: as high as the land allows, falling downstream.
+static void find_levels(OutTree *water, const HeightField *field)
+{
+    const float least_fall = 1e-5f;
+    for (int64_t i = 0; i < water->count; i++) {
+        Vec3 p = water->position[i];
+        water->position[i].y =
+            water->parent[i] < 0 ? nearest_sample(field, p.x, p.z) : lowest_across(water, i, field);
+    }
+    for (int64_t i = water->count - 1; i >= 0; i--) { // children stand after their parents
+        if (water->parent[i] >= 0) {
+            Vec3 p = water->position[i], *q = &water->position[water->parent[i]];
+            float dx = p.x - q->x, dz = p.z - q->z;
+            float most = p.y - least_fall * sqrtf(dx * dx + dz * dz);
+            q->y = q->y < most ? q->y : most;
+        }
+    }
+}
+
+// ---- the shore
+
+// The envelope of the distances to the water: to each node's piece (to its parent), less half the
+// water's width.
+static TroughEnvelope *make_shore(const OutTree *water, float size, const Run *run, Error *e)
+{
+    Trough *trough = memory_alloc(water->count, sizeof *trough, e);
+    if (!trough) {
+        return NULL;
+    }
+    for (int64_t i = 0; i < water->count; i++) {
+        int64_t below = water->parent[i] >= 0 ? water->parent[i] : i;
+        Vec3 a = water->position[below], b = water->position[i];
+        float dx = b.x - a.x, dz = b.z - a.z, length = sqrtf(dx * dx + dz * dz);
+        // Half as fast as distances grow at most, where a brook enters a wide river.
+        float widens = clampf(water->radius[below] - water->radius[i], 0.0f, 0.5f * length);
+        trough[i] = (Trough){.x = a.x,
+                             .z = a.z,
+                             .dx = length > 0.0f ? dx / length : 1.0f,
+                             .dz = length > 0.0f ? dz / length : 0.0f,
+                             .length = length,
+                             .h0 = -water->radius[i] - widens,
+                             .slope = length > 0.0f ? widens / length : 0.0f,
+                             .gradient = 1.0f};
+    }
+    TroughEnvelope *shore = trough_envelope_new(trough, water->count, size, 0.0f, run, e);
+    free(trough);
+    return shore;
+}
+
+float terrain_shore(const Terrain *terrain, float x, float z)
+{
+    int32_t nearest;
+    return terrain->shore ? trough_envelope_at(terrain->shore, x, z, &nearest) : INFINITY;
+}
+
+// ---- beds
+
+// The height of the bed at a place `away` from the water's edge (negative: in the water) whose
+// nearest piece is that of `node`. Beside the water the land lies as low as under its edge.
+static float bed_at(const OutTree *water, int32_t node, float x, float z, float away)
+{
+    int32_t below = water->parent[node] >= 0 ? water->parent[node] : node;
+    Vec3 a = water->position[below], b = water->position[node];
+    float dx = b.x - a.x, dz = b.z - a.z, squared = dx * dx + dz * dz;
+    float t = squared > 0.0f ? ((x - a.x) * dx + (z - a.z) * dz) / squared : 0.0f;
+    t = clampf(t, 0.0f, 1.0f);
+    float half = water->radius[node];
+    return lerpf(a.y, b.y, t) - terrain_bed_depth(half, half + away);
+}
+
+static bool dig_beds(const Terrain *terrain, HeightField *field, const Run *run)
+{
+    float reach = TERRAIN_STRAND * field->cell.x;
+#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
+    for (int row = 0; row < field->rows; row++) {
+        for (int column = 0; column < field->columns && !run_is_cancelled(run); column++) {
+            int64_t i = (int64_t)row * field->columns + column;
+            float x = field->origin.x + (float)column * field->cell.x;
+            float z = field->origin.y + (float)row * field->cell.y;
+            int32_t node;
+            float away = trough_envelope_at(terrain->shore, x, z, &node);
+            if (away < reach) {
+                terrain->bank[i] = 1;
+                field->height[i] = bed_at(terrain->water, node, x, z, away);
+            }
+        }
+    }
+    return !run_is_cancelled(run);
+}
+
+bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    if (terrain->params->rivers.water <= 0.0f) {
+        return true;
+    }
+    terrain->water = wide_rivers(terrain, field->cell.x, e);
+    if (!terrain->water || terrain->water->count == 0) {
+        return terrain->water;
+    }
+    if (!round_bends(terrain->water, e)) {
+        return false;
+    }
+    find_levels(terrain->water, field);
+    if (!smooth_levels(terrain->water, e)) {
+        return false;
+    }
+    terrain->shore = make_shore(terrain->water, terrain->params->size, run, e);
+    terrain->bank = memory_alloc_zero(height_field_count(field), 1, e);
+    return terrain->shore && terrain->bank &&
+           (dig_beds(terrain, field, run) || run_cancel_error(e)) &&
+           height_field_fill(field, 0.0f, e);
+}

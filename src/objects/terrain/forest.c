@@ -1,0 +1,184 @@
+// Conifers on the land: three forms, instanced where slope, altitude and clearings allow.
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/noise.h"
+#include "base/random.h"
+#include "objects/terrain/internal.h"
+
+#include <stdlib.h>
+
+enum { FORMS = 3, WHORLS = 13, BOUGHS = 12 };
+
+#define MOST_ROWS 2e9f // of trees; their square must be a 64-bit number
+
+// A tree of height 1: whorls of drooping boughs, each a bent triangle of two faces.
+static Mesh *conifer_mesh(uint64_t seed, Error *e)
+{
+    Mesh *mesh = mesh_new(3, WHORLS * BOUGHS * 4, WHORLS * BOUGHS * 2, MESH_NORMAL, e);
+    if (!mesh) {
+        return NULL;
+    }
+    float slim = random_range(random_key(seed, 1), 0.13f, 0.19f);
+    for (int w = 0; w < WHORLS; w++) {
+        float share = (float)w / (WHORLS - 1);
+        float height = lerpf(0.10f, 0.97f, share);
+        float reach = slim * (1.03f - share) * (0.6f + 0.4f * smoothstepf(0.0f, 0.2f, share));
+        for (int b = 0; b < BOUGHS; b++) {
+            uint64_t key = random_key(seed, 100 + (uint64_t)(w * BOUGHS + b));
+            float turn = ((float)b + 0.5f * (float)(w & 1) + random_unit(random_key(key, 1))) *
+                         (2.0f * PI_F / BOUGHS);
+            float length = reach * random_range(random_key(key, 2), 0.65f, 1.15f);
+            float wide = 0.34f * length + 0.004f, sine, cosine;
+            exact_sincos(turn, &sine, &cosine);
+            Vec3 out = vec3(cosine, 0.0f, sine), side = vec3(-sine, 0.0f, cosine);
+            float lift = random_range(random_key(key, 3), -0.01f, 0.01f);
+            int64_t v = 4 * (w * BOUGHS + b);
+            Vec3 root = vec3(0.0f, height + lift + 0.05f, 0.0f);
+            Vec3 middle = vec3_madd(vec3(0.0f, height + lift, 0.0f), 0.62f * length, out);
+            mesh->position[v] = root;
+            mesh->position[v + 1] = vec3_madd(middle, wide, side);
+            mesh->position[v + 2] =
+                vec3_madd(vec3(0.0f, height - 0.35f * length, 0.0f), length, out);
+            mesh->position[v + 3] = vec3_madd(middle, -wide, side);
+            // Seen as a cone with soft needles, not as sheets.
+            for (int k = 0; k < 4; k++) {
+                mesh->normal[v + k] =
+                    vec3_normalize(vec3_madd(vec3(0.0f, 0.55f, 0.0f), k == 0 ? 0.5f : 1.0f, out));
+            }
+            uint32_t *corner = mesh->index + (int64_t)6 * (w * BOUGHS + b);
+            corner[0] = corner[3] = (uint32_t)v;
+            corner[1] = (uint32_t)v + 1;
+            corner[2] = corner[4] = (uint32_t)v + 2;
+            corner[5] = (uint32_t)v + 3;
+        }
+    }
+    return mesh;
+}
+
+typedef struct Planting {
+    const Terrain *terrain;
+    const TerrainParams *params;
+    const HeightField *field;
+    Vec3 eye; // in the field's space
+    bool has_eye;
+    float low, high, lake, least_upright;
+    uint64_t seed;
+} Planting;
+
+// Does a tree grow at a place, and how large (0 = none)?
+static float tree_size(const Planting *p, float x, float z, uint64_t key)
+{
+    const TerrainForestParams *forest = &p->params->forest;
+    float h = height_field_at(p->field, x, z), step = 2.0f * p->field->cell.x;
+    float dx = (height_field_at(p->field, x + step, z) - height_field_at(p->field, x - step, z)) /
+               (2.0f * step);
+    float dz = (height_field_at(p->field, x, z + step) - height_field_at(p->field, x, z - step)) /
+               (2.0f * step);
+    float upright = 1.0f / sqrtf(1.0f + dx * dx + dz * dz);
+    float altitude = (h - p->low) / (p->high - p->low);
+    float fray = noise_plane_fractal(x / (12.0f * forest->height), z / (12.0f * forest->height), 4,
+                                     random_key(p->seed, 5));
+    float line = smoothstepf(forest->high, 0.7f * forest->high, altitude + 0.12f * fray);
+    float wood = smoothstepf(-0.15f, 0.15f, fray + 0.25f - 0.55f * forest->clumping);
+    float keep = line * lerpf(1.0f, wood, forest->clumping) *
+                 smoothstepf(p->least_upright - 0.05f, p->least_upright + 0.05f, upright);
+    if (altitude < forest->low || h < p->lake || random_unit(random_key(key, 3)) > keep) {
+        return 0.0f;
+    }
+    float tall =
+        forest->height * random_range(random_key(key, 4), 0.45f, 1.0f) * (0.55f + 0.45f * line);
+    // Its lowest boughs, too, keep out of rivers.
+    return terrain_shore(p->terrain, x, z) > 0.2f * tall ? tall : 0.0f;
+}
+
+// Trees stand in a jittered grid. Where there are too many for `count`, far ones are left out
+// first.
+static bool plant(const Planting *p, Transform **place, int64_t *count, const Run *run, Error *e)
+{
+    const TerrainForestParams *forest = &p->params->forest;
+    float spacing = 0.36f * forest->height, size = p->params->size;
+    int64_t side = (int64_t)fminf(size / spacing, MOST_ROWS);
+    float full = 0.32f * sqrtf((float)forest->count) * spacing; // all trees stand nearer than this
+    int64_t capacity = 0;
+    for (int64_t i = 0; i < side * side && *count < forest->count; i++) {
+        if (!run_goes_on(run, i, e)) {
+            return false;
+        }
+        uint64_t key = random_key(p->seed, 1000 + (uint64_t)i);
+        float x = ((float)(i % side) + random_unit(random_key(key, 1))) * spacing - 0.5f * size;
+        int64_t row = i / side;
+        float z = ((float)row + random_unit(random_key(key, 2))) * spacing - 0.5f * size;
+        float away = p->has_eye
+                         ? sqrtf((x - p->eye.x) * (x - p->eye.x) + (z - p->eye.z) * (z - p->eye.z))
+                         : 0.5f * size;
+        float share = full / (away + 1.0f);
+        if (share < 1.0f && random_unit(random_key(key, 5)) > share * share) {
+            continue;
+        }
+        float tall = tree_size(p, x, z, key), sine, cosine;
+        if (tall <= 0.0f) {
+            continue;
+        }
+        if (!memory_reserve(place, &capacity, *count + 1, sizeof **place, e)) {
+            return false;
+        }
+        exact_sincos(random_range(random_key(key, 6), 0.0f, 2.0f * PI_F), &sine, &cosine);
+        float wide = tall * random_range(random_key(key, 7), 0.85f, 1.2f);
+        Vec3 foot = vec3(x, height_field_at(p->field, x, z) - 0.06f * tall, z);
+        (*place)[(*count)++] = transform_from_axes(
+            vec3(wide * cosine, 0, -wide * sine), vec3(0, tall, 0),
+            vec3(wide * sine, 0, wide * cosine), vec3_add(foot, p->params->position));
+    }
+    return true;
+}
+
+static bool add_form(const Transform *place, int64_t count, int form, uint64_t seed, int material,
+                     int object, Geometry *geometry, Error *e)
+{
+    int64_t own = (count - form + FORMS - 1) / FORMS;
+    if (own <= 0) {
+        return true;
+    }
+    Part part = {.kind = PART_MESH, .material = material, .object = object, .instance_count = own};
+    part.mesh = conifer_mesh(random_key(seed, 50 + (uint64_t)form), e);
+    part.instance = memory_alloc(own, sizeof *part.instance, e);
+    if (!part.mesh || !part.instance) {
+        mesh_free(part.mesh);
+        free(part.instance);
+        return false;
+    }
+    for (int64_t i = 0; i < own; i++) {
+        part.instance[i] = place[i * FORMS + form];
+    }
+    return geometry_add(geometry, part, e);
+}
+
+bool terrain_add_forest(const Terrain *terrain, const HeightField *field, const Vec3 *eye,
+                        int material, int object, Geometry *geometry, const Run *run, Error *e)
+{
+    const TerrainParams *params = terrain->params;
+    Planting p = {.terrain = terrain,
+                  .params = params,
+                  .field = field,
+                  .has_eye = eye,
+                  .seed = random_key(terrain->seed, 61)};
+    if (eye) {
+        p.eye = vec3_sub(*eye, params->position);
+    }
+    float sine, cosine;
+    exact_sincos(params->forest.slope * 0.017453292f, &sine, &cosine);
+    p.least_upright = cosine;
+    height_field_range(field, &p.low, &p.high);
+    p.lake = params->water_level > 0.0f ? terrain_water_height(params, field) + 1.0f : p.low - 1.0f;
+    if (!(p.high > p.low)) {
+        return true;
+    }
+    Transform *place = NULL;
+    int64_t count = 0;
+    bool done = plant(&p, &place, &count, run, e);
+    for (int form = 0; done && form < FORMS; form++) {
+        done = add_form(place, count, form, p.seed, material, object, geometry, e);
+    }
+    free(place);
+    return done;
+}

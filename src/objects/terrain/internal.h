@@ -1,0 +1,88 @@
+// What the parts of the terrain share: private to terrain*.c.
+#ifndef RAMIFY_OBJECTS_TERRAIN_INTERNAL_H
+#define RAMIFY_OBJECTS_TERRAIN_INTERNAL_H
+
+#include "objects/terrain/envelope.h"
+#include "objects/terrain/terrain.h"
+
+// Rivers with all that follows from them.
+typedef struct Terrain {
+    const TerrainParams *params; // borrowed
+    uint64_t seed;
+    OutTree *rivers;          // heights and radii filled in
+    float *area;              // m^2 that drain through each node
+    float *uplift;            // factor on gradients at each node
+    float gradient;           // of hillslopes where the uplift is 1
+    TroughEnvelope *land;     // heights of valleys and slopes
+    TroughEnvelope *distance; // m to the nearest river, whatever its height
+    // What shows of the rivers on the finished heights, once terrain_sample has laid it there; NULL
+    // or without nodes where nothing shows.
+    OutTree *water; // steps of at most half a cell; y = the water's level, radius = half width
+    TroughEnvelope *shore; // m to the water's edge, negative in the water
+    uint8_t *bank;         // of each sample: 1 = in a bed or at its edge
+} Terrain;
+
+// Takes the rivers (positions in the plane, parents) and finds areas, heights and captures.
+Terrain *terrain_new(const TerrainParams *params, OutTree *rivers, const Recipe *recipe, Error *e);
+void terrain_free(Terrain *terrain); // NULL is fine
+
+// terrain_rivers.c: grows the rivers in the plane y = 0.
+OutTree *terrain_rivers(const TerrainParams *params, const Recipe *recipe, Error *e);
+
+// terrain_uplift.c: the factor on gradients at a place, at least 0.02.
+float terrain_uplift(const TerrainParams *params, uint64_t seed, float x, float z);
+
+// terrain_areas.c: fills terrain->area: every bit of land drains through its nearest node.
+bool terrain_areas(Terrain *terrain, const Run *run, Error *e);
+
+// terrain_profile.c: one pass over the rivers: areas, then heights for hillslopes of gradient
+// uplift * 1, from the outlets up. A river that would run below another's slope is captured by it,
+// and river ends on another's slope are dropped: *captures counts both. Nodes are sorted by height.
+bool terrain_profile(Terrain *terrain, const Run *run, int64_t *captures, Error *e);
+
+// Half the width of a valley floor with this drainage area, m.
+static inline float terrain_valley(const TerrainParams *params, float area)
+{
+    return params->rivers.valley * sqrtf(area);
+}
+
+// The trough of node i's piece of river (to its parent), for hillslopes of `gradient` times uplift.
+Trough terrain_trough(const Terrain *terrain, int64_t i, float gradient);
+
+// How far beds reach beyond the water's edge, in cells: the corners of every cell that water
+// touches.
+#define TERRAIN_STRAND 2.0f
+
+// How deep the bed of water of half width `half` lies under the water's level, d from its middle:
+// a quarter of that width in the middle, a little at its edge and beside it.
+static inline float terrain_bed_depth(float half, float d)
+{
+    float share = d < half ? d / half : 1.0f;
+    return half * (0.03f + 0.25f * (1.0f - share * share));
+}
+
+// terrain_bed.c: lays the rivers that the grid can show on the finished heights: fills
+// terrain->water, ->shore and ->bank and digs the beds.
+bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Error *e);
+
+// Of each node of terrain->water the child that is the widest, -1 at the ends; the caller frees it.
+int32_t *terrain_main_children(const OutTree *water, Error *e);
+
+// m from a place to the nearest river's water, negative in it; infinite without water.
+float terrain_shore(const Terrain *terrain, float x, float z);
+
+// terrain_erosion.c: thermal and stream erosion of a field.
+bool terrain_erode(HeightField *field, const TerrainErosionParams *params, const Run *run,
+                   Error *e);
+
+// terrain.c: heights and wetness (see terrain_heights).
+HeightField *terrain_sample(Terrain *terrain, const Run *run, Error *e);
+
+// terrain_water.c, terrain_forest.c: parts of the geometry, moved by params->position. eye: the
+// camera, NULL = none.
+bool terrain_add_water(const Terrain *terrain, const HeightField *field, int material, int object,
+                       Geometry *geometry, Error *e);
+bool terrain_add_forest(const Terrain *terrain, const HeightField *field, const Vec3 *eye,
+                        int material, int object, Geometry *geometry, const Run *run, Error *e);
+
+#endif

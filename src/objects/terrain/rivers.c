@@ -1,0 +1,205 @@
+// Rivers as an out-tree on a plane: space colonization from outlets on the border, the main rivers
+// first, then their brooks. Main rivers wind at every scale and run inland side by side, so that
+// large basins are longer for their width than small ones and rivers grow with their basins about
+// as Hack's law has it (length ~ area^0.57).
+#include "base/random.h"
+#include "grow/colonize.h"
+#include "objects/terrain/internal.h"
+#include "outtree/chains.h"
+#include "outtree/jitter.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+
+// Points in a jittered grid: every square has one, so no land stays without a river.
+static PointSet *scatter_plane(float size, int64_t count, uint64_t seed, Error *e)
+{
+    PointSet *points = points_new(e);
+    if (!points) {
+        return NULL;
+    }
+    int64_t side = 1;
+    while ((side + 1) * (side + 1) <= count) {
+        side++;
+    }
+    float cell = size / (float)side;
+    for (int64_t i = 0; i < side * side; i++) {
+        uint64_t id = random_key(seed, (uint64_t)i);
+        float x = ((float)(i % side) + random_unit(random_key(id, 1))) * cell - 0.5f * size;
+        int64_t row = i / side;
+        float z = ((float)row + random_unit(random_key(id, 2))) * cell - 0.5f * size;
+        if (!points_add(points, vec3(x, 0.0f, z), vec3(0, 1, 0), id, e)) {
+            points_free(points);
+            return NULL;
+        }
+    }
+    points->measure = (double)size * (double)size;
+    points->dimension = 2;
+    return points;
+}
+
+// Outlets stand evenly along their sides, each moved by a random share of its room.
+static bool add_outlets(OutTree *tree, const TerrainParams *params, uint64_t seed, Error *e)
+{
+    const RiverParams *rivers = &params->rivers;
+    float half = 0.5f * params->size, sides = rivers->side == SIDE_ALL ? 4.0f : 1.0f;
+    float first = rivers->side == SIDE_ALL ? 0.0f : (float)(rivers->side - SIDE_NORTH);
+    for (int i = 0; i < rivers->outlets; i++) {
+        uint64_t id = random_key(seed, (uint64_t)i);
+        float jitter = random_range(random_key(id, 1), 0.2f, 0.8f);
+        float place = first + sides * ((float)i + jitter) / (float)rivers->outlets;
+        int side = (int)place & 3;
+        float along = params->size * (place - (float)(int)place) - half;
+        Vec3 at = side == 0   ? vec3(along, 0.0f, -half)
+                  : side == 1 ? vec3(half, 0.0f, along)
+                  : side == 2 ? vec3(-along, 0.0f, half)
+                              : vec3(-half, 0.0f, -along);
+        if (out_tree_add_node(tree, at, -1, 0, i, id, e) < 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void relax(OutTree *tree, int64_t first, float share)
+{
+    for (int64_t i = tree->count - 1; i >= first; i--) {
+        if (tree->parent[i] >= 0) {
+            tree->position[i] =
+                vec3_lerp(tree->position[i], tree->position[tree->parent[i]], share);
+        }
+    }
+}
+
+static bool grow_level(OutTree *tree, const TerrainParams *params, const GrowLevel *level,
+                       ColonizeParams *colonizing, uint64_t seed, const Run *run, Error *e)
+{
+    PointSet *points = scatter_plane(params->size, level->attractors, seed, e);
+    if (!points) {
+        return false;
+    }
+    ColonizeParams mine = *colonizing;
+    mine.noise = level->noise;
+    colonize_auto(&mine, points_spacing(points), level->step, level->kill, level->influence);
+    int64_t before = tree->count;
+    GrowReport report;
+    bool done = colonize(tree, points, &mine, run, &report, e);
+    if (done) {
+        colonizing->first_step += (int32_t)report.steps;
+        relax(tree, before, level->relax);
+    }
+    points_free(points);
+    return done;
+}
+
+// Rivers stay on the plane and inside the land.
+static void project_on_land(const void *surface, Vec3 *p, Vec3 *normal)
+{
+    float half = 0.499f * ((const TerrainParams *)surface)->size;
+    *p = vec3(clampf(p->x, -half, half), 0.0f, clampf(p->z, -half, half));
+    *normal = vec3(0, 1, 0);
+}
+
+// Lays windings of all lengths over the rivers so far; outlets and sources stay. *tree is replaced.
+static bool wind_rivers(OutTree **tree, const TerrainParams *params, float spacing, uint64_t seed,
+                        const Run *run, Error *e)
+{
+    OutTree *fine = out_tree_resample(*tree, 0.2f * spacing, e);
+    if (!fine) {
+        return false;
+    }
+    out_tree_free(*tree);
+    *tree = fine;
+    JitterParams jitter = jitter_params_default();
+    jitter.hurst = 0.65f;
+    jitter.amplitude = 1.4f * params->rivers.winding * spacing;
+    jitter.reference = spacing;
+    jitter.seed = seed;
+    jitter.project = project_on_land;
+    jitter.surface = params;
+    jitter.stride = params->size; // a plane: one stride is as good as many
+    return out_tree_jitter(fine, &jitter, run, e);
+}
+
+static bool grow_levels(OutTree **tree, const TerrainParams *params, const GuideField *field,
+                        uint64_t seed, const Run *run, Error *e)
+{
+    ColonizeParams colonizing = colonize_params_default();
+    colonizing.on_surface = true;
+    colonizing.max_children = 2;
+    colonizing.field = field;
+    colonizing.field_weight = params->rivers.field_weight;
+    colonizing.seed = random_key(seed, 2);
+    // Lengths in spacings of the level's own attractors. Brooks are relaxed: straight on the scale
+    // of hillslopes.
+    int64_t count = params->rivers.count > 12 ? params->rivers.count : 12;
+    float winding = params->rivers.winding;
+    const GrowLevel rivers = {.attractors = count / 8,
+                              .step = 0.40f,
+                              .kill = 0.9f,
+                              .influence = 2.2f,
+                              .noise = 1.5f * winding};
+    const GrowLevel brooks = {.attractors = count,
+                              .step = 0.45f,
+                              .kill = 1.0f,
+                              .influence = 2.2f,
+                              .noise = winding,
+                              .relax = 0.5f};
+    if (rivers.attractors > 12) {
+        float spacing = params->size / sqrtf((float)rivers.attractors);
+        if (!grow_level(*tree, params, &rivers, &colonizing, random_key(seed, 12), run, e) ||
+            !wind_rivers(tree, params, spacing, random_key(seed, 42), run, e)) {
+            return false;
+        }
+    }
+    return grow_level(*tree, params, &brooks, &colonizing, random_key(seed, 13), run, e);
+}
+
+// The guide field about the outlets.
+static GuideField *river_field(const OutTree *tree, const TerrainParams *params, uint64_t seed,
+                               const Run *run, Error *e)
+{
+    const RiverParams *rivers = &params->rivers;
+    FieldParams *fields = memory_alloc(rivers->field_count, sizeof *fields, e);
+    if (!fields) {
+        return NULL;
+    }
+    for (int i = 0; i < rivers->field_count; i++) {
+        fields[i] = rivers->fields[i];
+        fields[i].seed = random_key(seed, (uint64_t)i);
+    }
+    float half = 0.5f * params->size;
+    Aabb box = {vec3(-half, 0.0f, -half), vec3(half, 0.0f, half)};
+    GuideField *field = guide_field_new(fields, rivers->field_count, tree->position, tree->normal,
+                                        tree->count, box, run, e);
+    free(fields);
+    return field;
+}
+
+OutTree *terrain_rivers(const TerrainParams *params, const Recipe *recipe, Error *e)
+{
+    bool again = recipe_remembers(recipe, 0);
+    OutTree *tree = again ? recipe_recall(recipe, 0, e) : out_tree_new(e);
+    if (again) {
+        if (tree && !out_tree_keep_births(tree, recipe->grow_to, e)) {
+            out_tree_free(tree);
+            return NULL;
+        }
+        return tree;
+    }
+    GuideField *field = NULL;
+    bool done = tree && add_outlets(tree, params, random_key(recipe->seed, 1), e);
+    if (done && params->rivers.field_count > 0) {
+        field = river_field(tree, params, random_key(recipe->seed, 4), recipe->run, e);
+        done = field;
+    }
+    done = done && grow_levels(&tree, params, field, recipe->seed, recipe->run, e) &&
+           recipe_keep(recipe, 0, tree, e) && out_tree_keep_births(tree, recipe->grow_to, e);
+    guide_field_free(field);
+    if (!done) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}

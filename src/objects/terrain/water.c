@@ -1,0 +1,229 @@
+// Water surfaces: a level lake, and ribbons along the rivers.
+#include "base/memory.h"
+#include "land/height_mesh.h"
+#include "objects/terrain/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static bool add_mesh(Mesh *mesh, int material, int object, Geometry *geometry, Error *e)
+{
+    Part part = {.kind = PART_MESH, .mesh = mesh, .material = material, .object = object};
+    return mesh && geometry_add(geometry, part, e);
+}
+
+// ---- the lake
+
+enum { LAKE_BLOCKS = 64 }; // a side
+
+typedef struct Lake {
+    const HeightField *field;
+    float level, over; // m; land up to this far over the level may be drawn lower
+} Lake;
+
+// Is any of the land in a block of the field under water?
+static bool is_wet(const Lake *lake, int column, int row)
+{
+    const HeightField *field = lake->field;
+    int first = column * (field->columns - 1) / LAKE_BLOCKS;
+    int last = (column + 1) * (field->columns - 1) / LAKE_BLOCKS;
+    int bottom = (row + 1) * (field->rows - 1) / LAKE_BLOCKS;
+    for (int r = row * (field->rows - 1) / LAKE_BLOCKS; r <= bottom; r++) {
+        for (int c = first; c <= last; c++) {
+            if (field->height[(int64_t)r * field->columns + c] < lake->level + lake->over) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// Level squares over all blocks with land under water, so that no water shows under the mountains
+// where they end at the border.
+static Mesh *lake_mesh(const Lake *lake, Vec3 move, Error *e)
+{
+    const HeightField *field = lake->field;
+    enum { SIDE = LAKE_BLOCKS + 1 };
+    bool wet[LAKE_BLOCKS * LAKE_BLOCKS];
+    int64_t faces = 0;
+    for (int i = 0; i < LAKE_BLOCKS * LAKE_BLOCKS; i++) {
+        wet[i] = is_wet(lake, i % LAKE_BLOCKS, i / LAKE_BLOCKS);
+        faces += wet[i];
+    }
+    Mesh *mesh = mesh_new(4, SIDE * SIDE, faces, MESH_NORMAL | MESH_UV, e);
+    if (!mesh) {
+        return NULL;
+    }
+    float width = field->cell.x * (float)(field->columns - 1) / LAKE_BLOCKS;
+    float depth = field->cell.y * (float)(field->rows - 1) / LAKE_BLOCKS;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        int row = i / SIDE;
+        float x = field->origin.x + (float)(i % SIDE) * width;
+        float z = field->origin.y + (float)row * depth;
+        mesh->position[i] = vec3(move.x + x, move.y + lake->level, move.z + z);
+        mesh->normal[i] = vec3(0, 1, 0);
+        mesh->uv[i] = (Vec2){x, z};
+    }
+    uint32_t *corner = mesh->index;
+    for (uint32_t i = 0; i < LAKE_BLOCKS * LAKE_BLOCKS; i++) {
+        uint32_t v = i / LAKE_BLOCKS * SIDE + i % LAKE_BLOCKS;
+        if (wet[i]) { // counter-clockwise from above
+            *corner++ = v;
+            *corner++ = v + SIDE;
+            *corner++ = v + SIDE + 1;
+            *corner++ = v + 1;
+        }
+    }
+    return mesh;
+}
+
+// ---- rivers
+
+typedef struct Ribbons {
+    const Terrain *terrain;
+    const OutTree *water;
+    const HeightField *field;
+    const int32_t *main; // of each node the child that carries most water on; -1 = none
+    float lake;          // level below which the lake's surface covers the river's
+    Mesh *mesh;          // NULL = only count
+    int64_t vertices, faces;
+} Ribbons;
+
+// A vertex `side` times half the width from the middle: at the river's level, but in cascades,
+// which the cells only show roughly, always on the land. The outermost, beyond 1, go under the
+// shore.
+static Vec3 water_vertex(const Ribbons *r, Vec3 middle, Vec3 across, float half, float side)
+{
+    const float border = 0.5f * r->terrain->params->size;
+    Vec3 p = vec3_madd(middle, side * half, across);
+    p.x = clampf(p.x, -border, border);
+    p.z = clampf(p.z, -border, border);
+    float land = height_mesh_finest_at(r->field, p.x, p.z), film = terrain_bed_depth(half, half);
+    if (fabsf(side) > 1.0f) {
+        p.y = land - film;
+        return p;
+    }
+    float depth = terrain_bed_depth(half, fabsf(side) * half);
+    p.y = clampf(middle.y, land + 0.5f * film, land + depth + film);
+    return p;
+}
+
+// The normal of the water that falls from `above` to `below`.
+static Vec3 water_normal(Vec3 below, Vec3 above)
+{
+    float dx = above.x - below.x, dz = above.z - below.z, squared = dx * dx + dz * dz;
+    float slope = squared > 0.0f ? (above.y - below.y) / squared : 0.0f; // a metre, per metre
+    return vec3_normalize(vec3(-slope * dx, 1.0f, -slope * dz));
+}
+
+// One row of `columns` vertices across the river, which comes from `above` and goes to `below`.
+static void add_row(Ribbons *r, Vec3 middle, Vec3 below, Vec3 above, float half, int columns)
+{
+    Vec3 across = vec3_normalize(vec3(above.z - below.z, 0.0f, below.x - above.x));
+    Vec3 normal = water_normal(below, above);
+    float cell = r->field->cell.x, under = 1.0f + (half > 5.0f * cell ? 0.5f * cell / half : 0.1f);
+    for (int i = 0; i < columns; i++) {
+        float side = 2.0f * (float)(i - 1) / (float)(columns - 3) - 1.0f;
+        side = i == 0 ? -under : i == columns - 1 ? under : side;
+        Vec3 p = water_vertex(r, middle, across, half, side);
+        int64_t v = r->vertices + i;
+        r->mesh->position[v] = vec3_add(p, r->terrain->params->position);
+        r->mesh->normal[v] = normal;
+        r->mesh->uv[v] = (Vec2){r->mesh->position[v].x, r->mesh->position[v].z};
+    }
+}
+
+// Faces to the row that was added last from the one before, counter-clockwise from above; also
+// where rows cross each other, at the inner bank of a sharp bend.
+static void add_faces(Ribbons *r, int columns)
+{
+    for (int i = 0; i + 1 < columns; i++) {
+        uint32_t *corner = r->mesh->index + (r->faces + i) * 4;
+        uint32_t after = (uint32_t)(r->vertices + i), before = after - (uint32_t)columns;
+        const Vec3 *p = r->mesh->position;
+        bool folded =
+            vec3_cross(vec3_sub(p[after + 1], p[before]), vec3_sub(p[before + 1], p[after])).y <
+            0.0f;
+        corner[0] = before;
+        corner[1] = folded ? before + 1 : after;
+        corner[2] = after + 1;
+        corner[3] = folded ? after : before + 1;
+    }
+}
+
+// A river from its root, or a tributary from the river that it enters (the parent of `first`).
+static void add_stem(Ribbons *r, int32_t first)
+{
+    enum { MOST_PIECES = 16 }; // to each side
+    const OutTree *water = r->water;
+    float pieces = water->radius[first] / r->field->cell.x;
+    int columns = 2 * (1 + (int)(pieces < MOST_PIECES ? pieces : MOST_PIECES)) + 3;
+    int32_t below = -1, here = water->parent[first] >= 0 ? water->parent[first] : first;
+    while (here >= 0) {
+        int32_t above = below < 0 && here != first ? first : r->main[here];
+        bool shows = below >= 0 && water->position[here].y >= r->lake;
+        if (r->mesh) {
+            Vec3 from = water->position[below >= 0 ? below : here];
+            Vec3 to = water->position[above >= 0 ? above : here];
+            // A brook enters a wider river with its own width.
+            float half = below < 0 ? water->radius[first] : water->radius[here];
+            add_row(r, water->position[here], from, to, half, columns);
+            if (shows) {
+                add_faces(r, columns);
+            }
+        }
+        r->vertices += columns;
+        r->faces += shows ? columns - 1 : 0;
+        below = here;
+        here = above;
+    }
+}
+
+static void add_stems(Ribbons *r)
+{
+    r->vertices = r->faces = 0;
+    for (int64_t i = 0; i < r->water->count; i++) {
+        int32_t parent = r->water->parent[i];
+        if (parent < 0 ? r->main[i] >= 0 : r->main[parent] != i) {
+            add_stem(r, (int32_t)i);
+        }
+    }
+}
+
+static bool add_rivers(const Terrain *terrain, const HeightField *field, int material, int object,
+                       Geometry *geometry, Error *e)
+{
+    Ribbons r = {.terrain = terrain, .water = terrain->water, .field = field, .lake = -INFINITY};
+    if (terrain->params->water_level > 0.0f) {
+        r.lake = terrain_water_height(terrain->params, field);
+    }
+    int32_t *main = terrain_main_children(r.water, e);
+    if (!main) {
+        return false;
+    }
+    r.main = main;
+    add_stems(&r);
+    bool done = true;
+    if (r.faces > 0) {
+        r.mesh = mesh_new(4, r.vertices, r.faces, MESH_NORMAL | MESH_UV, e);
+        if (r.mesh) {
+            add_stems(&r);
+        }
+        done = add_mesh(r.mesh, material, object, geometry, e);
+    }
+    free(main);
+    return done;
+}
+
+bool terrain_add_water(const Terrain *terrain, const HeightField *field, int material, int object,
+                       Geometry *geometry, Error *e)
+{
+    const TerrainParams *params = terrain->params;
+    if (params->water_level > 0.0f) {
+        Lake lake = {field, terrain_water_height(params, field), params->mesh_error * params->size};
+        if (!add_mesh(lake_mesh(&lake, params->position, e), material, object, geometry, e)) {
+            return false;
+        }
+    }
+    return !terrain->water || add_rivers(terrain, field, material, object, geometry, e);
+}

@@ -1,0 +1,348 @@
+// Growth of a tree: trunk, crown and roots as elements joined into one out-tree (Tanaka et al.,
+// section 5.1).
+#include "objects/tree/tree.h"
+
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "objects/tree/bole.h"
+#include "objects/tree/defaults.h"
+#include "outtree/radii.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define GOLDEN_ANGLE_DEGREES 137.50776f
+
+// Each node's unit direction, from its parent; a root's is that of its first child, or up.
+static Vec3 node_direction(const OutTree *tree, int64_t node)
+{
+    int64_t parent = tree->parent[node];
+    if (parent < 0) {
+        for (int64_t i = node + 1; i < tree->count; i++) {
+            if (tree->parent[i] == node) {
+                return vec3_normalize(vec3_sub(tree->position[i], tree->position[node]));
+            }
+        }
+        return vec3(0, 1, 0);
+    }
+    Vec3 d = vec3_normalize(vec3_sub(tree->position[node], tree->position[parent]));
+    return vec3_dot(d, d) > 0.5f ? d : vec3(0, 1, 0);
+}
+
+// Normals across the branches, carried from parent to child without twist.
+static void transport_normals(OutTree *tree)
+{
+    for (int64_t i = 0; i < tree->count; i++) {
+        Vec3 d = node_direction(tree, i);
+        Vec3 n = tree->parent[i] >= 0 ? tree->normal[tree->parent[i]] : vec3(0, 0, 1);
+        n = vec3_madd(n, -vec3_dot(n, d), d);
+        tree->normal[i] = vec3_dot(n, n) > 1e-6f ? vec3_normalize(n) : vec3_perpendicular(d);
+    }
+}
+
+// A node under the ground and one on it for each stem, so that the trunk's end never shows.
+static bool plant_stems(OutTree *tree, const TreeParams *params, uint64_t seed, Error *e)
+{
+    int stems = params->trunk.stems > 1 ? params->trunk.stems : 1;
+    for (int i = 0; i < stems; i++) {
+        float sine = 0.0f, cosine = 0.0f;
+        if (stems > 1) {
+            exact_sincos(2.0f * PI_F * (float)i / (float)stems, &sine, &cosine);
+        }
+        Vec3 foot = vec3_madd(params->position, params->trunk.stem_circle, vec3(sine, 0, cosine));
+        Vec3 below = vec3_add(foot, vec3(0, -params->trunk.radius, 0));
+        uint64_t id = random_key(seed, (uint64_t)i);
+        int64_t root = out_tree_add_node(tree, below, -1, 0, TREE_TRUNK, id, e);
+        if (root < 0 ||
+            out_tree_add_node(tree, foot, root, 0, TREE_TRUNK, out_tree_child_id(id, 0), e) < 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+typedef struct HeightOrder {
+    float y;
+    int32_t node;
+} HeightOrder;
+
+static int compare_height(const void *a, const void *b)
+{
+    const HeightOrder *p = a, *q = b;
+    if (p->y != q->y) {
+        return p->y < q->y ? -1 : 1;
+    }
+    return p->node < q->node ? -1 : (p->node > q->node);
+}
+
+// Starts one branch at a trunk node: a short piece that leaves the trunk along the node's normal.
+// place: of the branch among those of this node.
+static bool start_branch(OutTree *tree, int64_t node, int place, Vec3 normal, float length,
+                         const CrownParams *crown, Error *e)
+{
+    enum { PIECES = 3 };
+    Vec3 axis = node_direction(tree, node);
+    int32_t birth = tree->birth[node];
+    float sine, cosine;
+    exact_sincos(crown->branch_angle * RADIANS_PER_DEGREE, &sine, &cosine);
+    Vec3 d = vec3_madd(vec3_scale(axis, cosine), sine, normal);
+    int64_t parent = node;
+    for (int i = 0; i < PIECES; i++) {
+        uint64_t id = out_tree_child_id(tree->id[parent], i == 0 ? 1000 + place : 0);
+        Vec3 p = vec3_madd(tree->position[parent], length / PIECES, d);
+        parent = out_tree_add_node(tree, p, parent, ++birth, TREE_CROWN, id, e);
+        if (parent < 0) {
+            return false;
+        }
+        d = vec3_normalize(vec3_add(d, vec3(0, 0.12f, 0))); // limbs bow upward
+    }
+    return true;
+}
+
+// Branches stand on the trunk's upper nodes, taken in order of height, each turned by the golden
+// angle from the last about the trunk and along the node's normal. height: of the trunk, m.
+static bool start_branches(OutTree *tree, const TreeParams *params, float height, uint64_t seed,
+                           Error *e)
+{
+    const CrownParams *crown = &params->crown;
+    HeightOrder *order = memory_alloc(tree->count, sizeof *order, e);
+    if (!order) {
+        return false;
+    }
+    int64_t count = 0;
+    float from = params->position.y + crown->branch_from * height;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->position[i].y >= from) {
+            order[count++] = (HeightOrder){tree->position[i].y, (int32_t)i};
+        }
+    }
+    qsort(order, (size_t)count, sizeof *order, compare_height);
+    bool done = true;
+    int64_t last = -1;
+    for (int b = 0, place = 0; done && b < crown->branches && count > 0; b++) {
+        float share = ((float)b + random_range(random_key(seed, (uint64_t)b), 0.2f, 0.8f)) /
+                      (float)crown->branches;
+        int64_t node = order[(int64_t)(share * (float)count)].node;
+        place = node == last ? place + 1 : 0;
+        last = node;
+        float sine, cosine;
+        exact_sincos((float)(b + 1) * GOLDEN_ANGLE_DEGREES * RADIANS_PER_DEGREE, &sine, &cosine);
+        Vec3 normal = vec3_rotate(tree->normal[node], node_direction(tree, node), cosine, sine);
+        done = start_branch(tree, node, place, normal,
+                            crown->branch_length * (1.15f - 0.4f * share), crown, e);
+    }
+    free(order);
+    return done;
+}
+
+static bool grow_trunk(OutTree *tree, const TreeParams *params, uint64_t seed, const char *label,
+                       const Run *run, Error *e)
+{
+    char name[128];
+    snprintf(name, sizeof name, "%s, trunk", label);
+    if (!plant_stems(tree, params, seed, e) ||
+        !element_grow(tree, &params->trunk.element, seed, name, run, e)) {
+        error_key(e, "trunk");
+        return false;
+    }
+    transport_normals(tree);
+    return true;
+}
+
+// Whether a starting piece came to nothing: no node but its own three grew from it. count[i]: nodes
+// that grew from node i.
+static bool is_barren(const OutTree *tree, int64_t i, const int32_t *count)
+{
+    return tree->parent[i] >= 0 && tree->colony[tree->parent[i]] == TREE_TRUNK && count[i] < 3;
+}
+
+// Drops the branches that found nothing to grow toward, which would stick out of the trunk as
+// stubs. pieces: the nodes that branches started with, from `first` on.
+static bool drop_barren(OutTree *tree, int64_t first, int64_t pieces, Error *e)
+{
+    int32_t *count = memory_alloc_zero(tree->count, sizeof *count, e);
+    bool *keep = memory_alloc(tree->count, sizeof *keep, e);
+    bool done = count && keep;
+    for (int64_t i = tree->count - 1; done && i >= first; i--) {
+        count[tree->parent[i]] += 1 + count[i];
+    }
+    for (int64_t i = 0; done && i < tree->count; i++) {
+        keep[i] = i < first || i >= first + pieces || !is_barren(tree, i, count);
+    }
+    done = done && out_tree_keep_nodes(tree, keep, e);
+    free(count);
+    free(keep);
+    return done;
+}
+
+static bool grow_crown_in(OutTree *tree, const TreeParams *params, const Envelope *envelope,
+                          uint64_t seed, const char *name, const Run *run, Error *e)
+{
+    const ElementParams *crown = &params->crown.element;
+    int64_t trunk = tree->count;
+    float height = params->trunk.height;
+    if (!tree_grow_bole(tree, params, envelope, seed, name, run, e)) {
+        return false;
+    }
+    int64_t first = tree->count;
+    if (first > trunk) {
+        transport_normals(tree);
+        height = tree->position[tree_highest_node(tree)].y - params->position.y;
+    }
+    if (!start_branches(tree, params, height, random_key(seed, 1), e)) {
+        return false;
+    }
+    int64_t pieces = tree->count - first;
+    if (!element_grow_in(tree, crown, envelope, seed, name, run, e)) {
+        return false;
+    }
+    for (int64_t i = first; i < tree->count; i++) {
+        tree->colony[i] = TREE_CROWN;
+    }
+    return drop_barren(tree, first, pieces, e);
+}
+
+static bool grow_crown(OutTree *tree, const TreeParams *params, uint64_t seed, const char *label,
+                       const Run *run, Error *e)
+{
+    char name[128];
+    snprintf(name, sizeof name, "%s, crown", label);
+    const ElementParams *crown = &params->crown.element;
+    EnvelopeParams shapes = {crown->shapes, crown->shape_count, crown->voxel};
+    Envelope *envelope = envelope_new(&shapes, run, e);
+    bool done = envelope && grow_crown_in(tree, params, envelope, seed, name, run, e);
+    envelope_free(envelope);
+    if (!done) {
+        error_prefix(e, "%s: ", name);
+        error_key(e, "crown");
+    }
+    return done;
+}
+
+// Main roots leave the foot evenly spread about it, the centre of the trunk's base.
+static bool plant_roots(OutTree *roots, const TreeParams *params, uint64_t seed, Error *e)
+{
+    // Each comes down inside the flare, where it stands out as a buttress, leaves it close to the
+    // ground and goes on just under the turf. In trunk radii: outward from the axis, the part that
+    // the flare widens and the part beyond it; upward from the ground.
+    static const float inside[TREE_ROOT_PIECES] = {0.4f, 0.66f, 0.98f, 1.0f, 1.0f, 1.0f};
+    static const float beyond[TREE_ROOT_PIECES] = {0.0f, 0.0f, 0.1f, 0.6f, 1.3f, 2.1f};
+    static const float up[TREE_ROOT_PIECES] = {1.0f, 0.5f, 0.12f, -0.06f, -0.18f, -0.36f};
+    float radius = params->trunk.radius, flared = radius * (1.0f + params->radii.flare);
+    float offset = random_range(random_key(seed, 1), 0.0f, 2.0f * PI_F);
+    for (int i = 0; i < params->roots.count; i++) {
+        uint64_t key = random_key(seed, 10 + (uint64_t)i);
+        float turn = ((float)i + random_range(key, -0.25f, 0.25f)) / (float)params->roots.count;
+        float sine, cosine;
+        exact_sincos(offset + 2.0f * PI_F * turn, &sine, &cosine);
+        Vec3 out = vec3(sine, 0, cosine);
+        uint64_t id = random_key(key, 2);
+        int64_t parent = -1;
+        for (int k = 0; k < TREE_ROOT_PIECES; k++) {
+            Vec3 p = vec3_madd(params->position, inside[k] * flared + beyond[k] * radius, out);
+            p.y += up[k] * radius;
+            id = k == 0 ? id : out_tree_child_id(id, 0);
+            parent = out_tree_add_node(roots, p, parent, 0, TREE_ROOTS, id, e);
+            if (parent < 0) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// Joins the roots to the trunk: each root's first node becomes a child of the foot node. Roots grow
+// along with all the rest, from its first birth to its last.
+static bool graft_roots(OutTree *tree, const OutTree *roots, int64_t foot, Error *e)
+{
+    int64_t base = tree->count;
+    int64_t last = out_tree_last_birth(tree), last_root = out_tree_last_birth(roots);
+    last_root = last_root > 0 ? last_root : 1;
+    if (!out_tree_reserve(tree, base + roots->count, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < roots->count; i++) {
+        int64_t parent = roots->parent[i] < 0 ? foot : base + roots->parent[i];
+        int32_t birth = (int32_t)(roots->birth[i] * last / last_root);
+        int64_t node =
+            out_tree_add_node(tree, roots->position[i], parent, birth, TREE_ROOTS, roots->id[i], e);
+        if (node < 0) {
+            return false;
+        }
+        tree->radius[node] = roots->radius[i];
+    }
+    return true;
+}
+
+static bool grow_roots(OutTree *tree, const TreeParams *params, uint64_t seed, const char *label,
+                       const Run *run, Error *e)
+{
+    char name[128];
+    snprintf(name, sizeof name, "%s, roots", label);
+    OutTree *roots = out_tree_new(e);
+    bool done =
+        roots && plant_roots(roots, params, random_key(seed, 1), e) &&
+        (element_grow(roots, &params->roots.element, seed, name, run, e) || error_key(e, "roots"));
+    if (done) {
+        out_tree_pipe_radii(roots, params->radii.exponent, 2.0f * params->radii.tip,
+                            params->roots.radius * params->trunk.radius);
+        done = graft_roots(tree, roots, 1, e); // node 1: the first stem's foot, on the ground
+    }
+    out_tree_free(roots);
+    return done;
+}
+
+static void compute_radii(OutTree *tree, const TreeParams *params)
+{
+    const RadiiParams *radii = &params->radii;
+    if (radii->model == RADIUS_BIRTH) {
+        out_tree_birth_radii(tree, radii->tip, params->trunk.radius);
+    } else {
+        out_tree_pipe_radii(tree, radii->exponent, radii->tip, params->trunk.radius);
+    }
+    // Stems that wind about each other stay stout whether or not the crown favoured them.
+    float least = params->trunk.stems > 1 ? 0.75f * params->trunk.radius : 0.0f;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->colony[i] == TREE_TRUNK && tree->radius[i] < least) {
+            tree->radius[i] = least;
+        }
+    }
+    // the first node stands a radius below the ground
+    out_tree_root_flare(tree, radii->flare, params->trunk.radius, radii->flare_height);
+}
+
+// Everything, radii and all, before it is cut.
+static OutTree *grow_whole(const TreeParams *params, const Recipe *recipe, Error *e)
+{
+    TreePlan plan;
+    uint64_t seed = recipe->seed;
+    tree_plan_make(&plan, params, seed);
+    OutTree *tree = out_tree_new(e);
+    if (!tree ||
+        !grow_trunk(tree, &plan.params, random_key(seed, 1), recipe->label, recipe->run, e) ||
+        !grow_crown(tree, &plan.params, random_key(seed, 2), recipe->label, recipe->run, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    compute_radii(tree, &plan.params);
+    if ((params->roots.count > 0 &&
+         !grow_roots(tree, &plan.params, random_key(seed, 3), recipe->label, recipe->run, e)) ||
+        !recipe_keep(recipe, 0, tree, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}
+
+OutTree *tree_grow(const TreeParams *params, const Recipe *recipe, Error *e)
+{
+    OutTree *tree =
+        recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(params, recipe, e);
+    if (!tree || !out_tree_rejuvenate(tree, recipe->grow_to, params->radii.tip, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    transport_normals(tree);
+    return tree;
+}

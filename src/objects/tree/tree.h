@@ -1,0 +1,109 @@
+// The tree (Tanaka et al., section 5.1): trunk, crown and roots grown as elements with envelopes
+// and fields of their own, branches placed on the trunk by height and oriented by its normals,
+// radii by the pipe model or by birth, root flare, leaves by phyllotaxis on the twigs.
+#ifndef RAMIFY_OBJECTS_TREE_TREE_H
+#define RAMIFY_OBJECTS_TREE_TREE_H
+
+#include "base/run.h"
+#include "mesh/geometry.h"
+#include "objects/common/element.h"
+#include "objects/common/recipe.h"
+#include "outtree/out_tree.h"
+
+typedef struct TrunkParams {
+    ElementParams element;
+    float height; // m, from the ground to the trunk's last node; 0 = 0.32 of the tree's height
+    float radius; // m, above the root flare; 0 = from the height: 0.03 height^1.5 / 14^0.5
+                  // (elastic similarity)
+    float lean;   // degrees from the vertical, toward `lean_azimuth`
+    float lean_azimuth; // degrees from +Z toward +X
+    int stems;          // stems that start on a circle about the base; 1 = a plain trunk
+    float stem_circle;  // m, radius of that circle; 0 = the trunk's radius
+} TrunkParams;
+
+typedef struct CrownParams {
+    ElementParams element;
+    float width;         // m; 0 = 1.05 of the tree's height
+    float base;          // m above the ground where the crown begins; 0 = 0.18 of the height
+    int branches;        // placed on the trunk by sorted height
+    float branch_from;   // share of the trunk's height where the lowest branch stands
+    float branch_angle;  // degrees between a branch and the trunk where it starts
+    float branch_length; // m, of the starting piece; 0 = 0.08 of the tree's height
+    int lobes; // of the default envelope: bulges about an ellipsoid; 0 = the plain ellipsoid
+} CrownParams;
+
+typedef struct RootParams {
+    ElementParams element;
+    int count;    // main roots; 0 = none
+    float spread; // m; 0 = 0.2 of the tree's height
+    float depth;  // m below the ground; 0 = 0.25 of the spread
+    float radius; // of a main root where it leaves the trunk, as a share of the trunk's radius
+} RootParams;
+
+typedef enum RadiusModel { RADIUS_PIPE, RADIUS_BIRTH } RadiusModel;
+
+typedef struct RadiiParams {
+    RadiusModel model;
+    float exponent;     // pipe model, r_parent^e = sum r_child^e
+    float tip;          // m, radius of the twigs' tips
+    float flare;        // how much wider the trunk is at the ground, 0.5 = half as wide again
+    float flare_height; // m; 0 = 2.5 trunk radii
+} RadiiParams;
+
+typedef struct LeavesParams {
+    int64_t max_count;    // 0 = bare
+    float spacing;        // m between leaves along a twig
+    float twig_radius;    // m: only branches thinner than this bear leaves
+    float length, width;  // m
+    float size_variation; // 0..1
+    float petiole;        // m
+    float fold;           // degrees that the halves are folded up about the midrib
+    float curl;           // degrees that the blade bends along its length
+    int lobes;            // a side; 0 = a plain oval
+    float angle;          // degrees between a leaf and its twig
+    float droop; // 0..1, how far blades turn from the twig's frame toward hanging and facing the
+                 // light
+    float phyllotaxis; // degrees from one leaf to the next about the twig; 137.5 in nature
+    int variants;      // different leaf meshes
+    int detail;        // of a leaf's mesh: 1 for whole trees, 2 for close-ups
+} LeavesParams;
+
+typedef struct SkinningParams {
+    float curve_radius; // m: twigs thinner than this are traced as curves; 0 = everything is mesh
+    int levels;         // subdivision, 0..4
+    float ring_spacing; // in radii
+} SkinningParams;
+
+typedef struct TreeParams {
+    Vec3 position; // m, of the trunk's base
+    float height;  // m
+    TrunkParams trunk;
+    CrownParams crown;
+    RootParams roots;
+    RadiiParams radii;
+    LeavesParams leaves;
+    SkinningParams skin;
+} TreeParams;
+
+// Nodes that a main root starts with, from inside the trunk's flare to where growth takes over.
+enum { TREE_ROOT_PIECES = 6 };
+
+// Colonies of the out-trees that tree_grow makes.
+enum { TREE_TRUNK, TREE_CROWN, TREE_ROOTS };
+
+// Materials, as indices into the world's list.
+typedef struct TreeMaterials {
+    int bark, twig, leaf;
+} TreeMaterials;
+
+// The documented defaults: an oak of 14 m.
+TreeParams tree_params_default(void);
+
+// Grows the out-tree: all elements joined, radii computed. Colonies as above.
+OutTree *tree_grow(const TreeParams *params, const Recipe *recipe, Error *e);
+
+// Skins a grown tree and hangs its leaves: adds meshes, curves and leaf instances to geometry.
+bool tree_geometry(const OutTree *tree, const TreeParams *params, const TreeMaterials *materials,
+                   int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e);
+
+#endif

@@ -1,0 +1,298 @@
+#include "objects/venation/venation.h"
+
+#include "base/exact_math.h"
+#include "base/random.h"
+#include "grow/venation/venation.h"
+#include "outtree/join.h"
+#include "outtree/radii.h"
+
+#include <math.h>
+#include <stddef.h>
+
+enum { BLADE_ROWS = 160, BLADE_COLUMNS = 48, PETIOLE_PIECES = 12, AREA_ROWS = 1000 };
+
+#define EXPONENT 3.0f // Murray's
+
+VenationParams venation_params_default(void)
+{
+    return (VenationParams){.outline = {.length = 0.1f, .widest = 0.42f, .tip = 1.4f},
+                            .closed = true,
+                            .detail = 100,
+                            .petiole = 0.02f,
+                            .curl = 12.0f,
+                            .fold = 6.0f,
+                            .blade = true};
+}
+
+VenationParams venation_params_resolve(const VenationParams *given)
+{
+    VenationParams params = *given;
+    float length = params.outline.length, mesh = length / (float)params.detail;
+    params.outline.width = params.outline.width > 0.0f ? params.outline.width : 0.5f * length;
+    params.midrib = params.midrib > 0.0f ? params.midrib : 0.008f * length;
+    params.vein = params.vein > 0.0f ? params.vein : 0.06f * mesh;
+    return params;
+}
+
+static VeinParams vein_params(const VenationParams *params, uint64_t seed)
+{
+    VeinParams veins = vein_params_default();
+    veins.outline = params->outline;
+    veins.closed = params->closed;
+    veins.marginal = params->marginal;
+    veins.birth = params->outline.length / (float)params->detail;
+    veins.kill = 0.5f * veins.birth;
+    veins.step = 0.25f * veins.birth;
+    veins.seed = seed;
+    return veins;
+}
+
+static bool add_petiole(OutTree *tree, const VenationParams *params, uint64_t seed, Error *e)
+{
+    int64_t node = -1;
+    for (int i = 0; i < PETIOLE_PIECES; i++) {
+        float y = params->petiole * ((float)i / PETIOLE_PIECES - 1.0f);
+        uint64_t id = node < 0 ? random_key(seed, 7) : out_tree_child_id(tree->id[node], 0);
+        node = out_tree_add_node(tree, vec3(0, y, 0), node, 0, 0, id, e);
+        if (node < 0) {
+            return false;
+        }
+        tree->normal[node] = vec3(0, 0, 1);
+    }
+    return true;
+}
+
+// The petiole, and the veins behind it: every index moves up.
+static OutTree *with_petiole(const OutTree *veins, const VenationParams *params, uint64_t seed,
+                             Error *e)
+{
+    OutTree *tree = out_tree_new(e);
+    bool done = tree && (params->petiole <= 0.0f || add_petiole(tree, params, seed, e));
+    int32_t first = done ? (int32_t)tree->count : 0;
+    for (int64_t i = 0; done && i < veins->count; i++) {
+        int32_t parent = veins->parent[i] < 0 ? first - 1 : veins->parent[i] + first;
+        int64_t node = out_tree_add_node(tree, veins->position[i], parent, veins->birth[i], 0,
+                                         veins->id[i], e);
+        done = node >= 0;
+        if (done) {
+            tree->normal[node] = veins->normal[i];
+        }
+    }
+    if (!done) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}
+
+// Everything, before it is cut.
+static OutTree *grow_whole(const VenationParams *params, const Recipe *recipe, Error *e)
+{
+    VeinParams grow = vein_params(params, random_key(recipe->seed, 1));
+    OutTree *veins = veins_grow(&grow, NULL, NULL, recipe->run, e);
+    OutTree *tree = veins ? with_petiole(veins, params, recipe->seed, e) : NULL;
+    out_tree_free(veins);
+    if (tree && !recipe_keep(recipe, 0, tree, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}
+
+OutTree *venation_grow(const VenationParams *given, const Recipe *recipe, Error *e)
+{
+    VenationParams params = venation_params_resolve(given);
+    OutTree *tree =
+        recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(&params, recipe, e);
+    if (!tree || !out_tree_keep_births(tree, recipe->grow_to, e)) {
+        out_tree_free(tree);
+        return NULL;
+    }
+    out_tree_pipe_radii(tree, EXPONENT, params.vein, params.midrib);
+    return tree;
+}
+
+// ---- geometry ----
+
+// Bends the flat leaf: halves folded up about the midrib, the length bent back, the stalk straight.
+static Vec3 bend(const VenationParams *params, Vec3 p)
+{
+    float sine, cosine;
+    exact_sincos(params->fold * RADIANS_PER_DEGREE, &sine, &cosine);
+    float side = fabsf(p.x), z = p.z + side * sine;
+    float x = p.x * cosine, length = params->outline.length;
+    float angle = params->curl * RADIANS_PER_DEGREE;
+    if (angle == 0.0f) {
+        return vec3(x, p.y, z);
+    }
+    float radius = length / angle; // of the circle that the midrib follows
+    float turn = p.y > 0.0f ? p.y / radius : 0.0f;
+    exact_sincos(turn, &sine, &cosine);
+    float y = p.y > 0.0f ? (radius + z) * sine : p.y;
+    return vec3(x, y, (radius + z) * cosine - radius);
+}
+
+// Every piece of vein as a round curve of its own: they overlap by their round ends.
+static CurveSet *vein_curves(const OutTree *tree, const VenationParams *params,
+                             const Transform *place, Error *e)
+{
+    int64_t pieces = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        pieces += tree->parent[i] >= 0;
+    }
+    CurveSet *curves = curves_new(2 * pieces, pieces, e);
+    int64_t last = tree->count > 0 ? tree->birth[tree->count - 1] : 0, point = 0;
+    for (int64_t i = 0; curves && i < tree->count; i++) {
+        const int64_t end[2] = {tree->parent[i], i};
+        for (int k = 0; end[0] >= 0 && k < 2; k++, point++) {
+            curves->position[point] = transform_point(place, bend(params, tree->position[end[k]]));
+            curves->radius[point] = tree->radius[i]; // a child does not begin as its parent
+            curves->birth[point] = last > 0 ? (float)tree->birth[end[k]] / (float)last : 0.0f;
+            curves->along[point] = tree->position[end[k]].y;
+            curves->first[point / 2 + 1] = point + 1;
+        }
+    }
+    return curves;
+}
+
+static Mesh *blade_mesh(const VenationParams *params, const Transform *place, Error *e)
+{
+    Mesh *mesh = mesh_new(4, (BLADE_ROWS + 1) * (BLADE_COLUMNS + 1), BLADE_ROWS * BLADE_COLUMNS,
+                          MESH_NORMAL | MESH_UV, e);
+    if (!mesh) {
+        return NULL;
+    }
+    uint32_t *corner = mesh->index;
+    for (int r = 0; r <= BLADE_ROWS; r++) {
+        float v = (float)r / BLADE_ROWS, y = v * params->outline.length;
+        float half = leaf_half_width(&params->outline, y);
+        for (int c = 0; c <= BLADE_COLUMNS; c++) {
+            float u = (float)c / BLADE_COLUMNS;
+            int i = r * (BLADE_COLUMNS + 1) + c;
+            Vec3 flat = vec3((2.0f * u - 1.0f) * half, y, 0);
+            mesh->position[i] = transform_point(place, bend(params, flat));
+            mesh->uv[i] = (Vec2){u, v};
+            if (r < BLADE_ROWS && c < BLADE_COLUMNS) {
+                uint32_t a = (uint32_t)i, b = a + BLADE_COLUMNS + 1;
+                corner[0] = a, corner[1] = a + 1, corner[2] = b + 1, corner[3] = b;
+                corner += 4;
+            }
+        }
+    }
+    if (!mesh_compute_normals(mesh, e)) {
+        mesh_free(mesh);
+        return NULL;
+    }
+    return mesh;
+}
+
+bool venation_geometry(const OutTree *tree, const VenationParams *given,
+                       const VenationMaterials *materials, int object, Geometry *geometry, Error *e)
+{
+    VenationParams params = venation_params_resolve(given);
+    Transform place = transform_compose(params.position, params.rotation, vec3_splat(1.0f));
+    Part veins = {.kind = PART_CURVES, .material = materials->vein, .object = object};
+    veins.curves = vein_curves(tree, &params, &place, e);
+    if (!veins.curves || !geometry_add(geometry, veins, e)) {
+        return false;
+    }
+    if (!params.blade) {
+        return true;
+    }
+    Part blade = {.kind = PART_MESH, .material = materials->blade, .object = object};
+    blade.mesh = blade_mesh(&params, &place, e);
+    return blade.mesh && geometry_add(geometry, blade, e);
+}
+
+// ---- texture ----
+
+typedef struct Canvas {
+    const VenationParams *params;
+    int width, height;
+    float *pixel;
+} Canvas;
+
+// Where a pixel's middle lies on the flat leaf.
+static Vec3 pixel_place(const Canvas *canvas, int column, int row)
+{
+    float y = canvas->params->outline.length * (1.0f - ((float)row + 0.5f) / (float)canvas->height);
+    float u = ((float)column + 0.5f) / (float)canvas->width;
+    return vec3((2.0f * u - 1.0f) * leaf_half_width(&canvas->params->outline, y), y, 0);
+}
+
+// Highest where veins overlap; a vein's height is that of a round bar, softened to a pixel.
+static void paint_bar(const Canvas *canvas, Vec3 a, Vec3 b, float radius)
+{
+    const LeafOutline *outline = &canvas->params->outline;
+    float pixel = outline->length / (float)canvas->height;
+    float shown = radius > 0.7f * pixel ? radius : 0.7f * pixel;
+    float peak = sqrtf(radius / canvas->params->midrib) * radius / shown;
+    float high = (a.y > b.y ? a.y : b.y) + shown, low = (a.y < b.y ? a.y : b.y) - shown;
+    int row0 = (int)((1.0f - high / outline->length) * (float)canvas->height);
+    int row1 = (int)((1.0f - low / outline->length) * (float)canvas->height) + 1;
+    for (int r = row0 > 0 ? row0 : 0; r <= row1 && r < canvas->height; r++) {
+        float half = leaf_half_width(outline, pixel_place(canvas, 0, r).y);
+        float left = (a.x < b.x ? a.x : b.x) - shown, right = (a.x > b.x ? a.x : b.x) + shown;
+        float scale = half > 0.0f ? 0.5f * (float)canvas->width / half : 0.0f;
+        int c0 = (int)clampf((left + half) * scale, 0.0f, (float)(canvas->width - 1));
+        int c1 = (int)clampf((right + half) * scale + 1.0f, 0.0f, (float)(canvas->width - 1));
+        for (int c = c0; c <= c1; c++) {
+            Vec3 p = pixel_place(canvas, c, r), along = vec3_sub(b, a), to = vec3_sub(p, a);
+            float length2 = vec3_dot(along, along);
+            float t = length2 > 0.0f ? clampf(vec3_dot(to, along) / length2, 0.0f, 1.0f) : 0.0f;
+            float d = vec3_distance(to, vec3_scale(along, t)) / shown;
+            float value = d < 1.0f ? peak * sqrtf(1.0f - d * d) : 0.0f;
+            float *at = &canvas->pixel[(size_t)r * (size_t)canvas->width + (size_t)c];
+            *at = value > *at ? value : *at;
+        }
+    }
+}
+
+bool venation_paint(const OutTree *tree, const VenationParams *given, int width, int height,
+                    float *pixel, Error *e)
+{
+    if (width < 1 || height < 1) {
+        return error_set(e, ERROR_INPUT, "a picture of %d x %d; both must be above 0", width,
+                         height);
+    }
+    VenationParams params = venation_params_resolve(given);
+    Canvas canvas = {&params, width, height, pixel};
+    for (int64_t i = 0; i < (int64_t)width * height; i++) {
+        pixel[i] = 0.0f;
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->parent[i] >= 0) {
+            paint_bar(&canvas, tree->position[tree->parent[i]], tree->position[i], tree->radius[i]);
+        }
+    }
+    return true;
+}
+
+// ---- measures ----
+
+// m^2, of the flat leaf.
+static double blade_area(const LeafOutline *outline)
+{
+    double row = (double)outline->length / AREA_ROWS, sum = 0.0;
+    for (int i = 0; i < AREA_ROWS; i++) {
+        sum += 2.0 * row * (double)leaf_half_width(outline, ((float)i + 0.5f) * (float)row);
+    }
+    return sum;
+}
+
+bool venation_measure(const OutTree *tree, const VenationParams *given, MeasureList *list, Error *e)
+{
+    VenationParams params = venation_params_resolve(given);
+    int64_t pieces, loops;
+    double length = 0.0, area = 1e6 * blade_area(&params.outline), none = (double)NAN;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->parent[i] >= 0 && tree->position[i].y > 0.0f) { // beyond the petiole
+            length += (double)vec3_distance(tree->position[i], tree->position[tree->parent[i]]);
+        }
+    }
+    return out_tree_count_pieces(tree, &pieces, &loops, e) &&
+           measures_add(list, "areoles", (double)loops, "", none, none, e) &&
+           measures_add(list, "areole_area", loops > 0 ? area / (double)loops : none, "mm^2", none,
+                        none, e) &&
+           measures_add(list, "vein_density", 1000.0 * length / area, "mm/mm^2", none, none, e);
+}

@@ -1,0 +1,55 @@
+// A leaf and its veins (Runions et al. 2005), as geometry (a translucent blade with raised veins,
+// or the veins alone: a skeleton leaf) and as a texture.
+#ifndef RAMIFY_OBJECTS_VENATION_VENATION_H
+#define RAMIFY_OBJECTS_VENATION_VENATION_H
+
+#include "base/measures.h"
+#include "mesh/geometry.h"
+#include "objects/common/recipe.h"
+#include "outtree/out_tree.h"
+#include "shape/leaf_outline.h"
+
+typedef struct VenationParams {
+    Vec3 position;       // m, of the blade's base
+    Vec3 rotation;       // degrees about x, y, z; before it the leaf stands upright, facing +Z
+    LeafOutline outline; // width 0 = half of the length
+    bool closed;         // veins with loops; else a tree
+    bool marginal;       // the blade grows at its margin; else evenly
+    int detail;          // meshes of the net along the leaf's length
+    float midrib;        // m, radius at the base; 0 = 0.008 of the length
+    float vein;          // m, radius of the finest; 0 = 0.06 of a mesh
+    float petiole;       // m, length of the stalk; 0 = none
+    float curl;          // degrees that the blade bends back along its length
+    float fold;          // degrees that each half is folded up about the midrib
+    bool blade;          // with the blade between the veins
+} VenationParams;
+
+typedef struct VenationMaterials {
+    int vein, blade;
+} VenationMaterials;
+
+VenationParams venation_params_default(void); // closed, 0.1 m
+
+// The same parameters with every open number (0) filled in, in proportion to the others.
+VenationParams venation_params_resolve(const VenationParams *given);
+
+// The veins with radii, flat in the plane z = 0, the base at the origin: venation_geometry bends
+// and places them. Nodes below the base are the petiole's.
+OutTree *venation_grow(const VenationParams *params, const Recipe *recipe, Error *e);
+
+bool venation_geometry(const OutTree *tree, const VenationParams *params,
+                       const VenationMaterials *materials, int object, Geometry *geometry,
+                       Error *e);
+
+// The veins as a texture for leaves: how high they stand out, 0 between them and 1 in the middle of
+// the midrib, of width x height pixels row by row from the tip. Across, the blade fills the whole
+// row at every height, as the uv of leaf meshes does. pixel: width * height floats.
+bool venation_paint(const OutTree *tree, const VenationParams *params, int width, int height,
+                    float *pixel, Error *e);
+
+// Appends areoles (meshes of the net; 0 in open venation), areole_area in mm^2 (of the blade, a
+// mesh), vein_density in mm of veins to the mm^2 of blade.
+bool venation_measure(const OutTree *tree, const VenationParams *params, MeasureList *list,
+                      Error *e);
+
+#endif

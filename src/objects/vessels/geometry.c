@@ -1,0 +1,123 @@
+// From grown vessels to geometry and numbers.
+#include "base/memory.h"
+#include "objects/vessels/grow.h"
+#include "objects/vessels/vessels.h"
+#include "skin/skin.h"
+
+#include <stdlib.h>
+
+OutTree *vessels_colony(const OutTree *tree, int32_t colony, Error *e)
+{
+    OutTree *mine = out_tree_copy(tree, e);
+    bool *keep = memory_alloc(tree->count, sizeof *keep, e);
+    bool done = mine && keep;
+    for (int64_t i = 0; done && i < tree->count; i++) {
+        keep[i] = tree->colony[i] == colony;
+    }
+    done = done && out_tree_keep_nodes(mine, keep, e);
+    free(keep);
+    if (!done) {
+        out_tree_free(mine);
+        return NULL;
+    }
+    return mine;
+}
+
+// Thick vessels as a smooth skin, thin ones as round curves.
+static bool add_colony(const OutTree *tree, const VesselsParams *params, int material, int object,
+                       Geometry *geometry, const Run *run, Error *e)
+{
+    SkinParams skin = skin_params_default();
+    skin.levels = params->skin_levels;
+    skin.min_radius = params->curve_radius > 0.0f ? params->curve_radius : INFINITY;
+    Part part = {.material = material, .object = object};
+    if (params->curve_radius > 0.0f) {
+        part.kind = PART_MESH;
+        part.mesh = skin_tree(tree, &skin, run, e);
+        if (!part.mesh || !geometry_add(geometry, part, e)) {
+            return false;
+        }
+    }
+    part = (Part){.kind = PART_CURVES, .material = material, .object = object};
+    part.curves = skin_curves(tree, skin.min_radius, &skin, e);
+    return part.curves && geometry_add(geometry, part, e);
+}
+
+bool vessels_geometry(const OutTree *tree, const VesselsParams *params,
+                      const VesselsMaterials *materials, int object, Geometry *geometry,
+                      const Run *run, Error *e)
+{
+    for (int32_t colony = 0; colony < (params->veins ? 2 : 1); colony++) {
+        OutTree *mine = vessels_colony(tree, colony, e);
+        int material = colony == VESSELS_VEINS ? materials->vein : materials->artery;
+        bool done = mine && (mine->count < 2 ||
+                             add_colony(mine, params, material, object, geometry, run, e));
+        out_tree_free(mine);
+        if (!done) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Least distance between surfaces of arteries and veins, m; NAN without veins.
+static bool measure_gap(const OutTree *arteries, const OutTree *veins, double *gap, Error *e)
+{
+    *gap = (double)NAN;
+    if (arteries->count < 2 || veins->count < 2) {
+        return true;
+    }
+    SegmentGrid *grid = segment_grid_new(arteries, e);
+    if (!grid) {
+        return false;
+    }
+    float least = vec3_distance(arteries->position[0], veins->position[0]);
+    for (int64_t i = 0; i < veins->count; i++) {
+        if (veins->parent[i] >= 0) {
+            least = segment_grid_gap(grid, veins->position[veins->parent[i]], veins->position[i],
+                                     veins->radius[i], least);
+        }
+    }
+    segment_grid_free(grid);
+    *gap = (double)least;
+    return true;
+}
+
+static bool add_measures(const OutTree *arteries, const OutTree *veins, const MurrayFit fit[2],
+                         MeasureList *list, Error *e)
+{
+    int64_t terminals[2];
+    for (int i = 0; i < 2; i++) {
+        int32_t *children = vessel_child_counts(i == 0 ? arteries : veins, &terminals[i], e);
+        bool counted = children != NULL;
+        free(children);
+        if (!counted) {
+            return false;
+        }
+    }
+    double gap, none = (double)NAN;
+    double residual = fit[0].residual > fit[1].residual ? fit[0].residual : fit[1].residual;
+    return measure_gap(arteries, veins, &gap, e) &&
+           measures_add(list, "arterial_terminals", (double)terminals[0], "", none, none, e) &&
+           measures_add(list, "venous_terminals", (double)terminals[1], "", none, none, e) &&
+           measures_add(list, "flow_residual", residual, "", 0.0, 1e-4, e) &&
+           measures_add(list, "murray_angle_error_median", fit[0].angle_median, "degrees", none,
+                        none, e) &&
+           measures_add(list, "murray_angle_exact_share", fit[0].angle_exact, "", none, none, e) &&
+           measures_add(list, "bifurcation_side_angle", fit[0].side_angle, "degrees", 13.0, 43.0,
+                        e) &&
+           measures_add(list, "artery_vein_gap", gap, "m", 0.0, none, e);
+}
+
+bool vessels_measure(const OutTree *tree, const VesselsParams *params, MeasureList *list, Error *e)
+{
+    OutTree *trees[2] = {vessels_colony(tree, VESSELS_ARTERIES, e), NULL};
+    trees[1] = trees[0] ? vessels_colony(tree, VESSELS_VEINS, e) : NULL;
+    MurrayFit fit[2];
+    bool done = trees[0] && trees[1] && out_tree_murray_fit(trees[0], params->law, &fit[0], e) &&
+                out_tree_murray_fit(trees[1], params->law, &fit[1], e) &&
+                add_measures(trees[0], trees[1], fit, list, e);
+    out_tree_free(trees[0]);
+    out_tree_free(trees[1]);
+    return done;
+}

@@ -1,0 +1,53 @@
+// Blood vessels (Tanaka et al., section 5.4): an arterial and a venous out-tree that fill the same
+// organ side by side without touching, radii and angles by Murray's laws.
+#ifndef RAMIFY_OBJECTS_VESSELS_VESSELS_H
+#define RAMIFY_OBJECTS_VESSELS_VESSELS_H
+
+#include "base/measures.h"
+#include "mesh/geometry.h"
+#include "objects/common/element.h"
+#include "objects/common/recipe.h"
+#include "outtree/murray.h"
+
+enum { VESSELS_ARTERIES, VESSELS_VEINS }; // colonies of the out-tree
+
+typedef struct VesselsParams {
+    ElementParams element; // the organ; levels left out follow from `terminals`. An envelope that
+                           // begins with a body is supplied from its heart through the great
+                           // vessels, any other from its inlet
+    int64_t terminals;     // ends of arteries and veins together
+    bool veins;            // two trees; else arteries alone
+    Vec3 inlet;            // m: where the vessels enter; all 0 = the hilum, which is the place of
+                           // the surface nearest to the middle
+    float root_radius;     // m, of the artery's root; 0 = in proportion to the organ
+    float vein_radius;     // of the veins' root, in units of the artery's
+    MurrayLaw law;
+    float gap; // least distance between an artery and a vein, in radii of the finest vessels
+    bool turn; // stand daughters at Murray's angles
+    float curve_radius; // m: vessels thicker than this get a skin; 0 = all are round curves
+    int skin_levels;
+} VesselsParams;
+
+typedef struct VesselsMaterials {
+    int artery, vein;
+} VesselsMaterials;
+
+VesselsParams vessels_params_default(void);
+
+// Both trees in one out-tree, colonies VESSELS_ARTERIES and VESSELS_VEINS, radii and all. Every
+// segment beyond the stems that lead in lies inside the organ by its radius (or by the envelope's
+// band, where that is less), at both ends and in the middle; no artery comes nearer to a vein than
+// `gap`. Both hold at every grow_to.
+OutTree *vessels_grow(const VesselsParams *params, const Recipe *recipe, Error *e);
+
+bool vessels_geometry(const OutTree *tree, const VesselsParams *params,
+                      const VesselsMaterials *materials, int object, Geometry *geometry,
+                      const Run *run, Error *e);
+
+// Terminals, the fit to Murray's laws, the least distance between arteries and veins.
+bool vessels_measure(const OutTree *tree, const VesselsParams *params, MeasureList *list, Error *e);
+
+// The nodes of one colony as an out-tree of its own.
+OutTree *vessels_colony(const OutTree *tree, int32_t colony, Error *e);
+
+#endif

@@ -1,0 +1,87 @@
+// SWC files from anywhere, read in a child process.
+#include "base/child.h"
+#include "outtree/out_tree_io.h"
+
+#include <sys/stat.h>
+
+// What reading may take; it needs about 20 bytes a byte and a second for 20 MB.
+#define LEAST_SECONDS 60.0
+#define SECONDS_A_BYTE 5e-6
+#define LEAST_MEMORY 1000000000
+#define MEMORY_A_BYTE 200
+
+static bool write_tree(const OutTree *tree, ChildOutput *output, Error *e)
+{
+    int64_t n = tree->count;
+    return child_write(output, tree->position, n, sizeof *tree->position, e) &&
+           child_write(output, tree->parent, n, sizeof *tree->parent, e) &&
+           child_write(output, tree->birth, n, sizeof *tree->birth, e) &&
+           child_write(output, tree->colony, n, sizeof *tree->colony, e) &&
+           child_write(output, tree->radius, n, sizeof *tree->radius, e) &&
+           child_write(output, tree->normal, n, sizeof *tree->normal, e) &&
+           child_write(output, tree->id, n, sizeof *tree->id, e);
+}
+
+static bool read_in_child(const void *file, ChildOutput *output, Error *e)
+{
+    OutTree *tree = out_tree_read_swc(file, e);
+    bool done = tree && write_tree(tree, output, e);
+    out_tree_free(tree);
+    return done;
+}
+
+static bool check_births(const OutTree *tree, Error *e)
+{
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->birth[i] < 0) {
+            return error_set(e, ERROR_INTERNAL, "node %lld has birth %d", (long long)i,
+                             tree->birth[i]);
+        }
+    }
+    return true;
+}
+
+static bool take_tree(OutTree *tree, ChildOutput *output, Error *e)
+{
+    int64_t a_node = (int64_t)(sizeof *tree->position + sizeof *tree->parent + sizeof *tree->birth +
+                               sizeof *tree->colony + sizeof *tree->radius + sizeof *tree->normal +
+                               sizeof *tree->id);
+    int64_t n = output->left / a_node;
+    bool done = out_tree_reserve(tree, n, e) &&
+                child_read(output, tree->position, n, sizeof *tree->position, e) &&
+                child_read(output, tree->parent, n, sizeof *tree->parent, e) &&
+                child_read(output, tree->birth, n, sizeof *tree->birth, e) &&
+                child_read(output, tree->colony, n, sizeof *tree->colony, e) &&
+                child_read(output, tree->radius, n, sizeof *tree->radius, e) &&
+                child_read(output, tree->normal, n, sizeof *tree->normal, e) &&
+                child_read(output, tree->id, n, sizeof *tree->id, e);
+    tree->count = done ? n : 0;
+    tree->typed = true;
+    return done && out_tree_check(tree, e) && check_births(tree, e);
+}
+
+OutTree *out_tree_import_swc(const char *file, const Run *run, Error *e)
+{
+    struct stat status;
+    int64_t size = stat(file, &status) == 0 && S_ISREG(status.st_mode) ? status.st_size : 0;
+    size = size < INT64_MAX / 1000 ? size : INT64_MAX / 1000;
+    ChildJob job = {.task = read_in_child,
+                    .data = file,
+                    .file = file,
+                    .wanted = "a whole SWC file",
+                    .seconds = LEAST_SECONDS + SECONDS_A_BYTE * (double)size,
+                    .memory = LEAST_MEMORY + MEMORY_A_BYTE * size};
+    ChildOutput output;
+    if (!child_run(&job, run, &output, e)) {
+        return NULL;
+    }
+    OutTree *tree = out_tree_new(e);
+    bool done = tree && take_tree(tree, &output, e);
+    child_output_close(&output);
+    if (!done) {
+        error_locate(e, file, 0, 0);
+        out_tree_free(tree);
+        return NULL;
+    }
+    return tree;
+}

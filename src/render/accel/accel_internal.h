@@ -1,0 +1,93 @@
+// What accel.c (building) and accel_trace.c (tracing) share.
+#ifndef RAMIFY_RENDER_ACCEL_ACCEL_INTERNAL_H
+#define RAMIFY_RENDER_ACCEL_ACCEL_INTERNAL_H
+
+#include "render/accel/accel.h"
+
+#include <embree3/rtcore.h>
+#include <pthread.h>
+#include <stdatomic.h>
+
+typedef struct AccelPart {
+    const Accel *accel;
+    const Part *part;
+    RTCScene scene;          // of an instanced part; NULL otherwise
+    const uint32_t *segment; // curves: first point of each segment; Embree's buffer
+    float base_variation;    // of a part that is drawn once
+    bool plain;              // a mesh without anything at its vertices
+    bool alpha, film, glow;  // rays are filtered: see accel_alpha_filter and those below it
+    bool copied;             // instances were copied out: primitive = instance * faces + face
+} AccelPart;
+
+// What an Embree geometry of the top scene stands for.
+typedef struct AccelEntry {
+    int32_t part;      // -1 = a light
+    uint32_t instance; // or the light's index
+} AccelEntry;
+
+struct Accel {
+    const World *world;
+    const MaterialSet *materials;
+    RTCDevice device;
+    RTCScene scene;
+    AccelPart *part; // one for each of the world's parts
+    AccelEntry *entry;
+    int64_t entry_count, entry_capacity;
+    int64_t copied_faces; // of instances copied out so far
+    _Atomic int64_t bytes;
+    int64_t bytes_limit;
+    pthread_mutex_t lock; // of failure
+    Error failure;        // the first that Embree reported
+    const Run *run;       // only while building
+    pthread_t builder;
+};
+
+// Corner vertices and their weights at (u, v) of a face: Embree sees a quad as the triangles
+// (0, 1, 3) and (2, 3, 1).
+typedef struct Corners {
+    uint32_t vertex[3];
+    float weight[3];
+} Corners;
+
+static inline Corners accel_corners(const Mesh *mesh, int64_t face, float u, float v)
+{
+    const uint32_t *corner = mesh->index + face * mesh->face_size;
+    if (mesh->face_size == 3) {
+        return (Corners){{corner[0], corner[1], corner[2]}, {1.0f - u - v, u, v}};
+    }
+    if (u + v <= 1.0f) {
+        return (Corners){{corner[0], corner[1], corner[3]}, {1.0f - u - v, u, v}};
+    }
+    return (Corners){{corner[2], corner[3], corner[1]}, {u + v - 1.0f, 1.0f - u, 1.0f - v}};
+}
+
+static inline Vec2 accel_uv(const Mesh *mesh, const Corners *c)
+{
+    Vec2 uv = {0.0f, 0.0f};
+    for (int i = 0; i < 3 && mesh->uv; i++) {
+        uv.x += c->weight[i] * mesh->uv[c->vertex[i]].x;
+        uv.y += c->weight[i] * mesh->uv[c->vertex[i]].y;
+    }
+    return uv;
+}
+
+// Embree filter: lets a ray pass where the part's alpha texture is (in part) transparent.
+void accel_alpha_filter(const struct RTCFilterFunctionNArguments *arguments);
+
+// Embree filter for shadow rays: a thin film lets pass what it does not mirror, by its mean over
+// thicknesses and colours.
+void accel_film_filter(const struct RTCFilterFunctionNArguments *arguments);
+
+// Embree filter for rays toward glowing curves, whose part is not met within the ray's slack: light
+// is drawn from each segment as a cone of its own, which lies in its neighbours at bends, and
+// Embree meets slender segments early (the error is about 1e-7 of length^2 / radius).
+void accel_glow_filter(const struct RTCFilterFunctionNArguments *arguments);
+
+// What a ray tells the filters.
+typedef struct AccelContext {
+    struct RTCIntersectContext embree; // first: Embree hands its address on
+    float from;                        // m along the ray: from there its part is not met
+    int part;
+} AccelContext;
+
+#endif

@@ -1,0 +1,68 @@
+// One glowing piece of the geometry: a triangle, the side of a segment of a round curve, or the
+// rounded end of a curve. Each can be sampled from a point and evaluated where a ray meets it.
+// Curves shine outward; so do triangles of closed bodies, while those of sheets shine to both
+// sides.
+#ifndef RAMIFY_RENDER_LIGHT_EMITTER_H
+#define RAMIFY_RENDER_LIGHT_EMITTER_H
+
+#include "render/light/light_tree.h"
+
+typedef enum EmitterKind { EMITTER_TRIANGLE, EMITTER_CONE, EMITTER_CAP } EmitterKind;
+
+typedef struct Emitter {
+    EmitterKind kind;
+    bool two_sided;         // of a triangle; if not, it shines to the side of b x c
+    int part;               // of the world's geometry
+    Vec3 a;                 // a corner; the middle of the cone's first circle; the ball's centre
+    Vec3 b;                 // edge from a; to the middle of the second circle; unit axis, outward
+    Vec3 c;                 // the other edge from a; unused otherwise
+    float radius0, radius1; // of the circles; of the ball
+    float tilt;             // cone: sine by which its normals lean along b
+    float glow0, glow1;     // factors on the radiance at both ends
+} Emitter;
+
+// two_sided: else it shines only to where a, b, c turn counter-clockwise.
+Emitter emitter_triangle(Vec3 a, Vec3 b, Vec3 c, bool two_sided, int part);
+
+// The side of a segment between two balls, as Embree draws it: the cone that touches both. One that
+// lies in the other leaves a cone of no area, which is never sampled.
+Emitter emitter_cone(Vec3 from, Vec3 to, float radius0, float radius1, float glow0, float glow1,
+                     int part);
+
+// The half ball at a curve's end; axis: unit, out of the curve.
+Emitter emitter_cap(Vec3 center, float radius, Vec3 axis, float glow, int part);
+
+// luminance: of the material's radiance.
+LightBounds emitter_bounds(const Emitter *emitter, float luminance);
+
+typedef struct EmitterSample {
+    Vec3 position;
+    Vec3 normal;       // unit, of the surface there, on the side that is seen
+    Vec3 direction;    // unit, toward it
+    float distance;    // m
+    float extent;      // m, of the emitter
+    float slack;       // m: how far before it the curve that it lies on may be in between
+    float glow;        // factor on the material's radiance
+    float pdf;         // per steradian
+    Vec3 pivot;        // as emitter_pivot gives it
+    float pivot_ratio; // density of the pivot as emitter_pivot draws it over that of this sample
+} EmitterSample;
+
+// Is `from` on a side that the emitter shines to? For curves: outside, in front of the side or the
+// end. What does not face a point is never sampled from there, and shows no glow to it.
+bool emitter_faces(const Emitter *emitter, Vec3 from);
+
+// A point as seen from `from`. False where it cannot be seen from there.
+bool emitter_sample(const Emitter *emitter, Vec3 from, const float u[2], EmitterSample *sample);
+
+// For light that a medium scatters, the place on the emitter is drawn before the point that it
+// lights: first a pivot, then the rest as seen from the point. u must be the same in both calls.
+Vec3 emitter_pivot(const Emitter *emitter, const float u[2]);
+bool emitter_sample_pivoted(const Emitter *emitter, Vec3 from, const float u[2],
+                            EmitterSample *sample);
+
+// The density with which emitter_sample would draw `position`, a place where a ray from `from` met
+// the emitter, which faces it; 0 on a curve's segment without a side, which is never drawn.
+float emitter_pdf(const Emitter *emitter, Vec3 from, Vec3 position);
+
+#endif

@@ -1,0 +1,35 @@
+// All the glowing pieces of a world's geometry (parts whose material is emission) and the tree over
+// them.
+#ifndef RAMIFY_RENDER_LIGHT_EMITTER_SET_H
+#define RAMIFY_RENDER_LIGHT_EMITTER_SET_H
+
+#include "render/light/emitter.h"
+#include "render/world.h"
+
+typedef struct EmitterSet {
+    Emitter *emitter; // owned
+    int64_t count;
+    int64_t *first;  // owned: of each part, its first emitter; -1 where it does not glow
+    LightTree *tree; // owned; NULL where nothing glows
+} EmitterSet;
+
+// Where on a part a ray met it.
+typedef struct SurfacePlace {
+    int part;
+    uint32_t instance;  // 0 of a part that is drawn once
+    uint32_t primitive; // face, or segment of curves
+    uint32_t point;     // curves: the segment's first point
+    float u, v;         // within the primitive, as Embree has them
+} SurfacePlace;
+
+bool emitter_set_fill(EmitterSet *set, const World *world, Error *e);
+void emitter_set_clear(EmitterSet *set);
+
+// The emitter there; position: the point met, world.
+int64_t emitter_set_find(const EmitterSet *set, const World *world, const SurfacePlace *place,
+                         Vec3 position);
+
+// Factor on the material's radiance there.
+float emitter_set_glow(const World *world, const SurfacePlace *place);
+
+#endif

@@ -1,0 +1,106 @@
+// Everything that emits: sky, sun, environment, quads, spheres, and glowing geometry. Each can be
+// sampled and evaluated, so that the integrator combines both ways.
+#ifndef RAMIFY_RENDER_LIGHT_LIGHTS_H
+#define RAMIFY_RENDER_LIGHT_LIGHTS_H
+
+#include "base/run.h"
+#include "render/light/emitter_set.h"
+#include "render/medium/water.h"
+#include "render/sky/sky.h"
+#include "render/world.h"
+
+typedef struct Lights Lights;
+
+// scene_radius (m): how much a light at infinity counts against near ones when one is chosen.
+Lights *lights_new(const World *world, float scene_radius, const Run *run, Error *e);
+void lights_free(Lights *lights); // NULL is fine
+
+// Turns sun, moon, clouds, stars and dome to what sky.rotation of the world says now. Waters keep
+// the network of the sun that they were made with.
+void lights_turn_sky(Lights *lights);
+
+typedef struct LightSample {
+    Vec3 direction; // unit, toward the light
+    float distance; // m; INFINITY for sky and sun
+    Vec3 end;       // of a near light: where shadow rays end, just off its surface
+    float slack;    // m: how far before `end` the glowing curves of `part` cast no shadow
+    int part;       // of glowing geometry; -1 of other lights
+    Vec3 radiance;
+    float pdf; // per steradian, with the choice of the light in it
+} LightSample;
+
+// True when some light is worth sampling. A sky of one colour is not: it is met by chance as well.
+bool lights_can_sample(const Lights *lights);
+
+// False when the chosen light cannot be seen from the receiver.
+bool lights_sample(const Lights *lights, const LightReceiver *receiver, const float u[3],
+                   LightSample *sample);
+
+// ---- light that a medium scatters along a stretch of a ray
+
+// One of the lights, chosen by a uniform number. near: sampled from a pivot, too.
+typedef struct LightChoice {
+    int index;
+    float rest; // of the number
+    bool near;  // a lamp or glowing geometry, not sky and sun
+} LightChoice;
+
+LightChoice lights_choose(const Lights *lights, float u);
+
+// A place on the chosen near light, before the point that it lights is known.
+typedef struct LightPivot {
+    int64_t emitter;   // of glowing geometry
+    float probability; // of drawing that emitter for the segment
+    Vec3 position;
+} LightPivot;
+
+bool lights_draw_pivot(const Lights *lights, const LightChoice *choice, const LightSegment *segment,
+                       const float u[2], LightPivot *pivot);
+
+// A sample of the chosen light from a point of the segment.
+typedef struct SegmentLight {
+    LightSample light; // with the density of lights_sample
+    LightPivot pivot;  // of a near light: where the pivot is, or would have been
+    float pivot_pdf;   // per steradian: the density by way of the pivot
+} SegmentLight;
+
+// pivot: NULL = draw anew from the point. u must be that of the pivot.
+bool lights_sample_chosen(const Lights *lights, const LightChoice *choice,
+                          const LightSegment *segment, const LightPivot *pivot, Vec3 point,
+                          const float u[2], SegmentLight *sample);
+
+// ----
+
+// Radiance from beyond the geometry along direction. bsdf_pdf > 0: the density with which the
+// direction was drawn, when light sampling could have found the same; the result is weighted by
+// the power heuristic (Veach 1997). bsdf_pdf <= 0: unweighted.
+// from: where the direction was drawn, as water above it bends light. spread: radians, over which
+// stars are smoothed.
+Vec3 lights_background(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf,
+                       float spread);
+
+// The water that the scene lies under; NULL where there is none.
+const Water *lights_water(const Lights *lights);
+
+// The same for a ray from `origin` that meets light `index` after `distance` m.
+Vec3 lights_emitted(const Lights *lights, int index, Vec3 origin, Vec3 direction, float distance,
+                    float bsdf_pdf);
+
+// How much of its material's radiance glowing geometry shows at a place met at `position`: its
+// glow, weighted as above; bsdf_pdf was drawn at the receiver.
+float lights_glow(const Lights *lights, const SurfacePlace *place, Vec3 position,
+                  const LightReceiver *receiver, float bsdf_pdf);
+
+// The sun by day, the moon by night; NULL where neither shines.
+const Sun *lights_sun(const Lights *lights);
+
+// Colour that distant things fade into, looking along direction.
+Vec3 lights_horizon(const Lights *lights, Vec3 direction);
+
+// Veach's power heuristic, exponent 2, for the density `a` against `b`.
+static inline float power_heuristic(float a, float b)
+{
+    return a > 0.0f ? 1.0f / (1.0f + (b / a) * (b / a)) : 0.0f;
+}
+
+#endif

@@ -1,0 +1,42 @@
+// What the parts of the lights share: private to lights*.c.
+#ifndef RAMIFY_RENDER_LIGHT_LIGHTS_INTERNAL_H
+#define RAMIFY_RENDER_LIGHT_LIGHTS_INTERNAL_H
+
+#include "render/light/lights.h"
+#include "render/sky/clouds.h"
+
+struct Lights {
+    const World *world;
+    Vec3 constant; // SKY_CONSTANT: radiance
+    Dome *dome;    // NULL without sky or environment
+    Sun sun;
+    Sun built_sun;            // before the sky was turned
+    float built_rotation;     // of the dome
+    float turn_cos, turn_sin; // of the sky's rotation about +Y
+    Clouds clouds;            // as the sky was built: not turned
+    Water *water;             // NULL without any
+    EmitterSet emitters;      // glowing geometry
+    float *share;             // chance to be chosen: of the world's lights, dome, sun, all emitters
+    float *sum;               // count + 1: cumulated
+    int count, dome_index, sun_index, emitters_index; // -1 = there is none
+};
+
+// lights_above.c: sky, sun or moon, and the water that their light comes through. Needs the world;
+// what it makes belongs to `lights`, after a failure too.
+bool lights_make_above(Lights *lights, const Run *run, Error *e);
+
+// Where a shadow ray from about `point` ends before the place of a light whose unit normal is
+// given. extent: m, of the surface that the place lies on.
+Vec3 lights_end(Vec3 place, Vec3 normal, float extent, Vec3 point);
+
+// A sample of the dome or the sun, which `index` is; without the choice in its pdf.
+bool lights_sample_above(const Lights *lights, int index, Vec3 point, const float u[2],
+                         LightSample *sample);
+
+// The weight of light met by chance, which light sampling finds with light_pdf.
+static inline float lights_weight(float bsdf_pdf, float light_pdf)
+{
+    return bsdf_pdf > 0.0f ? power_heuristic(bsdf_pdf, light_pdf) : 1.0f;
+}
+
+#endif

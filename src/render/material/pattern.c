@@ -1,0 +1,81 @@
+#include "render/material/pattern.h"
+
+#include "render/material/pattern_noise.h"
+
+Vec3 pattern_tilt(Vec3 n, Vec3 slope)
+{
+    slope = vec3_madd(slope, -vec3_dot(slope, n), n);
+    float length = vec3_length(slope);
+    const float most = 1.6f;
+    return vec3_normalize(vec3_madd(n, -1.0f / (1.0f + length / most), slope));
+}
+
+float pattern_detail(float wavelength, float footprint)
+{
+    return 1.0f - smoothstepf(0.25f, 1.0f, footprint / wavelength);
+}
+
+// Turns the hue between green-blue and red, and scales the value, from instance to instance.
+static Vec3 vary(Vec3 color, float variation, float value, float hue)
+{
+    float v = 1.0f + 0.7f * variation * (value - 0.5f);
+    float h = variation * (hue - 0.5f);
+    return vec3(color.x * v * (1.0f + 0.8f * h), color.y * v, color.z * v * (1.0f - 0.5f * h));
+}
+
+static void noise_pattern(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 0.1f;
+    Vec3 p = vec3_scale(point->object_position, 1.0f / scale), gradient;
+    float large = noise_solid(p, 1, &gradient);
+    float small =
+        noise_fractal(vec3_scale(p, 2.0f), 3, 2) * pattern_detail(0.25f * scale, point->footprint);
+    float t = clampf(0.5f + 0.5f * large + 0.4f * small, 0.0f, 1.0f);
+    shade->color = vec3_lerp(shade->color, m->color2, t);
+    float depth = m->pattern_depth * pattern_detail(scale, point->footprint);
+    shade->normal = pattern_tilt(shade->normal, vec3_scale(gradient, 0.5f * depth / scale));
+}
+
+void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    switch (m->pattern) {
+    case PATTERN_NONE:
+        break;
+    case PATTERN_BARK:
+        pattern_bark(m, point, shade);
+        break;
+    case PATTERN_GROUND:
+        pattern_ground(m, point, shade);
+        break;
+    case PATTERN_LEAF:
+        pattern_leaf(m, point, shade);
+        break;
+    case PATTERN_CORALLITE:
+        pattern_corallite(m, point, shade);
+        break;
+    case PATTERN_YOUTH:
+        pattern_youth(m, point, shade);
+        break;
+    case PATTERN_SAND:
+        pattern_sand(m, point, shade);
+        break;
+    case PATTERN_MOUNTAIN:
+        pattern_mountain(m, point, shade);
+        break;
+    case PATTERN_BADLANDS:
+        pattern_badlands(m, point, shade);
+        break;
+    case PATTERN_WATER:
+        pattern_water(m, point, shade);
+        break;
+    case PATTERN_NOISE:
+        noise_pattern(m, point, shade);
+        break;
+    }
+    if (m->variation > 0.0f) {
+        uint32_t hash = (uint32_t)(point->variation * 16777216.0f);
+        float value = noise_unit(hash, 0), hue = noise_unit(hash, 1);
+        shade->color = vary(shade->color, m->variation, value, hue);
+        shade->transmittance = vary(shade->transmittance, m->variation, value, hue);
+    }
+}

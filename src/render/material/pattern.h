@@ -1,0 +1,36 @@
+// Procedural surfaces: colour and bumps from noise, evaluated at a surface point. Details finer
+// than the point's footprint fade into their mean.
+#ifndef RAMIFY_RENDER_MATERIAL_PATTERN_H
+#define RAMIFY_RENDER_MATERIAL_PATTERN_H
+
+#include "render/material/material.h"
+#include "render/surface.h"
+
+typedef struct PatternShade {
+    Vec3 color, transmittance;
+    Vec3 normal; // unit; on the side of the point's normal
+} PatternShade;
+
+// What the material's pattern and its variation between instances make of shade, which holds the
+// material's own colours and the point's normal.
+void pattern_apply(const Material *material, const SurfacePoint *point, PatternShade *shade);
+
+// The kinds, one file each.
+void pattern_bark(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_ground(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_mountain(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_badlands(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_water(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_leaf(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_corallite(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_youth(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_sand(const Material *material, const SurfacePoint *point, PatternShade *shade);
+
+// n tilted by the surface gradient of a height field (slope: world, dimensionless). Slopes are
+// bounded softly, so that bumps never turn a surface over.
+Vec3 pattern_tilt(Vec3 n, Vec3 slope);
+
+// How much of a feature of this wavelength a pixel of this footprint still shows, 0..1.
+float pattern_detail(float wavelength, float footprint);
+
+#endif

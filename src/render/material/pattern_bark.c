@@ -1,0 +1,214 @@
+// Furrowed bark, as oaks and limes wear it: long ridges that fork and meet again, deep dark furrows
+// between them, shallow cracks across. Laid out in metres around and along the branch. Ridges are
+// of one size on all stems thicker than a hand; branches wear finer ones, twigs a smooth skin.
+#include "render/material/pattern.h"
+#include "render/material/pattern_noise.h"
+
+#include <stddef.h>
+
+typedef struct BarkPlace {
+    Vec3 p;       // m: where noise is looked up, on a straight stem along z
+    Vec3 along_u; // the direction there that u goes; v goes along z
+    Vec3 u, v;    // world: unit directions around and along the stem
+} BarkPlace;
+
+// The stem unbent: a point of a cylinder of its radius, found from where the normal points, so that
+// nothing shows where u closes or where it is uneven. side_u: along a line of equal v, either way.
+static BarkPlace stem_place(const SurfacePoint *point, Vec3 side_u)
+{
+    Vec3 n = point->geometric_normal;
+    Vec3 axis = vec3_cross(n, side_u);
+    axis = vec3_normalize(vec3_dot(axis, point->tangent_v) < 0.0f ? vec3_neg(axis) : axis);
+    const Vec3 reference = {0.83f, -0.21f, 0.52f}; // few branches grow just that way
+    Vec3 x = vec3_normalize(vec3_madd(reference, -vec3_dot(reference, axis), axis));
+    Vec3 y = vec3_cross(axis, x);
+    float c = vec3_dot(n, x), s = vec3_dot(n, y);
+    return (BarkPlace){vec3(point->radius * c, point->radius * s, point->uv.y), vec3(-s, c, 0.0f),
+                       vec3_cross(axis, n), axis};
+}
+
+// Where there is no branch (imported meshes) bark runs up the object's y axis.
+static BarkPlace bark_place(const SurfacePoint *point)
+{
+    float u = vec3_length(point->tangent_u);
+    if (point->radius > 0.0f && u > 0.0f) {
+        return stem_place(point, vec3_scale(point->tangent_u, 1.0f / u));
+    }
+    Vec3 p = point->object_position, n = point->geometric_normal;
+    Vec3 side = vec3_normalize(vec3(n.z, 0.0f, -n.x + 1e-6f));
+    return (BarkPlace){vec3(p.x, p.z, p.y), vec3(side.x, side.z, 0.0f), side, vec3(0, 1, 0)};
+}
+
+// Height 0..1 and its slope per metre around and along, and what colours it.
+typedef struct BarkRelief {
+    float height, slope_u, slope_v;
+    float furrow; // 1 in the depth of a furrow
+    float plate;  // 0..1, random per ridge
+    float grain;  // about -1..1
+} BarkRelief;
+
+enum { LENGTHENING = 6 }; // of ridges along the branch
+
+// The place in ridge widths, pushed about so that ridges wind and their edges are torn.
+static Vec3 ridge_lookup(const BarkPlace *place, float width, Vec3 wind)
+{
+    Vec3 torn, p = vec3_scale(place->p, 1.0f / width);
+    noise_solid(vec3(3.1f * p.x, 3.1f * p.y, 1.3f * p.z), 15, &torn);
+    Vec3 q = vec3(p.x, p.y, p.z * (1.0f / LENGTHENING));
+    q = vec3_madd(q, 0.42f, wind);
+    return vec3_madd(q, 0.055f, torn);
+}
+
+static BarkRelief ridges(const BarkPlace *place, float width, Vec3 wind, uint32_t seed)
+{
+    CellPoint cell = noise_cells(ridge_lookup(place, width, wind), seed);
+    // Distances are compressed along the branch, and borders cut the surface at a slant: back to
+    // true distances on the surface, in ridge widths.
+    float nu = vec3_dot(cell.normal, place->along_u), nv = cell.normal.z * (1.0f / LENGTHENING);
+    float length = fmaxf(sqrtf(nu * nu + nv * nv), 0.15f), distance = cell.border / length;
+    nu /= length;
+    nv /= length;
+    // Borders that run along the branch are furrows, those across it mere cracks.
+    float along = nu * nu;
+    float depth = lerpf(0.45f, 1.0f, along);
+    BarkRelief r = {.plate = noise_unit(cell.cell, 7)};
+    float wall = lerpf(0.10f, 0.36f + 0.12f * wind.x, along);
+    float floor_width = 0.22f * wall;
+    float t = clampf((distance - floor_width) / (wall - floor_width), 0.0f, 1.0f);
+    float rise = t * (2.0f - t);
+    float slope = t > 0.0f && t < 1.0f ? 2.0f * (1.0f - t) / (wall - floor_width) : 0.0f;
+    float top = 0.75f + 0.25f * r.plate;
+    r.height = top * (1.0f - depth * (1.0f - rise));
+    r.furrow = depth * (1.0f - rise);
+    r.slope_u = top * depth * slope * nu / width;
+    r.slope_v = top * depth * slope * nv / width;
+    return r;
+}
+
+// Adds `height` of a noise with this slope at the place.
+static void add_relief(BarkRelief *r, const BarkPlace *place, float height, Vec3 slope)
+{
+    r->height += height;
+    r->slope_u += vec3_dot(slope, place->along_u);
+    r->slope_v += slope.z;
+}
+
+// A lookup drawn out along the branch, every ridge with its own.
+static Vec3 grain_lookup(const BarkRelief *r, const BarkPlace *place, float wavelength,
+                         float lengthening)
+{
+    Vec3 p = vec3_scale(place->p, 1.0f / wavelength);
+    return vec3(p.x, p.y, p.z / lengthening + 10.0f * r->plate);
+}
+
+// Thin cracks along the grain, where a drawn-out noise passes through zero.
+static void add_fissures(BarkRelief *r, const BarkPlace *place, float wavelength, float height)
+{
+    const float lengthening = 5.0f, width = 0.2f;
+    Vec3 g;
+    float n = noise_solid(grain_lookup(r, place, wavelength, lengthening), 12, &g);
+    float inside = 1.0f - fabsf(n) / width;
+    if (inside <= 0.0f) {
+        return;
+    }
+    height *= 1.0f - r->furrow;
+    float change = 2.0f * height * inside / width / wavelength * (n < 0.0f ? -1.0f : 1.0f);
+    r->grain -= 1.3f * inside * inside;
+    add_relief(r, place, -height * inside * inside,
+               vec3(change * g.x, change * g.y, change * g.z / lengthening));
+}
+
+// Flakes: dents sharper than bulges.
+static void add_flakes(BarkRelief *r, const BarkPlace *place, float wavelength, float height)
+{
+    const float lengthening = 1.8f;
+    Vec3 g;
+    float n = noise_solid(grain_lookup(r, place, wavelength, lengthening), 16, &g);
+    float dent = n < 0.0f ? 1.7f : 0.7f, scale = height * dent / wavelength;
+    r->grain += dent * n;
+    add_relief(r, place, height * dent * n,
+               vec3(scale * g.x, scale * g.y, scale * g.z / lengthening));
+}
+
+static BarkRelief mix_relief(BarkRelief a, BarkRelief b, float t)
+{
+    return (BarkRelief){lerpf(a.height, b.height, t),   lerpf(a.slope_u, b.slope_u, t),
+                        lerpf(a.slope_v, b.slope_v, t), lerpf(a.furrow, b.furrow, t),
+                        lerpf(a.plate, b.plate, t),     lerpf(a.grain, b.grain, t)};
+}
+
+// The relief at a stem's own size: coarse ridges, fine ones, or a blend where a stem thins out.
+static BarkRelief relief_at(const SurfacePoint *point, const BarkPlace *place, float width,
+                            Vec3 wind)
+{
+    float thick = point->radius > 0.0f ? smoothstepf(0.05f, 0.12f, point->radius) : 1.0f;
+    float detail = pattern_detail(0.22f * width, point->footprint);
+    BarkRelief coarse = {0}, fine = {0};
+    if (thick > 0.0f) {
+        coarse = ridges(place, width, wind, 11);
+        add_fissures(&coarse, place, 0.55f * width, 0.3f);
+        if (detail > 0.0f) {
+            add_flakes(&coarse, place, 0.17f * width, 0.13f * detail);
+        }
+    }
+    if (thick < 1.0f) {
+        fine = ridges(place, 0.4f * width, wind, 13);
+        add_flakes(&fine, place, 0.12f * width, 0.15f * detail);
+    }
+    return mix_relief(fine, coarse, thick);
+}
+
+// Lichen on ridges in pale patches, moss where it is shaded and damp: low, in furrows, on what
+// faces up and away from the sun (-z here).
+static Vec3 add_growth(Vec3 color, const SurfacePoint *point, const BarkRelief *r, Vec3 wind)
+{
+    Vec3 n = point->geometric_normal;
+    float patch = 0.5f * wind.z + 0.5f * wind.x;
+    float lichen = smoothstepf(0.12f, 0.45f, patch) * (1.0f - r->furrow);
+    float grey = 0.35f * (color.x + color.y + color.z) + 0.02f;
+    color = vec3_lerp(color, vec3(grey * 0.98f, grey * 1.06f, grey * 0.86f), 0.55f * lichen);
+    float face = clampf(0.35f - 0.45f * n.z + 0.6f * n.y, 0.0f, 1.0f);
+    float moss = face * smoothstepf(0.05f, 0.5f, 0.6f * wind.y - 0.5f * wind.x + 0.25f * r->furrow);
+    return vec3_lerp(color, vec3(0.075f, 0.095f, 0.028f), 0.6f * moss);
+}
+
+static Vec3 bark_color(const Material *m, const SurfacePoint *point, const BarkRelief *r, Vec3 wind,
+                       Vec3 own)
+{
+    float value = 0.86f + 0.3f * r->plate + 0.16f * wind.z + 0.2f * clampf(r->grain, -2.0f, 1.5f);
+    Vec3 ridge = vec3_scale(own, value * (0.65f + 0.42f * clampf(r->height, 0.0f, 1.2f)));
+    // Furrow walls show the warmer inner bark before they sink into the dark.
+    float wall = 4.0f * r->furrow * (1.0f - r->furrow);
+    ridge = vec3_mul(ridge, vec3(1.0f, 1.0f - 0.10f * wall, 1.0f - 0.22f * wall));
+    Vec3 color = vec3_lerp(ridge, m->color2, smoothstepf(0.1f, 0.75f, r->furrow));
+    return add_growth(color, point, r, wind);
+}
+
+// Young bark: smooth, lighter, with a breath of green.
+static Vec3 twig_color(Vec3 color, Vec3 wind)
+{
+    Vec3 young = vec3(0.85f * color.x + 0.02f, 0.95f * color.y + 0.03f, 0.8f * color.z + 0.01f);
+    return vec3_scale(young, 1.0f + 0.15f * wind.z);
+}
+
+void pattern_bark(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float width = m->pattern_scale > 0.0f ? m->pattern_scale : 0.045f;
+    Vec3 wind; // three smooth random numbers of the place
+    Vec3 p = vec3_scale(point->object_position, 0.22f / width);
+    noise_solid(vec3(1.3f * p.x, 0.9f * p.y, 1.3f * p.z), 10, &wind);
+    wind = vec3_scale(wind, 0.6f);
+    float old = point->radius > 0.0f ? smoothstepf(0.008f, 0.03f, point->radius) : 1.0f;
+    float seen = old * pattern_detail(1.6f * width, point->footprint);
+    const BarkRelief flat = {.height = 0.7f, .furrow = 0.3f}; // what relief comes to from afar
+    Vec3 mean = add_growth(vec3_lerp(shade->color, m->color2, 0.44f), point, &flat, wind);
+    Vec3 color = mean;
+    if (seen > 0.0f) {
+        BarkPlace place = bark_place(point);
+        BarkRelief relief = relief_at(point, &place, width, wind);
+        color = vec3_lerp(mean, bark_color(m, point, &relief, wind, shade->color), seen);
+        Vec3 slope = vec3_madd(vec3_scale(place.u, relief.slope_u), relief.slope_v, place.v);
+        shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, seen * m->pattern_depth));
+    }
+    shade->color = vec3_lerp(twig_color(shade->color, wind), color, old);
+}

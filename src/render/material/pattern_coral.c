@@ -1,0 +1,61 @@
+// Living coral: corallites (a raised ring about a dark cup, one beside the other), and the age of
+// the tissue, pale where it is young.
+#include "render/material/pattern.h"
+#include "render/material/pattern_noise.h"
+
+#include <stddef.h>
+
+// Color between the material's own and its second by the nearness of a growing tip or margin.
+static Vec3 tissue(const Material *m, Vec3 own, float birth)
+{
+    return vec3_lerp(own, m->color2, smoothstepf(0.15f, 1.0f, birth));
+}
+
+void pattern_youth(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    Vec3 p = vec3_scale(point->position, 22.0f);
+    float blotch = 1.0f + 0.16f * noise_solid(p, 31, NULL);
+    shade->color = vec3_scale(tissue(m, shade->color, point->birth), blotch);
+}
+
+// Height 0..1 and its slope by the distance (in cells) from the border between two corallites:
+// a groove, a rim, a cup.
+static float ring(float border, float *slope)
+{
+    const float rim = 0.15f, cup = 0.34f;
+    if (border < rim) {
+        float t = border / rim;
+        *slope = 6.0f * t * (1.0f - t) / rim;
+        return t * t * (3.0f - 2.0f * t);
+    }
+    float t = clampf((border - rim) / (cup - rim), 0.0f, 1.0f);
+    *slope = -0.85f * 6.0f * t * (1.0f - t) / (cup - rim);
+    return 1.0f - 0.85f * t * t * (3.0f - 2.0f * t);
+}
+
+void pattern_corallite(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 0.0025f;
+    Vec3 p = vec3_scale(point->object_position, 1.0f / scale), warp;
+    noise_solid(vec3_scale(p, 0.45f), 33, &warp);
+    float large = noise_solid(vec3_scale(point->object_position, 0.045f / scale), 34, NULL);
+    float detail = pattern_detail(0.8f * scale, point->footprint);
+    Vec3 color = tissue(m, shade->color, point->birth);
+    color = vec3_scale(color, 1.0f + 0.22f * large);
+    if (detail > 0.0f) {
+        CellPoint cell = noise_cells(vec3_madd(p, 0.12f, warp), 35);
+        // the border as the surface cuts it: distances along the surface
+        Vec3 n = point->geometric_normal;
+        Vec3 across = vec3_madd(cell.normal, -vec3_dot(cell.normal, n), n);
+        float length = fmaxf(vec3_length(across), 0.3f), slope;
+        float height = ring(cell.border / length, &slope);
+        float cup = smoothstepf(0.2f, 0.36f, cell.border / length);
+        float value =
+            0.62f + 0.5f * height - 0.12f * cup + 0.16f * (noise_unit(cell.cell, 3) - 0.5f);
+        color = vec3_lerp(color, vec3_scale(color, value), detail);
+        Vec3 gradient = vec3_scale(across, slope / (length * scale));
+        shade->normal =
+            pattern_tilt(shade->normal, vec3_scale(gradient, detail * m->pattern_depth));
+    }
+    shade->color = color;
+}

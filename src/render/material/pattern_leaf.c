@@ -1,0 +1,73 @@
+// A broad leaf's blade: midrib and side veins by uv (u across with the midrib at 0.5, v along),
+// paler than the blade between them; blotches; no two leaves alike.
+#include "render/material/pattern.h"
+#include "render/material/pattern_noise.h"
+
+#include <stddef.h>
+
+enum { SIDE_VEINS = 7 }; // on each half
+
+static const float blotch_share = 0.35f;  // how far the strongest blotch leans to the second colour
+static const float blotch_mean = 0.0127f; // of a blotch's strength over a blade
+
+// 1 in the middle of a line, 0 from `width` away; widened to the footprint, and fainter then.
+static float line(float distance, float width, float blur)
+{
+    float shown = width + blur;
+    return width / shown * (1.0f - smoothstepf(0.3f * shown, shown, distance));
+}
+
+// How much of a vein is at uv. height: how far it stands out, with its slope in u and v.
+static float veins(Vec2 uv, float blur)
+{
+    float side = fabsf(uv.x - 0.5f), left = uv.x < 0.5f ? 0.5f : 0.0f;
+    float midrib = line(side, lerpf(0.022f, 0.006f, uv.y), blur);
+    // Side veins leave the midrib alternately and curve toward the tip.
+    float run = ((uv.y - 0.9f * side + 0.5f * side * side) * SIDE_VEINS) + left;
+    float phase = run - floorf(run);
+    float across = fabsf(phase - 0.5f) / SIDE_VEINS;
+    float vein = line(across, lerpf(0.011f, 0.003f, clampf(2.2f * side, 0.0f, 1.0f)), blur);
+    return fmaxf(midrib, 0.75f * vein);
+}
+
+// Channel by channel: how a blotch of this strength (0..1) filters light that passes, about 1 in
+// the mean over a blade. Blotches lean toward the second colour by transmission as by reflection.
+static float blotch_filter(float color, float color2, float spot)
+{
+    float change = blotch_share * (clampf(color2 / fmaxf(color, 1e-3f), 0.0f, 4.0f) - 1.0f);
+    return (1.0f + change * spot) / (1.0f + change * blotch_mean);
+}
+
+void pattern_leaf(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float length = vec3_length(point->tangent_v);
+    float blur = length > 0.0f ? point->footprint / length : 0.0f;
+    float seed = 31.0f * point->variation;
+    Vec3 p = vec3(5.0f * point->uv.x, 7.0f * point->uv.y, seed);
+    float blotch = noise_fractal(p, blur < 0.05f ? 3 : 1, 41);
+    float vein = blur < 0.2f ? veins(point->uv, blur) : 0.0f;
+    Vec3 own = shade->color;
+    // Blotches lean toward the second colour where the material has one that matters.
+    float spot = smoothstepf(0.25f, 0.75f, blotch);
+    Vec3 blade =
+        vec3_lerp(vec3_scale(shade->color, 1.0f + 0.22f * blotch), m->color2, blotch_share * spot);
+    Vec3 pale = vec3(1.5f * shade->color.x + 0.03f, 1.35f * shade->color.y + 0.03f,
+                     1.4f * shade->color.z + 0.015f);
+    shade->color = vec3_lerp(blade, pale, 0.7f * vein);
+    // Veins are thick: they let less light through; blotches thin or thicken the blade.
+    float clear = (1.0f - 0.55f * vein) * (1.0f + 0.18f * blotch);
+    Vec3 filter =
+        vec3(blotch_filter(own.x, m->color2.x, spot), blotch_filter(own.y, m->color2.y, spot),
+             blotch_filter(own.z, m->color2.z, spot));
+    shade->transmittance = vec3_mul(shade->transmittance, vec3_scale(filter, clear));
+    if (m->pattern_depth > 0.0f && blur < 0.05f && length > 0.0f) {
+        const float h = 0.004f;
+        float du = veins((Vec2){point->uv.x + h, point->uv.y}, blur) - vein;
+        float dv = veins((Vec2){point->uv.x, point->uv.y + h}, blur) - vein;
+        float width = vec3_length(point->tangent_u);
+        Vec3 u = vec3_scale(point->tangent_u, width > 0.0f ? 1.0f / (width * width) : 0.0f);
+        Vec3 v = vec3_scale(point->tangent_v, 1.0f / (length * length));
+        Vec3 slope = vec3_madd(vec3_scale(u, du / h), dv / h, v);
+        shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, m->pattern_depth));
+    }
+}

@@ -1,0 +1,201 @@
+// Mountains and badlands. Which ground lies where follows from the land itself: altitude and
+// wetness at the point (SurfacePoint.site) and its slope, frayed by noise of several scales; each
+// ground has its own colours and relief, down to what the pixel still shows.
+#include "render/material/pattern.h"
+#include "render/material/pattern_noise.h"
+
+#include <stddef.h>
+
+// Noise summed over octaves that the pixel still shows, and its gradient per metre.
+typedef struct Relief {
+    float value;
+    Vec3 slope;
+} Relief;
+
+// Octaves from `wavelength` down, each half as long and `gain` times as high as the last; squash:
+// how much longer than high the features are.
+static Relief relief_at(const SurfacePoint *point, float wavelength, int octaves, float gain,
+                        float squash, uint32_t seed)
+{
+    Relief sum = {0};
+    float height = 1.0f;
+    for (int i = 0; i < octaves; i++) {
+        float seen = pattern_detail(wavelength, point->footprint);
+        if (seen <= 0.0f) {
+            break;
+        }
+        Vec3 p = vec3_scale(point->object_position, 1.0f / wavelength), slope;
+        p.y *= squash;
+        float n = noise_solid(p, seed + (uint32_t)i, &slope);
+        slope.y *= squash;
+        sum.value += seen * height * n;
+        sum.slope = vec3_madd(sum.slope, seen * height / wavelength, slope);
+        wavelength *= 0.47f;
+        height *= gain;
+    }
+    return sum;
+}
+
+typedef struct Ground {
+    Vec3 color;
+    Vec3 slope; // of its relief, per metre
+} Ground;
+
+static Ground blend(Ground a, const Ground *b, float t)
+{
+    a.color = vec3_lerp(a.color, b->color, t);
+    a.slope = vec3_lerp(a.slope, b->slope, t);
+    return a;
+}
+
+static Vec3 tinted(Vec3 color, float r, float g, float b)
+{
+    return vec3(color.x * r, color.y * g, color.z * b);
+}
+
+// Beds of rock: where a level in the (gently tilted and folded) pile of beds lies in its cycle.
+static float bed_level(const SurfacePoint *point, float thickness, Vec3 up)
+{
+    Vec3 p = point->object_position;
+    Vec3 q = vec3_scale(p, 0.011f / (0.1f * thickness));
+    float fold =
+        1.8f * noise_solid(vec3_scale(q, 0.12f), 51, NULL) + 0.35f * noise_solid(q, 52, NULL);
+    return vec3_dot(p, up) / thickness + fold;
+}
+
+// A random number of each bed, running smoothly from bed to bed.
+static float bed_tone(float level, uint32_t seed)
+{
+    float floor_level = floorf(level), t = level - floor_level;
+    uint32_t bed = (uint32_t)(int32_t)floor_level * 2654435761u + seed;
+    return lerpf(noise_unit(bed, 3), noise_unit(bed + 2654435761u, 3), smoothstepf(0.78f, 1.0f, t));
+}
+
+static Ground rock(const Material *m, const SurfacePoint *point, Vec3 color, float scale)
+{
+    Relief rough = relief_at(point, 0.5f * scale, 7, 0.52f, 1.6f, 61);
+    Relief cracks = relief_at(point, 0.13f * scale, 4, 0.6f, 0.45f, 71);
+    // Steeply tilted, folded beds, here plain to see and there lost in broken rock.
+    float level = bed_level(point, 0.32f * scale, vec3(0.62f, 0.55f, 0.35f));
+    float seen = pattern_detail(0.32f * scale, point->footprint) *
+                 smoothstepf(-0.25f, 0.5f, relief_at(point, 7.0f * scale, 3, 0.5f, 1.0f, 57).value);
+    float tone = lerpf(0.5f, bed_tone(level + 0.3f * rough.value, 7), 0.7f * seen);
+    float fine = bed_tone(4.3f * level + 0.6f * rough.value, 9);
+    tone = lerpf(tone, fine, 0.35f * seen * pattern_detail(0.08f * scale, point->footprint));
+    Ground g = {.color = vec3_lerp(color, m->color2, clampf(1.4f * tone - 0.2f, 0.0f, 1.0f))};
+    float shade = 1.0f + 0.22f * clampf(rough.value, -1.2f, 1.2f) -
+                  0.30f * smoothstepf(0.1f, 0.6f, cracks.value);
+    g.color = vec3_scale(g.color, clampf(shade, 0.4f, 1.5f));
+    g.slope = vec3_scale(rough.slope, 0.11f * scale);
+    g.slope = vec3_madd(g.slope, 0.02f * scale, cracks.slope);
+    // Ledges: beds weather back between hard ones.
+    g.slope.y += seen * 0.7f * (tone - 0.5f);
+    return g;
+}
+
+static Ground scree(const Material *m, const SurfacePoint *point, Vec3 color, float scale)
+{
+    Relief stones = relief_at(point, 0.10f * scale, 5, 0.62f, 1.0f, 81);
+    Ground g = {.color = vec3_scale(vec3_lerp(color, m->color2, 0.35f), 1.12f)};
+    g.color = vec3_scale(g.color, 1.0f + 0.25f * clampf(stones.value, -1.2f, 1.2f));
+    g.slope = vec3_scale(stones.slope, 0.022f * scale);
+    return g;
+}
+
+static Ground grass(const SurfacePoint *point, float scale, float wetness, float altitude)
+{
+    Relief tufts = relief_at(point, 0.16f * scale, 6, 0.6f, 0.7f, 91);
+    float dry = clampf(0.5f + 0.6f * tufts.value + 0.6f * altitude - 0.5f * wetness, 0.0f, 1.0f);
+    Vec3 lush = {0.038f, 0.062f, 0.018f}, straw = {0.098f, 0.092f, 0.038f};
+    Ground g = {.color = vec3_lerp(lush, straw, dry)};
+    g.color = vec3_scale(g.color, 1.0f + 0.3f * clampf(tufts.value, -1.3f, 1.3f));
+    g.slope = vec3_scale(tufts.slope, 0.02f * scale);
+    return g;
+}
+
+static Ground snow(const SurfacePoint *point, float scale)
+{
+    Relief drift = relief_at(point, 0.35f * scale, 5, 0.42f, 1.0f, 101);
+    Ground g = {.color = {0.86f, 0.88f, 0.90f}};
+    g.slope = vec3_scale(drift.slope, 0.018f * scale);
+    return g;
+}
+
+void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 90.0f;
+    float altitude = point->site.x, wetness = point->site.y;
+    float upright = fabsf(point->geometric_normal.y);
+    Relief broad = relief_at(point, 4.0f * scale, 4, 0.55f, 1.0f, 41);
+    Relief fray = relief_at(point, 0.4f * scale, 6, 0.6f, 1.0f, 45);
+    float ragged = 0.45f * broad.value + 0.55f * fray.value;
+    Ground g = rock(m, point, shade->color, scale);
+    float loose = smoothstepf(0.70f, 0.80f, upright + 0.07f * ragged);
+    Ground other = scree(m, point, shade->color, scale);
+    g = blend(g, &other, loose);
+    if (m->grass_line > 0.0f) {
+        float rise = altitude + 0.10f * ragged - 0.10f * wetness;
+        float green = smoothstepf(m->grass_line + 0.06f, m->grass_line - 0.08f, rise) *
+                      smoothstepf(0.70f, 0.80f, upright + 0.10f * ragged + 0.05f * wetness);
+        other = grass(point, scale, wetness, altitude / m->grass_line);
+        g = blend(g, &other, green);
+    }
+    // Gravel along the water.
+    float bank = smoothstepf(0.86f, 0.97f, wetness + 0.08f * ragged);
+    other = scree(m, point, tinted(shade->color, 1.1f, 1.08f, 1.02f), 0.5f * scale);
+    g = blend(g, &other, 0.8f * bank);
+    if (m->snow_line > 0.0f) {
+        float cold = altitude + 0.09f * ragged +
+                     0.10f * (point->geometric_normal.z < 0.0f ? -point->geometric_normal.z : 0.0f);
+        float high = smoothstepf(m->snow_line - 0.05f, m->snow_line + 0.09f, cold);
+        float least = lerpf(0.70f, 0.42f, smoothstepf(m->snow_line, m->snow_line + 0.4f, cold));
+        float held = smoothstepf(least, least + 0.07f, upright + 0.10f * fray.value);
+        other = snow(point, scale);
+        g = blend(g, &other, high * held);
+    }
+    shade->color = g.color;
+    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
+}
+
+void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 40.0f;
+    float upright = fabsf(point->geometric_normal.y);
+    Relief rough = relief_at(point, 0.5f * scale, 8, 0.54f, 1.3f, 111);
+    Relief rills = relief_at(point, 0.28f * scale, 5, 0.6f, 0.16f, 121); // run down the slopes
+    float level = bed_level(point, scale, vec3(0.05f, 1.0f, 0.03f)) + 0.05f * rough.value;
+    float tone = bed_tone(level, 11);
+    tone = lerpf(tone, bed_tone(3.7f * level, 13),
+                 0.45f * pattern_detail(0.3f * scale, point->footprint));
+    tone = lerpf(tone, bed_tone(14.1f * level, 17),
+                 0.3f * pattern_detail(0.07f * scale, point->footprint));
+    Vec3 pale = {0.47f, 0.36f, 0.25f}, dark = {0.16f, 0.065f, 0.043f};
+    Vec3 color = vec3_lerp(shade->color, m->color2, smoothstepf(0.25f, 0.55f, tone));
+    color = vec3_lerp(color, pale, smoothstepf(0.66f, 0.86f, tone));
+    color = vec3_lerp(color, dark, 0.75f * smoothstepf(0.24f, 0.08f, tone));
+    color = vec3_scale(color, clampf(1.0f + 0.2f * rough.value - 0.22f * rills.value, 0.5f, 1.5f));
+    Vec3 slope = vec3_scale(rough.slope, 0.075f * scale);
+    slope = vec3_madd(slope, 0.05f * scale, rills.slope);
+    slope.y += 1.3f * (tone - 0.5f);
+    // Sand and rubble where it is flat.
+    Relief sand = relief_at(point, 0.3f * scale, 7, 0.55f, 1.0f, 131);
+    Vec3 floor_color = vec3_lerp(vec3_lerp(shade->color, pale, 0.45f), m->color2, 0.25f);
+    floor_color = vec3_scale(floor_color, 1.0f + 0.2f * clampf(sand.value, -1.3f, 1.3f));
+    float scrub = smoothstepf(0.25f, 0.6f,
+                              relief_at(point, 0.12f * scale, 3, 0.7f, 1.0f, 141).value +
+                                  0.5f * point->site.y);
+    floor_color = vec3_lerp(floor_color, vec3(0.085f, 0.088f, 0.045f), 0.65f * scrub);
+    float flat = smoothstepf(0.86f, 0.95f, upright + 0.08f * sand.value);
+    shade->color = vec3_lerp(color, floor_color, flat);
+    slope = vec3_lerp(slope, vec3_scale(sand.slope, 0.02f * scale), flat);
+    shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, m->pattern_depth));
+}
+
+// Ripples: a few octaves of noise, gone where the pixel is too coarse for them.
+void pattern_water(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 6.0f;
+    Relief waves = relief_at(point, scale, 6, 0.5f, 1.0f, 151);
+    Vec3 slope = vec3(waves.slope.x, 0.0f, waves.slope.z);
+    shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, m->pattern_depth));
+}

@@ -1,0 +1,42 @@
+// The earth's atmosphere: light of the sun scattered by air (Rayleigh), aerosols (Mie) and absorbed
+// by ozone, in eight wavelength bands; single scattering integrated along the ray, further orders
+// by the isotropic approximation of Hillaire, "A Scalable and Production Ready Sky and Atmosphere
+// Rendering Technique", EGSR 2020. Lengths in km inside.
+#ifndef RAMIFY_RENDER_SKY_ATMOSPHERE_H
+#define RAMIFY_RENDER_SKY_ATMOSPHERE_H
+
+#include "base/error.h"
+#include "base/run.h"
+#include "base/vec.h"
+
+enum { SPECTRUM_BANDS = 8 }; // 40 nm each, 380 to 700 nm
+
+typedef struct Spectrum {
+    float v[SPECTRUM_BANDS];
+} Spectrum;
+
+typedef struct Atmosphere Atmosphere;
+
+// turbidity: 1 = pure air, 2-3 clear, 6 hazy (Preetham et al. 1999); ground_albedo grey, 0..1.
+// Built in about 0.1 s by run->threads threads.
+Atmosphere *atmosphere_new(float turbidity, float ground_albedo, const Run *run, Error *e);
+void atmosphere_free(Atmosphere *atmosphere); // NULL is fine
+
+// Share of the sun's light that reaches an eye near the ground, the sun's centre being at this sine
+// of elevation.
+Spectrum atmosphere_sun_transmittance(const Atmosphere *atmosphere, float sine);
+
+// Radiance of the sky, W / (m^2 sr nm), that an eye near the ground sees in direction (unit, +Y
+// up), for a sun in direction sun. Below the horizon: of the air in front of the ground.
+Spectrum atmosphere_radiance(const Atmosphere *atmosphere, Vec3 direction, Vec3 sun);
+
+// The sun's irradiance outside the atmosphere, W / (m^2 nm).
+Spectrum atmosphere_solar_irradiance(void);
+
+// What a wavelength adds to each channel of linear Rec. 709 (some are negative): CIE 1931.
+void wavelength_to_rgb(double nm, double rgb[3]);
+
+// Radiance per band to linear Rec. 709 times luminance in cd/m^2 (irradiance: lux).
+Vec3 spectrum_to_rgb(const Spectrum *spectrum);
+
+#endif

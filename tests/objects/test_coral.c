@@ -1,0 +1,231 @@
+// Corals: forms, territory, crusts, corallites; and that size changes nothing but the size.
+#include "objects/coral/coral.h"
+#include "objects/coral/crust.h"
+#include "objects/coral/polyps.h"
+#include "testing.h"
+
+#include "base/random.h"
+
+#include <math.h>
+#include <string.h>
+
+static OutTree *grow(const CoralParams *params, int threads)
+{
+    Error e = {0};
+    Run run = run_default();
+    run.threads = threads;
+    OutTree *tree = coral_grow(params, &(Recipe){7, "coral", 1.0f, &run, NULL}, &e);
+    if (!tree) {
+        fail_msg("%s", e.message);
+    }
+    assert_true(out_tree_check(tree, &e));
+    return tree;
+}
+
+static CoralParams small(CoralForm form)
+{
+    CoralParams params = coral_params_default();
+    params.form = form;
+    params.levels = 1;
+    params.generations = 5;
+    return params;
+}
+
+static Geometry geometry_of(const CoralParams *params, const OutTree *tree, int threads)
+{
+    Error e = {0};
+    Run run = run_default();
+    run.threads = threads;
+    Geometry geometry = {0};
+    if (!coral_geometry(tree, params, &(CoralMaterials){1, 2, 3}, 0, 7, &geometry, &run, &e)) {
+        fail_msg("%s", e.message);
+    }
+    return geometry;
+}
+
+static void every_form_grows(void **state)
+{
+    (void)state;
+    for (CoralForm form = CORAL_BRANCHING; form <= CORAL_MASSIVE; form++) {
+        CoralParams params = small(form);
+        OutTree *tree = grow(&params, 1);
+        Aabb box = out_tree_bounds(tree);
+        assert_true(tree->count > 100);
+        assert_true(box.high.x - box.low.x < 1.3f * params.size);
+        if (form == CORAL_FAN) {
+            assert_true(box.low.z == box.high.z); // flat
+        } else {
+            assert_true(box.high.z - box.low.z > 0.3f * params.size);
+        }
+        for (int64_t i = 0; i < tree->count; i++) {
+            assert_true(tree->radius[i] > 0.0f);
+        }
+        out_tree_free(tree);
+    }
+}
+
+static void ten_times_the_size_is_the_same_coral(void **state)
+{
+    (void)state;
+    for (CoralForm form = CORAL_BRANCHING; form <= CORAL_FAN; form++) {
+        CoralParams params = small(form);
+        OutTree *one = grow(&params, 1);
+        params.size *= 8.0f; // a power of two: roundings are the same
+        OutTree *eight = grow(&params, 1);
+        assert_int_equal(one->count, eight->count);
+        for (int64_t i = 0; i < one->count; i++) {
+            Vec3 scaled = vec3_scale(one->position[i], 8.0f);
+            assert_true(vec3_distance(scaled, eight->position[i]) < 0.02f * params.size);
+            assert_int_equal(one->parent[i], eight->parent[i]);
+        }
+        out_tree_free(one);
+        out_tree_free(eight);
+    }
+}
+
+static void threads_change_nothing(void **state)
+{
+    (void)state;
+    for (CoralForm form = CORAL_BRANCHING; form <= CORAL_ENCRUSTING; form++) {
+        CoralParams params = small(form);
+        params.colonies = 2;
+        OutTree *tree = grow(&params, 1);
+        for (int threads = 2; threads <= 3; threads++) {
+            OutTree *other = grow(&params, threads);
+            assert_true(out_tree_hash(tree) == out_tree_hash(other));
+            out_tree_free(other);
+        }
+        out_tree_free(tree);
+    }
+}
+
+static void branches_are_as_thick_as_madracis(void **state)
+{
+    (void)state;
+    CoralParams params = coral_params_default();
+    OutTree *tree = grow(&params, 1);
+    CoralMeasures m;
+    assert_true(coral_measure(tree, &m, NULL));
+    assert_true(m.branch_thickness > 0.007 && m.branch_thickness < 0.025);
+    assert_true(m.branch_spacing > m.branch_thickness); // room between them
+    assert_true(isnan(m.seam));
+    out_tree_free(tree);
+}
+
+static void colonies_leave_a_bare_seam(void **state)
+{
+    (void)state;
+    CoralParams params = small(CORAL_ENCRUSTING);
+    params.colonies = 3;
+    params.generations = 9;
+    OutTree *tree = grow(&params, 1);
+    CrustParams crust = {.thickness = 0.01f,
+                         .reach = 0.05f,
+                         .seam = 0.006f,
+                         .pale = 0.02f,
+                         .lump = 0.05f,
+                         .seed = 4};
+    int seams = 0, covered = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        covered += crust_at(tree, &crust, tree->position[i]).height > 0.0f;
+        for (int64_t k = 0; k < i; k++) { // half-way between neighbours of two colonies
+            if (tree->colony[i] != tree->colony[k] &&
+                vec3_distance(tree->position[i], tree->position[k]) < 0.03f) {
+                Vec3 middle = vec3_lerp(tree->position[i], tree->position[k], 0.5f);
+                CrustPoint point = crust_at(tree, &crust, middle);
+                assert_true(point.height < 0.0f);
+                assert_float_equal(point.margin, 1.0f, 1e-6f);
+                seams++;
+            }
+        }
+    }
+    assert_true(seams > 0);
+    assert_true(covered > tree->count * 8 / 10);
+    out_tree_free(tree);
+}
+
+// What of a form's growth shows early is the same later on.
+static void growth_in_progress_is_a_part_of_the_whole(void **state)
+{
+    (void)state;
+    CoralParams params = small(CORAL_BRANCHING);
+    Run run = run_default();
+    OutTree *whole = grow(&params, 1);
+    OutTree *half = coral_grow(&params, &(Recipe){7, "coral", 0.5f, &run, NULL}, NULL);
+    assert_true(half->count > 10 && half->count < whole->count);
+    assert_memory_equal(half->position, whole->position, (size_t)half->count * sizeof(Vec3));
+    out_tree_free(whole);
+    out_tree_free(half);
+}
+
+static void cups_keep_their_distance_and_lean_to_the_tip(void **state)
+{
+    (void)state;
+    CoralParams params = small(CORAL_BRANCHING);
+    params.generations = 2;
+    params.polyps.max_count = 2000;
+    OutTree *tree = grow(&params, 1);
+    Geometry geometry = geometry_of(&params, tree, 1);
+    Vec3 place[2000];
+    int64_t count = 0;
+    for (int64_t i = 0; i < geometry.count; i++) {
+        const Part *part = &geometry.part[i];
+        for (int64_t k = 0; k < part->instance_count && part->material == 2; k++) {
+            assert_true(count < 2000);
+            place[count++] = transform_point(&part->instance[k], vec3(0, 0, 0));
+        }
+    }
+    assert_true(count > 500);
+    float spacing = coral_params_resolve(&params).polyps.spacing;
+    for (int64_t i = 0; i < count; i++) {
+        for (int64_t k = 0; k < i; k++) {
+            assert_true(vec3_distance(place[i], place[k]) > 0.999f * spacing);
+        }
+    }
+    geometry_clear(&geometry);
+    out_tree_free(tree);
+}
+
+static void a_cup_is_open_and_faces_outward(void **state)
+{
+    (void)state;
+    Mesh *cup = polyp_cup(0.8f, 0.5f, NULL);
+    MeshTopology topology;
+    assert_true(mesh_topology(cup, &topology, NULL));
+    assert_int_equal(topology.open_edges, 10); // its foot, in the branch
+    assert_int_equal(topology.misoriented_edges + topology.overused_edges, 0);
+    for (int64_t i = 0; i < 10; i++) { // the outer wall
+        Vec3 p = cup->position[i], n = cup->normal[i];
+        assert_true(p.x * n.x + p.z * n.z > 0.0f);
+    }
+    mesh_free(cup);
+}
+
+static void a_wrong_rule_is_one_clear_error(void **state)
+{
+    (void)state;
+    CoralParams params = small(CORAL_BRANCHING);
+    params.rules = "X -> [+FX";
+    Run run = run_default();
+    Error e = {0};
+    assert_null(coral_grow(&params, &(Recipe){7, "object 'reef'", 1.0f, &run, NULL}, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    assert_string_equal(e.message, "the L-system's rules, line 1, column 10: '[' is "
+                                   "not closed; put a ']' for each '['");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_form_grows),
+        cmocka_unit_test(ten_times_the_size_is_the_same_coral),
+        cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(branches_are_as_thick_as_madracis),
+        cmocka_unit_test(colonies_leave_a_bare_seam),
+        cmocka_unit_test(growth_in_progress_is_a_part_of_the_whole),
+        cmocka_unit_test(cups_keep_their_distance_and_lean_to_the_tip),
+        cmocka_unit_test(a_cup_is_open_and_faces_outward),
+        cmocka_unit_test(a_wrong_rule_is_one_clear_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,119 @@
+// Leaves: veins with radii, geometry of blade and veins, the texture.
+#include "testing.h"
+
+#include "objects/venation/venation.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static OutTree *grow(const VenationParams *params)
+{
+    Error e = {0};
+    Run run = run_default();
+    Recipe recipe = {.seed = 3, .label = "leaf", .grow_to = 1.0f, .run = &run};
+    OutTree *tree = venation_grow(params, &recipe, &e);
+    if (!tree) {
+        fail_msg("%s", e.message);
+    }
+    assert_true(out_tree_check(tree, &e));
+    return tree;
+}
+
+static VenationParams small_params(void)
+{
+    VenationParams params = venation_params_default();
+    params.detail = 25;
+    return params;
+}
+
+static void a_leaf_has_a_blade_and_a_curve_for_each_piece_of_vein(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    OutTree *tree = grow(&params);
+    assert_float_equal(tree->radius[0], 0.008f * params.outline.length, 1e-6);
+    Geometry geometry = {0};
+    Error e = {0};
+    VenationMaterials materials = {0, 1};
+    assert_true(venation_geometry(tree, &params, &materials, 0, &geometry, &e));
+    assert_int_equal(geometry.count, 2);
+    const CurveSet *veins = geometry.part[0].curves;
+    assert_int_equal(veins->curve_count, tree->count - 1);
+    assert_int_equal(veins->first[veins->curve_count], veins->point_count);
+    Aabb blade = mesh_bounds(geometry.part[1].mesh);
+    for (int64_t i = 0; i < veins->point_count; i++) { // in the blade, but for the petiole
+        assert_true(veins->position[i].x > blade.low.x - 1e-3f);
+        assert_true(veins->position[i].x < blade.high.x + 1e-3f);
+        assert_true(veins->position[i].y < blade.high.y + 1e-3f);
+    }
+    geometry_clear(&geometry);
+    params.blade = false;
+    assert_true(venation_geometry(tree, &params, &materials, 0, &geometry, &e));
+    assert_int_equal(geometry.count, 1);
+    geometry_clear(&geometry);
+    out_tree_free(tree);
+}
+
+static void the_texture_shows_the_midrib_in_the_middle(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    OutTree *tree = grow(&params);
+    enum { WIDTH = 64, HEIGHT = 128 };
+    float *pixel = malloc(sizeof *pixel * WIDTH * HEIGHT), dark = 0.0f;
+    assert_true(venation_paint(tree, &params, WIDTH, HEIGHT, pixel, NULL));
+    for (int row = HEIGHT / 4; row < HEIGHT; row++) {
+        assert_true(pixel[row * WIDTH + WIDTH / 2] > 0.05f);
+        for (int column = 0; column < WIDTH; column++) {
+            float value = pixel[row * WIDTH + column];
+            assert_true(value >= 0.0f && value <= 1.0f);
+            dark += value == 0.0f;
+        }
+    }
+    assert_true(dark > 0.4f * WIDTH * HEIGHT * 3 / 4); // and blade between the veins
+    free(pixel);
+    out_tree_free(tree);
+}
+
+static double measured(const OutTree *tree, const VenationParams *params, const char *name)
+{
+    MeasureList list = {0};
+    assert_true(venation_measure(tree, params, &list, NULL));
+    double value = measures_find(&list, name)->value;
+    measures_clear(&list);
+    return value;
+}
+
+static void the_net_is_measured_against_the_blade(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.outline = (LeafOutline){.length = 0.1f, .width = 0.06f, .widest = 0.5f, .tip = 1.0f};
+    double ellipse = M_PI / 4.0 * 100.0 * 60.0; // mm^2
+    OutTree *net = grow(&params);
+    double areoles = measured(net, &params, "areoles");
+    assert_true(areoles > 20.0);
+    assert_true(fabs(measured(net, &params, "areole_area") * areoles / ellipse - 1.0) < 1e-3);
+    params.closed = false;
+    OutTree *open = grow(&params);
+    assert_true(measured(open, &params, "areoles") == 0.0);
+    assert_true(isnan(measured(open, &params, "areole_area")));
+    double length = 0.0;
+    for (int64_t i = 1; i < open->count; i++) {
+        length += (double)vec3_distance(open->position[i], open->position[open->parent[i]]);
+    }
+    length = 1000.0 * (length - (double)params.petiole);
+    assert_true(fabs(measured(open, &params, "vein_density") * ellipse / length - 1.0) < 1e-3);
+    out_tree_free(net);
+    out_tree_free(open);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_leaf_has_a_blade_and_a_curve_for_each_piece_of_vein),
+        cmocka_unit_test(the_texture_shows_the_midrib_in_the_middle),
+        cmocka_unit_test(the_net_is_measured_against_the_blade),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
