@@ -50,3 +50,15 @@ refuses aggregate particles 'dla: {particles: 2147483647}'
 scene small 'ground: {grass_tufts: 60000000}'
 check limit_of_address_space 2 sh -c "ulimit -v 2000000; exec '$RAMIFY' render small.yaml -o small.png -q"
 says limit_is_told err '2.0 GB are there'
+# Libraries allocate before main(). The least limit under which the system's loader maps them all leaves them no memory to
+# start with: an error, not an abort.
+if ! nm "$RAMIFY" 2>/dev/null | grep -q __asan_init; then
+    limit=250000 status=127
+    while [ "$status" -eq 127 ] && [ "$limit" -lt 1500000 ]; do
+        limit=$((limit + 10000))
+        sh -c "ulimit -v $limit; exec '$RAMIFY' --version" >/dev/null 2>&1
+        status=$?
+    done
+    check start_in_little_memory 1 sh -c "ulimit -v $limit; exec '$RAMIFY' --version"
+    says start_in_little_memory_says err 'more to start'
+fi
