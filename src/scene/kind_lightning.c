@@ -14,7 +14,7 @@ static bool own_space(OwnSpace *own, Error *e)
         return false;
     }
     own->object.lightning = lightning;
-    if (lightning->element.place == SCATTER_SURFACE) {
+    if (lightning->element.points.place == SCATTER_SURFACE) {
         own_space_of_element(own, &lightning->element);
     } else {
         own_space_stand(own, lightning->position, vec3(0, 0, 0));
@@ -46,7 +46,7 @@ static bool measure(const SceneObject *object, const OutTree *tree, const Recipe
 
 static void describe(const SceneObject *object, char *text, size_t size)
 {
-    if (object->lightning->element.place == SCATTER_SURFACE) {
+    if (object->lightning->element.points.place == SCATTER_SURFACE) {
         snprintf(text, size, ", over a surface");
     } else {
         snprintf(text, size, ", %g m", (double)object->lightning->height);

@@ -71,7 +71,7 @@ void own_space_of_shapes(OwnSpace *own, const Shape *shapes, int count)
 
 void own_space_of_element(OwnSpace *own, const ElementParams *element)
 {
-    if (!element->anchored) {
+    if (!element->points.anchored) {
         own_space_of_shapes(own, element->shapes, element->shape_count);
     }
 }
@@ -146,8 +146,8 @@ bool own_space_take_element(OwnSpace *own, ElementParams *element, Error *e)
     if (!own->moved) {
         return true;
     }
-    element->cone_axis = own_space_direction(own, element->cone_axis);
-    element->tropism = own_space_direction(own, element->tropism);
+    element->growth.cone_axis = own_space_direction(own, element->growth.cone_axis);
+    element->growth.tropism = own_space_direction(own, element->growth.tropism);
     return own_space_take_shapes(own, &element->shapes, element->shape_count, e) &&
            (element->field_count == 0 ||
             take_fields(own, &element->fields, element->field_count, e));

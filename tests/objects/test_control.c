@@ -295,7 +295,7 @@ static void a_crown_that_moves_a_little_keeps_its_branches(void **state)
     Shape crown = {.kind = SHAPE_ELLIPSOID, .size = vec3(7, 5.6f, 7)};
     params.crown.element.shapes = &crown;
     params.crown.element.shape_count = 1;
-    params.crown.element.anchored = true;
+    params.crown.element.points.anchored = true;
     crown.transform = transform_compose(vec3(0, 8.4f, 0), vec3_splat(0), vec3_splat(1));
     OutTree *before = grow(&params, 1.0f, 1);
     crown.transform = transform_compose(vec3(0.005f, 8.4f, 0), vec3_splat(0), vec3_splat(1));

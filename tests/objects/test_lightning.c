@@ -228,7 +228,7 @@ static void discharges_stay_over_their_surface(void **state)
     shapes[1].transform = transform_identity();
     for (int count = 1; count <= 2; count++) {
         LightningParams params = lightning_params_default();
-        params.element.place = SCATTER_SURFACE;
+        params.element.points.place = SCATTER_SURFACE;
         params.element.shapes = shapes;
         params.element.shape_count = count;
         params.bolts = 2;

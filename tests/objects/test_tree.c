@@ -246,7 +246,7 @@ static void crowded_branches_have_names_of_their_own(void **state)
     GrowLevel level = {20, 0.3f, 0.9f, 2.2f, 1.0f, 0.3f, 0.0f, 0.5f};
     params.crown.lobes = 0;
     params.crown.branches = 200;
-    params.crown.element.shell = 0.0f;
+    params.crown.element.points.shell = 0.0f;
     params.crown.element.levels = &level;
     params.crown.element.level_count = 1;
     params.roots.count = 0;
@@ -283,7 +283,8 @@ static void a_vortex_winds_the_stems(void **state)
     int count = 0;
     for (uint64_t seed = 1; seed <= 6; seed++) {
         for (int wound = 0; wound < 2; wound++) {
-            params.trunk.element.field_weight = wound ? twisted->trunk.element.field_weight : 0.0f;
+            params.trunk.element.growth.field_weight =
+                wound ? twisted->trunk.element.growth.field_weight : 0.0f;
             double turn[MOST_STEMS];
             OutTree *tree = grow(&params, seed, 1);
             int stems = stem_turns(tree, params.position, turn);

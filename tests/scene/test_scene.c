@@ -47,7 +47,8 @@ static void defaults_are_those_of_the_modules(void **state)
     assert_memory_equal(&read->leaves, &tree.leaves, sizeof tree.leaves);
     assert_memory_equal(&read->radii, &tree.radii, sizeof tree.radii);
     assert_memory_equal(&read->skin, &tree.skin, sizeof tree.skin);
-    assert_memory_equal(&read->crown.element.noise, &tree.crown.element.noise, sizeof(float));
+    assert_memory_equal(&read->crown.element.growth.noise, &tree.crown.element.growth.noise,
+                        sizeof(float));
     assert_memory_equal(&read->crown.branch_angle, &tree.crown.branch_angle, sizeof(float));
     assert_null(read->crown.element.shapes);
     world_free(world);

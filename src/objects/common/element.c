@@ -5,47 +5,33 @@
 
 #include <stdlib.h>
 
+static Vec3 anchor_of(const OutTree *tree)
+{
+    return tree->count > 0 ? tree->position[0] : vec3(0, 0, 0);
+}
+
 ColonizeParams element_colonize_params(const OutTree *tree, const ElementParams *element,
                                        const GuideField *field, uint64_t seed)
 {
-    ColonizeParams params = colonize_params_default();
-    params.rule = element->rule;
-    params.max_children = element->max_children;
-    params.min_angle = element->min_angle;
-    params.max_angle = element->max_angle;
-    params.cone_angle = element->cone_angle;
-    params.cone_axis = element->cone_axis;
-    params.noise = element->noise;
-    params.noise_in_space = element->anchored;
-    params.anchor = tree->count > 0 ? tree->position[0] : vec3(0, 0, 0);
-    params.tropism = element->tropism;
+    ColonizeParams params = element->growth;
+    params.noise_in_space = element->points.anchored;
+    params.anchor = anchor_of(tree);
     params.field = field;
-    params.field_weight = element->field_weight;
-    params.field_mode = element->field_mode;
-    params.on_surface = element->place == SCATTER_SURFACE;
-    params.sector_angle = element->sector_angle > 0.0f ? element->sector_angle : 60.0f;
-    params.sector_axis = element->sector_axis;
-    params.apical = element->apical;
+    params.on_surface = element->points.place == SCATTER_SURFACE;
+    params.sector_angle = params.sector_angle > 0.0f ? params.sector_angle : 60.0f;
     params.seed = seed;
     for (int64_t i = 0; i < tree->count; i++) { // what grows now is younger than what is there
         params.first_step = tree->birth[i] > params.first_step ? tree->birth[i] : params.first_step;
     }
-    params.max_steps = element->max_steps;
-    params.max_nodes = element->max_nodes;
     return params;
 }
 
 ScatterParams element_scatter_params(const OutTree *tree, const ElementParams *element,
                                      uint64_t seed)
 {
-    ScatterParams params = scatter_params_default();
-    params.place = element->place;
-    params.pattern = element->pattern;
-    params.shell = element->shell;
-    params.gradient = element->gradient;
-    params.depth_gradient = element->depth_gradient;
-    params.anchored = element->anchored;
-    params.anchor = tree->count > 0 ? tree->position[0] : vec3(0, 0, 0);
+    ScatterParams params = element->points;
+    params.scale = 1.0f;
+    params.anchor = anchor_of(tree);
     params.seed = seed;
     return params;
 }

@@ -14,28 +14,13 @@
 typedef struct ElementParams {
     Shape *shapes; // the envelope
     int shape_count;
-    float voxel; // m, of level sets; 0 = automatic
-    ScatterPlace place;
-    ScatterPattern pattern;
-    float shell, gradient, depth_gradient; // see ScatterParams
-    bool anchored;                         // to the element's first node; see ScatterParams
+    float voxel;           // m, of level sets; 0 = automatic
+    ScatterParams points;  // count and scale are the levels', anchor and seed the growth's
+    ColonizeParams growth; // lengths are the levels'; noise: for levels that name none
     GrowLevel *levels;
     int level_count;
-    GrowRule rule;
-    int max_children;
-    float min_angle, max_angle; // degrees
-    float cone_angle;           // degrees
-    Vec3 cone_axis;
-    float noise; // for levels that name none
-    Vec3 tropism;
-    float apical;
-    float sector_angle; // degrees
-    bool sector_axis;
     FieldParams *fields;
     int field_count;
-    float field_weight;
-    FieldMode field_mode;
-    int64_t max_steps, max_nodes; // 0 = no limit
 } ElementParams;
 
 // Who wants to know of the envelopes and guide fields that things grow in, through Run.witness.

@@ -27,11 +27,11 @@ ForestParams forest_params_default(void)
                            .max_slope = 40.0f,
                            .fern_height = 0.7f,
                            .fern_radius = 40.0f,
-                           .element = {.max_children = 3,
-                                       .noise = 0.28f,
-                                       .tropism = {0, 1, 0},
-                                       .gradient = 0.25f,
-                                       .field_weight = 1.0f},
+                           .element = {.points.gradient = 0.25f,
+                                       .growth = {.max_children = 3,
+                                                  .noise = 0.28f,
+                                                  .tropism = {0, 1, 0},
+                                                  .field_weight = 1.0f}},
                            .radii = tree.radii,
                            .leaves = tree.leaves,
                            .skin = tree.skin};
@@ -149,7 +149,7 @@ static bool grow_stand(OutTree *all, const ForestParams *params, int stand, uint
 {
     int64_t trees = params->stand_trees;
     ElementParams element = params->element;
-    float noise = element.noise;
+    float noise = element.growth.noise;
     GrowLevel levels[CROWN_LEVELS] = {
         {10 * trees, 0.12f, 0.45f, 4.0f, 0.88f, noise, 0.35f, 0.5f},
         {110 * trees, 0.22f, 0.75f, 2.5f, 0.96f, noise, 0.15f, 0.5f},

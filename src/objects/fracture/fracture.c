@@ -27,11 +27,11 @@ FractureParams fracture_params_default(void)
                              .explode = 0.12f,
                              .turn = 4.0f,
                              .resolution = 180};
-    params.element.place = SCATTER_SURFACE;
-    params.element.pattern = SCATTER_POISSON;
-    params.element.max_children = 2;
-    params.element.noise = 0.3f;
-    params.element.field_weight = 1.0f;
+    params.element.points.place = SCATTER_SURFACE;
+    params.element.points.pattern = SCATTER_POISSON;
+    params.element.growth.max_children = 2;
+    params.element.growth.noise = 0.3f;
+    params.element.growth.field_weight = 1.0f;
     return params;
 }
 

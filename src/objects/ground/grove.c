@@ -21,7 +21,7 @@ static TreeParams distant_tree(const GroveParams *grove, GrowLevel levels[3], ui
     tree.crown.element.levels = levels;
     tree.crown.element.level_count = 3;
     tree.crown.element.voxel = tree.height / 32.0f;
-    tree.crown.element.shell = 0.0f; // its depths would cost more than the growth
+    tree.crown.element.points.shell = 0.0f; // its depths would cost more than the growth
     tree.roots.count = 0;
     tree.radii.tip = 0.004f;
     tree.skin.curve_radius = 0.03f;

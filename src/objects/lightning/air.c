@@ -151,11 +151,11 @@ static bool grow_branches(OutTree *tree, const Bolt *bolt, const Recipe *recipe,
         element.shapes = &cone;
         element.shape_count = 1;
     }
-    if (vec3_length(element.tropism) == 0.0f) {
-        element.tropism = vec3_scale(bolt->axis, 0.8f);
+    if (vec3_length(element.growth.tropism) == 0.0f) {
+        element.growth.tropism = vec3_scale(bolt->axis, 0.8f);
     }
-    if (vec3_length(element.cone_axis) == 0.0f) {
-        element.cone_axis = bolt->axis;
+    if (vec3_length(element.growth.cone_axis) == 0.0f) {
+        element.growth.cone_axis = bolt->axis;
     }
     if (element.level_count == 0) {
         return true;

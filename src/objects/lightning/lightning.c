@@ -22,11 +22,11 @@ LightningParams lightning_params_default(void)
                               .hurst = 0.65f,
                               .jitter = 0.1f,
                               .branch_power = 0.2f};
-    params.element.pattern = SCATTER_POISSON;
-    params.element.max_children = 2;
-    params.element.cone_angle = 60.0f;
-    params.element.gradient = 0.35f;
-    params.element.field_weight = 1.0f;
+    params.element.points.pattern = SCATTER_POISSON;
+    params.element.growth.max_children = 2;
+    params.element.growth.cone_angle = 60.0f;
+    params.element.points.gradient = 0.35f;
+    params.element.growth.field_weight = 1.0f;
     return params;
 }
 
@@ -39,7 +39,7 @@ int lightning_own_levels(const LightningParams *params, GrowLevel levels[LIGHTNI
     static const GrowLevel SURFACE[3] = {{30, 0.08f, 0.4f, 4.0f, 1.0f, 0.40f, 1.0f, 0.3f},
                                          {175, 0.15f, 0.6f, 2.2f, 1.0f, 0.45f, 1.0f, 0.3f},
                                          {1050, 0.30f, 0.8f, 1.6f, 1.0f, 0.5f, 1.0f, 0.3f}};
-    bool air = params->element.place == SCATTER_VOLUME;
+    bool air = params->element.points.place == SCATTER_VOLUME;
     const GrowLevel *own = air ? AIR : SURFACE;
     int count = 0;
     for (int i = 0; i < (air ? 2 : 3); i++) {
@@ -64,7 +64,7 @@ int64_t lightning_attractors(const LightningParams *params)
     for (int i = 0; i < count; i++) {
         sum += levels[i].attractors;
     }
-    return params->element.place == SCATTER_VOLUME ? sum * params->bolts : sum;
+    return params->element.points.place == SCATTER_VOLUME ? sum * params->bolts : sum;
 }
 
 // ---- radii ----
@@ -148,7 +148,7 @@ static bool set_radii(OutTree *tree, const LightningParams *params, float size, 
 
 float lightning_radius(const LightningParams *params, const OutTree *tree)
 {
-    if (params->element.place == SCATTER_VOLUME) {
+    if (params->element.points.place == SCATTER_VOLUME) {
         return params->radius > 0.0f ? params->radius : params->height / 1600.0f;
     }
     float most = 0.0f;
@@ -283,7 +283,7 @@ LightningParams lightning_params_resolve(const LightningParams *given)
 {
     LightningParams params = *given;
     float size = params.height;
-    if (params.element.place != SCATTER_SURFACE) { // where all follows the surface's extent
+    if (params.element.points.place != SCATTER_SURFACE) { // where all follows the surface's extent
         params.step = params.step > 0.0f ? params.step : size / 40.0f;
         params.segment = params.segment > 0.0f ? params.segment : size / 400.0f;
         params.radius = params.radius > 0.0f ? params.radius : size / 1600.0f;
@@ -295,6 +295,7 @@ LightningParams lightning_params_resolve(const LightningParams *given)
 OutTree *lightning_grow(const LightningParams *params, const Recipe *recipe, Error *e)
 {
     LightningParams whole = lightning_params_resolve(params);
-    return params->element.place == SCATTER_SURFACE ? lightning_grow_surface(params, recipe, e)
-                                                    : grow_in_air(&whole, recipe, e);
+    return params->element.points.place == SCATTER_SURFACE
+               ? lightning_grow_surface(params, recipe, e)
+               : grow_in_air(&whole, recipe, e);
 }

@@ -119,7 +119,8 @@ bool lightning_measure(const LightningParams *params, const OutTree *tree, Measu
     ChainSet *chains = out_tree_chains(tree, e);
     double dimension;
     bool done = chains && seen_dimension(tree, &dimension, e);
-    bool air = params->element.place == SCATTER_VOLUME; // nature's ranges are those of the sky
+    bool air =
+        params->element.points.place == SCATTER_VOLUME; // nature's ranges are those of the sky
     done = done &&
            measures_add(list, "channel_turning", channel_turning(tree, chains, params->bolts),
                         "degrees", air ? 15.0 : (double)NAN, air ? 18.0 : (double)NAN, e) &&

@@ -88,10 +88,10 @@ static bool grow_over(OutTree *tree, const LightningParams *params, const Envelo
     if (element.field_count == 0) {
         element.fields = &away;
         element.field_count = 1;
-        element.field_weight = 0.7f;
+        element.growth.field_weight = 0.7f;
     }
-    if (element.max_angle == 0.0f) {
-        element.max_angle = 60.0f;
+    if (element.growth.max_angle == 0.0f) {
+        element.growth.max_angle = 60.0f;
     }
     return element.level_count == 0 ||
            element_grow_in(tree, &element, envelope, random_key(recipe->seed, 4), recipe->label,

@@ -17,11 +17,11 @@ SculptureParams sculpture_params_default(void)
 {
     SculptureParams params = {
         .clusters = 9, .attractors = 1800, .thickness = 0.42f, .contrast = 2.6f, .reach = 3.2f};
-    params.element.place = SCATTER_SURFACE;
-    params.element.pattern = SCATTER_POISSON;
-    params.element.max_children = 2;
-    params.element.noise = 0.12f;
-    params.element.field_weight = 1.0f;
+    params.element.points.place = SCATTER_SURFACE;
+    params.element.points.pattern = SCATTER_POISSON;
+    params.element.growth.max_children = 2;
+    params.element.growth.noise = 0.12f;
+    params.element.growth.field_weight = 1.0f;
     return params;
 }
 
@@ -138,13 +138,13 @@ OutTree *sculpture_grow(const SculptureParams *params, const Recipe *recipe, Err
     Shape ball = {.kind = SHAPE_SPHERE, .size = {1, 1, 1}, .transform = transform_identity()};
     GrowLevel levels[LEVELS];
     ElementParams element = params->element;
-    element.place = SCATTER_SURFACE;
+    element.points.place = SCATTER_SURFACE;
     if (element.shape_count == 0) {
         element.shapes = &ball;
         element.shape_count = 1;
     }
     if (element.level_count == 0) {
-        fill_levels(levels, params->attractors, element.noise);
+        fill_levels(levels, params->attractors, element.growth.noise);
         element.levels = levels;
         element.level_count = LEVELS;
     }

@@ -7,26 +7,26 @@ TreeParams tree_params_default(void)
 {
     return (TreeParams){
         .height = 14.0f,
-        .trunk = {.element = {.max_children = 1,
-                              .noise = 0.2f,
-                              .tropism = {0, 0.4f, 0},
-                              .field_weight = 1.0f},
+        .trunk = {.element.growth = {.max_children = 1,
+                                     .noise = 0.2f,
+                                     .tropism = {0, 0.4f, 0},
+                                     .field_weight = 1.0f},
                   .lean = 3.0f,
                   .lean_azimuth = 60.0f,
                   .stems = 1},
-        .crown = {.element = {.shell = 0.3f,
-                              .max_children = 3,
-                              .noise = 0.3f,
-                              .tropism = {0, 1, 0},
-                              .field_weight = 1.0f},
+        .crown = {.element = {.points.shell = 0.3f,
+                              .growth = {.max_children = 3,
+                                         .noise = 0.3f,
+                                         .tropism = {0, 1, 0},
+                                         .field_weight = 1.0f}},
                   .lobes = 14,
                   .branches = 7,
                   .branch_from = 0.72f,
                   .branch_angle = 62.0f},
-        .roots = {.element = {.max_children = 2,
-                              .noise = 0.25f,
-                              .tropism = {0, -1, 0},
-                              .field_weight = 1.0f},
+        .roots = {.element.growth = {.max_children = 2,
+                                     .noise = 0.25f,
+                                     .tropism = {0, -1, 0},
+                                     .field_weight = 1.0f},
                   .count = 6,
                   .radius = 0.42f},
         .radii = {.model = RADIUS_PIPE, .exponent = 2.3f, .tip = 0.0024f, .flare = 0.55f},
@@ -94,7 +94,7 @@ static void plan_trunk(TreePlan *plan)
                                        .kill = 0.8f,
                                        .influence = 5.0f,
                                        .scale = 1.0f,
-                                       .noise = trunk->element.noise,
+                                       .noise = trunk->element.growth.noise,
                                        .tropism = 1.0f,
                                        .relax = 0.3f};
     fill_envelope(&trunk->element, &plan->trunk_shape, 1);
@@ -148,7 +148,7 @@ static void plan_crown(TreePlan *plan, uint64_t seed)
     fill(&crown->branch_length, 0.08f * tree->height);
     int shapes = crown_shapes(plan, seed);
     // Coarse to fine: few long-reaching limbs first, then ten times as many branches, and so on.
-    float noise = crown->element.noise;
+    float noise = crown->element.growth.noise;
     GrowLevel levels[TREE_DEFAULT_LEVELS] = {
         {30, 0.10f, 0.4f, 4.0f, 0.70f, noise, 0.0f, 0.5f},
         {300, 0.20f, 0.7f, 2.5f, 0.90f, noise, 0.0f, 0.5f},
@@ -176,7 +176,7 @@ static void plan_roots(TreePlan *plan)
         (Shape){.kind = SHAPE_ELLIPSOID,
                 .size = vec3(roots->spread, roots->depth, roots->spread),
                 .transform = transform_compose(center, vec3_splat(0), vec3_splat(1))};
-    float noise = roots->element.noise;
+    float noise = roots->element.growth.noise;
     plan->root_level[0] = (GrowLevel){40, 0.15f, 0.6f, 4.0f, 0.9f, noise, 0.02f, 0.5f};
     plan->root_level[1] = (GrowLevel){250, 0.3f, 0.8f, 2.2f, 1.0f, noise, 0.1f, 0.5f};
     fill_envelope(&roots->element, &plan->root_shape, 1);

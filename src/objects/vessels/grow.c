@@ -176,7 +176,7 @@ static int choose_levels(const VesselBed *bed, GrowLevel *levels)
                                 .kill = kill[k],
                                 .influence = influence[k],
                                 .scale = bed->limbs ? 1.0f : scale[k],
-                                .noise = element->noise,
+                                .noise = element->growth.noise,
                                 .tropism = 1.0f,
                                 .relax = 0.5f};
     }

@@ -9,15 +9,17 @@
 
 VesselsParams vessels_params_default(void)
 {
-    return (VesselsParams){
-        .element = {.max_children = 2, .max_angle = 100.0f, .noise = 0.2f, .field_weight = 1.0f},
-        .terminals = 6000,
-        .veins = true,
-        .vein_radius = 1.2f,
-        .law = {2.7f},
-        .gap = 0.3f,
-        .turn = true,
-        .skin_levels = 2};
+    return (VesselsParams){.element.growth = {.max_children = 2,
+                                              .max_angle = 100.0f,
+                                              .noise = 0.2f,
+                                              .field_weight = 1.0f},
+                           .terminals = 6000,
+                           .veins = true,
+                           .vein_radius = 1.2f,
+                           .law = {2.7f},
+                           .gap = 0.3f,
+                           .turn = true,
+                           .skin_levels = 2};
 }
 
 static bool is_body(const VesselsParams *params)
