@@ -1,6 +1,7 @@
 #include "animate/stage.h"
 
 #include "base/memory.h"
+#include "render/world.h"
 #include "scene/place.h"
 #include "scene/sections.h"
 

@@ -4,6 +4,7 @@
 #include "animate/timeline.h"
 #include "base/c_locale.h"
 #include "base/memory.h"
+#include "render/light/light.h"
 
 #include <math.h>
 #include <stdio.h>

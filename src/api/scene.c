@@ -1,6 +1,7 @@
 #include "animate/turntable.h"
 #include "api/handles.h"
 
+#include "render/material/material.h"
 #include "scene/kind.h"
 
 #include <math.h>

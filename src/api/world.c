@@ -1,6 +1,7 @@
 #include "api/handles.h"
 
 #include "base/memory.h"
+#include "render/world.h"
 
 #include <stdlib.h>
 

@@ -6,8 +6,9 @@
 #include "base/run.h"
 #include "land/height_field.h"
 #include "outtree/out_tree.h"
-#include "render/world.h"
 #include "shape/grid_file.h"
+
+typedef struct World World;
 
 // How instances are written by formats that can keep them.
 typedef enum ExportInstances {

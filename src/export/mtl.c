@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "export/asset_path.h"
+#include "render/world.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -9,6 +9,7 @@
 #include "export/asset_path.h"
 #include "export/mtl.h"
 #include "export/pieces.h"
+#include "render/world.h"
 
 #include <stdio.h>
 #include <stdlib.h>

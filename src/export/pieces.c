@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "mesh/curve_tubes.h"
+#include "render/world.h"
 
 #include <stdlib.h>
 

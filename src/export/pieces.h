@@ -4,6 +4,7 @@
 #define RAMIFY_EXPORT_PIECES_H
 
 #include "export/vertex.h"
+#include "mesh/geometry.h"
 
 typedef struct ExportPiece {
     int64_t part; // index into the geometry

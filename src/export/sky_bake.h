@@ -4,7 +4,7 @@
 
 #include "base/run.h"
 #include "image/image.h"
-#include "render/sky/sky.h"
+#include "render/sky/sun_sky.h"
 
 typedef struct BakedSky {
     Image *image; // owned; red, green, blue: radiance, latitude-longitude as OpenEXR has it (+Y up,

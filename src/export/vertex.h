@@ -3,7 +3,9 @@
 #ifndef RAMIFY_EXPORT_VERTEX_H
 #define RAMIFY_EXPORT_VERTEX_H
 
+#include "base/mesh.h"
 #include "export/export.h"
+#include "render/material/material.h"
 
 typedef struct ExportVertex {
     Vec3 position, normal; // the normal is unit

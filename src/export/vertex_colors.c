@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "export/vertex.h"
 #include "render/material/pattern.h"
+#include "render/world.h"
 
 #include <stdlib.h>
 

@@ -3,7 +3,10 @@
 #define RAMIFY_EXPORT_VERTEX_COLORS_H
 
 #include "base/run.h"
-#include "render/world.h"
+#include "mesh/geometry.h"
+#include "render/material/material.h"
+
+typedef struct World World;
 
 // True when a part of this material has a pattern, so that its colour differs from place to place.
 bool vertex_colors_vary_on(const Material *material);

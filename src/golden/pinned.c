@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "render/renderer.h"
+#include "render/world.h"
 #include "scene/build.h"
 #include "scene/place.h"
 

@@ -1,8 +1,16 @@
-// The camera as ready vectors: a thin lens with shift.
+// The camera: a thin lens with shift.
 #ifndef RAMIFY_RENDER_CAMERA_H
 #define RAMIFY_RENDER_CAMERA_H
 
-#include "render/world.h"
+#include "base/vec.h"
+
+typedef struct Camera {
+    Vec3 position, target, up;
+    float fov;              // degrees, vertical
+    float aperture;         // m, diameter of the lens; 0 = pinhole
+    float focus_distance;   // m; 0 = the distance to target
+    float shift_x, shift_y; // lens shift, in image heights: keeps verticals upright when looking up
+} Camera;
 
 typedef struct CameraFrame {
     Vec3 position, forward;

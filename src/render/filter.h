@@ -4,7 +4,8 @@
 #ifndef RAMIFY_RENDER_FILTER_H
 #define RAMIFY_RENDER_FILTER_H
 
-#include "render/world.h"
+#include "base/vec.h"
+#include "render/film_params.h"
 
 enum { FILTER_STEPS = 256 };
 

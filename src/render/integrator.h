@@ -8,6 +8,7 @@
 #include "render/filter.h"
 #include "render/light/lights.h"
 #include "render/sampler.h"
+#include "render/world.h"
 
 // What all paths share, read only.
 typedef struct Tracer {

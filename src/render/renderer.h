@@ -5,8 +5,8 @@
 
 #include "base/run.h"
 #include "render/film.h"
-#include "render/world.h"
 
+typedef struct World World;
 typedef struct Renderer Renderer;
 
 // Builds the acceleration structures (Embree). The world is borrowed and must outlive the renderer.

@@ -8,6 +8,8 @@
 #include "outtree/out_tree.h"
 #include "scene/scene.h"
 
+typedef struct World World;
+
 typedef struct BuildStats {
     int64_t nodes;
     double grow_seconds, mesh_seconds;

@@ -5,6 +5,8 @@
 
 #include "scene/build.h"
 
+typedef struct World World;
+
 typedef struct SceneBuilder SceneBuilder;
 
 // remember: keeps what objects have grown, so that another grow_to grows nothing anew.

@@ -6,6 +6,7 @@
 #include "base/measures.h"
 #include "land/height_field.h"
 #include "objects/common/recipe.h"
+#include "render/world.h"
 #include "scene/build.h"
 #include "scene/needs.h"
 #include "scene/own_space.h"

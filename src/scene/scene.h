@@ -21,7 +21,10 @@
 #include "objects/tree/tree.h"
 #include "objects/venation/venation.h"
 #include "objects/vessels/vessels.h"
-#include "render/world.h"
+#include "render/camera.h"
+#include "render/film_params.h"
+#include "render/render_params.h"
+#include "render/sky/sky.h"
 
 #include <stddef.h>
 
@@ -119,6 +122,10 @@ typedef struct SceneAnimation {
     SceneTrack *tracks;
     int track_count;
 } SceneAnimation;
+
+typedef struct Light Light;
+typedef struct Material Material;
+typedef struct Medium Medium;
 
 typedef struct Scene {
     char *file;      // where it was read from, for messages and to resolve relative paths

@@ -1,6 +1,8 @@
 #include "scene/scene_flood.h"
 
 #include "base/random.h"
+#include "render/material/material.h"
+#include "render/medium/medium.h"
 #include "scene/builtin.h"
 #include "scene/sections.h"
 #include "shape/envelope.h"

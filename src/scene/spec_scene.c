@@ -1,4 +1,5 @@
 // The scene's own keys: camera, film and renderer.
+#include "render/world.h"
 #include "scene/scene.h"
 #include "scene/spec_check.h"
 

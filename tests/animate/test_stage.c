@@ -2,6 +2,7 @@
 #include "film_fixture.h"
 
 #include "animate/stage.h"
+#include "render/world.h"
 
 static Film *shoot_one(Stage *stage, Scene *scene)
 {

@@ -1,5 +1,6 @@
 // What frames show: the camera's orbit, keys of the turntable, the sun's day, tracks of any value.
 #include "film_fixture.h"
+#include "render/material/material.h"
 
 static void the_camera_orbits_its_target(void **state)
 {

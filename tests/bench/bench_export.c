@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "export/export.h"
 #include "export/formats.h"
+#include "render/world.h"
 
 #include <fcntl.h>
 #include <stdio.h>

@@ -11,6 +11,7 @@
 #include "grow/colonize.h"
 #include "outtree/radii.h"
 #include "render/renderer.h"
+#include "render/world.h"
 #include "shape/import.h"
 
 #include <stdio.h>

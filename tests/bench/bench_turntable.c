@@ -3,6 +3,7 @@
 //
 //     bench_turntable [FRAMES [SCENE]]
 #include "animate/shoot.h"
+#include "render/world.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 // export/sky_bake: a sky that is turned by its rotation is the one whose sun stands there.
 #include "export/sky_bake.h"
+#include "render/world.h"
 #include "testing.h"
 
 static BakedSky bake(float azimuth, float rotation)

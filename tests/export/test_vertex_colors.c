@@ -1,4 +1,5 @@
 // Colours at vertices against what rays meet there.
+#include "render/world.h"
 #include "testing.h"
 
 #include "export/vertex_colors.h"

@@ -3,7 +3,7 @@
 
 #include "render/light/lights.h"
 #include "render/sky/atmosphere.h"
-#include "render/sky/sky.h"
+#include "render/sky/sun_sky.h"
 
 static Dome *make_sky(float elevation, float turbidity, Sun *sun)
 {

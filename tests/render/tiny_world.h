@@ -2,6 +2,7 @@
 #ifndef RAMIFY_TESTS_RENDER_TINY_WORLD_H
 #define RAMIFY_TESTS_RENDER_TINY_WORLD_H
 
+#include "render/world.h"
 #include "testing.h"
 
 #include "base/memory.h"

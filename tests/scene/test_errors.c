@@ -1,4 +1,5 @@
 // Scenes and meshes that are wrong, and the exact words they are refused with.
+#include "render/material/material.h"
 #include "scene_fixture.h"
 
 #include "base/memory.h"

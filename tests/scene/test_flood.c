@@ -1,4 +1,5 @@
 // Grass, trees and ferns keep out of the water that lies on their ground.
+#include "render/world.h"
 #include "scene/builder.h"
 #include "scene/scene_flood.h"
 

@@ -1,6 +1,7 @@
 // One small object of each kind, grown and skinned: its bits are those that were recorded, with any
 // compiler's options and on any machine. Whoever means to change growth records what the failing
 // test prints.
+#include "render/world.h"
 #include "testing.h"
 
 #include "base/random.h"

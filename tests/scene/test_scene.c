@@ -1,4 +1,5 @@
 // Scenes that are right: defaults, overrides, anchors, merges, numbers, files, round trips.
+#include "render/world.h"
 #include "scene_fixture.h"
 
 #include "config/hint.h"

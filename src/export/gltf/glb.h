@@ -5,7 +5,8 @@
 #define RAMIFY_EXPORT_GLTF_GLB_H
 
 #include "export/pieces.h"
-#include "render/sky/sky.h"
+#include "render/sky/sun_sky.h"
+#include "render/world.h"
 
 #include <stdio.h>
 

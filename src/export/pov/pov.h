@@ -7,6 +7,7 @@
 #include "export/pov/palette.h"
 #include "render/light/lights.h"
 #include "render/material/pattern.h"
+#include "render/world.h"
 
 typedef struct Pov {
     const World *world;

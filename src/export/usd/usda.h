@@ -5,6 +5,7 @@
 #include "export/export.h"
 #include "export/usd/text.h"
 #include "image/image.h"
+#include "render/world.h"
 
 typedef struct Usda {
     UsdaText text;

@@ -13,11 +13,11 @@ enum {
     NEAR = 8 * KEPT
 };
 
-#define TIMID 0.5         // rough walls are off by less than this factor
-#define NOISE_PEAK 1.2f   // of the sum of octaves over the largest one's height
-#define ROUGH_SHARE 0.25f // of a cell's inner radius: the largest height of its walls' bumps
-#define LEAST_SLOPE 0.35f // of the difference of two cells' values; walls deep inside go below
-#define SHADOWED 1.5f     // spacings: sources nearer to the network say nothing new
+#define DISTANCE_SAFETY 0.5 // rough walls are off by less than this factor
+#define NOISE_PEAK 1.2f     // of the sum of octaves over the largest one's height
+#define ROUGH_SHARE 0.25f   // of a cell's inner radius: the largest height of its walls' bumps
+#define LEAST_SLOPE 0.35f   // of the difference of two cells' values; walls deep inside go below
+#define SHADOWED 1.5f       // spacings: sources nearer to the network say nothing new
 
 struct CrackCells {
     CrackCellsParams params;
@@ -329,7 +329,7 @@ static double rough_distance(const CrackCells *cells, const Rivals *r, Vec3 p, f
         }
     }
     float half = 0.5f * (best - r->value[0] - bumps(cells, r->cell[0], p, bump));
-    *bound = TIMID * (double)fabsf(half);
+    *bound = DISTANCE_SAFETY * (double)fabsf(half);
     return 2.0 * (double)(half / slope_between(cells, r, 0, nearest));
 }
 

@@ -11,12 +11,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define CELL_VOXELS 1.6f   // spacing of the grid that tells cells apart, over a voxel
-#define CELL_SPACINGS 2.0f // inner radius of the smallest cell, in those
-#define MOST_ACROSS 340.0f // of those
-#define DUST 30.0          // voxels of volume: less is no piece
-#define CHANGE_MOST 0.01   // of the volume: beyond that a warning tells
-#define TIMID 0.5          // bumps put distances off by less than this factor
+#define CELL_VOXELS 1.6f    // spacing of the grid that tells cells apart, over a voxel
+#define CELL_SPACINGS 2.0f  // inner radius of the smallest cell, in those
+#define MOST_ACROSS 340.0f  // of those
+#define DUST 30.0           // voxels of volume: less is no piece
+#define CHANGE_MOST 0.01    // of the volume: beyond that a warning tells
+#define DISTANCE_SAFETY 0.5 // bumps put distances off by less than this factor
 
 FractureParams fracture_params_default(void)
 {
@@ -112,7 +112,7 @@ static double cut_distance(const void *shape, Vec3 p, double *bound)
         }
     }
     double body = fracture_body_distance(&work->body, p);
-    double far = TIMID * fabs(body);
+    double far = DISTANCE_SAFETY * fabs(body);
     *bound = body > 0.0 ? far : fmin(far, fmax(near, 0.0));
     return body > wall ? body : wall;
 }

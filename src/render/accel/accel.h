@@ -7,8 +7,8 @@
 #include "base/run.h"
 #include "render/light/emitter_set.h"
 #include "render/material/bsdf.h"
-#include "render/world.h"
 
+typedef struct World World;
 typedef struct Accel Accel;
 
 // Small meshes (leaves, grass) copied out trace 1.3 times as fast as instanced one by one, but cost

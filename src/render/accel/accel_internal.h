@@ -3,6 +3,7 @@
 #define RAMIFY_RENDER_ACCEL_ACCEL_INTERNAL_H
 
 #include "render/accel/accel.h"
+#include "render/world.h"
 
 #include <embree3/rtcore.h>
 #include <pthread.h>

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "render/sky/dome.h"
+#include "render/world.h"
 
 #include <stdlib.h>
 

@@ -4,7 +4,8 @@
 #define RAMIFY_RENDER_LIGHT_EMITTER_SET_H
 
 #include "render/light/emitter.h"
-#include "render/world.h"
+
+typedef struct World World;
 
 typedef struct EmitterSet {
     Emitter *emitter; // owned

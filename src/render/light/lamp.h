@@ -3,6 +3,7 @@
 #ifndef RAMIFY_RENDER_LIGHT_LAMP_H
 #define RAMIFY_RENDER_LIGHT_LAMP_H
 
+#include "render/light/light.h"
 #include "render/light/lights.h"
 
 // Power that reaches the scene, over pi^2 R^2 for a scene of radius R.

@@ -6,9 +6,9 @@
 #include "base/run.h"
 #include "render/light/emitter_set.h"
 #include "render/medium/water.h"
-#include "render/sky/sky.h"
-#include "render/world.h"
+#include "render/sky/sun_sky.h"
 
+typedef struct World World;
 typedef struct Lights Lights;
 
 // scene_radius (m): how much a light at infinity counts against near ones when one is chosen.

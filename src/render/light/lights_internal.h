@@ -4,6 +4,7 @@
 
 #include "render/light/lights.h"
 #include "render/sky/clouds.h"
+#include "render/world.h"
 
 struct Lights {
     const World *world;

@@ -5,7 +5,7 @@
 #ifndef RAMIFY_RENDER_SKY_NIGHT_H
 #define RAMIFY_RENDER_SKY_NIGHT_H
 
-#include "render/sky/sky.h"
+#include "render/sky/sun_sky.h"
 
 // sky->kind must be SKY_NIGHT. All of it but stars and moon; *moon is set (without radiance where
 // there is none).

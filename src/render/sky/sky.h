@@ -1,35 +1,34 @@
-// Sun and sky: the atmosphere baked into a dome, and the sun apart from it.
-//
-// Scale: radiance 1 is a luminance of 1e5 / pi = 31,831 cd/m^2, which is a white diffuse surface
-// under 100,000 lux, a clear noon in summer. So white in sunlight comes out near 1 and needs no
-// exposure. The colour is that of the light itself seen with a white of 6500 K.
+// The description of the sky: daylight, night, a picture or one colour.
 #ifndef RAMIFY_RENDER_SKY_SKY_H
 #define RAMIFY_RENDER_SKY_SKY_H
 
-#include "base/run.h"
-#include "render/sky/dome.h"
-#include "render/world.h"
+#include "base/vec.h"
 
-#define SKY_CANDELA_PER_UNIT (1e5f / PI_F)
+typedef enum SkyKind { SKY_NONE, SKY_CONSTANT, SKY_SUN_SKY, SKY_ENVIRONMENT, SKY_NIGHT } SkyKind;
 
-// The sun as a disc at infinity.
-typedef struct Sun {
-    Vec3 direction;      // unit, to its centre
-    float one_minus_cos; // of its angular radius
-    Vec3 radiance;       // mean over the disc; 0 below the horizon
-    float solid_angle;
-    bool even; // without limb darkening: the moon
-} Sun;
-
-// sky->kind must be SKY_SUN_SKY. The lower half of the dome is the ground: the horizon's haze that
-// passes within a few degrees into ground_albedo under this very sky.
-Dome *sky_dome(const Sky *sky, Sun *sun, const Run *run, Error *e);
-
-// Radiance of the disc in direction, with limb darkening; 0 outside.
-Vec3 sun_radiance(const Sun *sun, Vec3 direction);
-
-// Uniform over the disc: density 1 / solid_angle.
-Vec3 sun_sample(const Sun *sun, float u, float v);
-bool sun_covers(const Sun *sun, Vec3 direction);
+typedef struct Sky {
+    SkyKind kind;
+    Vec3 color;          // SKY_CONSTANT: radiance
+    float sun_elevation; // SKY_SUN_SKY: degrees above the horizon
+    float sun_azimuth;   // degrees from +Z toward +X
+    float sun_size;      // angular diameter, degrees; 0.53 in nature
+    float sun_strength;  // factor on the sun alone, 1 = physical
+    float turbidity;     // 1 = pure air, 2-3 clear, 6+ hazy
+    float ground_albedo; // grey, for light bounced into the sky
+    float clouds; // SKY_SUN_SKY: share of the sky under thin clouds, 0..1; seen, but not cast as
+                  // light
+    float moon;   // SKY_NIGHT: light of the full moon, 0 = none
+    float moon_elevation; // degrees above the horizon
+    float moon_azimuth;   // degrees from +Z toward +X
+    float moon_size;      // angular diameter, degrees
+    float stars;          // SKY_NIGHT: factor on their light
+    float city_glow;      // SKY_NIGHT: light of towns along the horizon
+    const char *file;     // SKY_ENVIRONMENT: latitude-longitude HDR, borrowed
+    float rotation;       // of all of it, sun, moon, clouds and stars too: degrees about +Y
+    float strength;       // factor on all of it
+    bool visible;         // seen by camera rays; if not, the background is black with alpha 0
+    float haze_distance; // m over which distant surfaces fade to 1/e into the sky's horizon colour;
+                         // 0 = no haze
+} Sky;
 
 #endif

@@ -1,4 +1,4 @@
-#include "render/sky/sky.h"
+#include "render/sky/sun_sky.h"
 
 #include "render/sky/atmosphere.h"
 #include "render/warp.h"

@@ -1,0 +1,20 @@
+// Settings of the path tracer: samples, depth, noise.
+#ifndef RAMIFY_RENDER_RENDER_PARAMS_H
+#define RAMIFY_RENDER_RENDER_PARAMS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct RenderParams {
+    int samples;        // per pixel
+    int max_depth;      // bounces
+    int roulette_depth; // bounces before Russian roulette may end a path; max_depth = never
+    uint64_t seed;
+    uint64_t noise_seed; // another number, another pattern of noise in the same picture
+    float clamp;         // upper bound on a sample's indirect luminance; 0 = none (unbiased)
+    float max_noise; // adaptive: a tile stops when its estimated relative error is below this; 0 =
+                     // off
+    double max_seconds; // 0 = no limit
+} RenderParams;
+
+#endif

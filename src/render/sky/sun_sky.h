@@ -1,0 +1,35 @@
+// Sun and sky: the atmosphere baked into a dome, and the sun apart from it.
+//
+// Scale: radiance 1 is a luminance of 1e5 / pi = 31,831 cd/m^2, which is a white diffuse surface
+// under 100,000 lux, a clear noon in summer. So white in sunlight comes out near 1 and needs no
+// exposure. The colour is that of the light itself seen with a white of 6500 K.
+#ifndef RAMIFY_RENDER_SKY_SUN_SKY_H
+#define RAMIFY_RENDER_SKY_SUN_SKY_H
+
+#include "base/run.h"
+#include "render/sky/dome.h"
+#include "render/sky/sky.h"
+
+#define SKY_CANDELA_PER_UNIT (1e5f / PI_F)
+
+// The sun as a disc at infinity.
+typedef struct Sun {
+    Vec3 direction;      // unit, to its centre
+    float one_minus_cos; // of its angular radius
+    Vec3 radiance;       // mean over the disc; 0 below the horizon
+    float solid_angle;
+    bool even; // without limb darkening: the moon
+} Sun;
+
+// sky->kind must be SKY_SUN_SKY. The lower half of the dome is the ground: the horizon's haze that
+// passes within a few degrees into ground_albedo under this very sky.
+Dome *sky_dome(const Sky *sky, Sun *sun, const Run *run, Error *e);
+
+// Radiance of the disc in direction, with limb darkening; 0 outside.
+Vec3 sun_radiance(const Sun *sun, Vec3 direction);
+
+// Uniform over the disc: density 1 / solid_angle.
+Vec3 sun_sample(const Sun *sun, float u, float v);
+bool sun_covers(const Sun *sun, Vec3 direction);
+
+#endif
