@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "shape/grid_file_internal.h"
+#include "shape/spare_memory.h"
 
 #include <cstring>
 #include <memory>
@@ -33,6 +34,7 @@ namespace
 template <typename F> bool guarded(Error *e, ErrorCode code, const F &f)
 {
     try {
+        SpareMemory spare;
         return f();
     } catch (const std::bad_alloc &) {
         return error_set(e, ERROR_MEMORY, "out of memory for OpenVDB grids");

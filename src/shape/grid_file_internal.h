@@ -4,8 +4,29 @@
 
 #include <openvdb/openvdb.h>
 
+// OpenVDB's destructor of a tree allocates, and ends the program when it cannot. The root's clear()
+// does not, and leaves that destructor nothing to do.
+template <typename Grid> void clear_without_allocating(Grid &grid)
+{
+    grid.tree().root().clear();
+}
+
 struct GridFile {
     openvdb::GridPtrVec grids;
+
+    GridFile() = default;
+    GridFile(const GridFile &) = delete;
+    GridFile &operator=(const GridFile &) = delete;
+    ~GridFile()
+    {
+        for (const auto &base : grids) {
+            if (auto scalars = openvdb::gridPtrCast<openvdb::FloatGrid>(base)) {
+                clear_without_allocating(*scalars);
+            } else if (auto vectors = openvdb::gridPtrCast<openvdb::Vec3SGrid>(base)) {
+                clear_without_allocating(*vectors);
+            }
+        }
+    }
 };
 
 #endif

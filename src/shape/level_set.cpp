@@ -7,6 +7,7 @@
 #include <openvdb/tools/VolumeToMesh.h>
 
 #include "shape/grid_file_internal.h"
+#include "shape/spare_memory.h"
 
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -45,6 +46,16 @@ struct LevelSet {
     int blocks[3] = {0, 0, 0};
     std::vector<const float *> table;
     std::vector<float> inside, outside; // the values of blocks without a leaf
+
+    LevelSet() = default;
+    LevelSet(const LevelSet &) = delete;
+    LevelSet &operator=(const LevelSet &) = delete;
+    ~LevelSet()
+    {
+        if (grid) {
+            clear_without_allocating(*grid);
+        }
+    }
 };
 
 namespace
@@ -54,6 +65,7 @@ namespace
 template <typename F> bool guarded(Error *e, const F &f)
 {
     try {
+        SpareMemory spare;
         return f();
     } catch (const std::bad_alloc &) {
         return error_set(e, ERROR_MEMORY,
@@ -342,7 +354,8 @@ extern "C" LevelSet *level_set_from_distance(LevelSetDistance distance, const vo
         });
         for (Block &block : blocks) {
             if (block.leaf) {
-                made->grid->tree().addLeaf(block.leaf.release());
+                made->grid->tree().addLeaf(block.leaf.get()); // may throw
+                (void)block.leaf.release();
             } else if (block.inside) {
                 made->grid->tree().addTile(1, block.origin, -made->band * made->unit, false);
             }
