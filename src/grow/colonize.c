@@ -195,7 +195,9 @@ static void make_children(Growth *growth)
     int threads = shared ? growth->grid.slab_count : 1;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int64_t i = 0; i < growers; i++) {
-        growth_prepare(growth, &growth->grower[i]);
+        if (!run_is_cancelled(growth->run)) { // a field asks each of its nuclei
+            growth_prepare(growth, &growth->grower[i]);
+        }
     }
 #pragma omp parallel for schedule(static, 1) num_threads(threads) if (threads > 1)
     for (int part = 0; part < threads; part++) {
@@ -203,9 +205,11 @@ static void make_children(Growth *growth)
     }
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int64_t i = 0; i < growers; i++) {
-        growth_merge_pulls(growth, i, threads);
-        growth->child_count[i] = growth_make_children(
-            growth, &growth->grower[i], &growth->pull[i * bins], &growth->child[i * bins]);
+        if (!run_is_cancelled(growth->run)) {
+            growth_merge_pulls(growth, i, threads);
+            growth->child_count[i] = growth_make_children(
+                growth, &growth->grower[i], &growth->pull[i * bins], &growth->child[i * bins]);
+        }
     }
 }
 
@@ -255,15 +259,14 @@ static bool add_children(Growth *growth, int32_t birth, bool *full, Error *e)
 }
 
 // After the first look at the attractors: what no root can reach.
-static void check_reach(const Growth *growth, const Run *run, GrowReport *report)
+static bool check_reach(const Growth *growth, const Run *run, GrowReport *report, Error *e)
 {
     bool killed = growth->grid.alive < growth->attractors->count;
     if (growth->grid.active_count == 0 && !killed) {
         report->stop = STOP_OUT_OF_REACH;
-        reach_measure(growth->tree, growth->attractors, report);
-    } else {
-        reach_warn(growth->tree, growth->params, growth->attractors, &growth->changed, run);
+        return reach_measure(growth->tree, growth->attractors, report, run, e);
     }
+    return reach_warn(growth->tree, growth->params, growth->attractors, &growth->changed, run, e);
 }
 
 // Steps until nothing grows or a limit is met.
@@ -280,8 +283,8 @@ static bool grow(Growth *growth, const Run *run, GrowReport *report, Error *e)
             return run_cancel_error(e);
         }
         seen = growth->tree->count;
-        if (report->steps == 0) {
-            check_reach(growth, run, report);
+        if (report->steps == 0 && !check_reach(growth, run, report, e)) {
+            return false;
         }
         if (full || (params->max_steps > 0 && report->steps >= params->max_steps)) {
             report->stop = full ? STOP_MAX_NODES : STOP_MAX_STEPS;

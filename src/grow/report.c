@@ -1,6 +1,9 @@
 #include "grow/report.h"
 
+#include "base/memory.h"
+
 #include <stdio.h>
+#include <stdlib.h>
 
 enum { MAX_WARNINGS = 4 };
 
@@ -62,12 +65,16 @@ static float nearest_to(Vec3 p, const PointSet *attractors)
     return sqrtf(best);
 }
 
-void reach_measure(const OutTree *tree, const PointSet *attractors, GrowReport *report)
+bool reach_measure(const OutTree *tree, const PointSet *attractors, GrowReport *report,
+                   const Run *run, Error *e)
 {
     report->nearest = INFINITY;
     report->root = 0;
     int64_t node = 0;
     for (int64_t i = 0; i < tree->count; i++) {
+        if (run_is_cancelled(run)) { // each node looks at all attractors
+            return run_cancel_error(e);
+        }
         float d = nearest_to(tree->position[i], attractors);
         if (d < report->nearest) {
             report->nearest = d;
@@ -75,6 +82,7 @@ void reach_measure(const OutTree *tree, const PointSet *attractors, GrowReport *
         }
     }
     report->root = root_of(tree, node);
+    return true;
 }
 
 static float nearest_node(const OutTree *tree, Vec3 p)
@@ -123,44 +131,66 @@ void reach_measure_left(const OutTree *tree, const AttractorGrid *grid, int64_t 
     }
 }
 
-// Whether an attractor pulls any node of the tree that begins at `root`.
-static bool is_pulled(const OutTree *tree, int32_t root, const NodeBits *pulled)
+// For each node the root of its tree; for each root whether an attractor pulls a node of its tree.
+static void find_roots(const OutTree *tree, const NodeBits *pulled, int32_t *root, bool *is_pulled)
 {
-    for (int64_t i = root; i < tree->count; i++) {
-        if ((pulled->word[i >> 6] >> (i & 63) & 1) && root_of(tree, i) == root) {
-            return true;
-        }
+    for (int64_t i = 0; i < tree->count; i++) { // parents come first
+        root[i] = tree->parent[i] < 0 ? (int32_t)i : root[tree->parent[i]];
+        is_pulled[root[i]] |= pulled->word[i >> 6] >> (i & 63) & 1;
     }
-    return false;
 }
 
-void reach_warn(const OutTree *tree, const ColonizeParams *params, const PointSet *attractors,
-                const NodeBits *pulled, const Run *run)
+// For the roots that nothing pulls: the distance of their trees from the nearest attractor, m.
+static bool measure_unpulled(const OutTree *tree, const PointSet *attractors, const int32_t *root,
+                             const bool *is_pulled, float *nearest, const Run *run, Error *e)
+{
+    for (int64_t i = 0; i < tree->count; i++) {
+        nearest[i] = INFINITY;
+        if (run_is_cancelled(run)) { // each node looks at all attractors
+            return run_cancel_error(e);
+        }
+        if (!is_pulled[root[i]]) {
+            float d = nearest_to(tree->position[i], attractors);
+            nearest[root[i]] = d < nearest[root[i]] ? d : nearest[root[i]];
+        }
+    }
+    return true;
+}
+
+static void warn_of_root(int32_t root, float nearest, const ColonizeParams *params, const Run *run)
+{
+    GrowReport report = {.stop = STOP_OUT_OF_REACH,
+                         .nearest = nearest,
+                         .root = root,
+                         .influence = params->influence};
+    char text[256];
+    grow_report_format(&report, params, text, sizeof text);
+    run_warn(run, "%s", text);
+}
+
+bool reach_warn(const OutTree *tree, const ColonizeParams *params, const PointSet *attractors,
+                const NodeBits *pulled, const Run *run, Error *e)
 {
     if (!run->warn) {
-        return;
+        return true;
+    }
+    int32_t *root = memory_alloc(tree->count, sizeof *root, e);
+    bool *is_pulled = memory_alloc_zero(tree->count, sizeof *is_pulled, e);
+    float *nearest = memory_alloc(tree->count, sizeof *nearest, e);
+    bool done = root && is_pulled && nearest;
+    if (done) {
+        find_roots(tree, pulled, root, is_pulled);
+        done = measure_unpulled(tree, attractors, root, is_pulled, nearest, run, e);
     }
     int warnings = 0;
-    for (int32_t root = 0; root < tree->count && warnings < MAX_WARNINGS; root++) {
-        if (tree->parent[root] >= 0 || is_pulled(tree, root, pulled)) {
-            continue;
-        }
-        float best = INFINITY;
-        for (int64_t i = root; i < tree->count; i++) {
-            if (root_of(tree, i) == root) {
-                float d = nearest_to(tree->position[i], attractors);
-                best = d < best ? d : best;
-            }
-        }
-        if (best >= params->influence) {
-            GrowReport report = {.stop = STOP_OUT_OF_REACH,
-                                 .nearest = best,
-                                 .root = root,
-                                 .influence = params->influence};
-            char text[256];
-            grow_report_format(&report, params, text, sizeof text);
-            run_warn(run, "%s", text);
+    for (int32_t i = 0; done && i < tree->count && warnings < MAX_WARNINGS; i++) {
+        if (root[i] == i && !is_pulled[i] && nearest[i] >= params->influence) {
+            warn_of_root(i, nearest[i], params, run);
             warnings++;
         }
     }
+    free(root);
+    free(is_pulled);
+    free(nearest);
+    return done;
 }

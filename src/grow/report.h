@@ -6,8 +6,9 @@
 #include "grow/colonize.h"
 
 // Fills report->nearest and report->root for a growth that never began: the initial node nearest to
-// an attractor, named by its root.
-void reach_measure(const OutTree *tree, const PointSet *attractors, GrowReport *report);
+// an attractor, named by its root. false when interrupted.
+bool reach_measure(const OutTree *tree, const PointSet *attractors, GrowReport *report,
+                   const Run *run, Error *e);
 
 // Fills report->unreached after growth, and where they are a tenth of all attractors or more,
 // report->nearest and report->furthest as well (of 256 of them).
@@ -15,8 +16,9 @@ void reach_measure_left(const OutTree *tree, const AttractorGrid *grid, int64_t 
                         GrowReport *report);
 
 // Warns, naming the number to change, about roots none of whose nodes has an attractor within
-// influence, though others have. pulled: the nodes with attractors after the first update.
-void reach_warn(const OutTree *tree, const ColonizeParams *params, const PointSet *attractors,
-                const NodeBits *pulled, const Run *run);
+// influence, though others have. pulled: the nodes with attractors after the first update. false
+// when interrupted or out of memory.
+bool reach_warn(const OutTree *tree, const ColonizeParams *params, const PointSet *attractors,
+                const NodeBits *pulled, const Run *run, Error *e);
 
 #endif

@@ -35,4 +35,5 @@ interrupt places 1 'forest: {radius: 100000, height: 0.001, stands: 1, stand_tre
 interrupt field 1 'tree: {crown: {fields: [{kind: grid, resolution: 1024}]}}'
 interrupt cracks 1 'fracture: {impacts: 10000}'
 interrupt veins 1 'venation: {detail: 2000}'
+interrupt roots 4 'frost: {nuclei: 100000, spines: 1000000}'
 interrupt first_pass 2 'shape: {envelope: [{shape: sphere, size: [1, 1, 1]}]}'

@@ -195,6 +195,13 @@ static void test_bloom(void **state)
     assert_float_equal(flat->pixel[4], 0.5f, 1e-5f);
     assert_float_equal(flat->pixel[7], 0.5f, 0.0f);
     image_free(flat);
+
+    Image *narrow = image_new(2, 400, 3, NULL); // several times narrower than the widest blur
+    narrow->pixel[3 * (2 * 130 + 1)] = 1000.0f;
+    assert_true(lens_bloom(narrow, 0.1f, NULL));
+    assert_true(fabs(sum_of(narrow) / 1000.0 - 1.0) < 1e-4);
+    assert_float_equal(narrow->pixel[3 * 2 * 134], narrow->pixel[3 * (2 * 134 + 1)], 1e-3f);
+    image_free(narrow);
 }
 
 static void test_vignette(void **state)
