@@ -10,7 +10,7 @@ trap 'rm -rf "$parts"' EXIT
 
 is_wanted() { [ "$wanted" = "  " ] || case $wanted in *" $1 "*) ;; *) false ;; esac; }
 
-# still NAME SCENE [OPTION...]: renders/NAME.jpg, one scene as it is.
+# still NAME SCENE [OPTION...]: renders SCENE to renders/NAME.jpg.
 still() {
     is_wanted "$1" || return 0
     name=$1 scene=$2
@@ -20,7 +20,7 @@ still() {
     rm -f "$parts"/*
 }
 
-# panel SCENE [OPTION...]: one picture of the sheet that follows.
+# panel SCENE [OPTION...]: renders one picture of the next sheet.
 panel() {
     scene=$1
     shift
@@ -28,7 +28,7 @@ panel() {
     "$ramify" render "scenes/$scene.yaml" -o "$parts/$(printf %03d "$count").png" "$@"
 }
 
-# sheet NAME COLUMNSxROWS: renders/NAME.jpg from the panels since the last sheet.
+# sheet NAME COLUMNSxROWS: joins the panels since the last sheet into renders/NAME.jpg.
 sheet() {
     oiiotool "$parts"/*.png --mosaic:pad=4 "$2" --ch R,G,B --compression jpeg:88 -o "renders/$1.jpg"
     rm -f "$parts"/*

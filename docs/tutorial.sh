@@ -1,5 +1,5 @@
 #!/bin/sh
-# Renders the pictures of docs/tutorial.md: docs/tutorial/NAME.jpg of each NAME.yaml there, all or those named.
+# Renders the pictures of docs/tutorial.md, docs/tutorial/NAME.jpg from NAME.yaml: all of them, or those named on the command line.
 # usage: docs/tutorial.sh [NAME...]
 set -e
 cd "$(dirname "$0")/.."

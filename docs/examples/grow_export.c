@@ -1,5 +1,5 @@
 // Grows a scene and writes it for another program: the out-tree of its first growing object as .swc
-// or .json, or the whole scene in any of the formats that ramify_export knows.
+// or .json, or the whole scene in any format of ramify_export.
 //
 //     cc grow_export.c -o grow_export $(pkg-config --cflags --libs ramify)
 //     ./grow_export oak.yaml oak.obj
@@ -37,7 +37,7 @@ static int first_growing(const RamifyScene *scene)
             return i;
         }
     }
-    return 0; // ramify_grow says what is wrong with it
+    return 0; // ramify_grow reports the error
 }
 
 static bool write_tree(const RamifyScene *scene, const char *file, const RamifyRun *run,
@@ -63,7 +63,7 @@ int main(int argc, char **argv)
     RamifyRun run = {.warn = warn};
     bool is_tree = ends_in(argv[2], ".swc") || ends_in(argv[2], ".json");
     if (!is_tree && !ramify_export_check(argv[2], &error)) {
-        return report(&error); // before the work, not after it
+        return report(&error); // fail before the work, not after it
     }
     RamifyScene *scene = ramify_scene_load(argv[1], NULL, 0, &error);
     bool done = scene && (is_tree ? write_tree(scene, argv[2], &run, &error)

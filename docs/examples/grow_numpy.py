@@ -1,4 +1,4 @@
-"""Grows one object of a scene and says what NumPy sees of it: python3 grow_numpy.py SCENE OBJECT"""
+"""Grows one object of a scene and measures it with NumPy: python3 grow_numpy.py SCENE OBJECT"""
 
 import sys
 

@@ -1,4 +1,4 @@
-// Grows every object of a scene that grows and prints what came of it.
+// Grows all growing objects of a scene and prints their sizes and measures.
 //
 //     cc grow_print.c -o grow_print $(pkg-config --cflags --libs ramify)
 //     ./grow_print oak.yaml objects.oak.tree.height=9

@@ -1,5 +1,5 @@
-// Renders a scene step by step: tells how far it is, writes a preview after every pass, and on
-// Ctrl-C keeps what there is.
+// Renders a scene step by step: prints the progress, writes a preview after every pass, and keeps
+// the picture on Ctrl-C.
 //
 //     cc render_progress.c -o render_progress $(pkg-config --cflags --libs ramify)
 //     ./render_progress oak.yaml oak.png
@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static volatile int cancelled; // all that a signal handler may touch
+static volatile int cancelled; // the handler may set nothing else
 
 static void on_interrupt(int number)
 {
@@ -25,11 +25,11 @@ static int report(const RamifyError *error)
     return error->code == RAMIFY_BAD_INPUT ? 2 : 1;
 }
 
-// What the callbacks need to know.
+// Shared with the callbacks.
 typedef struct Job {
     const RamifyScene *scene;
     const char *file;
-    char stage[32]; // the last that was reported
+    char stage[32]; // last reported
     int percent;
 } Job;
 
@@ -59,8 +59,8 @@ static bool render(Job *job, const RamifyRun *run, RamifyRenderInfo *info, Ramif
     RamifyWorld *world = ramify_build(job->scene, run, error);
     RamifyRenderer *renderer = world ? ramify_renderer_new(world, NULL, run, error) : NULL;
     RamifyFilm *film = renderer ? ramify_film_new(width, height, error) : NULL;
-    // Cancelled while tracing is no failure: the film has fewer samples. It is then denoised and
-    // written without looking at the flag again (NULL: run to the end).
+    // Cancelling while tracing is not a failure: the film has fewer samples. It is then denoised
+    // and written without checking the flag again (NULL: run to the end).
     bool done = film && ramify_renderer_render(renderer, film, on_pass, job, run, info, error) &&
                 ramify_film_write(film, job->scene, job->file, true, NULL, error);
     ramify_film_free(film);
@@ -79,7 +79,7 @@ int main(int argc, char **argv)
     RamifyError error = {0};
     RamifyRenderInfo info = {0};
     if (!ramify_image_check(argv[2], &error)) {
-        return report(&error); // before the work, not after it
+        return report(&error); // fail before the work, not after it
     }
     RamifyScene *scene = ramify_scene_load(argv[1], NULL, 0, &error);
     Job job = {.scene = scene, .file = argv[2]};
