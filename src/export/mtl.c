@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/number_text.h"
 #include "export/asset_path.h"
+#include "render/material/appearance.h"
 #include "render/world.h"
 
 #include <stdio.h>
@@ -71,26 +72,24 @@ static bool write_map(FileWriter *writer, const char *keyword, const char *pictu
 static bool write_material(FileWriter *writer, const Material *m, const char *name,
                            const char *file, Error *e)
 {
-    bool clear = m->kind == MATERIAL_DIELECTRIC || m->kind == MATERIAL_THIN_FILM;
-    bool metal = m->kind == MATERIAL_CONDUCTOR;
-    bool plain = m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_EMISSION;
-    float metallic = metal ? 1.0f : m->kind == MATERIAL_PRINCIPLED ? m->metallic : 0.0f;
-    Vec3 diffuse = metal || m->kind == MATERIAL_EMISSION ? vec3_splat(0.0f) : m->color;
-    Vec3 specular = metal ? m->color : vec3_splat(plain ? 0.0f : clear ? 0.5f : m->specular);
-    float alpha = fmaxf(m->roughness * m->roughness, 0.03f);
+    Appearance a = material_appearance(m);
+    bool clear = appearance_is_clear(&a), matt = appearance_is_matt(&a);
+    bool metal = a.metalness > 0.0f && !a.coated;
+    Vec3 specular = metal ? a.color : vec3_splat(clear ? 0.5f : a.specular);
+    float alpha = fmaxf(a.roughness * a.roughness, 0.03f);
     file_writer_print(writer, "\nnewmtl %s\n", name);
-    write_color(writer, "Kd", diffuse);
+    write_color(writer, "Kd", metal ? vec3_splat(0.0f) : a.color);
     write_color(writer, "Ks", specular);
     // Blinn's exponent of a GGX lobe as wide
     write_number(writer, "Ns", fminf(2.0f / (alpha * alpha) - 2.0f, 1000.0f));
-    write_number(writer, "Ni", clear ? m->ior : 1.5f);
+    write_number(writer, "Ni", clear ? a.ior : 1.5f);
     write_number(writer, "d", clear ? 0.1f : 1.0f);
-    if (m->kind == MATERIAL_EMISSION) {
-        write_color(writer, "Ke", m->radiance);
+    if (a.traits & TRAIT_EMISSIVE) {
+        write_color(writer, "Ke", a.emission);
     }
-    file_writer_print(writer, "illum %d\n", clear ? 7 : plain ? 1 : 2);
-    write_number(writer, "Pr", plain ? 1.0f : m->roughness);
-    write_number(writer, "Pm", metallic);
+    file_writer_print(writer, "illum %d\n", clear ? 7 : matt ? 1 : 2);
+    write_number(writer, "Pr", matt ? 1.0f : a.roughness);
+    write_number(writer, "Pm", a.metalness);
     return write_map(writer, "map_Kd", m->texture, file, e) &&
            write_map(writer, "map_d", m->alpha_texture, file, e);
 }

@@ -6,13 +6,6 @@
 
 #include <stdlib.h>
 
-bool export_material_varies(const Material *material)
-{
-    bool colored = material->kind != MATERIAL_DIELECTRIC && material->kind != MATERIAL_EMISSION &&
-                   material->kind != MATERIAL_THIN_FILM;
-    return colored && (material->pattern != PATTERN_NONE || material->variation > 0.0f);
-}
-
 static bool make_normals(ExportSurface *surface, Error *e)
 {
     Mesh bare = *surface->mesh;
@@ -41,7 +34,8 @@ bool export_surface_prepare(ExportSurface *surface, const Mesh *mesh, const Mate
 {
     *surface = (ExportSurface){.mesh = mesh, .material = material, .wants = wants};
     bool done = (!(wants & EXPORT_WANTS_NORMALS) || mesh->normal || make_normals(surface, e)) &&
-                (!(wants & EXPORT_WANTS_COLORS) || !export_material_varies(material) ||
+                (!(wants & EXPORT_WANTS_COLORS) ||
+                 !(material_has_pattern(material) || material_varies(material)) ||
                  mesh->face_count == 0 || find_faces(surface, e));
     if (!done) {
         export_surface_clear(surface);

@@ -35,9 +35,6 @@ bool export_surface_prepare(ExportSurface *surface, const Mesh *mesh, const Mate
                             unsigned wants, Error *e);
 void export_surface_clear(ExportSurface *surface);
 
-// Does the material's colour change over the surface or between instances?
-bool export_material_varies(const Material *material);
-
 // Vertices first .. first + count - 1 into out. place: NULL = as it is. variation: the instance's,
 // 0..1; negative = none, as for a mesh that all instances share.
 void export_surface_vertices(const ExportSurface *surface, const Transform *place, float variation,

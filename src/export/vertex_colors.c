@@ -7,11 +7,6 @@
 
 #include <stdlib.h>
 
-bool vertex_colors_vary_on(const Material *material)
-{
-    return material->pattern != PATTERN_NONE && export_material_varies(material);
-}
-
 // last: of the point's curve.
 static SurfacePoint curve_point(const CurveSet *curves, int64_t i, bool last)
 {

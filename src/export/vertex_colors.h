@@ -8,9 +8,6 @@
 
 typedef struct World World;
 
-// True when a part of this material has a pattern, so that its colour differs from place to place.
-bool vertex_colors_vary_on(const Material *material);
-
 // The colour (reflectance, linear Rec. 709) that the part's material with its pattern has at each
 // vertex of its mesh or each point of its curves, in their order; details finer than the faces
 // around a vertex fade into their mean. Of an instanced part: without the variation between

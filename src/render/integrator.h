@@ -19,8 +19,8 @@ typedef struct Tracer {
     Filling outside; // the scene's medium
     Vec3 center;     // of the scene
     float medium_radius;
-    uint64_t seed;  // of all paths
-    bool has_clear; // some body has no surface: see is_clear
+    uint64_t seed;          // of all paths
+    bool has_index_matched; // some part is an index-matched interface
     CameraFrame camera;
     Filter filter;
     SobolTable sobol;

@@ -38,15 +38,15 @@ typedef struct Path {
     Vec3 direct, indirect;
     LightReceiver from; // where the ray's direction was drawn
     Vec3 start;         // where the ray left from there
-    float travelled;    // m from there to the ray's origin, through films and clear bodies
-    float bsdf_pdf;     // of the ray's direction; 0 where light sampling has no part in it
-    float spread;       // radians: how fast the footprint grows
-    float footprint;    // m, at the ray's origin
-    int depth;          // bounces so far
-    int stretches;      // through media so far
-    int crossings;      // of the surfaces of clear bodies
-    bool mirrored;      // from the eye by mirrors only
-    bool straight;      // from the eye through films only
+    float travelled; // m from there to the ray's origin, through films and index-matched interfaces
+    float bsdf_pdf;  // of the ray's direction; 0 where light sampling has no part in it
+    float spread;    // radians: how fast the footprint grows
+    float footprint; // m, at the ray's origin
+    int depth;       // bounces so far
+    int stretches;   // through media so far
+    int crossings;   // of index-matched interfaces
+    bool mirrored;   // from the eye by mirrors only
+    bool straight;   // from the eye through films only
     int64_t rays;
 } Path;
 
@@ -66,13 +66,6 @@ bool path_survives(Path *path, float u);
 
 // Through the surface of a body of this material.
 void media_cross(Media *media, const Tracer *tracer, int material, bool leaving);
-
-// A body without a surface of its own?
-static inline bool is_clear(const Tracer *tracer, int material)
-{
-    return tracer->has_clear && tracer->world->material[material].kind == MATERIAL_DIELECTRIC &&
-           tracer->world->material[material].ior <= 1.0f;
-}
 
 // The medium along a ray that starts amid media. False where there is none.
 bool media_line(const Media *media, const Tracer *tracer, const Ray *ray, float far,

@@ -1,8 +1,6 @@
 // Bodies that a path is in, and what shadow rays lose on their way.
 #include "render/path.h"
 
-#include "render/material/thin_film.h"
-
 enum { MOST_CROSSINGS = 64 };
 
 void tracer_set_media(Tracer *tracer, Aabb bounds)
@@ -17,9 +15,8 @@ void tracer_set_media(Tracer *tracer, Aabb bounds)
     float radius = 0.5f * vec3_distance(bounds.low, bounds.high);
     tracer->medium_radius = m->extent > 0.0f ? m->extent : 3.0f * radius;
     for (int64_t i = 0; i < world->geometry.count; i++) {
-        const Material *body = &world->material[world->geometry.part[i].material];
-        tracer->has_clear =
-            tracer->has_clear || (body->kind == MATERIAL_DIELECTRIC && body->ior <= 1.0f);
+        const Material *surface = &world->material[world->geometry.part[i].material];
+        tracer->has_index_matched = tracer->has_index_matched || material_is_index_matched(surface);
     }
 }
 
@@ -27,7 +24,8 @@ static void refresh(Media *media, const Tracer *tracer)
 {
     media->sheltered = false;
     for (int i = 0; i < media->count; i++) {
-        media->sheltered = media->sheltered || !is_clear(tracer, media->body[i]);
+        const Material *m = &tracer->world->material[media->body[i]];
+        media->sheltered = media->sheltered || !material_is_index_matched(m);
     }
     if (media->count > 0) {
         const Material *m = &tracer->world->material[media->body[media->count - 1]];
@@ -93,7 +91,7 @@ void path_aim(Ray *ray, const LightSample *light)
     ray->part = light->part;
 }
 
-// Stretch by stretch, through films and the surfaces of clear bodies.
+// Stretch by stretch, through films and index-matched interfaces.
 static bool passes_bodies(Path *path, Ray ray, const LightSample *light, Media media, Vec3 *share)
 {
     const Tracer *tracer = path->tracer;
@@ -111,10 +109,10 @@ static bool passes_bodies(Path *path, Ray ray, const LightSample *light, Media m
         SurfacePoint point;
         accel_surface(tracer->accel, &ray, &hit, &point);
         const Material *m = &tracer->world->material[point.material];
-        if (m->kind == MATERIAL_THIN_FILM) {
+        if (material_has(m, TRAIT_THIN)) {
             float cosine = fabsf(vec3_dot(ray.direction, point.geometric_normal));
-            *share = vec3_scale(*share, 1.0f - thin_film_mean(m->ior, cosine));
-        } else if (is_clear(tracer, point.material)) {
+            *share = vec3_scale(*share, 1.0f - material_shadow_opacity(m, cosine));
+        } else if (material_is_index_matched(m)) {
             *share = vec3_mul(*share, m->color);
             media_cross(&media, tracer, point.material, point.backface);
         } else {
@@ -132,7 +130,7 @@ bool path_lets_through(Path *path, const Ray *ray, const LightSample *light, con
 {
     const Tracer *tracer = path->tracer;
     *share = vec3_splat(1.0f);
-    if (tracer->has_clear) {
+    if (tracer->has_index_matched) {
         return passes_bodies(path, *ray, light, *media, share);
     }
     path->rays++;

@@ -23,8 +23,8 @@ static bool is_water(const Scene *scene, const char *name)
     }
     material = material ? material : builtin_material(name);
     return material &&
-           (material->pattern == PATTERN_WATER || (material->kind == MATERIAL_DIELECTRIC &&
-                                                   material->ior > 1.3f && material->ior < 1.36f));
+           (material->pattern == PATTERN_WATER ||
+            (material_has(material, TRAIT_BODY) && material->ior > 1.3f && material->ior < 1.36f));
 }
 
 static bool is_body_of_water(const Scene *scene, const SceneObject *object)

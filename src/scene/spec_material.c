@@ -5,20 +5,15 @@
 #include "scene/spec_check.h"
 
 #define BIT(kind) (1u << (kind))
-#define ALL_BUT(kinds) (127u & ~(kinds))
+#define ALL_BUT(kinds) (~(kinds))
 #define COLOURED ALL_BUT(BIT(MATERIAL_EMISSION))
 #define FILM BIT(MATERIAL_THIN_FILM)
 #define PATTERNED ALL_BUT(BIT(MATERIAL_EMISSION) | BIT(MATERIAL_DIELECTRIC) | FILM)
 #define BUMPED (PATTERNED | BIT(MATERIAL_DIELECTRIC))
 
-static const cyaml_strval_t MATERIAL_KINDS[] = {{"diffuse", MATERIAL_DIFFUSE},
-                                                {"conductor", MATERIAL_CONDUCTOR},
-                                                {"dielectric", MATERIAL_DIELECTRIC},
-                                                {"principled", MATERIAL_PRINCIPLED},
-                                                {"leaf", MATERIAL_LEAF},
-                                                {"emission", MATERIAL_EMISSION},
-                                                {"thin_film", MATERIAL_THIN_FILM},
-                                                {0}};
+#define KIND(NAME, name) {#name, MATERIAL_##NAME},
+static const cyaml_strval_t KINDS[] = {MATERIAL_KINDS(KIND){0}};
+#undef KIND
 static const cyaml_strval_t PATTERNS[] = {
     {"none", PATTERN_NONE},         {"bark", PATTERN_BARK},   {"ground", PATTERN_GROUND},
     {"leaf", PATTERN_LEAF},         {"noise", PATTERN_NOISE}, {"corallite", PATTERN_CORALLITE},
@@ -29,7 +24,7 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, name, "name", KEY_NAME), .flags = KEY_REQUIRED, .count = 64,
      .doc = "What objects call it. The name of a built-in material changes that one, and starts "
             "from its values."},
-    {KEY_OF(Material, kind, "kind", KEY_ENUM), .names = MATERIAL_KINDS,
+    {KEY_OF(Material, kind, "kind", KEY_ENUM), .names = KINDS,
      .doc =
          "diffuse: matt; conductor: metal; dielectric: glass or ice; principled: matt under a "
          "coat, or metallic; leaf: a thin sheet that lets light through; emission: shines, closed "

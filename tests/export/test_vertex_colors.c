@@ -95,7 +95,7 @@ static void vertices_have_the_colours_that_rays_meet(void **state)
     for (int64_t i = 0; i < world->geometry.count; i++) {
         const Part *part = &world->geometry.part[i];
         if (!part->mesh || part->instance ||
-            !vertex_colors_vary_on(&world->material[part->material])) {
+            !material_has_pattern(&world->material[part->material])) {
             continue;
         }
         Vec3 *color = vertex_colors(world, part, &run, &e);

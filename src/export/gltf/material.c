@@ -1,13 +1,13 @@
 #include "export/gltf/glb.h"
 
 #include "base/memory.h"
-#include "export/vertex_colors.h"
+#include "render/material/appearance.h"
 
 bool glb_colors_are_base(const Glb *glb, const Material *material)
 {
     ExportColors colors = glb->source->options.colors;
     return (colors == EXPORT_COLORS_ALL || colors == EXPORT_COLORS_PATTERN) &&
-           vertex_colors_vary_on(material);
+           material_has_pattern(material);
 }
 
 bool glb_gather_materials(Glb *glb, Error *e)
@@ -50,16 +50,6 @@ static float most(Vec3 v)
     return fmaxf(v.x, fmaxf(v.y, v.z));
 }
 
-static bool is_clear(const Material *m)
-{
-    return m->kind == MATERIAL_DIELECTRIC || m->kind == MATERIAL_THIN_FILM;
-}
-
-static bool is_coated(const Material *m)
-{
-    return m->kind == MATERIAL_PRINCIPLED || m->kind == MATERIAL_LEAF;
-}
-
 static float strongest_glow(const Glb *glb, const Material *m)
 {
     return glb->strongest[m - glb->source->world->material];
@@ -74,21 +64,21 @@ static float brightness(const Glb *glb, const Material *m)
 
 static bool uses(const Glb *glb, const Material *m, Extension extension)
 {
+    Appearance a = material_appearance(m);
     switch (extension) {
     case EMISSIVE_STRENGTH:
-        return m->kind == MATERIAL_EMISSION &&
-               (strongest_glow(glb, m) > 0.0f || most(m->radiance) > 1.0f);
+        return a.traits & TRAIT_EMISSIVE &&
+               (strongest_glow(glb, m) > 0.0f || most(a.emission) > 1.0f);
     case IOR:
-        return is_clear(m) || (is_coated(m) && m->specular > 0.5f);
+        return appearance_is_clear(&a) || (a.coated && a.specular > 0.5f);
     case IRIDESCENCE:
-        return m->kind == MATERIAL_THIN_FILM;
+        return a.traits & TRAIT_THIN;
     case SPECULAR:
-        return m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_EMISSION ||
-               (is_coated(m) && m->specular < 0.5f);
+        return appearance_is_matt(&a) || (a.coated && a.specular < 0.5f);
     case TRANSMISSION:
-        return is_clear(m);
+        return appearance_is_clear(&a);
     case VOLUME:
-        return m->kind == MATERIAL_DIELECTRIC;
+        return a.traits & TRAIT_BODY;
     case EXTENSION_COUNT:
         break;
     }
@@ -113,13 +103,6 @@ static void put_number(FILE *json, const char *key, float value)
 {
     fprintf(json, "\"%s\":", key);
     json_put_float(json, value);
-}
-
-// The index at which a dielectric mirrors 8 % of `specular` head on, as the principled coat does.
-static float coat_ior(float specular)
-{
-    float root = sqrtf(0.08f * specular);
-    return (1.0f + root) / (1.0f - root);
 }
 
 // How deep bodies of this material are, about: the least side of the largest one's box.
@@ -155,22 +138,23 @@ static void put_volume(const Glb *glb, const Material *m, FILE *json)
 
 static void put_extension(const Glb *glb, const Material *m, Extension x, FILE *json)
 {
+    Appearance a = material_appearance(m);
     fprintf(json, "\"%s\":{", EXTENSION_NAMES[x]);
     switch (x) {
     case EMISSIVE_STRENGTH:
         put_number(json, "emissiveStrength", brightness(glb, m));
         break;
     case IOR:
-        put_number(json, "ior", is_clear(m) ? fmaxf(m->ior, 1.0f) : coat_ior(m->specular));
+        put_number(json, "ior", fmaxf(a.ior, 1.0f));
         break;
     case IRIDESCENCE:
         fputs("\"iridescenceFactor\":1,", json);
-        put_number(json, "iridescenceIor", m->ior);
+        put_number(json, "iridescenceIor", a.ior);
         fputc(',', json);
-        put_number(json, "iridescenceThicknessMaximum", m->film_thickness);
+        put_number(json, "iridescenceThicknessMaximum", a.film_thickness);
         break;
     case SPECULAR:
-        put_number(json, "specularFactor", is_coated(m) ? 2.0f * fmaxf(m->specular, 0.0f) : 0.0f);
+        put_number(json, "specularFactor", 2.0f * fmaxf(a.specular, 0.0f));
         break;
     case TRANSMISSION:
         fputs("\"transmissionFactor\":1", json);
@@ -188,10 +172,8 @@ static void put_extension(const Glb *glb, const Material *m, Extension x, FILE *
 
 static void put_surface(const Glb *glb, const Material *m, FILE *json)
 {
-    bool metal = m->kind == MATERIAL_CONDUCTOR;
-    bool rough = m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_EMISSION;
-    Vec3 color = m->kind == MATERIAL_EMISSION ? vec3_splat(0.0f) : m->color;
-    color = glb_colors_are_base(glb, m) ? vec3_splat(1.0f) : color;
+    Appearance a = material_appearance(m);
+    Vec3 color = glb_colors_are_base(glb, m) ? vec3_splat(1.0f) : a.color;
     color = vec3_max(vec3_min(color, vec3_splat(1.0f)), vec3_splat(0.0f));
     int64_t image = glb_image_number(glb, m);
     fputs(",\"pbrMetallicRoughness\":{", json);
@@ -200,12 +182,10 @@ static void put_surface(const Glb *glb, const Material *m, FILE *json)
         fprintf(json, ",\"baseColorTexture\":{\"index\":%d}", (int)image);
     }
     fputc(',', json);
-    put_number(json, "metallicFactor",
-               metal                            ? 1.0f
-               : m->kind == MATERIAL_PRINCIPLED ? clampf(m->metallic, 0, 1)
-                                                : 0.0f);
+    put_number(json, "metallicFactor", clampf(a.metalness, 0.0f, 1.0f));
     fputc(',', json);
-    put_number(json, "roughnessFactor", rough ? 1.0f : clampf(m->roughness, 0.0f, 1.0f));
+    put_number(json, "roughnessFactor",
+               appearance_is_matt(&a) ? 1.0f : clampf(a.roughness, 0.0f, 1.0f));
     fputc('}', json);
 }
 
@@ -218,7 +198,7 @@ static void put_material(const Glb *glb, const Material *m, FILE *json)
         fprintf(json,
                 ",\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":%d,\"texCoord\":1}",
                 (int)glb_ramp_number(glb, m));
-    } else if (m->kind == MATERIAL_EMISSION) {
+    } else if (material_has(m, TRAIT_EMISSIVE)) {
         fputc(',', json);
         json_put_color(json, "emissiveFactor",
                        vec3_scale(m->radiance, 1.0f / fmaxf(most(m->radiance), 1.0f)));
@@ -226,7 +206,7 @@ static void put_material(const Glb *glb, const Material *m, FILE *json)
     if (m->alpha_texture && m->alpha_texture[0]) {
         fputs(",\"alphaMode\":\"MASK\"", json);
     }
-    if (m->kind != MATERIAL_DIELECTRIC) { // sheets: leaves, petals, films; the ray tracer sees both
+    if (!material_has(m, TRAIT_BODY)) { // the ray tracer shades both sides
         fputs(",\"doubleSided\":true", json);
     }
     bool any = false;

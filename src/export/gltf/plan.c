@@ -162,7 +162,7 @@ static bool plan_bounds(Glb *glb, Error *e)
 static bool varies(const World *world, const Part *part)
 {
     return part->curves && part->curves->glow &&
-           world->material[part->material].kind == MATERIAL_EMISSION;
+           material_has(&world->material[part->material], TRAIT_EMISSIVE);
 }
 
 static bool plan_glows(Glb *glb, Error *e)

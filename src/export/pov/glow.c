@@ -115,7 +115,7 @@ static void add_all(Glow *glow)
     for (int64_t i = 0; i < geometry->count; i++) {
         const Part *part = &geometry->part[i];
         const Material *m = &glow->world->material[part->material];
-        if (m->kind != MATERIAL_EMISSION) {
+        if (!material_has(m, TRAIT_EMISSIVE)) {
             continue;
         }
         for (int64_t k = 0; k < (part->instance ? part->instance_count : 1); k++) {
@@ -131,7 +131,7 @@ static bool find_closed(Glow *glow, Error *e)
     for (int64_t i = 0; glow->closed && i < geometry->count; i++) {
         const Part *part = &geometry->part[i];
         if (part->kind != PART_MESH || part->mesh->face_count < 1 ||
-            glow->world->material[part->material].kind != MATERIAL_EMISSION) {
+            !material_has(&glow->world->material[part->material], TRAIT_EMISSIVE)) {
             continue;
         }
         glow->closed[i] = memory_alloc(part->mesh->face_count, 1, e);

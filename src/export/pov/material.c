@@ -66,13 +66,13 @@ static void write_conductor_finish(Pov *pov, float roughness)
     file_writer_text(pov->out, " }");
 }
 
-static void write_principled_finish(Pov *pov, const Material *m)
+static void write_coated_finish(Pov *pov, const Appearance *a)
 {
-    float f0 = 0.08f * m->specular, metal = m->metallic;
-    float share = mirror_share(m->roughness), rest = 1.0f - share;
+    float f0 = 0.08f * a->specular, metal = a->metalness;
+    float share = mirror_share(a->roughness), rest = 1.0f - share;
     float matt = (1.0f - metal) * (1.0f - f0) + 0.5f * metal * rest;
     file_writer_print(pov->out, "finish { diffuse %.5g", (double)matt);
-    write_highlight(pov, f0 * (1.0f - metal) * rest + 0.5f * metal * rest, m->roughness,
+    write_highlight(pov, f0 * (1.0f - metal) * rest + 0.5f * metal * rest, a->roughness,
                     metal > 0.5f);
     if (share > 0.0f && (f0 > 0.0f || metal > 0.0f)) {
         file_writer_print(pov->out,
@@ -85,14 +85,14 @@ static void write_principled_finish(Pov *pov, const Material *m)
 
 // Two layers, each half clear and of twice the strength: POV-Ray has one colour for both sides of
 // light, a leaf has two.
-static void write_leaf(Pov *pov, const Material *m, const char *pigment)
+static void write_sheet(Pov *pov, const Appearance *a, bool picture, const char *pigment)
 {
-    float f0 = 0.08f * m->specular, under = 1.0f - f0;
-    if (pov_has_picture(m)) {
-        float t = luminance(m->transmittance), c = fmaxf(luminance(m->color), 1e-3f);
+    float f0 = 0.08f * a->specular, under = 1.0f - f0;
+    if (picture) {
+        float t = luminance(a->transmittance), c = fmaxf(luminance(a->color), 1e-3f);
         file_writer_print(pov->out, "texture { %s finish { diffuse %.5g, %.5g", pigment,
                           (double)under, (double)(under * t / c));
-        write_highlight(pov, f0, m->roughness, false);
+        write_highlight(pov, f0, a->roughness, false);
         file_writer_text(pov->out, " } }");
         return;
     }
@@ -100,60 +100,48 @@ static void write_leaf(Pov *pov, const Material *m, const char *pigment)
                       (double)(2.0f * under));
     file_writer_print(pov->out, "texture { pigment { rgb C transmit 0.5 } finish { diffuse %.5g, 0",
                       (double)(2.0f * under));
-    write_highlight(pov, f0, m->roughness, false);
+    write_highlight(pov, f0, a->roughness, false);
     file_writer_text(pov->out, " } }");
 }
 
 // Two waves meet: reflectance swings between 0 and twice its mean with the film's thickness.
-static void write_film(Pov *pov, const Material *m)
+static void write_film(Pov *pov, const Appearance *a)
 {
-    float mean = thin_film_mean(m->ior, 1.0f);
+    float mean = thin_film_mean(a->ior, 1.0f);
     file_writer_print(pov->out,
                       "texture { pigment { rgb C filter 1 } finish { diffuse 0 reflection "
                       "{ rgb %.5g, rgb 1 falloff 5 } conserve_energy\n"
                       "    irid { 1 thickness %.5g turbulence %.5g } } }",
-                      (double)mean, (double)(m->ior * m->film_thickness * 1e-3f),
-                      (double)(0.5f * fmaxf(m->film_swirl, m->film_drainage)));
+                      (double)mean, (double)(a->ior * a->film_thickness * 1e-3f),
+                      (double)(0.5f * a->film_variation));
 }
 
 static void write_textures(Pov *pov, const Material *m, const char *pigment)
 {
-    switch (m->kind) {
-    case MATERIAL_LEAF:
-        write_leaf(pov, m, pigment);
-        return;
-    case MATERIAL_THIN_FILM:
-        write_film(pov, m);
-        return;
-    case MATERIAL_EMISSION:
+    Appearance a = material_appearance(m);
+    if (a.traits & TRAIT_EMISSIVE) {
         file_writer_text(pov->out, "texture { pigment { rgb C } finish { diffuse 0 emission 1 } }");
-        return;
-    case MATERIAL_DIELECTRIC:
+    } else if (a.traits & TRAIT_THIN) {
+        write_film(pov, &a);
+    } else if (a.traits & TRAIT_BODY) {
         file_writer_print(pov->out, "texture { pigment { rgb C filter 1 } finish { diffuse 0%s } }",
-                          m->ior > 1.0f ? " reflection { 0, 1 fresnel on } conserve_energy" : "");
-        return;
-    case MATERIAL_DIFFUSE:
-    case MATERIAL_CONDUCTOR:
-    case MATERIAL_PRINCIPLED:
-        break;
-    }
-    file_writer_print(pov->out, "texture { %s ", pigment);
-    if (m->kind == MATERIAL_DIFFUSE) {
-        file_writer_text(pov->out, "finish { diffuse 1 }");
-    } else if (m->kind == MATERIAL_CONDUCTOR) {
-        write_conductor_finish(pov, m->roughness);
+                          a.ior > 1.0f ? " reflection { 0, 1 fresnel on } conserve_energy" : "");
+    } else if (!(a.traits & TRAIT_OPAQUE)) {
+        write_sheet(pov, &a, pov_has_picture(m), pigment);
     } else {
-        write_principled_finish(pov, m);
+        file_writer_print(pov->out, "texture { %s ", pigment);
+        if (a.coated) {
+            write_coated_finish(pov, &a);
+        } else if (a.metalness > 0.0f) {
+            write_conductor_finish(pov, a.roughness);
+        } else {
+            file_writer_text(pov->out, "finish { diffuse 1 }");
+        }
+        file_writer_text(pov->out, " }");
     }
-    file_writer_text(pov->out, " }");
 }
 
 // ---- interiors
-
-static bool has_interior(const Material *m)
-{
-    return m->kind == MATERIAL_DIELECTRIC;
-}
 
 // POV-Ray's fade_power 1001 is Beer and Lambert's law: exp(-(1 - fade_color) depth / distance).
 static void write_absorption(Pov *pov, Vec3 absorption)
@@ -192,13 +180,13 @@ static void write_interior(Pov *pov, int material)
 void pov_interior(Pov *pov, int material)
 {
     const Material *m = &pov->world->material[material];
-    if (has_interior(m)) {
+    if (material_has(m, TRAIT_BODY)) {
         file_writer_text(pov->out, luminance(m->scattering) > 0.0f ? " hollow interior { I"
                                                                    : " interior { I");
         write_name(pov, material);
         file_writer_text(pov->out, " }");
     }
-    if (m->kind == MATERIAL_EMISSION && pov->glow_lights) {
+    if (material_has(m, TRAIT_EMISSIVE) && pov->glow_lights) {
         file_writer_text(pov->out, " no_shadow no_radiosity");
     }
 }
@@ -234,7 +222,7 @@ static bool write_material(Pov *pov, int material)
     file_writer_text(pov->out, "(C, T)\n");
     write_textures(pov, m, pigment);
     file_writer_text(pov->out, "\n#end\n");
-    if (has_interior(m)) {
+    if (material_has(m, TRAIT_BODY)) {
         write_interior(pov, material);
     }
     return true;

@@ -151,7 +151,7 @@ static void write_mesh(Pov *pov, const MeshJob *job, int64_t triangles)
         write_palette(pov, job);
     }
     write_faces(pov, job, triangles);
-    if (pov->world->material[job->material].kind == MATERIAL_DIELECTRIC) {
+    if (material_has(&pov->world->material[job->material], TRAIT_BODY)) {
         file_writer_text(pov->out, "inside_vector <0,1,0>\n");
     }
 }
@@ -171,8 +171,9 @@ static void write_matrix(Pov *pov, const Transform *t)
 
 static void own_colors(const Material *m, Palette *colors)
 {
+    Appearance a = material_appearance(m);
     colors->count = 1;
-    colors->color[0] = m->kind == MATERIAL_EMISSION ? m->radiance : m->color;
+    colors->color[0] = appearance_display_color(&a);
     colors->second[0] = m->transmittance;
 }
 
@@ -210,7 +211,8 @@ static bool write_instanced(Pov *pov, const Part *part, MeshJob *job, int64_t tr
 {
     const Material *m = &pov->world->material[part->material];
     uint8_t *shade = NULL;
-    bool differ = !job->shade && !pov_has_picture(m) && (pov_is_varied(m) || pov_is_patterned(m));
+    bool differ =
+        !job->shade && !pov_has_picture(m) && (material_varies(m) || material_has_pattern(m));
     if (differ && !shade_instances(pov, part, job->colors, &shade)) {
         free(shade);
         return false;
@@ -272,7 +274,7 @@ bool pov_mesh_part(Pov *pov, int64_t number, const Part *part)
                    .number = number};
     own_colors(m, &colors);
     bool by_vertex = !pov_has_picture(m) &&
-                     (pov_is_patterned(m) || (pov_is_varied(m) && !part->instance)) &&
+                     (material_has_pattern(m) || (material_varies(m) && !part->instance)) &&
                      (!part->instance || part->mesh->vertex_count > SMALL_MESH);
     bool done = !by_vertex || shade_vertices(pov, part, &shades, &colors, &shade);
     if (by_vertex && done) {

@@ -6,6 +6,7 @@
 #include "export/export.h"
 #include "export/pov/palette.h"
 #include "render/light/lights.h"
+#include "render/material/appearance.h"
 #include "render/material/pattern.h"
 #include "render/world.h"
 

@@ -28,18 +28,6 @@ static bool shades_new(PovShades *shades, int64_t count, bool normals, Error *e)
     return done;
 }
 
-bool pov_is_patterned(const Material *m)
-{
-    return m->pattern != PATTERN_NONE && m->kind != MATERIAL_DIELECTRIC &&
-           m->kind != MATERIAL_EMISSION && m->kind != MATERIAL_THIN_FILM;
-}
-
-bool pov_is_varied(const Material *m)
-{
-    return m->variation > 0.0f && m->kind != MATERIAL_EMISSION && m->kind != MATERIAL_DIELECTRIC &&
-           m->kind != MATERIAL_THIN_FILM;
-}
-
 // As accel_surface has it.
 float pov_variation(const Part *part, int64_t instance)
 {
@@ -186,10 +174,10 @@ bool pov_shade_curves(const Material *m, const CurveSet *curves, PovShades *shad
     int64_t n = 0;
     for (int64_t k = 0; k < curves->curve_count; k++) {
         for (int64_t i = curves->first[k]; i + 1 < curves->first[k + 1]; i++, n++) {
-            if (m->kind == MATERIAL_EMISSION) {
+            if (material_has(m, TRAIT_EMISSIVE)) {
                 float glow = curves->glow ? 0.5f * (curves->glow[i] + curves->glow[i + 1]) : 1.0f;
                 shades->color[n] = vec3_scale(m->radiance, glow);
-            } else if (pov_is_patterned(m) || pov_is_varied(m)) {
+            } else if (material_has_pattern(m) || material_varies(m)) {
                 shades->color[n] = segment_color(m, curves, i);
             } else {
                 shades->color[n] = m->color;

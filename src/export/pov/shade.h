@@ -16,10 +16,6 @@ typedef struct PovShades {
 
 void pov_shades_clear(PovShades *shades);
 
-// True when colours differ from place to place, or from instance to instance.
-bool pov_is_patterned(const Material *material);
-bool pov_is_varied(const Material *material);
-
 // Of each vertex. place: of the instance that stands for all; NULL = none.
 bool pov_shade_mesh(const Material *material, const Mesh *mesh, const Transform *place,
                     float variation, const Run *run, PovShades *shades, Error *e);

@@ -4,6 +4,7 @@
 #include "export/vertex_colors.h"
 
 #include "base/memory.h"
+#include "render/material/appearance.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,7 +31,7 @@ bool usda_colors_vertices(const Usda *usda, const Material *material)
 {
     ExportColors wanted = usda->source->options.colors;
     return (wanted == EXPORT_COLORS_ALL || wanted == EXPORT_COLORS_PATTERN) &&
-           vertex_colors_vary_on(material);
+           material_has_pattern(material);
 }
 
 // The colour at the vertices where the material has a pattern, else its own colour.
@@ -39,7 +40,8 @@ static bool display_color(Usda *usda, const Part *part, Error *e)
     const World *world = usda->source->world;
     const Material *m = &world->material[part->material];
     if (!usda_colors_vertices(usda, m)) {
-        Vec3 color = m->kind == MATERIAL_EMISSION ? m->radiance : m->color;
+        Appearance a = material_appearance(m);
+        Vec3 color = appearance_display_color(&a);
         usda_vec3s(&usda->text, "color3f[] primvars:displayColor", &color, 1, "constant");
         return true;
     }
@@ -140,7 +142,7 @@ static bool curves_prim(Usda *usda, const Part *part, const char *name, Error *e
     if (curves->birth) {
         usda_floats(text, "float[] primvars:birth", curves->birth, curves->point_count, "vertex");
     }
-    if (curves->glow && m->kind == MATERIAL_EMISSION) {
+    if (curves->glow && material_has(m, TRAIT_EMISSIVE)) {
         curve_emission(text, curves, m->radiance);
     }
     bool done = display_color(usda, part, e);

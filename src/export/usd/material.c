@@ -4,62 +4,15 @@
 #include "export/usd/usda.h"
 
 #include "image/image.h"
+#include "render/material/appearance.h"
 
 #include <stdlib.h>
-
-// What UsdPreviewSurface can say of a material.
-typedef struct Preview {
-    Vec3 diffuse, emissive;
-    float metallic, roughness, ior, opacity;
-} Preview;
-
-// The index of refraction whose reflectance head-on is that of this coat.
-static float coat_ior(float specular)
-{
-    float root = sqrtf(0.08f * specular);
-    return (1.0f + root) / (1.0f - root);
-}
 
 // What clouds a dielectric hides what is behind it: as much as a centimetre of it does.
 static float cloudiness(const Material *m)
 {
     float mean = (m->scattering.x + m->scattering.y + m->scattering.z) / 3.0f;
     return 1.0f - expf(-0.01f * mean);
-}
-
-static Preview preview_of(const Material *m)
-{
-    Preview p = {.diffuse = m->color, .roughness = m->roughness, .ior = 1.0f, .opacity = 1.0f};
-    switch (m->kind) {
-    case MATERIAL_DIFFUSE: // an index of 1 has no coat
-        p.roughness = 1.0f;
-        break;
-    case MATERIAL_CONDUCTOR:
-        p.metallic = 1.0f;
-        break;
-    case MATERIAL_DIELECTRIC:
-        p.ior = m->ior;
-        p.opacity = cloudiness(m);
-        break;
-    case MATERIAL_PRINCIPLED:
-        p.metallic = m->metallic;
-        p.ior = coat_ior(m->specular);
-        break;
-    case MATERIAL_LEAF:
-        p.ior = coat_ior(m->specular);
-        break;
-    case MATERIAL_EMISSION:
-        p.diffuse = vec3_splat(0.0f);
-        p.roughness = 1.0f;
-        p.emissive = m->radiance;
-        break;
-    case MATERIAL_THIN_FILM:
-        p.roughness = 0.0f;
-        p.ior = m->ior;
-        p.opacity = 0.0f;
-        break;
-    }
-    return p;
 }
 
 // ---- shaders beside the surface, each named by what it feeds
@@ -127,32 +80,33 @@ static bool opacity_channel(const char *picture, char *channel, Error *e)
 static void surface(Usda *usda, const Material *m, const char *name, bool glows, char opacity_from)
 {
     UsdaText *text = &usda->text;
-    Preview p = preview_of(m);
+    Appearance a = material_appearance(m);
+    float roughness = appearance_is_matt(&a) ? 1.0f : a.traits & TRAIT_THIN ? 0.0f : a.roughness;
     usda_begin(text, NULL, "def Shader \"Surface\"");
     usda_line(text, "uniform token info:id = \"UsdPreviewSurface\"");
     if (m->texture || usda_colors_vertices(usda, m)) {
         usda_line(text, "color3f inputs:diffuseColor.connect = </World/Materials/%s/Color.%s>",
                   name, m->texture ? "outputs:rgb" : "outputs:result");
     } else {
-        usda_vec3(text, "color3f inputs:diffuseColor", p.diffuse);
+        usda_vec3(text, "color3f inputs:diffuseColor", a.color);
     }
-    if (glows && m->kind == MATERIAL_EMISSION) {
+    if (glows) {
         usda_line(text,
                   "color3f inputs:emissiveColor.connect = </World/Materials/%s/"
                   "Emission.outputs:result>",
                   name);
     } else {
-        usda_vec3(text, "color3f inputs:emissiveColor", p.emissive);
+        usda_vec3(text, "color3f inputs:emissiveColor", a.emission);
     }
     if (opacity_from) {
         usda_line(text, "float inputs:opacity.connect = </World/Materials/%s/Opacity.outputs:%c>",
                   name, opacity_from);
     } else {
-        usda_float(text, "float inputs:opacity", p.opacity);
+        usda_float(text, "float inputs:opacity", appearance_is_clear(&a) ? cloudiness(m) : 1.0f);
     }
-    usda_float(text, "float inputs:metallic", p.metallic);
-    usda_float(text, "float inputs:roughness", p.roughness);
-    usda_float(text, "float inputs:ior", p.ior);
+    usda_float(text, "float inputs:metallic", a.metalness);
+    usda_float(text, "float inputs:roughness", roughness);
+    usda_float(text, "float inputs:ior", a.ior);
     usda_line(text, "token outputs:surface");
     usda_end(text);
 }
@@ -176,7 +130,7 @@ static bool material(Usda *usda, int index, Error *e)
     } else if (usda_colors_vertices(usda, m)) {
         primvar_reader(text, "Color", "displayColor", m->color);
     }
-    if (usda->glows[index] && m->kind == MATERIAL_EMISSION) {
+    if (usda->glows[index]) {
         primvar_reader(text, "Emission", "emission", m->radiance);
     }
     if (done && m->alpha_texture) {

@@ -44,7 +44,9 @@ static bool look_through(Usda *usda, Error *e)
     for (int64_t i = 0; i < world->geometry.count; i++) {
         const Part *part = &world->geometry.part[i];
         usda->used[part->material] = true;
-        usda->glows[part->material] |= part->curves && part->curves->glow;
+        usda->glows[part->material] |=
+            part->curves && part->curves->glow &&
+            material_has(&world->material[part->material], TRAIT_EMISSIVE);
     }
     return true;
 }

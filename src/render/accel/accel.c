@@ -204,16 +204,16 @@ static bool wants_alpha(const Accel *accel, const Part *part)
     return part->kind == PART_MESH && accel->world->material[part->material].alpha_texture;
 }
 
-static bool wants_film(const Accel *accel, const Part *part)
+static bool wants_thin(const Accel *accel, const Part *part)
 {
     return part->kind == PART_MESH &&
-           accel->world->material[part->material].kind == MATERIAL_THIN_FILM;
+           material_has(&accel->world->material[part->material], TRAIT_THIN);
 }
 
 static bool wants_glow(const Accel *accel, const Part *part)
 {
     return part->kind == PART_CURVES &&
-           accel->world->material[part->material].kind == MATERIAL_EMISSION;
+           material_has(&accel->world->material[part->material], TRAIT_EMISSIVE);
 }
 
 static bool add_part(Accel *accel, int32_t number, Error *e)
@@ -227,7 +227,7 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
     }
     bool mesh = part->kind == PART_MESH;
     own->alpha = wants_alpha(accel, part);
-    own->film = wants_film(accel, part);
+    own->thin = wants_thin(accel, part);
     own->glow = wants_glow(accel, part);
     if ((mesh ? part->mesh->face_count : part->curves->curve_count) < 1 ||
         (part->instance && part->instance_count < 1)) {
@@ -248,9 +248,9 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
         rtcSetGeometryIntersectFilterFunction(geometry, accel_alpha_filter);
         rtcSetGeometryOccludedFilterFunction(geometry, accel_alpha_filter);
     }
-    if (own->film) {
+    if (own->thin) {
         rtcSetGeometryUserData(geometry, own);
-        rtcSetGeometryOccludedFilterFunction(geometry, accel_film_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, accel_thin_filter);
     }
     if (own->glow) {
         rtcSetGeometryUserData(geometry, own);
@@ -376,7 +376,7 @@ bool accel_fits_materials(const Accel *accel)
     for (int64_t i = 0; i < accel->world->geometry.count; i++) {
         const Part *part = &accel->world->geometry.part[i];
         if (accel->part[i].alpha != wants_alpha(accel, part) ||
-            accel->part[i].film != wants_film(accel, part) ||
+            accel->part[i].thin != wants_thin(accel, part) ||
             accel->part[i].glow != wants_glow(accel, part)) {
             return false;
         }

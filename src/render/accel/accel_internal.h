@@ -16,7 +16,7 @@ typedef struct AccelPart {
     const uint32_t *segment; // curves: first point of each segment; Embree's buffer
     float base_variation;    // of a part that is drawn once
     bool plain;              // a mesh without anything at its vertices
-    bool alpha, film, glow;  // rays are filtered: see accel_alpha_filter and those below it
+    bool alpha, thin, glow;  // rays are filtered: see accel_alpha_filter and those below it
     bool copied;             // instances were copied out: primitive = instance * faces + face
 } AccelPart;
 
@@ -75,9 +75,9 @@ static inline Vec2 accel_uv(const Mesh *mesh, const Corners *c)
 // Embree filter: lets a ray pass where the part's alpha texture is (in part) transparent.
 void accel_alpha_filter(const struct RTCFilterFunctionNArguments *arguments);
 
-// Embree filter for shadow rays: a thin film lets pass what it does not mirror, by its mean over
-// thicknesses and colours.
-void accel_film_filter(const struct RTCFilterFunctionNArguments *arguments);
+// Embree filter for shadow rays: lets a ray pass a thin film at random, by
+// material_shadow_opacity.
+void accel_thin_filter(const struct RTCFilterFunctionNArguments *arguments);
 
 // Embree filter for rays toward glowing curves, whose part is not met within the ray's slack: light
 // is drawn from each segment as a cone of its own, which lies in its neighbours at bends, and

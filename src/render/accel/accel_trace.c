@@ -1,7 +1,6 @@
 #include "render/accel/accel_internal.h"
 
 #include "base/random.h"
-#include "render/material/thin_film.h"
 
 #include <pmmintrin.h>
 #include <string.h>
@@ -48,12 +47,12 @@ void accel_alpha_filter(const struct RTCFilterFunctionNArguments *arguments)
     }
 }
 
-static bool passes_film(const AccelPart *own, Vec3 normal, Vec3 direction, unsigned primitive,
+static bool passes_thin(const AccelPart *own, Vec3 normal, Vec3 direction, unsigned primitive,
                         unsigned key)
 {
     float cosine = fabsf(vec3_dot(vec3_normalize(normal), direction));
-    float ior = own->accel->world->material[own->part->material].ior;
-    return random_unit(random_key(key, primitive)) >= thin_film_mean(ior, cosine);
+    const Material *m = &own->accel->world->material[own->part->material];
+    return random_unit(random_key(key, primitive)) >= material_shadow_opacity(m, cosine);
 }
 
 // Word number `word` of lane `lane` of one of Embree's packets of n.
@@ -64,7 +63,7 @@ static float packet_float(const unsigned *packet, unsigned n, unsigned word, uns
     return x;
 }
 
-void accel_film_filter(const struct RTCFilterFunctionNArguments *arguments)
+void accel_thin_filter(const struct RTCFilterFunctionNArguments *arguments)
 {
     unsigned n = arguments->N;
     const unsigned *ray = (const unsigned *)arguments->ray, *hit = (const unsigned *)arguments->hit;
@@ -74,7 +73,7 @@ void accel_film_filter(const struct RTCFilterFunctionNArguments *arguments)
                            packet_float(hit, n, 2, i));
         Vec3 direction = vec3(packet_float(ray, n, 4, i), packet_float(ray, n, 5, i),
                               packet_float(ray, n, 6, i));
-        if (arguments->valid[i] && passes_film(arguments->geometryUserPtr, normal, direction,
+        if (arguments->valid[i] && passes_thin(arguments->geometryUserPtr, normal, direction,
                                                hit[5 * n + i], ray[10 * n + i])) {
             arguments->valid[i] = 0;
         }

@@ -12,7 +12,7 @@ static bool glows(const World *world, const Part *part)
         return false; // accel_new complains
     }
     const Material *m = &world->material[part->material];
-    return m->kind == MATERIAL_EMISSION && luminance(m->radiance) > 0.0f;
+    return material_has(m, TRAIT_EMISSIVE) && luminance(m->radiance) > 0.0f;
 }
 
 // Triangles of a mesh; sides and two ends of each curve.

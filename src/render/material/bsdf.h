@@ -11,6 +11,7 @@
 #ifndef RAMIFY_RENDER_MATERIAL_BSDF_H
 #define RAMIFY_RENDER_MATERIAL_BSDF_H
 
+#include "base/error.h"
 #include "render/material/material.h"
 #include "render/surface.h"
 
@@ -25,15 +26,18 @@ void material_set_free(MaterialSet *set); // NULL is fine
 struct GgxTable;
 
 typedef struct Bsdf {
-    MaterialKind kind;
-    Vec3 normal; // shading normal after bumps, unit, on wo's side
+    const struct MaterialOps *ops;
+    unsigned traits; // of the material: TRAIT_*
+    bool lambert;    // Lambertian reflection alone
+    bool delta;      // no smooth lobes
+    Vec3 normal;     // shading normal after bumps, unit, on wo's side
     Vec3 geometric_normal;
     Vec3 color;         // diffuse reflectance; the tint of what passes a dielectric
-    Vec3 transmittance; // diffuse, MATERIAL_LEAF; straight, MATERIAL_THIN_FILM
+    Vec3 transmittance; // diffuse; of TRAIT_THIN straight
     Vec3 emission;      // radiance toward wo
     Vec3 absorption;    // per metre, of the body that wo's ray came through; 0 outside of bodies
     Vec3 albedo;        // for the albedo AOV, 0..1
-    float roughness;    // of the diffuse lobe of MATERIAL_DIFFUSE
+    float roughness;    // the material's
     float alpha;        // GGX; 0 = mirror
     float eta;          // index on the far side over that on wo's side
     bool inside;        // wo is inside a dielectric body

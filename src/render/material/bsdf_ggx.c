@@ -1,6 +1,6 @@
 #include "render/material/bsdf_ggx.h"
 
-#include "render/material/bsdf_lobes.h"
+#include "render/warp.h"
 
 #include <string.h>
 

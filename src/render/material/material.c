@@ -1,5 +1,18 @@
 #include "render/material/material.h"
 
+#include "render/material/material_ops.h"
+
+static const MaterialOps *const OPS[] = {
+#define KIND(NAME, name) [MATERIAL_##NAME] = &name##_ops,
+    MATERIAL_KINDS(KIND)
+#undef KIND
+};
+
+const MaterialOps *material_ops(MaterialKind kind)
+{
+    return OPS[kind];
+}
+
 Material material_default(MaterialKind kind)
 {
     Material m = {.kind = kind,
@@ -8,26 +21,41 @@ Material material_default(MaterialKind kind)
                   .roughness = 0.5f,
                   .specular = 0.5f,
                   .ior = 1.5f};
-    if (kind == MATERIAL_DIFFUSE) {
-        m.roughness = 0.0f;
-    } else if (kind == MATERIAL_DIELECTRIC) {
-        m.color = vec3_splat(1.0f);
-        m.roughness = 0.0f;
-    } else if (kind == MATERIAL_CONDUCTOR) {
-        m.color = vec3_splat(0.9f);
-        m.roughness = 0.3f;
-    } else if (kind == MATERIAL_LEAF) {
-        // A green oak leaf near 610, 550 and 450 nm (PROSPECT-5, chlorophyll 40).
-        m.color = vec3(0.087f, 0.149f, 0.046f);
-        m.transmittance = vec3(0.060f, 0.110f, 0.012f);
-    } else if (kind == MATERIAL_EMISSION) {
-        m.radiance = vec3_splat(1.0f);
-    } else if (kind == MATERIAL_THIN_FILM) { // soapy water
-        m.color = vec3_splat(1.0f);
-        m.ior = 1.33f;
-        m.film_thickness = 480.0f;
-        m.film_drainage = 0.6f;
-        m.film_swirl = 0.35f;
+    if (OPS[kind]->defaults) {
+        OPS[kind]->defaults(&m);
     }
     return m;
+}
+
+bool material_has(const Material *m, unsigned traits)
+{
+    return (OPS[m->kind]->traits & traits) == traits;
+}
+
+float material_shadow_opacity(const Material *m, float cosine)
+{
+    const MaterialOps *ops = OPS[m->kind];
+    return ops->shadow_opacity ? ops->shadow_opacity(m, cosine) : 1.0f;
+}
+
+Appearance material_appearance(const Material *m)
+{
+    const MaterialOps *ops = OPS[m->kind];
+    Appearance a = {.traits = ops->traits,
+                    .color = m->color,
+                    .transmittance = m->transmittance,
+                    .roughness = m->roughness,
+                    .ior = 1.0f};
+    if (ops->describe) {
+        ops->describe(m, &a);
+    }
+    return a;
+}
+
+void appearance_add_coat(Appearance *a, float specular)
+{
+    float root = sqrtf(0.08f * specular);
+    a->coated = true;
+    a->specular = specular;
+    a->ior = (1.0f + root) / (1.0f - root);
 }

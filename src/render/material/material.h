@@ -1,22 +1,37 @@
-// Material descriptions: plain data, one struct for all kinds; fields a kind does not use are
-// ignored.
+// Material descriptions: plain data, one struct for all kinds; a kind ignores the fields it does
+// not use.
 #ifndef RAMIFY_RENDER_MATERIAL_MATERIAL_H
 #define RAMIFY_RENDER_MATERIAL_MATERIAL_H
 
-#include "base/error.h"
 #include "base/vec.h"
 
 #include <stdint.h>
 
+// The registry of kinds: KIND(name) is `name` in scene files and in enum MaterialKind, and
+// material/<name>.c defines its MaterialOps, <name>_ops.
+#define MATERIAL_KINDS(KIND)     \
+    KIND(DIFFUSE, diffuse)       \
+    KIND(CONDUCTOR, conductor)   \
+    KIND(DIELECTRIC, dielectric) \
+    KIND(PRINCIPLED, principled) \
+    KIND(LEAF, leaf)             \
+    KIND(EMISSION, emission)     \
+    KIND(THIN_FILM, thin_film)
+
 typedef enum MaterialKind {
-    MATERIAL_DIFFUSE,    // energy-preserving rough diffuse (roughness as sigma-like 0..1)
-    MATERIAL_CONDUCTOR,  // GGX, multiple-scattering compensated
-    MATERIAL_DIELECTRIC, // rough glass or ice: GGX reflection and transmission, compensated
-    MATERIAL_PRINCIPLED, // diffuse + specular coat + metallic
-    MATERIAL_LEAF,       // thin sheet: diffuse reflection and transmission under a glossy coat
-    MATERIAL_EMISSION,
-    MATERIAL_THIN_FILM // soap film: clear, mirrors in interference colours
+#define KIND(NAME, name) MATERIAL_##NAME,
+    MATERIAL_KINDS(KIND)
+#undef KIND
 } MaterialKind;
+
+// What the ray tracer and the exporters ask of a kind.
+enum {
+    TRAIT_EMISSIVE = 1,  // sends out `radiance`, reflects nothing
+    TRAIT_OPAQUE = 2,    // light arrives from the viewer's side alone
+    TRAIT_BODY = 4,      // encloses a medium: what is transmitted travels through it
+    TRAIT_THIN = 8,      // a film: what is transmitted goes straight on, shadow rays too
+    TRAIT_PATTERNED = 16 // pattern, variation and texture change its colour; else at most bumps
+};
 
 typedef enum PatternKind {
     PATTERN_NONE,
@@ -38,14 +53,14 @@ typedef struct Material {
     MaterialKind kind;
     Vec3 color;           // reflectance (leaf: of the upper side; dielectric: tint of what passes)
     Vec3 color2;          // the pattern's second colour (bark: of the furrows)
-    Vec3 transmittance;   // MATERIAL_LEAF: colour of light let through; dielectric: unused
+    Vec3 transmittance;   // MATERIAL_LEAF: diffuse transmittance
     Vec3 absorption;      // MATERIAL_DIELECTRIC: per metre, Beer-Lambert
     Vec3 scattering;      // MATERIAL_DIELECTRIC: per metre: clouded, milky, flesh
     float anisotropy;     // of that scattering: mean cosine, -1..1
-    float roughness;      // GGX alpha = roughness^2; 0..1
+    float roughness;      // GGX alpha = roughness^2; of MATERIAL_DIFFUSE that of its facets; 0..1
     float metallic;       // MATERIAL_PRINCIPLED
     float specular;       // strength of the coat of principled and leaf, 0..1; 0.5 = ior 1.5
-    float ior;            // MATERIAL_DIELECTRIC: 1 = no surface, only what is inside
+    float ior;            // MATERIAL_DIELECTRIC: 1 = index-matched, no surface
     Vec3 radiance;        // MATERIAL_EMISSION: W / (m^2 sr)
     float film_thickness; // MATERIAL_THIN_FILM: nm where the film stands upright
     float film_drainage;  // 0..1: how much thinner it is where it faces up, thicker where down
@@ -61,5 +76,28 @@ typedef struct Material {
 } Material;
 
 Material material_default(MaterialKind kind);
+
+// All of these traits?
+bool material_has(const Material *material, unsigned traits);
+
+// An index-matched interface: light enters and leaves the body without reflection or refraction.
+static inline bool material_is_index_matched(const Material *m)
+{
+    return m->ior <= 1.0f && material_has(m, TRAIT_BODY);
+}
+
+// Does the colour change over the surface; from instance to instance?
+static inline bool material_has_pattern(const Material *m)
+{
+    return m->pattern != PATTERN_NONE && material_has(m, TRAIT_PATTERNED);
+}
+
+static inline bool material_varies(const Material *m)
+{
+    return m->variation > 0.0f && material_has(m, TRAIT_PATTERNED);
+}
+
+// Share of a shadow ray's light that the surface holds back at this cosine: 1 unless TRAIT_THIN.
+float material_shadow_opacity(const Material *material, float cosine);
 
 #endif

@@ -1,34 +1,29 @@
 #include "render/material/material_set.h"
 
 #include "base/memory.h"
+#include "render/material/material_ops.h"
 
 #include <stdlib.h>
 
-// Narrower lobes than this are mirrors, or, where a mirror cannot mix with other lobes, this wide.
+// A narrower lobe is a mirror, or this wide where it is mixed with other lobes.
 static const float LEAST_ALPHA = 1e-3f;
 
-static bool prepare_table(MaterialEntry *entry, Error *e)
+static float alpha_of(const MaterialEntry *entry)
 {
-    const Material *m = &entry->material;
-    float roughness = clampf(m->roughness, 0.0f, 1.0f);
-    float alpha = roughness * roughness;
-    if (m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_EMISSION ||
-        m->kind == MATERIAL_THIN_FILM) {
-        return true;
-    }
-    bool mirror =
-        alpha < LEAST_ALPHA && (m->kind == MATERIAL_CONDUCTOR || m->kind == MATERIAL_DIELECTRIC);
-    entry->alpha = mirror ? 0.0f : fmaxf(alpha, LEAST_ALPHA);
+    float roughness = clampf(entry->material.roughness, 0.0f, 1.0f);
+    return roughness * roughness;
+}
+
+bool material_entry_add_table(MaterialEntry *entry, Error *e)
+{
+    entry->alpha = fmaxf(alpha_of(entry), LEAST_ALPHA);
     entry->table = memory_alloc_zero(1, sizeof *entry->table, e);
-    if (!entry->table) {
-        return false;
-    }
-    if (m->kind == MATERIAL_DIELECTRIC) {
-        ggx_table_dielectric(entry->table, fmaxf(alpha, LEAST_ALPHA), m->ior);
-    } else {
-        ggx_table_reflection(entry->table, fmaxf(alpha, LEAST_ALPHA));
-    }
-    return true;
+    return entry->table;
+}
+
+bool material_entry_is_mirror(const MaterialEntry *entry)
+{
+    return alpha_of(entry) < LEAST_ALPHA;
 }
 
 static bool open_texture(MaterialSet *set, const Material *m, const char *key, const char *file,
@@ -48,15 +43,6 @@ static bool open_texture(MaterialSet *set, const Material *m, const char *key, c
     return *texture != NULL;
 }
 
-static bool prepare_film(MaterialSet *set, const Material *m, Error *e)
-{
-    if (m->kind == MATERIAL_THIN_FILM && !set->films) {
-        set->films = thin_film_table_new(e);
-        return set->films != NULL;
-    }
-    return true;
-}
-
 static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material *material,
                           bool used, Error *e)
 {
@@ -67,9 +53,10 @@ static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material
         m->ior = 1.001f;
     }
     m->color = vec3_max(vec3_min(m->color, vec3_splat(1.0f)), vec3_splat(0.0f));
-    entry->plain = m->kind == MATERIAL_DIFFUSE && m->pattern == PATTERN_NONE &&
-                   m->variation <= 0.0f && !(m->texture && m->texture[0]);
-    return (!used || (prepare_table(entry, e) && prepare_film(set, m, e))) &&
+    entry->ops = material_ops(m->kind);
+    entry->plain = !entry->ops->prepare && m->pattern == PATTERN_NONE && m->variation <= 0.0f &&
+                   !(m->texture && m->texture[0]);
+    return (!used || !entry->ops->tabulate || entry->ops->tabulate(entry, set, e)) &&
            open_texture(set, m, "texture", m->texture, &entry->color, e) &&
            open_texture(set, m, "alpha_texture", m->alpha_texture, &entry->opacity, e);
 }

@@ -1,6 +1,9 @@
 #include "render/material/thin_film.h"
 
+#include "base/color.h"
 #include "base/memory.h"
+#include "render/material/material_ops.h"
+#include "render/material/pattern_noise.h"
 #include "render/sky/atmosphere.h"
 
 #include <math.h>
@@ -106,3 +109,81 @@ Vec3 thin_film_color(const ThinFilmTable *table, float thickness, float ior, flo
     double path = (double)ior * (double)thickness * inner;
     return vec3_scale(vec3_add(look_up(table, path, across), look_up(table, path, in_plane)), 0.5f);
 }
+
+// ---- the material: light is mirrored in interference colours or goes straight on; nothing is lost
+
+// Thinner above, where it has drained, thicker below; streaks that flow about each other.
+static float thickness_at(const Material *m, const SurfacePoint *point)
+{
+    float up = point->backface ? -point->normal.y : point->normal.y; // as the mesh has it
+    float drained = 1.0f - 0.75f * m->film_drainage * up;
+    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 0.02f;
+    Vec3 p = vec3_scale(point->object_position, 1.0f / scale);
+    Vec3 flow =
+        vec3(noise_fractal(p, 3, 31), 0.5f * noise_fractal(p, 3, 32), noise_fractal(p, 3, 33));
+    Vec3 q = vec3_madd(vec3(p.x, 2.2f * p.y, p.z), 1.6f, flow);
+    float swirl = noise_fractal(q, 4, 34);
+    float thickness = m->film_thickness * drained * (1.0f + 0.8f * m->film_swirl * swirl);
+    return clampf(thickness, 0.0f, THIN_FILM_MOST_NM);
+}
+
+static void prepare(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, float cos_o)
+{
+    const Material *m = &entry->material;
+    b->delta = true;
+    b->specular = thin_film_color(entry->films, thickness_at(m, point), m->ior, cos_o);
+    Vec3 passed = vec3_sub(vec3_splat(1.0f), b->specular);
+    b->transmittance = vec3_mul(b->color, passed);
+    float r = sqrtf(luminance(b->specular)), t = sqrtf(luminance(passed));
+    b->probability = r / (r + t); // least noise where both sides are about as bright
+    b->albedo = vec3_splat(1.0f);
+}
+
+static bool sample_delta(const Bsdf *b, Vec3 wo, const float u[3], BsdfSample *sample)
+{
+    sample->transmitted = u[2] >= b->probability;
+    if (sample->transmitted) {
+        sample->wi = vec3_neg(wo);
+        sample->weight = vec3_scale(b->transmittance, 1.0f / (1.0f - b->probability));
+    } else {
+        sample->wi = vec3_sub(vec3_scale(b->normal, 2.0f * vec3_dot(b->normal, wo)), wo);
+        sample->weight = vec3_scale(b->specular, 1.0f / b->probability);
+    }
+    return true;
+}
+
+static bool tabulate(MaterialEntry *entry, MaterialSet *set, Error *e)
+{
+    set->films = set->films ? set->films : thin_film_table_new(e);
+    entry->films = set->films;
+    return entry->films != NULL;
+}
+
+static float shadow_opacity(const Material *m, float cosine)
+{
+    return thin_film_mean(m->ior, cosine);
+}
+
+static void describe(const Material *m, Appearance *a)
+{
+    a->ior = m->ior;
+    a->film_thickness = m->film_thickness;
+    a->film_variation = fmaxf(m->film_swirl, m->film_drainage);
+}
+
+static void defaults(Material *m) // soapy water
+{
+    m->color = vec3_splat(1.0f);
+    m->ior = 1.33f;
+    m->film_thickness = 480.0f;
+    m->film_drainage = 0.6f;
+    m->film_swirl = 0.35f;
+}
+
+const MaterialOps thin_film_ops = {.traits = TRAIT_THIN,
+                                   .defaults = defaults,
+                                   .describe = describe,
+                                   .tabulate = tabulate,
+                                   .prepare = prepare,
+                                   .sample_delta = sample_delta,
+                                   .shadow_opacity = shadow_opacity};

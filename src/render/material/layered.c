@@ -1,9 +1,8 @@
-// Conductor, principled and leaf are one construction: a GGX lobe with Schlick's Fresnel, its
-// metallic part scaled to make up for light scattered many times between the facets; and below a
-// coat diffuse reflection and transmission, which get what the coat lets pass on the way in and
-// out. Every part is reciprocal, and white layers reflect exactly what comes.
+#include "render/material/layered.h"
+
+#include "base/color.h"
 #include "render/material/bsdf_ggx.h"
-#include "render/material/bsdf_lobes.h"
+#include "render/warp.h"
 
 // What the glossy lobe leaves of light at a cosine.
 static float left_at(const GgxTable *table, float f0, float f90, float cosine)
@@ -21,7 +20,7 @@ static float metal_tint(float f0, float white_mean)
     return mean * white_mean / (1.0f - mean * (1.0f - white_mean));
 }
 
-static void prepare_metal(Bsdf *b, Vec3 color, float weight, float cos_o)
+void layered_add_metal(Bsdf *b, Vec3 color, float weight, float cos_o)
 {
     if (weight <= 0.0f) {
         return;
@@ -35,16 +34,18 @@ static void prepare_metal(Bsdf *b, Vec3 color, float weight, float cos_o)
 }
 
 // specular 0.5 is an index of 1.5. Below 2 % no real coat reflects: grazing fades with it.
-static void prepare_coat(Bsdf *b, float specular, float weight, float cos_o)
+void layered_add_coat(Bsdf *b, float specular, float weight, float cos_o)
 {
     float f0 = 0.08f * specular;
     b->coat_f0 = weight * f0;
     b->coat_f90 = weight * fminf(1.0f, 50.0f * f0);
     float mean = b->coat_f0 * b->table->mean_scale + b->coat_f90 * b->table->mean_bias;
     b->coat_o = left_at(b->table, b->coat_f0, b->coat_f90, cos_o) / (1.0f - mean);
+    b->specular = vec3_splat(b->coat_f0);
+    b->grazing = b->coat_f90;
 }
 
-static void choose_probabilities(Bsdf *b, float cos_o)
+void layered_finish(Bsdf *b, float cos_o)
 {
     float scale = ggx_table_at(b->table->scale, cos_o), bias = ggx_table_at(b->table->bias, cos_o);
     float glossy = luminance(b->specular) * scale + b->grazing * bias;
@@ -59,28 +60,6 @@ static void choose_probabilities(Bsdf *b, float cos_o)
     }
 }
 
-void layered_prepare(Bsdf *b, const Material *m, bool underside, float cos_o)
-{
-    if (m->kind == MATERIAL_CONDUCTOR) {
-        b->specular = b->color;
-        b->grazing = 1.0f;
-        prepare_metal(b, b->color, 1.0f, cos_o);
-        b->color = vec3_splat(0.0f);
-    } else if (m->kind == MATERIAL_PRINCIPLED) {
-        float metallic = clampf(m->metallic, 0.0f, 1.0f);
-        prepare_coat(b, m->specular, 1.0f, cos_o);
-        prepare_metal(b, b->color, metallic, cos_o);
-        b->specular = vec3_lerp(vec3_splat(b->coat_f0), b->color, metallic);
-        b->grazing = lerpf(b->coat_f90, 1.0f, metallic);
-        b->color = vec3_scale(b->color, 1.0f - metallic);
-    } else {
-        prepare_coat(b, m->specular, underside ? 0.4f : 1.0f, cos_o); // less wax below
-        b->specular = vec3_splat(b->coat_f0);
-        b->grazing = b->coat_f90;
-    }
-    choose_probabilities(b, cos_o);
-}
-
 bool layered_draw(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
 {
     if (u[2] < b->probability) {
@@ -92,7 +71,7 @@ bool layered_draw(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
         return vec3_dot(b->normal, *wi) > 0.0f; // else lost among the facets
     }
     bool through = u[2] - b->probability < b->through * (1.0f - b->probability);
-    *wi = draw_cosine(through ? vec3_neg(b->normal) : b->normal, u[0], u[1]);
+    *wi = warp_cosine(through ? vec3_neg(b->normal) : b->normal, u[0], u[1]);
     return true;
 }
 
@@ -136,12 +115,12 @@ Vec3 layered_eval(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
     return f;
 }
 
-bool conductor_mirror(const Bsdf *b, Vec3 wo, BsdfSample *sample)
+bool layered_tabulate(MaterialEntry *entry, MaterialSet *set, Error *e)
 {
-    float cosine = vec3_dot(b->normal, wo);
-    float s = schlick_weight(cosine);
-    sample->wi = vec3_sub(vec3_scale(b->normal, 2.0f * cosine), wo);
-    sample->weight = vec3_add(vec3_scale(b->specular, 1.0f - s), vec3_splat(b->grazing * s));
-    sample->transmitted = false;
+    (void)set;
+    if (!material_entry_add_table(entry, e)) {
+        return false;
+    }
+    ggx_table_reflection(entry->table, entry->alpha);
     return true;
 }

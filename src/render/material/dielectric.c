@@ -1,11 +1,14 @@
 // Rough glass or ice (Walter et al. 2007), scaled so that nothing is lost between the facets.
 #include "render/material/bsdf_ggx.h"
-#include "render/material/bsdf_lobes.h"
+#include "render/material/material_ops.h"
 
 #include <stddef.h>
 
-void dielectric_prepare(Bsdf *b, const Material *m, bool inside, float cos_o)
+static void prepare(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, float cos_o)
 {
+    const Material *m = &entry->material;
+    bool inside = point->backface;
+    b->delta = b->alpha <= 0.0f;
     b->eta = inside ? 1.0f / m->ior : m->ior;
     b->inside = inside;
     b->absorption = inside ? m->absorption : vec3_splat(0.0f);
@@ -26,7 +29,7 @@ static bool refract(Vec3 wo, Vec3 h, float eta, Vec3 *wi)
     return true;
 }
 
-bool dielectric_draw(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
+static bool draw(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
 {
     Frame frame = frame_about(b->normal);
     Vec3 h = frame_world(&frame, ggx_draw_normal(frame_local(&frame, wo), b->alpha, u[0], u[1]));
@@ -68,7 +71,7 @@ static float single_eval(const Bsdf *b, Vec3 wo, Vec3 wi, float signed_i, float 
     return common / (1.0f + lambda_o + lambda_i);
 }
 
-Vec3 dielectric_eval(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
+static Vec3 eval(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
 {
     float signed_i = vec3_dot(b->normal, wi);
     bool reflected = signed_i > 0.0f, inside = b->inside;
@@ -78,7 +81,7 @@ Vec3 dielectric_eval(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
     return vec3_scale(reflected ? vec3_splat(1.0f) : b->color, f);
 }
 
-bool dielectric_mirror(const Bsdf *b, Vec3 wo, const float u[3], BsdfSample *sample)
+static bool sample_delta(const Bsdf *b, Vec3 wo, const float u[3], BsdfSample *sample)
 {
     float cosine = vec3_dot(b->normal, wo);
     sample->transmitted = u[2] >= fresnel_dielectric(cosine, b->eta, NULL);
@@ -90,3 +93,35 @@ bool dielectric_mirror(const Bsdf *b, Vec3 wo, const float u[3], BsdfSample *sam
     sample->weight = b->color;
     return refract(wo, b->normal, b->eta, &sample->wi);
 }
+
+static bool tabulate(MaterialEntry *entry, MaterialSet *set, Error *e)
+{
+    (void)set;
+    bool mirror = material_entry_is_mirror(entry);
+    if (!material_entry_add_table(entry, e)) {
+        return false;
+    }
+    ggx_table_dielectric(entry->table, entry->alpha, entry->material.ior);
+    entry->alpha = mirror ? 0.0f : entry->alpha;
+    return true;
+}
+
+static void describe(const Material *m, Appearance *a)
+{
+    a->ior = m->ior;
+}
+
+static void defaults(Material *m)
+{
+    m->color = vec3_splat(1.0f);
+    m->roughness = 0.0f;
+}
+
+const MaterialOps dielectric_ops = {.traits = TRAIT_BODY,
+                                    .defaults = defaults,
+                                    .describe = describe,
+                                    .tabulate = tabulate,
+                                    .prepare = prepare,
+                                    .eval = eval,
+                                    .draw = draw,
+                                    .sample_delta = sample_delta};
