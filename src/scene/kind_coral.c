@@ -76,12 +76,15 @@ static int64_t copies(const SceneObject *object)
 static void needs(const SceneObject *object, Needs *needs)
 {
     enum {
-        ATTRACTOR_BYTES = 20000,
+        ATTRACTOR_BYTES = 5000,
+        SKIN_BYTES = 940, // at level 0; each level has four times as much
         CUP_FACES = 75,
-        CUPS = 30000
-    }; // as many as fit a colony of usual proportions
+        CUPS = 30000 // as many as fit a colony of usual proportions
+    };
     CoralParams p = coral_params_resolve(object->coral);
-    needs_add(needs, "attractors", (double)attractors(object), ATTRACTOR_BYTES); // thick branches
+    bool crust = p.form == CORAL_ENCRUSTING || p.form == CORAL_MASSIVE; // no thick branches
+    needs_add(needs, "attractors", (double)attractors(object),
+              ATTRACTOR_BYTES + (crust ? 0.0 : SKIN_BYTES * exp2(2.0 * p.levels)));
     needs_add_copies(needs, "polyps.max_count", fmin((double)p.polyps.max_count, CUPS), CUP_FACES);
 }
 

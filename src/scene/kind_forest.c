@@ -85,7 +85,8 @@ static void needs(const SceneObject *object, Needs *needs)
     double each = forest->element.level_count > 0 ? (double)element_attractors(&forest->element)
                                                   : (double)OWN_ATTRACTORS * forest->stand_trees;
     double leaves = fmin((double)forest->leaves.max_count, LEAVES_AN_ATTRACTOR * each);
-    needs_add_growth(needs, "stand_trees", each * forest->stands, forest->skin.levels);
+    needs_add_skinned_growth(needs, "stand_trees", each * forest->stands, forest->skin.levels,
+                             (double)(forest->skin.curve_radius / forest->radii.tip));
     needs_add(needs, "leaves.max_count", leaves * forest->stands, LEAF_BYTES);
     double places =
         3.628 * radius * radius / (pitch * pitch) * (double)forest->density; // 2 pi / sqrt 3

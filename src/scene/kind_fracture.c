@@ -52,7 +52,7 @@ static void needs(const SceneObject *object, Needs *needs)
     enum { VOXEL_BYTES = 900 }; // of one along the surfaces, old and new
     double voxels = object->fracture->resolution;
     needs_add(needs, "resolution", 6.0 * voxels * voxels, VOXEL_BYTES);
-    needs_add_growth(needs, "attractors", (double)attractors(object), -1);
+    needs_add_growth(needs, "attractors", (double)attractors(object));
 }
 
 const Kind kind_fracture = {.key = "fracture",

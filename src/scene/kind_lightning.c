@@ -66,7 +66,7 @@ static void settle(const SceneObject *object, void *params)
 
 static void needs(const SceneObject *object, Needs *needs)
 {
-    needs_add_growth(needs, "bolts", (double)attractors(object), -1);
+    needs_add_growth(needs, "bolts", (double)attractors(object));
 }
 
 const Kind kind_lightning = {.key = "lightning",

@@ -18,7 +18,13 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
     return placing_add_mesh(p, mesh, "clay", e);
 }
 
+static void needs(const SceneObject *object, Needs *needs)
+{
+    needs_add_mesh_file(needs, "file", object->mesh->file);
+}
+
 const Kind kind_mesh = {.key = "mesh",
                         .offset = offsetof(SceneObject, mesh),
                         .materials = {"material"},
+                        .needs = needs,
                         .place = place};

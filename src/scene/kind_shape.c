@@ -1,5 +1,6 @@
 // Envelopes drawn as they are, as a kind of object.
 #include "scene/kinds.h"
+#include "shape/primitive.h"
 
 #include <string.h>
 
@@ -48,8 +49,39 @@ static bool place(const Placing *p, const OutTree *tree, Error *e)
     return mesh && placing_add_mesh(p, mesh, "clay", e);
 }
 
+// Of the surface that a level set is made along, m^2. Half spaces only cut.
+static double surface_area(const Shape *shape)
+{
+    const double man = 0.62; // of the square of his height
+    Primitive primitive;
+    if (shape->kind == SHAPE_BODY) {
+        return man * (double)(shape->size.x * shape->size.x);
+    }
+    bool bounded = shape->kind != SHAPE_HALF_SPACE && shape->kind != SHAPE_MESH;
+    return bounded && primitive_new(shape, &primitive, NULL) ? primitive_area(&primitive) : 0.0;
+}
+
+static void needs(const SceneObject *object, Needs *needs)
+{
+    const double voxel_bytes = 370.0; // of a voxel on the surface, with its faces
+    const double voxels_by_default = 6.0 * 128.0 * 128.0;
+    const SceneShape *shape = object->shape;
+    double area = 0.0;
+    for (int i = 0; i < shape->shape_count; i++) {
+        area += surface_area(&shape->shapes[i]);
+        needs_add_mesh_file(needs, "envelope", shape->shapes[i].file);
+    }
+    if (shape->shape_count == 1 && shape->shapes[0].kind != SHAPE_BODY) {
+        return; // no level set
+    }
+    double voxel = (double)shape->voxel;
+    needs_add(needs, "voxel", voxel > 0.0 ? area / (voxel * voxel) : voxels_by_default,
+              voxel_bytes);
+}
+
 const Kind kind_shape = {.key = "shape",
                          .offset = offsetof(SceneObject, shape),
                          .materials = {"material"},
+                         .needs = needs,
                          .own_space = own_space,
                          .place = place};

@@ -47,14 +47,25 @@ static void settle(const SceneObject *object, void *params)
     memcpy(params, &plan.params, sizeof plan.params);
 }
 
+typedef struct TreeAttractors {
+    int64_t trunk, crown, roots;
+} TreeAttractors;
+
 // Those of the model's own levels too.
-static int64_t attractors(const SceneObject *object)
+static TreeAttractors count_attractors(const SceneObject *object)
 {
     TreePlan plan;
     tree_plan_make(&plan, object->tree, 0); // no seed changes how many
-    return element_attractors(&plan.params.trunk.element) +
-           element_attractors(&plan.params.crown.element) +
-           (plan.params.roots.count > 0 ? element_attractors(&plan.params.roots.element) : 0);
+    const TreeParams *p = &plan.params;
+    return (TreeAttractors){element_attractors(&p->trunk.element),
+                            element_attractors(&p->crown.element),
+                            p->roots.count > 0 ? element_attractors(&p->roots.element) : 0};
+}
+
+static int64_t attractors(const SceneObject *object)
+{
+    TreeAttractors count = count_attractors(object);
+    return count.trunk + count.crown + count.roots;
 }
 
 static int64_t copies(const SceneObject *object)
@@ -80,9 +91,13 @@ static bool measure(const SceneObject *object, const OutTree *tree, const Recipe
 static void needs(const SceneObject *object, Needs *needs)
 {
     enum { LEAF_FACES = 25, LEAVES_AN_ATTRACTOR = 6 };
-    double count = (double)attractors(object);
-    double leaves = (double)object->tree->leaves.max_count;
-    needs_add_growth(needs, "crown.growth.levels", count, object->tree->skin.levels);
+    TreeAttractors each = count_attractors(object);
+    double count = (double)attractors(object), leaves = (double)object->tree->leaves.max_count;
+    int levels = object->tree->skin.levels;
+    double twig = (double)(object->tree->skin.curve_radius / object->tree->radii.tip);
+    needs_add_skinned_growth(needs, "trunk.growth.levels", (double)each.trunk, levels, twig);
+    needs_add_skinned_growth(needs, "crown.growth.levels", (double)each.crown, levels, twig);
+    needs_add_skinned_growth(needs, "roots.growth.levels", (double)each.roots, levels, twig);
     needs_add_copies(needs, "leaves.max_count", fmin(leaves, LEAVES_AN_ATTRACTOR * count),
                      LEAF_FACES);
 }

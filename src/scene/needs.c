@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <sys/stat.h>
 
 // Measured on x86-64 with Embree 3.12.
 #define PROGRAM_BYTES 1.4e8     // the program and its libraries
@@ -16,7 +17,10 @@
 #define INSTANCE_BYTES 400.0    // of an instance that is not
 #define NODE_BYTES 700.0        // of a node while it grows, and of its curve
 #define NODES_AN_ATTRACTOR 0.8
-#define SKIN_BYTES 180.0 // of a node's skin at level 0; each level has four times as much
+#define MESH_FILE_BYTES 3.4 // of a byte of OBJ; STL 2.5
+#define SKIN_BYTES 10400.0  // of a node's skin at level 0; each level has four times as much
+#define TWIG_EXPONENT \
+    2.3 // by which the share of nodes thicker than a radius falls: the pipe model's
 
 void needs_add(Needs *needs, const char *key, double count, double each)
 {
@@ -39,10 +43,30 @@ void needs_add_copies(Needs *needs, const char *key, double count, double faces)
               count * own + copied * faces * COPY_FACE_BYTES + (count - copied) * INSTANCE_BYTES);
 }
 
-void needs_add_growth(Needs *needs, const char *key, double attractors, int skin_levels)
+void needs_add_growth(Needs *needs, const char *key, double attractors)
 {
+    needs_add(needs, key, NODES_AN_ATTRACTOR * attractors, NODE_BYTES);
+}
+
+void needs_add_skinned_growth(Needs *needs, const char *key, double attractors, int levels,
+                              double twig)
+{
+    double share = pow(fmax(1.0, twig), -TWIG_EXPONENT);
     needs_add(needs, key, NODES_AN_ATTRACTOR * attractors,
-              NODE_BYTES + (skin_levels >= 0 ? SKIN_BYTES * exp2(2.0 * skin_levels) : 0.0));
+              NODE_BYTES + SKIN_BYTES * share * exp2(2.0 * levels));
+}
+
+void needs_add_file(Needs *needs, const char *key, const char *file, double each)
+{
+    struct stat status;
+    if (file && stat(file, &status) == 0 && S_ISREG(status.st_mode)) {
+        needs_add(needs, key, (double)status.st_size, each);
+    }
+}
+
+void needs_add_mesh_file(Needs *needs, const char *key, const char *file)
+{
+    needs_add_file(needs, key, file, MESH_FILE_BYTES);
 }
 
 static Needs needs_of(const Scene *scene, int only)

@@ -26,8 +26,19 @@ void needs_add(Needs *needs, const char *key, double count, double each);
 // count instances of a mesh of so many faces.
 void needs_add_copies(Needs *needs, const char *key, double count, double faces);
 
-// Growth to so many attractors, with a skin of so many levels over the thick part of it.
-void needs_add_growth(Needs *needs, const char *key, double attractors, int skin_levels);
+// Growth to so many attractors, drawn as curves.
+void needs_add_growth(Needs *needs, const char *key, double attractors);
+
+// The same with a skin of so many levels over all that is thicker than `twig` radii of a tip.
+void needs_add_skinned_growth(Needs *needs, const char *key, double attractors, int levels,
+                              double twig);
+
+// What an imported file makes, at `each` bytes of memory for a byte of the file. A file that cannot
+// be looked at needs none; reading it will say why.
+void needs_add_file(Needs *needs, const char *key, const char *file, double each);
+
+// An imported mesh.
+void needs_add_mesh_file(Needs *needs, const char *key, const char *file);
 
 // Bytes that rendering the scene will take in all.
 double scene_memory(const Scene *scene);

@@ -4,6 +4,7 @@ set -u
 RAMIFY=${RAMIFY:-build/ramify}
 RAMIFY=$(realpath "$RAMIFY")
 checks=$(realpath "$(dirname "$0")/checks.sh")
+neuron=$(realpath "$(dirname "$0")/../../scenes/neuron.swc")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
@@ -17,13 +18,14 @@ bytes() { # the number under "memory" in what the last command wrote
     sed -n 's/.*"memory": \([0-9]*\).*/\1/p' out
 }
 
-tells() { # tells NAME OBJECT: `info` is right within a factor of 3
+tells() { # tells NAME OBJECT [PERCENT]: `info` is right within a factor of 3, or of so many percent
+    percent=${3:-300}
     scene "$1" "$2"
     check "$1_info" 0 "$RAMIFY" info "$1.yaml" --json
     told=$(bytes)
     check "$1_render" 0 "$RAMIFY" render "$1.yaml" -o "$1.png" -q --json
     taken=$(bytes)
-    yes "$1_told_${told}_took_$taken" [ "$told" -lt $((3 * taken)) -a "$taken" -lt $((3 * told)) ]
+    yes "$1_told_${told}_took_$taken" [ "$((100 * told))" -lt $((percent * taken)) -a "$((100 * taken))" -lt $((percent * told)) ]
 }
 
 refuses() { # refuses NAME KEY OBJECT: before anything is made, by name and line
@@ -40,11 +42,17 @@ if ! "$RAMIFY" --version 2>/dev/null | grep -qi sanitize && ! nm "$RAMIFY" 2>/de
     tells sides 'frost: {sides: 120000}'
     tells particles 'dla: {particles: 2000}'
     tells grains 'frost: {sides: 1000, grains: 400000}'
+    tells skeleton "skeleton: {file: $neuron, scale: 0.01, skin: {levels: 1}}" 160
+    tells twigs 'tree: {crown: {growth: {levels: [{attractors: 4000}]}}, roots: {count: 0}, leaves: {max_count: 0}, radii: {tip: 0.004}, skin: {curve_radius: 0.006}}' 160
+    tells surface 'shape: {voxel: 0.007, envelope: [{shape: sphere}, {shape: sphere, position: [0.7, 0, 0]}]}' 160
+    check surface_export 0 "$RAMIFY" export surface.yaml -o surface.stl -q
+    tells mesh 'mesh: {file: surface.stl}' 160
 fi
 refuses tufts grass_tufts 'ground: {grass_tufts: 1000000000}'
 refuses fallen fallen_leaves 'ground: {fallen_leaves: 1000000000}'
 refuses many_sides sides 'frost: {sides: 2147483647}'
 refuses many_terminals attractors 'coral: {attractors: 100000000}'
+refuses trunk trunk.growth.levels 'tree: {trunk: {growth: {levels: [{attractors: 2147483647}]}}}'
 refuses wide radius 'forest: {radius: 100000, spacing: 0.01}'
 refuses aggregate particles 'dla: {particles: 2147483647}'
 scene small 'ground: {grass_tufts: 60000000}'
