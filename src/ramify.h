@@ -109,7 +109,7 @@ typedef struct RamifySceneInfo {
     float grow_to;         // 0..1: how much of all growth shows
     int32_t object_count, material_count, light_count, target_count;
     int64_t memory; // bytes that rendering takes in all, estimated from counts: about
-                    // within a factor of 3, without imported meshes and level sets
+                    // within a factor of 3, without level sets of envelopes
 } RamifySceneInfo;
 
 // What the scene says, without growing anything.

@@ -28,7 +28,7 @@ static void print_text(const RamifyScene *scene)
         printf("material  %s\n", ramify_scene_material_name(scene, i));
     }
     printf("lights    %d\n", info.light_count);
-    printf("memory    about %.0f MB by its counts; imported meshes and level sets add to that\n",
+    printf("memory    about %.0f MB by its counts and files; level sets of envelopes add to that\n",
            (double)info.memory * 1e-6);
 }
 
