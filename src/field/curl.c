@@ -2,9 +2,11 @@
 
 #include "base/random.h"
 
+enum { STREAM_X = 1, STREAM_Y = 2, STREAM_Z = 3 }; // per component of the gradient or potential
+
 typedef struct Lattice {
     int64_t cell[3];
-    float at[3]; // inside the cell, 0..1
+    float at[3]; // position inside the cell, 0..1
 } Lattice;
 
 static Lattice lattice_of(Vec3 p)
@@ -19,19 +21,19 @@ static Lattice lattice_of(Vec3 p)
     return l;
 }
 
-// A random gradient at a lattice point, each component in [-1, 1).
+// Random gradient at a lattice point, each component in [-1, 1).
 static Vec3 gradient_at(const int64_t cell[3], int corner, uint64_t seed)
 {
     uint64_t key = seed;
     for (int i = 0; i < 3; i++) {
         key = random_key(key, (uint64_t)(cell[i] + (corner >> i & 1)));
     }
-    return vec3(random_range(random_key(key, 1), -1.0f, 1.0f),
-                random_range(random_key(key, 2), -1.0f, 1.0f),
-                random_range(random_key(key, 3), -1.0f, 1.0f));
+    return vec3(random_range(random_key(key, STREAM_X), -1.0f, 1.0f),
+                random_range(random_key(key, STREAM_Y), -1.0f, 1.0f),
+                random_range(random_key(key, STREAM_Z), -1.0f, 1.0f));
 }
 
-// The gradient of gradient noise (Perlin 2002, quintic fade) at p.
+// Gradient of gradient noise (Perlin 2002, quintic fade) at p.
 static Vec3 noise_gradient(Vec3 p, uint64_t seed)
 {
     Lattice l = lattice_of(p);
@@ -60,8 +62,9 @@ static Vec3 noise_gradient(Vec3 p, uint64_t seed)
 
 Vec3 curl_noise(Vec3 p, uint64_t seed)
 {
-    Vec3 dx = noise_gradient(p, random_key(seed, 1)); // of the potential's x component
-    Vec3 dy = noise_gradient(p, random_key(seed, 2));
-    Vec3 dz = noise_gradient(p, random_key(seed, 3));
+    Vec3 dx =
+        noise_gradient(p, random_key(seed, STREAM_X)); // gradient of the potential's x component
+    Vec3 dy = noise_gradient(p, random_key(seed, STREAM_Y));
+    Vec3 dz = noise_gradient(p, random_key(seed, STREAM_Z));
     return vec3(dz.y - dy.z, dx.z - dz.x, dy.x - dx.y);
 }

@@ -1,4 +1,4 @@
-// Divergence-free noise: the curl of a smooth random vector potential (Bridson et al. 2007).
+// Divergence-free noise: the curl of a smooth random vector potential (Bridson 2007).
 #ifndef RAMIFY_FIELD_CURL_H
 #define RAMIFY_FIELD_CURL_H
 
@@ -6,7 +6,8 @@
 
 #include <stdint.h>
 
-// The curl at p of gradient noise of wavelength 1; analytic, so divergence-free to rounding.
+// Curl at p of gradient noise of wavelength 1. Computed analytically, so divergence-free up to
+// rounding.
 Vec3 curl_noise(Vec3 p, uint64_t seed);
 
 #endif

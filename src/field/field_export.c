@@ -1,4 +1,4 @@
-// Guide fields as voxels of a file.
+// Writes guide fields as voxel grids.
 #include "field/guide_field.h"
 
 typedef struct FieldSamples {
@@ -7,7 +7,7 @@ typedef struct FieldSamples {
     float voxel;
 } FieldSamples;
 
-// By central differences over a voxel.
+// Gradient of the distance by central differences over a voxel.
 static Vec3 outward(const Envelope *envelope, Vec3 p, float h)
 {
     Vec3 x = vec3(h, 0, 0), y = vec3(0, h, 0), z = vec3(0, 0, h);
@@ -17,7 +17,7 @@ static Vec3 outward(const Envelope *envelope, Vec3 p, float h)
         envelope_distance(envelope, vec3_add(p, z)) - envelope_distance(envelope, vec3_sub(p, z))));
 }
 
-// As far about the envelope as trilinear interpolation within it reaches.
+// Samples the envelope and a margin around it, as wide as trilinear interpolation inside needs.
 static bool sample(const void *context, Vec3 p, Vec3 *vector)
 {
     const FieldSamples *samples = context;

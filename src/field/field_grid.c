@@ -7,7 +7,7 @@
 
 enum { BLOCK = 8, CORNERS = BLOCK + 1, LEAF = CORNERS * CORNERS * CORNERS };
 
-// A leaf is left out when interpolation misses no voxel by more than this.
+// A block gets no leaf if interpolating its corners errs by at most this much at every voxel.
 #define TOLERANCE 0.01f
 
 static Vec3 trilinear(const Vec3 *v, int64_t stride_x, int64_t stride_y, Vec3 t)
@@ -36,7 +36,7 @@ static Vec3 voxel_position(const FieldGrid *grid, int x, int y, int z)
     return vec3_madd(grid->low, grid->voxel, vec3((float)x, (float)y, (float)z));
 }
 
-// Samples a block's voxels; whether its corners stand for all of them within the tolerance.
+// Samples a block's voxels; returns whether its corners represent them within the tolerance.
 static bool sample_leaf(const FieldGrid *grid, FieldFunction *f, const void *context,
                         const int block[3], Vec3 *value)
 {
@@ -74,8 +74,8 @@ static bool sample_corners(FieldGrid *grid, FieldFunction *f, const void *contex
     return !run_is_cancelled(run) || run_cancel_error(e);
 }
 
-// First which blocks need a leaf, then their numbers, then their values: the same layout for any
-// number of threads.
+// Three passes: which blocks need a leaf, the leaves' numbers, their values. So the layout does not
+// depend on the number of threads.
 static bool sample_leaves(FieldGrid *grid, FieldFunction *f, const void *context, const Run *run,
                           Error *e)
 {
@@ -152,7 +152,7 @@ void field_grid_free(FieldGrid *grid)
     *grid = (FieldGrid){0};
 }
 
-// Splits t (in cells) into a cell of 0..count-1 and the place in it.
+// Splits t (in cells) into a cell index in 0..count-1 and the fraction inside the cell.
 static int split(float *t, int count)
 {
     float x = clampf(*t, 0.0f, (float)count);

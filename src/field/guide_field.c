@@ -11,7 +11,7 @@ enum { DEFAULT_RESOLUTION = 48 };
 
 struct GuideField {
     FieldParams *params; // count of them
-    FieldGrid *grid;     // count of them; only those of FIELD_GRID are filled
+    FieldGrid *grid;     // count of them; used for FIELD_GRID only
     int count;
     Nuclei nuclei;
 };

@@ -49,7 +49,8 @@ static Vec3 across(Vec3 v, Vec3 axis)
     return vec3_madd(v, -vec3_dot(v, axis), axis);
 }
 
-// Distance from the nucleus to the farthest side of the bounds, measured across the axis: the rim.
+// Distance from the nucleus to the farthest side of the bounds, measured perpendicular to the axis:
+// the rim.
 static float rim_distance(const Nuclei *nuclei, Vec3 nucleus, Vec3 axis)
 {
     Vec3 below = vec3_sub(nucleus, nuclei->bounds.low);
@@ -62,9 +63,9 @@ static float rim_distance(const Nuclei *nuclei, Vec3 nucleus, Vec3 axis)
     return r > z ? r : z;
 }
 
-// Tangent of the local angle of a streamline that sweeps `turn` in all: in the plane r dtheta/dr =
-// tan, so tan = t r / r_max sweeps t from the nucleus to the rim; on a sphere sin(phi) dtheta/dphi
-// = tan, so tan = t sin(phi) / pi sweeps t from pole to pole.
+// Tangent of the local angle of a streamline that sweeps `turn` in total. In the plane, r dtheta/dr
+// = tan, so tan = t r / r_max sweeps t from the nucleus to the rim; on a sphere, sin(phi)
+// dtheta/dphi = tan, so tan = t sin(phi) / pi sweeps t from pole to pole.
 static float swept_tangent(const Nuclei *nuclei, const FieldParams *params, Vec3 nucleus, Vec3 p,
                            Vec3 axis)
 {
@@ -78,8 +79,8 @@ static float swept_tangent(const Nuclei *nuclei, const FieldParams *params, Vec3
     return rim > 0.0f ? turn * vec3_length(across(vec3_sub(p, nucleus), axis)) / rim : 0.0f;
 }
 
-// q X q* with q = cos(t/2) + N sin(t/2), N not necessarily unit (eq. 10-11): w = cos(t/2), v = N
-// sin(t/2).
+// Computes q X q* with q = cos(t/2) + N sin(t/2), N not necessarily unit (Tanaka eq. (10)-(11)): w
+// = cos(t/2), v = N sin(t/2).
 static Vec3 turn_by_quaternion(Vec3 x, Vec3 v, float w)
 {
     Vec3 turned = vec3_scale(x, w * w - vec3_dot(v, v));
@@ -99,11 +100,12 @@ Vec3 nuclei_at(const Nuclei *nuclei, const FieldParams *params, Vec3 p, Vec3 n)
         normal = nuclei->normal[i];
     }
     Vec3 axis = vec3_normalize(normal);
-    away = vec3_normalize(params->surface ? across(away, axis) : away); // eq. (9)
+    away = vec3_normalize(params->surface ? across(away, axis) : away); // Tanaka eq. (9)
     float s, c;
     if (params->profile == PROFILE_CONSTANT) {
         exact_sincos(0.5f * params->turn * RADIANS_PER_DEGREE, &s, &c);
-        return vec3_normalize(turn_by_quaternion(away, vec3_scale(normal, s), c)); // eq. (10)-(12)
+        // Tanaka eq. (10)-(12)
+        return vec3_normalize(turn_by_quaternion(away, vec3_scale(normal, s), c));
     }
     float tangent = swept_tangent(nuclei, params, nucleus, p, axis) * vec3_length(normal);
     c = 1.0f / sqrtf(1.0f + tangent * tangent);

@@ -6,15 +6,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { COARSEST = 2, LEAST_SIZES = 3, MOST_HALVINGS = 20 };
-#define SAMPLES_A_BOX 4.0 // along a segment
-#define MOST_SAMPLES 1.6e7
+enum { COARSEST = 2, MIN_SIZES = 3, MAX_HALVINGS = 20 };
+#define SAMPLES_PER_BOX 4.0 // samples per box along a segment
+#define MAX_SAMPLES 1.6e7
 
-// Boxes of the finest size, named by interleaved bits: a coarser box's name is a shorter one.
+// Boxes of the finest size, identified by Morton codes; dropping low bits gives the coarser boxes.
 typedef struct BoxSet {
     Vec3 low;
     double inverse_size; // 1/m, of the finest boxes
-    int halvings;        // the extent has 2^halvings of them
+    int halvings;        // the extent spans 2^halvings of them
     uint64_t *name;
     int64_t count, capacity;
 } BoxSet;
@@ -22,7 +22,7 @@ typedef struct BoxSet {
 static uint64_t spread_bits(uint64_t x)
 {
     uint64_t out = 0;
-    for (int bit = 0; bit < MOST_HALVINGS; bit++) {
+    for (int bit = 0; bit < MAX_HALVINGS; bit++) {
         out |= (x >> bit & 1u) << (3 * bit);
     }
     return out;
@@ -60,7 +60,7 @@ static int compare_names(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-// Distinct names without their last 3 * dropped bits; the names are sorted.
+// Number of distinct codes after dropping their last 3 * dropped bits; the codes are sorted.
 static int64_t count_boxes(const BoxSet *set, int dropped)
 {
     int64_t count = 0;
@@ -70,7 +70,7 @@ static int64_t count_boxes(const BoxSet *set, int dropped)
     return count;
 }
 
-// Slope of log2 (boxes) over halvings, from boxes of a quarter of the extent on.
+// Slope of log2 (boxes) over halvings, starting at boxes of a quarter of the extent.
 static double fit_dimension(BoxSet *set)
 {
     qsort(set->name, (size_t)set->count, sizeof *set->name, compare_names);
@@ -82,18 +82,18 @@ static double fit_dimension(BoxSet *set)
     return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-// Boxes over bounds, no finer than `finest`; false when they give too few sizes.
+// Chooses boxes over bounds, no finer than `finest`; false when they give too few sizes.
 static bool set_up(BoxSet *set, Aabb bounds, double finest)
 {
     Vec3 size = vec3_sub(bounds.high, bounds.low);
     double extent = (double)fmaxf(size.x, fmaxf(size.y, size.z));
     *set = (BoxSet){.low = bounds.low};
-    while (set->halvings < MOST_HALVINGS && extent > 2.0 * finest) {
+    while (set->halvings < MAX_HALVINGS && extent > 2.0 * finest) {
         extent *= 0.5;
         set->halvings++;
     }
     set->inverse_size = 1.0 / extent;
-    return finest > 0.0 && set->halvings >= COARSEST + LEAST_SIZES - 1;
+    return finest > 0.0 && set->halvings >= COARSEST + MIN_SIZES - 1;
 }
 
 bool points_box_dimension(const Vec3 *points, int64_t count, double finest, double *dimension,
@@ -119,7 +119,7 @@ bool points_box_dimension(const Vec3 *points, int64_t count, double finest, doub
 
 static bool add_segment(BoxSet *set, Vec3 a, Vec3 b, Error *e)
 {
-    double pieces = (double)vec3_distance(a, b) * set->inverse_size * SAMPLES_A_BOX;
+    double pieces = (double)vec3_distance(a, b) * set->inverse_size * SAMPLES_PER_BOX;
     int64_t count = 1 + (int64_t)pieces;
     bool done = true;
     for (int64_t i = 0; done && i <= count; i++) {
@@ -138,8 +138,8 @@ bool out_tree_box_dimension(const OutTree *tree, double *dimension, Error *e)
         }
     }
     *dimension = (double)NAN;
-    double finest = length / segments; // never so fine that a long tree needs too many samples
-    finest = fmax(finest, SAMPLES_A_BOX * length / MOST_SAMPLES);
+    double finest = length / segments; // bounds the number of samples of a long tree
+    finest = fmax(finest, SAMPLES_PER_BOX * length / MAX_SAMPLES);
     BoxSet set;
     if (segments < 1.0 || !set_up(&set, out_tree_bounds(tree), finest)) {
         return true;

@@ -11,7 +11,7 @@ static void link_children(Branching *b, const OutTree *tree)
         b->children[i] = 0;
         b->terminals[i] = 0;
     }
-    // From the back, each child goes before its later siblings.
+    // In reverse order, every child is visited before its parent.
     for (int64_t i = tree->count - 1; i >= 0; i--) {
         int32_t parent = tree->parent[i];
         b->terminals[i] = b->terminals[i] > 0 ? b->terminals[i] : 1;

@@ -4,11 +4,11 @@
 
 #include <stdlib.h>
 
-// The child by which each node's chain goes on; -1 at tips.
+// The child that continues each node's chain; -1 at tips.
 static int32_t *find_heirs(const OutTree *tree, Error *e)
 {
     int32_t *heir = memory_alloc(tree->count, sizeof *heir, e);
-    int32_t *load = memory_alloc(tree->count, sizeof *load, e); // nodes of the subtree
+    int32_t *load = memory_alloc(tree->count, sizeof *load, e); // nodes per subtree
     if (!heir || !load) {
         free(heir);
         free(load);
@@ -34,7 +34,7 @@ static int32_t *find_heirs(const OutTree *tree, Error *e)
     return heir;
 }
 
-// Numbers the chains; chain[i] is the one that node i is on.
+// Numbers the chains; chain[i] is the chain of node i.
 static int64_t number_chains(const OutTree *tree, const int32_t *heir, int32_t *chain)
 {
     int64_t count = 0;
@@ -60,7 +60,7 @@ static void fill_chains(ChainSet *set, const OutTree *tree, const int32_t *heir,
     for (int64_t c = 0; c < set->count; c++) {
         set->first[c + 1] += set->first[c];
     }
-    // first[c] serves as the place to write to, and is moved back afterwards
+    // first[c] is used as the write position and shifted back afterwards
     for (int64_t i = 0; i < tree->count; i++) {
         int32_t parent = tree->parent[i];
         if (parent >= 0 && heir[parent] != i) {

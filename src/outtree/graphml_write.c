@@ -1,4 +1,4 @@
-// Writing GraphML.
+// Writes GraphML.
 #include "base/file_writer.h"
 #include "base/markup.h"
 #include "base/number_text.h"
@@ -14,7 +14,7 @@ static void write_data(FileWriter *out, const char *key, float value)
     file_writer_print(out, "<data key=\"%s\">%s</data>", key, text);
 }
 
-// Node numbers count on over all graphs, as names must differ in all of the file.
+// Node names are unique in the file: the graph's number is part of them.
 static void write_graph(FileWriter *out, const OutTree *tree, const char *name, int number)
 {
     file_writer_print(out, "  <graph id=\"g%d\" edgedefault=\"directed\">\n", number);

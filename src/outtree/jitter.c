@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Over which a chain's direction is taken, either way, as a share of its length.
+// Half width of the window over which a chain's direction is taken, as a share of its length.
 #define DIRECTION_REACH 0.05
 
 typedef struct Jitter {
@@ -19,7 +19,7 @@ typedef struct Jitter {
     int32_t *children;
     Fbm *fbm;
     double *way;   // m along a chain
-    double *a, *b; // two bridges, as long as the longest chain
+    double *a, *b; // two bridges, with room for the longest chain
 } Jitter;
 
 JitterParams jitter_params_default(void)
@@ -27,7 +27,7 @@ JitterParams jitter_params_default(void)
     return (JitterParams){.hurst = 0.7f, .reference = 1.0f, .seed = 1, .stride = 1.0f};
 }
 
-// Fills j->way with the distances along the piece; returns the last, m.
+// Fills j->way with the arc lengths along the piece; returns the total, m.
 static double measure_piece(const Jitter *j, const int32_t *node, int64_t steps)
 {
     j->way[0] = 0.0;
@@ -46,7 +46,7 @@ static double step_deviation(const Jitter *j, double step)
                        : 0.0;
 }
 
-// A path drawn at 0 .. steps, at x; straight between.
+// Linear interpolation at x of a path given at 0 .. steps.
 static float path_at(const double *path, int64_t steps, double x)
 {
     int64_t k = (int64_t)x;
@@ -56,14 +56,14 @@ static float path_at(const double *path, int64_t steps, double x)
     return (float)(path[k] + (x - (double)k) * (path[k + 1] - path[k]));
 }
 
-// A stretch of a piece that slides along it.
+// A sliding window over a piece.
 typedef struct Window {
     int64_t first, last;
-    double reach; // m, either way from its middle
+    double reach; // m, to either side of its centre
 } Window;
 
-// The direction of the chain about place k: what is displaced across it must not swing with every
-// step, least of all where nodes crowd at forks. k grows from call to call.
+// Direction of the chain about place k, smoothed so that the displacement across it does not swing
+// with every step, least of all where nodes crowd at forks. k must not decrease from call to call.
 static Vec3 direction_at(const Jitter *j, const int32_t *node, int64_t steps, int64_t k, Window *w)
 {
     while (w->first < k && j->way[k] - j->way[w->first] > w->reach) {
@@ -76,7 +76,7 @@ static Vec3 direction_at(const Jitter *j, const int32_t *node, int64_t steps, in
     return vec3_dot(d, d) > 0.5f ? d : vec3(0, 1, 0);
 }
 
-// v across the unit vector d, as a unit vector.
+// Unit vector along the component of v perpendicular to the unit vector d.
 static Vec3 across(Vec3 v, Vec3 d)
 {
     v = vec3_madd(v, -vec3_dot(v, d), d);
@@ -88,8 +88,8 @@ static void place_in_space(const Jitter *j, int32_t node, Vec3 shift, Vec3 offse
     j->tree->position[node] = vec3_add(vec3_add(j->old[node], shift), offset);
 }
 
-// On a surface the node walks as far as the displacement is long, stride by stride, and is put back
-// on the surface after each.
+// On a surface: moves the node along the surface by the length of the displacement, stride by
+// stride, projecting it back onto the surface after each.
 static void place_on_surface(const Jitter *j, int32_t node, Vec3 shift, Vec3 offset)
 {
     const JitterParams *params = j->params;
@@ -102,15 +102,15 @@ static void place_on_surface(const Jitter *j, int32_t node, Vec3 shift, Vec3 off
         p = vec3_madd(p, stride, d);
         params->project(params->surface, &p, &n);
         d = vec3_madd(d, -vec3_dot(d, n), n);
-        left = vec3_dot(d, d) > 0.01f ? left - stride : 0.0f; // against a wall
+        left = vec3_dot(d, d) > 0.01f ? left - stride : 0.0f; // stopped by an edge
         d = vec3_normalize(d);
     } while (left > 0.0f);
     j->tree->position[node] = p;
     j->tree->normal[node] = n;
 }
 
-// Displaces the nodes after node[0] of a piece of a chain; node[0] is in its new place already.
-// The piece's end moves as its start did.
+// Displaces the nodes after node[0] of a piece of a chain; node[0] has its new position already.
+// The piece's end moves by the same displacement as its start.
 static bool jitter_piece(Jitter *j, const int32_t *node, int64_t steps, Error *e)
 {
     const OutTree *tree = j->tree;
@@ -118,7 +118,7 @@ static bool jitter_piece(Jitter *j, const int32_t *node, int64_t steps, Error *e
     if (!fbm_bridges(j->fbm, steps, key, j->a, j->b, e)) {
         return false;
     }
-    // The process runs evenly along the piece; nodes closer than that stay close.
+    // The process is sampled uniformly by arc length, so nodes closer than a sample stay close.
     double length = measure_piece(j, node, steps), step = length / (double)steps;
     float scale = (float)step_deviation(j, step);
     Window window = {0, 0, DIRECTION_REACH * length};
@@ -130,7 +130,7 @@ static bool jitter_piece(Jitter *j, const int32_t *node, int64_t steps, Error *e
         float a = scale * path_at(j->a, steps, x), b = scale * path_at(j->b, steps, x);
         Vec3 d = direction_at(j, node, steps, k, &window);
         if (in_space) {
-            side = across(side, d); // carried along without twist
+            side = across(side, d); // parallel transport, without twist
             Vec3 offset = vec3_scale(side, a);
             place_in_space(j, node[k], shift, vec3_madd(offset, b, vec3_cross(d, side)));
         } else {

@@ -10,7 +10,7 @@ typedef struct Joining {
     const JoinParams *params;
     int64_t count;    // nodes before the joins
     uint8_t *is_tip;  // per node
-    int32_t *partner; // per node: what it joins, -1
+    int32_t *partner; // per node: the node it joins, or -1
     int32_t *piece;   // per node: union-find
 } Joining;
 
@@ -87,8 +87,8 @@ static bool add_join(Joining *joining, int64_t from, int64_t to, Error *e)
     return true;
 }
 
-// The nearest two nodes of which one belongs to node 0's piece; false when there is only that one,
-// or when interrupted.
+// Finds the nearest pair of nodes with one of them in node 0's component; false when all is one
+// component, or when cancelled.
 static bool find_gap(const Joining *joining, const Run *run, int64_t *from, int64_t *to)
 {
     const OutTree *tree = joining->tree;

@@ -1,6 +1,5 @@
-// Closing loops in an out-tree: tips that come near another branch are joined to it. An out-tree
-// holds no loops, so a join is a node more: a child of the tip at the very place of the node it
-// joins.
+// Anastomosis: joins tips to nearby branches, closing loops. An out-tree has no cycles, so a join
+// adds a node: a child of the tip at exactly the position of the node it joins.
 #ifndef RAMIFY_OUTTREE_JOIN_H
 #define RAMIFY_OUTTREE_JOIN_H
 
@@ -9,23 +8,26 @@
 #include "outtree/out_tree.h"
 
 typedef struct JoinParams {
-    float reach;        // m, from a tip to what it joins
-    float least_path;   // m, between the two along the branches: no small loops
-    float least_cosine; // of the angle between the tip's heading and the join
-    bool all_one;       // then join what still hangs apart, at the nearest places, until all is one
+    float reach;        // m, largest distance from a tip to the node it joins
+    float least_path;   // m, least path length between the two along the branches; prevents small
+                        // loops
+    float least_cosine; // of the angle between the tip's direction and the join
+    bool all_one;       // then connect the remaining components at their nearest nodes until there
+                        // is one
 } JoinParams;
 
-// Joins each tip to the nearest node that suits (ties: the lowest index) and has a normal on the
-// same side; two tips join once. A join's birth is one after the later of its ends. *joins = how
-// many nodes were added; may be NULL. Takes time with tips x nodes.
+// Joins each tip to the nearest suitable node (ties: the lowest index) whose normal is on the same
+// side; two tips join once. A join's birth is one after the later of its ends. *joins (may be NULL)
+// is set to the number of nodes added. Takes O(tips x nodes) time.
 bool out_tree_join_tips(OutTree *tree, const JoinParams *params, int64_t *joins, const Run *run,
                         Error *e);
 
-// Pieces that the tree and its joins (nodes at the same place) make, and the loops in them that do
-// not follow from one another (edges - places + pieces; may be NULL).
+// Counts the connected components of the tree with its joins (nodes at equal positions), and its
+// independent loops (edges - places + components; may be NULL).
 bool out_tree_count_pieces(const OutTree *tree, int64_t *pieces, int64_t *loops, Error *e);
 
-// Is the way from a to b along the branches at least `least` long, m? Always so between two trees.
+// Whether the path from a to b along the branches is at least `least` m long; always true between
+// two trees.
 bool out_tree_path_exceeds(const OutTree *tree, int64_t a, int64_t b, float least);
 
 #endif

@@ -43,7 +43,7 @@ static bool add_counts(const OutTree *tree, const Branching *b, MeasureList *lis
     return ADD_ENTRIES(list, entries, e);
 }
 
-// Mean over all ends that do not lie on their root.
+// Mean over all ends that do not coincide with their root.
 static double mean_tortuosity(const OutTree *tree, const Branching *b)
 {
     double sum = 0.0, count = 0.0;
@@ -57,7 +57,7 @@ static double mean_tortuosity(const OutTree *tree, const Branching *b)
     return count > 0.0 ? sum / count : (double)NAN;
 }
 
-// Degrees from one step of a branch to its next.
+// Mean angle between consecutive segments of a branch, degrees.
 static double mean_turning(const OutTree *tree, const Branching *b)
 {
     double sum = 0.0, count = 0.0;

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { DIRECTION_REACH = 4 }; // steps that a branch's direction is read off
-#define MOST_EXPONENT 32.0
+enum { DIRECTION_REACH = 4 }; // steps over which a branch's direction is averaged
+#define MAX_EXPONENT 32.0
 #define MURRAY 3.0
 
 typedef struct Mean {
@@ -76,11 +76,11 @@ static bool has_radii(const OutTree *tree, const Branching *b, int32_t node)
     return positive;
 }
 
-// The e at which the fork's pipe_error is zero; MOST_EXPONENT where a child is as thick as its
-// parent and none is.
+// Exponent e at which the fork's pipe_error is zero; MAX_EXPONENT if a child is as thick as its
+// parent, so that there is none.
 static double solve_exponent(const OutTree *tree, const Branching *b, int32_t node)
 {
-    double low = 0.0, high = MOST_EXPONENT;
+    double low = 0.0, high = MAX_EXPONENT;
     for (int i = 0; i < 40; i++) {
         double middle = 0.5 * (low + high);
         if (pipe_error(tree, b, node, middle) > 0.0) {

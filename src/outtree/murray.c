@@ -8,7 +8,7 @@
 
 // ---- radii ----
 
-#define FINE 1e-4 // m: the radii between which the law by size changes its exponent
+#define FINE 1e-4 // m: radii between which the size-dependent law changes its exponent
 #define COARSE 1e-3
 
 static double power(double x, double exponent)
@@ -52,8 +52,7 @@ float murray_tip_radius(MurrayLaw law, float root_radius, int64_t tips)
 
 void out_tree_murray_radii(OutTree *tree, MurrayLaw law, float tip_radius)
 {
-    // The number of tips fits in a float exactly up to 2^24; beyond, Murray's sum is rounded as all
-    // else is.
+    // A float holds the number of tips exactly up to 2^24; beyond that the sum is rounded.
     memset(tree->radius, 0, sizeof *tree->radius * (size_t)tree->count);
     for (int64_t i = tree->count - 1; i >= 0; i--) {
         tree->radius[i] = tree->radius[i] == 0.0f ? 1.0f : tree->radius[i];
@@ -62,7 +61,8 @@ void out_tree_murray_radii(OutTree *tree, MurrayLaw law, float tip_radius)
         }
     }
     double tip_flow = murray_flow(law, (double)tip_radius);
-    float last_tips = 1.0f, last_radius = tip_radius; // unbranched stretches repeat the same sum
+    float last_tips = 1.0f, last_radius = tip_radius; // consecutive nodes of a branch have equal
+                                                      // sums
     for (int64_t i = 0; i < tree->count; i++) {
         if (tree->radius[i] != last_tips) {
             last_tips = tree->radius[i];
@@ -90,7 +90,7 @@ MurrayAngles murray_angles(double r0, double r1, double r2)
                           clamp_cosine((s0 - s1 - s2) / (2.0 * a1 * a2))};
 }
 
-// Turns in double: thousands of them are composed on the way to a tip.
+// In double: thousands of rotations are composed on the way to a tip.
 typedef struct Vec3d {
     double x, y, z;
 } Vec3d;
@@ -141,7 +141,7 @@ static Turn turn_unit(Turn q)
     return (Turn){q.w * s, q.x * s, q.y * s, q.z * s};
 }
 
-static Turn turn_after(Turn a, Turn b) // first b, then a
+static Turn turn_after(Turn a, Turn b) // b first, then a
 {
     return turn_unit((Turn){a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
                             a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -155,7 +155,7 @@ static Vec3d turned(Turn q, Vec3d v)
     return add(add(v, scaled(t, q.w)), cross(axis, t));
 }
 
-// The shortest turn from the unit vector a to the unit vector b.
+// Shortest rotation from the unit vector a to the unit vector b.
 static Turn turn_between(Vec3d a, Vec3d b)
 {
     double cosine = dot(a, b);
@@ -174,15 +174,16 @@ static Turn turn_half(Turn q)
 
 static const Turn NO_TURN = {1.0, 0.0, 0.0, 0.0};
 
-// The tree while it is turned. Nodes in depth-first order, so that a subtree is a stretch of it.
+// State while subtrees are rotated. Nodes in depth-first order, so that a subtree is a contiguous
+// range.
 typedef struct Turning {
     OutTree *tree;
-    Vec3d *place;   // new positions, of the nodes whose parent is done
-    Turn *turn;     // of all below each node so far
-    int32_t *order; // nodes, depth first
-    int32_t *at;    // where each node stands in `order`
-    int32_t *size;  // of each node's subtree, itself too
-    int32_t *child; // first two children of each node, -1
+    Vec3d *place;   // new positions of the nodes whose parent is done
+    Turn *turn;     // accumulated rotation of everything below each node
+    int32_t *order; // nodes in depth-first order
+    int32_t *at;    // index of each node in `order`
+    int32_t *size;  // nodes in each subtree, including its root
+    int32_t *child; // first two children of each node, or -1
     uint8_t *children;
     MurrayAllowed *allowed;
     void *user;
@@ -233,7 +234,7 @@ static void find_children(Turning *t)
     }
 }
 
-// A node's place is its parent's and the sizes of its elder siblings' subtrees.
+// A node's index follows from its parent's and the sizes of its elder siblings' subtrees.
 static void sort_depth_first(Turning *t)
 {
     const OutTree *tree = t->tree;
@@ -245,7 +246,7 @@ static void sort_depth_first(Turning *t)
             t->size[tree->parent[i]] += t->size[i];
         }
     }
-    int32_t *next = t->order, roots = 0; // next free place in each node's stretch
+    int32_t *next = t->order, roots = 0; // next free index in each node's range
     for (int64_t i = 0; i < tree->count; i++) {
         int32_t parent = tree->parent[i];
         int32_t *from = parent >= 0 ? &next[parent] : &roots;
@@ -258,11 +259,11 @@ static void sort_depth_first(Turning *t)
     }
 }
 
-// The turn of a fork's child on trial.
+// A trial rotation of one of a fork's subtrees.
 typedef struct Trial {
     int64_t fork;
-    Vec3d old; // where the fork stood
-    Turn turn; // of all below the child
+    Vec3d old; // the fork's position before
+    Turn turn; // of everything below the child
 } Trial;
 
 static Vec3d trial_place(const Turning *t, const Trial *trial, int64_t node)
@@ -274,8 +275,8 @@ static Vec3d trial_place(const Turning *t, const Trial *trial, int64_t node)
     return add(t->place[trial->fork], turned(trial->turn, p));
 }
 
-// Whether all below `child` may stand where the turn q takes it. Most turns of large subtrees fail
-// somewhere: a few nodes all over it first, then more, then all.
+// Whether the rotation q keeps everything below `child` allowed. Most rotations of large subtrees
+// fail somewhere, so a few nodes spread over the subtree are tested first, then more, then all.
 static bool try_turn(const Turning *t, int64_t fork, int64_t child, Turn q)
 {
     enum { FIRST_LOOK = 32, FINER = 8 };
@@ -296,7 +297,8 @@ static bool try_turn(const Turning *t, int64_t fork, int64_t child, Turn q)
     return true;
 }
 
-// The wanted turn, or as much of it as is allowed. *reduced says whether it is less.
+// The wanted rotation, or the largest tried fraction of it that is allowed. *reduced: whether it is
+// a fraction.
 static Turn allowed_turn(Turning *t, int64_t fork, int64_t child, Turn q, bool *reduced)
 {
     enum { HALVINGS = 3 };
@@ -313,8 +315,8 @@ static Turn allowed_turn(Turning *t, int64_t fork, int64_t child, Turn q, bool *
     return NO_TURN;
 }
 
-// Directions of a fork's daughters by Murray's angles: about the mother's, in the plane in which
-// they part.
+// Directions of a fork's daughters by Murray's angles about the mother's direction, in the plane of
+// the fork.
 static void wanted_directions(const float radius[3], Vec3d mother, const Vec3d old[2], Vec3d to[2])
 {
     MurrayAngles angles = murray_angles((double)radius[0], (double)radius[1], (double)radius[2]);
@@ -343,7 +345,7 @@ static Vec3d mother_direction(const Turning *t, int64_t fork, const Vec3d old[2]
     return unit(add(scaled(old[0], r1 * r1), scaled(old[1], r2 * r2)));
 }
 
-// Turns both daughters of a fork; returns whether one was reduced.
+// Rotates both daughters of a fork; returns whether a rotation was reduced.
 static bool turn_fork(Turning *t, int64_t fork)
 {
     const OutTree *tree = t->tree;
@@ -382,7 +384,8 @@ static void turn_all(Turning *t, uint8_t *bound, MurrayReport *report)
         if (tree->parent[i] < 0) {
             t->place[i] = to_double(tree->position[i]);
             t->turn[i] = NO_TURN;
-        } else if (t->children[tree->parent[i]] > 2) { // placed here, as none of `child` knows all
+        } else if (t->children[tree->parent[i]] > 2) { // placed here, because no `child` entry
+                                                       // lists all of them
             int32_t parent = tree->parent[i];
             Vec3d along =
                 add(to_double(tree->position[i]), scaled(to_double(tree->position[parent]), -1.0));

@@ -1,4 +1,4 @@
-// How well a tree keeps Murray's laws.
+// Measures how well a tree obeys Murray's laws.
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "outtree/murray.h"
@@ -34,7 +34,7 @@ static double largest_residual(const OutTree *tree, MurrayLaw law, double *outfl
     return worst;
 }
 
-// Errors of the angle between daughters, degrees, one a fork; returns how many.
+// Errors of the angle between daughters, degrees, one per fork; returns how many.
 static int64_t angle_errors(const OutTree *tree, const int32_t *child, float *error,
                             double *side_angle)
 {

@@ -34,7 +34,7 @@ bool out_tree_reserve(OutTree *tree, int64_t count, Error *e)
         return error_set(e, ERROR_MEMORY, "an out-tree of %lld nodes; fewer than 2^31 are possible",
                          (long long)count);
     }
-    // All arrays grow from the same capacity by the same rule, so they stay equally long.
+    // All arrays start from the same capacity and grow by the same rule, so they stay equally long.
     int64_t capacity[7];
     for (int i = 0; i < 7; i++) {
         capacity[i] = tree->capacity;
@@ -114,7 +114,8 @@ static void move_node(OutTree *tree, int64_t from, int64_t to)
 
 bool out_tree_keep_nodes(OutTree *tree, const bool *keep, Error *e)
 {
-    int32_t *place = memory_alloc(tree->count, sizeof *place, e); // of each node that stays; -1
+    // new index of each kept node, or -1
+    int32_t *place = memory_alloc(tree->count, sizeof *place, e);
     if (!place) {
         return false;
     }

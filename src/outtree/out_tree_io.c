@@ -7,7 +7,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-// Room for a line of SWC and for a node of an array.
+// Room for a line of SWC or a node of an array.
 enum { LONGEST = 5 * (INTEGER_TEXT_MOST + FLOAT_TEXT_MOST) };
 
 bool out_tree_write_swc(const OutTree *tree, const char *file, Error *e)
@@ -44,7 +44,7 @@ static void write_integers(FileWriter *out, const char *name, const int32_t *val
     file_writer_text(out, "]");
 }
 
-// Groups of `size` floats, in brackets where there are several.
+// Writes tuples of `size` floats, in brackets if size > 1.
 static void write_floats(FileWriter *out, const char *name, const float *value, int size,
                          int64_t count)
 {

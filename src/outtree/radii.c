@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-// Fills radius with Murray's sum in units of a tip: 1 at tips, the sum over the children elsewhere.
+// Fills radius with the number of tips below each node; returns the largest.
 static float sum_tips(OutTree *tree)
 {
     float thickest = 1.0f;
@@ -24,7 +24,7 @@ static float sum_tips(OutTree *tree)
     return thickest;
 }
 
-// Fills radius with the number of nodes on the longest way to a tip.
+// Fills radius with the number of nodes on the longest path to a tip.
 static float count_steps_to_tip(OutTree *tree)
 {
     float longest = 0.0f;
@@ -42,7 +42,7 @@ static float count_steps_to_tip(OutTree *tree)
     return longest;
 }
 
-// Nothing branches, so the pipe model says nothing: an even taper from root to tip.
+// Without branches the pipe model does not apply: tapers linearly from root to tip.
 static void taper_unbranched(OutTree *tree, float tip_radius, float root_radius)
 {
     float longest = count_steps_to_tip(tree);
@@ -63,7 +63,7 @@ void out_tree_pipe_radii(OutTree *tree, float exponent, float tip_radius, float 
         }
         power = exact_log((double)root_radius / (double)tip_radius) / exact_log((double)thickest);
     }
-    // Unbranched stretches repeat the same sum: the last one is remembered.
+    // Consecutive nodes of a branch have equal sums, so the last result is reused.
     float last_sum = 1.0f, last_radius = tip_radius;
     for (int64_t i = 0; i < tree->count; i++) {
         if (tree->radius[i] != last_sum) {
@@ -90,8 +90,8 @@ void out_tree_birth_radii(OutTree *tree, float tip_radius, float root_radius)
     }
 }
 
-// Distance along the branches from node i to its root, or `far` when that is further. Only nodes
-// nearer than `far` ever pay for the walk.
+// Distance along the branches from node i to its root, or `far` if larger. Only nodes nearer than
+// `far` pay for the walk.
 static float distance_to_root(const OutTree *tree, int64_t i, float far)
 {
     float distance = 0.0f;

@@ -1,4 +1,4 @@
-// Resampling of an out-tree to even segments; see chains.h.
+// Resamples an out-tree to even segments; see chains.h.
 #include "base/memory.h"
 #include "base/random.h"
 #include "outtree/chains.h"
@@ -9,8 +9,8 @@ typedef struct Resampler {
     const OutTree *tree;
     OutTree *out;
     float segment;
-    int32_t *children; // of each old node
-    int32_t *place;    // of the old nodes that stay, in the new tree
+    int32_t *children; // per old node
+    int32_t *place;    // new index of each kept old node
 } Resampler;
 
 static void count_children(const OutTree *tree, int32_t *children)
@@ -33,7 +33,7 @@ static float edge_length(const OutTree *tree, int32_t a, int32_t b)
     return vec3_distance(tree->position[a], tree->position[b]);
 }
 
-// Adds the node that stands at share t between the old nodes a and b.
+// Adds the node at fraction t between the old nodes a and b.
 static int64_t add_between(Resampler *r, int32_t a, int32_t b, float t, int64_t parent, uint64_t id,
                            Error *e)
 {
@@ -49,7 +49,7 @@ static int64_t add_between(Resampler *r, int32_t a, int32_t b, float t, int64_t 
     return node;
 }
 
-// The way node[0] .. node[count - 1] between two nodes that stay.
+// Resamples the path node[0] .. node[count - 1] between two kept nodes.
 static bool resample_piece(Resampler *r, const int32_t *node, int64_t count, Error *e)
 {
     const OutTree *tree = r->tree;

@@ -10,10 +10,10 @@ typedef struct Capsule {
     float radius;
 } Capsule;
 
-// A capsule in a cell, with the sphere about it: most are too far by that alone.
+// A capsule in a cell, with its bounding sphere, which rejects most.
 typedef struct Entry {
     Vec3 middle;
-    float bound; // m: from the middle to the capsule's ends
+    float bound; // m: from the centre to the capsule's ends
     int32_t capsule;
 } Entry;
 
@@ -23,8 +23,8 @@ struct SegmentGrid {
     Vec3 origin;
     float cell;
     int32_t cells[3];
-    int64_t *first; // of each cell in `entry`; one more ends the last
-    Entry *entry;   // by cell
+    int64_t *first; // per cell, its first index in `entry`; one extra entry ends the last
+    Entry *entry;   // sorted by cell
 };
 
 typedef struct CellRange {
@@ -82,18 +82,18 @@ static int64_t cell_index(const SegmentGrid *grid, int32_t x, int32_t y, int32_t
     return ((int64_t)x * grid->cells[1] + y) * grid->cells[2] + z;
 }
 
-// About one segment a cell, were they spread evenly over the box; at most 2^24 cells.
+// About one segment per cell if they were spread evenly over the box; at most 2^24 cells.
 static void choose_cells(SegmentGrid *grid, Aabb box)
 {
-    enum { MOST_CELLS = 1 << 24 };
+    enum { MAX_CELLS = 1 << 24 };
     Vec3 size = vec3_sub(box.high, box.low);
     float largest = size.x > size.y ? size.x : size.y;
     largest = largest > size.z ? largest : size.z;
     double count = (double)grid->capsule_count;
-    count = count > MOST_CELLS ? MOST_CELLS : count;
+    count = count > MAX_CELLS ? MAX_CELLS : count;
     double volume = (double)size.x * (double)size.y * (double)size.z;
     float cell = (float)exact_exp(exact_log(volume / (count > 1.0 ? count : 1.0) + 1e-300) / 3.0);
-    float least = largest / 512.0f; // a flat box must not make too many
+    float least = largest / 512.0f; // limits the number of cells of a flat box
     grid->cell = cell > least ? cell : (least > 0.0f ? least : 1.0f);
     grid->origin = box.low;
     grid->cells[0] = (int32_t)(size.x / grid->cell) + 1;
@@ -101,7 +101,7 @@ static void choose_cells(SegmentGrid *grid, Aabb box)
     grid->cells[2] = (int32_t)(size.z / grid->cell) + 1;
 }
 
-// Counts the capsules of each cell into first[cell + 1], or (fill) puts them in their places.
+// Counts the capsules of each cell into first[cell + 1], or (fill) stores them.
 static void visit_cells(SegmentGrid *grid, bool fill)
 {
     for (int64_t i = 0; i < grid->capsule_count; i++) {
@@ -189,12 +189,12 @@ void segment_grid_free(SegmentGrid *grid)
 static bool is_far(const Entry *entry, Vec3 middle, float reach)
 {
     Vec3 d = vec3_sub(entry->middle, middle);
-    float most = 1.0001f * (entry->bound + reach); // a little more, for rounding
+    float most = 1.0001f * (entry->bound + reach); // slightly more, for rounding
     return vec3_dot(d, d) > most * most;
 }
 
-// Every capsule lies in all cells that its box touches, so cells within `reach` of a-b hold all
-// whose surface comes that near.
+// Every capsule is in all cells that its box overlaps, so the cells within `reach` of a-b contain
+// all whose surface comes that near.
 bool segment_grid_touches(const SegmentGrid *grid, Vec3 a, Vec3 b, float reach, float least_radius)
 {
     if (grid->capsule_count == 0) {

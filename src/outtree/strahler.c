@@ -6,12 +6,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_ORDERS = 32 }; // 2^31 nodes have no more
+enum { MAX_ORDERS = 32 }; // 2^31 nodes have no higher order
 
 void out_tree_strahler(const OutTree *tree, int32_t *order)
 {
-    // While children report, an entry is twice their highest order, plus 1 when two or more share
-    // it.
+    // While children are visited, an entry is twice their highest order, plus 1 if two or more
+    // share it.
     for (int64_t i = 0; i < tree->count; i++) {
         order[i] = 0;
     }
@@ -29,7 +29,7 @@ void out_tree_strahler(const OutTree *tree, int32_t *order)
     }
 }
 
-// Of one order's streams together.
+// Totals over the streams of one order.
 typedef struct OrderSum {
     int64_t streams;
     double length, thickness; // m; length x diameter, m^2
@@ -52,7 +52,8 @@ static int32_t sum_orders(const OutTree *tree, const int32_t *order, OrderSum *s
     return highest;
 }
 
-// e^slope of the line through ln value[1..highest]; values that are not positive are left out.
+// e^slope of the least-squares line through ln value[1..highest]; skips values that are not
+// positive.
 static double mean_ratio(const double *value, int32_t highest)
 {
     double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
@@ -71,8 +72,8 @@ bool out_tree_horton(const OutTree *tree, HortonRatios *ratios, Error *e)
     if (!order) {
         return false;
     }
-    OrderSum sum[MOST_ORDERS + 1] = {{0}};
-    double number[MOST_ORDERS + 1], length[MOST_ORDERS + 1], diameter[MOST_ORDERS + 1];
+    OrderSum sum[MAX_ORDERS + 1] = {{0}};
+    double number[MAX_ORDERS + 1], length[MAX_ORDERS + 1], diameter[MAX_ORDERS + 1];
     out_tree_strahler(tree, order);
     int32_t highest = sum_orders(tree, order, sum);
     for (int32_t w = 1; w <= highest; w++) {

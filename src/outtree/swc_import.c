@@ -1,14 +1,14 @@
-// SWC files from anywhere, read in a child process.
+// Reads untrusted SWC files in a child process.
 #include "base/child.h"
 #include "outtree/out_tree_io.h"
 
 #include <sys/stat.h>
 
-// What reading may take; it needs about 20 bytes a byte and a second for 20 MB.
-#define LEAST_SECONDS 60.0
-#define SECONDS_A_BYTE 5e-6
-#define LEAST_MEMORY 1000000000
-#define MEMORY_A_BYTE 200
+// Limits of the process. Reading needs about 20 bytes per byte of the file and a second per 20 MB.
+#define MIN_SECONDS 60.0
+#define SECONDS_PER_BYTE 5e-6
+#define MIN_MEMORY 1000000000
+#define MEMORY_PER_BYTE 200
 
 static bool write_tree(const OutTree *tree, ChildOutput *output, Error *e)
 {
@@ -69,8 +69,8 @@ OutTree *out_tree_import_swc(const char *file, const Run *run, Error *e)
                     .data = file,
                     .file = file,
                     .wanted = "a whole SWC file",
-                    .seconds = LEAST_SECONDS + SECONDS_A_BYTE * (double)size,
-                    .memory = LEAST_MEMORY + MEMORY_A_BYTE * size};
+                    .seconds = MIN_SECONDS + SECONDS_PER_BYTE * (double)size,
+                    .memory = MIN_MEMORY + MEMORY_PER_BYTE * size};
     ChildOutput output;
     if (!child_run(&job, run, &output, e)) {
         return NULL;

@@ -1,4 +1,4 @@
-// Reading SWC files (Cannon et al. 1998), which come from many programs and may hold anything.
+// Reads SWC files (Cannon 1998), written by many programs and untrusted.
 #include "base/c_locale.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -12,15 +12,15 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { LONGEST_LINE = 4096, COLUMNS = 7, MOST_NODES = 1 << 30 };
-#define SEED 0x737763ull // of the ids
+enum { MAX_LINE = 4096, COLUMNS = 7, MAX_NODES = 1 << 30 };
+#define SEED 0x737763ull // of the node ids
 
 typedef struct Row {
     int64_t number, parent;
     int32_t type;
     int32_t line;
     int32_t above; // the parent's row; -1 at a root
-    int32_t node;  // in the tree; -1 = not there yet
+    int32_t node;  // index in the tree; -1 = not added yet
     Vec3 position;
     float radius;
 } Row;
@@ -52,7 +52,7 @@ static bool read_whole(double value, int64_t low, int64_t high, int64_t *out)
     return valid;
 }
 
-// The seven numbers of a line into column; false with e.
+// Parses the seven numbers of a line into column.
 static bool read_columns(const char *text, double column[COLUMNS], Error *e)
 {
     for (int i = 0; i < COLUMNS; i++) {
@@ -108,19 +108,20 @@ static bool read_row(const char *text, Row *row, Error *e)
     return true;
 }
 
-// One line into text without its end; false with e when it cannot be text. *more: there was one.
-static bool read_line(FILE *stream, char text[LONGEST_LINE], bool *more, Error *e)
+// Reads one line into text, without its end; fails when it is not text. *more: whether there was a
+// line.
+static bool read_line(FILE *stream, char text[MAX_LINE], bool *more, Error *e)
 {
     int c, length = 0;
     while ((c = getc(stream)) != EOF && c != '\n') {
         if (c == 0) {
             return error_set(e, ERROR_INPUT, "not a text file: it holds a NUL; SWC is text");
         }
-        if (length < LONGEST_LINE - 1) {
+        if (length < MAX_LINE - 1) {
             text[length++] = (char)c;
         } else if (text[0] != '#') {
             return error_set(e, ERROR_INPUT, "longer than %d characters; SWC has seven numbers",
-                             LONGEST_LINE - 1);
+                             MAX_LINE - 1);
         }
     }
     *more = c != EOF || length > 0;
@@ -131,20 +132,21 @@ static bool read_line(FILE *stream, char text[LONGEST_LINE], bool *more, Error *
 
 static bool read_rows(SwcFile *swc, FILE *stream, Error *e)
 {
-    char text[LONGEST_LINE];
+    char text[MAX_LINE];
     bool more = true;
     for (int64_t line = 1; more; line++) {
         if (!read_line(stream, text, &more, e)) {
             return fail_at(swc, line, e);
         }
-        bool marked = line == 1 && strncmp(text, "\xef\xbb\xbf", 3) == 0; // by some editors
+        // byte order mark, written by some editors
+        bool marked = line == 1 && strncmp(text, "\xef\xbb\xbf", 3) == 0;
         const char *start = text + (marked ? 3 : 0);
         start += strspn(start, " \t");
         if (!*start || *start == '#') {
             continue;
         }
-        if (swc->count >= MOST_NODES) {
-            return error_set(e, ERROR_INPUT, "'%s' has more than %d nodes", swc->file, MOST_NODES);
+        if (swc->count >= MAX_NODES) {
+            return error_set(e, ERROR_INPUT, "'%s' has more than %d nodes", swc->file, MAX_NODES);
         }
         if (!memory_reserve(&swc->row, &swc->capacity, swc->count + 1, sizeof *swc->row, e)) {
             return false;
@@ -162,7 +164,7 @@ static bool read_rows(SwcFile *swc, FILE *stream, Error *e)
            (error_set(e, ERROR_INPUT, "no node in it; SWC has one a line"), fail_at(swc, 0, e));
 }
 
-// ---- from rows to the tree ----
+// ---- rows to tree ----
 
 static int compare_names(const void *a, const void *b)
 {
@@ -179,7 +181,7 @@ static int compare_number(const void *key, const void *name)
     return (a > b) - (a < b);
 }
 
-// Finds every row's parent.
+// Resolves every row's parent.
 static bool link_rows(SwcFile *swc, Error *e)
 {
     swc->name = memory_alloc(swc->count, sizeof *swc->name, e);
@@ -228,7 +230,7 @@ static bool add_row(OutTree *tree, Row *row, const Row *above, Error *e)
     return true;
 }
 
-// Adds a row after those above it that are still missing, whose chain is kept in way[].
+// Adds a row after its missing ancestors, whose chain is kept in way[].
 static bool add_with_ancestors(SwcFile *swc, OutTree *tree, int32_t index, int32_t *way, Error *e)
 {
     int64_t length = 0;

@@ -48,7 +48,7 @@ bool affine_inverse(const double m[3][4], double inverse[3][4])
     return true;
 }
 
-// One Jacobi rotation that makes s[a][b] zero; the columns of v gather the rotations.
+// One Jacobi rotation: makes s[a][b] zero and accumulates the rotation in the columns of v.
 static void rotate(double s[3][3], double v[3][3], int a, int b)
 {
     double theta = (s[b][b] - s[a][a]) / (2.0 * s[a][b]);

@@ -4,15 +4,15 @@
 
 #include <math.h>
 
-// A round cone between two spheres, squeezed front to back, joined to all before it.
+// A round cone between two spheres, flattened front to back, blended with all parts before it.
 typedef struct BodyPart {
     double a[3], radius_a, b[3], radius_b;
-    double depth; // front to back, in units of its width
-    double blend; // over which it flows into the rest
+    double depth; // ratio of depth (front to back) to width
+    double blend; // width of the smooth blend with the parts before it
 } BodyPart;
 
-// For a height of 1, x >= 0: the other side mirrors it. Proportions after the artists' canon of
-// seven and a half heads.
+// For a height of 1 and x >= 0; the other side is its mirror image. Proportions follow the artists'
+// canon of seven and a half heads.
 static const BodyPart PARTS[] = {
     // trunk
     {{0, 0.655, 0.002}, 0.079, {0, 0.752, -0.004}, 0.093, 0.70, 0.000},
@@ -68,15 +68,15 @@ static double dot3(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Distance to the hull of two spheres: the nearest point of its profile, in the plane through the
-// axis. axis: from one centre to the other; q: from the first centre.
+// Distance to the convex hull of two spheres, found on its profile in a plane through the axis.
+// axis: vector between the centres; q: the point relative to the first centre.
 static double round_cone_distance(const double q[3], const double axis[3], double ra, double rb)
 {
     double length2 = dot3(axis, axis), length = sqrt(length2);
     double y = dot3(q, axis) / length;
     double x2 = dot3(q, q) - y * y, x = sqrt(x2 > 0.0 ? x2 : 0.0);
     double slope = (ra - rb) / length, rise = sqrt(1.0 - slope * slope);
-    double along = y * rise - x * slope; // along the flank, from the first sphere's rim
+    double along = y * rise - x * slope; // along the flank, from the first sphere's tangent circle
     if (along <= 0.0) {
         return sqrt(x * x + y * y) - ra;
     }
@@ -95,7 +95,7 @@ static double part_distance(const BodyPart *part, const double p[3])
     return part->depth * round_cone_distance(q, axis, part->radius_a, part->radius_b);
 }
 
-// The lesser of two distances, rounded where they are alike (polynomial smooth minimum).
+// Polynomial smooth minimum of two distances.
 static double blend_distance(double a, double b, double width)
 {
     double h = width > 0.0 ? (width - fabs(a - b)) / width : 0.0;

@@ -17,7 +17,7 @@ static int64_t node_index(const DepthField *f, int x, int y, int z)
     return ((int64_t)x * f->size[1] + y) * f->size[2] + z;
 }
 
-// Distance from the inner point p along step (a grid edge) to where it leaves the envelope.
+// Distance from the inner point p along step (a grid edge) to where the edge crosses the surface.
 static float crossing(const Envelope *envelope, Vec3 p, Vec3 step)
 {
     float low = 0.0f, high = 1.0f;
@@ -32,8 +32,8 @@ static float crossing(const Envelope *envelope, Vec3 p, Vec3 step)
     return 0.5f * (low + high) * vec3_length(step);
 }
 
-// Depth of a node that has an outer neighbour, as if the surface were flat there; INFINITY for
-// nodes deep inside.
+// Depth of an inner node with an outer neighbour, assuming a locally flat surface; INFINITY for
+// nodes without one.
 static float border_depth(const DepthField *f, const float *depth, int x, int y, int z)
 {
     static const int side[6][3] = {{-1, 0, 0}, {1, 0, 0},  {0, -1, 0},
@@ -54,7 +54,7 @@ static float border_depth(const DepthField *f, const float *depth, int x, int y,
     return 1.0f / sqrtf(sum);
 }
 
-// The smallest u that solves sum over axes of max(0, u - a_i)^2 = h^2, a sorted.
+// Solves sum over axes of max(0, u - a_i)^2 = h^2 for the smallest u; the a_i are sorted.
 static float solve_node(float a, float b, float c, float h)
 {
     float swap;
@@ -78,7 +78,7 @@ static float solve_node(float a, float b, float c, float h)
     return u;
 }
 
-// One pass over the grid; bits of `way` choose the direction of each axis.
+// One pass over the grid; the bits of `way` choose the direction along each axis.
 static void sweep(DepthField *f, int way)
 {
     int64_t sx = (int64_t)f->size[1] * f->size[2], sy = f->size[2];
@@ -101,7 +101,7 @@ static void sweep(DepthField *f, int way)
     }
 }
 
-// Marks outer nodes with 0 and inner ones with INFINITY, or their depth where it is known.
+// Initialises outer nodes to 0 and inner ones to their depth where known, else to INFINITY.
 static void start_nodes(DepthField *f)
 {
     float band = envelope_band(f->envelope);
@@ -134,7 +134,7 @@ static bool solve(DepthField *f, Error *e)
             }
         }
     }
-    // where a node's border is not the nearest one a sweep may still lower it
+    // sweeps may lower a border node too, when its nearest surface point lies elsewhere
     for (int i = 0; i < SWEEPS; i++) {
         sweep(f, i);
     }
@@ -161,13 +161,13 @@ bool depth_field_new(const Envelope *envelope, DepthField *f, Error *e)
     Aabb box = envelope_bounds(envelope);
     Vec3 size = vec3_sub(box.high, box.low);
     bool clamped = isfinite(envelope_band(envelope));
-    // the maximum of an exact distance needs no fine grid
+    // the maximum of an exact distance needs only a coarse grid
     float cells = clamped ? (float)CELLS : (float)CELLS / 3.0f;
     *f = (DepthField){.envelope = envelope};
     f->spacing = fmaxf(size.x, fmaxf(size.y, size.z)) / cells;
     float extent[3] = {size.x, size.y, size.z}, origin[3] = {box.low.x, box.low.y, box.low.z};
     for (int i = 0; i < 3; i++) {
-        // two nodes outside on either side at least, and the grid centred on the box
+        // at least two outer nodes on each side, with the grid centred on the box
         f->size[i] = (int)(extent[i] / f->spacing) + 5;
         origin[i] -= 0.5f * ((float)(f->size[i] - 1) * f->spacing - extent[i]);
     }
@@ -207,7 +207,7 @@ static float grid_depth(const DepthField *f, Vec3 p)
 
 float depth_field_at(const DepthField *f, Vec3 p)
 {
-    // in the band the envelope knows better than the coarse grid
+    // within the band the envelope is more accurate than the coarse grid
     float distance = envelope_distance(f->envelope, p);
     bool clamped = f->depth && distance <= -0.9f * envelope_band(f->envelope);
     float depth = clamped ? grid_depth(f, p) : -distance;

@@ -19,13 +19,14 @@ bool ellipsoid_nearest(const double half[3], const double p[3], double c[3])
     least = half[2] < half[least] ? 2 : least;
     double y[3], gap[3], s = 0.0;
     for (int i = 0; i < 3; i++) {
-        // just off the planes of symmetry, where the nearest point is not unique
+        // keep off the planes of symmetry, where the nearest point is not unique
         y[i] = fmax(fabs(p[i]), 1e-14 * half[i]);
         gap[i] = (half[i] - half[least]) * (half[i] + half[least]);
         s = fmax(s, half[i] * y[i] - gap[i]);
     }
-    // The root s of sum (half y / (s + gap))^2 = 1: the sum is convex and falling and starts at 1
-    // or more, so Newton's method climbs to the root without overshooting.
+    // Newton's method for the root s of sum (half y / (s + gap))^2 = 1. The sum is convex and
+    // decreasing and starts at 1 or more, so the iteration increases to the root without
+    // overshooting.
     for (int iteration = 0; iteration < 64; iteration++) {
         double sum = -1.0, slope = 0.0;
         for (int i = 0; i < 3; i++) {
@@ -63,7 +64,8 @@ static void carlson(double x, double y, double z, double *rf, double *rd)
             break;
         }
     }
-    // at equal arguments R_F = x^(-1/2) and R_D = x^(-3/2); the rest is of the order of spread^2
+    // for equal arguments R_F = x^(-1/2) and R_D = x^(-3/2); the remainder is of the order of
+    // spread^2
     *rf = 1.0 / sqrt((x + y + z) / 3.0);
     *rd = 3.0 * sum + weight / (mean_d * sqrt(mean_d));
 }
@@ -80,7 +82,7 @@ double ellipsoid_area(const double half[3])
     if (a < b) {
         swap = a, a = b, b = swap;
     }
-    // the middle one last, so that nothing cancels (DLMF 19.21.10)
+    // the middle argument last, to avoid cancellation (DLMF 19.21.10)
     double x = 1.0 / (a * a), y = 1.0 / (c * c), z = 1.0 / (b * b), rf, rd;
     carlson(x, y, z, &rf, &rd);
     double rg = 0.5 * (z * rf - (x - z) * (y - z) * rd / 3.0 + sqrt(x * y / z));

@@ -10,23 +10,23 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { VOXELS_DEFAULT = 128, VOXELS_LEAST = 8, VOXELS_MOST = 1024 }; // across the largest extent
+enum { VOXELS_DEFAULT = 128, VOXELS_MIN = 8, VOXELS_MAX = 1024 }; // across the largest extent
 
 struct Envelope {
-    Primitive primitive; // where level_set is NULL
+    Primitive primitive; // used when level_set is NULL
     LevelSet *level_set;
     Mesh *surface;
     Aabb bounds;
     double volume, area;
 };
 
-// A shape of the list, made ready.
+// A shape of the list, prepared.
 typedef struct Piece {
     const Shape *shape;
     Primitive primitive; // unless it is a mesh or a body
     Body body;
-    Mesh *mesh;   // as imported, transformed, facing outward; NULL unless it is a mesh
-    Mesh *closed; // the same without holes
+    Mesh *mesh;   // as imported, transformed, faces outward; NULL for other kinds
+    Mesh *closed; // the same with its holes filled
     int64_t open_edges;
     Aabb bounds;
 } Piece;
@@ -83,7 +83,7 @@ static bool check_list(const EnvelopeParams *params, Error *e)
 
 // ---- meshes ----
 
-// Faces and normals outward, where the mesh has an outside.
+// Turns faces and normals outward if the mesh encloses a volume.
 static void face_outward(Piece *piece)
 {
     double volume = mesh_signed_volume(piece->closed);
@@ -172,8 +172,8 @@ static Piece *pieces_load(const EnvelopeParams *params, const Run *run, Error *e
 
 // ---- level sets ----
 
-// Chooses the voxel and checks it before anything is allocated. *inside = a box around all that can
-// be inside.
+// Chooses the voxel size and checks it before anything is allocated. *inside is set to a box that
+// contains the envelope.
 static bool choose_frame(const Piece *pieces, int count, float voxel, LevelSetFrame *frame,
                          Aabb *inside, Error *e)
 {
@@ -185,23 +185,23 @@ static bool choose_frame(const Piece *pieces, int count, float voxel, LevelSetFr
     }
     float extent = largest_extent(*inside);
     *frame = (LevelSetFrame){inside->low, voxel > 0.0f ? voxel : extent / VOXELS_DEFAULT};
-    if (!(extent / frame->voxel >= VOXELS_LEAST)) {
+    if (!(extent / frame->voxel >= VOXELS_MIN)) {
         error_set(e, ERROR_INPUT,
                   "voxel %g m is too coarse for an envelope of %g m; set voxel to %g or "
                   "less, or to 0 for 1/%d of the extent",
-                  (double)voxel, (double)extent, (double)(extent / VOXELS_LEAST), VOXELS_DEFAULT);
+                  (double)voxel, (double)extent, (double)(extent / VOXELS_MIN), VOXELS_DEFAULT);
         return error_key(e, "voxel");
     }
     for (int i = 0; i < count; i++) {
         bool is_mesh =
-            pieces[i].shape->kind == SHAPE_MESH; // the others are made only within the box
+            pieces[i].shape->kind == SHAPE_MESH; // other kinds are sampled only within the box
         float across = is_mesh ? largest_extent(pieces[i].bounds) : extent;
-        if (across / frame->voxel > VOXELS_MOST) {
+        if (across / frame->voxel > VOXELS_MAX) {
             error_set(e, ERROR_INPUT,
                       "shape %d (%s): voxel %g m makes a level set of %.0f voxels across; "
                       "at most %d are possible: set voxel to %g or more",
                       i + 1, kind_name(pieces[i].shape->kind), (double)frame->voxel,
-                      (double)(across / frame->voxel), VOXELS_MOST, (double)(across / VOXELS_MOST));
+                      (double)(across / frame->voxel), VOXELS_MAX, (double)(across / VOXELS_MAX));
             return error_key(e, "voxel");
         }
     }
@@ -269,7 +269,7 @@ static bool become_primitive(Envelope *envelope, const Primitive *primitive, Err
     return envelope->surface;
 }
 
-// A mesh alone keeps its own surface.
+// A mesh alone keeps its own triangles as the surface.
 static bool measure_mesh(Envelope *envelope, Piece *piece, Error *e)
 {
     Mesh *inside = level_set_surface(envelope->level_set, e);
@@ -277,7 +277,7 @@ static bool measure_mesh(Envelope *envelope, Piece *piece, Error *e)
         return false;
     }
     double filled = mesh_signed_volume(inside), own = mesh_signed_volume(piece->closed);
-    // faces that overlap or a guessed cap count wrongly; the level set knows better then
+    // overlapping faces or a guessed cap falsify the mesh's volume; the level set's is used then
     bool trusted = piece->open_edges == 0 && fabs(own - filled) < 0.1 * own;
     mesh_free(inside);
     envelope->volume = trusted ? own : filled;

@@ -30,7 +30,7 @@ using openvdb::Coord;
 namespace
 {
 
-// Runs f, which returns whether it succeeded, and turns whatever it throws into an Error.
+// Runs f, which returns whether it succeeded, and converts exceptions to an Error.
 template <typename F> bool guarded(Error *e, ErrorCode code, const F &f)
 {
     try {
@@ -45,8 +45,8 @@ template <typename F> bool guarded(Error *e, ErrorCode code, const F &f)
     }
 }
 
-// Files can be read in part only when they tell where each grid begins, which needs a seekable
-// stream; the library offers that for its own files alone, whose failures it does not tell.
+// Reading parts of a file requires the offset of each grid, which needs a seekable stream. The
+// library offers that only for files it opens itself, without reporting their failures.
 struct Writer : openvdb::io::Archive {
     std::string bytes(const openvdb::GridPtrVec &grids) const
     {
@@ -59,7 +59,7 @@ struct Writer : openvdb::io::Archive {
     }
 };
 
-// The library names each file at random; ours are named after what is in them.
+// The library gives each file a random UUID; replaced by a hash of the contents.
 void name_after_contents(std::string &bytes)
 {
     const size_t at = 8 + 3 * 4 + 1, length = 36;
@@ -92,7 +92,7 @@ bool value_at(const GridFile *grids, const char *name, Vec3 p, typename Grid::Va
     return false;
 }
 
-// Voxels of one plane of constant x.
+// Voxels of a plane of constant x.
 struct Plane {
     std::vector<Vec3> value;
     std::vector<char> active;
@@ -165,13 +165,13 @@ extern "C" bool grid_file_move(GridFile *grids, int64_t first, const Transform *
 {
     return guarded(e, ERROR_INTERNAL, [&] {
         const float(*m)[4] = motion->m;
-        // the library's vectors are rows, and multiply from the left
+        // the library's vectors are rows, multiplied from the left
         const float rows[16] = {m[0][0], m[1][0], m[2][0], 0, m[0][1], m[1][1], m[2][1], 0,
                                 m[0][2], m[1][2], m[2][2], 0, 0,       0,       0,       1};
         const openvdb::math::Mat4d turn(rows);
         bool turns = turn != openvdb::math::Mat4d::identity();
         for (auto i = static_cast<size_t>(first); i < grids->grids.size(); i++) {
-            if (turns) { // a plain move keeps the map a plain one
+            if (turns) { // a mere translation keeps the map a plain one
                 grids->grids[i]->transform().postMult(turn);
             }
             grids->grids[i]->transform().postTranslate(openvdb::Vec3d(m[0][3], m[1][3], m[2][3]));
@@ -203,7 +203,7 @@ extern "C" GridFile *grid_file_read(const char *file, Error *e)
     std::unique_ptr<GridFile> made(grid_file_new(e));
     bool done = made && guarded(e, ERROR_INPUT, [&] {
                     openvdb::io::File in(file);
-                    in.open(false); // everything now: the file may change
+                    in.open(false); // no delayed loading: the file may change
                     made->grids = *in.getGrids();
                     in.close();
                     return true;

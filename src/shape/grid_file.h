@@ -1,4 +1,4 @@
-// Files of OpenVDB grids: several level sets and vector fields in one .vdb.
+// OpenVDB files (.vdb) with several level sets and vector fields.
 #ifndef RAMIFY_SHAPE_GRID_FILE_H
 #define RAMIFY_SHAPE_GRID_FILE_H
 
@@ -9,32 +9,32 @@
 extern "C" {
 #endif
 
-typedef struct GridFile GridFile; // grids in memory, on their way to a file or from one
+typedef struct GridFile GridFile; // grids in memory, to be written or just read
 
 GridFile *grid_file_new(Error *e);
 void grid_file_free(GridFile *grids); // NULL is fine
 
 int64_t grid_file_count(const GridFile *grids);
 
-// A vector for the point p, m; false = none there. Called from several threads.
+// Sets the vector at point p (m); returns false where there is none. Called from several threads.
 typedef bool (*GridVectors)(const void *context, Vec3 p, Vec3 *vector);
 
-// Samples vectors over bounds in voxels of this size, m. Only voxels that have one are active.
-// Their type is "contravariant relative": directions in space, that turn and stretch with it.
+// Samples vectors over bounds at this voxel size, m. Only voxels with a vector are active. Their
+// type is "contravariant relative": directions that rotate and stretch with space.
 bool grid_file_add_vectors(GridFile *grids, const char *name, Aabb bounds, float voxel,
                            GridVectors vectors, const void *context, const Run *run, Error *e);
 
-// Turns and moves grids from number first on, and turns their vectors.
+// Transforms the grids from number first on, rotating their vectors.
 bool grid_file_move(GridFile *grids, int64_t first, const Transform *motion, Error *e);
 
-// The same grids give the same bytes. A failure leaves an old file as it was.
+// Writes the grids; equal grids give equal bytes. On failure an existing file stays unchanged.
 bool grid_file_write(const GridFile *grids, const char *file, Error *e);
 
-// All grids of a file. ERROR_INPUT when it cannot be read as one.
+// Reads all grids of a file. ERROR_INPUT when it is not a valid .vdb.
 GridFile *grid_file_read(const char *file, Error *e);
 
-// Trilinear value at p of the grid of this name, a float or a vector grid; false when there is no
-// such grid. For many points of large grids this is slow.
+// Trilinear value at p of the named float or vector grid; false when there is no such grid. Slow
+// for many points of large grids.
 bool grid_file_float_at(const GridFile *grids, const char *name, Vec3 p, float *value);
 bool grid_file_vector_at(const GridFile *grids, const char *name, Vec3 p, Vec3 *value);
 

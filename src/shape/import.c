@@ -12,15 +12,15 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#define COORDINATE_LIMIT 1e7f // m: beyond, a float cannot tell points a metre apart
+#define COORDINATE_LIMIT 1e7f // m: beyond it a float cannot tell points a metre apart
 
-// What reading may take. Assimp needs up to 35 bytes a byte of the file and a second for 20 MB; a
-// compressed or a very tangled file more.
-#define LEAST_SECONDS 60.0
-#define SECONDS_A_BYTE 5e-6
-#define LEAST_MEMORY 2e9
-#define MEMORY_A_BYTE 200.0
-#define MOST_MEMORY 1e15
+// Limits of the reading process. Assimp needs up to 35 bytes per byte of the file and a second per
+// 20 MB; compressed or intricate files need more.
+#define MIN_SECONDS 60.0
+#define SECONDS_PER_BYTE 5e-6
+#define MIN_MEMORY 2e9
+#define MEMORY_PER_BYTE 200.0
+#define MAX_MEMORY 1e15
 
 // ---- limits ----
 
@@ -30,7 +30,7 @@ static double size_of(const char *path)
     return stat(path, &status) == 0 && S_ISREG(status.st_mode) ? (double)status.st_size : 0.0;
 }
 
-// Of the files beside a .gltf that may be its buffers.
+// Total size of the files beside a .gltf that may be its buffers.
 static double size_of_buffers(const char *file)
 {
     const char *slash = strrchr(file, '/');
@@ -57,11 +57,11 @@ static void set_limits(const char *file, ChildJob *job)
     if (file_name_ends(file, ".gltf")) {
         size += size_of_buffers(file);
     }
-    job->seconds = LEAST_SECONDS + SECONDS_A_BYTE * size;
-    job->memory = (int64_t)fmin(LEAST_MEMORY + MEMORY_A_BYTE * size, MOST_MEMORY);
+    job->seconds = MIN_SECONDS + SECONDS_PER_BYTE * size;
+    job->memory = (int64_t)fmin(MIN_MEMORY + MEMORY_PER_BYTE * size, MAX_MEMORY);
 }
 
-// ---- what the reader hands back ----
+// ---- the reader's result ----
 
 static bool check_positions(const Mesh *mesh, Error *e)
 {
@@ -100,7 +100,7 @@ static bool check_faces(const Mesh *mesh, Error *e)
     return true;
 }
 
-// Normals that are none leave the whole mesh without; such texture coordinates become 0.
+// Drops all normals if any is invalid; sets invalid texture coordinates to 0.
 static void mend(Mesh *mesh)
 {
     bool sound = true;
@@ -117,7 +117,7 @@ static void mend(Mesh *mesh)
     }
 }
 
-// The bytes that the header promises are there before any memory is taken for them.
+// Checks that the bytes the header promises exist before any memory is allocated for them.
 static bool check_header(const ImportHeader *h, int64_t left, Error *e)
 {
     int64_t most = (int64_t)UINT32_MAX;

@@ -10,7 +10,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-#define COUNT_LIMIT 1000000000.0 // vertices or faces a file may promise
+#define COUNT_LIMIT 1000000000.0 // most vertices or faces that a file may declare
 
 static bool check_extension(const char *file, Error *e)
 {
@@ -29,12 +29,12 @@ static bool check_extension(const char *file, Error *e)
 
 typedef enum PlyFormat { PLY_NONE, PLY_ASCII, PLY_BINARY } PlyFormat;
 
-// What a PLY header promises.
+// What a PLY header declares.
 typedef struct PlyHeader {
     PlyFormat format;
-    double elements, vertices, faces; // counts; double, for absurd ones
-    double bytes;                     // of the binary body, at least
-    bool in_face;                     // the properties that follow are a face's
+    double elements, vertices, faces; // counts; double, so that absurd ones fit
+    double bytes;                     // least size of the binary body
+    bool in_face;                     // the properties that follow belong to a face
 } PlyHeader;
 
 static double ply_type_size(const char *type)
@@ -54,7 +54,7 @@ static double ply_type_size(const char *type)
     return 1;
 }
 
-// One line of a header; *count is that of the element whose properties follow.
+// Parses one header line; *count is the count of the element whose properties follow.
 static void ply_line(const char *line, PlyHeader *header, double *count)
 {
     char a[32] = "", b[32] = "", c[32] = "", d[32] = "", name[32] = "";
@@ -74,7 +74,7 @@ static void ply_line(const char *line, PlyHeader *header, double *count)
             header->faces = *count;
         }
     } else if (words >= 4 && strcmp(a, "property") == 0 && strcmp(b, "list") == 0) {
-        // a face has three corners at least; other lists may be empty
+        // a face has at least three corners; other lists may be empty
         double items = header->in_face && strncmp(name, "vertex_ind", 10) == 0 ? 3 : 0;
         header->bytes += *count * (ply_type_size(c) + items * ply_type_size(d));
     } else if (words >= 3 && strcmp(a, "property") == 0) {
@@ -82,7 +82,7 @@ static void ply_line(const char *line, PlyHeader *header, double *count)
     }
 }
 
-// Leaves the stream at the body; false when the header does not end.
+// Reads the header and leaves the stream at the body; false when the header does not end.
 static bool ply_header(FILE *stream, PlyHeader *header)
 {
     char line[1024];
@@ -100,7 +100,7 @@ static bool ply_header(FILE *stream, PlyHeader *header)
     return false;
 }
 
-// Lines with anything on them from here on.
+// Counts the non-empty lines from here to the end.
 static double count_lines(FILE *stream)
 {
     char block[65536];
@@ -149,7 +149,7 @@ static bool check_ply(FILE *stream, int64_t size, Error *e)
 
 // ---- STL ----
 
-// A binary STL is 80 bytes of comment, a count, and 50 bytes a facet; a text one starts with
+// A binary STL has 80 bytes of comment, a count and 50 bytes per facet; a text STL starts with
 // "solid" (as some binary ones do) and ends with "endsolid".
 static bool check_stl(FILE *stream, int64_t size, Error *e)
 {
@@ -177,10 +177,10 @@ static bool check_stl(FILE *stream, int64_t size, Error *e)
                      count, promised, (long long)size);
 }
 
-// Does a line begin with an f? Nothing else of an OBJ file has an area.
+// Whether any line begins with an f: only faces have an area in an OBJ file.
 static bool check_obj(FILE *stream, Error *e)
 {
-    bool at_start = true; // of a line, blanks aside
+    bool at_start = true; // of a line, ignoring blanks
     for (int c = getc_unlocked(stream); c != EOF; c = getc_unlocked(stream)) {
         bool blank = c == ' ' || c == '\t';
         if (at_start && c == 'f') {

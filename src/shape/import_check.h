@@ -1,6 +1,5 @@
-// What can be told about a mesh file before a reader takes it on: that it is there, of a kind we
-// read, and as long as its own header promises. Readers crash, guess or ask for terabytes where
-// these do not hold.
+// Checks a mesh file before a reader opens it: it exists, has a supported format and is as long as
+// its header promises. Readers crash, guess or allocate terabytes otherwise.
 #ifndef RAMIFY_SHAPE_IMPORT_CHECK_H
 #define RAMIFY_SHAPE_IMPORT_CHECK_H
 

@@ -48,7 +48,7 @@ static void flush_nothing(struct aiFile *file)
     (void)file;
 }
 
-// Is the path in the folder of main or below, by its words?
+// Whether the path, compared textually, lies in the folder of main or below it.
 static bool is_near(const char *path, const char *main)
 {
     const char *slash = strrchr(main, '/');
@@ -99,6 +99,6 @@ static void close_file(struct aiFileIO *files, struct aiFile *file)
 struct aiFileIO import_files(const char *file)
 {
     char *data;
-    memcpy(&data, &file, sizeof data); // only read, which char * cannot say
+    memcpy(&data, &file, sizeof data); // never modified, although the type lacks const
     return (struct aiFileIO){.OpenProc = open_file, .CloseProc = close_file, .UserData = data};
 }

@@ -14,7 +14,7 @@
 #include <string.h>
 #include <strings.h>
 
-// What a file holds in all, over every node that shows a mesh.
+// Totals over all nodes that show a mesh.
 typedef struct Tally {
     int64_t vertices, triangles;
     bool normals, uvs; // every vertex has them
@@ -51,7 +51,7 @@ static Transform node_transform(const Transform *parent, const struct aiMatrix4x
 static void copy_vertices(const struct aiMesh *from, const Transform *t, Mesh *to)
 {
     Transform inverse = transform_identity();
-    transform_inverse(t, &inverse); // singular: the normals stay as they are
+    transform_inverse(t, &inverse); // if singular, normals are left unchanged
     for (unsigned i = 0; i < from->mNumVertices; i++) {
         int64_t v = to->vertex_count + i;
         const struct aiVector3D *p = &from->mVertices[i];
@@ -113,7 +113,7 @@ static void copy_node(const struct aiScene *scene, const struct aiNode *node,
     }
 }
 
-// All of the scene as one mesh; NULL and e when it is nothing to work with.
+// Merges the scene into one mesh; NULL and e when it has no usable triangles.
 static Mesh *gather(const struct aiScene *scene, Error *e)
 {
     Tally tally = {.normals = true, .uvs = true};
@@ -134,7 +134,7 @@ static Mesh *gather(const struct aiScene *scene, Error *e)
     return mesh;
 }
 
-// Assimp's words, with no full stop or line end, go before ours.
+// Prefixes Assimp's message, without its full stop and line end.
 static void read_error(const char *why, Error *e)
 {
     int length = (int)strcspn(why, "\r\n");
@@ -143,7 +143,7 @@ static void read_error(const char *why, Error *e)
     }
     if (strncmp(why, "std::bad_alloc", 14) == 0) {
         error_set(e, ERROR_MEMORY, "out of memory");
-    } else if (strncmp(why, "No meshes remaining", 19) == 0) { // lines and points are left out
+    } else if (strncmp(why, "No meshes remaining", 19) == 0) { // only lines and points
         error_set(e, ERROR_INPUT, IMPORT_NO_TRIANGLES);
     } else {
         error_set(e, ERROR_INPUT, "not readable as a mesh: %.*s; " IMPORT_WANTED " is needed",
@@ -159,7 +159,7 @@ static const struct aiScene *read_scene(const char *file, Error *e)
         return NULL;
     }
     struct aiFileIO files = import_files(file);
-    // what keeps vertices apart that are the same to us, and what is no surface
+    // drop attributes that would keep equal vertices apart, and primitives that are not surfaces
     aiSetImportPropertyInteger(store, AI_CONFIG_PP_RVC_FLAGS,
                                aiComponent_COLORS | aiComponent_BONEWEIGHTS |
                                    aiComponent_ANIMATIONS | aiComponent_TEXTURES |
@@ -202,5 +202,5 @@ bool import_read(const void *data, ChildOutput *output, Error *e)
     Mesh *mesh = scene ? gather(scene, e) : NULL;
     bool done = mesh && write_mesh(mesh, output, e);
     mesh_free(mesh);
-    return done; // the scene goes with the process: freeing its faces one by one takes long
+    return done; // the scene is freed with the process: freeing its faces one by one is slow
 }

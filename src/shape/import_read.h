@@ -1,12 +1,11 @@
-// The part of shape/import.h that runs in a child process: Assimp, and from its scene to one mesh.
+// The part of shape/import.h that runs in a child process: Assimp, and conversion to one mesh.
 #ifndef RAMIFY_SHAPE_IMPORT_READ_H
 #define RAMIFY_SHAPE_IMPORT_READ_H
 
 #include "base/child.h"
 #include "base/mesh.h"
 
-// What the child hands back begins with this; then come index, position, normal and uv, those that
-// are there.
+// Header of the child's result, followed by index, position, normal and uv, as far as present.
 typedef struct ImportHeader {
     int64_t vertex_count, face_count; // triangles
     int32_t normals, uvs;             // 0 or 1: given for every vertex

@@ -36,13 +36,13 @@ static_assert(Leaf::DIM == 8, "level_set_distance knows the layout of a leaf");
 struct LevelSet {
     LevelSetFrame frame{};
     float band = 0.0f; // m
-    // OpenVDB takes small voxels for no size at all: its lengths are metres times this power of
-    // two, 1 where voxels are large enough, so that it changes no other bits.
+    // OpenVDB rejects very small voxels. Its lengths are metres times this power of two, which is 1
+    // for voxels that are large enough, so that it changes no other bits.
     float unit = 1.0f, metres = 1.0f; // metres: 1 / unit
     FloatGrid::Ptr grid;
-    // One entry a block of 8^3 voxels, of blocks[0] x blocks[1] x blocks[2]: the block's 512
-    // values.
-    Coord first{0, 0, 0}; // voxel of the table's low corner
+    // Lookup table: one entry per block of 8^3 voxels, blocks[0] x blocks[1] x blocks[2] in all,
+    // pointing to the block's 512 values.
+    Coord first{0, 0, 0}; // voxel at the table's low corner
     int blocks[3] = {0, 0, 0};
     std::vector<const float *> table;
     std::vector<float> inside, outside; // the values of blocks without a leaf
@@ -61,7 +61,7 @@ struct LevelSet {
 namespace
 {
 
-// Runs f, which returns whether it succeeded, and turns whatever it throws into an Error.
+// Runs f, which returns whether it succeeded, and converts exceptions to an Error.
 template <typename F> bool guarded(Error *e, const F &f)
 {
     try {
@@ -78,10 +78,10 @@ template <typename F> bool guarded(Error *e, const F &f)
     }
 }
 
-// Runs f with this many threads of TBB's. What runs on one is the same every time.
+// Runs f with this many TBB threads. A single thread gives reproducible results.
 template <typename F> auto with_threads(int threads, const F &f)
 {
-    // TBB complains aloud when asked for more than there are
+    // TBB prints a warning when asked for more than there are
     tbb::task_arena arena(std::clamp(threads, 1, tbb::info::default_concurrency()));
     return arena.execute(f);
 }
@@ -104,7 +104,7 @@ std::unique_ptr<LevelSet> make_empty(LevelSetFrame frame)
     return made;
 }
 
-// What meshToVolume wants to know of a mesh.
+// The mesh interface that meshToVolume expects.
 struct MeshAdapter {
     const Mesh *mesh;
     LevelSetFrame frame;
@@ -182,7 +182,7 @@ void fill_block(Block &block, LevelSetDistance distance, const void *shape, cons
     }
 }
 
-// All blocks that bounds and the narrow band about them touch.
+// All blocks that overlap bounds widened by the narrow band.
 std::vector<Block> blocks_of(const Aabb &bounds, const LevelSetFrame &frame)
 {
     const float low[3] = {bounds.low.x - frame.origin.x, bounds.low.y - frame.origin.y,
@@ -251,7 +251,7 @@ float voxel_at(const LevelSet &set, int x, int y, int z)
     return block[((x & 7) << 6) + ((y & 7) << 3) + (z & 7)];
 }
 
-// Values of the eight voxels about a cell, z fastest.
+// Values at the eight corners of a cell, z fastest.
 void cell_corners(const LevelSet &set, const int c[3], float v[8])
 {
     if ((c[0] & 7) < 7 && (c[1] & 7) < 7 && (c[2] & 7) < 7) {
@@ -266,7 +266,7 @@ void cell_corners(const LevelSet &set, const int c[3], float v[8])
     }
 }
 
-// Widens low..high to the voxels of a block that are inside.
+// Extends low..high to the voxels of a block that are inside.
 void add_inside(const float *block, const Coord &origin, Coord &low, Coord &high)
 {
     for (int i = 0; i < static_cast<int>(Leaf::SIZE); i++) {
@@ -385,13 +385,14 @@ extern "C" bool level_set_combine(LevelSet *a, LevelSet *b, ShapeOp op, Error *e
     });
 }
 
-// Every step reads one buffer and writes another, so threads do not show.
+// Double-buffered: the result does not depend on the number of threads.
 extern "C" bool level_set_smooth(LevelSet *level_set, int steps, const Run *run, Error *e)
 {
     return guarded(e, [&] {
         with_threads(run->threads, [&] {
             openvdb::tools::LevelSetFilter<FloatGrid> filter(*level_set->grid);
-            filter.setSpatialScheme(openvdb::math::FIRST_BIAS); // others are five times slower
+            filter.setSpatialScheme(openvdb::math::FIRST_BIAS); // the other schemes are five times
+                                                                // slower
             for (int i = 0; i < steps && !run_is_cancelled(run); i++) {
                 filter.laplacian();
             }

@@ -11,7 +11,7 @@
 
 static uint64_t hash_position(Vec3 p)
 {
-    float v[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; // -0 becomes 0
+    float v[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; // adding 0 turns -0 into 0
     uint64_t key = 0;
     for (int i = 0; i < 3; i++) {
         uint32_t bits;
@@ -21,7 +21,7 @@ static uint64_t hash_position(Vec3 p)
     return key;
 }
 
-// to[i] = the place of vertex i in joined, which has no two vertices at one place.
+// Sets to[i] to the index of vertex i in joined, whose vertices have distinct positions.
 static bool join_vertices(const Mesh *mesh, uint32_t *to, Mesh *joined, Error *e)
 {
     uint64_t size = 16;
@@ -88,8 +88,8 @@ static int compare_edges(const void *a, const void *b)
     return x.from < y.from ? -1 : (x.from > y.from ? 1 : 0);
 }
 
-// One half-edge of every edge that an odd number of faces use: they form closed rings. *single =
-// how many of those edges have one face. The caller frees it.
+// One half-edge per edge with an odd number of faces; these edges form closed rings. *single is set
+// to the number of edges with one face. The caller frees the result.
 static HalfEdge *odd_edges(const Mesh *mesh, int64_t *count, int64_t *single, Error *e)
 {
     int64_t total = 3 * mesh->face_count, n = 0;
@@ -107,7 +107,7 @@ static HalfEdge *odd_edges(const Mesh *mesh, int64_t *count, int64_t *single, Er
         }
         if ((end - i) % 2 == 1) {
             *single += end - i == 1;
-            edge[n++] = edge[i + (end - i) / 2]; // the way that most faces take
+            edge[n++] = edge[i + (end - i) / 2]; // the direction that most faces use
         }
     }
     *count = n;
@@ -116,7 +116,7 @@ static HalfEdge *odd_edges(const Mesh *mesh, int64_t *count, int64_t *single, Er
 
 // ---- holes ----
 
-// Walks along odd edges. Every vertex has an even number of them, so a walk ends where it began.
+// A walk along odd edges. Every vertex has an even number of them, so a walk ends where it began.
 typedef struct Walk {
     const HalfEdge *edge;
     int64_t count;
@@ -125,7 +125,7 @@ typedef struct Walk {
     bool *used;
     int64_t *path;    // edges walked
     uint32_t *corner; // the vertex before each of them
-    int64_t *place;   // of each vertex in corner; -1 when it is not there
+    int64_t *place;   // per vertex, its index in corner; -1 if absent
     int64_t length;
 } Walk;
 
@@ -156,7 +156,7 @@ static bool walk_new(const Mesh *mesh, const HalfEdge *edge, int64_t count, Walk
     for (int64_t v = 0; v < vertices; v++) {
         w->place[v] = -1;
     }
-    // a counting sort, one place ahead, so that filling leaves first[] as it should be
+    // a counting sort, offset by one, so that filling leaves first[] correct
     for (int64_t i = 0; i < count; i++) {
         w->first[edge[i].from + 2]++;
         w->first[edge[i].to + 2]++;
@@ -171,7 +171,7 @@ static bool walk_new(const Mesh *mesh, const HalfEdge *edge, int64_t count, Walk
     return true;
 }
 
-// Fills the ring of edges path[from..length) with a fan and shortens the path.
+// Fills the ring of edges path[from..length) with a triangle fan and removes them from the path.
 static void fill_ring(Walk *w, int64_t from, Mesh *mesh)
 {
     double middle[3] = {0, 0, 0}, n = (double)(w->length - from);
@@ -227,7 +227,7 @@ static bool fill_holes(Mesh *mesh, const HalfEdge *edge, int64_t count, Error *e
     return true;
 }
 
-// Room for the triangles and middles of the rings of these edges.
+// Reserves space for the triangles and centres of the rings of these edges.
 static bool make_room(Mesh *mesh, int64_t edges, Error *e)
 {
     int64_t index = 3 * mesh->face_count, position = mesh->vertex_count;
@@ -260,7 +260,7 @@ Mesh *mesh_close(const Mesh *mesh, int64_t *open_edges, Error *e)
 
 // ---- measures ----
 
-// Twice the area vector of triangle f, and its first corner relative to origin, in double.
+// Computes twice the area vector of triangle f and its first corner relative to origin, in double.
 static void triangle_area_vector(const Mesh *mesh, int64_t f, Vec3 origin, double area[3],
                                  double corner[3])
 {
@@ -286,7 +286,7 @@ double mesh_signed_volume(const Mesh *mesh)
         return 0.0;
     }
     for (int64_t f = 0; f < mesh->face_count; f++) {
-        // relative to some vertex, so that nothing cancels far from the origin
+        // relative to a vertex, to avoid cancellation far from the origin
         triangle_area_vector(mesh, f, mesh->position[0], area, corner);
         sum += corner[0] * area[0] + corner[1] * area[1] + corner[2] * area[2];
     }

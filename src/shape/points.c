@@ -15,14 +15,14 @@ PointSet *points_new(Error *e)
     return points;
 }
 
-// Room for `count` points in all three arrays; capacity is that of the smallest of them.
+// Reserves `count` points in all three arrays; capacity is that of the smallest.
 static bool points_reserve(PointSet *points, int64_t count, Error *e)
 {
     int64_t capacity[3] = {points->capacity, points->capacity, points->capacity};
     if (!memory_reserve(&points->position, &capacity[0], count, sizeof *points->position, e) ||
         !memory_reserve(&points->normal, &capacity[1], count, sizeof *points->normal, e) ||
         !memory_reserve(&points->id, &capacity[2], count, sizeof *points->id, e)) {
-        return false; // arrays that have grown already are only larger than capacity says
+        return false; // arrays already grown are merely larger than capacity says
     }
     points->capacity = capacity[0];
     return true;

@@ -50,7 +50,8 @@ static bool check_size(const Shape *shape, Error *e)
     }
 }
 
-// A sphere or an ellipsoid under any affine map is an ellipsoid: its frame is that of its axes.
+// The image of a sphere or an ellipsoid under an affine map is an ellipsoid; its frame is that of
+// its axes.
 static void become_ellipsoid(Primitive *p)
 {
     double image[3][4];
@@ -68,7 +69,8 @@ static void become_ellipsoid(Primitive *p)
     p->shrink = 1.0;
 }
 
-// Scales of the three axes when the transform is a rotation after a scaling; false when it shears.
+// Scales of the three axes if the transform is a scaling followed by a rotation; false when it
+// shears.
 static bool axis_scales(const double m[3][4], double scale[3])
 {
     double dot[3] = {0, 0, 0};
@@ -93,7 +95,7 @@ static bool same(double a, double b)
     return fabs(a - b) <= 1e-6 * (fabs(a) + fabs(b));
 }
 
-// Folds the scales into the size where the kind survives them.
+// Folds the scales into the size if the primitive keeps its kind.
 static bool fold_scales(Primitive *p)
 {
     double scale[3];
@@ -106,7 +108,7 @@ static bool fold_scales(Primitive *p)
     }
     double axes[3][3];
     for (int j = 0; j < 3; j++) {
-        // a cone's third size is a radius too, but its scale is that of x
+        // a cone's third size is a radius too, so it scales with x
         p->size[j] *= scale[p->kind == SHAPE_CONE && j == 2 ? 0 : j];
         for (int i = 0; i < 3; i++) {
             axes[i][j] = p->affine[i][j] / scale[j];
@@ -146,7 +148,7 @@ bool primitive_new(const Shape *shape, Primitive *p, Error *e)
     return true;
 }
 
-// The nearest point c of the surface; true when p is inside.
+// Sets c to the surface point nearest to p; returns true when p is inside.
 static bool nearest_on_box(const double size[3], const double p[3], double c[3])
 {
     bool inside = true;
@@ -164,7 +166,7 @@ static bool nearest_on_box(const double size[3], const double p[3], double c[3])
     return inside;
 }
 
-// Nearest point of the segment a-b to q, in the plane; returns the squared distance.
+// Sets c to the point of the segment a-b nearest to q, in the plane; returns the squared distance.
 static double nearest_on_segment(const double a[2], const double b[2], const double q[2],
                                  double c[2])
 {
@@ -176,7 +178,7 @@ static double nearest_on_segment(const double a[2], const double b[2], const dou
     return (q[0] - c[0]) * (q[0] - c[0]) + (q[1] - c[1]) * (q[1] - c[1]);
 }
 
-// Turns the nearest point of a profile (radius, y) back about the axis.
+// Revolves a profile point (radius, y) about the axis into the half plane of p.
 static void revolve_point(const double p[3], double radius, const double profile[2], double c[3])
 {
     double x = radius > 0.0 ? p[0] / radius : 1.0, z = radius > 0.0 ? p[2] / radius : 0.0;
@@ -213,7 +215,7 @@ static bool nearest_on_capsule(const double size[3], const double p[3], double c
     return length < size[0];
 }
 
-// Signed distance in the primitive's own frame, and the nearest point of its surface.
+// Signed distance in the primitive's own frame, and the nearest surface point.
 static double frame_distance(const Primitive *p, const double q[3], double c[3])
 {
     bool inside;
@@ -247,7 +249,7 @@ double primitive_distance(const Primitive *p, Vec3 point, double *bound)
     affine_point(p->inverse, world, q);
     double distance = frame_distance(p, q, c), lower = fabs(distance) * p->shrink;
     if (!p->exact && lower > 0.0) {
-        // to first order: divide by the length of the distance's gradient, seen in the world
+        // first order: divide by the length of the distance's gradient in world space
         double n[3], length2 = 0.0;
         for (int j = 0; j < 3; j++) {
             n[j] = 0.0;

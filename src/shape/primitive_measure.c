@@ -1,4 +1,4 @@
-// Bounds, volume and area of primitives, from the shape before its transform and the transform.
+// Bounds, volume and area of primitives, computed from the untransformed shape and its transform.
 #include "base/exact_math.h"
 #include "shape/affine.h"
 #include "shape/ellipsoid.h"
@@ -13,7 +13,7 @@ static double length3(double x, double y, double z)
     return sqrt(x * x + y * y + z * z);
 }
 
-// Grows box by the point centre +- reach, rounded outward.
+// Extends box by the points centre +- reach, rounded outward.
 static Aabb add_extent(Aabb box, const double center[3], const double reach[3])
 {
     float low[3], high[3];
@@ -24,7 +24,7 @@ static Aabb add_extent(Aabb box, const double center[3], const double reach[3])
     return aabb_add(aabb_add(box, vec3(low[0], low[1], low[2])), vec3(high[0], high[1], high[2]));
 }
 
-// The image of the ellipsoid or (size 0) disc with these half-axes about (0, y, 0).
+// Extends box by the image of the ellipsoid or (size 0) disc with these half-axes about (0, y, 0).
 static Aabb add_round(Aabb box, const Primitive *p, double x, double y, double z, double at)
 {
     double center[3], reach[3];
@@ -56,7 +56,7 @@ Aabb primitive_bounds(const Primitive *p)
         return add_round(box, p, s[0], s[0], s[0], s[1]);
     case SHAPE_HALF_SPACE:
         return (Aabb){vec3_splat(-INFINITY), vec3_splat(INFINITY)};
-    default: // forward is a rotation and size are the half-axes
+    default: // forward is a rotation, and size holds the half-axes
         for (int i = 0; i < 3; i++) {
             center[i] = p->forward[i][3];
             reach[i] = length3(p->forward[i][0] * p->size[0], p->forward[i][1] * p->size[1],
@@ -77,13 +77,13 @@ Transform primitive_frame(const Primitive *p)
         low[0] = low[1] = low[2] = -s[0];
         high[0] = high[2] = s[0], high[1] = s[1] + s[0];
     }
-    bool round = p->kind == SHAPE_ELLIPSOID; // the unit sphere, stretched along its axes
+    bool round = p->kind == SHAPE_ELLIPSOID; // the unit sphere scaled along its axes
     Transform t;
     for (int i = 0; i < 3; i++) {
         double origin = p->affine[i][3];
         for (int j = 0; j < 3; j++) {
             double axis = round ? p->forward[i][j] * p->size[j] : p->affine[i][j];
-            // a hair wider, for the rounding of what it maps
+            // slightly wider, against rounding in the mapping
             double from = (round ? -1.0 : low[j]) * 1.000001;
             double to = (round ? 1.0 : high[j]) * 1.000001;
             t.m[i][j] = (float)(axis * (to - from));
@@ -122,8 +122,8 @@ static double mapped_area(const double cofactor[3][3], double x, double y, doubl
     return length3(v[0], v[1], v[2]);
 }
 
-// Mean over the azimuth of the area that a unit patch with normal (cos a, rise, sin a) maps to; the
-// trapezoidal rule converges exponentially here. rise is not normalised.
+// Mean over the azimuth of the area to which a unit patch with normal (cos a, rise, sin a) maps;
+// the trapezoidal rule converges exponentially here. rise is not normalised.
 static double mean_mapped_area(const double cofactor[3][3], double rise)
 {
     enum { STEPS = 512 };

@@ -1,4 +1,4 @@
-// Triangles of primitives: a profile turned about the axis, or six faces; then the transform.
+// Tessellates primitives: a profile revolved about the axis, or six faces, then the transform.
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "shape/affine.h"
@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-enum { AROUND = 128, ARC = 32 }; // facets of a full turn; of a quarter of one
+enum { AROUND = 128, ARC = 32 }; // facets per turn; per quarter turn
 
-// One corner of a profile: radius, height and the normal in the half plane.
+// One vertex of a profile: radius, height and the normal in the half plane.
 typedef struct ProfilePoint {
     float r, y, nr, ny;
 } ProfilePoint;
@@ -23,7 +23,8 @@ static void profile_add(Profile *profile, double r, double y, double nr, double 
     profile->point[profile->count++] = (ProfilePoint){(float)r, (float)y, (float)nr, (float)ny};
 }
 
-// A quarter circle of this radius about (0, y), upward from angle `from` (-90 or 0 degrees).
+// Appends a quarter circle of this radius about (0, y), starting at angle `from` (-90 or 0
+// degrees).
 static void profile_quarter(Profile *profile, double radius, double y, int from)
 {
     for (int i = 0; i <= ARC; i++) {
@@ -55,7 +56,8 @@ static Profile profile_of(const Primitive *p)
     return profile;
 }
 
-// Writes the two triangles between profile rows i and i + 1 that have any area; returns how many.
+// Writes those of the two triangles between profile rows i and i + 1 that have an area; returns how
+// many.
 static int64_t turn_quads(const Profile *profile, int i, uint32_t *index)
 {
     const ProfilePoint *a = &profile->point[i], *b = a + 1;
@@ -112,7 +114,7 @@ static Mesh *box_surface(const double size[3], Error *e)
         float side = face & 1 ? 1.0f : -1.0f;
         for (int corner = 0; corner < 4; corner++) {
             float p[3], n[3] = {0, 0, 0};
-            // counter-clockwise seen from outside on both sides
+            // counter-clockwise seen from outside, on both sides
             float a = corner == 1 || corner == 2 ? 1.0f : -1.0f, b = corner >= 2 ? 1.0f : -1.0f;
             p[axis] = side * (float)size[axis];
             p[u] = a * side * (float)size[u];
@@ -136,7 +138,7 @@ Mesh *primitive_surface(const Primitive *p, Error *e)
     bool round = p->kind == SHAPE_ELLIPSOID;
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 4; j++) {
-            // an ellipsoid is the unit sphere, stretched along its axes
+            // an ellipsoid is the unit sphere scaled along its axes
             t.m[i][j] =
                 (float)(round ? p->forward[i][j] * (j < 3 ? p->size[j] : 1.0) : p->affine[i][j]);
         }

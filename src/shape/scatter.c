@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define PILOT_SEED 0x70696c6f74ull // of the draws that measure mean densities
+#define PILOT_SEED 0x70696c6f74ull // seed of the draws that estimate mean densities
 enum { PILOT_DRAWS = 1 << 15, PILOT_TRIES = 1 << 22 };
 
 ScatterParams scatter_params_default(void)
@@ -25,8 +25,8 @@ static double unit_double(uint64_t key)
     return (double)(random_mix(key) >> 11) * 0x1p-53;
 }
 
-// Density at p relative to an even one, before shell and gradients are normalised: its largest
-// value is largest_weight.
+// Density at p relative to a uniform one, before normalisation of shell and gradients; its maximum
+// is largest_weight.
 static double weight_at(const Scatter *s, Vec3 p)
 {
     const ScatterParams *params = s->params;
@@ -57,7 +57,7 @@ static Vec3 interpolate(const Vec3 *values, const uint32_t *corner, float u, flo
     return vec3_add(vec3_scale(a, 1.0f - u - v), vec3_add(vec3_scale(b, u), vec3_scale(c, v)));
 }
 
-// The face in which this share of the area lies.
+// Index of the face that contains this share of the total area.
 static int64_t find_face(const double *cumulative, int64_t count, double share)
 {
     double area = share * cumulative[count - 1];
@@ -76,14 +76,15 @@ static int64_t find_face(const double *cumulative, int64_t count, double share)
 static void draw_on_surface(const Scatter *s, uint64_t key, Draw *draw)
 {
     const Mesh *mesh = envelope_surface(s->envelope);
-    int64_t face = find_face(s->cumulative, mesh->face_count, unit_double(random_key(key, 1)));
+    int64_t face =
+        find_face(s->cumulative, mesh->face_count, unit_double(random_key(key, STREAM_POSITION)));
     const uint32_t *corner = mesh->index + 3 * face;
     // uniform in a triangle (Turk 1990)
-    float root = (float)sqrt(unit_double(random_key(key, 2)));
-    float v = root * random_unit(random_key(key, 3)), u = root - v;
+    float root = (float)sqrt(unit_double(random_key(key, STREAM_POSITION + 1)));
+    float v = root * random_unit(random_key(key, STREAM_POSITION + 2)), u = root - v;
     draw->position = interpolate(mesh->position, corner, u, v);
     draw->normal = vec3_normalize(interpolate(mesh->normal, corner, u, v));
-    if (isinf(envelope_band(s->envelope))) { // a primitive: from its facet to the surface itself
+    if (isinf(envelope_band(s->envelope))) { // a primitive: from the facet to the exact surface
         float distance = envelope_distance(s->envelope, draw->position);
         draw->position = vec3_madd(draw->position, -distance, draw->normal);
     }
@@ -92,7 +93,8 @@ static void draw_on_surface(const Scatter *s, uint64_t key, Draw *draw)
 
 bool scatter_keeps(const Scatter *s, Vec3 p, uint64_t key)
 {
-    return !s->weighted || unit_double(random_key(key, 4)) * largest_weight(s) < weight_at(s, p);
+    return !s->weighted ||
+           unit_double(random_key(key, STREAM_KEEP)) * largest_weight(s) < weight_at(s, p);
 }
 
 Draw scatter_draw(const Scatter *s, uint64_t number)
@@ -104,7 +106,7 @@ Draw scatter_draw(const Scatter *s, uint64_t number)
     } else {
         double u[3], p[3];
         for (int i = 0; i < 3; i++) {
-            u[i] = unit_double(random_key(key, (uint64_t)i + 1));
+            u[i] = unit_double(random_key(key, STREAM_POSITION + (uint64_t)i));
         }
         for (int i = 0; i < 3; i++) {
             const float *row = s->frame.m[i];
@@ -189,7 +191,7 @@ bool scatter_empty_error(const Scatter *scatter, int64_t draws, Error *e)
     return error_key(e, "envelope");
 }
 
-// ---- preparing ----
+// ---- preparation ----
 
 static bool sum_areas(Scatter *s, Error *e)
 {
@@ -211,7 +213,7 @@ static bool sum_areas(Scatter *s, Error *e)
     return true;
 }
 
-// The means over the region of the shell's density and then of the whole weight.
+// Means over the region of the shell's density and of the whole weight.
 static bool measure_weights(Scatter *s, Error *e)
 {
     ScatterParams even = *s->params;

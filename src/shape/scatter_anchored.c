@@ -1,8 +1,8 @@
-// Points that stay when the envelope moves or changes: each is a point of a lattice fixed in space,
-// and being in the region only decides whether it is there. Candidates come in levels of cells,
-// each half as wide as the last, seven to a cell; full levels and a share of the finest one, by
-// each candidate's own rank, make up the density wanted. A slightly higher density adds a few
-// points and moves none.
+// Points that stay fixed when the envelope moves or changes: each is a point of a lattice fixed in
+// space, and the region only decides whether it exists. Candidates come in levels of cells, each
+// level half as wide as the one before, seven candidates per cell. All coarser levels and a share
+// of the finest, chosen by each candidate's own random rank, give the density wanted. A slightly
+// higher density adds a few points and moves none.
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -11,28 +11,30 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { LEVELS = 8, CANDIDATES_A_CELL = 7 };
-#define SPACINGS_AN_OCTAVE 4.0 // the mean spacing is one of these, so that it stays too
-#define MOST_CANDIDATES 4e9
-#define MOST_LEVELS 100.0 // of halving: finer than any candidates that could be counted
-#define SLAB 0.5          // half the thickness that becomes the surface, in spacings
+enum { LEVELS = 8, CANDIDATES_PER_CELL = 7 };
+// the mean spacing is rounded to one of these, so that it stays fixed too
+#define SPACINGS_PER_OCTAVE 4.0
+#define MAX_CANDIDATES 4e9
+#define MAX_LEVELS 100.0 // halvings: finer than any number of candidates that could be counted
+#define SLAB 0.5         // half the thickness of the layer projected onto the surface, in spacings
 
 typedef struct LatticeLevel {
-    double size; // m, of a cell
+    double size; // cell width, m
     int64_t low[3], cells[3];
-    int64_t first; // candidate of the level
-    double share;  // of its candidates that are there
+    int64_t first; // first candidate of the level
+    double share;  // share of its candidates that exist
 } LatticeLevel;
 
 typedef struct Lattice {
     const Scatter *scatter;
     LatticeLevel level[LEVELS];
-    int64_t count; // candidates in all
+    int64_t count; // total candidates
     double inverse_scale;
     float slab; // m; 0 = a volume
 } Lattice;
 
-// Number of levels' cells per candidate density: all levels up to cells of size h hold 8 / h^3.
+// Appends a level. All levels down to cells of width h together hold 8 / h^3 candidates per unit
+// volume.
 static void set_level(Lattice *lattice, int index, double size, double share, Aabb bounds)
 {
     LatticeLevel *level = &lattice->level[index];
@@ -50,10 +52,10 @@ static void set_level(Lattice *lattice, int index, double size, double share, Aa
         level->cells[i] = (int64_t)floor(high[i] / size) - level->low[i] + 1;
         cells *= level->cells[i];
     }
-    lattice->count += cells * CANDIDATES_A_CELL;
+    lattice->count += cells * CANDIDATES_PER_CELL;
 }
 
-// The region's box at the level's scale, with room for the slab about a surface.
+// The region's box at the level's scale, widened by the slab about a surface.
 static Aabb region_bounds(const Scatter *s, float slab)
 {
     Aabb box = envelope_bounds(s->envelope);
@@ -63,7 +65,7 @@ static Aabb region_bounds(const Scatter *s, float slab)
     return (Aabb){vec3_sub(box.low, margin), vec3_add(box.high, margin)};
 }
 
-// 2^x for whole x.
+// 2^x for integer x.
 static double power_of_two(int x)
 {
     double power = 1.0;
@@ -86,24 +88,24 @@ static bool lattice_init(Lattice *lattice, const Scatter *s, double spacing, Err
         density *= spacing / (2.0 * (double)lattice->slab);
     }
     double levels = ceil(exact_log(density / 8.0) / (3.0 * exact_log(2.0)));
-    int finest = (int)fmin(levels, MOST_LEVELS); // refused below: an int has to hold it first
+    int finest = (int)fmin(levels, MAX_LEVELS); // clamped to fit an int; refused below
     Aabb bounds = region_bounds(s, lattice->slab);
     Vec3 size = vec3_sub(bounds.high, bounds.low);
     double cell = power_of_two(-finest), candidates = 10.0;
     candidates *= ((double)size.x / cell + 2.0) * ((double)size.y / cell + 2.0);
-    if (!(candidates * ((double)size.z / cell + 2.0) < MOST_CANDIDATES)) {
-        return scatter_empty_error(s, (int64_t)MOST_CANDIDATES, e);
+    if (!(candidates * ((double)size.z / cell + 2.0) < MAX_CANDIDATES)) {
+        return scatter_empty_error(s, (int64_t)MAX_CANDIDATES, e);
     }
     for (int i = 0; i < LEVELS; i++) {
         int exponent = finest - LEVELS + 1 + i;
-        double full = power_of_two(3 * exponent); // what the coarser levels make up
+        double full = power_of_two(3 * exponent); // density of the coarser levels together
         double share = i < LEVELS - 1 ? 1.0 : (density - full) / (7.0 * full);
         set_level(lattice, i, power_of_two(-exponent), share, bounds);
     }
     return true;
 }
 
-// From a place in the slab to the nearest on the surface; false when it is not in the slab.
+// Projects a point of the slab onto the surface; false when it lies outside the slab.
 static bool settle_on_surface(const Lattice *lattice, Vec3 p, float scale, Draw *draw)
 {
     const Envelope *envelope = lattice->scatter->envelope;
@@ -128,7 +130,7 @@ static double unit_double(uint64_t key)
     return (double)(random_mix(key) >> 11) * 0x1p-53;
 }
 
-// Candidate number n.
+// Evaluates candidate number n.
 static Draw lattice_draw(const Lattice *lattice, int64_t n)
 {
     const Scatter *s = lattice->scatter;
@@ -137,28 +139,29 @@ static Draw lattice_draw(const Lattice *lattice, int64_t n)
         l--;
     }
     const LatticeLevel *level = &lattice->level[l];
-    int64_t cell = (n - level->first) / CANDIDATES_A_CELL, at[3];
+    int64_t cell = (n - level->first) / CANDIDATES_PER_CELL, at[3];
     at[0] = level->low[0] + cell % level->cells[0];
     at[1] = level->low[1] + cell / level->cells[0] % level->cells[1];
     at[2] = level->low[2] + cell / level->cells[0] / level->cells[1];
-    // named by the size of the cell, not by the level's number, which moves with the density
+    // keyed by the cell width, not by the level's number, which depends on the density
     uint64_t key = random_key(s->params->seed, (uint64_t)(int64_t)(level->size * 0x1p40));
     for (int i = 0; i < 3; i++) {
         key = random_key(key, (uint64_t)at[i]);
     }
-    key = random_key(key, (uint64_t)((n - level->first) % CANDIDATES_A_CELL));
+    key = random_key(key, (uint64_t)((n - level->first) % CANDIDATES_PER_CELL));
     Draw draw = {.id = key, .normal = vec3(0, 1, 0)};
-    if (unit_double(random_key(key, 5)) >= level->share) {
+    if (unit_double(random_key(key, STREAM_LEVEL)) >= level->share) {
         return draw;
     }
     double p[3];
     for (int i = 0; i < 3; i++) {
-        p[i] = ((double)at[i] + unit_double(random_key(key, (uint64_t)i + 1))) * level->size;
+        p[i] = ((double)at[i] + unit_double(random_key(key, STREAM_POSITION + (uint64_t)i))) *
+               level->size;
     }
     Vec3 anchor = s->params->anchor;
     draw.position = vec3((float)((double)anchor.x + p[0]), (float)((double)anchor.y + p[1]),
                          (float)((double)anchor.z + p[2]));
-    // where the unscaled envelope has this place
+    // the same point relative to the unscaled envelope
     Vec3 inner =
         vec3_madd(s->center, (float)lattice->inverse_scale, vec3_sub(draw.position, s->center));
     draw.inside = lattice->slab > 0.0f ? settle_on_surface(lattice, inner, s->params->scale, &draw)
@@ -167,10 +170,10 @@ static Draw lattice_draw(const Lattice *lattice, int64_t n)
     return draw;
 }
 
-// The nearest of a few set spacings to what makes params->count points.
+// The allowed spacing nearest to the one that gives params->count points.
 static double choose_spacing(const PointSet *points, int64_t count)
 {
-    double octave = exact_log(2.0) / SPACINGS_AN_OCTAVE;
+    double octave = exact_log(2.0) / SPACINGS_PER_OCTAVE;
     double share = points->measure / (double)count;
     double wanted = exact_log(share) / (double)points->dimension;
     return exact_exp(octave * floor(wanted / octave + 0.5));
@@ -202,6 +205,7 @@ bool scatter_anchored(const Scatter *s, PointSet *points, const Run *run, Error 
     }
     free(draws);
     double square = spacing * spacing, area = (double)points->count * square;
-    points->measure = points->dimension == 3 ? area * spacing : area; // so the spacing is this one
+    // makes points_spacing return this spacing
+    points->measure = points->dimension == 3 ? area * spacing : area;
     return done && (points->count > 0 || scatter_empty_error(s, lattice.count, e));
 }

@@ -1,6 +1,6 @@
-// Poisson-disk points by dart throwing (Cook 1986): a dart sticks when no earlier one is nearer
-// than the least distance. Whether it hits one of an earlier round is looked up in parallel; only
-// those that do not are then tried in their order, so the outcome is that of throwing one by one.
+// Poisson-disk points by dart throwing (Cook 1986): a dart is accepted when no earlier one is
+// nearer than the least distance. Conflicts with earlier rounds are tested in parallel; the
+// remaining darts are then tried in order, so the result equals that of throwing one by one.
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -9,27 +9,27 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Darts stick at most to this many per cube (square) of the least distance's side, when thrown for
-// ever: 0.384 of space in balls, 0.547 of a plane in discs of that diameter.
+// Saturation density: accepted darts per cube (square) of the least distance's side after
+// infinitely many throws: 0.384 of space in balls, 0.547 of a plane in discs of that diameter.
 #define JAMMED_VOLUME 0.7334
 #define JAMMED_SURFACE 0.6966
-// The share of that limit to stop at takes 13 darts a point in space and 10 on a plane; 0.8 in
-// space would take 46.
+// Share of the saturation density at which throwing stops: 13 darts per point in space and 10 on a
+// plane. 0.8 in space would take 46.
 #define FULLNESS_VOLUME 0.70
 #define FULLNESS_SURFACE 0.80
-#define DARTS_A_POINT 40 // before giving up: the region holds fewer than was thought
+#define DARTS_PER_POINT 40 // then give up: the region holds fewer points than estimated
 
-// A dart that stuck.
+// An accepted dart.
 typedef struct Dart {
     Vec3 position;
-    int32_t next; // in DartGrid.spilled: one before it in the same cell; or one of these
+    int32_t next; // index in DartGrid.spilled of an earlier dart of the same cell; or one of these
 } Dart;
 
 enum { DART_LAST = -1, DART_NONE = -2 };
 
-// Darts in a hash table of cells as wide as the least distance, the newest of each cell in the
-// table itself. Cells of a block of 4 x 4 x 4 lie side by side in memory, since neighbours are
-// looked up together: a look-up is as slow as the memory it touches.
+// Hash table of darts, with cells as wide as the least distance; the newest dart of each cell is
+// stored in the table itself. Cells of a block of 4 x 4 x 4 are adjacent in memory, because
+// neighbours are looked up together and lookups are bound by memory.
 typedef struct DartGrid {
     Dart *slot;
     Dart *spilled;
@@ -98,13 +98,13 @@ static bool near_cell(const DartGrid *g, const Dart *dart, Vec3 p)
     }
 }
 
-// Whether a dart at p would be too near to one that is there.
+// Whether an accepted dart lies too near to p.
 static bool grid_hits(const DartGrid *g, Vec3 p)
 {
     int32_t c[3];
     cell_of(g, p, c);
     for (int n = 0; n < 27; n++) {
-        // the dart's own cell first
+        // start with the dart's own cell
         int k = (n + 13) % 27;
         uint64_t at = slot_of(g, c[0] + k / 9 - 1, c[1] + k / 3 % 3 - 1, c[2] + k % 3 - 1);
         if (near_cell(g, &g->slot[at], p)) {
@@ -134,7 +134,7 @@ static bool grid_add(DartGrid *g, Vec3 p, Error *e)
     return true;
 }
 
-// The distance at which darts for `base` points fill the region as far as they should.
+// The least distance at which `base` points fill the region to the share wanted.
 static float least_distance(const PointSet *points, double base)
 {
     double share = points->measure / base;
@@ -143,7 +143,7 @@ static float least_distance(const PointSet *points, double base)
                : (float)sqrt(JAMMED_SURFACE * FULLNESS_SURFACE * share);
 }
 
-// Throws draws first .. first + size - 1 and adds those that stick and are kept.
+// Throws draws first .. first + size - 1 and adds the accepted ones that are kept.
 static bool throw_round(const Scatter *s, DartGrid *g, uint64_t first, int64_t size, Draw *draws,
                         PointSet *points, const Run *run, Error *e)
 {
@@ -165,7 +165,7 @@ static bool throw_round(const Scatter *s, DartGrid *g, uint64_t first, int64_t s
     return true;
 }
 
-// Share of the draws that lie in the region at all.
+// Share of the draws that lie in the region.
 static double inside_share(const Scatter *s)
 {
     const float(*m)[4] = s->frame.m;
@@ -178,7 +178,7 @@ static double inside_share(const Scatter *s)
 bool scatter_poisson(const Scatter *s, PointSet *points, const Run *run, Error *e)
 {
     double wanted = (double)s->params->count, base = wanted / s->mean_weight;
-    double share = inside_share(s), limit = (DARTS_A_POINT * base + 10000.0) / share;
+    double share = inside_share(s), limit = (DARTS_PER_POINT * base + 10000.0) / share;
     DartGrid grid;
     if (!grid_new(&grid, s->lowest_corner, least_distance(points, base), (int64_t)base, e)) {
         return false;

@@ -3,11 +3,12 @@
 
 #include <stdlib.h>
 
-#define DRAWS_BEFORE_GIVING_UP (int64_t)(1 << 23) // without a point
-#define DRAWS_A_POINT 100000                      // more on average: as good as empty
+#define DRAWS_BEFORE_GIVING_UP (int64_t)(1 << 23) // draws without a point
+// mean draws per point above which the region counts as empty
+#define DRAWS_PER_POINT 100000
 
-// Draws for the next round: about twice what is missing, so that few points take few draws. What is
-// chosen does not depend on it.
+// Number of draws for the next round: about twice what is missing, so that few points take few
+// draws. The points chosen do not depend on it.
 static int64_t round_size(int64_t missing)
 {
     int64_t size = missing < SCATTER_ROUND / 2 ? 2 * missing : SCATTER_ROUND;
@@ -17,7 +18,7 @@ static int64_t round_size(int64_t missing)
 bool scatter_random(const Scatter *scatter, PointSet *points, const Run *run, Error *e)
 {
     int64_t wanted = scatter->params->count, drawn = 0;
-    int64_t limit = DRAWS_BEFORE_GIVING_UP + DRAWS_A_POINT * wanted;
+    int64_t limit = DRAWS_BEFORE_GIVING_UP + DRAWS_PER_POINT * wanted;
     Draw *draws = memory_alloc(SCATTER_ROUND, sizeof *draws, e);
     bool done = draws;
     while (done && points->count < wanted) {
