@@ -1,4 +1,4 @@
-// A growing list of changes to a scene that owns its texts.
+// A growing list of changes to a scene. It owns the texts.
 #ifndef RAMIFY_ANIMATE_CHANGES_H
 #define RAMIFY_ANIMATE_CHANGES_H
 
@@ -11,10 +11,10 @@ typedef struct Changes {
 
 void changes_clear(Changes *changes);
 
-// Appends a change with copies of path and value; source is borrowed.
+// Appends a change, copying path and value; source is borrowed.
 bool changes_add(Changes *changes, const SceneChange *change, Error *e);
 
-// Appends path = one number, or [a, b, ...]; written so that a double reads back the same.
+// Appends path = one number, or [a, b, ...], written so that the doubles read back unchanged.
 bool changes_add_numbers(Changes *changes, const SceneChange *at, const double *value, int count,
                          Error *e);
 

@@ -53,7 +53,7 @@ bool finisher_begin(Finisher *f, char *file, Scene *scene, const Film *film, con
     f->e = (Error){0};
     snprintf(f->mark, sizeof f->mark, "%s", mark);
     f->busy = pthread_create(&f->thread, NULL, finish, f) == 0;
-    if (!f->busy) { // without a thread of its own, then
+    if (!f->busy) { // if the thread could not be created, do it here
         finish(f);
     }
     return f->busy || finisher_wait(f, e);

@@ -31,7 +31,7 @@ uint64_t frame_hash(const Scene *scene)
 {
     uint64_t hash = hash_text(HASH_START, RAMIFY_VERSION, (int64_t)strlen(RAMIFY_VERSION));
     const char *resolved = scene->resolved;
-    TextPart animation = section_find(resolved, "animation"); // tells of other frames only
+    TextPart animation = section_find(resolved, "animation"); // only concerns other frames
     int64_t before = animation.length ? animation.text - resolved : (int64_t)strlen(resolved);
     hash = hash_text(hash, resolved, before);
     if (animation.length) {
@@ -75,7 +75,7 @@ char *frames_folder(const char *film, Error *e)
     return join(film, ".frames", e);
 }
 
-// Percent signs of the folder's own name are doubled.
+// Percent signs in the folder's name are doubled.
 char *frames_pattern(const char *folder, Error *e)
 {
     char *doubled = memory_alloc_zero(2 * (int64_t)strlen(folder) + 1, 1, e), *at = doubled;
@@ -126,11 +126,11 @@ int frames_folder_take(const char *folder, Error *e)
                       "another run has its frames in '%s'; wait for it, or name another film",
                       folder);
             return -1;
-        } // file systems without locks do without
+        } // file systems without locks work unlocked
         if (fstat(descriptor, &status) == 0 && status.st_nlink > 0) {
             return descriptor;
         }
-        close(descriptor); // another run removed it just now, as it was done
+        close(descriptor); // another run, just finished, has removed it
     }
 }
 

@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-// Keys as an endless row, if they loop: number i is key i mod period, i div period times later.
+// Keys as an infinite sequence if they loop: number i is key i mod period, i div period periods
+// later.
 typedef struct Row {
     const Keys *keys;
     bool endless;
@@ -16,7 +17,7 @@ static Row make_row(const Keys *keys)
     if (row.endless && keys->at[keys->count - 1] - keys->at[0] >= 1.0) {
         const double *last = keys->value + (size_t)(keys->count - 1) * (size_t)keys->width;
         row.endless = memcmp(keys->value, last, sizeof(double) * (size_t)keys->width) == 0;
-        row.period = keys->count - 1; // the last key is the first
+        row.period = keys->count - 1; // the last key equals the first
     }
     return row;
 }
@@ -59,7 +60,7 @@ static double slope(const Row *row, int i, int component)
     return rise / (row_time(row, i + 1) - row_time(row, i));
 }
 
-// Of the curve at key i.
+// Slope of the curve at key i.
 static double tangent(const Row *row, int i, int component)
 {
     if (!row_has(row, i - 1)) {
@@ -78,7 +79,7 @@ static double tangent(const Row *row, int i, int component)
     return (w0 + w1) / (w0 / before + w1 / after);
 }
 
-// Hermite's cubic from key i to the next.
+// Cubic Hermite interpolation from key i to the next.
 static double spline(const Row *row, int i, int component, double u)
 {
     double h = row_time(row, i + 1) - row_time(row, i);
@@ -89,8 +90,8 @@ static double spline(const Row *row, int i, int component, double u)
            (3.0 * u2 - 2.0 * u3) * b + (u3 - u2) * to;
 }
 
-// The number of the key that holds at *time, which an endless row brings to 0..1 and perhaps one
-// more; -1 = before the first.
+// Number of the key in effect at *time, which looping reduces to 0..1 (or slightly more); -1 =
+// before the first.
 static int find_key(const Row *row, double *time)
 {
     const Keys *keys = row->keys;

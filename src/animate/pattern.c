@@ -5,11 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
-// What stands at a percent sign.
+// A conversion, starting at a percent sign.
 typedef struct Mark {
-    int length; // of its text; 0 = nothing that is known
+    int length; // length of its text; 0 = invalid
     bool number;
-    int digits; // least digits of the number
+    int digits; // minimum digits of the number
 } Mark;
 
 static Mark read_mark(const char *at)

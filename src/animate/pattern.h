@@ -1,15 +1,15 @@
-// Names of frames' files: "oak-%04d.png" with the frame's number in it. What the user writes is
-// read here alone and never handed to printf.
+// File names of frames: "oak-%04d.png" contains the frame's number. User-supplied patterns are
+// parsed here and never passed to printf.
 #ifndef RAMIFY_ANIMATE_PATTERN_H
 #define RAMIFY_ANIMATE_PATTERN_H
 
 #include "base/error.h"
 
-// Holds exactly one number: %d, or %Nd and %0Nd with 1 to 9 digits at least; %% stands for a
+// Checks that the pattern has exactly one number: %d, %Nd or %0Nd with N from 1 to 9; %% is a
 // percent sign. ERROR_INPUT says what is wrong.
 bool pattern_check(const char *pattern, Error *e);
 
-// The name of a frame's file on the heap; pattern must have passed pattern_check.
+// The file name of a frame, heap text; pattern must have passed pattern_check.
 char *pattern_name(const char *pattern, int frame, Error *e);
 
 #endif

@@ -19,7 +19,7 @@
 
 enum { METERED_FRAMES = 4, METER_SIZE = 96, METER_SAMPLES = 16 };
 
-// A frame that is to be rendered.
+// A frame to render.
 typedef struct Shot {
     int frame;
     char mark[FRAME_MARK_SIZE];
@@ -31,18 +31,18 @@ typedef struct Shooting {
     const Run *run;
     ShootStats *stats;
     Turntable *turntable;
-    int start, end; // frames, both included
-    char *video;    // the film's file, where links lead; NULL = there is none
-    char *folder;   // of the frames of a film; NULL = there is none
-    int hold;       // keeps other runs from it; -1 = nothing is held
-    char *pattern;  // of the frames' names
+    int start, end; // frames, inclusive
+    char *video;    // path of the video file, links resolved; NULL = none
+    char *folder;   // folder of a video's frames; NULL = none
+    int hold;       // lock on the folder; -1 = none
+    char *pattern;  // pattern of the frames' names
     Stage *stage;   // NULL until the first frame
     Film *film[2];  // one is traced while the other is written
     Finisher *finisher;
     Shot *shot;
     int shot_count;
-    int at;     // index of the shot that is traced
-    int handed; // shots that went to the finisher
+    int at;     // index of the shot being traced
+    int handed; // number of shots passed to the finisher
 } Shooting;
 
 // ---- outputs
@@ -52,7 +52,7 @@ static bool is_film(const char *output)
     return file_name_ends(output, ".mp4");
 }
 
-// A pattern in the folder's name is not: the frames find out.
+// A pattern in the folder's name is not checked here; writing the frames fails.
 static bool check_folder(const char *output, Error *e)
 {
     const char *slash = strrchr(output, '/'), *percent = strchr(output, '%');
@@ -96,15 +96,15 @@ static bool plan_output(Shooting *s, Error *e)
     return s->hold >= 0;
 }
 
-// ---- what is to be done
+// ---- frames to render
 
-// The frames whose exposures all frames share the mean of.
+// Number of the index-th frame from which the shared exposure is metered.
 static int metered_frame(const Shooting *s, int index)
 {
     return (int)((int64_t)turntable_frames(s->turntable) * index / METERED_FRAMES);
 }
 
-// A hash over what the exposure of all frames is metered from; 0 = each is as the scene says.
+// Hash of everything the shared exposure is metered from; 0 = each frame has its scene's exposure.
 static bool hash_metered(const Shooting *s, uint64_t *hash, Error *e)
 {
     *hash = 0;
@@ -128,7 +128,7 @@ static bool check_size(const Shooting *s, const Scene *scene, int frame, Error *
                      frame, now->width, now->height, first->width, first->height);
 }
 
-// Reads every frame's scene, so that a frame that cannot be is known before hours of rendering.
+// Reads every frame's scene, so that an invalid frame is detected before hours of rendering.
 static bool find_shots(Shooting *s, Error *e)
 {
     uint64_t metered;
@@ -165,7 +165,7 @@ static bool find_shots(Shooting *s, Error *e)
 
 // ---- exposure
 
-// Renders a small picture of a frame and measures its light. NAN and e when that failed.
+// Renders a small picture of a frame and measures its exposure, stops. NAN and e on failure.
 static double meter_frame(Shooting *s, int frame, Error *e)
 {
     double stops = (double)NAN;
@@ -196,14 +196,14 @@ static double meter_frame(Shooting *s, int frame, Error *e)
     return stops;
 }
 
-// Frames that expose themselves would flicker: all get the mean exposure of a few.
+// Automatic exposure per frame would flicker: all frames get the mean exposure of a few.
 static bool lock_exposure(Shooting *s, Error *e)
 {
     if (!turntable_exposes_itself(s->turntable)) {
         return true;
     }
     double sum = 0.0;
-    for (int i = METERED_FRAMES - 1; i >= 0; i--) { // the first frame last: it stays set up
+    for (int i = METERED_FRAMES - 1; i >= 0; i--) { // the first frame last, since it stays set up
         double stops = meter_frame(s, metered_frame(s, i), e);
         if (isnan(stops)) {
             return false;
@@ -216,7 +216,7 @@ static bool lock_exposure(Shooting *s, Error *e)
 
 // ---- frames
 
-// Progress of all frames; what else is done for the first one is told, too.
+// Reports overall progress, and for the first frame its stages as well.
 static void tell(void *user, const char *stage, double done)
 {
     const Shooting *s = user;
@@ -233,7 +233,7 @@ static void tell(void *user, const char *stage, double done)
 static void pass_warning(void *user, const char *message)
 {
     const Shooting *s = user;
-    if (s->at == 0 && s->run->warn) { // every frame would say the same
+    if (s->at == 0 && s->run->warn) { // every frame would repeat it
         s->run->warn(s->run->user, message);
     }
 }
@@ -261,7 +261,7 @@ static bool trace_frame(Shooting *s, Film *film, Error *e)
     return !run_is_cancelled(s->run) || run_cancel_error(e);
 }
 
-// Hands the film to the finisher as soon as that has done the one before.
+// Passes the film to the finisher once the previous write has ended.
 static bool hand_over(Shooting *s, const Film *film, Error *e)
 {
     const Shot *shot = &s->shot[s->at];
@@ -271,7 +271,8 @@ static bool hand_over(Shooting *s, const Film *film, Error *e)
     if (!done) {
         return false;
     }
-    Scene *scene = turntable_scene(s->turntable, shot->frame, e); // the stage's own goes too early
+    // the stage frees its own scene too early
+    Scene *scene = turntable_scene(s->turntable, shot->frame, e);
     char *file = scene ? pattern_name(s->pattern, shot->frame, e) : NULL;
     if (!file) {
         scene_free(scene);
@@ -295,7 +296,7 @@ static bool has_track(const Shooting *s, const char *path)
 static bool shoot_frames(Shooting *s, Error *e)
 {
     bool grows = s->params->turntable.grow.count > 0 || has_track(s, "grow_to");
-    bool cropped = has_track(s, "film.crop"); // a film keeps what is beyond the crop
+    bool cropped = has_track(s, "film.crop"); // an existing film keeps the pixels outside the crop
     double start = run_seconds();
     s->stage = stage_new(&s->scene->camera, s->params->isa, grows, e);
     if (!s->stage || !lock_exposure(s, e)) {
@@ -315,14 +316,14 @@ static bool shoot_frames(Shooting *s, Error *e)
         done = *film && trace_frame(s, *film, e) && hand_over(s, *film, e);
     }
     double traced = run_seconds();
-    bool finished = finisher_wait(s->finisher, done ? e : NULL); // also what was begun before
+    bool finished = finisher_wait(s->finisher, done ? e : NULL); // also waits for an earlier write
     s->stats->finish_seconds += run_seconds() - traced;
     s->stats->rendered = finished || s->handed == 0 ? s->handed : s->handed - 1;
     s->stats->stage = *stage_stats(s->stage);
     return done && finished;
 }
 
-// ---- films
+// ---- videos
 
 static bool add_frames(Shooting *s, Video *video, Error *e)
 {
@@ -363,7 +364,7 @@ static bool make_film(Shooting *s, Error *e)
     return done;
 }
 
-// ---- all together
+// ---- whole animation
 
 static bool choose_range(Shooting *s, Error *e)
 {

@@ -11,8 +11,8 @@ struct Stage {
     Camera camera; // see stage_new
     const char *isa;
     SceneBuilder *builder;
-    Scene *scene; // set up; owned, as the world borrows from it; NULL at first
-    World *world; // of the builder
+    Scene *scene; // the current scene; owned, because the world borrows from it; NULL at first
+    World *world; // owned by the builder
     Renderer *renderer;
     StageStats stats;
 };
@@ -42,7 +42,7 @@ void stage_free(Stage *stage)
     }
 }
 
-// What renderer_update has to know.
+// Flags for renderer_update.
 static unsigned find_changes(const char *old, const char *now)
 {
     unsigned changed = 0;
@@ -53,7 +53,7 @@ static unsigned find_changes(const char *old, const char *now)
     }
     if (!section_same(section_find(old, "medium"), section_find(now, "medium")) ||
         !section_same(section_find(old, "seed"), section_find(now, "seed"))) {
-        changed |= RENDERER_LIGHT; // the seed: of clouds and waves
+        changed |= RENDERER_LIGHT; // the seed affects clouds and waves
     }
     if (!section_same(section_find(old, "materials"), section_find(now, "materials"))) {
         changed |= RENDERER_MATERIALS;
@@ -64,7 +64,7 @@ static unsigned find_changes(const char *old, const char *now)
     return changed;
 }
 
-// Builds or updates for the camera of the stage, not that of the scene.
+// Builds or updates with the stage's camera for view-dependent geometry, not the scene's.
 static bool set_up(Stage *stage, Scene *scene, bool fits, const Run *run, Error *e)
 {
     unsigned changed = stage->scene ? find_changes(stage->scene->resolved, scene->resolved) : 0;
@@ -93,12 +93,12 @@ static bool set_up(Stage *stage, Scene *scene, bool fits, const Run *run, Error 
 bool stage_set(Stage *stage, Scene *scene, const Run *run, Error *e)
 {
     bool fits = stage->scene && scene_builder_fits(stage->builder, scene);
-    if (!fits) { // before the geometry goes
+    if (!fits) { // before the geometry is freed
         renderer_free(stage->renderer);
         stage->renderer = NULL;
     }
     bool done = set_up(stage, scene, fits, run, e);
-    scene_free(stage->scene); // only now: the renderer compared with it
+    scene_free(stage->scene); // only now: the renderer has compared against it
     stage->scene = scene;
     return done;
 }

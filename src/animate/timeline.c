@@ -18,7 +18,8 @@ struct Timeline {
     int count;
 };
 
-// The numbers of a key: "3", "[1, 2]", "#rrggbb" as linear light. Their count; 0 = a word.
+// Parses a key's numbers: "3", "[1, 2]", "#rrggbb" as linear light. Returns their count; 0 = a
+// word.
 static int read_numbers(const char *text, double numbers[SCENE_KEY_MOST_NUMBERS])
 {
     float rgb[3];

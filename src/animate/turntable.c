@@ -13,19 +13,19 @@
 #define DEGREES (3.14159265358979323846 / 180.0)
 #define HIGHEST_ELEVATION 89.0
 #define LATITUDE 48.0
-#define DECLINATION 18.5   // of the sun in mid-May
-#define LOWEST_SUN (-10.0) // that the sky's model knows
+#define DECLINATION 18.5   // of the sun in mid-May, degrees
+#define LOWEST_SUN (-10.0) // lower limit of the sky model
 
 struct Turntable {
     const Scene *scene;
-    TurntableParams params; // all filled in
+    TurntableParams params; // all defaults resolved
     Timeline *timeline;
     bool loop; // of the tracks
     bool locked;
     double stops;
 };
 
-// When: what loops and what does not go by different clocks.
+// Frame time for looping and for non-looping values.
 typedef struct Moment {
     double round; // i/N
     double open;  // i/(N-1)
@@ -97,7 +97,7 @@ static TurntableParams complete(const TurntableParams *given, const SceneAnimati
     return p;
 }
 
-// ---- life
+// ---- creation
 
 Turntable *turntable_new(const Scene *scene, const TurntableParams *params, Error *e)
 {
@@ -170,7 +170,7 @@ static Ease ease_of(const Turntable *t, Ease by_default)
     return t->params.ease < 0 ? by_default : (Ease)t->params.ease;
 }
 
-// `fallback` where there are no values.
+// `fallback` if there are no values.
 static double value_at(const Turntable *t, const TurnValues *values, const Moment *now,
                        Ease by_default, double fallback)
 {
@@ -204,7 +204,7 @@ static bool add_vector(Changes *changes, const char *path, const double v[3], Er
     return changes_add_numbers(changes, &change, v, 3, e);
 }
 
-// Everything that does not depend on where the scene's camera and lamps are.
+// Adds all changes that do not depend on the positions of the scene's camera and lamps.
 static bool add_values(const Turntable *t, const Moment *now, Changes *changes, Error *e)
 {
     const TurntableParams *p = &t->params;
@@ -228,10 +228,10 @@ static bool add_values(const Turntable *t, const Moment *now, Changes *changes, 
            add_one(changes, "sky.sun_azimuth", azimuth, e);
 }
 
-// ---- turning
+// ---- rotation
 
 typedef struct Turn {
-    double center[3]; // the axis goes through it
+    double center[3]; // a point of the axis
     double sine, cosine;
 } Turn;
 
@@ -251,7 +251,8 @@ static void turn_point(const Turn *turn, Vec3 p, double out[3])
     }
 }
 
-// The camera at a new elevation and distance, then turned about its target's vertical.
+// Moves the camera to the new elevation and distance, then rotates it about the vertical through
+// its target.
 static bool add_camera(const Turntable *t, const Moment *now, const Scene *scene, const Turn *turn,
                        Changes *changes, Error *e)
 {
@@ -294,8 +295,8 @@ static bool add_lamp(const Light *light, int index, const Turn *turn, Changes *c
     return true;
 }
 
-// The table turns one way: sky and lamps turn the other way with the camera, so that the geometry
-// stays as it is.
+// The table turns one way; instead, camera, sky and lamps turn the other way, so that the geometry
+// stays unchanged.
 static bool add_surroundings(const Scene *scene, const Turn *turn, double degrees, Changes *changes,
                              Error *e)
 {

@@ -18,13 +18,14 @@
 #include <unistd.h>
 
 struct Video {
-    char *file;        // as it shall be called
-    char *part;        // as it is called until it is whole
+    char *file;        // final name
+    char *part;        // name until complete
     int width, height; // even
-    pid_t ffmpeg;      // 0 = ended
-    int frames;   // a socket to ffmpeg's input: unlike a pipe it tells of its end without SIGPIPE
-    int said;     // what ffmpeg writes to stderr: a file in memory
-    uint8_t *row; // bytes of a frame
+    pid_t ffmpeg;      // 0 = not running
+    int frames;   // socket to ffmpeg's input: unlike a pipe, writing to it after its end raises no
+                  // SIGPIPE
+    int said;     // ffmpeg's stderr: a file in memory
+    uint8_t *row; // bytes of a row
 };
 
 extern char **environ;
@@ -49,7 +50,7 @@ bool video_check(Error *e)
                      "frames as in -o frame-%%04d.png");
 }
 
-// The last line that ffmpeg wrote, which says why it ended.
+// The last line that ffmpeg wrote, which tells why it failed.
 static void last_words(const Video *video, char *text, size_t size)
 {
     char all[4096];
@@ -64,7 +65,7 @@ static void last_words(const Video *video, char *text, size_t size)
     snprintf(text, size, "%.*s", (int)size - 1, line ? line + 1 : all);
 }
 
-// Waits for its end; true when it ended well.
+// Waits for ffmpeg to end; true if it succeeded.
 static bool wait_for(Video *video)
 {
     int status = -1;
@@ -82,7 +83,7 @@ static bool ffmpeg_error(const Video *video, Error *e)
                      *words ? words : "it ended without a word");
 }
 
-// Its own process group: Ctrl-C is for us to hear and to pass on.
+// A process group of its own, so that Ctrl-C reaches only us.
 static bool spawn(Video *video, int input, char *const *arguments, Error *e)
 {
     posix_spawn_file_actions_t actions;
@@ -115,7 +116,7 @@ static bool start(Video *video, double fps, Error *e)
     snprintf(rate, sizeof rate, "%.9g", fps);
     char *comma = strchr(rate, ',');
     if (comma) {
-        *comma = '.'; // whatever the caller's language
+        *comma = '.'; // whatever the locale
     }
     snprintf(output, sizeof output, "file:%s", video->part);
     // A fixed number of threads: x264's bits depend on it. Players want bt709 and the index first.
@@ -211,7 +212,7 @@ bool video_add(Video *video, const Image *frame, Error *e)
     return send_all(video, video->row, (size_t)(out - video->row), e);
 }
 
-// To the disk and under its name.
+// Syncs the file to disk and renames it.
 static bool publish(Video *video, Error *e)
 {
     int descriptor = open(video->part, O_RDONLY | O_CLOEXEC);
@@ -238,7 +239,7 @@ bool video_close(Video *video, bool keep, Error *e)
         kill(video->ffmpeg, SIGKILL);
     }
     if (video->frames >= 0) {
-        close(video->frames); // the end of its input
+        close(video->frames); // end of ffmpeg's input
     }
     if (video->ffmpeg > 0) {
         done = wait_for(video) && keep;

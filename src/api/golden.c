@@ -18,7 +18,7 @@ _Static_assert((int)RAMIFY_GOLDEN_ALIKE == (int)GOLDEN_ALIKE &&
                    (int)RAMIFY_GOLDEN_ORPHAN == (int)GOLDEN_ORPHAN,
                "states are the same");
 
-// mode 0 is the scenes' own, which ours calls -1.
+// mode 0 is the scenes' own, -1 internally
 _Static_assert((int)RAMIFY_GOLDEN_TOLERANCE == (int)GOLDEN_TOLERANCE + 1 &&
                    (int)RAMIFY_GOLDEN_EXACT == (int)GOLDEN_EXACT + 1 &&
                    (int)RAMIFY_GOLDEN_STATISTICAL == (int)GOLDEN_STATISTICAL + 1,
@@ -56,7 +56,7 @@ static RamifyDifference difference_of(const Comparison *c)
     return d;
 }
 
-// A limit that is no number would let everything pass.
+// NaN as a limit would pass everything.
 static bool check_limits(const RamifyLimits *limits, Error *e)
 {
     if (limits &&
@@ -135,7 +135,7 @@ static GoldenOptions options_of(const RamifyGoldenOptions *o)
         own.limits = (Limits){o->limits->max_rmse, o->limits->threshold, o->limits->max_failing};
     }
     own.each = o->each ? hand_out : NULL;
-    own.user = (void *)(uintptr_t)o; // only read by hand_out
+    own.user = (void *)(uintptr_t)o; // only read, by hand_out
     return own;
 }
 

@@ -1,5 +1,5 @@
-// Between the public types of ramify.h and ours: a RamifyScene is a Scene, a RamifyTree an OutTree
-// and so on, under a name of their own; the public structs mirror ours, so that ours may change.
+// Maps the public types of ramify.h to internal ones: a RamifyScene is a Scene, a RamifyTree an
+// OutTree and so on; public structs are copied member by member, so that internal ones may change.
 #ifndef RAMIFY_API_HANDLES_H
 #define RAMIFY_API_HANDLES_H
 
@@ -10,17 +10,17 @@
 
 struct RamifyWorld {
     World *world;       // owned
-    const Scene *scene; // what it was built from, borrowed: for messages
+    const Scene *scene; // the scene it was built from, borrowed; for messages
     BuildStats stats;
 };
 
-// Hands an error out (to NULL, if the caller does not care) and returns false.
+// Copies an error to out (NULL = ignored) and returns false.
 bool api_fail(RamifyError *out, const Error *e);
 
-// How to run, from what the caller says (NULL = the defaults of ramify.h).
+// Converts the caller's run parameters (NULL = the defaults of ramify.h).
 Run api_run(const RamifyRun *run);
 
-// ERROR_INPUT when the scene has no object of this number.
+// ERROR_INPUT when the scene has no object with this index.
 bool api_check_object(const RamifyScene *scene, int index, Error *e);
 
 static inline const Scene *scene_of(const RamifyScene *scene)

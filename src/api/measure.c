@@ -14,7 +14,7 @@ static void free_list(MeasureList *list)
     }
 }
 
-// The list, once it is filled; takes it otherwise.
+// Returns the list if filled; else frees it and sets the error.
 static RamifyMeasures *hand_list(MeasureList *list, bool filled, const Error *e, RamifyError *error)
 {
     if (!filled) {

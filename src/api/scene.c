@@ -146,7 +146,7 @@ void ramify_scene_target(const RamifyScene *scene, int index, RamifyTarget *targ
                              .high = own->high < TARGET_NO_BOUND ? own->high : (double)INFINITY};
 }
 
-// Text that the scene's tables made, or the error.
+// Returns text generated from the scene's tables, or sets the error.
 static char *hand_text(char *text, const Error *e, RamifyError *error)
 {
     if (!text) {

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-_Static_assert((int)RAMIFY_MOST_KEYS == (int)TURN_MOST_VALUES, "keys fit");
+_Static_assert((int)RAMIFY_MOST_KEYS == (int)TURN_MAX_VALUES, "keys fit");
 
 static bool take_keys(const RamifyKeys *keys, const char *name, TurnValues *values, Error *e)
 {
@@ -54,7 +54,7 @@ static Turntable *make_turntable(const RamifyScene *scene, const RamifyTurntable
                : NULL;
 }
 
-// frame negative: at `time`.
+// The scene at a frame; if frame is negative, at `time`.
 static Scene *scene_then(const RamifyScene *scene, const RamifyTurntable *given, int frame,
                          double time, Error *e)
 {
@@ -121,7 +121,7 @@ static void hand_info(const ShootStats *stats, RamifyTurntableInfo *info)
                                   .video_seconds = stats->video_seconds};
 }
 
-// The last frame to render; -1 = the last there is.
+// Converts the last frame to render; -1 = the last of all.
 static bool take_end(const RamifyTurntable *given, int *end, Error *e)
 {
     if (given->count < 0 || given->start < 0) {

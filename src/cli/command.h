@@ -1,4 +1,4 @@
-// What the commands share: the run's surroundings, and the commands themselves.
+// The commands, and what they share.
 #ifndef RAMIFY_CLI_COMMAND_H
 #define RAMIFY_CLI_COMMAND_H
 
@@ -6,7 +6,7 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 
-// Each reads its scene, does its work and prints its data; false and e when it failed.
+// Each command reads its scene, does its work and prints its output; false and e on failure.
 bool command_render(const Options *options, RamifyError *e);     // render.c
 bool command_turntable(const Options *options, RamifyError *e);  // turntable.c
 bool command_grow(const Options *options, RamifyError *e);       // grow.c
@@ -18,29 +18,29 @@ bool command_info(const Options *options, RamifyError *e);       // info.c
 bool command_schema(const Options *options, RamifyError *e);     // schema.c
 bool command_completion(const Options *options, RamifyError *e); // completion.c
 
-// Threads as asked, progress and warnings to stderr, Ctrl-C and SIGTERM to cancel.
+// Threads as requested, progress and warnings on stderr, cancelled by Ctrl-C and SIGTERM.
 RamifyRun command_run(const Options *options, Progress *progress);
 
-// The scene with --set and the render options carried out.
+// Loads the scene with the overrides of --set and the render options applied.
 RamifyScene *command_scene(const Options *options, RamifyError *e);
 
-// What pictures may differ by; negative where the command line does not say.
+// Limits for comparing pictures; negative if not given.
 RamifyLimits command_limits(const Options *options);
 
-// The scene's file without its folders.
+// The path without its folders.
 const char *file_name(const char *path);
 
-// Can FILE be written when the time comes? RAMIFY_IO when its folder is missing or may not be
-// written to, or when FILE is a folder; RAMIFY_BAD_INPUT when its name is too long.
+// Checks early that FILE can be written. RAMIFY_IO when its folder is missing or not writable, or
+// when FILE is a folder; RAMIFY_BAD_INPUT when its name is too long.
 bool output_check(const char *file, RamifyError *e);
 
-// FILE with its ending (".png") replaced; heap text.
+// Replaces FILE's extension (".png"); heap text.
 char *output_with_ending(const char *file, const char *ending, RamifyError *e);
 
-// Does the file's name end in this, in any case?
+// Whether the file's name has this extension, in any case.
 bool output_has_ending(const char *file, const char *ending);
 
-// Writes text as a JSON string, quotes included, to stdout.
+// Prints text to stdout as a JSON string, with quotes.
 void json_print_string(const char *text);
 
 #endif

@@ -1,4 +1,4 @@
-// ramify compare: how far two pictures are apart.
+// ramify compare: differences of two pictures.
 #include "cli/command.h"
 #include "cli/difference.h"
 
@@ -19,7 +19,7 @@ static void print_json(const Options *options, const RamifyDifference *d)
     printf("}\n");
 }
 
-// Without a limit, every value must be the same; then the share over the threshold only informs.
+// Without a limit all values must be equal; the fraction over the threshold is then only reported.
 static RamifyLimits limits_of(const Options *options)
 {
     RamifyLimits limits = command_limits(options);

@@ -1,6 +1,5 @@
-// ramify completion: scripts that let bash and zsh complete the command line. The parts that follow
-// from the tables of commands and options are written around parts that do not (completion.bash,
-// completion.zsh).
+// ramify completion: completion scripts for bash and zsh. The parts generated from the tables of
+// commands and options are inserted into fixed parts (completion.bash, completion.zsh).
 #include "cli/command.h"
 #include "cli/option_table.h"
 
@@ -11,9 +10,8 @@
 // Embedded while building (see the Makefile).
 extern const char completion_bash[], completion_zsh[];
 
-// What a shell offers for a value: "words a b", "file yaml swc" (endings; none = all files),
-// "output png" (the same for a file that is to be written), "folder", "command", "set", "object",
-// "free" (nothing).
+// Completions of a value: "words a b", "file yaml swc" (extensions; none = all files), "output png"
+// (the same for a file to be written), "folder", "command", "set", "object", "free" (none).
 typedef struct Offer {
     char text[256];
 } Offer;
@@ -30,7 +28,7 @@ static void offer_words(Offer *offer, const char *words)
     offer_add(offer, words, strlen(words));
 }
 
-// The endings that a text names: ".png or .jpg" gives "png jpg".
+// Extensions listed in a text: ".png or .jpg" gives "png jpg".
 static void offer_add_endings(Offer *offer, const char *text)
 {
     for (const char *dot = strchr(text, '.'); dot; dot = strchr(dot + 1, '.')) {
@@ -149,7 +147,7 @@ static void print_bash(void)
 
 // ---- zsh ----
 
-// Within '...' and, in brackets, within _arguments' own signs.
+// Escapes for '...' and, in brackets, for _arguments.
 static void zsh_text(const char *text)
 {
     for (; *text; text++) {

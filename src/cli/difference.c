@@ -13,7 +13,7 @@ void difference_print(const RamifyDifference *d, double threshold)
     if (!of_one_size(d)) {
         return;
     }
-    if (d->statistical && d->alike) { // the message tells it otherwise
+    if (d->statistical && d->alike) { // the message contains it otherwise
         printf("%lld of %lld blocks differ, p %.3g, Z %.1f, ", (long long)d->rejected,
                (long long)d->tests, d->p, d->z);
     }

@@ -1,10 +1,10 @@
-// ramify export: a scene as another program's file.
+// ramify export: converts a scene to another program's file.
 #include "cli/command.h"
 
 #include <stdio.h>
 #include <string.h>
 
-// The number of the word in a list; -1 and e when it is not there. NULL is the first.
+// Index of the word in a list; -1 and e when it is not there. NULL gives 0.
 static int choice(const char *option, const char *word, const char *const known[], int count,
                   RamifyError *e)
 {

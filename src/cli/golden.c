@@ -1,4 +1,4 @@
-// ramify golden: a folder's scenes against their stored images.
+// ramify golden: compares a folder's scenes with their stored images.
 #include "cli/command.h"
 #include "cli/difference.h"
 
@@ -7,11 +7,11 @@
 
 enum { NAME_WIDTH = 24 };
 
-// What the lines of results need.
+// State of the printed list of results.
 typedef struct Listing {
     const Options *options;
     Progress *progress;
-    int count; // printed so far
+    int count; // lines printed so far
 } Listing;
 
 static void print_line(const RamifyGoldenScene *scene)
@@ -56,7 +56,7 @@ static void print_scene(void *user, const RamifyGoldenScene *scene)
         print_line(scene);
     }
     listing->count++;
-    fflush(stdout); // a line a scene, also through a pipe
+    fflush(stdout); // one line per scene, also into a pipe
 }
 
 static void print_counts(const Options *options, const RamifyGoldenCounts *n)

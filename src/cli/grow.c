@@ -1,4 +1,4 @@
-// ramify grow: only the out-trees of a scene.
+// ramify grow: grows only the out-trees of a scene.
 #include "cli/command.h"
 #include "cli/land.h"
 
@@ -63,7 +63,7 @@ static bool is_heights(const char *file)
     return is_picture(file) || output_has_ending(file, ".asc");
 }
 
-// The only object whose kind makes a picture; -1 when there is none or several.
+// Index of the only object whose kind makes a picture; -1 if there is none or several.
 static int find_painter(const RamifyScene *scene)
 {
     int found = -1;
@@ -111,7 +111,7 @@ static bool check_request(const Options *options, const RamifyScene *scene, Rami
     return output_check(file, e);
 }
 
-// As large as the film.
+// Writes a picture of the film's size.
 static bool write_picture(const Options *options, const RamifyScene *scene, const RamifyTree *tree,
                           int index, RamifyError *e)
 {

@@ -1,4 +1,4 @@
-// The help that --help prints.
+// Prints the output of --help.
 #include "cli/option_table.h"
 
 #include <stdio.h>
@@ -6,7 +6,7 @@
 
 #define HELP_WIDTH 100
 
-// The command that a part of a documentation begins with, "grow: ..."; COMMAND_COUNT = of all.
+// The command that a part of a documentation string begins with, "grow: ..."; COMMAND_COUNT = all.
 static CommandId part_command(const char *part, size_t *label)
 {
     char name[32];
@@ -39,7 +39,7 @@ void option_doc(const Option *option, CommandId command, char *text, size_t size
     }
 }
 
-// Words of text from this column on, lines broken before HELP_WIDTH.
+// Prints text word-wrapped at HELP_WIDTH, indented by this many columns.
 static void print_wrapped(const char *text, int indent)
 {
     int column = indent;

@@ -1,4 +1,4 @@
-// ramify info: what a scene file holds, without growing or rendering it.
+// ramify info: prints the contents of a scene file without growing or rendering it.
 #include "cli/command.h"
 
 #include <stdio.h>
@@ -56,7 +56,8 @@ static void print_json(const RamifyScene *scene)
     printf("], \"lights\": %d, \"memory\": %lld}\n", info.light_count, (long long)info.memory);
 }
 
-// path is "objects.NAME.KIND.KEY": for every object of that kind, or of any where there is no kind.
+// path is "objects.NAME.KIND.KEY": printed for every object of that kind, or for all without a
+// kind.
 static void print_object_path(const RamifyScene *scene, const char *rest, int length)
 {
     RamifySceneInfo info;
@@ -73,7 +74,7 @@ static void print_object_path(const RamifyScene *scene, const char *rest, int le
     }
 }
 
-// The keys' paths with the names of this scene's objects and materials.
+// Prints the keys' paths with the names of this scene's objects and materials.
 static bool print_paths(const RamifyScene *scene, RamifyError *e)
 {
     static const char objects[] = "objects.NAME.", materials[] = "materials.NAME.";

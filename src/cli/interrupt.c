@@ -3,7 +3,7 @@
 #include <signal.h>
 #include <stddef.h>
 
-// The one piece of global state: a signal handler can reach nothing else.
+// Global, because a signal handler has no other access.
 static volatile int interrupted;
 
 static void on_signal(int number)
@@ -19,7 +19,8 @@ const volatile int *interrupt_flag(void)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     struct sigaction before;
-    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) { // not under nohup
+    // unless started by nohup
+    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
         sigaction(SIGHUP, &action, NULL);
     }
     return &interrupted;

@@ -1,8 +1,8 @@
-// Ctrl-C and SIGTERM: the first asks for an end, the second ends at once.
+// Ctrl-C and SIGTERM: the first cancels, the second terminates immediately.
 #ifndef RAMIFY_CLI_INTERRUPT_H
 #define RAMIFY_CLI_INTERRUPT_H
 
-// Catches the signals; the flag becomes non-zero when one came.
+// Installs the signal handlers; the flag becomes non-zero when a signal arrives.
 const volatile int *interrupt_flag(void);
 
 #endif

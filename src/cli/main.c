@@ -20,7 +20,7 @@ static int report(const RamifyError *e)
 {
     char text[1200];
     ramify_error_format(e, text, sizeof text);
-    // "file:line:column: ..." stands alone, so that editors find the place
+    // "file:line:column: ..." begins the line, so that editors recognise it
     fprintf(stderr, "%s%s\n", e->file[0] ? "" : "ramify: ", text);
     return exit_status(e);
 }

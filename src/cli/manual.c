@@ -1,4 +1,4 @@
-// Man pages in mdoc(7). Text goes through put_text, which escapes what roff would take for its own.
+// Man pages in mdoc(7). Text goes through put_text, which escapes roff's special characters.
 #include "cli/manual.h"
 #include "cli/manual_text.h"
 
@@ -12,7 +12,7 @@ static void put_character(char c, bool first)
     if (c == '\\') {
         printf("\\e");
     } else if (c == '-') {
-        printf("\\-"); // a sign to be copied, no hyphen
+        printf("\\-"); // a minus sign, which can be copied, not a hyphen
     } else if (first && (c == '.' || c == '\'')) {
         printf("\\&%c", c);
     } else {
@@ -20,7 +20,7 @@ static void put_character(char c, bool first)
     }
 }
 
-// Text of its own lines, a new one for each sentence.
+// Prints text on lines of its own, a new one for each sentence.
 static void put_text(const char *text)
 {
     for (const char *at = text; *at; at++) {
@@ -30,14 +30,14 @@ static void put_text(const char *text)
     putchar('\n');
 }
 
-// A phrase as a sentence: "Use N threads."
+// Prints a phrase as a sentence: "Use N threads."
 static void put_sentence(const char *phrase)
 {
     char text[512];
     size_t length = strlen(phrase), word = strcspn(phrase, " ");
     bool ends = length > 0 && strchr(".!?", phrase[length - 1]);
     snprintf(text, sizeof text, "%s%s", phrase, ends ? "" : ".");
-    if (strspn(text, "abcdefghijklmnopqrstuvwxyz") >= word - 1) { // no name such as glTF
+    if (strspn(text, "abcdefghijklmnopqrstuvwxyz") >= word - 1) { // not for names such as glTF
         text[0] = (char)toupper((unsigned char)text[0]);
     }
     put_text(text);
@@ -101,7 +101,7 @@ static void put_synopsis(CommandId command)
     put_operand(c->operand);
 }
 
-// What an option may be: its words, or its range.
+// Prints the values allowed for an option: words, or a range.
 static void put_choices(const Option *option)
 {
     char text[256];
@@ -117,7 +117,7 @@ static void put_choices(const Option *option)
         }
         printf(".\n");
     } else if (option->type == OPTION_INT || option->type == OPTION_REAL) {
-        bool open = option->high >= 1e8; // a bound against nonsense, of no use to a reader
+        bool open = option->high >= 1e8; // a bound against nonsense, not documented
         int used = snprintf(text, sizeof text, "%s, %s%.9g",
                             option->type == OPTION_INT ? "A whole number" : "A number",
                             open ? "at least " : "", option->low);

@@ -1,23 +1,23 @@
-// What the man pages say beyond the tables of commands and options.
+// Texts of the man pages beyond the tables of commands and options.
 #ifndef RAMIFY_CLI_MANUAL_TEXT_H
 #define RAMIFY_CLI_MANUAL_TEXT_H
 
-// Of a page that does not change with the day it is built on.
+// Fixed, so that a page does not change with the day it is built.
 #define MANUAL_DATE "November 21, 2026"
 
 typedef struct ManualExample {
     const char *what;    // a phrase
-    const char *command; // a line for the shell; pine.yaml is the reader's scene
+    const char *command; // a shell command line; pine.yaml is the reader's scene
 } ManualExample;
 
 typedef struct ManualText {
-    const char *command; // its name; "" = the program itself
+    const char *command; // name of the command; "" = the program itself
     const char *paragraphs[6];
-    const char *failure; // when else it ends with status 1; NULL = only when something failed
+    const char *failure; // further conditions for exit status 1; NULL = only errors
     ManualExample examples[6];
 } ManualText;
 
-// The texts of a command, or of the program (""); NULL = there are none.
+// The texts of a command, or of the program (""); NULL if there are none.
 const ManualText *manual_text(const char *command);
 
 #endif

@@ -1,5 +1,5 @@
-// ramify measure: numbers about what a scene grows, or about an out-tree in a file, and whether
-// they are what the scene says they must be.
+// ramify measure: prints measures of what a scene grows, or of an out-tree file, and checks them
+// against the scene's targets.
 #include "cli/command.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What was measured on one object or file.
+// Measures of one object or file.
 typedef struct Subject {
     const char *name, *kind;
     RamifyMeasures *measures; // owned
@@ -123,7 +123,7 @@ static bool unknown_measure(const char *file, const RamifyTarget *target,
                    count > 0 ? hint : "nothing of it can be measured");
 }
 
-// The measured value of each target; false and e when there is no such measure.
+// Finds the measured value of each target; false and e when there is no such measure.
 static bool find_values(const RamifyScene *scene, const Subject *subjects, int count,
                         double *values, RamifyError *e)
 {
@@ -151,7 +151,7 @@ static int target_count(const RamifyScene *scene)
     return info.target_count;
 }
 
-// A value that could not be measured misses its target.
+// A missing value misses its target.
 static bool is_met(const RamifyTarget *target, double value)
 {
     return value >= target->low && value <= target->high;
@@ -275,7 +275,7 @@ static bool measure_scene(const Options *options, RamifyError *e)
     return done;
 }
 
-// Takes the measures; NULL when there are none because of an error.
+// Takes ownership of the measures; NULL = they failed.
 static bool print_file(const Options *options, const char *kind, RamifyMeasures *measures)
 {
     Subject subject = {options->operand, kind, measures};

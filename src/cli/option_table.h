@@ -1,5 +1,5 @@
-// The tables of commands and options, from which the command line is parsed and the
-// help, the man pages and the shells' completions are written.
+// Tables of commands and options, from which the command line is parsed and help, man pages and
+// completions are generated.
 #ifndef RAMIFY_CLI_OPTION_TABLE_H
 #define RAMIFY_CLI_OPTION_TABLE_H
 
@@ -9,25 +9,26 @@
 
 typedef enum OptionType {
     OPTION_YES,   // bool
-    OPTION_NO,    // bool, of a scene_key alone
+    OPTION_NO,    // bool, only with a scene_key
     OPTION_INT,   // int
     OPTION_REAL,  // double
     OPTION_TEXT,  // const char *
     OPTION_SIZE,  // WxH: width and height of the scene_key
-    OPTION_CROP,  // x0,y0,x1,y1, of a scene_key
+    OPTION_CROP,  // x0,y0,x1,y1, only with a scene_key
     OPTION_KEYS,  // RamifyKeys, a:b:c
-    OPTION_SET,   // path=value, may be repeated
-    OPTION_OBJECT // name, may be repeated
+    OPTION_SET,   // path=value, repeatable
+    OPTION_OBJECT // name, repeatable
 } OptionType;
 
 typedef struct Option {
     const char *name;  // without the dashes
-    const char *value; // as the help calls it: NULL = takes none, FILE and DIR are such, else free
-    const char *choices;   // words that it may be, parted by blanks; NULL = anything
-    size_t offset;         // in Options; not used where there is a scene_key
-    const char *scene_key; // the key of the scene that it stands for; NULL = none
+    const char *value; // name of the value in the help: NULL = takes none; FILE and DIR are paths,
+                       // others free
+    const char *choices;   // allowed words, separated by blanks; NULL = anything
+    size_t offset;         // in Options; unused with a scene_key
+    const char *scene_key; // key of the scene that it sets; NULL = none
     double low, high;
-    const char *doc; // parts "; COMMAND: ..." are of that command alone
+    const char *doc; // parts "; COMMAND: ..." apply to that command alone
     OptionType type;
     unsigned commands;
     char letter; // 0 = none
@@ -44,12 +45,12 @@ const Option *option_at(int index);
 
 bool option_is_of(const Option *option, CommandId command);
 
-// What the option does for this command, as a phrase, in text.
+// Writes the option's effect for this command, as a phrase, into text.
 void option_doc(const Option *option, CommandId command, char *text, size_t size);
 
-// Puts what text says where the option goes. RAMIFY_BAD_INPUT when it is no value of the option.
+// Parses text and stores it as the option's value. RAMIFY_BAD_INPUT for an invalid value.
 bool option_take(Options *options, const Option *option, const char *text, RamifyError *e);
-void option_take_flag(Options *options, const Option *option); // of an option without value
+void option_take_flag(Options *options, const Option *option); // for options without value
 
 const Command *command_at(CommandId command); // command < COMMAND_COUNT
 

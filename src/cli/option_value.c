@@ -1,4 +1,4 @@
-// Values of options: from a word of the command line to a member of Options.
+// Converts option arguments to members of Options.
 #include "cli/fail.h"
 #include "cli/option_table.h"
 
@@ -19,7 +19,7 @@ static bool read_number(const char **text, double low, double high, double *valu
     return valid;
 }
 
-// Puts `key=value` where the key has been given before, else at the end.
+// Sets `key=value`, replacing an earlier setting of the key.
 static void put_key(Options *options, const char *key, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

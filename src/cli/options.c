@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MOST_OPTIONS 128 // that a hint chooses from
+#define MOST_OPTIONS 128 // upper bound of names that a hint considers
 
 bool options_unknown_command(const char *name, RamifyError *e)
 {
@@ -67,7 +67,7 @@ bool option_given(const Options *options, const char *name)
     return false;
 }
 
-// argv[*i] begins with a dash: takes it and, where needed, the word after it.
+// Parses argv[*i], which begins with a dash, and if needed the word after it.
 static bool parse_option(Options *options, int argc, char **argv, int *i, RamifyError *e)
 {
     const char *word = argv[*i], *equals = strchr(word, '=');
@@ -94,7 +94,7 @@ static bool parse_option(Options *options, int argc, char **argv, int *i, Ramify
     return option_take(options, option, argv[++*i], e);
 }
 
-// False when the command takes no more.
+// False when the command takes no further operand.
 static bool take_operand(Options *options, const char *word)
 {
     const char *wanted = command_at(options->command)->operand;

@@ -1,4 +1,4 @@
-// The command line: one table of all options (option_table.c) parses it and prints the help.
+// The command line, parsed by the table of options (option_table.c).
 #ifndef RAMIFY_CLI_OPTIONS_H
 #define RAMIFY_CLI_OPTIONS_H
 
@@ -24,25 +24,25 @@ typedef enum CommandId {
     COMMAND_COUNT
 } CommandId;
 
-// What the command line says. Options that stand for keys of the scene become overrides; of the
-// others option_given tells whether they are there.
+// The parsed command line. Options that set keys of the scene become overrides; for the others
+// option_given tells whether they are present.
 typedef struct Options {
     CommandId command;
-    const char *operand;                  // SCENE, or the command to be helped with; NULL = none
-    const char *second;                   // operand of compare; NULL = none
+    const char *operand;                  // SCENE, or the command to explain; NULL = none
+    const char *second;                   // second operand of compare; NULL = none
     const char *output;                   // NULL = the command's default
     const char *overrides[MAX_OVERRIDES]; // of --set
     int override_count;
-    char keys[MAX_KEYS][MAX_KEY_TEXT]; // overrides that other options stand for; they come last
+    char keys[MAX_KEYS][MAX_KEY_TEXT]; // overrides by other options; applied last
     int key_count;
-    uint64_t given; // bit i: option_at(i) is there
+    uint64_t given; // bit i: option_at(i) is present
     int threads;    // 0 = all processors
     bool quiet, json, resolved, help;
-    bool markdown, paths;                    // what schema and info print instead
-    bool man;                                // help: the man page
-    bool spin, vary_noise;                   // of a turntable
-    const char *isa;                         // NULL = the best there is; golden: its own
-    double max_rmse, threshold, max_failing; // of compare and golden
+    bool markdown, paths;                    // output format of schema and info
+    bool man;                                // help: print the man page
+    bool spin, vary_noise;                   // turntable
+    const char *isa;                         // NULL = the best available; golden: its own
+    double max_rmse, threshold, max_failing; // compare and golden
     bool update, exact, statistical;         // golden
     int series;                              // golden; 0 = the first
     const char *report, *junit, *filter;     // NULL = none
@@ -50,28 +50,28 @@ typedef struct Options {
     int object_count;                        // 0 = all
     const char *instances, *colors;          // NULL = the format's own
     int tube_sides;                          // 0 = the default
-    int end;                                 // the last frame
-    int frame;                               // to be rendered alone
-    double time;                             // likewise
+    int end;                                 // the last frame to render
+    int frame;                               // the single frame to render
+    double time;                             // likewise, by time
     double turns;
-    const char *ease;          // NULL = the usual
-    RamifyTurntable turntable; // the rest of it
+    const char *ease;          // NULL = default
+    RamifyTurntable turntable; // remaining turntable options
 } Options;
 
 // Parses argv[1..]. RAMIFY_BAD_INPUT names what is wrong and what would be right. --help and
 // --version set command to COMMAND_HELP and *version.
 bool options_parse(Options *options, int argc, char **argv, bool *version, RamifyError *e);
 
-// Is the option of this name, without its dashes, on the command line?
+// Whether the option of this name, without dashes, is present.
 bool option_given(const Options *options, const char *name);
 
-// Prints the help of a command, or of the program when command is COMMAND_HELP, to stdout.
+// Prints the help of a command, or of the program for COMMAND_HELP, to stdout.
 void options_print_help(CommandId command);
 
-// The command of this name; COMMAND_COUNT when there is none.
+// The command of this name; COMMAND_COUNT if there is none.
 CommandId command_by_name(const char *name);
 
-// RAMIFY_BAD_INPUT, naming the command that may have been meant. Returns false.
+// Sets RAMIFY_BAD_INPUT, suggesting a similar command. Returns false.
 bool options_unknown_command(const char *name, RamifyError *e);
 
 #endif

@@ -35,7 +35,7 @@ static void format_time(double seconds, char *text, size_t size)
     }
 }
 
-// ", 1.3 M samples/s, 12 s left", as far as it can be known.
+// ", 1.3 M samples/s, 12 s left", as far as known.
 static void format_outlook(const Progress *p, double done, double now, char *text, size_t size)
 {
     double elapsed = now - p->stage_start;
@@ -73,7 +73,7 @@ static void show(Progress *p, double done, double now)
     p->shown = true;
 }
 
-// "frame 3 of 72" and "frame 4 of 72" are.
+// "frame 3 of 72" and "frame 4 of 72" are the same stage.
 static bool same_stage(const char *a, const char *b)
 {
     size_t word = strcspn(a, " ");
@@ -84,7 +84,7 @@ void progress_report(void *user, const char *stage, double done)
 {
     Progress *p = user;
     if (p->quiet || atomic_flag_test_and_set(&p->busy)) {
-        return; // another thread is talking
+        return; // another thread is printing
     }
     double now = clock_seconds();
     bool same = same_stage(p->stage, stage);

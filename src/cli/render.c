@@ -1,18 +1,18 @@
-// ramify render: a scene file becomes a picture.
+// ramify render: renders a scene to a picture.
 #include "cli/command.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define FIRST_PREVIEW_WAIT 5.0 // s between the first preview and the second
+#define FIRST_PREVIEW_WAIT 5.0 // s from the first preview to the second
 
-// Where the pictures go; both owned.
+// Output files; both owned.
 typedef struct Outputs {
     char *display, *exr;
 } Outputs;
 
-// What a rendering is made of, and what is worth telling of it.
+// A rendering and its statistics.
 typedef struct Job {
     const RamifyScene *scene;
     const Outputs *outputs;
@@ -22,13 +22,13 @@ typedef struct Job {
     double build, trace, write; // s
 } Job;
 
-// What the render callback needs for previews.
+// State of the preview callback.
 typedef struct Preview {
     const Job *job;
     const RamifyRun *run;
     Progress *progress;
     double start, next; // clock_seconds
-    double spent;       // s, on writing previews
+    double spent;       // s, spent on writing previews
     bool failed;
 } Preview;
 
@@ -55,8 +55,8 @@ static bool plan_outputs(const Options *options, Outputs *outputs, RamifyError *
            output_check(outputs->exr, e);
 }
 
-// After the first pass, then at growing intervals: a picture to look at is soon there, and writing
-// it stays a small part of the time.
+// Writes a preview after the first pass, then at growing intervals: a picture is available soon,
+// and writing takes a small part of the time.
 static void preview_pass(void *user, const RamifyFilm *film, int samples)
 {
     Preview *p = user;
@@ -141,14 +141,14 @@ static void print_json(const Job *job)
 static bool write_pictures(Job *job, const RamifyFilm *film, const RamifyRun *run, RamifyError *e)
 {
     double start = clock_seconds();
-    RamifyRun patient = *run; // an interrupted picture is still to be written
+    RamifyRun patient = *run; // does not cancel: an interrupted picture is still written
     patient.cancelled = NULL;
-    bool cut_short = *run->cancelled; // before, and not while this writes
-    // Before one sample a pixel is whole, denoising would smooth what is not there, for long.
+    bool cut_short = *run->cancelled; // cancelled before writing started
+    // An incomplete first sample per pixel is not denoised, which would be slow and useless.
     bool denoise = job->info.denoise && job->render.samples > 0;
     bool done = ramify_film_write(film, job->scene, job->outputs->display, denoise,
                                   cut_short ? &patient : run, e);
-    if (!done && !cut_short && *run->cancelled) { // while it was denoised: as it is, then
+    if (!done && !cut_short && *run->cancelled) { // cancelled while denoising: write without
         done = ramify_film_write(film, job->scene, job->outputs->display, false, &patient, e);
     }
     done = done && ramify_film_write(film, job->scene, job->outputs->exr, false, &patient, e);
@@ -190,7 +190,7 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
     return done;
 }
 
-// The scene, or one moment of it.
+// The scene, or one moment of its animation.
 static RamifyScene *choose_scene(const Options *options, RamifyError *e)
 {
     RamifyScene *scene = command_scene(options, e);

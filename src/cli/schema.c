@@ -1,4 +1,4 @@
-// ramify schema: what may stand in a scene file, for editors, readers and shells.
+// ramify schema: prints the scene file's schema, for editors, readers and shells.
 #include "cli/command.h"
 
 #include <stdio.h>

@@ -1,15 +1,15 @@
-// Refuses to start where memory is too short for the libraries' own start. Two of them allocate in
-// their constructors and end the process by an exception that no code could catch when they cannot:
-// log4cplus (which OpenVDB needs) starts four threads, OpenImageIO fills a table of strings.
-// .preinit_array of a program runs before the constructors of its libraries.
+// Exits early when memory is too short for the libraries' initialisation. Two of them allocate in
+// constructors and then end the process by an exception that cannot be caught: log4cplus (needed by
+// OpenVDB) starts four threads, OpenImageIO fills a table of strings. A program's .preinit_array
+// runs before its libraries' constructors.
 #include <stdio.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #define START_THREADS 4
-#define USUAL_STACK ((size_t)2 << 20)  // bytes of a thread's stack where stacks have no limit
-#define START_BYTES ((size_t)48 << 20) // all but the stacks; 29 MB were measured
+#define USUAL_STACK ((size_t)2 << 20)  // bytes of a thread's stack if stacks are unlimited
+#define START_BYTES ((size_t)48 << 20) // all but the stacks; 29 MB measured
 
 static size_t bytes_to_start(void)
 {
@@ -21,7 +21,7 @@ static size_t bytes_to_start(void)
     return START_THREADS * each + START_BYTES;
 }
 
-// Only system calls and what needs no memory: no library is initialised yet but libc.
+// Only system calls and functions that need no memory: no library but libc is initialised yet.
 static void check_memory(int argc, char **argv, char **environment)
 {
     (void)argc, (void)argv, (void)environment;

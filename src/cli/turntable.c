@@ -1,4 +1,4 @@
-// ramify turntable: a scene file becomes a film.
+// ramify turntable: renders a scene to an animation.
 #include "cli/command.h"
 
 #include <stdio.h>

@@ -18,9 +18,9 @@ void comparison_clear(Comparison *comparison)
     *comparison = (Comparison){0};
 }
 
-// ---- pictures of one kind
+// ---- common channels
 
-// Copies 3 or 4 channels into as many as asked; a missing alpha is 1.
+// Converts to 3 or 4 channels; a missing alpha is 1.
 static Image *with_channels(const Image *image, int channels, bool multiply, Error *e)
 {
     Image *out = image_new(image->width, image->height, channels, e);
@@ -95,7 +95,7 @@ static bool png_of(const Image *image, Png *png, Error *e)
     return image_encode_png(image, NULL, &png->bytes, &png->size, e);
 }
 
-// heat: NULL when sizes differ.
+// heat: NULL if sizes differ.
 static bool show(const Sides *s, const Image *heat, Comparison *c, Error *e)
 {
     return png_of(s->ours_shown, &c->ours, e) && png_of(s->stored_shown, &c->stored, e) &&
@@ -135,7 +135,7 @@ bool compare_pictures(const Sides *sides, const Limits *limits, bool pictures,
     return done;
 }
 
-// ---- equal but for noise
+// ---- statistical comparison
 
 static void judge_noise(double alpha, Comparison *c)
 {
@@ -179,7 +179,7 @@ bool compare_noisy(const Sides *sides, const NoisyPicture *ours, const NoisyPict
 
 // ---- files
 
-// The factor that takes the log-average luminance of what is not black to middle grey.
+// Gain that maps the log-average luminance of pixels that are not black to middle grey.
 static float gain_of(const Image *linear)
 {
     double sum = 0.0;
@@ -195,7 +195,7 @@ static float gain_of(const Image *linear)
     return count > 0 ? (float)(0.18 / exp(sum / (double)count)) : 1.0f;
 }
 
-// Display values of radiance, over black, clipped; *gain is 0 at first and then set.
+// Display values of radiance, over black, clipped; *gain is computed if 0.
 static Image *shown_of(const Image *image, bool linear, float *gain, Error *e)
 {
     Image *shown = without_alpha(image, linear, e);
@@ -209,8 +209,7 @@ static Image *shown_of(const Image *image, bool linear, float *gain, Error *e)
     return shown;
 }
 
-// Makes the values to be counted of what was read: premultiplied, with alpha only where one of the
-// two has some.
+// Prepares the values to compare: premultiplied, with alpha only if one of the two is transparent.
 static Image *counted(const Image *image, bool linear, bool opaque, Error *e)
 {
     return with_channels(image, opaque ? 3 : 4, !linear && !opaque, e);

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The name without its ending, of 4 or 5 characters.
+// The name without its extension of 4 or 5 characters.
 static char *stem_of(const char *name, Error *e)
 {
     char *stem = memory_copy_string(name, e);
@@ -83,7 +83,7 @@ static bool add_orphan(Folder *folder, const char *name, Error *e)
     return copy;
 }
 
-// Does the file hold this text? What cannot be read holds nothing.
+// Whether the file contains this text; false for an unreadable file.
 static bool file_says(const char *file, const char *text)
 {
     FILE *stream = file_open_regular(file, NULL);
@@ -100,7 +100,7 @@ static bool file_says(const char *file, const char *text)
     return found;
 }
 
-// Names of directory entries that the filter lets through, sorted; a list ended by NULL.
+// Sorted names of the directory entries that match the filter; a NULL-terminated list.
 static bool list_names(const char *path, struct dirent ***entries, int *count, Error *e)
 {
     *count = scandir(path, entries, NULL, alphasort);
@@ -127,7 +127,8 @@ typedef struct Entries {
     int count;
 } Entries;
 
-// Is there a scene of this name, or does one name the picture (as its sky, say)?
+// Whether there is a scene of this name, or one that refers to the picture (as its sky, for
+// example).
 static bool is_claimed(const Entries *entries, const char *path, const char *image)
 {
     size_t stem = (size_t)(strrchr(image, '.') - image);

@@ -1,4 +1,4 @@
-// What lies in a folder of golden images.
+// Lists a folder of golden images.
 #ifndef RAMIFY_GOLDEN_FOLDER_H
 #define RAMIFY_GOLDEN_FOLDER_H
 
@@ -11,17 +11,17 @@ typedef struct FolderScene {
 } FolderScene;
 
 typedef struct Folder {
-    FolderScene *scenes; // *.yaml, by name
-    char **orphans; // names of .png and .exr files that belong to no scene and that no scene names
+    FolderScene *scenes; // *.yaml, sorted by name
+    char **orphans;      // names of .png and .exr files without a scene that no scene refers to
     int64_t scene_count, scene_capacity, orphan_count, orphan_capacity;
 } Folder;
 
-// filter: only names like this, with * and ?; NULL = all. ERROR_INPUT when the folder cannot be
-// read or no scene is left. The caller clears the folder in any case.
+// filter: pattern of names to take, with * and ?; NULL = all. ERROR_INPUT when the folder cannot be
+// read or no scene matches. The caller clears the folder in any case.
 bool folder_list(const char *path, const char *filter, Folder *folder, Error *e);
 void folder_clear(Folder *folder);
 
-// file with the ending of its name replaced; heap text.
+// Copies file with its extension replaced; heap text.
 char *folder_with_ending(const char *file, const char *ending, Error *e);
 
 #endif

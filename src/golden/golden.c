@@ -53,8 +53,8 @@ static Limits limits_of(const SceneGolden *golden, GoldenMode mode, const Limits
                     asked->max_failing >= 0.0 ? asked->max_failing : own.max_failing};
 }
 
-// Is there a stored image? Then the status is still open. A missing one is to be stored by an
-// update.
+// Whether the stored image is missing, to be stored by an update; otherwise the status is not
+// decided yet.
 static bool is_missing(GoldenResult *result, const char *file)
 {
     if (access(file, F_OK) == 0) {
@@ -81,7 +81,7 @@ static void stored(GoldenResult *result)
     result->status = GOLDEN_STORED;
 }
 
-// ---- with a PNG
+// ---- by PNG
 
 static bool compare_with_png(const GoldenOptions *options, const Png *png, const char *file,
                              GoldenResult *result, Error *e)
@@ -99,14 +99,14 @@ static bool compare_with_png(const GoldenOptions *options, const Png *png, const
     return done;
 }
 
-// Without a stored image there is ours to look at.
+// Without a stored image only ours is shown.
 static void show_ours(const Image *image, Png *png, Comparison *comparison)
 {
     *comparison = (Comparison){.width = image->width, .height = image->height, .ours = *png};
     *png = (Png){0};
 }
 
-// What is rendered becomes the PNG that would be stored; that is what is compared.
+// The rendering is encoded as the PNG that would be stored; that PNG is compared.
 static bool work_with_png(const GoldenOptions *options, const Scene *scene, const char *file,
                           const Run *run, GoldenResult *result, Error *e)
 {
@@ -130,7 +130,7 @@ static bool work_with_png(const GoldenOptions *options, const Scene *scene, cons
     return done;
 }
 
-// ---- with means and variances
+// ---- by mean and variance
 
 static bool compare_means(const GoldenOptions *options, const Scene *scene,
                           const NoisyPicture *ours, const NoisyPicture *kept, GoldenResult *result,
@@ -193,7 +193,7 @@ static bool work_with_exr(const GoldenOptions *options, const Scene *scene, cons
     return done;
 }
 
-// ---- the folder
+// ---- all scenes of a folder
 
 static bool work(const char *scene_file, const GoldenOptions *options, const Run *run,
                  GoldenResult *result, Error *e)
@@ -234,7 +234,7 @@ static void hand_out(const GoldenOptions *options, GoldenResults *results,
     }
 }
 
-// A scene that fails is a result; only what is wrong with the whole run ends it.
+// Runs a scene. A failing scene is a result; only errors of the whole run end it.
 static bool run_scene(const FolderScene *scene, const GoldenOptions *options, const Run *run,
                       GoldenResults *results, Error *e)
 {

@@ -1,5 +1,5 @@
-// Golden images: every scene of a folder is rendered, pinned, and compared with its stored image:
-// NAME.yaml with NAME.png, or with NAME.exr where the scene's golden.mode is statistical.
+// Golden images: renders every scene of a folder, pinned, and compares it with its stored image:
+// NAME.yaml with NAME.png, or with NAME.exr if the scene's golden.mode is statistical.
 #ifndef RAMIFY_GOLDEN_GOLDEN_H
 #define RAMIFY_GOLDEN_GOLDEN_H
 
@@ -20,30 +20,30 @@ typedef enum GoldenStatus {
 const char *golden_status_name(GoldenStatus status);
 
 typedef struct GoldenResult {
-    char *name; // the scene's file without its ending; an orphan's with it. Owned
+    char *name; // the scene's file name without its extension; an orphan's with it. Owned
     GoldenStatus status;
     GoldenMode mode;
     char message[768];     // what is wrong, or why it was stored; "" = nothing
-    Limits limits;         // what it was held to; all negative when statistical
-    double alpha;          // when statistical
-    bool compared;         // comparison is filled
-    Comparison comparison; // ours, and stored as it was before
+    Limits limits;         // limits applied; all negative if statistical
+    double alpha;          // if statistical
+    bool compared;         // whether comparison is filled
+    Comparison comparison; // ours, and the stored image before an update
     double seconds;
 } GoldenResult;
 
 typedef struct GoldenOptions {
-    bool update;        // store what differs or is missing
+    bool update;        // store different and missing images
     bool pictures;      // keep PNGs in the results, for a report
-    const char *filter; // names to take, with * and ?; NULL = all
+    const char *filter; // pattern of names to take, with * and ?; NULL = all
     const char *isa;    // instruction set of the ray tracer; NULL = this machine's best
     int mode;           // a GoldenMode for all scenes; negative = the scene's own
-    uint64_t series;    // GOLDEN_STATISTICAL: other numbers, other seeds for ours; not 0
+    uint64_t series;    // GOLDEN_STATISTICAL: other values give other seeds for ours; not 0
     Limits limits;      // for all scenes; negative = the scene's own
-    void (*each)(void *user, const GoldenResult *result); // after each one; NULL = not wanted
+    void (*each)(void *user, const GoldenResult *result); // called after each result; NULL = none
     void *user;
 } GoldenOptions;
 
-// Pinned to PINNED_ISA, the scenes' own modes and limits.
+// Pinned to PINNED_ISA, with the scenes' own modes and limits.
 GoldenOptions golden_options_default(void);
 
 typedef struct GoldenResults {
@@ -52,9 +52,9 @@ typedef struct GoldenResults {
     int counts[GOLDEN_ORPHAN + 1]; // by status
 } GoldenResults;
 
-// Works through the folder. What is wrong with a scene is part of its result; false and e when the
-// folder cannot be read or has no scene that the filter takes (ERROR_INPUT), memory runs out, or
-// the user interrupts; results hold what there is so far, in any case.
+// Runs all scenes of the folder. A failing scene is part of the results; false and e when the
+// folder cannot be read or no scene matches the filter (ERROR_INPUT), when out of memory, or when
+// cancelled. results hold what was done so far, in any case.
 bool golden_run(const char *folder, const GoldenOptions *options, const Run *run,
                 GoldenResults *results, Error *e);
 

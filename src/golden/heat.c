@@ -5,11 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define BLOCK_SCALE 6.0f           // z; a difference without a cause seldom comes to 5
-#define SHARE_IN_SCALE 0.999       // of the pixels
-#define LEAST_SCALE (2.0 / 255.0f) // below that, rounding to 8 bits is all there is to see
+#define BLOCK_SCALE 6.0f         // z; a difference by chance seldom reaches 5
+#define SHARE_IN_SCALE 0.999     // of the pixels
+#define MIN_SCALE (2.0 / 255.0f) // below that, only rounding to 8 bits is visible
 
-// value in -1..1
+// Colour of a value in -1..1.
 static void heat_color(float value, float *rgb)
 {
     static const float white[3] = {0.97f, 0.97f, 0.97f}, red[3] = {0.7f, 0.04f, 0.1f},
@@ -17,7 +17,8 @@ static void heat_color(float value, float *rgb)
     float v = isnan(value) ? 1.0f : fminf(fabsf(value), 1.0f);
     const float *end = value < 0.0f ? blue : red;
     for (int c = 0; c < 3; c++) {
-        rgb[c] = white[c] + (end[c] - white[c]) * sqrtf(v); // faint ones are to be seen too
+        rgb[c] = white[c] + (end[c] - white[c]) * sqrtf(v); // the root keeps faint differences
+                                                            // visible
     }
 }
 
@@ -37,7 +38,7 @@ static int by_size(const void *x, const void *y)
     return a < b ? -1 : a > b;
 }
 
-// The next of 1, 2, 5, 10, ... times a power of ten.
+// Rounds up to 1, 2 or 5 times a power of ten.
 static double rounded_up(double value)
 {
     double power = pow(10.0, floor(log10(value)));
@@ -50,12 +51,12 @@ static double rounded_up(double value)
     return 10.0 * power;
 }
 
-// Sorts `sizes` on the way.
+// Colour scale of these differences, which it sorts.
 static double scale_of(float *sizes, int64_t count)
 {
     qsort(sizes, (size_t)count, sizeof *sizes, by_size);
     double most = (double)sizes[(int64_t)(SHARE_IN_SCALE * (double)(count - 1))];
-    return most > LEAST_SCALE ? rounded_up(fmin(most, 1.0)) : rounded_up(LEAST_SCALE);
+    return most > MIN_SCALE ? rounded_up(fmin(most, 1.0)) : rounded_up(MIN_SCALE);
 }
 
 Image *heat_of_difference(const Image *ours, const Image *stored, double *scale, Error *e)

@@ -6,15 +6,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-// What a block knows of one channel of both pictures: sums over its pixels.
+// Sums over a block's pixels of one channel of both pictures.
 typedef struct Sums {
     double pixels, a, b, variance_a, variance_b;
-    double squares; // of the variances, each over its degrees of freedom
+    double squares; // of the variances, each divided by its degrees of freedom
 } Sums;
 
 typedef struct Level {
-    int width, height, size; // blocks across and down; pixels a block
-    Sums *sums;              // 3 a block
+    int width, height, size; // blocks across and down; pixels per block
+    Sums *sums;              // 3 per block
 } Level;
 
 static bool check(const NoisyPicture *a, const NoisyPicture *b, Error *e)
@@ -65,7 +65,7 @@ static bool first_level(const NoisyPicture *a, const NoisyPicture *b, Level *lev
     return true;
 }
 
-// Blocks of twice the size.
+// Merges blocks into blocks of twice the size.
 static bool next_level(const Level *fine, int width, int height, Level *level, Error *e)
 {
     if (!level_make(level, width, height, 2 * fine->size, e)) {
@@ -88,8 +88,8 @@ static bool next_level(const Level *fine, int width, int height, Level *level, E
     return true;
 }
 
-// Welch's test with the degrees of freedom of Welch and Satterthwaite: a few pixels that hold most
-// of a block's variance leave it few, and the test becomes as careful as it must.
+// Welch's test with the degrees of freedom of Welch and Satterthwaite: if a few pixels hold most of
+// a block's variance, the degrees of freedom are few and the test is accordingly cautious.
 static void judge(const Sums *s, NoiseBlock *block)
 {
     double n = s->pixels;
@@ -163,8 +163,8 @@ static int by_probability(const void *x, const void *y)
     return za > zb ? -1 : (za < zb ? 1 : a->size - b->size);
 }
 
-// Benjamini and Hochberg: all up to the last whose p is below alpha times its rank over their
-// count.
+// Benjamini and Hochberg 1995: rejects all up to the last whose p is below alpha times its rank
+// divided by their count.
 static void step_up(const Blocks *sorted, double alpha, NoiseVerdict *verdict)
 {
     *verdict = (NoiseVerdict){.tests = sorted->count, .p = 1.0, .worst = sorted->block[0]};

@@ -20,8 +20,8 @@ void noisy_picture_clear(NoisyPicture *picture)
     *picture = (NoisyPicture){0};
 }
 
-// The sum of squared deviations grows with each value (Welford 1962); what is kept of it is the
-// variance of the mean, that sum over n (n - 1).
+// Accumulates the sum of squared deviations (Welford 1962) and stores the variance of the mean:
+// that sum over n (n - 1).
 void noisy_picture_add(NoisyPicture *picture, const Image *rendering)
 {
     double n = ++picture->runs;

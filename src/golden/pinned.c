@@ -30,7 +30,7 @@ bool pinned_check(const Scene *scene, Error *e)
     return false;
 }
 
-// Renders into film, or fails; a half-made picture is none.
+// Renders into film, or fails; an unfinished picture counts as a failure.
 static bool trace(Renderer *renderer, Film *film, const Run *run, Error *e)
 {
     RenderStats stats;
@@ -66,7 +66,7 @@ static Image *picture_of(const Film *film, Error *e)
 }
 
 struct Pinned {
-    uint64_t seed; // the scene's
+    uint64_t seed; // seed of the scene
     World *world;
     Renderer *renderer;
     Film *film;

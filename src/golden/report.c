@@ -10,7 +10,7 @@
 // report.html, report.css and report.js, embedded while building (see the Makefile).
 extern const char report_html[], report_css[], report_js[];
 
-enum { FIT_WIDTH = 336 }; // pixels that a picture is shown with at first, about
+enum { FIT_WIDTH = 336 }; // approximate initial width of a picture, pixels
 
 typedef struct Listed {
     const GoldenResult *result;
@@ -23,7 +23,7 @@ typedef struct Page {
     const GoldenResults *results;
 } Page;
 
-// What needs eyes first.
+// Sorts results that need attention first.
 static int rank_of(GoldenStatus status)
 {
     static const int ranks[] = {[GOLDEN_FAILED] = 0, [GOLDEN_DIFFERENT] = 1, [GOLDEN_MISSING] = 2,
@@ -31,7 +31,7 @@ static int rank_of(GoldenStatus status)
     return ranks[status];
 }
 
-// By rank, then in the order they came in (all are of one array).
+// By rank, then in the order of the results (all are in one array).
 static int by_rank(const void *x, const void *y)
 {
     const GoldenResult *a = ((const Listed *)x)->result, *b = ((const Listed *)y)->result;
@@ -44,7 +44,7 @@ static bool has_numbers(const GoldenResult *r)
     return r->compared && r->comparison.same_size;
 }
 
-// ---- sum and table
+// ---- summary and table
 
 static void write_sum(const Page *p)
 {
@@ -91,7 +91,7 @@ static void write_rows(const Page *p)
     }
 }
 
-// ---- one picture's section
+// ---- section of a picture
 
 static void write_image(const Page *p, const Png *png, int width, int height, const char *class,
                         const char *what, const char *name)
@@ -153,7 +153,7 @@ static void write_map(const Page *p, const GoldenResult *r)
                       c->scale);
 }
 
-// Pictures of all sizes begin at a size that fits four into a row: enlarged by a whole number.
+// Initial zoom that fits four pictures into a row: an integer factor if enlarged.
 static double fit_of(int width)
 {
     int whole = FIT_WIDTH / width;
@@ -286,7 +286,7 @@ static void write_script(const Page *p)
     file_writer_text(p->w, report_js);
 }
 
-// What stands in report.html as {{name}}.
+// Placeholders {{name}} in report.html.
 static const struct Placeholder {
     const char *name;
     void (*write)(const Page *p);

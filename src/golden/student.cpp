@@ -1,4 +1,4 @@
-// The only file that knows Boost.Math.
+// The only file that uses Boost.Math.
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
@@ -12,7 +12,7 @@ extern "C" {
 namespace
 {
 
-// Out of range is a number here, never an exception.
+// Out-of-range arguments give a number, never an exception.
 using Policy = boost::math::policies::policy<
     boost::math::policies::domain_error<boost::math::policies::ignore_error>,
     boost::math::policies::overflow_error<boost::math::policies::ignore_error>,

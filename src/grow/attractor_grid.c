@@ -6,8 +6,8 @@
 #include <string.h>
 #include <sys/mman.h>
 
-// Uninitialised room for a table that searching jumps about in: on large pages where it is large,
-// which spares the processor most of its address translations. Release with free().
+// Uninitialised table for random access: backed by huge pages if large, which saves TLB misses.
+// Release with free().
 static void *alloc_table(int64_t count, size_t size, Error *e)
 {
     const size_t page = (size_t)1 << 21;
@@ -18,7 +18,7 @@ static void *alloc_table(int64_t count, size_t size, Error *e)
     if (!table) {
         error_set(e, ERROR_MEMORY, "out of memory: %.1f MB more were needed", (double)bytes * 1e-6);
     } else if (align == page) {
-        madvise(table, bytes, MADV_HUGEPAGE); // a wish: nothing depends on it
+        madvise(table, bytes, MADV_HUGEPAGE); // a hint only
     }
     return table;
 }
@@ -59,8 +59,8 @@ static double cells_along(double extent, double cell)
     return (double)(int64_t)(extent / cell) + 1.0;
 }
 
-// About eight attractors a cell where they are evenly spread, three cells to the reach where that
-// is coarser, and never many more cells than attractors.
+// About eight attractors per cell if they are evenly spread, or three cells per influence radius if
+// that is coarser, but never many more cells than attractors.
 static void choose_cells(AttractorGrid *grid, Aabb box, const PointSet *points)
 {
     double extent[3] = {(double)box.high.x - (double)box.low.x,
@@ -109,7 +109,7 @@ static void count_cells(AttractorGrid *grid, const PointSet *points, int threads
     }
 }
 
-// Gives every cell its blocks, empty for now; returns how many there are.
+// Assigns every cell its empty blocks; returns their number.
 static int64_t place_blocks(AttractorGrid *grid)
 {
     int64_t blocks = 0;
@@ -121,7 +121,8 @@ static int64_t place_blocks(AttractorGrid *grid)
         cell->count = 0;
     }
     for (int i = 0; i < BLOCK_LANES; i++) {
-        grid->furthest[grid->cell_count + i] = -1.0f; // reading a row's last cells goes beyond it
+        grid->furthest[grid->cell_count + i] = -1.0f; // padding: reading a row's last cells runs
+                                                      // past its end
     }
     return blocks;
 }
@@ -135,7 +136,7 @@ static void clear_block(AttractorBlock *block)
     }
 }
 
-// Sorts the points into their cells, in order of their index.
+// Sorts the points into their cells, in index order.
 static bool fill_cells(AttractorGrid *grid, const PointSet *points, const Run *run, Error *e)
 {
     int32_t *cell = memory_alloc(points->count, sizeof *cell, e);

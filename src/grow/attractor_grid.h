@@ -1,6 +1,6 @@
-// The attractors of growth in a uniform grid, each with the nearest node so far (Tanaka et al., eq.
-// (3)-(5), (8)). The nearest node changes only where new nodes appear: every cell keeps the largest
-// of its attractors' best distances, and a new node visits only the cells it can still improve.
+// The attractors of growth in a uniform grid, each with its nearest node so far (Tanaka eq.
+// (3)-(5), (8)). The nearest node changes only near new nodes: every cell keeps the largest of its
+// attractors' best distances, and a new node visits only the cells it can still improve.
 #ifndef RAMIFY_GROW_ATTRACTOR_GRID_H
 #define RAMIFY_GROW_ATTRACTOR_GRID_H
 
@@ -12,14 +12,14 @@
 
 enum { BLOCK_LANES = 8, ATTRACTOR_MAX_SLABS = 256 };
 
-// Eight attractors of one cell; lanes beyond the cell's count have best = -1, which no distance
-// beats. Three cache lines.
+// Eight attractors of one cell; lanes beyond the cell's count have best = -1, below any distance.
+// Three cache lines.
 typedef struct AttractorBlock {
     _Alignas(64) float x[BLOCK_LANES];
     float y[BLOCK_LANES], z[BLOCK_LANES];
     float best[BLOCK_LANES];       // m^2: squared distance to the nearest node, or reach^2
     int32_t nearest[BLOCK_LANES];  // that node; -1 when none is within reach
-    int32_t previous[BLOCK_LANES]; // the nearest node one step ago
+    int32_t previous[BLOCK_LANES]; // the nearest node one step earlier
 } AttractorBlock;
 
 typedef struct AttractorCell {
@@ -29,22 +29,22 @@ typedef struct AttractorCell {
 } AttractorCell;
 
 typedef struct ActiveCell {
-    int32_t cell, slice; // slice: the cell's place along the grid's axis
+    int32_t cell, slice; // slice: the cell's index along the grid's axis
 } ActiveCell;
 
 typedef struct AttractorGrid {
     Vec3 low;
-    float cell, slack; // m: side of a cell; how far outside its cell rounding may put a point
-    int size[3];       // cells along each axis; those along z are neighbours in memory
+    float cell, slack; // m: cell width; how far outside its cell rounding may put a point
+    int size[3];       // cells along each axis; z is contiguous in memory
     int64_t cell_count;
     float reach, reach2, kill2; // m, m^2
     AttractorCell *cells;
     float *furthest;                  // per cell: the largest best; -1 in empty cells
     int32_t *touched;                 // scratch: cells a search changed
-    int64_t *work;                    // scratch: how searching is shared out
+    int64_t *work;                    // scratch: estimated work, for load balancing
     float *gap2;                      // scratch: distances to the cells of a row
-    ActiveCell *active;               // cells with an attractor in reach of a node
-    int64_t active_count, idle_count; // how many are listed, and how many of them are empty now
+    ActiveCell *active;               // cells with an attractor within reach of a node
+    int64_t active_count, idle_count; // length of the list, and how many listed cells are empty now
     AttractorBlock *block;
     int32_t *source; // per lane: index in the point set
     int64_t alive;
@@ -52,25 +52,25 @@ typedef struct AttractorGrid {
     int slab_count, slab_end[ATTRACTOR_MAX_SLABS]; // in the last update
 } AttractorGrid;
 
-// A set of nodes as bits, written by many threads.
+// A set of nodes as a bit mask, written by many threads.
 typedef struct NodeBits {
     uint64_t *word;
     int64_t capacity; // words
 } NodeBits;
 
-// reach: influence radius R_m, kill: D_k, m. ERROR_INPUT names the first attractor that is not
+// reach: influence radius R_m; kill: D_k; m. ERROR_INPUT names the first attractor that is not
 // finite.
 bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reach, float kill,
                          const Run *run, Error *e);
 void attractor_grid_free(AttractorGrid *grid);
 
-// The cell along an axis of a point at this offset from the grid's low corner, m; clamped.
+// Cell along an axis of a point at this offset from the grid's low corner, m; clamped.
 int attractor_grid_cell_along(const AttractorGrid *grid, int axis, float offset);
 
-// Takes nodes first..tree->count-1 into account: updates the nearest nodes, removes attractors
-// closer than kill to any node, and sets in `changed` the bits of all nodes that gained or lost a
-// living attractor. The same result for any number of threads; ties go to the lowest node index.
-// Interrupted (ask run), it stops in the midst of it and the grid is of no more use.
+// Processes nodes first..tree->count-1: updates the nearest nodes, removes attractors closer than
+// kill to any node, and sets the bits in `changed` of all nodes that gained or lost a living
+// attractor. Ties go to the lowest node index; the result does not depend on the number of threads.
+// If cancelled (check run), it stops early and the grid is no longer valid.
 void attractor_grid_update(AttractorGrid *grid, const OutTree *tree, int64_t first, const Run *run,
                            int threads, const NodeBits *changed);
 

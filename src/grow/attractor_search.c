@@ -1,16 +1,16 @@
-// Searching: new nodes are offered to the cells they can improve, then the cells settle.
+// Nearest-node search: offers new nodes to the cells they can improve, then settles the cells.
 #include "grow/attractor_grid.h"
 
 #include <string.h>
 
 enum { CELL_TOUCHED = 1, CELL_ACTIVE = 2 };
 enum { MAX_VISITS = 64 };
-enum { LEAST_SHARED = 64 }; // new nodes that are worth sharing among threads
+enum { MIN_SHARED = 64 }; // least number of new nodes worth sharing among threads
 
-// Shrinks distances to cells so that rounding can never make one look further than a point in it.
+// Shrinks distances to cells, so that rounding never makes a cell look farther than a point in it.
 #define CAUTION 0.999999f
 
-// The cells one thread owns during a search: slices begin..end-1 along the grid's axis.
+// The cells that one thread owns during a search: slices begin..end-1 along the grid's axis.
 typedef struct Slab {
     int begin, end;
     int32_t *touched; // room for all cells of the slab
@@ -19,7 +19,7 @@ typedef struct Slab {
     int32_t visit[MAX_VISITS];
 } Slab;
 
-// Offers node k at p to the attractors of a cell: each keeps the nearer of it and its nearest.
+// Offers node k at p to the attractors of a cell; each keeps the nearer of k and its nearest node.
 static void offer_to_cell(AttractorGrid *grid, Slab *slab, int32_t c, Vec3 p, int32_t k)
 {
     AttractorCell *cell = &grid->cells[c];
@@ -51,7 +51,7 @@ static void offer_to_cell(AttractorGrid *grid, Slab *slab, int32_t c, Vec3 p, in
     }
 }
 
-// Squared distance (never too large) from the coordinate p to a cell of an axis.
+// Squared distance (never overestimated) from the coordinate p to a cell along an axis.
 static float gap2_to(const AttractorGrid *grid, float low, float p, int cell)
 {
     float a = low + (float)cell * grid->cell - p, b = -a - grid->cell;
@@ -70,7 +70,7 @@ static unsigned cells_to_visit(const float *furthest, const float *gap2, float r
     return mask;
 }
 
-// Offers the node to the cells listed, their attractors on the way from memory meanwhile.
+// Offers the node to the listed cells while their attractors are prefetched.
 static void visit_cells(AttractorGrid *grid, Slab *slab, int count, Vec3 p, int32_t k)
 {
     for (int i = 0; i < count; i++) {
@@ -84,7 +84,7 @@ static void visit_cells(AttractorGrid *grid, Slab *slab, int count, Vec3 p, int3
     }
 }
 
-// The range of cells along each axis that the node at p can reach in the slab; false = none.
+// Range of cells along each axis that the node at p can reach in the slab; false if empty.
 static bool range_of(const AttractorGrid *grid, const Slab *slab, const float at[3], int begin[3],
                      int end[3])
 {
@@ -105,7 +105,8 @@ static bool range_of(const AttractorGrid *grid, const Slab *slab, const float at
     return begin[axis] < end[axis];
 }
 
-// Lists the cells of a row that the node may improve and visits them. gap2: of the row's cells.
+// Lists the cells of a row that the node may improve, and visits them. gap2: squared distances of
+// the row's cells.
 static void offer_to_row(AttractorGrid *grid, Slab *slab, int64_t cell, int count, float rest,
                          Vec3 p, int32_t k, int *listed)
 {
@@ -173,7 +174,7 @@ static void move_lane(AttractorGrid *grid, int64_t to, int64_t from)
     f->nearest[j] = f->previous[j] = -1;
 }
 
-// After a search: notes whose attractors changed, and removes those within the kill radius.
+// After a search: records whose attractors changed and removes those within the kill radius.
 // Returns how many were removed.
 static int64_t settle_cell(AttractorGrid *grid, int32_t cell, const NodeBits *changed)
 {
@@ -213,7 +214,7 @@ static int64_t settle_cell(AttractorGrid *grid, int32_t cell, const NodeBits *ch
     return removed;
 }
 
-// Splits the grid into at most `wanted` slabs of about equal work. Slabs move little from step to
+// Splits the grid into at most `wanted` slabs of about equal work. Slabs change little from step to
 // step, so a thread finds most of its cells in its own cache.
 static void plan_slabs(AttractorGrid *grid, const OutTree *tree, int64_t first, int wanted)
 {
@@ -254,7 +255,7 @@ static int64_t update_slab(AttractorGrid *grid, Slab *slab, const OutTree *tree,
     return removed;
 }
 
-// Takes emptied cells off the list once they are many.
+// Removes emptied cells from the active list once there are many.
 static void drop_idle_cells(AttractorGrid *grid)
 {
     if (grid->idle_count * 4 < grid->active_count) {
@@ -273,7 +274,7 @@ static void drop_idle_cells(AttractorGrid *grid)
 void attractor_grid_update(AttractorGrid *grid, const OutTree *tree, int64_t first, const Run *run,
                            int threads, const NodeBits *changed)
 {
-    bool shared = threads > 1 && tree->count - first >= LEAST_SHARED;
+    bool shared = threads > 1 && tree->count - first >= MIN_SHARED;
     plan_slabs(grid, tree, first, shared ? threads : 1);
     int slabs = grid->slab_count, row = grid->size[2] + BLOCK_LANES;
     int64_t removed = 0, slice = grid->cell_count / grid->size[grid->axis];

@@ -3,16 +3,22 @@
 
 #include <stddef.h>
 
-#define NOISE_STEPS 2.0f // from one corner of the noise in space to the next
+#define NOISE_STEPS 2.0f // lattice spacing of the noise in space, in steps
+
+// Random streams: of a child's noise or a noise lattice point (one per component), of a child and
+// of a root.
+enum { STREAM_NOISE_X = 0, STREAM_NOISE_Y = 1, STREAM_NOISE_Z = 2 };
+enum { STREAM_APICAL = 3, STREAM_ROOT_HEADING = 4 };
 
 static Vec3 random_normals(uint64_t key)
 {
-    return vec3(random_normal(random_key(key, 0)), random_normal(random_key(key, 1)),
-                random_normal(random_key(key, 2)));
+    return vec3(random_normal(random_key(key, STREAM_NOISE_X)),
+                random_normal(random_key(key, STREAM_NOISE_Y)),
+                random_normal(random_key(key, STREAM_NOISE_Z)));
 }
 
-// Smooth noise of mean 0 and variance 1 per component at p, in units of its own lattice: quintic
-// blends of normal numbers at the corners, scaled by what blending takes off the variance there.
+// Smooth noise at p, mean 0 and variance 1 per component, p in lattice units: quintic blends of
+// normal variates at the corners, rescaled for the variance that blending loses.
 static Vec3 space_noise(Vec3 p, uint64_t key)
 {
     const float at[3] = {p.x, p.y, p.z};
@@ -39,8 +45,8 @@ static Vec3 space_noise(Vec3 p, uint64_t key)
     return vec3_scale(sum, 1.0f / sqrtf(squares));
 }
 
-// w X_f + tropism + noise: what bends the unit pull (Tanaka eq. (13) in the steering form). The
-// noise is named by the child it is for.
+// w X_f + tropism + noise, which is added to the unit pull (Tanaka eq. (13) in the steering form).
+// The noise is keyed by the child's id.
 static Vec3 lean_of(const Growth *growth, const Grower *grower, uint64_t child_id)
 {
     const ColonizeParams *p = growth->params;
@@ -70,8 +76,8 @@ uint64_t growth_child_id(const Growth *growth, const Grower *grower, int place)
                              growth->state[grower->node].children + place);
 }
 
-// A root has no parent to head away from. Its bins stand about the way its first initial child
-// stands, else the normal in space, or some direction on the surface, named by the root.
+// A root has no parent to define a heading. Its bins are oriented by its first initial child, else
+// by the normal in space, or by a random direction on the surface, keyed by the root.
 static Vec3 root_heading(const Growth *growth, int32_t node)
 {
     const OutTree *tree = growth->tree;
@@ -82,7 +88,8 @@ static Vec3 root_heading(const Growth *growth, int32_t node)
     if (!growth->params->on_surface) {
         return tree->normal[node];
     }
-    return random_direction(random_key(random_key(tree->id[node], growth->params->seed), 4));
+    return random_direction(
+        random_key(random_key(tree->id[node], growth->params->seed), STREAM_ROOT_HEADING));
 }
 
 Vec3 growth_unit_across(Vec3 v, Vec3 n)
@@ -132,7 +139,7 @@ static Vec3 mean_normal(const Pull *pull, Vec3 fallback)
     return vec3_dot(sum, sum) > least * least ? vec3_normalize(sum) : fallback;
 }
 
-// Turns d in its plane with the heading until the angle between them keeps the limits.
+// Rotates d in its plane with the heading until the angle between them is within the limits.
 static Vec3 limit_angle(const Growth *growth, const Grower *grower, bool lateral, Vec3 d)
 {
     if (!grower->has_heading || growth->tree->parent[grower->node] < 0) {
@@ -151,7 +158,7 @@ static Vec3 limit_angle(const Growth *growth, const Grower *grower, bool lateral
     return vec3_normalize(vec3_madd(vec3_scale(grower->heading, c), s, across));
 }
 
-// Turns d toward the cone's axis until it lies within the cone.
+// Rotates d toward the cone's axis until it lies within the cone.
 static Vec3 limit_cone(const Growth *growth, Vec3 d)
 {
     Vec3 axis = growth->limits.cone_axis;
@@ -165,7 +172,7 @@ static Vec3 limit_cone(const Growth *growth, Vec3 d)
         vec3_madd(vec3_scale(axis, growth->limits.cone_cos), growth->limits.cone_sin, across));
 }
 
-// Into the tangent plane, and back toward the surface where the steps have left it.
+// Projects d into the tangent plane, corrected toward the surface if the steps have left it.
 static Vec3 keep_on_surface(const Growth *growth, const Pull *pull, Vec3 normal, Vec3 d)
 {
     d = vec3_normalize(vec3_madd(d, -vec3_dot(d, normal), normal));
@@ -204,9 +211,9 @@ bool growth_make_child(const Growth *growth, const Grower *grower, const Pull *p
     }
     d = limit_angle(growth, grower, growth->state[grower->node].children + place > 0, d);
     d = limit_cone(growth, d);
-    // in space the parent's normal is carried along without twist
+    // in space, the parent's normal is parallel-transported
     child->normal = params->on_surface ? normal : growth_unit_across(grower->normal, d);
-    Vec3 p = vec3_madd(grower->position, step, d); // eq. (6)
+    Vec3 p = vec3_madd(grower->position, step, d); // Tanaka eq. (6)
     child->position = growth_add_field(growth, grower, p);
     return true;
 }
@@ -214,7 +221,7 @@ bool growth_make_child(const Growth *growth, const Grower *grower, const Pull *p
 bool growth_is_suppressed(const Growth *growth, uint64_t child_id)
 {
     return growth->params->apical > 0.0f &&
-           random_unit(random_key(random_key(child_id, growth->params->seed), 3)) <
+           random_unit(random_key(random_key(child_id, growth->params->seed), STREAM_APICAL)) <
                growth->params->apical;
 }
 

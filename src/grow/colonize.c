@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Steps with fewer growers or cells than this are not worth sharing among threads.
-enum { LEAST_SHARED = 64 };
+// Least number of growers or cells worth sharing among threads.
+enum { MIN_SHARED = 64 };
 
 ColonizeParams colonize_params_default(void)
 {
@@ -64,7 +64,7 @@ static bool check_params(const OutTree *tree, const ColonizeParams *params, Erro
 static void set_angle_limits(Growth *growth)
 {
     const ColonizeParams *p = growth->params;
-    growth->limits.min_cos = 2.0f; // off: no cosine is above it
+    growth->limits.min_cos = 2.0f; // off: no cosine exceeds it
     growth->limits.max_cos = -2.0f;
     if (p->min_angle > 0.0f) {
         exact_sincos(p->min_angle * RADIANS_PER_DEGREE, &growth->limits.min_sin,
@@ -82,7 +82,7 @@ static void set_angle_limits(Growth *growth)
     }
 }
 
-// Makes room for what is remembered of nodes `from`..count-1, which may be yet to come.
+// Reserves the per-node state of nodes `from`..count-1, which may not exist yet.
 static bool reserve_nodes(Growth *growth, int64_t from, int64_t count, Error *e)
 {
     int64_t words = growth->changed.capacity;
@@ -112,7 +112,7 @@ static void count_child(Growth *growth, int32_t parent, int32_t child, int bin)
     }
 }
 
-// Takes over the tree as it is: children counted, the bins they stand in taken.
+// Initialises the state from the existing tree: counts children and marks their bins as taken.
 static bool begin(Growth *growth, Error *e)
 {
     const OutTree *tree = growth->tree;
@@ -122,7 +122,7 @@ static bool begin(Growth *growth, Error *e)
     for (int64_t i = 0; i < tree->count; i++) {
         int32_t parent = tree->parent[i];
         if (parent >= 0 && growth->state[parent].first_child < 0) {
-            growth->state[parent].first_child = (int32_t)i; // a root's heading
+            growth->state[parent].first_child = (int32_t)i; // defines a root's heading
         }
     }
     for (int64_t i = 0; i < tree->count; i++) {
@@ -137,8 +137,8 @@ static bool begin(Growth *growth, Error *e)
     return true;
 }
 
-// A node that grew and whose attractors are still the same would make the same child again: they
-// pull it no more. (A node's attractors only ever become fewer, so this is for good.)
+// A node that grew while its attractors stayed the same would make the same child again: they no
+// longer pull it. (A node only ever loses attractors, so this is permanent.)
 static void drop_fruitless(Growth *growth)
 {
     for (int64_t i = 0; i < growth->grew_count; i++) {
@@ -158,7 +158,7 @@ static bool may_grow(const Growth *growth, int64_t node)
     return !growth->state[node].stalled && (limit <= 0 || growth->state[node].children < limit);
 }
 
-// Makes the changed nodes that may grow the growers, in order of their index, and clears the marks.
+// Turns the changed nodes that may grow into growers, in index order, and clears the marks.
 static bool choose_growers(Growth *growth, Error *e)
 {
     growth->grower_count = 0;
@@ -191,7 +191,7 @@ static bool choose_growers(Growth *growth, Error *e)
 static void make_children(Growth *growth)
 {
     int64_t growers = growth->grower_count, bins = growth->bins;
-    bool shared = growers >= LEAST_SHARED && growth->grid.active_count >= LEAST_SHARED;
+    bool shared = growers >= MIN_SHARED && growth->grid.active_count >= MIN_SHARED;
     int threads = shared ? growth->grid.slab_count : 1;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int64_t i = 0; i < growers; i++) {
@@ -258,7 +258,7 @@ static bool add_children(Growth *growth, int32_t birth, bool *full, Error *e)
     return true;
 }
 
-// After the first look at the attractors: what no root can reach.
+// After the first search: reports attractors and roots out of reach.
 static bool check_reach(const Growth *growth, const Run *run, GrowReport *report, Error *e)
 {
     bool killed = growth->grid.alive < growth->attractors->count;
@@ -269,7 +269,7 @@ static bool check_reach(const Growth *growth, const Run *run, GrowReport *report
     return reach_warn(growth->tree, growth->params, growth->attractors, &growth->changed, run, e);
 }
 
-// Steps until nothing grows or a limit is met.
+// Iterates until nothing grows or a limit is reached.
 static bool grow(Growth *growth, const Run *run, GrowReport *report, Error *e)
 {
     const ColonizeParams *params = growth->params;

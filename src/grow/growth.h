@@ -1,18 +1,18 @@
-// The state of one run of space colonization, shared by the parts of the engine: choosing who
-// grows, summing pulls, making children. Sums of pulls are integers, so the order of summing, and
-// with it the number of threads, cannot show in the result.
+// State of one run of space colonization, shared by the parts of the engine: choosing growers,
+// summing pulls, making children. Pulls are summed as integers, so the result depends neither on
+// the order of summation nor on the number of threads.
 #ifndef RAMIFY_GROW_GROWTH_H
 #define RAMIFY_GROW_GROWTH_H
 
 #include "grow/attractor_grid.h"
 #include "grow/colonize.h"
 
-// What growth remembers of a node.
+// Per-node state of growth.
 typedef struct NodeState {
     int32_t children;    // so far
     int32_t order;       // of branching
-    int32_t first_child; // index, -1 before
-    bool stalled;        // its attractors did not change though it grew: they pull it no more
+    int32_t first_child; // index of the first child, -1 before
+    bool stalled;        // its attractors did not change although it grew: they no longer pull it
 } NodeState;
 
 // A node that grows in this step.
@@ -20,31 +20,33 @@ typedef struct Grower {
     int32_t node;
     bool has_heading;
     Vec3 position;
-    Vec3 heading; // unit: from its parent to it; some rules give one to roots too
+    Vec3 heading; // unit: from its parent to it; some rules define one for roots too
     Vec3 normal;  // unit
-    Vec3 side;    // normal x heading: with them the grower's frame
+    Vec3 side;    // normal x heading: completes the grower's frame
     Vec3 lean;    // w X_f + tropism + noise, for the rule that picks attractors by it
 } Grower;
 
-// What pulls a grower (or one bin of it: a sector, a direction). Fixed point, units of 1 /
-// PULL_ONE.
+// Sum of the attractors' pulls on a grower (or on one bin of it: a sector, a direction). Fixed
+// point, in units of 1 / PULL_ONE.
 typedef struct Pull {
     int64_t toward[3]; // sum of unit vectors to the attractors (Tanaka eq. (7))
     int64_t count;
     int64_t normal[3]; // sum of the attractors' normals, on surfaces
-    int64_t height;    // sum of the heights of the node above the attractors' surface / influence
-    int64_t length;    // rule "string": sum of the attractors' growth distances / the largest
+    int64_t height;    // sum of the node's heights above the attractors' surface, divided by
+                       // influence
+    int64_t length;    // rule "string": sum of the attractors' growth distances, divided by the
+                       // largest
     uint64_t pick;     // rule "snap": least (cost as float bits, attractor); UINT64_MAX = none
 } Pull;
 
-#define PULL_ONE 1073741824.0f // 2^30: a product with it only changes the exponent
+#define PULL_ONE 1073741824.0f // 2^30: multiplying by it only changes the exponent
 
 typedef struct Child {
     Vec3 position, normal;
-    int bin; // that it grew from
+    int bin; // the bin it grew from
 } Child;
 
-// Cosines and sines of the angle limits; a cosine of 2 (least) or -2 (most) = off.
+// Cosines and sines of the angle limits; a cosine of 2 (minimum) or -2 (maximum) = off.
 typedef struct AngleLimits {
     float min_cos, min_sin, max_cos, max_sin; // between a child and its parent's direction
     float cone_cos, cone_sin;                 // between a child and cone_axis
@@ -57,22 +59,22 @@ typedef struct Growth {
     const ColonizeParams *params;
     const Run *run;
     int threads;
-    int64_t initial_count; // nodes the tree began with: the type-0 points
+    int64_t initial_count; // initial nodes: the type-0 points
     AttractorGrid grid;
     AngleLimits limits;
     const struct Rule *rule;
-    void *rule_state; // the rule's own; freed by Rule.end
-    int bins;         // pulls a grower: at most one child grows from each
+    void *rule_state; // owned by the rule; freed by Rule.end
+    int bins;         // pulls per grower; at most one child grows from each
 
     NodeState *state; // per node
     int64_t state_capacity;
-    int32_t *slot; // per node: its place among the growers, -1
+    int32_t *slot; // per node: its index among the growers, or -1
     int64_t slot_capacity;
     NodeBits changed;
 
     Grower *grower;
     int64_t grower_count, grower_capacity;
-    Pull *pull; // threads x growers x bins; the first thread's end up as the sums
+    Pull *pull; // threads x growers x bins; the first thread's are the final sums
     int64_t pull_capacity;
     Child *child; // growers x bins
     int64_t child_capacity;
@@ -82,15 +84,15 @@ typedef struct Growth {
     int64_t grew_count, grew_capacity;
 } Growth;
 
-// Pulls are summed in parts (at most as many as the grid has slabs): part by part, each by one
-// thread, then all parts of a grower into part 0, growth->pull[grower * bins + bin].
+// Pulls are summed in parts (at most as many as the grid has slabs): each part by one thread, then
+// all parts of a grower into part 0, growth->pull[grower * bins + bin].
 void growth_sum_part(const Growth *growth, int part, int parts);
 void growth_merge_pulls(const Growth *growth, int64_t grower, int parts);
 
 // Fills in a grower whose node is set.
 void growth_prepare(const Growth *growth, Grower *grower);
 
-// Makes the children of a grower from its pulls (one a bin at most); returns how many.
+// Makes the children of a grower from its pulls, at most one per bin; returns how many.
 int growth_make_children(const Growth *growth, const Grower *grower, const Pull *pull,
                          Child *child);
 

@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-// Moves the nodes from `first` on toward their parents, all at once: children come after their
-// parents, so going back every parent still stands where it grew (Runions et al. 2007).
+// Moves the nodes from `first` on toward their parents simultaneously: in reverse order every
+// parent is still at its old position (Runions 2007).
 static void relax(OutTree *tree, int64_t first, float share)
 {
     for (int64_t i = tree->count - 1; i >= first; i--) {
@@ -61,10 +61,10 @@ static Vec3 furthest_from(const PointSet *points, Vec3 p)
     return best;
 }
 
-// The spacing that a level's lengths are multiples of, m. In an envelope that is thinner than the
-// spacing of a volume or surface, attractors follow each other along a line, and n random points on
-// a line of length L leave a gap of about L/n ln n somewhere. An influence of 2 spacings or more
-// bridges it when the spacing is at least half of that.
+// Spacing that a level's lengths are multiples of, m. In an envelope thinner than the spacing of a
+// volume or surface, attractors lie along a line, and n random points on a line of length L leave a
+// gap of about L/n ln n somewhere. An influence of 2 spacings or more bridges it if the spacing is
+// at least half of that.
 static double level_spacing(const PointSet *attractors)
 {
     double spacing = points_spacing(attractors), count = (double)attractors->count;

@@ -14,8 +14,8 @@ static void add_vector(int64_t sum[3], Vec3 v)
     sum[2] += fixed(v.z);
 }
 
-// On a surface: the normal there, and how high the node stands above it. The chord between two
-// points of a sphere is perpendicular to the sum of their normals, so curvature does not count.
+// On a surface: the normal there and the node's height above it. The chord between two points of a
+// sphere is perpendicular to the sum of their normals, so curvature cancels.
 static void add_surface(const Growth *growth, const Grower *grower, Vec3 offset, Vec3 normal,
                         Pull *pull)
 {

@@ -96,7 +96,7 @@ static float nearest_node(const OutTree *tree, Vec3 p)
     return sqrtf(best);
 }
 
-// Counts the attractors without a nearest node; every stride-th of them is measured, none at 0.
+// Counts the attractors without a nearest node; measures every stride-th of them (0 = none).
 static int64_t visit_unreached(const OutTree *tree, const AttractorGrid *grid, int64_t stride,
                                GrowReport *report)
 {
@@ -123,11 +123,11 @@ static int64_t visit_unreached(const OutTree *tree, const AttractorGrid *grid, i
 void reach_measure_left(const OutTree *tree, const AttractorGrid *grid, int64_t attractors,
                         GrowReport *report)
 {
-    enum { MOST_MEASURED = 256 };
+    enum { MAX_MEASURED = 256 };
     report->unreached = visit_unreached(tree, grid, 0, report);
     if (report->unreached > 0 && 10 * report->unreached >= attractors) {
         report->nearest = INFINITY;
-        visit_unreached(tree, grid, 1 + report->unreached / MOST_MEASURED, report);
+        visit_unreached(tree, grid, 1 + report->unreached / MAX_MEASURED, report);
     }
 }
 

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-// Distance of two values; equal infinities and NaNs are alike, a NaN beside a number is as far off
-// as can be.
+// Absolute difference of two values; 0 for equal infinities and two NaNs, infinite for a NaN and a
+// number.
 static double difference_of(float a, float b)
 {
     if (a == b || (isnan(a) && isnan(b))) {

@@ -1,5 +1,5 @@
-// Decodes a picture in a child process through OpenImageIO and hands its pixels back in blocks of
-// rows, so that one block is all that is held here where the format's reader goes row by row.
+// Decodes a picture in a child process through OpenImageIO and returns its pixels in blocks of
+// rows, so that only one block is in memory if the format is read row by row.
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -16,15 +16,14 @@ namespace
 {
 
 const size_t BLOCK_BYTES = 64 << 20;
-const int MOST_BLOCK_ROWS = 256,
-          LEAST_BLOCK_ROWS = 16; // a multiple of what formats compress at once
-const int MOST_CHANNELS = 1024;
+const int MAX_BLOCK_ROWS = 256,
+          MIN_BLOCK_ROWS = 16; // a multiple of the rows that formats compress together
+const int MAX_CHANNELS = 1024;
 
-// The channels that are wanted, by index, in this order.
+// Indices of the requested channels, in order.
 using Channels = std::vector<int>;
 
-// R, G, B and, where there is one, A of a file; grey, as three equal channels, where it has no R,
-// G, B.
+// R, G, B and, if present, A of a file; grey as three equal channels if it has no R, G, B.
 Channels color_channels(const OIIO::ImageSpec &spec)
 {
     int red = spec.channelindex("R"), green = spec.channelindex("G"), blue = spec.channelindex("B");
@@ -95,29 +94,29 @@ bool check_size(const OIIO::ImageSpec &spec, Error *e)
     if (width < 1 || height < 1 || spec.nchannels < 1) {
         return error_set(e, ERROR_INPUT, "it has no pixels");
     }
-    if (spec.nchannels > MOST_CHANNELS) {
+    if (spec.nchannels > MAX_CHANNELS) {
         return error_set(e, ERROR_INPUT, "it has %d channels; at most %d are read", spec.nchannels,
-                         MOST_CHANNELS);
+                         MAX_CHANNELS);
     }
-    return width * height <= DECODE_MOST_PIXELS ||
+    return width * height <= DECODE_MAX_PIXELS ||
            error_set(e, ERROR_INPUT,
                      "it has %lld x %lld pixels; at most %d are read, as of 16384 x 8192: make it "
                      "smaller",
-                     (long long)width, (long long)height, DECODE_MOST_PIXELS);
+                     (long long)width, (long long)height, DECODE_MAX_PIXELS);
 }
 
 bool check_bytes(const DecodeHeader *h, Error *e)
 {
     int64_t bytes = (int64_t)h->width * h->height * h->channels * texel_bytes((TexelType)h->type);
-    return bytes <= DECODE_MOST_BYTES ||
+    return bytes <= DECODE_MAX_BYTES ||
            error_set(e, ERROR_INPUT,
                      "its %d x %d pixels of %d channels take %.3g GB; at most %.3g GB are read: "
                      "make it smaller",
                      h->width, h->height, h->channels, (double)bytes * 1e-9,
-                     (double)DECODE_MOST_BYTES * 1e-9);
+                     (double)DECODE_MAX_BYTES * 1e-9);
 }
 
-// JPEGs carry all pairs as lines of one text: see add_metadata in encode.cpp.
+// JPEG files store all pairs as lines of one text: see add_metadata in encode.cpp.
 std::string find_text(const OIIO::ImageSpec &spec, const std::string &key)
 {
     std::string value = spec.get_string_attribute(key);
@@ -149,7 +148,7 @@ DecodeHeader header_of(const OIIO::ImageSpec &spec, const DecodeJob *job, int ch
 
 // ---- pixels ----
 
-// Rows of pixels as they are read: the channels from first to last.
+// Rows of pixels as read: the channels from first to last.
 struct Block {
     int first, count; // channels
     size_t channel_bytes;
@@ -170,7 +169,7 @@ bool read_rows(OIIO::ImageInput *input, const OIIO::ImageSpec &spec, int begin, 
            error_set(e, ERROR_INPUT, "%s", reason.empty() ? "it is cut short" : reason.c_str());
 }
 
-// Only what is wanted of each pixel, in the order wanted.
+// Reduces each pixel to the requested channels, in order.
 const char *pick(Block &block, const Channels &channels, size_t pixels)
 {
     bool all = (int)channels.size() == block.count;
@@ -197,8 +196,8 @@ int rows_at_once(const OIIO::ImageSpec &spec, size_t row_bytes)
     if (spec.tile_width > 0) {
         return spec.tile_height;
     }
-    int rows = MOST_BLOCK_ROWS;
-    while (rows > LEAST_BLOCK_ROWS && size_t(rows) * row_bytes > BLOCK_BYTES) {
+    int rows = MAX_BLOCK_ROWS;
+    while (rows > MIN_BLOCK_ROWS && size_t(rows) * row_bytes > BLOCK_BYTES) {
         rows /= 2;
     }
     return rows;
@@ -230,11 +229,11 @@ bool hand_back(OIIO::ImageInput *input, const OIIO::ImageSpec &spec, const Decod
 
 bool decode(const DecodeJob *job, ChildOutput *output, Error *e)
 {
-    // The threads of the process that this is a fork of are not here.
+    // the threads of the forking process do not exist here
     OIIO::attribute("threads", 1);
     OIIO::attribute("exr_threads", -1);
     OIIO::ImageSpec config;
-    if (job->kind != DECODE_TEXTURE) { // which is filtered: it wants alpha multiplied in
+    if (job->kind != DECODE_TEXTURE) { // textures are filtered, so they stay multiplied by alpha
         config.attribute("oiio:UnassociatedAlpha", 1);
     }
     auto input = OIIO::ImageInput::open(job->file, &config);

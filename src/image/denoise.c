@@ -9,31 +9,31 @@
 
 enum {
     WINDOW = 7,          // half width of the search window, pixels
-    BORDER = WINDOW + 1, // of mirrored pixels about the image: window and patch never leave it
-    BAND = 16            // rows a thread works on at a time
+    BORDER = WINDOW + 1, // mirrored pixels around the image: window and patch never leave it
+    BAND = 16            // rows per thread at a time
 };
 
-// What is known of a pixel, in planes of floats with a border.
+// Per-pixel features, in planes of floats with a border.
 enum {
     PLANE_COLOR,        // 3: radiance over albedo
-    PLANE_VARIANCE = 3, // of each of those
+    PLANE_VARIANCE = 3, // 3: variance of each
     PLANE_ALBEDO,       // 3
     PLANE_NORMAL = 7,   // 3
     PLANE_DEPTH = 10,   // logarithm of m; 0 is 1 m
-    PLANE_SLACK,        // square of what depth may differ by from pixel to pixel
+    PLANE_SLACK,        // square of the depth difference allowed between neighbouring pixels
     PLANE_COUNT
 };
 
 typedef struct Planes {
     int width, height; // of the image
-    int64_t stride;    // from row to row
+    int64_t stride;    // floats between rows
     float *data;
-    float *plane[PLANE_COUNT]; // pixel (0, 0) of each
+    float *plane[PLANE_COUNT]; // address of pixel (0, 0) of each
 } Planes;
 
 static int mirror(int i, int count)
 {
-    while (i < 0 || i >= count) { // more than once in images smaller than the border
+    while (i < 0 || i >= count) { // repeatedly in images smaller than the border
         i = i < 0 ? -1 - i : 2 * count - 1 - i;
     }
     return i;
@@ -52,8 +52,8 @@ static bool planes_new(Planes *p, int width, int height, Error *e)
     return p->data != NULL;
 }
 
-// What radiance is divided by, so that texture is no obstacle. The sky, lamps and haze have albedo
-// 1: where a pixel shows both them and a surface, the quotient stays between theirs.
+// Divisor of radiance that removes texture. Sky, lamps and haze have albedo 1: in a pixel that also
+// shows a surface, the quotient lies between both.
 static void divisor_of(const float *albedo, float divisor[3])
 {
     for (int c = 0; c < 3; c++) {
@@ -66,7 +66,7 @@ static float finite_or_zero(float x)
     return isfinite(x) ? x : 0.0f;
 }
 
-// Mean of a 3 x 3 neighbourhood: single variances are themselves noisy.
+// Mean of a 3 x 3 neighbourhood: individual variances are noisy themselves.
 static float smoothed_variance(const Image *variance, int x, int y)
 {
     float sum = 0.0f;
@@ -82,7 +82,7 @@ static float log_depth(const Image *depth, int x, int y)
 {
     float z =
         depth->pixel[(int64_t)mirror(y, depth->height) * depth->width + mirror(x, depth->width)];
-    return isfinite(z) ? logf(fmaxf(z, 1e-3f)) : 20.0f; // nothing is as far as the sky
+    return isfinite(z) ? logf(fmaxf(z, 1e-3f)) : 20.0f; // beyond any surface: the sky
 }
 
 typedef struct Guides {
@@ -113,8 +113,8 @@ static void fill_pixel(const Planes *p, const Guides *g, int x, int y)
     p->plane[PLANE_SLACK][to] = 0.01f * 0.01f + 4.0f * (dx * dx + dy * dy);
 }
 
-// Room for one band: patch distances of its rows and one above and below, sums over patches,
-// and what has been gathered.
+// Workspace of one band: patch distances of its rows and one above and below, sums over patches,
+// and the gathered result.
 typedef struct Band {
     float *distance, *across, *weight, *sum[3];
 } Band;
@@ -135,8 +135,8 @@ static bool band_new(Band *band, const Planes *p)
     return true;
 }
 
-// Squared difference of colours beyond what the variances explain, over those variances (Rousselle
-// et al. 2012, eq. 2), for one row; offset: to the other pixel.
+// Squared colour differences beyond what the variances explain, relative to those variances
+// (Rousselle 2012, eq. 2), for one row; offset: to the other pixel.
 static void color_distances(const Planes *p, int y, int64_t offset, float k2, float *restrict out)
 {
     const float *restrict a = p->plane[PLANE_COLOR] + y * p->stride;
@@ -158,7 +158,7 @@ static void sum_across(const Planes *p, const float *restrict in, float *restric
     }
 }
 
-// Squared differences of a row's features over their bandwidths.
+// Squared feature differences of a row, relative to their bandwidths.
 static void feature_distances(const Planes *p, int y, int64_t offset, float *restrict out)
 {
     const float *restrict plane[PLANE_COUNT];
@@ -180,12 +180,12 @@ static void feature_distances(const Planes *p, int y, int64_t offset, float *res
     }
 }
 
-// Gathers the other pixel with the weight e^-distance (as (1 - d/8)^8, which ends).
+// Adds the other pixel with weight e^-distance (as (1 - d/8)^8, which has finite support).
 static void gather_row(const Planes *p, const Band *band, int row, int y, int64_t offset)
 {
     const float *restrict above = band->across + (int64_t)row * p->stride;
     const float *restrict middle = above + p->stride, *restrict below = middle + p->stride;
-    const float *restrict feature = band->distance + BORDER; // no longer needed for distances
+    const float *restrict feature = band->distance + BORDER; // no longer used for distances
     int64_t own = (int64_t)row * p->stride;
     float *restrict weight = band->weight + own;
     for (int x = 0; x < p->width; x++) {

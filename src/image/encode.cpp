@@ -1,5 +1,5 @@
-// Pictures are encoded in memory by OpenImageIO and written by file_replace, so that every failure
-// of the disk is seen.
+// Encodes pictures in memory by OpenImageIO and writes them with file_replace, so that every write
+// error is detected.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -23,7 +23,7 @@ namespace
 
 using Bytes = std::vector<unsigned char>;
 
-// Runs body; turns what it throws into an Error. what: "'x.png' cannot be written"
+// Runs body and converts exceptions to an Error. what: "'x.png' cannot be written"
 template <typename Body> bool guarded(const std::string &what, Error *e, Body body)
 {
     try {
@@ -45,7 +45,7 @@ std::string extension_of(const char *file)
     return extension;
 }
 
-// The pairs as attributes; formats without free attributes get them as one text.
+// Adds the pairs as attributes; as one text for formats without free attributes.
 void add_metadata(OIIO::ImageSpec &spec, const char *metadata, bool as_one_text)
 {
     std::string text;
@@ -62,7 +62,7 @@ void add_metadata(OIIO::ImageSpec &spec, const char *metadata, bool as_one_text)
         const size_t limit = 30000; // a JPEG marker holds less than 65,536 bytes
         spec.attribute("ImageDescription", text.substr(0, limit));
     }
-    spec.attribute("DateTime", ""); // the same picture is the same file, whenever it is written
+    spec.attribute("DateTime", ""); // no time stamp: equal pictures give equal files
     spec.attribute("Software", "ramify");
 }
 
@@ -85,7 +85,7 @@ bool encode(const char *file, const char *format, const OIIO::ImageSpec &spec, O
     return true;
 }
 
-// 8 bits; without_alpha: over black.
+// 8 bits; without_alpha: composited over black.
 Bytes quantise_image(const Image *image, bool without_alpha)
 {
     int channels = without_alpha ? 3 : image->channels;
@@ -105,7 +105,7 @@ Bytes quantise_image(const Image *image, bool without_alpha)
     return bytes;
 }
 
-// The bytes of a PNG or JPEG, by the name's ending.
+// Encodes a PNG or JPEG, by the file name's extension.
 bool encode_display(const char *file, const Image *image, const char *metadata, Bytes &bytes,
                     Error *e)
 {
@@ -149,7 +149,8 @@ bool write_grey16(const char *file, const Image *image, const char *metadata, Er
                          file);
     }
     OIIO::ImageSpec spec(image->width, image->height, 1, OIIO::TypeDesc::UINT16);
-    spec.attribute("oiio:ColorSpace", "Linear"); // heights: no viewer may bend them
+    spec.attribute("oiio:ColorSpace", "Linear"); // prevents viewers from applying a curve to
+                                                 // heights
     add_metadata(spec, metadata, false);
     std::vector<uint16_t> pixels(size_t(image->width) * size_t(image->height));
     for (size_t i = 0; i < pixels.size(); i++) {
@@ -217,14 +218,14 @@ bool write_exr(const char *file, const ImageLayer *layers, int count, const char
            file_replace(file, bytes.data(), bytes.size(), e);
 }
 
-// Our own PNG, so no child is needed.
+// Only for our own PNGs, so without a child process.
 bool decode_png(OIIO::Filesystem::IOProxy *proxy, Image **image, Error *e)
 {
     static const char name[] = "memory.png";
     auto input = OIIO::ImageInput::create("png");
     OIIO::ImageSpec spec;
     OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1); // as stored
+    config.attribute("oiio:UnassociatedAlpha", 1); // keep alpha straight, as stored
     if (!input || !input->set_ioproxy(proxy) || !input->open(name, spec, config)) {
         return error_set(e, ERROR_INTERNAL, "a PNG in memory cannot be read: %s",
                          input ? input->geterror().c_str() : "OpenImageIO has no reader");

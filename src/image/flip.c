@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Linear Rec. 709 with its white (D65) to CIE XYZ, and back.
+// Linear Rec. 709 (white D65) to CIE XYZ, and the inverse.
 static const float XYZ_OF_RGB[3][3] = {{0.4123866f, 0.3575915f, 0.1804505f},
                                        {0.2126368f, 0.7151830f, 0.0721802f},
                                        {0.0193306f, 0.1191972f, 0.9503726f}};
@@ -15,15 +15,15 @@ static const float RGB_OF_XYZ[3][3] = {{3.2410032f, -1.5373990f, -0.4986159f},
                                        {0.0556394f, -0.2040112f, 1.0571490f}};
 static const float WHITE[3] = {0.9504286f, 1.0f, 1.0889004f};
 
-// Contrast sensitivity of the eye as sums of Gaussians (table 1): a sqrt(pi / b) exp(-pi^2 x^2 / b)
-// at x degrees, for brightness, red-green, and blue-yellow, which has two.
+// Contrast sensitivity of the eye as sums of Gaussians (Andersson 2020, table 1): a sqrt(pi / b)
+// exp(-pi^2 x^2 / b) at x degrees, for brightness, red-green, and two for blue-yellow.
 static const float SENSITIVITY[4][2] = {
     {1.0f, 0.0047f}, {1.0f, 0.0053f}, {34.1f, 0.04f}, {13.5f, 0.025f}};
 #define WIDEST 0.04f
 
-#define FEATURE_WIDTH 0.082f // degrees, of the detectors of edges and points
+#define FEATURE_WIDTH 0.082f // degrees, width of the edge and point detectors
 #define COLOR_EXPONENT 0.7f
-#define COLOR_KNEE 0.4f // of the largest colour difference, which goes to
+#define COLOR_KNEE 0.4f // fraction of the largest colour difference, which maps to
 #define COLOR_KNEE_OUT 0.95f
 #define PI 3.14159265f
 
@@ -39,7 +39,7 @@ static float clamp01(float v)
     return v > 0.0f ? fminf(v, 1.0f) : 0.0f; // NaN becomes 0
 }
 
-// sRGB to the linear opponent space YCxCz (section 4.1).
+// sRGB to the linear opponent space YCxCz (Andersson 2020, 4.1).
 static void opponent_of_srgb(const float *srgb, float out[3])
 {
     float rgb[3], xyz[3];
@@ -69,7 +69,7 @@ static float lab_curve(float t)
     return t > delta * delta * delta ? cbrtf(t) : t / (3.0f * delta * delta) + 4.0f / 29.0f;
 }
 
-// L*a*b* with a and b scaled down in the dark (the Hunt effect, eq. 5).
+// L*a*b* with a and b reduced in dark colours (Hunt effect, Andersson 2020, eq. 5).
 static void lab_of_rgb(const float rgb[3], float lab[3])
 {
     float xyz[3], f[3];
@@ -82,7 +82,7 @@ static void lab_of_rgb(const float rgb[3], float lab[3])
     lab[2] = 0.01f * lab[0] * 200.0f * (f[1] - f[2]);
 }
 
-// Distance for large colour differences (HyAB, eq. 6).
+// Distance for large colour differences (HyAB, Andersson 2020, eq. 6).
 static float color_distance(const float a[3], const float b[3])
 {
     return fabsf(a[0] - b[0]) + hypotf(a[1] - b[1], a[2] - b[2]);
@@ -97,7 +97,7 @@ static float largest_color_distance(void)
     return powf(color_distance(a, b), COLOR_EXPONENT);
 }
 
-// Small differences get most of the range (eq. 7).
+// Compresses large differences (Andersson 2020, eq. 7).
 static float color_difference(const float a[3], const float b[3], float largest)
 {
     float d = powf(color_distance(a, b), COLOR_EXPONENT), knee = COLOR_KNEE * largest;
@@ -105,16 +105,16 @@ static float color_difference(const float a[3], const float b[3], float largest)
                     : COLOR_KNEE_OUT + (d - knee) / (largest - knee) * (1.0f - COLOR_KNEE_OUT);
 }
 
-// ---- filters, each as two passes of one dimension; the borders are repeated outward
+// ---- separable filters; borders are clamped
 
-enum { MOST_RADIUS = 255 };
+enum { MAX_RADIUS = 255 };
 
 typedef struct Kernel {
     int radius;
-    float weight[2 * MOST_RADIUS + 1];
+    float weight[2 * MAX_RADIUS + 1];
 } Kernel;
 
-// deviation in pixels. Scaled to a sum of 1.
+// Gaussian with deviation in pixels, normalised to sum 1.
 static Kernel gaussian(float deviation, int radius)
 {
     Kernel k = {.radius = radius};
@@ -130,8 +130,8 @@ static Kernel gaussian(float deviation, int radius)
     return k;
 }
 
-// First or second derivative of a Gaussian; what is positive sums to 1, what is negative to -1
-// (section 4.2).
+// First or second derivative of a Gaussian; positive weights sum to 1, negative ones to -1
+// (Andersson 2020, 4.2).
 static Kernel derivative(float deviation, int radius, int order)
 {
     Kernel k = {.radius = radius};
@@ -153,7 +153,7 @@ static int clamp_index(int i, int count)
     return i < 0 ? 0 : (i < count ? i : count - 1);
 }
 
-// One pass: out[j] = sum of weights and in[j + i] along x (stride 1) or y.
+// One pass: out[j] = sum over i of weight * in[j + i] along x (stride 1) or y.
 static void pass(const float *in, float *out, int width, int height, bool along_y, const Kernel *k)
 {
     for (int y = 0; y < height; y++) {
@@ -169,10 +169,10 @@ static void pass(const float *in, float *out, int width, int height, bool along_
     }
 }
 
-// What is computed of one picture, and room to compute in.
+// Intermediate results of one picture.
 typedef struct Planes {
     int width, height;
-    float *opponent[3], *seen[3]; // unfiltered; as the eye resolves it
+    float *opponent[3], *seen[3]; // unfiltered; filtered by contrast sensitivity
     float *edge, *point;          // strength of features
     float *across, *result, *half;
     float *memory;
@@ -211,16 +211,16 @@ static void filter(Planes *p, const float *in, float *out, const Kernel *along_x
     pass(p->half, out, p->width, p->height, true, along_y);
 }
 
-// Takes out what the eye does not resolve at this distance.
+// Removes detail that the eye does not resolve at this distance.
 static void filter_by_sensitivity(Planes *p, float pixels_per_degree)
 {
     int radius = (int)ceilf(3.0f * sqrtf(WIDEST / (2.0f * PI * PI)) * pixels_per_degree);
-    float share[4]; // by weight in the plane; blue-yellow mixes its two Gaussians by it
+    float share[4]; // weights of the Gaussians in the plane, which mix the two of blue-yellow
     Kernel kernel[4];
     for (int i = 0; i < 4; i++) {
         float b = SENSITIVITY[i][1];
         kernel[i] = gaussian(sqrtf(b / (2.0f * PI * PI)) * pixels_per_degree, radius);
-        // the centre's weight is 1 over the sum that it was divided by
+        // the centre weight is 1 / (the normalising sum)
         float sum = 1.0f / kernel[i].weight[radius];
         share[i] = SENSITIVITY[i][0] * sqrtf(PI / b) * sum * sum;
     }
@@ -234,7 +234,7 @@ static void filter_by_sensitivity(Planes *p, float pixels_per_degree)
     }
 }
 
-// Strength of the features that a derivative of this order finds.
+// Feature strength by a derivative of this order.
 static void detect(Planes *p, float deviation, int order, float *strength)
 {
     int radius = (int)ceilf(3.0f * deviation);
@@ -242,7 +242,7 @@ static void detect(Planes *p, float deviation, int order, float *strength)
     filter(p, p->opponent[0], p->across, &change, &smooth);
     filter(p, p->opponent[0], p->result, &smooth, &change);
     for (int64_t i = 0; i < (int64_t)p->width * p->height; i++) {
-        // brightness as (Y + 16) / 116; the constant falls out of a derivative
+        // brightness as (Y + 16) / 116; the constant vanishes in a derivative
         strength[i] = hypotf(p->across[i], p->result[i]) / 116.0f;
     }
 }
@@ -262,7 +262,7 @@ static void lab_seen(const Planes *p, int64_t i, float lab[3])
     lab_of_rgb(rgb, lab);
 }
 
-// Differing features amplify the difference of colours (eq. 10 and 11).
+// Feature differences amplify colour differences (Andersson 2020, eq. 10-11).
 static void compare(const Planes *a, const Planes *b, float *map)
 {
     float largest = largest_color_distance();

@@ -1,7 +1,7 @@
-// Reading and writing pictures through OpenImageIO. Files are read in a child process with limits
-// (base/child.h): of 2^27 pixels (16384 x 8192) and 2 GB of what is wanted of them, checked before
-// any pixel is decoded; ERROR_INPUT names the file, its size and the limit. Files are written
-// beside and renamed: a failure never leaves half a file or harms an old one.
+// Reads and writes pictures through OpenImageIO. Files are read in a child process with limits
+// (base/child.h): 2^27 pixels (16384 x 8192) and 2 GB of the requested channels, checked before any
+// pixel is decoded; ERROR_INPUT names the file, its size and the limit. Files are written to a
+// temporary name and renamed: a failure leaves no partial file and an old one unchanged.
 #ifndef RAMIFY_IMAGE_IMAGE_H
 #define RAMIFY_IMAGE_IMAGE_H
 
@@ -19,20 +19,20 @@ typedef struct Image {
 Image *image_new(int width, int height, int channels, Error *e);
 void image_free(Image *image); // NULL is fine
 
-// Any format OpenImageIO reads, as stored values (8-bit: 0..1, not linearised).
+// Reads any format of OpenImageIO as stored values (8-bit: 0..1, not linearised).
 Image *image_read(const char *file, Error *e);
 
-// R, G, B and, where the file has one, A, as stored; grey as three equal channels. *linear: whether
-// the file holds floating-point radiance (EXR, HDR; alpha premultiplied) or display values (alpha
-// straight). Other channels of the file are left out.
+// Reads R, G, B and, if present, A, as stored; grey as three equal channels. *linear: whether the
+// file holds floating-point radiance (EXR, HDR; alpha premultiplied) or display values (alpha
+// straight). Other channels are ignored.
 Image *image_read_color(const char *file, bool *linear, Error *e);
 
-// Channels of one layer of a file, in the order named, as image_write_exr laid them out: layer
-// "variance" and channels "RGB" are variance.R, variance.G, variance.B. ERROR_INPUT when one is not
-// there.
+// Reads channels of one layer of a file, in the order named, as written by image_write_exr: layer
+// "variance" and channels "RGB" are variance.R, variance.G, variance.B. ERROR_INPUT when one is
+// missing.
 Image *image_read_layer(const char *file, const char *layer, const char *channels, Error *e);
 
-// A picture as stored, for looking up single places.
+// A picture in its stored type, for random access.
 typedef enum TexelType { TEXEL_BYTE, TEXEL_SHORT, TEXEL_HALF, TEXEL_FLOAT } TexelType;
 
 static inline int texel_bytes(TexelType type)
@@ -40,45 +40,45 @@ static inline int texel_bytes(TexelType type)
     return type == TEXEL_BYTE ? 1 : type == TEXEL_FLOAT ? 4 : 2;
 }
 
-// width * height * channels values of type, row by row from the top left; colours are multiplied
-// by alpha.
+// width * height * channels values of type, row by row from the top left; colours are multiplied by
+// alpha.
 typedef struct Texels {
     int width, height, channels;
-    TexelType type; // of the file, or TEXEL_FLOAT where it has another
-    int window[6];  // the left top of the pixels; left, top, width and height of the whole picture
+    TexelType type; // the file's, or TEXEL_FLOAT for other types
+    int window[6];  // left and top of the pixels; left, top, width and height of the whole picture
     void *data;
 } Texels;
 
-// Any format OpenImageIO reads.
+// Reads any format of OpenImageIO.
 Texels *image_read_texels(const char *file, Error *e);
 void texels_free(Texels *texels); // NULL is fine
 
-// Reads the whole picture to see that nothing is missing, and the text that its metadata has under
-// key into text (size bytes, cut if need be). False when it is no whole picture or has no such
-// text.
+// Decodes the whole picture to check that it is complete, and copies the metadata text stored under
+// key into text (size bytes, truncated if needed). False if the picture is incomplete or has no
+// such text.
 bool image_read_text(const char *file, const char *key, char *text, int size);
 
-// 8-bit PNG or JPEG (by the name's ending) of an image already in display values; 3 or 4 channels,
-// 0..1, alpha straight; JPEG shows it over black. Dithered by a fixed pattern. metadata:
-// "key\0value\0...\0\0" pairs or NULL.
+// Writes an 8-bit PNG or JPEG (by the name's extension) of an image in display values; 3 or 4
+// channels, 0..1, alpha straight; JPEG is composited over black. Dithered by a fixed pattern.
+// metadata: "key\0value\0...\0\0" pairs or NULL.
 bool image_write_display(const char *file, const Image *image, const char *metadata, Error *e);
 
-// The same PNG in memory: *bytes (free() it) of *size. And back, as stored values.
+// The same PNG in memory: *bytes (free() it) of *size; and the inverse, as stored values.
 bool image_encode_png(const Image *image, const char *metadata, unsigned char **bytes, size_t *size,
                       Error *e);
 Image *image_decode_png(const unsigned char *bytes, size_t size, Error *e);
 
-// 16-bit grey PNG of a picture of one channel, 0..1.
+// Writes a 16-bit grey PNG of an image with one channel, 0..1.
 bool image_write_grey16(const char *file, const Image *image, const char *metadata, Error *e);
 
 // One layer of a multi-part or multi-channel EXR.
 typedef struct ImageLayer {
-    const char *name;          // "" = the beauty: R, G, B(, A); else name.X ...
+    const char *name;          // "" = the beauty: R, G, B(, A); else channels name.X ...
     const char *channel_names; // e.g. "RGBA", "XYZ", "Z"
     const Image *image;
 } ImageLayer;
 
-// Linear float EXR with all layers (of one size) and metadata.
+// Writes a linear float EXR with all layers (of one size) and metadata.
 bool image_write_exr(const char *file, const ImageLayer *layers, int count, const char *metadata,
                      Error *e);
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-// Mirrors an index at the borders, so that light blurred out of the image comes back in.
+// Mirrors an index at the borders, so that light blurred out of the image returns.
 static int mirror(int i, int count)
 {
     int period = 2 * count;
@@ -12,7 +12,7 @@ static int mirror(int i, int count)
     return i < count ? i : period - 1 - i;
 }
 
-// One running mean of 2 radius + 1 entries over count entries of 3 channels, `stride` floats apart.
+// Running mean of 2 radius + 1 entries over count entries of 3 channels, `stride` floats apart.
 static void blur_line(const float *in, float *out, int count, int64_t stride, int radius)
 {
     double sum[3] = {0.0, 0.0, 0.0};
@@ -58,7 +58,7 @@ static void blur_columns(const Image *in, Image *out, int radius)
     }
 }
 
-// Three box blurs each way are close to a Gaussian.
+// Three box blurs in each direction approximate a Gaussian.
 static void blur(Image *image, Image *scratch, int radius)
 {
     for (int pass = 0; pass < 3; pass++) {
@@ -79,7 +79,7 @@ static void add_scaled(Image *sum, const Image *image, float scale)
 
 bool lens_bloom(Image *image, float share, Error *e)
 {
-    static const float width[3] = {0.003f, 0.012f, 0.05f}; // of the image's height
+    static const float width[3] = {0.003f, 0.012f, 0.05f}; // relative to the image's height
     static const float weight[3] = {0.5f, 0.3f, 0.2f};
     Image *blurred = image_new(image->width, image->height, image->channels, e);
     Image *scratch = image_new(image->width, image->height, image->channels, e);
@@ -94,7 +94,7 @@ bool lens_bloom(Image *image, float share, Error *e)
                 image->pixel[i * image->channels + c] *= 1.0f - share;
             }
         }
-        for (int k = 0; k < 3; k++) { // each blur starts from the one before: widths add up
+        for (int k = 0; k < 3; k++) { // each blur starts from the previous one, so widths add up
             int radius = (int)fmaxf(1.0f, roundf(width[k] * (float)image->height));
             blur(blurred, scratch, radius);
             add_scaled(image, blurred, share * weight[k]);
@@ -110,7 +110,7 @@ float lens_vignette(const Image *image, int x, int y, float strength)
     float half_width = 0.5f * (float)image->width, half_height = 0.5f * (float)image->height;
     float dx = (float)x + 0.5f - half_width, dy = (float)y + 0.5f - half_height;
     float r2 = (dx * dx + dy * dy) / (half_width * half_width + half_height * half_height);
-    // cos^4 of an angle whose tangent reaches what gives 1 - strength in the corner
+    // cos^4 of an angle, with the tangent that gives 1 - strength in the corners
     float tangent2 = 1.0f / sqrtf(fmaxf(1.0f - strength, 0.01f)) - 1.0f;
     float cosine2 = 1.0f / (1.0f + tangent2 * r2);
     return cosine2 * cosine2;

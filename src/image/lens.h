@@ -1,14 +1,14 @@
-// What a lens does to light before it is developed: glow and darker corners.
+// Lens effects before tone mapping: bloom and vignetting.
 #ifndef RAMIFY_IMAGE_LENS_H
 #define RAMIFY_IMAGE_LENS_H
 
 #include "image/image.h"
 
 // Spreads `share` of the light over its neighbourhood, in place, in linear radiance: three blurs of
-// rising width, of image height each. The sum over the image stays as it was.
+// increasing width, relative to the image's height. The sum over the image is preserved.
 bool lens_bloom(Image *image, float share, Error *e);
 
-// Factor on a pixel: 1 in the middle, 1 - strength in the corners (as cos^4 falls).
+// Factor on a pixel: 1 in the centre, 1 - strength in the corners, falling as cos^4.
 float lens_vignette(const Image *image, int x, int y, float strength);
 
 #endif

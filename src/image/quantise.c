@@ -9,8 +9,8 @@ static uint8_t quantise(float value, float threshold)
     return (uint8_t)(step < 255.0f ? step : 255.0f);
 }
 
-// A threshold in (0, 1) that differs between neighbours like blue noise does: interleaved gradient
-// noise (Jimenez 2014), shifted from channel to channel.
+// Threshold in (0, 1) with blue-noise-like differences between neighbours: interleaved gradient
+// noise (Jimenez 2014), offset per channel.
 static float dither_threshold(int x, int y, int channel)
 {
     float a = 0.06711056f * (float)(x + 47 * channel) + 0.00583715f * (float)(y + 17 * channel);

@@ -1,5 +1,5 @@
-// Display values as 8 bits, dithered so that dark gradients show no bands. The threshold depends on
-// the pixel alone: the same picture has the same bytes each time, and a film's noise stands still.
+// Quantises display values to 8 bits, dithered against banding. The threshold depends on the pixel
+// alone: equal pictures give equal bytes, and the dither of an animation does not flicker.
 #ifndef RAMIFY_IMAGE_QUANTISE_H
 #define RAMIFY_IMAGE_QUANTISE_H
 
@@ -9,11 +9,11 @@
 extern "C" {
 #endif
 
-// value: 0..1, cut off there; NaN gives 0. The mean over neighbouring pixels is the value's, the
+// value: 0..1, clamped; NaN gives 0. The mean over neighbouring pixels equals the value's, the
 // error of each is below one step.
 uint8_t quantise_dithered(float value, int x, int y, int channel);
 
-// To the nearest step: for alpha.
+// Rounds to the nearest step, for alpha.
 uint8_t quantise_nearest(float value);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// Pictures are decoded in a child process with limits; what it hands back is checked here.
+// Reads pictures decoded in a child process with limits; checks the child's result.
 #include "image/decode.h"
 
 #include "base/memory.h"
@@ -11,13 +11,12 @@
 
 #define WANTED "a whole picture, as PNG, JPEG, EXR, HDR or TIFF,"
 
-// What decoding may take: a format that is decoded as a whole holds all once more beside the
-// result; 16384 x 8192 pixels take some ten seconds.
-#define MOST_SECONDS 120.0
-#define MOST_MEMORY (2 * DECODE_MOST_BYTES + 1000000000)
+// Limits of decoding: a format decoded as a whole needs all pixels once more beside the result;
+// 16384 x 8192 pixels take some ten seconds.
+#define MAX_SECONDS 120.0
+#define MAX_MEMORY (2 * DECODE_MAX_BYTES + 1000000000)
 
-// A pipe or a device would never end, and a name without a file means things of its own to
-// OpenImageIO.
+// A pipe or a device would never end, and OpenImageIO interprets names that are not files.
 static bool check_file(const char *file, Error *e)
 {
     struct stat status;
@@ -37,7 +36,7 @@ static bool check_header(const DecodeHeader *h, const DecodeJob *job, int64_t le
                 h->type >= TEXEL_BYTE && h->type <= TEXEL_FLOAT &&
                 (job->kind == DECODE_TEXTURE || h->type == TEXEL_FLOAT) && h->window[4] >= 1 &&
                 h->window[5] >= 1 && h->text[DECODE_TEXT_SIZE - 1] == '\0' &&
-                (int64_t)h->width * h->height <= DECODE_MOST_PIXELS;
+                (int64_t)h->width * h->height <= DECODE_MAX_PIXELS;
     int64_t bytes =
         sane ? (int64_t)h->width * h->height * h->channels * texel_bytes((TexelType)h->type) : 0;
     return (sane && left == (job->kind == DECODE_TEXT ? 0 : bytes)) ||
@@ -47,7 +46,7 @@ static bool check_header(const DecodeHeader *h, const DecodeJob *job, int64_t le
 static bool fail(const DecodeJob *job, Error *e)
 {
     if (e) {
-        e->file[0] = '\0'; // the name stands in the message; the place is the scene's to tell
+        e->file[0] = '\0'; // the message has the name; the location is added by the caller
         e->line = e->column = 0;
         error_prefix(e,
                      "%s '%s' cannot be read: ", job->kind == DECODE_TEXTURE ? "texture" : "image",
@@ -56,15 +55,15 @@ static bool fail(const DecodeJob *job, Error *e)
     return false;
 }
 
-// The header, and output open at the pixels, to be closed.
+// Reads the header; leaves output open at the pixels, to be closed by the caller.
 static bool start(const DecodeJob *job, DecodeHeader *header, ChildOutput *output, Error *e)
 {
     const ChildJob child = {.task = decode_picture,
                             .data = job,
                             .file = job->file,
                             .wanted = WANTED,
-                            .seconds = MOST_SECONDS,
-                            .memory = MOST_MEMORY};
+                            .seconds = MAX_SECONDS,
+                            .memory = MAX_MEMORY};
     Run run = run_default();
     *output = (ChildOutput){.file = -1};
     bool done = check_file(job->file, e) && child_run(&child, &run, output, e) &&

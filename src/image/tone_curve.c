@@ -36,7 +36,7 @@ void tone_saturate(float saturation, float rgb[3])
 
 void tone_film(const ToneCurveFit *fit, float saturation, float rgb[3])
 {
-    const float crossover = 0.15f; // also takes back the saturation that the power adds
+    const float crossover = 0.15f; // also compensates the saturation that the power adds
     float mixed[3], y = luminance_rgb(rgb);
     for (int i = 0; i < 3; i++) {
         mixed[i] = curve(fit, rgb[i] + crossover * (y - rgb[i]));
@@ -57,7 +57,7 @@ float tone_linear_from_srgb(float x)
     return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
 }
 
-// CIE xy of a light: Planckian locus by Kim et al. 2002 below 4000 K, daylight locus above.
+// CIE xy of a light: Planckian locus (Kim 2002) below 4000 K, daylight locus above.
 static void chromaticity(double t, double *x, double *y)
 {
     if (t < 4000.0) {
@@ -98,7 +98,7 @@ static void invert(Matrix m, Matrix out)
     }
 }
 
-// Cone responses of a light of luminance 1.
+// Cone responses to a light of luminance 1.
 static void cones_of(Matrix cat, double kelvin, double cones[3])
 {
     double x, y;
@@ -114,7 +114,7 @@ void tone_white_balance(float kelvin, float matrix[3][3])
     Matrix xyz_of_rgb = {{0.4124564, 0.3575761, 0.1804375},
                          {0.2126729, 0.7151522, 0.0721750},
                          {0.0193339, 0.1191920, 0.9503041}};
-    Matrix cat = {{0.401288, 0.650173, -0.051461}, // Li et al. 2017
+    Matrix cat = {{0.401288, 0.650173, -0.051461}, // Li 2017
                   {-0.250268, 1.204414, 0.045854},
                   {-0.002079, 0.048952, 0.953127}};
     Matrix scale = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

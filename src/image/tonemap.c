@@ -34,7 +34,7 @@ float tone_auto_gain(const Image *image)
     return weight > 0.0 ? (float)(0.18 / exp(sum / weight)) : 1.0f;
 }
 
-// Linear, straight (not premultiplied), finite, exposed and balanced.
+// Converts to linear, straight (not premultiplied), finite, exposed and white-balanced values.
 static void prepare(Image *out, const Image *image, const ToneParams *params)
 {
     float gain = exp2f(params->exposure) * (params->auto_exposure ? tone_auto_gain(image) : 1.0f);

@@ -1,4 +1,4 @@
-// Esri ASCII grids.
+// Reads Esri ASCII grids.
 #include "land/height_measure.h"
 
 #include "base/c_locale.h"
@@ -36,7 +36,7 @@ static bool fail_at(const AscText *asc, Error *e, const char *what, const char *
     return false;
 }
 
-// The next word, ended by 0; NULL at the end.
+// The next word, zero-terminated; NULL at the end.
 static char *next_word(AscText *asc)
 {
     while (isspace((unsigned char)*asc->at)) {
@@ -87,7 +87,7 @@ static double *header_field(AscHeader *header, const char *key, double *half)
     return NULL;
 }
 
-// Reads pairs of key and number; *first is the first word of the heights.
+// Reads pairs of key and number; *first is set to the first word of the heights.
 static bool read_header(AscText *asc, AscHeader *header, char **first, Error *e)
 {
     double corner = 0.5, half;
@@ -110,13 +110,13 @@ static bool read_header(AscText *asc, AscHeader *header, char **first, Error *e)
         }
     }
     header->dy = header->dy > 0.0 ? header->dy : header->dx;
-    double most = HEIGHT_FIELD_MOST;
+    double most = HEIGHT_FIELD_MAX;
     if (!(header->columns >= 2 && header->rows >= 2 && header->columns <= most &&
           header->rows <= most && header->dx > 0.0)) {
         error_set(e, ERROR_INPUT,
                   "ncols %g, nrows %g, cellsize %g; it must be 2 to %d columns and "
                   "rows and a cellsize above 0",
-                  header->columns, header->rows, header->dx, HEIGHT_FIELD_MOST);
+                  header->columns, header->rows, header->dx, HEIGHT_FIELD_MAX);
         error_locate(e, asc->file, asc->line, 0);
         return false;
     }
@@ -124,10 +124,11 @@ static bool read_header(AscText *asc, AscHeader *header, char **first, Error *e)
     return true;
 }
 
-// A height is a digit and a blank at least: no memory is taken for heights that are not there.
+// A height takes at least a digit and a blank, so no memory is allocated for heights that cannot
+// exist.
 static bool heights_fit(const AscText *asc, const AscHeader *header, Error *e)
 {
-    double least = 2.0 * header->columns * header->rows - 3.0; // the first word is read already
+    double least = 2.0 * header->columns * header->rows - 3.0; // the first word is already consumed
     if ((double)strlen(asc->at) >= least) {
         return true;
     }
@@ -137,7 +138,7 @@ static bool heights_fit(const AscText *asc, const AscHeader *header, Error *e)
     return false;
 }
 
-// Cells in metres: degrees on the WGS 84 spheroid, at the middle row.
+// Cell size in metres; degrees are converted on the WGS 84 spheroid at the middle row.
 static Vec2 cell_metres(const AscHeader *header)
 {
     bool degrees =

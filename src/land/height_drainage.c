@@ -18,7 +18,7 @@ static float step_length(const HeightField *field, int k)
     return sqrtf(x * x + z * z);
 }
 
-// The neighbour of a sample in direction k; -1 beyond the rim.
+// The neighbour of a sample in direction k; -1 outside the field.
 static int64_t neighbour(const HeightField *field, int64_t i, int k)
 {
     int column = (int)(i % field->columns) + STEP_X[k];
@@ -60,7 +60,7 @@ int64_t height_field_pits(const HeightField *field)
     return pits;
 }
 
-// ---- the flood
+// ---- priority flood
 
 static float next_above(float x)
 {
@@ -98,8 +98,8 @@ static bool begin_at_rim(Flood *flood, Error *e)
     return true;
 }
 
-// Every sample is reached from the lowest flooded one beside it: its way out when it stands in a
-// pit. Others run down the steepest side, which point_downhill finds.
+// Every sample is reached from its lowest flooded neighbour, which is its receiver if it is in a
+// pit. Others drain by steepest descent, set by point_downhill.
 static bool flood_all(Flood *flood, Error *e)
 {
     int64_t reached = 0;
@@ -127,7 +127,7 @@ static bool flood_all(Flood *flood, Error *e)
     return true;
 }
 
-// Order is by filled height, so a strictly lower neighbour always stands earlier in it.
+// The order is by filled height, so a strictly lower neighbour always comes earlier.
 static void point_downhill(const HeightField *field, Drainage *out)
 {
     for (int64_t k = 0; k < out->count; k++) {

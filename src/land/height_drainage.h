@@ -1,6 +1,6 @@
-// Where water runs on a height field: eight neighbours, steepest descent (O'Callaghan and Mark
-// 1984), pits removed by priority flood (Barnes, Lehman and Mulla 2014). The order is that of
-// heights, ties by index: the same bits on every machine.
+// Drainage of a height field: eight neighbours, steepest descent (O'Callaghan and Mark 1984), pits
+// removed by priority flood (Barnes 2014). Samples are ordered by height, ties by index, so the
+// result is the same on every machine.
 #ifndef RAMIFY_LAND_HEIGHT_DRAINAGE_H
 #define RAMIFY_LAND_HEIGHT_DRAINAGE_H
 
@@ -10,21 +10,21 @@ typedef struct Drainage {
     int64_t count;
     int32_t *receiver; // the neighbour that a sample drains to; itself on the rim (an outlet)
     int32_t *order;    // all samples, every receiver before its donors
-    double *area;      // m^2 that drain through a sample, its own cell too
-    float *filled;     // m: the height of the water that would stand there: >= height
-    int64_t pits;      // samples off the rim without a lower neighbour
+    double *area;      // m^2: catchment area of a sample, including its own cell
+    float *filled;     // m: water level if all pits were full, >= height
+    int64_t pits;      // inner samples without a lower neighbour
 } Drainage;
 
-// Routes the whole field to its rim (and to samples that are not finite: outside). Water leaves a
-// pit over its lowest pass.
+// Routes the whole field to its rim (and to non-finite samples, which count as outside). Water
+// leaves a pit over its lowest pass. Free with drainage_free.
 Drainage *drainage_new(const HeightField *field, Error *e);
 void drainage_free(Drainage *drainage); // NULL is fine
 
-// Raises samples by the least that lets every one drain: each stands above its receiver by at
-// least `fall` (a slope; 0 = by the smallest step that a float can make).
+// Raises samples by the least amount that lets every one drain: each ends up above its receiver by
+// a slope of at least `fall` (0 = by one float step).
 bool height_field_fill(HeightField *field, float fall, Error *e);
 
-// Samples off the rim without a lower neighbour.
+// Counts the inner samples without a lower neighbour.
 int64_t height_field_pits(const HeightField *field);
 
 #endif

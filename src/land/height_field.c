@@ -8,9 +8,9 @@
 
 HeightField *height_field_new(int columns, int rows, Vec2 cell, Vec2 origin, Error *e)
 {
-    if (columns < 2 || rows < 2 || columns > HEIGHT_FIELD_MOST || rows > HEIGHT_FIELD_MOST) {
+    if (columns < 2 || rows < 2 || columns > HEIGHT_FIELD_MAX || rows > HEIGHT_FIELD_MAX) {
         error_set(e, ERROR_INPUT, "a height field of %d x %d samples; 2 to %d a side are possible",
-                  columns, rows, HEIGHT_FIELD_MOST);
+                  columns, rows, HEIGHT_FIELD_MAX);
         return NULL;
     }
     if (!(cell.x > 0.0f) || !(cell.y > 0.0f)) {
@@ -50,7 +50,7 @@ void height_field_range(const HeightField *field, float *low, float *high)
     }
 }
 
-// The cell that holds a coordinate and the place in it, 0..1.
+// Index of the cell that contains a coordinate, and the fraction inside it, 0..1.
 static int locate(float x, float origin, float cell, int count, float *share)
 {
     float t = clampf((x - origin) / cell, 0.0f, (float)(count - 1));

@@ -1,5 +1,5 @@
-// A height field: heights above a plane, sampled on a regular grid. What terrain is computed on,
-// measured on and meshed from.
+// Height fields: heights above a plane, sampled on a regular grid. Terrain is computed, measured
+// and meshed on them.
 #ifndef RAMIFY_LAND_HEIGHT_FIELD_H
 #define RAMIFY_LAND_HEIGHT_FIELD_H
 
@@ -8,19 +8,19 @@
 
 #include <stdint.h>
 
-// Samples stand at origin + (column * cell.x, row * cell.y) of the plane (x, z), row by row.
+// Samples are at origin + (column * cell.x, row * cell.y) of the plane (x, z), row by row.
 typedef struct HeightField {
     int columns, rows;
-    Vec2 cell;      // m from sample to sample along x and z
+    Vec2 cell;      // m, sample spacing along x and z
     Vec2 origin;    // m: x and z of sample (0, 0)
     float *height;  // m
-    float *wetness; // 0..1: 1 where water runs, 0 on dry slopes; NULL = not known
+    float *wetness; // 0..1: 1 in rivers, 0 on dry slopes; NULL = unknown
 } HeightField;
 
-enum { HEIGHT_FIELD_MOST = 16384 }; // samples a side
+enum { HEIGHT_FIELD_MAX = 16384 }; // samples per side
 
-// All heights 0, no wetness. ERROR_INPUT for sizes below 2 or above HEIGHT_FIELD_MOST, and for
-// cells that are not positive.
+// All heights 0, no wetness. ERROR_INPUT for sizes below 2 or above HEIGHT_FIELD_MAX, and for cell
+// sizes that are not positive. Free with height_field_free.
 HeightField *height_field_new(int columns, int rows, Vec2 cell, Vec2 origin, Error *e);
 void height_field_free(HeightField *field); // NULL is fine
 
@@ -29,16 +29,16 @@ static inline int64_t height_field_count(const HeightField *field)
     return (int64_t)field->columns * field->rows;
 }
 
-// The least and the greatest height.
+// The lowest and the highest height, m.
 void height_field_range(const HeightField *field, float *low, float *high);
 
-// Height at any place, bilinear between samples; beyond the rim that of the rim.
+// Bilinear height at any point, m; outside the field, that of the rim.
 float height_field_at(const HeightField *field, float x, float z);
 
-// The same by Catmull-Rom splines: smooth slopes, through the samples.
+// The same by Catmull-Rom interpolation, with continuous slopes.
 float height_field_smooth_at(const HeightField *field, float x, float z);
 
-// A 64-bit hash of sizes and heights: equal fields, equal hashes.
+// 64-bit hash of sizes and heights.
 uint64_t height_field_hash(const HeightField *field);
 
 #endif

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-// ---- straight lines through points
+// ---- line fits
 
 typedef struct LineFit {
     double n, x, y, xx, xy;
@@ -21,7 +21,7 @@ static void fit_add(LineFit *fit, double x, double y)
     fit->xy += x * y;
 }
 
-// Least squares; NAN when fewer than `least` points or all at one x.
+// Least-squares slope; NAN with fewer than `least` points or all at one x.
 static double fit_slope(const LineFit *fit, double least)
 {
     double spread = fit->n * fit->xx - fit->x * fit->x;
@@ -31,11 +31,11 @@ static double fit_slope(const LineFit *fit, double least)
     return (fit->n * fit->xy - fit->x * fit->y) / spread;
 }
 
-// ---- orders
+// ---- stream orders
 
 bool drainage_orders(const Drainage *drainage, double least_area, uint8_t *order, Error *e)
 {
-    // The donors of each sample: how many have its greatest order so far.
+    // per sample: how many of its donors share the highest order so far
     uint8_t *equals = memory_alloc_zero(drainage->count, 1, e);
     if (!equals) {
         return false;
@@ -64,7 +64,7 @@ bool drainage_orders(const Drainage *drainage, double least_area, uint8_t *order
     return true;
 }
 
-enum { MOST_ORDERS = 24, AREA_BINS = 64 };
+enum { MAX_ORDERS = 24, AREA_BINS = 64 };
 
 typedef struct OrderSums {
     double streams, length, area;
@@ -79,8 +79,8 @@ typedef struct Survey {
     const Drainage *drainage;
     double least_area;
     uint8_t *order;
-    float *path; // m: from the farthest sample upstream
-    OrderSums sums[MOST_ORDERS];
+    float *path; // m: length from the farthest upstream sample
+    OrderSums sums[MAX_ORDERS];
     AreaBin bin[AREA_BINS];
     int top; // the highest order
     int64_t river_samples, draining;
@@ -104,14 +104,14 @@ static void measure_paths(Survey *s)
     }
 }
 
-// Streams of an order end where the order rises or the field ends.
+// Sums over the streams of each order; a stream ends where the order rises or the field ends.
 static void sum_orders(Survey *s)
 {
     const Drainage *d = s->drainage;
     for (int64_t k = 0; k < d->count; k++) {
         int32_t i = d->order[k], to = d->receiver[i];
         int order = s->order[i];
-        if (order == 0 || order >= MOST_ORDERS) {
+        if (order == 0 || order >= MAX_ORDERS) {
             continue;
         }
         s->top = order > s->top ? order : s->top;
@@ -123,7 +123,8 @@ static void sum_orders(Survey *s)
     }
 }
 
-// By octaves of area: Hack's law and the slope-area law see small and large rivers alike.
+// Binned by octaves of area, so that Hack's law and the slope-area law weight small and large
+// rivers equally.
 static void sum_areas(Survey *s)
 {
     const Drainage *d = s->drainage;
@@ -144,7 +145,7 @@ static void sum_areas(Survey *s)
     }
 }
 
-// Does water that follows the receivers never have to climb?
+// Whether water that follows the receivers never flows uphill.
 static bool count_draining(Survey *s, Error *e)
 {
     const Drainage *d = s->drainage;
@@ -161,7 +162,7 @@ static bool count_draining(Survey *s, Error *e)
     return done;
 }
 
-// ---- what comes out
+// ---- results
 
 // exp of the slope of log(sums per stream) over the orders; NAN with fewer than three orders.
 static double horton_ratio(const Survey *s, int which)
@@ -172,7 +173,7 @@ static double horton_ratio(const Survey *s, int which)
         double value = which == 0   ? 1.0 / sums->streams
                        : which == 1 ? sums->length / sums->streams
                                     : sums->area / sums->streams;
-        // A last river that leaves the field after a few steps tells nothing of lengths.
+        // A last river that leaves the field after a few steps has no meaningful length.
         if (sums->streams > 0.0 && value > 0.0 && !(which == 1 && order == s->top)) {
             fit_add(&fit, order, exact_log(value));
         }

@@ -9,11 +9,11 @@ typedef struct Mesher {
     const HeightField *field;
     const HeightMeshParams *params;
     int side;        // cells
-    uint8_t *active; // samples that are corners
-    int32_t *vertex; // their place among the vertices; -1 = none yet
+    uint8_t *active; // 1 for samples that are vertices
+    int32_t *vertex; // per sample: its vertex index, -1 = none yet
     uint32_t *index;
     int64_t index_count, index_capacity;
-    int32_t *sample; // of each vertex
+    int32_t *sample; // per vertex: its sample
     int64_t vertex_count, vertex_capacity;
 } Mesher;
 
@@ -34,9 +34,9 @@ static Vec3 sample_position(const HeightField *field, int column, int row)
                 field->origin.y + (float)row * field->cell.y);
 }
 
-// ---- which samples are needed
+// ---- which samples are vertices
 
-// The error allowed at a sample, m.
+// Height error allowed at a sample, m.
 static float allowed(const Mesher *m, int column, int row)
 {
     const HeightMeshParams *params = m->params;
@@ -49,7 +49,7 @@ static float allowed(const Mesher *m, int column, int row)
     return error > params->error ? error : params->error;
 }
 
-// A needed sample needs the two that stand at the right angles of the triangles it splits.
+// A vertex requires the two right-angle corners of the triangles it splits.
 static void need(Mesher *m, int column, int row)
 {
     if (column >= 0 && row >= 0 && column <= m->side && row <= m->side) {
@@ -57,7 +57,7 @@ static void need(Mesher *m, int column, int row)
     }
 }
 
-// Middle of an axis-aligned edge of length 2 step along x (or z), if it is far from the edge.
+// Tests the midpoint of an axis-aligned edge of length 2 step along x (or z).
 static void judge_edge(Mesher *m, int column, int row, int step, bool along_x)
 {
     int dx = along_x ? step : 0, dz = along_x ? 0 : step;
@@ -70,10 +70,12 @@ static void judge_edge(Mesher *m, int column, int row, int step, bool along_x)
     }
 }
 
-// Middle of a square of side 2 step, split along the diagonal that its place in the hierarchy asks.
+// Tests the centre of a square of side 2 step, split along the diagonal that its position in the
+// hierarchy determines.
 static void judge_center(Mesher *m, int column, int row, int step)
 {
-    // Corners with both coordinates odd (or both even) in units of 2 step end the diagonal.
+    // Corners with both coordinates odd (or both even) in units of 2 step are the ends of the
+    // diagonal.
     int a = (column - step) / (2 * step), b = (row - step) / (2 * step);
     int turn = (a + b) % 2 == 0 ? 1 : -1;
     float mean = 0.5f * (height(m, column - step, row - turn * step) +
@@ -124,7 +126,7 @@ static bool add_corner(Mesher *m, Point p, Error *e)
     return true;
 }
 
-// The triangle with hypotenuse a b and its right angle at c, counter-clockwise from above.
+// Adds the triangle with hypotenuse a b and right angle at c, counter-clockwise from above.
 static bool add_triangle(Mesher *m, Point a, Point b, Point c, Error *e)
 {
     int gap_x = abs(a.column - c.column), gap_z = abs(a.row - c.row);

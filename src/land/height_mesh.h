@@ -1,5 +1,6 @@
-// A height field as triangles: many where it is rough and near the eye, few where it is even or far
-// away, and no cracks between (right-triangulated irregular network, Evans et al. 1997).
+// Meshes a height field adaptively: small triangles where it is rough and near the eye, large ones
+// where it is smooth or far away, without cracks (right-triangulated irregular network, Evans
+// 1997).
 #ifndef RAMIFY_LAND_HEIGHT_MESH_H
 #define RAMIFY_LAND_HEIGHT_MESH_H
 
@@ -7,20 +8,20 @@
 #include "land/height_field.h"
 
 typedef struct HeightMeshParams {
-    float error;     // m: largest height error where there is no eye
-    const Vec3 *eye; // in the field's space; NULL = the same error everywhere
-    float view;      // with an eye: the error allowed is this share of the distance to it, if more
-    float nearest;   // m: distances count as no less than this
-    const uint8_t *keep; // of each sample: 1 = a corner, however even the land; NULL = none
+    float error;     // m: largest height error without an eye
+    const Vec3 *eye; // in the field's space; NULL = uniform error
+    float view;      // with an eye: the allowed error is this fraction of the distance to it, if
+                     // larger
+    float nearest;   // m: lower bound of distances
+    const uint8_t *keep; // per sample: 1 = always a vertex; NULL = none
 } HeightMeshParams;
 
-// Triangles over all of a square field whose side is a power of two cells (ERROR_INPUT otherwise).
-// Normals come from the full field; uv are metres in the plane; Mesh.site holds the altitude (0..1
-// between the lowest and the highest sample) and the wetness.
+// Triangulates a square field whose side is a power of two cells (else ERROR_INPUT). Normals come
+// from the full field; uv are metres in the plane; Mesh.site holds the altitude (0..1 between the
+// lowest and the highest sample) and the wetness. The caller frees it with mesh_free.
 Mesh *height_mesh_new(const HeightField *field, const HeightMeshParams *params, Error *e);
 
-// The height at any place of the mesh whose corners are all samples; beyond the rim that of the
-// rim.
+// Height of the mesh that uses all samples, at any point; outside the field, that of the rim.
 float height_mesh_finest_at(const HeightField *field, float x, float z);
 
 #endif

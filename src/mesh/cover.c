@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_CELLS = 256 }; // a side
+enum { MAX_CELLS = 256 }; // cells per side
 
 typedef struct Triangle {
     Vec3 a, b, c;
@@ -14,10 +14,10 @@ typedef struct Triangle {
 struct Cover {
     Triangle *triangle;
     int64_t count, capacity;
-    float x, z, width, depth; // of all triangles, in the plane
+    float x, z, width, depth; // bounds of all triangles in the plane
     int side;                 // cells
-    int64_t *start;           // of each cell in item; side * side + 1
-    int32_t *item;            // triangles
+    int64_t *start;           // per cell, its first index in item; side * side + 1 entries
+    int32_t *item;            // triangle indices
 };
 
 Cover *cover_new(Error *e)
@@ -65,7 +65,7 @@ static int cell_of(float x, float low, float extent, int side)
     return (int)clampf(t, 0.0f, (float)(side - 1));
 }
 
-// The cells that a triangle's bounds touch: columns, then rows.
+// Range of cells that a triangle's bounds overlap: columns, then rows.
 static void cells_of(const Cover *cover, const Triangle *t, int range[4])
 {
     range[0] = cell_of(least(t->a.x, t->b.x, t->c.x), cover->x, cover->width, cover->side);
@@ -74,7 +74,8 @@ static void cells_of(const Cover *cover, const Triangle *t, int range[4])
     range[3] = cell_of(-least(-t->a.z, -t->b.z, -t->c.z), cover->z, cover->depth, cover->side);
 }
 
-// Counts triangles of cells (item NULL) or enters them; start[i + 1] counts up from cell i's start.
+// Counts the triangles per cell (item NULL) or stores them; start[i + 1] is cell i's counter or
+// write position.
 static void enter_all(Cover *cover)
 {
     for (int64_t i = 0; i < cover->count; i++) {
@@ -110,7 +111,7 @@ bool cover_finish(Cover *cover, Error *e)
 {
     find_bounds(cover);
     cover->side = 1;
-    while (cover->side < MOST_CELLS && (int64_t)cover->side * cover->side < cover->count) {
+    while (cover->side < MAX_CELLS && (int64_t)cover->side * cover->side < cover->count) {
         cover->side *= 2;
     }
     int64_t cells = (int64_t)cover->side * cover->side;
@@ -119,7 +120,7 @@ bool cover_finish(Cover *cover, Error *e)
         return false;
     }
     enter_all(cover);
-    // What cell i holds stands in start[i + 1]: sums of all before it, as enter_all wants them.
+    // prefix sums: start[i + 1] becomes cell i's first index, as enter_all expects
     int64_t sum = 0;
     for (int64_t i = 0; i <= cells; i++) {
         int64_t own = cover->start[i + 1];
@@ -134,11 +135,11 @@ bool cover_finish(Cover *cover, Error *e)
     return true;
 }
 
-// The height of a triangle over (x, z), if it has one there; *up: does it look up?
+// Height of a triangle above (x, z), if it covers that point; *up: whether it faces up.
 static bool height_over(const Triangle *t, float x, float z, float *height, bool *up)
 {
     float bx = t->b.x - t->a.x, bz = t->b.z - t->a.z, cx = t->c.x - t->a.x, cz = t->c.z - t->a.z;
-    float area = bz * cx - bx * cz; // positive seen from above, counter-clockwise
+    float area = bz * cx - bx * cz; // positive if counter-clockwise seen from above
     float px = x - t->a.x, pz = z - t->a.z;
     float u = pz * cx - px * cz, v = bz * px - bx * pz;
     if (area < 0.0f) {

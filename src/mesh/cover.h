@@ -1,4 +1,4 @@
-// Which places lie under a surface that looks up: land under water.
+// Tests which points lie below an upward-facing surface, such as land under water.
 #ifndef RAMIFY_MESH_COVER_H
 #define RAMIFY_MESH_COVER_H
 
@@ -6,16 +6,16 @@
 
 typedef struct Cover Cover;
 
-// An empty cover, then meshes: their triangles (quads as two) are copied.
+// Creates an empty cover; cover_add copies a mesh's triangles (quads as two).
 Cover *cover_new(Error *e);
 bool cover_add(Cover *cover, const Mesh *mesh, Error *e);
 void cover_free(Cover *cover); // NULL is fine
 
-// Sorts the triangles by place: once, after the last mesh and before any cover_hides.
+// Builds the grid; called once, after the last mesh and before any cover_hides.
 bool cover_finish(Cover *cover, Error *e);
 
-// Whether the nearest surface straight above p looks up: p lies in a body, or under an open sheet.
-// A body that hangs in the air above p shows it its lower side, and hides nothing.
+// Whether the nearest surface vertically above p faces up: p is inside a body or under an open
+// sheet. A body floating above p shows its lower side and hides nothing.
 bool cover_hides(const Cover *cover, Vec3 p);
 
 #endif

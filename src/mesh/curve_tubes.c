@@ -9,7 +9,7 @@ typedef struct TubeBuilder {
     Mesh *mesh;
     int sides;
     float cosine[CURVE_TUBE_SIDES_MOST], sine[CURVE_TUBE_SIDES_MOST];
-    int64_t vertex, triangle; // made so far
+    int64_t vertex, triangle; // number written so far
 } TubeBuilder;
 
 void curve_tubes_count(const CurveSet *curves, int64_t first, int64_t count, int sides,
@@ -61,7 +61,8 @@ static void add_cap(TubeBuilder *builder, int64_t point, Vec3 direction, float r
                direction, (Vec2){0.0f, builder->curves->along[point]}, radius);
 }
 
-// From point i toward point i + 1 of curve points first .. last; `before` where the two coincide.
+// Unit direction from point i to point i + 1 of a curve with points first .. last; `before` if the
+// two coincide.
 static Vec3 segment_direction(const CurveSet *curves, int64_t i, Vec3 before)
 {
     Vec3 step = vec3_sub(curves->position[i + 1], curves->position[i]);
@@ -77,7 +78,7 @@ static Vec3 first_direction(const CurveSet *curves, int64_t first, int64_t last)
     return vec3_dot(direction, direction) > 0.0f ? direction : vec3(0, 1, 0);
 }
 
-// The mean of two unit directions; the second where they are opposed.
+// Mean of two unit directions; the second if they are opposite.
 static Vec3 mean_direction(Vec3 a, Vec3 b)
 {
     Vec3 sum = vec3_add(a, b);
@@ -122,7 +123,7 @@ static void add_tube(TubeBuilder *builder, int64_t curve)
     for (int64_t i = first; i <= last; i++) {
         Vec3 ahead = i < last ? segment_direction(curves, i, behind) : behind;
         Vec3 direction = i > first ? mean_direction(behind, ahead) : ahead;
-        x = vec3_madd(x, -vec3_dot(x, direction), direction); // turns as little as it can
+        x = vec3_madd(x, -vec3_dot(x, direction), direction); // rotation-minimising
         x = vec3_dot(x, x) > 1e-6f ? vec3_normalize(x) : vec3_perpendicular(direction);
         add_ring(builder, i, direction, x, fmaxf(curves->radius[i], least));
         if (i > first) {

@@ -1,4 +1,4 @@
-// Round curves: twigs, hairs, grass. Chains of points with radii, traced as linear round segments.
+// Round curves (twigs, hairs, grass): polylines with radii, traced as linear round segments.
 #ifndef RAMIFY_MESH_CURVES_H
 #define RAMIFY_MESH_CURVES_H
 
@@ -12,10 +12,10 @@ typedef struct CurveSet {
     Vec3 *position; // m, per point
     float *radius;  // m, per point
     float *birth;   // 0..1, per point
-    float *along;   // m along the branch from its start, per point: for textures
-    float *glow;  // factor on the radiance of an emitting material, per point; NULL = 1 (curves_new
-                  // leaves it out; allocate it with memory_alloc and hand it over)
-    uint64_t *id; // per curve: a stable name, for draws that shall stay with the curve
+    float *along;   // m along the branch from its start, per point; for textures
+    float *glow;    // factor on the radiance of an emitting material, per point; NULL = 1 (not
+                    // allocated by curves_new; allocate with memory_alloc, the set takes ownership)
+    uint64_t *id;   // per curve: stable name that keys its random draws
     int64_t *first; // curve_count + 1 entries: curve i has points first[i] .. first[i + 1] - 1, at
                     // least 2
 } CurveSet;

@@ -1,5 +1,5 @@
-// Geometry: the parts a model is made of, on its way to the ray tracer and the exporters. Every
-// part names its material by index into the scene's list.
+// Geometry: the parts of a model, passed to the ray tracer and the exporters. Every part refers to
+// its material by index into the scene's list.
 #ifndef RAMIFY_MESH_GEOMETRY_H
 #define RAMIFY_MESH_GEOMETRY_H
 
@@ -16,8 +16,8 @@ typedef struct Part {
     Mesh *mesh;          // PART_MESH, owned
     CurveSet *curves;    // PART_CURVES, owned
     int material;        // index into World.materials
-    int object;          // index of the scene's object it belongs to, for the object-id AOV
-    Transform *instance; // owned; instance_count transforms; NULL = drawn once, as it is
+    int object;          // index of its object in the scene, for the object-id AOV
+    Transform *instance; // owned; instance_count transforms; NULL = drawn once, untransformed
     float *variation;    // owned; 0..1 per instance, for colour variation; NULL = hashed from the
                          // instance's index
     int64_t instance_count;
@@ -28,23 +28,23 @@ typedef struct Geometry {
     int64_t count, capacity;
 } Geometry;
 
-// The variation of one of the part's instances.
+// Colour variation of one of the part's instances.
 static inline float part_variation(const Part *part, int64_t instance)
 {
     return part->variation ? part->variation[instance]
                            : random_unit(random_key((uint64_t)part->object, (uint64_t)instance));
 }
 
-// Takes ownership of mesh, curves, instance and variation, also when it fails.
+// Appends a part. Takes ownership of mesh, curves, instance and variation, even on failure.
 bool geometry_add(Geometry *geometry, Part part, Error *e);
-void geometry_clear(Geometry *geometry); // frees the parts, leaves an empty Geometry
+void geometry_clear(Geometry *geometry); // frees the parts and empties the Geometry
 
-// The part's mesh copied to every instance's place, as one mesh: cheaper to trace than instances
-// where they are many, small and far away, and instances of it are possible again.
+// Copies the part's mesh to every instance as one mesh, which traces faster than many small distant
+// instances and can be instanced again. The caller frees it with mesh_free.
 Mesh *geometry_bake(const Part *part, const Run *run, Error *e);
 
 typedef struct GeometryCounts {
-    int64_t triangles; // stored once; a quad counts as two
+    int64_t triangles; // counted once per part; a quad counts as two
     int64_t curve_segments;
     int64_t instances;
     int64_t bytes;

@@ -23,7 +23,7 @@ static Aabb own_bounds(const Part *part)
     return box;
 }
 
-// Of an instance: the box around its own box's corners.
+// Extends the box by an instance: the corners of its own box, transformed.
 static void take_in_instance(Aabb *box, Aabb own, const Transform *instance)
 {
     for (int i = 0; i < 8; i++) {

@@ -7,14 +7,15 @@
 #include <string.h>
 
 #define MARGIN_VOXELS \
-    10.0f // how far from its surface a bar is known: a block's half diagonal and the band
-#define CELL_VOXELS 16.0f // about: a cell lists the bars that are known somewhere in it
+    10.0f // distance from a bar's surface up to which its field is evaluated: a block's half
+          // diagonal and the band
+#define CELL_VOXELS 16.0f // approximately; a cell lists the bars that are evaluated somewhere in it
 
-// What a cylinder's squared radius loses, voxels^2: the surface's chords cut its curve; a step of
-// the flow takes 1/3 by its time, and making distances of the result to first order takes the rest.
-// Measured on cylinders of 2 to 5 voxels' radius.
+// Loss of a cylinder's squared radius, voxels^2: chords of the surface cut the curve; a smoothing
+// step takes 1/3 by its time, and first-order redistancing the rest. Measured on cylinders of 2 to
+// 5 voxels' radius.
 #define LOST_BY_CHORDS 0.41f
-#define LOST_BY_A_STEP 0.54f
+#define LOST_BY_STEP 0.54f
 
 bool lattice_add(Lattice *lattice, Bar bar, Error *e)
 {
@@ -44,10 +45,9 @@ void lattice_clear(Lattice *lattice)
     *lattice = (Lattice){0};
 }
 
-// ---- finding the bars about a point ----
+// ---- bars near a point ----
 
-// Cells of a hash table, each with the bars that may be near; list entries of one cell lie
-// together.
+// Hash table of cells with the bars that may be near; the entries of one cell are contiguous.
 typedef struct Entry {
     uint64_t cell;
     int32_t bar;
@@ -59,9 +59,9 @@ typedef struct BarGrid {
     float grow;         // m^2, added to squared radii
     Vec3 low;
     int64_t size[3];
-    Entry *entry; // by cell, then bar
+    Entry *entry; // sorted by cell, then bar
     int64_t count, capacity;
-    int64_t *slot; // hash table of the first entry of a cell; -1 = none
+    int64_t *slot; // hash table: first entry of a cell; -1 = none
     uint64_t mask;
 } BarGrid;
 
@@ -101,7 +101,7 @@ static Aabb bar_box(const BarGrid *grid, const Bar *bar)
                   vec3_add(vec3_max(bar->a, bar->b), reach)};
 }
 
-// Enters the bar in the cells that it may be near.
+// Adds the bar to the cells that it may be near.
 static bool enter_bar(BarGrid *grid, int32_t number, Error *e)
 {
     const Bar *bar = &grid->bar[number];
@@ -217,7 +217,7 @@ Mesh *lattice_surface(const Lattice *lattice, float voxel, int smoothing, const 
     BarGrid grid = {.bar = lattice->bar,
                     .cell = CELL_VOXELS * voxel,
                     .margin = MARGIN_VOXELS * voxel,
-                    .grow = (LOST_BY_CHORDS + LOST_BY_A_STEP * (float)smoothing) * voxel * voxel};
+                    .grow = (LOST_BY_CHORDS + LOST_BY_STEP * (float)smoothing) * voxel * voxel};
     Aabb box = aabb_empty();
     for (int64_t i = 0; i < lattice->count; i++) {
         box = aabb_union(box, bar_box(&grid, &lattice->bar[i]));

@@ -5,10 +5,23 @@
 
 #include <stddef.h>
 
-// A leaf is a grid of rows along the midrib and columns across, and a three-sided stalk below it.
+// A leaf is a grid of rows along the midrib and columns across, with a three-sided stalk below it.
 enum { STALK_SIDES = 3, BLADE_ROWS = 4 };
 
-// The grid that a leaf's blade is.
+enum { STREAM_LOBE_PHASE = 1, STREAM_LOBE_SHIFT = 2 }; // of a leaf
+
+// Random streams of a grass blade.
+enum {
+    STREAM_AZIMUTH = 1,
+    STREAM_DISTANCE = 2,
+    STREAM_TURN = 3,
+    STREAM_HEIGHT = 4,
+    STREAM_WIDTH = 5,
+    STREAM_LEAN = 6,
+    STREAM_BEND = 7
+};
+
+// Grid of a leaf's blade.
 typedef struct LeafGrid {
     int rows, columns;
 } LeafGrid;
@@ -22,7 +35,7 @@ static LeafGrid leaf_grid(const LeafParams *params)
     return (LeafGrid){(fine ? 6 : 2) * params->lobes + 1, fine ? 5 : 3};
 }
 
-// Half width of the blade at t in 0..1 along it, as a share of the largest: an obovate oval, widest
+// Half width of the blade at t in 0..1 along it, relative to the largest: an obovate oval, widest
 // at 0.62, cut by the bays between the lobes.
 static float outline(const LeafParams *params, float t, float phase)
 {
@@ -33,20 +46,19 @@ static float outline(const LeafParams *params, float t, float phase)
     }
     float sine, cosine;
     exact_sincos(2.0f * PI_F * ((float)params->lobes * t + phase), &sine, &cosine);
-    // Bays are narrow and lobes broad: square the raised cosine.
+    // The squared raised cosine makes bays narrow and lobes broad.
     float bay = 0.5f + 0.5f * cosine;
     float reach = smoothstepf(0.02f, 0.25f, t) * smoothstepf(1.02f, 0.8f, t);
     return oval * (1.0f - params->lobe_depth * bay * bay * reach);
 }
 
-// One vertex of the blade: x across, s along the midrib, folded, rippled and curled.
+// A vertex of the blade: x across, t along the midrib, folded, rippled and curled.
 static Vec3 blade_point(const LeafParams *params, float x, float t, float ripple)
 {
     float fold_sine, fold_cosine, sine, cosine;
     exact_sincos(params->fold * RADIANS_PER_DEGREE, &fold_sine, &fold_cosine);
     float lift = (x < 0.0f ? -x : x) * fold_sine + ripple;
-    // The midrib is an arc that turns by `curl` over the blade's length, with half of it past the
-    // middle.
+    // The midrib bends by `curl` over the blade's length, mostly toward the tip.
     float angle = params->curl * RADIANS_PER_DEGREE * t * t;
     exact_sincos(angle, &sine, &cosine);
     float along = params->petiole + params->length * t * (1.0f - 0.12f * angle * angle);
@@ -56,13 +68,13 @@ static Vec3 blade_point(const LeafParams *params, float x, float t, float ripple
 
 static void add_blade(Mesh *mesh, const LeafParams *params, LeafGrid grid, uint64_t seed)
 {
-    float phase = random_range(random_key(seed, 1), -0.15f, 0.15f);
-    float side_shift = random_range(random_key(seed, 2), 0.1f, 0.35f);
+    float phase = random_range(random_key(seed, STREAM_LOBE_PHASE), -0.15f, 0.15f);
+    float side_shift = random_range(random_key(seed, STREAM_LOBE_SHIFT), 0.1f, 0.35f);
     for (int r = 0; r < grid.rows; r++) {
         float t = (float)r / (float)(grid.rows - 1);
         for (int c = 0; c < grid.columns; c++) {
             float across = (float)c / (float)(grid.columns - 1) * 2.0f - 1.0f;
-            // Lobes of the two sides do not quite face each other.
+            // The lobes of the two sides are slightly offset.
             float half = outline(params, clampf(t, 0.012f, 0.985f),
                                  phase + (across < 0.0f ? side_shift : 0.0f));
             float x = 0.5f * params->width * half * across;
@@ -94,7 +106,7 @@ static void add_stalk(Mesh *mesh, const LeafParams *params, int64_t first_vertex
         for (int k = 0; k < STALK_SIDES; k++) {
             float sine, cosine;
             exact_sincos(2.0f * PI_F * (float)k / STALK_SIDES, &sine, &cosine);
-            // The stalk runs on under the blade's base, where the midrib takes over.
+            // The stalk continues below the blade's base, where the midrib begins.
             float y = end ? params->petiole + 0.04f * params->length : 0.0f;
             int64_t v = first_vertex + (int64_t)end * STALK_SIDES + k;
             mesh->position[v] = vec3(thickness * cosine, y, thickness * (sine - 0.8f));
@@ -133,21 +145,21 @@ Mesh *leaf_mesh_new(const LeafParams *params, uint64_t seed, Error *e)
     return mesh;
 }
 
-// One blade: BLADE_ROWS pairs of vertices along an arc that leaves the ground at `lean` and bends
-// over.
+// One blade: BLADE_ROWS pairs of vertices along an arc that leaves the ground at angle `lean` and
+// bends over.
 static void add_grass_blade(Mesh *mesh, const GrassParams *params, int blade, uint64_t key)
 {
     float sine, cosine;
-    exact_sincos(random_range(random_key(key, 1), 0.0f, 2.0f * PI_F), &sine, &cosine);
+    exact_sincos(random_range(random_key(key, STREAM_AZIMUTH), 0.0f, 2.0f * PI_F), &sine, &cosine);
     Vec3 out = vec3(cosine, 0, sine), side = vec3(-sine, 0, cosine);
-    float place = params->spread * sqrtf(random_unit(random_key(key, 2)));
-    float turn = random_range(random_key(key, 3), 0.0f, 2.0f * PI_F);
+    float place = params->spread * sqrtf(random_unit(random_key(key, STREAM_DISTANCE)));
+    float turn = random_range(random_key(key, STREAM_TURN), 0.0f, 2.0f * PI_F);
     exact_sincos(turn, &sine, &cosine);
     Vec3 p = vec3(place * cosine, 0, place * sine);
-    float height = params->height * random_range(random_key(key, 4), 0.45f, 1.0f);
-    float width = params->width * random_range(random_key(key, 5), 0.6f, 1.0f);
-    float lean = params->lean * random_unit(random_key(key, 6));
-    float bend = params->bend * random_unit(random_key(key, 7));
+    float height = params->height * random_range(random_key(key, STREAM_HEIGHT), 0.45f, 1.0f);
+    float width = params->width * random_range(random_key(key, STREAM_WIDTH), 0.6f, 1.0f);
+    float lean = params->lean * random_unit(random_key(key, STREAM_LEAN));
+    float bend = params->bend * random_unit(random_key(key, STREAM_BEND));
     int64_t first = (int64_t)blade * BLADE_ROWS * 2;
     for (int r = 0; r < BLADE_ROWS; r++) {
         float t = (float)r / (BLADE_ROWS - 1);

@@ -1,36 +1,36 @@
-// Leaves and tufts of grass as small quad meshes, to be instanced by the hundred thousand.
+// Leaves and grass tufts as small quad meshes, to be instanced by the hundred thousand.
 #ifndef RAMIFY_MESH_LEAF_H
 #define RAMIFY_MESH_LEAF_H
 
 #include "base/mesh.h"
 
-// A leaf whose stalk starts at the origin and whose blade lies along +Y, upper side facing +Z.
-// Lengths in metres.
+// A leaf whose stalk starts at the origin, with the blade along +Y, upper side facing +Z. Lengths
+// in metres.
 typedef struct LeafParams {
     float length, width; // of the blade
     float petiole;       // length of the stalk; its base is the origin
-    float fold;          // degrees that each half is folded up about the midrib
-    float curl;          // degrees that the blade bends down from base to tip
-    float wave;          // ripple of the edge, as a share of the width
-    int lobes;           // a side, rounded as an oak's; 0 = a plain oval
-    float lobe_depth;    // of the bays between lobes, as a share of the half width
+    float fold;          // degrees by which each half is folded up about the midrib
+    float curl;          // degrees by which the blade bends down from base to tip
+    float wave;          // ripple amplitude of the edge, relative to the width
+    int lobes;           // per side, rounded as an oak's; 0 = a plain oval
+    float lobe_depth;    // depth of the bays between lobes, relative to the half width
     int detail;          // 1 = about 25 quads, for whole trees; 2 = about 110, for close-ups
 } LeafParams;
 
 // uv: u 0..1 across (0.5 = midrib), v 0..1 along the blade (0 on the stalk). seed varies the
-// outline a little.
+// outline slightly. The caller frees the mesh with mesh_free.
 Mesh *leaf_mesh_new(const LeafParams *params, uint64_t seed, Error *e);
 
 // A tuft of bent blades about the origin, growing along +Y.
 typedef struct GrassParams {
     int blades;
     float height, width; // m, of the tallest and widest blade
-    float spread;        // m, radius of the circle the blades stand in
-    float lean;          // degrees from the vertical at the base, at most
-    float bend;          // degrees more at the tip, at most
+    float spread;        // m, radius of the circle that holds the blades' bases
+    float lean;          // degrees, largest angle to the vertical at the base
+    float bend;          // degrees, largest further bend at the tip
 } GrassParams;
 
-// uv: u 0..1 across, v 0..1 from the root to the tip.
+// uv: u 0..1 across, v 0..1 from the root to the tip. The caller frees the mesh with mesh_free.
 Mesh *grass_tuft_new(const GrassParams *params, uint64_t seed, Error *e);
 
 #endif

@@ -15,7 +15,8 @@ namespace Far = OpenSubdiv::Far;
 namespace
 {
 
-// A LimitPoint as OpenSubdiv wants its data: weighted sums of all but the normal.
+// A LimitPoint in the form that OpenSubdiv interpolates: weighted sums of all members except the
+// normal.
 struct Sample {
     Vec3 position;
     Vec2 uv;
@@ -70,7 +71,7 @@ std::unique_ptr<Far::TopologyRefiner> make_refiner(const LimitPatch &patch, int 
     return refiner;
 }
 
-// The samples of the last level, level by level from the cage.
+// Samples of the last level, refined level by level from the cage.
 std::vector<Sample> refine_samples(const LimitPatch &patch, const Far::TopologyRefiner &refiner)
 {
     Far::PrimvarRefiner interpolator(refiner);
@@ -87,12 +88,12 @@ std::vector<Sample> refine_samples(const LimitPatch &patch, const Far::TopologyR
     return coarse;
 }
 
-// Writes the points over one cage face by walking down its four children at each level: child k
-// of a quad keeps its corners' order, so it covers the quarter at corner k.
+// Writes the points of one cage face by descending into its four children at each level: child k of
+// a quad keeps the order of corners, so it covers the quarter at corner k.
 struct GridWriter {
     const Far::TopologyRefiner &refiner;
     const std::vector<LimitPoint> &limit;
-    LimitPoint *grid; // of the face at hand
+    LimitPoint *grid; // of the current face
     int side;         // points along one side of the grid
 
     void write(int level, int face, int x, int y, int size)

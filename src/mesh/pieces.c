@@ -7,9 +7,9 @@
 
 typedef struct Splitting {
     const Mesh *mesh;
-    uint32_t *group;           // per vertex: union-find, then the number of its piece
-    uint32_t *place;           // per vertex: its index in its piece
-    int64_t *vertices, *faces; // per piece
+    uint32_t *group;           // per vertex: union-find parent, then the number of its component
+    uint32_t *place;           // per vertex: its index in its component
+    int64_t *vertices, *faces; // per component
 } Splitting;
 
 static uint32_t find_root(uint32_t *group, uint32_t i)
@@ -21,7 +21,7 @@ static uint32_t find_root(uint32_t *group, uint32_t i)
     return i;
 }
 
-// Joins the vertices of every face; the root of a group is its first vertex.
+// Unites the vertices of every face; the root of a group is its first vertex.
 static void unite(Splitting *s)
 {
     int n = s->mesh->face_size;
@@ -37,21 +37,22 @@ static void unite(Splitting *s)
     }
 }
 
-// Numbers the groups and counts what each has; returns how many there are.
+// Numbers the groups and counts their vertices and faces; returns the number of groups.
 static int64_t number(Splitting *s)
 {
     int64_t count = 0;
     for (int64_t i = 0; i < s->mesh->vertex_count; i++) {
         uint32_t root = find_root(s->group, (uint32_t)i);
         if (root == (uint32_t)i) {
-            s->place[i] = (uint32_t)count++; // of roots for now: the piece's number
+            s->place[i] = (uint32_t)count++; // for roots, temporarily the component's number
         }
     }
     for (int64_t i = 0; i < s->mesh->vertex_count; i++) {
         s->group[i] = find_root(s->group, (uint32_t)i);
     }
     for (int64_t i = s->mesh->vertex_count - 1; i >= 0; i--) {
-        s->group[i] = s->place[s->group[i]]; // a root comes first in its group, so is turned last
+        s->group[i] = s->place[s->group[i]]; // a root precedes its group, so in reverse order it is
+                                             // replaced last
     }
     for (int64_t i = 0; i < s->mesh->vertex_count; i++) {
         s->place[i] = (uint32_t)s->vertices[s->group[i]]++;
@@ -77,7 +78,7 @@ static bool make_pieces(const Splitting *s, MeshPieces *pieces, int64_t count, E
             return false;
         }
         pieces->piece[i] = piece;
-        piece->face_count = 0; // counts up while they are filled in
+        piece->face_count = 0; // used as a counter while faces are filled in
     }
     for (int64_t i = 0; i < mesh->vertex_count; i++) {
         Mesh *piece = pieces->piece[s->group[i]];

@@ -7,18 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Wanted faces a patch: about 32,000 fine faces, some tens of MB inside OpenSubdiv.
+// Wanted faces per patch: about 32,000 fine faces, some tens of MB inside OpenSubdiv.
 static int64_t patch_size(int level)
 {
     int64_t size = (int64_t)32768 >> (2 * level);
     return size < 32 ? 32 : size;
 }
 
-// What one thread needs to cut patches out of the cage.
+// Per-thread workspace for cutting patches out of the cage.
 typedef struct PatchCutter {
     const Mesh *cage;
     const RefineLayout *layout;
-    int32_t *local_vertex; // per cage vertex: its number in the patch, -1 = not in it
+    int32_t *local_vertex; // per cage vertex: its index in the patch, -1 = not in it
     uint8_t *in_patch;     // per cage face
     LimitPatch patch;
     uint32_t *face;   // cage faces of the patch
@@ -97,7 +97,7 @@ static void cutter_reset(PatchCutter *cutter)
     cutter->patch.face_count = cutter->patch.vertex_count = cutter->patch.wanted_count = 0;
 }
 
-// The wanted faces, then every face around their vertices.
+// Collects the wanted faces, then every face around their vertices.
 static bool cut_patch(PatchCutter *cutter, const uint32_t *wanted, int64_t count, Error *e)
 {
     cutter_reset(cutter);
@@ -135,7 +135,7 @@ static void store_point(Mesh *mesh, int64_t i, const LimitPoint *point)
     }
 }
 
-// Stores those points of a face's grid that belong to the face.
+// Stores those points of a face's grid that the face owns.
 static void store_grid(Mesh *mesh, const RefineLayout *layout, uint32_t face,
                        const LimitPoint *grid)
 {
@@ -167,8 +167,7 @@ static bool refine_patch(PatchCutter *cutter, const uint32_t *wanted, int64_t co
     return true;
 }
 
-// Where each patch starts in layout->order (faces sorted by level); NULL and e when memory is
-// short.
+// Start of each patch in layout->order (faces sorted by level); NULL and e when out of memory.
 static int64_t *divide_into_patches(const RefineLayout *layout, int64_t face_count,
                                     int64_t *patch_count, Error *e)
 {

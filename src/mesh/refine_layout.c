@@ -17,7 +17,7 @@ static bool gather_rings(RefineLayout *layout, Error *e)
     if (!layout->ring_first || !layout->ring_face) {
         return false;
     }
-    // Counted two places further on, so that filling moves each start to where it belongs.
+    // Counts offset by two, so that filling shifts each start to its place.
     for (int64_t i = 0; i < cage->face_count * 4; i++) {
         layout->ring_first[cage->index[i] + 2]++;
     }
@@ -30,7 +30,7 @@ static bool gather_rings(RefineLayout *layout, Error *e)
     return true;
 }
 
-// The face on the other side of side k of a face, and which of its sides it is; -1 at a border.
+// The face across side k of a face, and which of its sides that is; -1 at a border.
 static int64_t neighbour(const RefineLayout *layout, uint32_t face, int k, int *side)
 {
     uint32_t from = corner_of(layout, face, k), to = corner_of(layout, face, k + 1);
@@ -100,15 +100,14 @@ static int edge_size(const RefineLayout *layout, uint32_t face, int k)
     return 1 << layout->face_level[layout->edge_owner[edge]];
 }
 
-// Triangles of a face: two for every inner square, and strips that meet the edges' points.
+// Triangles of a face: two per inner square, and strips that connect to the edges' points.
 static int64_t triangle_count(const RefineLayout *layout, uint32_t face)
 {
     int64_t size = 1 << layout->face_level[face], boundary = 0;
     for (int k = 0; k < 4; k++) {
         boundary += edge_size(layout, face, k);
     }
-    // A grid of (size - 2)^2 squares inside; its rim has 4 (size - 2) sides (a point when size =
-    // 2).
+    // (size - 2)^2 squares inside; their rim has 4 (size - 2) sides (a point if size = 2).
     return 2 * (size - 2) * (size - 2) + boundary + 4 * (size - 2);
 }
 
@@ -135,7 +134,7 @@ static bool number_points(RefineLayout *layout, Error *e)
     return true;
 }
 
-// Counting sort: patches are cut from faces of one level that lie near each other.
+// Counting sort: patches are cut from faces of one level that are close to each other.
 static bool sort_by_level(RefineLayout *layout, Error *e)
 {
     int64_t faces = layout->cage->face_count, next = 0;
@@ -174,7 +173,7 @@ void refine_layout_clear(RefineLayout *layout)
     free(layout->order);
 }
 
-// Point i of 0..edge_size along side k, walked from corner k to corner k + 1.
+// Point i of 0..edge_size along side k, from corner k to corner k + 1.
 static int64_t side_point(const RefineLayout *layout, uint32_t face, int k, int i)
 {
     int size = edge_size(layout, face, k);
@@ -186,8 +185,8 @@ static int64_t side_point(const RefineLayout *layout, uint32_t face, int k, int 
     return first + (from < to ? i : size - i) - 1;
 }
 
-// Which side of a grid of size x size squares the point is on (walked as in side_point, *along from
-// its first corner); -1 inside.
+// Side of a grid of size x size squares that the point is on (*along as in side_point, from its
+// first corner); -1 inside.
 static int which_side(int x, int y, int size, int *along)
 {
     int side = y == 0 ? 0 : (x == size ? 1 : (y == size ? 2 : (x == 0 ? 3 : -1)));
@@ -217,7 +216,7 @@ int64_t refine_layout_owned(const RefineLayout *layout, uint32_t face, int x, in
     return layout->edge_owner[edge] == face ? side_point(layout, face, side, along) : -1;
 }
 
-// Point (x, y) of a face whose edges are all as fine as itself.
+// Point (x, y) of a face whose edges are all at its own level.
 static uint32_t grid_point(const RefineLayout *layout, uint32_t face, int x, int y)
 {
     int along, side = which_side(x, y, 1 << layout->face_level[face], &along);
@@ -255,7 +254,8 @@ static int64_t rim_point(const RefineLayout *layout, uint32_t face, int k, int i
     return inner_point(layout, face, x[k], y[k]);
 }
 
-// Zips the edge's points together with the rim's, always advancing on the side that lags.
+// Triangulates between the edge's points and the rim's, always advancing on the side that is
+// behind.
 static uint32_t *write_strip(const RefineLayout *layout, uint32_t face, int k, uint32_t *out)
 {
     int size = 1 << layout->face_level[face], fine = edge_size(layout, face, k);

@@ -2,7 +2,7 @@
 #include "base/memory.h"
 #include "skin/plan.h"
 
-// ---- the chain's nodes, relaxed ----
+// ---- relaxed chain nodes ----
 
 static bool gather_nodes(SkinPlan *plan, const SkinChain *chain, int64_t *count, Error *e)
 {
@@ -49,7 +49,8 @@ static void measure_nodes(SkinNode *node, int64_t count)
 
 // ---- filtering ----
 
-// The polyline through the nodes at a distance from its start. *k is the segment of the last call.
+// Point of the polyline through the nodes at an arc length from its start. *k is the segment of the
+// last call.
 static SkinNode polyline_at(const SkinNode *node, int64_t count, float along, int64_t *k)
 {
     while (*k > 0 && node[*k].along > along) {
@@ -68,8 +69,8 @@ static SkinNode polyline_at(const SkinNode *node, int64_t count, float along, in
                       lerpf(a->birth, b->birth, t)};
 }
 
-// The polyline continued beyond its ends by its own point reflection, so that filtering leaves the
-// ends in place.
+// The polyline, extended beyond its ends by point reflection, so that filtering leaves the ends in
+// place.
 static SkinNode reflected_at(const SkinNode *node, int64_t count, float along, int64_t *k)
 {
     float length = node[count - 1].along;
@@ -86,7 +87,7 @@ static SkinNode reflected_at(const SkinNode *node, int64_t count, float along, i
 // Tent filter of half width w.
 static SkinNode filtered_at(const SkinNode *node, int64_t count, float along, float w, int64_t *k)
 {
-    enum { TAPS = 5 }; // each side of the middle
+    enum { TAPS = 5 }; // on either side of the centre
     SkinNode sum = {.along = along};
     float total = 0.0f;
     for (int i = -TAPS; i <= TAPS; i++) {
@@ -117,12 +118,13 @@ static bool add_point(SkinPlan *plan, const SkinNode *node, Error *e)
     return true;
 }
 
-// Samples the filtered polyline about every half radius; `along` is still that of the polyline.
+// Samples the filtered polyline about every half radius; `along` is still the polyline's arc
+// length.
 static bool sample_axis(SkinPlan *plan, SkinChain *chain, int64_t count, Error *e)
 {
     const SkinNode *node = plan->raw;
     float length = node[count - 1].along;
-    // A bound on the number of samples, for hair-thin chains.
+    // Limits the number of samples of very thin chains.
     float least_step = length / (float)(8 * count + 64);
     int64_t k = 0, at = 0;
     chain->axis = plan->point_count;
@@ -144,8 +146,9 @@ static bool sample_axis(SkinPlan *plan, SkinChain *chain, int64_t count, Error *
     return true;
 }
 
-// A tube cannot bend more tightly than its own radius: samples where the axis turns within less
-// than 1.4 radii are drawn towards their neighbours until it does not (or enough has been tried).
+// A tube cannot bend more tightly than its own radius: samples where the axis has a bend radius
+// below 1.4 radii are pulled toward their neighbours until none remain, or a number of passes is
+// reached.
 static void soften_bends(SkinPoint *point, int64_t count)
 {
     bool bent = true;
@@ -178,7 +181,7 @@ static void set_tangents(SkinPoint *point, int64_t count, Vec3 fallback)
     }
 }
 
-// Double reflection (Wang et al. 2008): the next side that turns least about the axis.
+// Double reflection (Wang 2008): the next side of a rotation-minimising frame.
 static Vec3 transport_side(const SkinPoint *from, const SkinPoint *to)
 {
     Vec3 step = vec3_sub(to->position, from->position);
@@ -198,7 +201,7 @@ static Vec3 transport_side(const SkinPoint *from, const SkinPoint *to)
     return fine ? side : vec3_perpendicular(to->tangent);
 }
 
-// Sets the frames (tangent and side) of an axis whose positions are known.
+// Sets the frames (tangent and side) of an axis with known positions.
 static void turn_frames(SkinPoint *point, int64_t count, Vec3 fallback_tangent)
 {
     set_tangents(point, count, fallback_tangent);
@@ -210,13 +213,13 @@ static void turn_frames(SkinPoint *point, int64_t count, Vec3 fallback_tangent)
 
 // ---- folds ----
 
-// The first sample about which the axis turns back on itself, or -1.
+// First sample about which the axis folds back on itself, or -1.
 static int64_t find_fold(const SkinPoint *point, int64_t count)
 {
     enum { REACH = 3 }; // samples, about a radius and a half
     for (int64_t i = REACH; i + REACH < count; i++) {
         if (vec3_dot(point[i - REACH].tangent, point[i + REACH].tangent) < -0.5f) {
-            // The apex is where the turn is sharpest.
+            // The apex is the sharpest bend.
             int64_t apex = i;
             float sharpest = 1.0f;
             for (int64_t j = i; j < i + 2 * REACH && j + 1 < count; j++) {
@@ -232,8 +235,8 @@ static int64_t find_fold(const SkinPoint *point, int64_t count)
     return -1;
 }
 
-// Cuts the chain after the node nearest to `along`; the rest becomes a child. False and no error
-// (*cut = false) when no node lies between.
+// Cuts the chain after the node nearest to `along`; the rest becomes a child. False without an
+// error (*cut = false) if no node lies between.
 static bool cut_chain(SkinPlan *plan, int32_t number, float along, int64_t count, bool *cut,
                       Error *e)
 {
@@ -262,7 +265,7 @@ static bool cut_chain(SkinPlan *plan, int32_t number, float along, int64_t count
         plan->chain_of[plan->node[chain->first + i]] = rest;
     }
     chain->count = keep;
-    // The children are dealt out afresh.
+    // Redistributes the children.
     int32_t child = chain->first_child;
     chain->first_child = rest;
     while (child >= 0) {
@@ -280,14 +283,14 @@ static bool cut_chain(SkinPlan *plan, int32_t number, float along, int64_t count
     return true;
 }
 
-// ---- the whole ----
+// ---- complete axes ----
 
-// Turns polyline distances into axis distances and tells each child where it starts.
+// Converts polyline arc lengths to axis arc lengths and sets where each child starts.
 static void measure_axis(SkinPlan *plan, const SkinChain *chain, int64_t count)
 {
     SkinPoint *point = plan->point + chain->axis;
     int64_t extra = count - chain->count, s = 0;
-    float before = 0.0f, length = 0.0f; // polyline and axis distance at sample s
+    float before = 0.0f, length = 0.0f; // polyline and axis arc length at sample s
     for (int64_t i = 0; i < count; i++) {
         while (s + 1 < chain->samples && point[s + 1].along < plan->raw[i].along) {
             length += vec3_distance(point[s].position, point[s + 1].position);
@@ -311,7 +314,7 @@ static void measure_axis(SkinPlan *plan, const SkinChain *chain, int64_t count)
     }
 }
 
-// Which way a chain without length points.
+// Direction of a chain of zero length.
 static Vec3 default_tangent(const SkinPlan *plan, const SkinChain *chain)
 {
     if (chain->parent >= 0) {
@@ -350,7 +353,7 @@ bool skin_plan_axis(SkinPlan *plan, int32_t number, Error *e)
     }
 }
 
-// ---- reading an axis ----
+// ---- queries ----
 
 int64_t skin_axis_sample(const SkinPlan *plan, int32_t number, float along)
 {
@@ -395,7 +398,7 @@ SkinPoint skin_axis_at(const SkinPlan *plan, int32_t number, float along)
     return p;
 }
 
-// Distance along segment k nearest to p, and the squared distance to it.
+// Arc length of the point of segment k nearest to p, and the squared distance to it.
 static float nearest_on_segment(const SkinPoint *point, int64_t k, Vec3 p, float *distance2)
 {
     Vec3 step = vec3_sub(point[k + 1].position, point[k].position);

@@ -65,11 +65,11 @@ SkinVertex skin_vertex_madd(SkinVertex a, float w, SkinVertex b)
 
 // ---- caps ----
 
-// A loop seen as the rim of a grid of columns x rows squares, walked from its lower left corner.
+// A loop as the rim of a grid of columns x rows squares, starting at its lower left corner.
 typedef struct CapGrid {
     const uint32_t *loop;
     int columns, rows, count;
-    uint32_t inner; // first vertex inside
+    uint32_t inner; // first inner vertex
 } CapGrid;
 
 static uint32_t cap_point(const CapGrid *grid, int x, int y)
@@ -89,7 +89,7 @@ static uint32_t cap_point(const CapGrid *grid, int x, int y)
     return grid->inner + (uint32_t)((y - 1) * (grid->columns - 1) + x - 1);
 }
 
-// A point inside, from the rim (Coons 1967).
+// An inner point, interpolated from the rim (Coons 1967).
 static SkinVertex cap_vertex(const SkinCage *cage, const CapGrid *grid, int x, int y)
 {
     float s = (float)x / (float)grid->columns, t = (float)y / (float)grid->rows;

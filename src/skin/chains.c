@@ -1,4 +1,4 @@
-// Cuts an out-tree into chains: from each fork along the thickest child.
+// Decomposes an out-tree into chains: from each fork along the thickest child.
 #include "base/memory.h"
 #include "skin/plan.h"
 
@@ -11,7 +11,7 @@ static bool thick_enough(const SkinPlan *plan, int64_t node)
            (parent < 0 || plan->chain_of[parent] != -1);
 }
 
-// Marks the nodes to skin with chain 0 (others -1) and finds each node's thickest such child.
+// Marks the nodes to skin with chain 0 (others -1) and finds each node's thickest child among them.
 static void choose_nodes(SkinPlan *plan, int32_t *thickest_child)
 {
     const OutTree *tree = plan->tree;

@@ -1,4 +1,4 @@
-// The parts of an out-tree too thin to skin, as round curves.
+// The parts of an out-tree that are too thin to skin, as round curves.
 #include "base/memory.h"
 #include "skin/plan.h"
 #include "skin/skin.h"
@@ -9,17 +9,17 @@
 typedef struct CurvePoint {
     Vec3 position;
     float radius, birth, along;
-    int32_t node; // -1 for points that are not a node of the curve's own
+    int32_t node; // -1 for points that are not nodes of the curve
 } CurvePoint;
 
 typedef struct CurveBuilder {
     const SkinPlan *plan;
     int32_t *thickest_child; // per node, among the thin ones
     Vec3 *relaxed;           // per thin node
-    CurvePoint *raw;         // of the curve at hand
+    CurvePoint *raw;         // of the current curve
     CurvePoint *point;       // of all curves
-    int64_t *first;          // where each starts
-    int32_t *start;          // each one's first node
+    int64_t *first;          // per curve, index of its first point
+    int32_t *start;          // per curve, its first node
     int64_t raw_count, raw_capacity, point_count, point_capacity, curve_count, first_capacity,
         start_capacity;
 } CurveBuilder;
@@ -57,7 +57,7 @@ static bool add_raw(CurveBuilder *builder, Vec3 position, int32_t node, Error *e
     return true;
 }
 
-// Where a skinned node lies on its chain's axis, m from the axis' start.
+// Arc length of a skinned node on its chain's axis, m.
 static float along_axis(const SkinPlan *plan, int32_t node)
 {
     int32_t number = plan->chain_of[node];
@@ -72,8 +72,8 @@ static bool add_axis_point(CurveBuilder *builder, int32_t chain, float along, Er
     return add_raw(builder, skin_axis_at(builder->plan, chain, along).position, -1, e);
 }
 
-// The points before the first thin node: inside the branch it grows from. Where that is hidden in
-// its own parent, or has just come out of it, the curve starts in the parent.
+// Adds the points before the first thin node, inside the branch it grows from. If that branch is
+// hidden in its own parent or has only just left it, the curve starts in the parent.
 static bool add_beginning(CurveBuilder *builder, int32_t base, Error *e)
 {
     const SkinPlan *plan = builder->plan;
@@ -134,7 +134,7 @@ static void relax_curve(CurveBuilder *builder)
     }
 }
 
-// Radii fall to a third at the tip, whatever the tree says, most of it near the tip.
+// Tapers radii to a third at the tip, whatever the tree's radii, mostly near the tip.
 static void dress_curve(CurveBuilder *builder)
 {
     const SkinPlan *plan = builder->plan;
@@ -157,7 +157,7 @@ static void dress_curve(CurveBuilder *builder)
     }
 }
 
-// Whether the segment from raw point a to b stands for all points between.
+// Whether the segment from raw point a to b approximates all points between.
 static bool segment_will_do(const CurvePoint *raw, int64_t a, int64_t b)
 {
     Vec3 step = vec3_sub(raw[b].position, raw[a].position);
@@ -174,7 +174,7 @@ static bool segment_will_do(const CurvePoint *raw, int64_t a, int64_t b)
     return true;
 }
 
-// Keeps the points that matter.
+// Stores the curve, simplified.
 static bool store_curve(CurveBuilder *builder, int32_t start, Error *e)
 {
     enum { FARTHEST = 16 };

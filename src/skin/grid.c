@@ -12,9 +12,9 @@ void skin_grid_clear(SkinGrid *grid)
     free(grid->child);
 }
 
-// ---- how many sides, and how far apart the rings ----
+// ---- number of sides, spacing of rings ----
 
-// Sides that give all branches faces of about the same width.
+// Number of sides that gives all branches faces of about the same width.
 static float wanted_sides(const SkinPlan *plan, float radius)
 {
     float unit = plan->thickest / 6.0f, thin = 2.5f * plan->thinnest;
@@ -22,7 +22,7 @@ static float wanted_sides(const SkinPlan *plan, float radius)
     return clampf(4.0f * radius / unit, 4.0f, (float)SKIN_MAX_SIDES);
 }
 
-// Four sides are too coarse for children to leave from; a bare end needs no more.
+// Four sides are too few for children to leave from; a tube without children needs no more.
 static int least_sides(bool has_children)
 {
     return has_children ? 8 : 4;
@@ -38,8 +38,8 @@ int skin_grid_root_sides(const SkinGrid *grid, const SkinPlan *plan, int32_t cha
     return sides;
 }
 
-// Faces are about square; thin twigs that are straight have longer ones, since their cage would
-// otherwise outweigh all the rest.
+// Faces are about square. Thin straight twigs get longer ones, since their cage would otherwise
+// outweigh the rest.
 static float ring_step(const SkinPlan *plan, int32_t chain, float along, int sides, bool bare)
 {
     SkinPoint here = skin_axis_at(plan, chain, along);
@@ -62,11 +62,11 @@ static float ring_step(const SkinPlan *plan, int32_t chain, float along, int sid
 typedef struct TubeRange {
     float start;     // m along the axis: the first ring
     float low, high; // children leave between these; high is the last ring
-    float last_exit; // the last child's place
+    float last_exit; // position of the last child's exit
 } TubeRange;
 
-// A root starts, and every chain ends, a little beyond its last node, because the limit surface
-// draws back from a closed end.
+// A root's tube starts, and every tube ends, slightly beyond the last node, because the limit
+// surface shrinks at a closed end.
 static TubeRange tube_range(const SkinGrid *grid, const SkinPlan *plan, int32_t number)
 {
     const SkinChain *chain = &plan->chain[number];
@@ -104,8 +104,8 @@ static bool add_station(SkinGrid *grid, float along, int sides, Error *e)
     return true;
 }
 
-// Rings from end to end, at `fineness` times the usual distance; sides are halved where the branch
-// has become thin enough.
+// Places rings from end to end, at `fineness` times the usual spacing; the number of sides is
+// halved where the branch has become thin enough.
 static bool lay_rows(SkinGrid *grid, const SkinPlan *plan, int32_t chain, TubeRange range,
                      int sides, float fineness, Error *e)
 {
@@ -133,7 +133,7 @@ static bool lay_rows(SkinGrid *grid, const SkinPlan *plan, int32_t chain, TubeRa
 
 // ---- seats ----
 
-// Distance of x from the nearest multiple of `turn`, signed.
+// Signed distance of x from the nearest multiple of `turn`.
 static float wrap(float x, float turn)
 {
     return x - turn * floorf(x / turn + 0.5f);
@@ -147,22 +147,21 @@ float skin_grid_column(const SkinPlan *plan, int32_t parent, int32_t child, floa
     return (azimuth / (2.0f * PI_F) + 0.125f) * (float)sides;
 }
 
-// Faces k .. k + size - 1 of a row, going round.
+// Bit mask of faces k .. k + size - 1 of a row, modulo the number of sides.
 static uint32_t column_mask(int column, int size, int sides)
 {
     uint64_t block = ((1ull << size) - 1) << column;
     return (uint32_t)(block | block >> sides) & (uint32_t)((1ull << sides) - 1);
 }
 
-// The largest block that leaves a tube enough of its own side faces.
+// Largest block that leaves a tube enough of its own side faces.
 static int largest_block(int sides)
 {
     int most = 3 * sides / 8;
     return most > SKIN_MAX_SIDES / 4 ? SKIN_MAX_SIDES / 4 : (most > 0 ? most : 1);
 }
 
-// Faces taken in `size` rows from `row`; all of them when the rows differ in sides or are too
-// narrow.
+// Faces taken in `size` rows from `row`; all of them if the rows differ in sides or have too few.
 static uint32_t rows_taken(const SkinGrid *grid, int64_t row, int size)
 {
     uint32_t taken = size > largest_block(grid->station[row].sides) ? UINT32_MAX : 0;
@@ -190,7 +189,7 @@ bool skin_grid_is_free(const SkinGrid *grid, const SkinSeat *seat)
     return taken != UINT32_MAX && !(taken & column_mask(seat->column, seat->size, sides));
 }
 
-// How many faces a side the child's block should have: room for its girth and a fillet.
+// Block size in faces per side that fits the child's radius and a fillet.
 static int block_size(const SkinPlan *plan, int32_t number, const SkinPoint *parent, int sides,
                       float row_height, bool has_children)
 {
@@ -204,7 +203,7 @@ static int block_size(const SkinPlan *plan, int32_t number, const SkinPoint *par
     return size < least ? least : (size > most ? most : size);
 }
 
-// The free block whose middle is nearest to where the child comes out.
+// Finds the free block with its centre nearest to the child's exit.
 static bool find_block(const SkinGrid *grid, const SkinPlan *plan, int32_t chain, float phase,
                        int64_t near, SkinSeat *seat)
 {
@@ -283,7 +282,7 @@ static int compare_keys(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-// Thick children choose first; of equals, the first in the list.
+// Sorts thick children first; ties keep the list's order.
 static bool sort_children(SkinGrid *grid, const SkinPlan *plan, Error *e)
 {
     uint64_t *key = memory_alloc(grid->child_count, sizeof *key, e);
@@ -310,7 +309,8 @@ bool skin_grid_place(SkinGrid *grid, const SkinPlan *plan, int32_t chain, float 
     if (!sort_children(grid, plan, e)) {
         return false;
     }
-    // Where children crowd, rows are halved until each has a face; at worst the tube is drawn out.
+    // If children crowd, rows are halved until each has a face; as a last resort the tube is
+    // lengthened.
     bool seated = false;
     for (float fineness = 1.0f; !seated;) {
         grid->seat_count = 0;

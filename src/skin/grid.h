@@ -1,4 +1,4 @@
-// A chain's tube as a grid of rows (between rings) and columns (sides), and the blocks of its faces
+// A chain's tube as a grid of rows (between rings) and columns (sides), and the blocks of faces
 // through which children leave.
 #ifndef RAMIFY_SKIN_GRID_H
 #define RAMIFY_SKIN_GRID_H
@@ -7,48 +7,48 @@
 
 #define SKIN_MAX_SIDES 32
 
-// A ring and the row of faces above it. Corner k of a ring of n sides stands 360 k / n - 45 degrees
-// round from the chain's side; face k lies between corners k and k + 1.
+// A ring and the row of faces above it. Corner k of a ring of n sides lies at 360 k / n - 45
+// degrees from the chain's side; face k is between corners k and k + 1.
 typedef struct SkinStation {
     float along;    // m along the chain's axis
     int sides;      // of the ring
-    uint32_t taken; // bit k: face k of the row above belongs to a child
+    uint32_t taken; // bit k: face k of the row above is used by a child
 } SkinStation;
 
-// The block of size x size faces that a child of 4 * size sides leaves through.
+// A block of size x size faces through which a child with 4 * size sides leaves.
 typedef struct SkinSeat {
     int32_t child; // chain
     int64_t row;   // station of its lower edge
-    int column;    // its left edge's corner; columns go round
+    int column;    // corner at its left edge; columns wrap around
     int size;
 } SkinSeat;
 
-// Reused from chain to chain.
+// Reused for all chains.
 typedef struct SkinGrid {
-    SkinStation *station; // where sides falls (to half), the row below is a reduction
+    SkinStation *station; // where sides decreases (by half), the row below is a reduction
     int64_t station_count, station_capacity;
     SkinSeat *seat;
     int64_t seat_count, seat_capacity;
-    int32_t *child; // chains that leave the one at hand, filled in by the caller
+    int32_t *child; // children of the current chain, set by the caller
     int64_t child_count, child_capacity;
 } SkinGrid;
 
-// The number of sides a root's tube starts with: about as many as make its faces as wide as those
-// of branches a sixth as thick as the thickest.
+// Number of sides at the start of a root's tube: its faces are about as wide as those of branches a
+// sixth as thick as the thickest.
 int skin_grid_root_sides(const SkinGrid *grid, const SkinPlan *plan, int32_t chain);
 
 // Places a chain's rings and seats each of grid->child, thick ones first, as near as possible to
-// where it comes out. phase: radians from the axis' side to the chain's.
+// its exit. phase: radians from the axis' side to the chain's.
 bool skin_grid_place(SkinGrid *grid, const SkinPlan *plan, int32_t chain, float phase, int sides,
                      Error *e);
 
-// Azimuth of a child's exit about its parent's axis, in columns of a grid of that many sides.
+// Azimuth of a child's exit about its parent's axis, in columns of a grid with that many sides.
 float skin_grid_column(const SkinPlan *plan, int32_t parent, int32_t child, float phase, int sides);
 
 // Marks the seat's faces as taken or not.
 void skin_grid_take(SkinGrid *grid, const SkinSeat *seat, bool taken);
 
-// Whether all the seat's faces are there and nobody's.
+// Whether all faces of the seat exist and are free.
 bool skin_grid_is_free(const SkinGrid *grid, const SkinSeat *seat);
 
 void skin_grid_clear(SkinGrid *grid);

@@ -2,8 +2,8 @@
 
 #include "base/exact_math.h"
 
-// The child's girth in the coordinates of its block: x from 0 at the left edge to 1 at the right,
-// y from 0 below to 1 above.
+// The child's cross-section in coordinates of its block: x from 0 (left edge) to 1 (right), y from
+// 0 (bottom) to 1 (top).
 typedef struct Girth {
     float x, y, reach_x, reach_y; // of the corners
     float radius;                 // m, of the child
@@ -11,7 +11,7 @@ typedef struct Girth {
 
 SkinVertex skin_ring_vertex(const SkinRing *ring, int k, float offset)
 {
-    // u runs both ways round from 0 at corner 0 to half the girth: mirrored, so that it is
+    // u runs from 0 at corner 0 both ways around to half the circumference: mirrored, so that it is
     // continuous without a seam.
     int way_round = 2 * k <= ring->sides ? k : ring->sides - k;
     float u = 2.0f * PI_F * ring->radius * (float)way_round / (float)ring->sides;
@@ -20,7 +20,7 @@ SkinVertex skin_ring_vertex(const SkinRing *ring, int k, float offset)
 
 static float girth_reach(float wanted, float room, int size)
 {
-    // A square's sides stand at 0.707 of its corners.
+    // The sides of a square are at 0.707 of its corners' distance.
     float most = size == 1 ? 0.58f : 0.42f;
     float reach = room > 0.0f ? wanted / room : most;
     return clampf(reach, 0.002f, most);
@@ -64,7 +64,8 @@ static void outline_corner(const SkinSeat *seat, int k, int *row, int *column)
     *column = x[side];
 }
 
-// The parent's surface at (x, y) of the block, drawn by `pull` from the cage to the limit surface.
+// Point of the parent's surface at (x, y) of the block, moved by `pull` from the cage to the limit
+// surface.
 static SkinVertex block_point(const SkinPlan *plan, const SkinMouthSite *site, float x, float y,
                               float pull)
 {
@@ -90,7 +91,7 @@ static SkinVertex block_point(const SkinPlan *plan, const SkinMouthSite *site, f
     return v;
 }
 
-// Frame vertex k, `share` of the way from the outline to the girth.
+// Frame vertex k at fraction `share` between the outline and the child's cross-section.
 static SkinVertex frame_vertex(const SkinPlan *plan, const SkinMouthSite *site, const Girth *girth,
                                int k, float share)
 {
@@ -101,14 +102,14 @@ static SkinVertex frame_vertex(const SkinPlan *plan, const SkinMouthSite *site, 
     skin_ring_direction(4 * seat->size, k, &cosine, &sine);
     float x = lerpf((float)column / (float)seat->size, girth->x + girth->reach_x * sine, share);
     float y = lerpf((float)row / (float)seat->size, girth->y - girth->reach_y * cosine, share);
-    // Faces of a four-sided parent stand well off its limit surface, but bear less bending.
+    // Faces of a four-sided parent are far from its limit surface, but allow less bending.
     float pull = seat->size == 1 && site->ring->sides == 4 ? 0.6f : 0.9f;
     SkinVertex v = block_point(plan, site, x, y, pull * share);
     v.radius = lerpf(v.radius, girth->radius, share);
     return v;
 }
 
-// The parent's axis beside the frame's face k.
+// Nearest point of the parent's axis to the frame's face k.
 static Vec3 frame_axis(const SkinMouthSite *site, const Girth *girth, int k, float share)
 {
     int row, column;
@@ -118,7 +119,7 @@ static Vec3 frame_axis(const SkinMouthSite *site, const Girth *girth, int k, flo
     return vec3_lerp(site->ring[below].centre, site->ring[below + 1].centre, y - (float)below);
 }
 
-// Frame i of `frames`: how far it has come from the outline to the girth. Frames shrink by equal
+// Fraction between outline and cross-section of frame i of `frames`. Frames shrink by equal
 // factors.
 static float frame_share(float ratio, int i, int frames)
 {
@@ -126,7 +127,7 @@ static float frame_share(float ratio, int i, int frames)
     return i < frames ? (1.0f - shrunk) / (1.0f - ratio) : 1.0f;
 }
 
-// The girth's size as a share of the block's, and the number of frames down to it.
+// Size of the cross-section relative to the block, and the number of frames down to it.
 static float girth_ratio(const Girth *girth, int *frames)
 {
     float ratio = 2.0f * (girth->reach_x < girth->reach_y ? girth->reach_x : girth->reach_y);
@@ -139,7 +140,7 @@ static float girth_ratio(const Girth *girth, int *frames)
     return ratio < 0.95f ? ratio : 0.95f;
 }
 
-// Whether all faces of the frames would look away from the parent's axis.
+// Whether all faces of the frames would face away from the parent's axis.
 static bool frames_look_outwards(const SkinPlan *plan, const SkinMouthSite *site,
                                  const Girth *girth)
 {
@@ -169,7 +170,7 @@ static bool frames_look_outwards(const SkinPlan *plan, const SkinMouthSite *site
     return true;
 }
 
-// On sharply bent wood frames may fold; a smaller girth has more room.
+// At sharp bends frames may fold; a smaller cross-section leaves more room.
 static Girth fit_unfolded_girth(const SkinPlan *plan, const SkinMouthSite *site)
 {
     Girth girth = fit_girth(plan, site);

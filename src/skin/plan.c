@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-// Notes on `chain` where its axis leaves its parent's surface, from a sample of it.
+// Sets where the axis of `chain` leaves its parent's surface, given a sample of the axis.
 static void note_exit(const SkinPlan *plan, SkinChain *chain, const SkinPoint *at, float on_parent)
 {
     SkinPoint there = skin_axis_at(plan, chain->parent, on_parent);
@@ -23,8 +23,8 @@ static void note_exit(const SkinPlan *plan, SkinChain *chain, const SkinPoint *a
     chain->offset = parent->offset + on_parent - at->along;
 }
 
-// Walks a child's axis outwards to where it comes out of its parent and on to where it is clear
-// of it. A chain that never does stays hidden.
+// Follows a child's axis outward to where it leaves its parent's surface and on to where it is
+// clear of it. A chain that never leaves stays hidden.
 static void find_exit(const SkinPlan *plan, SkinChain *chain)
 {
     const SkinPoint *axis = plan->point + chain->axis;
@@ -47,9 +47,8 @@ static void find_exit(const SkinPlan *plan, SkinChain *chain)
     }
 }
 
-// Settles from which chain each child of this one grows: those of a hidden chain, and those that
-// start before their parent comes out, grow from the grandparent. Appends the children to the
-// stack.
+// Assigns this chain's children their parents: children of a hidden chain, and those that start
+// before their parent leaves its own, grow from the grandparent. Pushes the children on the stack.
 static void settle_children(SkinPlan *plan, int32_t number, int32_t *stack, int64_t *height)
 {
     const SkinChain *chain = &plan->chain[number];
@@ -74,7 +73,7 @@ static bool plan_from(SkinPlan *plan, int32_t root, int32_t **stack, int64_t *ca
     (*stack)[0] = root;
     while (height > 0) {
         int32_t number = (*stack)[--height];
-        // A chain stands on the stack at most once, and an axis adds one chain at most.
+        // Each chain is on the stack at most once, and an axis adds at most one chain.
         if (!skin_plan_axis(plan, number, e) ||
             !memory_reserve(stack, capacity, plan->chain_count, sizeof(int32_t), e)) {
             return false;

@@ -43,7 +43,7 @@ void skin_ring_fit(SkinRing *ring)
     ring->centre = vec3_scale(sum, 1.0f / (float)ring->sides);
     ring->normal = vec3_normalize(vec3_cross(u, v));
     ring->side = vec3_normalize(u);
-    // The sums of n corners on a circle are n / 2 radii long.
+    // The sum of n corners on a circle is n / 2 radii long.
     ring->radius = 2.0f * vec3_length(v) / (float)ring->sides / skin_ring_scale(ring->sides);
 }
 
@@ -56,7 +56,7 @@ Vec3 skin_ring_finer_corner(const SkinRing *ring, int sides, int k)
     if (k % 2 == 0) {
         return a;
     }
-    // Half-way round, drawn out from the chord to the circle.
+    // The midpoint, moved from the chord to the circle.
     Vec3 chord = vec3_lerp(a, ring->corner[(k / 2 + 1) % ring->sides], 0.5f);
     float sine, cosine;
     exact_sincos(PI_F / (float)ring->sides, &sine, &cosine);
@@ -69,7 +69,7 @@ static Vec3 middle_normal(const SkinRing *a, const SkinRing *b)
     return vec3_dot(sum, sum) > 0.04f ? vec3_normalize(sum) : a->normal;
 }
 
-// How far b's corners lie ahead of a's along a direction, at least.
+// Least distance of b's corners ahead of a's along a direction.
 static float least_advance(const SkinRing *a, const SkinRing *b, Vec3 direction)
 {
     float least = INFINITY;
@@ -81,7 +81,7 @@ static float least_advance(const SkinRing *a, const SkinRing *b, Vec3 direction)
     return least;
 }
 
-// One sweep: neighbours whose corners come too close turn half-way towards each other.
+// One sweep: adjacent rings whose corners come too close are rotated half-way toward each other.
 static bool relax_tilts(SkinRing *ring, int64_t count)
 {
     bool changed = false;
@@ -103,7 +103,7 @@ static bool relax_tilts(SkinRing *ring, int64_t count)
     return changed;
 }
 
-// Whether the faces between two rings, from share t0 to t1 of the way, look away from the axis.
+// Whether the faces between two rings, from fraction t0 to t1, face away from the axis.
 static bool strip_looks_outwards(const SkinRing *a, const SkinRing *b, float t0, float t1)
 {
     Vec3 axis = vec3_lerp(a->centre, b->centre, 0.5f * (t0 + t1));
@@ -124,7 +124,7 @@ static bool strip_looks_outwards(const SkinRing *a, const SkinRing *b, float t0,
     return true;
 }
 
-// A row that halves the number of sides has faces of half its height.
+// A reduction row has faces of half its height.
 static bool looks_outwards(const SkinRing *a, const SkinRing *b)
 {
     if (a->sides == b->sides) {
@@ -133,8 +133,8 @@ static bool looks_outwards(const SkinRing *a, const SkinRing *b)
     return strip_looks_outwards(a, b, 0.0f, 0.5f) && strip_looks_outwards(a, b, 0.5f, 1.0f);
 }
 
-// Makes the tube between a and b look outwards, whatever it takes: b is laid parallel to a, moved
-// ahead of it, and at last straight above it.
+// Forces the tube between a and b to face outward: makes b parallel to a, moves it ahead, and as a
+// last resort directly above a.
 static void force_ahead(const SkinRing *a, SkinRing *b)
 {
     if (vec3_dot(a->side, b->side) < 0.5f) { // twisted by more than 60 degrees

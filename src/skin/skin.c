@@ -86,9 +86,8 @@ static Mesh *copy_with_normals(const Mesh *cage, Error *e)
     return copy;
 }
 
-// Thin branches have few sides and get fewer levels: one less below a 24th of the thickest radius,
-// two less below a 96th, but one at least. (Thick ones have more sides to begin with, so that faces
-// differ little in size.)
+// Thin branches have few sides and get lower levels: one less below a 24th of the thickest radius,
+// two less below a 96th, but at least 1. (Thick ones have more sides, so face sizes differ little.)
 static void grade_levels(const Mesh *cage, int levels, uint8_t *face_level)
 {
     float thickest = 0.0f;

@@ -1,10 +1,10 @@
 // Skins an out-tree with a closed, two-manifold, all-quad cage and smooths it with OpenSubdiv
 // (Catmull-Clark).
 //
-// Texture coordinates of a skin, in metres: uv.y runs along the branch from the root, without a
-// jump where a child leaves its parent. uv.x runs around, from 0 on one side both ways to half the
-// girth on the other: mirrored, so that it needs no seam. Where a child leaves, the parent's uv.x
-// fades into the child's; patterns that must not show that take the position instead.
+// Texture coordinates of a skin, in metres: uv.y is the arc length along the branch from the root,
+// continuous where a child leaves its parent. uv.x runs around the branch, from 0 both ways to half
+// the circumference: mirrored, so that it has no seam. At a junction the parent's uv.x blends into
+// the child's; patterns that must not show that use the position instead.
 #ifndef RAMIFY_SKIN_SKIN_H
 #define RAMIFY_SKIN_SKIN_H
 
@@ -14,30 +14,31 @@
 #include "outtree/out_tree.h"
 
 typedef struct SkinParams {
-    float min_radius;   // m: chains thinner than this are not skinned (trace them as curves); 0 =
-                        // skin all
-    int levels;         // subdivision of the thickest branches, 0..4 (the cage itself at 0)
-    float ring_spacing; // distance between the cage's rings, in radii, on four-sided branches; 1
-                        // usual. Thicker ones have up to 32 sides and rings as much closer.
-    int smoothing;      // relaxation passes over the chains before resampling; 2 usual
+    float min_radius; // m: thinner chains are not skinned (trace them as curves); 0 = skin all
+    int levels;       // subdivision level of the thickest branches, 0..4 (0 = the cage itself)
+    // spacing of the cage's rings on four-sided branches, in radii; typically 1. Thicker branches
+    // have up to 32 sides and proportionally closer rings.
+    float ring_spacing;
+    int smoothing; // relaxation passes over the chains before resampling; typically 2
 } SkinParams;
 
 SkinParams skin_params_default(void);
 
-// The cage: closed, two-manifold, all quads, one component a root (whatever the out-tree). Tubes
+// Builds the cage: closed, two-manifold, all quads, one component per root, for any out-tree. Tubes
 // have 4 to 32 sides, more on thicker branches; a child leaves through a block of its parent's
-// faces about as wide as itself. Branches that lie inside their parents are left out. Radii are
-// enlarged so that the limit surface has the out-tree's radius. Carries uv (m), radius and birth.
+// faces about as wide as itself. Branches inside their parents are omitted. Radii are enlarged so
+// that the limit surface has the out-tree's radius. Has uv (m), radius and birth. The caller frees
+// it with mesh_free.
 Mesh *skin_cage(const OutTree *tree, const SkinParams *params, const Run *run, Error *e);
 
-// skin_cage, then refinement to the limit surface: thick branches to `levels`, thin ones to one or
-// two less but 1 at least; made of triangles if levels differ, else of quads. Memory beyond the
-// result is a few tens of MB a thread.
+// Builds the cage and refines it to the limit surface: thick branches to `levels`, thin ones to one
+// or two less but at least 1. Triangles if levels differ, else quads. Memory beyond the result is a
+// few tens of MB per thread. The caller frees it with mesh_free.
 Mesh *skin_tree(const OutTree *tree, const SkinParams *params, const Run *run, Error *e);
 
-// The chains thinner than max_radius as round curves; together with skin_tree at min_radius =
-// max_radius nothing is missing and nothing shows twice (a curve's first point lies inside its
-// parent's surface).
+// The chains thinner than max_radius as round curves. Together with skin_tree at min_radius =
+// max_radius every branch is shown exactly once (a curve's first point lies inside its parent's
+// surface). The caller frees it with curves_free.
 CurveSet *skin_curves(const OutTree *tree, float max_radius, const SkinParams *params, Error *e);
 
 #endif

@@ -1,4 +1,4 @@
-// Builds the cage chain by chain: rings over the stations, quads between them, mouths for the
+// Builds the cage chain by chain: rings at the stations, quads between them, mouths for the
 // children, caps at the ends.
 #include "base/exact_math.h"
 #include "base/memory.h"
@@ -11,22 +11,22 @@
 
 #define NO_NAME UINT32_MAX
 
-// A chain to be built, and the hole in its parent's surface that its tube starts from.
+// A chain to build, and the hole in its parent's surface where its tube starts.
 typedef struct TubeJob {
     int32_t chain;
-    int sides; // of the mouth; 0 at a root
+    int sides; // sides of the mouth; 0 at a root
     uint32_t mouth[SKIN_MAX_SIDES];
 } TubeJob;
 
 typedef struct TubeBuilder {
     SkinCage *cage;
     const SkinPlan *plan;
-    int64_t *child_first; // per chain + 1, into child
-    int32_t *child;       // visible chains, by parent
+    int64_t *child_first; // per chain + 1, its first index in child
+    int32_t *child;       // visible chains, grouped by parent
     SkinGrid grid;
-    SkinRing *ring; // of the chain at hand, the mouth first if there is one
-    Vec3 *corner;   // theirs
-    uint32_t *name; // theirs
+    SkinRing *ring; // of the current chain, beginning with the mouth if there is one
+    Vec3 *corner;   // corners of the rings
+    uint32_t *name; // vertex indices of the rings
     int64_t ring_capacity, corner_capacity, name_capacity;
     TubeJob *job; // stack
     int64_t job_count, job_capacity;
@@ -73,7 +73,7 @@ static SkinRing mouth_ring(const TubeBuilder *builder, const TubeJob *job, Vec3 
     return ring;
 }
 
-// The phase at which the chain's first ring lies squarely over its mouth.
+// Phase that aligns the chain's first ring with its mouth.
 static float mouth_phase(const SkinPlan *plan, int32_t chain, const SkinRing *mouth)
 {
     SkinPoint start = skin_axis_at(plan, chain, plan->chain[chain].start);
@@ -83,7 +83,7 @@ static float mouth_phase(const SkinPlan *plan, int32_t chain, const SkinRing *mo
     return exact_atan2(vec3_dot(u, vec3_cross(start.tangent, start.side)), vec3_dot(u, start.side));
 }
 
-// A tube that leaves nearly along its parent's surface first turns outwards.
+// A tube that leaves nearly parallel to its parent's surface first turns outward.
 static void turn_outwards(SkinRing *ring, const SkinRing *mouth)
 {
     float rise = vec3_dot(ring->normal, mouth->normal);
@@ -93,8 +93,8 @@ static void turn_outwards(SkinRing *ring, const SkinRing *mouth)
     }
 }
 
-// Six edges meet at every other corner of a ring above a reduction, and the limit surface keeps
-// closer to such a corner: it is drawn in.
+// Six edges meet at every other corner of a ring above a reduction, where the limit surface is
+// closer to the corner, so these corners are moved inward.
 static void draw_in_above_reductions(SkinRing *ring, int64_t count)
 {
     for (int64_t i = 1; i < count; i++) {
@@ -110,7 +110,7 @@ static void draw_in_above_reductions(SkinRing *ring, int64_t count)
     }
 }
 
-// Rings of all stations, after the mouth if there is one; *count of them.
+// Places rings at all stations, after the mouth if there is one; *count of them.
 static bool lay_rings(TubeBuilder *builder, const TubeJob *job, float phase, int64_t *count,
                       Error *e)
 {
@@ -144,7 +144,8 @@ static bool lay_rings(TubeBuilder *builder, const TubeJob *job, float phase, int
     return true;
 }
 
-// The number of a ring's corner in the cage, given on first use: corners inside blocks get none.
+// Vertex index of a ring's corner in the cage, assigned on first use: corners inside blocks get
+// none.
 static uint32_t name_corner(TubeBuilder *builder, const SkinRing *ring, int k, float offset)
 {
     if (ring->name[k] == NO_NAME) {
@@ -177,7 +178,7 @@ static bool add_row(TubeBuilder *builder, const SkinRing *low, uint32_t taken, f
     return true;
 }
 
-// A vertex between a ring's corner k and the next ring, which has half as many.
+// The vertex between a ring's corner k and the next ring, which has half as many corners.
 static SkinVertex half_way(const SkinRing *low, const SkinRing *high, int k, float offset)
 {
     SkinVertex below = skin_ring_vertex(low, k, offset), half = {.radius = 0.0f};
@@ -186,8 +187,8 @@ static SkinVertex half_way(const SkinRing *low, const SkinRing *high, int k, flo
     above.uv.x = below.uv.x;
     half = skin_vertex_madd(half, 0.5f, below);
     half = skin_vertex_madd(half, 0.5f, above);
-    // Between many sides the limit surface keeps closer to the cage than between few: unless these
-    // vertices stand as near the axis as the ring below, there is a bulge.
+    // The limit surface is closer to the cage with many sides than with few: these vertices are
+    // moved as near to the axis as the ring below, or there would be a bulge.
     Vec3 axis = vec3_lerp(low->centre, high->centre, 0.5f);
     float fine = skin_ring_scale(low->sides), coarse = skin_ring_scale(high->sides);
     float draw = 2.0f * fine / (fine + coarse);
@@ -195,12 +196,12 @@ static SkinVertex half_way(const SkinRing *low, const SkinRing *high, int k, flo
     return half;
 }
 
-// A row that ends in half as many sides: six quads for every four sides below.
+// Adds a row that ends in half as many sides: six quads for every four sides below.
 static bool add_reduction(TubeBuilder *builder, const SkinRing *low, float offset, Error *e)
 {
     const SkinRing *high = low + 1;
     SkinCage *cage = builder->cage;
-    // The axis beside the outer, lower and upper faces.
+    // Axis points nearest to the outer, lower and upper faces.
     Vec3 beside = vec3_lerp(low->centre, high->centre, 0.375f);
     Vec3 lower = vec3_lerp(low->centre, high->centre, 0.25f);
     Vec3 upper = vec3_lerp(low->centre, high->centre, 0.75f);
@@ -263,7 +264,7 @@ static bool seat_fits(const TubeBuilder *builder, int32_t chain, const SkinRing 
     return skin_mouth_fits(builder->plan, &site);
 }
 
-// Finds the nearest single face that the child can leave through without folds; false if there is
+// Finds the nearest single face through which the child can leave without folds; false if there is
 // none.
 static bool find_other_seat(const TubeBuilder *builder, int32_t chain, const SkinRing *ring,
                             float phase, SkinSeat *seat)
@@ -287,7 +288,7 @@ static bool find_other_seat(const TubeBuilder *builder, int32_t chain, const Ski
     return false;
 }
 
-// On sharply bent wood a mouth may have faces that look inwards: its child moves to another place.
+// At sharp bends a mouth may have faces that face inward: its child moves to another seat.
 static void move_bad_seats(TubeBuilder *builder, int32_t chain, const SkinRing *ring, float phase)
 {
     for (int64_t i = 0; i < builder->grid.seat_count; i++) {
@@ -300,7 +301,7 @@ static void move_bad_seats(TubeBuilder *builder, int32_t chain, const SkinRing *
     }
 }
 
-// Corners of blocks that no other face uses still need names before mouths open.
+// Assigns vertices to corners of blocks that no other face uses, before mouths open.
 static void name_outlines(TubeBuilder *builder, const SkinRing *ring, float offset)
 {
     for (int64_t i = 0; i < builder->grid.seat_count; i++) {
@@ -369,7 +370,7 @@ static bool build_chain(TubeBuilder *builder, const TubeJob *job, Error *e)
            open_mouths(builder, job->chain, ring + extra, phase, e);
 }
 
-// ---- the whole ----
+// ---- all chains ----
 
 static bool gather_children(TubeBuilder *builder, Error *e)
 {
@@ -380,7 +381,7 @@ static bool gather_children(TubeBuilder *builder, Error *e)
     if (!first || !builder->child) {
         return false;
     }
-    // Counted two places further on, so that filling moves each start to where it belongs.
+    // Counts offset by two, so that filling shifts each start to its place.
     for (int64_t i = 0; i < plan->chain_count; i++) {
         if (plan->chain[i].parent >= 0 && plan->chain[i].visible) {
             first[plan->chain[i].parent + 2]++;

@@ -37,7 +37,7 @@ static void neighbours_follow_the_definition(void **state)
         Vec3 p = random_point(random_key((uint64_t)trial, 1000));
         float reach = trial % 3 == 0 ? 0.3f : 2.0f;
         assert_true(vein_grid_fill(&grid, node, count, box, 0.07f + 0.001f * (float)trial, NULL));
-        int32_t found[VEIN_MOST_NEIGHBOURS], wanted[NODES], nearest = -1;
+        int32_t found[VEIN_MAX_NEIGHBOURS], wanted[NODES], nearest = -1;
         int found_count = vein_relative_neighbours(&grid, node, p, reach, found);
         int wanted_count = 0;
         for (int v = 0; v < count; v++) {

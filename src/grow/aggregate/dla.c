@@ -7,9 +7,11 @@
 
 #include <stdlib.h>
 
-enum { PARTICLES_A_CHECK = 256 }; // between looks at whether to stop
+enum { STREAM_ROOT_ID = 0 };        // of the seed; walk i uses stream i
+enum { PARTICLES_PER_CHECK = 256 }; // particles between checks for cancellation
 
-// Walkers start this far outside the reach of the cluster, diameters: any distance is exact.
+// Distance outside the cluster's bounding sphere at which walkers start, diameters. Any value is
+// exact.
 #define LAUNCH_GAP 2.0
 
 typedef struct Cluster {
@@ -17,11 +19,11 @@ typedef struct Cluster {
     double (*position)[3]; // diameters
     int32_t *parent;
     int64_t count;
-    double reach; // greatest distance of a particle from the origin
+    double reach; // largest distance of a particle from the origin
     DlaGrid grid;
 } Cluster;
 
-// The draws of one walk, in their order.
+// Random numbers of one walk, drawn in order.
 typedef struct Draws {
     uint64_t key, number;
 } Draws;
@@ -31,7 +33,7 @@ static double draw_unit(Draws *draws)
     return (double)(random_key(draws->key, draws->number++) >> 11) * (1.0 / 9007199254740992.0);
 }
 
-// Uniform on the unit circle (von Neumann 1951) or sphere (Marsaglia 1972).
+// Uniform direction on the unit circle (von Neumann 1951) or sphere (Marsaglia 1972).
 static void draw_direction(Draws *draws, int dimension, double d[3])
 {
     double x, y, s;
@@ -65,8 +67,8 @@ static void launch(Draws *draws, int dimension, double radius, double p[3])
     }
 }
 
-// A walker at distance r outside the circle comes back to it at an angle phi from where it is, with
-// the density of the Poisson kernel: tan(phi/2) = (r - R)/(r + R) tan(theta), theta uniform.
+// A walker at distance r outside the circle first returns to it at an angle phi from its position,
+// distributed by the Poisson kernel: tan(phi/2) = (r - R)/(r + R) tan(theta), theta uniform.
 static void return_to_circle(Draws *draws, double radius, double r, double p[3])
 {
     double d[3];
@@ -78,8 +80,8 @@ static void return_to_circle(Draws *draws, double radius, double r, double p[3])
     p[1] = sine * x + cosine * y;
 }
 
-// In space it never comes back with probability 1 - R/r: another starts. Otherwise the cosine of
-// the angle has the density of the Poisson kernel, whose integral has a closed inverse.
+// In space a walker never returns with probability 1 - R/r; a new one starts then. Otherwise the
+// cosine of the angle is distributed by the Poisson kernel, whose integral has a closed inverse.
 static void return_to_sphere(Draws *draws, double radius, double r, double p[3])
 {
     if (draw_unit(draws) * r >= radius) {
@@ -91,7 +93,7 @@ static void return_to_sphere(Draws *draws, double radius, double r, double p[3])
     double mu = (r * r + radius * radius - 1.0 / (q * q)) / (2.0 * r * radius);
     mu = mu < -1.0 ? -1.0 : (mu > 1.0 ? 1.0 : mu);
     double side[3], along = 0.0, length;
-    do { // a direction across p, uniform about it
+    do { // a direction perpendicular to p, uniform
         draw_direction(draws, 3, side);
         along = (side[0] * p[0] + side[1] * p[1] + side[2] * p[2]) / (r * r);
         for (int i = 0; i < 3; i++) {
@@ -105,7 +107,7 @@ static void return_to_sphere(Draws *draws, double radius, double r, double p[3])
     }
 }
 
-// Walks until it touches: p is set to the place, the particle touched is returned.
+// Walks until contact: sets p to the position and returns the particle touched.
 static int32_t walk(Cluster *cluster, Draws *draws, double p[3])
 {
     int dimension = cluster->params->dimension;
@@ -136,7 +138,7 @@ static int32_t walk(Cluster *cluster, Draws *draws, double p[3])
     }
 }
 
-// The grid must hold all that a walker may see before it is sent back.
+// Ensures that the grid covers every position a walker may reach before it is returned.
 static bool fit_grid(Cluster *cluster, Error *e)
 {
     double needed = cluster->reach + 2.0 * LAUNCH_GAP + 4.0;
@@ -159,7 +161,7 @@ static bool aggregate(Cluster *cluster, const Run *run, Error *e)
     const DlaParams *params = cluster->params;
     while (cluster->count < params->count) {
         int64_t i = cluster->count;
-        if (i % PARTICLES_A_CHECK == 0) {
+        if (i % PARTICLES_PER_CHECK == 0) {
             run_progress(run, "aggregate", (double)i / (double)params->count);
             if (run_is_cancelled(run)) {
                 return run_cancel_error(e);
@@ -187,7 +189,7 @@ static OutTree *cluster_tree(const Cluster *cluster, Error *e)
     for (int64_t i = 0; done && i < cluster->count; i++) {
         const double *p = cluster->position[i];
         int32_t parent = cluster->parent[i];
-        uint64_t id = parent < 0 ? random_key(cluster->params->seed, 0)
+        uint64_t id = parent < 0 ? random_key(cluster->params->seed, STREAM_ROOT_ID)
                                  : out_tree_child_id(tree->id[parent], children[parent]++);
         Vec3 at = vec3((float)(p[0] * scale), (float)(p[1] * scale), (float)(p[2] * scale));
         done = out_tree_add_node(tree, at, parent, (int32_t)i, 0, id, e) >= 0;

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FINEST_CELL 3.0 // diameters; a walker that may touch in its next step sees all it may touch
+// diameters; the neighbouring cells contain every particle that a walker may touch in its next step
+#define FINEST_CELL 3.0
 
 static int64_t cells_of(const DlaGrid *grid, int level)
 {
@@ -25,7 +26,7 @@ bool dla_grid_init(DlaGrid *grid, int dimension, double reach, int64_t capacity,
     grid->half = 0.5 * (double)side * FINEST_CELL;
     double cell = FINEST_CELL;
     bool made = true;
-    for (; made && side >= 4 && grid->levels < DLA_MOST_LEVELS; side /= 2, cell *= 2.0) {
+    for (; made && side >= 4 && grid->levels < DLA_MAX_LEVELS; side /= 2, cell *= 2.0) {
         int level = grid->levels++;
         grid->side[level] = side;
         grid->cell[level] = cell;
@@ -53,7 +54,7 @@ void dla_grid_free(DlaGrid *grid)
     *grid = (DlaGrid){0};
 }
 
-// The cell of a point along each axis; the plane has one layer.
+// Cell of a point along each axis; in the plane there is one layer.
 static void cell_of(const DlaGrid *grid, int level, const double p[3], int64_t c[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -101,7 +102,7 @@ static bool is_near(const DlaGrid *grid, int level, const double p[3])
     return grid->near[level][index_of(grid, level, c[0], c[1], c[2])];
 }
 
-// From a point in a cell whose neighbours are empty to the nearest of those beyond them.
+// From a point in a cell with empty neighbours: the distance to the nearest cell beyond them.
 static double empty_distance(const DlaGrid *grid, int level, const double p[3])
 {
     double cell = grid->cell[level], least = cell;
@@ -120,11 +121,11 @@ static double squared_distance(const double a[3], const double b[3])
     return x * x + y * y + z * z;
 }
 
-// The cells about a point, row by row, and the particles in them.
+// Iterates over the cells about a point, row by row, and the particles in them.
 typedef struct Neighbours {
     int64_t low[3], high[3];
-    int64_t row, rows; // of cells along x
-    int64_t x;         // of the cell at hand
+    int64_t row, rows; // rows of cells along x
+    int64_t x;         // of the current cell
 } Neighbours;
 
 static Neighbours neighbours_of(const DlaGrid *grid, const double p[3])
@@ -147,7 +148,7 @@ static int64_t row_start(const DlaGrid *grid, const Neighbours *n)
     return index_of(grid, 0, 0, n->low[1] + n->row % rows, n->low[2] + n->row / rows);
 }
 
-// The next particle from this one on, which may be -1: the end of a cell's list.
+// The next particle, starting with this one, which may be -1: the end of a cell's list.
 static int32_t next_particle(const DlaGrid *grid, Neighbours *n, int32_t particle)
 {
     while (particle < 0) {
@@ -207,14 +208,14 @@ int32_t dla_grid_contact(const DlaGrid *grid, const double p[3], const double di
     Neighbours around;
     for (int32_t i = first_particle(grid, &around, p); i >= 0;
          i = next_particle(grid, &around, grid->next[i])) {
-        // |p + t d - q| = 1, the smaller t
+        // solve |p + t d - q| = 1 for the smaller t
         double b = 0.0, c = squared_distance(p, grid->position[i]) - 1.0;
         for (int k = 0; k < 3; k++) {
             b += (p[k] - grid->position[i][k]) * direction[k];
         }
         double root = b * b - c;
         if (b >= 0.0 || root < 0.0) {
-            continue; // away from it, or past it
+            continue; // moving away, or already past
         }
         double t = -b - sqrt(root);
         t = t > 0.0 ? t : 0.0;

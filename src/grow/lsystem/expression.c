@@ -30,7 +30,7 @@ enum {
     OP_OR
 };
 
-// Longer tokens before those they begin with.
+// Longer tokens come before their prefixes.
 typedef struct Token {
     const char *text;
     int code, rank; // a higher rank binds tighter
@@ -46,7 +46,7 @@ static const Token BINARY[] = {
     {"^", OP_POWER, 7},
 };
 
-enum { RANK_UNARY = 6, MOST_NESTING = 24 };
+enum { RANK_UNARY = 6, MAX_NESTING = 24 };
 
 bool reader_fail(const Reader *reader, Error *e, const char *format, ...)
 {
@@ -92,10 +92,10 @@ typedef struct Compiler {
     const Names *names;
     Expression *expression;
     Error *e;
-    int nesting, depth; // depth: of the stack so far
+    int nesting, depth; // depth: current height of the value stack
 } Compiler;
 
-// effect: how many values the operation adds to the stack.
+// effect: change of the stack's height.
 static bool emit(Compiler *c, Operation operation, int effect)
 {
     Expression *x = c->expression;
@@ -179,11 +179,11 @@ static const Token *next_binary(Reader *r)
     return NULL;
 }
 
-// Precedence climbing: operators of at least this rank; powers from the right, others from the
-// left.
+// Precedence climbing over operators of at least this rank; powers associate to the right, others
+// to the left.
 static bool read_binary(Compiler *c, int rank)
 {
-    if (++c->nesting > MOST_NESTING) {
+    if (++c->nesting > MAX_NESTING) {
         return reader_fail(c->reader, c->e, "the expression is too deep; use fewer parentheses");
     }
     if (!read_primary(c)) {
@@ -215,7 +215,7 @@ void expression_clear(Expression *expression)
 
 static double apply(int code, double a, double b)
 {
-    if (isnan(a) || isnan(b)) { // also of comparisons, which could not tell otherwise
+    if (isnan(a) || isnan(b)) { // comparisons too, which would hide it otherwise
         return NAN;
     }
     switch (code) {
@@ -251,7 +251,7 @@ static double apply(int code, double a, double b)
 double expression_value(const Expression *expression, const double *values)
 {
     double stack[EXPRESSION_STACK + 1] = {0};
-    int top = 0; // stack[top - 1] is the last value
+    int top = 0; // stack[top - 1] is the top value
     for (int64_t i = 0; i < expression->count; i++) {
         const Operation *op = &expression->operation[i];
         if (op->code == OP_NUMBER) {

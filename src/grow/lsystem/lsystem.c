@@ -14,38 +14,38 @@
     "it must be a number within 3.4e38; keep divisors from 0, powers to positive numbers and " \
     "results small"
 
-enum { MOST_RULES = 64, MOST_NAMES = 64, DEFAULT_MOST_MODULES = 4000000 };
+enum { MAX_RULES = 64, MAX_NAMES = 64, DEFAULT_MAX_MODULES = 4000000 };
 
-// A module of a successor: its parameters are still expressions.
+// A module of a successor, its parameters still unevaluated expressions.
 typedef struct Pattern {
     char symbol;
     int count;
-    const char *at; // where it stands in the text
-    Expression parameter[MODULE_MOST_PARAMETERS];
+    const char *at; // position in the text
+    Expression parameter[MODULE_MAX_PARAMETERS];
 } Pattern;
 
 typedef struct Successor {
     Pattern *pattern; // owned
     int64_t count, capacity;
-    Reader place; // where it stands, for errors
+    Reader place; // position in the text, for errors
 } Successor;
 
 typedef struct Rule {
     char symbol;
-    int count; // of parameters
+    int count; // number of parameters
     bool has_condition, has_probability;
-    Reader place; // where it stands, for errors
+    Reader place; // position in the text, for errors
     double probability;
     Expression condition;
     Successor successor;
 } Rule;
 
-// Names are the constants, then the parameters of the rule at hand; values go in the same order.
+// Names are the constants, then the parameters of the current rule; values are in the same order.
 typedef struct Grammar {
     Rule *rule; // owned
     int64_t count, capacity;
-    char name[MOST_NAMES + MODULE_MOST_PARAMETERS][NAME_SIZE];
-    double value[MOST_NAMES + MODULE_MOST_PARAMETERS];
+    char name[MAX_NAMES + MODULE_MAX_PARAMETERS][NAME_SIZE];
+    double value[MAX_NAMES + MODULE_MAX_PARAMETERS];
     int constants;
 } Grammar;
 
@@ -69,7 +69,7 @@ static void grammar_clear(Grammar *grammar)
     free(grammar->rule);
 }
 
-// ---- reading ----
+// ---- parsing ----
 
 static bool is_symbol(char c)
 {
@@ -99,11 +99,11 @@ static bool expect(Reader *r, char wanted, Error *e)
 static bool read_parameters(Reader *r, const Names *names, Pattern *pattern, Error *e)
 {
     do {
-        if (pattern->count == MODULE_MOST_PARAMETERS) {
+        if (pattern->count == MODULE_MAX_PARAMETERS) {
             return reader_fail(r, e, "'%c' has more than %d parameters", pattern->symbol,
-                               MODULE_MOST_PARAMETERS);
+                               MODULE_MAX_PARAMETERS);
         }
-        pattern->count++; // from here on it is cleared with the pattern
+        pattern->count++; // from here on it is freed with the pattern
         if (!expression_read(r, names, &pattern->parameter[pattern->count - 1], e)) {
             return false;
         }
@@ -112,7 +112,7 @@ static bool read_parameters(Reader *r, const Names *names, Pattern *pattern, Err
     return expect(r, ')', e);
 }
 
-// Modules as far as they go; brackets must match.
+// Parses modules as far as they go; brackets must match.
 static bool read_successor(Reader *r, const Names *names, Successor *out, Error *e)
 {
     int64_t open = 0;
@@ -152,9 +152,9 @@ static bool read_predecessor(Reader *r, Grammar *grammar, Rule *rule, Error *e)
     }
     do {
         r->at++;
-        if (rule->count == MODULE_MOST_PARAMETERS) {
+        if (rule->count == MODULE_MAX_PARAMETERS) {
             return reader_fail(r, e, "'%c' has more than %d parameters", rule->symbol,
-                               MODULE_MOST_PARAMETERS);
+                               MODULE_MAX_PARAMETERS);
         }
         if (!reader_name(r, grammar->name[grammar->constants + rule->count])) {
             return reader_fail(r, e, "a parameter's name is missing; write %c(l, w)", rule->symbol);
@@ -173,7 +173,7 @@ static bool read_condition(Reader *r, const Names *names, Rule *rule, Error *e)
     }
     r->at++;
     reader_skip_blanks(r);
-    if (*r->at == '*') { // as the book writes "always"
+    if (*r->at == '*') { // stands for "always" in The Algorithmic Beauty of Plants
         r->at++;
         return true;
     }
@@ -201,8 +201,8 @@ static bool read_probability(Reader *r, const Grammar *grammar, Rule *rule, Erro
 
 static bool read_rule(Reader *r, Grammar *grammar, Error *e)
 {
-    if (grammar->count == MOST_RULES) {
-        return reader_fail(r, e, "there are more than %d rules", MOST_RULES);
+    if (grammar->count == MAX_RULES) {
+        return reader_fail(r, e, "there are more than %d rules", MAX_RULES);
     }
     if (!memory_reserve(&grammar->rule, &grammar->capacity, grammar->count + 1,
                         sizeof *grammar->rule, e)) {
@@ -225,13 +225,13 @@ static bool read_rule(Reader *r, Grammar *grammar, Error *e)
     return read_successor(r, &names, &rule->successor, e) && read_probability(r, grammar, rule, e);
 }
 
-// The turtle counts in floats.
+// The turtle uses floats.
 static bool fits_float(double value)
 {
     return fabs(value) <= (double)FLT_MAX;
 }
 
-// "name = expression", known by its '='; false in *is when this line is none.
+// Parses "name = expression", recognised by its '='; *is is false if the line is none.
 static bool read_constant(Reader *r, Grammar *grammar, bool *is, Error *e)
 {
     const char *start = r->at;
@@ -244,8 +244,8 @@ static bool read_constant(Reader *r, Grammar *grammar, bool *is, Error *e)
         return true;
     }
     r->at++;
-    if (grammar->constants == MOST_NAMES) {
-        return reader_fail(r, e, "there are more than %d constants", MOST_NAMES);
+    if (grammar->constants == MAX_NAMES) {
+        return reader_fail(r, e, "there are more than %d constants", MAX_NAMES);
     }
     Expression x = {0};
     const Names names = {(const char(*)[NAME_SIZE])grammar->name, grammar->constants};
@@ -298,7 +298,7 @@ static bool read_grammar(const char *text, Grammar *grammar, Error *e)
 
 // ---- rewriting ----
 
-// Appends the modules of a successor under these values.
+// Appends the modules of a successor, evaluated with these values.
 static bool append(const Successor *successor, const double *values, ModuleString *string, Error *e)
 {
     int64_t count = string->count + successor->count;
@@ -326,7 +326,7 @@ static bool append(const Successor *successor, const double *values, ModuleStrin
     return true;
 }
 
-// *undefined: becomes the rule when its condition is neither true nor false.
+// *undefined is set to the rule if its condition is NaN.
 static bool fits(const Rule *rule, const ModuleString *from, int64_t place, const Grammar *grammar,
                  double *values, const Rule **undefined)
 {
@@ -344,7 +344,7 @@ static bool fits(const Rule *rule, const ModuleString *from, int64_t place, cons
     return met != 0.0;
 }
 
-// The rule for a module; NULL = it stays as it is.
+// Chooses the rule for a module; NULL = it stays unchanged.
 static const Rule *choose(const Grammar *grammar, const ModuleString *from, int64_t place,
                           double *values, uint64_t key, const Rule **undefined)
 {
@@ -388,13 +388,13 @@ static bool copy_module(const ModuleString *from, int64_t place, ModuleString *t
 static bool rewrite(const Grammar *grammar, const ModuleString *from, ModuleString *to,
                     uint64_t key, int generation, int64_t most, Error *e)
 {
-    double values[MOST_NAMES + MODULE_MOST_PARAMETERS];
+    double values[MAX_NAMES + MODULE_MAX_PARAMETERS];
     memcpy(values, grammar->value, sizeof values);
     for (int64_t i = 0; i < from->count; i++) {
         const Rule *undefined = NULL;
         const Rule *rule =
             choose(grammar, from, i, values, random_key(key, (uint64_t)i), &undefined);
-        if (rule) { // its parameters again, after the others' look
+        if (rule) { // evaluates its parameters again, since other rules have overwritten them
             fits(rule, from, i, grammar, values, &undefined);
         }
         if (undefined) {
@@ -419,8 +419,8 @@ static bool rewrite(const Grammar *grammar, const ModuleString *from, ModuleStri
 static bool derive(const Grammar *grammar, const LSystemParams *params, const Run *run,
                    ModuleString *string, Error *e)
 {
-    int64_t most = params->most_modules > 0 ? params->most_modules : DEFAULT_MOST_MODULES;
-    ModuleString last = {0}; // its arrays serve the generation after the next
+    int64_t most = params->most_modules > 0 ? params->most_modules : DEFAULT_MAX_MODULES;
+    ModuleString last = {0}; // its arrays are reused by the generation after the next
     bool done = true;
     for (int g = 1; done && g <= params->generations; g++) {
         ModuleString next = last;
@@ -472,7 +472,7 @@ bool lsystem_check(const LSystemParams *params, Error *e)
 
 bool lsystem_derive(const LSystemParams *params, const Run *run, ModuleString *string, Error *e)
 {
-    Grammar *grammar = memory_alloc_zero(1, sizeof *grammar, e); // large for the stack
+    Grammar *grammar = memory_alloc_zero(1, sizeof *grammar, e); // too large for the stack
     *string = (ModuleString){0};
     bool done =
         grammar && read_both(params, grammar, string, e) && derive(grammar, params, run, string, e);

@@ -1,15 +1,14 @@
-// L-systems (Lindenmayer 1968; Prusinkiewicz and Lindenmayer, The Algorithmic Beauty of Plants):
-// bracketed, parametric and stochastic D0L-systems. Every symbol of a string is rewritten at once,
-// generation after generation.
+// L-systems (Lindenmayer 1968): bracketed, parametric and stochastic D0L-systems. Each generation
+// rewrites all symbols of the string in parallel.
 //
-// A module is one symbol, with parameters in parentheses where it has them: F(0.5), A(l, w). Rules,
-// one a line or parted by ';':
+// A module is one symbol with optional parameters in parentheses: F(0.5), A(l, w). Rules, one per
+// line or separated by ';':
 //
 //     predecessor : condition -> successor : probability
 //
-// where condition and probability may be left out: "A(l) : l > 0.1 -> F(l)[+A(l*0.7)]A(l*0.8)".
-// The first rule that fits is taken; when it has a probability, one is drawn among all that fit and
-// have one, in proportion. A line "name = expression" makes a constant. '#' starts a comment.
+// where condition and probability are optional: "A(l) : l > 0.1 -> F(l)[+A(l*0.7)]A(l*0.8)". The
+// first matching rule applies; if it has a probability, one is drawn in proportion among all
+// matching rules that have one. A line "name = expression" defines a constant, '#' a comment.
 #ifndef RAMIFY_GROW_LSYSTEM_LSYSTEM_H
 #define RAMIFY_GROW_LSYSTEM_LSYSTEM_H
 
@@ -17,12 +16,12 @@
 
 #include <stdint.h>
 
-enum { MODULE_MOST_PARAMETERS = 8 };
+enum { MODULE_MAX_PARAMETERS = 8 };
 
 typedef struct Module {
     char symbol;
     int8_t count;  // of parameters
-    int64_t first; // of its parameters among the string's values
+    int64_t first; // index of its first parameter in the string's values
 } Module;
 
 typedef struct ModuleString {
@@ -35,21 +34,20 @@ typedef struct ModuleString {
 typedef struct LSystemParams {
     const char *axiom, *rules; // borrowed
     int generations;           // >= 0
-    int64_t most_modules;      // of a string; 0 = 4 million
-    uint64_t seed;             // of stochastic rules: a draw is keyed by generation and place
+    int64_t most_modules;      // length limit of a string; 0 = 4 million
+    uint64_t seed;             // of stochastic rules: draws are keyed by generation and place
 } LSystemParams;
 
-// The string after the last generation. ERROR_INPUT names the line and column of what is wrong with
-// axiom or rules, or the generation that would be longer than most_modules; its key is that of the
-// text.
+// Derives the string of the last generation. ERROR_INPUT names the line and column of the fault in
+// axiom or rules, or the generation that would exceed most_modules.
 bool lsystem_derive(const LSystemParams *params, const Run *run, ModuleString *string, Error *e);
 
-// Are axiom and rules right? ERROR_INPUT as for lsystem_derive.
+// Checks axiom and rules. ERROR_INPUT as for lsystem_derive.
 bool lsystem_check(const LSystemParams *params, Error *e);
 
 void module_string_clear(ModuleString *string);
 
-// Parameter number `place` of a module, or fallback where it has fewer.
+// Parameter number `place` of a module, or fallback if it has fewer.
 double module_parameter(const ModuleString *string, int64_t module, int place, double fallback);
 
 #endif

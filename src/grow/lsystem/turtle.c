@@ -9,7 +9,7 @@
 
 enum { CHECK_EVERY = 65536 };
 
-// Heading up (+Y), its back to +Z: drawings in the plane turn in the plane z = 0.
+// Heading up (+Y), back to +Z: plane drawings rotate in the plane z = 0.
 static TurtleFrame frame_default(void)
 {
     return (TurtleFrame){{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
@@ -20,7 +20,7 @@ TurtleParams turtle_params_default(void)
     return (TurtleParams){.step = 1.0f, .angle = 30.0f, .shrink = 1.0f, .seed = 1};
 }
 
-// The frame made exactly right-angled again about its heading.
+// Re-orthonormalises the frame about its heading.
 static TurtleFrame frame_clean(TurtleFrame frame)
 {
     Vec3 h = vec3_normalize(frame.heading);
@@ -38,7 +38,7 @@ static TurtleFrame turn_about(TurtleFrame frame, Vec3 axis, float radians)
                                      vec3_rotate(frame.up, axis, c, s)});
 }
 
-// L level, U as far up as it goes; a vertical turtle stays as it is.
+// Rolls until L is horizontal and U points up; a vertical turtle is unchanged.
 static TurtleFrame level(TurtleFrame frame)
 {
     Vec3 left = vec3_cross(vec3(0, 1, 0), frame.heading);
@@ -87,7 +87,7 @@ typedef struct Turtle {
     TurtleFrame frame;
     Vec3 position;
     float width;
-    int64_t node; // where it stands; -1 before it draws or after it jumped
+    int64_t node; // current node; -1 before drawing and after a jump
 } Turtle;
 
 typedef struct Drawing {
@@ -97,7 +97,7 @@ typedef struct Drawing {
     Turtle now;
     Turtle *stack;
     int64_t depth, stack_capacity;
-    int32_t *children; // so far, per node
+    int32_t *children; // number of children, per node
     int64_t children_capacity;
     int64_t roots;
 } Drawing;
@@ -119,7 +119,7 @@ static int64_t add_node(Drawing *d, Vec3 position, int64_t parent, Error *e)
     return node;
 }
 
-// Bends toward the tropism's vector (The Algorithmic Beauty of Plants, section 2.1).
+// Bends toward the tropism vector (Lindenmayer 1968, The Algorithmic Beauty of Plants 2.1).
 static void bend(Drawing *d)
 {
     const TurtleParams *p = d->params;

@@ -1,12 +1,12 @@
-// The turtle: reads a string of modules as moves and turns in space (The Algorithmic Beauty of
-// Plants, section 1.5). Heading H, left L, up U, with H x L = U; angles in degrees, each symbol's
-// own parameter or the turtle's default.
+// The turtle: interprets a string of modules as moves and rotations in space (Lindenmayer 1968, The
+// Algorithmic Beauty of Plants 1.5). Heading H, left L, up U, with H x L = U. Angles in degrees:
+// the symbol's own parameter or the turtle's default.
 //
-//     F(l) forward, drawing       f(l) forward without drawing    !(w) width of what follows, m
+//     F(l) forward, drawing       f(l) forward without drawing    !(w) width from here on, m
 //     + -  turn left, right       & ^  pitch down, up             \ /  roll left, right
-//     |    turn about             $    roll until L is level      [ ]  branch: remember, return
+//     |    turn around            $    roll until L is horizontal [ ]  branch: push, pop state
 //
-// Other symbols mean nothing to it.
+// Other symbols are ignored.
 #ifndef RAMIFY_GROW_LSYSTEM_TURTLE_H
 #define RAMIFY_GROW_LSYSTEM_TURTLE_H
 
@@ -17,27 +17,27 @@ typedef struct TurtleFrame {
     Vec3 heading, left, up; // unit, right-handed
 } TurtleFrame;
 
-// Applies a turning symbol ( + - & ^ \ / | $ ) to the frame; false when the module is none.
+// Applies a turning symbol ( + - & ^ \ / | $ ) to the frame; false if the module is none.
 bool turtle_turn(TurtleFrame *frame, char symbol, float degrees);
 
 typedef struct TurtleParams {
-    Vec3 position;    // m, of the start
+    Vec3 position;    // start, m
     float step;       // m, of an F or f without parameter; also the unit of their parameters
     float angle;      // degrees, of turns without parameter
-    Vec3 tropism;     // the vector that segments bend toward
-    float elasticity; // how readily: after each segment the turtle turns by this many radians times
-                      // |H x T|
-    float width;      // m, at the start; 0 = the tree's radii stay 0 until some ! gives widths
+    Vec3 tropism;     // direction that segments bend toward
+    float elasticity; // susceptibility: after each segment the turtle turns by this many radians
+                      // times |H x T|
+    float width;      // m, at the start; 0 = radii stay 0 until a ! sets a width
     float shrink;     // factor of a ! without parameter
-    float noise;      // degrees: standard deviation of every turn, keyed by place
+    float noise;      // degrees: standard deviation added to every turn, keyed by place
     uint64_t seed;
 } TurtleParams;
 
-TurtleParams turtle_params_default(void); // step 1 m, angle 30 degrees, nothing else
+TurtleParams turtle_params_default(void); // step 1 m, angle 30 degrees, everything else off
 
-// Draws the string as an out-tree: a node at each end of an F, roots where drawing starts anew
-// after an f. Births count the F's from the root. ERROR_INPUT for brackets that do not match and
-// for strings that draw nothing.
+// Draws the string as an out-tree: a node at each end of an F, a new root where drawing resumes
+// after an f. Births count the F's from the root. ERROR_INPUT for unmatched brackets and for
+// strings that draw nothing. The caller frees the tree.
 OutTree *turtle_draw(const ModuleString *string, const TurtleParams *params, const Run *run,
                      Error *e);
 

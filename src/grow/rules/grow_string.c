@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Where the reader of the string stands: the direction it has taken last, and how it has turned
-// since.
+// Turtle state: the last direction taken, and the rotation since.
 typedef struct Place {
     int32_t direction;
     TurtleFrame frame; // in (heading, left, up) components of that direction's own frame
@@ -99,14 +98,15 @@ static bool read_module(Builder *b, const ModuleString *modules, int64_t place, 
     return true;
 }
 
-// Moves directions so that those that follow the same one are neighbours, in the string's order:
-// generation by generation, each after the one it follows.
+// Reorders directions so that followers of the same one are contiguous, breadth first, in the
+// string's order.
 static bool sort_by_parent(GrowString *string, Error *e)
 {
     int64_t count = string->count;
     GrowDirection *sorted = memory_alloc(count, sizeof *sorted, e);
     int32_t *old = memory_alloc(2 * count, sizeof *old, e), *next = old ? old + count : NULL;
-    int32_t *head = memory_alloc(count, sizeof *head, e); // first follower, then a chain in `next`
+    int32_t *head = memory_alloc(count, sizeof *head, e); // first follower; the others are chained
+                                                          // in `next`
     if (!sorted || !old || !head) {
         free(sorted);
         free(old);

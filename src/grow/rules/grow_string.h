@@ -1,6 +1,6 @@
-// What an L-system string means to growth (Horiuchi, step b): each F is a direction in which
-// a node may grow, + - & ^ \ / | turn it, [ ] branch. The string as a tree of directions: a node
-// that stands at an F may grow into the F's that follow it.
+// An L-system string as a growth rule (Horiuchi, step b): each F is a direction in which a node may
+// grow, + - & ^ \ / | rotate it, [ ] branch. The string becomes a tree of directions: a node at an
+// F may grow into the F's that follow it.
 #ifndef RAMIFY_GROW_RULES_GROW_STRING_H
 #define RAMIFY_GROW_RULES_GROW_STRING_H
 
@@ -9,10 +9,10 @@
 #include "base/vec.h"
 
 typedef struct GrowDirection {
-    Vec3 heading, normal;     // unit, in (heading, normal, side) components of the node before it
+    Vec3 heading, normal;     // unit, in (heading, normal, side) components of the preceding node
     float length;             // factor on the growth distance: the parameter of F(l)
-    int32_t parent;           // the direction before it
-    int32_t first, followers; // those that follow it stand one after another
+    int32_t parent;           // the preceding direction
+    int32_t first, followers; // range of the directions that follow it
 } GrowDirection;
 
 typedef struct GrowString {
@@ -21,9 +21,9 @@ typedef struct GrowString {
     int most_followers;
 } GrowString;
 
-// degrees: of turns without parameter. ERROR_INPUT for brackets that do not match, an f (a branch
-// cannot jump), a $ (it does not know the vertical), no F at all, or more than MAX_SECTORS
-// directions from one node.
+// degrees: angle of turns without parameter. ERROR_INPUT for unmatched brackets, an f (branches
+// cannot jump), a $ (the vertical is unknown), no F at all, or more than MAX_SECTORS directions
+// from one node.
 bool grow_string_init(GrowString *string, const ModuleString *modules, float degrees, Error *e);
 void grow_string_clear(GrowString *string);
 

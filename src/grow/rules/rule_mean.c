@@ -1,4 +1,4 @@
-// One child a step along the mean pull (Tanaka eq. (6)-(7)).
+// One child per step along the mean pull (Tanaka eq. (6)-(7)).
 #include "grow/rules/rule.h"
 
 #include <stddef.h>

@@ -1,4 +1,5 @@
-// Pulls are binned by angle about the heading; at most one child grows from each sector, ever.
+// Pulls are binned by angle about the heading; at most one child grows from each sector over a
+// node's life.
 #include "base/memory.h"
 #include "grow/rules/rule.h"
 #include "grow/rules/sectors.h"
@@ -77,7 +78,7 @@ static bool make_mean_child(const Growth *growth, const Grower *grower, const Pu
     return growth_make_child(growth, grower, pull, NULL, growth->params->step, 0, child);
 }
 
-// Is there no child to come in this sector, whatever pulls?
+// Whether the sector can never grow a child, whatever pulls.
 static bool is_closed(const Growth *growth, const Grower *grower, int sector)
 {
     const State *state = growth->rule_state;

@@ -1,9 +1,9 @@
-// The reached attractor itself becomes the node (Tanaka figures 5 and 6).
+// The reached attractor itself becomes the node (Tanaka fig. 5-6).
 #include "grow/rules/rule.h"
 
 #include <string.h>
 
-// The angle limits as a yes or no: this rule cannot turn a direction.
+// Tests the angle limits: this rule cannot rotate a direction.
 static bool is_angle_allowed(const Growth *growth, const Grower *grower, Vec3 unit)
 {
     if (!grower->has_heading) {
@@ -14,7 +14,8 @@ static bool is_angle_allowed(const Growth *growth, const Grower *grower, Vec3 un
     return cosine >= growth->limits.max_cos && (!lateral || cosine <= growth->limits.min_cos);
 }
 
-// Least cost wins: the distance, lengthened where it does not agree with the grower's lean.
+// Keeps the attractor of least cost: the distance, increased where it disagrees with the grower's
+// lean.
 static void pick(const Growth *growth, const Grower *grower, Vec3 unit, float distance,
                  int32_t attractor, Pull *pull)
 {

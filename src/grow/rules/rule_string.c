@@ -1,4 +1,4 @@
-// Directions that an L-system string picks; each owns the attractors nearest to it in angle
+// Directions chosen by an L-system string; each owns the attractors nearest to it in angle
 // (Horiuchi, steps a to f).
 #include "base/exact_math.h"
 #include "base/memory.h"
@@ -9,8 +9,8 @@
 typedef struct State {
     float group_cos; // of half a group
     float *length;   // growth distance of each attractor, m
-    float longest;   // m, of them
-    int32_t *place;  // per node, the direction of the string that it stands at
+    float longest;   // m, the largest of them
+    int32_t *place;  // per node: the string's direction it is at
     int64_t place_capacity;
 } State;
 
@@ -28,8 +28,8 @@ static float distance_to_root(const Growth *growth, int64_t attractor)
     return sqrtf(least);
 }
 
-// Each attractor's own growth distance (step c): between the user's two lengths, by its distance
-// from the nearest root as a share of the largest.
+// Growth distance of each attractor (Horiuchi, step c): between the two given lengths, by its
+// distance from the nearest root relative to the largest.
 static bool set_lengths(const Growth *growth, State *state, float near, float far, Error *e)
 {
     int64_t count = growth->attractors->count;
@@ -77,7 +77,7 @@ static void end(Growth *growth)
     free(state);
 }
 
-// All stand at the string's start until `note` says otherwise.
+// New nodes are at the string's start until `note` sets their direction.
 static bool reserve(Growth *growth, int64_t from, int64_t count, Error *e)
 {
     State *state = growth->rule_state;
@@ -123,7 +123,7 @@ static void add_length(const Growth *growth, const Grower *grower, Vec3 unit, fl
     pull->length += (int64_t)(state->length[attractor] / state->longest * PULL_ONE);
 }
 
-// Along the mean of what the direction owns, as far as its mean growth distance (step d).
+// Grows along the mean of the attractors owned, by their mean growth distance (Horiuchi, step d).
 static bool make_child(const Growth *growth, const Grower *grower, const Pull *pull,
                        const GrowDirection *direction, int place, Child *child)
 {
@@ -143,7 +143,7 @@ static bool make_child(const Growth *growth, const Grower *grower, const Pull *p
     return true;
 }
 
-// Each direction that owns attractors makes one child (steps b-d).
+// Each direction that owns attractors makes one child (Horiuchi, steps b-d).
 static int make_children(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
 {
     const State *state = growth->rule_state;

@@ -6,31 +6,34 @@
 
 #include <stdlib.h>
 
-#define REACH 6.0f      // births: how far sources pull; they are denser than that
-#define DARTS 1.5f      // thrown in a round for each place that the blade has for a source
-#define MIDRIB_NODES 24 // more where the step asks for more
-#define SETTLE 400      // steps at most after the blade is grown
+#define REACH 6.0f      // births: influence radius of sources; they lie closer than that
+#define DARTS 1.5f      // darts thrown per round for each source that the blade has room for
+#define MIDRIB_NODES 24 // at least; more if the step asks for it
+#define SETTLE 400      // most steps after the blade is fully grown
 
-// What pulls a node.
+enum { STREAM_ROOT_ID = 0, STREAM_ROUNDS = 1 }; // of the seed; one stream per round from ROUNDS on
+enum { STREAM_X = 0, STREAM_Y = 1 };            // of a dart
+
+// Sum of the sources' pulls on a node.
 typedef struct Pull {
     Vec3 sum;       // of unit vectors to its sources
     Vec3 nearest;   // unit: to the nearest of them
     float distance; // m, to that
 } Pull;
 
-// A leaf as it grows.
+// State of a growing leaf.
 typedef struct Leaf {
     const Run *run;
     const VeinParams *params;
     OutTree *tree;
-    int32_t *children; // per node: how many
+    int32_t *children; // number of children, per node
     Pull *pull;        // per node
     int64_t child_capacity, pull_capacity;
-    Vec3 *source; // alive
+    Vec3 *source; // sources alive
     int64_t source_count, source_capacity;
     PointSet *all_sources;
     VeinGrid nodes, darts;
-    float scale; // of the blade
+    float scale; // relative size of the blade
     int32_t birth;
     VeinReport report;
 } Leaf;
@@ -45,7 +48,7 @@ static Aabb blade_box(const Leaf *leaf)
 static int64_t add_node(Leaf *leaf, Vec3 p, int64_t parent, Error *e)
 {
     OutTree *tree = leaf->tree;
-    uint64_t id = parent < 0 ? random_key(leaf->params->seed, 0)
+    uint64_t id = parent < 0 ? random_key(leaf->params->seed, STREAM_ROOT_ID)
                              : out_tree_child_id(tree->id[parent], leaf->children[parent]++);
     int64_t node = out_tree_add_node(tree, p, parent, leaf->birth, 0, id, e);
     if (node < 0 || !memory_reserve(&leaf->children, &leaf->child_capacity, tree->count,
@@ -112,14 +115,14 @@ static bool throw_darts(Leaf *leaf, int round, Error *e)
         !vein_grid_fill(&leaf->darts, leaf->source, old, box, params->birth, e)) {
         return false;
     }
-    uint64_t key = random_key(params->seed, 1 + (uint64_t)round);
+    uint64_t key = random_key(params->seed, STREAM_ROUNDS + (uint64_t)round);
     for (int64_t i = 0; i < darts; i++) {
         if (!run_goes_on(leaf->run, i, e)) {
             return false;
         }
         uint64_t dart = random_key(key, (uint64_t)i);
-        Vec3 p = vec3(random_range(random_key(dart, 0), box.low.x, box.high.x),
-                      random_range(random_key(dart, 1), box.low.y, box.high.y), 0);
+        Vec3 p = vec3(random_range(random_key(dart, STREAM_X), box.low.x, box.high.x),
+                      random_range(random_key(dart, STREAM_Y), box.low.y, box.high.y), 0);
         if (leaf_contains(&params->outline, leaf->scale, p) && is_free(leaf, old, p) &&
             !add_source(leaf, p, dart, e)) {
             return false;
@@ -148,11 +151,11 @@ static void add_pull(Leaf *leaf, int32_t node, Vec3 source)
     }
 }
 
-// All veins that grow toward the source have come: they meet in it. Neighbours that hang together
-// nearby count as one vein.
+// All veins that grow toward the source have arrived and meet in it. Neighbours connected nearby
+// count as one vein.
 static bool close_loop(Leaf *leaf, Vec3 source, const int32_t *neighbour, int count, Error *e)
 {
-    int32_t met[VEIN_MOST_NEIGHBOURS];
+    int32_t met[VEIN_MAX_NEIGHBOURS];
     int meeting = 0;
     for (int k = 0; k < count; k++) {
         bool is_new = true;
@@ -173,12 +176,12 @@ static bool close_loop(Leaf *leaf, Vec3 source, const int32_t *neighbour, int co
     return true;
 }
 
-// A source of closed venation: pulls those of its neighbours that have not come yet. *done = all
+// A source of closed venation: pulls those of its neighbours that have not arrived. *done: all
 // have.
 static bool pull_closed(Leaf *leaf, Vec3 source, bool *done, Error *e)
 {
     const VeinParams *params = leaf->params;
-    int32_t neighbour[VEIN_MOST_NEIGHBOURS];
+    int32_t neighbour[VEIN_MAX_NEIGHBOURS];
     int count = vein_relative_neighbours(&leaf->nodes, leaf->tree->position, source,
                                          REACH * params->birth, neighbour);
     *done = count > 0;
@@ -202,7 +205,7 @@ static bool pull_open(Leaf *leaf, Vec3 source, bool *done)
     return true;
 }
 
-// Sums the pulls of all sources and takes away those that are reached.
+// Sums the pulls of all sources and removes those that are reached.
 static bool gather_pulls(Leaf *leaf, Error *e)
 {
     int64_t count = leaf->tree->count;
@@ -230,8 +233,8 @@ static bool gather_pulls(Leaf *leaf, Error *e)
     return true;
 }
 
-// Where a node's child goes: along the mean pull, turned toward the tip; if that leaves the blade
-// or would be where a node is already, along the mean pull, then toward the nearest source.
+// Position of a node's child: along the mean pull turned toward the tip; if that leaves the blade
+// or coincides with a node, along the mean pull; else toward the nearest source.
 static bool find_place(const Leaf *leaf, int64_t node, float step, float slant, Vec3 *place)
 {
     const Pull *pull = &leaf->pull[node];
@@ -247,8 +250,7 @@ static bool find_place(const Leaf *leaf, int64_t node, float step, float slant, 
     return false;
 }
 
-// Every pulled node makes a child, unless there is a node already where it would be. *grew = any
-// did.
+// Every pulled node makes a child, unless a node is already there. *grew: whether any did.
 static bool grow_step(Leaf *leaf, bool *grew, Error *e)
 {
     const VeinParams *params = leaf->params;
@@ -258,7 +260,7 @@ static bool grow_step(Leaf *leaf, bool *grew, Error *e)
         return false;
     }
     leaf->birth++;
-    // A young blade is small: its veins grow in pieces in proportion.
+    // A young blade is small; its vein segments are scaled with it.
     float step = params->step;
     float slant = params->slant * (1.0f - leaf->scale);
     float young = 0.02f * leaf->scale * params->outline.length;
@@ -279,8 +281,7 @@ static bool grow_step(Leaf *leaf, bool *grew, Error *e)
     return true;
 }
 
-// The blade and what lies in it become larger by this factor; in a blade that grows at its margin,
-// what there is stays.
+// Scales the blade and its contents by this factor; with marginal growth the contents stay.
 static void enlarge(Leaf *leaf, float factor)
 {
     leaf->scale *= factor;
@@ -315,7 +316,7 @@ static bool grow_leaf(Leaf *leaf, Error *e)
             }
         }
         if (grown) {
-            return gather_pulls(leaf, e); // takes away what the last step reached
+            return gather_pulls(leaf, e); // removes what the last step reached
         }
         float factor = 1.0f + params->rate;
         enlarge(leaf, factor * leaf->scale > 1.0f ? 1.0f / leaf->scale : factor);

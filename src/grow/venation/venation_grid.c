@@ -30,7 +30,8 @@ bool vein_grid_fill(VeinGrid *grid, const Vec3 *position, int64_t count, Aabb bo
         return false;
     }
     memset(grid->first, 0, sizeof(int32_t) * (size_t)(cells + 2));
-    int32_t *end = grid->first + 1; // becomes each cell's end while nodes are put in
+    int32_t *end = grid->first + 1; // shifted by one; becomes each cell's end while nodes are
+                                    // stored
     for (int64_t i = 0; i < count; i++) {
         end[cell_of(grid, position[i]) + 1]++;
     }
@@ -50,7 +51,7 @@ void vein_grid_free(VeinGrid *grid)
     *grid = (VeinGrid){0};
 }
 
-// The cells that a disc may touch, row by row: those of a row lie together.
+// The cells that a disc may overlap, row by row; the cells of a row are contiguous.
 typedef struct Window {
     int64_t x0, x1, y, y1;
 } Window;
@@ -95,8 +96,8 @@ int32_t vein_nearest(const VeinGrid *grid, const Vec3 *position, Vec3 p, float r
     return found;
 }
 
-// Sectors [0, 60), [60, 120), ... degrees: two points of one sector see each other under less than
-// 60 degrees from its apex, so the farther is farther from the apex than from the nearer.
+// Index of the sector [0, 60), [60, 120), ... degrees. Two points of one sector subtend less than
+// 60 degrees at its apex, so the farther is nearer to the other point than to the apex.
 static int sector_of(float x, float y)
 {
     const float root3 = 1.7320508f;
@@ -121,11 +122,11 @@ static bool is_blocked(const VeinGrid *grid, const Vec3 *position, Vec3 p, int32
 }
 
 int vein_relative_neighbours(const VeinGrid *grid, const Vec3 *position, Vec3 p, float reach,
-                             int32_t neighbour[VEIN_MOST_NEIGHBOURS])
+                             int32_t neighbour[VEIN_MAX_NEIGHBOURS])
 {
-    int32_t nearest[VEIN_MOST_NEIGHBOURS];
-    float least[VEIN_MOST_NEIGHBOURS];
-    for (int k = 0; k < VEIN_MOST_NEIGHBOURS; k++) {
+    int32_t nearest[VEIN_MAX_NEIGHBOURS];
+    float least[VEIN_MAX_NEIGHBOURS];
+    for (int k = 0; k < VEIN_MAX_NEIGHBOURS; k++) {
         nearest[k] = -1;
         least[k] = reach * reach;
     }
@@ -140,7 +141,7 @@ int vein_relative_neighbours(const VeinGrid *grid, const Vec3 *position, Vec3 p,
         }
     }
     int count = 0;
-    for (int k = 0; k < VEIN_MOST_NEIGHBOURS; k++) {
+    for (int k = 0; k < VEIN_MAX_NEIGHBOURS; k++) {
         if (nearest[k] >= 0 && !is_blocked(grid, position, p, nearest[k], least[k])) {
             neighbour[count++] = nearest[k];
         }
