@@ -43,7 +43,11 @@ static int64_t copies(const SceneObject *object)
 
 static void needs(const SceneObject *object, Needs *needs)
 {
-    enum { LEAF_FACES = 25, LEAVES = 50000 }; // of a large plant
+    // of a large plant; three branches a fork are typical
+    enum { LEAF_FACES = 25, LEAVES = 50000, GENERATIONS = 6, BRANCH_BYTES = 69000 };
+    const LSystemPlantParams *plant = object->lsystem;
+    double branches = pow(3.0, fmin(plant->generations, GENERATIONS));
+    needs_add(needs, "generations", branches, BRANCH_BYTES * exp2(2.0 * plant->skin.levels));
     needs_add_copies(needs, "leaves.max_count", fmin((double)copies(object), LEAVES), LEAF_FACES);
 }
 
