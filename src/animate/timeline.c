@@ -2,7 +2,6 @@
 
 #include "animate/keys.h"
 #include "base/memory.h"
-#include "config/scalar.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,42 +17,10 @@ struct Timeline {
     int count;
 };
 
-// Parses a key's numbers: "3", "[1, 2]", "#rrggbb" as linear light. Returns their count; 0 = a
-// word.
-static int read_numbers(const char *text, double numbers[SCENE_KEY_MOST_NUMBERS])
-{
-    float rgb[3];
-    if (scalar_color(text, rgb)) {
-        for (int i = 0; i < 3; i++) {
-            numbers[i] = (double)rgb[i];
-        }
-        return 3;
-    }
-    if (*text != '[') {
-        return scalar_number(text, numbers) ? 1 : 0;
-    }
-    int count = 0;
-    for (const char *at = text + 1; *at && count < SCENE_KEY_MOST_NUMBERS; count++) {
-        char number[64];
-        at += strspn(at, " ");
-        size_t length = strcspn(at, ",]");
-        if (length >= sizeof number) {
-            return 0;
-        }
-        memcpy(number, at, length);
-        number[length] = 0;
-        if (!scalar_number(number, &numbers[count])) {
-            return 0;
-        }
-        at += length + (at[length] != 0);
-    }
-    return count;
-}
-
 static bool fill_lane(Lane *lane, const SceneTrack *track, bool loop, Error *e)
 {
     double numbers[SCENE_KEY_MOST_NUMBERS];
-    int width = read_numbers(track->keys[0].value, numbers);
+    int width = scene_key_numbers(&track->keys[0], numbers);
     lane->track = track;
     lane->times = memory_alloc(track->key_count, sizeof(double), e);
     lane->value =
@@ -63,7 +30,7 @@ static bool fill_lane(Lane *lane, const SceneTrack *track, bool loop, Error *e)
     }
     for (int i = 0; i < track->key_count; i++) {
         lane->times[i] = track->keys[i].at;
-        read_numbers(track->keys[i].value, numbers);
+        scene_key_numbers(&track->keys[i], numbers);
         memcpy(lane->value + (size_t)i * (size_t)width, numbers, sizeof(double) * (size_t)width);
     }
     lane->keys = (Keys){track->ease, loop, track->key_count, width, lane->times, lane->value};

@@ -16,7 +16,7 @@ static RamifyLand *hand_land(HeightField *field, const Error *e, RamifyError *er
 static HeightField *make_land(const Scene *scene, int index, const OutTree *tree, const Run *run,
                               Error *e)
 {
-    const Kind *kind = kind_of(&scene->objects[index]);
+    const Kind *kind = scene->objects[index].kind;
     if (tree || !kind->grow || !kind->heights) {
         return scene_heights(scene, index, tree, run, e);
     }
@@ -73,12 +73,12 @@ static bool paint(const Scene *scene, int index, const OutTree *tree, int width,
                   float *pixel, Error *e)
 {
     const SceneObject *object = &scene->objects[index];
-    const Kind *kind = kind_of(object);
+    const Kind *kind = object->kind;
     if (!kind->paint) {
         return error_set(e, ERROR_INPUT, "a picture of object '%s', a %s; a venation makes one",
-                         object->name, kind->key);
+                         object->name, kind_name(kind));
     }
-    return kind->paint(object, tree, width, height, pixel, e);
+    return kind->paint(object->params, tree, width, height, pixel, e);
 }
 
 bool ramify_paint(const RamifyScene *scene, int index, const RamifyTree *tree, int width,

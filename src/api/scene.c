@@ -48,14 +48,14 @@ void ramify_scene_size(const RamifyScene *scene, int *width, int *height)
 
 static int64_t object_attractors(const SceneObject *object)
 {
-    const Kind *kind = kind_of(object);
-    return kind->attractors ? kind->attractors(object) : 0;
+    const Kind *kind = object->kind;
+    return kind->attractors ? kind->attractors(object->params) : 0;
 }
 
 static int64_t object_instances(const SceneObject *object)
 {
-    const Kind *kind = kind_of(object);
-    return kind->copies ? kind->copies(object) : 0;
+    const Kind *kind = object->kind;
+    return kind->copies ? kind->copies(object->params) : 0;
 }
 
 void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *info)
@@ -109,9 +109,9 @@ const char *ramify_scene_object_name(const RamifyScene *scene, int index)
 void ramify_scene_object(const RamifyScene *scene, int index, RamifyObjectInfo *info)
 {
     const SceneObject *object = &scene_of(scene)->objects[index];
-    const Kind *kind = kind_of(object);
+    const Kind *kind = object->kind;
     *info = (RamifyObjectInfo){.name = object->name,
-                               .kind = kind->key,
+                               .kind = kind_name(kind),
                                .seed = scene_object_seed(scene_of(scene), index),
                                .grows = kind->grow != NULL,
                                .is_land = kind->heights != NULL,
@@ -123,12 +123,12 @@ void ramify_scene_object(const RamifyScene *scene, int index, RamifyObjectInfo *
 void ramify_scene_object_describe(const RamifyScene *scene, int index, char *text, size_t size)
 {
     const SceneObject *object = &scene_of(scene)->objects[index];
-    const Kind *kind = kind_of(object);
+    const Kind *kind = object->kind;
     if (size > 0) {
         text[0] = 0;
     }
     if (kind->describe) {
-        kind->describe(object, text, size);
+        kind->describe(object->params, text, size);
     }
 }
 

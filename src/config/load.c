@@ -1,244 +1,374 @@
 #include "config/load.h"
 
-#include "base/vec.h"
-#include "config/emit.h"
+#include "config/hint.h"
+#include "config/load_value.h"
 
+#include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-// ---- the schema ----
+#define MAX_KNOWN 64
 
-typedef struct Builder {
-    Arena *arena;
-    Error *e;
-} Builder;
+// ---- messages ----
 
-static bool table_value(const Builder *b, const Table *table, unsigned flags,
-                        cyaml_schema_value_t *value);
-
-static cyaml_schema_value_t plain_value(cyaml_type_e type, size_t size, unsigned flags)
+const char *mapping_path(const Mapping *mapping, const char *key)
 {
-    return (cyaml_schema_value_t){
-        .type = type, .flags = (cyaml_flag_e)flags, .data_size = (uint32_t)size};
-}
-
-// A fixed sequence of entries of size bytes each.
-static bool fixed_sequence(const Builder *b, cyaml_schema_value_t entry, size_t size, int count,
-                           unsigned flags, cyaml_schema_value_t *value)
-{
-    cyaml_schema_value_t *kept = arena_alloc(b->arena, sizeof *kept, b->e);
-    if (kept) {
-        *kept = entry;
-        *value = plain_value(CYAML_SEQUENCE_FIXED, size, flags);
-        value->sequence.entry = kept;
-        value->sequence.min = value->sequence.max = (uint32_t)count;
+    if (!mapping->up) {
+        return key ? key : "the scene";
     }
-    return kept;
+    const Loader *loader = mapping->loader;
+    const char *front = mapping_path(mapping->up, mapping->key);
+    const char *whole = key ? arena_format(loader->arena, loader->e, "%s.%s", front, key) : front;
+    return whole ? whole : "";
 }
 
-static bool vector_value(const Builder *b, const Key *row, unsigned flags,
-                         cyaml_schema_value_t *value)
+static bool fail_at(const Loader *loader, const Node *at, int line, int column, const char *message)
 {
-    cyaml_schema_value_t number = plain_value(CYAML_FLOAT, sizeof(float), CYAML_FLAG_DEFAULT);
-    if (row->type != KEY_AFFINE) {
-        int count = row->type == KEY_COLOR ? 3 : row->count;
-        return fixed_sequence(b, number, sizeof(float), count, flags, value);
-    }
-    cyaml_schema_value_t rows;
-    return fixed_sequence(b, number, sizeof(float), 4, CYAML_FLAG_DEFAULT, &rows) &&
-           fixed_sequence(b, rows, 4 * sizeof(float), 3, flags, value);
-}
-
-static bool list_value(const Builder *b, const Key *row, unsigned flags,
-                       cyaml_schema_value_t *value)
-{
-    cyaml_schema_value_t *entry = arena_alloc(b->arena, sizeof *entry, b->e);
-    if (!entry || !table_value(b, row->table, CYAML_FLAG_DEFAULT, entry)) {
-        return false;
-    }
-    *value = plain_value(CYAML_SEQUENCE, row->table->size, flags | CYAML_FLAG_POINTER);
-    value->sequence.entry = entry;
-    value->sequence.max = CYAML_UNLIMITED;
-    return true;
-}
-
-static void text_value(const Key *row, unsigned flags, cyaml_schema_value_t *value)
-{
-    if (row->type == KEY_NAME) {
-        *value = plain_value(CYAML_STRING, (size_t)row->count, flags);
-        value->string.max = (uint32_t)row->count - 1;
+    error_set(loader->e, ERROR_INPUT, "%s", message);
+    if (at && at->source) {
+        error_locate(loader->e, at->source, 0, 0);
     } else {
-        *value = plain_value(CYAML_STRING, 1, flags | CYAML_FLAG_POINTER);
-        value->string.max = CYAML_UNLIMITED;
-    }
-}
-
-static void enum_value(const Key *row, unsigned flags, cyaml_schema_value_t *value)
-{
-    *value = plain_value(CYAML_ENUM, sizeof(int), flags | CYAML_FLAG_STRICT);
-    value->enumeration.strings = row->names;
-    while (row->names[value->enumeration.count].str) {
-        value->enumeration.count++;
-    }
-}
-
-static bool key_value(const Builder *b, const Key *row, cyaml_schema_value_t *value)
-{
-    unsigned flags = CYAML_FLAG_OPTIONAL;
-    switch (row->type) {
-    case KEY_BOOL:
-        *value = plain_value(CYAML_BOOL, sizeof(bool), flags);
-        return true;
-    case KEY_INT:
-        *value = plain_value(CYAML_INT, sizeof(int), flags);
-        return true;
-    case KEY_INT64:
-        *value = plain_value(CYAML_INT, sizeof(int64_t), flags);
-        return true;
-    case KEY_UINT64:
-        *value = plain_value(CYAML_UINT, sizeof(uint64_t), flags);
-        return true;
-    case KEY_FLOAT:
-        *value = plain_value(CYAML_FLOAT, sizeof(float), flags);
-        return true;
-    case KEY_DOUBLE:
-        *value = plain_value(CYAML_FLOAT, sizeof(double), flags);
-        return true;
-    case KEY_ENUM:
-        enum_value(row, flags, value);
-        return true;
-    case KEY_TEXT:
-    case KEY_ANY:
-    case KEY_FILE:
-    case KEY_NAME:
-        text_value(row, flags, value);
-        return true;
-    case KEY_VECTOR:
-    case KEY_COLOR:
-    case KEY_AFFINE:
-        return vector_value(b, row, flags, value);
-    case KEY_GROUP:
-        return table_value(b, row->table, flags, value);
-    case KEY_POINTER:
-        return table_value(b, row->table, flags | CYAML_FLAG_POINTER, value);
-    case KEY_LIST:
-        return list_value(b, row, flags, value);
+        error_locate(loader->e, loader->file, line, column);
     }
     return false;
 }
 
-static bool table_value(const Builder *b, const Table *table, unsigned flags,
-                        cyaml_schema_value_t *value)
+bool load_fail(const Loader *loader, const Node *at, const char *format, ...)
 {
-    size_t count = 1;
-    for (const Key *row = table->keys; row->key; row++) {
-        count++;
-    }
-    cyaml_schema_field_t *fields = arena_alloc(b->arena, sizeof *fields * count, b->e);
-    if (!fields) {
-        return false;
-    }
-    *value = plain_value(CYAML_MAPPING, table->size, flags);
-    value->mapping.fields = fields;
-    for (const Key *row = table->keys; row->key; row++) {
-        if (row->flags & KEY_VIRTUAL) {
-            continue;
+    char message[768];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    return fail_at(loader, at, at ? at->line : 0, at ? at->column : 0, message);
+}
+
+// The same about a key itself rather than its value.
+static bool fail_key(const Mapping *mapping, const Node *child, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static bool fail_key(const Mapping *mapping, const Node *child, const char *format, ...)
+{
+    char message[768];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    return fail_at(mapping->loader, child, child->key_line, child->key_column, message);
+}
+
+// The deepest node on the way to the key that the file has.
+static const Node *place_of(const Node *given, const char *key)
+{
+    while (given && key && *key) {
+        char name[64];
+        size_t length = strcspn(key, ".");
+        snprintf(name, sizeof name, "%.*s", (int)length, key);
+        key += length + (key[length] == '.');
+        const Node *child = node_get(given, name);
+        if (!child) {
+            return given;
         }
-        fields->key = row->key;
-        fields->data_offset = (uint32_t)row->offset;
-        fields->count_offset = (uint32_t)row->count_offset;
-        fields->count_size = row->type == KEY_LIST ? sizeof(int) : 0;
-        if (!key_value(b, row, &fields->value)) {
-            return false;
+        given = child;
+    }
+    return given;
+}
+
+bool mapping_fail(const Mapping *mapping, const char *key, const char *format, ...)
+{
+    char message[768];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    return load_fail(mapping->loader, place_of(mapping->given, key), "%s%s",
+                     mapping_path(mapping, key), message);
+}
+
+// ---- keys ----
+
+// Names that a mapping of this kind may have; returns how many.
+static int known_keys(const Table *table, int kind, const char **known)
+{
+    int count = 0;
+    const Key *row;
+    for (int i = 0; (row = table_row(table, i)) && count < MAX_KNOWN; i++) {
+        if (key_in_kind(row, kind)) {
+            known[count++] = row->key;
         }
-        fields++;
+    }
+    return count;
+}
+
+static bool check_is_mapping(const Mapping *mapping, const Table *table)
+{
+    const Node *given = mapping->given;
+    if (!given || given->kind == NODE_MAP || node_is_null(given)) {
+        return true;
+    }
+    const char *known[MAX_KNOWN];
+    char list[512];
+    hint_list(known, known_keys(table, -1, known), list, sizeof list);
+    return mapping_fail(mapping, NULL, " is %s; it must be a mapping of %s",
+                        node_describe(mapping->loader, given), list);
+}
+
+static bool check_keys_known(const Mapping *mapping, const Table *table)
+{
+    const Node *given = mapping->given;
+    for (const Node *child = given ? given->first : NULL; child; child = child->next) {
+        if (!table_find(table, child->key)) {
+            const char *known[MAX_KNOWN];
+            char hint[512];
+            hint_format(child->key, known, known_keys(table, -1, known), hint, sizeof hint);
+            return fail_key(mapping, child, "unknown key '%.60s' in %s; %s", child->key,
+                            mapping_path(mapping, NULL), hint);
+        }
     }
     return true;
 }
 
-// ---- loading ----
-
-// Keeps the first message.
-static void keep_message(cyaml_log_t level, void *context, const char *format, va_list arguments)
+static bool check_keys_in_kind(const Mapping *mapping, const Table *table, int kind)
 {
-    char *message = context;
-    if (level >= CYAML_LOG_ERROR && !message[0]) {
-        vsnprintf(message, 256, format, arguments); // NOLINT
-        message[strcspn(message, "\n")] = 0;
+    const Node *given = mapping->given;
+    for (const Node *child = given ? given->first : NULL; child; child = child->next) {
+        if (!key_in_kind(table_find(table, child->key), kind)) {
+            const char *known[MAX_KNOWN];
+            char list[512];
+            hint_list(known, known_keys(table, kind, known), list, sizeof list);
+            return fail_key(mapping, child, "key '%s' means nothing in %s of %s '%s'; known: %s",
+                            child->key, mapping_path(mapping, NULL), table->kind_key,
+                            enum_name(table_find(table, table->kind_key)->names, kind), list);
+        }
+    }
+    return true;
+}
+
+static bool missing_key(const Mapping *mapping, const Key *row)
+{
+    return mapping_fail(mapping, NULL, " has no '%s'; it must have one: %s", row->key, row->doc);
+}
+
+// ---- mappings ----
+
+static bool load_mapping(const Mapping *mapping, const Table *table, void *out);
+
+// "oak" for the entry that has a name, "3" for others.
+static const char *entry_name(const Loader *loader, const Node *entry, int index)
+{
+    const char *name = node_get_text(entry, "name");
+    if (name && *name && strnlen(name, 64) < 64) {
+        return name;
+    }
+    const char *number = arena_format(loader->arena, loader->e, "%d", index);
+    return number ? number : "";
+}
+
+static bool load_list(const Mapping *list, const Key *row, char *out)
+{
+    const Node *given = list->given;
+    if (given->kind != NODE_LIST && !node_is_null(given)) {
+        return mapping_fail(list, NULL, " is %s; it must be a list of mappings ('- ' before each)",
+                            node_describe(list->loader, given));
+    }
+    if (given->count < (int)row->low || given->count > row->count) {
+        return mapping_fail(list, NULL, " has %d entries; it must have %d to %d", given->count,
+                            (int)row->low, row->count);
+    }
+    size_t size = row->table->size;
+    char *entries = arena_alloc(list->loader->arena, size * (size_t)given->count, list->loader->e);
+    int index = 0;
+    for (const Node *node = given->first; entries && node; node = node->next, index++) {
+        Mapping entry = {list->loader, list, entry_name(list->loader, node, index), node};
+        if (!load_mapping(&entry, row->table, entries + size * (size_t)index)) {
+            return false;
+        }
+    }
+    memcpy(out + row->offset, &entries, sizeof entries);
+    memcpy(out + row->count_offset, &given->count, sizeof given->count);
+    return entries;
+}
+
+static bool load_pointer(const Mapping *mapping, const Key *row, char *out)
+{
+    Loader *loader = mapping->loader;
+    void *params = arena_alloc(loader->arena, row->table->size, loader->e);
+    memcpy(out + row->offset, &params, sizeof params);
+    return params && load_mapping(mapping, row->table, params);
+}
+
+// Zero for what a mapping does not have.
+static void clear_key(const Key *row, char *out)
+{
+    if (row->type == KEY_GROUP) {
+        for (const Key *below = row->table->keys; below->key; below++) {
+            clear_key(below, out + row->offset);
+        }
+        return;
+    }
+    memset(out + row->offset, 0, key_size(row));
+    if (row->type == KEY_LIST) {
+        memset(out + row->count_offset, 0, sizeof(int));
     }
 }
 
-static void *allocate(void *context, void *memory, size_t size)
+// What the file leaves out has its default already.
+static bool load_absent(const Mapping *mapping, const Key *row, char *out)
 {
-    (void)context;
-    if (size == 0) {
-        free(memory);
-        return NULL;
+    if (row->flags & KEY_REQUIRED) {
+        return missing_key(mapping, row);
     }
-    return realloc(memory, size);
+    if (row->flags & KEY_NO_DEFAULT && !(row->flags & KEY_INSTEAD)) {
+        clear_key(row, out);
+    }
+    return true;
 }
 
-void *load_struct(const Table *table, const Node *document, Arena *arena, Error *e)
+static bool load_key(const Mapping *mapping, const Key *row, char *out)
 {
-    Builder builder = {arena, e};
-    cyaml_schema_value_t schema;
-    size_t length;
-    if (!table_value(&builder, table, CYAML_FLAG_POINTER, &schema)) {
-        return NULL;
+    const Node *given = node_get(mapping->given, row->key);
+    Mapping below = {mapping->loader, mapping, row->key, given};
+    if (row->given_offset) {
+        out[row->given_offset] = given != NULL;
     }
-    char *text = emit_yaml(document, EMIT_LOADABLE, &length, e);
-    if (!text) {
-        return NULL;
+    if (row->type == KEY_GROUP) {
+        return load_mapping(&below, row->table, out + row->offset);
     }
-    char message[256] = "";
-    cyaml_config_t config = {.log_fn = keep_message,
-                             .log_ctx = message,
-                             .mem_fn = allocate,
-                             .log_level = CYAML_LOG_ERROR,
-                             .flags = CYAML_CFG_NO_ALIAS};
-    cyaml_data_t *data = NULL;
-    cyaml_err_t code =
-        cyaml_load_data((const uint8_t *)text, length, &config, &schema, &data, NULL);
-    free(text);
-    if (code != CYAML_OK) {
-        error_set(e, code == CYAML_ERR_OOM ? ERROR_MEMORY : ERROR_INTERNAL,
-                  "libcyaml would not load the checked scene: %s (%s)", cyaml_strerror(code),
-                  message);
-        return NULL;
+    if (!given) {
+        return load_absent(mapping, row, out);
     }
-    return data;
+    switch (row->type) {
+    case KEY_POINTER:
+        return load_pointer(&below, row, out);
+    case KEY_LIST:
+        return load_list(&below, row, out);
+    case KEY_ANY:
+        out[row->count_offset] = given->quoted;
+        return load_value(mapping, row, given, out + row->offset);
+    default:
+        return load_value(mapping, row, given, out + row->offset);
+    }
 }
 
-// ---- freeing ----
-
-static void *pointer_at(const char *at)
+static bool load_keys(const Mapping *mapping, const Key *rows, int kind, char *out)
 {
-    void *pointer;
-    memcpy(&pointer, at, sizeof pointer);
-    return pointer;
+    for (const Key *row = rows; row->key; row++) {
+        if (!key_in_kind(row, kind)) {
+            clear_key(row, out);
+        } else if (!load_key(mapping, row, out)) {
+            return false;
+        }
+    }
+    return true;
 }
 
-void load_clear(const Table *table, void *structure)
+// The kind that the file names in *kind, -1 when it does not.
+static bool find_kind(const Mapping *mapping, const Table *table, int *kind)
 {
-    char *base = structure;
-    for (const Key *row = table->keys; row->key; row++) {
-        if (row->type == KEY_GROUP) {
-            load_clear(row->table, base + row->offset);
-        }
-        bool owned = row->type == KEY_TEXT || row->type == KEY_ANY || row->type == KEY_FILE ||
-                     row->type == KEY_LIST || row->type == KEY_POINTER;
-        if (!owned || row->flags & KEY_VIRTUAL) {
-            continue;
-        }
-        char *below = pointer_at(base + row->offset);
-        int count = row->type == KEY_POINTER && below ? 1 : 0;
-        if (row->type == KEY_LIST) {
-            memcpy(&count, base + row->count_offset, sizeof count);
-        }
-        for (int i = 0; below && i < count; i++) {
-            load_clear(row->table, below + (size_t)i * row->table->size);
-        }
-        free(below);
+    *kind = -1;
+    if (!table->kind_key) {
+        return true;
     }
+    const Key *row = table_find(table, table->kind_key);
+    const Node *named = node_get(mapping->given, table->kind_key);
+    if (!named) {
+        return !(row->flags & KEY_REQUIRED) || missing_key(mapping, row);
+    }
+    return load_value(mapping, row, named, kind);
+}
+
+// ---- variants ----
+
+static const Variant *variant_of(const Table *table, const char *key)
+{
+    const Variant *variant;
+    for (int i = 0; (variant = table->variant(i)); i++) {
+        if (strcmp(variant->row.key, key) == 0) {
+            return variant;
+        }
+    }
+    return NULL;
+}
+
+static bool no_variant(const Mapping *mapping, const Table *table)
+{
+    const char *keys[MAX_KNOWN];
+    char list[512];
+    int count = 0;
+    const Variant *variant;
+    for (; count < MAX_KNOWN && (variant = table->variant(count)); count++) {
+        keys[count] = variant->row.key;
+    }
+    hint_list(keys, count, list, sizeof list);
+    return mapping_fail(mapping, NULL, " is nothing; it must have one of %s", list);
+}
+
+// The one variant that the file names.
+static bool find_variant(const Mapping *mapping, const Table *table, const Variant **found)
+{
+    *found = NULL;
+    const Node *given = mapping->given;
+    for (const Node *child = given ? given->first : NULL; child; child = child->next) {
+        const Variant *variant = variant_of(table, child->key);
+        if (variant && *found) {
+            return load_fail(
+                mapping->loader, child, "%s is a %s and a %s; it must be one, make two %ss of it",
+                mapping_path(mapping, NULL), (*found)->row.key, child->key, table->name);
+        }
+        *found = variant ? variant : *found;
+    }
+    return *found || no_variant(mapping, table);
+}
+
+// No key that belongs beside other variants only.
+static bool check_keys_in_variant(const Mapping *mapping, const Table *table,
+                                  const Variant *variant)
+{
+    const Node *given = mapping->given;
+    for (const Node *child = given->first; child; child = child->next) {
+        if (!rows_find(table->keys, child->key) && !rows_find(variant->beside, child->key) &&
+            strcmp(child->key, variant->row.key) != 0) {
+            return load_fail(mapping->loader, child, "%s: a %s has no %s; leave it out",
+                             mapping_path(mapping, NULL), variant->row.key, child->key);
+        }
+    }
+    return true;
+}
+
+static bool load_variant(const Mapping *mapping, const Table *table, char *out)
+{
+    const Variant *variant;
+    if (!table->variant) {
+        return true;
+    }
+    if (!find_variant(mapping, table, &variant) ||
+        !check_keys_in_variant(mapping, table, variant)) {
+        return false;
+    }
+    memcpy(out + table->variant_offset, &variant, sizeof variant);
+    return load_key(mapping, &variant->row, out) && load_keys(mapping, variant->beside, -1, out);
+}
+
+static bool load_mapping(const Mapping *mapping, const Table *table, void *out)
+{
+    int kind;
+    if (!check_is_mapping(mapping, table) || !check_keys_known(mapping, table) ||
+        !find_kind(mapping, table, &kind)) {
+        return false;
+    }
+    if (table->defaults) {
+        table->defaults(mapping->given, kind, out);
+    }
+    if (table->kind_key && kind < 0) {
+        kind = int_at((char *)out + table_find(table, table->kind_key)->offset);
+    }
+    return check_keys_in_kind(mapping, table, kind) && load_keys(mapping, table->keys, kind, out) &&
+           load_variant(mapping, table, out) && (!table->check || table->check(mapping, out));
+}
+
+void *load_document(Loader *loader, const Table *table, const Node *document)
+{
+    Mapping root = {.loader = loader, .given = document};
+    void *params = arena_alloc(loader->arena, table->size, loader->e);
+    return params && load_mapping(&root, table, params) ? params : NULL;
 }

@@ -26,19 +26,16 @@ typedef enum NodeKind { NODE_SCALAR, NODE_LIST, NODE_MAP } NodeKind;
 
 typedef struct Node {
     NodeKind kind;
-    bool animated;        // a number between two keys: rounded where a whole one is asked for
-    bool quoted;          // scalar written with quotes, so never a number, a truth value or null
-    int line, column;     // 1-based; 0 for a node that no file holds (a default)
-    const char *source;   // "--set path=value" it comes from; NULL = the scene file
-    const char *text;     // scalar
-    const char *resolved; // scalar: what to load instead of text (a file's full path); or NULL
-    const char *note;     // scalar: what a reader shall know of it, or NULL
-    const char *key;      // when the parent is a map
+    bool animated;      // a number between two keys: rounded where a whole one is asked for
+    bool quoted;        // scalar written with quotes, so never a number, a truth value or null
+    int line, column;   // 1-based; 0 for a node that no file holds (a default)
+    const char *source; // "--set path=value" it comes from; NULL = the scene file
+    const char *text;   // scalar
+    const char *key;    // when the parent is a map
     int key_line, key_column;
     struct Node *first, *last, *next; // children of a list or a map; the next sibling
     int count;                        // of children
     int height;                       // levels of nodes below
-    unsigned flags; // of the key it was resolved by: KEY_HIDDEN, KEY_VIRTUAL (see spec.h)
 } Node;
 
 Node *node_new(Arena *arena, NodeKind kind, Error *e);
@@ -52,6 +49,13 @@ Node *node_get(const Node *map, const char *key);
 
 // Text of a scalar child; NULL when there is none.
 const char *node_get_text(const Node *map, const char *key);
+
+// Where a message about map's key points: at the key's value, else at map itself.
+static inline const Node *node_place(const Node *map, const char *key)
+{
+    const Node *child = node_get(map, key);
+    return child ? child : map;
+}
 
 // A copy of the whole tree below node. *budget is the number of nodes still allowed, where a long
 // text counts as several; running out is ERROR_INPUT.

@@ -1,6 +1,5 @@
-// YAML 1.1 text to nodes, through libyaml's event parser (the parser inside libcyaml), which alone
-// keeps lines and columns. Aliases are replaced by copies of what they name and merge keys (<<) are
-// carried out.
+// YAML 1.1 text to nodes, through libyaml's event parser, which tells lines and columns. Aliases
+// are replaced by copies of what they name and merge keys (<<) are carried out.
 #ifndef RAMIFY_CONFIG_YAML_H
 #define RAMIFY_CONFIG_YAML_H
 

@@ -92,9 +92,9 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
         return NULL;
     }
     const SceneObject *object = &scene->objects[index];
-    const Kind *kind = kind_of(object);
+    const Kind *kind = object->kind;
     if (!kind->grow) {
-        error_set(e, ERROR_INPUT, "it does not grow; a %s never does", kind->key);
+        error_set(e, ERROR_INPUT, "it does not grow; a %s never does", kind_name(kind));
         scene_fail_object(scene, index, e);
         return NULL;
     }
@@ -107,7 +107,7 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
     if (!own_space_enter(&own, object, e)) {
         return NULL;
     }
-    OutTree *tree = kind->grow(&own.object, &recipe, e);
+    OutTree *tree = kind->grow(own.object.params, &recipe, e);
     if (tree && !own_space_carry_tree(&own, tree, e)) {
         out_tree_free(tree);
         tree = NULL;
@@ -124,7 +124,7 @@ HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, c
                            Error *e)
 {
     const SceneObject *object = &scene->objects[index];
-    const Kind *kind = kind_of(object);
+    const Kind *kind = object->kind;
     if (!kind->heights) {
         error_set(e, ERROR_INPUT, "it is no land; a terrain would be");
         scene_fail_object(scene, index, e);
@@ -135,7 +135,7 @@ HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, c
     if (!scene_check_memory(scene, index, e)) {
         return NULL;
     }
-    HeightField *field = kind->heights(object, tree, &recipe, e);
+    HeightField *field = kind->heights(object->params, tree, &recipe, e);
     if (!field) {
         scene_fail_object(scene, index, e);
     }
@@ -147,13 +147,13 @@ HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, c
 static bool measure_land(const Scene *scene, int index, const OutTree *tree, const Run *run,
                          MeasureList *list, Error *e)
 {
-    if (!kind_of(&scene->objects[index])->heights) {
+    if (!scene->objects[index].kind->heights) {
         return true;
     }
     char label[LABEL_SIZE];
     Recipe recipe = make_recipe(scene, &scene->objects[index], run, label);
     HeightField *field =
-        kind_of(&scene->objects[index])->heights(&scene->objects[index], tree, &recipe, e);
+        scene->objects[index].kind->heights(scene->objects[index].params, tree, &recipe, e);
     bool done = field && height_field_measure(field, 0.0, list, e);
     height_field_free(field);
     return done;
@@ -175,7 +175,7 @@ static bool measure_built(const Scene *scene, int index, const Run *run, Measure
 bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *list, Error *e)
 {
     const SceneObject *object = &scene->objects[index];
-    const Kind *kind = kind_of(object);
+    const Kind *kind = object->kind;
     if (!kind->grow && !kind->measure) {
         return measure_built(scene, index, run, list, e);
     }
@@ -185,10 +185,10 @@ bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *l
     if (!own_space_enter(&own, object, e)) {
         return false;
     }
-    OutTree *tree = kind->grow ? kind->grow(&own.object, &recipe, e) : NULL;
+    OutTree *tree = kind->grow ? kind->grow(own.object.params, &recipe, e) : NULL;
     bool done = (tree || !kind->grow) && (!tree || out_tree_measure(tree, list, e)) &&
                 measure_land(scene, index, tree, run, list, e) &&
-                (!kind->measure || kind->measure(&own.object, tree, &recipe, list, e));
+                (!kind->measure || kind->measure(own.object.params, tree, &recipe, list, e));
     out_tree_free(tree);
     own_space_leave(&own);
     return done || scene_fail_object(scene, index, e);
@@ -200,10 +200,10 @@ static bool place(const Placing *p, const OwnSpace *own, Error *e)
     if (run_is_cancelled(p->recipe.run)) {
         return run_cancel_error(e);
     }
-    const Kind *kind = kind_of(p->object);
+    const Kind *kind = p->object->kind;
     int64_t first = p->world->geometry.count;
     double start = run_seconds();
-    OutTree *tree = kind->grow ? kind->grow(p->object, &p->recipe, e) : NULL;
+    OutTree *tree = kind->grow ? kind->grow(p->object->params, &p->recipe, e) : NULL;
     if (kind->grow && !tree) {
         return false;
     }

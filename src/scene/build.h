@@ -4,6 +4,7 @@
 
 #include "base/measures.h"
 #include "land/height_field.h"
+#include "mesh/geometry.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
 #include "scene/scene.h"

@@ -116,7 +116,7 @@ static bool same_growth(const SceneBuilder *builder, const Scene *scene, int ind
 // Do the object's parts stay as they are?
 static bool object_fits(const SceneBuilder *builder, const Scene *scene, int index, bool alike)
 {
-    const Kind *kind = kind_of(&scene->objects[index]);
+    const Kind *kind = scene->objects[index].kind;
     return same_growth(builder, scene, index) && (alike || !kind->reads_scene) &&
            (!kind->reads_water || builder->object[index].flood == scene_flood_hash(scene)) &&
            (!kind->grow || builder->object[index].grow_to == scene->grow_to);

@@ -1,23 +1,40 @@
 // Checks of tracks: keys in order of time, all of one kind.
-#include "config/node_number.h"
 #include "config/scalar.h"
 #include "scene/spec_check.h"
 
 #include <stdio.h>
 #include <string.h>
 
-// How many numbers a key's value has: 1, those of a list, 3 of a colour "#rrggbb"; 0 = a word.
-static int numbers_of(const Node *value)
+// "[1, 2]"
+static int read_list(const char *text, double numbers[SCENE_KEY_MOST_NUMBERS])
 {
-    double number;
-    float rgb[3];
-    if (value->kind == NODE_LIST) {
-        return value->count;
+    int count = 0;
+    for (const char *at = text + 1; *at && count < SCENE_KEY_MOST_NUMBERS; count++) {
+        char number[64];
+        at += strspn(at, " ");
+        size_t length = strcspn(at, ",]");
+        snprintf(number, sizeof number, "%.*s", (int)length, at);
+        if (!scalar_number(number, &numbers[count])) {
+            return 0;
+        }
+        at += length + (at[length] != 0);
     }
-    if (scalar_color(value->text, rgb)) {
+    return count;
+}
+
+int scene_key_numbers(const SceneKey *key, double numbers[SCENE_KEY_MOST_NUMBERS])
+{
+    float rgb[3];
+    if (scalar_color(key->value, rgb)) {
+        for (int i = 0; i < 3; i++) {
+            numbers[i] = (double)rgb[i];
+        }
         return 3;
     }
-    return !value->quoted && scalar_number(value->text, &number) ? 1 : 0;
+    if (key->quoted) {
+        return 0;
+    }
+    return *key->value == '[' ? read_list(key->value, numbers) : scalar_number(key->value, numbers);
 }
 
 static void describe(int numbers, char text[32])
@@ -29,51 +46,42 @@ static void describe(int numbers, char text[32])
     }
 }
 
-static bool check_keys(Resolver *r, const Path *path, const Node *given, const Node *keys)
+static bool check_keys(const Mapping *mapping, const SceneTrack *track)
 {
-    double before = -1.0;
-    const Node *first = node_get(keys->first, "value"), *written = node_get(given, "keys")->first;
-    for (const Node *key = keys->first; key; key = key->next, written = written->next) {
-        double at = node_number(key, "at");
-        const Node *value = node_get(key, "value");
-        if (!(at > before)) {
-            return resolver_fail(r, node_place(written, "at"),
-                                 "%s: the key at %g comes after one at %g; order keys by time, one "
-                                 "at each",
-                                 resolver_path(r, path, NULL), at, before);
+    double numbers[SCENE_KEY_MOST_NUMBERS];
+    int wanted = scene_key_numbers(&track->keys[0], numbers);
+    const Node *given = node_get(mapping->given, "keys")->first;
+    for (int i = 0; i < track->key_count; i++, given = given->next) {
+        const SceneKey *key = &track->keys[i];
+        int count = scene_key_numbers(key, numbers);
+        if (i > 0 && !(key->at > key[-1].at)) {
+            return load_fail(mapping->loader, node_get(given, "at"),
+                             "%s: the key at %g comes after one at %g; order keys by time, one "
+                             "at each",
+                             mapping_path(mapping, NULL), key->at, key[-1].at);
         }
-        if (numbers_of(value) != numbers_of(first)) {
+        if (count != wanted) {
             char is[32], was[32];
-            describe(numbers_of(value), is);
-            describe(numbers_of(first), was);
-            return resolver_fail(r, node_place(written, "value"),
-                                 "%s: this key is %s, the first one %s; all must be alike",
-                                 resolver_path(r, path, NULL), is, was);
+            describe(count, is);
+            describe(wanted, was);
+            return load_fail(mapping->loader, node_get(given, "value"),
+                             "%s: this key is %s, the first one %s; all must be alike",
+                             mapping_path(mapping, NULL), is, was);
         }
-        before = at;
     }
     return true;
 }
 
-static bool append_number(Resolver *r, Node *map, const char *key, int number)
+bool check_track(const Mapping *mapping, void *params)
 {
-    Node *node = node_scalar(r->arena, arena_format(r->arena, r->e, "%d", number), r->e);
-    if (!node || !node->text) {
-        return false;
+    SceneTrack *track = params;
+    const Node *named = node_get(mapping->given, "path");
+    track->line = named->source ? 0 : named->line;
+    track->column = named->source ? 0 : named->column;
+    if (strcmp(track->path, "animation") == 0 || strncmp(track->path, "animation.", 10) == 0) {
+        return load_fail(mapping->loader, named,
+                         "%s: the animation cannot change itself; name another value",
+                         mapping_path(mapping, NULL));
     }
-    node->flags = KEY_HIDDEN;
-    node_append(map, node, key);
-    return true;
-}
-
-bool check_track(Resolver *r, const Path *path, const Node *given, Node *resolved)
-{
-    const Node *named = node_get(given, "path");
-    if (strcmp(named->text, "animation") == 0 || strncmp(named->text, "animation.", 10) == 0) {
-        return resolver_fail(r, named, "%s: the animation cannot change itself; name another value",
-                             resolver_path(r, path, NULL));
-    }
-    return check_keys(r, path, given, node_get(resolved, "keys")) &&
-           append_number(r, resolved, "line", named->source ? 0 : named->line) &&
-           append_number(r, resolved, "column", named->source ? 0 : named->column);
+    return check_keys(mapping, track);
 }

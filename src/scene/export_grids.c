@@ -52,7 +52,7 @@ static bool grow_all(const Scene *scene, GridFile *grids, const Run *run, Error 
 {
     bool done = true;
     for (int i = 0; done && i < scene->object_count; i++) {
-        if (!kind_of(&scene->objects[i])->grow) {
+        if (!scene->objects[i].kind->grow) {
             continue;
         }
         Collecting to = {grids, scene->objects[i].name, run, 0};

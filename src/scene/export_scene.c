@@ -59,7 +59,7 @@ static bool make_trees(const Scene *scene, bool all, Parts *parts, const Run *ru
     parts->tree = memory_alloc_zero(scene->object_count, sizeof(OutTree *), e);
     bool done = parts->tree;
     for (int i = 0; done && i < scene->object_count; i++) {
-        const Kind *kind = kind_of(&scene->objects[i]);
+        const Kind *kind = scene->objects[i].kind;
         if (kind->grow && (all || kind->heights)) {
             parts->tree[i] = scene_grow_object(scene, i, run, e);
             done = parts->tree[i];
@@ -73,7 +73,7 @@ static bool make_lands(const Scene *scene, Parts *parts, const Run *run, Error *
     parts->land = memory_alloc_zero(scene->object_count, sizeof(HeightField *), e);
     bool done = parts->land;
     for (int i = 0; done && i < scene->object_count; i++) {
-        if (kind_of(&scene->objects[i])->heights) {
+        if (scene->objects[i].kind->heights) {
             parts->land[i] = scene_heights(scene, i, parts->tree[i], run, e);
             done = parts->land[i];
         }

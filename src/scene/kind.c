@@ -4,48 +4,12 @@
 
 #include <string.h>
 
-// In the order in which people read of them.
-static const Kind *const KINDS[] = {
-    // clang-format off
-    &kind_tree,
-    &kind_ground,
-    &kind_mesh,
-    &kind_shape,
-    &kind_dla,
-    &kind_lightning,
-    &kind_coral,
-    &kind_lsystem,
-    &kind_frost,
-    &kind_sculpture,
-    &kind_terrain,
-    &kind_vessels,
-    &kind_venation,
-    &kind_fracture,
-    &kind_skeleton,
-    // clang-format on
-    &kind_forest,
-};
-
-int kind_count(void)
-{
-    return (int)(sizeof KINDS / sizeof KINDS[0]);
-}
+#define KIND_POINTER(NAME) &kind_##NAME,
+static const Kind *const ALL[] = {KINDS(KIND_POINTER)};
 
 const Kind *kind_at(int index)
 {
-    return KINDS[index];
-}
-
-const Kind *kind_of(const SceneObject *object)
-{
-    for (int i = 0; i < kind_count(); i++) {
-        void *params;
-        memcpy(&params, (const char *)object + KINDS[i]->offset, sizeof params);
-        if (params) {
-            return KINDS[i];
-        }
-    }
-    return NULL;
+    return index < (int)(sizeof ALL / sizeof ALL[0]) ? ALL[index] : NULL;
 }
 
 static int find_material(const World *world, const char *name)
@@ -58,17 +22,19 @@ static int find_material(const World *world, const char *name)
     return -1;
 }
 
-int placing_material(const Placing *placing, const char *name, const char *fallback)
+int placing_material(const Placing *placing, int index)
 {
-    int index = find_material(placing->world, name ? name : fallback);
-    return index >= 0 ? index : 0;
+    const SceneObject *object = placing->object;
+    const char *name = object->material[index];
+    int found = find_material(placing->world, name ? name : object->kind->materials[index]);
+    return found >= 0 ? found : 0;
 }
 
-bool placing_add_mesh(const Placing *placing, Mesh *mesh, const char *fallback, Error *e)
+bool placing_add_mesh(const Placing *placing, Mesh *mesh, Error *e)
 {
     Part part = {.kind = PART_MESH,
                  .mesh = mesh,
-                 .material = placing_material(placing, placing->object->material, fallback),
+                 .material = placing_material(placing, 0),
                  .object = placing->index};
     return geometry_add(&placing->world->geometry, part, e);
 }

@@ -1,43 +1,39 @@
 // Corals as a kind of object.
 #include "objects/coral/coral.h"
 #include "scene/kinds.h"
+#include "scene/spec.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static bool own_space(OwnSpace *own, Error *e)
+static bool own_space(OwnSpace *own, void *params, Error *e)
 {
-    CoralParams *coral = own_space_copy(own, own->object.coral, sizeof *coral, e);
-    if (!coral) {
-        return false;
-    }
-    own->object.coral = coral;
+    CoralParams *coral = params;
     own_space_stand(own, coral->position, vec3(0, 0, 0));
     coral->position = vec3(0, 0, 0);
     return own_space_take_shapes(own, &coral->base, coral->base_count, e);
 }
 
-static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
 {
-    return coral_grow(object->coral, recipe, e);
+    return coral_grow(params, recipe, e);
 }
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
-    CoralMaterials materials = {.coral = placing_material(p, p->object->material, "coral"),
-                                .polyp =
-                                    placing_material(p, p->object->polyp_material, "coral_polyp"),
-                                .rock = placing_material(p, p->object->rock_material, "reef_rock")};
-    return coral_geometry(tree, p->object->coral, &materials, p->index, p->recipe.seed,
+    CoralMaterials materials = {.coral = placing_material(p, 0),
+                                .polyp = placing_material(p, 1),
+                                .rock = placing_material(p, 2)};
+    return coral_geometry(tree, p->object->params, &materials, p->index, p->recipe.seed,
                           &p->world->geometry, p->recipe.run, e);
 }
 
-static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
                     MeasureList *list, Error *e)
 {
     (void)recipe;
-    CoralParams p = coral_params_resolve(object->coral);
+    CoralParams p = coral_params_resolve(params);
     CoralMeasures m;
     return coral_measure(tree, &m, e) &&
            // Madracis: branches 7 to 14 mm thick, corallites 1.0 to 1.4 mm wide, 0.5 to 0.8 apart
@@ -50,30 +46,32 @@ static bool measure(const SceneObject *object, const OutTree *tree, const Recipe
                         1000.0 * (double)(p.polyps.spacing - p.polyps.diameter), "mm", 0.5, 0.8, e);
 }
 
-static void describe(const SceneObject *object, char *text, size_t size)
+static void describe(const void *params, char *text, size_t size)
 {
-    snprintf(text, size, ", %g m, %d %s", (double)object->coral->size, object->coral->colonies,
-             object->coral->colonies == 1 ? "colony" : "colonies");
+    const CoralParams *coral = params;
+    snprintf(text, size, ", %g m, %d %s", (double)coral->size, coral->colonies,
+             coral->colonies == 1 ? "colony" : "colonies");
 }
 
-static void settle(const SceneObject *object, void *params)
+static void settle(const void *params, void *settled)
 {
-    CoralParams p = coral_params_resolve(object->coral);
-    memcpy(params, &p, sizeof p);
+    CoralParams p = coral_params_resolve(params);
+    memcpy(settled, &p, sizeof p);
 }
 
-static int64_t attractors(const SceneObject *object)
+static int64_t attractors(const void *params)
 {
-    CoralParams p = coral_params_resolve(object->coral);
+    CoralParams p = coral_params_resolve(params);
     return p.attractors * p.colonies;
 }
 
-static int64_t copies(const SceneObject *object)
+static int64_t copies(const void *params)
 {
-    return object->coral->polyps.max_count;
+    const CoralParams *coral = params;
+    return coral->polyps.max_count;
 }
 
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
     enum {
         ATTRACTOR_BYTES = 5000,
@@ -81,22 +79,32 @@ static void needs(const SceneObject *object, Needs *needs)
         CUP_FACES = 75,
         CUPS = 30000 // as many as fit a colony of usual proportions
     };
-    CoralParams p = coral_params_resolve(object->coral);
+    CoralParams p = coral_params_resolve(params);
     bool crust = p.form == CORAL_ENCRUSTING || p.form == CORAL_MASSIVE; // no thick branches
-    needs_add(needs, "attractors", (double)attractors(object),
+    needs_add(needs, "attractors", (double)attractors(params),
               ATTRACTOR_BYTES + (crust ? 0.0 : SKIN_BYTES * exp2(2.0 * p.levels)));
     needs_add_copies(needs, "polyps.max_count", fmin((double)p.polyps.max_count, CUPS), CUP_FACES);
 }
 
-const Kind kind_coral = {.key = "coral",
-                         .offset = offsetof(SceneObject, coral),
-                         .materials = {"material", "polyp_material", "rock_material"},
-                         .own_space = own_space,
-                         .grow = grow,
-                         .needs = needs,
-                         .place = place,
-                         .measure = measure,
-                         .describe = describe,
-                         .settle = settle,
-                         .attractors = attractors,
-                         .copies = copies};
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    MATERIAL_ROW(1, "polyp_material", "Material of a coral's cups; left out: coral_polyp."),
+    MATERIAL_ROW(2, "rock_material",
+                 "Material of the rock that a coral grows on; left out: reef_rock."),
+    {0},
+};
+
+const Kind kind_coral = {
+    .variant = {KIND_ROW("coral", &coral_table,
+                         "Corals: an L-system's directions that fight for room."),
+                MATERIALS},
+    .materials = {"coral", "coral_polyp", "reef_rock"},
+    .own_space = own_space,
+    .grow = grow,
+    .needs = needs,
+    .place = place,
+    .measure = measure,
+    .describe = describe,
+    .settle = settle,
+    .attractors = attractors,
+    .copies = copies};

@@ -1,60 +1,69 @@
 // A diffusion-limited aggregate as a kind of object.
 #include "grow/aggregate/dla.h"
+#include "objects/dla/dla.h"
 #include "scene/kinds.h"
+#include "scene/spec.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static bool own_space(OwnSpace *own, Error *e)
+static bool own_space(OwnSpace *own, void *params, Error *e)
 {
-    DlaModel *dla = own_space_copy(own, own->object.dla, sizeof *dla, e);
-    if (dla) {
-        own->object.dla = dla;
-        own_space_stand(own, dla->position, dla->rotation);
-        dla->position = dla->rotation = vec3(0, 0, 0);
-    }
-    return dla;
+    (void)e;
+    DlaModel *dla = params;
+    own_space_stand(own, dla->position, dla->rotation);
+    dla->position = dla->rotation = vec3(0, 0, 0);
+    return true;
 }
 
-static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
 {
-    return dla_model_grow(object->dla, recipe, e);
+    return dla_model_grow(params, recipe, e);
 }
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
-    return dla_model_geometry(tree, placing_material(p, p->object->material, "copper"), p->index,
-                              &p->world->geometry, p->recipe.run, e);
+    return dla_model_geometry(tree, placing_material(p, 0), p->index, &p->world->geometry,
+                              p->recipe.run, e);
 }
 
 // 1.71 and 2.5 for ever larger clusters (Meakin 1983; Davidovitch et al. 2000).
-static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
                     MeasureList *list, Error *e)
 {
+    const DlaModel *dla = params;
     (void)recipe;
-    double dimension = dla_dimension(tree), low = object->dla->dimension == 2 ? 1.66 : 2.4;
+    double dimension = dla_dimension(tree), low = dla->dimension == 2 ? 1.66 : 2.4;
     return measures_add(list, "gyration_dimension", dimension > 0.0 ? dimension : (double)NAN, "",
                         low, low + 0.2, e);
 }
 
-static void describe(const SceneObject *object, char *text, size_t size)
+static void describe(const void *params, char *text, size_t size)
 {
-    snprintf(text, size, ", %lld particles in %dD", (long long)object->dla->particles,
-             object->dla->dimension);
+    const DlaModel *dla = params;
+    snprintf(text, size, ", %lld particles in %dD", (long long)dla->particles, dla->dimension);
 }
 
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
+    const DlaModel *dla = params;
     enum { PARTICLE_BYTES = 20000 }; // of the level set through it, at its thinnest
-    needs_add(needs, "particles", (double)object->dla->particles, PARTICLE_BYTES);
+    needs_add(needs, "particles", (double)dla->particles, PARTICLE_BYTES);
 }
 
-const Kind kind_dla = {.key = "dla",
-                       .offset = offsetof(SceneObject, dla),
-                       .materials = {"material"},
-                       .own_space = own_space,
-                       .grow = grow,
-                       .needs = needs,
-                       .place = place,
-                       .measure = measure,
-                       .describe = describe};
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    {0},
+};
+
+const Kind kind_dla = {
+    .variant = {KIND_ROW("dla", &dla_table,
+                         "A dendrite of metal, by diffusion-limited aggregation."),
+                MATERIALS},
+    .materials = {"copper"},
+    .own_space = own_space,
+    .grow = grow,
+    .needs = needs,
+    .place = place,
+    .measure = measure,
+    .describe = describe};

@@ -1,67 +1,72 @@
 // A broken thing as a kind of object.
+#include "objects/fracture/fracture.h"
 #include "scene/kinds.h"
+#include "scene/spec.h"
 
 #include <stdio.h>
 
-static bool own_space(OwnSpace *own, Error *e)
+static bool own_space(OwnSpace *own, void *params, Error *e)
 {
-    FractureParams *fracture = own_space_copy(own, own->object.fracture, sizeof *fracture, e);
-    if (!fracture) {
-        return false;
-    }
-    own->object.fracture = fracture;
+    FractureParams *fracture = params;
     own_space_of_element(own, &fracture->element);
     return own_space_take_element(own, &fracture->element, e);
 }
 
-static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
 {
-    return fracture_grow(object->fracture, recipe, e);
+    return fracture_grow(params, recipe, e);
 }
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
-    const SceneObject *object = p->object;
-    FractureMaterials materials = {.outside = placing_material(p, object->material, "clay"),
-                                   .inside =
-                                       placing_material(p, object->inside_material, "broken")};
-    return fracture_geometry(tree, object->fracture, &materials, p->index, &p->recipe,
+    FractureMaterials materials = {.outside = placing_material(p, 0),
+                                   .inside = placing_material(p, 1)};
+    return fracture_geometry(tree, p->object->params, &materials, p->index, &p->recipe,
                              &p->world->geometry, e);
 }
 
-static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
                     MeasureList *list, Error *e)
 {
-    return fracture_measure(tree, object->fracture, recipe, list, e);
+    return fracture_measure(tree, params, recipe, list, e);
 }
 
-static void describe(const SceneObject *object, char *text, size_t size)
+static void describe(const void *params, char *text, size_t size)
 {
-    snprintf(text, size, ", %d impacts", object->fracture->impacts);
+    const FractureParams *fracture = params;
+    snprintf(text, size, ", %d impacts", fracture->impacts);
 }
 
-static int64_t attractors(const SceneObject *object)
+static int64_t attractors(const void *params)
 {
-    const FractureParams *params = object->fracture;
-    return params->element.level_count == 0 ? params->attractors
-                                            : element_attractors(&params->element);
+    const FractureParams *fracture = params;
+    return fracture->element.level_count == 0 ? fracture->attractors
+                                              : element_attractors(&fracture->element);
 }
 
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
+    const FractureParams *fracture = params;
     enum { VOXEL_BYTES = 900 }; // of one along the surfaces, old and new
-    double voxels = object->fracture->resolution;
+    double voxels = fracture->resolution;
     needs_add(needs, "resolution", 6.0 * voxels * voxels, VOXEL_BYTES);
-    needs_add_growth(needs, "attractors", (double)attractors(object));
+    needs_add_growth(needs, "attractors", (double)attractors(params));
 }
 
-const Kind kind_fracture = {.key = "fracture",
-                            .offset = offsetof(SceneObject, fracture),
-                            .materials = {"material", "inside_material"},
-                            .own_space = own_space,
-                            .grow = grow,
-                            .needs = needs,
-                            .place = place,
-                            .measure = measure,
-                            .describe = describe,
-                            .attractors = attractors};
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    MATERIAL_ROW(1, "inside_material", "Material of the faces that broke; left out: broken."),
+    {0},
+};
+
+const Kind kind_fracture = {
+    .variant = {KIND_ROW("fracture", &fracture_table, "A thing broken along grown cracks."),
+                MATERIALS},
+    .materials = {"clay", "broken"},
+    .own_space = own_space,
+    .grow = grow,
+    .needs = needs,
+    .place = place,
+    .measure = measure,
+    .describe = describe,
+    .attractors = attractors};

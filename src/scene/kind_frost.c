@@ -1,15 +1,13 @@
 // Frost as a kind of object.
+#include "objects/frost/frost.h"
 #include "scene/kinds.h"
+#include "scene/spec.h"
 
 #include <stdio.h>
 
-static bool own_space(OwnSpace *own, Error *e)
+static bool own_space(OwnSpace *own, void *params, Error *e)
 {
-    FrostParams *frost = own_space_copy(own, own->object.frost, sizeof *frost, e);
-    if (!frost) {
-        return false;
-    }
-    own->object.frost = frost;
+    FrostParams *frost = params;
     own_space_stand(own, frost->position, vec3(0, 0, 0));
     frost->position = vec3(0, 0, 0);
     size_t size = sizeof *frost->nucleus * (size_t)frost->nucleus_count;
@@ -20,29 +18,28 @@ static bool own_space(OwnSpace *own, Error *e)
     return frost->nucleus || size == 0;
 }
 
-static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
 {
-    return frost_grow(object->frost, recipe, e);
+    return frost_grow(params, recipe, e);
 }
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
-    FrostMaterials materials = {.ice = placing_material(p, p->object->material, "ice"),
-                                .rime = placing_material(p, p->object->rime_material, "rime")};
-    return frost_geometry(tree, p->object->frost, &materials, p->index, &p->recipe,
+    FrostMaterials materials = {.ice = placing_material(p, 0), .rime = placing_material(p, 1)};
+    return frost_geometry(tree, p->object->params, &materials, p->index, &p->recipe,
                           &p->world->geometry, e);
 }
 
-static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
                     MeasureList *list, Error *e)
 {
     (void)recipe;
-    return frost_measure(tree, object->frost, list, e);
+    return frost_measure(tree, params, list, e);
 }
 
-static void describe(const SceneObject *object, char *text, size_t size)
+static void describe(const void *params, char *text, size_t size)
 {
-    const FrostParams *frost = object->frost;
+    const FrostParams *frost = params;
     if (frost->surface == FROST_PANE) {
         snprintf(text, size, ", pane %g x %g m", (double)frost->width, (double)frost->height);
     } else {
@@ -50,32 +47,43 @@ static void describe(const SceneObject *object, char *text, size_t size)
     }
 }
 
-static int64_t attractors(const SceneObject *object)
+static int64_t attractors(const void *params)
 {
-    return object->frost->spines + object->frost->sides;
+    const FrostParams *frost = params;
+    return frost->spines + frost->sides;
 }
 
-static int64_t copies(const SceneObject *object)
+static int64_t copies(const void *params)
 {
-    return object->frost->grains;
+    const FrostParams *frost = params;
+    return frost->grains;
 }
 
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
+    const FrostParams *frost = params;
     enum { SPINE_BYTES = 500, SIDE_BYTES = 2400, GRAIN_FACES = 20 }; // blades are meshes
-    needs_add(needs, "spines", (double)object->frost->spines, SPINE_BYTES);
-    needs_add(needs, "sides", (double)object->frost->sides, SIDE_BYTES);
-    needs_add_copies(needs, "grains", 0.5 * (double)object->frost->grains, GRAIN_FACES);
+    needs_add(needs, "spines", (double)frost->spines, SPINE_BYTES);
+    needs_add(needs, "sides", (double)frost->sides, SIDE_BYTES);
+    needs_add_copies(needs, "grains", 0.5 * (double)frost->grains, GRAIN_FACES);
 }
 
-const Kind kind_frost = {.key = "frost",
-                         .offset = offsetof(SceneObject, frost),
-                         .materials = {"material", "rime_material"},
-                         .own_space = own_space,
-                         .grow = grow,
-                         .needs = needs,
-                         .place = place,
-                         .measure = measure,
-                         .describe = describe,
-                         .attractors = attractors,
-                         .copies = copies};
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    MATERIAL_ROW(1, "rime_material",
+                 "Material of frost that is white with enclosed air; left out: rime."),
+    {0},
+};
+
+const Kind kind_frost = {
+    .variant = {KIND_ROW("frost", &frost_table, "Frost on a window pane or a soap bubble."),
+                MATERIALS},
+    .materials = {"ice", "rime"},
+    .own_space = own_space,
+    .grow = grow,
+    .needs = needs,
+    .place = place,
+    .measure = measure,
+    .describe = describe,
+    .attractors = attractors,
+    .copies = copies};

@@ -1,35 +1,42 @@
 // The ground as a kind of object.
+#include "objects/ground/ground.h"
 #include "scene/kinds.h"
 #include "scene/scene_flood.h"
+#include "scene/spec.h"
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
     (void)tree;
-    GroundMaterials materials = {.ground = placing_material(p, p->object->material, "ground"),
-                                 .grass = placing_material(p, p->object->grass_material, "grass"),
-                                 .fallen = placing_material(p, p->object->leaf_material, "fallen"),
-                                 .bark = placing_material(p, NULL, "bark"),
-                                 .foliage = placing_material(p, NULL, "leaf")};
+    GroundMaterials materials = {.ground = placing_material(p, 0),
+                                 .grass = placing_material(p, 2),
+                                 .fallen = placing_material(p, 1),
+                                 .bark = placing_material(p, 3),
+                                 .foliage = placing_material(p, 4)};
     SceneFlood water;
     if (!scene_flood_init(&water, p->scene, p->recipe.run, e)) {
         return false;
     }
-    bool done = ground_geometry(p->object->ground, &materials, p->index, p->recipe.seed,
+    bool done = ground_geometry(p->object->params, &materials, p->index, p->recipe.seed,
                                 &water.flood, &p->world->geometry, p->recipe.run, e);
     scene_flood_clear(&water);
     return done;
 }
 
-static int64_t copies(const SceneObject *object)
+static float height(const void *params, uint64_t seed, float x, float z)
 {
-    const GroundParams *ground = object->ground;
+    return ground_height(params, seed, x, z);
+}
+
+static int64_t copies(const void *params)
+{
+    const GroundParams *ground = params;
     return ground->grass_tufts + ground->fallen_leaves + ground->trees.count;
 }
 
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
     enum { TUFT_FACES = 88, LEAF_FACES = 25, TREE_BYTES = 15000000, PARTS = 3 };
-    const GroundParams *ground = object->ground;
+    const GroundParams *ground = params;
     needs_add(needs, "grass_tufts", (double)ground->grass_tufts, // half of them find no place
               0.5 * (sizeof(Transform) + sizeof(float)));
     needs_add_copies(needs, "grass_tufts", 0.55 * (double)ground->grass_tufts, TUFT_FACES);
@@ -40,10 +47,18 @@ static void needs(const SceneObject *object, Needs *needs)
     }
 }
 
-const Kind kind_ground = {.key = "ground",
-                          .offset = offsetof(SceneObject, ground),
-                          .reads_water = true,
-                          .materials = {"material", "leaf_material", "grass_material"},
-                          .needs = needs,
-                          .place = place,
-                          .copies = copies};
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    LEAF_MATERIAL_ROW(1),
+    GRASS_MATERIAL_ROW(2),
+    {0},
+};
+
+const Kind kind_ground = {
+    .variant = {KIND_ROW("ground", &ground_table, "Ground to stand on, with grass."), MATERIALS},
+    .reads_water = true,
+    .materials = {"ground", "fallen", "grass", "bark", "leaf"},
+    .needs = needs,
+    .place = place,
+    .ground = height,
+    .copies = copies};

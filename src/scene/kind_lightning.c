@@ -2,18 +2,15 @@
 #include "base/color.h"
 #include "objects/lightning/lightning.h"
 #include "scene/kinds.h"
+#include "scene/spec.h"
 
 #include <stdio.h>
 #include <string.h>
 
 // A bolt stands at its strike; what crawls over a surface belongs to that.
-static bool own_space(OwnSpace *own, Error *e)
+static bool own_space(OwnSpace *own, void *params, Error *e)
 {
-    LightningParams *lightning = own_space_copy(own, own->object.lightning, sizeof *lightning, e);
-    if (!lightning) {
-        return false;
-    }
-    own->object.lightning = lightning;
+    LightningParams *lightning = params;
     if (lightning->element.points.place == SCATTER_SURFACE) {
         own_space_of_element(own, &lightning->element);
     } else {
@@ -24,60 +21,68 @@ static bool own_space(OwnSpace *own, Error *e)
     return own_space_take_element(own, &lightning->element, e);
 }
 
-static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
 {
-    return lightning_grow(object->lightning, recipe, e);
+    return lightning_grow(params, recipe, e);
 }
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
-    int material = placing_material(p, p->object->material, "lightning");
+    int material = placing_material(p, 0);
     float radiance = luminance(p->world->material[material].radiance);
-    return lightning_geometry(tree, p->object->lightning, material, radiance, p->index,
+    return lightning_geometry(tree, p->object->params, material, radiance, p->index,
                               &p->world->geometry, e);
 }
 
-static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
                     MeasureList *list, Error *e)
 {
     (void)recipe;
-    return lightning_measure(object->lightning, tree, list, e);
+    return lightning_measure(params, tree, list, e);
 }
 
-static void describe(const SceneObject *object, char *text, size_t size)
+static void describe(const void *params, char *text, size_t size)
 {
-    if (object->lightning->element.points.place == SCATTER_SURFACE) {
+    const LightningParams *lightning = params;
+    if (lightning->element.points.place == SCATTER_SURFACE) {
         snprintf(text, size, ", over a surface");
     } else {
-        snprintf(text, size, ", %g m", (double)object->lightning->height);
+        snprintf(text, size, ", %g m", (double)lightning->height);
     }
 }
 
-static int64_t attractors(const SceneObject *object)
+static int64_t attractors(const void *params)
 {
-    return lightning_attractors(object->lightning);
+    return lightning_attractors(params);
 }
 
-static void settle(const SceneObject *object, void *params)
+static void settle(const void *params, void *settled)
 {
-    LightningParams p = lightning_params_resolve(object->lightning);
-    memcpy(params, &p, sizeof p);
+    LightningParams p = lightning_params_resolve(params);
+    memcpy(settled, &p, sizeof p);
 }
 
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
-    needs_add_growth(needs, "bolts", (double)attractors(object));
+    needs_add_growth(needs, "bolts", (double)attractors(params));
 }
 
-const Kind kind_lightning = {.key = "lightning",
-                             .offset = offsetof(SceneObject, lightning),
-                             .reads_scene = true,
-                             .materials = {"material"},
-                             .own_space = own_space,
-                             .grow = grow,
-                             .needs = needs,
-                             .place = place,
-                             .measure = measure,
-                             .describe = describe,
-                             .settle = settle,
-                             .attractors = attractors};
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    {0},
+};
+
+const Kind kind_lightning = {
+    .variant = {KIND_ROW("lightning", &lightning_table,
+                         "Bolts in the air, or discharges over a surface."),
+                MATERIALS},
+    .reads_scene = true,
+    .materials = {"lightning"},
+    .own_space = own_space,
+    .grow = grow,
+    .needs = needs,
+    .place = place,
+    .measure = measure,
+    .describe = describe,
+    .settle = settle,
+    .attractors = attractors};

@@ -1,62 +1,69 @@
 // Plants written as L-systems as a kind of object.
 #include "objects/lsystem/plant.h"
 #include "scene/kinds.h"
+#include "scene/spec.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static bool own_space(OwnSpace *own, Error *e)
+static bool own_space(OwnSpace *own, void *params, Error *e)
 {
-    LSystemPlantParams *plant = own_space_copy(own, own->object.lsystem, sizeof *plant, e);
-    if (plant) {
-        own->object.lsystem = plant;
-        own_space_stand(own, plant->position, vec3(0, 0, 0));
-        plant->position = vec3(0, 0, 0);
-    }
-    return plant;
+    (void)e;
+    LSystemPlantParams *plant = params;
+    own_space_stand(own, plant->position, vec3(0, 0, 0));
+    plant->position = vec3(0, 0, 0);
+    return true;
 }
 
-static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
 {
-    return lsystem_plant_grow(object->lsystem, recipe, e);
+    return lsystem_plant_grow(params, recipe, e);
 }
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
-    TreeMaterials materials = {.bark = placing_material(p, p->object->material, "bark"),
-                               .twig = placing_material(p, p->object->twig_material, "twig"),
-                               .leaf = placing_material(p, p->object->leaf_material, "leaf")};
-    return lsystem_plant_geometry(tree, p->object->lsystem, &materials, p->index, p->recipe.seed,
+    TreeMaterials materials = {.bark = placing_material(p, 0),
+                               .twig = placing_material(p, 1),
+                               .leaf = placing_material(p, 2)};
+    return lsystem_plant_geometry(tree, p->object->params, &materials, p->index, p->recipe.seed,
                                   &p->world->geometry, p->recipe.run, e);
 }
 
-static void describe(const SceneObject *object, char *text, size_t size)
+static void describe(const void *params, char *text, size_t size)
 {
-    snprintf(text, size, ", %g m, %d generations", (double)object->lsystem->height,
-             object->lsystem->generations);
+    const LSystemPlantParams *plant = params;
+    snprintf(text, size, ", %g m, %d generations", (double)plant->height, plant->generations);
 }
 
-static int64_t copies(const SceneObject *object)
+static int64_t copies(const void *params)
 {
-    return object->lsystem->leaves.max_count;
+    const LSystemPlantParams *plant = params;
+    return plant->leaves.max_count;
 }
 
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
     // of a large plant; three branches a fork are typical
     enum { LEAF_FACES = 25, LEAVES = 50000, GENERATIONS = 6, BRANCH_BYTES = 69000 };
-    const LSystemPlantParams *plant = object->lsystem;
+    const LSystemPlantParams *plant = params;
     double branches = pow(3.0, fmin(plant->generations, GENERATIONS));
     needs_add(needs, "generations", branches, BRANCH_BYTES * exp2(2.0 * plant->skin.levels));
-    needs_add_copies(needs, "leaves.max_count", fmin((double)copies(object), LEAVES), LEAF_FACES);
+    needs_add_copies(needs, "leaves.max_count", fmin((double)copies(params), LEAVES), LEAF_FACES);
 }
 
-const Kind kind_lsystem = {.key = "lsystem",
-                           .offset = offsetof(SceneObject, lsystem),
-                           .materials = {"material", "twig_material", "leaf_material"},
-                           .own_space = own_space,
-                           .grow = grow,
-                           .needs = needs,
-                           .place = place,
-                           .describe = describe,
-                           .copies = copies};
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    TWIG_MATERIAL_ROW(1),
+    LEAF_MATERIAL_ROW(2),
+    {0},
+};
+
+const Kind kind_lsystem = {
+    .variant = {KIND_ROW("lsystem", &lsystem_table, "A plant written as an L-system."), MATERIALS},
+    .materials = {"bark", "twig", "leaf"},
+    .own_space = own_space,
+    .grow = grow,
+    .needs = needs,
+    .place = place,
+    .describe = describe,
+    .copies = copies};

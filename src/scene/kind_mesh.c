@@ -1,30 +1,55 @@
 // An imported mesh as a kind of object.
+#include "scene/drawn.h"
 #include "scene/kinds.h"
+#include "scene/spec.h"
 #include "shape/import.h"
+
+// In its place; NULL and e otherwise.
+static Mesh *import(const SceneMesh *params, const Run *run, Error *e)
+{
+    Transform transform = transform_compose(params->position, params->rotation, params->scale);
+    Mesh *mesh = mesh_import(params->file, run, e);
+    if (!mesh) {
+        error_key(e, "file");
+    } else if (!mesh_transform(mesh, &transform, e)) {
+        mesh_free(mesh);
+        mesh = NULL;
+    }
+    return mesh;
+}
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
     (void)tree;
-    const SceneMesh *params = p->object->mesh;
-    Mesh *mesh = mesh_import(params->file, p->recipe.run, e);
-    if (!mesh) {
-        return error_key(e, "file");
-    }
-    if (!mesh_transform(mesh, &params->transform, e) ||
-        (params->smooth && !mesh->normal && !mesh_compute_normals(mesh, e))) {
+    const SceneMesh *params = p->object->params;
+    Mesh *mesh = import(params, p->recipe.run, e);
+    if (mesh && params->smooth && !mesh->normal && !mesh_compute_normals(mesh, e)) {
         mesh_free(mesh);
         return false;
     }
-    return placing_add_mesh(p, mesh, "clay", e);
+    return mesh && placing_add_mesh(p, mesh, e);
 }
 
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
-    needs_add_mesh_file(needs, "file", object->mesh->file);
+    needs_add_mesh_file(needs, "file", ((const SceneMesh *)params)->file);
 }
 
-const Kind kind_mesh = {.key = "mesh",
-                        .offset = offsetof(SceneObject, mesh),
-                        .materials = {"material"},
+static bool cover(const void *params, Cover *cover, const Run *run, Error *e)
+{
+    Mesh *mesh = import(params, run, e);
+    bool done = mesh && cover_add(cover, mesh, e);
+    mesh_free(mesh);
+    return done;
+}
+
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    {0},
+};
+
+const Kind kind_mesh = {.variant = {KIND_ROW("mesh", &mesh_table, "An imported mesh."), MATERIALS},
+                        .materials = {"clay"},
                         .needs = needs,
-                        .place = place};
+                        .place = place,
+                        .cover = cover};

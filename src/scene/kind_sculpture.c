@@ -1,37 +1,35 @@
 // A hollow branch sculpture as a kind of object.
+#include "objects/sculpture/sculpture.h"
 #include "outtree/join.h"
 #include "scene/kinds.h"
+#include "scene/spec.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static bool own_space(OwnSpace *own, Error *e)
+static bool own_space(OwnSpace *own, void *params, Error *e)
 {
-    SculptureParams *sculpture = own_space_copy(own, own->object.sculpture, sizeof *sculpture, e);
-    if (!sculpture) {
-        return false;
-    }
-    own->object.sculpture = sculpture;
+    SculptureParams *sculpture = params;
     own_space_of_element(own, &sculpture->element);
     return own_space_take_element(own, &sculpture->element, e);
 }
 
-static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
 {
-    return sculpture_grow(object->sculpture, recipe, e);
+    return sculpture_grow(params, recipe, e);
 }
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
-    return sculpture_geometry(tree, placing_material(p, p->object->material, "clay"), p->index,
-                              &p->world->geometry, p->recipe.run, e);
+    return sculpture_geometry(tree, placing_material(p, 0), p->index, &p->world->geometry,
+                              p->recipe.run, e);
 }
 
-static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
                     MeasureList *list, Error *e)
 {
     (void)recipe;
-    (void)object;
+    (void)params;
     double none = (double)NAN;
     int64_t pieces, loops;
     return out_tree_count_pieces(tree, &pieces, &loops, e) &&
@@ -39,31 +37,37 @@ static bool measure(const SceneObject *object, const OutTree *tree, const Recipe
            measures_add(list, "loops", (double)loops, "", none, none, e);
 }
 
-static void describe(const SceneObject *object, char *text, size_t size)
+static void describe(const void *params, char *text, size_t size)
 {
-    snprintf(text, size, ", %d clusters", object->sculpture->clusters);
+    const SculptureParams *sculpture = params;
+    snprintf(text, size, ", %d clusters", sculpture->clusters);
 }
 
-static int64_t attractors(const SceneObject *object)
+static int64_t attractors(const void *params)
 {
-    const SculptureParams *params = object->sculpture;
-    return params->element.level_count == 0 ? params->attractors
-                                            : element_attractors(&params->element);
+    const SculptureParams *sculpture = params;
+    return sculpture->element.level_count == 0 ? sculpture->attractors
+                                               : element_attractors(&sculpture->element);
 }
 
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
     enum { ATTRACTOR_BYTES = 150000 }; // of bars through a level set
-    needs_add(needs, "attractors", (double)attractors(object), ATTRACTOR_BYTES);
+    needs_add(needs, "attractors", (double)attractors(params), ATTRACTOR_BYTES);
 }
 
-const Kind kind_sculpture = {.key = "sculpture",
-                             .offset = offsetof(SceneObject, sculpture),
-                             .materials = {"material"},
-                             .own_space = own_space,
-                             .grow = grow,
-                             .needs = needs,
-                             .place = place,
-                             .measure = measure,
-                             .describe = describe,
-                             .attractors = attractors};
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    {0},
+};
+
+const Kind kind_sculpture = {
+    .variant = {KIND_ROW("sculpture", &sculpture_table, "A hollow branch sculpture."), MATERIALS},
+    .materials = {"clay"},
+    .own_space = own_space,
+    .grow = grow,
+    .needs = needs,
+    .place = place,
+    .measure = measure,
+    .describe = describe,
+    .attractors = attractors};

@@ -1,5 +1,7 @@
 // Envelopes drawn as they are, as a kind of object.
+#include "scene/drawn.h"
 #include "scene/kinds.h"
+#include "scene/spec.h"
 #include "shape/primitive.h"
 
 #include <string.h>
@@ -24,29 +26,29 @@ static Mesh *copy_mesh(const Mesh *mesh, Error *e)
     return copy;
 }
 
-static bool own_space(OwnSpace *own, Error *e)
+static bool own_space(OwnSpace *own, void *params, Error *e)
 {
-    SceneShape *shape = own_space_copy(own, own->object.shape, sizeof *shape, e);
-    if (!shape) {
-        return false;
-    }
-    own->object.shape = shape;
+    SceneShape *shape = params;
     own_space_of_shapes(own, shape->shapes, shape->shape_count);
     return own_space_take_shapes(own, &shape->shapes, shape->shape_count, e);
+}
+
+static Envelope *make(const SceneShape *shape, const Run *run, Error *e)
+{
+    EnvelopeParams params = {shape->shapes, shape->shape_count, shape->voxel};
+    return envelope_new(&params, run, e);
 }
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
     (void)tree;
-    const SceneShape *shape = p->object->shape;
-    EnvelopeParams params = {shape->shapes, shape->shape_count, shape->voxel};
-    Envelope *envelope = envelope_new(&params, p->recipe.run, e);
+    Envelope *envelope = make(p->object->params, p->recipe.run, e);
     if (!envelope) {
         return false;
     }
     Mesh *mesh = copy_mesh(envelope_surface(envelope), e);
     envelope_free(envelope);
-    return mesh && placing_add_mesh(p, mesh, "clay", e);
+    return mesh && placing_add_mesh(p, mesh, e);
 }
 
 // Of the surface that a level set is made along, m^2. Half spaces only cut.
@@ -61,11 +63,11 @@ static double surface_area(const Shape *shape)
     return bounded && primitive_new(shape, &primitive, NULL) ? primitive_area(&primitive) : 0.0;
 }
 
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
     const double voxel_bytes = 370.0; // of a voxel on the surface, with its faces
     const double voxels_by_default = 6.0 * 128.0 * 128.0;
-    const SceneShape *shape = object->shape;
+    const SceneShape *shape = params;
     double area = 0.0;
     for (int i = 0; i < shape->shape_count; i++) {
         area += surface_area(&shape->shapes[i]);
@@ -79,9 +81,24 @@ static void needs(const SceneObject *object, Needs *needs)
               voxel_bytes);
 }
 
-const Kind kind_shape = {.key = "shape",
-                         .offset = offsetof(SceneObject, shape),
-                         .materials = {"material"},
-                         .needs = needs,
-                         .own_space = own_space,
-                         .place = place};
+static bool cover(const void *params, Cover *cover, const Run *run, Error *e)
+{
+    Envelope *envelope = make(params, run, e);
+    bool done = envelope && cover_add(cover, envelope_surface(envelope), e);
+    envelope_free(envelope);
+    return done;
+}
+
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    {0},
+};
+
+const Kind kind_shape = {
+    .variant = {KIND_ROW("shape", &solid_table, "Spheres, boxes, ... drawn as they are."),
+                MATERIALS},
+    .materials = {"clay"},
+    .needs = needs,
+    .own_space = own_space,
+    .place = place,
+    .cover = cover};

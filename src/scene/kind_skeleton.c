@@ -1,57 +1,64 @@
 // Skeletons from SWC files as a kind of object.
+#include "objects/skeleton/skeleton.h"
 #include "scene/kinds.h"
+#include "scene/spec.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static bool own_space(OwnSpace *own, Error *e)
+static bool own_space(OwnSpace *own, void *params, Error *e)
 {
-    SkeletonParams *skeleton = own_space_copy(own, own->object.skeleton, sizeof *skeleton, e);
-    if (skeleton) {
-        own->object.skeleton = skeleton;
-        own_space_stand(own, skeleton->position, skeleton->rotation);
-        skeleton->position = skeleton->rotation = vec3(0, 0, 0);
-    }
-    return skeleton;
+    (void)e;
+    SkeletonParams *skeleton = params;
+    own_space_stand(own, skeleton->position, skeleton->rotation);
+    skeleton->position = skeleton->rotation = vec3(0, 0, 0);
+    return true;
 }
 
-static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
 {
-    return skeleton_grow(object->skeleton, recipe, e);
+    return skeleton_grow(params, recipe, e);
 }
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
-    SkeletonMaterials materials = {.body = placing_material(p, p->object->material, "clay")};
-    materials.axon = p->object->axon_material
-                         ? placing_material(p, p->object->axon_material, "clay")
-                         : materials.body;
-    return skeleton_geometry(tree, p->object->skeleton, &materials, p->index, &p->world->geometry,
+    SkeletonMaterials materials = {.body = placing_material(p, 0)};
+    materials.axon = p->object->material[1] ? placing_material(p, 1) : materials.body;
+    return skeleton_geometry(tree, p->object->params, &materials, p->index, &p->world->geometry,
                              p->recipe.run, e);
 }
 
-static void describe(const SceneObject *object, char *text, size_t size)
+static void describe(const void *params, char *text, size_t size)
 {
-    const char *slash = strrchr(object->skeleton->file, '/');
-    snprintf(text, size, ", %s", slash ? slash + 1 : object->skeleton->file);
+    const SkeletonParams *skeleton = params;
+    const char *slash = strrchr(skeleton->file, '/');
+    snprintf(text, size, ", %s", slash ? slash + 1 : skeleton->file);
 }
 
 // A traced cell's skin at 36 bytes of file a node: mean of a pyramidal neuron, whose nodes stand
 // some five rings apart.
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
     const double file_bytes = 36.0, node_bytes = 6500.0;
-    const SkinningParams *skin = &object->skeleton->skin;
+    const SkeletonParams *skeleton = params;
+    const SkinningParams *skin = &skeleton->skin;
     double share = skin->curve_radius > 0.0f ? 0.5 : 1.0; // twigs are curves
     double rings = skin->ring_spacing > 0.0f ? 1.0 / (double)skin->ring_spacing : 1.0;
-    needs_add_file(needs, "skin.levels", object->skeleton->file,
+    needs_add_file(needs, "skin.levels", skeleton->file,
                    node_bytes / file_bytes * share * rings * exp2(2.0 * skin->levels));
 }
 
-const Kind kind_skeleton = {.key = "skeleton",
-                            .offset = offsetof(SceneObject, skeleton),
-                            .materials = {"material", "axon_material"},
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    MATERIAL_ROW(1, "axon_material", "Material of a skeleton's axon; left out: that of the rest."),
+    {0},
+};
+
+const Kind kind_skeleton = {.variant = {KIND_ROW("skeleton", &skeleton_table,
+                                                 "A neuron or another out-tree from an SWC file."),
+                                        MATERIALS},
+                            .materials = {"clay", "clay"},
                             .own_space = own_space,
                             .grow = grow,
                             .needs = needs,

@@ -1,5 +1,7 @@
 // Terrain as a kind of object.
+#include "objects/terrain/terrain.h"
 #include "scene/kinds.h"
+#include "scene/spec.h"
 
 #include "base/memory.h"
 #include "image/image.h"
@@ -41,79 +43,86 @@ static bool load(const TerrainParams *given, LoadedTerrain *loaded, Error *e)
     return true;
 }
 
-static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
 {
     LoadedTerrain loaded;
-    OutTree *tree =
-        load(object->terrain, &loaded, e) ? terrain_grow(&loaded.params, recipe, e) : NULL;
+    OutTree *tree = load(params, &loaded, e) ? terrain_grow(&loaded.params, recipe, e) : NULL;
     image_free(loaded.image);
     return tree;
 }
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
-    TerrainMaterials materials = {.land = placing_material(p, p->object->material, "mountain"),
-                                  .water = placing_material(p, p->object->water_material, "lake"),
-                                  .foliage = placing_material(p, NULL, "conifer")};
+    TerrainMaterials materials = {.land = placing_material(p, 0),
+                                  .water = placing_material(p, 1),
+                                  .foliage = placing_material(p, 2)};
     LoadedTerrain loaded;
-    bool done = load(p->object->terrain, &loaded, e) &&
+    bool done = load(p->object->params, &loaded, e) &&
                 terrain_geometry(&loaded.params, tree, &materials, &p->world->camera.position,
                                  p->index, &p->world->geometry, &p->recipe, e);
     image_free(loaded.image);
     return done;
 }
 
-static HeightField *heights(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
-                            Error *e)
+static HeightField *heights(const void *params, const OutTree *tree, const Recipe *recipe, Error *e)
 {
     LoadedTerrain loaded;
     HeightField *field =
-        load(object->terrain, &loaded, e) ? terrain_heights(&loaded.params, tree, recipe, e) : NULL;
+        load(params, &loaded, e) ? terrain_heights(&loaded.params, tree, recipe, e) : NULL;
     image_free(loaded.image);
     return field;
 }
 
-static void describe(const SceneObject *object, char *text, size_t size)
+static void describe(const void *params, char *text, size_t size)
 {
-    snprintf(text, size, ", %g km, %d x %d cells", (double)object->terrain->size * 1e-3,
-             object->terrain->resolution, object->terrain->resolution);
+    const TerrainParams *terrain = params;
+    snprintf(text, size, ", %g km, %d x %d cells", (double)terrain->size * 1e-3,
+             terrain->resolution, terrain->resolution);
 }
 
-static int64_t attractors(const SceneObject *object)
+static int64_t attractors(const void *params)
 {
-    int64_t count = object->terrain->rivers.count;
+    const TerrainParams *terrain = params;
+    int64_t count = terrain->rivers.count;
     return count + count / 8;
 }
 
-static int64_t copies(const SceneObject *object)
+static int64_t copies(const void *params)
 {
-    return object->terrain->forest.count;
+    const TerrainParams *terrain = params;
+    return terrain->forest.count;
 }
 
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
     enum { CELL_BYTES = 200, RIVER_BYTES = 1500 };
-    const TerrainParams *terrain = object->terrain;
+    const TerrainParams *terrain = params;
     double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // a tree each
     needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, CELL_BYTES);
-    needs_add(needs, "rivers.count", (double)attractors(object), RIVER_BYTES);
+    needs_add(needs, "rivers.count", (double)attractors(params), RIVER_BYTES);
     needs_add_copies(needs, "forest.count", fmin(terrain->forest.count, rows * rows), 1e9);
 }
 
-static void settle(const SceneObject *object, void *params)
+static void settle(const void *params, void *settled)
 {
-    TerrainParams p = terrain_params_resolve(object->terrain);
-    memcpy(params, &p, sizeof p);
+    TerrainParams p = terrain_params_resolve(params);
+    memcpy(settled, &p, sizeof p);
 }
 
-const Kind kind_terrain = {.key = "terrain",
-                           .offset = offsetof(SceneObject, terrain),
-                           .materials = {"material", "water_material"},
-                           .grow = grow,
-                           .needs = needs,
-                           .place = place,
-                           .heights = heights,
-                           .describe = describe,
-                           .attractors = attractors,
-                           .copies = copies,
-                           .settle = settle};
+static const Key MATERIALS[] = {
+    MATERIAL_ROW(1, "water_material", "Material of a terrain's lakes and rivers; left out: lake."),
+    OWN_MATERIAL_ROW(0),
+    {0},
+};
+
+const Kind kind_terrain = {
+    .variant = {KIND_ROW("terrain", &terrain_table, "Mountains, valleys and rivers."), MATERIALS},
+    .materials = {"mountain", "lake", "conifer"},
+    .grow = grow,
+    .needs = needs,
+    .place = place,
+    .heights = heights,
+    .describe = describe,
+    .attractors = attractors,
+    .copies = copies,
+    .settle = settle};

@@ -1,5 +1,7 @@
 // Blood vessels as a kind of object.
+#include "objects/vessels/vessels.h"
 #include "scene/kinds.h"
+#include "scene/spec.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -14,32 +16,27 @@ static Vec3 take_inlet(const OwnSpace *own, Vec3 inlet)
     return vec3_dot(mine, mine) > 0.0f ? mine : vec3(FLT_MIN, 0, 0);
 }
 
-static bool own_space(OwnSpace *own, Error *e)
+static bool own_space(OwnSpace *own, void *params, Error *e)
 {
-    VesselsParams *vessels = own_space_copy(own, own->object.vessels, sizeof *vessels, e);
-    if (!vessels) {
-        return false;
-    }
-    own->object.vessels = vessels;
+    VesselsParams *vessels = params;
     own_space_of_element(own, &vessels->element);
     vessels->inlet = take_inlet(own, vessels->inlet);
     return own_space_take_element(own, &vessels->element, e);
 }
 
-static OutTree *grow(const SceneObject *object, const Recipe *recipe, Error *e)
+static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
 {
-    return vessels_grow(object->vessels, recipe, e);
+    return vessels_grow(params, recipe, e);
 }
 
 static bool place(const Placing *p, const OutTree *tree, Error *e)
 {
-    VesselsMaterials materials = {.artery = placing_material(p, p->object->material, "artery"),
-                                  .vein = placing_material(p, p->object->vein_material, "vein")};
-    return vessels_geometry(tree, p->object->vessels, &materials, p->index, &p->world->geometry,
+    VesselsMaterials materials = {.artery = placing_material(p, 0), .vein = placing_material(p, 1)};
+    return vessels_geometry(tree, p->object->params, &materials, p->index, &p->world->geometry,
                             p->recipe.run, e);
 }
 
-static bool measure(const SceneObject *object, const OutTree *tree, const Recipe *recipe,
+static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
                     MeasureList *list, Error *e)
 {
     (void)recipe;
@@ -49,23 +46,32 @@ static bool measure(const SceneObject *object, const OutTree *tree, const Recipe
     measures_set_range(list, "horton_number", 3.3, 3.6);
     measures_set_range(list, "horton_radius", 1.5, 1.9);
     measures_set_range(list, "horton_length", 1.4, 2.2);
-    return vessels_measure(tree, object->vessels, list, e);
+    return vessels_measure(tree, params, list, e);
 }
 
-static void describe(const SceneObject *object, char *text, size_t size)
+static void describe(const void *params, char *text, size_t size)
 {
-    snprintf(text, size, ", %lld terminals", (long long)object->vessels->terminals);
+    const VesselsParams *vessels = params;
+    snprintf(text, size, ", %lld terminals", (long long)vessels->terminals);
 }
 
-static void needs(const SceneObject *object, Needs *needs)
+static void needs(const void *params, Needs *needs)
 {
+    const VesselsParams *vessels = params;
     enum { TERMINAL_BYTES = 1800 };
-    needs_add(needs, "terminals", (double)object->vessels->terminals, TERMINAL_BYTES);
+    needs_add(needs, "terminals", (double)vessels->terminals, TERMINAL_BYTES);
 }
 
-const Kind kind_vessels = {.key = "vessels",
-                           .offset = offsetof(SceneObject, vessels),
-                           .materials = {"material", "vein_material"},
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    MATERIAL_ROW(1, "vein_material", "Material of veins; left out: vein."),
+    {0},
+};
+
+const Kind kind_vessels = {.variant = {KIND_ROW("vessels", &vessels_table,
+                                                "Arteries and veins that fill an organ or a body."),
+                                       MATERIALS},
+                           .materials = {"artery", "vein"},
                            .own_space = own_space,
                            .grow = grow,
                            .needs = needs,

@@ -1,18 +1,29 @@
-// Every kind of object, one kind_*.c each.
+// The registry of the kinds of objects, in the order in which people read of them: a line a kind.
 #ifndef RAMIFY_SCENE_KINDS_H
 #define RAMIFY_SCENE_KINDS_H
 
 #include "scene/kind.h"
 
-extern const Kind kind_tree, kind_forest, kind_ground, kind_mesh, kind_shape, kind_dla,
-    kind_lightning;
-extern const Kind kind_coral, kind_lsystem;
-extern const Kind kind_frost;
-extern const Kind kind_sculpture;
-extern const Kind kind_terrain;
-extern const Kind kind_vessels;
-extern const Kind kind_venation;
-extern const Kind kind_fracture;
-extern const Kind kind_skeleton;
+#define KINDS(X) \
+    X(tree)      \
+    X(coral)     \
+    X(lsystem)   \
+    X(vessels)   \
+    X(forest)    \
+    X(ground)    \
+    X(frost)     \
+    X(mesh)      \
+    X(shape)     \
+    X(dla)       \
+    X(lightning) \
+    X(sculpture) \
+    X(terrain)   \
+    X(venation)  \
+    X(fracture)  \
+    X(skeleton)
+
+#define DECLARE_KIND(NAME) extern const Kind kind_##NAME;
+KINDS(DECLARE_KIND)
+#undef DECLARE_KIND
 
 #endif

@@ -73,10 +73,10 @@ static Needs needs_of(const Scene *scene, int only)
 {
     Needs needs = {.largest_object = -1};
     for (int i = 0; i < scene->object_count; i++) {
-        const Kind *kind = kind_of(&scene->objects[i]);
+        const Kind *kind = scene->objects[i].kind;
         needs.object = i;
         if (kind->needs && (only < 0 || only == i)) {
-            kind->needs(&scene->objects[i], &needs);
+            kind->needs(scene->objects[i].params, &needs);
         }
     }
     return needs;

@@ -12,8 +12,12 @@
 bool own_space_enter(OwnSpace *own, const SceneObject *object, Error *e)
 {
     *own = (OwnSpace){.object = *object, .to_scene = transform_identity()};
-    const Kind *kind = kind_of(object);
-    if (kind->own_space && !kind->own_space(own, e)) {
+    const Kind *kind = object->kind;
+    if (!kind->own_space) {
+        return true;
+    }
+    own->object.params = own_space_copy(own, object->params, kind->variant.row.table->size, e);
+    if (!own->object.params || !kind->own_space(own, own->object.params, e)) {
         own_space_leave(own);
         return false;
     }

@@ -6,6 +6,8 @@
 #define RAMIFY_SCENE_OWN_SPACE_H
 
 #include "config/node.h"
+#include "mesh/geometry.h"
+#include "objects/common/element.h"
 #include "scene/scene.h"
 
 // Begins with own_space_enter, ends with own_space_leave.
@@ -35,8 +37,7 @@ void own_space_stand(OwnSpace *own, Vec3 place, Vec3 rotation);
 void own_space_of_element(OwnSpace *own, const ElementParams *element);
 void own_space_of_shapes(OwnSpace *own, const Shape *shapes, int count);
 
-// A copy of a kind's parameters, or of another array, that goes with own. NULL and e when memory is
-// short.
+// A copy of an array that goes with own. NULL and e when memory is short.
 void *own_space_copy(OwnSpace *own, const void *of, size_t size, Error *e);
 
 // A place and a direction of the scene in the object's own space; an azimuth (degrees, from +Z

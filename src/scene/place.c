@@ -97,6 +97,6 @@ bool scene_fail_object(const Scene *scene, int index, Error *e)
     if (strncmp(e->message, label, (size_t)length) != 0) { // some growth names a part of it, too
         error_prefix(e, "%s: ", label);
     }
-    snprintf(path, sizeof path, "objects.%s.%s", object->name, kind_of(object)->key);
+    snprintf(path, sizeof path, "objects.%s.%s", object->name, kind_name(object->kind));
     return scene_fail_at(scene, path, e);
 }

@@ -2,10 +2,9 @@
 
 #include "base/c_locale.h"
 #include "base/memory.h"
-#include "config/emit.h"
 #include "config/load.h"
-#include "config/resolve.h"
 #include "config/yaml.h"
+#include "scene/builtin.h"
 #include "scene/overrides.h"
 #include "scene/settle.h"
 #include "scene/spec.h"
@@ -30,21 +29,20 @@ typedef struct SceneSource {
     int change_count;
 } SceneSource;
 
-// Parsed, overridden and completed; NULL and e otherwise.
-static Node *complete_document(Arena *arena, Resolver *resolver, const SceneSource *source,
-                               Error *e)
+// Parsed and overridden; NULL and e otherwise.
+static Node *read_document(Arena *arena, const SceneSource *source, Error *e)
 {
     const char *zero = memchr(source->text, 0, source->length);
     if (zero) {
         error_set(e, ERROR_INPUT,
                   "not a text file: a NUL at byte %td; a scene is YAML text in UTF-8",
                   zero - source->text);
-        error_locate(e, resolver->file, 0, 0);
+        error_locate(e, source->name, 0, 0);
         return NULL;
     }
-    Node *root = yaml_parse(arena, source->text, source->length, resolver->file, NULL, e);
+    Node *root = yaml_parse(arena, source->text, source->length, source->name, NULL, e);
     if (root && root->kind != NODE_MAP && !node_is_null(root)) { // nothing that could be overridden
-        return resolve_document(resolver, &scene_table, root);
+        return root;
     }
     for (int i = 0; root && i < source->override_count; i++) {
         if (!override_apply(arena, root, source->overrides[i], e)) {
@@ -54,50 +52,51 @@ static Node *complete_document(Arena *arena, Resolver *resolver, const SceneSour
     for (int i = 0; root && i < source->change_count; i++) {
         const SceneChange *change = &source->changes[i];
         if (!override_change(arena, root, change, e)) {
-            error_locate(e, resolver->file, change->line, change->column);
+            error_locate(e, source->name, change->line, change->column);
             return NULL;
         }
     }
-    return root ? resolve_document(resolver, &scene_table, root) : NULL;
+    return root;
 }
 
-// "path=value\0 ... \0" on the heap.
-static char *keep_overrides(const SceneSource *source, Error *e)
+// "path=value\0 ... \0"
+static char *keep_overrides(Arena *arena, const SceneSource *source, Error *e)
 {
-    int64_t length = 1;
+    size_t length = 1;
     for (int i = 0; i < source->override_count; i++) {
-        length += (int64_t)strlen(source->overrides[i]) + 1;
+        length += strlen(source->overrides[i]) + 1;
     }
-    char *kept = memory_alloc_zero(length, 1, e), *at = kept;
+    char *kept = arena_alloc(arena, length, e), *at = kept;
     for (int i = 0; kept && i < source->override_count; i++) {
-        size_t size = strlen(source->overrides[i]) + 1;
-        memcpy(at, source->overrides[i], size);
-        at += size;
+        at = stpcpy(at, source->overrides[i]) + 1;
     }
     return kept;
 }
 
-static Scene *load_scene(Node *document, Arena *arena, const SceneSource *source, Error *e)
+// What the scene remembers of where it came from.
+static bool keep_source(Scene *scene, const SceneSource *source, Error *e)
 {
-    Scene *scene = load_struct(&scene_table, document, arena, e);
+    Arena *arena = scene->arena;
+    scene->file = arena_text(arena, source->name, strlen(source->name), e);
+    scene->folder = arena_text(arena, source->folder, strlen(source->folder), e);
+    scene->text = arena_text(arena, source->text, source->length, e);
+    scene->overrides = keep_overrides(arena, source, e);
+    return scene->file && scene->folder && scene->text && scene->overrides;
+}
+
+// The scene of a document, which goes with the arena.
+static Scene *load_scene(Arena *arena, const Node *document, const SceneSource *source, Error *e)
+{
+    Loader loader = {.arena = arena, .file = source->name, .folder = source->folder, .e = e};
+    Scene *scene = load_document(&loader, &scene_table, document);
     if (!scene) {
         return NULL;
     }
-    size_t unused;
-    scene->file = memory_copy_string(source->name, e);
-    scene->folder = memory_copy_string(source->folder, e);
-    scene->overrides = keep_overrides(source, e);
-    scene->text = memory_alloc_zero((int64_t)source->length + 1, 1, e);
-    scene->resolved = settle_notes(scene, document, arena, e)
-                          ? emit_yaml(document, EMIT_READABLE, &unused, e)
-                          : NULL;
-    if (!scene->file || !scene->folder || !scene->overrides || !scene->text || !scene->resolved) {
-        scene_free(scene);
-        return NULL;
-    }
-    memcpy(scene->text, source->text, source->length);
+    scene->arena = arena;
+    scene->files = loader.hash;
     scene->render.seed = scene->seed;
-    return scene;
+    scene->resolved = settle_write(scene, loader.files, e);
+    return scene->resolved && keep_source(scene, source, e) ? scene : NULL;
 }
 
 static Scene *read_source(const SceneSource *source, Error *e)
@@ -107,19 +106,18 @@ static Scene *read_source(const SceneSource *source, Error *e)
         e = &own;
     }
     *e = (Error){0};
-    Arena *arena = arena_new(e);
+    Arena *nodes = arena_new(e), *kept = nodes ? arena_new(e) : NULL;
     Scene *scene = NULL;
     CLocale locale;
-    if (arena && c_locale_enter(&locale, e)) {
-        Resolver resolver = {arena, source->name, source->folder, e, 0};
-        Node *document = complete_document(arena, &resolver, source, e);
-        scene = document ? load_scene(document, arena, source, e) : NULL;
-        if (scene) {
-            scene->files = resolver.files;
-        }
+    if (kept && c_locale_enter(&locale, e)) {
+        const Node *document = read_document(nodes, source, e);
+        scene = document ? load_scene(kept, document, source, e) : NULL;
         c_locale_leave(&locale);
     }
-    arena_free(arena);
+    arena_free(nodes);
+    if (!scene) {
+        arena_free(kept);
+    }
     return scene;
 }
 
@@ -219,15 +217,19 @@ Scene *scene_read(const char *file, const char *const *overrides, int override_c
     return scene;
 }
 
+const Material *scene_material(const Scene *scene, const char *name)
+{
+    for (int i = 0; i < scene->material_count; i++) {
+        if (strcmp(scene->materials[i].name, name) == 0) {
+            return &scene->materials[i];
+        }
+    }
+    return builtin_material(name);
+}
+
 void scene_free(Scene *scene)
 {
     if (scene) {
-        load_clear(&scene_table, scene);
-        free(scene->file);
-        free(scene->text);
-        free(scene->resolved);
-        free(scene->folder);
-        free(scene->overrides);
-        free(scene);
+        arena_free(scene->arena);
     }
 }

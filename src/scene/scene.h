@@ -1,26 +1,12 @@
-// The scene file as a value: everything a picture is made from, read from YAML (libcyaml) and
-// checked. Strict: unknown keys, wrong types and numbers out of range are errors with line, column
-// and what would be right. All defaults stand in one set of tables (spec.h), from which the JSON
-// Schema is printed too.
+// The scene file as a value: everything a picture is made from, read from YAML and checked. Strict:
+// unknown keys, wrong types and numbers out of range are errors with line, column and what would be
+// right. All defaults stand in one set of tables (spec.h), from which the JSON Schema is printed
+// too.
 #ifndef RAMIFY_SCENE_SCENE_H
 #define RAMIFY_SCENE_SCENE_H
 
 #include "base/run.h"
 #include "image/tonemap.h"
-#include "objects/coral/coral.h"
-#include "objects/dla/dla.h"
-#include "objects/forest/forest.h"
-#include "objects/fracture/fracture.h"
-#include "objects/frost/frost.h"
-#include "objects/ground/ground.h"
-#include "objects/lightning/lightning.h"
-#include "objects/lsystem/plant.h"
-#include "objects/sculpture/sculpture.h"
-#include "objects/skeleton/skeleton.h"
-#include "objects/terrain/terrain.h"
-#include "objects/tree/tree.h"
-#include "objects/venation/venation.h"
-#include "objects/vessels/vessels.h"
 #include "render/camera.h"
 #include "render/film_params.h"
 #include "render/render_params.h"
@@ -28,47 +14,17 @@
 
 #include <stddef.h>
 
-typedef struct SceneMesh { // an imported mesh that is drawn
-    char *file;
-    Transform transform;
-    bool smooth; // make smooth normals when the file has none
-} SceneMesh;
+typedef struct Arena Arena;
 
-typedef struct SceneShape { // envelopes drawn as they are: spheres, boxes, ...
-    Shape *shapes;
-    int shape_count;
-    float voxel;
-} SceneShape;
+enum { OBJECT_MOST_MATERIALS = 6 };
 
-// Exactly one of the kinds is not NULL.
 typedef struct SceneObject {
     char *name;
     uint64_t seed; // 0 = from the scene's seed and the name
-    TreeParams *tree;
-    ForestParams *forest;
-    CoralParams *coral;
-    LSystemPlantParams *lsystem;
-    VesselsParams *vessels;
-    GroundParams *ground;
-    FrostParams *frost;
-    SceneMesh *mesh;
-    SceneShape *shape;
-    DlaModel *dla;
-    LightningParams *lightning;
-    SculptureParams *sculpture;
-    TerrainParams *terrain;
-    VenationParams *venation;
-    FractureParams *fracture;
-    SkeletonParams *skeleton;
-    // material names, as far as the kind has use for them; NULL = the kind's built-in default
-    char *material; // mesh, shape, ground; bark of a tree
-    char *twig_material, *leaf_material, *grass_material;
-    char *water_material;                 // of terrain
-    char *rime_material;                  // of frost
-    char *polyp_material, *rock_material; // of corals
-    char *vein_material;
-    char *axon_material;   // of skeletons
-    char *inside_material; // of what is broken
+    const struct Kind *kind;
+    void *params; // of the kind
+    // Names of materials, as the kind numbers them (Kind.materials); NULL = the kind's own choice.
+    char *material[OBJECT_MOST_MATERIALS];
 } SceneObject;
 
 typedef struct SceneTarget { // what a scene says of its own result
@@ -104,6 +60,7 @@ enum { SCENE_KEY_MOST_NUMBERS = 16 }; // more than any value of a scene has
 typedef struct SceneKey {
     double at;   // 0..1, share of the animation
     char *value; // YAML: a number, a list of numbers, a colour, a word
+    bool quoted; // in the file
 } SceneKey;
 
 typedef struct SceneTrack { // one value of the scene over time
@@ -128,6 +85,7 @@ typedef struct Material Material;
 typedef struct Medium Medium;
 
 typedef struct Scene {
+    Arena *arena;    // of the scene itself and all that it points to
     char *file;      // where it was read from, for messages and to resolve relative paths
     char *text;      // the file's text, stored in images as metadata
     char *resolved;  // the same as YAML with every default and override written out
@@ -178,6 +136,13 @@ typedef struct SceneChange {
 Scene *scene_changed(const Scene *scene, const SceneChange *changes, int count, Error *e);
 
 void scene_free(Scene *scene); // NULL is fine
+
+// The material of that name: the scene's own, else a built-in one; NULL = there is none.
+const Material *scene_material(const Scene *scene, const char *name);
+
+// The numbers of a key's value: one, those of a list, or the three of a colour in linear light.
+// Their count; 0 = a word.
+int scene_key_numbers(const SceneKey *key, double numbers[SCENE_KEY_MOST_NUMBERS]);
 
 // What holds where a scene says nothing.
 SceneGolden scene_golden_default(void);

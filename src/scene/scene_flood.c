@@ -3,25 +3,14 @@
 #include "base/random.h"
 #include "render/material/material.h"
 #include "render/medium/medium.h"
-#include "scene/builtin.h"
+#include "scene/kind.h"
 #include "scene/sections.h"
-#include "shape/envelope.h"
-#include "shape/import.h"
 
 #include <math.h>
-#include <string.h>
 
 // A pattern of ripples, or a dielectric of about water's index.
-static bool is_water(const Scene *scene, const char *name)
+static bool is_water(const Material *material)
 {
-    if (!name) {
-        return false;
-    }
-    const Material *material = NULL;
-    for (int i = 0; !material && i < scene->material_count; i++) {
-        material = strcmp(scene->materials[i].name, name) == 0 ? &scene->materials[i] : NULL;
-    }
-    material = material ? material : builtin_material(name);
     return material &&
            (material->pattern == PATTERN_WATER ||
             (material_has(material, TRAIT_BODY) && material->ior > 1.3f && material->ior < 1.36f));
@@ -29,24 +18,8 @@ static bool is_water(const Scene *scene, const char *name)
 
 static bool is_body_of_water(const Scene *scene, const SceneObject *object)
 {
-    return (object->shape || object->mesh) && is_water(scene, object->material);
-}
-
-static bool add_body(Cover *cover, const SceneObject *object, const Run *run, Error *e)
-{
-    if (object->shape) {
-        const SceneShape *shape = object->shape;
-        EnvelopeParams params = {shape->shapes, shape->shape_count, shape->voxel};
-        Envelope *envelope = envelope_new(&params, run, e);
-        bool done = envelope && cover_add(cover, envelope_surface(envelope), e);
-        envelope_free(envelope);
-        return done;
-    }
-    Mesh *mesh = mesh_import(object->mesh->file, run, e);
-    bool done =
-        mesh && mesh_transform(mesh, &object->mesh->transform, e) && cover_add(cover, mesh, e);
-    mesh_free(mesh);
-    return done;
+    return object->kind->cover && object->material[0] &&
+           is_water(scene_material(scene, object->material[0]));
 }
 
 static bool covers(const void *user, Vec3 foot)
@@ -68,7 +41,7 @@ bool scene_flood_init(SceneFlood *flood, const Scene *scene, const Run *run, Err
             continue;
         }
         flood->cover = flood->cover ? flood->cover : cover_new(e);
-        if (!flood->cover || !add_body(flood->cover, object, run, e)) {
+        if (!flood->cover || !object->kind->cover(object->params, flood->cover, run, e)) {
             scene_flood_clear(flood);
             return false;
         }

@@ -20,9 +20,9 @@ size_t schema_label_length(const Key *row, const char *at)
     if (at > row->doc && at[-1] != ' ') {
         return 0;
     }
-    for (const cyaml_strval_t *n = row->names; n && n->str; n++) {
-        size_t length = strlen(n->str);
-        if (strncmp(at, n->str, length) == 0 && at[length] == ':') {
+    for (const EnumName *n = row->names; n && n->name; n++) {
+        size_t length = strlen(n->name);
+        if (strncmp(at, n->name, length) == 0 && at[length] == ':') {
             return length;
         }
     }
@@ -93,8 +93,8 @@ static void put_range(SchemaText *s, const Key *row, const char *first)
 
 static void put_names(SchemaText *s, const Key *row)
 {
-    for (const cyaml_strval_t *n = row->names; n->str; n++) {
-        schema_put(s, "%s`%s`", n == row->names ? "" : ", ", n->str);
+    for (const EnumName *n = row->names; n->name; n++) {
+        schema_put(s, "%s`%s`", n == row->names ? "" : ", ", n->name);
     }
 }
 
@@ -153,19 +153,9 @@ void schema_put_value(SchemaText *s, const Outline *o, const Key *row)
 
 static const char *default_text(SchemaText *s, const Key *row, const char *base)
 {
-    const Node *node = schema_default(s, row, base);
-    if (!node || node->kind == NODE_SCALAR) {
-        bool open =
-            node && row->type == KEY_DOUBLE && fabs(strtod(node->text, NULL)) >= TARGET_NO_BOUND;
-        return node && !open ? node->text : "";
-    }
-    const char *text = "[";
-    for (const Node *item = node->first; item && text; item = item->next) {
-        text = arena_format(s->resolver.arena, s->resolver.e, "%s%s%s", text, item->text,
-                            item->next ? ", " : "]");
-    }
-    s->failed |= !text;
-    return text ? text : "";
+    const char *text = schema_default(s, row, base);
+    bool open = text && row->type == KEY_DOUBLE && fabs(strtod(text, NULL)) >= TARGET_NO_BOUND;
+    return text && !open ? text : "";
 }
 
 static void add_default(Default *found, int *count, const char *text, const char *where)
@@ -190,8 +180,8 @@ static const char *holder_title(SchemaText *s, const OutlinePlace *place)
 {
     const char *last = strrchr(place->title, ' ');
     size_t length = last ? (size_t)(last - place->title) : strlen(place->title);
-    const char *title = arena_text(s->resolver.arena, place->title, length, s->resolver.e);
-    s->failed |= !title;
+    const char *title = arena_text(s->arena, place->title, length, s->text.e);
+    s->text.failed |= !title;
     return title ? title : "";
 }
 
@@ -203,10 +193,10 @@ static int find_defaults(SchemaText *s, const OutlineSection *section, const Key
     const Key *kinds = table->kind_key ? table_find(table, table->kind_key) : NULL;
     int count = 0;
     if (kinds && row != kinds && table->defaults) {
-        for (const cyaml_strval_t *n = kinds->names; n->str; n++) {
-            if (key_in_kind(row, (int)n->val)) {
-                const char *base = schema_base(s, table, (int)n->val, NULL);
-                add_default(found, &count, default_text(s, row, base), n->str);
+        for (const EnumName *n = kinds->names; n->name; n++) {
+            if (key_in_kind(row, n->value)) {
+                const char *base = schema_base(s, table, n->value, NULL);
+                add_default(found, &count, default_text(s, row, base), n->name);
             }
         }
         return count;

@@ -36,9 +36,9 @@ static void put_description(Writer *w, const Table *table, const Key *row)
         const Key *kind = table_find(table, table->kind_key);
         used += snprintf(text + used, sizeof text - (size_t)used, " Only of %s", table->kind_key);
         const char *before = " ";
-        for (const cyaml_strval_t *s = kind->names; s->str; s++) {
-            if (row->kinds >> s->val & 1u) {
-                used += snprintf(text + used, sizeof text - (size_t)used, "%s%s", before, s->str);
+        for (const EnumName *n = kind->names; n->name; n++) {
+            if (row->kinds >> n->value & 1u) {
+                used += snprintf(text + used, sizeof text - (size_t)used, "%s%s", before, n->name);
                 before = ", ";
             }
         }
@@ -86,30 +86,17 @@ static void put_vector(Writer *w, const Key *row)
 static void put_enum(Writer *w, const Key *row)
 {
     put(w, ", \"enum\": [");
-    for (const cyaml_strval_t *s = row->names; s->str; s++) {
-        put(w, s == row->names ? "\"%s\"" : ", \"%s\"", s->str);
+    for (const EnumName *n = row->names; n->name; n++) {
+        put(w, n == row->names ? "\"%s\"" : ", \"%s\"", n->name);
     }
     put(w, "]");
 }
 
 static void put_default(Writer *w, const Key *row, const char *base)
 {
-    const Node *node = schema_default(w->text, row, base);
-    if (!node) {
-        return;
-    }
-    if (row->type == KEY_ENUM) {
-        put(w, ", \"default\": \"%s\"", node->text);
-    } else if (node->kind == NODE_SCALAR) {
-        put(w, ", \"default\": %s", node->text);
-    } else {
-        const char *before = "";
-        put(w, ", \"default\": [");
-        for (const Node *item = node->first; item; item = item->next) {
-            put(w, "%s%s", before, item->text);
-            before = ", ";
-        }
-        put(w, "]");
+    const char *text = schema_default(w->text, row, base);
+    if (text) {
+        put(w, row->type == KEY_ENUM ? ", \"default\": \"%s\"" : ", \"default\": %s", text);
     }
 }
 
@@ -121,7 +108,7 @@ static void share(Writer *w, const Table *table)
         }
     }
     if (w->shared_count == MOST_TABLES) {
-        w->text->failed = true;
+        w->text->text.failed = true;
         return;
     }
     w->shared[w->shared_count++] = table;
@@ -189,7 +176,8 @@ static void put_key(Writer *w, const Table *table, const Key *row, const char *b
 static void put_required(Writer *w, const Table *table)
 {
     int count = 0;
-    for (const Key *row = table->keys; row->key; row++) {
+    const Key *row;
+    for (int i = 0; (row = table_row(table, i)); i++) {
         if (row->flags & KEY_REQUIRED && !row->kinds) {
             put(w, "%s\"%s\"", count++ ? ", " : ", \"required\": [", row->key);
         }
@@ -205,10 +193,8 @@ static void put_table(Writer *w, const Table *table, const char *base, int depth
     put_required(w, table);
     put(w, ", \"properties\": {");
     const char *before = "";
-    for (const Key *row = table->keys; row->key; row++) {
-        if (row->flags & KEY_HIDDEN) {
-            continue;
-        }
+    const Key *row;
+    for (int i = 0; (row = table_row(table, i)); i++) {
         put(w, "%s\n%*s\"%s\": ", before, 2 * depth, "", row->key);
         put_key(w, table, row, base, depth + 1);
         before = ",";

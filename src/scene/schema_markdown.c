@@ -11,15 +11,15 @@ static void put_kinds_of(SchemaText *s, const Table *table, const Key *row)
 {
     const Key *kinds = row->kinds ? table_find(table, table->kind_key) : NULL;
     int with = 0, without = 0;
-    for (const cyaml_strval_t *n = kinds ? kinds->names : NULL; n && n->str; n++) {
-        with += key_in_kind(row, (int)n->val);
-        without += !key_in_kind(row, (int)n->val);
+    for (const EnumName *n = kinds ? kinds->names : NULL; n && n->name; n++) {
+        with += key_in_kind(row, n->value);
+        without += !key_in_kind(row, n->value);
     }
     bool only = with <= without;
     const char *before = only ? " *Only of " : " *Not of ";
-    for (const cyaml_strval_t *n = kinds ? kinds->names : NULL; n && n->str && without; n++) {
-        if (key_in_kind(row, (int)n->val) == only) {
-            schema_put(s, "%s%s", before, n->str);
+    for (const EnumName *n = kinds ? kinds->names : NULL; n && n->name && without; n++) {
+        if (key_in_kind(row, n->value) == only) {
+            schema_put(s, "%s%s", before, n->name);
             before = ", ";
         }
     }
@@ -68,12 +68,12 @@ static void put_kinds(SchemaText *s, const Table *table)
 {
     const Key *kinds = table_find(table, table->kind_key);
     schema_put(s, "`%s` says which:\n\n", table->kind_key);
-    for (const cyaml_strval_t *n = kinds->names; n->str; n++) {
-        schema_put(s, "- `%s`", n->str);
-        put_kind_doc(s, kinds, n->str);
+    for (const EnumName *n = kinds->names; n->name; n++) {
+        schema_put(s, "- `%s`", n->name);
+        put_kind_doc(s, kinds, n->name);
         const char *before = ". Its keys: ";
         for (const Key *row = table->keys; row->key; row++) {
-            if (row != kinds && !(row->flags & KEY_HIDDEN) && key_in_kind(row, (int)n->val)) {
+            if (row != kinds && key_in_kind(row, n->value)) {
                 schema_put(s, "%s`%s`", before, row->key);
                 before = ", ";
             }
@@ -126,10 +126,9 @@ static void put_section(SchemaText *s, const Outline *o, const OutlineSection *s
         put_kinds(s, table);
     }
     schema_put(s, "| key | value | default | what it does |\n|---|---|---|---|\n");
-    for (const Key *row = table->keys; row->key; row++) {
-        if (!(row->flags & KEY_HIDDEN)) {
-            put_key(s, o, section, row);
-        }
+    const Key *row;
+    for (int i = 0; (row = table_row(table, i)); i++) {
+        put_key(s, o, section, row);
     }
 }
 
@@ -168,8 +167,9 @@ static void put_paths(SchemaText *s)
     for (int i = 0; o && i < o->count; i++) {
         const OutlineSection *section = &o->sections[i];
         for (int p = 0; p < section->place_count; p++) {
-            for (const Key *row = section->table->keys; row->key; row++) {
-                if (!row->table && !(row->flags & KEY_HIDDEN)) {
+            const Key *row;
+            for (int k = 0; (row = table_row(section->table, k)); k++) {
+                if (!row->table) {
                     const char *path = section->places[p].path;
                     schema_put(s, "%s%s%s\n", path, *path ? "." : "", row->key);
                 }

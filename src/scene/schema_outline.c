@@ -13,12 +13,12 @@ static const char *title_of(SchemaText *s, const char *path)
     while (*path && title) {
         size_t length = strcspn(path, ".");
         if (strncmp(path, "NAME", length) != 0 && strncmp(path, "N", length) != 0) {
-            title = arena_format(s->resolver.arena, s->resolver.e, "%s%s%.*s", title,
-                                 *title ? " " : "", (int)length, path);
+            title = arena_format(s->arena, s->text.e, "%s%s%.*s", title, *title ? " " : "",
+                                 (int)length, path);
         }
         path += length + (path[length] == '.');
     }
-    s->failed |= !title;
+    s->text.failed |= !title;
     return title ? title : "";
 }
 
@@ -26,8 +26,7 @@ static const char *child_path(SchemaText *s, const char *path, const Key *row)
 {
     bool named = row->type == KEY_LIST && table_find(row->table, "name");
     const char *entry = row->type != KEY_LIST ? "" : named ? ".NAME" : ".N";
-    return arena_format(s->resolver.arena, s->resolver.e, "%s%s%s%s", path, *path ? "." : "",
-                        row->key, entry);
+    return arena_format(s->arena, s->text.e, "%s%s%s%s", path, *path ? "." : "", row->key, entry);
 }
 
 static int section_of(Outline *o, const Table *table)
@@ -48,15 +47,16 @@ static void visit(SchemaText *s, Outline *o, const Table *table, OutlinePlace pl
 {
     int index = section_of(o, table);
     if (index < 0 || !place.path || o->sections[index].place_count == OUTLINE_MOST_PLACES) {
-        s->failed = true;
+        s->text.failed = true;
         return;
     }
     OutlineSection *section = &o->sections[index];
     place.base = schema_base(s, table, -1, place.base);
     place.title = title_of(s, place.path);
     section->places[section->place_count++] = place;
-    for (const Key *row = table->keys; row->key; row++) {
-        if (row->table && !(row->flags & KEY_HIDDEN)) {
+    const Key *row;
+    for (int i = 0; (row = table_row(table, i)); i++) {
+        if (row->table) {
             bool inside = row->type == KEY_GROUP && place.base;
             visit(s, o, row->table,
                   (OutlinePlace){.path = child_path(s, place.path, row),
@@ -94,13 +94,13 @@ static void sort_sections(const Outline *from, Outline *to)
 
 Outline *outline_new(SchemaText *s)
 {
-    Outline *met = arena_alloc(s->resolver.arena, sizeof *met, s->resolver.e);
-    Outline *sorted = arena_alloc(s->resolver.arena, sizeof *sorted, s->resolver.e);
+    Outline *met = arena_alloc(s->arena, sizeof *met, s->text.e);
+    Outline *sorted = arena_alloc(s->arena, sizeof *sorted, s->text.e);
     if (!met || !sorted) {
-        s->failed = true;
+        s->text.failed = true;
         return NULL;
     }
     visit(s, met, &scene_table, (OutlinePlace){.path = "", .key = "", .parent = -1});
     sort_sections(met, sorted);
-    return s->failed ? NULL : sorted;
+    return s->text.failed ? NULL : sorted;
 }

@@ -1,50 +1,36 @@
 #include "scene/schema_text.h"
 
 #include "base/c_locale.h"
-#include "base/memory.h"
+#include "config/write.h"
 
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-void schema_put(SchemaText *s, const char *format, ...)
-{
-    va_list arguments, again;
-    va_start(arguments, format);
-    va_copy(again, arguments);
-    int count = vsnprintf(NULL, 0, format, arguments);
-    va_end(arguments);
-    if (count < 0 ||
-        !memory_reserve(&s->text, &s->capacity, s->length + count + 1, 1, s->resolver.e)) {
-        s->failed = true;
-    } else {
-        s->length += vsnprintf(s->text + s->length, (size_t)count + 1, format, again);
-    }
-    va_end(again);
-}
+#include <string.h>
 
 const char *schema_base(SchemaText *s, const Table *table, int kind, const char *base)
 {
     if (!table->defaults) {
         return base;
     }
-    size_t size = table->defaults_size ? table->defaults_size : table->size;
-    char *fresh = arena_alloc(s->resolver.arena, size, s->resolver.e);
+    char *fresh = arena_alloc(s->arena, table->size, s->text.e);
     if (fresh) {
         table->defaults(NULL, kind, fresh);
     }
-    s->failed |= !fresh;
+    s->text.failed |= !fresh;
     return fresh;
 }
 
-const Node *schema_default(SchemaText *s, const Key *row, const char *base)
+const char *schema_default(SchemaText *s, const Key *row, const char *base)
 {
-    Node *node = NULL;
-    bool has = base && !(row->flags & (KEY_REQUIRED | KEY_NO_DEFAULT));
-    if (has && !resolve_default(&s->resolver, row, base, &node)) {
-        s->failed = true;
+    char text[WRITE_VALUE_SIZE];
+    if (!base || row->flags & (KEY_REQUIRED | KEY_NO_DEFAULT)) {
+        return NULL;
     }
-    return node;
+    write_value(row, base + row->offset, text);
+    if (!*text) {
+        return NULL;
+    }
+    const char *kept = arena_text(s->arena, text, strlen(text), s->text.e);
+    s->text.failed |= !kept;
+    return kept;
 }
 
 char *schema_write(void (*write)(SchemaText *), Error *e)
@@ -55,16 +41,12 @@ char *schema_write(void (*write)(SchemaText *), Error *e)
         arena_free(arena);
         return NULL;
     }
-    SchemaText s = {.resolver = {.arena = arena, .file = "", .folder = "", .e = e}};
+    SchemaText s = {.text = {.e = e}, .arena = arena};
     write(&s);
     c_locale_leave(&locale);
     arena_free(arena);
-    if (s.failed) {
-        free(s.text);
-        if (!e || e->code != ERROR_MEMORY) {
-            error_set(e, ERROR_INTERNAL, "the schema could not be written");
-        }
-        return NULL;
+    if (s.text.failed && (!e || e->code != ERROR_MEMORY)) {
+        error_set(e, ERROR_INTERNAL, "the schema could not be written");
     }
-    return s.text;
+    return text_take(&s.text);
 }

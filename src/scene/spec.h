@@ -7,23 +7,16 @@
 extern const Table scene_table; // the root
 
 // Tables that another file's table uses.
-extern const Table sky_table, light_table, material_table,
-    object_table;                   // spec_{sky,material,object}.c
-extern const Table medium_table;    // spec_medium.c
-extern const Table animation_table; // spec_animation.c
-extern const Table terrain_table;   // spec_terrain.c
-extern const Table forest_table;    // spec_forest.c
-extern const Table tree_table, radii_table, leaves_table, skin_table; // spec_tree.c
-extern const Table dla_table;                                         // spec_dla.c
-extern const Table lightning_table;                                   // spec_lightning.c
-extern const Table coral_table, lsystem_table;                        // spec_{coral,lsystem}.c
-extern const Table frost_table;                                       // spec_frost.c
-extern const Table sculpture_table;                                   // spec_sculpture.c
-extern const Table vessels_table;                                     // spec_vessels.c
-extern const Table venation_table;                                    // spec_venation.c
-extern const Table fracture_table;                                    // spec_fracture.c
-extern const Table skeleton_table;                                    // spec_skeleton.c
+extern const Table sky_table, light_table, material_table, medium_table, object_table,
+    animation_table;
+extern const Table radii_table, leaves_table, skin_table;                      // spec_tree.c
 extern const Table shape_table, points_table, growth_table, guide_field_table; // spec_element.c
+
+// The parameters of kinds.
+extern const Table tree_table, coral_table, lsystem_table, vessels_table, forest_table,
+    ground_table, frost_table, dla_table, lightning_table, sculpture_table, terrain_table,
+    venation_table, fracture_table, skeleton_table;
+extern const Table mesh_table, solid_table; // spec_drawn.c
 
 // The rows of an element (trunk, crown, roots): envelope, voxel, points, growth, fields.
 #define ELEMENT_ROWS(STRUCT)                                                                      \

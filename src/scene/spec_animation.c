@@ -2,17 +2,17 @@
 #include "scene/scene.h"
 #include "scene/spec_check.h"
 
-static const cyaml_strval_t EASES[] = {{"linear", EASE_LINEAR},
-                                       {"smooth", EASE_SMOOTH},
-                                       {"step", EASE_STEP},
-                                       {"spline", EASE_SPLINE},
-                                       {0}};
+static const EnumName EASES[] = {{"linear", EASE_LINEAR},
+                                 {"smooth", EASE_SMOOTH},
+                                 {"step", EASE_STEP},
+                                 {"spline", EASE_SPLINE},
+                                 {0}};
 
 static const Key KEY_KEYS[] = {
     {KEY_OF(SceneKey, at, "at", KEY_DOUBLE), .flags = KEY_REQUIRED, .high = 1,
      .doc = "When: 0 = the animation's beginning, 1 = its end."},
-    {KEY_OF(SceneKey, value, "value", KEY_ANY), .flags = KEY_REQUIRED,
-     .count = SCENE_KEY_MOST_NUMBERS,
+    {KEY_OF(SceneKey, value, "value", KEY_ANY), .count_offset = offsetof(SceneKey, quoted),
+     .flags = KEY_REQUIRED, .count = SCENE_KEY_MOST_NUMBERS,
      .doc = "The value at that time: a number, a list of numbers, a colour or a word."},
     {0},
 };
@@ -42,8 +42,6 @@ static const Key TRACK_KEYS[] = {
     {KEY_OF(SceneTrack, keys, "keys", KEY_LIST), .flags = KEY_REQUIRED,
      .count_offset = offsetof(SceneTrack, key_count), .low = 1, .count = 10000, .table = &KEY_TABLE,
      .doc = "The value at certain times, in order."},
-    {KEY_OF(SceneTrack, line, "line", KEY_INT), .flags = KEY_HIDDEN, .doc = ""},
-    {KEY_OF(SceneTrack, column, "column", KEY_INT), .flags = KEY_HIDDEN, .doc = ""},
     {0},
 };
 

@@ -3,41 +3,37 @@
 #ifndef RAMIFY_SCENE_SPEC_CHECK_H
 #define RAMIFY_SCENE_SPEC_CHECK_H
 
-#include "config/resolve.h"
+#include "config/load.h"
+#include "objects/common/element.h"
 #include "scene/scene.h"
 #include "scene/spec.h"
 
-// Defaults of mappings whose position, rotation and scale become one transform.
-typedef struct PlacedShape {
-    Shape shape;
-    Vec3 position, rotation, scale;
-} PlacedShape;
+typedef bool TableCheck(const Mapping *mapping, void *params);
 
-typedef struct PlacedMesh {
-    SceneMesh mesh;
-    Vec3 position, rotation, scale;
-} PlacedMesh;
-
-// Does an object's key name a material? Those that do end in "material".
-bool is_material_key(const char *key);
-
-typedef bool TableCheck(Resolver *r, const Path *path, const Node *given, Node *resolved);
-
-// The whole scene: names are unique, materials that objects name exist.
-TableCheck check_scene;
+TableCheck check_scene;  // names are unique, what they name exists
 TableCheck check_camera; // also turns focal_length into fov
 TableCheck check_film, check_light;
-TableCheck check_target;                          // low <= high
-TableCheck check_track;                           // keys in order and of one kind; adds its place
-TableCheck check_object;                          // exactly one kind; material keys that suit it
-TableCheck check_tree, check_ground, check_grove; // lengths that must be in order
-TableCheck check_shape, check_mesh;               // also add `transform`
-TableCheck check_vessels;                         // an envelope there must be
-TableCheck check_envelope;                        // the list under `envelope`; points, sectors
+TableCheck check_target;              // low <= high
+TableCheck check_track;               // keys in order and of one kind; notes its place
+TableCheck check_shape;               // also makes its transform
 TableCheck check_level, check_growth; // check_growth also fills in what levels leave out
-TableCheck check_terrain;             // cells a power of two
 TableCheck check_field;
-TableCheck check_lsystem, check_coral; // grammars that can be read
-TableCheck check_lightning;            // also what check_envelope does
+
+// Parts of such checks.
+
+// The list under `envelope`.
+bool check_shapes(const Mapping *mapping, const Shape *shapes, int count);
+
+// Envelope, points and growth of a mapping with ELEMENT_ROWS.
+bool check_element(const Mapping *mapping, const ElementParams *element);
+
+// What a look at a mesh file's name, size and header tells. path: under the mapping's key `file`.
+bool check_mesh_file(const Mapping *mapping, const char *path);
+
+// No factor of the mapping's `scale` is 0.
+bool check_scale(const Mapping *mapping, Vec3 scale);
+
+// An L-system's axiom and rules, as far as the file gives them (NULL = not).
+bool check_grammar(const Mapping *mapping, const char *axiom, const char *rules);
 
 #endif

@@ -2,10 +2,10 @@
 #include "objects/coral/coral.h"
 #include "scene/spec_check.h"
 
-static const cyaml_strval_t FORMS[] = {
+static const EnumName FORMS[] = {
     {"branching", CORAL_BRANCHING},   {"table", CORAL_TABLE},     {"fan", CORAL_FAN},
     {"encrusting", CORAL_ENCRUSTING}, {"massive", CORAL_MASSIVE}, {0}};
-static const cyaml_strval_t RULES[] = {{"string", CORAL_STRING}, {"mean", CORAL_MEAN}, {0}};
+static const EnumName RULES[] = {{"string", CORAL_STRING}, {"mean", CORAL_MEAN}, {0}};
 
 static const Key POLYP_KEYS[] = {
     {KEY_OF(PolypParams, max_count, "max_count", KEY_INT64), .high = 1e8,
@@ -90,6 +90,14 @@ static void coral_defaults(const Node *given, int kind, void *out)
     (void)given;
     (void)kind;
     *(CoralParams *)out = coral_params_default();
+}
+
+// An axiom alone may use constants of the form's own rules: the growth, which begins with it, looks
+// at those.
+static bool check_coral(const Mapping *mapping, void *params)
+{
+    const CoralParams *coral = params;
+    return !coral->rules || check_grammar(mapping, coral->axiom, coral->rules);
 }
 
 const Table coral_table = {

@@ -4,19 +4,19 @@
 
 #define BIT(kind) (1u << (kind))
 
-static const cyaml_strval_t SHAPES[] = {{"sphere", SHAPE_SPHERE},
-                                        {"ellipsoid", SHAPE_ELLIPSOID},
-                                        {"box", SHAPE_BOX},
-                                        {"cone", SHAPE_CONE},
-                                        {"capsule", SHAPE_CAPSULE},
-                                        {"mesh", SHAPE_MESH},
-                                        {"half_space", SHAPE_HALF_SPACE},
-                                        {"body", SHAPE_BODY},
-                                        {0}};
-static const cyaml_strval_t SHAPE_OPS[] = {{"union", SHAPE_UNION},
-                                           {"difference", SHAPE_DIFFERENCE},
-                                           {"intersection", SHAPE_INTERSECTION},
-                                           {0}};
+static const EnumName SHAPES[] = {{"sphere", SHAPE_SPHERE},
+                                  {"ellipsoid", SHAPE_ELLIPSOID},
+                                  {"box", SHAPE_BOX},
+                                  {"cone", SHAPE_CONE},
+                                  {"capsule", SHAPE_CAPSULE},
+                                  {"mesh", SHAPE_MESH},
+                                  {"half_space", SHAPE_HALF_SPACE},
+                                  {"body", SHAPE_BODY},
+                                  {0}};
+static const EnumName SHAPE_OPS[] = {{"union", SHAPE_UNION},
+                                     {"difference", SHAPE_DIFFERENCE},
+                                     {"intersection", SHAPE_INTERSECTION},
+                                     {0}};
 
 static const Key SHAPE_KEYS[] = {
     {KEY_OF(Shape, kind, "shape", KEY_ENUM), .flags = KEY_REQUIRED, .names = SHAPES,
@@ -36,23 +36,20 @@ static const Key SHAPE_KEYS[] = {
             "of its ends, and a number that is not used; body: its height in the first."},
     {KEY_OF(Shape, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(SHAPE_MESH),
      .doc = "OBJ, PLY, STL, glTF or GLB file, relative to the scene's folder."},
-    {KEY_OF(PlacedShape, position, "position", KEY_VECTOR), .flags = KEY_VIRTUAL, .count = 3,
-     .unit = "m", .doc = "Where the shape's origin goes."},
-    {KEY_OF(PlacedShape, rotation, "rotation", KEY_VECTOR), .flags = KEY_VIRTUAL, .count = 3,
-     .unit = "degrees", .doc = "Turns about x, then y, then z."},
-    {KEY_OF(PlacedShape, scale, "scale", KEY_VECTOR), .flags = KEY_VIRTUAL | KEY_SPLAT, .count = 3,
+    {KEY_OF(Shape, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Where the shape's origin goes."},
+    {KEY_OF(Shape, rotation, "rotation", KEY_VECTOR), .count = 3, .unit = "degrees",
+     .doc = "Turns about x, then y, then z."},
+    {KEY_OF(Shape, scale, "scale", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3,
      .doc = "Factors along x, y and z, before the turns; negative ones mirror."},
-    {KEY_OF(Shape, transform, "transform", KEY_AFFINE), .flags = KEY_HIDDEN, .doc = ""},
     {0},
 };
 
 static void shape_defaults(const Node *given, int kind, void *out)
 {
     (void)given;
-    *(PlacedShape *)out = (PlacedShape){.shape = {.kind = kind < 0 ? SHAPE_SPHERE : (ShapeKind)kind,
-                                                  .size = {1, 1, 1},
-                                                  .transform = transform_identity()},
-                                        .scale = {1, 1, 1}};
+    *(Shape *)out = (Shape){
+        .kind = kind < 0 ? SHAPE_SPHERE : (ShapeKind)kind, .size = {1, 1, 1}, .scale = {1, 1, 1}};
 }
 
 const Table shape_table = {
@@ -67,16 +64,13 @@ const Table shape_table = {
                "          - {shape: ellipsoid, size: [5, 1, 5], position: [0, 9, 0]}\n"
                "          - {shape: sphere, size: 2, position: [3, 8, 0], op: difference}\n",
     .size = sizeof(Shape),
-    .defaults_size = sizeof(PlacedShape),
     .keys = SHAPE_KEYS,
     .kind_key = "shape",
     .defaults = shape_defaults,
     .check = check_shape};
 
-static const cyaml_strval_t PLACES[] = {
-    {"volume", SCATTER_VOLUME}, {"surface", SCATTER_SURFACE}, {0}};
-static const cyaml_strval_t SCATTERS[] = {
-    {"random", SCATTER_RANDOM}, {"poisson", SCATTER_POISSON}, {0}};
+static const EnumName PLACES[] = {{"volume", SCATTER_VOLUME}, {"surface", SCATTER_SURFACE}, {0}};
+static const EnumName SCATTERS[] = {{"random", SCATTER_RANDOM}, {"poisson", SCATTER_POISSON}, {0}};
 
 static const Key POINTS_KEYS[] = {
     {KEY_OF(ElementParams, points.place, "place", KEY_ENUM), .names = PLACES,
@@ -159,10 +153,9 @@ static const Table LEVEL_TABLE = {
     .defaults = level_defaults,
     .check = check_level};
 
-static const cyaml_strval_t RULES[] = {
+static const EnumName RULES[] = {
     {"mean", GROW_MEAN}, {"snap", GROW_SNAP}, {"sectors", GROW_SECTORS}, {0}};
-static const cyaml_strval_t FIELD_MODES[] = {
-    {"steer", FIELD_STEER}, {"additive", FIELD_ADDITIVE}, {0}};
+static const EnumName FIELD_MODES[] = {{"steer", FIELD_STEER}, {"additive", FIELD_ADDITIVE}, {0}};
 
 static const Key GROWTH_KEYS[] = {
     {KEY_OF(ElementParams, growth.rule, "rule", KEY_ENUM), .names = RULES,
@@ -219,12 +212,11 @@ const Table growth_table = {
     .keys = GROWTH_KEYS,
     .check = check_growth};
 
-static const cyaml_strval_t FIELD_KINDS[] = {{"uniform", FIELD_UNIFORM}, {"radial", FIELD_RADIAL},
-                                             {"vortex", FIELD_VORTEX},   {"nuclei", FIELD_NUCLEI},
-                                             {"grid", FIELD_GRID},       {"curl", FIELD_CURL},
-                                             {"point", FIELD_POINT},     {0}};
-static const cyaml_strval_t PROFILES[] = {
-    {"swept", PROFILE_SWEPT}, {"constant", PROFILE_CONSTANT}, {0}};
+static const EnumName FIELD_KINDS[] = {{"uniform", FIELD_UNIFORM}, {"radial", FIELD_RADIAL},
+                                       {"vortex", FIELD_VORTEX},   {"nuclei", FIELD_NUCLEI},
+                                       {"grid", FIELD_GRID},       {"curl", FIELD_CURL},
+                                       {"point", FIELD_POINT},     {0}};
+static const EnumName PROFILES[] = {{"swept", PROFILE_SWEPT}, {"constant", PROFILE_CONSTANT}, {0}};
 
 #define NUCLEI (BIT(FIELD_NUCLEI) | BIT(FIELD_GRID))
 
@@ -239,11 +231,11 @@ static const Key FIELD_KEYS[] = {
     {KEY_OF(FieldParams, vector, "vector", KEY_VECTOR), .count = 3,
      .kinds = BIT(FIELD_UNIFORM) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT) | NUCLEI,
      .doc = "The direction; of a vortex, nuclei and grid the axis to turn about."},
-    {KEY_OF(FieldParams, center, "center", KEY_VECTOR), .flags = KEY_NO_DEFAULT, .count = 3,
+    {KEY_OF(FieldParams, center, "center", KEY_VECTOR), .flags = KEY_NO_DEFAULT,
+     .given_offset = offsetof(FieldParams, centered), .count = 3,
      .kinds = BIT(FIELD_RADIAL) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT), .unit = "m",
      .doc = "Middle of the field; left out: where the object stands, or where the origin of its "
             "envelope's first shape is."},
-    {KEY_OF(FieldParams, centered, "centered", KEY_BOOL), .flags = KEY_HIDDEN, .doc = ""},
     {KEY_OF(FieldParams, turn, "turn", KEY_FLOAT), .kinds = NUCLEI, .low = -36000, .high = 36000,
      .unit = "degrees",
      .doc = "Azimuth that a streamline sweeps from the nucleus to the rim (profile swept), or by "

@@ -49,6 +49,11 @@ static void forest_defaults(const Node *given, int kind, void *out)
     *(ForestParams *)out = forest_params_default();
 }
 
+static bool check_forest(const Mapping *mapping, void *params)
+{
+    return check_element(mapping, &((const ForestParams *)params)->element);
+}
+
 const Table forest_table = {
     .name = "forest",
     .doc = "A forest: stands of trees grown together, competing for the same light, set over the "
@@ -61,4 +66,4 @@ const Table forest_table = {
     .size = sizeof(ForestParams),
     .keys = FOREST_KEYS,
     .defaults = forest_defaults,
-    .check = check_envelope};
+    .check = check_forest};

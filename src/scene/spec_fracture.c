@@ -36,6 +36,11 @@ static void fracture_defaults(const Node *given, int kind, void *out)
     *(FractureParams *)out = fracture_params_default();
 }
 
+static bool check_fracture(const Mapping *mapping, void *params)
+{
+    return check_element(mapping, &((const FractureParams *)params)->element);
+}
+
 const Table fracture_table = {
     .name = "fracture",
     .doc = "A thing split into the cells of a network of cracks grown over it. The envelope is the "
@@ -48,4 +53,4 @@ const Table fracture_table = {
     .size = sizeof(FractureParams),
     .keys = FRACTURE_KEYS,
     .defaults = fracture_defaults,
-    .check = check_envelope};
+    .check = check_fracture};

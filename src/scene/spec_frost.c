@@ -4,9 +4,8 @@
 
 #define BIT(kind) (1u << (kind))
 
-static const cyaml_strval_t SURFACES[] = {{"pane", FROST_PANE}, {"bubble", FROST_BUBBLE}, {0}};
-static const cyaml_strval_t PLACES[] = {
-    {"border", FROST_BORDER}, {"scattered", FROST_SCATTERED}, {0}};
+static const EnumName SURFACES[] = {{"pane", FROST_PANE}, {"bubble", FROST_BUBBLE}, {0}};
+static const EnumName PLACES[] = {{"border", FROST_BORDER}, {"scattered", FROST_SCATTERED}, {0}};
 
 static const Key NUCLEUS_KEYS[] = {
     {KEY_OF(FrostNucleus, position, "position", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 3,

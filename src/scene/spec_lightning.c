@@ -59,6 +59,16 @@ static void lightning_defaults(const Node *given, int kind, void *out)
     *(LightningParams *)out = lightning_params_default();
 }
 
+static bool check_lightning(const Mapping *mapping, void *params)
+{
+    const ElementParams *element = &((const LightningParams *)params)->element;
+    if (element->points.place == SCATTER_SURFACE && element->shape_count == 0) {
+        return mapping_fail(mapping, NULL,
+                            " grows over a surface but has no envelope; give it one");
+    }
+    return check_element(mapping, element);
+}
+
 const Table lightning_table = {
     .name = "lightning",
     .doc = "Lightning in the air, or (points.place: surface) over the surface of an envelope "

@@ -44,6 +44,12 @@ static void lsystem_defaults(const Node *given, int kind, void *out)
     *(LSystemPlantParams *)out = lsystem_plant_params_default();
 }
 
+static bool check_lsystem(const Mapping *mapping, void *params)
+{
+    const LSystemPlantParams *plant = params;
+    return (!plant->axiom && !plant->rules) || check_grammar(mapping, plant->axiom, plant->rules);
+}
+
 const Table lsystem_table = {.name = "lsystem",
                              .doc = "A plant written as an L-system: parametric, stochastic rules "
                                     "and a turtle in space. Materials: bark, twig, leaf.",

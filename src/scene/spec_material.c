@@ -12,9 +12,9 @@
 #define BUMPED (PATTERNED | BIT(MATERIAL_DIELECTRIC))
 
 #define KIND(NAME, name) {#name, MATERIAL_##NAME},
-static const cyaml_strval_t KINDS[] = {MATERIAL_KINDS(KIND){0}};
+static const EnumName KINDS[] = {MATERIAL_KINDS(KIND){0}};
 #undef KIND
-static const cyaml_strval_t PATTERNS[] = {
+static const EnumName PATTERNS[] = {
     {"none", PATTERN_NONE},         {"bark", PATTERN_BARK},   {"ground", PATTERN_GROUND},
     {"leaf", PATTERN_LEAF},         {"noise", PATTERN_NOISE}, {"corallite", PATTERN_CORALLITE},
     {"youth", PATTERN_YOUTH},       {"sand", PATTERN_SAND},   {"mountain", PATTERN_MOUNTAIN},

@@ -4,7 +4,7 @@
 
 #define BIT(kind) (1u << (kind))
 
-static const cyaml_strval_t KINDS[] = {
+static const EnumName KINDS[] = {
     {"everywhere", MEDIUM_EVERYWHERE}, {"water", MEDIUM_WATER}, {"layer", MEDIUM_LAYER}, {0}};
 
 static const Key MEDIUM_KEYS[] = {

@@ -15,11 +15,8 @@ static const Key CAMERA_KEYS[] = {
      .doc = "Direction that is up in the picture; any length."},
     {KEY_OF(Camera, fov, "fov", KEY_FLOAT), .flags = KEY_ABOVE | KEY_BELOW, .high = 180,
      .unit = "degrees", .doc = "Vertical field of view."},
-    {.key = "focal_length",
-     .type = KEY_FLOAT,
-     .flags = KEY_VIRTUAL | KEY_NO_DEFAULT | KEY_ABOVE,
-     .high = 10000,
-     .unit = "mm",
+    {KEY_OF(Camera, fov, "focal_length", KEY_FLOAT),
+     .flags = KEY_INSTEAD | KEY_NO_DEFAULT | KEY_ABOVE, .high = 10000, .unit = "mm",
      .doc = "Instead of fov: focal length of a lens before a full frame, 24 mm high."},
     {KEY_OF(Camera, aperture, "aperture", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Diameter of the lens; 0 = everything sharp."},
@@ -40,11 +37,11 @@ static const Table CAMERA_TABLE = {
     .keys = CAMERA_KEYS,
     .check = check_camera};
 
-static const cyaml_strval_t FILTERS[] = {{"blackman_harris", FILTER_BLACKMAN_HARRIS},
-                                         {"box", FILTER_BOX},
-                                         {"gaussian", FILTER_GAUSSIAN},
-                                         {0}};
-static const cyaml_strval_t CURVES[] = {{"filmic", TONE_FILMIC}, {"linear", TONE_LINEAR}, {0}};
+static const EnumName FILTERS[] = {{"blackman_harris", FILTER_BLACKMAN_HARRIS},
+                                   {"box", FILTER_BOX},
+                                   {"gaussian", FILTER_GAUSSIAN},
+                                   {0}};
+static const EnumName CURVES[] = {{"filmic", TONE_FILMIC}, {"linear", TONE_LINEAR}, {0}};
 
 static const Key FILM_KEYS[] = {
     {KEY_OF(Scene, film.width, "width", KEY_INT), .low = 1, .high = 65536, .unit = "pixels",
@@ -149,10 +146,10 @@ static const Table TARGET_TABLE = {
     .defaults = target_defaults,
     .check = check_target};
 
-static const cyaml_strval_t GOLDEN_MODES[] = {{"tolerance", GOLDEN_TOLERANCE},
-                                              {"exact", GOLDEN_EXACT},
-                                              {"statistical", GOLDEN_STATISTICAL},
-                                              {0}};
+static const EnumName GOLDEN_MODES[] = {{"tolerance", GOLDEN_TOLERANCE},
+                                        {"exact", GOLDEN_EXACT},
+                                        {"statistical", GOLDEN_STATISTICAL},
+                                        {0}};
 
 static const Key GOLDEN_KEYS[] = {
     {KEY_OF(SceneGolden, mode, "mode", KEY_ENUM), .names = GOLDEN_MODES,

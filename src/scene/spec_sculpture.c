@@ -24,6 +24,11 @@ static void sculpture_defaults(const Node *given, int kind, void *out)
     *(SculptureParams *)out = sculpture_params_default();
 }
 
+static bool check_sculpture(const Mapping *mapping, void *params)
+{
+    return check_element(mapping, &((const SculptureParams *)params)->element);
+}
+
 const Table sculpture_table = {
     .name = "sculpture",
     .doc = "A hollow sculpture of branches (Tanaka et al., section 2.4): clusters grown over the "
@@ -35,4 +40,4 @@ const Table sculpture_table = {
     .size = sizeof(SculptureParams),
     .keys = SCULPTURE_KEYS,
     .defaults = sculpture_defaults,
-    .check = check_envelope};
+    .check = check_sculpture};

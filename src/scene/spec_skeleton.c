@@ -2,10 +2,10 @@
 #include "objects/skeleton/skeleton.h"
 #include "scene/spec_check.h"
 
-static const cyaml_strval_t ORIGINS[] = {
+static const EnumName ORIGINS[] = {
     {"file", SKELETON_FILE}, {"root", SKELETON_ROOT}, {"middle", SKELETON_MIDDLE}, {NULL, 0}};
 
-static const cyaml_strval_t SOMAS[] = {
+static const EnumName SOMAS[] = {
     {"round", SKELETON_ROUND}, {"as_is", SKELETON_AS_IS}, {"none", SKELETON_NO_SOMA}, {NULL, 0}};
 
 static const Key SKELETON_KEYS[] = {

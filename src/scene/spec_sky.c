@@ -4,10 +4,9 @@
 
 #define BIT(kind) (1u << (kind))
 
-static const cyaml_strval_t SKY_KINDS[] = {
-    {"sun_sky", SKY_SUN_SKY},   {"environment", SKY_ENVIRONMENT},
-    {"constant", SKY_CONSTANT}, {"night", SKY_NIGHT},
-    {"none", SKY_NONE},         {0}};
+static const EnumName SKY_KINDS[] = {{"sun_sky", SKY_SUN_SKY},   {"environment", SKY_ENVIRONMENT},
+                                     {"constant", SKY_CONSTANT}, {"night", SKY_NIGHT},
+                                     {"none", SKY_NONE},         {0}};
 
 #define SKY_ANY (BIT(SKY_SUN_SKY) | BIT(SKY_ENVIRONMENT) | BIT(SKY_CONSTANT) | BIT(SKY_NIGHT))
 
@@ -73,7 +72,7 @@ const Table sky_table = {
     .keys = SKY_KEYS,
     .kind_key = "kind"};
 
-static const cyaml_strval_t LIGHT_KINDS[] = {{"quad", LIGHT_QUAD}, {"sphere", LIGHT_SPHERE}, {0}};
+static const EnumName LIGHT_KINDS[] = {{"quad", LIGHT_QUAD}, {"sphere", LIGHT_SPHERE}, {0}};
 
 static const Key LIGHT_KEYS[] = {
     {KEY_OF(Light, kind, "kind", KEY_ENUM), .flags = KEY_REQUIRED, .names = LIGHT_KINDS,

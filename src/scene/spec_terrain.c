@@ -1,5 +1,5 @@
 // The terrain: uplift, rivers, noise, erosion, forest.
-#include "scene/scene.h"
+#include "objects/terrain/terrain.h"
 #include "scene/spec_check.h"
 
 static const Key STROKE_KEYS[] = {
@@ -47,9 +47,8 @@ static const Table UPLIFT_TABLE = {.name = "uplift",
                                    .size = sizeof(UpliftParams),
                                    .keys = UPLIFT_KEYS};
 
-static const cyaml_strval_t SIDES[] = {{"all", SIDE_ALL},   {"north", SIDE_NORTH},
-                                       {"east", SIDE_EAST}, {"south", SIDE_SOUTH},
-                                       {"west", SIDE_WEST}, {0}};
+static const EnumName SIDES[] = {{"all", SIDE_ALL},     {"north", SIDE_NORTH}, {"east", SIDE_EAST},
+                                 {"south", SIDE_SOUTH}, {"west", SIDE_WEST},   {0}};
 
 static const Key RIVER_KEYS[] = {
     {KEY_OF(RiverParams, outlets, "outlets", KEY_INT), .low = 1, .high = 10000,
@@ -187,6 +186,14 @@ static void terrain_defaults(const Node *given, int kind, void *out)
     (void)given;
     (void)kind;
     *(TerrainParams *)out = terrain_params_default();
+}
+
+static bool check_terrain(const Mapping *mapping, void *params)
+{
+    int cells = ((const TerrainParams *)params)->resolution;
+    return (cells & (cells - 1)) == 0 ||
+           mapping_fail(mapping, "resolution", " is %d; it must be a power of two, such as 1024",
+                        cells);
 }
 
 const Table terrain_table = {

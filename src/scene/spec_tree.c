@@ -19,12 +19,17 @@ static const Key TRUNK_KEYS[] = {
     {0},
 };
 
+static bool check_trunk(const Mapping *mapping, void *params)
+{
+    return check_element(mapping, &((const TrunkParams *)params)->element);
+}
+
 static const Table TRUNK_TABLE = {.name = "trunk",
                                   .doc = "The trunk: it grows straight up unless it leans, its "
                                          "growth has a tropism, or a field winds it.",
                                   .size = sizeof(TrunkParams),
                                   .keys = TRUNK_KEYS,
-                                  .check = check_envelope};
+                                  .check = check_trunk};
 
 static const Key CROWN_KEYS[] = {
     {KEY_OF(CrownParams, width, "width", KEY_FLOAT), .high = 1000, .unit = "m",
@@ -46,13 +51,18 @@ static const Key CROWN_KEYS[] = {
     {0},
 };
 
+static bool check_crown(const Mapping *mapping, void *params)
+{
+    return check_element(mapping, &((const CrownParams *)params)->element);
+}
+
 static const Table CROWN_TABLE = {
     .name = "crown",
     .doc = "The crown: main branches placed on the trunk, and all that grows from them toward the "
            "attractors in the crown's envelope.",
     .size = sizeof(CrownParams),
     .keys = CROWN_KEYS,
-    .check = check_envelope};
+    .check = check_crown};
 
 static const Key ROOTS_KEYS[] = {
     {KEY_OF(RootParams, count, "count", KEY_INT), .high = 10000, .doc = "Main roots; 0 = none."},
@@ -66,13 +76,18 @@ static const Key ROOTS_KEYS[] = {
     {0},
 };
 
+static bool check_roots(const Mapping *mapping, void *params)
+{
+    return check_element(mapping, &((const RootParams *)params)->element);
+}
+
 static const Table ROOTS_TABLE = {.name = "roots",
                                   .doc = "The roots, grown like the crown, but down and outward.",
                                   .size = sizeof(RootParams),
                                   .keys = ROOTS_KEYS,
-                                  .check = check_envelope};
+                                  .check = check_roots};
 
-static const cyaml_strval_t RADIUS_MODELS[] = {{"pipe", RADIUS_PIPE}, {"birth", RADIUS_BIRTH}, {0}};
+static const EnumName RADIUS_MODELS[] = {{"pipe", RADIUS_PIPE}, {"birth", RADIUS_BIRTH}, {0}};
 
 static const Key RADII_KEYS[] = {
     {KEY_OF(RadiiParams, model, "model", KEY_ENUM), .names = RADIUS_MODELS,
@@ -188,6 +203,20 @@ static void tree_defaults(const Node *given, int kind, void *out)
     (void)given;
     (void)kind;
     *(TreeParams *)out = tree_params_default();
+}
+
+#define BELOW_HEIGHT " is %g m; it must be below the tree's height, %g m"
+
+static bool check_tree(const Mapping *mapping, void *params)
+{
+    const TreeParams *tree = params;
+    if (tree->crown.base >= tree->height) {
+        return mapping_fail(mapping, "crown.base", BELOW_HEIGHT, (double)tree->crown.base,
+                            (double)tree->height);
+    }
+    return tree->trunk.height <= tree->height ||
+           mapping_fail(mapping, "trunk.height", BELOW_HEIGHT, (double)tree->trunk.height,
+                        (double)tree->height);
 }
 
 const Table tree_table = {

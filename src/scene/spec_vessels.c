@@ -38,6 +38,15 @@ static void vessels_defaults(const Node *given, int kind, void *out)
     *(VesselsParams *)out = vessels_params_default();
 }
 
+static bool check_vessels(const Mapping *mapping, void *params)
+{
+    const ElementParams *element = &((const VesselsParams *)params)->element;
+    if (element->shape_count == 0) {
+        return mapping_fail(mapping, NULL, " has no envelope; it must name the organ to fill");
+    }
+    return check_element(mapping, element);
+}
+
 const Table vessels_table = {
     .name = "vessels",
     .doc = "Blood vessels that fill an organ or a body (Tanaka et al., section 5.4): radii and "

@@ -33,7 +33,8 @@ typedef struct Shape {
     ShapeOp op;
     Vec3 size;
     Transform transform;
-    const char *file; // SHAPE_MESH: OBJ, PLY, STL, glTF, GLB; borrowed
+    Vec3 position, rotation, scale; // what a scene makes the transform of (degrees); else unused
+    const char *file;               // SHAPE_MESH: OBJ, PLY, STL, glTF, GLB; borrowed
 } Shape;
 
 typedef struct EnvelopeParams {

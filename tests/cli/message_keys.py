@@ -9,7 +9,7 @@ import sys
 # Words with _ that are no keys: of other programs' files, of the library, and a shape's name.
 OTHERS = {"end_header", "mesh_gpu_instancing", "tube_sides", "half_space", "sun_sky", "uv_mapping", "image_map"}
 FILE_ENDINGS = {"png", "jpg", "jpeg", "exr", "mp4", "obj", "ply", "stl", "gltf", "glb", "swc", "json", "graphml", "yaml"}
-CALL = re.compile(r"\b(?:error_set|run_warn|resolver_fail|reader_fail|snprintf)\s*\(")
+CALL = re.compile(r"\b(?:error_set|run_warn|load_fail|mapping_fail|reader_fail|snprintf)\s*\(")
 STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
 NAME = re.compile(r"(?<![\w.%/'*])[a-z]+(?:_[a-z]+|(?:\[\])?\.[a-z]+)+(?![\w(])")
 

@@ -1,7 +1,7 @@
 #include "objects/common/foliage.h"
 #include "objects/ground/ground.h"
 #include "objects/tree/tree.h"
-#include "scene/build.h"
+#include "scene/kinds.h"
 #include "testing.h"
 
 #include <math.h>
@@ -271,7 +271,7 @@ static void a_vortex_winds_the_stems(void **state)
     }
     const TreeParams *twisted = NULL;
     for (int i = 0; i < scene->object_count; i++) {
-        twisted = scene->objects[i].tree ? scene->objects[i].tree : twisted;
+        twisted = scene->objects[i].kind == &kind_tree ? scene->objects[i].params : twisted;
     }
     assert_non_null(twisted);
     TreeParams params = *twisted;

@@ -130,7 +130,7 @@ static const Case scenes[] = {
     {TREE "lights: [{kind: quad, edge_u: [0, 0, 2]}]\n",
      ":2:31: lights.0 has edges that span no area; they must not be parallel or zero"},
     {"objects: [{name: a}]\n",
-     ":1:11: objects.a is nothing; it must have one of tree, ground, mesh, shape..."},
+     ":1:11: objects.a is nothing; it must have one of tree, coral, lsystem, vessels..."},
     {"objects: [{name: a, tree: {}, ground: {}}]\n",
      ":1:39: objects.a is a tree and a ground; it must be one, make two objects of it"},
     {"objects: [{name: a.b, tree: }]\n",

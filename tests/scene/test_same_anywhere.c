@@ -79,7 +79,7 @@ static Thing make(const char *object, const Motion *m)
     thing.scene = scene_read_text(text, strlen(text), "s.yaml", "", NULL, 0, &e);
     bool made = thing.scene && scene_measure(thing.scene, 0, &run, &thing.measures, &e) &&
                 (thing.world = scene_build(thing.scene, &run, NULL, &e));
-    if (made && kind_of(&thing.scene->objects[0])->grow) {
+    if (made && thing.scene->objects[0].kind->grow) {
         made = (thing.tree = scene_grow_object(thing.scene, 0, &run, &e));
     }
     if (!made) {
@@ -346,15 +346,16 @@ static void every_object_is_the_same_anywhere(void **state)
 static void every_kind_is_looked_at(void **state)
 {
     (void)state;
-    for (int i = 0; i < kind_count(); i++) {
+    const Kind *kind;
+    for (int i = 0; (kind = kind_at(i)); i++) {
         bool found = false;
-        size_t length = strlen(kind_at(i)->key);
+        size_t length = strlen(kind_name(kind));
         for (int k = 0; k < OBJECT_COUNT && !found; k++) {
-            found = strncmp(OBJECTS[k].object, kind_at(i)->key, length) == 0 &&
+            found = strncmp(OBJECTS[k].object, kind_name(kind), length) == 0 &&
                     OBJECTS[k].object[length] == ':';
         }
         if (!found) {
-            fail_msg("no object of the kind %s", kind_at(i)->key);
+            fail_msg("no object of the kind %s", kind_name(kind));
         }
     }
 }

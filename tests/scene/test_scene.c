@@ -5,6 +5,8 @@
 #include "config/hint.h"
 #include "config/scalar.h"
 #include "objects/tree/tree.h"
+#include "scene/drawn.h"
+#include "scene/kinds.h"
 #include "scene/spec.h"
 
 #include <locale.h>
@@ -25,6 +27,17 @@ static Scene *read_text(const char *text, const char *const *overrides, int coun
     return scene;
 }
 
+static const void *params_of(const Scene *scene, int index, const Kind *kind)
+{
+    assert_ptr_equal(scene->objects[index].kind, kind);
+    return scene->objects[index].params;
+}
+
+static const TreeParams *tree_of(const Scene *scene, int index)
+{
+    return params_of(scene, index, &kind_tree);
+}
+
 static void defaults_are_those_of_the_modules(void **state)
 {
     (void)state;
@@ -43,8 +56,7 @@ static void defaults_are_those_of_the_modules(void **state)
     assert_memory_equal(&scene->tone.contrast, &tone.contrast, sizeof(float));
     assert_memory_equal(&scene->tone.bloom, &tone.bloom, sizeof(float));
     assert_int_equal(scene->object_count, 1);
-    assert_null(scene->objects[0].ground);
-    const TreeParams *read = scene->objects[0].tree;
+    const TreeParams *read = tree_of(scene, 0);
     assert_memory_equal(&read->leaves, &tree.leaves, sizeof tree.leaves);
     assert_memory_equal(&read->radii, &tree.radii, sizeof tree.radii);
     assert_memory_equal(&read->skin, &tree.skin, sizeof tree.skin);
@@ -66,8 +78,8 @@ static void overrides_reach_every_depth(void **state)
                                      "film.exposure=-1.5",
                                      "seed=0x10"};
     Scene *scene = read_text(plain, overrides, 6);
-    assert_int_equal(scene->objects[0].tree->leaves.max_count, 0);
-    assert_true(scene->objects[0].tree->height == 9.0f);
+    assert_int_equal(tree_of(scene, 0)->leaves.max_count, 0);
+    assert_true(tree_of(scene, 0)->height == 9.0f);
     assert_true(scene->camera.position.z == 3.0f);
     assert_int_equal(scene->film.width, 64);
     assert_true(scene->tone.exposure == -1.5f);
@@ -92,12 +104,12 @@ static void anchors_and_merge_keys_work(void **state)
     assert_int_equal(scene->object_count, 4);
     assert_string_equal(scene->objects[1].name, "b");
     assert_int_equal(scene->objects[1].seed, 5);
-    assert_true(scene->objects[1].tree->height == 7.0f);
-    assert_true(scene->objects[2].tree->height == 8.0f);
-    assert_int_equal(scene->objects[2].tree->roots.count, 0);
-    assert_true(scene->objects[3].tree->height == 3.0f); // its own key wins, wherever it stands
-    assert_true(scene->objects[3].tree->radii.tip == 0.5f);
-    assert_int_equal(scene->objects[3].tree->roots.count, 0);
+    assert_true(tree_of(scene, 1)->height == 7.0f);
+    assert_true(tree_of(scene, 2)->height == 8.0f);
+    assert_int_equal(tree_of(scene, 2)->roots.count, 0);
+    assert_true(tree_of(scene, 3)->height == 3.0f); // its own key wins, wherever it stands
+    assert_true(tree_of(scene, 3)->radii.tip == 0.5f);
+    assert_int_equal(tree_of(scene, 3)->roots.count, 0);
     scene_free(scene);
 }
 
@@ -107,8 +119,8 @@ static void an_override_changes_one_copy_of_an_anchor(void **state)
     const char *const overrides[] = {"objects.a.tree.height=5"};
     Scene *scene =
         read_text("objects: [{name: a, tree: &t {height: 7}}, {name: b, tree: *t}]", overrides, 1);
-    assert_true(scene->objects[0].tree->height == 5.0f);
-    assert_true(scene->objects[1].tree->height == 7.0f);
+    assert_true(tree_of(scene, 0)->height == 5.0f);
+    assert_true(tree_of(scene, 1)->height == 7.0f);
     scene_free(scene);
 }
 
@@ -126,13 +138,13 @@ static void growth_fills_in_its_levels(void **state)
                              "      trunk: {growth: {tropism: [0, 1, 0], levels: [{attractors: "
                              "9}]}}\n",
                              NULL, 0);
-    const ElementParams *crown = &scene->objects[0].tree->crown.element;
+    const ElementParams *crown = &tree_of(scene, 0)->crown.element;
     assert_int_equal(crown->level_count, 2);
     assert_int_equal(crown->levels[0].attractors, 1000);
     assert_int_equal(crown->levels[1].attractors, 1000000);
     assert_true(crown->levels[0].noise == 0.7f && crown->levels[1].noise == 0.0f);
     assert_true(crown->levels[0].tropism == 0.0f && crown->levels[1].tropism == 2.0f);
-    assert_true(scene->objects[0].tree->trunk.element.levels[0].tropism == 1.0f);
+    assert_true(tree_of(scene, 0)->trunk.element.levels[0].tropism == 1.0f);
     scene_free(scene);
 }
 
@@ -149,12 +161,13 @@ static void shapes_and_fields_are_placed(void **state)
                              "    tree: {crown: {fields: [{kind: nuclei, turn: 360}, {kind: "
                              "point, weight: 2}]}}\n",
                              NULL, 0);
-    const Shape *shape = scene->objects[0].shape->shapes;
-    assert_int_equal(scene->objects[0].shape->shape_count, 2);
+    const SceneShape *solid = params_of(scene, 0, &kind_shape);
+    const Shape *shape = solid->shapes;
+    assert_int_equal(solid->shape_count, 2);
     assert_true(shape[0].transform.m[0][0] == 2.0f && shape[0].transform.m[2][3] == 3.0f);
     assert_int_equal(shape[1].op, SHAPE_DIFFERENCE);
     assert_true(fabsf(shape[1].transform.m[1][0] - 1.0f) < 1e-6f); // y <= 0 became x >= 0
-    const ElementParams *crown = &scene->objects[1].tree->crown.element;
+    const ElementParams *crown = &tree_of(scene, 1)->crown.element;
     assert_int_equal(crown->field_count, 2);
     assert_true(crown->fields[0].turn == 360.0f && crown->fields[1].weight == 2.0f);
     FieldParams point = field_params_default(FIELD_POINT);
@@ -179,7 +192,7 @@ static void materials_begin_from_their_kind_or_the_built_in_one(void **state)
     assert_true(scene->materials[1].color.x == 1.0f && scene->materials[1].color.z == 0.0f);
     assert_int_equal(scene->materials[2].kind, MATERIAL_DIFFUSE);
     assert_true(scene->materials[2].color.y == 0.3f);
-    assert_string_equal(scene->objects[0].material, "gold");
+    assert_string_equal(scene->objects[0].material[0], "gold");
     scene_free(scene);
 }
 
@@ -194,7 +207,8 @@ static void files_are_found_beside_the_scene(void **state)
     const char text[] = "objects: [{name: a, mesh: {file: stone.obj}}]";
     Scene *scene = scene_read(fixture_write(fixture, "s.yaml", text, sizeof text - 1), NULL, 0, &e);
     assert_non_null(scene);
-    assert_string_equal(scene->objects[0].mesh->file, wanted);
+    const SceneMesh *stone = params_of(scene, 0, &kind_mesh);
+    assert_string_equal(stone->file, wanted);
     assert_string_equal(scene->text, text);
     scene_free(scene);
 }
@@ -414,10 +428,8 @@ static void the_schema_is_json(void **state)
 static int look_up_keys(const Table *table, const char *schema)
 {
     int count = 0;
-    for (const Key *row = table->keys; row->key; row++) {
-        if (row->flags & KEY_HIDDEN) {
-            continue;
-        }
+    const Key *row;
+    for (int i = 0; (row = table_row(table, i)); i++) {
         char quoted[80];
         snprintf(quoted, sizeof quoted, "\"%s\": {\"description\": \"%.20s", row->key, row->doc);
         if (!strstr(schema, quoted)) {
@@ -430,8 +442,9 @@ static int look_up_keys(const Table *table, const char *schema)
 
 static void check_no_key_twice(const Table *table)
 {
-    for (const Key *row = table->keys; row->key; row++) {
-        for (const Key *other = row + 1; other->key; other++) {
+    const Key *row, *other;
+    for (int i = 0; (row = table_row(table, i)); i++) {
+        for (int k = i + 1; (other = table_row(table, k)); k++) {
             if (strcmp(row->key, other->key) == 0) {
                 fail_msg("%s has two rows for %s", table->name, row->key);
             }
