@@ -37,7 +37,8 @@ static const Key CROWN_KEYS[] = {
     {KEY_OF(CrownParams, base, "base", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "Height above the ground where the crown begins; 0 = a share of the tree's height."},
     {KEY_OF(CrownParams, branches, "branches", KEY_INT), .high = 10000,
-     .doc = "Main branches placed on the trunk, the first of them lowest."},
+     .doc = "Main branches placed on the trunk, the first of them lowest; of two whose limbs would "
+            "lie side by side the weaker is left out."},
     {KEY_OF(CrownParams, branch_from, "branch_from", KEY_FLOAT), .high = 1,
      .doc = "Share of the trunk's height where the lowest branch stands."},
     {KEY_OF(CrownParams, branch_angle, "branch_angle", KEY_FLOAT), .high = 180, .unit = "degrees",

@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "objects/tree/bole.h"
 #include "objects/tree/defaults.h"
+#include "objects/tree/limbs.h"
 #include "outtree/radii.h"
 
 #include <stdio.h>
@@ -190,7 +191,8 @@ static bool grow_crown_in(OutTree *tree, const TreeParams *params, const Envelop
         transport_normals(tree);
         height = tree->position[tree_highest_node(tree)].y - params->position.y;
     }
-    if (!start_branches(tree, params, height, random_key(seed, 1), e)) {
+    if (!start_branches(tree, params, height, random_key(seed, 1), e) ||
+        !tree_thin_limbs(tree, first, params, envelope, seed, run, e)) {
         return false;
     }
     int64_t pieces = tree->count - first;
