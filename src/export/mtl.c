@@ -101,11 +101,8 @@ bool mtl_write(FileWriter *writer, const ExportSource *source, char (*name)[MTL_
     file_writer_text(writer, "# materials written by ramify\n");
     bool done = true;
     for (int i = 0; done && i < world->material_count; i++) {
-        bool used = false;
-        for (int64_t k = 0; k < world->geometry.count && !used; k++) {
-            used = world->geometry.part[k].material == i;
-        }
-        done = !used || write_material(writer, &world->material[i], name[i], file, e);
+        done = !world_uses_material(world, i) ||
+               write_material(writer, &world->material[i], name[i], file, e);
     }
     return done;
 }

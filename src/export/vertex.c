@@ -53,6 +53,24 @@ void export_surface_clear(ExportSurface *surface)
 
 // ---- colours
 
+void export_tangents(const Mesh *mesh, const uint32_t corner[3], Vec3 *u, Vec3 *v)
+{
+    Vec3 a = mesh->position[corner[0]];
+    Vec3 e1 = vec3_sub(mesh->position[corner[1]], a), e2 = vec3_sub(mesh->position[corner[2]], a);
+    *u = e1;
+    *v = e2;
+    if (!mesh->uv) {
+        return;
+    }
+    Vec2 o = mesh->uv[corner[0]], p = mesh->uv[corner[1]], q = mesh->uv[corner[2]];
+    float u1 = p.x - o.x, v1 = p.y - o.y, u2 = q.x - o.x, v2 = q.y - o.y;
+    float determinant = u1 * v2 - v1 * u2;
+    if (fabsf(determinant) > 1e-20f) {
+        *u = vec3_scale(vec3_madd(vec3_scale(e1, v2), -v1, e2), 1.0f / determinant);
+        *v = vec3_scale(vec3_madd(vec3_scale(e2, u1), -u2, e1), 1.0f / determinant);
+    }
+}
+
 // What patterns ask about the place: as the ray tracer has it, on the face at hand; as blurred as
 // the mesh is coarse.
 static SurfacePoint pattern_point(const ExportSurface *surface, const Transform *place,
@@ -73,17 +91,9 @@ static SurfacePoint pattern_point(const ExportSurface *surface, const Transform 
                           .radius = vertex->radius,
                           .birth = vertex->birth,
                           .site = mesh->site ? mesh->site[v] : (Vec2){0, 0}};
-    Vec3 u = e1, w = e2;
-    if (mesh->uv) {
-        Vec2 o = mesh->uv[corner[0]], p = mesh->uv[corner[1]];
-        Vec2 q = mesh->uv[corner[mesh->face_size - 1]];
-        float u1 = p.x - o.x, v1 = p.y - o.y, u2 = q.x - o.x, v2 = q.y - o.y;
-        float determinant = u1 * v2 - v1 * u2;
-        if (fabsf(determinant) > 1e-20f) {
-            u = vec3_scale(vec3_madd(vec3_scale(e1, v2), -v1, e2), 1.0f / determinant);
-            w = vec3_scale(vec3_madd(vec3_scale(e2, u1), -u2, e1), 1.0f / determinant);
-        }
-    }
+    Vec3 u, w;
+    export_tangents(mesh, (const uint32_t[3]){corner[0], corner[1], corner[mesh->face_size - 1]},
+                    &u, &w);
     point.tangent_u = place ? transform_vector(place, u) : u;
     point.tangent_v = place ? transform_vector(place, w) : w;
     Vec3 across = vec3_cross(place ? transform_vector(place, e1) : e1,

@@ -40,6 +40,9 @@ void export_surface_clear(ExportSurface *surface);
 void export_surface_vertices(const ExportSurface *surface, const Transform *place, float variation,
                              int64_t first, int64_t count, int threads, ExportVertex *out);
 
+// dP/du and dP/dv of the triangle of these vertices; two of its edges where it has no uv.
+void export_tangents(const Mesh *mesh, const uint32_t corner[3], Vec3 *u, Vec3 *v);
+
 // True when the transform turns faces inside out.
 bool export_is_mirror(const Transform *place);
 

@@ -7,6 +7,12 @@
 
 #include <stdlib.h>
 
+bool vertex_colors_wanted(const ExportOptions *options, const Material *material)
+{
+    return (options->colors == EXPORT_COLORS_ALL || options->colors == EXPORT_COLORS_PATTERN) &&
+           material_has_pattern(material);
+}
+
 // last: of the point's curve.
 static SurfacePoint curve_point(const CurveSet *curves, int64_t i, bool last)
 {

@@ -3,10 +3,12 @@
 #define RAMIFY_EXPORT_VERTEX_COLORS_H
 
 #include "base/run.h"
+#include "export/export.h"
 #include "mesh/geometry.h"
 #include "render/material/material.h"
 
-typedef struct World World;
+// Were colours of patterns asked for, and has the material a pattern?
+bool vertex_colors_wanted(const ExportOptions *options, const Material *material);
 
 // The colour (reflectance, linear Rec. 709) that the part's material with its pattern has at each
 // vertex of its mesh or each point of its curves, in their order; details finer than the faces

@@ -52,3 +52,13 @@ void world_free(World *world)
         free(world);
     }
 }
+
+bool world_uses_material(const World *world, int material)
+{
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        if (world->geometry.part[i].material == material) {
+            return true;
+        }
+    }
+    return false;
+}

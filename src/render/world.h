@@ -32,4 +32,7 @@ World world_default(void);
 World *world_new(Error *e); // the same on the heap
 void world_free(World *world);
 
+// Has some part of the geometry this material?
+bool world_uses_material(const World *world, int material);
+
 #endif

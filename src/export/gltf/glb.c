@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "export/formats.h"
 #include "export/placement.h"
+#include "export/vertex_colors.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -131,7 +132,7 @@ static bool write_part(GlbWriter *writer, Error *e)
     const Material *material = &world->material[world->geometry.part[part->index].material];
     bool flat = part->placing == GLB_FLAT;
     writer->vertices = 0;
-    writer->white = !glb_colors_are_base(glb, material);
+    writer->white = !vertex_colors_wanted(&glb->source->options, material);
     writer->strongest = glb->strongest[world->geometry.part[part->index].material];
     unsigned wants = part->color && !writer->white ? EXPORT_WANTS_COLORS : 0;
     bool done =

@@ -61,9 +61,6 @@ bool glb_plan(Glb *glb, Error *e);
 // ERROR_INPUT for a file of that many bytes.
 bool glb_too_large(Error *e, double bytes);
 
-// Is COLOR_0 of such parts the whole base colour? Otherwise it is white.
-bool glb_colors_are_base(const Glb *glb, const Material *material);
-
 // Numbers the materials that parts use and reads their pictures.
 bool glb_gather_materials(Glb *glb, Error *e);
 

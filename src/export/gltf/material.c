@@ -1,14 +1,8 @@
 #include "export/gltf/glb.h"
 
 #include "base/memory.h"
+#include "export/vertex_colors.h"
 #include "render/material/appearance.h"
-
-bool glb_colors_are_base(const Glb *glb, const Material *material)
-{
-    ExportColors colors = glb->source->options.colors;
-    return (colors == EXPORT_COLORS_ALL || colors == EXPORT_COLORS_PATTERN) &&
-           material_has_pattern(material);
-}
 
 bool glb_gather_materials(Glb *glb, Error *e)
 {
@@ -173,7 +167,7 @@ static void put_extension(const Glb *glb, const Material *m, Extension x, FILE *
 static void put_surface(const Glb *glb, const Material *m, FILE *json)
 {
     Appearance a = material_appearance(m);
-    Vec3 color = glb_colors_are_base(glb, m) ? vec3_splat(1.0f) : a.color;
+    Vec3 color = vertex_colors_wanted(&glb->source->options, m) ? vec3_splat(1.0f) : a.color;
     color = vec3_max(vec3_min(color, vec3_splat(1.0f)), vec3_splat(0.0f));
     int64_t image = glb_image_number(glb, m);
     fputs(",\"pbrMetallicRoughness\":{", json);

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "export/placement.h"
 #include "export/sky_bake.h"
+#include "export/vertex_colors.h"
 
 enum {
     NODES_MOST = 4096, // places that become nodes of their own unless told otherwise
@@ -100,7 +101,8 @@ static void plan_vertex(const Glb *glb, const Part *part, GlbPart *own)
     own->growth = (own->radius || own->birth) &&
                   (colors == EXPORT_COLORS_ALL || colors == EXPORT_COLORS_GROWTH);
     // COLOR_1 needs a COLOR_0
-    own->color = glb_colors_are_base(glb, material) || (own->growth && colors == EXPORT_COLORS_ALL);
+    own->color = vertex_colors_wanted(&glb->source->options, material) ||
+                 (own->growth && colors == EXPORT_COLORS_ALL);
     own->stride = 12 + 12 * own->normal + 8 * own->uv + 8 * own->glow + 8 * own->color +
                   8 * own->growth + 4 * own->radius + 4 * own->birth;
 }

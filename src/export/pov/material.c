@@ -228,20 +228,10 @@ static bool write_material(Pov *pov, int material)
     return true;
 }
 
-static bool is_used(const World *world, int material)
-{
-    for (int64_t i = 0; i < world->geometry.count; i++) {
-        if (world->geometry.part[i].material == material) {
-            return true;
-        }
-    }
-    return false;
-}
-
 bool pov_materials(Pov *pov)
 {
     for (int i = 0; i < pov->world->material_count; i++) {
-        if (is_used(pov->world, i) && !write_material(pov, i)) {
+        if (world_uses_material(pov->world, i) && !write_material(pov, i)) {
             return false;
         }
     }

@@ -9,6 +9,7 @@
 
 #include "base/number_text.h"
 #include "export/asset_path.h"
+#include "export/bounds.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -44,30 +45,6 @@ void pov_point(Pov *pov, Vec3 p)
 
 // ---- the scene's size
 
-static Aabb curves_bounds(const CurveSet *curves)
-{
-    Aabb box = aabb_empty();
-    for (int64_t i = 0; i < curves->point_count; i++) {
-        Vec3 r = vec3_splat(curves->radius[i]);
-        box = aabb_add(box, vec3_sub(curves->position[i], r));
-        box = aabb_add(box, vec3_add(curves->position[i], r));
-    }
-    return box;
-}
-
-static Aabb part_bounds(const Part *part)
-{
-    Aabb own = part->kind == PART_MESH ? mesh_bounds(part->mesh) : curves_bounds(part->curves);
-    if (!part->instance || aabb_is_empty(own)) {
-        return own;
-    }
-    Aabb box = aabb_empty();
-    for (int64_t i = 0; i < part->instance_count; i++) {
-        box = aabb_union(box, aabb_transform(own, &part->instance[i]));
-    }
-    return box;
-}
-
 static Aabb light_bounds(const Light *light)
 {
     Aabb box = aabb_empty();
@@ -86,9 +63,7 @@ static void measure_world(Pov *pov)
 {
     const World *world = pov->world;
     Aabb box = aabb_add(aabb_empty(), world->camera.position);
-    for (int64_t i = 0; i < world->geometry.count; i++) {
-        box = aabb_union(box, part_bounds(&world->geometry.part[i]));
-    }
+    box = aabb_union(box, geometry_bounds(&world->geometry));
     for (int i = 0; i < world->light_count; i++) {
         box = aabb_union(box, light_bounds(&world->light[i]));
     }

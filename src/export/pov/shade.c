@@ -28,16 +28,6 @@ static bool shades_new(PovShades *shades, int64_t count, bool normals, Error *e)
     return done;
 }
 
-// As accel_surface has it.
-float pov_variation(const Part *part, int64_t instance)
-{
-    if (!part->instance) {
-        return 0.5f;
-    }
-    return part->variation ? part->variation[instance]
-                           : random_unit(random_key((uint64_t)part->object, (uint64_t)instance));
-}
-
 static Vec3 clamp_color(Vec3 c)
 {
     return vec3_max(vec3_min(c, vec3_splat(1.0f)), vec3_splat(0.0f));
@@ -53,24 +43,6 @@ static PatternShade shade_at(const Material *m, const SurfacePoint *point)
 }
 
 // ---- meshes
-
-static void set_tangents(const Mesh *mesh, const uint32_t corner[3], SurfacePoint *point)
-{
-    Vec3 a = mesh->position[corner[0]];
-    Vec3 e1 = vec3_sub(mesh->position[corner[1]], a), e2 = vec3_sub(mesh->position[corner[2]], a);
-    point->tangent_u = e1;
-    point->tangent_v = e2;
-    if (!mesh->uv) {
-        return;
-    }
-    Vec2 o = mesh->uv[corner[0]], b = mesh->uv[corner[1]], d = mesh->uv[corner[2]];
-    float u1 = b.x - o.x, v1 = b.y - o.y, u2 = d.x - o.x, v2 = d.y - o.y;
-    float determinant = u1 * v2 - v1 * u2;
-    if (fabsf(determinant) > 1e-20f) {
-        point->tangent_u = vec3_scale(vec3_madd(vec3_scale(e1, v2), -v1, e2), 1.0f / determinant);
-        point->tangent_v = vec3_scale(vec3_madd(vec3_scale(e2, u1), -u2, e1), 1.0f / determinant);
-    }
-}
 
 // The vertex as one of the face's corners. Its footprint is the face's size: finer features fade
 // into their mean.
@@ -89,7 +61,7 @@ static SurfacePoint vertex_point(const Mesh *mesh, uint32_t vertex, int64_t face
                           .site = mesh->site ? mesh->site[vertex] : (Vec2){0, 0},
                           .variation = variation,
                           .footprint = sqrtf(vec3_length(across))};
-    set_tangents(mesh, corner, &point);
+    export_tangents(mesh, corner, &point.tangent_u, &point.tangent_v);
     point.position = place ? transform_point(place, point.object_position) : point.object_position;
     point.lifted = point.position;
     point.facet_normal = point.geometric_normal = point.normal;
@@ -227,7 +199,7 @@ static void mean_shade(const Material *m, const Part *part, int64_t instance, Po
                                        {1.0f / 6, 1.0f / 6, 2.0f / 3}};
     const Mesh *mesh = part->mesh;
     Vec3 color = {0, 0, 0}, transmittance = {0, 0, 0};
-    float sum = 0.0f, variation = pov_variation(part, instance);
+    float sum = 0.0f, variation = part_variation(part, instance);
     for (int64_t f = 0; f < mesh->face_count; f += mesh->face_count / MEAN_FACES + 1) {
         uint32_t corner[6];
         for (int t = 3 * export_face_triangles(mesh, f, false, corner) - 3; t >= 0; t -= 3) {

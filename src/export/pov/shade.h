@@ -28,7 +28,4 @@ bool pov_shade_curves(const Material *material, const CurveSet *curves, PovShade
 bool pov_shade_instances(const Material *material, const Part *part, const Run *run,
                          PovShades *shades, Error *e);
 
-// The number that an instance varies by.
-float pov_variation(const Part *part, int64_t instance);
-
 #endif

@@ -1,4 +1,5 @@
 // Meshes, curves and instances in USD's text format: one Xform an object, one prim a part.
+#include "export/bounds.h"
 #include "export/placement.h"
 #include "export/usd/usda.h"
 #include "export/vertex_colors.h"
@@ -12,34 +13,14 @@
 
 #define BINDING "prepend apiSchemas = [\"MaterialBindingAPI\"]"
 
-Aabb usda_part_bounds(const Part *part)
-{
-    if (part->mesh) {
-        return mesh_bounds(part->mesh);
-    }
-    Aabb box = aabb_empty();
-    for (int64_t i = 0; i < part->curves->point_count; i++) {
-        Vec3 p = part->curves->position[i], r = vec3_splat(part->curves->radius[i]);
-        box = aabb_add(aabb_add(box, vec3_sub(p, r)), vec3_add(p, r));
-    }
-    return box;
-}
-
 // ---- one mesh or set of curves
-
-bool usda_colors_vertices(const Usda *usda, const Material *material)
-{
-    ExportColors wanted = usda->source->options.colors;
-    return (wanted == EXPORT_COLORS_ALL || wanted == EXPORT_COLORS_PATTERN) &&
-           material_has_pattern(material);
-}
 
 // The colour at the vertices where the material has a pattern, else its own colour.
 static bool display_color(Usda *usda, const Part *part, Error *e)
 {
     const World *world = usda->source->world;
     const Material *m = &world->material[part->material];
-    if (!usda_colors_vertices(usda, m)) {
+    if (!vertex_colors_wanted(&usda->source->options, m)) {
         Appearance a = material_appearance(m);
         Vec3 color = appearance_display_color(&a);
         usda_vec3s(&usda->text, "color3f[] primvars:displayColor", &color, 1, "constant");
@@ -71,7 +52,7 @@ static bool mesh_prim(Usda *usda, const Part *part, const char *name, Error *e)
     usda_line(text, "uniform token subdivisionScheme = \"none\"");
     usda_line(text, "uniform token orientation = \"rightHanded\"");
     usda_line(text, "uniform bool doubleSided = 1");
-    usda_extent(text, usda_part_bounds(part));
+    usda_extent(text, part_shape_bounds(part));
     usda_repeated(text, "int[] faceVertexCounts", mesh->face_size, mesh->face_count);
     usda_indices(text, "int[] faceVertexIndices", mesh->index, mesh->face_count * mesh->face_size);
     usda_vec3s(text, "point3f[] points", mesh->position, vertices, NULL);
@@ -135,7 +116,7 @@ static bool curves_prim(Usda *usda, const Part *part, const char *name, Error *e
     bind_material(usda, part);
     usda_line(text, "uniform token type = \"linear\"");
     usda_line(text, "uniform token wrap = \"nonperiodic\"");
-    usda_extent(text, usda_part_bounds(part));
+    usda_extent(text, part_shape_bounds(part));
     curve_counts(text, curves);
     usda_vec3s(text, "point3f[] points", curves->position, curves->point_count, NULL);
     curve_widths(text, curves);
@@ -188,7 +169,7 @@ static void instance_column(UsdaText *text, const Part *part, Column column, con
 // Of the instances that a PointInstancer can hold; *sheared counts the others.
 static Aabb instancer_bounds(const Part *part, int64_t *sheared)
 {
-    Aabb own = usda_part_bounds(part), all = aabb_empty();
+    Aabb own = part_shape_bounds(part), all = aabb_empty();
     Placement placement;
     *sheared = 0;
     for (int64_t i = 0; i < part->instance_count && !aabb_is_empty(own); i++) {

@@ -1,6 +1,7 @@
 // Camera, lamps, sky and sun in USD's text format.
 #include "base/color.h"
 #include "export/asset_path.h"
+#include "export/bounds.h"
 #include "export/sky_bake.h"
 #include "export/usd/usda.h"
 
@@ -16,29 +17,10 @@ enum { SKY_COLUMNS = 1024 };
 
 // ---- camera ----
 
-static Aabb world_bounds(const Geometry *geometry)
-{
-    Aabb all = aabb_empty();
-    for (int64_t i = 0; i < geometry->count; i++) {
-        const Part *part = &geometry->part[i];
-        Aabb box = usda_part_bounds(part);
-        if (aabb_is_empty(box)) {
-            continue;
-        }
-        if (!part->instance) {
-            all = aabb_union(all, box);
-        }
-        for (int64_t k = 0; part->instance && k < part->instance_count; k++) {
-            all = aabb_union(all, aabb_transform(box, &part->instance[k]));
-        }
-    }
-    return all;
-}
-
 // Far enough for all of the world.
 static float far_distance(const World *world)
 {
-    Aabb all = world_bounds(&world->geometry);
+    Aabb all = geometry_bounds(&world->geometry);
     if (aabb_is_empty(all)) {
         return 1000.0f;
     }

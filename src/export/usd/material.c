@@ -3,6 +3,7 @@
 #include "export/asset_path.h"
 #include "export/usd/usda.h"
 
+#include "export/vertex_colors.h"
 #include "image/image.h"
 #include "render/material/appearance.h"
 
@@ -84,7 +85,7 @@ static void surface(Usda *usda, const Material *m, const char *name, bool glows,
     float roughness = appearance_is_matt(&a) ? 1.0f : a.traits & TRAIT_THIN ? 0.0f : a.roughness;
     usda_begin(text, NULL, "def Shader \"Surface\"");
     usda_line(text, "uniform token info:id = \"UsdPreviewSurface\"");
-    if (m->texture || usda_colors_vertices(usda, m)) {
+    if (m->texture || vertex_colors_wanted(&usda->source->options, m)) {
         usda_line(text, "color3f inputs:diffuseColor.connect = </World/Materials/%s/Color.%s>",
                   name, m->texture ? "outputs:rgb" : "outputs:result");
     } else {
@@ -127,7 +128,7 @@ static bool material(Usda *usda, int index, Error *e)
     bool done = true;
     if (m->texture) {
         done = texture(usda, "Color", name, m->texture, &m->color, e);
-    } else if (usda_colors_vertices(usda, m)) {
+    } else if (vertex_colors_wanted(&usda->source->options, m)) {
         primvar_reader(text, "Color", "displayColor", m->color);
     }
     if (usda->glows[index]) {

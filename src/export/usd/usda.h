@@ -29,12 +29,4 @@ bool usda_objects(Usda *usda, Error *e);
 // Writes the dome's picture, if there is one: last, so that no failure before it harms an old one.
 bool usda_write_sky(const Usda *usda, Error *e);
 
-// True when the material's colour is read from the vertices: it has a pattern, and its colours were
-// asked for.
-bool usda_colors_vertices(const Usda *usda, const Material *material);
-
-// Around the part's mesh or curves, where it is drawn once or in its own space; empty when there
-// is nothing.
-Aabb usda_part_bounds(const Part *part);
-
 #endif

@@ -1,0 +1,234 @@
+#include "render/tiles.h"
+
+#include "base/color.h"
+#include "base/memory.h"
+#include "render/film_merge.h"
+#include "render/world.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+enum { TILE_SIZE = 16, PASS_LIMIT = 64, LEAST_ADAPTIVE_SAMPLES = 16 };
+
+typedef struct Tile {
+    int x0, y0, x1, y1;
+    int samples; // taken so far
+    bool quiet;  // below the asked noise
+} Tile;
+
+typedef struct Job {
+    const Tracer *tracer;
+    Film *film;
+    const Run *run;
+    Tile *tile;
+    int tile_count;
+    int64_t pixels;
+    double start;
+    pthread_t caller; // the thread that hears of progress
+    _Atomic int64_t rays, paths;
+    _Atomic int64_t settled; // paths traced or saved by adaptive stopping
+} Job;
+
+// Brings the tile's pixels to `end` samples and counts rays and paths. Interrupted, the pixels left
+// over keep what they had, and the tile counts as it was: no pass comes after.
+static void render_tile(Job *job, Tile *tile, int end)
+{
+    int64_t rays = 0, pixels = 0;
+    for (int y = tile->y0; y < tile->y1; y++) {
+        for (int x = tile->x0; x < tile->x1 && !run_is_cancelled(job->run); x++) {
+            PixelSum sum = {.object = 0};
+            for (int k = tile->samples, count; k < end; k += count) {
+                PathResult path[PACKET_SIZE];
+                count = end - k < PACKET_SIZE ? end - k : PACKET_SIZE;
+                integrator_paths(job->tracer, x, y, k, count, path);
+                for (int i = 0; i < count; i++) {
+                    pixel_sum_add(&sum, &path[i]);
+                }
+            }
+            film_merge(job->film, (int64_t)y * job->film->width + x, tile->samples,
+                       end - tile->samples, &sum);
+            rays += sum.rays;
+            pixels++;
+        }
+    }
+    job->rays += rays;
+    job->paths += pixels * (end - tile->samples);
+    if (pixels == (int64_t)(tile->x1 - tile->x0) * (tile->y1 - tile->y0)) {
+        tile->samples = end;
+    }
+}
+
+// Mean over the tile of a pixel's standard error relative to its luminance, with a floor that keeps
+// black from asking for ever.
+static float tile_noise(const Film *film, const Tile *tile)
+{
+    double sum = 0.0;
+    for (int y = tile->y0; y < tile->y1; y++) {
+        for (int x = tile->x0; x < tile->x1; x++) {
+            int64_t i = (int64_t)y * film->width + x;
+            sum += (double)(sqrtf(film->variance[i]) / (luminance(film->color[i]) + 0.02f));
+        }
+    }
+    return (float)(sum / ((double)(tile->x1 - tile->x0) * (tile->y1 - tile->y0)));
+}
+
+static bool must_stop(const Job *job)
+{
+    double limit = job->tracer->world->render.max_seconds;
+    return run_is_cancelled(job->run) || (limit > 0.0 && run_seconds() - job->start > limit);
+}
+
+static void tell_progress(const Job *job)
+{
+    const RenderParams *params = &job->tracer->world->render;
+    double done = (double)job->settled / ((double)job->pixels * params->samples);
+    if (params->max_seconds > 0.0) {
+        done = fmax(done, (run_seconds() - job->start) / params->max_seconds);
+    }
+    run_progress(job->run, "trace", fmin(done, 1.0));
+}
+
+// Brings every tile from `before` to `end` samples. Out of time, it finishes the tiles that were
+// begun, and the whole first pass, so that there is a whole picture; interrupted, it ends at once.
+static void render_pass(Job *job, int before, int end)
+{
+    const RenderParams *params = &job->tracer->world->render;
+    _Atomic int next = 0;
+    _Atomic bool stop = false;
+#pragma omp parallel num_threads(job->run->threads)
+    {
+        unsigned state = accel_thread_begin();
+        for (int i = next++; i < job->tile_count && !stop; i = next++) {
+            Tile *tile = &job->tile[i];
+            int64_t area = (int64_t)(tile->x1 - tile->x0) * (tile->y1 - tile->y0);
+            job->settled += area * (end - before);
+            if (!tile->quiet) {
+                render_tile(job, tile, end);
+                tile->quiet = params->max_noise > 0.0f && end >= LEAST_ADAPTIVE_SAMPLES &&
+                              tile_noise(job->film, tile) < params->max_noise;
+            }
+            stop = stop || run_is_cancelled(job->run) || (end > 1 && must_stop(job));
+            if (pthread_equal(pthread_self(), job->caller)) {
+                tell_progress(job);
+            }
+        }
+        accel_thread_end(state);
+    }
+}
+
+static Tile *make_tiles(const FilmParams *film, int *count, int64_t *pixels, Error *e)
+{
+    int x0 = (int)lroundf(clampf(film->crop[0], 0.0f, 1.0f) * (float)film->width);
+    int y0 = (int)lroundf(clampf(film->crop[1], 0.0f, 1.0f) * (float)film->height);
+    int x1 = (int)lroundf(clampf(film->crop[2], 0.0f, 1.0f) * (float)film->width);
+    int y1 = (int)lroundf(clampf(film->crop[3], 0.0f, 1.0f) * (float)film->height);
+    if (x0 >= x1 || y0 >= y1) {
+        error_set(e, ERROR_INPUT, "the crop leaves no pixel; x0 < x1 and y0 < y1 are needed");
+        return NULL;
+    }
+    int columns = (x1 - x0 + TILE_SIZE - 1) / TILE_SIZE,
+        rows = (y1 - y0 + TILE_SIZE - 1) / TILE_SIZE;
+    *pixels = (int64_t)(x1 - x0) * (y1 - y0);
+    *count = columns * rows;
+    Tile *tile = memory_alloc_zero(*count, sizeof *tile, e);
+    for (int i = 0; tile && i < *count; i++) {
+        int x = x0 + i % columns * TILE_SIZE, y = y0 + i / columns * TILE_SIZE;
+        tile[i] = (Tile){.x0 = x,
+                         .y0 = y,
+                         .x1 = x + TILE_SIZE < x1 ? x + TILE_SIZE : x1,
+                         .y1 = y + TILE_SIZE < y1 ? y + TILE_SIZE : y1};
+    }
+    return tile;
+}
+
+static int least_samples(const Job *job)
+{
+    int least = job->tile[0].samples;
+    for (int i = 1; i < job->tile_count; i++) {
+        least = job->tile[i].samples < least ? job->tile[i].samples : least;
+    }
+    return least;
+}
+
+static bool all_quiet(const Job *job)
+{
+    for (int i = 0; i < job->tile_count; i++) {
+        if (!job->tile[i].quiet) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void render_passes(Job *job, RenderPass *pass, void *user)
+{
+    int samples = job->tracer->world->render.samples, done = 0;
+    while (done < samples && !(done > 0 && must_stop(job)) && !all_quiet(job)) {
+        int before = done, more = done < 1 ? 1 : (done < PASS_LIMIT ? done : PASS_LIMIT);
+        done = done + more < samples ? done + more : samples;
+        render_pass(job, before, done);
+        bool doubled = (done & (done - 1)) == 0;
+        if (pass && (doubled || done == samples) && !run_is_cancelled(job->run)) {
+            pass(user, job->film, done);
+        }
+    }
+}
+
+// Forgets the samples of an earlier picture in the pixels of this one.
+static void mark_unseen(const Job *job)
+{
+    for (int i = 0; i < job->tile_count; i++) {
+        const Tile *tile = &job->tile[i];
+        for (int y = tile->y0; y < tile->y1; y++) {
+            for (int x = tile->x0; x < tile->x1; x++) {
+                job->film->samples[(int64_t)y * job->film->width + x] = 0.0f;
+            }
+        }
+    }
+}
+
+// What an interrupted first pass did not reach is black and transparent, not an earlier picture.
+static void clear_unseen(const Job *job)
+{
+    const PixelSum nothing = {.object = 0};
+    for (int i = 0; i < job->tile_count; i++) {
+        const Tile *tile = &job->tile[i];
+        for (int y = tile->y0; y < tile->y1 && tile->samples == 0; y++) {
+            for (int x = tile->x0; x < tile->x1; x++) {
+                int64_t pixel = (int64_t)y * job->film->width + x;
+                if (job->film->samples[pixel] <= 0.0f) {
+                    film_merge(job->film, pixel, 0, 1, &nothing);
+                    job->film->samples[pixel] = 0.0f;
+                }
+            }
+        }
+    }
+}
+
+bool tiles_render(const Tracer *tracer, Film *film, const Run *run, RenderPass *pass, void *user,
+                  RenderStats *stats, Error *e)
+{
+    Job job = {.tracer = tracer,
+               .film = film,
+               .run = run,
+               .start = run_seconds(),
+               .caller = pthread_self()};
+    job.tile = make_tiles(&tracer->world->film, &job.tile_count, &job.pixels, e);
+    if (!job.tile) {
+        return false;
+    }
+    mark_unseen(&job);
+    render_passes(&job, pass, user);
+    *stats = (RenderStats){.paths = job.paths,
+                           .rays = job.rays,
+                           .seconds = run_seconds() - job.start,
+                           .samples = least_samples(&job)};
+    bool done = true;
+    if (run_is_cancelled(run)) {
+        clear_unseen(&job);
+        done = job.paths > 0 || run_cancel_error(e); // before there was anything to show
+    }
+    free(job.tile);
+    return done;
+}
