@@ -1,17 +1,17 @@
-// How a file names another one that it needs.
+// Paths from one file to another that it names, and names of files beside it.
 #ifndef RAMIFY_EXPORT_ASSET_PATH_H
 #define RAMIFY_EXPORT_ASSET_PATH_H
 
 #include "base/error.h"
 
-// The way from the folder of `file`, which need not exist yet, to the existing `asset`: it begins
-// with ./ or ../. Heap text that the caller frees. ERROR_IO when either cannot be found.
+// The relative path from the folder of `file`, which need not exist yet, to the existing `asset`;
+// begins with ./ or ../. Heap text that the caller frees. ERROR_IO if either cannot be found.
 char *asset_path(const char *file, const char *asset, Error *e);
 
-// The name of a file beside `file`: its name without the ending, and `ending` instead. Heap text.
+// The name of `file` with `ending` in place of its own. Heap text that the caller frees.
 char *asset_beside(const char *file, const char *ending, Error *e);
 
-// The file of one of several objects that get one each: "out-oak.swc" of "out.swc". Heap text.
+// The file for one of several objects: "out-oak.swc" of "out.swc". Heap text that the caller frees.
 char *asset_of_object(const char *file, const char *object, Error *e);
 
 #endif

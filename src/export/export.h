@@ -1,5 +1,4 @@
-// Scenes as other programs' files. One file a format, one line a format in export.c: nothing else
-// knows how many there are.
+// Scenes as other programs' files. A format is one file and one line of the table in export.c.
 #ifndef RAMIFY_EXPORT_EXPORT_H
 #define RAMIFY_EXPORT_EXPORT_H
 
@@ -10,35 +9,35 @@
 
 typedef struct World World;
 
-// How instances are written by formats that can keep them.
+// How formats that know instances write them.
 typedef enum ExportInstances {
-    EXPORT_INSTANCES_AUTO,  // as the format does best: docs/formats.md
-    EXPORT_INSTANCES_NODES, // each names the same mesh
+    EXPORT_INSTANCES_AUTO,  // the best way of the format: docs/formats.md
+    EXPORT_INSTANCES_NODES, // nodes that share a mesh
     EXPORT_INSTANCES_GPU,   // glTF: EXT_mesh_gpu_instancing
-    EXPORT_INSTANCES_FLAT   // each a copy of the mesh
+    EXPORT_INSTANCES_FLAT   // a copy of the mesh each
 } ExportInstances;
 
-// What the colours of vertices show.
+// The meaning of vertex colours.
 typedef enum ExportColors {
     EXPORT_COLORS_ALL,     // patterns first, growth second where a format has two sets
-    EXPORT_COLORS_PATTERN, // what procedural patterns look like
+    EXPORT_COLORS_PATTERN, // colours of procedural patterns
     EXPORT_COLORS_GROWTH,  // red: birth, 0..1; green: radius over the object's largest
     EXPORT_COLORS_NONE
 } ExportColors;
 
-// {0} is what is best for most.
+// {0} holds the defaults.
 typedef struct ExportOptions {
-    const char *const *object; // names of the only objects to write; NULL = all
+    const char *const *object; // names of the objects to write; NULL = all
     int object_count;
     ExportInstances instances;
     ExportColors colors;
     int tube_sides; // of curves written as tubes, 3 .. CURVE_TUBE_SIDES_MOST; 0 = CURVE_TUBE_SIDES
 } ExportOptions;
 
-// What is there to be exported. All borrowed; what the format does not need is NULL.
+// The scene to export. All borrowed; what the format does not need is NULL.
 typedef struct ExportSource {
     const char *title;              // of the whole: the scene file's name
-    ExportOptions options;          // objects: those left out are in no part below
+    ExportOptions options;          // the parts below hold no other objects than options.object
     const World *world;             // EXPORT_WORLD
     int object_count;               // of the scene: Part.object is an index
     const char *const *object_name; // object_count entries
@@ -52,17 +51,16 @@ enum { EXPORT_WORLD = 1, EXPORT_TREES = 2, EXPORT_LAND = 4, EXPORT_GRIDS = 8 };
 typedef struct ExportFormat {
     const char *ending; // ".glb"
     const char *doc;    // for people: what it is
-    int extra;          // bytes by which the longest name of what is written beside it is longer
+    int extra;          // bytes by which the longest name of a file beside it exceeds its own
     unsigned needs;     // of the source
-    // Writes the file, and nothing but it and what docs/formats.md names beside it. A failure
-    // leaves what was there.
+    // Writes the file, and no others than docs/formats.md names. On failure, older files stay.
     bool (*write)(const ExportSource *source, const char *file, const Run *run, Error *e);
 } ExportFormat;
 
-// The format that the file's name ends in; NULL when there is none.
+// The format by the ending of the file's name; NULL if there is none.
 const ExportFormat *export_format(const char *file);
 
-// All of them, for help and messages.
+// All formats, for help and messages.
 int export_format_count(void);
 const ExportFormat *export_format_at(int index);
 

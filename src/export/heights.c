@@ -1,4 +1,4 @@
-// Heights of land: pictures and Esri ASCII grids. One land goes to FILE, several to FILE-OBJECT.
+// Height fields as pictures and Esri ASCII grids. One goes to FILE, several to FILE-OBJECT.
 #include "export/heights.h"
 
 #include "base/file_name.h"
@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// Key and value pairs as image.h wants them; ends with an empty key.
+// Key and value pairs for image.h; ends with an empty key.
 static void describe_field(const HeightField *field, float low, float high, char *text, size_t size)
 {
     const struct {
@@ -62,7 +62,7 @@ static void write_row(FileWriter *out, const float *height, int columns)
     }
 }
 
-// North is -z, so that land seen from above is as on a map.
+// North is -z, so the land seen from above looks as on a map.
 static bool write_asc(const HeightField *field, const char *file, Error *e)
 {
     FileWriter *out = file_writer_open(file, e);

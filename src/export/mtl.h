@@ -7,12 +7,12 @@
 
 enum { MTL_NAME = 80 };
 
-// The names of all of the world's materials as OBJ and MTL have them: without blanks, each its own.
-// The caller frees them.
+// Names of all of the world's materials for OBJ and MTL: unique and without blanks. The caller
+// frees them.
 char (*mtl_names(const World *world, Error *e))[MTL_NAME];
 
-// All materials that the source's parts use, by these names; pictures by their path from the folder
-// of `file`. ERROR_IO when a picture is not there.
+// Writes all materials that parts use under these names; pictures by their path from the folder of
+// `file`. ERROR_IO if a picture is missing.
 bool mtl_write(FileWriter *writer, const ExportSource *source, char (*name)[MTL_NAME],
                const char *file, Error *e);
 

@@ -1,6 +1,6 @@
-// Wavefront OBJ with its materials (.mtl) beside it: an object (o) for each of the scene's, a group
-// (g) for each part; positions with colours of patterns behind them (sRGB), texture coordinates and
-// normals where a part has them. Instances are written out, curves as tubes.
+// Wavefront OBJ with its materials (.mtl) beside it: an object (o) for each object of the scene, a
+// group (g) for each part. Positions are followed by pattern colours (sRGB); texture coordinates
+// and normals are written if a part has them. Instances are written out, curves as tubes.
 #include "export/formats.h"
 
 #include "base/file_writer.h"
@@ -22,7 +22,7 @@ typedef struct ObjWriter {
     ExportVertex *block;            // EXPORT_BLOCK
     char (*material)[MTL_NAME];     // names
     int64_t vertices, uvs, normals; // written so far
-    int64_t part;                   // at hand; -1 = none yet
+    int64_t part;                   // current; -1 = none yet
     int object;                     // likewise
 } ObjWriter;
 
@@ -38,7 +38,7 @@ static char *put_line(char *at, const char *keyword, const float *value, int cou
     return at;
 }
 
-// 0..1 in as few digits as tell 8 bits.
+// 0..1 in the fewest digits that tell 8-bit values apart.
 static float short_channel(float value)
 {
     return (float)(int)(value * 1000.0f + 0.5f) / 1000.0f;
@@ -53,7 +53,7 @@ static char *put_position(const ObjWriter *obj, const ExportVertex *v, char *at)
 {
     ExportColors colors = obj->source->options.colors;
     float numbers[6] = {v->position.x, v->position.y, v->position.z};
-    if (colors == EXPORT_COLORS_GROWTH) { // data: as it is
+    if (colors == EXPORT_COLORS_GROWTH) { // data, not encoded as sRGB
         numbers[3] = short_channel(v->growth.x);
         numbers[4] = short_channel(v->growth.y);
         numbers[5] = short_channel(v->growth.z);
@@ -121,7 +121,7 @@ static void write_faces(ObjWriter *obj, const ExportPiece *piece)
     }
 }
 
-// Names are a line's rest, or for some readers its first word.
+// A name is the rest of a line; some readers take its first word.
 static void write_name(FileWriter *writer, const char *keyword, const char *name)
 {
     file_writer_text(writer, keyword);
@@ -173,7 +173,7 @@ static bool write_all(ObjWriter *obj, const char *library, Error *e)
                              write_piece, obj, e);
 }
 
-// Both files, or neither: all of both is on the disk before either takes its name.
+// Writes both files or neither: both are complete on disk before either takes its name.
 static bool write_both(ObjWriter *obj, const char *file, const char *library, Error *e)
 {
     obj->writer = file_writer_open(file, e);

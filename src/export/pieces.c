@@ -32,7 +32,7 @@ static int64_t part_copies(const Part *part, bool placed)
     return part->instance && placed ? part->instance_count : 1;
 }
 
-// How many curves, from `first` on, make a chunk.
+// The number of curves from `first` on that make a chunk.
 static int64_t chunk_of(const CurveSet *curves, int64_t first)
 {
     int64_t last = first + 1;
@@ -52,7 +52,7 @@ static float largest(const float *radius, int64_t count)
     return most;
 }
 
-// Of all branches of the scene's object.
+// The largest radius of all branches of the object.
 static float largest_radius(const Geometry *geometry, int object)
 {
     float most = 0.0f;
@@ -78,7 +78,7 @@ typedef struct PartWalk {
     void *user;
 } PartWalk;
 
-// One mesh at all places. glow: of its vertices, or NULL.
+// Visits one mesh at all its places. glow: of its vertices, or NULL.
 static bool visit_mesh(const PartWalk *walk, const Mesh *mesh, const float *glow, Error *e)
 {
     const World *world = walk->source->world;
@@ -97,7 +97,7 @@ static bool visit_mesh(const PartWalk *walk, const Mesh *mesh, const float *glow
             piece.variation = walk->placed ? part_variation(part, i) : -1.0f;
         }
         done = walk->visit(walk->user, &piece, e);
-        if (run_is_cancelled(walk->run)) { // perhaps in the midst of it
+        if (run_is_cancelled(walk->run)) { // it may be incomplete
             done = run_cancel_error(e);
         }
     }

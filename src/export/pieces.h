@@ -1,5 +1,5 @@
-// All of a world's surfaces, one after the other, as meshes: curves become tubes some thousand at a
-// time, so that no more than a few megabytes are ever held twice.
+// All surfaces of a world as meshes, one after the other. Curves become tubes some thousand at a
+// time, so that at most a few megabytes are held twice.
 #ifndef RAMIFY_EXPORT_PIECES_H
 #define RAMIFY_EXPORT_PIECES_H
 
@@ -15,20 +15,19 @@ typedef struct ExportPiece {
 
 Aabb export_piece_bounds(const ExportPiece *piece);
 
-// False and e ends the walk.
+// Returning false, with e set, ends the walk.
 typedef bool (*ExportVisit)(void *user, const ExportPiece *piece, Error *e);
 
-// The pieces of part number index: of each of its instances, or (not placed) of its mesh alone.
-// wants: of vertex.h. ERROR_CANCELLED when the user interrupts.
+// The pieces of part number index: of each instance if placed, else of its mesh alone. wants: of
+// vertex.h. ERROR_CANCELLED when the user interrupts.
 bool export_part_pieces(const ExportSource *source, int64_t index, bool placed, unsigned wants,
                         const Run *run, ExportVisit visit, void *user, Error *e);
 
-// Those of all parts, instances written out. Tells progress, of all the walks that share it: from
-// share begin to share end.
+// The pieces of all parts, instances written out. Reports progress from share begin to share end.
 bool export_all_pieces(const ExportSource *source, unsigned wants, float begin, float end,
                        const Run *run, ExportVisit visit, void *user, Error *e);
 
-// What such walks come to.
+// Totals of such a walk.
 typedef struct ExportTally {
     int64_t vertices, faces, triangles; // a quad is one face
 } ExportTally;
@@ -36,7 +35,7 @@ typedef struct ExportTally {
 ExportTally export_part_tally(const ExportSource *source, int64_t index, bool placed);
 ExportTally export_all_tally(const ExportSource *source);
 
-// Warns when writing out instances makes very many triangles.
+// Warns if writing out instances makes very many triangles.
 void export_warn_of_instances(const ExportSource *source, const Run *run);
 
 // Vertices of a piece in blocks of at most EXPORT_BLOCK.

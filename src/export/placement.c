@@ -2,7 +2,7 @@
 
 #include "shape/affine.h"
 
-// The quaternion of a rotation given by its columns; from the largest of its parts, so that
+// The quaternion of a rotation given by its columns. Computed from its largest component, so that
 // nothing is divided by a small number (Shepperd 1978).
 static void quaternion(Vec3 x, Vec3 y, Vec3 z, float out[4])
 {
@@ -88,7 +88,7 @@ bool placement_of_turned(const Transform *t, float turn[4], Placement *placement
         return false;
     }
     Vec3 x = column_of(axes, 0), y = column_of(axes, 1), z = column_of(axes, 2);
-    double sign = vec3_dot(x, vec3_cross(y, z)) < 0.0f ? -1.0 : 1.0; // both are to be rotations
+    double sign = vec3_dot(x, vec3_cross(y, z)) < 0.0f ? -1.0 : 1.0; // makes both factors rotations
     for (int i = 0; i < 3; i++) {
         axes[i][0] *= sign;
     }

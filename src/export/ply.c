@@ -29,7 +29,7 @@ static void write_vertex(const PlyWriter *ply, const ExportVertex *v)
     float numbers[FLOATS] = {v->position.x, v->position.y, v->position.z, v->normal.x, v->normal.y,
                              v->normal.z,   v->uv.x,       v->uv.y,       v->radius,   v->birth};
     memcpy(room, numbers, sizeof numbers);
-    if (ply->colors == EXPORT_COLORS_GROWTH) { // data: as it is
+    if (ply->colors == EXPORT_COLORS_GROWTH) { // data, not encoded as sRGB
         Vec3 c = vec3_scale(v->growth, 255.0f);
         uint8_t bytes[3] = {(uint8_t)(c.x + 0.5f), (uint8_t)(c.y + 0.5f), (uint8_t)(c.z + 0.5f)};
         memcpy(room + sizeof numbers, bytes, sizeof bytes);

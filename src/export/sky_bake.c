@@ -23,7 +23,7 @@ static Image *draw(const Dome *dome, int width, Error *e)
     return image;
 }
 
-// As the sky is turned: see Sky.rotation.
+// Applies Sky.rotation.
 static void turn(const Sky *sky, Dome *dome, Sun *sun)
 {
     float angle = sky->rotation * RADIANS_PER_DEGREE;

@@ -1,4 +1,4 @@
-// The sky as other programs can take it: a picture of all directions and a sun apart from it.
+// The sky for other programs: a picture of all directions, and the sun apart from it.
 #ifndef RAMIFY_EXPORT_SKY_BAKE_H
 #define RAMIFY_EXPORT_SKY_BAKE_H
 
@@ -13,8 +13,8 @@ typedef struct BakedSky {
     Sun sun;      // or the moon; radiance 0 where there is none
 } BakedSky;
 
-// Daylight and night, without what only the camera sees (clouds, stars). width: of the picture,
-// twice its height.
+// Bakes daylight and night without clouds and stars, which only the camera sees. The picture is
+// width x width / 2 pixels.
 bool sky_bake(const Sky *sky, int width, const Run *run, BakedSky *baked, Error *e);
 void baked_sky_clear(BakedSky *baked);
 

@@ -1,4 +1,4 @@
-// Out-trees. SWC and JSON hold one: of several, each goes to FILE-OBJECT; GraphML holds all.
+// Out-trees. SWC and JSON hold one tree: several go to FILE-OBJECT each. GraphML holds all.
 #include "export/formats.h"
 
 #include "export/asset_path.h"

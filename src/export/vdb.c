@@ -1,4 +1,4 @@
-// OpenVDB grids of what things grow in; grid_file.h writes them.
+// OpenVDB grids of envelopes and guide fields, written by grid_file.h.
 #include "export/formats.h"
 
 bool export_vdb(const ExportSource *source, const char *file, const Run *run, Error *e)

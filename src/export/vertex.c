@@ -22,7 +22,7 @@ static bool find_faces(ExportSurface *surface, Error *e)
     if (!surface->face) {
         return false;
     }
-    // the first one, so the last to be written
+    // backwards, so that the first face of a vertex is kept
     for (int64_t i = mesh->face_count * mesh->face_size - 1; i >= 0; i--) {
         surface->face[mesh->index[i]] = (uint32_t)(i / mesh->face_size);
     }
@@ -71,8 +71,8 @@ void export_tangents(const Mesh *mesh, const uint32_t corner[3], Vec3 *u, Vec3 *
     }
 }
 
-// What patterns ask about the place: as the ray tracer has it, on the face at hand; as blurred as
-// the mesh is coarse.
+// The input of patterns at a vertex of a face, as in the ray tracer; the footprint is the size of
+// the face.
 static SurfacePoint pattern_point(const ExportSurface *surface, const Transform *place,
                                   const ExportVertex *vertex, int64_t v)
 {
@@ -109,7 +109,7 @@ static Vec3 pattern_color(const ExportSurface *surface, const Transform *place, 
     SurfacePoint point = pattern_point(surface, place, vertex, v);
     point.variation = variation < 0.0f ? 0.5f : variation;
     material.variation = variation < 0.0f ? 0.0f : material.variation;
-    material.pattern_depth = 0.0f; // bumps are not asked for
+    material.pattern_depth = 0.0f; // only the colour is used
     PatternShade shade = {material.color, material.transmittance, point.normal};
     pattern_apply(&material, &point, &shade);
     return shade.color;

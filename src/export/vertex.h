@@ -1,5 +1,5 @@
-// The vertices of a mesh as files want them: placed, with a normal, with the colour that the
-// material's pattern has there.
+// Vertices of a mesh for files: transformed, with normals and with the colours of the material's
+// pattern.
 #ifndef RAMIFY_EXPORT_VERTEX_H
 #define RAMIFY_EXPORT_VERTEX_H
 
@@ -18,36 +18,36 @@ typedef struct ExportVertex {
 
 enum { EXPORT_WANTS_NORMALS = 1, EXPORT_WANTS_COLORS = 2 };
 
-// A mesh made ready for that. mesh and material are borrowed.
+// A mesh prepared for that. mesh and material are borrowed.
 typedef struct ExportSurface {
     const Mesh *mesh;
     const Material *material;
     unsigned wants;
-    float largest_radius; // m: that growth is told against; 0 = growth has no green
+    float largest_radius; // m: scale of the green of growth; 0 = no green
     const float *glow;    // of each vertex; borrowed; NULL = 1
     Vec3 *normal;         // owned: where the mesh has none and they are wanted; else NULL
     uint32_t *face;       // owned: some face of each vertex, for colours; else NULL
 } ExportSurface;
 
-// wants: EXPORT_WANTS_NORMALS makes smooth ones where the mesh has none. What is not wanted is
-// (0, 1, 0), or the material's plain colour.
+// wants: EXPORT_WANTS_NORMALS makes smooth normals if the mesh has none. Unwanted normals are (0,
+// 1, 0), unwanted colours the material's own.
 bool export_surface_prepare(ExportSurface *surface, const Mesh *mesh, const Material *material,
                             unsigned wants, Error *e);
 void export_surface_clear(ExportSurface *surface);
 
-// Vertices first .. first + count - 1 into out. place: NULL = as it is. variation: the instance's,
-// 0..1; negative = none, as for a mesh that all instances share.
+// Writes vertices first .. first + count - 1 to out. place: NULL = identity. variation: of the
+// instance, 0..1; negative = none, for a mesh that all instances share.
 void export_surface_vertices(const ExportSurface *surface, const Transform *place, float variation,
                              int64_t first, int64_t count, int threads, ExportVertex *out);
 
-// dP/du and dP/dv of the triangle of these vertices; two of its edges where it has no uv.
+// dP/du and dP/dv of the triangle of these vertices; two of its edges if it has no uv.
 void export_tangents(const Mesh *mesh, const uint32_t corner[3], Vec3 *u, Vec3 *v);
 
 // True when the transform turns faces inside out.
 bool export_is_mirror(const Transform *place);
 
-// Corners of the triangles of a face as the ray tracer splits it: one, or of a quad (0, 1, 3) and
-// (2, 3, 1); turned round when mirrored. Returns their number.
+// The triangles of a face, split as the ray tracer does: one, or (0, 1, 3) and (2, 3, 1) of a quad;
+// reversed when mirrored. Returns their number.
 int export_face_triangles(const Mesh *mesh, int64_t face, bool mirrored, uint32_t corner[6]);
 
 // Linear 0..1 as 8-bit sRGB.

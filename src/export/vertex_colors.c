@@ -13,7 +13,7 @@ bool vertex_colors_wanted(const ExportOptions *options, const Material *material
            material_has_pattern(material);
 }
 
-// last: of the point's curve.
+// last: is it the last point of its curve?
 static SurfacePoint curve_point(const CurveSet *curves, int64_t i, bool last)
 {
     int64_t from = last ? i - 1 : i;

@@ -2,35 +2,18 @@
 
 #include <math.h>
 
-static void take_in(Aabb *box, Vec3 p)
+Aabb part_bounds(const Part *part)
 {
-    box->low = vec3_min(box->low, p);
-    box->high = vec3_max(box->high, p);
-}
-
-static Aabb own_bounds(const Part *part)
-{
-    Aabb box = aabb_empty();
     if (part->kind == PART_MESH) {
         return mesh_bounds(part->mesh);
     }
+    Aabb box = aabb_empty();
     const CurveSet *curves = part->curves;
     for (int64_t i = 0; i < curves->point_count; i++) {
-        Vec3 radius = vec3_splat(curves->radius[i]);
-        take_in(&box, vec3_sub(curves->position[i], radius));
-        take_in(&box, vec3_add(curves->position[i], radius));
+        Vec3 p = curves->position[i], radius = vec3_splat(curves->radius[i]);
+        box = aabb_add(aabb_add(box, vec3_sub(p, radius)), vec3_add(p, radius));
     }
     return box;
-}
-
-// Extends the box by an instance: the corners of its own box, transformed.
-static void take_in_instance(Aabb *box, Aabb own, const Transform *instance)
-{
-    for (int i = 0; i < 8; i++) {
-        Vec3 corner = {i & 1 ? own.high.x : own.low.x, i & 2 ? own.high.y : own.low.y,
-                       i & 4 ? own.high.z : own.low.z};
-        take_in(box, transform_point(instance, corner));
-    }
 }
 
 Aabb geometry_bounds(const Geometry *geometry, int64_t first)
@@ -38,16 +21,13 @@ Aabb geometry_bounds(const Geometry *geometry, int64_t first)
     Aabb box = aabb_empty();
     for (int64_t i = first; i < geometry->count; i++) {
         const Part *part = &geometry->part[i];
-        Aabb own = own_bounds(part);
-        if (aabb_is_empty(own)) {
-            continue;
-        }
+        Aabb own = part_bounds(part);
         if (!part->instance) {
-            take_in(&box, own.low);
-            take_in(&box, own.high);
+            box = aabb_union(box, own);
         }
-        for (int64_t k = 0; part->instance && k < part->instance_count; k++) {
-            take_in_instance(&box, own, &part->instance[k]);
+        for (int64_t k = 0; part->instance && k < part->instance_count && !aabb_is_empty(own);
+             k++) {
+            box = aabb_union(box, aabb_transform(own, &part->instance[k]));
         }
     }
     return box;

@@ -5,6 +5,9 @@
 #include "base/measures.h"
 #include "mesh/geometry.h"
 
+// Bounding box of the mesh or curves of a part, in their own space; empty without any.
+Aabb part_bounds(const Part *part);
+
 // Bounding box of the parts from number first on, with instances; empty when there are none.
 Aabb geometry_bounds(const Geometry *geometry, int64_t first);
 

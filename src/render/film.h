@@ -1,5 +1,5 @@
-// The film: what a rendering leaves behind. One entry a pixel, row by row from the top left, 32-bit
-// float.
+// The film: the planes that a rendering fills. One entry per pixel, row by row from the top left,
+// 32-bit float.
 #ifndef RAMIFY_RENDER_FILM_H
 #define RAMIFY_RENDER_FILM_H
 
@@ -25,7 +25,7 @@ typedef struct Film {
 // Bytes of a pixel in all planes.
 #define FILM_PIXEL_BYTES (4.0 * sizeof(Vec3) + 6.0 * sizeof(float))
 
-// ERROR_MEMORY before anything is made of it when there is too little.
+// Returns NULL with ERROR_MEMORY, before it allocates, when memory is too small.
 Film *film_new(int width, int height, Error *e);
 void film_free(Film *film); // NULL is fine
 

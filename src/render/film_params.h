@@ -7,9 +7,8 @@ typedef enum FilterKind { FILTER_BLACKMAN_HARRIS, FILTER_BOX, FILTER_GAUSSIAN } 
 typedef struct FilmParams {
     int width, height;
     FilterKind filter;
-    float
-        filter_radius; // pixels; samples are drawn from the filter, so no sample touches two pixels
-    float crop[4];     // x0, y0, x1, y1 in 0..1
+    float filter_radius; // pixels
+    float crop[4];       // x0, y0, x1, y1 in 0..1
 } FilmParams;
 
 #endif

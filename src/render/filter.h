@@ -1,6 +1,6 @@
-// Reconstruction filters, sampled by importance: a sample's place in the film is drawn from the
-// filter about its pixel, so all weights are one and no sample touches two pixels (Ernst et al.
-// 2006).
+// Reconstruction filters by importance sampling: the position of a sample on the film is drawn from
+// the filter around its pixel, so all weights are one and each sample counts for one pixel (Ernst
+// et al. 2006).
 #ifndef RAMIFY_RENDER_FILTER_H
 #define RAMIFY_RENDER_FILTER_H
 

@@ -1,5 +1,5 @@
-// Paths from the camera into the world: next-event estimation, multiple importance sampling,
-// Russian roulette. Each is a pure function of (tracer, pixel, sample).
+// Path tracing: next-event estimation, multiple importance sampling, Russian roulette. Each path is
+// a pure function of (tracer, pixel, sample).
 #ifndef RAMIFY_RENDER_INTEGRATOR_H
 #define RAMIFY_RENDER_INTEGRATOR_H
 
@@ -10,7 +10,7 @@
 #include "render/sampler.h"
 #include "render/world.h"
 
-// What all paths share, read only.
+// The data that all paths share; read only.
 typedef struct Tracer {
     const World *world;
     const Accel *accel;
@@ -26,7 +26,7 @@ typedef struct Tracer {
     SobolTable sobol;
 } Tracer;
 
-// What one path brought home. The fields from albedo on are of the first surface it met.
+// The estimate of one path. albedo and the fields below it describe the first surface.
 typedef struct PathResult {
     Vec3 color;
     float alpha;
@@ -37,11 +37,11 @@ typedef struct PathResult {
     int object;
 } PathResult;
 
-// Prepares what of the above belongs to media. bounds: of the scene.
+// Fills outside, center, medium_radius and has_index_matched. bounds: of the scene.
 void tracer_set_media(Tracer *tracer, Aabb bounds);
 
-// Samples sample .. sample + count - 1 of pixel (x, y), count at most PACKET_SIZE: their camera
-// rays are traced together.
+// Traces samples sample .. sample + count - 1 of pixel (x, y), count <= PACKET_SIZE; their camera
+// rays are traced as one packet.
 void integrator_paths(const Tracer *tracer, int x, int y, int sample, int count,
                       PathResult result[]);
 

@@ -1,13 +1,12 @@
-// The state of a path, and what its parts (integrator.c, path_media.c, path_scatter.c) do with it.
-// Private to them.
+// The state of a path, shared by integrator.c, path_media.c and path_scatter.c. Private to them.
 #ifndef RAMIFY_RENDER_PATH_H
 #define RAMIFY_RENDER_PATH_H
 
 #include "render/integrator.h"
 #include "render/sky/dome.h"
 
-// Sets of random numbers: one for the camera, two for each bounce, and, for each stretch of a ray
-// through a medium, three more.
+// Indices of sets of random numbers: one for the camera, two per bounce, and three per stretch of a
+// ray through a medium.
 enum {
     SET_CAMERA = 0,
     SET_BSDF = 1,
@@ -19,15 +18,15 @@ enum {
 
 enum { DEEPEST_NESTING = 6 };
 
-// The bodies that a path is in, innermost last, and what fills the innermost.
+// The stack of bodies around a path, innermost last, and the medium inside the innermost.
 typedef struct Media {
     Filling now;
     int count;
     int body[DEEPEST_NESTING]; // materials
-    bool sheltered;            // in a body that shadow rays do not leave
+    bool sheltered;            // some body of the stack refracts: shadow rays cannot leave it
 } Media;
 
-// The state of a path between two surfaces.
+// A path between two surfaces.
 typedef struct Path {
     const Tracer *tracer;
     Sampler sampler;
@@ -36,45 +35,46 @@ typedef struct Path {
     Vec3 throughput;
     Media media;
     Vec3 direct, indirect;
-    LightReceiver from; // where the ray's direction was drawn
-    Vec3 start;         // where the ray left from there
-    float travelled; // m from there to the ray's origin, through films and index-matched interfaces
-    float bsdf_pdf;  // of the ray's direction; 0 where light sampling has no part in it
+    LightReceiver from; // the point where the ray's direction was sampled
+    Vec3 start;         // the origin of the ray that left it
+    float travelled; // m from start to the ray's origin, across films and index-matched interfaces
+    float bsdf_pdf;  // of the ray's direction; 0 if light sampling cannot find it
     float spread;    // radians: how fast the footprint grows
     float footprint; // m, at the ray's origin
     int depth;       // bounces so far
-    int stretches;   // through media so far
+    int stretches;   // of rays through media so far
     int crossings;   // of index-matched interfaces
-    bool mirrored;   // from the eye by mirrors only
-    bool straight;   // from the eye through films only
+    bool mirrored;   // only mirror reflections since the camera
+    bool straight;   // only films and index-matched interfaces since the camera
     int64_t rays;
 } Path;
 
-// fmaxf is a call into the library unless NaN may be ignored.
+// fmaxf compiles to a library call because of NaN.
 static inline float larger(float a, float b)
 {
     return a > b ? a : b;
 }
 
-// Adds to what the path brings home.
+// Adds throughput x radiance to the estimate.
 void path_add_light(Path *path, Vec3 radiance);
 
-// Ends weak paths by chance; false when this one ends.
+// Russian roulette with the uniform number u: false if it ends the path; else the throughput is
+// scaled up.
 bool path_survives(Path *path, float u);
 
 // ---- path_media.c
 
-// Through the surface of a body of this material.
+// Pushes a body of this material onto the stack, or removes it when leaving.
 void media_cross(Media *media, const Tracer *tracer, int material, bool leaving);
 
-// The medium along a ray that starts amid media. False where there is none.
+// The density of the medium along a ray that starts inside media. False if there is none.
 bool media_line(const Media *media, const Tracer *tracer, const Ray *ray, float far,
                 MediumLine *line);
 
-// Turns a ray toward where shadow rays end at the light, and makes it end there.
+// Redirects a shadow ray from its origin to the end point of the light sample.
 void path_aim(Ray *ray, const LightSample *light);
 
-// Does light come along the ray, and how much of it? media: where the ray starts.
+// Transmittance of a shadow ray that starts inside media; false if it is occluded.
 bool path_lets_through(Path *path, const Ray *ray, const LightSample *light, const Media *media,
                        Vec3 *share);
 
@@ -82,7 +82,7 @@ bool path_lets_through(Path *path, const Ray *ray, const LightSample *light, con
 
 typedef enum Travel { TRAVEL_ARRIVED, TRAVEL_SCATTERED, TRAVEL_ENDED } Travel;
 
-// Takes the path through the medium around it, up to what its ray meets at `far`.
+// Moves the path through the medium around it, up to the hit at distance `far`.
 Travel path_travel(Path *path, float far);
 
 #endif

@@ -1,4 +1,4 @@
-// Bodies that a path is in, and what shadow rays lose on their way.
+// The stack of media around a path, and the transmittance of shadow rays.
 #include "render/path.h"
 
 enum { MOST_CROSSINGS = 64 };
@@ -76,8 +76,8 @@ static void lose(const Media *media, const Tracer *tracer, const Ray *ray, float
     }
 }
 
-// From the ray's own start, which lies off its surface: aimed from the surface itself, the ray
-// would pass by the end, or meet the light's other faces on the way.
+// The ray is aimed from its offset origin. Aimed from the surface, it would miss the end point or
+// meet other faces of the light.
 void path_aim(Ray *ray, const LightSample *light)
 {
     if (isinf(light->distance)) {
@@ -91,7 +91,7 @@ void path_aim(Ray *ray, const LightSample *light)
     ray->part = light->part;
 }
 
-// Stretch by stretch, through films and index-matched interfaces.
+// Crosses films and index-matched interfaces one by one.
 static bool passes_bodies(Path *path, Ray ray, const LightSample *light, Media media, Vec3 *share)
 {
     const Tracer *tracer = path->tracer;

@@ -1,18 +1,17 @@
-// A path in a medium: where it scatters, and the light that its ray gathers on the way.
+// A path in a medium: where it scatters, and the light that is scattered into its ray.
 //
-// Light along a stretch is gathered at one point of it, drawn in one of two ways: by the angle
-// under which a pivot on a near light sees the stretch (Kulla and Fajardo, "Importance Sampling
-// Techniques for Path Tracing in Participating Media", EGSR 2012), or by how much of the ray is
-// left; both weighted by the balance heuristic. Apart from that the path itself scatters or passes
-// by chance, in one colour of three, weighted over all (Wilkie et al., "Hero Wavelength Spectral
-// Sampling", EGSR 2014).
+// In-scattered light is sampled at one point of each stretch. The point is drawn in one of two
+// ways: by equal angles about a pivot on a near light (Kulla and Fajardo, "Importance Sampling
+// Techniques for Path Tracing in Participating Media", EGSR 2012), or by transmittance; the balance
+// heuristic combines both. The path itself scatters or passes by a distance drawn for one of three
+// channels, weighted over all (Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014).
 #include "render/path.h"
 
 #include <stddef.h>
 
 enum { MOST_STRETCHES = 512 };
 
-// What the path carries, as shares of the channels that scatter.
+// The throughput of the channels that scatter, normalised to sum 1.
 static Vec3 channel_weights(Vec3 throughput, Vec3 carrying)
 {
     Vec3 w = vec3(carrying.x > 0.0f ? throughput.x : 0.0f, carrying.y > 0.0f ? throughput.y : 0.0f,
@@ -30,7 +29,7 @@ typedef struct Stretch {
     Vec3 weight; // of the channels
 } Stretch;
 
-// Angles under which a point sees a stretch.
+// The angles under which a pivot sees a stretch.
 typedef struct Fan {
     float foot, distance, angle0, angle1;
 } Fan;
@@ -54,8 +53,8 @@ static float fan_density(const Fan *fan, float t)
            ((fan->angle1 - fan->angle0) * (fan->distance * fan->distance + off * off));
 }
 
-// A point of the stretch and a light from there. False where the drawing came to nothing. *pdf: of
-// both together, per metre and steradian.
+// Draws a point of the stretch and a light sample from there; false if there is none. *pdf: of
+// both, per metre and steradian.
 static bool draw_gathering(const Path *path, const Stretch *s, const float u[4], const float v[4],
                            float *t, SegmentLight *light, float *pdf)
 {
@@ -92,7 +91,7 @@ static bool draw_gathering(const Path *path, const Stretch *s, const float u[4],
     return *pdf > 0.0f;
 }
 
-// Gathers at one point of the stretch.
+// In-scattered light at one point of the stretch.
 static Vec3 gather_once(Path *path, const Stretch *stretch, const float u[4], const float v[4])
 {
     const Filling *filling = &path->media.now;
@@ -119,15 +118,14 @@ static Vec3 gather_once(Path *path, const Stretch *stretch, const float u[4], co
     return vec3_scale(f, phase * density * power_heuristic(light->pdf, phase) / pdf);
 }
 
-// u moved on by a step, around the unit interval.
+// Cranley-Patterson rotation: u + step modulo 1.
 static float turned(float u, float step)
 {
     u += step;
     return u - floorf(u);
 }
 
-// What the eye's own ray gathers is most of the noise: it is gathered at several points, spread
-// evenly.
+// Most of the noise comes from the camera ray's stretch, so it is sampled at several points.
 static void gather_light(Path *path, const MediumLine *line)
 {
     enum { EYE_POINTS = 4 };
@@ -141,7 +139,7 @@ static void gather_light(Path *path, const MediumLine *line)
         channel_weights(path->throughput, path->media.now.scattering)};
     int points = path->depth == 0 ? EYE_POINTS : 1;
     Vec3 sum = vec3_splat(0.0f);
-    for (int i = 0; i < points; i++) { // steps that fill the interval evenly
+    for (int i = 0; i < points; i++) { // rank-1 steps fill the interval evenly
         float k = (float)i;
         float place[4] = {turned(u[0], k * 0.25f), turned(u[1], k * 0.6180340f),
                           turned(u[2], k * 0.4142136f), 0.0f};

@@ -10,7 +10,7 @@ typedef struct RenderParams {
     int max_depth;      // bounces
     int roulette_depth; // bounces before Russian roulette may end a path; max_depth = never
     uint64_t seed;
-    uint64_t noise_seed; // another number, another pattern of noise in the same picture
+    uint64_t noise_seed; // changes the pattern of noise and nothing else
     float clamp;         // upper bound on a sample's indirect luminance; 0 = none (unbiased)
     float max_noise; // adaptive: a tile stops when its estimated relative error is below this; 0 =
                      // off

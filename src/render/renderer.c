@@ -26,12 +26,12 @@ static bool build_lights(Renderer *renderer, const Run *run, Error *e)
 
 static bool build_accel(Renderer *renderer, const Run *run, Error *e)
 {
-    accel_free(renderer->accel); // first: two may not fit
+    accel_free(renderer->accel); // first, because two may not fit in memory
     renderer->accel = accel_new(renderer->world, renderer->materials, renderer->isa, run, e);
     return renderer->accel;
 }
 
-// A scene's world has every built-in material, and most of them are on nothing.
+// A world holds every built-in material; tables are made only for those that parts use.
 static MaterialSet *prepare_materials(const World *world, Error *e)
 {
     bool *used = memory_alloc_zero(world->material_count, sizeof *used, e);

@@ -9,42 +9,41 @@
 typedef struct World World;
 typedef struct Renderer Renderer;
 
-// Builds the acceleration structures (Embree). The world is borrowed and must outlive the renderer.
-// isa: NULL for the best of this machine, or "sse4.2" (sse2, avx, avx2, avx512) to pin it (golden
-// images). ERROR_MEMORY, not a crash, when the structures do not fit; progress stage "build".
-// isa is borrowed, too.
+// Builds the acceleration structures (Embree); progress stage "build". The world and isa are
+// borrowed and must outlive the renderer. isa: NULL for the best instruction set of this machine;
+// "sse4.2" (sse2, avx, avx2, avx512) pins it, for golden images. Fails with ERROR_MEMORY when the
+// structures do not fit.
 Renderer *renderer_new(const World *world, const char *isa, const Run *run, Error *e);
 void renderer_free(Renderer *renderer); // NULL is fine
 
-// What of the world is another than when the renderer was made or last updated. Camera, film and
-// RenderParams may change at any time between two pictures without a word; geometry never.
+// Flags: what changed since the last update. Camera, film and RenderParams may change between two
+// pictures without a flag; geometry must not change.
 enum {
-    RENDERER_SKY_TURNED = 1, // sky.rotation alone: costs nothing
-    RENDERER_LIGHT = 2,      // anything else of sky and medium
-    RENDERER_MATERIALS = 4,  // their values; number and order are the same
-    RENDERER_LAMPS = 8       // builds the acceleration structures anew, as lamps are part of them
+    RENDERER_SKY_TURNED = 1, // only sky.rotation: costs nothing
+    RENDERER_LIGHT = 2,      // any other value of sky and medium
+    RENDERER_MATERIALS = 4,  // values of materials; number and order must stay
+    RENDERER_LAMPS = 8       // lamps: rebuilds the acceleration structures, which hold them
 };
 
-// Brings up to date what was made from what changed (bits of the above). After a failure the
-// renderer can only be freed.
+// Updates what depends on the changed flags. After a failure the renderer can only be freed.
 bool renderer_update(Renderer *renderer, unsigned changed, const Run *run, Error *e);
 
 typedef struct RenderStats {
     int64_t paths, rays;
     double seconds;
     int64_t memory; // bytes held by the acceleration structures
-    int samples;    // taken per pixel (least over the pixels); 0 = some have none
+    int samples;    // per pixel, the least of all pixels; 0 = some have none
 } RenderStats;
 
-// Called after every pass over the image with what there is so far (passes double: 1, 2, 4, ...
-// samples, so a first picture is there at once). May be NULL.
+// Called after every pass with the film so far. Passes double (1, 2, 4, ... samples), so a first
+// picture appears at once. May be NULL.
 typedef void RenderPass(void *user, const Film *film, int samples);
 
-// Renders into film (made by film_new with the world's size; what was in it is replaced, but for
-// pixels outside the crop); progress stage "trace". Out of max_seconds it leaves a complete image
-// of fewer samples and returns true; stats->samples tells. Interrupted by run->cancelled it does
-// the same within some milliseconds; pixels that the first pass had not reached by then are black
-// and transparent, stats->samples is 0 then, and with no pixel at all it fails (ERROR_CANCELLED).
+// Renders into film, which film_new made with the world's size; pixels outside the crop keep their
+// values. Progress stage "trace". When max_seconds is over it leaves a complete image of
+// stats->samples samples and returns true. When run->cancelled is set it does the same within
+// milliseconds; pixels that the first pass did not reach are then black and transparent and
+// stats->samples is 0; if no pixel was rendered it fails with ERROR_CANCELLED.
 bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass *pass, void *user,
                      RenderStats *stats, Error *e);
 

@@ -50,8 +50,8 @@ static void direction_numbers(int dimension, uint32_t direction[32])
     }
 }
 
-// Indices come with their bits reversed and points are left with theirs reversed, because that is
-// the order in which the hash scrambles them.
+// Indices arrive and points leave with their bits reversed, the order in which the hash scrambles
+// them.
 void sobol_table_fill(SobolTable *table)
 {
     memset(table, 0, sizeof *table);
@@ -114,8 +114,8 @@ Sampler sampler_at(const SobolTable *table, uint64_t seed, uint32_t pixel, uint3
 void sampler_draw(const Sampler *sampler, uint32_t set, float u[4])
 {
     uint32_t key = mix(sampler->key + 0x9e3779b9u * (set + 1u));
-    // Taking off what index 0 becomes only shifts all points alike (the scrambling below is random
-    // anyway) and leaves no bit set above the index's own, so few words need be looked up.
+    // The point of index 0 is subtracted: this shifts all points alike, which the random scrambling
+    // hides, and leaves no bit set above the index's highest, so few words need to be looked up.
     uint32_t index = owen(sampler->reversed, key) ^ owen(0, key);
     Lanes x = {0, 0, 0, 0};
     for (int nibble = sampler->lowest; nibble < 8; nibble++) {

@@ -1,6 +1,6 @@
 // Owen-scrambled Sobol points: a sample is a pure function of (pixel, sample index, set of
-// dimensions, seed). Every decision on a path draws its own set of four numbers; sets are
-// independent of each other (padding), the four of one set are a scrambled 4-D Sobol sequence.
+// dimensions, seed). Every decision of a path draws its own set of four numbers. The four numbers
+// of a set are a scrambled 4-D Sobol sequence; sets are independent of each other (padding).
 // Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020.
 #ifndef RAMIFY_RENDER_SAMPLER_H
 #define RAMIFY_RENDER_SAMPLER_H

@@ -1,5 +1,4 @@
-// A point where a ray meets a surface: what materials are evaluated at. Filled by the world's
-// intersection code.
+// A point where a ray meets a surface, filled by accel_surface; materials are evaluated here.
 #ifndef RAMIFY_RENDER_SURFACE_H
 #define RAMIFY_RENDER_SURFACE_H
 

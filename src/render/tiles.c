@@ -14,7 +14,7 @@ enum { TILE_SIZE = 16, PASS_LIMIT = 64, LEAST_ADAPTIVE_SAMPLES = 16 };
 typedef struct Tile {
     int x0, y0, x1, y1;
     int samples; // taken so far
-    bool quiet;  // below the asked noise
+    bool quiet;  // its noise is below max_noise
 } Tile;
 
 typedef struct Job {
@@ -25,13 +25,13 @@ typedef struct Job {
     int tile_count;
     int64_t pixels;
     double start;
-    pthread_t caller; // the thread that hears of progress
+    pthread_t caller; // the thread that reports progress
     _Atomic int64_t rays, paths;
-    _Atomic int64_t settled; // paths traced or saved by adaptive stopping
+    _Atomic int64_t settled; // paths traced, or skipped by adaptive stopping
 } Job;
 
-// Brings the tile's pixels to `end` samples and counts rays and paths. Interrupted, the pixels left
-// over keep what they had, and the tile counts as it was: no pass comes after.
+// Renders the tile up to `end` samples per pixel. When cancelled, the remaining pixels and the
+// tile's count stay as they were; no further pass follows.
 static void render_tile(Job *job, Tile *tile, int end)
 {
     int64_t rays = 0, pixels = 0;
@@ -59,8 +59,8 @@ static void render_tile(Job *job, Tile *tile, int end)
     }
 }
 
-// Mean over the tile of a pixel's standard error relative to its luminance, with a floor that keeps
-// black from asking for ever.
+// Mean over the tile of each pixel's relative standard error. The floor keeps black pixels from
+// asking for samples for ever.
 static float tile_noise(const Film *film, const Tile *tile)
 {
     double sum = 0.0;
@@ -89,8 +89,9 @@ static void tell_progress(const Job *job)
     run_progress(job->run, "trace", fmin(done, 1.0));
 }
 
-// Brings every tile from `before` to `end` samples. Out of time, it finishes the tiles that were
-// begun, and the whole first pass, so that there is a whole picture; interrupted, it ends at once.
+// Renders every tile from `before` to `end` samples. When time is over it finishes the tiles in
+// work, and all of the first pass, so that the picture is complete; when cancelled it stops at
+// once.
 static void render_pass(Job *job, int before, int end)
 {
     const RenderParams *params = &job->tracer->world->render;
@@ -188,7 +189,7 @@ static void mark_unseen(const Job *job)
     }
 }
 
-// What an interrupted first pass did not reach is black and transparent, not an earlier picture.
+// Clears the pixels that a cancelled first pass did not reach: black and transparent.
 static void clear_unseen(const Job *job)
 {
     const PixelSum nothing = {.object = 0};
@@ -227,7 +228,7 @@ bool tiles_render(const Tracer *tracer, Film *film, const Run *run, RenderPass *
     bool done = true;
     if (run_is_cancelled(run)) {
         clear_unseen(&job);
-        done = job.paths > 0 || run_cancel_error(e); // before there was anything to show
+        done = job.paths > 0 || run_cancel_error(e); // not a single path was traced
     }
     free(job.tile);
     return done;

@@ -1,5 +1,5 @@
-// The description of what to render: plain data, filled by the scene and the models, read by the
-// renderer. Metres, degrees, Y up, right-handed, linear Rec. 709.
+// The description of what to render: plain data that scene/ fills and the renderer reads. Metres,
+// degrees, Y up, right-handed, linear Rec. 709.
 #ifndef RAMIFY_RENDER_WORLD_H
 #define RAMIFY_RENDER_WORLD_H
 
@@ -25,14 +25,14 @@ typedef struct World {
     Geometry geometry;
 } World;
 
-// A 40-degree pinhole camera 10 m in front of the origin at eye height, 1280 x 720 pixels, 64
-// samples, 8 bounces, an afternoon sun under a clear sky, nothing to see.
+// Defaults: a 40-degree pinhole camera 10 m in front of the origin at eye height, 1280 x 720
+// pixels, 64 samples, 8 bounces, an afternoon sun under a clear sky, no geometry.
 World world_default(void);
 
 World *world_new(Error *e); // the same on the heap
 void world_free(World *world);
 
-// Has some part of the geometry this material?
+// Does any part of the geometry have this material?
 bool world_uses_material(const World *world, int material);
 
 #endif

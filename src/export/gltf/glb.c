@@ -1,7 +1,7 @@
-// GLB: glTF 2.0 in one file. A header, the JSON that describes the scene, one buffer: of each part
-// the vertices (interleaved), the triangles and, where they stand at very many places, those
-// places; then the pictures. Everything is planned first, so that the JSON can stand before what it
-// describes, and then streamed.
+// GLB: glTF 2.0 in one file: a header, the JSON that describes the scene, and one buffer. The
+// buffer holds the vertices (interleaved) and triangles of each part, tables of many instances, and
+// pictures. Everything is planned first, because the JSON precedes what it describes, and then
+// streamed.
 #include "export/gltf/glb.h"
 
 #include "base/file_writer.h"
@@ -113,7 +113,7 @@ static void write_instances(const GlbWriter *writer)
     for (int kind = 0; kind < 3; kind++) {
         for (int64_t i = 0; i < part->instance_count; i++) {
             Placement p;
-            placement_from_transform(&part->instance[i], &p); // planned: it can
+            placement_from_transform(&part->instance[i], &p); // cannot fail: checked while planning
             if (kind == 1) {
                 file_writer_bytes(writer->file, p.rotation, sizeof p.rotation);
             } else {
@@ -172,7 +172,7 @@ static bool write_buffer(const Glb *glb, FileWriter *file, Error *e)
     return done;
 }
 
-// A chunk: its length, what it is ("JSON" or "BIN\0"), its bytes.
+// The head of a chunk: its length and type ("JSON" or "BIN\0").
 static void write_chunk_head(FileWriter *file, int64_t size, const char kind[4])
 {
     uint32_t length = (uint32_t)size;

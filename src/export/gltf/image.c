@@ -46,7 +46,7 @@ static bool read_bytes(const char *file, GlbImage *image, Error *e)
     return good || error_set(e, ERROR_IO, "'%s' cannot be read", file);
 }
 
-// Is it whole? Nobody looks at what is taken as it is.
+// Reads the picture to check it, since files that are copied are not decoded otherwise.
 static bool check_picture(const char *file, Error *e)
 {
     Image *picture = image_read(file, e);
@@ -54,7 +54,7 @@ static bool check_picture(const char *file, Error *e)
     return picture != NULL;
 }
 
-// PNG or JPEG, as it is.
+// Copies PNG and JPEG files unchanged.
 static bool take_file(GlbImage *image, const char *file, bool *taken, Error *e)
 {
     static const unsigned char png[4] = {0x89, 'P', 'N', 'G'}, jpeg[3] = {0xff, 0xd8, 0xff};
@@ -72,7 +72,7 @@ static bool take_file(GlbImage *image, const char *file, bool *taken, Error *e)
     return true;
 }
 
-// The channel's value at a place of `scale`, which may be finer.
+// The channel at pixel (x, y) of `scale`, which may have more pixels.
 static float pixel_at(const Image *image, int x, int y, const Image *scale, int channel)
 {
     int64_t column = (int64_t)x * image->width / scale->width;
@@ -80,7 +80,7 @@ static float pixel_at(const Image *image, int x, int y, const Image *scale, int 
     return image->pixel[(row * image->width + column) * image->channels + channel];
 }
 
-// Colour from one picture, alpha from another: as material_opacity has it. Either may be NULL, not
+// Colour from one picture, alpha from another, as in material_opacity. Either may be NULL, but not
 // both.
 static Image *combine(const Image *color, bool linear, const Image *alpha, Error *e)
 {
@@ -157,10 +157,9 @@ bool glb_add_image(Glb *glb, const Material *m, Error *e)
     return done;
 }
 
-enum { RAMP = 256 }; // shades: as many as 8 bits have, each where its own value is
+enum { RAMP = 256 }; // shades: every 8-bit value
 
-// The material's hue is in the picture, because Blender 3.4 loses a factor beside an emissive
-// texture.
+// The hue is in the picture because Blender 3.4 ignores the factor of an emissive texture.
 static Image *make_ramp(const Material *m, Error *e)
 {
     float most = fmaxf(m->radiance.x, fmaxf(m->radiance.y, m->radiance.z));

@@ -251,7 +251,7 @@ static bool any_gpu(const Glb *glb)
     return any;
 }
 
-// A reader that does not know of instances would show one of each: so they are required.
+// Required extensions: a reader without instancing would show one instance of each.
 static void put_extensions(const Glb *glb, FILE *json)
 {
     bool gpu = any_gpu(glb);

@@ -49,7 +49,7 @@ static float strongest_glow(const Glb *glb, const Material *m)
     return glb->strongest[m - glb->source->world->material];
 }
 
-// The strongest part of the radiance, where it is strongest.
+// The largest channel of the radiance at its strongest glow.
 static float brightness(const Glb *glb, const Material *m)
 {
     float glow = strongest_glow(glb, m);
@@ -99,7 +99,7 @@ static void put_number(FILE *json, const char *key, float value)
     json_put_float(json, value);
 }
 
-// How deep bodies of this material are, about: the least side of the largest one's box.
+// Approximate thickness of bodies of this material: the smallest side of the largest bounding box.
 static float thickness(const Glb *glb, const Material *m)
 {
     const World *world = glb->source->world;
@@ -114,7 +114,7 @@ static float thickness(const Glb *glb, const Material *m)
     return deepest;
 }
 
-// Light that is scattered away counts as absorbed: glTF has no more for it.
+// glTF has no scattering: scattered light counts as absorbed.
 static void put_volume(const Glb *glb, const Material *m, FILE *json)
 {
     Vec3 lost = vec3_add(m->absorption, m->scattering);

@@ -4,7 +4,7 @@
 
 #include <inttypes.h>
 
-// Radiances are in watts, glTF's lights in lumens, which its readers take for 1/683 W each.
+// Radiances are in watts, glTF's lights in lumens; readers take a lumen for 1/683 W.
 static const float LUMENS_PER_WATT = 683.0f;
 
 // ---- nodes: those of parts, of objects, of the camera, of lights
@@ -25,7 +25,7 @@ static void put_placement(FILE *json, const Placement *p)
     json_put_color(json, "scale", p->scale);
 }
 
-// Of a thing that looks along -z.
+// The rotation of an object that looks along -z.
 static void put_looking(FILE *json, Vec3 position, Vec3 x, Vec3 back)
 {
     Transform t = transform_from_axes(x, vec3_cross(back, x), back, position);
@@ -39,7 +39,7 @@ static void put_looking(FILE *json, Vec3 position, Vec3 x, Vec3 back)
     }
 }
 
-// The node of number `node`, and the one within it that has the mesh.
+// Node number `node`, and the node inside it that has the mesh.
 static void put_pair(FILE *json, int64_t node, int64_t mesh, const Transform *place)
 {
     Placement p;
@@ -76,7 +76,7 @@ static void put_whole(const Glb *glb, int64_t mesh, int64_t accessor, FILE *json
     fputc('}', json);
 }
 
-// accessor: the first one behind the part's; node: the number of the part's first.
+// accessor: the first after the part's own; node: number of the part's first node.
 static void put_part_nodes(const Glb *glb, int64_t mesh, int64_t accessor, int64_t node, FILE *json)
 {
     const GlbPart *part = &glb->part[mesh];
@@ -94,7 +94,7 @@ static void put_part_nodes(const Glb *glb, int64_t mesh, int64_t accessor, int64
     }
 }
 
-// The object's node with the nodes of its parts; false where it has none.
+// The object's node with the nodes of its parts; false if it has none.
 static bool put_object_node(const Glb *glb, int object, FILE *json)
 {
     int64_t node = 0;
@@ -153,7 +153,7 @@ void glb_put_camera(const Glb *glb, FILE *json)
     json_put_float(json, world->camera.fov * RADIANS_PER_DEGREE);
     fputs(",\"aspectRatio\":", json);
     json_put_float(json, aspect);
-    fputs(",\"znear\":", json); // readers need planes; what they cut off is far from the subject
+    fputs(",\"znear\":", json); // readers need clipping planes
     json_put_float(json, fmaxf(1e-3f * distance, 1e-5f));
     fputs(",\"zfar\":", json);
     json_put_float(json, fmaxf(1e4f * distance, 1.0f));
@@ -169,7 +169,7 @@ static void put_light_power(FILE *json, Vec3 power)
     json_put_float(json, LUMENS_PER_WATT * most);
 }
 
-// Far away a sphere is a point, a quad a spot that shines to one side.
+// From afar, a sphere is a point and a quad a spot that emits to one side.
 static void put_light(const Light *light, FILE *json)
 {
     bool quad = light->kind == LIGHT_QUAD;

@@ -6,9 +6,9 @@
 #include "export/vertex_colors.h"
 
 enum {
-    NODES_MOST = 4096, // places that become nodes of their own unless told otherwise
-    // Leaves and grass: Blender makes an object of each node, thousands in all. They are merged
-    // instead, which costs no more than about 100 MB of file.
+    NODES_MOST = 4096, // instances that become nodes by default
+    // Leaves and grass are merged, which costs at most about 100 MB of file: Blender makes an
+    // object of each node.
     COPIES_LEAST = 16,            // of a mesh that is merged
     SMALL_MOST = 1024,            // triangles of such a mesh
     MERGED_MOST = 2 * 1000 * 1000 // triangles of all that is merged
@@ -16,7 +16,7 @@ enum {
 
 // How a whole scene's instances are written.
 typedef struct Plan {
-    bool merges;       // those of small meshes with many copies
+    bool merges;       // small meshes with many instances
     int64_t instances; // that are not merged
 } Plan;
 
@@ -43,7 +43,7 @@ static Plan plan_placing(const Glb *glb)
     return (Plan){.merges = merges, .instances = merges ? all - small : all};
 }
 
-// What one node, or two, cannot say of a part's instances.
+// Reasons why one node, or two, cannot express a part's instances.
 typedef enum Trouble { TROUBLE_NONE, TROUBLE_SHEARED, TROUBLE_FLATTENED } Trouble;
 
 static Trouble trouble_of(const Part *part)
@@ -77,7 +77,7 @@ static GlbPlacing placing_of(const Glb *glb, int64_t index, const Plan *plan, bo
         return GLB_FLAT;
     }
     Trouble trouble = trouble_of(part);
-    if (trouble != TROUBLE_NONE) { // no table can say it
+    if (trouble != TROUBLE_NONE) { // a table cannot express it
         *refused = trouble == TROUBLE_FLATTENED || part->instance_count > NODES_MOST;
         return *refused ? GLB_FLAT : GLB_PAIRS;
     }
@@ -94,7 +94,7 @@ static void plan_vertex(const Glb *glb, const Part *part, GlbPart *own)
     const Material *material = &glb->source->world->material[part->material];
     own->normal = !mesh || mesh->normal;
     own->glow = glb->strongest[part->material] > 0.0f;
-    // a picture needs some, and a second set a first
+    // a picture needs uv, and a second set needs a first
     own->uv = !mesh || mesh->uv || glb_has_image(material) || own->glow;
     own->radius = !mesh || mesh->radius;
     own->birth = !mesh || mesh->birth;
@@ -124,7 +124,7 @@ static bool add_bounds(void *user, const ExportPiece *piece, Error *e)
     return true;
 }
 
-// All but its bounds.
+// Fills all members but the bounds.
 static bool plan_part(Glb *glb, int64_t index, const Plan *plan, Error *e)
 {
     const Part *part = &glb->source->world->geometry.part[index];

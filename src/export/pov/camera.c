@@ -1,5 +1,5 @@
-// The camera, by its vectors: position, the film's middle on the plane at distance 1, and the
-// film's sides. Lens shift is a middle that is not straight ahead.
+// The camera by its vectors: position, the film's middle on the plane at distance 1, and the film's
+// sides. With lens shift the middle is not straight ahead.
 #include "export/pov/pov.h"
 
 #include "render/camera.h"

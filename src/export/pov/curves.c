@@ -1,5 +1,5 @@
-// Round curves as the balls and cones that they are, or, where they are drawn many times, as tubes:
-// POV-Ray copies unions whole, but meshes not.
+// Round curves as spheres and cones; with many instances as tubes, because POV-Ray copies unions,
+// but not meshes.
 #include "export/pov/pov.h"
 
 #include "base/memory.h"
@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-// A ball at each point and between two the cone that touches both: just what the ray tracer sees.
+// A sphere at each point and the tangent cone between two: what the ray tracer renders.
 static void write_segment(Pov *pov, const CurveSet *curves, int64_t i, bool last)
 {
     Vec3 a = curves->position[i], b = curves->position[i + 1];
@@ -63,7 +63,7 @@ static void write_union(Pov *pov, int64_t number, const Part *part, const uint8_
     file_writer_text(pov->out, " }\n");
 }
 
-// Emission is counted from 0 to 1 of the brightest while colours are chosen.
+// Colours are chosen with emission scaled to 0 .. 1 of the brightest.
 static float brightest(const PovShades *shades)
 {
     float most = 1.0f;
@@ -96,7 +96,8 @@ static bool write_shaded_curves(Pov *pov, int64_t number, const Part *part, PovS
     return true;
 }
 
-// Sides of tubes: as many as keep a part small, since each corner is some 60 bytes of the file.
+// The number of sides of tubes that keeps a part small: each corner takes some 60 bytes of the
+// file.
 static int tube_sides(int64_t points)
 {
     const int64_t corners = 300000, most = 2 * CURVE_TUBE_SIDES;
@@ -104,8 +105,8 @@ static int tube_sides(int64_t points)
     return (int)(sides < CURVE_TUBE_SIDES ? CURVE_TUBE_SIDES : sides > most ? most : sides);
 }
 
-// A polygon with its corners on a circle is narrower from most sides; so much wider, it is as wide
-// as the circle on average.
+// A polygon inscribed in a circle is narrower from most sides; this factor makes it as wide on
+// average.
 static float tube_width(int sides)
 {
     float half_turn = PI_F / (float)sides;

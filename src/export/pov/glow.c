@@ -1,5 +1,5 @@
-// Glowing geometry shines through a few point lights along it, each as strong as what glows near
-// it: POV-Ray's surfaces that emit are only seen.
+// Emitting geometry as a few point lights along it, because surfaces that emit light nothing in
+// POV-Ray.
 #include "export/pov/pov.h"
 
 #include "base/color.h"
@@ -50,8 +50,8 @@ static void add_point(Glow *glow, Vec3 p, Vec3 power)
     cell->weight += weight;
 }
 
-// A convex body's mean projected area is a quarter of its surface. Long segments are several
-// points.
+// The mean projected area of a convex body is a quarter of its surface. Long segments become
+// several points.
 static void add_segment(Glow *glow, const Material *m, const CurveSet *curves, int64_t i,
                         const Transform *place)
 {
@@ -74,7 +74,7 @@ static void add_segment(Glow *glow, const Material *m, const CurveSet *curves, i
     }
 }
 
-// A quarter of what shines: of a closed body its outside, of a sheet both sides.
+// A quarter of the emitting area: the outside of a closed body, both sides of a sheet.
 static void add_face(Glow *glow, const Material *m, const Mesh *mesh, int64_t face,
                      const Transform *place, float share)
 {
@@ -91,7 +91,7 @@ static void add_face(Glow *glow, const Material *m, const Mesh *mesh, int64_t fa
     }
 }
 
-// closed: of each of a mesh's faces, or NULL.
+// closed: one per face of a mesh, or NULL.
 static void add_part(Glow *glow, const Part *part, const uint8_t *closed, const Material *m,
                      const Transform *place)
 {
@@ -151,7 +151,7 @@ static void glow_clear(Glow *glow)
     free(glow->cell);
 }
 
-// The finest grid of which few enough cells shine.
+// Fills the finest grid that has few enough lit cells; returns their number.
 static int fill_grid(Glow *glow)
 {
     for (glow->side = FINEST;; glow->side--) {
@@ -170,7 +170,7 @@ static int fill_grid(Glow *glow)
     }
 }
 
-// Well within what it stands for, a light grows no stronger.
+// fade_distance limits the light's strength inside of the geometry that it stands for.
 static void write_light(Pov *pov, const Cell *cell)
 {
     Vec3 place =

@@ -1,15 +1,15 @@
-// Lamps. POV-Ray's white diffuse surface facing a light of colour c shows c; in nature, under an
-// irradiance E, it shows E / pi. So every light's colour is irradiance over pi, and the factor 2 of
-// POV-Ray's fading, 2 / (1 + (d / fade_distance)^2), is taken out with it.
+// Lamps. In POV-Ray a white diffuse surface facing a light of colour c shows c; in nature it shows
+// E / pi under an irradiance E. So every light's colour is irradiance over pi, divided by the
+// factor 2 of POV-Ray's fading, 2 / (1 + (d / fade_distance)^2).
 #include "export/pov/pov.h"
 
 enum { LAMP_GRID = 8 }; // light points along a lamp's side; a power of two
 
-// fade_distance as a share of the lamp's size: so small that light falls with the square of the
-// distance to within a millionth.
+// fade_distance as a share of the lamp's size: small enough for an inverse square law to within a
+// millionth.
 static const float FADE_SHARE = 1e-3f;
 
-// Points of a grid stand in the middles of equal cells.
+// Points of a grid lie in the middle of equal cells.
 static float grid_side(float side)
 {
     return side * (float)(LAMP_GRID - 1) / (float)LAMP_GRID;
@@ -20,7 +20,7 @@ static void write_fade(Pov *pov, float distance)
     file_writer_print(pov->out, "    fade_distance %.9g fade_power 2\n}\n", (double)distance);
 }
 
-// A spotlight of tightness 1 shines by the cosine, as a lamp's face does.
+// A spotlight of tightness 1 has the cosine falloff of a lamp's face.
 static void write_quad(Pov *pov, const Light *light)
 {
     Vec3 normal = vec3_cross(light->edge_u, light->edge_v);
@@ -44,7 +44,7 @@ static void write_quad(Pov *pov, const Light *light)
     write_fade(pov, fade);
 }
 
-// From outside, a ball lights as all of it in its middle would.
+// Outside of it, a sphere lights like a point at its centre.
 static void write_ball(Pov *pov, const Light *light)
 {
     float radius = light->radius * pov->unit, fade = FADE_SHARE * radius;
@@ -59,8 +59,8 @@ static void write_ball(Pov *pov, const Light *light)
     write_fade(pov, fade);
 }
 
-// What is seen of a lamp. It casts no shadow, since its light starts within it, and radiosity must
-// not gather what the light source gives.
+// The visible surface of a lamp. It casts no shadow, since its light source lies inside, and
+// radiosity must not gather it a second time.
 static void write_face(Pov *pov, const Light *light)
 {
     if (light->kind == LIGHT_SPHERE) {

@@ -1,4 +1,4 @@
-// Materials, each a macro of the colours that differ from place to place.
+// Materials, each as a macro of the colours that vary over the surface.
 #include "export/pov/pov.h"
 
 #include "base/color.h"
@@ -29,14 +29,14 @@ static void write_name(Pov *pov, int material)
 
 // ---- finishes
 
-// POV-Ray mirrors sharply or not at all: how much of a glossy lobe is drawn as a mirror.
+// POV-Ray has no blurred reflection: the share of a glossy lobe that becomes a mirror.
 static float mirror_share(float roughness)
 {
     return 1.0f - smoothstepf(0.15f, 0.55f, roughness);
 }
 
-// POV-Ray's highlight is the cosine of the half vector to the power of 1 / roughness; the lobe of a
-// GGX alpha is about as wide as that to the power of 2 / alpha^2 - 2.
+// POV-Ray's highlight is the cosine of the half vector to the power of 1 / roughness; a GGX lobe of
+// this alpha is about as wide as the power 2 / alpha^2 - 2.
 static float highlight_roughness(float roughness)
 {
     float a2 = fmaxf(powf(roughness, 4.0f), 1e-6f);
@@ -51,9 +51,8 @@ static void write_highlight(Pov *pov, float albedo, float roughness, bool metall
     }
 }
 
-// Reflection that grows from straight on to grazing by Schlick's law, as ours does. Half of what a
-// rough metal gives back from lamps is drawn as a highlight, half as if it were
-// matt, which is also how it shows the sky.
+// Reflection follows Schlick's law, as in ours. Of the light of lamps that a rough metal reflects,
+// half becomes a highlight and half diffuse, which also shows the sky.
 static void write_conductor_finish(Pov *pov, float roughness)
 {
     float share = mirror_share(roughness), rest = 0.5f * (1.0f - share);
@@ -83,8 +82,8 @@ static void write_coated_finish(Pov *pov, const Appearance *a)
     file_writer_text(pov->out, " }");
 }
 
-// Two layers, each half clear and of twice the strength: POV-Ray has one colour for both sides of
-// light, a leaf has two.
+// Two layers, each half transparent and of twice the strength: POV-Ray has one colour for
+// reflection and transmission, a leaf has two.
 static void write_sheet(Pov *pov, const Appearance *a, bool picture, const char *pigment)
 {
     float f0 = 0.08f * a->specular, under = 1.0f - f0;
@@ -104,7 +103,7 @@ static void write_sheet(Pov *pov, const Appearance *a, bool picture, const char 
     file_writer_text(pov->out, " } }");
 }
 
-// Two waves meet: reflectance swings between 0 and twice its mean with the film's thickness.
+// Interference: reflectance varies between 0 and twice its mean with the film's thickness.
 static void write_film(Pov *pov, const Appearance *a)
 {
     float mean = thin_film_mean(a->ior, 1.0f);
@@ -155,7 +154,7 @@ static void write_absorption(Pov *pov, Vec3 absorption)
     }
 }
 
-// See pov_medium.c about the quarter.
+// medium.c explains the quarter.
 static void write_scattering(Pov *pov, const Material *m)
 {
     if (luminance(m->scattering) > 0.0f) {

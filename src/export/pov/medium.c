@@ -1,10 +1,10 @@
-// Haze and media: as fog of one colour, or, around lamps, as POV-Ray's own scattering media.
+// Haze and media as fog of one colour, or, around lamps, as POV-Ray's scattering media.
 #include "export/pov/pov.h"
 
 #include "base/color.h"
 #include "render/camera.h"
 
-// Of all directions: what a medium that scatters evenly shows of the sky.
+// The mean radiance of the sky over all directions, which isotropic scattering shows.
 static Vec3 mean_sky(const Pov *pov)
 {
     enum { DRAWS = 256 };
@@ -31,7 +31,7 @@ static void write_fog(Pov *pov, float distance, float top, float rise, Vec3 colo
     file_writer_text(pov->out, "\n}\n\n");
 }
 
-// Of the film's columns, or of all directions for a camera that looks straight up or down.
+// Directions through the film's columns, or all around if the camera looks straight up or down.
 static Vec3 horizon_direction(const Pov *pov, const CameraFrame *frame, float t)
 {
     const FilmParams *film = &pov->world->film;
@@ -50,8 +50,8 @@ static bool has_haze(const Sky *sky)
     return sky->kind != SKY_NONE && sky->haze_distance > 0.0f;
 }
 
-// Fog has one colour and haze that of the horizon behind it: what counts is the horizon that the
-// camera sees, which may be a third as bright as the mean of all when the sun is low.
+// Fog has one colour, haze that of the horizon behind it. The visible part of the horizon counts,
+// which may be a third as bright as the mean when the sun is low.
 static Vec3 haze_color(const Pov *pov)
 {
     enum { COLUMNS = 16 };
@@ -65,7 +65,7 @@ static Vec3 haze_color(const Pov *pov)
     return sum;
 }
 
-// Haze ends a little above the scene, or it would cover the sky.
+// Haze ends a little above the scene, so that it does not cover the sky.
 static float haze_rise(const Pov *pov)
 {
     return fmaxf(0.02f * pov->height, 1e-3f);
@@ -83,7 +83,7 @@ PovHaze pov_haze(const Pov *pov)
 
 Vec3 pov_haze_undo(const PovHaze *haze, Vec3 direction, Vec3 color)
 {
-    const float least = 0.25f; // what is left of the sky's own light; below that, haze alone shows
+    const float least = 0.25f; // transmittance; below it only haze shows
     if (!(haze->depth > 0.0f) || !(direction.y > 0.0f)) {
         return color;
     }
@@ -92,7 +92,7 @@ Vec3 pov_haze_undo(const PovHaze *haze, Vec3 direction, Vec3 color)
     return vec3_max(vec3_scale(own, 1.0f / fmaxf(left, least)), vec3_splat(0.0f));
 }
 
-// A medium's colour far into it: what it scatters of what it takes, under sky and sun.
+// The colour deep in a medium: its albedo under sky and sun.
 static Vec3 medium_color(const Pov *pov)
 {
     const Medium *m = &pov->world->medium;
@@ -107,7 +107,8 @@ static Vec3 medium_color(const Pov *pov)
 }
 
 // POV-Ray's phase functions are 1 where nature's are 1 / 4 pi, and its lights are irradiance over
-// pi: a quarter of the scattering gives the same light, and four times as much fades it as before.
+// pi: a quarter of the scattering gives the same light, and an extinction of four times that gives
+// the same fading.
 static void write_scattering(Pov *pov)
 {
     const Medium *m = &pov->world->medium;

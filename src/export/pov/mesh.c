@@ -10,7 +10,7 @@
 
 enum { SMALL_MESH = 256 };
 
-// A mesh on its way out.
+// A mesh to be written.
 typedef struct MeshJob {
     const Mesh *mesh;
     float scale;          // of positions
@@ -23,7 +23,7 @@ typedef struct MeshJob {
 
 // ---- meshes
 
-// What is one corner's place after another.
+// The text of one vertex.
 static char *put_vec3(char *out, Vec3 v)
 {
     *out++ = '<';
@@ -35,8 +35,7 @@ static char *put_vec3(char *out, Vec3 v)
 
 enum { VECTOR_ROOM = 3 * (FLOAT_TEXT_MOST + 1) + 4, FACE_ROOM = 6 * (INTEGER_TEXT_MOST + 1) + 4 };
 
-// file_writer_room asks for the whole room; what is not used goes back as bytes, so lines are made
-// here and copied.
+// Lines are made here and copied: file_writer_room would reserve the longest line each time.
 static void write_vec3s(Pov *pov, const char *name, const Vec3 *v, int64_t count, float scale)
 {
     char text[VECTOR_ROOM];
@@ -52,7 +51,7 @@ static void write_normals(Pov *pov, const MeshJob *job)
     char text[VECTOR_ROOM];
     file_writer_print(pov->out, "normal_vectors { %lld,\n", (long long)job->mesh->vertex_count);
     for (int64_t i = 0; i < job->mesh->vertex_count; i++) {
-        Vec3 n = job->normal[i]; // rounded to what is left to see of a direction
+        Vec3 n = job->normal[i]; // rounded to visible precision
         n = vec3(roundf(n.x * 1e5f) / 1e5f, roundf(n.y * 1e5f) / 1e5f, roundf(n.z * 1e5f) / 1e5f);
         n = vec3_dot(n, n) > 0.0f ? n : vec3(0.0f, 1.0f, 0.0f);
         file_writer_bytes(pov->out, text, (size_t)(put_vec3(text, n) - text));
@@ -75,7 +74,7 @@ static void write_uvs(Pov *pov, const Mesh *mesh)
     file_writer_text(pov->out, "}\n");
 }
 
-// POV-Ray leaves out triangles without area, with a warning for each.
+// POV-Ray skips triangles without area, with a warning each.
 static bool has_area(const Mesh *mesh, const uint32_t t[3])
 {
     Vec3 a = mesh->position[t[0]];
@@ -136,7 +135,7 @@ static void write_palette(Pov *pov, const MeshJob *job)
     file_writer_text(pov->out, "}\n");
 }
 
-// What stands between "mesh2 {" and its closing brace, without a texture for all.
+// The contents of "mesh2 { }", without a texture for all.
 static void write_mesh(Pov *pov, const MeshJob *job, int64_t triangles)
 {
     const Mesh *mesh = job->mesh;
@@ -177,13 +176,13 @@ static void own_colors(const Material *m, Palette *colors)
     colors->second[0] = m->transmittance;
 }
 
-// shade: of each instance, the number of its texture; NULL = the first.
+// shade: for each instance, the index of its texture; NULL = the first.
 static void write_instances(Pov *pov, const MeshJob *job, const Part *part, const uint8_t *shade)
 {
     long long number = job->number;
     for (int64_t i = 0; i < part->instance_count && !run_is_cancelled(pov->run); i++) {
         file_writer_print(pov->out, "object { P%lld", number);
-        if (!job->shade) { // else the mesh has its textures already
+        if (!job->shade) { // else the mesh has textures
             file_writer_print(pov->out, " texture { P%lld_%d }", number, shade ? shade[i] : 0);
         }
         write_matrix(pov, &part->instance[i]);
@@ -192,7 +191,7 @@ static void write_instances(Pov *pov, const MeshJob *job, const Part *part, cons
     }
 }
 
-// Colours of the instances of a small mesh: few, each for all that are about alike.
+// Quantises the colours of the instances of a small mesh to a palette.
 static bool shade_instances(Pov *pov, const Part *part, Palette *colors, uint8_t **shade)
 {
     PovShades shades;
@@ -242,7 +241,7 @@ static void write_single(Pov *pov, MeshJob *job, int64_t triangles)
     file_writer_text(pov->out, " }\n");
 }
 
-// Each vertex gets one of few textures, which POV-Ray blends over the triangles.
+// Assigns each vertex one of a few textures, which POV-Ray interpolates over the triangles.
 static bool shade_vertices(Pov *pov, const Part *part, PovShades *shades, Palette *colors,
                            uint8_t **shade)
 {

@@ -4,7 +4,8 @@
 
 #include <stdlib.h>
 
-// Colours are counted in cells of equal steps of their square root, about as the eye sees them.
+// Histogram cells have equal steps of the square root of the colour, about as the eye perceives
+// them.
 enum { STEPS = 64, CELLS = STEPS * STEPS * STEPS };
 
 typedef struct Cell {
@@ -32,7 +33,7 @@ static const Cell *cell_at(const Cell *cell, const int place[3])
     return cell + (place[0] * STEPS + place[1]) * STEPS + place[2];
 }
 
-// Shrinks a box to what is in it and counts that.
+// Shrinks a box to its filled cells and counts them.
 static void box_fit(Box *box, const Cell *cell)
 {
     Box fit = {{STEPS, STEPS, STEPS}, {0, 0, 0}, 0.0};
@@ -76,7 +77,7 @@ static double slice_count(const Box *box, const Cell *cell, int side, int at)
     return slice.count;
 }
 
-// Halves a box's places across its longest side.
+// Splits a box at the median of its longest side.
 static Box box_split(Box *box, const Cell *cell)
 {
     int side = longest_side(box), at = box->low[side];
@@ -91,7 +92,7 @@ static Box box_split(Box *box, const Cell *cell)
     return other;
 }
 
-// Boxes that hold many places of unlike colours are split first.
+// Chooses the box to split: many places and a large spread of colours.
 static int box_choose(const Box *box, int count)
 {
     int best = -1;
@@ -125,7 +126,7 @@ static void fill_cells(const Vec3 *color, const Vec3 *second, int64_t count, Cel
     }
 }
 
-// The box's mean colours; its cells are told its number.
+// Computes the box's mean colours and stores its number in its cells.
 static void take_box(const Box *box, const Cell *cell, int number, Palette *palette, uint8_t *entry)
 {
     double color[3] = {0}, second[3] = {0};

@@ -1,5 +1,4 @@
-// Pictures that materials are painted with, baked with the material's colour and cut out by its
-// alpha picture: one PNG each, whatever the sources were.
+// Textures of materials, baked with the material's colour and its alpha texture into one PNG each.
 #include "export/pov/pov.h"
 
 #include "image/image.h"
@@ -19,8 +18,8 @@ bool pov_make_folder(Pov *pov)
                      strerror(errno));
 }
 
-// Alpha if there is any, else the first channel; as the renderer has it, but not smoothed: POV-Ray
-// does that.
+// Alpha if the picture has it, else the first channel, as in the renderer; not filtered, since
+// POV-Ray filters it.
 static float opacity_at(const Image *alpha, int x, int y, const Image *out)
 {
     int64_t column = (int64_t)x * alpha->width / out->width;
@@ -29,7 +28,7 @@ static float opacity_at(const Image *alpha, int x, int y, const Image *out)
     return pixel[alpha->channels % 2 == 0 ? alpha->channels - 1 : 0];
 }
 
-// Colours are looked up as the renderer does, at the texels' middles.
+// Colours are looked up as in the renderer, at the centres of the texels.
 static void fill_picture(const Material *m, const Texture *color, const Image *alpha, Image *out)
 {
     float du = 1.0f / (float)out->width, dv = 1.0f / (float)out->height;

@@ -1,15 +1,14 @@
-// A scene for POV-Ray 3.7, which it renders as it is. docs/povray.md says what becomes of what, and
-// what is lost on the way.
+// A scene for POV-Ray 3.7, ready to render. docs/povray.md has the mapping and what is lost.
 //
-// The scene's own axes are kept: the camera is given by its vectors, which no handedness can
-// mirror. Lengths are multiplied by a power of ten, so that POV-Ray's fixed tolerances of a
-// thousandth of a unit are small against everything.
+// The scene keeps its axes: the camera is given by its vectors, so handedness does not matter.
+// Lengths are multiplied by a power of ten, so that POV-Ray's fixed tolerances of a thousandth of a
+// unit are small.
 #include "export/pov/pov.h"
 #include "export/formats.h"
 
 #include "base/number_text.h"
 #include "export/asset_path.h"
-#include "export/bounds.h"
+#include "mesh/geometry_measure.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -63,7 +62,7 @@ static void measure_world(Pov *pov)
 {
     const World *world = pov->world;
     Aabb box = aabb_add(aabb_empty(), world->camera.position);
-    box = aabb_union(box, geometry_bounds(&world->geometry));
+    box = aabb_union(box, geometry_bounds(&world->geometry, 0));
     for (int i = 0; i < world->light_count; i++) {
         box = aabb_union(box, light_bounds(&world->light[i]));
     }
@@ -95,7 +94,7 @@ static void write_head(Pov *pov, const char *title)
                       "#version 3.7;\n",
                       name_of(title), name_of(pov->file), film->width, film->height,
                       (double)pov->unit);
-    // A picture is looked at up to this many transparent layers deep.
+    // max_trace_level bounds the number of transparent layers in front of each other.
     file_writer_text(pov->out, "global_settings {\n"
                                "    assumed_gamma 1.0\n"
                                "    max_trace_level 40\n"
@@ -133,7 +132,7 @@ static bool write_scene(Pov *pov, const char *title)
     return pov_glow(pov) && pov_materials(pov) && write_parts(pov);
 }
 
-// "scenes/oak.pov" keeps its pictures in "scenes/oak-textures".
+// "scenes/oak.pov" has its pictures in "scenes/oak-textures".
 static bool name_folder(Pov *pov)
 {
     pov->folder = asset_beside(pov->file, "-textures", pov->e);
@@ -165,7 +164,7 @@ bool export_pov(const ExportSource *source, const char *file, const Run *run, Er
     measure_world(&pov);
     bool whole = make_lights(&pov) && write_scene(&pov, source->title);
     lights_free(pov.lights);
-    rmdir(pov.folder); // nothing was put there, now or by a run that was killed; else it stays
+    rmdir(pov.folder); // removes it only if it is empty
     free(pov.folder);
     if (whole && run_is_cancelled(run)) {
         whole = run_cancel_error(e);

@@ -44,8 +44,8 @@ static PatternShade shade_at(const Material *m, const SurfacePoint *point)
 
 // ---- meshes
 
-// The vertex as one of the face's corners. Its footprint is the face's size: finer features fade
-// into their mean.
+// A vertex as a corner of the face. The footprint is the size of the face: finer details fade into
+// their mean.
 static SurfacePoint vertex_point(const Mesh *mesh, uint32_t vertex, int64_t face,
                                  const Transform *place, float variation)
 {
@@ -68,7 +68,7 @@ static SurfacePoint vertex_point(const Mesh *mesh, uint32_t vertex, int64_t face
     return point;
 }
 
-// A face of each vertex; -1 where it has none.
+// One face of each vertex; -1 if it has none.
 static int64_t *faces_of(const Mesh *mesh, Error *e)
 {
     int64_t *face = memory_alloc(mesh->vertex_count, sizeof *face, e);
@@ -109,7 +109,7 @@ bool pov_shade_mesh(const Material *m, const Mesh *mesh, const Transform *place,
 
 // ---- curves
 
-// Four sides of the segment's middle: a pattern that goes round it shows its mean.
+// Averages four sides of the segment's middle, for patterns that vary around it.
 static Vec3 segment_color(const Material *m, const CurveSet *curves, int64_t i)
 {
     Vec3 axis = vec3_sub(curves->position[i + 1], curves->position[i]);
@@ -162,11 +162,11 @@ bool pov_shade_curves(const Material *m, const CurveSet *curves, PovShades *shad
 
 // ---- instances
 
-// At most this many faces stand for a mesh.
+// At most this many faces are sampled for the mean of a mesh.
 enum { MEAN_FACES = 32 };
 
-// The corners' attributes blended within a triangle: vertices stand on veins and edges more often
-// than the surface does.
+// Interpolates inside of a triangle, because vertices lie on veins and edges more often than the
+// surface does.
 static SurfacePoint inner_point(const Mesh *mesh, int64_t face, const uint32_t corner[3],
                                 const float weight[3], const Transform *place, float variation)
 {

@@ -11,7 +11,7 @@
 
 enum { SUN_GRID = 8 };
 
-// How far away the sun stands, in radii of the scene: its rays are parallel to 0.006 degrees.
+// Distance of the sun in radii of the scene: its rays are parallel to 0.006 degrees.
 static const float SUN_AWAY = 1e4f;
 static const float SKY_AWAY = 100.0f;
 
@@ -25,7 +25,7 @@ static Vec3 texel_direction(int x, int y, int width, int height)
     return vec3(cosf(rise) * cosf(turn), sinf(rise), cosf(rise) * sinf(turn));
 }
 
-// A direction beside the sun instead of one in it: the disc is an object of its own.
+// Moves a direction inside the sun's disc beside it: the disc is a separate object.
 static Vec3 beside_sun(const Sun *sun, Vec3 direction)
 {
     if (!sun || !sun_covers(sun, direction)) {
@@ -89,7 +89,7 @@ static void write_sky_pigment(Pov *pov)
     }
 }
 
-// What the camera shall not see stands around the scene as a ball that shines inward.
+// Light that the camera must not see comes from a sphere around the scene that emits inward.
 static void write_sky(Pov *pov)
 {
     if (pov->world->sky.visible) {
@@ -108,7 +108,7 @@ static void write_sky(Pov *pov)
 
 // ---- the sun
 
-// Far off instead of parallel: only so has it an angular size.
+// A distant light, not a parallel one, which has no angular size.
 static void write_sun(Pov *pov)
 {
     const Sun *sun = pov->sun;
@@ -144,8 +144,8 @@ static bool is_dark(const Sky *sky)
            (sky->kind == SKY_CONSTANT && !(luminance(sky->color) > 0.0f));
 }
 
-// Leaves and grass have few neighbours in their plane, so most pixels there gather for themselves.
-// Wide reuse, one bounce and, in the last pass, no samples beyond the first keep that affordable.
+// Leaves and grass have few neighbours in their plane, so most pixels there gather on their own.
+// Wide reuse, one bounce and no further samples in the last pass keep that affordable.
 static void write_radiosity(Pov *pov)
 {
     file_writer_text(pov->out, "// Light of the sky, and light between surfaces: 0 leaves it out.\n"
@@ -163,7 +163,7 @@ bool pov_sky(Pov *pov)
 {
     const Sky *sky = &pov->world->sky;
     bool dark = is_dark(sky);
-    if (pov->world->render.max_depth > 1) { // radiosity would add a bounce
+    if (pov->world->render.max_depth > 1) { // radiosity adds a bounce
         write_radiosity(pov);
     }
     if (dark) {

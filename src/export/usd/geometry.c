@@ -1,10 +1,10 @@
-// Meshes, curves and instances in USD's text format: one Xform an object, one prim a part.
-#include "export/bounds.h"
+// Meshes, curves and instances in USD's text format: one Xform per object, one prim per part.
 #include "export/placement.h"
 #include "export/usd/usda.h"
 #include "export/vertex_colors.h"
 
 #include "base/memory.h"
+#include "mesh/geometry_measure.h"
 #include "render/material/appearance.h"
 
 #include <stdio.h>
@@ -52,7 +52,7 @@ static bool mesh_prim(Usda *usda, const Part *part, const char *name, Error *e)
     usda_line(text, "uniform token subdivisionScheme = \"none\"");
     usda_line(text, "uniform token orientation = \"rightHanded\"");
     usda_line(text, "uniform bool doubleSided = 1");
-    usda_extent(text, part_shape_bounds(part));
+    usda_extent(text, part_bounds(part));
     usda_repeated(text, "int[] faceVertexCounts", mesh->face_size, mesh->face_count);
     usda_indices(text, "int[] faceVertexIndices", mesh->index, mesh->face_count * mesh->face_size);
     usda_vec3s(text, "point3f[] points", mesh->position, vertices, NULL);
@@ -96,7 +96,7 @@ static void curve_widths(UsdaText *text, const CurveSet *curves)
     usda_array_end(text, "vertex");
 }
 
-// The light of each point, which the material reads.
+// The emission of each point, which the material reads.
 static void curve_emission(UsdaText *text, const CurveSet *curves, Vec3 radiance)
 {
     usda_array_begin(text, "color3f[] primvars:emission");
@@ -116,7 +116,7 @@ static bool curves_prim(Usda *usda, const Part *part, const char *name, Error *e
     bind_material(usda, part);
     usda_line(text, "uniform token type = \"linear\"");
     usda_line(text, "uniform token wrap = \"nonperiodic\"");
-    usda_extent(text, part_shape_bounds(part));
+    usda_extent(text, part_bounds(part));
     curve_counts(text, curves);
     usda_vec3s(text, "point3f[] points", curves->position, curves->point_count, NULL);
     curve_widths(text, curves);
@@ -138,7 +138,7 @@ static bool shape_prim(Usda *usda, const Part *part, const char *name, Error *e)
 
 // ---- instances
 
-// What is written of each instance that a PointInstancer can hold.
+// The attributes of instances that a PointInstancer stores.
 typedef enum Column { POSITION, ORIENTATION, SCALE, VARIATION, INDEX } Column;
 
 static void instance_column(UsdaText *text, const Part *part, Column column, const char *name)
@@ -166,10 +166,10 @@ static void instance_column(UsdaText *text, const Part *part, Column column, con
     usda_array_end(text, column == VARIATION ? "vertex" : NULL);
 }
 
-// Of the instances that a PointInstancer can hold; *sheared counts the others.
+// Bounds of the instances that a PointInstancer can express; *sheared counts the others.
 static Aabb instancer_bounds(const Part *part, int64_t *sheared)
 {
-    Aabb own = part_shape_bounds(part), all = aabb_empty();
+    Aabb own = part_bounds(part), all = aabb_empty();
     Placement placement;
     *sheared = 0;
     for (int64_t i = 0; i < part->instance_count && !aabb_is_empty(own); i++) {
@@ -182,7 +182,7 @@ static Aabb instancer_bounds(const Part *part, int64_t *sheared)
     return aabb_is_empty(all) ? (Aabb){vec3_splat(0.0f), vec3_splat(0.0f)} : all;
 }
 
-// A PointInstancer knows no shear: such instances are prims that refer to its prototype.
+// A PointInstancer cannot shear: sheared instances are prims that reference its prototype.
 static void sheared_instances(Usda *usda, const Part *part, const char *object, const char *name)
 {
     UsdaText *text = &usda->text;
@@ -230,7 +230,7 @@ static bool instanced_part(Usda *usda, const Part *part, const char *object, con
 
 // ---- objects
 
-// Nothing to see, and no bounds to tell.
+// Has the part no geometry, and so no bounds?
 static bool is_empty(const Part *part)
 {
     bool bare = part->mesh ? part->mesh->face_count == 0 : part->curves->curve_count == 0;

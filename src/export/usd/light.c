@@ -1,10 +1,10 @@
 // Camera, lamps, sky and sun in USD's text format.
 #include "base/color.h"
 #include "export/asset_path.h"
-#include "export/bounds.h"
 #include "export/sky_bake.h"
 #include "export/usd/usda.h"
 
+#include "mesh/geometry_measure.h"
 #include "render/camera.h"
 #include "render/sky/dome.h"
 
@@ -17,10 +17,10 @@ enum { SKY_COLUMNS = 1024 };
 
 // ---- camera ----
 
-// Far enough for all of the world.
+// Distance of the far plane, beyond the whole world.
 static float far_distance(const World *world)
 {
-    Aabb all = geometry_bounds(&world->geometry);
+    Aabb all = geometry_bounds(&world->geometry, 0);
     if (aabb_is_empty(all)) {
         return 1000.0f;
     }
@@ -29,7 +29,7 @@ static float far_distance(const World *world)
     return fmaxf(1.01f * vec3_length(reach), 1.0f);
 }
 
-// As if the film were 24 mm high. Lengths of the lens are in tenths of the stage's unit.
+// For a film of 24 mm height. Lens lengths are in tenths of the stage's unit.
 void usda_camera(Usda *usda)
 {
     const World *world = usda->source->world;
@@ -61,7 +61,7 @@ void usda_camera(Usda *usda)
 
 // ---- lights ----
 
-// Light of one hue is said as a colour up to 1 and an intensity.
+// Writes radiance as a colour of at most 1 and an intensity.
 static void radiance(UsdaText *text, Vec3 value)
 {
     float most = fmaxf(value.x, fmaxf(value.y, value.z));
@@ -95,7 +95,7 @@ static void sphere(UsdaText *text, const Light *light, int index)
     usda_end(text);
 }
 
-// The intensity of a distant light that is normalised is its irradiance.
+// The intensity of a normalised distant light is its irradiance.
 static void sun_light(UsdaText *text, const Sun *sun)
 {
     if (!(luminance(sun->radiance) > 0.0f)) {
@@ -129,7 +129,7 @@ static bool dome_picture(Usda *usda, const char *picture, Error *e)
     return done;
 }
 
-// The picture of the sky is a file beside the one being written.
+// Bakes the sky into a picture file beside the exported one.
 static bool baked_dome(Usda *usda, Error *e)
 {
     const char *slash = strrchr(usda->file, '/');

@@ -1,5 +1,5 @@
-// Materials as UsdPreviewSurface, which knows a diffuse colour under a coat, metal, emission and
-// plain transparency, and textures by the mesh's uv.
+// Materials as UsdPreviewSurface: diffuse under a coat, metal, emission and plain transparency,
+// with textures by the mesh's uv.
 #include "export/asset_path.h"
 #include "export/usd/usda.h"
 
@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-// What clouds a dielectric hides what is behind it: as much as a centimetre of it does.
+// Opacity of a dielectric that scatters: that of a layer of one centimetre.
 static float cloudiness(const Material *m)
 {
     float mean = (m->scattering.x + m->scattering.y + m->scattering.z) / 3.0f;
@@ -67,7 +67,7 @@ static void place_reader(UsdaText *text)
     usda_end(text);
 }
 
-// An alpha texture's last channel is its alpha if it has one, else its first counts.
+// The channel of an alpha texture: alpha if it has one, else the first.
 static bool opacity_channel(const char *picture, char *channel, Error *e)
 {
     Image *image = image_read(picture, e);

@@ -1,4 +1,4 @@
-// Writing USD's text format (usda), value by value. Private to usda*.c.
+// Writes USD's text format (usda), value by value. Private to export/usd.
 #ifndef RAMIFY_EXPORT_USD_TEXT_H
 #define RAMIFY_EXPORT_USD_TEXT_H
 
@@ -14,23 +14,22 @@ typedef struct UsdaText {
 
 enum { USDA_NAME = 96 };
 
-// `text` as an identifier that USD takes: other characters become _, and a digit in front gets one
-// before it.
+// `text` as a USD identifier: other characters become _, and a leading digit gets one before it.
 void usda_identifier(const char *text, char name[USDA_NAME]);
 
 // A line of its own, indented.
 void usda_line(UsdaText *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// A prim: the line that defines it, its metadata in parentheses (NULL = none), then what stands
-// between begin and end.
+// A prim: the line that defines it, its metadata in parentheses (NULL = none); its contents follow
+// up to usda_end.
 void usda_begin(UsdaText *text, const char *metadata, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void usda_end(UsdaText *text);
 
-// A text in quotation marks; what would end it early is escaped.
+// A quoted string, escaped.
 void usda_quoted(UsdaText *text, const char *before, const char *value);
 
-// The name of another file: "asset inputs:file".
+// The path of another file: "asset inputs:file".
 void usda_asset(UsdaText *text, const char *declaration, const char *path);
 
 // `declaration` is the type and name: "float inputs:radius".
@@ -48,13 +47,13 @@ void usda_indices(UsdaText *text, const char *declaration, const uint32_t *value
 void usda_repeated(UsdaText *text, const char *declaration, int value, int64_t count);
 void usda_extent(UsdaText *text, Aabb box);
 
-// The same piece by piece: the array's beginning, `count` elements of `size` floats (in
-// parentheses where there are several), and its end.
+// An array piece by piece: its beginning, `count` elements of `size` floats (in parentheses if
+// several), its end.
 void usda_array_begin(UsdaText *text, const char *declaration);
 void usda_array_add(UsdaText *text, bool first, const float *value, int size, int64_t count);
 void usda_array_end(UsdaText *text, const char *interpolation);
 
-// A transform as the prim's only one.
+// The only transform of a prim.
 void usda_transform(UsdaText *text, const Transform *t);
 
 #endif

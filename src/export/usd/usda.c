@@ -1,5 +1,5 @@
 // USD's text format (usda, version 1.0; openusd.org): geometry, instances, materials, camera and
-// lights of a scene, in metres with +Y up. docs/formats.md says what becomes of what.
+// lights of a scene, in metres with +Y up. docs/formats.md has the mapping.
 #include "export/usd/usda.h"
 
 #include "base/memory.h"
@@ -18,7 +18,7 @@ static bool is_taken(char (*name)[USDA_NAME], int count, const char *wanted)
     return taken;
 }
 
-// Identifiers of all materials, each its own.
+// Unique identifiers of all materials.
 static void name_materials(const World *world, char (*name)[USDA_NAME])
 {
     for (int i = 0; i < world->material_count; i++) {

@@ -1,4 +1,4 @@
-// What the files of the usda exporter share. Private to usda*.c.
+// Shared by the files of the USD exporter. Private to export/usd.
 #ifndef RAMIFY_EXPORT_USD_USDA_H
 #define RAMIFY_EXPORT_USD_USDA_H
 
@@ -15,18 +15,19 @@ typedef struct Usda {
     char (*material)[USDA_NAME]; // identifier of each of the world's materials
     bool *used;                  // of each: whether a part has it
     bool *glows;                 // of each: whether some of its curves glow unevenly
-    Image *sky;                  // owned: the dome's picture, that is yet to be written; or NULL
+    Image *sky;                  // owned: the picture of the dome, not yet written; or NULL
 } Usda;
 
-// The prims /World/Camera and /World/Lights (usda_light.c), /World/Materials (usda_material.c),
-// and one for each object (usda_geometry.c). False and e when something they need is missing or
-// the run was cancelled; failures of the file itself show when it is closed.
+// Write the prims /World/Camera and /World/Lights (light.c), /World/Materials (material.c), and one
+// per object (geometry.c). They fail if something they need is missing or the run was cancelled;
+// errors of the file itself are reported when it is closed.
 void usda_camera(Usda *usda);
 bool usda_lights(Usda *usda, Error *e);
 bool usda_materials(Usda *usda, Error *e);
 bool usda_objects(Usda *usda, Error *e);
 
-// Writes the dome's picture, if there is one: last, so that no failure before it harms an old one.
+// Writes the dome's picture, if there is one. Last, so that an earlier failure leaves an old
+// picture intact.
 bool usda_write_sky(const Usda *usda, Error *e);
 
 #endif

@@ -28,8 +28,8 @@ static void on_error(void *user, enum RTCError code, const char *text)
     pthread_mutex_unlock(&accel->lock);
 }
 
-// Refuses what the machine's memory cannot hold: failing here is an error, failing later is the
-// kernel's out-of-memory killer.
+// Refuses allocations beyond the machine's memory: an error now instead of the kernel's
+// out-of-memory killer later.
 static bool on_memory(void *user, ssize_t bytes, bool post)
 {
     Accel *accel = user;
@@ -37,7 +37,7 @@ static bool on_memory(void *user, ssize_t bytes, bool post)
     return post || bytes <= 0 || now <= accel->bytes_limit;
 }
 
-// Embree calls from its own threads too; progress is only told from the one that builds.
+// Embree calls this from its own threads too; only the building thread reports progress.
 static bool on_progress(void *user, double done)
 {
     Accel *accel = user;
@@ -150,8 +150,7 @@ static RTCGeometry light_geometry(Accel *accel, const Light *light)
 
 // ---- putting them into the scene
 
-// Attaches geometry (whose reference it takes) to the top scene; entries are numbered as Embree
-// numbers them.
+// Attaches the geometry to the top scene and takes its reference; entry index = Embree's geomID.
 static bool attach(Accel *accel, RTCGeometry geometry, int32_t part, uint32_t instance, Error *e)
 {
     if (!memory_reserve(&accel->entry, &accel->entry_capacity, accel->entry_count + 1,
@@ -199,21 +198,31 @@ static bool worth_copying(const Accel *accel, const Part *part)
            part->instance_count < (int64_t)UINT32_MAX / (part->mesh->vertex_count + 1);
 }
 
-static bool wants_alpha(const Accel *accel, const Part *part)
+// The filters that rays need at this part: bits of AccelFilter.
+static unsigned filters_of(const Accel *accel, const Part *part)
 {
-    return part->kind == PART_MESH && accel->world->material[part->material].alpha_texture;
+    const Material *m = &accel->world->material[part->material];
+    if (part->kind == PART_CURVES) {
+        return material_has(m, TRAIT_EMISSIVE) ? ACCEL_FILTER_GLOW : 0;
+    }
+    return (m->alpha_texture ? ACCEL_FILTER_ALPHA : 0u) |
+           (material_has(m, TRAIT_THIN) ? ACCEL_FILTER_THIN : 0u);
 }
 
-static bool wants_thin(const Accel *accel, const Part *part)
+static void set_filters(RTCGeometry geometry, AccelPart *own)
 {
-    return part->kind == PART_MESH &&
-           material_has(&accel->world->material[part->material], TRAIT_THIN);
-}
-
-static bool wants_glow(const Accel *accel, const Part *part)
-{
-    return part->kind == PART_CURVES &&
-           material_has(&accel->world->material[part->material], TRAIT_EMISSIVE);
+    rtcSetGeometryUserData(geometry, own);
+    if (own->filters & ACCEL_FILTER_ALPHA) {
+        rtcSetGeometryIntersectFilterFunction(geometry, accel_alpha_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, accel_alpha_filter);
+    }
+    if (own->filters & ACCEL_FILTER_THIN) {
+        rtcSetGeometryOccludedFilterFunction(geometry, accel_thin_filter);
+    }
+    if (own->filters & ACCEL_FILTER_GLOW) {
+        rtcSetGeometryIntersectFilterFunction(geometry, accel_glow_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, accel_glow_filter);
+    }
 }
 
 static bool add_part(Accel *accel, int32_t number, Error *e)
@@ -226,9 +235,7 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
                          accel->world->material_count);
     }
     bool mesh = part->kind == PART_MESH;
-    own->alpha = wants_alpha(accel, part);
-    own->thin = wants_thin(accel, part);
-    own->glow = wants_glow(accel, part);
+    own->filters = filters_of(accel, part);
     if ((mesh ? part->mesh->face_count : part->curves->curve_count) < 1 ||
         (part->instance && part->instance_count < 1)) {
         return true;
@@ -243,27 +250,14 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
         mesh ? mesh_geometry(accel, part->mesh, own->copied ? part->instance : NULL,
                              own->copied ? part->instance_count : 1)
              : curve_geometry(accel, part->curves, &own->segment);
-    if (own->alpha) {
-        rtcSetGeometryUserData(geometry, own);
-        rtcSetGeometryIntersectFilterFunction(geometry, accel_alpha_filter);
-        rtcSetGeometryOccludedFilterFunction(geometry, accel_alpha_filter);
-    }
-    if (own->thin) {
-        rtcSetGeometryUserData(geometry, own);
-        rtcSetGeometryOccludedFilterFunction(geometry, accel_thin_filter);
-    }
-    if (own->glow) {
-        rtcSetGeometryUserData(geometry, own);
-        rtcSetGeometryIntersectFilterFunction(geometry, accel_glow_filter);
-        rtcSetGeometryOccludedFilterFunction(geometry, accel_glow_filter);
-    }
+    set_filters(geometry, own);
     return part->instance && !own->copied ? attach_instances(accel, geometry, number, e)
                                           : attach(accel, geometry, number, 0, e);
 }
 
 // ---- life
 
-// Embree itself takes an unknown name for its default without a word.
+// Embree silently replaces an unknown name by its default.
 bool accel_check_isa(const char *isa, Error *e)
 {
     static const char *const known[] = {"sse2", "sse4.2", "avx", "avx2", "avx512"};
@@ -374,10 +368,7 @@ void accel_use_materials(Accel *accel, const MaterialSet *materials)
 bool accel_fits_materials(const Accel *accel)
 {
     for (int64_t i = 0; i < accel->world->geometry.count; i++) {
-        const Part *part = &accel->world->geometry.part[i];
-        if (accel->part[i].alpha != wants_alpha(accel, part) ||
-            accel->part[i].thin != wants_thin(accel, part) ||
-            accel->part[i].glow != wants_glow(accel, part)) {
+        if (accel->part[i].filters != filters_of(accel, &accel->world->geometry.part[i])) {
             return false;
         }
     }

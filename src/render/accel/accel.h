@@ -1,6 +1,6 @@
-// The world's surfaces in Embree: what does a ray meet, and what is it like there?
-// Single meshes and curve sets go straight into the scene; instances are one level deep, and parts
-// of few corners in many copies are copied out, because Embree then traces them faster.
+// Ray queries against the world's surfaces, with Embree. Single meshes and curve sets go straight
+// into the scene. Instances are one level deep; small meshes with many instances are copied out,
+// because Embree then traces them faster.
 #ifndef RAMIFY_RENDER_ACCEL_ACCEL_H
 #define RAMIFY_RENDER_ACCEL_ACCEL_H
 
@@ -11,9 +11,8 @@
 typedef struct World World;
 typedef struct Accel Accel;
 
-// Small meshes (leaves, grass) copied out trace 1.3 times as fast as instanced one by one, but cost
-// about 130 bytes a face, so the copies of all parts together are bounded. A large mesh is traced
-// as well through its instances.
+// Small meshes (leaves, grass) trace 1.3 times as fast copied out as instanced, but cost about 130
+// bytes a face, so the total of all copies is bounded. Large meshes trace as fast instanced.
 enum { ACCEL_COPY_FACES_LIMIT = 4000000, ACCEL_COPY_MESH_LIMIT = 256 };
 
 typedef struct Ray {
@@ -30,45 +29,46 @@ typedef struct Hit {
     uint32_t geometry, primitive;
 } Hit;
 
-// Is there an instruction set of this name? NULL is fine. ERROR_INPUT names those that there are.
+// Is isa NULL or the name of an instruction set? Else ERROR_INPUT, which lists them.
 bool accel_check_isa(const char *isa, Error *e);
 
-// Builds. world and materials are borrowed. ERROR_MEMORY instead of a crash when Embree runs out.
-// isa as for renderer_new.
+// world and materials are borrowed; isa as for renderer_new. Fails with ERROR_MEMORY when Embree
+// runs out.
 Accel *accel_new(const World *world, const MaterialSet *materials, const char *isa, const Run *run,
                  Error *e);
 void accel_free(Accel *accel); // NULL is fine
 
-// The world's materials have other values, made ready as `materials`; their number is the same.
+// Replaces the materials after a change of their values; their number must stay.
 void accel_use_materials(Accel *accel, const MaterialSet *materials);
 
-// Do rays still have to pass the same parts? If not, it must be built anew.
+// False if a part now needs other filters: accel must be rebuilt.
 bool accel_fits_materials(const Accel *accel);
 
 int64_t accel_bytes(const Accel *accel); // held by Embree
 Aabb accel_bounds(const Accel *accel);   // of everything; empty when there is nothing
 
-// To be called around tracing in every thread: denormal numbers as zero. Returns the old state.
+// Every tracing thread calls these around its work: denormal numbers are flushed to zero. begin
+// returns the old state.
 unsigned accel_thread_begin(void);
 void accel_thread_end(unsigned state);
 
 bool accel_intersect(const Accel *accel, const Ray *ray, Hit *hit);
 
-// The same for up to PACKET_SIZE rays that start and go nearly alike, together: faster. They have
-// no slack, and there is at least one. met[i] is false where ray i meets nothing.
+// Traces 1 .. PACKET_SIZE coherent rays as one packet, which is faster; slack is ignored. met[i]:
+// whether ray i hits.
 enum { PACKET_SIZE = 8 };
 void accel_intersect_packet(const Accel *accel, const Ray *const ray[], int count, Hit hit[],
                             bool met[]);
 
 bool accel_occluded(const Accel *accel, const Ray *ray);
 
-// Index of the light that was hit; -1 when it was a part.
+// Index of the lamp that was hit; -1 for a part.
 int accel_light(const Accel *accel, const Hit *hit);
 
-// Which piece of the geometry was hit.
+// The piece of the geometry that was hit.
 SurfacePlace accel_place(const Accel *accel, const Hit *hit);
 
-// Fills everything but footprint.
+// Fills all members but footprint.
 void accel_surface(const Accel *accel, const Ray *ray, const Hit *hit, SurfacePoint *point);
 
 #endif

@@ -1,4 +1,4 @@
-// What accel.c (building) and accel_trace.c (tracing) share.
+// Shared by accel.c (building) and accel_trace.c (tracing).
 #ifndef RAMIFY_RENDER_ACCEL_ACCEL_INTERNAL_H
 #define RAMIFY_RENDER_ACCEL_ACCEL_INTERNAL_H
 
@@ -9,18 +9,20 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
+enum AccelFilter { ACCEL_FILTER_ALPHA = 1, ACCEL_FILTER_THIN = 2, ACCEL_FILTER_GLOW = 4 };
+
 typedef struct AccelPart {
     const Accel *accel;
     const Part *part;
     RTCScene scene;          // of an instanced part; NULL otherwise
     const uint32_t *segment; // curves: first point of each segment; Embree's buffer
     float base_variation;    // of a part that is drawn once
-    bool plain;              // a mesh without anything at its vertices
-    bool alpha, thin, glow;  // rays are filtered: see accel_alpha_filter and those below it
+    bool plain;              // a mesh without vertex attributes
+    unsigned filters;        // that Embree calls: bits of AccelFilter
     bool copied;             // instances were copied out: primitive = instance * faces + face
 } AccelPart;
 
-// What an Embree geometry of the top scene stands for.
+// The part or lamp of an Embree geometry in the top scene.
 typedef struct AccelEntry {
     int32_t part;      // -1 = a light
     uint32_t instance; // or the light's index
@@ -43,8 +45,8 @@ struct Accel {
     pthread_t builder;
 };
 
-// Corner vertices and their weights at (u, v) of a face: Embree sees a quad as the triangles
-// (0, 1, 3) and (2, 3, 1).
+// Corner vertices and weights at (u, v) of a face. Embree splits a quad into the triangles (0, 1,
+// 3) and (2, 3, 1).
 typedef struct Corners {
     uint32_t vertex[3];
     float weight[3];
@@ -72,19 +74,19 @@ static inline Vec2 accel_uv(const Mesh *mesh, const Corners *c)
     return uv;
 }
 
-// Embree filter: lets a ray pass where the part's alpha texture is (in part) transparent.
+// Embree filter: accepts or rejects hits at random by the alpha texture.
 void accel_alpha_filter(const struct RTCFilterFunctionNArguments *arguments);
 
-// Embree filter for shadow rays: lets a ray pass a thin film at random, by
+// Embree filter for shadow rays: lets a ray pass a thin film at random, with probability 1 -
 // material_shadow_opacity.
 void accel_thin_filter(const struct RTCFilterFunctionNArguments *arguments);
 
-// Embree filter for rays toward glowing curves, whose part is not met within the ray's slack: light
-// is drawn from each segment as a cone of its own, which lies in its neighbours at bends, and
-// Embree meets slender segments early (the error is about 1e-7 of length^2 / radius).
+// Embree filter for rays toward a glowing curve: rejects hits of its part within the ray's slack.
+// Light samples lie on the cone of one segment, which overlaps its neighbours at bends, and Embree
+// reports hits of slender segments early (by about 1e-7 length^2 / radius).
 void accel_glow_filter(const struct RTCFilterFunctionNArguments *arguments);
 
-// What a ray tells the filters.
+// Data of a ray for the filters.
 typedef struct AccelContext {
     struct RTCIntersectContext embree; // first: Embree hands its address on
     float from;                        // m along the ray: from there its part is not met

@@ -29,8 +29,8 @@ static bool passes(const AccelPart *own, unsigned primitive, unsigned instance, 
            random_unit(random_key(random_key(key, primitive), instance)) >= opacity;
 }
 
-// Embree may ask more than once about a hit, so the draw hashes the hit instead of advancing a
-// generator. Rays come one at a time or in packets, whose fields are arrays of N.
+// Embree may call this more than once per hit, so the decision is a hash of the hit. Rays come one
+// at a time or in packets, whose fields are arrays of N.
 void accel_alpha_filter(const struct RTCFilterFunctionNArguments *arguments)
 {
     unsigned n = arguments->N;
@@ -210,8 +210,8 @@ SurfacePlace accel_place(const Accel *accel, const Hit *hit)
     return place;
 }
 
-// Normals go with the cofactors of the matrix: right for any scale, no inverse needed. Its sign
-// keeps them outside under mirroring.
+// Normals transform by the cofactor matrix: right for any scale, without an inverse. The sign of
+// the determinant keeps them outside when the transform mirrors.
 static Vec3 normal_to_world(const Transform *t, Vec3 n)
 {
     Vec3 x = vec3(t->m[0][0], t->m[1][0], t->m[2][0]);
@@ -223,8 +223,8 @@ static Vec3 normal_to_world(const Transform *t, Vec3 n)
     return vec3_dot(x, yz) < 0.0f ? vec3_neg(sum) : sum;
 }
 
-// Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021: the point lifted to the
-// tangent planes of the vertices. Everything in the part's space, normals on the side of the ray.
+// The point lifted to the tangent planes of the vertices: Hanika, "Hacking the Shadow Terminator",
+// Ray Tracing Gems II, 2021. All in the part's space; normals on the ray's side.
 static Vec3 lift(const Mesh *mesh, const Corners *c, Vec3 p, float side)
 {
     Vec3 lifted = p;
@@ -253,7 +253,7 @@ static bool uv_tangents(const Mesh *mesh, const Corners *c, Vec3 e1, Vec3 e2, Su
     return true;
 }
 
-// An interpolated normal on the facet's side, bent until the ray's origin sees it at least
+// An interpolated normal on the facet's side, bent until it faces the ray's origin at least
 // grazingly.
 static Vec3 smooth_normal(Vec3 n, Vec3 facet, Vec3 direction)
 {
@@ -314,8 +314,7 @@ static void mesh_surface(const Mesh *mesh, const Hit *hit, int64_t face, const T
     point->epsilon = 4e-6f * vec3_largest(point->position) + 1e-7f;
 }
 
-// Without attributes at the vertices the hit itself tells all, and the vertices need not be fetched
-// from memory.
+// Without vertex attributes the hit holds all that is needed, and no vertex is fetched from memory.
 static void plain_surface(const Ray *ray, const Hit *hit, const Transform *t, SurfacePoint *point)
 {
     Vec3 normal = vec3_normalize(t ? normal_to_world(t, hit->normal) : hit->normal);

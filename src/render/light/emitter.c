@@ -2,7 +2,8 @@
 
 #include "render/warp.h"
 
-// Of what is met as good as edge on: below it rounding tells whether it faces at all.
+// Cosine below which a surface counts as seen edge-on: there, rounding decides whether it faces the
+// point.
 static const float LEAST_COSINE = 1e-6f;
 
 Emitter emitter_triangle(Vec3 a, Vec3 b, Vec3 c, bool two_sided, int part)
@@ -63,7 +64,7 @@ static inline Cone cone_of(const Emitter *e)
     return (Cone){vec3_scale(e->b, 1.0f / fmaxf(length, 1e-20f)), length, length / cosine, cosine};
 }
 
-// Places along the axis, density with respect to the share s of it: even from afar, by equal angles
+// Positions along the axis, density with respect to its share s: uniform from afar, by equal angles
 // from near (Kulla and Fajardo 2012).
 typedef struct AxisView {
     bool even;
@@ -106,7 +107,7 @@ static float axis_density(const AxisView *view, const Cone *cone, float s)
            ((view->angle1 - view->angle0) * (view->distance * view->distance + off * off));
 }
 
-// The circle at s as seen from a point: its points are seen up to an angle from `toward`.
+// The circle at s as seen from a point: its visible points lie within an angle of `toward`.
 typedef struct Rim {
     Vec3 center, toward, aside; // unit vectors across the axis
     float radius;
@@ -142,8 +143,8 @@ static inline float rim_density(const Rim *rim, float cosine)
                                 : 1.0f / (2.0f * rim->most);
 }
 
-// Density per steradian of a place on a surface drawn with a density per area. The cosine at which
-// it is left is positive but for rounding, which must not turn a place that was met away.
+// Density per steradian of a position drawn with a density per area. The cosine at the emitter is
+// positive but for rounding, which must not discard a hit.
 static float steradian_density(float area_density, Vec3 normal, Vec3 to)
 {
     float distance = vec3_length(to);
@@ -213,7 +214,7 @@ static float cone_pdf(const Emitter *e, Vec3 from, Vec3 position)
                        &ideal);
 }
 
-// Outside the ball about the nearest place of the axis?
+// Outside the ball around the nearest position on the axis?
 static bool cone_faces(const Emitter *e, Vec3 from)
 {
     Cone cone = cone_of(e);
@@ -271,8 +272,8 @@ bool emitter_faces(const Emitter *emitter, Vec3 from)
     return vec3_distance(from, emitter->a) > emitter->radius0;
 }
 
-// Neighbours overlap at bends by about a radius. Embree 3.13 lengthens segments of a millimetre or
-// less by some radii at their first point (by 1e-7 m^2 over the length).
+// Neighbouring segments overlap at bends by about a radius. Embree 3.13 lengthens segments of a
+// millimetre or less by some radii at their first point (by 1e-7 m^2 over the length).
 static float slack_of(const Emitter *e)
 {
     switch (e->kind) {

@@ -1,7 +1,6 @@
-// One glowing piece of the geometry: a triangle, the side of a segment of a round curve, or the
-// rounded end of a curve. Each can be sampled from a point and evaluated where a ray meets it.
-// Curves shine outward; so do triangles of closed bodies, while those of sheets shine to both
-// sides.
+// One emitting piece of geometry: a triangle, the side of a segment of a round curve, or the
+// rounded end of a curve. Each can be sampled from a point and evaluated where a ray hits it.
+// Curves and closed bodies emit outward, sheets to both sides.
 #ifndef RAMIFY_RENDER_LIGHT_EMITTER_H
 #define RAMIFY_RENDER_LIGHT_EMITTER_H
 
@@ -21,11 +20,11 @@ typedef struct Emitter {
     float glow0, glow1;     // factors on the radiance at both ends
 } Emitter;
 
-// two_sided: else it shines only to where a, b, c turn counter-clockwise.
+// If not two_sided, it emits to the side from which a, b, c turn counter-clockwise.
 Emitter emitter_triangle(Vec3 a, Vec3 b, Vec3 c, bool two_sided, int part);
 
-// The side of a segment between two balls, as Embree draws it: the cone that touches both. One that
-// lies in the other leaves a cone of no area, which is never sampled.
+// The side of a segment between two balls as Embree draws it: the cone tangent to both. If one ball
+// contains the other, the cone has no area and is never sampled.
 Emitter emitter_cone(Vec3 from, Vec3 to, float radius0, float radius1, float glow0, float glow1,
                      int part);
 
@@ -48,21 +47,21 @@ typedef struct EmitterSample {
     float pivot_ratio; // density of the pivot as emitter_pivot draws it over that of this sample
 } EmitterSample;
 
-// Is `from` on a side that the emitter shines to? For curves: outside, in front of the side or the
-// end. What does not face a point is never sampled from there, and shows no glow to it.
+// Does the emitter emit toward `from`? A curve does if the point is outside of it and in front of
+// the side or end. An emitter that faces away is never sampled and shows no glow.
 bool emitter_faces(const Emitter *emitter, Vec3 from);
 
-// A point as seen from `from`. False where it cannot be seen from there.
+// Samples a point of the emitter as seen from `from`; false if none is visible.
 bool emitter_sample(const Emitter *emitter, Vec3 from, const float u[2], EmitterSample *sample);
 
-// For light that a medium scatters, the place on the emitter is drawn before the point that it
-// lights: first a pivot, then the rest as seen from the point. u must be the same in both calls.
+// For scattering in a medium: a pivot on the emitter is drawn before the point that it lights is
+// known, then the rest from that point. u must be the same in both calls.
 Vec3 emitter_pivot(const Emitter *emitter, const float u[2]);
 bool emitter_sample_pivoted(const Emitter *emitter, Vec3 from, const float u[2],
                             EmitterSample *sample);
 
-// The density with which emitter_sample would draw `position`, a place where a ray from `from` met
-// the emitter, which faces it; 0 on a curve's segment without a side, which is never drawn.
+// The density with which emitter_sample would draw `position`, where a ray from `from` hit the
+// emitter from its front; 0 for a segment without a side, which is never drawn.
 float emitter_pdf(const Emitter *emitter, Vec3 from, Vec3 position);
 
 #endif

@@ -9,7 +9,7 @@
 static bool glows(const World *world, const Part *part)
 {
     if (part->material < 0 || part->material >= world->material_count) {
-        return false; // accel_new complains
+        return false; // accel_new reports it
     }
     const Material *m = &world->material[part->material];
     return material_has(m, TRAIT_EMISSIVE) && luminance(m->radiance) > 0.0f;
@@ -34,7 +34,7 @@ static Vec3 placed(const Transform *t, Vec3 p)
     return t ? transform_point(t, p) : p;
 }
 
-// Quads as Embree cuts them: corners 0, 1, 3, then 2, 3, 1. closed: of each face, or NULL.
+// Quads as Embree splits them: corners 0, 1, 3, then 2, 3, 1. closed: one per face, or NULL.
 static void add_triangles(EmitterSet *set, const Part *part, int number, const uint8_t *closed,
                           const Transform *t)
 {
@@ -59,7 +59,7 @@ static float glow_at(const CurveSet *curves, int64_t point)
     return curves->glow ? curves->glow[point] : 1.0f;
 }
 
-// How far the transform enlarges radii, on the mean.
+// The mean factor by which the transform scales radii.
 static float enlargement(const Transform *t)
 {
     return t ? cbrtf(fabsf(transform_determinant(t))) : 1.0f;
@@ -160,7 +160,7 @@ void emitter_set_clear(EmitterSet *set)
     *set = (EmitterSet){0};
 }
 
-// Beyond the end of the curve that the segment may be the first or last of?
+// Is the place beyond an end of the curve, if the segment is its first or last?
 static bool beyond(const EmitterSet *set, int64_t cap, Vec3 position)
 {
     return vec3_dot(vec3_sub(position, set->emitter[cap].a), set->emitter[cap].b) > 0.0f;

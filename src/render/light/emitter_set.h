@@ -1,5 +1,5 @@
-// All the glowing pieces of a world's geometry (parts whose material is emission) and the tree over
-// them.
+// All emitting pieces of a world's geometry (parts whose material is TRAIT_EMISSIVE), with a light
+// tree over them.
 #ifndef RAMIFY_RENDER_LIGHT_EMITTER_SET_H
 #define RAMIFY_RENDER_LIGHT_EMITTER_SET_H
 
@@ -14,7 +14,7 @@ typedef struct EmitterSet {
     LightTree *tree; // owned; NULL where nothing glows
 } EmitterSet;
 
-// Where on a part a ray met it.
+// The place of a hit on a part.
 typedef struct SurfacePlace {
     int part;
     uint32_t instance;  // 0 of a part that is drawn once
@@ -26,11 +26,11 @@ typedef struct SurfacePlace {
 bool emitter_set_fill(EmitterSet *set, const World *world, Error *e);
 void emitter_set_clear(EmitterSet *set);
 
-// The emitter there; position: the point met, world.
+// The emitter at that place; position: the point hit, world.
 int64_t emitter_set_find(const EmitterSet *set, const World *world, const SurfacePlace *place,
                          Vec3 position);
 
-// Factor on the material's radiance there.
+// Factor on the material's radiance at that place.
 float emitter_set_glow(const World *world, const SurfacePlace *place);
 
 #endif

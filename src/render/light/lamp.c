@@ -10,7 +10,7 @@ float lamp_power(const Light *light, float scene_radius)
     return luminance(light->radiance) * area / (scene_radius * scene_radius);
 }
 
-// Density per steradian at which a uniform point of the quad lies in this direction.
+// Density per steradian of a uniform point of the quad that lies in this direction.
 static float quad_density(const Light *light, Vec3 direction, float distance)
 {
     Vec3 normal = vec3_cross(light->edge_u, light->edge_v); // length: the area

@@ -1,5 +1,4 @@
-// A lamp of the scene, a quad that shines to one side or a ball: light drawn from it and met by
-// chance.
+// Sampling of lamps: quads, which emit to one side, and spheres.
 #ifndef RAMIFY_RENDER_LIGHT_LAMP_H
 #define RAMIFY_RENDER_LIGHT_LAMP_H
 
@@ -9,15 +8,15 @@
 // Power that reaches the scene, over pi^2 R^2 for a scene of radius R.
 float lamp_power(const Light *light, float scene_radius);
 
-// Light toward `point` from a place drawn with two uniform numbers; its pdf is per steradian. False
-// when none is sent that way.
+// Samples light toward `point` from a position drawn with two uniform numbers; pdf per steradian.
+// False if it emits none in that direction.
 bool lamp_sample(const Light *light, Vec3 point, const float u[2], LightSample *sample);
 
-// The density with which lamp_sample would have drawn this direction from origin, in which the lamp
-// is met after `distance` m; 0 on a quad's dark side.
+// The density with which lamp_sample would have drawn this direction from origin, along which the
+// lamp is hit after `distance` m; 0 on the dark side of a quad.
 float lamp_density(const Light *light, Vec3 origin, Vec3 direction, float distance);
 
-// The place of a quad that the same numbers draw; the middle of a ball.
+// The position on a quad drawn with the same numbers; the centre of a sphere.
 Vec3 lamp_pivot(const Light *light, const float u[2]);
 
 #endif

@@ -65,7 +65,7 @@ static LightBounds bounds_union(const LightBounds *a, const LightBounds *b)
     return sum;
 }
 
-// Surface area times measure of the directions shone into, times power: what a split keeps small.
+// Cost of a node: surface area times the measure of the directions emitted into times power.
 static float split_cost(const LightBounds *b, float stretch)
 {
     Vec3 d = vec3_sub(b->box.high, b->box.low);
@@ -104,7 +104,7 @@ static int bucket_of(float x, float low, float high)
     return bucket < 0 ? 0 : (bucket >= BUCKETS ? BUCKETS - 1 : bucket);
 }
 
-// The cheapest border between buckets along an axis; *cost is lowered where it is below.
+// The cheapest split between buckets along an axis; lowers *cost if it finds a cheaper one.
 static int best_border(const Builder *b, const int32_t *item, int64_t count, int axis, float low,
                        float high, float stretch, float *cost)
 {
@@ -131,7 +131,7 @@ static int best_border(const Builder *b, const int32_t *item, int64_t count, int
     return best;
 }
 
-// Puts those up to the border first; how many they are.
+// Partitions the items at the split; returns the number in the first part.
 static int64_t part_items(const Builder *b, int32_t *item, int64_t count, int axis, float low,
                           float high, int border)
 {
@@ -146,7 +146,7 @@ static int64_t part_items(const Builder *b, int32_t *item, int64_t count, int ax
     return first;
 }
 
-// Size of the first child; half of all where no border is better than another.
+// Size of the first child; half of all if no split is better.
 static int64_t split(const Builder *b, int32_t *item, int64_t count, int depth)
 {
     Aabb centres = aabb_empty();
@@ -237,14 +237,13 @@ float light_tree_power(const LightTree *tree)
 
 // ---- importance
 
-// Asked for every box on the way down the tree: fmaxf would be a call into libm each time.
+// Runs for every box on the way down the tree: fmaxf would be a call into libm each time.
 static inline float larger(float a, float b)
 {
     return a > b ? a : b;
 }
 
-// Sine of the half angle under which the ball about the box is seen, and its cosine; -1 from
-// inside.
+// Sine and cosine of the half angle that the bounding ball subtends; cosine -1 from inside.
 typedef struct Outline {
     Vec3 center;
     float radius_squared;
@@ -267,8 +266,7 @@ static inline float sine_of(float cosine)
     return sqrtf(larger(0.0f, 1.0f - cosine * cosine));
 }
 
-// Power over squared distance, times the best cosine at which the light may be left, times the
-// best at which it may arrive.
+// Importance: power over squared distance, times the best cosines at the light and at the receiver.
 static float importance_at(const LightBounds *b, const LightReceiver *receiver)
 {
     Outline ball = outline_of(&b->box);
@@ -299,8 +297,8 @@ static float importance_at(const LightBounds *b, const LightReceiver *receiver)
     return result;
 }
 
-// A small light at distance D from a line sends power * (angle that the segment spans, seen from
-// it) / D into the air along it. Sines stand for the angles.
+// A small light at distance D from a line scatters power * (angle that the segment subtends) / D.
+// Sines stand for the angles.
 static float importance_along(const LightBounds *b, const LightSegment *s)
 {
     Outline ball = outline_of(&b->box);

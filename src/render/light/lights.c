@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-// Half by power, half evenly: what is weak on the whole may be all there is in a shadow.
+// Half by power, half uniform: a weak light may be the only one in a shadow.
 static void fill_shares(Lights *lights, float scene_radius)
 {
     double total = 0.0, lit = 0.0, sum = 0.0;
@@ -99,9 +99,10 @@ LightChoice lights_choose(const Lights *lights, float u)
     return (LightChoice){low, rest, low != lights->dome_index && low != lights->sun_index};
 }
 
-// A place just off a light's surface, on the side of its unit normal, so that a shadow ray from
-// about `point` to there ends before the surface: farther off than rounding may shift the ray's end
-// and Embree's intersection, which works with the distances of the surface's corners or centre.
+// A position just off a light's surface, on the side of its unit normal, where a shadow ray from
+// about `point` ends before it meets the surface: the offset exceeds the rounding errors of the
+// ray's end and of Embree's intersection, which grow with the distances of the surface's corners or
+// centre.
 Vec3 lights_end(Vec3 place, Vec3 normal, float extent, Vec3 point)
 {
     float reach = vec3_largest(place) + vec3_distance(place, point) + extent;

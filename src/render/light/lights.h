@@ -1,5 +1,5 @@
-// Everything that emits: sky, sun, environment, quads, spheres, and glowing geometry. Each can be
-// sampled and evaluated, so that the integrator combines both ways.
+// All emitters: sky, sun, environment, lamps and glowing geometry. Each can be sampled and
+// evaluated, so that the integrator combines both by multiple importance sampling.
 #ifndef RAMIFY_RENDER_LIGHT_LIGHTS_H
 #define RAMIFY_RENDER_LIGHT_LIGHTS_H
 
@@ -11,12 +11,11 @@
 typedef struct World World;
 typedef struct Lights Lights;
 
-// scene_radius (m): how much a light at infinity counts against near ones when one is chosen.
+// scene_radius (m): weighs lights at infinity against near ones in the choice of a light.
 Lights *lights_new(const World *world, float scene_radius, const Run *run, Error *e);
 void lights_free(Lights *lights); // NULL is fine
 
-// Turns sun, moon, clouds, stars and dome to what sky.rotation of the world says now. Waters keep
-// the network of the sun that they were made with.
+// Rotates sun, moon, clouds, stars and dome to the world's sky.rotation. Water keeps its caustics.
 void lights_turn_sky(Lights *lights);
 
 typedef struct LightSample {
@@ -29,7 +28,7 @@ typedef struct LightSample {
     float pdf; // per steradian, with the choice of the light in it
 } LightSample;
 
-// True when some light is worth sampling. A sky of one colour is not: it is met by chance as well.
+// True if light sampling helps. A sky of one colour is found as well by BSDF sampling.
 bool lights_can_sample(const Lights *lights);
 
 // False when the chosen light cannot be seen from the receiver.
@@ -38,16 +37,16 @@ bool lights_sample(const Lights *lights, const LightReceiver *receiver, const fl
 
 // ---- light that a medium scatters along a stretch of a ray
 
-// One of the lights, chosen by a uniform number. near: sampled from a pivot, too.
+// A light chosen with a uniform number. near: it can also be sampled from a pivot.
 typedef struct LightChoice {
     int index;
-    float rest; // of the number
+    float rest; // of the uniform number
     bool near;  // a lamp or glowing geometry, not sky and sun
 } LightChoice;
 
 LightChoice lights_choose(const Lights *lights, float u);
 
-// A place on the chosen near light, before the point that it lights is known.
+// A place on the chosen near light, drawn before the point that it lights is known.
 typedef struct LightPivot {
     int64_t emitter;   // of glowing geometry
     float probability; // of drawing that emitter for the segment
@@ -60,7 +59,7 @@ bool lights_draw_pivot(const Lights *lights, const LightChoice *choice, const Li
 // A sample of the chosen light from a point of the segment.
 typedef struct SegmentLight {
     LightSample light; // with the density of lights_sample
-    LightPivot pivot;  // of a near light: where the pivot is, or would have been
+    LightPivot pivot;  // of a near light: the pivot that was or would have been drawn
     float pivot_pdf;   // per steradian: the density by way of the pivot
 } SegmentLight;
 
@@ -71,30 +70,29 @@ bool lights_sample_chosen(const Lights *lights, const LightChoice *choice,
 
 // ----
 
-// Radiance from beyond the geometry along direction. bsdf_pdf > 0: the density with which the
-// direction was drawn, when light sampling could have found the same; the result is weighted by
-// the power heuristic (Veach 1997). bsdf_pdf <= 0: unweighted.
-// from: where the direction was drawn, as water above it bends light. spread: radians, over which
-// stars are smoothed.
+// Radiance of sky and sun along direction. bsdf_pdf > 0: the density with which the direction was
+// drawn; the result is weighted against light sampling by the power heuristic (Veach 1997).
+// bsdf_pdf <= 0: unweighted. from: where the direction was drawn, since water above it refracts.
+// spread: radians over which stars are smoothed.
 Vec3 lights_background(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf,
                        float spread);
 
-// The water that the scene lies under; NULL where there is none.
+// The water above the scene; NULL if there is none.
 const Water *lights_water(const Lights *lights);
 
-// The same for a ray from `origin` that meets light `index` after `distance` m.
+// The same for a ray from `origin` that hits lamp `index` after `distance` m.
 Vec3 lights_emitted(const Lights *lights, int index, Vec3 origin, Vec3 direction, float distance,
                     float bsdf_pdf);
 
-// How much of its material's radiance glowing geometry shows at a place met at `position`: its
-// glow, weighted as above; bsdf_pdf was drawn at the receiver.
+// Factor on the material's radiance where a ray hits emitting geometry at `position`: its glow,
+// weighted as above; bsdf_pdf was drawn at the receiver.
 float lights_glow(const Lights *lights, const SurfacePlace *place, Vec3 position,
                   const LightReceiver *receiver, float bsdf_pdf);
 
 // The sun by day, the moon by night; NULL where neither shines.
 const Sun *lights_sun(const Lights *lights);
 
-// Colour that distant things fade into, looking along direction.
+// The colour of haze when looking along direction.
 Vec3 lights_horizon(const Lights *lights, Vec3 direction);
 
 // Veach's power heuristic, exponent 2, for the density `a` against `b`.

@@ -1,4 +1,4 @@
-// What the parts of the lights share: private to lights*.c.
+// Shared by lights.c and sky_lights.c; private to them.
 #ifndef RAMIFY_RENDER_LIGHT_LIGHTS_INTERNAL_H
 #define RAMIFY_RENDER_LIGHT_LIGHTS_INTERNAL_H
 
@@ -22,19 +22,19 @@ struct Lights {
     int count, dome_index, sun_index, emitters_index; // -1 = there is none
 };
 
-// lights_above.c: sky, sun or moon, and the water that their light comes through. Needs the world;
-// what it makes belongs to `lights`, after a failure too.
+// sky_lights.c: sky, sun or moon, and the water that refracts their light. Needs lights->world;
+// `lights` owns the results, also after a failure.
 bool lights_make_above(Lights *lights, const Run *run, Error *e);
 
-// Where a shadow ray from about `point` ends before the place of a light whose unit normal is
-// given. extent: m, of the surface that the place lies on.
+// The end point of a shadow ray from about `point` to a position on a light with this unit normal.
+// extent: m, of the surface around it.
 Vec3 lights_end(Vec3 place, Vec3 normal, float extent, Vec3 point);
 
-// A sample of the dome or the sun, which `index` is; without the choice in its pdf.
+// Samples light `index`, the dome or the sun; pdf without the probability of the choice.
 bool lights_sample_above(const Lights *lights, int index, Vec3 point, const float u[2],
                          LightSample *sample);
 
-// The weight of light met by chance, which light sampling finds with light_pdf.
+// The weight of light found by BSDF sampling that light sampling finds with light_pdf.
 static inline float lights_weight(float bsdf_pdf, float light_pdf)
 {
     return bsdf_pdf > 0.0f ? power_heuristic(bsdf_pdf, light_pdf) : 1.0f;

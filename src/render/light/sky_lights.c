@@ -1,4 +1,4 @@
-// Light from beyond the geometry: the sky with its sun or moon, straight or through water.
+// Light from infinity: the sky with its sun or moon, direct or refracted by water.
 #include "render/light/lights_internal.h"
 
 #include "render/sky/environment.h"
@@ -58,7 +58,7 @@ static Vec3 turned(Vec3 d, float cosine, float sine)
     return vec3(d.x * cosine + d.z * sine, d.y, d.z * cosine - d.x * sine);
 }
 
-// A direction of the world as the sky was built.
+// Rotates a direction from the world to the sky as it was built.
 static Vec3 into_sky(const Lights *lights, Vec3 direction)
 {
     return turned(direction, lights->turn_cos, -lights->turn_sin);
@@ -75,7 +75,7 @@ void lights_turn_sky(Lights *lights)
     }
 }
 
-// The network of light is sharp at what the camera looks at.
+// Caustics are sharp at the camera's target.
 static bool make_water(Lights *lights, const Run *run, Error *e)
 {
     const World *world = lights->world;
@@ -95,7 +95,7 @@ bool lights_make_above(Lights *lights, const Run *run, Error *e)
     return make_sky(lights, run, e) && make_water(lights, run, e);
 }
 
-// Bends what comes from above the water down to a point in it.
+// Refracts light from above the water down to a point in it.
 static bool into_water(const Lights *lights, Vec3 point, bool sun, LightSample *sample)
 {
     WaterPassage passage;
@@ -133,7 +133,7 @@ const Water *lights_water(const Lights *lights)
     return lights->water;
 }
 
-// What only the camera and mirrors see: clouds, stars, the face of the moon.
+// Seen by the camera and in mirrors only: clouds, stars, the face of the moon.
 static Vec3 seen_above(const Lights *lights, Vec3 direction, float spread)
 {
     const Sky *sky = &lights->world->sky;
@@ -150,7 +150,7 @@ static Vec3 seen_above(const Lights *lights, Vec3 direction, float spread)
     return sum;
 }
 
-// As light, weighted; shrink: see WaterPassage.
+// Its light, weighted; shrink: see WaterPassage.
 static Vec3 light_above(const Lights *lights, Vec3 direction, float bsdf_pdf, float shrink,
                         float sun_share)
 {
@@ -164,8 +164,8 @@ static Vec3 light_above(const Lights *lights, Vec3 direction, float bsdf_pdf, fl
     return sum;
 }
 
-// The sun through waves, to the eye: spread over a few degrees instead of into glints, which no
-// number of samples would settle.
+// The sun seen through waves is blurred over a few degrees: glints would not converge at any number
+// of samples.
 static Vec3 glitter(const Lights *lights, Vec3 direction)
 {
     const float spread = 0.03f; // radians
@@ -226,6 +226,6 @@ Vec3 lights_horizon(const Lights *lights, Vec3 direction)
         return lights->constant;
     }
     float level = sqrtf(direction.x * direction.x + direction.z * direction.z);
-    float rise = 0.02f * fmaxf(level, 1e-3f); // a degree up: the air, not the ground
+    float rise = 0.02f * fmaxf(level, 1e-3f); // a degree above the horizon, clear of the ground
     return dome_lookup(lights->dome, vec3_normalize(vec3(direction.x, rise, direction.z)));
 }

@@ -1,5 +1,5 @@
-// What a material looks like, in the terms that other programs' files share. Exporters read this
-// and never ask for the kind. Names, textures and what is inside a body stand in the Material.
+// The appearance of a material in terms that file formats share. Exporters read this and never ask
+// for the kind; names, textures and the inside of a body are read from the Material.
 #ifndef RAMIFY_RENDER_MATERIAL_APPEARANCE_H
 #define RAMIFY_RENDER_MATERIAL_APPEARANCE_H
 
@@ -7,8 +7,8 @@
 
 typedef struct Appearance {
     unsigned traits;
-    Vec3 color;         // diffuse reflectance; of metal and clear things their tint; linear
-    Vec3 transmittance; // diffuse: of sheets that are neither opaque nor clear
+    Vec3 color;         // diffuse reflectance; the tint of metal and of clear things
+    Vec3 transmittance; // diffuse; of things that are neither opaque nor clear
     Vec3 emission;      // radiance; 0 unless TRAIT_EMISSIVE
     float metalness;    // 0..1; without a coat: a conductor
     float roughness;
@@ -21,25 +21,26 @@ typedef struct Appearance {
 
 Appearance material_appearance(const Material *material);
 
-// Light passes undiffused: glass, water, soap films.
+// Specular transmission: glass, water, soap films.
 static inline bool appearance_is_clear(const Appearance *a)
 {
     return a->traits & (TRAIT_BODY | TRAIT_THIN);
 }
 
-// Diffuse reflection or emission alone: nothing mirrors.
+// Only diffuse reflection or emission, no glossy lobe.
 static inline bool appearance_is_matt(const Appearance *a)
 {
     return !a->coated && a->metalness <= 0.0f && !appearance_is_clear(a);
 }
 
-// What is seen of it where nothing is lit.
+// The colour to show in a view without lighting.
 static inline Vec3 appearance_display_color(const Appearance *a)
 {
     return a->traits & TRAIT_EMISSIVE ? a->emission : a->color;
 }
 
-// For a kind's describe: a coat of this strength, with the index that reflects as much head-on.
+// Adds a coat of this strength, and the index of refraction with the same reflectance at normal
+// incidence. For MaterialOps.describe.
 void appearance_add_coat(Appearance *appearance, float specular);
 
 #endif

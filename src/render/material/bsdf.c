@@ -4,7 +4,7 @@
 #include "render/material/pattern.h"
 #include "render/warp.h"
 
-// A shading normal that wo sees at least grazingly. Interpolated and bumped normals may turn away.
+// A shading normal that faces wo at least grazingly. Interpolated and bumped normals may turn away.
 static Vec3 normal_toward(Vec3 n, Vec3 wo)
 {
     const float least = 1e-3f;
@@ -12,7 +12,7 @@ static Vec3 normal_toward(Vec3 n, Vec3 wo)
     return cosine >= least ? n : vec3_normalize(vec3_madd(n, 2.0f * least - cosine, wo));
 }
 
-// What the material's picture multiplies its colours with.
+// The texture's factor on the colours.
 static Vec3 texture_at(const Texture *texture, const SurfacePoint *point)
 {
     float u = vec3_length(point->tangent_u), v = vec3_length(point->tangent_v);
@@ -20,8 +20,8 @@ static Vec3 texture_at(const Texture *texture, const SurfacePoint *point)
                          v > 0.0f ? point->footprint / v : 0.0f);
 }
 
-// A surface of one colour whose kind prepares nothing, which is the commonest case: fields that
-// only prepare fills stay unset, since clearing a Bsdf takes as long as filling these.
+// The most common case, a surface of one colour whose kind has no prepare. The members that prepare
+// would fill stay unset, since clearing a Bsdf takes as long as filling these.
 static inline void fill_plain(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point,
                               Vec3 wo)
 {
@@ -69,7 +69,7 @@ void bsdf_fill(const MaterialSet *set, const SurfacePoint *point, Vec3 wo, Bsdf 
         Vec3 texel = texture_at(entry->color, point);
         b->color = vec3_mul(b->color, texel);
         b->transmittance =
-            vec3_mul(b->transmittance, texel); // what absorbs light absorbs it both ways
+            vec3_mul(b->transmittance, texel); // pigment absorbs transmitted light too
     }
     b->normal = normal_toward(b->normal, wo);
     b->color = vec3_max(vec3_min(b->color, vec3_splat(1.0f)), vec3_splat(0.0f));
@@ -79,7 +79,7 @@ void bsdf_fill(const MaterialSet *set, const SurfacePoint *point, Vec3 wo, Bsdf 
     }
 }
 
-// Lambert's law, folded: the commonest case, with as few operations as it takes.
+// Lambert's law, folded. The most common case, so with as few operations as possible.
 static Vec3 lambert_eval(const Bsdf *b, Vec3 wi, float *pdf)
 {
     float side = vec3_dot(b->geometric_normal, wi), cosine = vec3_dot(b->normal, wi);
@@ -111,7 +111,7 @@ Vec3 bsdf_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf)
     return f;
 }
 
-// Mirrors wi at the geometric horizon when it left the side of its lobe.
+// Mirrors wi at the geometric horizon if it left the side of its lobe.
 static Vec3 fold(const Bsdf *b, Vec3 wi, bool transmitted)
 {
     float side = vec3_dot(b->geometric_normal, wi);
@@ -119,7 +119,7 @@ static Vec3 fold(const Bsdf *b, Vec3 wi, bool transmitted)
     return wrong ? vec3_madd(wi, -2.0f * side, b->geometric_normal) : wi;
 }
 
-// Every direction has the weight color.
+// The weight of every direction is the colour.
 static bool lambert_sample(const Bsdf *b, const float u[3], BsdfSample *sample)
 {
     sample->wi = fold(b, warp_cosine(b->normal, u[0], u[1]), false);

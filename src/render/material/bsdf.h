@@ -1,12 +1,12 @@
 // BSDFs: a material evaluated at a surface point gives one Bsdf, a small value on the stack that
-// can be sampled and evaluated. Directions are world-space unit vectors pointing away from the
-// surface: wo to where light goes (toward the eye), wi to where it comes from.
+// can be sampled and evaluated. Directions are world-space unit vectors away from the surface: wo
+// toward the camera side of the path, wi toward the light.
 //
-// Lobes are defined about the shading normal and folded over the true surface's horizon: what a
-// lobe would send through an opaque surface is mirrored back to the side it belongs to. So shading
-// normals and bumps neither lose energy (black fringes) nor leak light.
+// Lobes are defined about the shading normal and folded over the geometric horizon: a direction
+// that would pass through an opaque surface is mirrored back to its side. So shading normals and
+// bumps neither lose energy (black fringes) nor leak light.
 //
-// Transmission carries flux: the factor eta^2 of radiance inside a denser body is left out. It
+// Transmission carries flux: the factor eta^2 of radiance inside a denser body is omitted, since it
 // cancels between entering and leaving.
 #ifndef RAMIFY_RENDER_MATERIAL_BSDF_H
 #define RAMIFY_RENDER_MATERIAL_BSDF_H
@@ -18,8 +18,8 @@
 // Per-material tables (energy compensation) and textures, made once per world.
 typedef struct MaterialSet MaterialSet;
 
-// Copies the materials. used: which of them anything is made of; what is costly is made for those
-// alone; NULL = all. ERROR_INPUT names the material and the file when a texture cannot be read.
+// Copies the materials. used: which of them parts have; tables are made for those alone; NULL =
+// all. ERROR_INPUT names the material and the file if a texture cannot be read.
 MaterialSet *material_set_new(const Material *materials, const bool *used, int count, Error *e);
 void material_set_free(MaterialSet *set); // NULL is fine
 
@@ -33,7 +33,7 @@ typedef struct Bsdf {
     Vec3 normal;     // shading normal after bumps, unit, on wo's side
     Vec3 geometric_normal;
     Vec3 color;         // diffuse reflectance; the tint of what passes a dielectric
-    Vec3 transmittance; // diffuse; of TRAIT_THIN straight
+    Vec3 transmittance; // diffuse; of a film: straight through
     Vec3 emission;      // radiance toward wo
     Vec3 absorption;    // per metre, of the body that wo's ray came through; 0 outside of bodies
     Vec3 albedo;        // for the albedo AOV, 0..1
@@ -42,7 +42,7 @@ typedef struct Bsdf {
     float eta;          // index on the far side over that on wo's side
     bool inside;        // wo is inside a dielectric body
 
-    // The glossy lobe and what it leaves to the lobes below it, already looked up for wo.
+    // The glossy lobe, and the energy that it leaves to the lobes below, looked up for wo.
     Vec3
         specular; // a film's reflectance; else Schlick's f0; zero and grazing zero = no glossy lobe
     float grazing;                // Schlick's f90
@@ -63,8 +63,8 @@ typedef struct BsdfSample {
     bool delta, transmitted;
 } BsdfSample;
 
-// Evaluates patterns and textures of set's material point->material; wo as above.
-// In place: copying what was just written piece by piece costs the path tracer 2 % of its time.
+// Evaluates patterns and textures of the material point->material. In place, because copying a Bsdf
+// costs the path tracer 2 % of its time.
 void bsdf_fill(const MaterialSet *set, const SurfacePoint *point, Vec3 wo, Bsdf *bsdf);
 
 static inline Bsdf bsdf_at(const MaterialSet *set, const SurfacePoint *point, Vec3 wo)
@@ -77,11 +77,11 @@ static inline Bsdf bsdf_at(const MaterialSet *set, const SurfacePoint *point, Ve
 // Draws wi from three uniform numbers. False when absorbed.
 bool bsdf_sample(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample);
 
-// f(wo, wi) |cos wi| and the density that bsdf_sample would have drawn wi with (0 where only delta
-// lobes).
+// Returns f(wo, wi) |cos wi|; *pdf: the density with which bsdf_sample would draw wi. Both are 0
+// for delta lobes.
 Vec3 bsdf_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf);
 
-// Opacity 0..1 at a hit, for alpha-textured leaves; 1 without an alpha texture.
+// Opacity 0..1 at uv by the alpha texture; 1 without one.
 float material_opacity(const MaterialSet *set, int material, Vec2 uv);
 static inline bool bsdf_is_emissive(const Bsdf *bsdf)
 {

@@ -42,8 +42,8 @@ float ggx_table_at(const float *nodes, float cosine)
     return lerpf(nodes[i], nodes[i + 1], t - (float)i);
 }
 
-// 2 times the integral of nodes(mu) mu over mu in 0..1, of the interpolated table, so that what the
-// compensation adds is exactly what is missing.
+// 2 times the integral of nodes(mu) mu over mu in 0..1, of the interpolated table, so that the
+// compensation adds exactly the missing energy.
 static float table_mean(const float *nodes)
 {
     const int steps = 64 * (GGX_NODES - 1);
@@ -57,8 +57,8 @@ static float table_mean(const float *nodes)
 
 enum { DRAWS = 1597 }; // the quadrature over facet normals: a Fibonacci lattice
 
-// Light from one node's direction to the others' after single scattering: rows of how much leaves
-// toward each node, for both sides of the surface one after the other.
+// Single scattering from the direction of one node: the share that leaves toward each node, for one
+// side of the surface and then the other.
 typedef struct Scattering {
     int count; // GGX_NODES or twice that
     float to[2 * GGX_NODES][2 * GGX_NODES];
@@ -71,7 +71,7 @@ static Vec3 node_direction(int node)
     return vec3(sqrtf(fmaxf(0.0f, 1.0f - cosine * cosine)), 0.0f, cosine);
 }
 
-// Shares a weight between the two nodes about a cosine, as the interpolation will read them.
+// Splits a weight between the two nodes around a cosine, as the interpolation reads them.
 static void deposit(float *row, float cosine, float weight)
 {
     float t = sqrtf(clampf(cosine, 0.0f, 1.0f)) * (float)(GGX_NODES - 1);
@@ -81,7 +81,7 @@ static void deposit(float *row, float cosine, float weight)
     row[i + 1] += weight * (t - (float)i);
 }
 
-// G2 / G1: what shadowing leaves of a drawn direction, wherever it points.
+// G2 / G1: the share of a drawn direction that shadowing leaves.
 static float shadowing(float alpha, Vec3 wo, Vec3 wi)
 {
     float lambda_o = ggx_lambda(alpha, wo.z);

@@ -1,6 +1,6 @@
 // The GGX microfacet distribution (Walter et al. 2007) with height-correlated Smith masking, its
-// sampling, and tables of the light that single scattering keeps. Local frames have the shading
-// normal along z.
+// sampling, and tables of its single-scattering albedo. Local frames have the shading normal along
+// z.
 #ifndef RAMIFY_RENDER_MATERIAL_BSDF_GGX_H
 #define RAMIFY_RENDER_MATERIAL_BSDF_GGX_H
 
@@ -15,9 +15,9 @@ typedef struct GgxTable {
     // cosine-weighted mean over the hemisphere.
     float scale[GGX_NODES], bias[GGX_NODES];
     float mean_scale, mean_bias;
-    // What single scattering loses between the facets is given back by a factor restore(wo) *
-    // restore(wi), made so that a white surface reflects (and a clear one reflects and transmits)
-    // exactly what comes, and symmetric, so that reciprocity holds. [0]: outside, [1]: inside
+    // Compensation of the energy that single scattering loses between the facets: a factor
+    // restore(wo) * restore(wi) that makes a white surface reflect (a clear one reflect and
+    // transmit) all of the light. It is symmetric, so reciprocity holds. [0]: outside, [1]: inside
     // glass.
     float restore[2][GGX_NODES];
 } GgxTable;

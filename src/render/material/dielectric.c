@@ -1,4 +1,5 @@
-// Rough glass or ice (Walter et al. 2007), scaled so that nothing is lost between the facets.
+// Smooth or rough glass or ice (Walter et al. 2007), scaled so that no energy is lost between the
+// facets.
 #include "render/material/bsdf_ggx.h"
 #include "render/material/material_ops.h"
 

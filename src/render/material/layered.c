@@ -4,7 +4,7 @@
 #include "render/material/bsdf_ggx.h"
 #include "render/warp.h"
 
-// What the glossy lobe leaves of light at a cosine.
+// The share of light that the glossy lobe leaves at a cosine.
 static float left_at(const GgxTable *table, float f0, float f90, float cosine)
 {
     float albedo =
@@ -55,7 +55,7 @@ void layered_finish(Bsdf *b, float cos_o)
     float diffuse = reflected + transmitted;
     b->through = transmitted > 0.0f ? transmitted / diffuse : 0.0f;
     b->probability = glossy > 0.0f ? glossy / (glossy + diffuse) : 0.0f;
-    if (glossy > 0.0f && diffuse > 0.0f) { // neither is ever starved
+    if (glossy > 0.0f && diffuse > 0.0f) { // each lobe keeps a share of the samples
         b->probability = clampf(b->probability, 0.1f, 0.9f);
     }
 }
@@ -68,7 +68,7 @@ bool layered_draw(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
         Vec3 h = ggx_draw_normal(local, b->alpha, u[0], u[1]);
         Vec3 reflected = vec3_sub(vec3_scale(h, 2.0f * vec3_dot(local, h)), local);
         *wi = vec3_normalize(frame_world(&frame, reflected));
-        return vec3_dot(b->normal, *wi) > 0.0f; // else lost among the facets
+        return vec3_dot(b->normal, *wi) > 0.0f; // else absorbed between the facets
     }
     bool through = u[2] - b->probability < b->through * (1.0f - b->probability);
     *wi = warp_cosine(through ? vec3_neg(b->normal) : b->normal, u[0], u[1]);

@@ -2,7 +2,7 @@
 #include "base/color.h"
 #include "render/material/layered.h"
 
-// Reflection and transmission together never give back more than came.
+// Bounds the sum of reflectance and transmittance by 1.
 static void bound_colors(Bsdf *b)
 {
     Vec3 sum = vec3_max(vec3_add(b->color, b->transmittance), vec3_splat(1.0f));
@@ -15,7 +15,7 @@ static void bound_colors(Bsdf *b)
 static void prepare(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, float cos_o)
 {
     bool underside = point->backface;
-    if (underside) { // paler, greyer
+    if (underside) { // the underside is paler and greyer
         float grey = luminance(b->color);
         b->color = vec3_scale(vec3_lerp(b->color, vec3_splat(grey), 0.3f), 1.45f);
     }

@@ -49,7 +49,7 @@ static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material
     entry->material = *material;
     Material *m = &entry->material;
     m->ior = fmaxf(m->ior, 1e-3f);
-    if (fabsf(m->ior - 1.0f) < 1e-3f) { // no facet bends light: keep away from 0 / 0
+    if (fabsf(m->ior - 1.0f) < 1e-3f) { // without refraction: avoids 0 / 0
         m->ior = 1.001f;
     }
     m->color = vec3_max(vec3_min(m->color, vec3_splat(1.0f)), vec3_splat(0.0f));

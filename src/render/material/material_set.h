@@ -1,4 +1,4 @@
-// The materials of a world made ready for shading. Private to the BSDF's files.
+// The materials of a world, prepared for shading. Private to render/material.
 #ifndef RAMIFY_RENDER_MATERIAL_MATERIAL_SET_H
 #define RAMIFY_RENDER_MATERIAL_MATERIAL_SET_H
 
@@ -13,8 +13,8 @@ typedef struct MaterialEntry {
     bool plain;                 // of one colour, and its kind prepares nothing
     bool lambert;               // reflects by Lambert's law alone
     float alpha;                // GGX; 0 = mirror
-    GgxTable *table;            // owned; NULL where the kind needs none, or nothing is made of it
-    const ThinFilmTable *films; // borrowed from the set; likewise
+    GgxTable *table;            // owned; NULL if the kind needs none or no part has the material
+    const ThinFilmTable *films; // borrowed from the set; NULL likewise
     Texture *color;             // borrowed from the cache; NULL = none
     Texture *opacity;           // likewise
 } MaterialEntry;
@@ -22,15 +22,15 @@ typedef struct MaterialEntry {
 struct MaterialSet {
     int count;
     MaterialEntry *entry;
-    TextureCache *textures; // NULL while no material has any
-    ThinFilmTable *films;   // NULL while no material is one
+    TextureCache *textures; // NULL if no material has one
+    ThinFilmTable *films;   // NULL if no material is a thin film
 };
 
 // Allocates the entry's table and sets its alpha, which is not 0: LEAST_ALPHA where the lobe is
 // narrower.
 bool material_entry_add_table(MaterialEntry *entry, Error *e);
 
-// So smooth that a material of one lobe is a mirror?
+// Is the lobe so narrow that a material of one lobe becomes a mirror?
 bool material_entry_is_mirror(const MaterialEntry *entry);
 
 #endif

@@ -15,7 +15,7 @@ float pattern_detail(float wavelength, float footprint)
     return 1.0f - smoothstepf(0.25f, 1.0f, footprint / wavelength);
 }
 
-// Turns the hue between green-blue and red, and scales the value, from instance to instance.
+// Shifts the hue between green-blue and red and scales the value, per instance.
 static Vec3 vary(Vec3 color, float variation, float value, float hue)
 {
     float v = 1.0f + 0.7f * variation * (value - 0.5f);

@@ -11,8 +11,8 @@ typedef struct PatternShade {
     Vec3 normal; // unit; on the side of the point's normal
 } PatternShade;
 
-// What the material's pattern and its variation between instances make of shade, which holds the
-// material's own colours and the point's normal.
+// Applies the material's pattern and its variation between instances to shade, which holds the
+// material's colours and the point's normal.
 void pattern_apply(const Material *material, const SurfacePoint *point, PatternShade *shade);
 
 // The kinds, one file each.
@@ -30,7 +30,7 @@ void pattern_sand(const Material *material, const SurfacePoint *point, PatternSh
 // bounded softly, so that bumps never turn a surface over.
 Vec3 pattern_tilt(Vec3 n, Vec3 slope);
 
-// How much of a feature of this wavelength a pixel of this footprint still shows, 0..1.
+// The share 0..1 of a feature of this wavelength that a pixel of this footprint still shows.
 float pattern_detail(float wavelength, float footprint);
 
 #endif

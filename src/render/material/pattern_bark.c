@@ -1,6 +1,6 @@
-// Furrowed bark, as oaks and limes wear it: long ridges that fork and meet again, deep dark furrows
-// between them, shallow cracks across. Laid out in metres around and along the branch. Ridges are
-// of one size on all stems thicker than a hand; branches wear finer ones, twigs a smooth skin.
+// Furrowed bark like that of oaks and limes: long ridges that fork and join, deep dark furrows
+// between them, shallow cracks across. Laid out in metres around and along the branch. Ridges have
+// one size on all stems thicker than a hand; branches have finer ones, twigs a smooth skin.
 #include "render/material/pattern.h"
 #include "render/material/pattern_noise.h"
 
@@ -12,8 +12,9 @@ typedef struct BarkPlace {
     Vec3 u, v;    // world: unit directions around and along the stem
 } BarkPlace;
 
-// The stem unbent: a point of a cylinder of its radius, found from where the normal points, so that
-// nothing shows where u closes or where it is uneven. side_u: along a line of equal v, either way.
+// Unbends the stem: a point on a cylinder of the stem's radius, found from the direction of the
+// normal, so that no seam shows where u closes or is uneven. side_u: along a line of equal v,
+// either way.
 static BarkPlace stem_place(const SurfacePoint *point, Vec3 side_u)
 {
     Vec3 n = point->geometric_normal;
@@ -27,7 +28,7 @@ static BarkPlace stem_place(const SurfacePoint *point, Vec3 side_u)
                        vec3_cross(axis, n), axis};
 }
 
-// Where there is no branch (imported meshes) bark runs up the object's y axis.
+// On meshes without branches (imported ones) bark runs along the object's y axis.
 static BarkPlace bark_place(const SurfacePoint *point)
 {
     float u = vec3_length(point->tangent_u);
@@ -39,7 +40,7 @@ static BarkPlace bark_place(const SurfacePoint *point)
     return (BarkPlace){vec3(p.x, p.z, p.y), vec3(side.x, side.z, 0.0f), side, vec3(0, 1, 0)};
 }
 
-// Height 0..1 and its slope per metre around and along, and what colours it.
+// Height 0..1, its slope per metre around and along the stem, and inputs to the colour.
 typedef struct BarkRelief {
     float height, slope_u, slope_v;
     float furrow; // 1 in the depth of a furrow
@@ -49,7 +50,7 @@ typedef struct BarkRelief {
 
 enum { LENGTHENING = 6 }; // of ridges along the branch
 
-// The place in ridge widths, pushed about so that ridges wind and their edges are torn.
+// The position in units of ridge widths, distorted so that ridges wind and have ragged edges.
 static Vec3 ridge_lookup(const BarkPlace *place, float width, Vec3 wind)
 {
     Vec3 torn, p = vec3_scale(place->p, 1.0f / width);
@@ -62,13 +63,13 @@ static Vec3 ridge_lookup(const BarkPlace *place, float width, Vec3 wind)
 static BarkRelief ridges(const BarkPlace *place, float width, Vec3 wind, uint32_t seed)
 {
     CellPoint cell = noise_cells(ridge_lookup(place, width, wind), seed);
-    // Distances are compressed along the branch, and borders cut the surface at a slant: back to
-    // true distances on the surface, in ridge widths.
+    // Converts to true distances on the surface, in ridge widths: distances are compressed along
+    // the branch, and borders cut the surface at a slant.
     float nu = vec3_dot(cell.normal, place->along_u), nv = cell.normal.z * (1.0f / LENGTHENING);
     float length = fmaxf(sqrtf(nu * nu + nv * nv), 0.15f), distance = cell.border / length;
     nu /= length;
     nv /= length;
-    // Borders that run along the branch are furrows, those across it mere cracks.
+    // Borders along the branch are furrows, borders across it cracks.
     float along = nu * nu;
     float depth = lerpf(0.45f, 1.0f, along);
     BarkRelief r = {.plate = noise_unit(cell.cell, 7)};
@@ -93,7 +94,7 @@ static void add_relief(BarkRelief *r, const BarkPlace *place, float height, Vec3
     r->slope_v += slope.z;
 }
 
-// A lookup drawn out along the branch, every ridge with its own.
+// A lookup stretched along the branch, different for every ridge.
 static Vec3 grain_lookup(const BarkRelief *r, const BarkPlace *place, float wavelength,
                          float lengthening)
 {
@@ -101,7 +102,7 @@ static Vec3 grain_lookup(const BarkRelief *r, const BarkPlace *place, float wave
     return vec3(p.x, p.y, p.z / lengthening + 10.0f * r->plate);
 }
 
-// Thin cracks along the grain, where a drawn-out noise passes through zero.
+// Thin cracks along the grain, where a stretched noise passes through zero.
 static void add_fissures(BarkRelief *r, const BarkPlace *place, float wavelength, float height)
 {
     const float lengthening = 5.0f, width = 0.2f;
@@ -118,7 +119,7 @@ static void add_fissures(BarkRelief *r, const BarkPlace *place, float wavelength
                vec3(change * g.x, change * g.y, change * g.z / lengthening));
 }
 
-// Flakes: dents sharper than bulges.
+// Flakes: dents that are sharper than bulges.
 static void add_flakes(BarkRelief *r, const BarkPlace *place, float wavelength, float height)
 {
     const float lengthening = 1.8f;
@@ -137,7 +138,7 @@ static BarkRelief mix_relief(BarkRelief a, BarkRelief b, float t)
                         lerpf(a.plate, b.plate, t),     lerpf(a.grain, b.grain, t)};
 }
 
-// The relief at a stem's own size: coarse ridges, fine ones, or a blend where a stem thins out.
+// The relief for the stem's size: coarse ridges, fine ones, or a blend between.
 static BarkRelief relief_at(const SurfacePoint *point, const BarkPlace *place, float width,
                             Vec3 wind)
 {
@@ -158,8 +159,8 @@ static BarkRelief relief_at(const SurfacePoint *point, const BarkPlace *place, f
     return mix_relief(fine, coarse, thick);
 }
 
-// Lichen on ridges in pale patches, moss where it is shaded and damp: low, in furrows, on what
-// faces up and away from the sun (-z here).
+// Pale patches of lichen on ridges; moss where it is shaded and damp: low, in furrows, on surfaces
+// that face up and away from the sun (-z here).
 static Vec3 add_growth(Vec3 color, const SurfacePoint *point, const BarkRelief *r, Vec3 wind)
 {
     Vec3 n = point->geometric_normal;
@@ -200,7 +201,8 @@ void pattern_bark(const Material *m, const SurfacePoint *point, PatternShade *sh
     wind = vec3_scale(wind, 0.6f);
     float old = point->radius > 0.0f ? smoothstepf(0.008f, 0.03f, point->radius) : 1.0f;
     float seen = old * pattern_detail(1.6f * width, point->footprint);
-    const BarkRelief flat = {.height = 0.7f, .furrow = 0.3f}; // what relief comes to from afar
+    const BarkRelief flat = {.height = 0.7f,
+                             .furrow = 0.3f}; // the mean of the relief, seen from afar
     Vec3 mean = add_growth(vec3_lerp(shade->color, m->color2, 0.44f), point, &flat, wind);
     Vec3 color = mean;
     if (seen > 0.0f) {

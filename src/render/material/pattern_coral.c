@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-// Color between the material's own and its second by the nearness of a growing tip or margin.
+// Blends color and color2 by the nearness of a growing tip or margin.
 static Vec3 tissue(const Material *m, Vec3 own, float birth)
 {
     return vec3_lerp(own, m->color2, smoothstepf(0.15f, 1.0f, birth));
@@ -18,8 +18,8 @@ void pattern_youth(const Material *m, const SurfacePoint *point, PatternShade *s
     shade->color = vec3_scale(tissue(m, shade->color, point->birth), blotch);
 }
 
-// Height 0..1 and its slope by the distance (in cells) from the border between two corallites:
-// a groove, a rim, a cup.
+// Height 0..1 and its slope as functions of the distance (in cells) from the border between two
+// corallites: a groove, a rim, a cup.
 static float ring(float border, float *slope)
 {
     const float rim = 0.15f, cup = 0.34f;

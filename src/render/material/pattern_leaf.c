@@ -1,5 +1,5 @@
-// A broad leaf's blade: midrib and side veins by uv (u across with the midrib at 0.5, v along),
-// paler than the blade between them; blotches; no two leaves alike.
+// The blade of a broad leaf: midrib and side veins by uv (u across with the midrib at 0.5, v
+// along), paler than the blade between them; blotches; every leaf differs.
 #include "render/material/pattern.h"
 #include "render/material/pattern_noise.h"
 
@@ -7,7 +7,7 @@
 
 enum { SIDE_VEINS = 7 }; // on each half
 
-static const float blotch_share = 0.35f;  // how far the strongest blotch leans to the second colour
+static const float blotch_share = 0.35f;  // weight of the second colour in the strongest blotch
 static const float blotch_mean = 0.0127f; // of a blotch's strength over a blade
 
 // 1 in the middle of a line, 0 from `width` away; widened to the footprint, and fainter then.
@@ -17,7 +17,7 @@ static float line(float distance, float width, float blur)
     return width / shown * (1.0f - smoothstepf(0.3f * shown, shown, distance));
 }
 
-// How much of a vein is at uv. height: how far it stands out, with its slope in u and v.
+// Coverage of uv by a vein. height: its relief, with the slope in u and v.
 static float veins(Vec2 uv, float blur)
 {
     float side = fabsf(uv.x - 0.5f), left = uv.x < 0.5f ? 0.5f : 0.0f;
@@ -30,8 +30,8 @@ static float veins(Vec2 uv, float blur)
     return fmaxf(midrib, 0.75f * vein);
 }
 
-// Channel by channel: how a blotch of this strength (0..1) filters light that passes, about 1 in
-// the mean over a blade. Blotches lean toward the second colour by transmission as by reflection.
+// Per channel: the factor of a blotch of this strength (0..1) on transmitted light, with mean about
+// 1 over a blade. Blotches shift toward the second colour in transmission as in reflection.
 static float blotch_filter(float color, float color2, float spot)
 {
     float change = blotch_share * (clampf(color2 / fmaxf(color, 1e-3f), 0.0f, 4.0f) - 1.0f);
@@ -47,14 +47,14 @@ void pattern_leaf(const Material *m, const SurfacePoint *point, PatternShade *sh
     float blotch = noise_fractal(p, blur < 0.05f ? 3 : 1, 41);
     float vein = blur < 0.2f ? veins(point->uv, blur) : 0.0f;
     Vec3 own = shade->color;
-    // Blotches lean toward the second colour where the material has one that matters.
+    // Blotches shift toward the second colour if the material has a distinct one.
     float spot = smoothstepf(0.25f, 0.75f, blotch);
     Vec3 blade =
         vec3_lerp(vec3_scale(shade->color, 1.0f + 0.22f * blotch), m->color2, blotch_share * spot);
     Vec3 pale = vec3(1.5f * shade->color.x + 0.03f, 1.35f * shade->color.y + 0.03f,
                      1.4f * shade->color.z + 0.015f);
     shade->color = vec3_lerp(blade, pale, 0.7f * vein);
-    // Veins are thick: they let less light through; blotches thin or thicken the blade.
+    // Veins are thick and transmit less; blotches thin or thicken the blade.
     float clear = (1.0f - 0.55f * vein) * (1.0f + 0.18f * blotch);
     Vec3 filter =
         vec3(blotch_filter(own.x, m->color2.x, spot), blotch_filter(own.y, m->color2.y, spot),

@@ -47,7 +47,8 @@ static inline float sum_of(const Float8 *v)
     return ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
 }
 
-// Three components in -1..1, ten bits of a hash each: not unit, but their spread has no axis.
+// Three components in -1..1, ten bits of a hash each: not unit vectors, but without a preferred
+// axis.
 static inline void gradients_of(const Hash8 *hash, Float8 gradient[3])
 {
     for (int c = 0; c < 3; c++) {
@@ -94,7 +95,7 @@ float noise_fractal(Vec3 p, int octaves, uint32_t seed)
     return 1.4f * sum;
 }
 
-// The points of a cell's neighbourhood, as seen from a place in it: 27, and 5 not used.
+// The feature points of the 27 cells around a position, relative to it; 5 more are unused.
 typedef struct CellPoints {
     Float8 x[4], y[4], z[4], distance[4];
     Hash8 hash[4];

@@ -5,7 +5,8 @@
 #include <math.h>
 #include <stddef.h>
 
-// A ripple's profile over its phase: a steep lee and a gentle stoss side; its derivative in *slope.
+// The profile of a ripple over its phase, with a steep lee and a gentle stoss side; *slope: its
+// derivative.
 static float ripple(float phase, float *slope)
 {
     float s = sinf(phase), c = cosf(phase);

@@ -1,19 +1,19 @@
-// Mountains and badlands. Which ground lies where follows from the land itself: altitude and
-// wetness at the point (SurfacePoint.site) and its slope, frayed by noise of several scales; each
-// ground has its own colours and relief, down to what the pixel still shows.
+// Mountains and badlands. Altitude and wetness at the point (SurfacePoint.site) and its slope
+// decide the type of ground, with borders frayed by noise of several scales. Each type has its own
+// colours and relief, down to the footprint of the pixel.
 #include "render/material/pattern.h"
 #include "render/material/pattern_noise.h"
 
 #include <stddef.h>
 
-// Noise summed over octaves that the pixel still shows, and its gradient per metre.
+// Noise summed over the octaves that the pixel resolves, and its gradient per metre.
 typedef struct Relief {
     float value;
     Vec3 slope;
 } Relief;
 
-// Octaves from `wavelength` down, each half as long and `gain` times as high as the last; squash:
-// how much longer than high the features are.
+// Octaves from `wavelength` down, each half as long and `gain` times as high as the last. squash:
+// the ratio of length to height of the features.
 static Relief relief_at(const SurfacePoint *point, float wavelength, int octaves, float gain,
                         float squash, uint32_t seed)
 {
@@ -53,7 +53,7 @@ static Vec3 tinted(Vec3 color, float r, float g, float b)
     return vec3(color.x * r, color.y * g, color.z * b);
 }
 
-// Beds of rock: where a level in the (gently tilted and folded) pile of beds lies in its cycle.
+// Beds of rock: the phase of a level within the cycle of (gently tilted and folded) beds.
 static float bed_level(const SurfacePoint *point, float thickness, Vec3 up)
 {
     Vec3 p = point->object_position;
@@ -63,7 +63,7 @@ static float bed_level(const SurfacePoint *point, float thickness, Vec3 up)
     return vec3_dot(p, up) / thickness + fold;
 }
 
-// A random number of each bed, running smoothly from bed to bed.
+// A random number per bed, interpolated smoothly between beds.
 static float bed_tone(float level, uint32_t seed)
 {
     float floor_level = floorf(level), t = level - floor_level;
@@ -75,7 +75,7 @@ static Ground rock(const Material *m, const SurfacePoint *point, Vec3 color, flo
 {
     Relief rough = relief_at(point, 0.5f * scale, 7, 0.52f, 1.6f, 61);
     Relief cracks = relief_at(point, 0.13f * scale, 4, 0.6f, 0.45f, 71);
-    // Steeply tilted, folded beds, here plain to see and there lost in broken rock.
+    // Steeply tilted, folded beds, visible in some places and lost in broken rock in others.
     float level = bed_level(point, 0.32f * scale, vec3(0.62f, 0.55f, 0.35f));
     float seen = pattern_detail(0.32f * scale, point->footprint) *
                  smoothstepf(-0.25f, 0.5f, relief_at(point, 7.0f * scale, 3, 0.5f, 1.0f, 57).value);
@@ -191,7 +191,7 @@ void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade
     shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, m->pattern_depth));
 }
 
-// Ripples: a few octaves of noise, gone where the pixel is too coarse for them.
+// Ripples: a few octaves of noise that fade where the pixel is too coarse.
 void pattern_water(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 6.0f;

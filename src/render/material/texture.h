@@ -1,5 +1,6 @@
-// Picture files looked up by uv, through OpenImageIO's texture cache: read whole, in a child
-// process with limits; shared by all threads, filtered by the footprint.
+// Textures from picture files, looked up by uv through OpenImageIO's texture cache. A file is read
+// whole in a child process with limits. Lookups are filtered by the footprint and may run in many
+// threads.
 #ifndef RAMIFY_RENDER_MATERIAL_TEXTURE_H
 #define RAMIFY_RENDER_MATERIAL_TEXTURE_H
 

@@ -9,8 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Nodes by optical path n d cos(t) and by the square root of one side's reflectance: along both the
-// colour is smooth, and it depends on nothing else.
+// Nodes by optical path n d cos(t) and by the square root of one side's reflectance: the colour
+// depends on these two alone and is smooth in both.
 enum { PATHS = 1001, SIDES = 33, WAVELENGTHS = 81 };
 
 static const double PATH_STEP = 4.0; // nm
@@ -19,8 +19,8 @@ struct ThinFilmTable {
     Vec3 color[PATHS][SIDES];
 };
 
-// One side's reflectances for light polarised across and in the plane of incidence; *inner gets the
-// cosine within the film.
+// Reflectances of one side for light polarised across and in the plane of incidence; *inner: the
+// cosine inside the film.
 static void side_reflectances(double ior, double cosine, double *across, double *in_plane,
                               double *inner)
 {
@@ -32,8 +32,8 @@ static void side_reflectances(double ior, double cosine, double *across, double 
     *in_plane = p * p;
 }
 
-// What both sides together mirror of one wavelength, all inner reflections summed (Airy): side is
-// one side's reflectance, half_phase = 2 pi n d cos(t) / wavelength.
+// Reflectance of both sides at one wavelength, all inner reflections summed (Airy). side:
+// reflectance of one side; half_phase = 2 pi n d cos(t) / wavelength.
 static double airy(double side, double half_phase_sine2)
 {
     double finesse = 4.0 * side / fmax((1.0 - side) * (1.0 - side), 1e-12);
@@ -112,7 +112,8 @@ Vec3 thin_film_color(const ThinFilmTable *table, float thickness, float ior, flo
 
 // ---- the material: light is mirrored in interference colours or goes straight on; nothing is lost
 
-// Thinner above, where it has drained, thicker below; streaks that flow about each other.
+// The film is thinner above, where it has drained, and thicker below, with streaks that swirl
+// around each other.
 static float thickness_at(const Material *m, const SurfacePoint *point)
 {
     float up = point->backface ? -point->normal.y : point->normal.y; // as the mesh has it
@@ -135,7 +136,7 @@ static void prepare(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *poi
     Vec3 passed = vec3_sub(vec3_splat(1.0f), b->specular);
     b->transmittance = vec3_mul(b->color, passed);
     float r = sqrtf(luminance(b->specular)), t = sqrtf(luminance(passed));
-    b->probability = r / (r + t); // least noise where both sides are about as bright
+    b->probability = r / (r + t); // least noise if both sides are about equally bright
     b->albedo = vec3_splat(1.0f);
 }
 

@@ -17,7 +17,7 @@ void thin_film_table_free(ThinFilmTable *table); // NULL is fine
 // angle in air. What is not reflected passes.
 Vec3 thin_film_color(const ThinFilmTable *table, float thickness, float ior, float cosine);
 
-// Its mean over thicknesses: no colour, one number. What a film of unknown thickness reflects.
+// The mean over thicknesses, without colour: the reflectance of a film of unknown thickness.
 float thin_film_mean(float ior, float cosine);
 
 #endif

@@ -86,11 +86,11 @@ static void add_layer(MediumLine *line, float height, float rise, float falloff,
     }
     float border = rise != 0.0f ? -height / rise : (height < 0.0f ? INFINITY : 0.0f);
     float rate = rise / falloff, above = expf(-clampf(height, 0.0f, highest) / falloff);
-    if (height <= 0.0f) { // from below; up to the border, then into thinner air
+    if (height <= 0.0f) { // starts below: homogeneous up to the border, then thinning
         border = border >= 0.0f ? border : INFINITY;
         add_piece(line, 0.0f, fminf(border, far), 1.0f, 0.0f);
         add_piece(line, border, far, 1.0f, rate);
-    } else { // from above; down to the border, if it is met
+    } else { // starts above: down to the border if the ray meets it
         border = border > 0.0f ? border : INFINITY;
         add_piece(line, start, fminf(border, far), above, rate);
         add_piece(line, border, far, 1.0f, 0.0f);

@@ -1,8 +1,8 @@
-// What light passes through: absorption and scattering, their density along a ray, and the
-// Henyey-Greenstein phase function.
+// Participating media: absorption and scattering, density along a ray, and the Henyey-Greenstein
+// phase function.
 //
-// Lengths along a ray are counted twice: in metres, and as metres at density 1 ("length" below),
-// in which every medium is homogeneous.
+// Lengths along a ray are counted in metres, and as metres at density 1 ("length" below), by which
+// every medium is homogeneous.
 #ifndef RAMIFY_RENDER_MEDIUM_MEDIUM_H
 #define RAMIFY_RENDER_MEDIUM_MEDIUM_H
 
@@ -15,7 +15,7 @@ typedef enum MediumKind {
     MEDIUM_LAYER       // density 1 under that plane, falling off exponentially above: fog
 } MediumKind;
 
-// A scene's own medium: all that is not inside of a body.
+// The medium of a scene: everything outside of bodies.
 typedef struct Medium {
     MediumKind kind;
     Vec3 scattering, absorption; // per metre, where the density is 1
@@ -29,7 +29,7 @@ typedef struct Medium {
 
 Medium medium_default(MediumKind kind);
 
-// What fills the space around a path.
+// The medium around a path.
 typedef struct Filling {
     Vec3 extinction, scattering; // per metre
     float anisotropy;
@@ -44,7 +44,7 @@ typedef struct MediumPiece {
     float length; // of all of it
 } MediumPiece;
 
-// The density along a ray: up to two pieces, end to end; zero before and behind.
+// The density along a ray: up to two consecutive pieces; zero before and after them.
 typedef struct MediumLine {
     MediumPiece piece[2];
     int count;
@@ -56,26 +56,27 @@ enum { MEDIUM_LONGEST = 1000000000 }; // no length is greater
 // Inside a body: density 1 from 0 to far, which may be INFINITY.
 MediumLine medium_line_inside(float far);
 
-// In the scene's medium; center, radius: of MEDIUM_EVERYWHERE. No pieces where the ray misses it.
+// In the scene's medium; center, radius: of MEDIUM_EVERYWHERE. No pieces if the ray misses it.
 MediumLine medium_line(const Medium *medium, Vec3 center, float radius, Vec3 origin, Vec3 direction,
                        float far);
 
 float medium_line_near(const MediumLine *line); // m; of a line with pieces
 float medium_line_far(const MediumLine *line);
 
-// Length from the ray's origin to t, the density at t, and the t that lies behind a length.
+// Length from the ray's origin to t, the density at t, and the t of a length.
 float medium_line_length(const MediumLine *line, float t);
 float medium_line_density(const MediumLine *line, float t);
 float medium_line_at(const MediumLine *line, float length);
 
 Vec3 medium_transmittance(Vec3 extinction, float length);
 
-// A length drawn where channels of these weights (sum 1) scatter. Past the line's end: the ray gets
-// through. *pdf: with respect to length, or of getting through.
+// Draws the length to the next scattering event, with channels of these weights (sum 1). A length
+// past `longest` means that the ray passes. *pdf: with respect to length, or the probability of
+// passing.
 float medium_draw_length(Vec3 extinction, Vec3 weight, float longest, float choice, float u,
                          float *pdf);
 
-// The same, but never past the end; pdf as a function of its own.
+// The same, limited to `longest`; the pdf is a function of its own.
 float medium_draw_within(Vec3 extinction, Vec3 weight, float longest, float choice, float u);
 float medium_density_within(Vec3 extinction, Vec3 weight, float longest, float length);
 

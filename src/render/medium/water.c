@@ -14,7 +14,7 @@ enum {
     LAYERS = 20
 };
 
-// How far the network's layers reach, in depths at which it is sharp.
+// The deepest layer, in units of the depth of focus.
 static const float DEEPEST = 2.5f;
 
 typedef struct Wave {
@@ -69,8 +69,8 @@ bool water_leave(Vec3 below, Vec3 normal, WaterPassage *passage)
 
 // ---- waves
 
-// Wave vectors on the tile's lattice, in all directions but more of them across; lower where
-// shorter. The mean square of the curvature is set to what focuses at `depth`.
+// Wave vectors on the tile's lattice in all directions, most of them across; short waves are lower.
+// The mean square curvature is set so that the waves focus at `depth`.
 static void make_waves(Water *water, float depth, uint64_t seed)
 {
     double curvature = 0.0, steepness = 0.0;
@@ -110,8 +110,8 @@ Vec3 water_normal(const Water *water, Vec3 point)
 
 // ---- the network
 
-// One ray of the sun through a point of the waves: how far aside it goes in a metre down, beyond
-// the lean of a calm surface, and how much light it stands for.
+// One ray of the sun through a point of the waves: its sideways shift per metre of depth, relative
+// to a calm surface, and the light that it carries.
 typedef struct SunRay {
     float x, z, aside_x, aside_z, weight;
 } SunRay;
@@ -165,7 +165,8 @@ static void blur_once(float *layer, float *scratch)
     }
 }
 
-// The disc of the sun blurs by its radius times the depth, of which the variance is a quarter.
+// The disc of the sun blurs by its radius times the depth; the variance is a quarter of that
+// squared.
 static void finish_layer(const Water *water, float *layer, float *scratch, float depth,
                          float sun_radius)
 {

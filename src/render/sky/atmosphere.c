@@ -242,14 +242,15 @@ static Spectrum glow_at(const Atmosphere *a, double r, double mu_sun)
     return result;
 }
 
-// What the march gathers, for a sun of irradiance 1 in every band.
+// Results of the march, for a sun of irradiance 1 in every band.
 typedef struct March {
     Spectrum light;     // in-scattered toward the eye
     Spectrum returned;  // the same if the surroundings shone with radiance 1: Hillaire's f_ms
     Spectrum remaining; // transmittance of the whole path
 } March;
 
-// One point of the march: gathers over the segment of length `step` around it, behind `passed`.
+// One step of the march: adds the segment of length `step` around the point, behind the
+// transmittance `passed`.
 static void gather(const Atmosphere *a, March *m, double r, double mu_sun, Column passed,
                    Column density, double step, const float phase[2], bool with_glow)
 {

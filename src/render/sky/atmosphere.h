@@ -22,18 +22,18 @@ typedef struct Atmosphere Atmosphere;
 Atmosphere *atmosphere_new(float turbidity, float ground_albedo, const Run *run, Error *e);
 void atmosphere_free(Atmosphere *atmosphere); // NULL is fine
 
-// Share of the sun's light that reaches an eye near the ground, the sun's centre being at this sine
-// of elevation.
+// Transmittance of the atmosphere for the sun at this sine of elevation, seen from near the ground.
 Spectrum atmosphere_sun_transmittance(const Atmosphere *atmosphere, float sine);
 
-// Radiance of the sky, W / (m^2 sr nm), that an eye near the ground sees in direction (unit, +Y
-// up), for a sun in direction sun. Below the horizon: of the air in front of the ground.
+// Radiance of the sky, W / (m^2 sr nm), seen from near the ground in direction (unit, +Y up) with
+// the sun in direction sun. Below the horizon: of the air in front of the ground.
 Spectrum atmosphere_radiance(const Atmosphere *atmosphere, Vec3 direction, Vec3 sun);
 
 // The sun's irradiance outside the atmosphere, W / (m^2 nm).
 Spectrum atmosphere_solar_irradiance(void);
 
-// What a wavelength adds to each channel of linear Rec. 709 (some are negative): CIE 1931.
+// The contribution of a wavelength to each channel of linear Rec. 709 (some are negative): CIE
+// 1931.
 void wavelength_to_rgb(double nm, double rgb[3]);
 
 // Radiance per band to linear Rec. 709 times luminance in cd/m^2 (irradiance: lux).

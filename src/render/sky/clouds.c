@@ -15,8 +15,8 @@ static float distance_to_layer(float sine)
     return sqrtf(down * down + LAYER_HEIGHT * (2.0f * EARTH_RADIUS + LAYER_HEIGHT)) - down;
 }
 
-// Optical thickness of the layer above the point (x, z), km: streaks drawn out by the wind, bent by
-// slow eddies, torn by finer noise.
+// Optical thickness of the layer above the point (x, z), km: streaks along the wind, bent by slow
+// eddies, torn by finer noise.
 static float thickness(const Clouds *clouds, float x, float z)
 {
     Vec3 place = vec3(0.9f * x + 0.45f * z, -0.45f * x + 0.9f * z, 0.0f);
@@ -41,7 +41,7 @@ Vec3 clouds_before(const Clouds *clouds, Vec3 direction, Vec3 behind)
     if (depth <= 0.0f || fade < 1e-3f) {
         return behind;
     }
-    // Light falls off with the cloud between here and the sun; thin edges near the sun glow
+    // Light decreases with the cloud between this point and the sun; thin edges near the sun glow
     // (forward scattering).
     Vec3 sun = clouds->sun_direction;
     float toward = thickness(clouds, x + 0.7f * sun.x, z + 0.7f * sun.z);

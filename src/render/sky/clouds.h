@@ -1,5 +1,5 @@
-// A layer of fair-weather clouds before the sky: thin sheets and streaks by fractal noise, lit
-// through by the sun.
+// A layer of fair-weather clouds: thin sheets and streaks of fractal noise, lit by the sun and the
+// sky.
 #ifndef RAMIFY_RENDER_SKY_CLOUDS_H
 #define RAMIFY_RENDER_SKY_CLOUDS_H
 
@@ -15,7 +15,7 @@ typedef struct Clouds {
     uint32_t seed;
 } Clouds;
 
-// Radiance that an eye on the ground sees in direction (unit), where the clear sky has `behind`.
+// Radiance seen from the ground in direction (unit), over a clear sky of radiance `behind`.
 Vec3 clouds_before(const Clouds *clouds, Vec3 direction, Vec3 behind);
 
 #endif

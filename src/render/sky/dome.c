@@ -84,8 +84,8 @@ Vec3 dome_lookup(const Dome *dome, Vec3 direction)
                      vec3_lerp(below[left], below[right], fx), fy);
 }
 
-// An entry's weight must not vanish where bilinear lookup takes light from its neighbours: a 1-2-1
-// blur in both directions.
+// A 1-2-1 blur in both directions: an entry's weight must not vanish where bilinear lookup takes
+// light from its neighbours.
 static double entry_weight(const Dome *dome, int row, int column)
 {
     double sum = 0.0;
@@ -99,7 +99,7 @@ static double entry_weight(const Dome *dome, int row, int column)
     return sum > 0.0 ? sum / 16.0 : 0.0;
 }
 
-// Of an entry between the rows' edges `top` and `bottom`.
+// Solid angle of an entry between the rows' edges `top` and `bottom`.
 static double solid_angle(const Dome *dome, int top, int bottom)
 {
     return ((double)dome->edge[top] - (double)dome->edge[bottom]) * 2.0 * (double)PI_F /
@@ -137,7 +137,7 @@ static double prepare_row(Dome *dome, int row)
     return total;
 }
 
-// The densities must be those of the rounded sums that are sampled.
+// Computes the densities from the rounded sums that sampling uses.
 static void fill_densities(Dome *dome)
 {
     int across = dome->columns / dome->block, down = dome->rows / dome->block;

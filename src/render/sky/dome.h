@@ -1,6 +1,5 @@
-// Radiance from all directions, infinitely far away: a latitude-longitude table that can be looked
-// up (bilinearly) and sampled in proportion to its luminance. The sky and HDR environments are
-// domes.
+// Radiance from all directions at infinity: a latitude-longitude table with bilinear lookup and
+// sampling in proportion to luminance. The sky and HDR environments are domes.
 #ifndef RAMIFY_RENDER_SKY_DOME_H
 #define RAMIFY_RENDER_SKY_DOME_H
 
@@ -8,7 +7,7 @@
 #include "base/error.h"
 
 // Row 0 is at the zenith. Column 0 begins at azimuth +180 degrees (from +Z toward +X) and azimuth
-// falls with the column, so that seen from inside the picture is not mirrored (as in OpenEXR).
+// decreases with the column, so that the picture is not mirrored from inside (as in OpenEXR).
 typedef struct Dome {
     int columns, rows;
     int block;            // a sampled cell is block * block entries; divides columns and rows
@@ -22,12 +21,12 @@ typedef struct Dome {
     float power;          // integral of luminance over all directions
 } Dome;
 
-// A black table; fill radiance, then dome_prepare. block: 1 for pictures; smooth skies can be
+// A black table; fill radiance, then call dome_prepare. block: 1 for pictures; smooth skies are
 // sampled by coarser cells, whose tables stay in the cache.
 Dome *dome_new(int columns, int rows, int block, bool horizon_spacing, float rotation, Error *e);
 void dome_free(Dome *dome); // NULL is fine
 
-// Builds the sampling tables. A dome without any light is fine; it is never sampled.
+// Builds the sampling tables. A black dome is valid and never sampled.
 void dome_prepare(Dome *dome);
 
 // Elevation, radians, of the row coordinate v: 0 at the top edge, 1 at the bottom one.

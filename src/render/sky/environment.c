@@ -18,7 +18,7 @@ static bool check_shape(const Image *image, const char *file, Error *e)
     return true;
 }
 
-// Broken pixels (NaN, infinite, negative) would spoil every path that meets them.
+// Invalid pixels (NaN, infinite, negative) would spoil every path that meets them.
 static float usable(float x)
 {
     return isfinite(x) && x > 0.0f ? x : 0.0f;

@@ -12,7 +12,7 @@ static const float STAR_LIGHT = 2.4e-5f, FAINTEST = 8.2f;
 
 // ---- what glows
 
-// The galaxy's plane, as it may stand on a summer's evening.
+// The plane of the galaxy, as on a summer evening.
 static const Vec3 GALAXY = {0.62f, 0.42f, -0.66f};
 
 static Vec3 milky_way(Vec3 d)
@@ -26,7 +26,7 @@ static Vec3 milky_way(Vec3 d)
     return vec3_scale(vec3(0.0055f, 0.0053f, 0.0060f), band * (1.0f - 0.7f * dark));
 }
 
-// Airglow brightens toward the horizon, as the layer is seen edge on, until the air dims it.
+// Airglow brightens toward the horizon, where the layer is seen edge-on, until extinction dims it.
 static Vec3 glow_at(const Sky *sky, Vec3 d)
 {
     float rise = fmaxf(d.y, 0.0f);
@@ -115,7 +115,8 @@ static Vec3 star_color(float u)
     return vec3_lerp(warm, cold, smoothstepf(0.0f, 1.0f, u));
 }
 
-// A star of cell (i, j) smoothed over sigma. Ten times as many for each two magnitudes.
+// A star of cell (i, j) smoothed over sigma. There are ten times as many stars for each two
+// magnitudes.
 static Vec3 star_light(int face, int i, int j, int number, Vec3 direction, float sigma)
 {
     uint64_t key = random_key(

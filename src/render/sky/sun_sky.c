@@ -7,7 +7,7 @@
 
 enum { SKY_COLUMNS = 384, SKY_ROWS = 256, SKY_BLOCK = 4 };
 
-// Depression below the horizon, radians, in which haze gives way to the ground.
+// The depression below the horizon, radians, over which haze blends into the ground.
 static const float HORIZON_SOFTNESS = 0.035f;
 
 static Vec3 sun_direction(const Sky *sky)
@@ -17,7 +17,7 @@ static Vec3 sun_direction(const Sky *sky)
     return vec3(cosf(elevation) * sinf(azimuth), sinf(elevation), cosf(elevation) * cosf(azimuth));
 }
 
-// The disc's irradiance does not depend on the size it is drawn with.
+// The irradiance of the disc does not depend on its drawn size.
 static Sun make_sun(const Sky *sky, const Atmosphere *atmosphere)
 {
     float half = 0.5f * fmaxf(sky->sun_size, 0.01f) * RADIANS_PER_DEGREE;
@@ -34,7 +34,7 @@ static Sun make_sun(const Sky *sky, const Atmosphere *atmosphere)
     return sun;
 }
 
-// Row by row from the zenith to the horizon; both halves about the sun are alike.
+// Row by row from the zenith to the horizon; the two halves beside the sun are symmetric.
 static void bake_upper_half(Dome *dome, const Atmosphere *atmosphere, float sine, float scale,
                             const Run *run)
 {
@@ -53,7 +53,7 @@ static void bake_upper_half(Dome *dome, const Atmosphere *atmosphere, float sine
     }
 }
 
-// What falls on flat ground from the upper half of the dome.
+// Irradiance of flat ground from the upper half of the dome.
 static Vec3 dome_irradiance(const Dome *dome)
 {
     Vec3 sum = vec3_splat(0.0f);

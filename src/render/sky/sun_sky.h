@@ -1,8 +1,8 @@
-// Sun and sky: the atmosphere baked into a dome, and the sun apart from it.
+// Sun and sky by day: the atmosphere baked into a dome, and the sun apart from it.
 //
-// Scale: radiance 1 is a luminance of 1e5 / pi = 31,831 cd/m^2, which is a white diffuse surface
-// under 100,000 lux, a clear noon in summer. So white in sunlight comes out near 1 and needs no
-// exposure. The colour is that of the light itself seen with a white of 6500 K.
+// Scale: radiance 1 is a luminance of 1e5 / pi = 31,831 cd/m^2: a white diffuse surface under
+// 100,000 lux, a clear noon in summer. So white in sunlight comes out near 1 and needs no exposure.
+// Colours are relative to a white of 6500 K.
 #ifndef RAMIFY_RENDER_SKY_SUN_SKY_H
 #define RAMIFY_RENDER_SKY_SUN_SKY_H
 
@@ -21,8 +21,8 @@ typedef struct Sun {
     bool even; // without limb darkening: the moon
 } Sun;
 
-// sky->kind must be SKY_SUN_SKY. The lower half of the dome is the ground: the horizon's haze that
-// passes within a few degrees into ground_albedo under this very sky.
+// sky->kind must be SKY_SUN_SKY. The lower half of the dome is the ground: below the horizon, haze
+// blends within a few degrees into ground_albedo under this sky.
 Dome *sky_dome(const Sky *sky, Sun *sun, const Run *run, Error *e);
 
 // Radiance of the disc in direction, with limb darkening; 0 outside.
