@@ -3,10 +3,11 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "config/compare.h"
 #include "image/image.h"
 #include "ramify.h"
 #include "scene/picture.h"
-#include "scene/sections.h"
+#include "scene/spec.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -22,30 +23,23 @@
 #define NAME_DIGITS 6
 #define FILM_NAME "film.part"
 
-static uint64_t hash_text(uint64_t hash, const char *text, int64_t length)
+static uint64_t hash_text(uint64_t hash, const char *text)
 {
-    return random_key(hash_bytes(hash, text, (size_t)length), (uint64_t)length);
+    return hash_bytes(hash, text, strlen(text) + 1);
 }
 
 uint64_t frame_hash(const Scene *scene)
 {
-    uint64_t hash = hash_text(HASH_START, RAMIFY_VERSION, (int64_t)strlen(RAMIFY_VERSION));
-    const char *resolved = scene->resolved;
-    TextPart animation = section_find(resolved, "animation"); // only concerns other frames
-    int64_t before = animation.length ? animation.text - resolved : (int64_t)strlen(resolved);
-    hash = hash_text(hash, resolved, before);
-    if (animation.length) {
-        const char *rest = animation.text + animation.length;
-        hash = hash_text(hash, rest, (int64_t)strlen(rest));
-    }
+    uint64_t hash = hash_text(HASH_START, RAMIFY_VERSION);
+    hash = table_hash(hash, &scene_table, scene, "animation"); // which only concerns other frames
     return random_key(hash, scene->files);
 }
 
 uint64_t frames_hash(const Scene *still, const char *isa)
 {
-    TextPart camera = section_find(still->resolved, "camera");
-    uint64_t hash = hash_text(HASH_START, camera.text, camera.length);
-    return hash_text(hash, isa ? isa : "", isa ? (int64_t)strlen(isa) : 0);
+    const Table *camera_table = table_find(&scene_table, "camera")->table;
+    uint64_t hash = table_hash(HASH_START, camera_table, &still->camera, NULL);
+    return hash_text(hash, isa ? isa : "");
 }
 
 void frame_mark(const Scene *scene, uint64_t more, char mark[FRAME_MARK_SIZE])

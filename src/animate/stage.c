@@ -1,9 +1,10 @@
 #include "animate/stage.h"
 
 #include "base/memory.h"
+#include "config/compare.h"
 #include "render/world.h"
 #include "scene/place.h"
-#include "scene/sections.h"
+#include "scene/spec.h"
 
 #include <stdlib.h>
 
@@ -42,23 +43,27 @@ void stage_free(Stage *stage)
     }
 }
 
+// Is the value of a key of the scene the same?
+static bool same(const Scene *a, const Scene *b, const char *key)
+{
+    return key_equal(table_find(&scene_table, key), a, b);
+}
+
 // Flags for renderer_update.
-static unsigned find_changes(const char *old, const char *now)
+static unsigned find_changes(const Scene *old, const Scene *now)
 {
     unsigned changed = 0;
-    TextPart sky[2] = {section_find(old, "sky"), section_find(now, "sky")};
-    if (!section_same(sky[0], sky[1])) {
-        bool turned = section_same_but(sky[0], sky[1], "rotation");
+    if (!same(old, now, "sky")) {
+        bool turned = table_equal(&sky_table, &old->sky, &now->sky, "rotation");
         changed |= turned ? RENDERER_SKY_TURNED : RENDERER_LIGHT;
     }
-    if (!section_same(section_find(old, "medium"), section_find(now, "medium")) ||
-        !section_same(section_find(old, "seed"), section_find(now, "seed"))) {
-        changed |= RENDERER_LIGHT; // the seed affects clouds and waves
+    if (!same(old, now, "medium") || !same(old, now, "seed")) {
+        changed |= RENDERER_LIGHT; // the seed: of clouds and waves
     }
-    if (!section_same(section_find(old, "materials"), section_find(now, "materials"))) {
+    if (!same(old, now, "materials")) {
         changed |= RENDERER_MATERIALS;
     }
-    if (!section_same(section_find(old, "lights"), section_find(now, "lights"))) {
+    if (!same(old, now, "lights")) {
         changed |= RENDERER_LAMPS;
     }
     return changed;
@@ -67,7 +72,7 @@ static unsigned find_changes(const char *old, const char *now)
 // Builds or updates with the stage's camera for view-dependent geometry, not the scene's.
 static bool set_up(Stage *stage, Scene *scene, bool fits, const Run *run, Error *e)
 {
-    unsigned changed = stage->scene ? find_changes(stage->scene->resolved, scene->resolved) : 0;
+    unsigned changed = stage->scene ? find_changes(stage->scene, scene) : 0;
     Camera own = scene->camera;
     scene->camera = stage->camera;
     stage->stats.geometries += !fits;

@@ -1,10 +1,11 @@
 #include "scene/scene_flood.h"
 
-#include "base/random.h"
+#include "base/hash.h"
+#include "config/compare.h"
 #include "render/material/material.h"
 #include "render/medium/medium.h"
 #include "scene/kind.h"
-#include "scene/sections.h"
+#include "scene/spec.h"
 
 #include <math.h>
 
@@ -59,25 +60,16 @@ void scene_flood_clear(SceneFlood *flood)
     flood->cover = NULL;
 }
 
-static uint64_t text_hash(uint64_t hash, TextPart part)
-{
-    hash = random_key(hash, (uint64_t)part.length);
-    for (int64_t i = 0; i < part.length; i++) {
-        hash = random_key(hash, (uint8_t)part.text[i]);
-    }
-    return hash;
-}
-
 uint64_t scene_flood_hash(const Scene *scene)
 {
     scene = scene->whole ? scene->whole : scene;
     uint64_t hash = 0;
     if (scene->medium && scene->medium->kind == MEDIUM_WATER) {
-        hash = text_hash(1, section_find(scene->resolved, "medium"));
+        hash = table_hash(HASH_START, &medium_table, scene->medium, NULL);
     }
     for (int i = 0; i < scene->object_count; i++) {
         if (is_body_of_water(scene, &scene->objects[i])) {
-            hash = text_hash(hash, section_entry(section_find(scene->resolved, "objects"), i));
+            hash = table_hash(hash, &object_table, &scene->objects[i], NULL);
         }
     }
     return hash;

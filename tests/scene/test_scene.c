@@ -2,6 +2,8 @@
 #include "render/world.h"
 #include "scene_fixture.h"
 
+#include "base/hash.h"
+#include "config/compare.h"
 #include "config/hint.h"
 #include "config/scalar.h"
 #include "objects/tree/tree.h"
@@ -210,6 +212,60 @@ static void files_are_found_beside_the_scene(void **state)
     const SceneMesh *stone = params_of(scene, 0, &kind_mesh);
     assert_string_equal(stone->file, wanted);
     assert_string_equal(scene->text, text);
+    scene_free(scene);
+}
+
+// Of every type of key, on every level.
+static const char *const CHANGES[] = {
+    "seed=2",
+    "camera.fov=30",
+    "camera.focal_length=31",
+    "film.crop=[0, 0, 0.5, 1]",
+    "film.denoise=true",
+    "sky.kind=night",
+    "lights.0.radiance=0.5",
+    "lights=[]",
+    "medium={}",
+    "materials.0.name=b",
+    "materials.0.pattern=noise",
+    "objects.0.name=c",
+    "objects.0.material=bark",
+    "objects.0.tree.crown.growth.levels.0.noise=0.25",
+    "objects.0.tree.crown.growth.levels=[{attractors: 5}, {attractors: 6}]",
+    "objects.0.tree.crown.fields.0.center=[0, 0, 0]",
+    "objects.0.tree.crown.fields.0.weight=2",
+    "objects.1.lsystem.rules=F -> FF",
+    "objects.1={name: plant, shape: {envelope: [{shape: sphere}]}}",
+    "render.seconds=0.1",
+    "animation.tracks.0.keys.1.value=4",
+};
+
+static void scenes_are_compared_as_values(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "lights: [{kind: sphere}]\n"
+        "materials: [{name: a}]\n"
+        "objects:\n"
+        "  - name: oak\n"
+        "    tree: {crown: {growth: {levels: [{attractors: 5}]}, fields: [{kind: radial}]}}\n"
+        "  - {name: plant, lsystem: }\n"
+        "animation: {tracks: [{path: seed, keys: [{at: 0, value: 1}, {at: 1, value: 3}]}]}\n";
+    Scene *scene = read_text(text, NULL, 0), *again = read_text(text, NULL, 0);
+    uint64_t hash = table_hash(HASH_START, &scene_table, scene, NULL);
+    assert_true(table_equal(&scene_table, scene, again, NULL));
+    assert_true(table_hash(HASH_START, &scene_table, again, NULL) == hash);
+    for (size_t i = 0; i < sizeof CHANGES / sizeof CHANGES[0]; i++) {
+        Scene *other = read_text(text, &CHANGES[i], 1);
+        if (table_equal(&scene_table, scene, other, NULL) ||
+            table_hash(HASH_START, &scene_table, other, NULL) == hash) {
+            fail_msg("%s makes no difference", CHANGES[i]);
+        }
+        bool only_animation = strncmp(CHANGES[i], "animation", 9) == 0;
+        assert_int_equal(table_equal(&scene_table, scene, other, "animation"), only_animation);
+        scene_free(other);
+    }
+    scene_free(again);
     scene_free(scene);
 }
 
@@ -545,6 +601,7 @@ int main(void)
         cmocka_unit_test(floats_keep_their_bits_as_text),
         cmocka_unit_test(hints_are_near),
         cmocka_unit_test(no_table_has_a_key_twice),
+        cmocka_unit_test(scenes_are_compared_as_values),
         cmocka_unit_test(the_schema_is_json),
         cmocka_unit_test(the_schema_has_every_key),
         cmocka_unit_test(every_path_can_be_set),
