@@ -184,7 +184,7 @@ static bool load_list(const Mapping *list, const Key *row, char *out)
             return false;
         }
     }
-    memcpy(out + row->offset, &entries, sizeof entries);
+    pointer_set(out + row->offset, entries);
     memcpy(out + row->count_offset, &given->count, sizeof given->count);
     return entries;
 }
@@ -193,7 +193,7 @@ static bool load_pointer(const Mapping *mapping, const Key *row, char *out)
 {
     Loader *loader = mapping->loader;
     void *params = arena_alloc(loader->arena, row->table->size, loader->e);
-    memcpy(out + row->offset, &params, sizeof params);
+    pointer_set(out + row->offset, params);
     return params && load_mapping(mapping, row->table, params);
 }
 
@@ -290,7 +290,7 @@ static const Variant *variant_of(const Table *table, const char *key)
     return NULL;
 }
 
-static bool no_variant(const Mapping *mapping, const Table *table)
+static void say_no_variant(const Mapping *mapping, const Table *table)
 {
     const char *keys[MAX_KNOWN];
     char list[512];
@@ -300,24 +300,28 @@ static bool no_variant(const Mapping *mapping, const Table *table)
         keys[count] = variant->row.key;
     }
     hint_list(keys, count, list, sizeof list);
-    return mapping_fail(mapping, NULL, " is nothing; it must have one of %s", list);
+    mapping_fail(mapping, NULL, " is nothing; it must have one of %s", list);
 }
 
-// The one variant that the file names.
-static bool find_variant(const Mapping *mapping, const Table *table, const Variant **found)
+// The one variant that the file names; NULL and an error when it names none or two.
+static const Variant *find_variant(const Mapping *mapping, const Table *table)
 {
-    *found = NULL;
+    const Variant *found = NULL;
     const Node *given = mapping->given;
     for (const Node *child = given ? given->first : NULL; child; child = child->next) {
         const Variant *variant = variant_of(table, child->key);
-        if (variant && *found) {
-            return load_fail(
-                mapping->loader, child, "%s is a %s and a %s; it must be one, make two %ss of it",
-                mapping_path(mapping, NULL), (*found)->row.key, child->key, table->name);
+        if (variant && found) {
+            load_fail(mapping->loader, child,
+                      "%s is a %s and a %s; it must be one, make two %ss of it",
+                      mapping_path(mapping, NULL), found->row.key, child->key, table->name);
+            return NULL;
         }
-        *found = variant ? variant : *found;
+        found = variant ? variant : found;
     }
-    return *found || no_variant(mapping, table);
+    if (!found) {
+        say_no_variant(mapping, table);
+    }
+    return found;
 }
 
 // No key that belongs beside other variants only.
@@ -337,15 +341,14 @@ static bool check_keys_in_variant(const Mapping *mapping, const Table *table,
 
 static bool load_variant(const Mapping *mapping, const Table *table, char *out)
 {
-    const Variant *variant;
     if (!table->variant) {
         return true;
     }
-    if (!find_variant(mapping, table, &variant) ||
-        !check_keys_in_variant(mapping, table, variant)) {
+    const Variant *variant = find_variant(mapping, table);
+    if (!variant || !check_keys_in_variant(mapping, table, variant)) {
         return false;
     }
-    memcpy(out + table->variant_offset, &variant, sizeof variant);
+    pointer_set(out + table->variant_offset, variant);
     return load_key(mapping, &variant->row, out) && load_keys(mapping, variant->beside, -1, out);
 }
 
@@ -356,9 +359,7 @@ static bool load_mapping(const Mapping *mapping, const Table *table, void *out)
         !find_kind(mapping, table, &kind)) {
         return false;
     }
-    if (table->defaults) {
-        table->defaults(mapping->given, kind, out);
-    }
+    table_defaults(table, mapping->given, kind, out);
     if (table->kind_key && kind < 0) {
         kind = int_at((char *)out + table_find(table, table->kind_key)->offset);
     }

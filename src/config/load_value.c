@@ -108,7 +108,7 @@ static bool load_real(const Value *v, double *value)
 
 static bool load_float(const Value *v, float *member)
 {
-    double value;
+    double value = 0.0;
     if (!load_real(v, &value)) {
         return false;
     }
@@ -137,9 +137,9 @@ static bool load_integer(const Value *v, bool *negative, uint64_t *magnitude)
 
 static bool load_number(const Value *v, void *member)
 {
-    bool negative;
-    uint64_t magnitude;
-    double real;
+    bool negative = false;
+    uint64_t magnitude = 0;
+    double real = 0.0;
     if (v->row->type == KEY_FLOAT) {
         return load_float(v, member);
     }

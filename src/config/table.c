@@ -83,6 +83,16 @@ size_t key_size(const Key *row)
     }
 }
 
+bool table_defaults(const Table *table, const Node *given, int kind, void *out)
+{
+    if (table->kind_defaults) {
+        table->kind_defaults(given, kind, out);
+    } else if (table->defaults) {
+        table->defaults(out);
+    }
+    return table->kind_defaults || table->defaults;
+}
+
 const Variant *table_variant(const Table *table, const void *params)
 {
     return table->variant ? pointer_at((const char *)params + table->variant_offset) : NULL;
@@ -113,6 +123,11 @@ void *pointer_at(const void *member)
     void *pointer;
     memcpy(&pointer, member, sizeof pointer);
     return pointer;
+}
+
+void pointer_set(void *member, const void *pointer)
+{
+    memcpy(member, &pointer, sizeof pointer);
 }
 
 int int_at(const void *member)

@@ -80,10 +80,11 @@ typedef struct Table {
     const Variant *(*variant)(int index);
     size_t variant_offset; // in the struct: pointer to the variant that it is
 
-    // Fills a struct with the defaults for a mapping; NULL where the mapping's parent has them.
-    // kind: value of kind_key, -1 when the mapping does not name it (set it, then). given may be
-    // NULL.
-    void (*defaults)(const Node *given, int kind, void *out);
+    // Fill a zeroed struct with the defaults for a mapping: one of the two, or none where the
+    // mapping's parent has them or all are 0. kind: value of kind_key, -1 when the mapping does not
+    // name it (set it, then). given may be NULL.
+    void (*defaults)(void *out);
+    void (*kind_defaults)(const Node *given, int kind, void *out);
 
     // Checks the struct once it is filled, and may complete it; NULL = nothing to check.
     bool (*check)(const Mapping *mapping, void *params);
@@ -106,6 +107,9 @@ const Key *rows_find(const Key *rows, const char *key);
 // Bytes of the key's member (of a pointer to it, where it is one).
 size_t key_size(const Key *row);
 
+// Calls whichever function for defaults the table has; false when it has none.
+bool table_defaults(const Table *table, const Node *given, int kind, void *out);
+
 // The variant that a filled struct is; NULL where the table has none.
 const Variant *table_variant(const Table *table, const void *params);
 
@@ -121,6 +125,7 @@ const char *enum_name(const EnumName *names, int value);
 
 // Members of structs whose types the rows tell.
 void *pointer_at(const void *member);
+void pointer_set(void *member, const void *pointer);
 int int_at(const void *member);
 
 #endif

@@ -38,7 +38,7 @@ static const struct {
 static bool check_size(const Mapping *mapping, const Shape *shape)
 {
     const float size[3] = {shape->size.x, shape->size.y, shape->size.z};
-    for (int i = 0; i < NEEDED_SIZES[shape->kind].count; i++) {
+    for (int i = 0; i < 3 && i < NEEDED_SIZES[shape->kind].count; i++) {
         if (!(size[i] > 0.0f)) {
             return mapping_fail(mapping, "size", ": %s of a %s must be greater than 0 m",
                                 NEEDED_SIZES[shape->kind].words, NEEDED_SIZES[shape->kind].kind);
@@ -62,7 +62,7 @@ bool check_shape(const Mapping *mapping, void *params)
 bool check_shapes(const Mapping *mapping, const Shape *shapes, int count)
 {
     const Node *list = node_get(mapping->given, "envelope"), *given = list ? list->first : NULL;
-    for (int i = 0; i < count; i++, given = given->next) {
+    for (int i = 0; given && i < count; i++, given = given->next) {
         const char *name = mapping_path(mapping, "envelope");
         if (i == 0 && shapes[i].op != SHAPE_UNION) {
             return load_fail(mapping->loader, given,
@@ -121,7 +121,7 @@ bool check_growth(const Mapping *mapping, void *params)
                             (double)element->growth.min_angle, (double)element->growth.max_angle);
     }
     const Node *list = node_get(mapping->given, "levels"), *given = list ? list->first : NULL;
-    for (int i = 0; i < element->level_count; i++, given = given->next) {
+    for (int i = 0; given && i < element->level_count; i++, given = given->next) {
         GrowLevel *level = &element->levels[i];
         if (!node_get(given, "noise")) {
             level->noise = element->growth.noise;

@@ -188,7 +188,7 @@ static bool has_object(const Scene *scene, const char *name)
 static bool check_targets(const Mapping *mapping, const Scene *scene)
 {
     const Node *list = node_get(mapping->given, "targets"), *given = list ? list->first : NULL;
-    for (int i = 0; i < scene->target_count; i++, given = given->next) {
+    for (int i = 0; given && i < scene->target_count; i++, given = given->next) {
         if (has_object(scene, scene->targets[i].object)) {
             continue;
         }

@@ -192,7 +192,7 @@ static int find_defaults(SchemaText *s, const OutlineSection *section, const Key
     const Table *table = section->table;
     const Key *kinds = table->kind_key ? table_find(table, table->kind_key) : NULL;
     int count = 0;
-    if (kinds && row != kinds && table->defaults) {
+    if (kinds && row != kinds && table->kind_defaults) {
         for (const EnumName *n = kinds->names; n->name; n++) {
             if (key_in_kind(row, n->value)) {
                 const char *base = schema_base(s, table, n->value, NULL);

@@ -7,15 +7,9 @@
 
 const char *schema_base(SchemaText *s, const Table *table, int kind, const char *base)
 {
-    if (!table->defaults) {
-        return base;
-    }
     char *fresh = arena_alloc(s->arena, table->size, s->text.e);
-    if (fresh) {
-        table->defaults(NULL, kind, fresh);
-    }
     s->text.failed |= !fresh;
-    return fresh;
+    return fresh && table_defaults(table, NULL, kind, fresh) ? fresh : base;
 }
 
 const char *schema_default(SchemaText *s, const Key *row, const char *base)

@@ -17,18 +17,8 @@ static const Key KEY_KEYS[] = {
     {0},
 };
 
-static void key_defaults(const Node *given, int kind, void *out)
-{
-    (void)given;
-    (void)kind;
-    *(SceneKey *)out = (SceneKey){0};
-}
-
-static const Table KEY_TABLE = {.name = "key",
-                                .doc = "The value at one time.",
-                                .size = sizeof(SceneKey),
-                                .keys = KEY_KEYS,
-                                .defaults = key_defaults};
+static const Table KEY_TABLE = {
+    .name = "key", .doc = "The value at one time.", .size = sizeof(SceneKey), .keys = KEY_KEYS};
 
 static const Key TRACK_KEYS[] = {
     {KEY_OF(SceneTrack, path, "path", KEY_TEXT), .flags = KEY_REQUIRED,
@@ -45,10 +35,8 @@ static const Key TRACK_KEYS[] = {
     {0},
 };
 
-static void track_defaults(const Node *given, int kind, void *out)
+static void track_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(SceneTrack *)out = (SceneTrack){.ease = EASE_LINEAR};
 }
 
@@ -77,10 +65,8 @@ static const Key ANIMATION_KEYS[] = {
     {0},
 };
 
-static void animation_defaults(const Node *given, int kind, void *out)
+static void animation_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(SceneAnimation *)out = (SceneAnimation){.frames = 72, .fps = 24.0, .loop = true};
 }
 

@@ -85,10 +85,8 @@ static const Key CORAL_KEYS[] = {
     {0},
 };
 
-static void coral_defaults(const Node *given, int kind, void *out)
+static void coral_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(CoralParams *)out = coral_params_default();
 }
 

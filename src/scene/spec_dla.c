@@ -22,10 +22,8 @@ static const Key DLA_KEYS[] = {
     {0},
 };
 
-static void dla_defaults(const Node *given, int kind, void *out)
+static void dla_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(DlaModel *)out = dla_model_default();
 }
 

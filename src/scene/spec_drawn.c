@@ -16,10 +16,8 @@ static const Key MESH_KEYS[] = {
     {0},
 };
 
-static void mesh_defaults(const Node *given, int kind, void *out)
+static void mesh_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(SceneMesh *)out = (SceneMesh){.scale = {1, 1, 1}};
 }
 
@@ -47,10 +45,8 @@ static const Key SOLID_KEYS[] = {
     {0},
 };
 
-static void solid_defaults(const Node *given, int kind, void *out)
+static void solid_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(SceneShape *)out = (SceneShape){0};
 }
 

@@ -66,7 +66,7 @@ const Table shape_table = {
     .size = sizeof(Shape),
     .keys = SHAPE_KEYS,
     .kind_key = "shape",
-    .defaults = shape_defaults,
+    .kind_defaults = shape_defaults,
     .check = check_shape};
 
 static const EnumName PLACES[] = {{"volume", SCATTER_VOLUME}, {"surface", SCATTER_SURFACE}, {0}};
@@ -127,10 +127,8 @@ static const Key LEVEL_KEYS[] = {
 };
 
 // The papers' plain case: one level, tried in between the coarsest and the finest of the oak.
-static void level_defaults(const Node *given, int kind, void *out)
+static void level_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(GrowLevel *)out =
         (GrowLevel){.step = 0.3f, .kill = 0.9f, .influence = 2.2f, .scale = 1.0f, .relax = 0.5f};
 }
@@ -278,5 +276,5 @@ const Table guide_field_table = {
     .size = sizeof(FieldParams),
     .keys = FIELD_KEYS,
     .kind_key = "kind",
-    .defaults = field_defaults,
+    .kind_defaults = field_defaults,
     .check = check_field};

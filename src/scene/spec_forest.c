@@ -42,10 +42,8 @@ static const Key FOREST_KEYS[] = {
     {0},
 };
 
-static void forest_defaults(const Node *given, int kind, void *out)
+static void forest_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(ForestParams *)out = forest_params_default();
 }
 

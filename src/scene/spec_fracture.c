@@ -29,10 +29,8 @@ static const Key FRACTURE_KEYS[] = {
     {0},
 };
 
-static void fracture_defaults(const Node *given, int kind, void *out)
+static void fracture_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(FractureParams *)out = fracture_params_default();
 }
 

@@ -13,18 +13,10 @@ static const Key NUCLEUS_KEYS[] = {
     {0},
 };
 
-static void nucleus_defaults(const Node *given, int kind, void *out)
-{
-    (void)given;
-    (void)kind;
-    *(FrostNucleus *)out = (FrostNucleus){0};
-}
-
 static const Table NUCLEUS_TABLE = {.name = "nucleus",
                                     .doc = "A place where a crystal begins.",
                                     .size = sizeof(FrostNucleus),
-                                    .keys = NUCLEUS_KEYS,
-                                    .defaults = nucleus_defaults};
+                                    .keys = NUCLEUS_KEYS};
 
 static const Key FROST_KEYS[] = {
     {KEY_OF(FrostParams, surface, "surface", KEY_ENUM), .names = SURFACES,
@@ -85,4 +77,4 @@ const Table frost_table = {
     .size = sizeof(FrostParams),
     .keys = FROST_KEYS,
     .kind_key = "surface",
-    .defaults = frost_defaults};
+    .kind_defaults = frost_defaults};

@@ -71,10 +71,8 @@ static bool check_ground(const Mapping *mapping, void *params)
                         (double)ground->flat_radius, (double)ground->radius);
 }
 
-static void ground_defaults(const Node *given, int kind, void *out)
+static void ground_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(GroundParams *)out = ground_params_default();
 }
 

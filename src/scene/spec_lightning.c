@@ -52,10 +52,8 @@ static const Key LIGHTNING_KEYS[] = {
     {0},
 };
 
-static void lightning_defaults(const Node *given, int kind, void *out)
+static void lightning_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(LightningParams *)out = lightning_params_default();
 }
 

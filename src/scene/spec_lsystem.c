@@ -37,10 +37,8 @@ static const Key LSYSTEM_KEYS[] = {
     {0},
 };
 
-static void lsystem_defaults(const Node *given, int kind, void *out)
+static void lsystem_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(LSystemPlantParams *)out = lsystem_plant_params_default();
 }
 

@@ -114,4 +114,4 @@ const Table material_table = {
     .size = sizeof(Material),
     .keys = MATERIAL_KEYS,
     .kind_key = "kind",
-    .defaults = material_defaults};
+    .kind_defaults = material_defaults};

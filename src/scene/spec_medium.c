@@ -45,4 +45,4 @@ const Table medium_table = {.name = "medium",
                             .size = sizeof(Medium),
                             .keys = MEDIUM_KEYS,
                             .kind_key = "kind",
-                            .defaults = medium_defaults};
+                            .kind_defaults = medium_defaults};

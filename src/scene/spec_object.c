@@ -12,10 +12,8 @@ static const Key OBJECT_KEYS[] = {
     {0},
 };
 
-static void object_defaults(const Node *given, int kind, void *out)
+static void object_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(SceneObject *)out = (SceneObject){0};
 }
 

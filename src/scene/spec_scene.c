@@ -125,10 +125,8 @@ static const Key TARGET_KEYS[] = {
     {0},
 };
 
-static void target_defaults(const Node *given, int kind, void *out)
+static void target_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(SceneTarget *)out = (SceneTarget){.low = -TARGET_NO_BOUND, .high = TARGET_NO_BOUND};
 }
 
@@ -221,10 +219,8 @@ static const Key SCENE_KEYS[] = {
 };
 
 // The documented defaults are those of the modules themselves.
-static void scene_defaults(const Node *given, int kind, void *out)
+static void scene_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     Scene *scene = out;
     const World world = world_default();
     scene->camera = world.camera;

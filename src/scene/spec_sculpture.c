@@ -17,10 +17,8 @@ static const Key SCULPTURE_KEYS[] = {
     {0},
 };
 
-static void sculpture_defaults(const Node *given, int kind, void *out)
+static void sculpture_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(SculptureParams *)out = sculpture_params_default();
 }
 

@@ -43,10 +43,8 @@ static const Key SKELETON_KEYS[] = {
     {0},
 };
 
-static void skeleton_defaults(const Node *given, int kind, void *out)
+static void skeleton_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(SkeletonParams *)out = skeleton_params_default();
 }
 

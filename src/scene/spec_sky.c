@@ -116,5 +116,5 @@ const Table light_table = {
     .size = sizeof(Light),
     .keys = LIGHT_KEYS,
     .kind_key = "kind",
-    .defaults = light_defaults,
+    .kind_defaults = light_defaults,
     .check = check_light};

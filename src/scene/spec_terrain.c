@@ -16,10 +16,8 @@ static const Key STROKE_KEYS[] = {
     {0},
 };
 
-static void stroke_defaults(const Node *given, int kind, void *out)
+static void stroke_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(UpliftStroke *)out = (UpliftStroke){.radius = 0.25f, .strength = 2.0f};
 }
 
@@ -181,10 +179,8 @@ static const Key TERRAIN_KEYS[] = {
     {0},
 };
 
-static void terrain_defaults(const Node *given, int kind, void *out)
+static void terrain_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(TerrainParams *)out = terrain_params_default();
 }
 

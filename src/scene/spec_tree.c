@@ -199,10 +199,8 @@ static const Key TREE_KEYS[] = {
     {0},
 };
 
-static void tree_defaults(const Node *given, int kind, void *out)
+static void tree_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(TreeParams *)out = tree_params_default();
 }
 

@@ -36,10 +36,8 @@ static const Key VENATION_KEYS[] = {
     {0},
 };
 
-static void venation_defaults(const Node *given, int kind, void *out)
+static void venation_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(VenationParams *)out = venation_params_default();
 }
 

@@ -31,10 +31,8 @@ static const Key VESSELS_KEYS[] = {
     {0},
 };
 
-static void vessels_defaults(const Node *given, int kind, void *out)
+static void vessels_defaults(void *out)
 {
-    (void)given;
-    (void)kind;
     *(VesselsParams *)out = vessels_params_default();
 }
 
