@@ -41,12 +41,12 @@ TurntableParams turntable_params_default(void)
 
 // ---- checks
 
-static bool check_values(const TurnValues *values, const char *option, double low, double high,
+static bool check_values(const TurnValues *values, const char *name, double low, double high,
                          Error *e)
 {
     for (int i = 0; i < values->count; i++) {
         if (!(values->value[i] >= low && values->value[i] <= high)) {
-            return error_set(e, ERROR_INPUT, "--%s has %g; its values must lie in %g to %g", option,
+            return error_set(e, ERROR_INPUT, "%s has %g; its values must lie in %g to %g", name,
                              values->value[i], low, high);
         }
     }
@@ -70,8 +70,7 @@ static bool check_params(const TurntableParams *p, const Scene *scene, Error *e)
     }
     if (p->sun.count > 0 && scene->sky.kind != SKY_SUN_SKY) {
         return error_set(e, ERROR_INPUT,
-                         "--sun, but the scene's sky has none; its kind must be "
-                         "sun_sky");
+                         "sun is given, but the scene's sky has no sun; its kind must be sun_sky");
     }
     return check_values(&p->elevation, "elevation", -HIGHEST_ELEVATION, HIGHEST_ELEVATION, e) &&
            check_values(&p->dolly, "dolly", 1e-3, 1e3, e) &&

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_THREADS = 1024 };
+enum { MAX_THREADS = 1024 };
 
 _Static_assert(sizeof((RamifyError){0}.file) == sizeof((Error){0}.file), "file names fit");
 _Static_assert(sizeof((RamifyError){0}.message) == sizeof((Error){0}.message), "messages fit");
@@ -31,7 +31,7 @@ bool api_fail(RamifyError *out, const Error *e)
 Run api_run(const RamifyRun *run)
 {
     long count = sysconf(_SC_NPROCESSORS_ONLN);
-    Run own = {.threads = count < 1 ? 1 : (int)(count > MOST_THREADS ? MOST_THREADS : count)};
+    Run own = {.threads = count < 1 ? 1 : (int)(count > MAX_THREADS ? MAX_THREADS : count)};
     if (run) {
         own.threads = run->threads > 0 ? run->threads : own.threads;
         own.cancelled = run->cancelled;

@@ -9,11 +9,6 @@
 
 // ---- films ----
 
-static Film *own_film(RamifyFilm *film)
-{
-    return (Film *)(void *)film;
-}
-
 RamifyFilm *ramify_film_new(int width, int height, RamifyError *error)
 {
     Error e = {0};
@@ -26,7 +21,7 @@ RamifyFilm *ramify_film_new(int width, int height, RamifyError *error)
 
 void ramify_film_free(RamifyFilm *film)
 {
-    film_free(own_film(film));
+    film_free((Film *)(void *)film);
 }
 
 const float *ramify_film_layer(const RamifyFilm *film, const char *name, int *channels)
@@ -139,7 +134,7 @@ bool ramify_renderer_render(RamifyRenderer *renderer, RamifyFilm *film, RamifyPa
     Run own = api_run(run);
     RenderStats stats = {0};
     PassCall call = {pass, user};
-    bool done = renderer_render((Renderer *)(void *)renderer, own_film(film), &own,
+    bool done = renderer_render((Renderer *)(void *)renderer, (Film *)(void *)film, &own,
                                 pass ? call_pass : NULL, &call, &stats, &e);
     if (info) {
         *info = (RamifyRenderInfo){.paths = stats.paths,

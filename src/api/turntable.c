@@ -6,27 +6,6 @@
 
 _Static_assert((int)RAMIFY_MOST_KEYS == (int)TURN_MAX_VALUES, "keys fit");
 
-static bool take_keys(const RamifyKeys *keys, const char *name, TurnValues *values, Error *e)
-{
-    if (keys->count < 0 || keys->count > RAMIFY_MOST_KEYS) {
-        return error_set(e, ERROR_INPUT, "%d keys of %s; there may be 0 to %d", keys->count, name,
-                         (int)RAMIFY_MOST_KEYS);
-    }
-    values->count = keys->count;
-    memcpy(values->value, keys->value, sizeof values->value);
-    return true;
-}
-
-static bool check_choices(const RamifyTurntable *given, Error *e)
-{
-    if ((unsigned)given->ease > RAMIFY_EASE_SMOOTH || isnan(given->turns)) {
-        return error_set(e, ERROR_INPUT,
-                         "ease %d and %g turns; ease must be of its list, turns a number",
-                         given->ease, given->turns);
-    }
-    return true;
-}
-
 static bool take_params(const RamifyTurntable *given, TurntableParams *params, Error *e)
 {
     *params = turntable_params_default();
@@ -38,69 +17,69 @@ static bool take_params(const RamifyTurntable *given, TurntableParams *params, E
                        ? -1
                        : (int)(given->ease == RAMIFY_EASE_SMOOTH ? EASE_SMOOTH : EASE_LINEAR);
     params->vary_noise = given->vary_noise == 0 ? -1 : given->vary_noise > 0;
-    return check_choices(given, e) &&
-           take_keys(&given->elevation, "elevation", &params->elevation, e) &&
-           take_keys(&given->dolly, "dolly", &params->dolly, e) &&
-           take_keys(&given->grow, "grow", &params->grow, e) &&
-           take_keys(&given->sun, "sun", &params->sun, e);
+    const struct {
+        const RamifyKeys *from;
+        TurnValues *to;
+        const char *name;
+    } keys[] = {{&given->elevation, &params->elevation, "elevation"},
+                {&given->dolly, &params->dolly, "dolly"},
+                {&given->grow, &params->grow, "grow"},
+                {&given->sun, &params->sun, "sun"}};
+    bool valid =
+        ((unsigned)given->ease <= RAMIFY_EASE_SMOOTH && !isnan(given->turns)) ||
+        error_set(e, ERROR_INPUT, "ease %d and %g turns; ease must be of its list, turns a number",
+                  given->ease, given->turns);
+    for (size_t i = 0; valid && i < sizeof keys / sizeof keys[0]; i++) {
+        int count = keys[i].from->count;
+        valid = (count >= 0 && count <= RAMIFY_MOST_KEYS) ||
+                error_set(e, ERROR_INPUT, "%d keys of %s; there may be 0 to %d", count,
+                          keys[i].name, (int)RAMIFY_MOST_KEYS);
+        keys[i].to->count = count;
+        memcpy(keys[i].to->value, keys[i].from->value, sizeof keys[i].to->value);
+    }
+    return valid;
 }
 
-static Turntable *make_turntable(const RamifyScene *scene, const RamifyTurntable *given, Error *e)
+// The scene at a frame, or at `time` if frame is NULL.
+static RamifyScene *scene_then(const RamifyScene *scene, const RamifyTurntable *given,
+                               const int *frame, double time, RamifyError *error)
 {
     static const RamifyTurntable usual;
+    Error e = {0};
     TurntableParams params;
-    return take_params(given ? given : &usual, &params, e)
-               ? turntable_new(scene_of(scene), &params, e)
-               : NULL;
-}
-
-// The scene at a frame; if frame is negative, at `time`.
-static Scene *scene_then(const RamifyScene *scene, const RamifyTurntable *given, int frame,
-                         double time, Error *e)
-{
-    Turntable *turntable = make_turntable(scene, given, e);
+    Turntable *turntable = NULL;
     Scene *then = NULL;
-    if (turntable && frame >= turntable_frames(turntable)) {
-        error_set(e, ERROR_INPUT, "no frame %d; there are %d, counted from 0", frame,
+    if (frame && *frame < 0) {
+        error_set(&e, ERROR_INPUT, "frame %d; they are counted from 0", *frame);
+    } else if (!frame && !(time >= 0.0 && time <= 1.0)) {
+        error_set(&e, ERROR_INPUT, "time %g; it must lie in 0 to 1", time);
+    } else if (take_params(given ? given : &usual, &params, &e)) {
+        turntable = turntable_new(scene_of(scene), &params, &e);
+    }
+    if (turntable && frame && *frame >= turntable_frames(turntable)) {
+        error_set(&e, ERROR_INPUT, "no frame %d; there are %d, counted from 0", *frame,
                   turntable_frames(turntable));
     } else if (turntable) {
-        then = frame >= 0 ? turntable_scene(turntable, frame, e)
-                          : turntable_scene_at(turntable, time, e);
+        then = frame ? turntable_scene(turntable, *frame, &e)
+                     : turntable_scene_at(turntable, time, &e);
     }
     turntable_free(turntable);
-    return then;
+    if (!then) {
+        api_fail(error, &e);
+    }
+    return (RamifyScene *)(void *)then;
 }
 
 RamifyScene *ramify_scene_at(const RamifyScene *scene, const RamifyTurntable *turntable,
                              double time, RamifyError *error)
 {
-    Error e = {0};
-    Scene *then = NULL;
-    if (time >= 0.0 && time <= 1.0) {
-        then = scene_then(scene, turntable, -1, time, &e);
-    } else {
-        error_set(&e, ERROR_INPUT, "time %g; it must lie in 0 to 1", time);
-    }
-    if (!then) {
-        api_fail(error, &e);
-    }
-    return (RamifyScene *)(void *)then;
+    return scene_then(scene, turntable, NULL, time, error);
 }
 
 RamifyScene *ramify_scene_at_frame(const RamifyScene *scene, const RamifyTurntable *turntable,
                                    int frame, RamifyError *error)
 {
-    Error e = {0};
-    Scene *then = NULL;
-    if (frame >= 0) {
-        then = scene_then(scene, turntable, frame, 0.0, &e);
-    } else {
-        error_set(&e, ERROR_INPUT, "frame %d; they are counted from 0", frame);
-    }
-    if (!then) {
-        api_fail(error, &e);
-    }
-    return (RamifyScene *)(void *)then;
+    return scene_then(scene, turntable, &frame, 0.0, error);
 }
 
 static void hand_info(const ShootStats *stats, RamifyTurntableInfo *info)

@@ -16,8 +16,8 @@ RamifyWorld *ramify_build(const RamifyScene *scene, const RamifyRun *run, Ramify
     }
     if (!world || !world->world) {
         free(world);
+        world = NULL;
         api_fail(error, &e);
-        return NULL;
     }
     return world;
 }

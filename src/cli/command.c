@@ -49,15 +49,6 @@ const char *file_name(const char *path)
 
 bool output_check(const char *file, RamifyError *e)
 {
-    struct stat status;
-    errno = 0;
-    if (stat(file, &status) != 0 && errno == ENAMETOOLONG) {
-        return fail(e, RAMIFY_BAD_INPUT, "cannot write '%.40s...': %s; give it a shorter one", file,
-                    strerror(errno));
-    }
-    if (errno == 0 && !S_ISREG(status.st_mode)) {
-        return fail(e, RAMIFY_IO, "cannot write '%s': it is no regular file; name another", file);
-    }
     const char *slash = strrchr(file, '/');
     size_t length = slash ? (size_t)(slash == file ? 1 : slash - file) : 1;
     char *folder = allocate((int64_t)length + 1, 1, e);
@@ -65,11 +56,18 @@ bool output_check(const char *file, RamifyError *e)
         return false;
     }
     memcpy(folder, slash ? file : ".", length);
-    bool writable = access(folder, W_OK | X_OK) == 0;
-    if (!writable) {
+    struct stat status;
+    bool writable = false, exists = stat(file, &status) == 0;
+    if (!exists && errno == ENAMETOOLONG) {
+        fail(e, RAMIFY_BAD_INPUT, "cannot write '%.40s...': %s; give it a shorter one", file,
+             strerror(errno));
+    } else if (exists && !S_ISREG(status.st_mode)) {
+        fail(e, RAMIFY_IO, "cannot write '%s': it is no regular file; name another", file);
+    } else if (access(folder, W_OK | X_OK) != 0) {
         fail(e, RAMIFY_IO, "cannot write '%s': folder '%s': %s", file, folder, strerror(errno));
-    } else if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode)) {
-        writable = fail(e, RAMIFY_IO, "cannot write '%s': '%s' is no folder", file, folder);
+    } else {
+        writable = (stat(folder, &status) == 0 && S_ISDIR(status.st_mode)) ||
+                   fail(e, RAMIFY_IO, "cannot write '%s': '%s' is no folder", file, folder);
     }
     free(folder);
     return writable;
@@ -96,21 +94,4 @@ char *output_with_ending(const char *file, const char *ending, RamifyError *e)
 bool output_has_ending(const char *file, const char *ending)
 {
     return strcasecmp(find_ending(file), ending) == 0;
-}
-
-void json_print_string(const char *text)
-{
-    putchar('"');
-    for (; *text; text++) {
-        unsigned char c = (unsigned char)*text;
-        if (c < 0x20) {
-            printf("\\u%04x", c);
-        } else {
-            if (c == '"' || c == '\\') {
-                putchar('\\');
-            }
-            putchar(c);
-        }
-    }
-    putchar('"');
 }

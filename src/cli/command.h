@@ -17,6 +17,7 @@ bool command_golden(const Options *options, RamifyError *e);     // golden.c
 bool command_info(const Options *options, RamifyError *e);       // info.c
 bool command_schema(const Options *options, RamifyError *e);     // schema.c
 bool command_completion(const Options *options, RamifyError *e); // completion.c
+bool command_help(const Options *options, RamifyError *e);       // help.c
 
 // Threads as requested, progress and warnings on stderr, cancelled by Ctrl-C and SIGTERM.
 RamifyRun command_run(const Options *options, Progress *progress);
@@ -39,8 +40,5 @@ char *output_with_ending(const char *file, const char *ending, RamifyError *e);
 
 // Whether the file's name has this extension, in any case.
 bool output_has_ending(const char *file, const char *ending);
-
-// Prints text to stdout as a JSON string, with quotes.
-void json_print_string(const char *text);
 
 #endif

@@ -1,4 +1,5 @@
 // ramify compare: differences of two pictures.
+#include "base/json.h"
 #include "cli/command.h"
 #include "cli/difference.h"
 
@@ -9,13 +10,13 @@
 static void print_json(const Options *options, const RamifyDifference *d)
 {
     printf("{\"a\": ");
-    json_print_string(options->operand);
+    json_put_string(stdout, options->operand);
     printf(", \"b\": ");
-    json_print_string(options->second);
+    json_put_string(stdout, options->second);
     printf(", ");
     difference_print_json(d);
     printf(", \"message\": ");
-    json_print_string(d->message);
+    json_put_string(stdout, d->message);
     printf("}\n");
 }
 

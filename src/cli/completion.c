@@ -93,10 +93,9 @@ static Offer offer_of_operand(const char *operand)
 
 static void bash_options(CommandId command)
 {
-    printf("    %s) echo \"", command_at(command)->name);
-    const Option *o;
+    printf("    %s) echo \"", command_table[command].name);
     const char *before = "";
-    for (int i = 0; (o = option_at(i)); i++) {
+    for (const Option *o = option_table; o->name; o++) {
         if (option_is_of(o, command)) {
             printf("%s--%s", before, o->name);
             if (o->letter) {
@@ -110,9 +109,8 @@ static void bash_options(CommandId command)
 
 static void bash_values(CommandId command)
 {
-    const char *name = command_at(command)->name;
-    const Option *o;
-    for (int i = 0; (o = option_at(i)); i++) {
+    const char *name = command_table[command].name;
+    for (const Option *o = option_table; o->name; o++) {
         if (option_is_of(o, command) && o->value) {
             printf("    \"%s --%s\"", name, o->name);
             if (o->letter) {
@@ -122,7 +120,7 @@ static void bash_values(CommandId command)
         }
     }
     printf("    \"%s \") echo \"%s\" ;;\n", name,
-           offer_of_operand(command_at(command)->operand).text);
+           offer_of_operand(command_table[command].operand).text);
 }
 
 static void print_bash(void)
@@ -130,7 +128,7 @@ static void print_bash(void)
     printf("# What bash completes after \"ramify\"; written by ramify completion bash.\n\n"
            "_ramify_commands=\"");
     for (int i = 0; i < COMMAND_COUNT; i++) {
-        printf("%s%s", i ? " " : "", command_at((CommandId)i)->name);
+        printf("%s%s", i ? " " : "", command_table[i].name);
     }
     printf("\"\n\n_ramify_options() { # COMMAND\n    case $1 in\n");
     for (int i = 0; i < COMMAND_COUNT; i++) {
@@ -184,10 +182,9 @@ static void zsh_option(const Option *o, CommandId command)
 
 static void zsh_command(CommandId command)
 {
-    const Command *c = command_at(command);
+    const Command *c = &command_table[command];
     printf("    %s)\n        _arguments \\\n", c->name);
-    const Option *o;
-    for (int i = 0; (o = option_at(i)); i++) {
+    for (const Option *o = option_table; o->name; o++) {
         if (option_is_of(o, command)) {
             zsh_option(o, command);
         }
@@ -209,8 +206,8 @@ static void print_zsh(void)
     printf("#compdef ramify\n# What zsh completes after \"ramify\"; written by ramify completion "
            "zsh.\n\n_ramify_commands=(\n");
     for (int i = 0; i < COMMAND_COUNT; i++) {
-        printf("    '%s:", command_at((CommandId)i)->name);
-        zsh_text(command_at((CommandId)i)->doc);
+        printf("    '%s:", command_table[i].name);
+        zsh_text(command_table[i].doc);
         printf("'\n");
     }
     printf(")\n\n%s", completion_zsh);

@@ -1,4 +1,5 @@
 // ramify export: converts a scene to another program's file.
+#include "base/json.h"
 #include "cli/command.h"
 
 #include <stdio.h>
@@ -40,7 +41,7 @@ static bool read_options(const Options *options, RamifyExportOptions *own, Ramif
 static void print_report(const char *file, const RamifyExportReport *report)
 {
     printf("{\"file\": ");
-    json_print_string(file);
+    json_put_string(stdout, file);
     printf(", \"bytes\": %lld, \"vertices\": %lld, \"triangles\": %lld", (long long)report->bytes,
            (long long)report->vertices, (long long)report->triangles);
     printf(", \"low\": [%.9g, %.9g, %.9g], \"high\": [%.9g, %.9g, %.9g]", (double)report->low[0],

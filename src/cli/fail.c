@@ -5,18 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void fill(RamifyError *e, const char *file, int code, const char *format, va_list arguments)
-{
-    *e = (RamifyError){.code = code};
-    snprintf(e->file, sizeof e->file, "%s", file);
-    vsnprintf(e->message, sizeof e->message, format, arguments);
-}
-
 bool fail(RamifyError *e, int code, const char *format, ...)
 {
     va_list arguments;
+    *e = (RamifyError){.code = code};
     va_start(arguments, format);
-    fill(e, "", code, format, arguments);
+    vsnprintf(e->message, sizeof e->message, format, arguments);
     va_end(arguments);
     return false;
 }
@@ -24,8 +18,10 @@ bool fail(RamifyError *e, int code, const char *format, ...)
 bool fail_in(RamifyError *e, const char *file, int code, const char *format, ...)
 {
     va_list arguments;
+    *e = (RamifyError){.code = code};
+    snprintf(e->file, sizeof e->file, "%s", file);
     va_start(arguments, format);
-    fill(e, file, code, format, arguments);
+    vsnprintf(e->message, sizeof e->message, format, arguments);
     va_end(arguments);
     return false;
 }

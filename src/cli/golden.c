@@ -1,4 +1,5 @@
 // ramify golden: compares a folder's scenes with their stored images.
+#include "base/json.h"
 #include "cli/command.h"
 #include "cli/difference.h"
 
@@ -35,9 +36,9 @@ static void print_line(const RamifyGoldenScene *scene)
 static void print_scene_json(const RamifyGoldenScene *scene, bool first)
 {
     printf("%s\n  {\"name\": ", first ? "" : ",");
-    json_print_string(scene->name);
+    json_put_string(stdout, scene->name);
     printf(", \"status\": \"%s\", \"message\": ", ramify_golden_status_name(scene->status));
-    json_print_string(scene->message);
+    json_put_string(stdout, scene->message);
     printf(", \"seconds\": %.3f", scene->seconds);
     if (scene->difference) {
         printf(", ");

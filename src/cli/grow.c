@@ -1,4 +1,5 @@
 // ramify grow: grows only the out-trees of a scene.
+#include "base/json.h"
 #include "cli/command.h"
 #include "cli/land.h"
 
@@ -28,7 +29,7 @@ static void print_json(const RamifyScene *scene, RamifyTree *const *trees, doubl
     for (int i = 0; i < ramify_scene_object_count(scene); i++) {
         if (trees[i]) {
             printf("%s{\"name\": ", before);
-            json_print_string(ramify_scene_object_name(scene, i));
+            json_put_string(stdout, ramify_scene_object_name(scene, i));
             printf(", \"nodes\": %" PRId64 ", \"hash\": \"%016" PRIx64 "\"}",
                    ramify_tree_count(trees[i]), ramify_tree_hash(trees[i]));
             before = ", ";

@@ -1,4 +1,6 @@
-// Prints the output of --help.
+// ramify help, and --help of every command.
+#include "cli/command.h"
+#include "cli/manual.h"
 #include "cli/option_table.h"
 
 #include <stdio.h>
@@ -60,13 +62,13 @@ static void print_program_help(void)
     printf("ramify grows branching things, skins them and path traces stills of them.\n\n");
     for (int i = 0; i < COMMAND_COUNT; i++) {
         char usage[64];
-        snprintf(usage, sizeof usage, "ramify %s %s", command_at((CommandId)i)->name,
-                 command_at((CommandId)i)->operand);
+        snprintf(usage, sizeof usage, "ramify %s %s", command_table[i].name,
+                 command_table[i].operand);
         printf("  %-29s", usage);
         if (strlen(usage) > 29) {
             printf("\n%31s", "");
         }
-        printf(" %s\n", command_at((CommandId)i)->doc);
+        printf(" %s\n", command_table[i].doc);
     }
     printf("  %-29s %s\n\n", "ramify --version", "print the version");
     printf("'ramify COMMAND --help' lists a command's options, 'ramify help COMMAND --man' prints "
@@ -75,17 +77,12 @@ static void print_program_help(void)
            "interrupted.\n");
 }
 
-void options_print_help(CommandId command)
+static void print_command_help(CommandId command)
 {
-    if (command == COMMAND_HELP || command == COMMAND_COUNT) {
-        print_program_help();
-        return;
-    }
-    const Command *c = command_at(command);
+    const Command *c = &command_table[command];
     printf("usage: ramify %s %s%s[options]\n\n%s: %s.\n%s\n", c->name, c->operand,
            *c->operand ? " " : "", c->name, c->doc, c->more);
-    const Option *o;
-    for (int i = 0; (o = option_at(i)); i++) {
+    for (const Option *o = option_table; o->name; o++) {
         if (option_is_of(o, command)) {
             char name[64], letter[8] = "", doc[512];
             if (o->letter) {
@@ -98,4 +95,21 @@ void options_print_help(CommandId command)
             print_wrapped(doc, 29);
         }
     }
+}
+
+bool command_help(const Options *options, RamifyError *e)
+{
+    CommandId command = options->command;
+    if (options->operand && command == COMMAND_HELP) {
+        command = command_by_name(options->operand);
+    }
+    bool known = command != COMMAND_COUNT || options_unknown_command(options->operand, e);
+    if (known && options->man) {
+        manual_print(command, !options->operand);
+    } else if (known && command == COMMAND_HELP) {
+        print_program_help();
+    } else if (known) {
+        print_command_help(command);
+    }
+    return known;
 }

@@ -1,4 +1,5 @@
 // ramify info: prints the contents of a scene file without growing or rendering it.
+#include "base/json.h"
 #include "cli/command.h"
 
 #include <stdio.h>
@@ -37,21 +38,21 @@ static void print_json(const RamifyScene *scene)
     RamifySceneInfo info;
     ramify_scene_info(scene, &info);
     printf("{\"file\": ");
-    json_print_string(info.file);
+    json_put_string(stdout, info.file);
     printf(", \"seed\": %llu, \"width\": %d, \"height\": %d, \"samples\": %d, \"objects\": [",
            (unsigned long long)info.seed, info.width, info.height, info.samples);
     for (int i = 0; i < info.object_count; i++) {
         RamifyObjectInfo object;
         ramify_scene_object(scene, i, &object);
         printf("%s{\"name\": ", i ? ", " : "");
-        json_print_string(object.name);
+        json_put_string(stdout, object.name);
         printf(", \"kind\": \"%s\", \"attractors\": %lld, \"instances\": %lld}", object.kind,
                (long long)object.attractors, (long long)object.instances);
     }
     printf("], \"materials\": [");
     for (int i = 0; i < info.material_count; i++) {
         printf("%s", i ? ", " : "");
-        json_print_string(ramify_scene_material_name(scene, i));
+        json_put_string(stdout, ramify_scene_material_name(scene, i));
     }
     printf("], \"lights\": %d, \"memory\": %lld}\n", info.light_count, (long long)info.memory);
 }

@@ -81,10 +81,9 @@ static void put_operand(const char *operand)
 
 static void put_synopsis(CommandId command)
 {
-    const Command *c = command_at(command);
+    const Command *c = &command_table[command];
     printf(".Sh SYNOPSIS\n.Nm ramify %s\n", c->name);
-    const Option *o;
-    for (int i = 0; (o = option_at(i)); i++) {
+    for (const Option *o = option_table; o->name; o++) {
         if (!option_is_of(o, command)) {
             continue;
         }
@@ -131,8 +130,7 @@ static void put_choices(const Option *option)
 static void put_options(CommandId command)
 {
     printf(".Sh OPTIONS\n.Bl -tag -width Ds\n");
-    const Option *o;
-    for (int i = 0; (o = option_at(i)); i++) {
+    for (const Option *o = option_table; o->name; o++) {
         if (!option_is_of(o, command)) {
             continue;
         }
@@ -201,7 +199,7 @@ static void put_see_also(CommandId own)
     int count = 0;
     for (int i = 0; i < COMMAND_COUNT; i++) {
         if (i != (int)own) {
-            names[count++] = command_at((CommandId)i)->name;
+            names[count++] = command_table[i].name;
         }
     }
     qsort(names, (size_t)count, sizeof *names, compare_names);
@@ -234,7 +232,7 @@ static void put_program(void)
     put_paragraphs(text);
     printf(".Sh COMMANDS\n.Bl -tag -width completion\n");
     for (int i = 0; i < COMMAND_COUNT; i++) {
-        const Command *c = command_at((CommandId)i);
+        const Command *c = &command_table[i];
         printf(".It Cm %s\n", c->name);
         put_sentence(c->doc);
         printf("See\n.Xr ramify\\-%s 1 .\n", c->name);
@@ -253,7 +251,7 @@ void manual_print(CommandId command, bool program)
         put_program();
         return;
     }
-    const Command *c = command_at(command);
+    const Command *c = &command_table[command];
     const ManualText *text = manual_text(c->name);
     char page[64];
     snprintf(page, sizeof page, "ramify-%s", c->name);

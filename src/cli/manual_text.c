@@ -7,19 +7,16 @@ static const ManualText TEXTS[] = {
     {.command = "",
      .paragraphs =
          {"ramify grows branching things: trees, lightning, frost, blood vessels, corals, rivers "
-          "and "
-          "ridges, veins, cracks. It skins them with closed meshes and takes their picture with "
-          "its "
+          "and ridges, veins, cracks. It skins them with closed meshes and renders them with its "
           "own path tracer, all in one process, from one scene file.",
-          "A scene file is YAML. Metres, degrees, Y up. What it does not say has a default in "
-          "proportion to what it says; unknown keys are errors that name the line, the column and "
+          "A scene file is YAML. Metres, degrees, Y up. Keys that are not given have defaults in "
+          "proportion to those given; unknown keys are errors that name the line, the column and "
           "the nearest key. The same scene and the same seed make the same picture, with any "
-          "number "
-          "of threads.",
-          "What a command finds out goes to the standard output; progress, warnings and errors go "
-          "to the standard error. Files are written under another name and renamed when they are "
-          "complete, so that a failure never leaves half a file or harms an old one. Ctrl-C ends "
-          "a command soon; a picture that has begun is kept as far as it is."},
+          "number of threads.",
+          "Results go to standard output; progress, warnings and errors go to standard error. "
+          "Files are written under a temporary name and renamed when they are complete, so that a "
+          "failure leaves no partial file and an existing one unchanged. Ctrl-C ends a command "
+          "soon; an unfinished picture is kept as it is."},
      .examples = {{"a quick look at a scene",
                    "ramify render pine.yaml --size 640x360 --samples 16 -o look.png"},
                   {"the same, with another height and another seed",
@@ -33,13 +30,11 @@ static const ManualText TEXTS[] = {
           "linear "
           "colours, albedo, normal, depth, position, object and number of samples, and the scene's "
           "text and all settings as metadata.",
-          "The first picture is on disk after the first pass, one path per pixel, and is brought "
-          "up "
-          "to date as passes are finished. Rendering ends with the samples, the seconds or the "
-          "noise asked for, whichever is met first; Ctrl-C writes what there is.",
+          "The first picture is on disk after the first pass, one path per pixel, and is updated "
+          "after further passes. Rendering stops when the number of samples, the time or the "
+          "noise limit is reached, whichever comes first; Ctrl-C writes the picture so far.",
           "The options for samples, size, seconds, noise, crop, exposure, denoising and growth "
-          "stand "
-          "for keys of the scene and go before them."},
+          "set keys of the scene and override the file."},
      .examples =
          {{"a quick look", "ramify render pine.yaml --size 320x180 --samples 16"},
           {"a final picture, as long as it takes to be clean, an hour at most",
@@ -51,19 +46,19 @@ static const ManualText TEXTS[] = {
           {"the tree when it was young", "ramify render pine.yaml --grow-to 0.3 -o young.png"}}},
     {.command = "turntable",
      .paragraphs =
-         {"Makes a film of a scene: the camera goes once around its target. What stays from frame "
-          "to frame is grown, skinned and built once. Where the scene has an animation, that is "
-          "played, and the camera circles only if --turns says so. docs/animation.md tells more.",
-          "-o FILE.mp4 makes a film with ffmpeg, for which it must be installed: H.264, yuv420p, "
-          "BT.709; an odd width or height loses its last column or row. The frames wait in "
-          "FILE.mp4.frames until all are there. -o NAME-%04d.png, .jpg or .exr writes frames, "
-          "with their number, from 0, where %04d stands.",
-          "Values with colons between are reached at even steps of time. When the last is the "
-          "first, frame i of N shows the time i/N, so that the film loops without a jump; else "
-          "i/(N-1), so that it ends on the last value.",
-          "After an interruption the same command goes on: a frame that is there, whole and made "
-          "from the same settings is skipped. With --start and --end several machines share the "
-          "work."},
+         {"Renders an animation of a scene: the camera orbits its target once. Static parts are "
+          "grown, skinned and built once. If the scene has an animation, it is played, and the "
+          "camera orbits only if --turns is given. See docs/animation.md.",
+          "-o FILE.mp4 encodes a video with ffmpeg, which must be installed: H.264, yuv420p, "
+          "BT.709; an odd width or height loses its last column or row. The frames are kept in "
+          "FILE.mp4.frames until all are finished. -o NAME-%04d.png, .jpg or .exr writes single "
+          "frames, with their number, from 0, in place of %04d.",
+          "Values separated by colons are reached at equal steps of time. If the last equals the "
+          "first, frame i of N shows the time i/N, so that the animation loops without a jump; "
+          "else i/(N-1), so that it ends on the last value.",
+          "After an interruption the same command resumes: frames that exist, complete and made "
+          "with the same settings, are skipped. --start and --end distribute the work over "
+          "several machines."},
      .examples =
          {{"a small film", "ramify turntable pine.yaml --size 320x180 --samples 16 -o pine.mp4"},
           {"frames, with a camera that rises and comes closer",
@@ -73,15 +68,12 @@ static const ManualText TEXTS[] = {
           {"a summer's day", "ramify turntable pine.yaml --turns 0 --sun 5:19 -o day.mp4"},
           {"one frame of it", "ramify render pine.yaml --frame 12 -o frame.png"}}},
     {.command = "grow",
-     .paragraphs = {"Grows the objects of a scene and prints how many nodes each has, without skin "
-                    "or picture. "
-                    "With -o the out-trees are written: .swc, as neuroscience keeps its trees, "
-                    "with one line a "
-                    "node (number, type, x, y, z, radius, parent), or .json. Of several objects "
-                    "the names are "
-                    "put before the ending.",
-                    "Of a leaf's veins .png and .exr hold the picture of the veins, of a terrain "
-                    "its heights: "
+     .paragraphs = {"Grows the objects of a scene and prints how many nodes each has, without "
+                    "skin or picture. With -o the out-trees are written: .swc, as neuroscience "
+                    "keeps its trees, with one line per node (number, type, x, y, z, radius, "
+                    "parent), or .json. If there are several objects, their names precede the "
+                    "extension.",
+                    "A .png or .exr holds a picture of a leaf's veins, or the heights of a terrain: "
                     ".png with 16 bits, .exr in metres."},
      .examples = {{"count", "ramify grow pine.yaml"},
                   {"the tree as a file", "ramify grow pine.yaml -o pine.swc"},
@@ -90,21 +82,19 @@ static const ManualText TEXTS[] = {
      .paragraphs =
          {"Prints what botanists, physiologists and geographers count: lengths, radii, angles of "
           "branches, orders after Horton and Strahler, fractal dimension, how well forks keep "
-          "Murray's law, drainage and slopes, each where it makes sense.",
-          "Where the scene states targets, each is compared with what was measured; the command "
-          "fails with status 1 when one is missed. A file in SWC format is measured as an "
-          "out-tree, "
-          "an ESRI ASCII grid (.asc) as surveyed heights, so that grown and real things are held "
-          "against the same numbers."},
-     .failure = "a target that the scene states is missed",
+          "Murray's law, drainage and slopes, each where applicable.",
+          "If the scene has targets, each is compared with its measure; the exit status is 1 if "
+          "one is missed. A file in SWC format is measured as an out-tree, an ESRI ASCII grid "
+          "(.asc) as surveyed heights, so that grown and real data are compared by the same "
+          "measures."},
+     .failure = "a target of the scene is missed",
      .examples = {{"a table", "ramify measure pine.yaml"},
                   {"the same of a tree in a file",
                    "ramify grow pine.yaml -o pine.swc && ramify measure pine.swc"},
                   {"the numbers for a script", "ramify measure pine.yaml --json --quiet"}}},
     {.command = "export",
-     .paragraphs = {"Writes what the scene grows for another program. The ending of the file says "
-                    "the format; "
-                    "docs/formats.md tells what each holds, and what it cannot hold."},
+     .paragraphs = {"Writes what the scene grows for another program. The file's extension "
+                    "selects the format; docs/formats.md describes what each can hold."},
      .examples = {{"to Blender or a game engine", "ramify export pine.yaml -o pine.glb"},
                   {"with meshes instead of instances, for programs that know none",
                    "ramify export pine.yaml --instances flat -o pine.glb"},
@@ -112,11 +102,12 @@ static const ManualText TEXTS[] = {
                    "ramify export pine.yaml --object pine --colors none -o pine.obj"}}},
     {.command = "compare",
      .paragraphs =
-         {"Compares two pictures of one kind and prints how far they are apart: root mean square, "
-          "maximum and where it is, share of pixels over a threshold, and FLIP, how different they "
-          "look. Alike are pictures that are the same in every value, or within the limits given.",
-          "The page of --report shows both behind a slider and their difference. Pictures of other "
-          "sizes differ; a picture of radiance (EXR, HDR) cannot be compared with display values."},
+         {"Compares two pictures of one kind and prints their differences: root mean square, "
+          "maximum and its position, share of pixels over a threshold, and FLIP, a perceptual "
+          "difference. Pictures are alike if every value is equal, or within the limits given.",
+          "The page of --report shows both with a slider, and their difference. Pictures of "
+          "different sizes differ; a picture of radiance (EXR, HDR) cannot be compared with "
+          "display values."},
      .failure = "the pictures are not alike",
      .examples = {{"are they the same to the bit", "ramify compare a.png b.png"},
                   {"near enough, and what is different",
@@ -125,11 +116,11 @@ static const ManualText TEXTS[] = {
      .paragraphs =
          {"Renders every scene NAME.yaml of a folder, pinned to one instruction set, and compares "
           "it with its stored image: NAME.png within limits or to the bit, or, for pictures that "
-          "shall be equal but for noise, NAME.exr with mean and variance. The scene's section "
-          "golden says which; docs/golden.md explains the three.",
-          "Fails with status 1 when a picture differs or is missing, or a scene cannot be "
-          "rendered. With --update such pictures are stored instead; what is alike stays as it "
-          "is."},
+          "are equal except for noise, NAME.exr with mean and variance. The scene's section "
+          "golden selects the mode; see docs/golden.md.",
+          "The exit status is 1 if a picture differs or is missing, or a scene cannot be "
+          "rendered. --update stores such pictures instead; pictures that are alike stay "
+          "unchanged."},
      .failure = "a picture differs from the stored one, or there is none",
      .examples = {{"the first time, and after a change that was meant",
                    "ramify golden golden --update"},
@@ -137,15 +128,15 @@ static const ManualText TEXTS[] = {
                    "ramify golden golden --report golden.html --junit golden.xml"},
                   {"some of them, to the bit", "ramify golden golden --filter 'pine*' --exact"}}},
     {.command = "info",
-     .paragraphs = {"Reads and checks a scene and says what is in it, what it will cost in memory, "
-                    "and, if asked, every value that it has, with nothing grown or rendered."},
+     .paragraphs = {"Reads and checks a scene and prints its contents, its memory requirement and "
+                    "optionally all its values, without growing or rendering anything."},
      .examples = {{"what is in it", "ramify info pine.yaml"},
                   {"every key with its value, also those that the file leaves out",
                    "ramify info pine.yaml --resolved"},
                   {"the keys that --set can change in it", "ramify info pine.yaml --paths"}}},
     {.command = "schema",
-     .paragraphs = {"Prints the JSON Schema of scene files, from which editors complete keys, show "
-                    "what they mean and mark mistakes; or the same for readers."},
+     .paragraphs = {"Prints the JSON Schema of scene files, which editors use to complete and "
+                    "explain keys and to mark errors; or the same as a reference for readers."},
      .examples = {{"for an editor", "ramify schema > ramify.schema.json"},
                   {"every key that has to do with leaves", "ramify schema --paths | grep leaves"}}},
     {.command = "help",
@@ -157,8 +148,8 @@ static const ManualText TEXTS[] = {
     {.command = "completion",
      .paragraphs =
          {"Prints a script that lets the shell complete commands, options, their values, scene "
-          "files and, after --set, the keys of the scene that is named before it. "
-          "make install puts both scripts where the shells look for them."},
+          "files and, after --set, the keys of the scene named before it. make install puts both "
+          "scripts where the shells find them."},
      .examples = {{"for this session of bash", "eval \"$(ramify completion bash)\""},
                   {"for zsh, in a folder of its fpath", "ramify completion zsh > _ramify"}}},
 };

@@ -1,5 +1,6 @@
 // ramify measure: prints measures of what a scene grows, or of an out-tree file, and checks them
 // against the scene's targets.
+#include "base/json.h"
 #include "cli/command.h"
 
 #include <math.h>
@@ -74,7 +75,7 @@ static void print_json_number(const char *key, double value)
 static void print_json_subject(const Subject *subject)
 {
     printf("{\"name\": ");
-    json_print_string(subject->name);
+    json_put_string(stdout, subject->name);
     printf(", \"kind\": \"%s\", \"measures\": {", subject->kind);
     for (int i = 0; i < ramify_measures_count(subject->measures); i++) {
         RamifyMeasure m;
@@ -179,9 +180,9 @@ static void print_json_targets(const RamifyScene *scene, const double *values)
         RamifyTarget target;
         ramify_scene_target(scene, i, &target);
         printf("%s{\"object\": ", i > 0 ? ", " : "");
-        json_print_string(target.object);
+        json_put_string(stdout, target.object);
         printf(", \"measure\": ");
-        json_print_string(target.measure);
+        json_put_string(stdout, target.measure);
         printf(", ");
         print_json_number("value", values[i]);
         printf(", \"met\": %s}", is_met(&target, values[i]) ? "true" : "false");

@@ -1,5 +1,7 @@
 #include "cli/option_table.h"
 
+#include "cli/command.h"
+
 #include <string.h>
 
 #define BIT(command) (1u << (command))
@@ -14,7 +16,7 @@
 #define TURNS BIT(COMMAND_TURNTABLE)
 #define AT(member) offsetof(Options, member)
 
-static const Option OPTIONS[] = {
+const Option option_table[] = {
     {.name = "output",
      .value = "FILE",
      .offset = AT(output),
@@ -33,7 +35,7 @@ static const Option OPTIONS[] = {
      .high = 1000000,
      .type = OPTION_INT,
      .commands = TURNS,
-     .doc = "how many frames; as the scene's animation says, else 72"},
+     .doc = "number of frames; by default that of the scene's animation, else 72"},
     {.name = "fps",
      .value = "F",
      .offset = AT(turntable.fps),
@@ -41,7 +43,7 @@ static const Option OPTIONS[] = {
      .high = 1000,
      .type = OPTION_REAL,
      .commands = TURNS,
-     .doc = "frames a second; as the scene's animation says, else 24"},
+     .doc = "frames per second; by default that of the scene's animation, else 24"},
     {.name = "start",
      .value = "I",
      .offset = AT(turntable.start),
@@ -49,7 +51,7 @@ static const Option OPTIONS[] = {
      .high = 999999,
      .type = OPTION_INT,
      .commands = TURNS,
-     .doc = "the first frame to render; they are counted from 0"},
+     .doc = "first frame to render, counted from 0"},
     {.name = "end",
      .value = "I",
      .offset = AT(end),
@@ -57,7 +59,7 @@ static const Option OPTIONS[] = {
      .high = 999999,
      .type = OPTION_INT,
      .commands = TURNS,
-     .doc = "the last frame to render"},
+     .doc = "last frame to render"},
     {.name = "turns",
      .value = "N",
      .offset = AT(turns),
@@ -65,13 +67,13 @@ static const Option OPTIONS[] = {
      .high = 1000,
      .type = OPTION_REAL,
      .commands = TURNS,
-     .doc = "circles of the camera about its target, negative the other way; 1, but 0 where the "
-            "scene has an animation"},
+     .doc = "orbits of the camera around its target, negative in the other direction; 1 by "
+            "default, 0 if the scene has an animation"},
     {.name = "spin",
      .offset = AT(spin),
      .type = OPTION_YES,
      .commands = TURNS,
-     .doc = "turn everything under a camera, a sky and lamps that stay"},
+     .doc = "rotate the objects instead of camera, sky and lamps"},
     {.name = "elevation",
      .value = "A:B:...",
      .offset = AT(turntable.elevation),
@@ -79,7 +81,7 @@ static const Option OPTIONS[] = {
      .high = 89,
      .type = OPTION_KEYS,
      .commands = TURNS,
-     .doc = "degrees of the camera above its target over time, as in 10:30:10"},
+     .doc = "elevation of the camera above its target over time in degrees, as in 10:30:10"},
     {.name = "dolly",
      .value = "A:B:...",
      .offset = AT(turntable.dolly),
@@ -95,7 +97,7 @@ static const Option OPTIONS[] = {
      .high = 1,
      .type = OPTION_KEYS,
      .commands = TURNS,
-     .doc = "how much of the growth shows over time, as in 0:1"},
+     .doc = "share of the growth that is shown over time, as in 0:1"},
     {.name = "sun",
      .value = "A:B:...",
      .offset = AT(turntable.sun),
@@ -103,20 +105,20 @@ static const Option OPTIONS[] = {
      .high = 24,
      .type = OPTION_KEYS,
      .commands = TURNS,
-     .doc = "hours of the day that the sun stands at over time, as in 5:19"},
+     .doc = "time of day of the sun over time in hours, as in 5:19"},
     {.name = "ease",
      .value = "HOW",
      .offset = AT(ease),
      .choices = "linear smooth",
      .type = OPTION_TEXT,
      .commands = TURNS,
-     .doc = "how all of these go from value to value; smooth for elevation and dolly, linear for "
+     .doc = "interpolation of these values; by default smooth for elevation and dolly, linear for "
             "the rest"},
     {.name = "vary-noise",
      .offset = AT(vary_noise),
      .type = OPTION_YES,
      .commands = TURNS,
-     .doc = "another pattern of noise in every frame, as film grain"},
+     .doc = "use a different noise pattern in every frame, like film grain"},
     {.name = "frame",
      .value = "I",
      .offset = AT(frame),
@@ -124,7 +126,7 @@ static const Option OPTIONS[] = {
      .high = 999999,
      .type = OPTION_INT,
      .commands = BIT(COMMAND_RENDER),
-     .doc = "the scene as frame I of its turntable or animation shows it"},
+     .doc = "render frame I of the scene's turntable or animation"},
     {.name = "time",
      .value = "T",
      .offset = AT(time),
@@ -132,7 +134,7 @@ static const Option OPTIONS[] = {
      .high = 1,
      .type = OPTION_REAL,
      .commands = BIT(COMMAND_RENDER),
-     .doc = "the same at a time, 0 the beginning, 1 the end"},
+     .doc = "render the turntable or animation at time T, from 0 (start) to 1 (end)"},
     {.name = "samples",
      .value = "N",
      .scene_key = "render.samples",
@@ -164,7 +166,7 @@ static const Option OPTIONS[] = {
      .high = 1,
      .type = OPTION_REAL,
      .commands = RENDERS,
-     .doc = "a part is done when its relative error is below E; 0 = off"},
+     .doc = "stop sampling a region when its relative error is below E; 0 = off"},
     {.name = "crop",
      .value = "x0,y0,x1,y1",
      .scene_key = "film.crop",
@@ -172,7 +174,7 @@ static const Option OPTIONS[] = {
      .high = 1,
      .type = OPTION_CROP,
      .commands = RENDERS,
-     .doc = "only this part of the picture, in 0..1 from the top left"},
+     .doc = "render only this part of the picture, in 0..1 from the top left"},
     {.name = "exposure",
      .value = "E",
      .scene_key = "film.exposure",
@@ -180,32 +182,33 @@ static const Option OPTIONS[] = {
      .high = 50,
      .type = OPTION_REAL,
      .commands = RENDERS,
-     .doc = "brightness of the picture in stops: each doubles it"},
+     .doc = "brightness of the picture in stops; each stop doubles it"},
     {.name = "denoise",
      .scene_key = "film.denoise",
      .type = OPTION_YES,
      .commands = RENDERS,
-     .doc = "remove the noise that is left from the .png"},
+     .doc = "remove the remaining noise from the .png"},
     {.name = "no-denoise",
      .scene_key = "film.denoise",
      .type = OPTION_NO,
      .commands = RENDERS,
-     .doc = "leave it in"},
+     .doc = "keep the noise in the .png"},
     {.name = "isa",
      .value = "NAME",
      .offset = AT(isa),
      .choices = "sse2 sse4.2 avx avx2 avx512",
      .type = OPTION_TEXT,
      .commands = RENDERS,
-     .doc = "instruction set of the ray tracer, such as sse4.2: the same bits on every machine"},
+     .doc =
+         "instruction set of the ray tracer, such as sse4.2, for the same bits on every machine"},
     {.name = "isa",
      .value = "NAME",
      .offset = AT(isa),
      .choices = "sse2 sse4.2 avx avx2 avx512 native",
      .type = OPTION_TEXT,
      .commands = BIT(COMMAND_GOLDEN),
-     .doc = "instruction set of the ray tracer: the same bits on every machine; sse4.2 if not "
-            "given, native for the machine's own"},
+     .doc = "instruction set of the ray tracer, for the same bits on every machine; sse4.2 by "
+            "default, native for this machine's best"},
     {.name = "grow-to",
      .value = "T",
      .scene_key = "grow_to",
@@ -213,7 +216,7 @@ static const Option OPTIONS[] = {
      .high = 1,
      .type = OPTION_REAL,
      .commands = GROWS,
-     .doc = "show growth as it was at this share of its time, 0..1"},
+     .doc = "show the growth at this share of its time, 0..1"},
     {.name = "set",
      .value = "PATH=VALUE",
      .offset = AT(overrides),
@@ -232,7 +235,7 @@ static const Option OPTIONS[] = {
      .choices = "auto nodes gpu flat",
      .type = OPTION_TEXT,
      .commands = BIT(COMMAND_EXPORT),
-     .doc = "what .glb makes of instances: nodes, gpu (EXT_mesh_gpu_instancing), flat (copies) or "
+     .doc = "how .glb stores instances: nodes, gpu (EXT_mesh_gpu_instancing), flat (copies) or "
             "auto (flat for leaves and grass up to 2 million triangles; else nodes up to 4096, "
             "then gpu)"},
     {.name = "colors",
@@ -241,8 +244,7 @@ static const Option OPTIONS[] = {
      .choices = "all pattern growth none",
      .type = OPTION_TEXT,
      .commands = BIT(COMMAND_EXPORT),
-     .doc = "what colours of vertices show: pattern, growth (red: birth, green: radius), none or "
-            "all"},
+     .doc = "vertex colours to write: pattern, growth (red: birth, green: radius), none or all"},
     {.name = "tube-sides",
      .value = "N",
      .offset = AT(tube_sides),
@@ -250,12 +252,12 @@ static const Option OPTIONS[] = {
      .high = 64,
      .type = OPTION_INT,
      .commands = BIT(COMMAND_EXPORT),
-     .doc = "sides of the tubes that twigs and hairs become; 6"},
+     .doc = "number of sides of the tubes for twigs and hairs; 6 by default"},
     {.name = "resolved",
      .offset = AT(resolved),
      .type = OPTION_YES,
      .commands = BIT(COMMAND_INFO),
-     .doc = "print the whole scene with every default as YAML"},
+     .doc = "print the whole scene with all defaults as YAML"},
     {.name = "markdown",
      .offset = AT(markdown),
      .type = OPTION_YES,
@@ -265,7 +267,7 @@ static const Option OPTIONS[] = {
      .offset = AT(paths),
      .type = OPTION_YES,
      .commands = BIT(COMMAND_SCHEMA) | BIT(COMMAND_INFO),
-     .doc = "print the paths of all keys instead, as --set takes them; info: of this scene"},
+     .doc = "print the paths of all keys instead, as used by --set; info: of this scene"},
     {.name = "man",
      .offset = AT(man),
      .type = OPTION_YES,
@@ -278,7 +280,7 @@ static const Option OPTIONS[] = {
      .high = 1e9,
      .type = OPTION_REAL,
      .commands = COMPARES,
-     .doc = "most root mean square difference of pictures that are alike"},
+     .doc = "largest root mean square difference of pictures that are alike"},
     {.name = "threshold",
      .value = "T",
      .offset = AT(threshold),
@@ -286,7 +288,7 @@ static const Option OPTIONS[] = {
      .high = 1e9,
      .type = OPTION_REAL,
      .commands = COMPARES,
-     .doc = "a pixel fails when a channel differs by more than T; 0.012 if not given"},
+     .doc = "a pixel fails if a channel differs by more than T; 0.012 by default"},
     {.name = "max-failing",
      .value = "S",
      .offset = AT(max_failing),
@@ -294,17 +296,17 @@ static const Option OPTIONS[] = {
      .high = 1,
      .type = OPTION_REAL,
      .commands = COMPARES,
-     .doc = "most pixels that fail in pictures that are alike, as a share of 1"},
+     .doc = "largest share of failing pixels in pictures that are alike, 0..1"},
     {.name = "exact",
      .offset = AT(exact),
      .type = OPTION_YES,
      .commands = BIT(COMMAND_GOLDEN),
-     .doc = "every value must be the same, whatever the scenes say"},
+     .doc = "require every value to be equal, whatever the scenes say"},
     {.name = "statistical",
      .offset = AT(statistical),
      .type = OPTION_YES,
      .commands = BIT(COMMAND_GOLDEN),
-     .doc = "equal but for noise, whatever the scenes say; stored images are EXRs"},
+     .doc = "compare statistically, whatever the scenes say; stored images are EXRs"},
     {.name = "series",
      .value = "N",
      .offset = AT(series),
@@ -312,24 +314,24 @@ static const Option OPTIONS[] = {
      .high = 1 << 24,
      .type = OPTION_INT,
      .commands = BIT(COMMAND_GOLDEN),
-     .doc = "other seeds for what is compared statistically"},
+     .doc = "use other seeds for the statistical comparison"},
     {.name = "update",
      .offset = AT(update),
      .type = OPTION_YES,
      .commands = BIT(COMMAND_GOLDEN),
-     .doc = "store what is missing or differs"},
+     .doc = "store images that are missing or differ"},
     {.name = "filter",
      .value = "GLOB",
      .offset = AT(filter),
      .type = OPTION_TEXT,
      .commands = BIT(COMMAND_GOLDEN),
-     .doc = "only scenes of such names, with * and ?"},
+     .doc = "take only scenes with matching names, with * and ?"},
     {.name = "report",
      .value = "FILE.html",
      .offset = AT(report),
      .type = OPTION_TEXT,
      .commands = COMPARES,
-     .doc = "write a page that shows pictures, differences and numbers"},
+     .doc = "write a page with pictures, differences and numbers"},
     {.name = "junit",
      .value = "FILE.xml",
      .offset = AT(junit),
@@ -354,71 +356,66 @@ static const Option OPTIONS[] = {
      .type = OPTION_YES,
      .commands = SCENES | BIT(COMMAND_GOLDEN),
      .letter = 'q',
-     .doc = "say nothing but errors"},
+     .doc = "print only errors"},
     {.name = "help",
      .offset = AT(help),
      .type = OPTION_YES,
      .commands = EVERY,
      .letter = 'h',
      .doc = "print the help of the command"},
-};
+    {.name = NULL}};
 
-#define OPTION_COUNT ((int)(sizeof OPTIONS / sizeof OPTIONS[0]))
-_Static_assert(OPTION_COUNT <= 64, "Options.given has a bit for each");
+_Static_assert(sizeof option_table / sizeof option_table[0] <= MAX_OPTIONS,
+               "Options.given has a bit for each");
 
-static const Command COMMANDS[COMMAND_COUNT] = {
-    [COMMAND_RENDER] = {"render", "SCENE", "make a picture of a scene file",
-                        "Writes SCENE's name with .png to the current folder if there is no -o, "
-                        "and beside it the .exr with\nlinear colours, albedo, normal, depth, "
-                        "position, object and samples. Ctrl-C writes what there is.\n"},
-    [COMMAND_TURNTABLE] = {"turntable", "SCENE", "make a film of a scene file",
-                           "Grows, skins and builds once what stays from frame to frame. Writes "
-                           "SCENE's name with .mp4 to the current\nfolder if there is no -o. Run "
-                           "again after an interruption it skips the frames that are finished.\n"},
+const Command command_table[COMMAND_COUNT] = {
+    [COMMAND_RENDER] = {"render", "SCENE", "render a picture of a scene file",
+                        "Writes SCENE's name with .png to the current folder by default, and "
+                        "beside it the .exr with\nlinear colours, albedo, normal, depth, "
+                        "position, object and samples. Ctrl-C writes the picture so far.\n",
+                        command_render},
+    [COMMAND_TURNTABLE] = {"turntable", "SCENE", "render an animation of a scene file",
+                           "Grows, skins and builds static parts once. Writes SCENE's name with "
+                           ".mp4 to the current folder by\ndefault. Run again after an "
+                           "interruption, it skips finished frames.\n",
+                           command_turntable},
     [COMMAND_GROW] = {"grow", "SCENE", "grow a scene's trees only",
-                      "With -o writes the out-trees; of several, the objects' names are put "
-                      "before the ending.\n"},
+                      "-o writes the out-trees; if there are several, the objects' names precede "
+                      "the extension.\n",
+                      command_grow},
     [COMMAND_MEASURE] = {"measure", "SCENE|FILE.swc|FILE.asc",
                          "measure what a scene grows, or an out-tree in a file",
-                         "Exit status 1 when a target that the scene states is missed.\n"},
+                         "Exit status 1 if a target of the scene is missed.\n", command_measure},
     [COMMAND_EXPORT] = {"export", "SCENE", "write a scene as another program's file",
-                        "The ending of -o FILE says the format; docs/formats.md tells what each "
-                        "holds.\n"},
+                        "The extension of -o FILE selects the format; see docs/formats.md.\n",
+                        command_export},
     [COMMAND_COMPARE] = {"compare", "A B", "compare two pictures",
-                         "Alike is what is the same to the last bit, or within --max-rmse and "
-                         "--max-failing where they are\ngiven. Exit status 1 when they are not "
-                         "alike.\n"},
+                         "Pictures are alike if they are bitwise equal, or within --max-rmse and "
+                         "--max-failing if given.\nExit status 1 if they are not alike.\n",
+                         command_compare},
     [COMMAND_GOLDEN] = {"golden", "FOLDER", "compare a folder's scenes with their stored images",
-                        "Renders every NAME.yaml and compares it with NAME.png, or NAME.exr where "
-                        "the scene's golden.mode\nis statistical. Exit status 1 when one is not "
-                        "alike. docs/golden.md tells more.\n"},
-    [COMMAND_INFO] = {"info", "SCENE", "say what a scene file holds", ""},
-    [COMMAND_SCHEMA] = {"schema", "", "print what may stand in a scene file, as JSON Schema", ""},
-    [COMMAND_COMPLETION] = {"completion", "bash|zsh", "print what lets a shell complete commands",
+                        "Renders every NAME.yaml and compares it with NAME.png, or NAME.exr if "
+                        "the scene's golden.mode\nis statistical. Exit status 1 if one is not "
+                        "alike. See docs/golden.md.\n",
+                        command_golden},
+    [COMMAND_INFO] = {"info", "SCENE", "print the contents of a scene file", "", command_info},
+    [COMMAND_SCHEMA] = {"schema", "", "print the JSON Schema of scene files", "", command_schema},
+    [COMMAND_COMPLETION] = {"completion", "bash|zsh", "print a shell completion script",
                             "bash: eval \"$(ramify completion bash)\". zsh: put the output into a "
-                            "file _ramify in a folder of fpath.\n"},
-    [COMMAND_HELP] = {"help", "[COMMAND]", "explain a command", ""},
+                            "file _ramify in a folder of fpath.\n",
+                            command_completion},
+    [COMMAND_HELP] = {"help", "[COMMAND]", "explain a command", "", command_help},
 };
-
-const Option *option_at(int index)
-{
-    return index < OPTION_COUNT ? &OPTIONS[index] : NULL;
-}
 
 bool option_is_of(const Option *option, CommandId command)
 {
     return option->commands & BIT(command);
 }
 
-const Command *command_at(CommandId command)
-{
-    return &COMMANDS[command];
-}
-
 CommandId command_by_name(const char *name)
 {
     int i = 0;
-    while (i < COMMAND_COUNT && strcmp(COMMANDS[i].name, name) != 0) {
+    while (i < COMMAND_COUNT && strcmp(command_table[i].name, name) != 0) {
         i++;
     }
     return (CommandId)i;

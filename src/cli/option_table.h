@@ -38,20 +38,21 @@ typedef struct Command {
     const char *name;
     const char *operand; // "SCENE", "[COMMAND]", ...; "" = none
     const char *doc, *more;
+    bool (*run)(const Options *options,
+                RamifyError *e); // does the work; see command.h
 } Command;
 
-// Options in the order of the help, index from 0; NULL after the last.
-const Option *option_at(int index);
+// Options in the order of the help; the last entry has no name.
+extern const Option option_table[];
+extern const Command command_table[COMMAND_COUNT];
 
 bool option_is_of(const Option *option, CommandId command);
 
 // Writes the option's effect for this command, as a phrase, into text.
 void option_doc(const Option *option, CommandId command, char *text, size_t size);
 
-// Parses text and stores it as the option's value. RAMIFY_BAD_INPUT for an invalid value.
+// Parses text (NULL for options without value) and stores it as the option's value.
+// RAMIFY_BAD_INPUT for an invalid value.
 bool option_take(Options *options, const Option *option, const char *text, RamifyError *e);
-void option_take_flag(Options *options, const Option *option); // for options without value
-
-const Command *command_at(CommandId command); // command < COMMAND_COUNT
 
 #endif

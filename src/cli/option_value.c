@@ -2,28 +2,37 @@
 #include "cli/fail.h"
 #include "cli/option_table.h"
 
-#include <errno.h>
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool read_number(const char **text, double low, double high, double *value)
+// Parses numbers within the option's range, separated by `separator`, into value. Returns their
+// count; 0 if one is invalid or there are more than `most`.
+static int read_numbers(const char *text, const Option *option, char separator, double *value,
+                        int most)
 {
-    char *end;
-    errno = 0;
-    *value = strtod(*text, &end);
-    bool valid = end != *text && *value >= low && *value <= high;
-    *text = end;
-    return valid;
+    int count = 0;
+    bool valid = true, more = true;
+    while (valid && more && count < most) {
+        char *end;
+        value[count] = strtod(text, &end);
+        valid = end != text && value[count] >= option->low && value[count] <= option->high;
+        more = *end != 0;
+        valid = valid && (!more || tolower((unsigned char)*end) == separator);
+        text = end + more;
+        count++;
+    }
+    return valid && !more ? count : 0;
 }
 
 // Sets `key=value`, replacing an earlier setting of the key.
-static void put_key(Options *options, const char *key, const char *format, ...)
+static void set_key(Options *options, const char *key, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-static void put_key(Options *options, const char *key, const char *format, ...)
+static void set_key(Options *options, const char *key, const char *format, ...)
 {
     int at = 0, length = (int)strlen(key);
     while (at < options->key_count && (strncmp(options->keys[at], key, (size_t)length) != 0 ||
@@ -39,141 +48,114 @@ static void put_key(Options *options, const char *key, const char *format, ...)
     va_end(arguments);
 }
 
-static bool take_size(const char *text, const Option *option, Options *options)
+static bool append(const char **list, int *count, int most, const char *text)
 {
-    double width, height;
-    if (!read_number(&text, option->low, option->high, &width) || (*text != 'x' && *text != 'X')) {
-        return false;
+    bool fits = *count < most;
+    if (fits) {
+        list[(*count)++] = text;
     }
-    text++;
-    if (!read_number(&text, option->low, option->high, &height) || *text || floor(width) != width ||
-        floor(height) != height || width * height > 1e8) {
-        return false;
-    }
-    put_key(options, "film.width", "%.0f", width);
-    put_key(options, "film.height", "%.0f", height);
-    return true;
-}
-
-static bool take_crop(const char *text, const Option *option, Options *options)
-{
-    double crop[4];
-    for (int i = 0; i < 4; i++) {
-        if (!read_number(&text, option->low, option->high, &crop[i]) ||
-            *text != (i < 3 ? ',' : 0)) {
-            return false;
-        }
-        text += i < 3;
-    }
-    put_key(options, option->scene_key, "[%.9g, %.9g, %.9g, %.9g]", crop[0], crop[1], crop[2],
-            crop[3]);
-    return (float)crop[0] < (float)crop[2] && (float)crop[1] < (float)crop[3];
-}
-
-static bool read_keys(const char *text, const Option *option, RamifyKeys *keys)
-{
-    keys->count = 0;
-    do {
-        if (keys->count == RAMIFY_MOST_KEYS ||
-            !read_number(&text, option->low, option->high, &keys->value[keys->count])) {
-            return false;
-        }
-        keys->count++;
-    } while (*text++ == ':');
-    return text[-1] == 0;
+    return fits;
 }
 
 static bool bad_value(const Option *option, const char *text, RamifyError *e)
 {
+    char message[256];
     switch (option->type) {
+    case OPTION_TEXT:
+        snprintf(message, sizeof message, " is empty; it must be a %s", option->value);
+        break;
     case OPTION_SIZE:
-        return fail(e, RAMIFY_BAD_INPUT,
-                    "--size %.60s; it must be WIDTHxHEIGHT, each 1 to 65536, at most 100 "
-                    "million pixels",
-                    text);
+        snprintf(message, sizeof message,
+                 " %.60s; it must be WIDTHxHEIGHT, each 1 to 65536, at most 100 "
+                 "million pixels",
+                 text);
+        break;
     case OPTION_CROP:
-        return fail(e, RAMIFY_BAD_INPUT,
-                    "--crop %.60s; it must be x0,y0,x1,y1 in 0..1 with x0 < x1 and y0 < y1", text);
+        snprintf(message, sizeof message,
+                 " %.60s; it must be x0,y0,x1,y1 in 0..1 with x0 < x1 and y0 < y1", text);
+        break;
     case OPTION_KEYS:
-        return fail(e, RAMIFY_BAD_INPUT,
-                    "--%s %.60s; it must be 1 to %d numbers of %.9g to %.9g with colons between",
-                    option->name, text, (int)RAMIFY_MOST_KEYS, option->low, option->high);
+        snprintf(message, sizeof message,
+                 " %.60s; it must be 1 to %d numbers of %.9g to %.9g with colons "
+                 "between",
+                 text, (int)RAMIFY_MOST_KEYS, option->low, option->high);
+        break;
+    case OPTION_SET:
+    case OPTION_OBJECT:
+        snprintf(message, sizeof message, " is given more than %d times; %s",
+                 option->type == OPTION_SET ? MAX_OVERRIDES : MAX_OBJECTS,
+                 option->type == OPTION_SET ? "put some keys into the scene file"
+                                            : "leave it out to write all objects");
+        break;
     default:
-        return fail(e, RAMIFY_BAD_INPUT, "--%s %.60s; it must be a %s of %.9g to %.9g",
-                    option->name, text, option->type == OPTION_INT ? "whole number" : "number",
-                    option->low, option->high);
+        snprintf(message, sizeof message, " %.60s; it must be a %s of %.9g to %.9g", text,
+                 option->type == OPTION_INT ? "whole number" : "number", option->low, option->high);
     }
+    return fail(e, RAMIFY_BAD_INPUT, "--%s%s", option->name, message);
 }
 
-static bool add_override(Options *options, const char *text, RamifyError *e)
+// Takes the value of an option that has one or more numbers; returns whether it is valid.
+static bool take_numbers(Options *options, const Option *option, const char *text)
 {
-    if (options->override_count == MAX_OVERRIDES) {
-        return fail(e, RAMIFY_BAD_INPUT, "more than %d --set; put some into the scene file",
-                    MAX_OVERRIDES);
+    void *at = (char *)options + option->offset;
+    RamifyKeys keys = {0};
+    double *v = keys.value;
+    bool valid;
+    if (option->type == OPTION_SIZE) {
+        valid = read_numbers(text, option, 'x', v, 2) == 2 && floor(v[0]) == v[0] &&
+                floor(v[1]) == v[1] && v[0] * v[1] <= 1e8;
+        set_key(options, "film.width", "%.0f", v[0]);
+        set_key(options, "film.height", "%.0f", v[1]);
+    } else if (option->type == OPTION_CROP) {
+        valid = read_numbers(text, option, ',', v, 4) == 4 && (float)v[0] < (float)v[2] &&
+                (float)v[1] < (float)v[3];
+        set_key(options, option->scene_key, "[%.9g, %.9g, %.9g, %.9g]", v[0], v[1], v[2], v[3]);
+    } else if (option->type == OPTION_KEYS) {
+        keys.count = read_numbers(text, option, ':', v, RAMIFY_MOST_KEYS);
+        valid = keys.count > 0;
+        memcpy(at, &keys, sizeof keys);
+    } else {
+        int whole = 0;
+        valid = read_numbers(text, option, 0, v, 1) == 1;
+        if (valid && option->type == OPTION_INT) {
+            whole = (int)v[0];
+            valid = (double)whole == v[0];
+        }
+        if (option->scene_key) {
+            set_key(options, option->scene_key, "%.17g", v[0]);
+        } else {
+            memcpy(at, option->type == OPTION_INT ? (void *)&whole : (void *)v,
+                   option->type == OPTION_INT ? sizeof whole : sizeof *v);
+        }
     }
-    options->overrides[options->override_count++] = text;
-    return true;
-}
-
-static bool add_object(Options *options, const char *text, RamifyError *e)
-{
-    if (options->object_count == MAX_OBJECTS) {
-        return fail(e, RAMIFY_BAD_INPUT, "more than %d --object; leave it out to write all of them",
-                    MAX_OBJECTS);
-    }
-    options->objects[options->object_count++] = text;
-    return true;
+    return valid;
 }
 
 bool option_take(Options *options, const Option *option, const char *text, RamifyError *e)
 {
-    char *at = (char *)options + option->offset;
-    const char *rest = text;
-    double value;
+    void *at = (char *)options + option->offset;
+    bool flag = option->type == OPTION_YES, valid = true;
     switch (option->type) {
-    case OPTION_TEXT:
-        if (!*text) {
-            return fail(e, RAMIFY_BAD_INPUT, "--%s is empty; it must be a %s", option->name,
-                        option->value);
+    case OPTION_YES:
+    case OPTION_NO:
+        if (option->scene_key) {
+            set_key(options, option->scene_key, "%s", flag ? "true" : "false");
+        } else {
+            memcpy(at, &flag, sizeof flag);
         }
-        memcpy(at, &text, sizeof text);
-        return true;
-    case OPTION_SET:
-        return add_override(options, text, e);
-    case OPTION_OBJECT:
-        return add_object(options, text, e);
-    case OPTION_SIZE:
-        return take_size(text, option, options) || bad_value(option, text, e);
-    case OPTION_CROP:
-        return take_crop(text, option, options) || bad_value(option, text, e);
-    case OPTION_KEYS:
-        return read_keys(text, option, (RamifyKeys *)(void *)at) || bad_value(option, text, e);
-    default:
         break;
+    case OPTION_TEXT:
+        valid = *text;
+        memcpy(at, &text, sizeof text);
+        break;
+    case OPTION_SET:
+        valid = append(options->overrides, &options->override_count, MAX_OVERRIDES, text);
+        break;
+    case OPTION_OBJECT:
+        valid = append(options->objects, &options->object_count, MAX_OBJECTS, text);
+        break;
+    default:
+        valid = take_numbers(options, option, text);
     }
-    if (!read_number(&rest, option->low, option->high, &value) || *rest) {
-        return bad_value(option, text, e);
-    }
-    int whole = (int)value;
-    if (option->type == OPTION_INT && (double)whole != value) {
-        return bad_value(option, text, e);
-    }
-    if (option->scene_key) {
-        put_key(options, option->scene_key, "%.17g", value);
-    } else if (option->type == OPTION_REAL) {
-        memcpy(at, &value, sizeof value);
-    } else {
-        memcpy(at, &whole, sizeof whole);
-    }
-    return true;
-}
-
-void option_take_flag(Options *options, const Option *option)
-{
-    bool value = option->type == OPTION_YES;
-    if (option->scene_key) {
-        put_key(options, option->scene_key, "%s", value ? "true" : "false");
-    } else {
-        memcpy((char *)options + option->offset, &value, sizeof value);
-    }
+    return valid || bad_value(option, text, e);
 }

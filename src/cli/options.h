@@ -7,7 +7,7 @@
 #define MAX_OVERRIDES 256
 #define MAX_OBJECTS 64
 
-enum { MAX_KEYS = 16, MAX_KEY_TEXT = 160 };
+enum { MAX_KEYS = 16, MAX_KEY_TEXT = 160, MAX_OPTIONS = 64 };
 
 typedef enum CommandId {
     COMMAND_RENDER,
@@ -35,9 +35,9 @@ typedef struct Options {
     int override_count;
     char keys[MAX_KEYS][MAX_KEY_TEXT]; // overrides by other options; applied last
     int key_count;
-    uint64_t given; // bit i: option_at(i) is present
+    uint64_t given; // bit i: option_table[i] is present
     int threads;    // 0 = all processors
-    bool quiet, json, resolved, help;
+    bool quiet, json, resolved, help, version;
     bool markdown, paths;                    // output format of schema and info
     bool man;                                // help: print the man page
     bool spin, vary_noise;                   // turntable
@@ -59,14 +59,11 @@ typedef struct Options {
 } Options;
 
 // Parses argv[1..]. RAMIFY_BAD_INPUT names what is wrong and what would be right. --help and
-// --version set command to COMMAND_HELP and *version.
-bool options_parse(Options *options, int argc, char **argv, bool *version, RamifyError *e);
+// --version without a command set command to COMMAND_HELP.
+bool options_parse(Options *options, int argc, char **argv, RamifyError *e);
 
 // Whether the option of this name, without dashes, is present.
 bool option_given(const Options *options, const char *name);
-
-// Prints the help of a command, or of the program for COMMAND_HELP, to stdout.
-void options_print_help(CommandId command);
 
 // The command of this name; COMMAND_COUNT if there is none.
 CommandId command_by_name(const char *name);

@@ -1,4 +1,5 @@
 // ramify render: renders a scene to a picture.
+#include "base/json.h"
 #include "cli/command.h"
 
 #include <stdio.h>
@@ -44,14 +45,13 @@ static bool plan_outputs(const Options *options, Outputs *outputs, RamifyError *
     const char *named = options->output ? options->output : file_name(options->operand);
     bool exr = output_has_ending(named, ".exr"),
          jpeg = output_has_ending(named, ".jpg") || output_has_ending(named, ".jpeg");
-    if (options->output && !exr && !jpeg && !output_has_ending(named, ".png")) {
-        return fail(e, RAMIFY_BAD_INPUT, "--output %s; its ending must be .png, .jpg or .exr",
-                    named);
-    }
+    bool valid =
+        !options->output || exr || jpeg || output_has_ending(named, ".png") ||
+        fail(e, RAMIFY_BAD_INPUT, "--output %s; its ending must be .png, .jpg or .exr", named);
     bool as_named = options->output && !exr;
     outputs->display = as_named ? copy_text(named, e) : output_with_ending(named, ".png", e);
     outputs->exr = exr ? copy_text(named, e) : output_with_ending(named, ".exr", e);
-    return outputs->display && outputs->exr && output_check(outputs->display, e) &&
+    return valid && outputs->display && outputs->exr && output_check(outputs->display, e) &&
            output_check(outputs->exr, e);
 }
 
@@ -76,25 +76,18 @@ static void preview_pass(void *user, const RamifyFilm *film, int samples)
     p->next = written + (samples > 1 ? written - p->start : FIRST_PREVIEW_WAIT);
 }
 
-static double crop_share(const float *crop)
-{
-    return (double)(crop[2] - crop[0]) * (double)(crop[3] - crop[1]);
-}
-
 static bool trace(Job *job, const RamifyWorld *world, const char *isa, RamifyFilm *film,
                   Progress *progress, const RamifyRun *run, RamifyError *e)
 {
     double start = clock_seconds();
     RamifyRenderer *renderer = ramify_renderer_new(world, isa, run, e);
-    if (!renderer) {
-        return false;
-    }
     double built = clock_seconds();
     Preview preview = {.job = job, .run = run, .progress = progress, .start = built};
-    progress->work =
-        (double)job->info.width * job->info.height * crop_share(job->info.crop) * job->info.samples;
-    bool done =
-        ramify_renderer_render(renderer, film, preview_pass, &preview, run, &job->render, e);
+    const float *crop = job->info.crop;
+    progress->work = (double)job->info.width * job->info.height * (double)(crop[2] - crop[0]) *
+                     (double)(crop[3] - crop[1]) * job->info.samples;
+    bool done = renderer && ramify_renderer_render(renderer, film, preview_pass, &preview, run,
+                                                   &job->render, e);
     job->build = built - start;
     job->trace = clock_seconds() - built - preview.spent;
     job->write += preview.spent;
@@ -122,9 +115,9 @@ static void print_summary(const Job *job)
 static void print_json(const Job *job)
 {
     printf("{\"images\": [");
-    json_print_string(job->outputs->display);
+    json_put_string(stdout, job->outputs->display);
     printf(", ");
-    json_print_string(job->outputs->exr);
+    json_put_string(stdout, job->outputs->exr);
     printf("], \"width\": %d, \"height\": %d, \"samples\": %d, \"nodes\": %lld, "
            "\"triangles\": %lld, \"curve_segments\": %lld, \"instances\": %lld, "
            "\"paths\": %lld, \"rays\": %lld, \"memory\": %lld, \"scene_memory\": %lld, ",
@@ -180,41 +173,33 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
     ramify_film_free(film);
     ramify_world_free(world);
     if (done && *run.cancelled) {
-        return job.render.samples > 0
-                   ? fail(e, RAMIFY_CANCELLED, "interrupted; %s has %d samples a pixel",
-                          outputs->display, job.render.samples)
-                   : fail(e, RAMIFY_CANCELLED,
-                          "interrupted in the first pass; %s is whole only in part",
-                          outputs->display);
+        done =
+            job.render.samples > 0
+                ? fail(e, RAMIFY_CANCELLED, "interrupted; %s has %d samples a pixel",
+                       outputs->display, job.render.samples)
+                : fail(e, RAMIFY_CANCELLED,
+                       "interrupted in the first pass; %s is whole only in part", outputs->display);
     }
     return done;
 }
 
-// The scene, or one moment of its animation.
-static RamifyScene *choose_scene(const Options *options, RamifyError *e)
-{
-    RamifyScene *scene = command_scene(options, e);
-    bool frame = option_given(options, "frame"), time = option_given(options, "time");
-    if (!scene || !(frame || time)) {
-        return scene;
-    }
-    RamifyScene *then = NULL;
-    if (frame && time) {
-        fail(e, RAMIFY_BAD_INPUT, "both --frame and --time; give one");
-    } else if (frame) {
-        then = ramify_scene_at_frame(scene, NULL, options->frame, e);
-    } else {
-        then = ramify_scene_at(scene, NULL, options->time, e);
-    }
-    ramify_scene_free(scene);
-    return then;
-}
-
 bool command_render(const Options *options, RamifyError *e)
 {
+    bool frame = option_given(options, "frame"), time = option_given(options, "time");
     Outputs outputs = {0};
-    bool sound = ramify_check_isa(options->isa, e) && plan_outputs(options, &outputs, e);
-    RamifyScene *scene = sound ? choose_scene(options, e) : NULL;
+    bool valid = ramify_check_isa(options->isa, e) && plan_outputs(options, &outputs, e);
+    RamifyScene *scene = valid ? command_scene(options, e) : NULL;
+    if (scene && (frame || time)) { // one moment of its animation
+        RamifyScene *whole = scene;
+        scene = NULL;
+        if (frame && time) {
+            fail(e, RAMIFY_BAD_INPUT, "both --frame and --time; give one");
+        } else {
+            scene = frame ? ramify_scene_at_frame(whole, NULL, options->frame, e)
+                          : ramify_scene_at(whole, NULL, options->time, e);
+        }
+        ramify_scene_free(whole);
+    }
     bool done = scene && render_scene(options, scene, &outputs, e);
     ramify_scene_free(scene);
     clear_outputs(&outputs);

@@ -1,4 +1,5 @@
 // ramify turntable: renders a scene to an animation.
+#include "base/json.h"
 #include "cli/command.h"
 
 #include <stdio.h>
@@ -44,7 +45,7 @@ static void print_summary(const char *output, const RamifyTurntableInfo *i, doub
 static void print_json(const char *output, const RamifyTurntableInfo *i, double seconds)
 {
     printf("{\"output\": ");
-    json_print_string(output);
+    json_put_string(stdout, output);
     printf(", \"frames\": %d, \"rendered\": %d, \"skipped\": %d, \"geometries\": %d, "
            "\"structures\": %d, \"paths\": %lld, \"memory\": %lld, ",
            i->frames, i->rendered, i->skipped, i->geometries, i->structures, (long long)i->paths,

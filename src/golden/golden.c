@@ -61,7 +61,7 @@ static bool is_missing(GoldenResult *result, const char *file)
         return false;
     }
     result->status = GOLDEN_MISSING;
-    snprintf(result->message, sizeof result->message, "there is no %.600s; --update stores one",
+    snprintf(result->message, sizeof result->message, "there is no %.600s; an update stores one",
              file);
     return true;
 }

@@ -75,9 +75,9 @@ static void params_out_of_range_are_refused(void **state)
     const struct {
         TurntableParams params;
         const char *says;
-    } cases[] = {{{.elevation = {{0, 90}, 2}}, "--elevation has 90"},
-                 {{.dolly = {{0}, 1}}, "--dolly has 0"},
-                 {{.grow = {{0, 1.5}, 2}}, "--grow has 1.5"},
+    } cases[] = {{{.elevation = {{0, 90}, 2}}, "elevation has 90"},
+                 {{.dolly = {{0}, 1}}, "dolly has 0"},
+                 {{.grow = {{0, 1.5}, 2}}, "grow has 1.5"},
                  {{.sun = {{5, 19}, 2}}, "kind must be sun_sky"},
                  {{.turns = 1e9}, "turns"},
                  {{.frames = -3}, "-3 frames"},

@@ -36,7 +36,7 @@ scene plain 0.5
 scene glow 0.3 'seed: 7'
 scene noisy 0.5 'golden: {mode: statistical}'
 check missing 1 "$RAMIFY" golden g -q
-matches missing_message out "plain  *missing .*there is no g/plain.png; --update stores one"
+matches missing_message out "plain  *missing .*there is no g/plain.png; an update stores one"
 yes missing_stores_nothing test ! -e g/plain.png
 check update 0 "$RAMIFY" golden g -q --update
 matches update_says_which out "plain  *stored"

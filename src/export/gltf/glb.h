@@ -3,6 +3,7 @@
 #ifndef RAMIFY_EXPORT_GLTF_GLB_H
 #define RAMIFY_EXPORT_GLTF_GLB_H
 
+#include "base/json.h"
 #include "export/pieces.h"
 #include "render/sky/sun_sky.h"
 #include "render/world.h"
@@ -106,6 +107,5 @@ char *glb_json(const Glb *glb, size_t *size, Error *e);
 void json_put_float(FILE *json, float value);
 void json_put_floats(FILE *json, const char *key, const float *value, int count); // "key":[...]
 void json_put_color(FILE *json, const char *key, Vec3 value);
-void json_put_string(FILE *json, const char *text); // quoted
 
 #endif

@@ -40,22 +40,6 @@ void json_put_color(FILE *json, const char *key, Vec3 value)
     json_put_floats(json, key, (const float[]){value.x, value.y, value.z}, 3);
 }
 
-void json_put_string(FILE *json, const char *text)
-{
-    fputc('"', json);
-    for (; *text; text++) {
-        unsigned char c = (unsigned char)*text;
-        if (c == '"' || c == '\\') {
-            fprintf(json, "\\%c", c);
-        } else if (c < ' ') {
-            fprintf(json, "\\u%04x", c);
-        } else {
-            fputc(c, json);
-        }
-    }
-    fputc('"', json);
-}
-
 // ---- buffers
 
 int64_t glb_part_accessors(const GlbPart *part)
