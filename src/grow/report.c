@@ -131,7 +131,7 @@ void reach_measure_left(const OutTree *tree, const AttractorGrid *grid, int64_t 
     }
 }
 
-// For each node the root of its tree; for each root whether an attractor pulls a node of its tree.
+// Per node the root of its tree; per root whether an attractor pulls any node of its tree.
 static void find_roots(const OutTree *tree, const NodeBits *pulled, int32_t *root, bool *is_pulled)
 {
     for (int64_t i = 0; i < tree->count; i++) { // parents come first
@@ -140,7 +140,7 @@ static void find_roots(const OutTree *tree, const NodeBits *pulled, int32_t *roo
     }
 }
 
-// For the roots that nothing pulls: the distance of their trees from the nearest attractor, m.
+// For roots that nothing pulls: distance of their trees from the nearest attractor, m.
 static bool measure_unpulled(const OutTree *tree, const PointSet *attractors, const int32_t *root,
                              const bool *is_pulled, float *nearest, const Run *run, Error *e)
 {

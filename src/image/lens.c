@@ -17,7 +17,7 @@ static void blur_line(const float *in, float *out, int count, int64_t stride, in
 {
     double sum[3] = {0.0, 0.0, 0.0};
     double scale = 1.0 / (2.0 * radius + 1.0);
-    int period = 2 * count, periods = (2 * radius + 1) / period; // 0 but for a narrow image
+    int period = 2 * count, periods = (2 * radius + 1) / period; // 0 unless the image is narrow
     for (int i = 0; i < count && periods > 0; i++) {             // which holds each entry twice
         for (int c = 0; c < 3; c++) {
             sum[c] += 2.0 * periods * (double)in[i * stride + c];

@@ -4,8 +4,8 @@
 
 #include <openvdb/openvdb.h>
 
-// OpenVDB's destructor of a tree allocates, and ends the program when it cannot. The root's clear()
-// does not, and leaves that destructor nothing to do.
+// OpenVDB's tree destructor allocates, and terminates the program if it cannot. The root's clear()
+// does not allocate and leaves the destructor nothing to do.
 template <typename Grid> void clear_without_allocating(Grid &grid)
 {
     grid.tree().root().clear();

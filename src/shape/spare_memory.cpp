@@ -8,13 +8,13 @@
 namespace
 {
 
-// A destructor lists a tree's leaves, in a list that doubles: up to 24 bytes a leaf of 2 kB. This
-// is enough for 5 GB of voxels; it takes room, but no memory, since nothing writes it. Above 32 MB
-// free() does not change how malloc() treats other large blocks.
+// A tree's destructor collects its leaves in a growing list, up to 24 bytes per leaf of 2 kB, so
+// this suffices for 5 GB of voxels. It takes address space but no memory, since it is never
+// written. Above 32 MB free() does not change how malloc() treats other large blocks.
 constexpr size_t SPARE_BYTES = size_t(64) << 20;
 
-// The handler of operator new is one of the whole process and is told nothing, so what it gives
-// back can only be the process's.
+// The handler of operator new is global and has no argument, so the memory it releases is global
+// too.
 struct Shared {
     std::mutex lock; // for all but the handler
     int users = 0;

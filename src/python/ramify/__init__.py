@@ -32,7 +32,7 @@ def render(
     folder: File = "",
     **how: Any,
 ) -> Film:
-    """Renders a scene, a dict or the name of a scene file, and writes it to file if there is one. Returns the Film."""
+    """Renders a scene, a dict or the name of a scene file, and writes it to file if given. Returns the Film."""
     if not isinstance(scene, Scene):
         scene = Scene(scene, overrides, folder) if isinstance(scene, dict) else Scene.load(scene, overrides)
     if file is not None:

@@ -1,4 +1,4 @@
-"""The functions and structs of ramify.h, as ctypes sees them. tests/python holds them against the header."""
+"""ctypes declarations of the functions and structs of ramify.h; tests/python compares them with the header."""
 
 import ctypes as c
 import ctypes.util
@@ -231,7 +231,7 @@ FUNCTIONS = {
 
 
 def _candidates():
-    """Where the library may be: as told, beside this module below the same prefix, where the loader looks."""
+    """Candidate paths of the library: as configured, under the same prefix as this module, the loader's search path."""
     told = os.environ.get("RAMIFY_LIBRARY")
     if told:
         yield told
@@ -248,7 +248,7 @@ def _candidates():
 
 
 def load(version):
-    """The library, its functions declared. ImportError when it is not there or of another version."""
+    """Loads the library and declares its functions. ImportError if it is missing or has another version."""
     reasons = []
     for name in _candidates():
         try:

@@ -8,8 +8,8 @@ _BYTES = {"f4": c.c_float, "i4": c.c_int32, "u4": c.c_uint32, "i8": c.c_int64, "
 
 
 def view(address, kind, shape, owner):
-    """A read-only array of what lies at address and belongs to owner (a Handle), which lives as long as the array. None
-    where there is nothing."""
+    """A read-only array view of memory at address, which belongs to owner (a Handle). The array keeps the owner alive.
+    None if address is NULL."""
     if not address:
         return None
     count = int(np.prod(shape))

@@ -1,4 +1,4 @@
-"""Calls into the library: errors become exceptions, Ctrl-C and exceptions in callbacks end what runs."""
+"""Calls into the library: errors become exceptions, Ctrl-C and exceptions in callbacks cancel the call."""
 
 import ctypes as c
 import os
@@ -18,8 +18,8 @@ File = Union[str, bytes, os.PathLike]
 
 
 class Error(Exception):
-    """Something went wrong. code: "bad_input", "io", "memory", "cancelled", "internal" or "differs"; file, line and
-    column say where, as far as it is known (None else)."""
+    """Error of the library. code: "bad_input", "io", "memory", "cancelled", "internal" or "differs"; file, line and
+    column are the place, None if unknown."""
 
     CODES = ("ok", "bad_input", "io", "memory", "cancelled", "internal", "differs")
 
@@ -34,12 +34,12 @@ class Error(Exception):
 
 
 class BadInput(Error, ValueError):
-    """The scene, a file it names or an argument is wrong."""
+    """The scene, a file it names or an argument is invalid."""
 
 
 class _State:
-    """Of a run: what was raised and what was warned of. Holds nothing that holds it, so that what callbacks know (a film)
-    is freed with the last that needs it and need not wait for the garbage collector."""
+    """State of a run: the exception raised and the warnings. Free of reference cycles, so that objects used by callbacks
+    (a film) are freed immediately instead of by the garbage collector."""
 
     def __init__(self):
         self.cancelled = c.c_int(0)
@@ -47,13 +47,13 @@ class _State:
         self.warned = []
 
     def end(self, reason):
-        """Ends the run; reason is raised after it."""
+        """Cancels the run; reason is raised when it has ended."""
         self.raised = self.raised or reason
         self.cancelled.value = 1
 
 
 def _guard(state, function):
-    """function as the library may call it: an exception in it ends the run."""
+    """Wraps function as a callback: an exception in it cancels the run."""
 
     def call(*arguments):
         try:
@@ -66,7 +66,7 @@ def _guard(state, function):
 
 
 def _how(state, threads, progress):
-    """How to run, for the library. It keeps the callbacks."""
+    """Execution parameters for the library; keeps the callbacks alive."""
     how = _abi.Run()
     how.threads = threads
     how.cancelled = c.pointer(state.cancelled)
@@ -78,7 +78,7 @@ def _how(state, threads, progress):
 
 
 def _wait(function, state):
-    """The result of function(), called on another thread while this one, the main thread, stays open to Ctrl-C."""
+    """Calls function() on another thread, so that the main thread can handle Ctrl-C; returns its result."""
     outcome, done = [None], threading.Event()
 
     def work():
@@ -99,8 +99,8 @@ def _wait(function, state):
 
 
 def run(function, threads=0, progress=None, each_pass=None, discard=None):
-    """function(run, each_pass, error) in the library. threads: 0 = all processors. progress(stage, done): done in 0..1.
-    A result that nobody will see any more, because something was raised, is given to discard."""
+    """Calls function(run, each_pass, error) of the library. threads: 0 = all processors. progress(stage, done): done in
+    0..1. If an exception is raised, the result is passed to discard."""
     state, error = _State(), _abi.Error()
     how = _how(state, threads, progress)
     show = _abi.PASS(_guard(state, each_pass)) if each_pass else _abi.PASS()
@@ -117,20 +117,20 @@ def run(function, threads=0, progress=None, each_pass=None, discard=None):
 
 
 def check(result, error):
-    """result, unless it says that there is an error."""
+    """Returns result, or raises if it signals an error."""
     if result:
         return result
     raise (BadInput if error.code == 1 else Error)(error)
 
 
 def call(name, *arguments):
-    """ramify_name(*arguments, &error), of those that are quick."""
+    """Calls ramify_name(*arguments, &error), for functions that return quickly."""
     error = _abi.Error()
     return check(getattr(lib, "ramify_" + name)(*arguments, c.byref(error)), error)
 
 
 def path(file: File) -> bytes:
-    """The name of a file (text, bytes or a path) as the library takes it."""
+    """Converts a file name (text, bytes or a path) for the library."""
     name = os.fsencode(file)
     if b"\0" in name:
         raise ValueError(f"{file!r} is no name of a file: there is a NUL in it")
@@ -138,7 +138,7 @@ def path(file: File) -> bytes:
 
 
 class Handle:
-    """A handle of the library and what it borrows from; freed with the last that needs it."""
+    """A handle of the library, with references to the handles it borrows from; freed with its last reference."""
 
     def __init__(self, pointer, free, *owners):
         self.pointer = pointer

@@ -1,4 +1,4 @@
-"""Scenes: what everything is made from."""
+"""Scenes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _COLORS = ("all", "pattern", "growth", "none")
 
 
 def _plain(value):
-    """What json does not know: numbers and arrays of NumPy, paths."""
+    """Converts types that json does not support: NumPy numbers and arrays, paths."""
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
     if isinstance(value, os.PathLike):
@@ -36,7 +36,7 @@ def _yaml(value):
 
 
 def _overrides(overrides):
-    """{"camera.fov": 35} as the library takes them."""
+    """Converts overrides such as {"camera.fov": 35} for the library."""
     texts = [f"{path}={_yaml(value)}".encode() for path, value in (overrides or {}).items()]
     return (c.c_char_p * len(texts))(*texts), len(texts)
 
@@ -57,8 +57,8 @@ def schema() -> Dict[str, Any]:
 
 
 class Scene:
-    """A scene from a dict of the same keys as a scene file. overrides: {"objects.oak.tree.height": 9}. Files that it names
-    are relative to folder."""
+    """A scene from a dict with the keys of a scene file. overrides: {"objects.oak.tree.height": 9}. Files named in it are
+    relative to folder."""
 
     def __init__(self, description: Dict[str, Any], overrides: Overrides = None, folder: File = ""):
         text = _yaml(description).encode()
@@ -87,7 +87,7 @@ class Scene:
 
     @property
     def resolved(self) -> str:
-        """The scene with every default and override written out, as YAML."""
+        """The scene with all defaults and overrides written out, as YAML."""
         return lib.ramify_scene_resolved(self._handle.pointer).decode()
 
     def _index(self, name):
@@ -123,7 +123,7 @@ class Scene:
         )
 
     def measure(self, name: Name, threads: int = 0, progress: Progress = None) -> Dict[str, float]:
-        """Grows one object and measures it, as a dict; nan where there is too little to measure."""
+        """Grows one object and measures it, as a dict; nan if not measurable."""
         index = self._index(name)
         return measures(
             run(
@@ -164,7 +164,7 @@ class Scene:
         threads: int = 0,
         progress: Progress = None,
     ) -> Dict[str, Any]:
-        """Writes the scene as another program's file, by the file's ending. objects: the only ones to write, or the only one;
+        """Exports the scene in the format of the file's extension. objects: names of the objects to write, or one name;
         instances: "auto", "nodes", "gpu" or "flat"; colors: "all", "pattern", "growth" or "none"; tube_sides: of curves
         written as tubes. Returns what was written as a dict: vertices, triangles, low, high (m), bytes."""
         objects = [objects] if isinstance(objects, (str, int)) else objects

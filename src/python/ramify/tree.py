@@ -1,4 +1,4 @@
-"""Out-trees and land: what grows."""
+"""Out-trees and land."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ._call import File, Handle, call, lib, path, run
 
 
 def measures(pointer: int) -> Dict[str, float]:
-    """The list of measures as a dict of numbers; frees it."""
+    """Converts a list of measures to a dict of numbers and frees it."""
     handle = Handle(pointer, "measures_free")
     found = {}
     for i in range(lib.ramify_measures_count(handle.pointer)):
@@ -41,12 +41,12 @@ class Tree:
 
     @classmethod
     def read(cls, file: File) -> Tree:
-        """Reads an SWC file, coordinates in metres; any file, in a child process with limits."""
+        """Reads an SWC file, coordinates in metres, in a child process with limits."""
         name = path(file)
         return cls(run(lambda how, _, error: lib.ramify_tree_read(name, how, error), discard=lib.ramify_tree_free))
 
     def write(self, file: File) -> None:
-        """Writes .swc, .json or .graphml, by the file's ending."""
+        """Writes .swc, .json or .graphml, by the file's extension."""
         call("tree_write", self._handle.pointer, path(file))
 
     def _array(self, name, kind, *width):
@@ -66,16 +66,16 @@ class Tree:
 
     @property
     def hash(self) -> int:
-        """Equal trees, equal hashes."""
+        """Hash of positions, parents, births, colonies and radii."""
         return lib.ramify_tree_hash(self._handle.pointer)
 
     def measure(self) -> Dict[str, float]:
-        """What can be measured on any out-tree, as a dict; nan where there is too little to measure."""
+        """Measures of any out-tree, as a dict; nan if not measurable."""
         return measures(call("tree_measure", self._handle.pointer))
 
 
 class Land:
-    """Heights of land: heights, rows x columns float32 in m (row: z, column: x); cell, m from sample to sample along
+    """Heights of land: heights, rows x columns float32 in m (row: z, column: x); cell, sample spacing in m along
     (x, z); origin, (x, z) of the first sample in m."""
 
     def __init__(self, pointer):
@@ -91,7 +91,7 @@ class Land:
         return cls(call("land_read", path(file)))
 
     def write(self, file: File) -> None:
-        """Writes .png (16 bits, from the lowest to the highest point), .exr or .asc (m), by the file's ending."""
+        """Writes .png (16 bits, from the lowest to the highest point), .exr or .asc (m), by the file's extension."""
         call("land_write", self._handle.pointer, path(file))
 
     @property
@@ -100,5 +100,5 @@ class Land:
         return view(address, "f4", (self._info.rows, self._info.columns), self._handle)
 
     def measure(self) -> Dict[str, float]:
-        """What can be measured on any land, as a dict."""
+        """Measures of any land, as a dict."""
         return measures(call("land_measure", self._handle.pointer))

@@ -1,4 +1,4 @@
-"""Geometry and pictures: what is made of a scene."""
+"""Geometry and pictures of a scene."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ class _Part:
 
     positions = property(lambda self: self._vertices("positions", 3), doc="n x 3 float32, m")
     radii = property(lambda self: self._vertices("radii"), doc="n float32, m, of the branch; or None")
-    births = property(lambda self: self._vertices("births"), doc="n float32, 0..1 of the growth's time; or None")
+    births = property(lambda self: self._vertices("births"), doc="n float32, 0..1 of the growth; or None")
 
     @property
     def instances(self) -> Optional[np.ndarray]:
-        """k x 3 x 4 float32: where it is drawn, as matrices whose last column is the place in m. None = once, as it is."""
+        """k x 3 x 4 float32: instance matrices, last column the translation in m. None = drawn once, untransformed."""
         return view(self._part.instances, "f4", (self._part.instance_count, 3, 4), self._world)
 
     @property
     def variations(self) -> Optional[np.ndarray]:
-        """k float32, 0..1 an instance, for variation of colour; or None."""
+        """k float32, 0..1 per instance, for colour variation; or None."""
         return view(self._part.variations, "f4", (self._part.instance_count,), self._world)
 
 
 class Mesh(_Part):
-    """A mesh of a scene's object: positions, radii, births, instances and what follows. object and material are names."""
+    """A mesh of a scene's object: positions, radii, births, instances and members below. object, material: names."""
 
     normals = property(lambda self: self._vertices("normals", 3), doc="n x 3 float32, unit; None = flat")
     uvs = property(lambda self: self._vertices("uvs", 2), doc="n x 2 float32; or None")
@@ -122,7 +122,7 @@ class World:
 
 
 class Film:
-    """A picture with all that the path tracer knows of it. Its layers are height x width (x 3) float32 arrays."""
+    """The result of rendering, with all layers: height x width (x 3) float32 arrays."""
 
     def __init__(self, width, height, scene):
         error = _abi.Error()
@@ -135,7 +135,7 @@ class Film:
         self.info = _abi.RenderInfo()
 
     def layer(self, name: str) -> np.ndarray:
-        """The layer of this name; KeyError when there is none."""
+        """The layer with this name; KeyError if there is none."""
         channels = c.c_int()
         address = lib.ramify_film_layer(self.handle.pointer, name.encode(), c.byref(channels))
         if not address:
@@ -159,8 +159,8 @@ class Film:
         return np.dstack([self.layer("color"), self.layer("alpha")])
 
     def save(self, file: File, denoise: Optional[bool] = None, threads: int = 0) -> None:
-        """Writes .png or .jpg, developed by the scene's film, or .exr, linear with all layers. denoise: None = as the
-        scene says."""
+        """Writes .png or .jpg, developed by the scene's film, or .exr, linear with all layers. denoise: None = the
+        scene's setting."""
         if denoise is None:
             info = _abi.SceneInfo()
             lib.ramify_scene_info(self._scene.pointer, c.byref(info))
