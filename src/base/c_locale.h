@@ -1,4 +1,4 @@
-// Decimal points in numbers read and written, whatever the language of the calling program.
+// Switches a thread to the C locale, so that numbers are read and written with decimal points.
 #ifndef RAMIFY_BASE_C_LOCALE_H
 #define RAMIFY_BASE_C_LOCALE_H
 
@@ -10,10 +10,10 @@ typedef struct CLocale {
     locale_t own, before;
 } CLocale;
 
-// Puts the calling thread into the C locale. ERROR_MEMORY; then there is nothing to leave.
+// Puts the calling thread into the C locale. On ERROR_MEMORY there is nothing to leave.
 bool c_locale_enter(CLocale *locale, Error *e);
 
-// Back to the locale before.
+// Restores the previous locale.
 void c_locale_leave(CLocale *locale);
 
 #endif

@@ -17,22 +17,23 @@
 #include <unistd.h>
 
 enum {
-    TICK = 20,      // ms between looks at run->cancelled
-    SHORT_TICK = 2, // the same where the kernel has no pidfd that tells of the end
+    TICK = 20,      // ms between checks of run->cancelled
+    SHORT_TICK = 2, // the same if the kernel has no pidfd, which signals the end
     LARGEST_WRITE = 1 << 30,
-    LARGEST_READ = 1 << 26 // what is in memory twice meanwhile
+    LARGEST_READ = 1 << 26 // this much is in memory twice for a moment
 };
-#define LONGEST_TICK 1.0 // s: what lies beyond does not count, the machine slept or we were stopped
+// s: longer ticks do not count, since the machine slept or the process was stopped
+#define LONGEST_TICK 1.0
 
 typedef struct Child {
     pid_t pid;
-    int pidfd;   // -1 = the kernel has none
-    int status;  // as of waitpid, once it is known
+    int pidfd;   // -1 = not supported by the kernel
+    int status;  // from waitpid, once known
     bool reaped; // status is known
     bool gone;
 } Child;
 
-// ---- what is handed back ----
+// ---- the child's result ----
 
 bool child_write(ChildOutput *output, const void *data, int64_t count, size_t size, Error *e)
 {
@@ -53,7 +54,7 @@ bool child_write(ChildOutput *output, const void *data, int64_t count, size_t si
     return true;
 }
 
-// What was taken over last is not kept in memory twice.
+// Frees the part of the file that has been read, so that it is not in memory twice.
 static void give_back(int file, ssize_t size)
 {
     off_t end = lseek(file, 0, SEEK_CUR);
@@ -94,7 +95,7 @@ void child_output_close(ChildOutput *output)
 
 // ---- waiting ----
 
-// With no signal between the fork and the child's own handlers.
+// Forks with signals blocked until the child has its own handlers.
 static bool start(const ChildJob *job, ChildReport *report, int file, Child *child, Error *e)
 {
     sigset_t all, before;
@@ -112,8 +113,8 @@ static bool start(const ChildJob *job, ChildReport *report, int file, Child *chi
            error_set(e, ERROR_IO, "no process can be started to read it in: %s", strerror(why));
 }
 
-// Looks whether it has ended. A host that ignores SIGCHLD, or waits for any child, has the status
-// then, and there is no child any more (ECHILD).
+// Checks whether the child has ended. A host that ignores SIGCHLD, or waits for any child, receives
+// the status; then there is no child left (ECHILD).
 static void look(Child *child, int flags)
 {
     pid_t got;
@@ -124,7 +125,7 @@ static void look(Child *child, int flags)
     child->gone = got != 0;
 }
 
-// Not by its number when that can be helped: it may be another process's by now.
+// Kills by pidfd if possible: the process id may have been reused.
 static void end(Child *child)
 {
     if (child->gone) {
@@ -144,7 +145,7 @@ static Outcome wait_for(Child *child, double seconds, const Run *run)
     double waited = 0.0, last = run_seconds();
     struct pollfd watched = {.fd = child->pidfd, .events = POLLIN};
     for (look(child, WNOHANG); !child->gone && outcome == OUTCOME_ENDED; look(child, WNOHANG)) {
-        poll(&watched, 1, child->pidfd >= 0 ? TICK : SHORT_TICK); // -1 is passed over
+        poll(&watched, 1, child->pidfd >= 0 ? TICK : SHORT_TICK); // a descriptor of -1 is ignored
         double now = run_seconds();
         waited += now - last < LONGEST_TICK ? now - last : LONGEST_TICK;
         last = now;
@@ -155,9 +156,9 @@ static Outcome wait_for(Child *child, double seconds, const Run *run)
     return outcome;
 }
 
-// ---- what happened ----
+// ---- errors ----
 
-// Words from the child, which took them from the file: no control characters, and an end.
+// Removes control characters from the child's text, which comes from the file, and terminates it.
 static void clean(char *text, size_t size)
 {
     text[size - 1] = '\0';
@@ -195,8 +196,8 @@ static bool crashed(const ChildJob *job, int signal, int call, Error *e)
                      name ? name : "unknown signal", job->wanted);
 }
 
-// The file is to blame when it asked for more than any such file needs, the machine when it or the
-// user's own limits (ulimit) leave less than that.
+// Whether to blame the file, which needed more than any such file should, or the machine, if it or
+// the user's limits (ulimit) leave less than that.
 static bool short_of_memory(const ChildJob *job, const ChildReport *report, Error *e)
 {
     if (report->own_limit) {
@@ -245,7 +246,7 @@ static bool judge(const ChildJob *job, Outcome outcome, const Child *child,
     return report->error.code == ERROR_NONE || task_failed(job, report, e);
 }
 
-// From the output's start; its size is known only now that no one writes to it any more.
+// Rewinds the output; its size is final only now that nothing writes to it.
 static bool rewind_output(ChildOutput *output, Error *e)
 {
     struct stat status;

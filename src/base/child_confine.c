@@ -15,7 +15,7 @@
 
 enum { OUTPUT_FILE = 3, MOST_FILES = 64, SIGNAL_STACK = 65536 };
 
-// Where the handler of a crash can find it; set in the child alone.
+// Global for the crash handler; set only in the child.
 static ChildReport *crash_report;
 
 static void on_crash(int number, siginfo_t *info, void *context)
@@ -26,19 +26,19 @@ static void on_crash(int number, siginfo_t *info, void *context)
     _exit(EXIT_FAILURE);
 }
 
-// A crash is written down by the child itself, as its status may be lost: a host that ignores
-// SIGCHLD, or waits for any child, takes it. On a stack of its own, for the task's may be full.
+// The child records a crash itself, because its exit status may be lost to a host that ignores
+// SIGCHLD or waits for any child. On an alternate stack, since the task's may have overflowed.
 static void catch_crashes(ChildReport *report)
 {
     static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGSYS, SIGXCPU};
     struct sigaction action = {.sa_handler = SIG_DFL};
     sigemptyset(&action.sa_mask);
     for (int i = 1; i < NSIG; i++) {
-        sigaction(i, &action, NULL); // fails for those that cannot be changed
+        sigaction(i, &action, NULL); // fails for signals that cannot be caught
     }
     action.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &action, NULL);
-    sigaction(SIGXFSZ, &action, NULL); // write says EFBIG instead
+    sigaction(SIGXFSZ, &action, NULL); // write returns EFBIG instead
     void *memory =
         mmap(NULL, SIGNAL_STACK, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     stack_t stack = {.ss_sp = memory, .ss_size = SIGNAL_STACK};
@@ -54,11 +54,11 @@ static void catch_crashes(ChildReport *report)
     sigprocmask(SIG_SETMASK, &action.sa_mask, NULL);
 }
 
-// No file of the host's stays open but the output, and nothing is printed.
+// Closes all files of the host except the output, and discards printed text.
 static bool leave_files(int file)
 {
     int null = open("/dev/null", O_RDWR);
-    int output = fcntl(file, F_DUPFD, OUTPUT_FILE + 1); // out of the way of the numbers below
+    int output = fcntl(file, F_DUPFD, OUTPUT_FILE + 1); // moved above the numbers used below
     if (null < 0 || output < 0) {
         return false;
     }
@@ -70,11 +70,11 @@ static bool leave_files(int file)
     if (dup2(output, OUTPUT_FILE) != OUTPUT_FILE) {
         return false;
     }
-    closefrom(OUTPUT_FILE + 1); // also where the kernel has no close_range
+    closefrom(OUTPUT_FILE + 1); // works on kernels without close_range, too
     return true;
 }
 
-// Bytes of this process's address space; 0 when it is not known.
+// Size of this process's address space, bytes; 0 if unknown.
 static int64_t mapped_bytes(void)
 {
     char text[64] = "";
@@ -87,7 +87,7 @@ static int64_t mapped_bytes(void)
     return strtoll(text, NULL, 10) * sysconf(_SC_PAGESIZE);
 }
 
-// Never above what the user allows already. Is the value the limit now?
+// Never raises the user's own limit. Returns whether the value is the limit now.
 static bool lower_limit(__rlimit_resource_t what, int64_t value)
 {
     struct rlimit limit = {0};
@@ -112,13 +112,13 @@ static void set_limits(const ChildJob *job, ChildReport *report)
     lower_limit(RLIMIT_NOFILE, MOST_FILES);
 }
 
-// The first that the kernel ends when memory runs out.
+// Makes this process the first that the kernel kills when memory runs out.
 static void offer_to_die(void)
 {
     int file = open("/proc/self/oom_score_adj", O_WRONLY);
     if (file >= 0) {
         ssize_t ignored = write(file, "1000", 4);
-        (void)ignored; // a courtesy
+        (void)ignored; // not essential
         close(file);
     }
 }
@@ -126,10 +126,10 @@ static void offer_to_die(void)
 _Noreturn void child_confined(const ChildJob *job, ChildReport *report, int file, pid_t parent)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) { // gone before that
+    if (getppid() != parent) { // the parent ended before prctl
         _exit(EXIT_FAILURE);
     }
-    setsid(); // no terminal: an interrupt is the parent's business
+    setsid(); // detaches from the terminal: interrupts go to the parent
     catch_crashes(report);
     offer_to_die();
     prctl(PR_SET_DUMPABLE, 0);
@@ -139,7 +139,7 @@ _Noreturn void child_confined(const ChildJob *job, ChildReport *report, int file
         error_set(&e, ERROR_IO, "files cannot be closed before it is read; too many are open");
     } else {
         set_limits(job, report);
-        child_filter(); // without it, on a kernel that has none, the limits still hold
+        child_filter(); // on kernels without filters the limits still apply
         ChildOutput output = {.file = OUTPUT_FILE};
         if (job->task(job->data, &output, &e)) {
             e.code = ERROR_NONE;
@@ -149,5 +149,5 @@ _Noreturn void child_confined(const ChildJob *job, ChildReport *report, int file
     }
     report->error = e;
     report->ended = 1;
-    _exit(EXIT_SUCCESS); // without the host's atexit and without writing out its buffers
+    _exit(EXIT_SUCCESS); // skips the host's atexit handlers and buffers
 }

@@ -6,16 +6,16 @@
 
 #include <sys/types.h>
 
-// On a page that parent and child share.
+// In memory shared by parent and child.
 typedef struct ChildReport {
-    volatile int ended;  // the task returned; then error says whether well
-    volatile int signal; // that ended it; 0 = none
-    bool own_limit;      // of memory: the job's, which is lower than what the user allows anyway
-    volatile int call;   // the system call that SIGSYS was for
+    volatile int ended;  // the task returned; error tells whether it succeeded
+    volatile int signal; // the fatal signal; 0 = none
+    bool own_limit;      // the memory limit is the job's, lower than the user's own
+    volatile int call;   // the system call that raised SIGSYS
     Error error;
 } ChildReport;
 
-// Gives up what the task does not need, runs it and leaves the process. parent: that forked it.
+// Drops all that the task does not need, runs it and exits. parent: process id of the parent.
 _Noreturn void child_confined(const ChildJob *job, ChildReport *report, int file, pid_t parent);
 
 #endif

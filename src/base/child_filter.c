@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-// Reading files and taking memory. Opening and signals depend on their arguments: see below.
+// Calls that read files and allocate memory. Opening files and signals depend on arguments: see
+// below.
 static const int allowed[] = {
     // files
     SCMP_SYS(read), SCMP_SYS(readv), SCMP_SYS(pread64), SCMP_SYS(preadv), SCMP_SYS(write),
@@ -16,7 +17,7 @@ static const int allowed[] = {
     SCMP_SYS(dup), SCMP_SYS(dup2), SCMP_SYS(dup3), SCMP_SYS(fcntl), SCMP_SYS(fcntl64),
     SCMP_SYS(fadvise64), SCMP_SYS(readahead), SCMP_SYS(poll), SCMP_SYS(ppoll), SCMP_SYS(select),
     SCMP_SYS(pselect6),
-    // what there is
+    // file status
     SCMP_SYS(stat), SCMP_SYS(stat64), SCMP_SYS(lstat), SCMP_SYS(lstat64), SCMP_SYS(fstat),
     SCMP_SYS(fstat64), SCMP_SYS(newfstatat), SCMP_SYS(fstatat64), SCMP_SYS(statx), SCMP_SYS(statfs),
     SCMP_SYS(fstatfs), SCMP_SYS(access), SCMP_SYS(faccessat), SCMP_SYS(faccessat2),
@@ -39,7 +40,7 @@ static const int allowed[] = {
     SCMP_SYS(rt_sigaction), SCMP_SYS(rt_sigprocmask), SCMP_SYS(rt_sigpending),
     SCMP_SYS(rt_sigreturn), SCMP_SYS(sigreturn), SCMP_SYS(sigaltstack)};
 
-// What no file asks for: the child ends there and the error names it.
+// Calls that no reader needs: they end the child, and the error names them.
 static const int forbidden[] = {
     // network
     SCMP_SYS(socket), SCMP_SYS(socketpair), SCMP_SYS(connect), SCMP_SYS(bind), SCMP_SYS(listen),
@@ -63,7 +64,7 @@ static const int forbidden[] = {
     SCMP_SYS(io_uring_setup), SCMP_SYS(keyctl), SCMP_SYS(add_key), SCMP_SYS(request_key),
     SCMP_SYS(init_module), SCMP_SYS(finit_module), SCMP_SYS(kexec_load), SCMP_SYS(reboot)};
 
-// Calls that this architecture has not are passed over by libseccomp.
+// libseccomp ignores calls that this architecture does not have.
 static bool add_all(scmp_filter_ctx filter, uint32_t action, const int *calls, size_t count)
 {
     bool done = true;
@@ -73,7 +74,7 @@ static bool add_all(scmp_filter_ctx filter, uint32_t action, const int *calls, s
     return done;
 }
 
-// Of open and openat, whose flags are that argument: only reading. Each bit on its own forbids.
+// Allows open and openat for reading only, by their flags argument.
 static bool add_open(scmp_filter_ctx filter, int call, unsigned flags)
 {
     static const uint64_t writes[] = {O_WRONLY, O_RDWR, O_CREAT, O_TRUNC};
@@ -87,7 +88,7 @@ static bool add_open(scmp_filter_ctx filter, int call, unsigned flags)
     return done;
 }
 
-// Signals go to this process alone: abort needs them.
+// Allows signals to this process only, which abort needs.
 static bool add_kill(scmp_filter_ctx filter, int call)
 {
     const scmp_datum_t self = (scmp_datum_t)getpid();
@@ -101,13 +102,14 @@ static bool add_rules(scmp_filter_ctx filter)
            add_all(filter, SCMP_ACT_TRAP, forbidden, sizeof forbidden / sizeof forbidden[0]) &&
            add_open(filter, SCMP_SYS(open), 1) && add_open(filter, SCMP_SYS(openat), 2) &&
            add_kill(filter, SCMP_SYS(kill)) && add_kill(filter, SCMP_SYS(tgkill)) &&
-           // its own limits may be looked at
+           // reading its own limits
            seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(prlimit64), 2, SCMP_A0(SCMP_CMP_EQ, 0),
                             SCMP_A2(SCMP_CMP_EQ, 0)) == 0 &&
            // threads, not processes: libde265 waits for ever for threads that cannot be started
            seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(clone), 1,
                             SCMP_A0(SCMP_CMP_MASKED_EQ, CLONE_THREAD, CLONE_THREAD)) == 0 &&
-           // their flags lie in memory, where no filter can look: glibc takes clone and openat
+           // their flags are in memory, which filters cannot read: glibc falls back to clone and
+           // openat
            seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0) == 0 &&
            seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(openat2), 0) == 0;
 }

@@ -10,7 +10,7 @@ static inline float luminance(Vec3 c)
     return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 
-// The same of a pixel: red, green, blue.
+// The same for a pixel: red, green, blue.
 static inline float luminance_rgb(const float rgb[3])
 {
     return luminance(vec3(rgb[0], rgb[1], rgb[2]));

@@ -39,7 +39,7 @@ bool error_key(Error *e, const char *format, ...)
     int used = vsnprintf(e->key, sizeof e->key, format, arguments);
     va_end(arguments);
     if (inner[0] && used >= 0 && used < (int)sizeof e->key) {
-        size_t room = sizeof e->key - (size_t)used; // what does not fit is cut off
+        size_t room = sizeof e->key - (size_t)used; // longer keys are truncated
         snprintf(e->key + used, room, ".%.*s", room > 1 ? (int)room - 2 : 0, inner);
     }
     return false;

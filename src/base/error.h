@@ -1,5 +1,5 @@
-// Errors as values: a fallible function returns false or NULL and fills the Error its caller handed
-// down. An Error * may be NULL when the caller does not care to know.
+// Errors as values: a fallible function returns false or NULL and fills the Error its caller
+// passed. An Error * may be NULL to ignore the error.
 #ifndef RAMIFY_BASE_ERROR_H
 #define RAMIFY_BASE_ERROR_H
 
@@ -7,21 +7,21 @@
 
 typedef enum ErrorCode {
     ERROR_NONE = 0,
-    ERROR_INPUT,     // the scene, a file it names, or the command line is wrong: exit status 2
-    ERROR_IO,        // the machine would not read or write: exit status 1
+    ERROR_INPUT,     // invalid scene, file or parameters: exit status 2
+    ERROR_IO,        // reading or writing failed: exit status 1
     ERROR_MEMORY,    // out of memory: exit status 1
-    ERROR_CANCELLED, // the user interrupted: exit status 130
-    ERROR_INTERNAL,  // a library failed in a way the input does not explain: exit status 1
-    ERROR_DIFFERS    // a result is not what it was held to (the command only): exit status 1
+    ERROR_CANCELLED, // cancelled by the user: exit status 130
+    ERROR_INTERNAL,  // a library failed for reasons not in the input: exit status 1
+    ERROR_DIFFERS    // a result differs from what was required (commands only): exit status 1
 } ErrorCode;
 
 typedef struct Error {
     ErrorCode code;
     int line, column; // 1-based; 0 when unknown
     char file[256];   // "" when unknown
-    char
-        key[128]; // of the parameters, as in a scene file below what was called: "growth.levels.0";
-                  // "" when unknown
+    // of the parameters, as in a scene file relative to the function called: "growth.levels.0"; ""
+    // when unknown
+    char key[128];
     char message[768];
 } Error;
 
@@ -30,13 +30,11 @@ typedef struct Error {
 bool error_set(Error *e, ErrorCode code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// Names the place an error belongs to, unless a place is named already. Line and column 0 =
-// unknown.
+// Sets the place of an error, unless one is set already. Line and column 0 = unknown.
 void error_locate(Error *e, const char *file, int line, int column);
 
-// Puts a key before the error's own on the way up, joined by a dot: whoever reads the parameters
-// from a file can tell their place then. Returns false. Keys may be too long to fit: then the inner
-// end is lost.
+// Prepends a key to the error's key, joined by a dot, so that callers that read the parameters from
+// a file can find their place. Returns false. A key that is too long loses its inner end.
 bool error_key(Error *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // Moves the file's name, if no line of it is known, from the place to the front of the message, so

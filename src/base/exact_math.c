@@ -74,7 +74,7 @@ double exact_log(double x)
         return x == 0.0 ? -INFINITY : x > 0.0 ? x : NAN;
     }
     int64_t exponent = -1022;
-    if (x < DBL_MIN) { // its exponent is all zeros
+    if (x < DBL_MIN) { // subnormal: its exponent bits are zero
         x *= 0x1p54;
         exponent -= 54;
     }
@@ -106,7 +106,7 @@ double exact_exp(double x)
     for (int i = 13; i >= 1; i--) {
         sum = 1.0 + sum * r / i;
     }
-    bool top = k > 1023.0; // 2^1024 is no double, though this result is one
+    bool top = k > 1023.0; // 2^1024 is not a double, although the result is
     uint64_t bits = (uint64_t)((int64_t)k + (top ? 1022 : 1023)) << 52;
     double scale;
     memcpy(&scale, &bits, sizeof scale);
@@ -124,7 +124,7 @@ float exact_pow(float x, float y)
     return isnan(x) || isnan(y) ? NAN : y < 0.0f ? INFINITY : 0.0f;
 }
 
-// Arc tangent of t in [0, 1]: halve the angle twice, then the series.
+// Arc tangent of t in [0, 1]: halves the angle twice, then sums the series.
 static double arctangent(double t)
 {
     t = t / (1.0 + sqrt(1.0 + t * t));

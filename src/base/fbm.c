@@ -8,18 +8,19 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_LEVELS = 25 }; // 2^24 steps
+enum { MAX_LEVELS = 25 }; // 2^24 steps
+enum { STREAM_REAL = 0, STREAM_IMAGINARY = 1 };
 
-// Of the increments' circulant covariance of 2^(level + 1) points.
+// Spectrum of the increments' circulant covariance of 2^(level + 1) points.
 typedef struct Spectrum {
-    Complex *root; // for the transform; NULL = not made yet
+    Complex *root; // for the transform; NULL = not computed yet
     double *scale; // sqrt(eigenvalue / points)
 } Spectrum;
 
 struct Fbm {
     double hurst;
-    Spectrum level[MOST_LEVELS];
-    Complex *work; // of the longest path so far
+    Spectrum level[MAX_LEVELS];
+    Complex *work; // with room for the longest path so far
     int64_t work_capacity;
 };
 
@@ -34,8 +35,8 @@ double fbm_covariance(double hurst, double s, double t)
     return 0.5 * (power(s, h) + power(t, h) - power(fabs(s - t), h));
 }
 
-// Covariance of two increments k steps apart: (|k+1|^2H - 2|k|^2H + |k-1|^2H) / 2. Far away that
-// is a small difference of large numbers, so there its binomial series in 1/k^2.
+// Covariance of two increments k steps apart: (|k+1|^2H - 2|k|^2H + |k-1|^2H) / 2. For large k this
+// cancels, so its binomial series in 1/k^2 is used there.
 static double increment_covariance(double hurst, int64_t k)
 {
     double h = 2.0 * hurst, x = (double)k;
@@ -69,7 +70,7 @@ Fbm *fbm_new(double hurst, Error *e)
 
 void fbm_free(Fbm *fbm)
 {
-    for (int i = 0; fbm && i < MOST_LEVELS; i++) {
+    for (int i = 0; fbm && i < MAX_LEVELS; i++) {
         free(fbm->level[i].root);
         free(fbm->level[i].scale);
     }
@@ -79,8 +80,8 @@ void fbm_free(Fbm *fbm)
     free(fbm);
 }
 
-// Eigenvalues of the circulant matrix whose first row is the covariance out and back; for
-// fractional Gaussian noise none is negative (Craigmile 2003), but rounding may say so.
+// Eigenvalues of the circulant matrix with the covariance, mirrored, as first row. For fractional
+// Gaussian noise none is negative (Craigmile 2003), except by rounding.
 static bool make_spectrum(Fbm *fbm, int level, Error *e)
 {
     Spectrum *spectrum = &fbm->level[level];
@@ -124,14 +125,14 @@ bool fbm_paths(Fbm *fbm, int64_t steps, uint64_t key, double *a, double *b, Erro
     if (!make_spectrum(fbm, level, e)) {
         return false;
     }
-    // Independent complex weights: real and imaginary parts of the transform are two independent
-    // increment series.
+    // Independent complex weights: real and imaginary part of the transform are two independent
+    // series of increments.
     int64_t count = (int64_t)2 << level;
     const double *scale = fbm->level[level].scale;
     for (int64_t k = 0; k < count; k++) {
         uint64_t mine = random_key(key, (uint64_t)k);
-        fbm->work[k].re = scale[k] * (double)random_normal(random_key(mine, 0));
-        fbm->work[k].im = scale[k] * (double)random_normal(random_key(mine, 1));
+        fbm->work[k].re = scale[k] * (double)random_normal(random_key(mine, STREAM_REAL));
+        fbm->work[k].im = scale[k] * (double)random_normal(random_key(mine, STREAM_IMAGINARY));
     }
     fft_transform(fbm->work, count, fbm->level[level].root);
     a[0] = b[0] = 0.0;

@@ -30,7 +30,7 @@ static void reverse_bits(Complex *x, int64_t count)
     }
 }
 
-// Cooley and Tukey (1965), radix 2, decimation in time.
+// Cooley and Tukey 1965, radix 2, decimation in time.
 void fft_transform(Complex *x, int64_t count, const Complex *root)
 {
     reverse_bits(x, count);

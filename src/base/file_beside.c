@@ -13,7 +13,7 @@
 enum {
     MOST_LINKS = 40,
     MOST_ATTEMPTS = 10000,
-    KEPT_NAME = 200 // bytes of the target's name that its new file's name begins with
+    KEPT_NAME = 200 // most bytes of the target's name in its new file's name
 };
 
 static bool io_error(Error *e, const char *file, int reason)
@@ -21,7 +21,7 @@ static bool io_error(Error *e, const char *file, int reason)
     return error_set(e, ERROR_IO, "'%s' cannot be written: %s", file, strerror(reason));
 }
 
-// Bytes of the folder's name with its slash; 0 = none.
+// Length of the folder's name with its slash; 0 = none.
 static int folder_length(const char *file)
 {
     const char *slash = strrchr(file, '/');
@@ -38,7 +38,7 @@ bool file_target(const char *file, char target[PATH_MAX], Error *e)
     for (int i = 0; i <= MOST_LINKS; i++) {
         char link[PATH_MAX], next[2 * PATH_MAX];
         ssize_t length = readlink(target, link, sizeof link - 1);
-        if (length < 0) { // no link, or nothing yet
+        if (length < 0) { // not a link, or missing
             return stat(target, &status) != 0 || S_ISREG(status.st_mode) ||
                    error_set(e, ERROR_IO, "'%s' cannot be written: it is not a regular file", file);
         }
@@ -53,7 +53,7 @@ bool file_target(const char *file, char target[PATH_MAX], Error *e)
     return io_error(e, file, ELOOP);
 }
 
-// ---- names of new files ----
+// ---- names of temporary files ----
 
 static bool is_part_of(const char *name, const char *base, size_t length)
 {
@@ -62,7 +62,7 @@ static bool is_part_of(const char *name, const char *base, size_t length)
            size > length + 8 + 5 && strcmp(name + size - 5, ".part") == 0;
 }
 
-// A file that a run still writes is locked by it.
+// A file is locked while a process writes it.
 static void remove_if_stale(int folder, const char *name)
 {
     int file = openat(folder, name, O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
@@ -104,7 +104,7 @@ static bool part_name(char name[PATH_MAX], const char *target, int attempt)
 
 // ---- opening ----
 
-// Without a name, where that can be given one later.
+// Opens an unnamed file if it can be linked to a name later.
 static bool open_nameless(FileBeside *beside, const char *folder)
 {
 #ifdef O_TMPFILE
@@ -115,11 +115,11 @@ static bool open_nameless(FileBeside *beside, const char *folder)
     return beside->descriptor >= 0;
 }
 
-// Another run may take it for stale until it is locked, and remove it.
+// Until locked, another process may consider the file stale and remove it.
 static bool lock_named(const FileBeside *beside)
 {
     struct stat status;
-    flock(beside->descriptor, LOCK_EX); // file systems without locks do without
+    flock(beside->descriptor, LOCK_EX); // file systems without locks work unlocked
     return fstat(beside->descriptor, &status) == 0 && status.st_nlink > 0;
 }
 
@@ -156,7 +156,7 @@ bool file_beside_open(FileBeside *beside, const char *target)
 
 // ---- publishing ----
 
-// A name for what has none: target's own where nothing is there, else one beside it, locked.
+// Names an unnamed file: as target if that does not exist, else as a locked file beside it.
 static bool give_name(FileBeside *beside, const char *target)
 {
     char self[64];
@@ -165,7 +165,7 @@ static bool give_name(FileBeside *beside, const char *target)
         return true;
     }
     int reason = errno;
-    flock(beside->descriptor, LOCK_EX); // no other run shall take it for stale
+    flock(beside->descriptor, LOCK_EX); // keeps other processes from removing it as stale
     for (int attempt = 0; reason == EEXIST && attempt < MOST_ATTEMPTS; attempt++) {
         bool named = part_name(beside->name, target, attempt);
         if (named && linkat(AT_FDCWD, self, AT_FDCWD, beside->name, AT_SYMLINK_FOLLOW) == 0) {
@@ -186,7 +186,7 @@ bool file_beside_publish(FileBeside *beside, const char *target)
     if (beside->name[0] && rename(beside->name, target) != 0) {
         return false;
     }
-    beside->name[0] = '\0'; // it is target now
+    beside->name[0] = '\0'; // it has become target
     return true;
 }
 

@@ -1,5 +1,5 @@
-// New files that take the place of others when they are whole, and leave nothing when the program
-// is killed before that.
+// Atomic replacement of files: new files get their name when they are complete and leave nothing
+// behind if the program is killed before.
 #ifndef RAMIFY_BASE_FILE_BESIDE_H
 #define RAMIFY_BASE_FILE_BESIDE_H
 
@@ -8,28 +8,29 @@
 #include <limits.h>
 #include <stdio.h>
 
-// What `file` stands for: where symbolic links lead, whether there is a file or not, or the name
-// itself. ERROR_IO when it is there and no regular file, or when links go round or nowhere.
+// Resolves symbolic links: the file that `file` refers to, whether it exists or not. ERROR_IO when
+// it exists and is not a regular file, or when links are circular or broken.
 bool file_target(const char *file, char target[PATH_MAX], Error *e);
 
 typedef struct FileBeside {
     int descriptor;      // open for writing; -1 = closed
-    char name[PATH_MAX]; // "" = it has none yet: the system removes it with the process
+    char name[PATH_MAX]; // "" = unnamed: the system removes it with the process
 } FileBeside;
 
-// Begins a new file in the folder of target. Where the file system has files without a name it has
-// none; else it is called target.ramify-PID-N.part and locked. Such files of the same target that
-// nobody has locked, left by killed runs, are removed. False with errno.
+// Creates a new file in the folder of target: unnamed if the file system supports it, else named
+// target.ramify-PID-N.part and locked. Removes unlocked files of that kind for the same target,
+// left by killed processes. False with errno.
 bool file_beside_open(FileBeside *beside, const char *target);
 
-// Puts the whole file in target's place, which is as it was when this fails: false with errno.
+// Replaces target by the complete file; on failure target is unchanged. False with errno.
 bool file_beside_publish(FileBeside *beside, const char *target);
 
-// Closes it; what has not been published is gone. False with errno when closing tells of a failure.
+// Closes the file and discards it unless published. False with errno when closing reports a
+// failure.
 bool file_beside_close(FileBeside *beside);
 
-// A stream of a regular file, to be closed; NULL and e (ERROR_INPUT) for what cannot be opened, and
-// for pipes and devices, which might never end.
+// Opens a regular file for reading, to be closed by the caller; NULL and e (ERROR_INPUT) when it
+// cannot be opened, or is a pipe or device, which may never end.
 FILE *file_open_regular(const char *file, Error *e);
 
 #endif

@@ -1,4 +1,4 @@
-// Writing a whole file so that a failure never harms an old one.
+// Writes a whole file atomically.
 #ifndef RAMIFY_BASE_FILE_REPLACE_H
 #define RAMIFY_BASE_FILE_REPLACE_H
 
@@ -6,17 +6,17 @@
 
 #include <stddef.h>
 
-// Writes size bytes to a new file beside `file`, brings them to the disk and renames it over
-// `file` (over what it points to, if it is a symbolic link). On failure: ERROR_IO with the reason,
-// `file` as it was, the new file gone. Refuses what is not a regular file.
+// Writes size bytes to a new file beside `file`, syncs it to disk and renames it to `file` (to its
+// target, if it is a symbolic link). On failure: ERROR_IO with the reason, `file` unchanged, the
+// new file removed. Refuses what is not a regular file.
 bool file_replace(const char *file, const void *bytes, size_t size, Error *e);
 
-// Whether it could be written, before the work that is to go there: ERROR_IO when its folder is not
-// there or not to be written to, or when `file` is there and no regular file.
+// Checks in advance that `file` can be written: ERROR_IO when its folder is missing or not
+// writable, or when `file` exists and is not a regular file.
 bool file_replace_check(const char *file, Error *e);
 
-// Is there room in the last part of the name, with `extra` bytes that are put to it (names of files
-// beside it)? ERROR_IO tells the longest.
+// Checks that the last part of the name can be `extra` bytes longer (for files beside it). ERROR_IO
+// gives the longest possible.
 bool file_replace_fits(const char *file, int extra, Error *e);
 
 #endif

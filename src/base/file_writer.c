@@ -15,8 +15,8 @@
 enum { BUFFER = 1 << 20 };
 
 struct FileWriter {
-    char *file;            // as the caller named it
-    char target[PATH_MAX]; // what it stands for
+    char *file;            // as named by the caller
+    char target[PATH_MAX]; // with links resolved
     FileBeside beside;     // the new file
     int reason;            // errno of the first failure; 0 = none
     size_t used;
@@ -118,7 +118,7 @@ void *file_writer_room(FileWriter *writer, size_t size)
     return writer->reason ? NULL : room;
 }
 
-// Whole and on the disk, with the permissions of the file that it takes the place of.
+// Syncs the complete file to disk, with the permissions of the file that it replaces.
 static void bring_to_disk(FileWriter *writer)
 {
     struct stat old;
@@ -155,7 +155,7 @@ bool file_writer_close(FileWriter *writer, bool keep, Error *e)
         writer->reason = errno;
         done = false;
     }
-    file_beside_close(&writer->beside); // all that can fail did so with fsync
+    file_beside_close(&writer->beside); // fsync has reported all failures
     if (keep && !done) {
         errno = writer->reason;
         io_error(e, writer->file);

@@ -1,13 +1,13 @@
-// FNV-1a, 64 bits: a hash of bytes for names and marks, not against attackers.
+// FNV-1a, 64 bits: hashes of bytes for names and marks; not cryptographic.
 #ifndef RAMIFY_BASE_HASH_H
 #define RAMIFY_BASE_HASH_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-#define HASH_START 0xcbf29ce484222325u // of nothing
+#define HASH_START 0xcbf29ce484222325u // hash of no bytes
 
-// The hash of what `hash` stands for followed by one more byte.
+// Extends a hash by one byte.
 static inline uint64_t hash_byte(uint64_t hash, unsigned char byte)
 {
     return (hash ^ byte) * 0x100000001b3u;

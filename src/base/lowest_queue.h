@@ -1,4 +1,4 @@
-// A queue of numbered things that gives back the lowest first, ties by number: a binary heap.
+// Priority queue of numbered items, lowest first, ties by number: a binary heap.
 #ifndef RAMIFY_BASE_LOWEST_QUEUE_H
 #define RAMIFY_BASE_LOWEST_QUEUE_H
 
@@ -11,7 +11,7 @@ typedef struct QueueItem {
     int32_t index;
 } QueueItem;
 
-// Zero is an empty queue. Release item with free().
+// Zero-initialised = empty. Release item with free().
 typedef struct LowestQueue {
     QueueItem *item;
     int64_t count, capacity;
@@ -19,7 +19,7 @@ typedef struct LowestQueue {
 
 bool lowest_queue_push(LowestQueue *queue, float height, int32_t index, Error *e);
 
-// Takes the lowest out of a queue that is not empty.
+// Removes the lowest item of a non-empty queue.
 QueueItem lowest_queue_pop(LowestQueue *queue);
 
 #endif

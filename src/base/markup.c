@@ -2,7 +2,7 @@
 
 #define REPLACEMENT "\xef\xbf\xbd"
 
-// Length in bytes of the UTF-8 character at text, 0 when there is none that XML 1.0 may hold.
+// Length in bytes of the UTF-8 character at text; 0 if it is invalid or not allowed in XML 1.0.
 static size_t character_length(const unsigned char *text)
 {
     static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};

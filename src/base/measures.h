@@ -1,4 +1,4 @@
-// Named numbers about a result: what `ramify measure` prints and scenes are held to.
+// Named measures of a result: printed by measure commands and compared with targets.
 #ifndef RAMIFY_BASE_MEASURES_H
 #define RAMIFY_BASE_MEASURES_H
 
@@ -8,9 +8,9 @@
 
 typedef struct Measure {
     char name[48];    // words joined by _ ("radius_exponent"): the key in JSON and of targets
-    double value;     // NAN = there is too little to measure
+    double value;     // NAN = not measurable
     const char *unit; // "" = a plain number; static text
-    double low, high; // nature's range as far as it is known; NAN = none. low <= high
+    double low, high; // range found in nature, low <= high; NAN = unknown
 } Measure;
 
 typedef struct MeasureList {
@@ -22,10 +22,10 @@ typedef struct MeasureList {
 bool measures_add(MeasureList *list, const char *name, double value, const char *unit, double low,
                   double high, Error *e);
 
-// The measure of this name; NULL when there is none.
+// The measure with this name; NULL if there is none.
 const Measure *measures_find(const MeasureList *list, const char *name);
 
-// Gives the measure of this name nature's range (NAN = none), when the list has it.
+// Sets the natural range (NAN = none) of the measure with this name, if the list has it.
 void measures_set_range(MeasureList *list, const char *name, double low, double high);
 
 void measures_clear(MeasureList *list);

@@ -56,7 +56,7 @@ bool memory_reserve(void *array, int64_t *capacity, int64_t count, size_t size, 
         return false;
     }
     void *old;
-    memcpy(&old, array, sizeof old); // array is a T **, which void * cannot say
+    memcpy(&old, array, sizeof old); // array is a T **, which the type void * cannot express
     void *grown = or_error(realloc(old, bytes), bytes, e);
     if (!grown) {
         return false;
@@ -82,7 +82,7 @@ int64_t memory_peak(void)
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (int64_t)usage.ru_maxrss * 1024 : 0;
 }
 
-// The number that a file of one line holds; INFINITY when it holds a word ("max") or is not there.
+// The number in a file of one line; INFINITY if it holds a word ("max") or is missing.
 static double number_in(const char *file)
 {
     FILE *stream = fopen(file, "r");
@@ -96,8 +96,8 @@ static double number_in(const char *file)
     return number;
 }
 
-// The least limit of the control groups from this one up to the root. root: where their hierarchy
-// is mounted.
+// The lowest limit of the control groups from this one to the root. root: mount point of the
+// hierarchy.
 static double least_in_groups(const char *root, char *group, const char *file)
 {
     char path[1024];
@@ -110,7 +110,7 @@ static double least_in_groups(const char *root, char *group, const char *file)
     return least;
 }
 
-// Of both versions of control groups: "0::/path", "4:memory:/path".
+// For both versions of control groups: "0::/path", "4:memory:/path".
 static double control_group_limit(void)
 {
     char line[768];

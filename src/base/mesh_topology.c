@@ -1,4 +1,4 @@
-// What is wrong with a closed surface, and which of its faces enclose a body.
+// Topological defects of a surface, and its faces that enclose a volume.
 #include "base/mesh.h"
 
 #include "base/memory.h"
@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// An edge as its vertices, lower index high: (low << 32 | high), and how often faces run along it
-// either way.
+// An edge as its vertices, lower index in the high bits: (low << 32 | high), and how often faces
+// use it in each direction.
 typedef struct EdgeUse {
     uint64_t key; // EMPTY_EDGE when the slot is free
     uint32_t forward, backward;
@@ -76,7 +76,7 @@ static void count_edges(const EdgeUse *table, uint64_t mask, MeshTopology *topol
     }
 }
 
-// used[i] and group[i] of vertices that no face touches must not count.
+// vertices that no face uses do not count: used[i] and group[i] of those are ignored
 static void count_pieces(const Mesh *mesh, uint32_t *group, uint8_t *used, MeshTopology *topology)
 {
     for (int64_t i = 0; i < mesh->face_count * mesh->face_size; i++) {
@@ -118,14 +118,14 @@ bool mesh_topology(const Mesh *mesh, MeshTopology *topology, Error *e)
     return made;
 }
 
-// ---- faces that enclose a body ----
+// ---- faces that enclose a volume ----
 
-// Pieces of a mesh whose vertices are one where they lie at one place: seams of texture coordinates
-// and normals split vertices, but leave no gap.
+// Components of a mesh with vertices at equal positions merged: seams of texture coordinates and
+// normals split vertices, but leave no gap.
 typedef struct Pieces {
-    uint32_t *same;  // of each vertex: the first at its place
-    uint32_t *group; // of each vertex: toward the root of its piece
-    uint8_t *open;   // of each root
+    uint32_t *same;  // per vertex: the first vertex at its position
+    uint32_t *group; // per vertex: union-find parent
+    uint8_t *open;   // per root
     double *volume, *area;
     EdgeUse *table;
     uint64_t mask;
@@ -165,7 +165,7 @@ static void clear_table(Pieces *p)
 
 static uint64_t place_hash(Vec3 v)
 {
-    float c[3] = {v.x + 0.0f, v.y + 0.0f, v.z + 0.0f}; // -0 + 0 is 0
+    float c[3] = {v.x + 0.0f, v.y + 0.0f, v.z + 0.0f}; // adding 0 turns -0 into 0
     uint32_t bits[3];
     memcpy(bits, c, sizeof bits);
     uint64_t hash = 0;
@@ -176,7 +176,7 @@ static uint64_t place_hash(Vec3 v)
     return hash;
 }
 
-// The table holds vertices here: a slot's key is a vertex.
+// Here the table stores vertices: a slot's key is a vertex.
 static void join_places(Pieces *p, const Mesh *mesh)
 {
     clear_table(p);
@@ -255,7 +255,8 @@ bool mesh_closed_faces(const Mesh *mesh, uint8_t *closed, Error *e)
         measure_pieces(&p, mesh);
         for (int64_t f = 0; f < mesh->face_count; f++) {
             uint32_t piece = piece_of(&p, mesh, f);
-            double ball = p.area[piece] * sqrt(p.area[piece]) / 10.6347; // 6 sqrt(pi): its volume
+            // volume of the ball with this area: 6 sqrt(pi)
+            double ball = p.area[piece] * sqrt(p.area[piece]) / 10.6347;
             closed[f] = !p.open[piece] && p.volume[piece] > 1e-6 * ball;
         }
     }

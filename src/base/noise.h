@@ -1,5 +1,5 @@
-// Gradient noise on hashed lattices: + - * / only, so geometry made from it has the same bits
-// everywhere.
+// Gradient noise on hashed lattices, by + - * / only, so that geometry made from it has the same
+// bits on every machine.
 #ifndef RAMIFY_BASE_NOISE_H
 #define RAMIFY_BASE_NOISE_H
 
@@ -11,7 +11,7 @@
 // 0.7, wavelength 1.
 float noise_plane(float x, float y, uint64_t seed);
 
-// Sum of octaves, each of twice the frequency and half the height of the last.
+// Sum of octaves, each with twice the frequency and half the amplitude of the one before.
 float noise_plane_fractal(float x, float y, int octaves, uint64_t seed);
 
 // The same in space.

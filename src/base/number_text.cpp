@@ -1,4 +1,4 @@
-// Behind number_text.h: std::to_chars of the C++ library, which C has no like of.
+// Implements number_text.h by std::to_chars, which C lacks.
 #include "base/number_text.h"
 
 #include <charconv>

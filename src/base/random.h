@@ -1,5 +1,5 @@
-// Counter-based random numbers: every draw is a pure function of a key, so the order of evaluation,
-// the number of threads and edits elsewhere never change it.
+// Counter-based random numbers: every draw is a pure function of a key, so it does not depend on
+// the order of evaluation, the number of threads or other draws.
 #ifndef RAMIFY_BASE_RANDOM_H
 #define RAMIFY_BASE_RANDOM_H
 
@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-// Mixes 64 bits (the finaliser of SplitMix64, Steele et al. 2014).
+// Mixes 64 bits (the finaliser of SplitMix64, Steele 2014).
 static inline uint64_t random_mix(uint64_t x)
 {
     x ^= x >> 30;
@@ -17,7 +17,7 @@ static inline uint64_t random_mix(uint64_t x)
     return x ^ (x >> 31);
 }
 
-// A key derived from a key and a number: nest the calls to key by several numbers.
+// Derives a key from a key and a number, such as a stream; nest calls for several numbers.
 static inline uint64_t random_key(uint64_t key, uint64_t number)
 {
     return random_mix(key + 0x9e3779b97f4a7c15ull * (number + 1));

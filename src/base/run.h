@@ -1,5 +1,5 @@
-// How to run: threads, cancellation, progress and warnings. Handed down to every function that may
-// take long.
+// Execution parameters: threads, cancellation, progress and warnings. Passed to every function that
+// may take long.
 #ifndef RAMIFY_BASE_RUN_H
 #define RAMIFY_BASE_RUN_H
 
@@ -9,20 +9,20 @@
 #include <string.h>
 
 typedef struct Run {
-    int threads;                   // >= 1; results never depend on it
-    const volatile int *cancelled; // becomes non-zero when the user interrupts; may be NULL
+    int threads;                   // >= 1; does not affect results
+    const volatile int *cancelled; // becomes non-zero to cancel; may be NULL
     void (*progress)(void *user, const char *stage, double done); // done in [0, 1]; may be NULL
     void (*warn)(void *user, const char *message);                // may be NULL
     void *user;
-    const struct GrowthWitness *witness; // told of what things grow in (objects/common/element.h);
-                                         // may be NULL
+    const struct GrowthWitness *witness; // growth observer: told what things grow in
+                                         // (objects/common/element.h); may be NULL
 } Run;
 
 // One thread, silent.
 static inline Run run_default(void)
 {
     Run run;
-    memset(&run, 0, sizeof run); // C++ reads this, too
+    memset(&run, 0, sizeof run); // not = {0}: C++ includes this, too
     run.threads = 1;
     return run;
 }
@@ -35,8 +35,8 @@ static inline bool run_is_cancelled(const Run *run)
 // Fills e with ERROR_CANCELLED and returns false.
 bool run_cancel_error(Error *e);
 
-// For loops over as many things as a user asks for: false and ERROR_CANCELLED when the user
-// interrupts. Looks only every 1024 turns, which costs next to nothing.
+// For loops over user-defined counts: false and ERROR_CANCELLED when cancelled. Checks only every
+// 1024 turns, which costs next to nothing.
 static inline bool run_goes_on(const Run *run, int64_t turn, Error *e)
 {
     return (turn & 1023) != 0 || !run_is_cancelled(run) || run_cancel_error(e);
@@ -51,7 +51,7 @@ static inline void run_progress(const Run *run, const char *stage, double done)
 
 void run_warn(const Run *run, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// Seconds on a clock that never goes back.
+// Monotonic clock, seconds.
 double run_seconds(void);
 
 #endif

@@ -1,5 +1,5 @@
 // Small vectors, 3x4 affine transforms and boxes: plain values, single precision, + - * / sqrt
-// only, so that every machine computes the same bits.
+// only, so that results are the same on every machine.
 #ifndef RAMIFY_BASE_VEC_H
 #define RAMIFY_BASE_VEC_H
 
@@ -17,7 +17,7 @@ typedef struct Vec3 {
     float x, y, z;
 } Vec3;
 
-// Points p map to (row0.p + t0, row1.p + t1, row2.p + t2); m is row-major, column 3 is the
+// Maps points p to (row0.p + t0, row1.p + t1, row2.p + t2); m is row-major, column 3 is the
 // translation.
 typedef struct Transform {
     float m[3][4];
@@ -140,7 +140,7 @@ static inline bool vec3_finite(Vec3 a)
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
-// Some unit vector perpendicular to the unit vector n.
+// A unit vector perpendicular to the unit vector n.
 static inline Vec3 vec3_perpendicular(Vec3 n)
 {
     Vec3 axis = fabsf(n.x) < 0.57735f ? vec3(1, 0, 0)
@@ -148,7 +148,7 @@ static inline Vec3 vec3_perpendicular(Vec3 n)
     return vec3_normalize(vec3_cross(n, axis));
 }
 
-// v turned about the unit axis by the angle whose cosine and sine are given (Rodrigues).
+// Rotates v about the unit axis by the angle with this cosine and sine (Rodrigues).
 static inline Vec3 vec3_rotate(Vec3 v, Vec3 axis, float cosine, float sine)
 {
     Vec3 along = vec3_scale(axis, vec3_dot(axis, v) * (1.0f - cosine));
@@ -160,7 +160,7 @@ static inline Transform transform_identity(void)
     return (Transform){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 }
 
-// Of the 3 x 3 part: how far volumes grow; negative when it mirrors.
+// Determinant of the 3 x 3 part: the factor on volumes; negative when it mirrors.
 static inline float transform_determinant(const Transform *t)
 {
     return vec3_dot(vec3(t->m[0][0], t->m[0][1], t->m[0][2]),
@@ -168,7 +168,7 @@ static inline float transform_determinant(const Transform *t)
                                vec3(t->m[2][0], t->m[2][1], t->m[2][2])));
 }
 
-// Columns x, y, z (need not be unit or orthogonal) and the image of the origin.
+// Transform with columns x, y, z (need not be unit or orthogonal) and translation origin.
 static inline Transform transform_from_axes(Vec3 x, Vec3 y, Vec3 z, Vec3 origin)
 {
     return (Transform){
@@ -189,14 +189,14 @@ static inline Vec3 transform_vector(const Transform *t, Vec3 v)
                 t->m[2][0] * v.x + t->m[2][1] * v.y + t->m[2][2] * v.z);
 }
 
-// a after b: transform_point(ab, p) = transform_point(a, transform_point(b, p)).
+// Composition, b first: transform_point(ab, p) = transform_point(a, transform_point(b, p)).
 Transform transform_multiply(const Transform *a, const Transform *b);
 
 // Inverse of t; false when t is singular.
 bool transform_inverse(const Transform *t, Transform *inverse);
 
-// Direction of the image of a surface normal: inverse transpose times n, not normalised.
-// Takes the *inverse* of the transform.
+// Direction of a transformed surface normal: inverse transpose times n, not normalised. Takes the
+// *inverse* of the transform.
 static inline Vec3 transform_normal(const Transform *inverse, Vec3 n)
 {
     return vec3(inverse->m[0][0] * n.x + inverse->m[1][0] * n.y + inverse->m[2][0] * n.z,
@@ -204,7 +204,7 @@ static inline Vec3 transform_normal(const Transform *inverse, Vec3 n)
                 inverse->m[0][2] * n.x + inverse->m[1][2] * n.y + inverse->m[2][2] * n.z);
 }
 
-// Scale, then turn about x, y and z (degrees, in that order), then translate.
+// Scales, then rotates about x, y and z (degrees, in that order), then translates.
 Transform transform_compose(Vec3 translate, Vec3 rotate_degrees, Vec3 scale);
 
 static inline Aabb aabb_empty(void)
@@ -227,7 +227,7 @@ static inline bool aabb_is_empty(Aabb box)
     return box.low.x > box.high.x;
 }
 
-// The box around the images of the corners of a (non-empty) box.
+// Bounding box of the transformed corners of a non-empty box.
 Aabb aabb_transform(Aabb box, const Transform *t);
 
 #endif
