@@ -58,7 +58,7 @@ bool out_tree_murray_turn(OutTree *tree, MurrayAllowed *allowed, void *user, uin
 typedef struct MurrayFit {
     int64_t forks;
     double residual;     // largest |flow in - sum of flows out| / flow in, over all nodes
-    double angle_median; // degrees: |angle between the daughters - eq. (15)|, over the forks
+    double angle_median; // degrees: |angle between the daughters - Tanaka eq. (15)|, over the forks
     double angle_exact;  // share of the forks where that is below 0.5 degrees
     double side_angle;   // degrees: mean angle between a daughter and its mother
 } MurrayFit;

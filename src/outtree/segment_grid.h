@@ -20,7 +20,7 @@ bool segment_grid_touches(const SegmentGrid *grid, Vec3 a, Vec3 b, float reach, 
 // Negative where they overlap.
 float segment_grid_gap(const SegmentGrid *grid, Vec3 a, Vec3 b, float radius, float limit);
 
-// Distance between the segments a0-a1 and b0-b1, m (Ericson, Real-Time Collision Detection, 5.1.9).
+// Distance between the segments a0-a1 and b0-b1, m (Ericson 2005, 5.1.9).
 float segment_distance(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1);
 
 #endif

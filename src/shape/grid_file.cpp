@@ -1,6 +1,6 @@
-// Beside level_set.cpp the only file that knows OpenVDB; that one is about one kind of grid and how
-// it is made, this one about files of any.
-// openvdb first: its headers want no macros of ours
+// With level_set.cpp the only file that uses OpenVDB: level_set.cpp makes one kind of grid, this
+// file reads and writes grids of any kind. openvdb comes first, because its headers conflict with
+// macros of other headers
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>

@@ -1,4 +1,4 @@
-// openvdb first: its headers want no macros of ours
+// openvdb comes first, because its headers conflict with macros of other headers
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Composite.h>
 #include <openvdb/tools/LevelSetFilter.h>
