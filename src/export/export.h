@@ -1,4 +1,4 @@
-// Scenes as other programs' files. A format is one file and one line of the table in export.c.
+// Scenes as other programs' files. A format is one file and one line of the registry in formats.h.
 #ifndef RAMIFY_EXPORT_EXPORT_H
 #define RAMIFY_EXPORT_EXPORT_H
 

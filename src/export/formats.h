@@ -1,18 +1,26 @@
-// The writers of all formats, for the table in export.c. Each is documented at its top.
+// The registry of formats: FORMAT(name) is name_format, defined in the file that writes it.
 #ifndef RAMIFY_EXPORT_FORMATS_H
 #define RAMIFY_EXPORT_FORMATS_H
 
 #include "export/export.h"
 
-bool export_glb(const ExportSource *source, const char *file, const Run *run, Error *e);
-bool export_obj(const ExportSource *source, const char *file, const Run *run, Error *e);
-bool export_ply(const ExportSource *source, const char *file, const Run *run, Error *e);
-bool export_usda(const ExportSource *source, const char *file, const Run *run, Error *e);
-bool export_pov(const ExportSource *source, const char *file, const Run *run, Error *e);
-bool export_stl(const ExportSource *source, const char *file, const Run *run, Error *e);
-bool export_tree_each(const ExportSource *source, const char *file, const Run *run, Error *e);
-bool export_graphml(const ExportSource *source, const char *file, const Run *run, Error *e);
-bool export_vdb(const ExportSource *source, const char *file, const Run *run, Error *e);
-bool export_heights(const ExportSource *source, const char *file, const Run *run, Error *e);
+#define EXPORT_FORMATS(FORMAT) \
+    FORMAT(glb)                \
+    FORMAT(obj)                \
+    FORMAT(ply)                \
+    FORMAT(usda)               \
+    FORMAT(pov)                \
+    FORMAT(stl)                \
+    FORMAT(swc)                \
+    FORMAT(json)               \
+    FORMAT(graphml)            \
+    FORMAT(vdb)                \
+    FORMAT(asc)                \
+    FORMAT(exr)                \
+    FORMAT(png)
+
+#define FORMAT(name) extern const ExportFormat name##_format;
+EXPORT_FORMATS(FORMAT)
+#undef FORMAT
 
 #endif

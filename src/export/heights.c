@@ -98,7 +98,7 @@ bool export_height_field(const HeightField *field, const char *file, Error *e)
                      file);
 }
 
-bool export_heights(const ExportSource *source, const char *file, const Run *run, Error *e)
+static bool write(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
     int count = 0;
     for (int i = 0; i < source->object_count; i++) {
@@ -118,3 +118,7 @@ bool export_heights(const ExportSource *source, const char *file, const Run *run
     }
     return done;
 }
+
+const ExportFormat asc_format = {".asc", "heights of land, Esri ASCII grid", 0, EXPORT_LAND, write};
+const ExportFormat exr_format = {".exr", "heights of land, float picture", 0, EXPORT_LAND, write};
+const ExportFormat png_format = {".png", "heights of land, 16-bit picture", 0, EXPORT_LAND, write};

@@ -185,7 +185,7 @@ static bool write_both(ObjWriter *obj, const char *file, const char *library, Er
     return file_writer_close(obj->writer, done, e);
 }
 
-bool export_obj(const ExportSource *source, const char *file, const Run *run, Error *e)
+static bool write(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
     char *library = asset_beside(file, ".mtl", e);
     ObjWriter obj = {.source = source, .run = run, .part = -1, .object = -1};
@@ -201,3 +201,6 @@ bool export_obj(const ExportSource *source, const char *file, const Run *run, Er
     free(library);
     return done;
 }
+
+const ExportFormat obj_format = {".obj", "meshes with materials beside it (.mtl)", 0, EXPORT_WORLD,
+                                 write};

@@ -108,7 +108,7 @@ static bool write_all(const ExportSource *source, PlyWriter *ply, const ExportTa
            export_all_pieces(source, 0, 0.7f, 1.0f, ply->run, write_faces, ply, e);
 }
 
-bool export_ply(const ExportSource *source, const char *file, const Run *run, Error *e)
+static bool write(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
     ExportTally tally = export_all_tally(source);
     if (tally.vertices > INT32_MAX) {
@@ -126,3 +126,6 @@ bool export_ply(const ExportSource *source, const char *file, const Run *run, Er
     free(ply.block);
     return done;
 }
+
+const ExportFormat ply_format = {".ply", "meshes with radius and birth, binary", 0, EXPORT_WORLD,
+                                 write};

@@ -40,7 +40,7 @@ static bool write_piece(void *user, const ExportPiece *piece, Error *e)
     return true;
 }
 
-bool export_stl(const ExportSource *source, const char *file, const Run *run, Error *e)
+static bool write(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
     int64_t count = export_all_tally(source).triangles;
     if (count > UINT32_MAX) {
@@ -61,3 +61,5 @@ bool export_stl(const ExportSource *source, const char *file, const Run *run, Er
     bool whole = export_all_pieces(source, 0, 0.0f, 1.0f, run, write_piece, writer, e);
     return file_writer_close(writer, whole, e);
 }
+
+const ExportFormat stl_format = {".stl", "triangles alone, binary", 0, EXPORT_WORLD, write};

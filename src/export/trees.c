@@ -20,7 +20,7 @@ static int count_trees(const ExportSource *source, Error *e)
     return count;
 }
 
-bool export_tree_each(const ExportSource *source, const char *file, const Run *run, Error *e)
+static bool write_each(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
     int count = count_trees(source, e);
     bool done = count > 0;
@@ -36,7 +36,7 @@ bool export_tree_each(const ExportSource *source, const char *file, const Run *r
     return done;
 }
 
-bool export_graphml(const ExportSource *source, const char *file, const Run *run, Error *e)
+static bool write_graphml(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
     if (run_is_cancelled(run)) {
         return run_cancel_error(e);
@@ -44,3 +44,10 @@ bool export_graphml(const ExportSource *source, const char *file, const Run *run
     return count_trees(source, e) > 0 && out_trees_write_graphml(source->tree, source->object_name,
                                                                  source->object_count, file, e);
 }
+
+const ExportFormat swc_format = {".swc", "an out-tree: nodes with radius and parent", 0,
+                                 EXPORT_TREES, write_each};
+const ExportFormat json_format = {".json", "an out-tree with all that is known of it", 0,
+                                  EXPORT_TREES, write_each};
+const ExportFormat graphml_format = {".graphml", "all out-trees as graphs", 0, EXPORT_TREES,
+                                     write_graphml};

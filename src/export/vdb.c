@@ -1,10 +1,13 @@
 // OpenVDB grids of envelopes and guide fields, written by grid_file.h.
 #include "export/formats.h"
 
-bool export_vdb(const ExportSource *source, const char *file, const Run *run, Error *e)
+static bool write(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
     if (run_is_cancelled(run)) {
         return run_cancel_error(e);
     }
     return grid_file_write(source->grids, file, e);
 }
+
+const ExportFormat vdb_format = {".vdb", "envelopes and guide fields as OpenVDB grids", 0,
+                                 EXPORT_GRIDS, write};

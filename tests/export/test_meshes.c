@@ -473,7 +473,7 @@ static void too_much_is_refused_at_once(void **state)
     volatile int cancelled = 1;
     Run run = {.threads = 1, .cancelled = &cancelled, .warn = on_warning, .user = &warnings};
     world->geometry.part[0].instance_count = 30;
-    assert_false(export_stl(&source, path_of(*state, "much.stl"), &run, NULL));
+    assert_false(stl_format.write(&source, path_of(*state, "much.stl"), &run, NULL));
     assert_int_equal(warnings, 1);
     world_free(world);
 }

@@ -51,7 +51,7 @@ static bool write_world(const World *world, const char *name, const Run *run, Er
         .title = "a \"quoted\" \\ title", .world = world, .object_count = 1, .object_name = names};
     char file[128];
     snprintf(file, sizeof file, "%s/%s", folder, name);
-    return export_usda(&source, file, run, e);
+    return usda_format.write(&source, file, run, e);
 }
 
 static void expect(const char *name, const char *measures)

@@ -206,7 +206,7 @@ static bool write_file(const Glb *glb, const char *name, const char *json, size_
     return file_writer_close(file, done, e);
 }
 
-bool export_glb(const ExportSource *source, const char *file, const Run *run, Error *e)
+static bool write(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
     Glb glb = {.source = source, .run = run};
     size_t size = 0;
@@ -226,3 +226,6 @@ bool export_glb(const ExportSource *source, const char *file, const Run *run, Er
     free(glb.part);
     return done;
 }
+
+const ExportFormat glb_format = {".glb", "glTF 2.0 in one file: meshes, materials, camera, lights",
+                                 0, EXPORT_WORLD, write};

@@ -154,7 +154,7 @@ static bool make_lights(Pov *pov)
     return pov->lights != NULL;
 }
 
-bool export_pov(const ExportSource *source, const char *file, const Run *run, Error *e)
+static bool write_pov(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
     Pov pov = {.world = source->world, .run = run, .e = e, .file = file};
     if (!name_folder(&pov) || !(pov.out = file_writer_open(file, e))) {
@@ -171,3 +171,7 @@ bool export_pov(const ExportSource *source, const char *file, const Run *run, Er
     }
     return file_writer_close(pov.out, whole, e) && whole;
 }
+
+const ExportFormat pov_format = {
+    ".pov", "a scene that POV-Ray renders as it is; pictures in NAME-textures/",
+    (int)(sizeof "-textures" - sizeof ".pov"), EXPORT_WORLD, write_pov};

@@ -73,7 +73,7 @@ static bool write_stage(Usda *usda, Error *e)
     return done;
 }
 
-bool export_usda(const ExportSource *source, const char *file, const Run *run, Error *e)
+static bool write(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
     Usda usda = {.file = file, .source = source, .run = run};
     bool done = look_through(&usda, e);
@@ -89,3 +89,6 @@ bool export_usda(const ExportSource *source, const char *file, const Run *run, E
     free(usda.glows);
     return done;
 }
+
+const ExportFormat usda_format = {".usda", "USD as text: all of the scene",
+                                  (int)(sizeof "-sky.exr" - sizeof ".usda"), EXPORT_WORLD, write};
