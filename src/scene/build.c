@@ -9,6 +9,7 @@
 #include "scene/builtin.h"
 #include "scene/kind.h"
 #include "scene/place.h"
+#include "scene/scene_flood.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,12 +77,41 @@ uint64_t scene_object_seed(const Scene *scene, int index)
 
 enum { LABEL_SIZE = 128 };
 
-static Recipe make_recipe(const Scene *scene, const SceneObject *object, const Run *run,
-                          char label[LABEL_SIZE])
+// One object in its own space, on its way to growth and geometry.
+typedef struct Making {
+    const Scene *scene;
+    int index;
+    const Kind *kind;
+    OwnSpace own;
+    const void *params;
+    char label[LABEL_SIZE];
+    Recipe recipe;
+    Grown grown;
+} Making;
+
+// End with making_end, also on failure.
+static bool making_begin(Making *m, const Scene *scene, int index, const Run *run, Error *e)
 {
-    snprintf(label, LABEL_SIZE, "object '%s'", object->name);
-    return (Recipe){scene_object_seed(scene, (int)(object - scene->objects)), label, scene->grow_to,
-                    run, NULL};
+    const SceneObject *object = &scene->objects[index];
+    *m = (Making){.scene = scene, .index = index, .kind = object->kind};
+    snprintf(m->label, sizeof m->label, "object '%s'", object->name);
+    m->recipe = (Recipe){scene_object_seed(scene, index), m->label, run};
+    bool done = own_space_enter(&m->own, object, e);
+    m->params = m->own.object.params;
+    return done;
+}
+
+static bool making_grow(Making *m, Grown *memory, Error *e)
+{
+    return kind_grow(m->kind, m->params, &m->recipe, m->scene->grow_to, memory, &m->grown, e);
+}
+
+// Errors tell the object and the place in the file.
+static bool making_end(Making *m, bool done, Error *e)
+{
+    grown_clear(&m->grown);
+    own_space_leave(&m->own);
+    return done || scene_fail_object(m->scene, m->index, e);
 }
 
 OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error *e)
@@ -91,69 +121,58 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
                   scene->object_count);
         return NULL;
     }
-    const SceneObject *object = &scene->objects[index];
-    const Kind *kind = object->kind;
+    const Kind *kind = scene->objects[index].kind;
     if (!kind->grow) {
         error_set(e, ERROR_INPUT, "it does not grow; a %s never does", kind_name(kind));
         scene_fail_object(scene, index, e);
         return NULL;
     }
-    char label[LABEL_SIZE];
-    Recipe recipe = make_recipe(scene, object, run, label);
     if (!scene_check_memory(scene, index, e)) {
         return NULL;
     }
-    OwnSpace own;
-    if (!own_space_enter(&own, object, e)) {
-        return NULL;
+    Making m;
+    OutTree *tree = NULL;
+    bool done = making_begin(&m, scene, index, run, e) && making_grow(&m, NULL, e) &&
+                own_space_carry_tree(&m.own, m.grown.tree, e);
+    if (done) {
+        tree = m.grown.tree;
+        m.grown.tree = NULL;
     }
-    OutTree *tree = kind->grow(own.object.params, &recipe, e);
-    if (tree && !own_space_carry_tree(&own, tree, e)) {
-        out_tree_free(tree);
-        tree = NULL;
-    }
-    own_space_leave(&own);
-    if (!tree) {
-        scene_fail_object(scene, index, e);
-    }
-    // cppcheck-suppress returnDanglingLifetime ; the tree keeps nothing of the recipe
+    making_end(&m, done, e);
     return tree;
 }
 
 HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, const Run *run,
                            Error *e)
 {
-    const SceneObject *object = &scene->objects[index];
-    const Kind *kind = object->kind;
+    const Kind *kind = scene->objects[index].kind;
     if (!kind->heights) {
         error_set(e, ERROR_INPUT, "it is no land; a terrain would be");
         scene_fail_object(scene, index, e);
         return NULL;
     }
-    char label[LABEL_SIZE];
-    Recipe recipe = make_recipe(scene, object, run, label);
     if (!scene_check_memory(scene, index, e)) {
         return NULL;
     }
-    HeightField *field = kind->heights(object->params, tree, &recipe, e);
-    if (!field) {
-        scene_fail_object(scene, index, e);
+    Making m;
+    HeightField *field = NULL;
+    if (making_begin(&m, scene, index, run, e)) {
+        m.grown.tree = out_tree_copy(tree, e);
+        field = m.grown.tree && kind->finish(m.params, &m.recipe, NULL, &m.grown, e)
+                    ? kind->heights(m.params, &m.grown, run, e)
+                    : NULL;
     }
-    // cppcheck-suppress returnDanglingLifetime ; neither does the land
+    making_end(&m, field, e);
     return field;
 }
 
 // Measures of the land that a kind with heights makes; others have none.
-static bool measure_land(const Scene *scene, int index, const OutTree *tree, const Run *run,
-                         MeasureList *list, Error *e)
+static bool measure_land(const Making *m, MeasureList *list, Error *e)
 {
-    if (!scene->objects[index].kind->heights) {
+    if (!m->kind->heights) {
         return true;
     }
-    char label[LABEL_SIZE];
-    Recipe recipe = make_recipe(scene, &scene->objects[index], run, label);
-    HeightField *field =
-        scene->objects[index].kind->heights(scene->objects[index].params, tree, &recipe, e);
+    HeightField *field = m->kind->heights(m->params, &m->grown, m->recipe.run, e);
     bool done = field && height_field_measure(field, 0.0, list, e);
     height_field_free(field);
     return done;
@@ -174,67 +193,112 @@ static bool measure_built(const Scene *scene, int index, const Run *run, Measure
 
 bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *list, Error *e)
 {
-    const SceneObject *object = &scene->objects[index];
-    const Kind *kind = object->kind;
+    const Kind *kind = scene->objects[index].kind;
     if (!kind->grow && !kind->measure) {
         return measure_built(scene, index, run, list, e);
     }
-    char label[LABEL_SIZE];
-    Recipe recipe = make_recipe(scene, object, run, label);
-    OwnSpace own;
-    if (!own_space_enter(&own, object, e)) {
-        return false;
-    }
-    OutTree *tree = kind->grow ? kind->grow(own.object.params, &recipe, e) : NULL;
-    bool done = (tree || !kind->grow) && (!tree || out_tree_measure(tree, list, e)) &&
-                measure_land(scene, index, tree, run, list, e) &&
-                (!kind->measure || kind->measure(own.object.params, tree, &recipe, list, e));
-    out_tree_free(tree);
-    own_space_leave(&own);
-    return done || scene_fail_object(scene, index, e);
+    Making m;
+    bool done = making_begin(&m, scene, index, run, e) && making_grow(&m, NULL, e) &&
+                (!m.grown.tree || out_tree_measure(m.grown.tree, list, e)) &&
+                measure_land(&m, list, e) &&
+                (!kind->measure || kind->measure(m.params, &m.grown, &m.recipe, list, e));
+    return making_end(&m, done, e);
 }
 
-// Grows and meshes the object in its own space, and carries its parts into the scene.
-static bool place(const Placing *p, const OwnSpace *own, Error *e)
+static int find_material(const World *world, const char *name)
 {
-    if (run_is_cancelled(p->recipe.run)) {
-        return run_cancel_error(e);
+    for (int i = 0; name && i < world->material_count; i++) {
+        if (strcmp(world->material[i].name, name) == 0) {
+            return i;
+        }
     }
-    const Kind *kind = p->object->kind;
-    int64_t first = p->world->geometry.count;
-    double start = run_seconds();
-    OutTree *tree = kind->grow ? kind->grow(p->object->params, &p->recipe, e) : NULL;
-    if (kind->grow && !tree) {
+    return -1;
+}
+
+// By role. Names were checked when the scene was read.
+static void find_materials(const World *world, const Making *m, int material[OBJECT_MOST_MATERIALS])
+{
+    for (int i = 0; i < OBJECT_MOST_MATERIALS; i++) {
+        const char *name = m->own.object.material[i];
+        int found = find_material(world, name ? name : m->kind->materials[i]);
+        material[i] = found >= 0 ? found : i > 0 ? material[0] : 0;
+    }
+}
+
+typedef struct GroundObject {
+    const Kind *kind;
+    const void *params;
+    uint64_t seed;
+} GroundObject;
+
+static float ground_height_of(const void *user, float x, float z)
+{
+    const GroundObject *ground = user;
+    return ground->kind->ground(ground->params, ground->seed, x, z);
+}
+
+// The first ground of the scene; level land at height 0 without one.
+static Land find_land(const Scene *scene, GroundObject *ground)
+{
+    scene = scene->whole ? scene->whole : scene;
+    for (int i = 0; i < scene->object_count; i++) {
+        const SceneObject *object = &scene->objects[i];
+        if (object->kind->ground) {
+            *ground = (GroundObject){object->kind, object->params, scene_object_seed(scene, i)};
+            return (Land){ground_height_of, ground};
+        }
+    }
+    return (Land){0};
+}
+
+static bool add_geometry(World *world, const Making *m, Error *e)
+{
+    int material[OBJECT_MOST_MATERIALS];
+    find_materials(world, m, material);
+    GroundObject ground;
+    SceneFlood water = {0};
+    if (m->kind->reads_water && !scene_flood_init(&water, m->scene, m->recipe.run, e)) {
         return false;
     }
-    double grown = run_seconds();
-    bool done = kind->place(p, tree, e);
-    done = done && own_space_carry_parts(own, &p->world->geometry, first, e);
-    p->stats->nodes += tree ? tree->count : 0;
-    p->stats->grow_seconds += grown - start;
-    p->stats->mesh_seconds += run_seconds() - grown;
-    out_tree_free(tree);
+    Placing placing = {.recipe = &m->recipe,
+                       .geometry = &world->geometry,
+                       .material = material,
+                       .object = m->index,
+                       .around = {.eye = &world->camera.position,
+                                  .material = world->material,
+                                  .flood = m->kind->reads_water ? &water.flood : NULL,
+                                  .land = find_land(m->scene, &ground)}};
+    bool done = m->kind->geometry(m->params, &m->grown, &placing, e);
+    scene_flood_clear(&water);
     return done;
 }
 
-bool scene_place_object(World *world, const Scene *scene, int index, RecipeMemory *memory,
-                        const Run *run, BuildStats *stats, Error *e)
+// Grows and meshes the object in its own space, and carries its parts into the scene.
+static bool place(World *world, Making *m, Grown *memory, BuildStats *stats, Error *e)
 {
-    char label[LABEL_SIZE];
-    OwnSpace own;
-    if (!own_space_enter(&own, &scene->objects[index], e)) {
+    if (run_is_cancelled(m->recipe.run)) {
+        return run_cancel_error(e);
+    }
+    int64_t first = world->geometry.count;
+    double start = run_seconds();
+    if (!making_grow(m, memory, e)) {
         return false;
     }
-    Placing placing = {.world = world,
-                       .scene = scene,
-                       .object = &own.object,
-                       .index = index,
-                       .recipe = make_recipe(scene, &scene->objects[index], run, label),
-                       .stats = stats};
-    placing.recipe.memory = memory;
-    bool done = place(&placing, &own, e);
-    own_space_leave(&own);
-    return done || scene_fail_object(scene, index, e);
+    double grown = run_seconds();
+    bool done =
+        add_geometry(world, m, e) && own_space_carry_parts(&m->own, &world->geometry, first, e);
+    stats->nodes += m->grown.tree ? m->grown.tree->count : 0;
+    stats->grow_seconds += grown - start;
+    stats->mesh_seconds += run_seconds() - grown;
+    return done;
+}
+
+bool scene_place_object(World *world, const Scene *scene, int index, Grown *memory, const Run *run,
+                        BuildStats *stats, Error *e)
+{
+    Making m;
+    bool done = making_begin(&m, scene, index, run, e) && place(world, &m, memory, stats, e);
+    return making_end(&m, done, e);
 }
 
 bool scene_give_settings(const Scene *scene, World *world, Error *e)

@@ -40,8 +40,9 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
 // borrows strings from the scene.
 bool scene_give_settings(const Scene *scene, World *world, Error *e);
 
-// Grows, skins and places object number index and adds to stats. memory: see Recipe; may be NULL.
-bool scene_place_object(World *world, const Scene *scene, int index, RecipeMemory *memory,
-                        const Run *run, BuildStats *stats, Error *e);
+// Grows, skins and places object number index and adds to stats. memory: see kind_grow; may be
+// NULL.
+bool scene_place_object(World *world, const Scene *scene, int index, Grown *memory, const Run *run,
+                        BuildStats *stats, Error *e);
 
 #endif

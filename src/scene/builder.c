@@ -12,10 +12,10 @@
 struct SceneBuilder {
     World *world;
     bool remember;
-    bool built;           // false at first and after a failure
-    Scene scene;          // as it was built; borrows what it points to
-    RecipeMemory *memory; // of each object; owned
-    int count;            // of objects
+    bool built;    // false at first and after a failure
+    Scene scene;   // as it was built; borrows what it points to
+    Grown *memory; // the whole growth of each object; owned
+    int count;     // of objects
 };
 
 SceneBuilder *scene_builder_new(bool remember, Error *e)
@@ -35,7 +35,7 @@ SceneBuilder *scene_builder_new(bool remember, Error *e)
 static void clear_objects(SceneBuilder *builder)
 {
     for (int i = 0; i < builder->count; i++) {
-        recipe_memory_clear(&builder->memory[i]);
+        grown_clear(&builder->memory[i]);
     }
     free(builder->memory);
     builder->memory = NULL;
@@ -113,9 +113,9 @@ bool scene_builder_fits(const SceneBuilder *builder, const Scene *scene)
 static bool place_object(SceneBuilder *builder, const Scene *scene, int index, const Run *run,
                          BuildStats *stats, Error *e)
 {
-    RecipeMemory *memory = &builder->memory[index];
+    Grown *memory = &builder->memory[index];
     if (builder->built && !same_object(&builder->scene, scene, index)) {
-        recipe_memory_clear(memory);
+        grown_clear(memory);
     }
     return scene_place_object(builder->world, scene, index, builder->remember ? memory : NULL, run,
                               stats, e);

@@ -2,8 +2,6 @@
 
 #include "scene/kinds.h"
 
-#include <string.h>
-
 #define KIND_POINTER(NAME) &kind_##NAME,
 static const Kind *const ALL[] = {KINDS(KIND_POINTER)};
 
@@ -12,29 +10,35 @@ const Kind *kind_at(int index)
     return index < (int)(sizeof ALL / sizeof ALL[0]) ? ALL[index] : NULL;
 }
 
-static int find_material(const World *world, const char *name)
+static bool cut(const Kind *kind, const void *params, const OutTree *whole, float grow_to,
+                OutTree *tree, Error *e)
 {
-    for (int i = 0; i < world->material_count; i++) {
-        if (strcmp(world->material[i].name, name) == 0) {
-            return i;
-        }
+    return kind->tip_radius ? out_tree_rejuvenate(tree, grow_to, kind->tip_radius(params, whole), e)
+                            : out_tree_keep_births(tree, grow_to, e);
+}
+
+bool kind_grow(const Kind *kind, const void *params, const Recipe *recipe, float grow_to,
+               Grown *memory, Grown *grown, Error *e)
+{
+    Grown own = {0}, *whole = memory ? memory : &own;
+    *grown = (Grown){0};
+    if (!kind->grow) {
+        return true;
     }
-    return -1;
-}
-
-int placing_material(const Placing *placing, int index)
-{
-    const SceneObject *object = placing->object;
-    const char *name = object->material[index];
-    int found = find_material(placing->world, name ? name : object->kind->materials[index]);
-    return found >= 0 ? found : 0;
-}
-
-bool placing_add_mesh(const Placing *placing, Mesh *mesh, Error *e)
-{
-    Part part = {.kind = PART_MESH,
-                 .mesh = mesh,
-                 .material = placing_material(placing, 0),
-                 .object = placing->index};
-    return geometry_add(&placing->world->geometry, part, e);
+    if (!whole->tree && !kind->grow(params, recipe, whole, e)) {
+        grown_clear(whole);
+        return false;
+    }
+    bool alone = !memory && grow_to >= 1.0f; // nobody else wants the whole
+    grown->tree = alone ? whole->tree : out_tree_copy(whole->tree, e);
+    bool done = grown->tree && cut(kind, params, whole->tree, grow_to, grown->tree, e) &&
+                (!kind->finish || kind->finish(params, recipe, whole, grown, e));
+    if (alone) {
+        whole->tree = NULL;
+    }
+    grown_clear(&own);
+    if (!done) {
+        grown_clear(grown);
+    }
+    return done;
 }

@@ -13,53 +13,41 @@
 #include "scene/needs.h"
 #include "scene/own_space.h"
 
-// One object on its way into the world.
-typedef struct Placing {
-    World *world;
-    const Scene *scene;
-    const SceneObject *object;
-    int index;     // of the object in the scene
-    Recipe recipe; // seed, label and run for the recipes of objects/
-    BuildStats *stats;
-} Placing;
-
 typedef struct Kind {
     // The key of an object's mapping in the scene file, which is the kind's name for people, too;
     // the table of its parameters; the keys beside it, which all name materials.
     Variant variant;
 
-    // What SceneObject.material is left out for: names of built-in materials, in the same order.
+    // Built-in materials by role, for those of SceneObject.material that are left out; NULL = as
+    // the first role's.
     const char *materials[OBJECT_MOST_MATERIALS];
 
     bool reads_scene; // its geometry depends on materials' values or on other objects
     bool reads_water; // it keeps out of the scene's water
 
     // Says where the object's own space is and takes its parameters (a copy) there; NULL = it is
-    // the scene's space. grow, place and measure are given the object in its own space, and what
-    // they make is carried into the scene.
+    // the scene's space. The recipe is given the object in its own space, and what it makes is
+    // carried into the scene.
     bool (*own_space)(OwnSpace *own, void *params, Error *e);
 
-    // The out-tree, radii and all; NULL when nothing of this kind grows. The error names the
-    // object (Recipe.label).
-    OutTree *(*grow)(const void *params, const Recipe *recipe, Error *e);
-
-    // Adds the object's parts to the world: from its out-tree where the kind grows one, else tree
-    // is NULL.
-    bool (*place)(const Placing *placing, const OutTree *tree, Error *e);
+    // The recipe: see objects/common/recipe.h. NULL where a kind has none of it. tip_radius: m,
+    // what nodes begin with, where they thicken as they age; NULL = they show as they are, or not.
+    bool (*grow)(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+    float (*tip_radius)(const void *params, const OutTree *whole);
+    bool (*finish)(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                   Error *e);
+    bool (*geometry)(const void *params, const Grown *grown, const Placing *placing, Error *e);
+    bool (*measure)(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,
+                    Error *e);
 
     // Heights of what is land, in the object's own space; NULL = the kind is none.
-    HeightField *(*heights)(const void *params, const OutTree *tree, const Recipe *recipe,
-                            Error *e);
+    HeightField *(*heights)(const void *params, const Grown *grown, const Run *run, Error *e);
 
     // Height of the ground that others stand on; NULL = the kind is none. seed: of the object.
     float (*ground)(const void *params, uint64_t seed, float x, float z);
 
     // Adds the object's surface to what may cover the ground, as water does; NULL = it does not.
     bool (*cover)(const void *params, Cover *cover, const Run *run, Error *e);
-
-    // Adds what there is to measure beyond what every out-tree has; NULL = nothing.
-    bool (*measure)(const void *params, const OutTree *tree, const Recipe *recipe,
-                    MeasureList *list, Error *e);
 
     // Draws what the kind makes as a picture of one value a pixel, 0..1, row by row from the top
     // left (pixel: width * height floats); NULL = it makes no picture.
@@ -116,11 +104,10 @@ static inline const char *kind_name(const Kind *kind)
     return kind->variant.row.key;
 }
 
-// Index in the world of the object's material number `index`, or of what the kind has in its place.
-// Names were checked when the scene was read.
-int placing_material(const Placing *placing, int index);
-
-// Adds a mesh, drawn once, with the object's material number 0. Takes the mesh.
-bool placing_add_mesh(const Placing *placing, Mesh *mesh, Error *e);
+// Grows what shows at grow_to (0..1) of the growth; a kind that does not grow has nothing. memory,
+// if not NULL, keeps the whole growth ({0} at first), so that another grow_to need not grow again.
+// Clear both with grown_clear, also on failure.
+bool kind_grow(const Kind *kind, const void *params, const Recipe *recipe, float grow_to,
+               Grown *memory, Grown *grown, Error *e);
 
 #endif

@@ -15,27 +15,13 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
     return own_space_take_shapes(own, &coral->base, coral->base_count, e);
 }
 
-static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
-{
-    return coral_grow(params, recipe, e);
-}
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    CoralMaterials materials = {.coral = placing_material(p, 0),
-                                .polyp = placing_material(p, 1),
-                                .rock = placing_material(p, 2)};
-    return coral_geometry(tree, p->object->params, &materials, p->index, p->recipe.seed,
-                          &p->world->geometry, p->recipe.run, e);
-}
-
-static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
-                    MeasureList *list, Error *e)
+static bool measure(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,
+                    Error *e)
 {
     (void)recipe;
     CoralParams p = coral_params_resolve(params);
     CoralMeasures m;
-    return coral_measure(tree, &m, e) &&
+    return coral_measure(grown->tree, &m, e) &&
            // Madracis: branches 7 to 14 mm thick, corallites 1.0 to 1.4 mm wide, 0.5 to 0.8 apart
            measures_add(list, "branch_thickness", 1000.0 * m.branch_thickness, "mm", 7, 14, e) &&
            measures_add(list, "branch_spacing", 1000.0 * m.branch_spacing, "mm", NAN, NAN, e) &&
@@ -100,11 +86,12 @@ const Kind kind_coral = {
                 MATERIALS},
     .materials = {"coral", "coral_polyp", "reef_rock"},
     .own_space = own_space,
-    .grow = grow,
     .needs = needs,
-    .place = place,
     .measure = measure,
     .describe = describe,
     .settle = settle,
     .attractors = attractors,
-    .copies = copies};
+    .copies = copies,
+    .grow = coral_grow,
+    .finish = coral_finish,
+    .geometry = coral_geometry};

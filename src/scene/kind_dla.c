@@ -16,24 +16,13 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
     return true;
 }
 
-static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
-{
-    return dla_model_grow(params, recipe, e);
-}
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    return dla_model_geometry(tree, placing_material(p, 0), p->index, &p->world->geometry,
-                              p->recipe.run, e);
-}
-
 // 1.71 and 2.5 for ever larger clusters (Meakin 1983; Davidovitch et al. 2000).
-static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
-                    MeasureList *list, Error *e)
+static bool measure(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,
+                    Error *e)
 {
     const DlaModel *dla = params;
     (void)recipe;
-    double dimension = dla_dimension(tree), low = dla->dimension == 2 ? 1.66 : 2.4;
+    double dimension = dla_dimension(grown->tree), low = dla->dimension == 2 ? 1.66 : 2.4;
     return measures_add(list, "gyration_dimension", dimension > 0.0 ? dimension : (double)NAN, "",
                         low, low + 0.2, e);
 }
@@ -62,8 +51,9 @@ const Kind kind_dla = {
                 MATERIALS},
     .materials = {"copper"},
     .own_space = own_space,
-    .grow = grow,
     .needs = needs,
-    .place = place,
     .measure = measure,
-    .describe = describe};
+    .describe = describe,
+    .grow = dla_model_grow,
+    .finish = dla_model_finish,
+    .geometry = dla_model_geometry};

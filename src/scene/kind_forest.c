@@ -1,71 +1,22 @@
-// A forest as a kind of object. It stands on the scene's ground, if there is one.
+// A forest as a kind of object.
 #include "objects/forest/forest.h"
 #include "objects/forest/stand_places.h"
 #include "scene/kinds.h"
-#include "scene/scene_flood.h"
 #include "scene/spec.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
-{
-    return forest_grow(params, recipe, e);
-}
-
-// The first ground of the scene; kind NULL = level land at height 0.
-typedef struct Land {
-    const Kind *kind;
-    const void *params;
-    uint64_t seed;
-} Land;
-
-static float land_height(const void *user, float x, float z)
-{
-    const Land *land = user;
-    return land->kind ? land->kind->ground(land->params, land->seed, x, z) : 0.0f;
-}
-
-static Land find_land(const Scene *scene)
-{
-    scene = scene->whole ? scene->whole : scene;
-    for (int i = 0; i < scene->object_count; i++) {
-        const SceneObject *object = &scene->objects[i];
-        if (object->kind->ground) {
-            return (Land){object->kind, object->params, scene_object_seed(scene, i)};
-        }
-    }
-    return (Land){0};
-}
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    ForestMaterials materials = {.bark = placing_material(p, 0),
-                                 .twig = placing_material(p, 1),
-                                 .leaf = placing_material(p, 2),
-                                 .fern = placing_material(p, 3)};
-    Land land = find_land(p->scene);
-    SceneFlood water;
-    if (!scene_flood_init(&water, p->scene, p->recipe.run, e)) {
-        return false;
-    }
-    bool done =
-        forest_geometry(tree, p->object->params, &materials, p->index, p->recipe.seed, land_height,
-                        &land, &water.flood, &p->world->geometry, p->recipe.run, e);
-    scene_flood_clear(&water);
-    return done;
-}
-
-static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
-                    MeasureList *list, Error *e)
+static bool measure(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,
+                    Error *e)
 {
     (void)recipe;
     double gap;
     measures_set_range(list, "radius_exponent", 1.8, 2.3);
     measures_set_range(list, "branch_angle", 30.0, 70.0);
     measures_set_range(list, "horton_number", 3.0, 5.0);
-    return forest_crown_gap(tree, params, &gap, e) &&
+    return forest_crown_gap(grown->tree, params, &gap, e) &&
            measures_add(list, "crown_gap", gap, "m", (double)NAN, (double)NAN, e);
 }
 
@@ -115,10 +66,11 @@ const Kind kind_forest = {
     .reads_scene = true,
     .reads_water = true,
     .materials = {"bark", "twig", "leaf", "grass"},
-    .grow = grow,
     .needs = needs,
-    .place = place,
     .measure = measure,
     .describe = describe,
     .copies = copies,
-    .settle = settle};
+    .settle = settle,
+    .grow = forest_grow,
+    .tip_radius = forest_tip_radius,
+    .geometry = forest_geometry};

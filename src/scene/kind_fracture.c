@@ -12,25 +12,6 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
     return own_space_take_element(own, &fracture->element, e);
 }
 
-static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
-{
-    return fracture_grow(params, recipe, e);
-}
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    FractureMaterials materials = {.outside = placing_material(p, 0),
-                                   .inside = placing_material(p, 1)};
-    return fracture_geometry(tree, p->object->params, &materials, p->index, &p->recipe,
-                             &p->world->geometry, e);
-}
-
-static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
-                    MeasureList *list, Error *e)
-{
-    return fracture_measure(tree, params, recipe, list, e);
-}
-
 static void describe(const void *params, char *text, size_t size)
 {
     const FractureParams *fracture = params;
@@ -64,9 +45,9 @@ const Kind kind_fracture = {
                 MATERIALS},
     .materials = {"clay", "broken"},
     .own_space = own_space,
-    .grow = grow,
     .needs = needs,
-    .place = place,
-    .measure = measure,
     .describe = describe,
-    .attractors = attractors};
+    .attractors = attractors,
+    .grow = fracture_grow,
+    .geometry = fracture_geometry,
+    .measure = fracture_measure};

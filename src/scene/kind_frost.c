@@ -18,25 +18,6 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
     return frost->nucleus || size == 0;
 }
 
-static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
-{
-    return frost_grow(params, recipe, e);
-}
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    FrostMaterials materials = {.ice = placing_material(p, 0), .rime = placing_material(p, 1)};
-    return frost_geometry(tree, p->object->params, &materials, p->index, &p->recipe,
-                          &p->world->geometry, e);
-}
-
-static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
-                    MeasureList *list, Error *e)
-{
-    (void)recipe;
-    return frost_measure(tree, params, list, e);
-}
-
 static void describe(const void *params, char *text, size_t size)
 {
     const FrostParams *frost = params;
@@ -80,10 +61,11 @@ const Kind kind_frost = {
                 MATERIALS},
     .materials = {"ice", "rime"},
     .own_space = own_space,
-    .grow = grow,
     .needs = needs,
-    .place = place,
-    .measure = measure,
     .describe = describe,
     .attractors = attractors,
-    .copies = copies};
+    .copies = copies,
+    .grow = frost_grow,
+    .finish = frost_finish,
+    .geometry = frost_geometry,
+    .measure = frost_measure};

@@ -1,26 +1,7 @@
 // The ground as a kind of object.
 #include "objects/ground/ground.h"
 #include "scene/kinds.h"
-#include "scene/scene_flood.h"
 #include "scene/spec.h"
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    (void)tree;
-    GroundMaterials materials = {.ground = placing_material(p, 0),
-                                 .grass = placing_material(p, 2),
-                                 .fallen = placing_material(p, 1),
-                                 .bark = placing_material(p, 3),
-                                 .foliage = placing_material(p, 4)};
-    SceneFlood water;
-    if (!scene_flood_init(&water, p->scene, p->recipe.run, e)) {
-        return false;
-    }
-    bool done = ground_geometry(p->object->params, &materials, p->index, p->recipe.seed,
-                                &water.flood, &p->world->geometry, p->recipe.run, e);
-    scene_flood_clear(&water);
-    return done;
-}
 
 static float height(const void *params, uint64_t seed, float x, float z)
 {
@@ -59,6 +40,6 @@ const Kind kind_ground = {
     .reads_water = true,
     .materials = {"ground", "fallen", "grass", "bark", "leaf"},
     .needs = needs,
-    .place = place,
     .ground = height,
-    .copies = copies};
+    .copies = copies,
+    .geometry = ground_geometry};

@@ -21,26 +21,6 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
     return own_space_take_element(own, &lightning->element, e);
 }
 
-static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
-{
-    return lightning_grow(params, recipe, e);
-}
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    int material = placing_material(p, 0);
-    float radiance = luminance(p->world->material[material].radiance);
-    return lightning_geometry(tree, p->object->params, material, radiance, p->index,
-                              &p->world->geometry, e);
-}
-
-static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
-                    MeasureList *list, Error *e)
-{
-    (void)recipe;
-    return lightning_measure(params, tree, list, e);
-}
-
 static void describe(const void *params, char *text, size_t size)
 {
     const LightningParams *lightning = params;
@@ -79,10 +59,11 @@ const Kind kind_lightning = {
     .reads_scene = true,
     .materials = {"lightning"},
     .own_space = own_space,
-    .grow = grow,
     .needs = needs,
-    .place = place,
-    .measure = measure,
     .describe = describe,
     .settle = settle,
-    .attractors = attractors};
+    .attractors = attractors,
+    .grow = lightning_grow,
+    .finish = lightning_finish,
+    .geometry = lightning_geometry,
+    .measure = lightning_measure};

@@ -15,20 +15,6 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
     return true;
 }
 
-static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
-{
-    return lsystem_plant_grow(params, recipe, e);
-}
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    TreeMaterials materials = {.bark = placing_material(p, 0),
-                               .twig = placing_material(p, 1),
-                               .leaf = placing_material(p, 2)};
-    return lsystem_plant_geometry(tree, p->object->params, &materials, p->index, p->recipe.seed,
-                                  &p->world->geometry, p->recipe.run, e);
-}
-
 static void describe(const void *params, char *text, size_t size)
 {
     const LSystemPlantParams *plant = params;
@@ -62,8 +48,9 @@ const Kind kind_lsystem = {
     .variant = {KIND_ROW("lsystem", &lsystem_table, "A plant written as an L-system."), MATERIALS},
     .materials = {"bark", "twig", "leaf"},
     .own_space = own_space,
-    .grow = grow,
     .needs = needs,
-    .place = place,
     .describe = describe,
-    .copies = copies};
+    .copies = copies,
+    .grow = lsystem_plant_grow,
+    .finish = lsystem_plant_finish,
+    .geometry = lsystem_plant_geometry};

@@ -18,16 +18,16 @@ static Mesh *import(const SceneMesh *params, const Run *run, Error *e)
     return mesh;
 }
 
-static bool place(const Placing *p, const OutTree *tree, Error *e)
+static bool geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
-    (void)tree;
-    const SceneMesh *params = p->object->params;
-    Mesh *mesh = import(params, p->recipe.run, e);
+    (void)grown;
+    const SceneMesh *params = given;
+    Mesh *mesh = import(params, placing->recipe->run, e);
     if (mesh && params->smooth && !mesh->normal && !mesh_compute_normals(mesh, e)) {
         mesh_free(mesh);
         return false;
     }
-    return mesh && placing_add_mesh(p, mesh, e);
+    return placing_add(placing, (Part){.mesh = mesh}, 0, e);
 }
 
 static void needs(const void *params, Needs *needs)
@@ -51,5 +51,5 @@ static const Key MATERIALS[] = {
 const Kind kind_mesh = {.variant = {KIND_ROW("mesh", &mesh_table, "An imported mesh."), MATERIALS},
                         .materials = {"clay"},
                         .needs = needs,
-                        .place = place,
+                        .geometry = geometry,
                         .cover = cover};

@@ -14,25 +14,13 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
     return own_space_take_element(own, &sculpture->element, e);
 }
 
-static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
+static bool measure(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,
+                    Error *e)
 {
-    return sculpture_grow(params, recipe, e);
-}
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    return sculpture_geometry(tree, placing_material(p, 0), p->index, &p->world->geometry,
-                              p->recipe.run, e);
-}
-
-static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
-                    MeasureList *list, Error *e)
-{
-    (void)recipe;
-    (void)params;
+    (void)params, (void)recipe;
     double none = (double)NAN;
     int64_t pieces, loops;
-    return out_tree_count_pieces(tree, &pieces, &loops, e) &&
+    return out_tree_count_pieces(grown->tree, &pieces, &loops, e) &&
            measures_add(list, "pieces", (double)pieces, "", 1.0, 1.0, e) &&
            measures_add(list, "loops", (double)loops, "", none, none, e);
 }
@@ -65,9 +53,9 @@ const Kind kind_sculpture = {
     .variant = {KIND_ROW("sculpture", &sculpture_table, "A hollow branch sculpture."), MATERIALS},
     .materials = {"clay"},
     .own_space = own_space,
-    .grow = grow,
     .needs = needs,
-    .place = place,
     .measure = measure,
     .describe = describe,
-    .attractors = attractors};
+    .attractors = attractors,
+    .grow = sculpture_grow,
+    .geometry = sculpture_geometry};

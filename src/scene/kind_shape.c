@@ -39,16 +39,16 @@ static Envelope *make(const SceneShape *shape, const Run *run, Error *e)
     return envelope_new(&params, run, e);
 }
 
-static bool place(const Placing *p, const OutTree *tree, Error *e)
+static bool geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
-    (void)tree;
-    Envelope *envelope = make(p->object->params, p->recipe.run, e);
+    (void)grown;
+    Envelope *envelope = make(given, placing->recipe->run, e);
     if (!envelope) {
         return false;
     }
     Mesh *mesh = copy_mesh(envelope_surface(envelope), e);
     envelope_free(envelope);
-    return mesh && placing_add_mesh(p, mesh, e);
+    return placing_add(placing, (Part){.mesh = mesh}, 0, e);
 }
 
 // Of the surface that a level set is made along, m^2. Half spaces only cut.
@@ -100,5 +100,5 @@ const Kind kind_shape = {
     .materials = {"clay"},
     .needs = needs,
     .own_space = own_space,
-    .place = place,
+    .geometry = geometry,
     .cover = cover};

@@ -16,19 +16,6 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
     return true;
 }
 
-static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
-{
-    return skeleton_grow(params, recipe, e);
-}
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    SkeletonMaterials materials = {.body = placing_material(p, 0)};
-    materials.axon = p->object->material[1] ? placing_material(p, 1) : materials.body;
-    return skeleton_geometry(tree, p->object->params, &materials, p->index, &p->world->geometry,
-                             p->recipe.run, e);
-}
-
 static void describe(const void *params, char *text, size_t size)
 {
     const SkeletonParams *skeleton = params;
@@ -58,9 +45,10 @@ static const Key MATERIALS[] = {
 const Kind kind_skeleton = {.variant = {KIND_ROW("skeleton", &skeleton_table,
                                                  "A neuron or another out-tree from an SWC file."),
                                         MATERIALS},
-                            .materials = {"clay", "clay"},
+                            .materials = {"clay"},
                             .own_space = own_space,
-                            .grow = grow,
+                            .describe = describe,
                             .needs = needs,
-                            .place = place,
-                            .describe = describe};
+                            .grow = skeleton_grow,
+                            .tip_radius = skeleton_tip_radius,
+                            .geometry = skeleton_geometry};

@@ -19,20 +19,6 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
            own_space_take_element(own, &tree->roots.element, e);
 }
 
-static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
-{
-    return tree_grow(params, recipe, e);
-}
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    TreeMaterials materials = {.bark = placing_material(p, 0),
-                               .twig = placing_material(p, 1),
-                               .leaf = placing_material(p, 2)};
-    return tree_geometry(tree, p->object->params, &materials, p->index, p->recipe.seed,
-                         &p->world->geometry, p->recipe.run, e);
-}
-
 static void describe(const void *params, char *text, size_t size)
 {
     const TreeParams *tree = params;
@@ -74,13 +60,10 @@ static int64_t copies(const void *params)
 }
 
 // Nature's ranges: radii after Eloy (2011); the others are usual for broad-leaved trees.
-static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
-                    MeasureList *list, Error *e)
+static bool measure(const void *given, const Grown *grown, const Recipe *recipe, MeasureList *list,
+                    Error *e)
 {
-    (void)recipe;
-    (void)params;
-    (void)tree;
-    (void)e;
+    (void)given, (void)grown, (void)recipe, (void)e;
     measures_set_range(list, "radius_exponent", 1.8, 2.3);
     measures_set_range(list, "branch_angle", 30.0, 70.0);
     measures_set_range(list, "horton_number", 3.0, 5.0);
@@ -114,11 +97,13 @@ const Kind kind_tree = {
     .variant = {KIND_ROW("tree", &tree_table, "A tree; left out keys make an oak."), MATERIALS},
     .materials = {"bark", "twig", "leaf"},
     .own_space = own_space,
-    .grow = grow,
     .needs = needs,
-    .place = place,
     .measure = measure,
     .describe = describe,
     .settle = settle,
     .attractors = attractors,
-    .copies = copies};
+    .copies = copies,
+    .grow = tree_grow,
+    .tip_radius = tree_tip_radius,
+    .finish = tree_finish,
+    .geometry = tree_geometry};

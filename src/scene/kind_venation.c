@@ -6,30 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
-{
-    return venation_grow(params, recipe, e);
-}
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    VenationMaterials materials = {.vein = placing_material(p, 0), .blade = placing_material(p, 1)};
-    return venation_geometry(tree, p->object->params, &materials, p->index, &p->world->geometry, e);
-}
-
-static bool paint(const void *params, const OutTree *tree, int width, int height, float *pixel,
-                  Error *e)
-{
-    return venation_paint(tree, params, width, height, pixel, e);
-}
-
-static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
-                    MeasureList *list, Error *e)
-{
-    (void)recipe;
-    return venation_measure(tree, params, list, e);
-}
-
 static void describe(const void *params, char *text, size_t size)
 {
     const VenationParams *venation = params;
@@ -60,10 +36,11 @@ static const Key MATERIALS[] = {
 const Kind kind_venation = {
     .variant = {KIND_ROW("venation", &venation_table, "A leaf and its veins."), MATERIALS},
     .materials = {"leaf_vein", "leaf"},
-    .grow = grow,
     .needs = needs,
-    .place = place,
-    .measure = measure,
-    .paint = paint,
     .describe = describe,
-    .settle = settle};
+    .settle = settle,
+    .grow = venation_grow,
+    .finish = venation_finish,
+    .geometry = venation_geometry,
+    .paint = venation_paint,
+    .measure = venation_measure};

@@ -24,29 +24,16 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
     return own_space_take_element(own, &vessels->element, e);
 }
 
-static OutTree *grow(const void *params, const Recipe *recipe, Error *e)
+static bool measure(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,
+                    Error *e)
 {
-    return vessels_grow(params, recipe, e);
-}
-
-static bool place(const Placing *p, const OutTree *tree, Error *e)
-{
-    VesselsMaterials materials = {.artery = placing_material(p, 0), .vein = placing_material(p, 1)};
-    return vessels_geometry(tree, p->object->params, &materials, p->index, &p->world->geometry,
-                            p->recipe.run, e);
-}
-
-static bool measure(const void *params, const OutTree *tree, const Recipe *recipe,
-                    MeasureList *list, Error *e)
-{
-    (void)recipe;
     // Kassab et al. 1993; Huang et al. 1996.
     measures_set_range(list, "radius_exponent", 2.3, 3.0);
     measures_set_range(list, "branch_angle", 13.0, 43.0);
     measures_set_range(list, "horton_number", 3.3, 3.6);
     measures_set_range(list, "horton_radius", 1.5, 1.9);
     measures_set_range(list, "horton_length", 1.4, 2.2);
-    return vessels_measure(tree, params, list, e);
+    return vessels_measure(params, grown, recipe, list, e);
 }
 
 static void describe(const void *params, char *text, size_t size)
@@ -73,8 +60,9 @@ const Kind kind_vessels = {.variant = {KIND_ROW("vessels", &vessels_table,
                                        MATERIALS},
                            .materials = {"artery", "vein"},
                            .own_space = own_space,
-                           .grow = grow,
                            .needs = needs,
-                           .place = place,
                            .measure = measure,
-                           .describe = describe};
+                           .describe = describe,
+                           .grow = vessels_grow,
+                           .finish = vessels_finish,
+                           .geometry = vessels_geometry};

@@ -3,7 +3,7 @@
 #define RAMIFY_SCENE_SCENE_FLOOD_H
 
 #include "mesh/cover.h"
-#include "objects/ground/flood.h"
+#include "objects/common/surroundings.h"
 #include "scene/scene.h"
 
 typedef struct SceneFlood {

@@ -26,28 +26,29 @@ static int fill(VesselsParams *params, int64_t terminals, double limit)
     params->terminals = terminals;
     Run run = run_default();
     run.threads = 2;
-    Recipe recipe = {.seed = 1, .label = "organ", .grow_to = 1.0f, .run = &run};
+    Recipe recipe = {.seed = 1, .label = "organ", .run = &run};
     Error e = {0};
     double user = user_seconds(), start = run_seconds();
-    OutTree *tree = vessels_grow(params, &recipe, &e);
+    Grown grown = {0};
+    bool done = vessels_grow(params, &recipe, &grown, &e);
     user = user_seconds() - user;
     double wall = run_seconds() - start;
     MeasureList list = {0};
-    if (!tree || !vessels_measure(tree, params, &list, &e)) {
+    if (!done || !vessels_measure(params, &grown, &recipe, &list, &e)) {
         fprintf(stderr, "%s\n", e.message);
-        out_tree_free(tree);
+        grown_clear(&grown);
         return 1;
     }
     printf("vessels, %lld terminals: %lld nodes, flow conserved to %.1e, %.0f %% of forks exact, "
            "artery to vein at least %.2g m\n",
-           (long long)terminals, (long long)tree->count,
+           (long long)terminals, (long long)grown.tree->count,
            measures_find(&list, "flow_residual")->value,
            100.0 * measures_find(&list, "murray_angle_exact_share")->value,
            measures_find(&list, "artery_vein_gap")->value);
     printf("  user time                       %6.2f s (at most %.0f; wall %.2f s, 2 threads)\n",
            user, limit, wall);
     measures_clear(&list);
-    out_tree_free(tree);
+    grown_clear(&grown);
     return 0;
 }
 

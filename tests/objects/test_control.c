@@ -1,5 +1,6 @@
 // Control over growth: films of it, edits that stay local, envelopes that move, ten times the size.
 #include "grow/colonize.h"
+#include "making.h"
 #include "objects/tree/tree.h"
 #include "testing.h"
 
@@ -26,7 +27,7 @@ static OutTree *grow(const TreeParams *params, float grow_to, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = tree_grow(params, &(Recipe){4, "oak", grow_to, &run, NULL}, &e);
+    OutTree *tree = grow_kind(&kind_tree, params, &(Recipe){4, "oak", &run}, grow_to, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }

@@ -1,4 +1,5 @@
 // Corals: forms, territory, crusts, corallites; and that size changes nothing but the size.
+#include "making.h"
 #include "objects/coral/coral.h"
 #include "objects/coral/crust.h"
 #include "objects/coral/polyps.h"
@@ -14,7 +15,7 @@ static OutTree *grow(const CoralParams *params, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = coral_grow(params, &(Recipe){7, "coral", 1.0f, &run, NULL}, &e);
+    OutTree *tree = grow_kind(&kind_coral, params, &(Recipe){7, "coral", &run}, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -37,7 +38,11 @@ static Geometry geometry_of(const CoralParams *params, const OutTree *tree, int 
     Run run = run_default();
     run.threads = threads;
     Geometry geometry = {0};
-    if (!coral_geometry(tree, params, &(CoralMaterials){1, 2, 3}, 0, 7, &geometry, &run, &e)) {
+    Recipe recipe = {7, "coral", &run};
+    Placing placing = placing_in(&geometry, &recipe);
+    placing.material++; // from 1 on
+    Grown grown = grown_of(tree);
+    if (!coral_geometry(params, &grown, &placing, &e)) {
         fail_msg("%s", e.message);
     }
     return geometry;
@@ -151,7 +156,7 @@ static void growth_in_progress_is_a_part_of_the_whole(void **state)
     CoralParams params = small(CORAL_BRANCHING);
     Run run = run_default();
     OutTree *whole = grow(&params, 1);
-    OutTree *half = coral_grow(&params, &(Recipe){7, "coral", 0.5f, &run, NULL}, NULL);
+    OutTree *half = grow_kind(&kind_coral, &params, &(Recipe){7, "coral", &run}, 0.5f, NULL);
     assert_true(half->count > 10 && half->count < whole->count);
     assert_memory_equal(half->position, whole->position, (size_t)half->count * sizeof(Vec3));
     out_tree_free(whole);
@@ -208,7 +213,7 @@ static void a_wrong_rule_is_one_clear_error(void **state)
     params.rules = "X -> [+FX";
     Run run = run_default();
     Error e = {0};
-    assert_null(coral_grow(&params, &(Recipe){7, "object 'reef'", 1.0f, &run, NULL}, &e));
+    assert_null(grow_kind(&kind_coral, &params, &(Recipe){7, "object 'reef'", &run}, 1.0f, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     assert_string_equal(e.message, "the L-system's rules, line 1, column 10: '[' is "
                                    "not closed; put a ']' for each '['");

@@ -1,4 +1,5 @@
 // Diffusion-limited aggregates as objects: size, thickness, one closed surface.
+#include "making.h"
 #include "testing.h"
 
 #include "objects/dla/dla.h"
@@ -7,8 +8,8 @@ static OutTree *grow(const DlaModel *params, float grow_to)
 {
     Error e = {0};
     Run run = run_default();
-    Recipe recipe = {.seed = 3, .label = "dendrite", .grow_to = grow_to, .run = &run};
-    OutTree *tree = dla_model_grow(params, &recipe, &e);
+    Recipe recipe = {.seed = 3, .label = "dendrite", .run = &run};
+    OutTree *tree = grow_kind(&kind_dla, params, &recipe, grow_to, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -37,7 +38,10 @@ static void a_cluster_has_the_asked_size_and_is_one_surface(void **state)
     Geometry geometry = {0};
     Error e = {0};
     Run run = run_default();
-    assert_true(dla_model_geometry(tree, 0, 0, &geometry, &run, &e));
+    Recipe recipe = {.seed = 3, .label = "dendrite", .run = &run};
+    Placing placing = placing_in(&geometry, &recipe);
+    Grown grown = grown_of(tree);
+    assert_true(dla_model_geometry(&params, &grown, &placing, &e));
     MeshTopology t;
     assert_true(mesh_topology(geometry.part[0].mesh, &t, &e));
     assert_int_equal(t.open_edges + t.overused_edges + t.misoriented_edges, 0);

@@ -1,4 +1,5 @@
 // Forests: stands that share their light, set over the land.
+#include "making.h"
 #include "objects/forest/forest.h"
 #include "testing.h"
 
@@ -25,7 +26,7 @@ static OutTree *grow(const ForestParams *params, float grow_to, int threads)
     Run run = run_default();
     run.threads = threads;
     Error e = {0};
-    OutTree *tree = forest_grow(params, &(Recipe){9, "forest", grow_to, &run, NULL}, &e);
+    OutTree *tree = grow_kind(&kind_forest, params, &(Recipe){9, "forest", &run}, grow_to, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -100,21 +101,23 @@ static void stands_follow_slope_glade_and_density(void **state)
     params.glade = 10.0f;
     params.glade_center = vec3(-20, 0, 0);
     OutTree *tree = grow(&params, 1.0f, 1);
-    ForestMaterials materials = {0, 1, 2, 3};
     Run run = run_default();
     Geometry geometry = {0};
-    assert_true(
-        forest_geometry(tree, &params, &materials, 0, 9, hill, NULL, NULL, &geometry, &run, NULL));
+    Recipe recipe = {9, "forest", &run};
+    Placing placing = placing_in(&geometry, &recipe);
+    placing.around.land = (Land){hill, NULL};
+    Grown grown = grown_of(tree);
+    assert_true(forest_geometry(&params, &grown, &placing, NULL));
     int64_t stands = 0;
     for (int64_t p = 0; p < geometry.count; p++) {
         const Part *part = &geometry.part[p];
         assert_true(part->instance_count > 0);
         for (int64_t i = 0; i < part->instance_count; i++) {
             Vec3 at = transform_point(&part->instance[i], vec3(0, 0, 0));
-            if (part->material == materials.fern) {
+            if (part->material == FOREST_FERN) {
                 continue;
             }
-            stands += part->material == materials.bark;
+            stands += part->material == FOREST_BARK;
             assert_true(at.x < 3.0f); // the slope is felt a little before it begins
             assert_true(fabsf(at.y - hill(NULL, at.x, at.z)) < 1e-3f);
             assert_true(vec3_distance(at, params.glade_center) > params.glade);
@@ -127,10 +130,9 @@ static void stands_follow_slope_glade_and_density(void **state)
     assert_true(stands > 10);
     geometry_clear(&geometry);
     params.density = 0.0f;
-    assert_true(
-        forest_geometry(tree, &params, &materials, 0, 9, hill, NULL, NULL, &geometry, &run, NULL));
+    assert_true(forest_geometry(&params, &grown, &placing, NULL));
     for (int64_t p = 0; p < geometry.count; p++) {
-        assert_true(geometry.part[p].material == materials.fern);
+        assert_true(geometry.part[p].material == FOREST_FERN);
     }
     geometry_clear(&geometry);
     out_tree_free(tree);

@@ -1,5 +1,6 @@
 // Fracture: the pieces are closed, part from one another and together make the body, thin parts and
 // all, for any number of cracks; what cannot be broken as asked is said.
+#include "making.h"
 #include "testing.h"
 
 #include "mesh/pieces.h"
@@ -112,8 +113,8 @@ static Broken break_up(const FractureParams *params, uint64_t seed, int threads)
     run.threads = threads;
     run.warn = note_warning;
     run.user = &broken.warnings;
-    Recipe recipe = {.seed = seed, .label = "object 'it'", .grow_to = 1.0f, .run = &run};
-    OutTree *network = fracture_grow(params, &recipe, &e);
+    Recipe recipe = {.seed = seed, .label = "object 'it'", .run = &run};
+    OutTree *network = grow_kind(&kind_fracture, params, &recipe, 1.0f, &e);
     broken.warnings = (Warnings){0}; // growth has its own
     int64_t pieces;
     if (!network || !out_tree_count_pieces(network, &pieces, &broken.loops, &e) ||
@@ -318,10 +319,11 @@ static void measures_are_those_of_the_pieces(void **state)
     params.resolution = 40;
     Broken broken = break_up(&params, 2, 1);
     Run run = run_default();
-    Recipe recipe = {.seed = 2, .label = "ball", .grow_to = 1.0f, .run = &run};
-    OutTree *network = fracture_grow(&params, &recipe, NULL);
+    Recipe recipe = {.seed = 2, .label = "ball", .run = &run};
+    OutTree *network = grow_kind(&kind_fracture, &params, &recipe, 1.0f, NULL);
     MeasureList list = {0};
-    assert_true(fracture_measure(network, &params, &recipe, &list, NULL));
+    Grown grown = grown_of(network);
+    assert_true(fracture_measure(&params, &grown, &recipe, &list, NULL));
     assert_int_equal(measures_find(&list, "pieces")->value, broken.pieces.count);
     assert_true(measures_find(&list, "largest_piece")->value == broken.largest / broken.base);
     assert_true(measures_find(&list, "removed")->value == 1.0 - broken.sum / broken.base);

@@ -1,5 +1,6 @@
 // Frost: sides at 60 degrees, orders limited, crystals that do not cross, bubbles that stay round,
 // fields that turn, blades that are closed, the same at any size and on any number of threads.
+#include "making.h"
 #include "testing.h"
 
 #include "base/random.h"
@@ -8,7 +9,7 @@
 
 static Recipe recipe_on(const Run *run)
 {
-    return (Recipe){.seed = 11, .label = "frost", .grow_to = 1.0f, .run = run};
+    return (Recipe){.seed = 11, .label = "frost", .run = run};
 }
 
 static FrostParams small_params(FrostSurface surface)
@@ -26,9 +27,8 @@ static OutTree *grow(const FrostParams *params, int threads, float grow_to)
     Run run = run_default();
     run.threads = threads;
     Recipe recipe = recipe_on(&run);
-    recipe.grow_to = grow_to;
     Error e = {0};
-    OutTree *tree = frost_grow(params, &recipe, &e);
+    OutTree *tree = grow_kind(&kind_frost, params, &recipe, grow_to, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -39,7 +39,8 @@ static OutTree *grow(const FrostParams *params, int threads, float grow_to)
 static double measured(const OutTree *tree, const FrostParams *params, const char *name)
 {
     MeasureList list = {0};
-    assert_true(frost_measure(tree, params, &list, NULL));
+    Grown grown = grown_of(tree);
+    assert_true(frost_measure(params, &grown, NULL, &list, NULL));
     const Measure *measure = measures_find(&list, name);
     assert_non_null(measure);
     double value = measure->value;
@@ -199,8 +200,9 @@ static void growth_shows_from_the_nuclei(void **state)
     Run run = run_default();
     Recipe recipe = recipe_on(&run);
     Geometry geometry = {0};
-    FrostMaterials materials = {0, 0};
-    assert_true(frost_geometry(none, &params, &materials, 0, &recipe, &geometry, NULL));
+    Placing placing = placing_in(&geometry, &recipe);
+    Grown grown = grown_of(none);
+    assert_true(frost_geometry(&params, &grown, &placing, NULL));
     geometry_clear(&geometry);
     out_tree_free(all);
     out_tree_free(half);
@@ -260,8 +262,10 @@ static void blades_and_grains_are_closed(void **state)
         Recipe recipe = recipe_on(&run);
         OutTree *tree = grow(&params, 1, 1.0f);
         Geometry geometry = {0};
-        FrostMaterials materials = {3, 4};
-        assert_true(frost_geometry(tree, &params, &materials, 1, &recipe, &geometry, NULL));
+        Placing placing = placing_in(&geometry, &recipe);
+        placing.material += 3; // from 3 on
+        Grown grown = grown_of(tree);
+        assert_true(frost_geometry(&params, &grown, &placing, NULL));
         assert_true(geometry.count > 3);
         int rime = 0;
         for (int64_t i = 0; i < geometry.count; i++) {

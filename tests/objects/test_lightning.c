@@ -1,4 +1,5 @@
 #include "base/random.h"
+#include "making.h"
 #include "objects/lightning/lightning.h"
 #include "outtree/chains.h"
 #include "testing.h"
@@ -11,7 +12,7 @@ static OutTree *grow_to(const LightningParams *params, uint64_t seed, float shar
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = lightning_grow(params, &(Recipe){seed, "bolt", share, &run, NULL}, &e);
+    OutTree *tree = grow_kind(&kind_lightning, params, &(Recipe){seed, "bolt", &run}, share, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -185,7 +186,8 @@ static void bolts_measure_as_photographs_do(void **state)
     for (uint64_t seed = 1; seed <= BOLTS; seed++) {
         OutTree *tree = grow(&params, seed);
         MeasureList list = {0};
-        assert_true(lightning_measure(&params, tree, &list, NULL));
+        Grown grown = grown_of(tree);
+        assert_true(lightning_measure(&params, &grown, NULL, &list, NULL));
         turning += measures_find(&list, "channel_turning")->value / BOLTS;
         dimension += measures_find(&list, "seen_dimension")->value / BOLTS;
         measures_clear(&list);
@@ -210,7 +212,8 @@ static void turning_is_measured_on_known_ways(void **state)
             p = zigzag && i % 2 ? vec3_add(p, vec3(20, 0, 0)) : vec3_add(p, vec3(0, -20, 0));
         }
         MeasureList list = {0};
-        assert_true(lightning_measure(&params, tree, &list, NULL));
+        Grown grown = grown_of(tree);
+        assert_true(lightning_measure(&params, &grown, NULL, &list, NULL));
         double turning = measures_find(&list, "channel_turning")->value;
         // views of 0, 45, 90 and 135 degrees: 90, 90, none seen, 90, of the turns seen
         assert_true(zigzag ? turning > 60.0 && turning < 91.0 : turning < 0.01);
@@ -260,7 +263,11 @@ static void the_glow_carries_the_power(void **state)
     OutTree *tree = grow(&params, 1);
     Geometry geometry = {0};
     float luminance = 0.8f, core = lightning_radius(&params, tree), brightest = 0.0f;
-    assert_true(lightning_geometry(tree, &params, 3, luminance, 0, &geometry, NULL));
+    const Material material = {.radiance = vec3_splat(luminance)};
+    Placing placing = placing_in(&geometry, NULL);
+    placing.around.material = &material;
+    Grown grown = grown_of(tree);
+    assert_true(lightning_geometry(&params, &grown, &placing, NULL));
     assert_int_equal(geometry.count, 1);
     const CurveSet *curves = geometry.part[0].curves;
     for (int64_t i = 0; i < curves->point_count; i++) {
@@ -283,7 +290,7 @@ static void cancelled_growth_says_so(void **state)
     Run run = run_default();
     run.cancelled = &cancelled;
     Error e = {0};
-    assert_null(lightning_grow(&params, &(Recipe){1, "bolt", 1.0f, &run, NULL}, &e));
+    assert_null(grow_kind(&kind_lightning, &params, &(Recipe){1, "bolt", &run}, 1.0f, &e));
     assert_int_equal(e.code, ERROR_CANCELLED);
 }
 

@@ -1,5 +1,6 @@
 // Hollow branch sculptures: one closed piece full of loops, on the surface, at any size and on any
 // number of threads.
+#include "making.h"
 #include "testing.h"
 
 #include "objects/sculpture/sculpture.h"
@@ -14,8 +15,8 @@ static OutTree *grow_at(SculptureParams *params, Vec3 place, float size, int thr
     ball.transform = transform_compose(place, vec3(0, 0, 0), vec3_splat(size));
     params->element.shapes = &ball;
     params->element.shape_count = 1;
-    Recipe recipe = {.seed = 4, .label = "ball", .grow_to = 1.0f, .run = &run};
-    OutTree *tree = sculpture_grow(params, &recipe, &e);
+    Recipe recipe = {.seed = 4, .label = "ball", .run = &run};
+    OutTree *tree = grow_kind(&kind_sculpture, params, &recipe, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -47,7 +48,10 @@ static void a_sculpture_is_one_closed_shell_with_loops(void **state)
     Geometry geometry = {0};
     Error e = {0};
     Run run = run_default();
-    assert_true(sculpture_geometry(tree, 0, 0, &geometry, &run, &e));
+    Recipe recipe = {.run = &run};
+    Placing placing = placing_in(&geometry, &recipe);
+    Grown grown = grown_of(tree);
+    assert_true(sculpture_geometry(&params, &grown, &placing, &e));
     MeshTopology t;
     assert_true(mesh_topology(geometry.part[0].mesh, &t, &e));
     assert_int_equal(t.open_edges + t.overused_edges + t.misoriented_edges, 0);

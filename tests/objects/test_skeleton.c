@@ -1,4 +1,5 @@
 // Skeletons from SWC files: placed, given a soma, skinned whole.
+#include "making.h"
 #include "testing.h"
 
 #include "objects/skeleton/skeleton.h"
@@ -12,7 +13,7 @@
 
 static const char FILE_NAME[] = "/tmp/ramify_test_skeleton.swc";
 static const Run run = {.threads = 2};
-static const Recipe recipe = {.seed = 1, .label = "object 'cell'", .grow_to = 1.0f, .run = &run};
+static const Recipe recipe = {.seed = 1, .label = "object 'cell'", .run = &run};
 
 static void write_text(const char *text)
 {
@@ -35,7 +36,7 @@ static OutTree *grow_text(const char *text, const SkeletonParams *params)
 {
     Error e = {0};
     write_text(text);
-    OutTree *tree = skeleton_grow(params, &recipe, &e);
+    OutTree *tree = grow_kind(&kind_skeleton, params, &recipe, 1.0f, &e);
     unlink(FILE_NAME);
     if (!tree) {
         fail_msg("%s", e.message);
@@ -136,8 +137,10 @@ static void every_kind_of_soma_becomes_a_ball(void **state)
         assert_int_equal(count_type(tree, SWC_BASAL), 4);
         Geometry geometry = {0};
         Error e = {0};
-        SkeletonMaterials materials = {0, 0};
-        assert_true(skeleton_geometry(tree, &params, &materials, 0, &geometry, &run, &e));
+        const int material[] = {0, 0};
+        Placing placing = {.recipe = &recipe, .geometry = &geometry, .material = material};
+        Grown grown = grown_of(tree);
+        assert_true(skeleton_geometry(&params, &grown, &placing, &e));
         assert_int_equal(geometry.count, 1);
         MeshTopology topology;
         assert_true(mesh_topology(geometry.part[0].mesh, &topology, &e));
@@ -172,7 +175,7 @@ static void types_are_picked(void **state)
     params.basal = params.rest = false;
     write_text(CELL);
     Error e = {0};
-    assert_null(skeleton_grow(&params, &recipe, &e));
+    assert_null(grow_kind(&kind_skeleton, &params, &recipe, 1.0f, &e));
     unlink(FILE_NAME);
     assert_int_equal(e.code, ERROR_INPUT);
     assert_non_null(strstr(e.message, "nothing of '"));
@@ -185,8 +188,10 @@ static void axon_stands_apart(void **state)
     SkeletonParams params = params_of_file();
     OutTree *tree = grow_text(CELL, &params);
     Geometry geometry = {0};
-    SkeletonMaterials materials = {.body = 3, .axon = 4};
-    assert_true(skeleton_geometry(tree, &params, &materials, 0, &geometry, &run, NULL));
+    Placing placing = placing_in(&geometry, &recipe);
+    placing.material += 3; // from 3 on
+    Grown grown = grown_of(tree);
+    assert_true(skeleton_geometry(&params, &grown, &placing, NULL));
     assert_int_equal(geometry.count, 2);
     assert_int_equal(geometry.part[0].material, 3);
     assert_int_equal(geometry.part[1].material, 4);
@@ -204,9 +209,7 @@ static void grows_by_births(void **state)
     SkeletonParams params = params_of_file();
     OutTree *whole = grow_text(CELL, &params);
     write_text(CELL);
-    Recipe half = recipe;
-    half.grow_to = 0.5f;
-    OutTree *tree = skeleton_grow(&params, &half, NULL);
+    OutTree *tree = grow_kind(&kind_skeleton, &params, &recipe, 0.5f, NULL);
     unlink(FILE_NAME);
     assert_non_null(tree);
     assert_true(tree->count < whole->count && tree->count > 9);
@@ -245,7 +248,7 @@ static void refuses(const char *text, const char *words)
     SkeletonParams params = params_of_file();
     Error e = {0};
     write_text(text);
-    assert_null(skeleton_grow(&params, &recipe, &e));
+    assert_null(grow_kind(&kind_skeleton, &params, &recipe, 1.0f, &e));
     unlink(FILE_NAME);
     assert_int_equal(e.code, ERROR_INPUT);
     if (!strstr(e.message, words)) {
@@ -262,7 +265,7 @@ static void says_what_is_wrong_with_a_file(void **state)
     refuses("", "no node in it");
     SkeletonParams params = params_of_file(); // which is not there any more
     Error e = {0};
-    assert_null(skeleton_grow(&params, &recipe, &e));
+    assert_null(grow_kind(&kind_skeleton, &params, &recipe, 1.0f, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     assert_string_equal(e.file, FILE_NAME);
 }
@@ -289,8 +292,10 @@ static void survives_odd_skeletons(void **state)
     for (size_t i = 0; i < sizeof odd / sizeof odd[0]; i++) {
         tree = grow_text(odd[i], &params);
         Geometry geometry = {0};
-        SkeletonMaterials materials = {0, 0};
-        assert_true(skeleton_geometry(tree, &params, &materials, 0, &geometry, &run, NULL));
+        const int material[] = {0, 0};
+        Placing placing = {.recipe = &recipe, .geometry = &geometry, .material = material};
+        Grown grown = grown_of(tree);
+        assert_true(skeleton_geometry(&params, &grown, &placing, NULL));
         geometry_clear(&geometry);
         out_tree_free(tree);
     }

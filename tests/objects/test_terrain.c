@@ -1,6 +1,8 @@
 #include "base/random.h"
+#include "image/image.h"
 #include "land/height_drainage.h"
 #include "land/height_measure.h"
+#include "making.h"
 #include "objects/terrain/envelope.h"
 #include "objects/terrain/noise.h"
 #include "objects/terrain/terrain.h"
@@ -9,6 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static TerrainParams small_terrain(void)
 {
@@ -23,11 +26,22 @@ static OutTree *grow(const TerrainParams *params, uint64_t seed, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = terrain_grow(params, &(Recipe){seed, "land", 1.0f, &run, NULL}, &e);
+    OutTree *tree = grow_kind(&kind_terrain, params, &(Recipe){seed, "land", &run}, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
     return tree;
+}
+
+// What follows from the rivers of a grown terrain.
+static Grown grown_terrain(const TerrainParams *params, const OutTree *tree, const Recipe *recipe)
+{
+    Grown grown = {.tree = out_tree_copy(tree, NULL)};
+    Error e = {0};
+    if (!terrain_finish(params, recipe, NULL, &grown, &e)) {
+        fail_msg("%s", e.message);
+    }
+    return grown;
 }
 
 static HeightField *heights(const TerrainParams *params, const OutTree *tree, uint64_t seed,
@@ -36,8 +50,9 @@ static HeightField *heights(const TerrainParams *params, const OutTree *tree, ui
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    HeightField *field =
-        terrain_heights(params, tree, &(Recipe){seed, "land", 1.0f, &run, NULL}, &e);
+    Grown grown = grown_terrain(params, tree, &(Recipe){seed, "land", &run});
+    HeightField *field = terrain_heights(params, &grown, &run, &e);
+    grown_clear(&grown);
     if (!field) {
         fail_msg("%s", e.message);
     }
@@ -381,10 +396,15 @@ static void an_uplift_picture_makes_the_mountains(void **state)
 {
     (void)state;
     TerrainParams params = small_terrain();
-    const float pixels[6] = {1.0f, 0.1f, 0.1f, 0.1f, 0.1f, 0.1f};
-    params.uplift = (UpliftParams){.base = 1.0f, .image_pixels = pixels, .image_size = {3, 2}};
+    char file[] = "/tmp/ramify_test_uplift.png";
+    float pixels[6] = {1.0f, 0.1f, 0.1f, 0.1f, 0.1f, 0.1f};
+    Error e = {0};
+    const Image image = {.width = 3, .height = 2, .channels = 1, .pixel = pixels};
+    assert_true(image_write_grey16(file, &image, NULL, &e));
+    params.uplift = (UpliftParams){.base = 1.0f, .image = file};
     OutTree *tree = grow(&params, 5, 2);
     HeightField *field = heights(&params, tree, 5, 2);
+    unlink(file);
     double sum[4] = {0};
     for (int i = 0; i < 129 * 129; i++) {
         sum[(i / 129 > 64) * 2 + (i % 129 > 64)] += (double)field->height[i];
@@ -489,9 +509,13 @@ static void land_water_and_forest_become_parts(void **state)
     Error e = {0};
     Run run = run_default();
     Vec3 eye = {0.0f, 600.0f, 0.0f};
-    TerrainMaterials materials = {1, 2, 3};
-    assert_true(terrain_geometry(&params, tree, &materials, &eye, 7, &geometry,
-                                 &(Recipe){5, "land", 1.0f, &run, NULL}, &e));
+    Recipe recipe = {5, "land", &run};
+    Placing placing = placing_in(&geometry, &recipe);
+    placing.material++; // from 1 on
+    placing.around.eye = &eye;
+    Grown grown = grown_terrain(&params, tree, &recipe);
+    assert_true(terrain_geometry(&params, &grown, &placing, &e));
+    grown_clear(&grown);
     int64_t trees = 0, parts[4] = {0};
     for (int64_t i = 0; i < geometry.count; i++) {
         const Part *part = &geometry.part[i];
@@ -640,9 +664,13 @@ static Geometry water_scene(const WaterCase *c, OutTree **tree)
     Run run = run_default();
     run.threads = 2;
     Vec3 eye = {0.0f, 2500.0f, 9000.0f};
-    TerrainMaterials materials = {1, 2, 3};
-    assert_true(terrain_geometry(&params, *tree, &materials, c->eye ? &eye : NULL, 0, &geometry,
-                                 &(Recipe){4, "land", 1.0f, &run, NULL}, &e));
+    Recipe recipe = {4, "land", &run};
+    Placing placing = placing_in(&geometry, &recipe);
+    placing.material++; // from 1 on
+    placing.around.eye = c->eye ? &eye : NULL;
+    Grown grown = grown_terrain(&params, *tree, &recipe);
+    assert_true(terrain_geometry(&params, &grown, &placing, &e));
+    grown_clear(&grown);
     assert_int_equal(geometry.count, c->sea > 0.0f ? 3 : 2);
     return geometry;
 }

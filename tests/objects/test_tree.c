@@ -1,3 +1,4 @@
+#include "making.h"
 #include "objects/common/foliage.h"
 #include "objects/ground/ground.h"
 #include "objects/tree/tree.h"
@@ -28,7 +29,7 @@ static OutTree *grow(const TreeParams *params, uint64_t seed, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = tree_grow(params, &(Recipe){seed, "oak", 1.0f, &run, NULL}, &e);
+    OutTree *tree = grow_kind(&kind_tree, params, &(Recipe){seed, "oak", &run}, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -104,8 +105,10 @@ static void leaves_sit_on_their_twigs(void **state)
     Error e = {0};
     Run run = run_default();
     Geometry geometry = {0};
-    TreeMaterials materials = {0, 1, 2};
-    assert_true(tree_geometry(tree, &params, &materials, 0, 4, &geometry, &run, &e));
+    Recipe recipe = {4, "oak", &run};
+    Placing placing = placing_in(&geometry, &recipe);
+    Grown grown = grown_of(tree);
+    assert_true(tree_geometry(&params, &grown, &placing, &e));
     int64_t leaves = 0;
     CurveSet *twigs = NULL;
     for (int64_t p = 0; p < geometry.count; p++) {
@@ -146,15 +149,16 @@ static void grass_stands_on_the_ground(void **state)
     Error e = {0};
     Run run = run_default();
     Geometry geometry = {0};
-    GroundMaterials materials = {0, 1, 2, 3, 4};
-    assert_true(ground_geometry(&params, &materials, 0, 9, NULL, &geometry, &run, &e));
+    Recipe recipe = {9, "ground", &run};
+    Placing placing = placing_in(&geometry, &recipe);
+    assert_true(ground_geometry(&params, NULL, &placing, &e));
     int64_t tufts = 0;
     for (int64_t p = 1; p < geometry.count; p++) {
         for (int64_t i = 0; i < geometry.part[p].instance_count; i++) {
             const Transform *t = &geometry.part[p].instance[i];
             float above = t->m[1][3] - ground_height(&params, 9, t->m[0][3], t->m[2][3]);
             assert_true(above >= -1e-4f && above < 0.1f);
-            tufts += geometry.part[p].material == 1;
+            tufts += geometry.part[p].material == GROUND_GRASS;
         }
     }
     assert_in_range(tufts, 200, 600);
@@ -218,13 +222,14 @@ static void a_few_things_are_not_lost_among_variants(void **state)
     params.trees.count = 2;
     params.trees.clumping = 0.0f;
     params.trees.bare = true;
-    GroundMaterials materials = {.grass = 1, .fallen = 2, .bark = 3, .foliage = 4};
     Run run = {.threads = 1};
     Geometry geometry = {0};
     Error e = {0};
-    assert_true(ground_geometry(&params, &materials, 0, 9, NULL, &geometry, &run, &e));
-    assert_int_equal(copies_of(&geometry, 2), 3);
-    assert_int_equal(copies_of(&geometry, 3), 2);
+    Recipe recipe = {9, "ground", &run};
+    Placing placing = placing_in(&geometry, &recipe);
+    assert_true(ground_geometry(&params, NULL, &placing, &e));
+    assert_int_equal(copies_of(&geometry, GROUND_FALLEN), 3);
+    assert_int_equal(copies_of(&geometry, GROUND_BARK), 2);
     const Mesh *land = geometry.part[0].mesh;
     for (int64_t i = 0; i < land->vertex_count; i++) {
         assert_true(vec3_finite(land->position[i]) && vec3_finite(land->normal[i]));
@@ -252,7 +257,7 @@ static void crowded_branches_have_names_of_their_own(void **state)
     params.roots.count = 0;
     Run run = {.threads = 1};
     Error e = {0};
-    OutTree *tree = tree_grow(&params, &(Recipe){5, "tree", 1.0f, &run, NULL}, &e);
+    OutTree *tree = grow_kind(&kind_tree, &params, &(Recipe){5, "tree", &run}, 1.0f, &e);
     assert_non_null(tree);
     qsort(tree->id, (size_t)tree->count, sizeof *tree->id, compare_ids);
     for (int64_t i = 1; i < tree->count; i++) {
@@ -331,8 +336,9 @@ static void distant_trees_stand_on_the_ground(void **state)
     Error e = {0};
     Run run = run_default();
     Geometry geometry = {0};
-    GroundMaterials materials = {0, 1, 2, 3, 4};
-    assert_true(ground_geometry(&params, &materials, 0, 9, NULL, &geometry, &run, &e));
+    Recipe recipe = {9, "ground", &run};
+    Placing placing = placing_in(&geometry, &recipe);
+    assert_true(ground_geometry(&params, NULL, &placing, &e));
     const Mesh *land = geometry.part[0].mesh;
     int64_t trunks = 0, crowns = 0;
     for (int64_t p = 1; p < geometry.count; p++) {
@@ -341,15 +347,15 @@ static void distant_trees_stand_on_the_ground(void **state)
             continue;
         }
         Aabb box = mesh_bounds(part->mesh);
-        trunks += part->material == materials.bark ? part->instance_count : 0;
-        crowns += part->material == materials.foliage ? part->instance_count : 0;
+        trunks += part->material == GROUND_BARK ? part->instance_count : 0;
+        crowns += part->material == GROUND_FOLIAGE ? part->instance_count : 0;
         for (int64_t i = 0; i < part->instance_count; i++) {
             const Transform *t = &part->instance[i];
             float x = t->m[0][3], z = t->m[2][3], land_y = drawn_height(land, x, z);
             float size = t->m[1][1], foot = t->m[1][3] + size * box.low.y - land_y;
             float r = sqrtf(x * x + z * z);
             assert_true(r >= 0.999f * params.trees.inner && r <= 1.001f * params.trees.outer);
-            if (part->material == materials.bark) {
+            if (part->material == GROUND_BARK) {
                 assert_true(foot < 0.0f && foot > -1.5f); // in the soil, and not deep
             } else {
                 assert_true(foot > 0.0f); // leaves hang free

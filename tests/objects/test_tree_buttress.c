@@ -1,5 +1,6 @@
 // The foot of a tree: the trunk is as wide on the ground as its flare says, and the bark between
 // trunk and main roots is drawn out to buttresses without folds.
+#include "making.h"
 #include "objects/tree/buttress.h"
 #include "skin/skin.h"
 #include "testing.h"
@@ -12,7 +13,7 @@ static OutTree *grow(const TreeParams *params)
 {
     Error e = {0};
     Run run = run_default();
-    OutTree *tree = tree_grow(params, &(Recipe){3, "oak", 1.0f, &run, NULL}, &e);
+    OutTree *tree = grow_kind(&kind_tree, params, &(Recipe){3, "oak", &run}, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }

@@ -1,5 +1,6 @@
 // Whether a tree's elements fill their envelopes: slender trunks, crowns out of the trunk's reach,
 // and what is said about those that end short.
+#include "making.h"
 #include "objects/tree/tree.h"
 #include "testing.h"
 
@@ -37,7 +38,7 @@ static OutTree *grow(const TreeParams *params, uint64_t seed, char *warning)
         run.warn = keep_trunks;
         run.user = warning;
     }
-    OutTree *tree = tree_grow(params, &(Recipe){seed, "oak", 1.0f, &run, NULL}, &e);
+    OutTree *tree = grow_kind(&kind_tree, params, &(Recipe){seed, "oak", &run}, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }

@@ -1,4 +1,5 @@
 // Leaves: veins with radii, geometry of blade and veins, the texture.
+#include "making.h"
 #include "testing.h"
 
 #include "objects/venation/venation.h"
@@ -10,8 +11,8 @@ static OutTree *grow(const VenationParams *params)
 {
     Error e = {0};
     Run run = run_default();
-    Recipe recipe = {.seed = 3, .label = "leaf", .grow_to = 1.0f, .run = &run};
-    OutTree *tree = venation_grow(params, &recipe, &e);
+    Recipe recipe = {.seed = 3, .label = "leaf", .run = &run};
+    OutTree *tree = grow_kind(&kind_venation, params, &recipe, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -34,8 +35,9 @@ static void a_leaf_has_a_blade_and_a_curve_for_each_piece_of_vein(void **state)
     assert_float_equal(tree->radius[0], 0.008f * params.outline.length, 1e-6);
     Geometry geometry = {0};
     Error e = {0};
-    VenationMaterials materials = {0, 1};
-    assert_true(venation_geometry(tree, &params, &materials, 0, &geometry, &e));
+    Placing placing = placing_in(&geometry, NULL);
+    Grown grown = grown_of(tree);
+    assert_true(venation_geometry(&params, &grown, &placing, &e));
     assert_int_equal(geometry.count, 2);
     const CurveSet *veins = geometry.part[0].curves;
     assert_int_equal(veins->curve_count, tree->count - 1);
@@ -48,7 +50,7 @@ static void a_leaf_has_a_blade_and_a_curve_for_each_piece_of_vein(void **state)
     }
     geometry_clear(&geometry);
     params.blade = false;
-    assert_true(venation_geometry(tree, &params, &materials, 0, &geometry, &e));
+    assert_true(venation_geometry(&params, &grown, &placing, &e));
     assert_int_equal(geometry.count, 1);
     geometry_clear(&geometry);
     out_tree_free(tree);
@@ -61,7 +63,7 @@ static void the_texture_shows_the_midrib_in_the_middle(void **state)
     OutTree *tree = grow(&params);
     enum { WIDTH = 64, HEIGHT = 128 };
     float *pixel = malloc(sizeof *pixel * WIDTH * HEIGHT), dark = 0.0f;
-    assert_true(venation_paint(tree, &params, WIDTH, HEIGHT, pixel, NULL));
+    assert_true(venation_paint(&params, tree, WIDTH, HEIGHT, pixel, NULL));
     for (int row = HEIGHT / 4; row < HEIGHT; row++) {
         assert_true(pixel[row * WIDTH + WIDTH / 2] > 0.05f);
         for (int column = 0; column < WIDTH; column++) {
@@ -78,7 +80,8 @@ static void the_texture_shows_the_midrib_in_the_middle(void **state)
 static double measured(const OutTree *tree, const VenationParams *params, const char *name)
 {
     MeasureList list = {0};
-    assert_true(venation_measure(tree, params, &list, NULL));
+    Grown grown = grown_of(tree);
+    assert_true(venation_measure(params, &grown, NULL, &list, NULL));
     double value = measures_find(&list, name)->value;
     measures_clear(&list);
     return value;

@@ -1,4 +1,5 @@
 // Blood vessels: both trees in the organ, apart from each other, by Murray's laws.
+#include "making.h"
 #include "objects/vessels/vessels.h"
 #include "outtree/segment_grid.h"
 #include "testing.h"
@@ -26,9 +27,9 @@ static OutTree *grow(const VesselsParams *params, int threads, float grow_to)
 {
     Run run = run_default();
     run.threads = threads;
-    Recipe recipe = {.seed = 8, .label = "object 'test'", .grow_to = grow_to, .run = &run};
+    Recipe recipe = {.seed = 8, .label = "object 'test'", .run = &run};
     Error e = {0};
-    OutTree *tree = vessels_grow(params, &recipe, &e);
+    OutTree *tree = grow_kind(&kind_vessels, params, &recipe, grow_to, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -88,7 +89,8 @@ static void arteries_and_veins_fill_the_organ_apart(void **state)
     assert_true(gap > 0.99f * params.gap * finest(tree));
 
     MeasureList list = {0};
-    assert_true(vessels_measure(tree, &params, &list, NULL));
+    Grown grown = grown_of(tree);
+    assert_true(vessels_measure(&params, &grown, NULL, &list, NULL));
     assert_true(fabs(measures_find(&list, "artery_vein_gap")->value - (double)gap) < 1e-6);
     assert_true(measures_find(&list, "flow_residual")->value < 2e-6);
     // the constraint binds at some forks; at most of them it does not
@@ -199,7 +201,8 @@ static void a_body_is_supplied_to_its_ends(void **state)
     }
     envelope_free(envelope);
     MeasureList list = {0};
-    assert_true(vessels_measure(tree, &params, &list, NULL));
+    Grown grown = grown_of(tree);
+    assert_true(vessels_measure(&params, &grown, NULL, &list, NULL));
     assert_true(measures_find(&list, "artery_vein_gap")->value > 0.0);
     measures_clear(&list);
     out_tree_free(tree);
@@ -212,11 +215,14 @@ static void skins_and_curves_come_out_of_both(void **state)
     VesselsParams params = organ(&shape, 60);
     OutTree *tree = grow(&params, 1, 1.0f);
     Run run = run_default();
-    VesselsMaterials materials = {3, 4};
+    Recipe recipe = {.run = &run};
+    Grown grown = grown_of(tree);
     for (int skinned = 0; skinned < 2; skinned++) {
         Geometry geometry = {0};
         params.curve_radius = skinned ? 0.5f * tree->radius[0] : 0.0f;
-        assert_true(vessels_geometry(tree, &params, &materials, 0, &geometry, &run, NULL));
+        Placing placing = placing_in(&geometry, &recipe);
+        placing.material += 3; // from 3 on
+        assert_true(vessels_geometry(&params, &grown, &placing, NULL));
         assert_int_equal(geometry.count, skinned ? 4 : 2);
         assert_int_equal(geometry.part[0].material, 3);
         assert_int_equal(geometry.part[geometry.count - 1].material, 4);

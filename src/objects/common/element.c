@@ -36,10 +36,13 @@ ScatterParams element_scatter_params(const OutTree *tree, const ElementParams *e
     return params;
 }
 
-bool growth_witness(const Run *run, const char *label, const Envelope *envelope,
+bool growth_witness(const Recipe *recipe, const char *part, const Envelope *envelope,
                     const GuideField *field, Error *e)
 {
-    return !run->witness || run->witness->see(run->witness->user, label, envelope, field, e);
+    const GrowthWitness *witness = recipe->run->witness;
+    char name[RECIPE_NAME_SIZE];
+    return !witness ||
+           witness->see(witness->user, recipe_name(recipe, part, name), envelope, field, e);
 }
 
 int64_t element_attractors(const ElementParams *element)
@@ -103,13 +106,13 @@ static GuideField *element_field(const OutTree *tree, const ElementParams *eleme
 }
 
 static void warn_out_of_reach(const GrowReport *reports, const ElementParams *element,
-                              const ColonizeParams *params, const char *label, const Run *run)
+                              const ColonizeParams *params, const Recipe *recipe, const char *part)
 {
     for (int i = 0; i < element->level_count; i++) {
         if (reports[i].stop == STOP_OUT_OF_REACH) {
-            char text[256];
+            char text[256], name[RECIPE_NAME_SIZE];
             grow_report_format(&reports[i], params, text, sizeof text);
-            run_warn(run, "%s, level %d: %s", label, i + 1, text);
+            run_warn(recipe->run, "%s, level %d: %s", recipe_name(recipe, part, name), i + 1, text);
         }
     }
 }
@@ -117,7 +120,7 @@ static void warn_out_of_reach(const GrowReport *reports, const ElementParams *el
 // Warns when a tenth of the last level's attractors or more were never reached. The level with the
 // longest reach is the one to change.
 static void warn_ends_short(const GrowReport *reports, const ElementParams *element,
-                            const char *label, const Run *run)
+                            const Recipe *recipe, const char *part)
 {
     int last = element->level_count - 1, far = 0;
     if (last < 0 || reports[last].stop != STOP_NO_PULL || reports[last].unreached == 0 ||
@@ -130,14 +133,15 @@ static void warn_ends_short(const GrowReport *reports, const ElementParams *elem
     far = reports[far].influence > reports[last].nearest ? last : far;
     float multiple = element->levels[far].influence;
     float wanted = multiple * reports[last].nearest / reports[far].influence;
+    char name[RECIPE_NAME_SIZE];
     run_warn(
-        run,
+        recipe->run,
         "%s ends up to %.3g m short of its envelope: %lld of %lld attractors are out of reach, "
         "the nearest %.3g m from all nodes; give level %d an influence above %.3g (it has "
         "%.3g) or more attractors",
-        label, (double)reports[last].furthest, (long long)reports[last].unreached,
-        (long long)element->levels[last].attractors, (double)reports[last].nearest, far + 1,
-        (double)wanted, (double)multiple);
+        recipe_name(recipe, part, name), (double)reports[last].furthest,
+        (long long)reports[last].unreached, (long long)element->levels[last].attractors,
+        (double)reports[last].nearest, far + 1, (double)wanted, (double)multiple);
 }
 
 bool element_guide_field(const OutTree *tree, const ElementParams *element,
@@ -153,8 +157,9 @@ bool element_guide_field(const OutTree *tree, const ElementParams *element,
 }
 
 bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope *envelope,
-                     uint64_t seed, const char *label, const Run *run, Error *e)
+                     uint64_t seed, const Recipe *recipe, const char *part, Error *e)
 {
+    const Run *run = recipe->run;
     GuideField *field;
     if (!element_guide_field(tree, element, envelope, random_key(seed, 1), run, &field, e)) {
         return false;
@@ -162,27 +167,29 @@ bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope
     ScatterParams scatter = element_scatter_params(tree, element, random_key(seed, 2));
     ColonizeParams params = element_colonize_params(tree, element, field, random_key(seed, 3));
     GrowReport *reports = memory_alloc_zero(element->level_count, sizeof *reports, e);
-    bool done = reports && growth_witness(run, label, envelope, field, e) &&
+    bool done = reports && growth_witness(recipe, part, envelope, field, e) &&
                 colonize_levels(tree, envelope, &scatter, element->levels, element->level_count,
                                 &params, run, reports, e);
     if (done) {
-        warn_out_of_reach(reports, element, &params, label, run);
-        warn_ends_short(reports, element, label, run);
+        warn_out_of_reach(reports, element, &params, recipe, part);
+        warn_ends_short(reports, element, recipe, part);
     }
     free(reports);
     guide_field_free(field);
     return done;
 }
 
-bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, const char *label,
-                  const Run *run, Error *e)
+Envelope *element_envelope(const ElementParams *element, const Run *run, Error *e)
 {
     EnvelopeParams params = {element->shapes, element->shape_count, element->voxel};
-    Envelope *envelope = envelope_new(&params, run, e);
-    bool done = envelope && element_grow_in(tree, element, envelope, seed, label, run, e);
+    return envelope_new(&params, run, e);
+}
+
+bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, const Recipe *recipe,
+                  const char *part, Error *e)
+{
+    Envelope *envelope = element_envelope(element, recipe->run, e);
+    bool done = envelope && element_grow_in(tree, element, envelope, seed, recipe, part, e);
     envelope_free(envelope);
-    if (!done) {
-        error_prefix(e, "%s: ", label);
-    }
-    return done;
+    return done || recipe_fail(recipe, part, e);
 }

@@ -6,6 +6,7 @@
 
 #include "field/guide_field.h"
 #include "grow/colonize.h"
+#include "objects/common/recipe.h"
 #include "shape/envelope.h"
 #include "shape/points.h"
 
@@ -25,28 +26,32 @@ typedef struct ElementParams {
 
 // Who wants to know of the envelopes and guide fields that things grow in, through Run.witness.
 typedef struct GrowthWitness {
-    // Before something grows. label: as of element_grow. field: NULL = none. Both are gone later.
-    // False and e end the growth.
+    // Before something grows. label: of the object and its part ("object 'oak', crown"). field:
+    // NULL = none. Both are gone later. False and e end the growth.
     bool (*see)(void *user, const char *label, const Envelope *envelope, const GuideField *field,
                 Error *e);
     void *user;
 } GrowthWitness;
 
 // Tells the run's witness, if it has one.
-bool growth_witness(const Run *run, const char *label, const Envelope *envelope,
+bool growth_witness(const Recipe *recipe, const char *part, const Envelope *envelope,
                     const GuideField *field, Error *e);
 
 // Attractors of all its own levels; 0 where it has none.
 int64_t element_attractors(const ElementParams *element);
 
-// Grows the element into tree, whose nodes so far are the type-0 points. seed: the element's own.
-// label names the element in warnings and errors ("object 'oak', crown").
-bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, const char *label,
-                  const Run *run, Error *e);
+// The envelope of the element's shapes.
+Envelope *element_envelope(const ElementParams *element, const Run *run, Error *e);
 
-// The same in an envelope that is there already; the element's shapes are not looked at.
+// Grows the element into tree, whose nodes so far are the type-0 points. seed: the element's own.
+// part names the element in warnings and errors ("crown"); NULL = it is all of the object.
+bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, const Recipe *recipe,
+                  const char *part, Error *e);
+
+// The same in an envelope that is there already; the element's shapes are not looked at, and errors
+// do not name the element.
 bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope *envelope,
-                     uint64_t seed, const char *label, const Run *run, Error *e);
+                     uint64_t seed, const Recipe *recipe, const char *part, Error *e);
 
 // The parts of element_grow, for recipes that grow level by level themselves.
 ColonizeParams element_colonize_params(const OutTree *tree, const ElementParams *element,

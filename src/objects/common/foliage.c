@@ -144,30 +144,20 @@ static int64_t all_leaves(Foliage *foliage, const CurveSet *twigs, bool place, b
     return count;
 }
 
-// Hands a batch over to a new part of the geometry.
-static bool add_part(LeafBatch *batch, Mesh *mesh, int material, int object, Geometry *geometry,
-                     Error *e)
-{
-    Part part = {.kind = PART_MESH,
-                 .mesh = mesh,
-                 .material = material,
-                 .object = object,
-                 .instance = batch->instance,
-                 .variation = batch->variation,
-                 .instance_count = batch->count};
-    batch->instance = NULL;
-    batch->variation = NULL;
-    return geometry_add(geometry, part, e);
-}
-
-static bool add_parts(Foliage *foliage, int material, int object, Geometry *geometry, Error *e)
+static bool add_parts(Foliage *foliage, const Placing *placing, int role, Error *e)
 {
     for (int v = 0; v < foliage->leaves->variants; v++) {
-        if (foliage->batch[v].count == 0) {
+        LeafBatch *batch = &foliage->batch[v];
+        if (batch->count == 0) {
             continue;
         }
-        Mesh *mesh = foliage_leaf_mesh(foliage->leaves, v, foliage->seed, e);
-        if (!mesh || !add_part(&foliage->batch[v], mesh, material, object, geometry, e)) {
+        Part part = {.mesh = foliage_leaf_mesh(foliage->leaves, v, foliage->seed, e),
+                     .instance = batch->instance,
+                     .variation = batch->variation,
+                     .instance_count = batch->count};
+        batch->instance = NULL;
+        batch->variation = NULL;
+        if (!placing_add(placing, part, role, e)) {
             return false;
         }
     }
@@ -194,9 +184,9 @@ static bool limit_leaves(Foliage *foliage, const CurveSet *twigs, Error *e)
 }
 
 bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves, Vec3 center,
-                 int material, int object, uint64_t seed, Geometry *geometry, const Run *run,
-                 Error *e)
+                 uint64_t seed, const Placing *placing, int role, Error *e)
 {
+    const Run *run = placing->recipe->run;
     Foliage foliage = {leaves, bare, NULL, center, leaves->spacing, seed, run};
     foliage.batch = memory_alloc_zero(leaves->variants, sizeof *foliage.batch, e);
     if (!foliage.batch) {
@@ -204,7 +194,7 @@ bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *le
     }
     bool failed = !limit_leaves(&foliage, twigs, e);
     all_leaves(&foliage, twigs, true, &failed, e);
-    bool done = !failed && add_parts(&foliage, material, object, geometry, e);
+    bool done = !failed && add_parts(&foliage, placing, role, e);
     for (int v = 0; v < leaves->variants; v++) {
         free(foliage.batch[v].instance);
         free(foliage.batch[v].variation);

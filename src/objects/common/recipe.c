@@ -1,42 +1,50 @@
 #include "objects/common/recipe.h"
 
-#include "base/memory.h"
-
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-OutTree *recipe_recall(const Recipe *recipe, int index, Error *e)
+void grown_clear(Grown *grown)
 {
-    return out_tree_copy(recipe->memory->tree[index], e);
+    out_tree_free(grown->tree);
+    if (grown->free_state) {
+        grown->free_state(grown->state);
+    }
+    *grown = (Grown){0};
 }
 
-bool recipe_keep(const Recipe *recipe, int index, const OutTree *tree, Error *e)
+bool placing_add(const Placing *placing, Part part, int role, Error *e)
 {
-    if (!recipe->memory) {
-        return true;
+    if (!part.mesh && !part.curves) {
+        free(part.instance);
+        free(part.variation);
+        return false;
     }
-    out_tree_free(recipe->memory->tree[index]);
-    recipe->memory->tree[index] = out_tree_copy(tree, e);
-    return recipe->memory->tree[index];
+    part.kind = part.curves ? PART_CURVES : PART_MESH;
+    part.material = placing->material[role];
+    part.object = placing->object;
+    return geometry_add(placing->geometry, part, e);
 }
 
-bool recipe_keep_ids(const Recipe *recipe, const uint64_t *id, int64_t count, Error *e)
+const char *recipe_name(const Recipe *recipe, const char *part, char name[RECIPE_NAME_SIZE])
 {
-    if (!recipe->memory) {
-        return true;
-    }
-    free(recipe->memory->id);
-    recipe->memory->id = memory_alloc(count, sizeof *id, e);
-    if (recipe->memory->id) {
-        memcpy(recipe->memory->id, id, sizeof *id * (size_t)count);
-    }
-    return recipe->memory->id;
+    snprintf(name, RECIPE_NAME_SIZE, "%s%s%s", recipe->label, part ? ", " : "", part ? part : "");
+    return name;
 }
 
-void recipe_memory_clear(RecipeMemory *memory)
+void recipe_warn(const Recipe *recipe, const char *part, const char *format, ...)
 {
-    out_tree_free(memory->tree[0]);
-    out_tree_free(memory->tree[1]);
-    free(memory->id);
-    *memory = (RecipeMemory){0};
+    char text[1024], name[RECIPE_NAME_SIZE];
+    va_list values;
+    va_start(values, format);
+    vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    run_warn(recipe->run, "%s: %s", recipe_name(recipe, part, name), text);
+}
+
+bool recipe_fail(const Recipe *recipe, const char *part, Error *e)
+{
+    char name[RECIPE_NAME_SIZE];
+    error_prefix(e, "%s: ", recipe_name(recipe, part, name));
+    return false;
 }

@@ -248,7 +248,7 @@ static bool colonize_points(Growing *g, const PointSet *points, ColonizeParams *
     if (report.stop == STOP_OUT_OF_REACH) {
         char text[256];
         grow_report_format(&report, c, text, sizeof text);
-        run_warn(g->recipe->run, "%s: %s", g->recipe->label, text);
+        recipe_warn(g->recipe, NULL, "%s", text);
     }
     return true;
 }
@@ -313,7 +313,7 @@ static bool grow_upright(Growing *g, Error *e)
         points = flat_room(p, seed, e);
     } else {
         Envelope *envelope = room(p, g->recipe->run, e);
-        bool seen = envelope && growth_witness(g->recipe->run, g->recipe->label, envelope, NULL, e);
+        bool seen = envelope && growth_witness(g->recipe, NULL, envelope, NULL, e);
         points = seen ? scatter(envelope, p, SCATTER_VOLUME, p->attractors * p->colonies, seed,
                                 g->recipe->run, e)
                       : NULL;
@@ -328,7 +328,7 @@ static bool grow_on_rock(Growing *g, Error *e)
 {
     const CoralParams *p = g->params;
     Envelope *rock = coral_base(p, g->recipe->seed, g->recipe->run, e);
-    bool seen = rock && growth_witness(g->recipe->run, g->recipe->label, rock, NULL, e);
+    bool seen = rock && growth_witness(g->recipe, NULL, rock, NULL, e);
     PointSet *points = seen ? scatter(rock, p, SCATTER_SURFACE, p->attractors,
                                       random_key(g->recipe->seed, 2), g->recipe->run, e)
                             : NULL;
@@ -370,35 +370,23 @@ static bool narrow_tips(OutTree *tree, Error *e)
     return done;
 }
 
-// Everything, before it is cut.
-static OutTree *grow_whole(const CoralParams *p, const Recipe *recipe, Error *e)
-{
-    Growing g = {.params = p, .recipe = recipe, .tree = out_tree_new(e)};
-    bool upright = p->form == CORAL_BRANCHING || p->form == CORAL_TABLE || p->form == CORAL_FAN;
-    bool done = g.tree && prepare_string(&g, e) &&
-                (upright ? grow_upright(&g, e) : grow_on_rock(&g, e)) &&
-                recipe_keep(recipe, 0, g.tree, e);
-    grow_string_clear(&g.string);
-    if (!done) {
-        out_tree_free(g.tree);
-        return NULL;
-    }
-    return g.tree;
-}
-
-OutTree *coral_grow(const CoralParams *params, const Recipe *recipe, Error *e)
+bool coral_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e)
 {
     CoralParams p = coral_params_resolve(params);
-    OutTree *tree =
-        recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(&p, recipe, e);
-    if (!tree || !out_tree_keep_births(tree, recipe->grow_to, e)) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    out_tree_pipe_radii(tree, p.exponent, p.tip_radius, 0.0f);
-    if (!narrow_tips(tree, e)) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    return tree;
+    Growing g = {.params = &p, .recipe = recipe, .tree = out_tree_new(e)};
+    bool upright = p.form == CORAL_BRANCHING || p.form == CORAL_TABLE || p.form == CORAL_FAN;
+    bool done =
+        g.tree && prepare_string(&g, e) && (upright ? grow_upright(&g, e) : grow_on_rock(&g, e));
+    grow_string_clear(&g.string);
+    whole->tree = g.tree;
+    return done;
+}
+
+bool coral_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                  Error *e)
+{
+    (void)recipe, (void)whole;
+    CoralParams p = coral_params_resolve(params);
+    out_tree_pipe_radii(grown->tree, p.exponent, p.tip_radius, 0.0f);
+    return narrow_tips(grown->tree, e);
 }

@@ -58,9 +58,7 @@ typedef struct CoralParams {
     int levels; // subdivision of the skin, 0..4
 } CoralParams;
 
-typedef struct CoralMaterials {
-    int coral, polyp, rock;
-} CoralMaterials;
+enum { CORAL_SKIN, CORAL_POLYPS, CORAL_ROCK }; // roles of materials
 
 CoralParams coral_params_default(void); // staghorn, half a metre wide
 
@@ -68,13 +66,13 @@ CoralParams coral_params_default(void); // staghorn, half a metre wide
 // text where they were NULL.
 CoralParams coral_params_resolve(const CoralParams *params);
 
-// Grows the colonies with their radii: one root (or its stem) and one OutTree.colony each. Births
-// count the steps. ERROR_INPUT, with the object's label, for L-systems that are wrong.
-OutTree *coral_grow(const CoralParams *params, const Recipe *recipe, Error *e);
-
-// Skin or crust, corallites, and the rock below a crust.
-bool coral_geometry(const OutTree *tree, const CoralParams *params, const CoralMaterials *materials,
-                    int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e);
+// The recipe (see recipe.h). Grows the colonies: one root (or its stem) and one OutTree.colony
+// each. Births count the steps. ERROR_INPUT for L-systems that are wrong. The geometry is skin or
+// crust, corallites, and the rock below a crust.
+bool coral_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+bool coral_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                  Error *e);
+bool coral_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 typedef struct CoralMeasures {
     double branch_thickness; // m, mean diameter over the nodes

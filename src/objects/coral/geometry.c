@@ -50,14 +50,6 @@ static Mesh *branches(const OutTree *tree, const CoralParams *p, const Run *run,
     return mesh;
 }
 
-static bool add_mesh(Geometry *geometry, Mesh *mesh, int material, int object, Error *e)
-{
-    return mesh &&
-           geometry_add(
-               geometry,
-               (Part){.kind = PART_MESH, .mesh = mesh, .material = material, .object = object}, e);
-}
-
 // The rock: its surface knobbly and eaten into by weather; `depth` (m) is that of its hollows.
 static Mesh *weathered(const Mesh *from, float depth, uint64_t seed, Error *e)
 {
@@ -89,10 +81,10 @@ static CrustParams crust_params(const CoralParams *p, uint64_t seed)
                          .seed = random_key(seed, 8)};
 }
 
-// Adds a colony's skin and its corallites. variation: the colony's own, 0..1. Takes the mesh.
-static bool add_colony(Mesh *mesh, float variation, const CoralParams *p,
-                       const CoralMaterials *materials, int object, uint64_t seed,
-                       Geometry *geometry, const Run *run, Error *e)
+// Adds a colony's skin and its corallites. seed: the colony's own; variation: likewise, 0..1. Takes
+// the mesh.
+static bool add_colony(Mesh *mesh, float variation, const CoralParams *p, uint64_t seed,
+                       const Placing *placing, Error *e)
 {
     PolypPlaces places = {.max_count = p->polyps.max_count,
                           .spacing = p->polyps.spacing,
@@ -101,15 +93,11 @@ static bool add_colony(Mesh *mesh, float variation, const CoralParams *p,
                           .lean = p->polyps.lean,
                           .floor = p->position.y,
                           .seed = random_key(seed, 9)};
-    if (p->polyps.max_count > 0 &&
-        !polyps_add(mesh, &places, materials->polyp, object, geometry, run, e)) {
+    if (p->polyps.max_count > 0 && !polyps_add(mesh, &places, placing, CORAL_POLYPS, e)) {
         mesh_free(mesh);
         return false;
     }
-    Part part = {.kind = PART_MESH,
-                 .mesh = mesh,
-                 .material = materials->coral,
-                 .object = object,
+    Part part = {.mesh = mesh,
                  .instance = memory_alloc(1, sizeof(Transform), e),
                  .variation = memory_alloc(1, sizeof(float), e),
                  .instance_count = 1};
@@ -121,13 +109,14 @@ static bool add_colony(Mesh *mesh, float variation, const CoralParams *p,
     }
     part.instance[0] = transform_identity();
     part.variation[0] = variation;
-    return geometry_add(geometry, part, e);
+    return placing_add(placing, part, CORAL_SKIN, e);
 }
 
 // A crust each colony, and the rock below them.
-static bool add_crusts(const OutTree *tree, const CoralParams *p, const CoralMaterials *materials,
-                       int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e)
+static bool add_crusts(const OutTree *tree, const CoralParams *p, const Placing *placing, Error *e)
 {
+    const Run *run = placing->recipe->run;
+    uint64_t seed = placing->recipe->seed;
     Envelope *base = coral_base(p, seed, run, e);
     Mesh *rock =
         base ? weathered(envelope_surface(base), 0.035f * p->size, random_key(seed, 12), e) : NULL;
@@ -142,8 +131,7 @@ static bool add_crusts(const OutTree *tree, const CoralParams *p, const CoralMat
             mesh_free(mesh);
         } else if (mesh) {
             float variation = random_unit(random_key(seed, 50 + (uint64_t)c));
-            done = add_colony(mesh, variation, p, materials, object,
-                              random_key(seed, 60 + (uint64_t)c), geometry, run, e);
+            done = add_colony(mesh, variation, p, random_key(seed, 60 + (uint64_t)c), placing, e);
         }
     }
     free(points);
@@ -151,17 +139,16 @@ static bool add_crusts(const OutTree *tree, const CoralParams *p, const CoralMat
         mesh_free(rock);
         return false;
     }
-    return add_mesh(geometry, rock, materials->rock, object, e);
+    return placing_add(placing, (Part){.mesh = rock}, CORAL_ROCK, e);
 }
 
-bool coral_geometry(const OutTree *tree, const CoralParams *params, const CoralMaterials *materials,
-                    int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e)
+bool coral_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e)
 {
     CoralParams p = coral_params_resolve(params);
     if (p.form == CORAL_ENCRUSTING || p.form == CORAL_MASSIVE) {
-        return add_crusts(tree, &p, materials, object, seed, geometry, run, e);
+        return add_crusts(grown->tree, &p, placing, e);
     }
-    Mesh *mesh = branches(tree, &p, run, e);
-    return mesh && add_colony(mesh, random_unit(random_key(seed, 50)), &p, materials, object, seed,
-                              geometry, run, e);
+    uint64_t seed = placing->recipe->seed;
+    Mesh *mesh = branches(grown->tree, &p, placing->recipe->run, e);
+    return mesh && add_colony(mesh, random_unit(random_key(seed, 50)), &p, seed, placing, e);
 }

@@ -213,10 +213,10 @@ static Transform cup_frame(const Place *place, const PolypPlaces *places, uint64
                                place->position);
 }
 
-static bool add_age(const Spread *s, const PolypPlaces *places, int age, int material, int object,
-                    Geometry *geometry, const Run *run, Error *e)
+static bool add_age(const Spread *s, const PolypPlaces *places, int age, const Placing *placing,
+                    int role, Error *e)
 {
-    Part part = {.kind = PART_MESH, .material = material, .object = object};
+    Part part = {0};
     int64_t count = 0;
     for (int64_t i = 0; i < s->count; i++) {
         count += (int)(s->place[i].youth * ((float)AGES - 0.01f)) == age;
@@ -232,7 +232,7 @@ static bool add_age(const Spread *s, const PolypPlaces *places, int age, int mat
         return false;
     }
     for (int64_t i = 0; i < s->count; i++) {
-        if (!run_goes_on(run, i, e)) {
+        if (!run_goes_on(placing->recipe->run, i, e)) {
             mesh_free(part.mesh);
             free(part.instance);
             return false;
@@ -242,11 +242,11 @@ static bool add_age(const Spread *s, const PolypPlaces *places, int age, int mat
                 cup_frame(&s->place[i], places, random_key(places->seed, (uint64_t)i));
         }
     }
-    return geometry_add(geometry, part, e);
+    return placing_add(placing, part, role, e);
 }
 
-bool polyps_add(const Mesh *skin, const PolypPlaces *places, int material, int object,
-                Geometry *geometry, const Run *run, Error *e)
+bool polyps_add(const Mesh *skin, const PolypPlaces *places, const Placing *placing, int role,
+                Error *e)
 {
     double area = area_of(skin), most = (double)places->max_count;
     // darts fill about 0.7 of a plane's places
@@ -262,10 +262,10 @@ bool polyps_add(const Mesh *skin, const PolypPlaces *places, int material, int o
     bool done = s.bucket;
     if (done) {
         memset(s.bucket, -1, (size_t)s.buckets * sizeof *s.bucket);
-        done = spread_over(&s, skin, places, run, e);
+        done = spread_over(&s, skin, places, placing->recipe->run, e);
     }
     for (int age = 0; done && age < AGES; age++) {
-        done = add_age(&s, places, age, material, object, geometry, run, e);
+        done = add_age(&s, places, age, placing, role, e);
     }
     free(s.bucket);
     free(s.next);

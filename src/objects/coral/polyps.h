@@ -3,8 +3,7 @@
 #ifndef RAMIFY_OBJECTS_CORAL_POLYPS_H
 #define RAMIFY_OBJECTS_CORAL_POLYPS_H
 
-#include "base/run.h"
-#include "mesh/geometry.h"
+#include "objects/common/recipe.h"
 
 typedef struct PolypPlaces {
     int64_t max_count;
@@ -17,8 +16,8 @@ typedef struct PolypPlaces {
 
 // Adds the cups as instances of a few meshes, by the age (Mesh.birth) of the skin they stand on.
 // Where more than max_count would be, they stand farther apart.
-bool polyps_add(const Mesh *skin, const PolypPlaces *places, int material, int object,
-                Geometry *geometry, const Run *run, Error *e);
+bool polyps_add(const Mesh *skin, const PolypPlaces *places, const Placing *placing, int role,
+                Error *e);
 
 // One cup about +Y, open at the top, of unit rim diameter; youth: its births (0..1), the rim's
 // more.

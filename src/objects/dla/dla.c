@@ -51,48 +51,40 @@ static void heave(OutTree *tree, float swell, uint64_t seed)
     }
 }
 
-// The cluster as it grew, of unit particles.
-static OutTree *grow_cluster(const DlaModel *params, const Recipe *recipe, Error *e)
+bool dla_model_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
-    if (recipe_remembers(recipe, 0)) {
-        return recipe_recall(recipe, 0, e);
-    }
+    const DlaModel *params = given;
     DlaParams grow = dla_params_default();
     grow.dimension = params->dimension;
     grow.count = params->particles;
     grow.seed = random_key(recipe->seed, 1);
-    OutTree *tree = dla_grow(&grow, recipe->run, e);
-    if (tree && !recipe_keep(recipe, 0, tree, e)) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    return tree;
-}
-
-OutTree *dla_model_grow(const DlaModel *params, const Recipe *recipe, Error *e)
-{
-    OutTree *tree = grow_cluster(params, recipe, e);
+    OutTree *tree = whole->tree = dla_grow(&grow, recipe->run, e);
     if (!tree) {
-        return NULL;
+        return false;
     }
     relax(tree);
-    float extent = largest_extent(tree);
-    float scale = params->size / (extent > 1.0f ? extent : 1.0f); // of the whole cluster
+    float extent = largest_extent(tree), scale = params->size / (extent > 1.0f ? extent : 1.0f);
     if (params->dimension == 2) {
         heave(tree, params->swell, random_key(recipe->seed, 2));
-    }
-    if (!out_tree_keep_births(tree, recipe->grow_to, e)) {
-        out_tree_free(tree);
-        return NULL;
     }
     Transform place = transform_compose(params->position, params->rotation, vec3_splat(scale));
     Transform turn = transform_compose(vec3(0, 0, 0), params->rotation, vec3_splat(1.0f));
     for (int64_t i = 0; i < tree->count; i++) {
         tree->position[i] = transform_point(&place, tree->position[i]);
         tree->normal[i] = transform_vector(&turn, tree->normal[i]);
+        tree->radius[i] = 0.5f * params->thickness * scale; // of a tip, which each was
     }
-    out_tree_pipe_radii(tree, params->exponent, 0.5f * params->thickness * scale, 0.0f);
-    return tree;
+    return true;
+}
+
+bool dla_model_finish(const void *given, const Recipe *recipe, const Grown *whole, Grown *grown,
+                      Error *e)
+{
+    (void)recipe, (void)whole, (void)e;
+    const DlaModel *params = given;
+    OutTree *tree = grown->tree;
+    out_tree_pipe_radii(tree, params->exponent, tree->count > 0 ? tree->radius[0] : 0.0f, 0.0f);
+    return true;
 }
 
 static float thinnest(const OutTree *tree)
@@ -104,16 +96,14 @@ static float thinnest(const OutTree *tree)
     return least;
 }
 
-bool dla_model_geometry(const OutTree *tree, int material, int object, Geometry *geometry,
-                        const Run *run, Error *e)
+bool dla_model_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e)
 {
+    (void)params;
     Lattice lattice = {0};
-    Mesh *mesh = lattice_add_tree(&lattice, tree, e)
-                     ? lattice_surface(&lattice, thinnest(tree) / VOXELS_A_TIP, SMOOTHING, run, e)
+    Mesh *mesh = lattice_add_tree(&lattice, grown->tree, e)
+                     ? lattice_surface(&lattice, thinnest(grown->tree) / VOXELS_A_TIP, SMOOTHING,
+                                       placing->recipe->run, e)
                      : NULL;
     lattice_clear(&lattice);
-    return mesh &&
-           geometry_add(
-               geometry,
-               (Part){.kind = PART_MESH, .mesh = mesh, .material = material, .object = object}, e);
+    return placing_add(placing, (Part){.mesh = mesh}, 0, e);
 }

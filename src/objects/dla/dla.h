@@ -20,11 +20,10 @@ typedef struct DlaModel {
 
 DlaModel dla_model_default(void); // 2D, 1 m, 40,000 particles
 
-// The cluster with radii, at its place.
-OutTree *dla_model_grow(const DlaModel *params, const Recipe *recipe, Error *e);
-
-// Adds the cluster as one smooth closed surface.
-bool dla_model_geometry(const OutTree *tree, int material, int object, Geometry *geometry,
-                        const Run *run, Error *e);
+// The recipe (see recipe.h). The geometry is one smooth closed surface of the one material.
+bool dla_model_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+bool dla_model_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                      Error *e);
+bool dla_model_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 #endif

@@ -168,7 +168,7 @@ static bool grow_stand(OutTree *all, const ForestParams *params, int stand, uint
     OutTree *tree = out_tree_new(e);
     bool done = tree && element.fields &&
                 plant_stand(tree, params, stand, random_key(seed, 1), e) &&
-                element_grow(tree, &element, random_key(seed, 2), recipe->label, recipe->run, e);
+                element_grow(tree, &element, random_key(seed, 2), recipe, NULL, e);
     if (done) {
         float trunk = 0.0105f * params->height;
         out_tree_pipe_radii(tree, params->radii.exponent, params->radii.tip, trunk);
@@ -180,20 +180,22 @@ static bool grow_stand(OutTree *all, const ForestParams *params, int stand, uint
     return done;
 }
 
-OutTree *forest_grow(const ForestParams *params, const Recipe *recipe, Error *e)
+bool forest_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
-    bool again = recipe_remembers(recipe, 0);
-    OutTree *all = again ? recipe_recall(recipe, 0, e) : out_tree_new(e);
-    bool done = all;
-    for (int i = 0; done && !again && i < params->stands; i++) {
-        done = grow_stand(all, params, i, random_key(recipe->seed, (uint64_t)i), recipe, e);
+    const ForestParams *params = given;
+    whole->tree = out_tree_new(e);
+    bool done = whole->tree;
+    for (int i = 0; done && i < params->stands; i++) {
+        done = grow_stand(whole->tree, params, i, random_key(recipe->seed, (uint64_t)i), recipe, e);
     }
-    if (!done || !(again || recipe_keep(recipe, 0, all, e)) ||
-        !out_tree_rejuvenate(all, recipe->grow_to, params->radii.tip, e)) {
-        out_tree_free(all);
-        return NULL;
-    }
-    return all;
+    return done;
+}
+
+float forest_tip_radius(const void *given, const OutTree *whole)
+{
+    (void)whole;
+    const ForestParams *params = given;
+    return params->radii.tip;
 }
 
 // The nodes of one stand, moved to the origin.

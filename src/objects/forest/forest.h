@@ -7,7 +7,6 @@
 
 #include "mesh/geometry.h"
 #include "objects/common/recipe.h"
-#include "objects/ground/flood.h"
 #include "objects/tree/tree.h"
 
 typedef struct ForestParams {
@@ -32,27 +31,18 @@ typedef struct ForestParams {
     SkinningParams skin;
 } ForestParams;
 
-typedef struct ForestMaterials {
-    int bark, twig, leaf, fern;
-} ForestMaterials;
-
-// Height of the land (m) at (x, z).
-typedef float ForestLand(const void *land, float x, float z);
+enum { FOREST_BARK, FOREST_TWIG, FOREST_LEAF, FOREST_FERN }; // roles; the first as a tree's
 
 ForestParams forest_params_default(void);
 
 // The same with what is 0 as it follows from the other parameters. Borrows what params owns.
 ForestParams forest_params_resolve(const ForestParams *params);
 
-// All stands as one out-tree, side by side along x: one colony a tree, stand by stand.
-OutTree *forest_grow(const ForestParams *params, const Recipe *recipe, Error *e);
-
-// Sets the stands of a grown forest over the land, and ferns under them, none in water (flood; NULL
-// = none).
-bool forest_geometry(const OutTree *tree, const ForestParams *params,
-                     const ForestMaterials *materials, int object, uint64_t seed, ForestLand *land,
-                     const void *user, const Flood *flood, Geometry *geometry, const Run *run,
-                     Error *e);
+// The recipe (see recipe.h). Grows all stands as one out-tree, side by side along x: one colony a
+// tree, stand by stand. The geometry sets them over the land, and ferns under them, none in water.
+bool forest_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+float forest_tip_radius(const void *params, const OutTree *whole); // m
+bool forest_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 // How far tips keep from the nearest branch of another tree in the stand, m, the median over those
 // tips that have one within half a trunk spacing; NAN without. 0 would be crowns that interleave.

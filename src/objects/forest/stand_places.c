@@ -10,11 +10,10 @@
 #define WOOD_WAVELENGTH 90.0f // m, from wood to wood where they clump
 
 // Rise of the land along x and z at (x, z), over h (m) to both sides.
-static void land_slope(ForestLand *land, const void *user, float x, float z, float h, float *dx,
-                       float *dz)
+static void land_slope(const Land *land, float x, float z, float h, float *dx, float *dz)
 {
-    *dx = (land(user, x + h, z) - land(user, x - h, z)) / (2.0f * h);
-    *dz = (land(user, x, z + h) - land(user, x, z - h)) / (2.0f * h);
+    *dx = (land_height(land, x + h, z) - land_height(land, x - h, z)) / (2.0f * h);
+    *dz = (land_height(land, x, z + h) - land_height(land, x, z - h)) / (2.0f * h);
 }
 
 static bool is_free(const ForestParams *params, uint64_t seed, uint64_t key, float x, float z)
@@ -31,15 +30,14 @@ static bool is_free(const ForestParams *params, uint64_t seed, uint64_t key, flo
 }
 
 // Does water reach any of a stand's trees, wherever they are within its radius?
-static bool is_wet(const ForestParams *params, ForestLand *land, const void *user,
-                   const Flood *flood, float x, float z)
+static bool is_wet(const ForestParams *params, const Surroundings *around, float x, float z)
 {
     enum { AROUND = 8, RINGS = 3 };
-    for (int i = 0; flood && i < AROUND * RINGS; i++) {
+    for (int i = 0; around->flood && i < AROUND * RINGS; i++) {
         float r = forest_stand_radius(params) * (float)(1 + i % RINGS) / RINGS, sine, cosine;
         exact_sincos(2.0f * PI_F * (float)i / (AROUND * RINGS), &sine, &cosine);
         float px = x + r * sine, pz = z + r * cosine;
-        if (flood_covers(flood, vec3(px, land(user, px, pz), pz))) {
+        if (flood_covers(around->flood, vec3(px, land_height(&around->land, px, pz), pz))) {
             return true;
         }
     }
@@ -61,8 +59,7 @@ static bool add_place(StandPlaces *places, Transform place, int stand, Error *e)
 
 // Stands lie on a triangular lattice, each as far from its neighbours as its crowns reach.
 bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t seed,
-                       ForestLand *land, const void *user, const Flood *flood, const Run *run,
-                       Error *e)
+                       const Surroundings *around, const Run *run, Error *e)
 {
     *places = (StandPlaces){0};
     float pitch = 1.86f * forest_stand_radius(params), row = 0.8660254f * pitch;
@@ -82,18 +79,19 @@ bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t
             x += random_range(random_key(key, 1), -0.06f, 0.06f) * pitch;
             z += random_range(random_key(key, 2), -0.06f, 0.06f) * pitch;
             float dx, dz;
-            land_slope(land, user, x, z, 0.5f * forest_stand_radius(params), &dx, &dz);
+            land_slope(&around->land, x, z, 0.5f * forest_stand_radius(params), &dx, &dz);
             if (!is_free(params, seed, key, x, z) ||
                 1.0f / sqrtf(1.0f + dx * dx + dz * dz) < least_cosine ||
-                is_wet(params, land, user, flood, x, z)) {
+                is_wet(params, around, x, z)) {
                 continue;
             }
             exact_sincos(random_range(random_key(key, 3), 0.0f, 2.0f * PI_F), &sine, &cosine);
             float tall = random_range(random_key(key, 6), 0.88f, 1.06f);
             // trunks stay upright, their feet follow the slope
-            Transform place = transform_from_axes(
-                vec3(cosine, dx * cosine - dz * sine, -sine), vec3(0, tall, 0),
-                vec3(sine, dx * sine + dz * cosine, cosine), vec3(x, land(user, x, z), z));
+            Transform place =
+                transform_from_axes(vec3(cosine, dx * cosine - dz * sine, -sine), vec3(0, tall, 0),
+                                    vec3(sine, dx * sine + dz * cosine, cosine),
+                                    vec3(x, land_height(&around->land, x, z), z));
             int stand = (int)(random_unit(random_key(key, 7)) * (float)params->stands);
             done = add_place(places, place, stand, e);
         }

@@ -15,9 +15,9 @@ typedef struct StandPlaces {
     int64_t count, place_capacity, stand_capacity;
 } StandPlaces;
 
+// On the land and off the water of the surroundings.
 bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t seed,
-                       ForestLand *land, const void *user, const Flood *flood, const Run *run,
-                       Error *e);
+                       const Surroundings *around, const Run *run, Error *e);
 void stand_places_free(StandPlaces *places);
 
 #endif

@@ -127,10 +127,10 @@ static bool refine(FractureBody *body, const FractureParams *params, const Recip
         across = fminf(FINER * across, most);
     }
     if (lost > LOST_MOST) {
-        run_warn(recipe->run,
-                 "%s: parts of the body under %.2g %% of its surface are thinner than two voxels "
-                 "of %.2g m and may get lost; resolution %d or more keeps them",
-                 recipe->label, 100.0 * lost, (double)body->voxel, (int)(FINER * across));
+        recipe_warn(recipe, NULL,
+                    "parts of the body under %.2g %% of its surface are thinner than two voxels "
+                    "of %.2g m and may get lost; resolution %d or more keeps them",
+                    100.0 * lost, (double)body->voxel, (int)(FINER * across));
     }
     return true;
 }

@@ -35,8 +35,9 @@ FractureParams fracture_params_default(void)
     return params;
 }
 
-OutTree *fracture_grow(const FractureParams *params, const Recipe *recipe, Error *e)
+bool fracture_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
+    const FractureParams *params = given;
     // A hollow branch sculpture's net, with a reach that leaves few cracks without an end.
     SculptureParams net = sculpture_params_default();
     net.element = params->element;
@@ -45,7 +46,7 @@ OutTree *fracture_grow(const FractureParams *params, const Recipe *recipe, Error
     net.thickness = 0.1f;
     net.contrast = 1.0f;
     net.reach = 3.5f;
-    return sculpture_grow(&net, recipe, e);
+    return sculpture_grow(&net, recipe, whole, e);
 }
 
 // ---- cutting ----
@@ -186,33 +187,33 @@ static void warn_of_pieces(const Workpiece *work, const FractureParams *params,
     int32_t cells = crack_cells_count(work->cells), small = crack_cells_small(work->cells);
     double kept = 0.0, own = envelope_volume(work->body.envelope);
     if (cells == 1) {
-        run_warn(recipe->run,
-                 "%s: %d impacts with %lld attractors close no crack, and it stays in one piece; "
-                 "more of either break it",
-                 recipe->label, params->impacts,
-                 (long long)(params->element.level_count ? element_attractors(&params->element)
-                                                         : params->attractors));
+        recipe_warn(recipe, NULL,
+                    "%d impacts with %lld attractors close no crack, and it stays in one piece; "
+                    "more of either break it",
+                    params->impacts,
+                    (long long)(params->element.level_count ? element_attractors(&params->element)
+                                                            : params->attractors));
     }
     if (small > 0) {
-        run_warn(
-            recipe->run,
-            "%s: %d cells between cracks are less than %.2g m wide and stay with a "
+        recipe_warn(
+            recipe, NULL,
+            "%d cells between cracks are less than %.2g m wide and stay with a "
             "neighbour; %d are left; a resolution above %d, a narrower gap or fewer attractors "
             "keep them apart",
-            recipe->label, small, 2.0 * (double)work->least, cells, params->resolution);
+            small, 2.0 * (double)work->least, cells, params->resolution);
     }
     if (gone > 0) {
-        run_warn(recipe->run, "%s: %d of %d pieces are thinner than the gap of %g m and are gone",
-                 recipe->label, gone, cells, (double)params->gap);
+        recipe_warn(recipe, NULL, "%d of %d pieces are thinner than the gap of %g m and are gone",
+                    gone, cells, (double)params->gap);
     }
     for (int64_t i = 0; i < pieces->count; i++) {
         kept += mesh_signed_volume(pieces->piece[i]);
     }
     if (params->hollow <= 0.0f && params->gap <= 0.0f && fabs(kept / own - 1.0) > CHANGE_MOST) {
-        run_warn(recipe->run,
-                 "%s: the pieces have %.1f %% of the body's volume; a resolution above %d or "
-                 "less weathering (%g now) keep more of its shape",
-                 recipe->label, 100.0 * kept / own, params->resolution, (double)params->weathering);
+        recipe_warn(recipe, NULL,
+                    "the pieces have %.1f %% of the body's volume; a resolution above %d or "
+                    "less weathering (%g now) keep more of its shape",
+                    100.0 * kept / own, params->resolution, (double)params->weathering);
     }
 }
 
@@ -254,12 +255,12 @@ bool fracture_pieces(const OutTree *network, const FractureParams *params, const
     return done;
 }
 
-bool fracture_measure(const OutTree *network, const FractureParams *params, const Recipe *recipe,
+bool fracture_measure(const void *params, const Grown *grown, const Recipe *recipe,
                       MeasureList *list, Error *e)
 {
     MeshPieces pieces;
     double base, kept = 0.0, largest = 0.0, none = (double)NAN;
-    if (!fracture_pieces(network, params, recipe, &pieces, &base, e)) {
+    if (!fracture_pieces(grown->tree, params, recipe, &pieces, &base, e)) {
         return false;
     }
     for (int64_t i = 0; i < pieces.count; i++) {
@@ -325,39 +326,34 @@ static Mesh *part_of(const Workpiece *work, const Mesh *piece, bool outside, Err
 }
 
 static bool add_piece(const Workpiece *work, const FractureParams *params, const Mesh *piece,
-                      const FractureMaterials *materials, int object, uint64_t key,
-                      Geometry *geometry, Error *e)
+                      uint64_t key, const Placing *placing, Error *e)
 {
     Transform motion = piece_motion(work, params, middle_of(piece), key);
-    for (int side = 0; side < 2; side++) {
-        Mesh *mesh = part_of(work, piece, side == 0, e);
+    for (int role = FRACTURE_OUTSIDE; role <= FRACTURE_INSIDE; role++) {
+        Mesh *mesh = part_of(work, piece, role == FRACTURE_OUTSIDE, e);
         if (!mesh || !mesh_transform(mesh, &motion, e)) {
             mesh_free(mesh);
             return false;
         }
-        Part part = {.kind = PART_MESH,
-                     .mesh = mesh,
-                     .material = side == 0 ? materials->outside : materials->inside,
-                     .object = object};
-        if (!geometry_add(geometry, part, e)) {
+        if (!placing_add(placing, (Part){.mesh = mesh}, role, e)) {
             return false;
         }
     }
     return true;
 }
 
-bool fracture_geometry(const OutTree *network, const FractureParams *params,
-                       const FractureMaterials *materials, int object, const Recipe *recipe,
-                       Geometry *geometry, Error *e)
+bool fracture_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
+    const FractureParams *params = given;
+    const Recipe *recipe = placing->recipe;
     Workpiece work;
     MeshPieces pieces = {0};
-    bool done = workpiece_new(&work, network, params, recipe, e) &&
+    bool done = workpiece_new(&work, grown->tree, params, recipe, e) &&
                 split(&work, params, recipe, &pieces, e);
     for (int64_t i = 0; done && i < pieces.count; i++) {
         uint64_t key = random_key(random_key(recipe->seed, 6), (uint64_t)i);
         if (random_unit(key) >= params->missing) {
-            done = add_piece(&work, params, pieces.piece[i], materials, object, key, geometry, e);
+            done = add_piece(&work, params, pieces.piece[i], key, placing, e);
         }
     }
     mesh_pieces_clear(&pieces);

@@ -5,8 +5,6 @@
 #ifndef RAMIFY_OBJECTS_FRACTURE_FRACTURE_H
 #define RAMIFY_OBJECTS_FRACTURE_FRACTURE_H
 
-#include "base/measures.h"
-#include "mesh/geometry.h"
 #include "mesh/pieces.h"
 #include "objects/common/element.h"
 #include "objects/common/recipe.h"
@@ -25,27 +23,21 @@ typedef struct FractureParams {
     int resolution; // voxels of the level set along the largest extent
 } FractureParams;
 
-typedef struct FractureMaterials {
-    int outside, inside; // inside: of the faces that broke
-} FractureMaterials;
+enum { FRACTURE_OUTSIDE, FRACTURE_INSIDE }; // roles of materials; inside: of the faces that broke
 
 FractureParams fracture_params_default(void); // a ball of 1 m radius
 
-// The network of cracks on the surface.
-OutTree *fracture_grow(const FractureParams *params, const Recipe *recipe, Error *e);
+// The recipe (see recipe.h). Grows the network of cracks on the surface. Measures pieces,
+// largest_piece (its share of the base's volume), removed (the share that the pieces lack: cracks
+// and dust). The geometry is the pieces.
+bool fracture_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+bool fracture_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
+bool fracture_measure(const void *params, const Grown *grown, const Recipe *recipe,
+                      MeasureList *list, Error *e);
 
 // The pieces where they were before they moved: closed surfaces. *base (may be NULL): volume of the
 // base, m^3.
 bool fracture_pieces(const OutTree *network, const FractureParams *params, const Recipe *recipe,
                      MeshPieces *pieces, double *base, Error *e);
-
-// Appends pieces, largest_piece (its share of the base's volume), removed (the share that
-// the pieces lack: cracks and dust).
-bool fracture_measure(const OutTree *network, const FractureParams *params, const Recipe *recipe,
-                      MeasureList *list, Error *e);
-
-bool fracture_geometry(const OutTree *network, const FractureParams *params,
-                       const FractureMaterials *materials, int object, const Recipe *recipe,
-                       Geometry *geometry, Error *e);
 
 #endif

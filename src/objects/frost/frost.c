@@ -215,53 +215,33 @@ static bool trim_rods(OutTree *tree, const FrostParams *params, Error *e)
     return done;
 }
 
-static void give_radii(OutTree *tree, const FrostParams *params)
+bool frost_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
-    out_tree_pipe_radii(tree, 6.0f, params->width_share * side_spacing(params), 0.0f);
-}
-
-// Everything, before it is cut.
-static OutTree *grow_whole(const FrostParams *params, const Recipe *recipe, Error *e)
-{
+    const FrostParams *params = given;
     OutTree *tree = out_tree_new(e);
     if (!tree || !add_nuclei(tree, params, random_key(recipe->seed, 1), e) ||
         !grow_spines(tree, params, recipe, e)) {
         out_tree_free(tree);
-        return NULL;
+        return false;
     }
-    tree = refine_spines(tree, params, e);
+    tree = whole->tree = refine_spines(tree, params, e);
     if (!tree) {
-        return NULL;
+        return false;
     }
     int64_t spine_count = tree->count;
-    bool done = params->sides == 0 || grow_sides(tree, params, recipe, e);
-    if (done) {
-        give_births(tree, spine_count);
-        done = frost_drop_crossings(tree, recipe->run, e) &&
-               (params->sides == 0 || trim_rods(tree, params, e)) &&
-               recipe_keep(recipe, 0, tree, e);
+    if (params->sides > 0 && !grow_sides(tree, params, recipe, e)) {
+        return false;
     }
-    if (!done) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    return tree;
+    give_births(tree, spine_count);
+    return frost_drop_crossings(tree, recipe->run, e) &&
+           (params->sides == 0 || trim_rods(tree, params, e));
 }
 
-static OutTree *grow(const FrostParams *params, const Recipe *recipe, Error *e)
+bool frost_finish(const void *given, const Recipe *recipe, const Grown *whole, Grown *grown,
+                  Error *e)
 {
-    OutTree *tree =
-        recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(params, recipe, e);
-    if (!tree || !out_tree_keep_births(tree, recipe->grow_to, e)) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    give_radii(tree, params);
-    return tree;
-}
-
-OutTree *frost_grow(const FrostParams *params, const Recipe *recipe, Error *e)
-{
-    OutTree *tree = grow(params, recipe, e);
-    return tree;
+    (void)recipe, (void)whole, (void)e;
+    const FrostParams *params = given;
+    out_tree_pipe_radii(grown->tree, 6.0f, params->width_share * side_spacing(params), 0.0f);
+    return true;
 }

@@ -5,8 +5,6 @@
 #ifndef RAMIFY_OBJECTS_FROST_FROST_H
 #define RAMIFY_OBJECTS_FROST_FROST_H
 
-#include "base/measures.h"
-#include "mesh/geometry.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
 
@@ -47,27 +45,26 @@ typedef struct FrostParams {
     int64_t grains;     // loose crystals between the blades, mostly near the border
 } FrostParams;
 
-// Materials, as indices into the world's list.
-typedef struct FrostMaterials {
-    int ice, rime;
-} FrostMaterials;
+enum { FROST_ICE, FROST_RIME }; // roles of materials
 
 // Window frost on a pane of 0.6 x 0.45 m; a bubble has its own numbers.
 FrostParams frost_params_default(FrostSurface surface);
 
-// Grows spines and sides; births of a spine's nodes follow one by one, those of sides by twos.
-// Radius = half-width of the blades, normal = the surface's, colony = the nucleus. No two segments
-// cross: a crystal ends where another was first. ERROR_INPUT, ERROR_MEMORY, ERROR_CANCELLED.
-OutTree *frost_grow(const FrostParams *params, const Recipe *recipe, Error *e);
+// The recipe (see recipe.h). Grows spines and sides; births of a spine's nodes follow one by one,
+// those of sides by twos. Radius = half-width of the blades, normal = the surface's, colony = the
+// nucleus. No two segments cross: a crystal ends where another was first.
+bool frost_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+bool frost_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                  Error *e);
 
 // The blades as meshes of triangles, clear ones and white ones: closed pieces that overlap where a
 // side leaves. The grains are instances, half of them white.
-bool frost_geometry(const OutTree *tree, const FrostParams *params, const FrostMaterials *materials,
-                    int object, const Recipe *recipe, Geometry *geometry, Error *e);
+bool frost_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 // Appends orders (of branching, spines being 0), side_angle and side_angle_spread (degrees, where a
 // side leaves), swept (degrees about the nucleus that the longest spines turn on their way, mean
 // over those that get at least half as far as the furthest).
-bool frost_measure(const OutTree *tree, const FrostParams *params, MeasureList *list, Error *e);
+bool frost_measure(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,
+                   Error *e);
 
 #endif

@@ -110,7 +110,9 @@ static bool measure_swept(const OutTree *tree, const FrostParams *params, Measur
                                 NAN, NAN, e);
 }
 
-bool frost_measure(const OutTree *tree, const FrostParams *params, MeasureList *list, Error *e)
+bool frost_measure(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,
+                   Error *e)
 {
-    return measure_sides(tree, list, e) && measure_swept(tree, params, list, e);
+    (void)recipe;
+    return measure_sides(grown->tree, list, e) && measure_swept(grown->tree, params, list, e);
 }

@@ -204,67 +204,50 @@ static int64_t place_grains(const FrostParams *params, uint64_t seed, int64_t wa
     return count;
 }
 
-static bool add_grains(const FrostParams *params, float size, int material, int object,
-                       uint64_t seed, int variant, int64_t wanted, Geometry *geometry,
-                       const Run *run, Error *e)
+static bool add_grains(const FrostParams *params, float size, int variant, int64_t wanted,
+                       const Placing *placing, Error *e)
 {
-    uint64_t key = random_key(seed, (uint64_t)variant);
+    const Recipe *recipe = placing->recipe;
+    uint64_t key = random_key(random_key(recipe->seed, 6), (uint64_t)variant);
     Mesh *mesh = grain_mesh(key, e);
     Transform *instance = memory_alloc(wanted, sizeof *instance, e);
-    int64_t count = mesh && instance
-                        ? place_grains(params, random_key(key, 99), wanted, size, instance, run, e)
-                        : -1;
+    int64_t count = mesh && instance ? place_grains(params, random_key(key, 99), wanted, size,
+                                                    instance, recipe->run, e)
+                                     : -1;
     if (count <= 0) {
         mesh_free(mesh);
         free(instance);
         return count == 0;
     }
-    return geometry_add(geometry,
-                        (Part){.kind = PART_MESH,
-                               .mesh = mesh,
-                               .material = material,
-                               .object = object,
-                               .instance = instance,
-                               .instance_count = count},
-                        e);
+    Part part = {.mesh = mesh, .instance = instance, .instance_count = count};
+    return placing_add(placing, part, variant % 2 ? FROST_RIME : FROST_ICE, e);
 }
 
-static bool add_blades(const OutTree *tree, const FrostParams *params,
-                       const FrostMaterials *materials, int object, const Run *run,
-                       Geometry *geometry, Error *e)
+static bool add_blades(const OutTree *tree, const FrostParams *params, const Placing *placing,
+                       Error *e)
 {
     ChainSet *chains = out_tree_chains(tree, e);
     bool done = chains != NULL;
-    for (int rime = 0; done && rime < 2; rime++) {
-        Mesh *mesh = blade_mesh(tree, params, chains, rime == 1, run, e);
-        done = mesh && geometry_add(geometry,
-                                    (Part){.kind = PART_MESH,
-                                           .mesh = mesh,
-                                           .material = rime ? materials->rime : materials->ice,
-                                           .object = object},
-                                    e);
+    for (int role = FROST_ICE; done && role <= FROST_RIME; role++) {
+        Mesh *mesh = blade_mesh(tree, params, chains, role == FROST_RIME, placing->recipe->run, e);
+        done = placing_add(placing, (Part){.mesh = mesh}, role, e);
     }
     chains_free(chains);
     return done;
 }
 
-bool frost_geometry(const OutTree *tree, const FrostParams *params, const FrostMaterials *materials,
-                    int object, const Recipe *recipe, Geometry *geometry, Error *e)
+bool frost_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
     enum { VARIANTS = 6 };
-    if (!add_blades(tree, params, materials, object, recipe->run, geometry, e)) {
-        return false;
-    }
+    const FrostParams *params = given;
+    const OutTree *tree = grown->tree;
+    bool done = add_blades(tree, params, placing, e);
     float size = 0.0f; // as wide as the finest blades
     for (int64_t i = 0; i < tree->count; i++) {
         size = size == 0.0f || tree->radius[i] < size ? tree->radius[i] : size;
     }
-    for (int v = 0; params->grains >= VARIANTS && v < VARIANTS; v++) {
-        int material = v % 2 ? materials->rime : materials->ice;
-        if (!add_grains(params, size, material, object, random_key(recipe->seed, 6), v,
-                        params->grains / VARIANTS, geometry, recipe->run, e)) {
-            return false;
-        }
+    for (int v = 0; done && params->grains >= VARIANTS && v < VARIANTS; v++) {
+        done = add_grains(params, size, v, params->grains / VARIANTS, placing, e);
     }
-    return true;
+    return done;
 }

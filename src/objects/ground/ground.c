@@ -161,25 +161,11 @@ static int64_t place_tufts(const GroundParams *params, uint64_t ground_seed, uin
     return count;
 }
 
-// Adds mesh (taken over) with room for `most` instances that `place` fills in.
-static bool add_instances(Geometry *geometry, Mesh *mesh, int material, int object,
-                          Transform *instance, float *variation, int64_t count, Error *e)
-{
-    Part part = {.kind = PART_MESH,
-                 .mesh = mesh,
-                 .material = material,
-                 .object = object,
-                 .instance = instance,
-                 .variation = variation,
-                 .instance_count = count};
-    return geometry_add(geometry, part, e);
-}
-
-static bool add_grass_variant(const GroundParams *params, int variant, int material, int object,
-                              uint64_t seed, const Flood *flood, Geometry *geometry, const Run *run,
+static bool add_grass_variant(const GroundParams *params, int variant, const Placing *placing,
                               Error *e)
 {
-    uint64_t key = random_key(random_key(seed, 4), (uint64_t)variant);
+    const Recipe *recipe = placing->recipe;
+    uint64_t key = random_key(random_key(recipe->seed, 4), (uint64_t)variant);
     GrassParams tuft = {.blades = 22,
                         .height = params->grass_height,
                         .width = 0.0065f,
@@ -187,20 +173,22 @@ static bool add_grass_variant(const GroundParams *params, int variant, int mater
                         .lean = 32.0f,
                         .bend = 85.0f};
     int64_t wanted = grove_share(params->grass_tufts, params->grass_variants, variant);
-    Mesh *mesh = grass_tuft_new(&tuft, key, e);
-    Transform *instance = memory_alloc(wanted, sizeof *instance, e);
-    float *variation = memory_alloc(wanted, sizeof *variation, e);
-    int64_t count = mesh && instance && variation
-                        ? place_tufts(params, seed, random_key(key, 1), flood, wanted, instance,
-                                      variation, run, e)
-                        : -1;
+    Part part = {.mesh = grass_tuft_new(&tuft, key, e),
+                 .instance = memory_alloc(wanted, sizeof(Transform), e),
+                 .variation = memory_alloc(wanted, sizeof(float), e)};
+    int64_t count =
+        part.mesh && part.instance && part.variation
+            ? place_tufts(params, recipe->seed, random_key(key, 1), placing->around.flood, wanted,
+                          part.instance, part.variation, recipe->run, e)
+            : -1;
     if (count <= 0) { // an instance count of 0 would draw the tuft once, at the origin
-        mesh_free(mesh);
-        free(instance);
-        free(variation);
+        mesh_free(part.mesh);
+        free(part.instance);
+        free(part.variation);
         return count == 0;
     }
-    return add_instances(geometry, mesh, material, object, instance, variation, count, e);
+    part.instance_count = count;
+    return placing_add(placing, part, GROUND_GRASS, e);
 }
 
 // A leaf lying at (x, z): upper side up or down, tilted a little, on the tips of the short grass.
@@ -218,10 +206,10 @@ static Transform lying_leaf(const GroundParams *params, uint64_t seed, uint64_t 
     return transform_from_axes(vec3_cross(y, z), y, z, p);
 }
 
-static bool add_fallen_leaves(const GroundParams *params, int material, int object, uint64_t seed,
-                              Geometry *geometry, const Run *run, Error *e)
+static bool add_fallen_leaves(const GroundParams *params, const Placing *placing, Error *e)
 {
     LeavesParams leaves = tree_params_default().leaves;
+    uint64_t seed = placing->recipe->seed;
     for (int v = 0; v < leaves.variants; v++) {
         int64_t each = grove_share(params->fallen_leaves, leaves.variants, v);
         if (each == 0) {
@@ -233,7 +221,7 @@ static bool add_fallen_leaves(const GroundParams *params, int material, int obje
         Transform *instance = memory_alloc(each, sizeof *instance, e);
         bool done = mesh && instance;
         for (int64_t i = 0; done && i < each; i++) {
-            done = run_goes_on(run, i, e);
+            done = run_goes_on(placing->recipe->run, i, e);
             instance[i] = lying_leaf(params, seed, random_key(key, 100 + (uint64_t)i));
         }
         if (!done) {
@@ -241,36 +229,23 @@ static bool add_fallen_leaves(const GroundParams *params, int material, int obje
             free(instance);
             return false;
         }
-        if (!add_instances(geometry, mesh, material, object, instance, NULL, each, e)) {
+        Part part = {.mesh = mesh, .instance = instance, .instance_count = each};
+        if (!placing_add(placing, part, GROUND_FALLEN, e)) {
             return false;
         }
     }
     return true;
 }
 
-bool ground_geometry(const GroundParams *params, const GroundMaterials *materials, int object,
-                     uint64_t seed, const Flood *flood, Geometry *geometry, const Run *run,
-                     Error *e)
+bool ground_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
-    Mesh *mesh = ground_mesh(params, seed, e);
-    if (!mesh || !geometry_add(geometry,
-                               (Part){.kind = PART_MESH,
-                                      .mesh = mesh,
-                                      .material = materials->ground,
-                                      .object = object},
-                               e)) {
-        return false;
+    (void)grown;
+    const GroundParams *params = given;
+    Part land = {.mesh = ground_mesh(params, placing->recipe->seed, e)};
+    bool done = placing_add(placing, land, GROUND_LAND, e);
+    for (int v = 0; done && params->grass_tufts > 0 && v < params->grass_variants; v++) {
+        done = add_grass_variant(params, v, placing, e);
     }
-    for (int v = 0; params->grass_tufts > 0 && v < params->grass_variants; v++) {
-        if (!add_grass_variant(params, v, materials->grass, object, seed, flood, geometry, run,
-                               e)) {
-            return false;
-        }
-    }
-    if (params->fallen_leaves > 0 &&
-        !add_fallen_leaves(params, materials->fallen, object, seed, geometry, run, e)) {
-        return false;
-    }
-    return params->trees.count == 0 ||
-           grove_add(params, materials, object, seed, flood, geometry, run, e);
+    return done && (params->fallen_leaves <= 0 || add_fallen_leaves(params, placing, e)) &&
+           (params->trees.count == 0 || grove_add(params, placing, e));
 }

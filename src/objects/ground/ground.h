@@ -2,9 +2,7 @@
 #ifndef RAMIFY_OBJECTS_GROUND_GROUND_H
 #define RAMIFY_OBJECTS_GROUND_GROUND_H
 
-#include "base/run.h"
-#include "mesh/geometry.h"
-#include "objects/ground/flood.h"
+#include "objects/common/recipe.h"
 
 // Woods in the distance: a few trees, grown once and instanced.
 typedef struct GroveParams {
@@ -32,19 +30,15 @@ typedef struct GroundParams {
     GroveParams trees;
 } GroundParams;
 
-typedef struct GroundMaterials {
-    int ground, grass, fallen;
-    int bark, foliage; // of the trees in the distance
-} GroundMaterials;
+// Roles of materials; the last two are of the trees in the distance.
+enum { GROUND_LAND, GROUND_FALLEN, GROUND_GRASS, GROUND_BARK, GROUND_FOLIAGE };
 
 GroundParams ground_params_default(void); // 2 km of meadow, 60,000 tufts
 
 // Height of the land at (x, z), m.
 float ground_height(const GroundParams *params, uint64_t seed, float x, float z);
 
-// flood: where no grass and no trees stand; NULL = none.
-bool ground_geometry(const GroundParams *params, const GroundMaterials *materials, int object,
-                     uint64_t seed, const Flood *flood, Geometry *geometry, const Run *run,
-                     Error *e);
+// The land, and on it grass, leaves and trees: see recipe.h. Nothing grows, so there is no Grown.
+bool ground_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 #endif

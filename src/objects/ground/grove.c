@@ -69,10 +69,8 @@ static int64_t place_trees(const GroundParams *ground, uint64_t ground_seed, uin
     return count;
 }
 
-// Moves a part of a single tree into the geometry, instanced at every place; leaves are baked
-// first.
-static bool add_part(Geometry *geometry, Part *part, const Transform *place, int64_t count,
-                     const Run *run, Error *e)
+bool grove_add_part(Geometry *geometry, Part *part, const Transform *place, int64_t count,
+                    const Run *run, Error *e)
 {
     Part copy = {.kind = part->kind, .material = part->material, .object = part->object};
     copy.instance = memory_alloc(count, sizeof *copy.instance, e);
@@ -98,39 +96,43 @@ static bool add_part(Geometry *geometry, Part *part, const Transform *place, int
     return geometry_add(geometry, copy, e);
 }
 
-static bool add_variant(const GroundParams *ground, const GroundMaterials *materials, int object,
-                        const Transform *place, int64_t count, uint64_t seed, Geometry *geometry,
-                        const Run *run, Error *e)
+static bool add_variant(const GroveParams *grove, const Transform *place, int64_t count,
+                        uint64_t seed, const Placing *placing, Error *e)
 {
     GrowLevel levels[3];
-    TreeParams params = distant_tree(&ground->trees, levels, seed);
-    TreeMaterials own = {materials->bark, materials->bark, materials->foliage};
+    TreeParams params = distant_tree(grove, levels, seed);
+    const int material[] = {placing->material[GROUND_BARK], placing->material[GROUND_BARK],
+                            placing->material[GROUND_FOLIAGE]};
+    const Run *run = placing->recipe->run;
+    Recipe recipe = {seed, "distant tree", run};
     Geometry single = {0};
-    OutTree *tree = tree_grow(&params, &(Recipe){seed, "distant tree", 1.0f, run, NULL}, e);
-    bool done = tree && tree_geometry(tree, &params, &own, object, seed, &single, run, e);
-    out_tree_free(tree);
+    Placing own = {&recipe, &single, material, placing->object, {0}};
+    Grown tree = {0};
+    bool done = tree_grow(&params, &recipe, &tree, e) &&
+                tree_finish(&params, &recipe, &tree, &tree, e) &&
+                tree_geometry(&params, &tree, &own, e);
+    grown_clear(&tree);
     for (int64_t i = 0; done && i < single.count; i++) {
-        done = add_part(geometry, &single.part[i], place, count, run, e);
+        done = grove_add_part(placing->geometry, &single.part[i], place, count, run, e);
     }
     geometry_clear(&single);
     return done;
 }
 
-bool grove_add(const GroundParams *ground, const GroundMaterials *materials, int object,
-               uint64_t ground_seed, const Flood *flood, Geometry *geometry, const Run *run,
-               Error *e)
+bool grove_add(const GroundParams *ground, const Placing *placing, Error *e)
 {
     const GroveParams *grove = &ground->trees;
+    const Recipe *recipe = placing->recipe;
     Transform *place =
         memory_alloc(grove_share(grove->count, grove->variants, 0), sizeof *place, e);
     bool done = place != NULL;
     for (int v = 0; done && v < grove->variants; v++) {
-        uint64_t key = random_key(random_key(ground_seed, 6), (uint64_t)v);
+        uint64_t key = random_key(random_key(recipe->seed, 6), (uint64_t)v);
         int64_t wanted = grove_share(grove->count, grove->variants, v);
-        int64_t count =
-            place_trees(ground, ground_seed, random_key(key, 1), wanted, flood, place, run, e);
-        done = count == 0 || (count > 0 && add_variant(ground, materials, object, place, count,
-                                                       random_key(key, 2), geometry, run, e));
+        int64_t count = place_trees(ground, recipe->seed, random_key(key, 1), wanted,
+                                    placing->around.flood, place, recipe->run, e);
+        done = count == 0 ||
+               (count > 0 && add_variant(grove, place, count, random_key(key, 2), placing, e));
     }
     free(place);
     return done;

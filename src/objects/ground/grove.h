@@ -11,8 +11,11 @@ static inline int64_t grove_share(int64_t count, int variants, int variant)
     return count / variants + (variant < count % variants ? 1 : 0);
 }
 
-bool grove_add(const GroundParams *ground, const GroundMaterials *materials, int object,
-               uint64_t ground_seed, const Flood *flood, Geometry *geometry, const Run *run,
-               Error *e);
+bool grove_add(const GroundParams *ground, const Placing *placing, Error *e);
+
+// Moves a part of a single tree into the geometry, instanced at every place; leaves are baked into
+// one mesh first.
+bool grove_add_part(Geometry *geometry, Part *part, const Transform *place, int64_t count,
+                    const Run *run, Error *e);
 
 #endif

@@ -99,20 +99,24 @@ static int32_t nearest_above(const OutTree *tree, const Bolt *bolt, Vec3 target)
 }
 
 // The final jump: once near, straight to the ground, step by step.
-static bool jump_to(OutTree *tree, const Bolt *bolt, Vec3 target, uint64_t *id, Error *e)
+static bool jump_to(OutTree *tree, const Bolt *bolt, Vec3 target, Error *e)
 {
     int64_t parent = nearest_above(tree, bolt, target);
     Vec3 from = tree->position[parent];
     int steps = (int)(vec3_distance(from, target) / (LEADER_STEP * bolt->height)) + 1;
     for (int i = 1; parent >= 0 && i <= steps; i++) {
-        *id = out_tree_child_id(tree->id[parent], i == 1 ? 500 : 0);
+        uint64_t id = out_tree_child_id(tree->id[parent], i == 1 ? 500 : 0);
         Vec3 p = i == steps ? target : vec3_lerp(from, target, (float)i / (float)steps);
-        parent = out_tree_add_node(tree, p, parent, 0, bolt->colony, *id, e);
+        parent = out_tree_add_node(tree, p, parent, 0, bolt->colony, id, e);
     }
-    return parent >= 0;
+    if (parent < 0) {
+        return false;
+    }
+    tree->radius[parent] = LIGHTNING_STRIKE;
+    return true;
 }
 
-static OutTree *grow_leader(const Bolt *bolt, uint64_t *strike_id, const Run *run, Error *e)
+static OutTree *grow_leader(const Bolt *bolt, const Run *run, Error *e)
 {
     OutTree *tree = out_tree_new(e);
     PointSet *points = tree ? leader_points(bolt, e) : NULL;
@@ -122,7 +126,7 @@ static OutTree *grow_leader(const Bolt *bolt, uint64_t *strike_id, const Run *ru
                                   e) >= 0 &&
                 colonize(tree, points, &params, run, NULL, e);
     for (int i = 0; done && i < bolt->params->ground_points; i++) {
-        done = jump_to(tree, bolt, ground_point(bolt, i), &strike_id[i], e);
+        done = jump_to(tree, bolt, ground_point(bolt, i), e);
     }
     points_free(points);
     if (!done) {
@@ -160,9 +164,9 @@ static bool grow_branches(OutTree *tree, const Bolt *bolt, const Recipe *recipe,
     if (element.level_count == 0) {
         return true;
     }
-    char label[128];
-    snprintf(label, sizeof label, "%s, bolt %d", recipe->label, bolt->colony + 1);
-    return element_grow(tree, &element, random_key(bolt->seed, 4), label, recipe->run, e);
+    char part[32];
+    snprintf(part, sizeof part, "bolt %d", bolt->colony + 1);
+    return element_grow(tree, &element, random_key(bolt->seed, 4), recipe, part, e);
 }
 
 // Leaders move on at one speed, so a node is born by its distance from the cloud.
@@ -190,7 +194,7 @@ static bool drop_late(OutTree *tree, const Bolt *bolt, int32_t strike_birth, boo
     return out_tree_keep_nodes(tree, on_way, e);
 }
 
-static bool finish_bolt(OutTree *tree, const Bolt *bolt, const uint64_t *strike_id, Error *e)
+static bool finish_bolt(OutTree *tree, const Bolt *bolt, Error *e)
 {
     bool *on_way = memory_alloc_zero(tree->count, sizeof *on_way, e);
     float *distance = memory_alloc(tree->count, sizeof *distance, e);
@@ -199,12 +203,10 @@ static bool finish_bolt(OutTree *tree, const Bolt *bolt, const uint64_t *strike_
         set_births(tree, bolt, distance);
         int32_t strike_birth = 0;
         for (int64_t i = 0; i < tree->count; i++) {
-            for (int s = 0; s < bolt->params->ground_points; s++) {
-                if (tree->id[i] == strike_id[s]) {
-                    strike_birth = tree->birth[i] > strike_birth ? tree->birth[i] : strike_birth;
-                    for (int32_t k = (int32_t)i; k >= 0; k = tree->parent[k]) {
-                        on_way[k] = true;
-                    }
+            if (tree->radius[i] == LIGHTNING_STRIKE) {
+                strike_birth = tree->birth[i] > strike_birth ? tree->birth[i] : strike_birth;
+                for (int32_t k = (int32_t)i; k >= 0; k = tree->parent[k]) {
+                    on_way[k] = true;
                 }
             }
         }
@@ -215,10 +217,10 @@ static bool finish_bolt(OutTree *tree, const Bolt *bolt, const uint64_t *strike_
     return done;
 }
 
-OutTree *lightning_grow_bolt(const Bolt *bolt, uint64_t *strike_id, const Recipe *recipe, Error *e)
+OutTree *lightning_grow_bolt(const Bolt *bolt, const Recipe *recipe, Error *e)
 {
-    OutTree *tree = grow_leader(bolt, strike_id, recipe->run, e);
-    if (tree && !(grow_branches(tree, bolt, recipe, e) && finish_bolt(tree, bolt, strike_id, e))) {
+    OutTree *tree = grow_leader(bolt, recipe->run, e);
+    if (tree && !(grow_branches(tree, bolt, recipe, e) && finish_bolt(tree, bolt, e))) {
         out_tree_free(tree);
         return NULL;
     }

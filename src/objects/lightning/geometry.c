@@ -1,4 +1,5 @@
 // The bolts as round curves that glow.
+#include "base/color.h"
 #include "base/memory.h"
 #include "objects/lightning/lightning.h"
 #include "outtree/chains.h"
@@ -27,9 +28,17 @@ static void fill_curve(CurveSet *curves, int64_t curve, const OutTree *tree, con
     }
 }
 
-bool lightning_geometry(const OutTree *tree, const LightningParams *params, int material,
-                        float luminance, int object, Geometry *geometry, Error *e)
+// Of the material, W/(m^2 sr); 0 = not known.
+static float luminance_of(const Placing *placing)
 {
+    const Material *materials = placing->around.material;
+    return materials ? luminance(materials[placing->material[0]].radiance) : 0.0f;
+}
+
+bool lightning_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
+{
+    const LightningParams *params = given;
+    const OutTree *tree = grown->tree;
     ChainSet *chains = out_tree_chains(tree, e);
     if (!chains) {
         return false;
@@ -50,7 +59,7 @@ bool lightning_geometry(const OutTree *tree, const LightningParams *params, int 
         float core = lightning_radius(params, tree);
         float radiance =
             params->power > 0.0f ? params->power / (2.0f * PI_F * PI_F * core) : OWN_RADIANCE;
-        float glow = luminance > 0.0f ? radiance / luminance : 1.0f;
+        float own = luminance_of(placing), glow = own > 0.0f ? radiance / own : 1.0f;
         float last_birth = 1.0f;
         for (int64_t i = 0; i < tree->count; i++) {
             float birth = (float)tree->birth[i];
@@ -70,6 +79,5 @@ bool lightning_geometry(const OutTree *tree, const LightningParams *params, int 
         curves_free(curves);
         return false;
     }
-    Part part = {.kind = PART_CURVES, .curves = curves, .material = material, .object = object};
-    return drawn == 0 || geometry_add(geometry, part, e);
+    return drawn == 0 || placing_add(placing, (Part){.curves = curves}, 0, e);
 }

@@ -8,7 +8,6 @@
 #include "outtree/chains.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 LightningParams lightning_params_default(void)
 {
@@ -160,11 +159,26 @@ float lightning_radius(const LightningParams *params, const OutTree *tree)
 
 // ---- the way ----
 
+// The ids of the strikes; the caller frees them.
+static uint64_t *find_strikes(const OutTree *tree, int *count, Error *e)
+{
+    *count = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        *count += tree->radius[i] == LIGHTNING_STRIKE;
+    }
+    uint64_t *id = memory_alloc(*count, sizeof *id, e);
+    for (int64_t i = 0, k = 0; id && i < tree->count; i++) {
+        if (tree->radius[i] == LIGHTNING_STRIKE) {
+            id[k++] = tree->id[i];
+        }
+    }
+    return id;
+}
+
 // Powers first, so that chains follow the main channel; and again in the end, along the ways as
 // they are drawn.
 OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float size, float core,
-                          const uint64_t *strike_id, int strike_count, const Wander *wander,
-                          Error *e)
+                          const Wander *wander, Error *e)
 {
     float length[2] = {params->step > 0.0f ? params->step : size / 40.0f,
                        params->segment > 0.0f ? params->segment : size / 400.0f};
@@ -174,9 +188,11 @@ OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float si
     jitter.project = wander->project;
     jitter.surface = wander->surface;
     jitter.stride = wander->stride;
+    int strikes;
+    uint64_t *strike_id = find_strikes(tree, &strikes, e);
     for (int i = 0; tree && i < 3; i++) {
         OutTree *next = tree;
-        bool done = set_radii(next, params, size, core, strike_id, strike_count, e);
+        bool done = strike_id && set_radii(next, params, size, core, strike_id, strikes, e);
         if (done && i < 2) {
             next = out_tree_resample(tree, length[i], e);
             if (!next) {
@@ -194,6 +210,7 @@ OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float si
         }
         tree = next;
     }
+    free(strike_id);
     return tree;
 }
 
@@ -226,59 +243,6 @@ static Bolt make_bolt(const LightningParams *params, int number, uint64_t seed)
     return bolt;
 }
 
-static bool grow_bolts(OutTree *tree, const LightningParams *params, uint64_t *strike_id,
-                       const Recipe *recipe, Error *e)
-{
-    for (int i = 0; i < params->bolts; i++) {
-        Bolt bolt = make_bolt(params, i, recipe->seed);
-        OutTree *one =
-            lightning_grow_bolt(&bolt, strike_id + (int64_t)i * params->ground_points, recipe, e);
-        bool done = one && lightning_add_streamers(one, &bolt, out_tree_last_birth(one), e) &&
-                    out_tree_append(tree, one, e);
-        out_tree_free(one);
-        if (!done) {
-            return false;
-        }
-    }
-    return true;
-}
-
-// All bolts with their strikes, before they are cut.
-static OutTree *grow_whole(const LightningParams *params, uint64_t *strike_id, int strikes,
-                           const Recipe *recipe, Error *e)
-{
-    if (recipe_remembers(recipe, 0)) {
-        memcpy(strike_id, recipe->memory->id, sizeof *strike_id * (size_t)strikes);
-        return recipe_recall(recipe, 0, e);
-    }
-    OutTree *tree = out_tree_new(e);
-    if (tree &&
-        !(grow_bolts(tree, params, strike_id, recipe, e) &&
-          recipe_keep_ids(recipe, strike_id, strikes, e) && recipe_keep(recipe, 0, tree, e))) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    return tree;
-}
-
-static OutTree *grow_in_air(const LightningParams *params, const Recipe *recipe, Error *e)
-{
-    int strikes = params->bolts * params->ground_points;
-    float size = params->height, core = params->radius;
-    uint64_t *strike_id = memory_alloc(strikes, sizeof *strike_id, e);
-    OutTree *tree = strike_id ? grow_whole(params, strike_id, strikes, recipe, e) : NULL;
-    if (tree && !out_tree_keep_births(tree, recipe->grow_to, e)) {
-        out_tree_free(tree);
-        tree = NULL;
-    }
-    uint64_t seed = random_key(recipe->seed, 9);
-    tree = tree ? lightning_wander(tree, params, size, core, strike_id, strikes,
-                                   &(Wander){.seed = seed, .run = recipe->run}, e)
-                : NULL;
-    free(strike_id);
-    return tree;
-}
-
 LightningParams lightning_params_resolve(const LightningParams *given)
 {
     LightningParams params = *given;
@@ -292,10 +256,32 @@ LightningParams lightning_params_resolve(const LightningParams *given)
     return params;
 }
 
-OutTree *lightning_grow(const LightningParams *params, const Recipe *recipe, Error *e)
+bool lightning_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
-    LightningParams whole = lightning_params_resolve(params);
-    return params->element.points.place == SCATTER_SURFACE
-               ? lightning_grow_surface(params, recipe, e)
-               : grow_in_air(&whole, recipe, e);
+    LightningParams params = lightning_params_resolve(given);
+    if (params.element.points.place == SCATTER_SURFACE) {
+        return lightning_grow_surface(given, recipe, whole, e);
+    }
+    whole->tree = out_tree_new(e);
+    bool done = whole->tree;
+    for (int i = 0; done && i < params.bolts; i++) {
+        Bolt bolt = make_bolt(&params, i, recipe->seed);
+        OutTree *one = lightning_grow_bolt(&bolt, recipe, e);
+        done = one && lightning_add_streamers(one, &bolt, out_tree_last_birth(one), e) &&
+               out_tree_append(whole->tree, one, e);
+        out_tree_free(one);
+    }
+    return done;
+}
+
+bool lightning_finish(const void *given, const Recipe *recipe, const Grown *whole, Grown *grown,
+                      Error *e)
+{
+    LightningParams params = lightning_params_resolve(given);
+    if (params.element.points.place == SCATTER_SURFACE) {
+        return lightning_finish_surface(given, recipe, whole->state, grown, e);
+    }
+    Wander wander = {.seed = random_key(recipe->seed, 9), .run = recipe->run};
+    grown->tree = lightning_wander(grown->tree, &params, params.height, params.radius, &wander, e);
+    return grown->tree;
 }

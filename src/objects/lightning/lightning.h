@@ -5,8 +5,6 @@
 #ifndef RAMIFY_OBJECTS_LIGHTNING_LIGHTNING_H
 #define RAMIFY_OBJECTS_LIGHTNING_LIGHTNING_H
 
-#include "base/measures.h"
-#include "mesh/geometry.h"
 #include "objects/common/element.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
@@ -46,10 +44,13 @@ LightningParams lightning_params_default(void);
 // not over a surface.
 LightningParams lightning_params_resolve(const LightningParams *given);
 
-// Grows the out-tree of all bolts. A node's radius is the core's, and its cube in units of
-// lightning_radius()'s is its power in units of the main channel's. Colony: the bolt's number, and
-// bolts + that number for its streamers. Normals: of the surface where there is one.
-OutTree *lightning_grow(const LightningParams *params, const Recipe *recipe, Error *e);
+// The recipe (see recipe.h). Grows the out-tree of all bolts; finishing draws their ways. A node's
+// radius is the core's, and its cube in units of lightning_radius()'s is its power in units of the
+// main channel's. Colony: the bolt's number, and bolts + that number for its streamers. Normals: of
+// the surface where there is one.
+bool lightning_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+bool lightning_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                      Error *e);
 
 // Attractors that lightning_grow will scatter.
 int64_t lightning_attractors(const LightningParams *params);
@@ -57,15 +58,13 @@ int64_t lightning_attractors(const LightningParams *params);
 // Radius of the main channel, m: of a grown tree, because on a surface lengths follow the envelope.
 float lightning_radius(const LightningParams *params, const OutTree *tree);
 
-// Adds the bolts as round curves that glow: `material` should be an emission. Its radiance's
-// luminance, in W/(m^2 sr), is `luminance`; the curves' glow makes up for it, so that their
-// radiance follows the power.
-bool lightning_geometry(const OutTree *tree, const LightningParams *params, int material,
-                        float luminance, int object, Geometry *geometry, Error *e);
+// Adds the bolts as round curves that glow: the one material should be an emission. The curves'
+// glow makes up for its radiance's luminance, so that their radiance follows the power.
+bool lightning_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 // Adds "turning" (mean absolute change of direction along the main channel, degrees, seen from the
 // side; Hill 1968: 16 to 17) and "box_dimension" (of the bolts as seen from the side).
-bool lightning_measure(const LightningParams *params, const OutTree *tree, MeasureList *list,
-                       Error *e);
+bool lightning_measure(const void *params, const Grown *grown, const Recipe *recipe,
+                       MeasureList *list, Error *e);
 
 #endif

@@ -113,9 +113,12 @@ static bool seen_dimension(const OutTree *tree, double *mean, Error *e)
     return true;
 }
 
-bool lightning_measure(const LightningParams *params, const OutTree *tree, MeasureList *list,
-                       Error *e)
+bool lightning_measure(const void *given, const Grown *grown, const Recipe *recipe,
+                       MeasureList *list, Error *e)
 {
+    (void)recipe;
+    const LightningParams *params = given;
+    const OutTree *tree = grown->tree;
     ChainSet *chains = out_tree_chains(tree, e);
     double dimension;
     bool done = chains && seen_dimension(tree, &dimension, e);

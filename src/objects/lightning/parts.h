@@ -22,15 +22,20 @@ enum { LIGHTNING_MOST_LEVELS = 3 };
 // returns how many.
 int lightning_own_levels(const LightningParams *params, GrowLevel levels[LIGHTNING_MOST_LEVELS]);
 
-// Grows one bolt in the air. At `struck` the number of its main channels that reached their end, 0
-// or ground_points, and their ends' ids at strike_id (ground_points entries).
-OutTree *lightning_grow_bolt(const Bolt *bolt, uint64_t *strike_id, const Recipe *recipe, Error *e);
+// Until radii are known, the radius of the nodes where main channels end; that of others is 0.
+#define LIGHTNING_STRIKE 1.0f
+
+// Grows one bolt in the air.
+OutTree *lightning_grow_bolt(const Bolt *bolt, const Recipe *recipe, Error *e);
 
 // Adds the short leaders that rise about the strike as roots of their own.
 bool lightning_add_streamers(OutTree *tree, const Bolt *bolt, int32_t last_birth, Error *e);
 
-// Grows everything over the surface of the element's envelope.
-OutTree *lightning_grow_surface(const LightningParams *params, const Recipe *recipe, Error *e);
+// Grows everything over the surface of the element's envelope, which is the state.
+bool lightning_grow_surface(const LightningParams *params, const Recipe *recipe, Grown *whole,
+                            Error *e);
+bool lightning_finish_surface(const LightningParams *params, const Recipe *recipe,
+                              const Envelope *envelope, Grown *grown, Error *e);
 
 // How ways wander, besides the parameters.
 typedef struct Wander {
@@ -42,11 +47,9 @@ typedef struct Wander {
 } Wander;
 
 // Takes the tree and gives it its ways and radii: resampled to steps, jittered, resampled to
-// segments, jittered within the steps. Radii: core for the way from a root to each node of id
-// strike_id[0 .. strike_count - 1] that there is, dimmer and dimmer for what leaves it, fading
-// toward tips.
+// segments, jittered within the steps. Radii: core for the way from a root to each strike, dimmer
+// and dimmer for what leaves it, fading toward tips.
 OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float size, float core,
-                          const uint64_t *strike_id, int strike_count, const Wander *wander,
-                          Error *e);
+                          const Wander *wander, Error *e);
 
 #endif

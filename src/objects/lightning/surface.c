@@ -94,26 +94,30 @@ static bool grow_over(OutTree *tree, const LightningParams *params, const Envelo
         element.growth.max_angle = 60.0f;
     }
     return element.level_count == 0 ||
-           element_grow_in(tree, &element, envelope, random_key(recipe->seed, 4), recipe->label,
-                           recipe->run, e);
+           element_grow_in(tree, &element, envelope, random_key(recipe->seed, 4), recipe, NULL, e);
 }
 
-// The node of each colony that is furthest from its root along the branches: there the main channel
-// goes.
-static bool find_ends(const OutTree *tree, int bolts, uint64_t *end_id, Error *e)
+// Marks the node of each colony that is furthest from its root along the branches: there the main
+// channel goes.
+static bool mark_ends(OutTree *tree, int bolts, Error *e)
 {
     float *distance = memory_alloc(tree->count, sizeof *distance, e);
     float *furthest = memory_alloc_zero(bolts, sizeof *furthest, e);
-    bool done = distance && furthest;
+    int64_t *end = memory_alloc_zero(bolts, sizeof *end, e);
+    bool done = distance && furthest && end;
     for (int64_t i = 0; done && i < tree->count; i++) {
         int32_t parent = tree->parent[i], colony = tree->colony[i];
         float step = parent < 0 ? 0.0f : vec3_distance(tree->position[i], tree->position[parent]);
         distance[i] = parent < 0 ? 0.0f : distance[parent] + step;
         if (parent < 0 || distance[i] > furthest[colony]) {
             furthest[colony] = distance[i];
-            end_id[colony] = tree->id[i];
+            end[colony] = i;
         }
     }
+    for (int i = 0; done && i < bolts && tree->count > 0; i++) {
+        tree->radius[end[i]] = LIGHTNING_STRIKE;
+    }
+    free(end);
     free(distance);
     free(furthest);
     return done;
@@ -138,64 +142,63 @@ static bool drop_strays(OutTree *tree, const Skin *skin, float size, Error *e)
     return done;
 }
 
-static OutTree *finish(OutTree *tree, const LightningParams *params, const Skin *skin, float size,
-                       const Recipe *recipe, Error *e)
-{
-    float core = params->radius > 0.0f ? params->radius : size / 700.0f;
-    uint64_t *end_id = memory_alloc(params->bolts, sizeof *end_id, e);
-    if (end_id && out_tree_keep_births(tree, recipe->grow_to, e) &&
-        find_ends(tree, params->bolts, end_id, e)) {
-        float band = envelope_band(skin->envelope);
-        Wander wander = {.project = project,
-                         .surface = skin,
-                         .stride = band < 0.04f * size ? 0.5f * band : 0.02f * size,
-                         .seed = random_key(recipe->seed, 9),
-                         .run = recipe->run};
-        tree = lightning_wander(tree, params, size, core, end_id, params->bolts, &wander, e);
-    } else {
-        out_tree_free(tree);
-        tree = NULL;
-    }
-    free(end_id);
-    if (tree && !drop_strays(tree, skin, size, e)) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    float lift = params->lift > 0.0f ? params->lift : 2.0f * core;
-    for (int64_t i = 0; tree && i < tree->count; i++) {
-        tree->position[i] = vec3_madd(tree->position[i], lift, tree->normal[i]);
-    }
-    return tree;
-}
-
 static float larger(float a, float b)
 {
     return a > b ? a : b;
 }
 
-OutTree *lightning_grow_surface(const LightningParams *params, const Recipe *recipe, Error *e)
+// Of the envelope, m.
+static float largest_extent(const Envelope *envelope)
 {
-    const ElementParams *element = &params->element;
-    EnvelopeParams shape = {element->shapes, element->shape_count, element->voxel};
-    Envelope *envelope = envelope_new(&shape, recipe->run, e);
-    bool again = recipe_remembers(recipe, 0);
-    OutTree *tree = !envelope ? NULL : (again ? recipe_recall(recipe, 0, e) : out_tree_new(e));
-    if (!tree) {
-        envelope_free(envelope);
-        return NULL;
-    }
     Aabb box = envelope_bounds(envelope);
     Vec3 extent = vec3_sub(box.high, box.low);
-    float size = larger(extent.x, larger(extent.y, extent.z));
-    Skin skin = {envelope, 0.004f * size};
-    if (again ||
-        (plant(tree, params, &skin, random_key(recipe->seed, 3), e) &&
-         grow_over(tree, params, envelope, recipe, e) && recipe_keep(recipe, 0, tree, e))) {
-        tree = finish(tree, params, &skin, size, recipe, e);
-    } else {
-        out_tree_free(tree);
-        tree = NULL;
-    }
+    return larger(extent.x, larger(extent.y, extent.z));
+}
+
+static Skin make_skin(const Envelope *envelope)
+{
+    return (Skin){envelope, 0.004f * largest_extent(envelope)};
+}
+
+static void free_envelope(void *envelope)
+{
     envelope_free(envelope);
-    return tree;
+}
+
+bool lightning_grow_surface(const LightningParams *params, const Recipe *recipe, Grown *whole,
+                            Error *e)
+{
+    Envelope *envelope = element_envelope(&params->element, recipe->run, e);
+    *whole = (Grown){envelope ? out_tree_new(e) : NULL, envelope, free_envelope};
+    if (!whole->tree) {
+        return false;
+    }
+    Skin skin = make_skin(envelope);
+    return plant(whole->tree, params, &skin, random_key(recipe->seed, 3), e) &&
+           grow_over(whole->tree, params, envelope, recipe, e);
+}
+
+bool lightning_finish_surface(const LightningParams *params, const Recipe *recipe,
+                              const Envelope *envelope, Grown *grown, Error *e)
+{
+    Skin skin = make_skin(envelope);
+    float size = largest_extent(envelope), band = envelope_band(envelope);
+    float core = params->radius > 0.0f ? params->radius : size / 700.0f;
+    Wander wander = {.project = project,
+                     .surface = &skin,
+                     .stride = band < 0.04f * size ? 0.5f * band : 0.02f * size,
+                     .seed = random_key(recipe->seed, 9),
+                     .run = recipe->run};
+    if (!mark_ends(grown->tree, params->bolts, e)) {
+        return false;
+    }
+    OutTree *tree = grown->tree = lightning_wander(grown->tree, params, size, core, &wander, e);
+    if (!tree || !drop_strays(tree, &skin, size, e)) {
+        return false;
+    }
+    float lift = params->lift > 0.0f ? params->lift : 2.0f * core;
+    for (int64_t i = 0; i < tree->count; i++) {
+        tree->position[i] = vec3_madd(tree->position[i], lift, tree->normal[i]);
+    }
+    return true;
 }

@@ -88,38 +88,40 @@ static OutTree *draw(const LSystemPlantParams *p, const Recipe *recipe, Error *e
     return tree;
 }
 
-OutTree *lsystem_plant_grow(const LSystemPlantParams *p, const Recipe *recipe, Error *e)
+bool lsystem_plant_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
-    bool again = recipe_remembers(recipe, 0);
-    OutTree *tree = again ? recipe_recall(recipe, 0, e) : draw(p, recipe, e);
-    if (tree && !again) {
-        scale_to(tree, p->height, p->position);
+    const LSystemPlantParams *params = given;
+    whole->tree = draw(params, recipe, e);
+    if (whole->tree) {
+        scale_to(whole->tree, params->height, params->position);
     }
-    if (!tree || !(again || recipe_keep(recipe, 0, tree, e)) ||
-        !out_tree_keep_births(tree, recipe->grow_to, e)) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    Aabb box = out_tree_bounds(tree);
-    float radius = p->radius > 0.0f ? p->radius : 0.02f * (box.high.y - box.low.y);
-    if (sets_widths(tree)) {
-        scale_widths(tree, radius);
-    } else {
-        out_tree_pipe_radii(tree, p->radii.exponent, p->radii.tip, p->radius);
-    }
-    return tree;
+    return whole->tree;
 }
 
-bool lsystem_plant_geometry(const OutTree *tree, const LSystemPlantParams *params,
-                            const TreeMaterials *materials, int object, uint64_t seed,
-                            Geometry *geometry, const Run *run, Error *e)
+bool lsystem_plant_finish(const void *given, const Recipe *recipe, const Grown *whole, Grown *grown,
+                          Error *e)
 {
+    (void)recipe, (void)whole, (void)e;
+    const LSystemPlantParams *p = given;
+    Aabb box = out_tree_bounds(grown->tree);
+    float radius = p->radius > 0.0f ? p->radius : 0.02f * (box.high.y - box.low.y);
+    if (sets_widths(grown->tree)) {
+        scale_widths(grown->tree, radius);
+    } else {
+        out_tree_pipe_radii(grown->tree, p->radii.exponent, p->radii.tip, p->radius);
+    }
+    return true;
+}
+
+bool lsystem_plant_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
+{
+    const LSystemPlantParams *params = given;
     TreeParams as_tree = tree_params_default();
-    Aabb box = out_tree_bounds(tree);
+    Aabb box = out_tree_bounds(grown->tree);
     as_tree.position = params->position;
     as_tree.roots.count = 0;
     as_tree.height = box.high.y - box.low.y;
     as_tree.leaves = params->leaves;
     as_tree.skin = params->skin;
-    return tree_geometry(tree, &as_tree, materials, object, seed, geometry, run, e);
+    return tree_geometry(&as_tree, grown, placing, e);
 }

@@ -3,7 +3,6 @@
 #ifndef RAMIFY_OBJECTS_LSYSTEM_PLANT_H
 #define RAMIFY_OBJECTS_LSYSTEM_PLANT_H
 
-#include "mesh/geometry.h"
 #include "objects/common/recipe.h"
 #include "objects/tree/tree.h"
 
@@ -25,11 +24,12 @@ typedef struct LSystemPlantParams {
 
 LSystemPlantParams lsystem_plant_params_default(void);
 
-// Derives, draws, scales to the height, gives radii.
-OutTree *lsystem_plant_grow(const LSystemPlantParams *params, const Recipe *recipe, Error *e);
-
-bool lsystem_plant_geometry(const OutTree *tree, const LSystemPlantParams *params,
-                            const TreeMaterials *materials, int object, uint64_t seed,
-                            Geometry *geometry, const Run *run, Error *e);
+// The recipe (see recipe.h). Derives, draws, scales to the height. The materials' roles are a
+// tree's.
+bool lsystem_plant_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+bool lsystem_plant_finish(const void *params, const Recipe *recipe, const Grown *whole,
+                          Grown *grown, Error *e);
+bool lsystem_plant_geometry(const void *params, const Grown *grown, const Placing *placing,
+                            Error *e);
 
 #endif

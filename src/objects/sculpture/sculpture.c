@@ -80,8 +80,7 @@ static bool plant(OutTree *tree, const PointSet *points, int clusters, uint64_t 
 static bool plant_roots(OutTree *tree, const SculptureParams *params, const ElementParams *element,
                         const Recipe *recipe, double *spacing, Error *e)
 {
-    EnvelopeParams form = {element->shapes, element->shape_count, element->voxel};
-    Envelope *envelope = envelope_new(&form, recipe->run, e);
+    Envelope *envelope = element_envelope(element, recipe->run, e);
     if (!envelope) {
         return false;
     }
@@ -118,7 +117,7 @@ static bool grow_shell(OutTree *tree, const SculptureParams *params, const Eleme
 {
     double spacing;
     if (!plant_roots(tree, params, element, recipe, &spacing, e) ||
-        !element_grow(tree, element, random_key(recipe->seed, 3), recipe->label, recipe->run, e)) {
+        !element_grow(tree, element, random_key(recipe->seed, 3), recipe, NULL, e)) {
         return false;
     }
     JoinParams join = {.reach = params->reach * (float)spacing,
@@ -130,11 +129,12 @@ static bool grow_shell(OutTree *tree, const SculptureParams *params, const Eleme
         return false;
     }
     compute_radii(tree, grown, 0.5f * params->thickness * (float)spacing, params->contrast);
-    return recipe_keep(recipe, 0, tree, e);
+    return true;
 }
 
-OutTree *sculpture_grow(const SculptureParams *params, const Recipe *recipe, Error *e)
+bool sculpture_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
+    const SculptureParams *params = given;
     Shape ball = {.kind = SHAPE_SPHERE, .size = {1, 1, 1}, .transform = transform_identity()};
     GrowLevel levels[LEVELS];
     ElementParams element = params->element;
@@ -148,28 +148,23 @@ OutTree *sculpture_grow(const SculptureParams *params, const Recipe *recipe, Err
         element.levels = levels;
         element.level_count = LEVELS;
     }
-    bool again = recipe_remembers(recipe, 0);
-    OutTree *tree = again ? recipe_recall(recipe, 0, e) : out_tree_new(e);
-    if (!tree || !(again || grow_shell(tree, params, &element, recipe, e)) ||
-        !out_tree_keep_births(tree, recipe->grow_to, e)) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    return tree;
+    whole->tree = out_tree_new(e);
+    return whole->tree && grow_shell(whole->tree, params, &element, recipe, e);
 }
 
-bool sculpture_geometry(const OutTree *tree, int material, int object, Geometry *geometry,
-                        const Run *run, Error *e)
+bool sculpture_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e)
 {
+    (void)params;
+    const OutTree *tree = grown->tree;
     float thinnest = INFINITY;
     for (int64_t i = 0; i < tree->count; i++) {
         thinnest = tree->radius[i] < thinnest ? tree->radius[i] : thinnest;
     }
     Lattice lattice = {0};
-    Mesh *mesh = lattice_add_tree(&lattice, tree, e)
-                     ? lattice_surface(&lattice, thinnest / VOXELS_A_BAR, SMOOTHING, run, e)
-                     : NULL;
+    Mesh *mesh =
+        lattice_add_tree(&lattice, tree, e)
+            ? lattice_surface(&lattice, thinnest / VOXELS_A_BAR, SMOOTHING, placing->recipe->run, e)
+            : NULL;
     lattice_clear(&lattice);
-    Part part = {.kind = PART_MESH, .mesh = mesh, .material = material, .object = object};
-    return mesh && geometry_add(geometry, part, e);
+    return placing_add(placing, (Part){.mesh = mesh}, 0, e);
 }

@@ -4,7 +4,6 @@
 #ifndef RAMIFY_OBJECTS_SCULPTURE_SCULPTURE_H
 #define RAMIFY_OBJECTS_SCULPTURE_SCULPTURE_H
 
-#include "mesh/geometry.h"
 #include "objects/common/element.h"
 #include "objects/common/recipe.h"
 
@@ -19,10 +18,9 @@ typedef struct SculptureParams {
 
 SculptureParams sculpture_params_default(void); // a ball of 1 m radius, 9 clusters
 
-// The clusters with radii, merged: see outtree/join.h for how an out-tree holds the loops.
-OutTree *sculpture_grow(const SculptureParams *params, const Recipe *recipe, Error *e);
-
-bool sculpture_geometry(const OutTree *tree, int material, int object, Geometry *geometry,
-                        const Run *run, Error *e);
+// The recipe (see recipe.h). Grows the clusters with radii, merged: see outtree/join.h for how an
+// out-tree holds the loops. The geometry is one surface of the one material.
+bool sculpture_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+bool sculpture_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 #endif

@@ -125,15 +125,6 @@ static void thicken(OutTree *tree, float min_radius)
     }
 }
 
-static float thinnest(const OutTree *tree)
-{
-    float least = INFINITY;
-    for (int64_t i = 0; i < tree->count; i++) {
-        least = fminf(least, tree->radius[i]);
-    }
-    return least;
-}
-
 // Takes the tree; NULL and e on failure.
 static OutTree *with_soma(OutTree *tree, SkeletonSoma soma, Error *e)
 {
@@ -145,49 +136,51 @@ static OutTree *with_soma(OutTree *tree, SkeletonSoma soma, Error *e)
     return round;
 }
 
-OutTree *skeleton_grow(const SkeletonParams *params, const Recipe *recipe, Error *e)
+bool skeleton_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
+    const SkeletonParams *params = given;
     OutTree *file = out_tree_import_swc(params->file, recipe->run, e);
-    OutTree *tree = file ? pick(file, params, e) : NULL;
     if (!file) {
-        error_key(e, "file");
+        return error_key(e, "file");
     }
-    bool done = tree && put_in_place(tree, params, e);
+    whole->tree = pick(file, params, e);
     out_tree_free(file);
-    if (done) {
-        thicken(tree, params->min_radius);
-        tree = with_soma(tree, params->soma, e);
-        done = tree && out_tree_rejuvenate(tree, recipe->grow_to, thinnest(tree), e);
+    if (!whole->tree || !put_in_place(whole->tree, params, e)) {
+        return false;
     }
-    if (!done) {
-        out_tree_free(tree);
-        return NULL;
+    thicken(whole->tree, params->min_radius);
+    whole->tree = with_soma(whole->tree, params->soma, e);
+    return whole->tree;
+}
+
+float skeleton_tip_radius(const void *params, const OutTree *whole)
+{
+    (void)params;
+    float least = INFINITY;
+    for (int64_t i = 0; i < whole->count; i++) {
+        least = fminf(least, whole->radius[i]);
     }
-    return tree;
+    return least;
 }
 
 // ---- geometry ----
 
 // Thick ways as a smooth skin, thin ones as round curves.
-static bool add_skin(const OutTree *tree, const SkeletonParams *params, int material, int object,
-                     Geometry *geometry, const Run *run, Error *e)
+static bool add_skin(const OutTree *tree, const SkeletonParams *params, int role,
+                     const Placing *placing, Error *e)
 {
     SkinParams skin = skin_params_default();
     skin.levels = params->skin.levels;
     skin.ring_spacing = params->skin.ring_spacing;
     skin.min_radius = params->skin.curve_radius;
     skin.smoothing = params->smoothing;
-    Part part = {.kind = PART_MESH, .material = material, .object = object};
-    part.mesh = skin_tree(tree, &skin, run, e);
-    if (!part.mesh || !geometry_add(geometry, part, e)) {
+    Part thick = {.mesh = skin_tree(tree, &skin, placing->recipe->run, e)};
+    if (!placing_add(placing, thick, role, e)) {
         return false;
     }
-    if (!(skin.min_radius > 0.0f)) {
-        return true;
-    }
-    part = (Part){.kind = PART_CURVES, .material = material, .object = object};
-    part.curves = skin_curves(tree, skin.min_radius, &skin, e);
-    return part.curves && geometry_add(geometry, part, e);
+    return !(skin.min_radius > 0.0f) ||
+           placing_add(placing, (Part){.curves = skin_curves(tree, skin.min_radius, &skin, e)},
+                       role, e);
 }
 
 // The axons with all that grew from them, each from inside of what it leaves.
@@ -228,52 +221,47 @@ static OutTree *axons_of(const OutTree *tree, const bool *of_axon, Error *e)
 }
 
 static bool add_apart(const OutTree *tree, bool *of_axon, const SkeletonParams *params,
-                      const SkeletonMaterials *materials, int object, Geometry *geometry,
-                      const Run *run, Error *e)
+                      const Placing *placing, Error *e)
 {
     OutTree *axons = axons_of(tree, of_axon, e), *body = out_tree_copy(tree, e);
     for (int64_t i = 0; i < tree->count; i++) {
         of_axon[i] = !of_axon[i];
     }
-    bool done = axons && body && out_tree_keep_nodes(body, of_axon, e);
-    done = done &&
-           (body->count == 0 || add_skin(body, params, materials->body, object, geometry, run, e));
-    done = done && (axons->count == 0 ||
-                    add_skin(axons, params, materials->axon, object, geometry, run, e));
+    bool done = axons && body && out_tree_keep_nodes(body, of_axon, e) &&
+                (body->count == 0 || add_skin(body, params, SKELETON_BODY, placing, e)) &&
+                (axons->count == 0 || add_skin(axons, params, SKELETON_AXON, placing, e));
     out_tree_free(axons);
     out_tree_free(body);
     return done;
 }
 
-static bool add_parts(const OutTree *tree, const SkeletonParams *params,
-                      const SkeletonMaterials *materials, int object, Geometry *geometry,
-                      const Run *run, Error *e)
+static bool add_all(const OutTree *tree, const SkeletonParams *params, const Placing *placing,
+                    Error *e)
 {
-    if (materials->axon == materials->body) {
-        return add_skin(tree, params, materials->body, object, geometry, run, e);
+    if (placing->material[SKELETON_AXON] == placing->material[SKELETON_BODY]) {
+        return add_skin(tree, params, SKELETON_BODY, placing, e);
     }
     bool *of_axon = memory_alloc(tree->count, sizeof *of_axon, e);
     for (int64_t i = 0; of_axon && i < tree->count; i++) {
         int32_t parent = tree->parent[i];
         of_axon[i] = tree->colony[i] == SWC_AXON || (parent >= 0 && of_axon[parent]);
     }
-    bool done = of_axon && add_apart(tree, of_axon, params, materials, object, geometry, run, e);
+    bool done = of_axon && add_apart(tree, of_axon, params, placing, e);
     free(of_axon);
     return done;
 }
 
 // What grows from a curve is curves: a soma, thin at its pole, must not be one.
-bool skeleton_geometry(const OutTree *tree, const SkeletonParams *params,
-                       const SkeletonMaterials *materials, int object, Geometry *geometry,
-                       const Run *run, Error *e)
+bool skeleton_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
-    OutTree *solid = out_tree_copy(tree, e);
+    const SkeletonParams *params = given;
+    OutTree *solid = out_tree_copy(grown->tree, e);
     for (int64_t i = 0; solid && i < solid->count; i++) {
         if (solid->colony[i] == SWC_SOMA) {
             solid->radius[i] = fmaxf(solid->radius[i], params->skin.curve_radius);
         }
     }
-    bool done = solid && add_parts(solid, params, materials, object, geometry, run, e);
+    bool done = solid && add_all(solid, params, placing, e);
     out_tree_free(solid);
     return done;
 }

@@ -3,7 +3,6 @@
 #ifndef RAMIFY_OBJECTS_SKELETON_SKELETON_H
 #define RAMIFY_OBJECTS_SKELETON_SKELETON_H
 
-#include "mesh/geometry.h"
 #include "objects/common/recipe.h"
 #include "objects/tree/tree.h"
 #include "outtree/out_tree.h"
@@ -29,20 +28,16 @@ typedef struct SkeletonParams {
     SkinningParams skin;
 } SkeletonParams;
 
-typedef struct SkeletonMaterials {
-    int body, axon;
-} SkeletonMaterials;
+enum { SKELETON_BODY, SKELETON_AXON }; // roles of materials
 
 SkeletonParams skeleton_params_default(void);
 
-// Reads the file in a child process (out_tree_import_swc), picks, places and mends it. Colonies are
-// the types; births count the nodes from the root. ERROR_INPUT also when nothing is left of it or
-// it is out of all bounds.
-OutTree *skeleton_grow(const SkeletonParams *params, const Recipe *recipe, Error *e);
-
-bool skeleton_geometry(const OutTree *tree, const SkeletonParams *params,
-                       const SkeletonMaterials *materials, int object, Geometry *geometry,
-                       const Run *run, Error *e);
+// The recipe (see recipe.h). Reads the file in a child process (out_tree_import_swc), picks, places
+// and mends it. Colonies are the types; births count the nodes from the root. ERROR_INPUT also when
+// nothing is left of it or it is out of all bounds.
+bool skeleton_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+float skeleton_tip_radius(const void *params, const OutTree *whole); // m
+bool skeleton_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 // The part of skeleton_grow that replaces the nodes of type 1 at roots (skeleton_soma.c): by a
 // chain of nodes as thick as a ball is, along the way to the thickest of what leaves it. The ball

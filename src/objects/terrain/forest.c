@@ -132,31 +132,31 @@ static bool plant(const Planting *p, Transform **place, int64_t *count, const Ru
     return true;
 }
 
-static bool add_form(const Transform *place, int64_t count, int form, uint64_t seed, int material,
-                     int object, Geometry *geometry, Error *e)
+static bool add_form(const Transform *place, int64_t count, int form, uint64_t seed,
+                     const Placing *placing, Error *e)
 {
     int64_t own = (count - form + FORMS - 1) / FORMS;
     if (own <= 0) {
         return true;
     }
-    Part part = {.kind = PART_MESH, .material = material, .object = object, .instance_count = own};
-    part.mesh = conifer_mesh(random_key(seed, 50 + (uint64_t)form), e);
-    part.instance = memory_alloc(own, sizeof *part.instance, e);
-    if (!part.mesh || !part.instance) {
+    Part part = {.mesh = conifer_mesh(random_key(seed, 50 + (uint64_t)form), e),
+                 .instance = memory_alloc(own, sizeof *part.instance, e),
+                 .instance_count = own};
+    if (!part.instance) {
         mesh_free(part.mesh);
-        free(part.instance);
         return false;
     }
     for (int64_t i = 0; i < own; i++) {
         part.instance[i] = place[i * FORMS + form];
     }
-    return geometry_add(geometry, part, e);
+    return placing_add(placing, part, TERRAIN_FOLIAGE, e);
 }
 
-bool terrain_add_forest(const Terrain *terrain, const HeightField *field, const Vec3 *eye,
-                        int material, int object, Geometry *geometry, const Run *run, Error *e)
+bool terrain_add_forest(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                        Error *e)
 {
     const TerrainParams *params = terrain->params;
+    const Vec3 *eye = placing->around.eye;
     Planting p = {.terrain = terrain,
                   .params = params,
                   .field = field,
@@ -175,9 +175,9 @@ bool terrain_add_forest(const Terrain *terrain, const HeightField *field, const 
     }
     Transform *place = NULL;
     int64_t count = 0;
-    bool done = plant(&p, &place, &count, run, e);
+    bool done = plant(&p, &place, &count, placing->recipe->run, e);
     for (int form = 0; done && form < FORMS; form++) {
-        done = add_form(place, count, form, p.seed, material, object, geometry, e);
+        done = add_form(place, count, form, p.seed, placing, e);
     }
     free(place);
     return done;

@@ -1,4 +1,4 @@
-// What the parts of the terrain share: private to terrain*.c.
+// What the parts of the terrain share: private to this folder.
 #ifndef RAMIFY_OBJECTS_TERRAIN_INTERNAL_H
 #define RAMIFY_OBJECTS_TERRAIN_INTERNAL_H
 
@@ -9,33 +9,26 @@
 typedef struct Terrain {
     const TerrainParams *params; // borrowed
     uint64_t seed;
-    OutTree *rivers;          // heights and radii filled in
+    OutTree *rivers;          // heights and radii filled in; owned by the Grown
     float *area;              // m^2 that drain through each node
     float *uplift;            // factor on gradients at each node
     float gradient;           // of hillslopes where the uplift is 1
     TroughEnvelope *land;     // heights of valleys and slopes
     TroughEnvelope *distance; // m to the nearest river, whatever its height
-    // What shows of the rivers on the finished heights, once terrain_sample has laid it there; NULL
-    // or without nodes where nothing shows.
+    // What shows of the rivers on the finished heights, once terrain_heights has laid it there;
+    // NULL or without nodes where nothing shows.
     OutTree *water; // steps of at most half a cell; y = the water's level, radius = half width
     TroughEnvelope *shore; // m to the water's edge, negative in the water
     uint8_t *bank;         // of each sample: 1 = in a bed or at its edge
 } Terrain;
 
-// Takes the rivers (positions in the plane, parents) and finds areas, heights and captures.
-Terrain *terrain_new(const TerrainParams *params, OutTree *rivers, const Recipe *recipe, Error *e);
-void terrain_free(Terrain *terrain); // NULL is fine
+// uplift.c: fills terrain->uplift, at least 0.02 at each node. Reads the user's picture.
+bool terrain_uplift(Terrain *terrain, Error *e);
 
-// terrain_rivers.c: grows the rivers in the plane y = 0.
-OutTree *terrain_rivers(const TerrainParams *params, const Recipe *recipe, Error *e);
-
-// terrain_uplift.c: the factor on gradients at a place, at least 0.02.
-float terrain_uplift(const TerrainParams *params, uint64_t seed, float x, float z);
-
-// terrain_areas.c: fills terrain->area: every bit of land drains through its nearest node.
+// areas.c: fills terrain->area: every bit of land drains through its nearest node.
 bool terrain_areas(Terrain *terrain, const Run *run, Error *e);
 
-// terrain_profile.c: one pass over the rivers: areas, then heights for hillslopes of gradient
+// profile.c: one pass over the rivers: areas, then heights for hillslopes of gradient
 // uplift * 1, from the outlets up. A river that would run below another's slope is captured by it,
 // and river ends on another's slope are dropped: *captures counts both. Nodes are sorted by height.
 bool terrain_profile(Terrain *terrain, const Run *run, int64_t *captures, Error *e);
@@ -61,7 +54,7 @@ static inline float terrain_bed_depth(float half, float d)
     return half * (0.03f + 0.25f * (1.0f - share * share));
 }
 
-// terrain_bed.c: lays the rivers that the grid can show on the finished heights: fills
+// bed.c: lays the rivers that the grid can show on the finished heights: fills
 // terrain->water, ->shore and ->bank and digs the beds.
 bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Error *e);
 
@@ -71,18 +64,14 @@ int32_t *terrain_main_children(const OutTree *water, Error *e);
 // m from a place to the nearest river's water, negative in it; infinite without water.
 float terrain_shore(const Terrain *terrain, float x, float z);
 
-// terrain_erosion.c: thermal and stream erosion of a field.
+// erosion.c: thermal and stream erosion of a field.
 bool terrain_erode(HeightField *field, const TerrainErosionParams *params, const Run *run,
                    Error *e);
 
-// terrain.c: heights and wetness (see terrain_heights).
-HeightField *terrain_sample(Terrain *terrain, const Run *run, Error *e);
-
-// terrain_water.c, terrain_forest.c: parts of the geometry, moved by params->position. eye: the
-// camera, NULL = none.
-bool terrain_add_water(const Terrain *terrain, const HeightField *field, int material, int object,
-                       Geometry *geometry, Error *e);
-bool terrain_add_forest(const Terrain *terrain, const HeightField *field, const Vec3 *eye,
-                        int material, int object, Geometry *geometry, const Run *run, Error *e);
+// water.c, forest.c: parts of the geometry, moved by params->position.
+bool terrain_add_water(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                       Error *e);
+bool terrain_add_forest(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                        Error *e);
 
 #endif

@@ -177,29 +177,21 @@ static GuideField *river_field(const OutTree *tree, const TerrainParams *params,
     return field;
 }
 
-OutTree *terrain_rivers(const TerrainParams *params, const Recipe *recipe, Error *e)
+bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
-    bool again = recipe_remembers(recipe, 0);
-    OutTree *tree = again ? recipe_recall(recipe, 0, e) : out_tree_new(e);
-    if (again) {
-        if (tree && !out_tree_keep_births(tree, recipe->grow_to, e)) {
-            out_tree_free(tree);
-            return NULL;
-        }
-        return tree;
+    const TerrainParams *params = given;
+    whole->tree = out_tree_new(e);
+    if (!whole->tree || !add_outlets(whole->tree, params, random_key(recipe->seed, 1), e)) {
+        return false;
     }
     GuideField *field = NULL;
-    bool done = tree && add_outlets(tree, params, random_key(recipe->seed, 1), e);
-    if (done && params->rivers.field_count > 0) {
-        field = river_field(tree, params, random_key(recipe->seed, 4), recipe->run, e);
-        done = field;
+    if (params->rivers.field_count > 0) {
+        field = river_field(whole->tree, params, random_key(recipe->seed, 4), recipe->run, e);
+        if (!field) {
+            return false;
+        }
     }
-    done = done && grow_levels(&tree, params, field, recipe->seed, recipe->run, e) &&
-           recipe_keep(recipe, 0, tree, e) && out_tree_keep_births(tree, recipe->grow_to, e);
+    bool done = grow_levels(&whole->tree, params, field, recipe->seed, recipe->run, e);
     guide_field_free(field);
-    if (!done) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    return tree;
+    return done;
 }

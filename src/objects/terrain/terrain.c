@@ -30,21 +30,6 @@ TerrainParams terrain_params_default(void)
         .mesh_error = 0.0006f};
 }
 
-void terrain_free(Terrain *terrain)
-{
-    if (terrain) {
-        out_tree_free(terrain->rivers);
-        free(terrain->area);
-        free(terrain->uplift);
-        trough_envelope_free(terrain->land);
-        trough_envelope_free(terrain->distance);
-        out_tree_free(terrain->water);
-        trough_envelope_free(terrain->shore);
-        free(terrain->bank);
-        free(terrain);
-    }
-}
-
 TerrainParams terrain_params_resolve(const TerrainParams *params)
 {
     TerrainParams resolved = *params;
@@ -132,10 +117,8 @@ static bool scale_heights(Terrain *terrain, const Run *run, Error *e)
 static bool fill_rivers(Terrain *terrain, const Run *run, Error *e)
 {
     enum { MOST_PASSES = 6 }; // captures change areas, areas change heights
-    OutTree *tree = terrain->rivers;
-    for (int64_t i = 0; i < tree->count; i++) {
-        terrain->uplift[i] = terrain_uplift(terrain->params, terrain->seed, tree->position[i].x,
-                                            tree->position[i].z);
+    if (!terrain_uplift(terrain, e)) {
+        return false;
     }
     int64_t captures = 1;
     for (int pass = 0; pass < MOST_PASSES && captures > 0; pass++) {
@@ -143,7 +126,7 @@ static bool fill_rivers(Terrain *terrain, const Run *run, Error *e)
             return false;
         }
     }
-    tree = terrain->rivers;
+    OutTree *tree = terrain->rivers; // the profile has sorted it
     if (!scale_heights(terrain, run, e)) {
         return false;
     }
@@ -153,36 +136,43 @@ static bool fill_rivers(Terrain *terrain, const Run *run, Error *e)
     return true;
 }
 
-Terrain *terrain_new(const TerrainParams *params, OutTree *rivers, const Recipe *recipe, Error *e)
+static void forget(Terrain *terrain)
 {
-    Terrain *terrain = memory_alloc_zero(1, sizeof *terrain, e);
-    if (!terrain) {
-        out_tree_free(rivers);
-        return NULL;
-    }
-    terrain->params = params;
-    terrain->seed = recipe->seed;
-    terrain->rivers = rivers;
-    terrain->area = memory_alloc(rivers->count, sizeof *terrain->area, e);
-    terrain->uplift = memory_alloc(rivers->count, sizeof *terrain->uplift, e);
-    if (!terrain->area || !terrain->uplift || !fill_rivers(terrain, recipe->run, e)) {
-        terrain_free(terrain);
-        return NULL;
-    }
-    return terrain;
+    trough_envelope_free(terrain->land);
+    trough_envelope_free(terrain->distance);
+    out_tree_free(terrain->water);
+    trough_envelope_free(terrain->shore);
+    free(terrain->bank);
+    terrain->land = terrain->distance = terrain->shore = NULL;
+    terrain->water = NULL;
+    terrain->bank = NULL;
 }
 
-OutTree *terrain_grow(const TerrainParams *params, const Recipe *recipe, Error *e)
+static void free_terrain(void *state)
 {
-    OutTree *rivers = terrain_rivers(params, recipe, e);
-    Terrain *terrain = rivers ? terrain_new(params, rivers, recipe, e) : NULL;
+    Terrain *terrain = state;
+    forget(terrain);
+    free(terrain->area);
+    free(terrain->uplift);
+    free(terrain);
+}
+
+bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                    Error *e)
+{
+    (void)whole;
+    Terrain *terrain = memory_alloc_zero(1, sizeof *terrain, e);
     if (!terrain) {
-        return NULL;
+        return false;
     }
-    OutTree *tree = terrain->rivers;
-    terrain->rivers = NULL;
-    terrain_free(terrain);
-    return tree;
+    grown->state = terrain;
+    grown->free_state = free_terrain;
+    *terrain = (Terrain){.params = params, .seed = recipe->seed, .rivers = grown->tree};
+    terrain->area = memory_alloc(grown->tree->count, sizeof *terrain->area, e);
+    terrain->uplift = memory_alloc(grown->tree->count, sizeof *terrain->uplift, e);
+    bool done = terrain->area && terrain->uplift && fill_rivers(terrain, recipe->run, e);
+    grown->tree = terrain->rivers;
+    return done;
 }
 
 // ---- heights
@@ -305,10 +295,12 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
            terrain_lay_rivers(terrain, field, run, e); // on what all else has left
 }
 
-HeightField *terrain_sample(Terrain *terrain, const Run *run, Error *e)
+HeightField *terrain_heights(const void *given, const Grown *grown, const Run *run, Error *e)
 {
-    const TerrainParams *params = terrain->params;
+    const TerrainParams *params = given;
+    Terrain *terrain = grown->state;
     float cell = params->size / (float)params->resolution, corner = -0.5f * params->size;
+    forget(terrain);
     terrain->land = make_envelope(terrain, false, run, e);
     terrain->distance = terrain->land ? make_envelope(terrain, true, run, e) : NULL;
     HeightField *field = NULL;
@@ -326,16 +318,6 @@ HeightField *terrain_sample(Terrain *terrain, const Run *run, Error *e)
         height_field_free(field);
         return NULL;
     }
-    return field;
-}
-
-HeightField *terrain_heights(const TerrainParams *params, const OutTree *rivers,
-                             const Recipe *recipe, Error *e)
-{
-    OutTree *copy = out_tree_copy(rivers, e);
-    Terrain *terrain = copy ? terrain_new(params, copy, recipe, e) : NULL;
-    HeightField *field = terrain ? terrain_sample(terrain, recipe->run, e) : NULL;
-    terrain_free(terrain);
     return field;
 }
 

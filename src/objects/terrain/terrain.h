@@ -7,7 +7,6 @@
 
 #include "field/guide_field.h"
 #include "land/height_field.h"
-#include "mesh/geometry.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
 
@@ -24,9 +23,7 @@ typedef struct UpliftParams {
     float noise; // 0..1: share by which it wavers from place to place
     UpliftStroke *strokes;
     int stroke_count;
-    char *image;               // grey picture laid over the terrain, north up: its factor; NULL
-    const float *image_pixels; // image_size[0] * image_size[1], borrowed; filled by who reads it
-    int image_size[2];
+    char *image; // grey picture laid over the terrain, north up: its factor; NULL
 } UpliftParams;
 
 typedef enum TerrainSide {
@@ -99,27 +96,25 @@ TerrainParams terrain_params_default(void); // 12 km of mountains
 // The same with what is 0 as it follows from the other parameters. Borrows what params owns.
 TerrainParams terrain_params_resolve(const TerrainParams *params);
 
-// The rivers as an out-tree, roots at their outlets: y is the height that the land follows, before
-// erosion and terraces; radii are half the width of the water. In the terrain's own space, position
-// not added.
-OutTree *terrain_grow(const TerrainParams *params, const Recipe *recipe, Error *e);
+// The recipe (see recipe.h). Grows the rivers in the plane y = 0, roots at their outlets. Finished,
+// y is the height that the land follows, before erosion and terraces, and radii are half the width
+// of the water. In the terrain's own space, position not added. The state is all that follows from
+// the rivers.
+bool terrain_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                    Error *e);
 
 // Heights and wetness from the rivers; square, resolution + 1 samples a side. Every sample off the
 // rim drains. Beds of rivers that are wide enough for the grid are dug last. The same bits for any
 // number of threads.
-HeightField *terrain_heights(const TerrainParams *params, const OutTree *rivers,
-                             const Recipe *recipe, Error *e);
+HeightField *terrain_heights(const void *params, const Grown *grown, const Run *run, Error *e);
 
 // Height of the lake, in the field's own space.
 float terrain_water_height(const TerrainParams *params, const HeightField *field);
 
-typedef struct TerrainMaterials {
-    int land, water, foliage;
-} TerrainMaterials;
+enum { TERRAIN_LAND, TERRAIN_WATER, TERRAIN_FOLIAGE }; // roles of materials
 
-// Adds land (finer toward eye, no cracks), water and forest. eye: the camera, NULL = even.
-bool terrain_geometry(const TerrainParams *params, const OutTree *rivers,
-                      const TerrainMaterials *materials, const Vec3 *eye, int object,
-                      Geometry *geometry, const Recipe *recipe, Error *e);
+// Adds land (finer toward the eye, no cracks; even without one), water and forest.
+bool terrain_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 #endif

@@ -1,6 +1,7 @@
 // Where the land rises faster: what the user paints.
 #include "base/noise.h"
 #include "base/random.h"
+#include "image/image.h"
 #include "objects/terrain/internal.h"
 
 // Distance from p to the line from a to b.
@@ -15,16 +16,30 @@ static float stroke_distance(const UpliftStroke *stroke, float x, float z)
     return sqrtf(px * px + pz * pz);
 }
 
-// The picture, bilinear; u and v run from 0 at its north-west corner to 1.
-static float image_at(const UpliftParams *uplift, float u, float v)
+// The mean of its colours, in the front of its own pixels: those lie before the ones still to read.
+static void make_grey(Image *image)
 {
-    int width = uplift->image_size[0], height = uplift->image_size[1];
+    int64_t count = (int64_t)image->width * image->height;
+    int colours = image->channels < 3 ? 1 : 3;
+    for (int64_t i = 0; i < count; i++) {
+        float sum = 0.0f;
+        for (int c = 0; c < colours; c++) {
+            sum += image->pixel[i * image->channels + c];
+        }
+        image->pixel[i] = sum / (float)colours;
+    }
+}
+
+// The grey picture, bilinear; u and v run from 0 at its north-west corner to 1.
+static float image_at(const Image *image, float u, float v)
+{
+    int width = image->width, height = image->height;
     float x = clampf(u * (float)width - 0.5f, 0.0f, (float)(width - 1));
     float y = clampf(v * (float)height - 0.5f, 0.0f, (float)(height - 1));
     int column = (int)x, row = (int)y;
     int next_column = column + 1 < width ? column + 1 : column;
     int next_row = row + 1 < height ? row + 1 : row;
-    const float *p = uplift->image_pixels;
+    const float *p = image->pixel;
     float above = lerpf(p[(int64_t)row * width + column], p[(int64_t)row * width + next_column],
                         x - (float)column);
     float below = lerpf(p[(int64_t)next_row * width + column],
@@ -32,10 +47,10 @@ static float image_at(const UpliftParams *uplift, float u, float v)
     return lerpf(above, below, y - (float)row);
 }
 
-float terrain_uplift(const TerrainParams *params, uint64_t seed, float x, float z)
+static float uplift_at(const TerrainParams *params, const Image *image, uint64_t seed, Vec3 p)
 {
     const UpliftParams *uplift = &params->uplift;
-    float u = x / params->size, v = z / params->size;
+    float u = p.x / params->size, v = p.z / params->size;
     float sum = uplift->base;
     sum *= 1.0f +
            1.4f * uplift->noise * noise_plane_fractal(u * 4.0f, v * 4.0f, 2, random_key(seed, 31));
@@ -44,8 +59,26 @@ float terrain_uplift(const TerrainParams *params, uint64_t seed, float x, float 
         float share = stroke_distance(stroke, u, v) / stroke->radius;
         sum += stroke->strength * (1.0f - smoothstepf(0.0f, 1.0f, share));
     }
-    if (uplift->image_pixels) {
-        sum *= image_at(uplift, u + 0.5f, v + 0.5f);
+    if (image) {
+        sum *= image_at(image, u + 0.5f, v + 0.5f);
     }
     return sum > 0.02f ? sum : 0.02f;
+}
+
+bool terrain_uplift(Terrain *terrain, Error *e)
+{
+    const char *file = terrain->params->uplift.image;
+    Image *image = file ? image_read(file, e) : NULL;
+    if (file && !image) {
+        return error_key(e, "uplift.image");
+    }
+    if (image) {
+        make_grey(image);
+    }
+    const OutTree *rivers = terrain->rivers;
+    for (int64_t i = 0; i < rivers->count; i++) {
+        terrain->uplift[i] = uplift_at(terrain->params, image, terrain->seed, rivers->position[i]);
+    }
+    image_free(image);
+    return true;
 }

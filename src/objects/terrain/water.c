@@ -6,12 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-static bool add_mesh(Mesh *mesh, int material, int object, Geometry *geometry, Error *e)
-{
-    Part part = {.kind = PART_MESH, .mesh = mesh, .material = material, .object = object};
-    return mesh && geometry_add(geometry, part, e);
-}
-
 // ---- the lake
 
 enum { LAKE_BLOCKS = 64 }; // a side
@@ -190,8 +184,8 @@ static void add_stems(Ribbons *r)
     }
 }
 
-static bool add_rivers(const Terrain *terrain, const HeightField *field, int material, int object,
-                       Geometry *geometry, Error *e)
+static bool add_rivers(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                       Error *e)
 {
     Ribbons r = {.terrain = terrain, .water = terrain->water, .field = field, .lake = -INFINITY};
     if (terrain->params->water_level > 0.0f) {
@@ -209,21 +203,22 @@ static bool add_rivers(const Terrain *terrain, const HeightField *field, int mat
         if (r.mesh) {
             add_stems(&r);
         }
-        done = add_mesh(r.mesh, material, object, geometry, e);
+        done = placing_add(placing, (Part){.mesh = r.mesh}, TERRAIN_WATER, e);
     }
     free(main);
     return done;
 }
 
-bool terrain_add_water(const Terrain *terrain, const HeightField *field, int material, int object,
-                       Geometry *geometry, Error *e)
+bool terrain_add_water(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                       Error *e)
 {
     const TerrainParams *params = terrain->params;
     if (params->water_level > 0.0f) {
         Lake lake = {field, terrain_water_height(params, field), params->mesh_error * params->size};
-        if (!add_mesh(lake_mesh(&lake, params->position, e), material, object, geometry, e)) {
+        Part part = {.mesh = lake_mesh(&lake, params->position, e)};
+        if (!placing_add(placing, part, TERRAIN_WATER, e)) {
             return false;
         }
     }
-    return !terrain->water || add_rivers(terrain, field, material, object, geometry, e);
+    return !terrain->water || add_rivers(terrain, field, placing, e);
 }

@@ -81,7 +81,7 @@ static bool lengthen(OutTree *tree, int64_t node, const PointSet *points, float 
 }
 
 static bool bole_toward(OutTree *tree, const PointSet *points, float influence,
-                        const TreeParams *params, const char *label, const Run *run, Error *e)
+                        const TreeParams *params, const Recipe *recipe, Error *e)
 {
     float away = tree_distance(points, tree);
     if (away < influence) {
@@ -92,21 +92,21 @@ static bool bole_toward(OutTree *tree, const PointSet *points, float influence,
     float step = 0.8f * params->trunk.radius;
     step = step > way / 200.0f ? step : way / 200.0f;
     step = step < 0.25f * influence ? step : 0.25f * influence;
-    if (!lengthen(tree, top, points, 0.5f * influence, influence, step, &length, run, e)) {
+    if (!lengthen(tree, top, points, 0.5f * influence, influence, step, &length, recipe->run, e)) {
         return false;
     }
     if (length > params->height) {
-        run_warn(run,
-                 "%s: its nearest attractor is %.3g m from the trunk, the first level's influence "
-                 "%.3g m: the trunk grows %.3g m longer to get there; if that is not meant, move "
-                 "the crown's envelope",
-                 label, (double)away, (double)influence, (double)length);
+        recipe_warn(recipe, "crown",
+                    "its nearest attractor is %.3g m from the trunk, the first level's influence "
+                    "%.3g m: the trunk grows %.3g m longer to get there; if that is not meant, "
+                    "move the crown's envelope",
+                    (double)away, (double)influence, (double)length);
     }
     return true;
 }
 
 bool tree_grow_bole(OutTree *tree, const TreeParams *params, const Envelope *envelope,
-                    uint64_t seed, const char *label, const Run *run, Error *e)
+                    uint64_t seed, const Recipe *recipe, Error *e)
 {
     const ElementParams *crown = &params->crown.element;
     if (crown->level_count < 1) {
@@ -114,9 +114,9 @@ bool tree_grow_bole(OutTree *tree, const TreeParams *params, const Envelope *env
     }
     float influence;
     ScatterParams scatter = element_scatter_params(tree, crown, random_key(seed, 2));
-    PointSet *points =
-        colonize_first_attractors(envelope, &scatter, &crown->levels[0], &influence, run, e);
-    bool done = points && bole_toward(tree, points, influence, params, label, run, e);
+    PointSet *points = colonize_first_attractors(envelope, &scatter, &crown->levels[0], &influence,
+                                                 recipe->run, e);
+    bool done = points && bole_toward(tree, points, influence, params, recipe, e);
     points_free(points);
     return done;
 }

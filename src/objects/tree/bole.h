@@ -7,9 +7,9 @@
 // Where no attractor of the crown's first level is within its influence of the tree, the trunk's
 // highest node grows on toward them until one is within half of it. Warns when that takes more than
 // the whole tree's height. params: with all open numbers filled in. envelope, seed: the crown's.
-// label names the crown.
+
 bool tree_grow_bole(OutTree *tree, const TreeParams *params, const Envelope *envelope,
-                    uint64_t seed, const char *label, const Run *run, Error *e);
+                    uint64_t seed, const Recipe *recipe, Error *e);
 
 // The node that stands highest; -1 in a tree without nodes.
 int64_t tree_highest_node(const OutTree *tree);

@@ -11,24 +11,14 @@
 #include <stdlib.h>
 
 static bool add_bark(const OutTree *tree, const TreeParams *params, const SkinParams *skin,
-                     int material, int object, Geometry *geometry, const Run *run, Error *e)
+                     const Placing *placing, Error *e)
 {
-    Mesh *mesh = skin_tree(tree, skin, run, e);
+    Mesh *mesh = skin_tree(tree, skin, placing->recipe->run, e);
     if (mesh && !tree_buttress(mesh, tree, params, e)) {
         mesh_free(mesh);
         return false;
     }
-    return mesh &&
-           geometry_add(
-               geometry,
-               (Part){.kind = PART_MESH, .mesh = mesh, .material = material, .object = object}, e);
-}
-
-static bool add_twigs(CurveSet *curves, int material, int object, Geometry *geometry, Error *e)
-{
-    return geometry_add(
-        geometry,
-        (Part){.kind = PART_CURVES, .curves = curves, .material = material, .object = object}, e);
+    return placing_add(placing, (Part){.mesh = mesh}, TREE_BARK, e);
 }
 
 // Which curves are roots, which bear no leaves. A curve has the id of its first node, and curves
@@ -47,14 +37,14 @@ static bool *find_roots(const OutTree *tree, const CurveSet *curves, Error *e)
 }
 
 static bool add_leaves(const OutTree *tree, const TreeParams *params, const CurveSet *twigs,
-                       int material, int object, uint64_t seed, Geometry *geometry, const Run *run,
-                       Error *e)
+                       const Placing *placing, Error *e)
 {
     Vec3 center = vec3_add(params->position, vec3(0, 0.5f * params->height, 0));
     bool rooted = params->roots.count > 0;
     bool *bare = rooted ? find_roots(tree, twigs, e) : NULL;
-    bool done = (bare || !rooted) && foliage_add(twigs, bare, &params->leaves, center, material,
-                                                 object, random_key(seed, 4), geometry, run, e);
+    bool done = (bare || !rooted) &&
+                foliage_add(twigs, bare, &params->leaves, center,
+                            random_key(placing->recipe->seed, 4), placing, TREE_LEAF, e);
     free(bare);
     return done;
 }
@@ -62,8 +52,7 @@ static bool add_leaves(const OutTree *tree, const TreeParams *params, const Curv
 // Leaves stand on the same curves that are drawn as twigs, so that none floats. When every twig is
 // mesh, the curves are made for the leaves alone.
 static bool add_twigs_and_leaves(const OutTree *tree, const TreeParams *params,
-                                 const SkinParams *skin, const TreeMaterials *materials, int object,
-                                 uint64_t seed, Geometry *geometry, const Run *run, Error *e)
+                                 const SkinParams *skin, const Placing *placing, Error *e)
 {
     bool drawn = params->skin.curve_radius > 0.0f;
     bool leafy = params->leaves.max_count > 0;
@@ -75,24 +64,23 @@ static bool add_twigs_and_leaves(const OutTree *tree, const TreeParams *params,
     if (!twigs) {
         return false;
     }
-    bool done =
-        !leafy || add_leaves(tree, params, twigs, materials->leaf, object, seed, geometry, run, e);
+    bool done = !leafy || add_leaves(tree, params, twigs, placing, e);
     if (!done || !drawn) {
         curves_free(twigs);
         return done;
     }
-    return add_twigs(twigs, materials->twig, object, geometry, e);
+    return placing_add(placing, (Part){.curves = twigs}, TREE_TWIG, e);
 }
 
-bool tree_geometry(const OutTree *tree, const TreeParams *params, const TreeMaterials *materials,
-                   int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e)
+bool tree_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
+    const TreeParams *params = given;
     SkinParams skin = skin_params_default();
     skin.min_radius = params->skin.curve_radius;
     skin.levels = params->skin.levels;
     if (params->skin.ring_spacing > 0.0f) {
         skin.ring_spacing = params->skin.ring_spacing;
     }
-    return add_bark(tree, params, &skin, materials->bark, object, geometry, run, e) &&
-           add_twigs_and_leaves(tree, params, &skin, materials, object, seed, geometry, run, e);
+    return add_bark(grown->tree, params, &skin, placing, e) &&
+           add_twigs_and_leaves(grown->tree, params, &skin, placing, e);
 }

@@ -10,7 +10,6 @@
 #include "objects/tree/limbs.h"
 #include "outtree/radii.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 #define GOLDEN_ANGLE_DEGREES 137.50776f
@@ -137,13 +136,11 @@ static bool start_branches(OutTree *tree, const TreeParams *params, float height
     return done;
 }
 
-static bool grow_trunk(OutTree *tree, const TreeParams *params, uint64_t seed, const char *label,
-                       const Run *run, Error *e)
+static bool grow_trunk(OutTree *tree, const TreeParams *params, uint64_t seed, const Recipe *recipe,
+                       Error *e)
 {
-    char name[128];
-    snprintf(name, sizeof name, "%s, trunk", label);
     if (!plant_stems(tree, params, seed, e) ||
-        !element_grow(tree, &params->trunk.element, seed, name, run, e)) {
+        !element_grow(tree, &params->trunk.element, seed, recipe, "trunk", e)) {
         error_key(e, "trunk");
         return false;
     }
@@ -178,12 +175,11 @@ static bool drop_barren(OutTree *tree, int64_t first, int64_t pieces, Error *e)
 }
 
 static bool grow_crown_in(OutTree *tree, const TreeParams *params, const Envelope *envelope,
-                          uint64_t seed, const char *name, const Run *run, Error *e)
+                          uint64_t seed, const Recipe *recipe, Error *e)
 {
-    const ElementParams *crown = &params->crown.element;
     int64_t trunk = tree->count;
     float height = params->trunk.height;
-    if (!tree_grow_bole(tree, params, envelope, seed, name, run, e)) {
+    if (!tree_grow_bole(tree, params, envelope, seed, recipe, e)) {
         return false;
     }
     int64_t first = tree->count;
@@ -196,7 +192,7 @@ static bool grow_crown_in(OutTree *tree, const TreeParams *params, const Envelop
         return false;
     }
     int64_t pieces = tree->count - first;
-    if (!element_grow_in(tree, crown, envelope, seed, name, run, e)) {
+    if (!element_grow_in(tree, &params->crown.element, envelope, seed, recipe, "crown", e)) {
         return false;
     }
     for (int64_t i = first; i < tree->count; i++) {
@@ -205,21 +201,13 @@ static bool grow_crown_in(OutTree *tree, const TreeParams *params, const Envelop
     return drop_barren(tree, first, pieces, e);
 }
 
-static bool grow_crown(OutTree *tree, const TreeParams *params, uint64_t seed, const char *label,
-                       const Run *run, Error *e)
+static bool grow_crown(OutTree *tree, const TreeParams *params, uint64_t seed, const Recipe *recipe,
+                       Error *e)
 {
-    char name[128];
-    snprintf(name, sizeof name, "%s, crown", label);
-    const ElementParams *crown = &params->crown.element;
-    EnvelopeParams shapes = {crown->shapes, crown->shape_count, crown->voxel};
-    Envelope *envelope = envelope_new(&shapes, run, e);
-    bool done = envelope && grow_crown_in(tree, params, envelope, seed, name, run, e);
+    Envelope *envelope = element_envelope(&params->crown.element, recipe->run, e);
+    bool done = envelope && grow_crown_in(tree, params, envelope, seed, recipe, e);
     envelope_free(envelope);
-    if (!done) {
-        error_prefix(e, "%s: ", name);
-        error_key(e, "crown");
-    }
-    return done;
+    return done || recipe_fail(recipe, "crown", e) || error_key(e, "crown");
 }
 
 // Main roots leave the foot evenly spread about it, the centre of the trunk's base.
@@ -277,15 +265,13 @@ static bool graft_roots(OutTree *tree, const OutTree *roots, int64_t foot, Error
     return true;
 }
 
-static bool grow_roots(OutTree *tree, const TreeParams *params, uint64_t seed, const char *label,
-                       const Run *run, Error *e)
+static bool grow_roots(OutTree *tree, const TreeParams *params, uint64_t seed, const Recipe *recipe,
+                       Error *e)
 {
-    char name[128];
-    snprintf(name, sizeof name, "%s, roots", label);
     OutTree *roots = out_tree_new(e);
-    bool done =
-        roots && plant_roots(roots, params, random_key(seed, 1), e) &&
-        (element_grow(roots, &params->roots.element, seed, name, run, e) || error_key(e, "roots"));
+    bool done = roots && plant_roots(roots, params, random_key(seed, 1), e) &&
+                (element_grow(roots, &params->roots.element, seed, recipe, "roots", e) ||
+                 error_key(e, "roots"));
     if (done) {
         out_tree_pipe_radii(roots, params->radii.exponent, 2.0f * params->radii.tip,
                             params->roots.radius * params->trunk.radius);
@@ -314,37 +300,32 @@ static void compute_radii(OutTree *tree, const TreeParams *params)
     out_tree_root_flare(tree, radii->flare, params->trunk.radius, radii->flare_height);
 }
 
-// Everything, radii and all, before it is cut.
-static OutTree *grow_whole(const TreeParams *params, const Recipe *recipe, Error *e)
+bool tree_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e)
 {
     TreePlan plan;
     uint64_t seed = recipe->seed;
     tree_plan_make(&plan, params, seed);
-    OutTree *tree = out_tree_new(e);
-    if (!tree ||
-        !grow_trunk(tree, &plan.params, random_key(seed, 1), recipe->label, recipe->run, e) ||
-        !grow_crown(tree, &plan.params, random_key(seed, 2), recipe->label, recipe->run, e)) {
-        out_tree_free(tree);
-        return NULL;
+    const TreeParams *tree = &plan.params;
+    whole->tree = out_tree_new(e);
+    if (!whole->tree || !grow_trunk(whole->tree, tree, random_key(seed, 1), recipe, e) ||
+        !grow_crown(whole->tree, tree, random_key(seed, 2), recipe, e)) {
+        return false;
     }
-    compute_radii(tree, &plan.params);
-    if ((params->roots.count > 0 &&
-         !grow_roots(tree, &plan.params, random_key(seed, 3), recipe->label, recipe->run, e)) ||
-        !recipe_keep(recipe, 0, tree, e)) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    return tree;
+    compute_radii(whole->tree, tree);
+    return tree->roots.count <= 0 || grow_roots(whole->tree, tree, random_key(seed, 3), recipe, e);
 }
 
-OutTree *tree_grow(const TreeParams *params, const Recipe *recipe, Error *e)
+float tree_tip_radius(const void *given, const OutTree *whole)
 {
-    OutTree *tree =
-        recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(params, recipe, e);
-    if (!tree || !out_tree_rejuvenate(tree, recipe->grow_to, params->radii.tip, e)) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    transport_normals(tree);
-    return tree;
+    (void)whole;
+    const TreeParams *params = given;
+    return params->radii.tip;
+}
+
+bool tree_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                 Error *e)
+{
+    (void)params, (void)recipe, (void)whole, (void)e;
+    transport_normals(grown->tree);
+    return true;
 }

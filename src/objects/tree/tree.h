@@ -91,19 +91,18 @@ enum { TREE_ROOT_PIECES = 6 };
 // Colonies of the out-trees that tree_grow makes.
 enum { TREE_TRUNK, TREE_CROWN, TREE_ROOTS };
 
-// Materials, as indices into the world's list.
-typedef struct TreeMaterials {
-    int bark, twig, leaf;
-} TreeMaterials;
+// Roles of materials.
+enum { TREE_BARK, TREE_TWIG, TREE_LEAF };
 
 // The documented defaults: an oak of 14 m.
 TreeParams tree_params_default(void);
 
-// Grows the out-tree: all elements joined, radii computed. Colonies as above.
-OutTree *tree_grow(const TreeParams *params, const Recipe *recipe, Error *e);
-
-// Skins a grown tree and hangs its leaves: adds meshes, curves and leaf instances to geometry.
-bool tree_geometry(const OutTree *tree, const TreeParams *params, const TreeMaterials *materials,
-                   int object, uint64_t seed, Geometry *geometry, const Run *run, Error *e);
+// The recipe (see recipe.h). Grows the out-tree: all elements joined, radii computed. Colonies as
+// above. The geometry is meshes, curves and leaf instances.
+bool tree_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+bool tree_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                 Error *e);
+float tree_tip_radius(const void *params, const OutTree *whole); // m
+bool tree_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 #endif

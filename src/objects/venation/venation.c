@@ -85,31 +85,23 @@ static OutTree *with_petiole(const OutTree *veins, const VenationParams *params,
     return tree;
 }
 
-// Everything, before it is cut.
-static OutTree *grow_whole(const VenationParams *params, const Recipe *recipe, Error *e)
-{
-    VeinParams grow = vein_params(params, random_key(recipe->seed, 1));
-    OutTree *veins = veins_grow(&grow, NULL, NULL, recipe->run, e);
-    OutTree *tree = veins ? with_petiole(veins, params, recipe->seed, e) : NULL;
-    out_tree_free(veins);
-    if (tree && !recipe_keep(recipe, 0, tree, e)) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    return tree;
-}
-
-OutTree *venation_grow(const VenationParams *given, const Recipe *recipe, Error *e)
+bool venation_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     VenationParams params = venation_params_resolve(given);
-    OutTree *tree =
-        recipe_remembers(recipe, 0) ? recipe_recall(recipe, 0, e) : grow_whole(&params, recipe, e);
-    if (!tree || !out_tree_keep_births(tree, recipe->grow_to, e)) {
-        out_tree_free(tree);
-        return NULL;
-    }
-    out_tree_pipe_radii(tree, EXPONENT, params.vein, params.midrib);
-    return tree;
+    VeinParams grow = vein_params(&params, random_key(recipe->seed, 1));
+    OutTree *veins = veins_grow(&grow, NULL, NULL, recipe->run, e);
+    whole->tree = veins ? with_petiole(veins, &params, recipe->seed, e) : NULL;
+    out_tree_free(veins);
+    return whole->tree;
+}
+
+bool venation_finish(const void *given, const Recipe *recipe, const Grown *whole, Grown *grown,
+                     Error *e)
+{
+    (void)recipe, (void)whole, (void)e;
+    VenationParams params = venation_params_resolve(given);
+    out_tree_pipe_radii(grown->tree, EXPONENT, params.vein, params.midrib);
+    return true;
 }
 
 // ---- geometry ----
@@ -186,22 +178,16 @@ static Mesh *blade_mesh(const VenationParams *params, const Transform *place, Er
     return mesh;
 }
 
-bool venation_geometry(const OutTree *tree, const VenationParams *given,
-                       const VenationMaterials *materials, int object, Geometry *geometry, Error *e)
+bool venation_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
     VenationParams params = venation_params_resolve(given);
     Transform place = transform_compose(params.position, params.rotation, vec3_splat(1.0f));
-    Part veins = {.kind = PART_CURVES, .material = materials->vein, .object = object};
-    veins.curves = vein_curves(tree, &params, &place, e);
-    if (!veins.curves || !geometry_add(geometry, veins, e)) {
+    Part veins = {.curves = vein_curves(grown->tree, &params, &place, e)};
+    if (!placing_add(placing, veins, VENATION_VEINS, e)) {
         return false;
     }
-    if (!params.blade) {
-        return true;
-    }
-    Part blade = {.kind = PART_MESH, .material = materials->blade, .object = object};
-    blade.mesh = blade_mesh(&params, &place, e);
-    return blade.mesh && geometry_add(geometry, blade, e);
+    return !params.blade ||
+           placing_add(placing, (Part){.mesh = blade_mesh(&params, &place, e)}, VENATION_BLADE, e);
 }
 
 // ---- texture ----
@@ -248,8 +234,8 @@ static void paint_bar(const Canvas *canvas, Vec3 a, Vec3 b, float radius)
     }
 }
 
-bool venation_paint(const OutTree *tree, const VenationParams *given, int width, int height,
-                    float *pixel, Error *e)
+bool venation_paint(const void *given, const OutTree *tree, int width, int height, float *pixel,
+                    Error *e)
 {
     if (width < 1 || height < 1) {
         return error_set(e, ERROR_INPUT, "a picture of %d x %d; both must be above 0", width,
@@ -280,8 +266,11 @@ static double blade_area(const LeafOutline *outline)
     return sum;
 }
 
-bool venation_measure(const OutTree *tree, const VenationParams *given, MeasureList *list, Error *e)
+bool venation_measure(const void *given, const Grown *grown, const Recipe *recipe,
+                      MeasureList *list, Error *e)
 {
+    (void)recipe;
+    const OutTree *tree = grown->tree;
     VenationParams params = venation_params_resolve(given);
     int64_t pieces, loops;
     double length = 0.0, area = 1e6 * blade_area(&params.outline), none = (double)NAN;

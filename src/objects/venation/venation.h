@@ -3,8 +3,6 @@
 #ifndef RAMIFY_OBJECTS_VENATION_VENATION_H
 #define RAMIFY_OBJECTS_VENATION_VENATION_H
 
-#include "base/measures.h"
-#include "mesh/geometry.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
 #include "shape/leaf_outline.h"
@@ -24,32 +22,28 @@ typedef struct VenationParams {
     bool blade;          // with the blade between the veins
 } VenationParams;
 
-typedef struct VenationMaterials {
-    int vein, blade;
-} VenationMaterials;
+enum { VENATION_VEINS, VENATION_BLADE }; // roles of materials
 
 VenationParams venation_params_default(void); // closed, 0.1 m
 
 // The same parameters with every open number (0) filled in, in proportion to the others.
 VenationParams venation_params_resolve(const VenationParams *given);
 
-// The veins with radii, flat in the plane z = 0, the base at the origin: venation_geometry bends
-// and places them. Nodes below the base are the petiole's.
-OutTree *venation_grow(const VenationParams *params, const Recipe *recipe, Error *e);
-
-bool venation_geometry(const OutTree *tree, const VenationParams *params,
-                       const VenationMaterials *materials, int object, Geometry *geometry,
-                       Error *e);
+// The recipe (see recipe.h). Grows the veins flat in the plane z = 0, the base at the origin: the
+// geometry bends and places them. Nodes below the base are the petiole's. Measures areoles (meshes
+// of the net; 0 in open venation), areole_area in mm^2 (of the blade, a mesh), vein_density in mm
+// of veins to the mm^2 of blade.
+bool venation_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+bool venation_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                     Error *e);
+bool venation_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
+bool venation_measure(const void *params, const Grown *grown, const Recipe *recipe,
+                      MeasureList *list, Error *e);
 
 // The veins as a texture for leaves: how high they stand out, 0 between them and 1 in the middle of
 // the midrib, of width x height pixels row by row from the tip. Across, the blade fills the whole
 // row at every height, as the uv of leaf meshes does. pixel: width * height floats.
-bool venation_paint(const OutTree *tree, const VenationParams *params, int width, int height,
-                    float *pixel, Error *e);
-
-// Appends areoles (meshes of the net; 0 in open venation), areole_area in mm^2 (of the blade, a
-// mesh), vein_density in mm of veins to the mm^2 of blade.
-bool venation_measure(const OutTree *tree, const VenationParams *params, MeasureList *list,
-                      Error *e);
+bool venation_paint(const void *params, const OutTree *tree, int width, int height, float *pixel,
+                    Error *e);
 
 #endif

@@ -24,40 +24,32 @@ OutTree *vessels_colony(const OutTree *tree, int32_t colony, Error *e)
 }
 
 // Thick vessels as a smooth skin, thin ones as round curves.
-static bool add_colony(const OutTree *tree, const VesselsParams *params, int material, int object,
-                       Geometry *geometry, const Run *run, Error *e)
+static bool add_colony(const OutTree *tree, const VesselsParams *params, int colony,
+                       const Placing *placing, Error *e)
 {
     SkinParams skin = skin_params_default();
     skin.levels = params->skin_levels;
     skin.min_radius = params->curve_radius > 0.0f ? params->curve_radius : INFINITY;
-    Part part = {.material = material, .object = object};
     if (params->curve_radius > 0.0f) {
-        part.kind = PART_MESH;
-        part.mesh = skin_tree(tree, &skin, run, e);
-        if (!part.mesh || !geometry_add(geometry, part, e)) {
+        Part thick = {.mesh = skin_tree(tree, &skin, placing->recipe->run, e)};
+        if (!placing_add(placing, thick, colony, e)) {
             return false;
         }
     }
-    part = (Part){.kind = PART_CURVES, .material = material, .object = object};
-    part.curves = skin_curves(tree, skin.min_radius, &skin, e);
-    return part.curves && geometry_add(geometry, part, e);
+    Part thin = {.curves = skin_curves(tree, skin.min_radius, &skin, e)};
+    return placing_add(placing, thin, colony, e);
 }
 
-bool vessels_geometry(const OutTree *tree, const VesselsParams *params,
-                      const VesselsMaterials *materials, int object, Geometry *geometry,
-                      const Run *run, Error *e)
+bool vessels_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
-    for (int32_t colony = 0; colony < (params->veins ? 2 : 1); colony++) {
-        OutTree *mine = vessels_colony(tree, colony, e);
-        int material = colony == VESSELS_VEINS ? materials->vein : materials->artery;
-        bool done = mine && (mine->count < 2 ||
-                             add_colony(mine, params, material, object, geometry, run, e));
+    const VesselsParams *params = given;
+    bool done = true;
+    for (int32_t colony = 0; done && colony < (params->veins ? 2 : 1); colony++) {
+        OutTree *mine = vessels_colony(grown->tree, colony, e);
+        done = mine && (mine->count < 2 || add_colony(mine, params, colony, placing, e));
         out_tree_free(mine);
-        if (!done) {
-            return false;
-        }
     }
-    return true;
+    return done;
 }
 
 // Least distance between surfaces of arteries and veins, m; NAN without veins.
@@ -109,8 +101,12 @@ static bool add_measures(const OutTree *arteries, const OutTree *veins, const Mu
            measures_add(list, "artery_vein_gap", gap, "m", 0.0, none, e);
 }
 
-bool vessels_measure(const OutTree *tree, const VesselsParams *params, MeasureList *list, Error *e)
+bool vessels_measure(const void *given, const Grown *grown, const Recipe *recipe, MeasureList *list,
+                     Error *e)
 {
+    (void)recipe;
+    const VesselsParams *params = given;
+    const OutTree *tree = grown->tree;
     OutTree *trees[2] = {vessels_colony(tree, VESSELS_ARTERIES, e), NULL};
     trees[1] = trees[0] ? vessels_colony(tree, VESSELS_VEINS, e) : NULL;
     MurrayFit fit[2];

@@ -90,8 +90,8 @@ static bool grow_toward(VesselBed *bed, VesselTree *tree, PointSet *points, cons
 {
     const ElementParams *element = &bed->params->element;
     GuideField *field;
-    if (!element_guide_field(tree->tree, element, bed->envelope, random_key(bed->seed, 5), bed->run,
-                             &field, e)) {
+    if (!element_guide_field(tree->tree, element, bed->envelope, random_key(bed->recipe->seed, 5),
+                             bed->recipe->run, &field, e)) {
         return false;
     }
     ColonizeParams params = element_colonize_params(tree->tree, element, field, seed);
@@ -101,7 +101,7 @@ static bool grow_toward(VesselBed *bed, VesselTree *tree, PointSet *points, cons
     params.first_step = tree->last_birth;
     GrowReport report;
     int64_t first = tree->tree->count;
-    bool done = colonize(tree->tree, points, &params, bed->run, &report, e);
+    bool done = colonize(tree->tree, points, &params, bed->recipe->run, &report, e);
     guide_field_free(field);
     if (done) {
         for (int64_t i = first; i < tree->tree->count; i++) {
@@ -121,7 +121,7 @@ static bool grow_around(VesselBed *bed, VesselTree *tree, const SegmentGrid *oth
         element_scatter_params(tree->tree, &bed->params->element, random_key(seed, 1));
     scatter.count = level->attractors;
     scatter.scale = level->scale;
-    PointSet *points = points_scatter(bed->envelope, &scatter, bed->run, e);
+    PointSet *points = points_scatter(bed->envelope, &scatter, bed->recipe->run, e);
     if (!points) {
         return false;
     }
@@ -142,7 +142,7 @@ static bool grow_level(VesselBed *bed, const GrowLevel *level, int number, bool 
     for (int t = 0; t < bed->tree_count; t++) {
         const OutTree *other = bed->tree_count > 1 ? bed->trees[1 - t].tree : NULL;
         SegmentGrid *others = other ? segment_grid_new(other, e) : NULL;
-        uint64_t seed = random_key(random_key(bed->seed, (uint64_t)number), (uint64_t)t);
+        uint64_t seed = random_key(random_key(bed->recipe->seed, (uint64_t)number), (uint64_t)t);
         bool done =
             (!other || others) && grow_around(bed, &bed->trees[t], others, level, coarse, seed, e);
         segment_grid_free(others);
@@ -186,7 +186,7 @@ static int choose_levels(const VesselBed *bed, GrowLevel *levels)
 static bool grow_levels(VesselBed *bed, const GrowLevel *levels, int count, Error *e)
 {
     for (int i = 0; i < count; i++) {
-        run_progress(bed->run, "vessels", (double)i / (double)count);
+        run_progress(bed->recipe->run, "vessels", (double)i / (double)count);
         if (!grow_level(bed, &levels[i], i, i + 1 < count, e)) {
             return false;
         }

@@ -21,9 +21,7 @@ typedef struct VesselBed {
     VesselTree trees[2];
     int tree_count;
     bool limbs; // the envelope must not be scaled: what is inside would come to lie outside
-    uint64_t seed;
-    const char *label;
-    const Run *run;
+    const Recipe *recipe;
     MurrayReport turned; // of the last turns, of both trees together
 } VesselBed;
 

@@ -5,7 +5,7 @@
 #include "objects/vessels/grow.h"
 #include "objects/vessels/stem.h"
 
-#include <stdlib.h>
+#include <math.h>
 
 VesselsParams vessels_params_default(void)
 {
@@ -42,10 +42,10 @@ static bool plant(VesselBed *bed, Error *e)
         tree->colony = t;
         tree->root_radius = root * (t == VESSELS_VEINS ? params->vein_radius : 1.0f);
         tree->tree = out_tree_new(e);
-        if (!tree->tree ||
-            !(body ? vessels_plant_great(tree->tree, &params->element.shapes[0], t, bed->seed, e)
-                   : vessels_plant_stem(tree->tree, params, bed->envelope, t, root, reach,
-                                        bed->seed, e))) {
+        if (!tree->tree || !(body ? vessels_plant_great(tree->tree, &params->element.shapes[0], t,
+                                                        bed->recipe->seed, e)
+                                  : vessels_plant_stem(tree->tree, params, bed->envelope, t, root,
+                                                       reach, bed->recipe->seed, e))) {
             return false;
         }
         tree->stem_count = tree->tree->count;
@@ -59,126 +59,69 @@ static bool plant(VesselBed *bed, Error *e)
     return true;
 }
 
-static bool append(OutTree *tree, const OutTree *other, Error *e)
-{
-    int64_t base = tree->count;
-    for (int64_t i = 0; i < other->count; i++) {
-        int64_t parent = other->parent[i] < 0 ? -1 : base + other->parent[i];
-        int64_t node = out_tree_add_node(tree, other->position[i], parent, other->birth[i],
-                                         other->colony[i], other->id[i], e);
-        if (node < 0) {
-            return false;
-        }
-        tree->radius[node] = other->radius[i];
-        tree->normal[node] = other->normal[i];
-    }
-    return true;
-}
-
-static float finest_radius(const OutTree *tree)
-{
-    float radius = tree->radius[0];
-    for (int64_t i = 1; i < tree->count; i++) {
-        radius = tree->radius[i] < radius ? tree->radius[i] : radius;
-    }
-    return radius;
-}
-
-// The tree as it was at step `last`, by Murray's law then too: thinner than it will be.
-static bool cut(OutTree *tree, MurrayLaw law, float last, Error *e)
-{
-    bool *keep = memory_alloc(tree->count, sizeof *keep, e);
-    if (!keep) {
-        return false;
-    }
-    float tip = finest_radius(tree);
-    for (int64_t i = 0; i < tree->count; i++) {
-        keep[i] = (float)tree->birth[i] <= last;
-    }
-    bool done = out_tree_keep_nodes(tree, keep, e);
-    if (done) {
-        out_tree_murray_radii(tree, law, tip);
-    }
-    free(keep);
-    return done;
-}
-
-// Shows the trees at recipe->grow_to and joins them.
-static OutTree *show(VesselBed *bed, const Recipe *recipe, Error *e)
-{
-    int32_t last = 0;
-    for (int t = 0; t < bed->tree_count; t++) {
-        int32_t mine = out_tree_last_birth(bed->trees[t].tree);
-        last = mine > last ? mine : last;
-    }
-    OutTree *all = bed->trees[0].tree;
-    for (int t = 0; t < bed->tree_count; t++) {
-        OutTree *tree = bed->trees[t].tree;
-        if ((recipe->grow_to < 1.0f &&
-             !cut(tree, bed->params->law, recipe->grow_to * (float)last, e)) ||
-            (t > 0 && !append(all, tree, e))) {
-            return NULL;
-        }
-    }
-    bed->trees[0].tree = NULL;
-    return all;
-}
-
 static void report(const VesselBed *bed)
 {
     if (bed->turned.multiple > 0) {
-        run_warn(bed->run,
-                 "%s: %lld nodes have more than two children; Murray's angles are not "
-                 "set there: keep growth.max_children at 2",
-                 bed->label, (long long)bed->turned.multiple);
+        recipe_warn(bed->recipe, NULL,
+                    "%lld nodes have more than two children; Murray's angles are not "
+                    "set there: keep growth.max_children at 2",
+                    (long long)bed->turned.multiple);
     }
 }
 
-// Everything, before it is cut.
-static bool grow_whole(VesselBed *bed, const Recipe *recipe, Error *e)
+static bool grow_all(VesselBed *bed, Error *e)
 {
-    if (!plant(bed, e) || !vessel_bed_grow(bed, e) || !vessel_bed_finish(bed, e)) {
+    if (!bed->envelope || !growth_witness(bed->recipe, NULL, bed->envelope, NULL, e) ||
+        !plant(bed, e) || !vessel_bed_grow(bed, e) || !vessel_bed_finish(bed, e)) {
         return false;
     }
     report(bed);
-    bool kept = true;
-    for (int t = bed->tree_count - 1; kept && t >= 0; t--) { // the first, which is asked for, last
-        kept = recipe_keep(recipe, t, bed->trees[t].tree, e);
-    }
-    return kept;
+    return bed->tree_count == 1 || out_tree_append(bed->trees[0].tree, bed->trees[1].tree, e);
 }
 
-static bool recall(VesselBed *bed, const Recipe *recipe, Error *e)
+bool vessels_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
-    bool done = true;
-    for (int t = 0; done && t < bed->tree_count; t++) {
-        bed->trees[t].tree = recipe_recall(recipe, t, e);
-        done = bed->trees[t].tree;
-    }
-    return done;
-}
-
-OutTree *vessels_grow(const VesselsParams *params, const Recipe *recipe, Error *e)
-{
-    EnvelopeParams shapes = {params->element.shapes, params->element.shape_count,
-                             params->element.voxel};
-    Envelope *envelope = recipe_remembers(recipe, 0) ? NULL : envelope_new(&shapes, recipe->run, e);
+    const VesselsParams *params = given;
+    Envelope *envelope = element_envelope(&params->element, recipe->run, e);
     VesselBed bed = {.params = params,
                      .envelope = envelope,
                      .tree_count = params->veins ? 2 : 1,
                      .limbs = is_body(params),
-                     .seed = recipe->seed,
-                     .label = recipe->label,
-                     .run = recipe->run};
-    OutTree *tree = NULL;
-    bool again = recipe_remembers(recipe, 0);
-    if (again ? recall(&bed, recipe, e)
-              : envelope && growth_witness(recipe->run, recipe->label, envelope, NULL, e) &&
-                    grow_whole(&bed, recipe, e)) {
-        tree = show(&bed, recipe, e);
-    }
-    out_tree_free(bed.trees[0].tree);
+                     .recipe = recipe};
+    bool done = grow_all(&bed, e);
+    whole->tree = bed.trees[0].tree;
     out_tree_free(bed.trees[1].tree);
     envelope_free(envelope);
-    return tree;
+    return done;
+}
+
+static float finest_radius(const OutTree *tree, int32_t colony)
+{
+    float radius = INFINITY;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->colony[i] == colony) {
+            radius = tree->radius[i] < radius ? tree->radius[i] : radius;
+        }
+    }
+    return radius;
+}
+
+// The trees as they were at an earlier time, by Murray's law then too: thinner than they will be.
+bool vessels_finish(const void *given, const Recipe *recipe, const Grown *whole, Grown *grown,
+                    Error *e)
+{
+    (void)recipe, (void)e;
+    const VesselsParams *params = given;
+    OutTree *tree = grown->tree;
+    if (tree->count == whole->tree->count) {
+        return true;
+    }
+    OutTree arteries = *tree; // come first
+    arteries.count = 0;
+    while (arteries.count < tree->count && tree->colony[arteries.count] == VESSELS_ARTERIES) {
+        arteries.count++;
+    }
+    out_tree_murray_radii(tree, params->law, finest_radius(whole->tree, VESSELS_VEINS));
+    out_tree_murray_radii(&arteries, params->law, finest_radius(whole->tree, VESSELS_ARTERIES));
+    return true;
 }

@@ -3,13 +3,11 @@
 #ifndef RAMIFY_OBJECTS_VESSELS_VESSELS_H
 #define RAMIFY_OBJECTS_VESSELS_VESSELS_H
 
-#include "base/measures.h"
-#include "mesh/geometry.h"
 #include "objects/common/element.h"
 #include "objects/common/recipe.h"
 #include "outtree/murray.h"
 
-enum { VESSELS_ARTERIES, VESSELS_VEINS }; // colonies of the out-tree
+enum { VESSELS_ARTERIES, VESSELS_VEINS }; // colonies of the out-tree and roles of materials
 
 typedef struct VesselsParams {
     ElementParams element; // the organ; levels left out follow from `terminals`. An envelope that
@@ -28,24 +26,19 @@ typedef struct VesselsParams {
     int skin_levels;
 } VesselsParams;
 
-typedef struct VesselsMaterials {
-    int artery, vein;
-} VesselsMaterials;
-
 VesselsParams vessels_params_default(void);
 
-// Both trees in one out-tree, colonies VESSELS_ARTERIES and VESSELS_VEINS, radii and all. Every
-// segment beyond the stems that lead in lies inside the organ by its radius (or by the envelope's
-// band, where that is less), at both ends and in the middle; no artery comes nearer to a vein than
-// `gap`. Both hold at every grow_to.
-OutTree *vessels_grow(const VesselsParams *params, const Recipe *recipe, Error *e);
-
-bool vessels_geometry(const OutTree *tree, const VesselsParams *params,
-                      const VesselsMaterials *materials, int object, Geometry *geometry,
-                      const Run *run, Error *e);
-
-// Terminals, the fit to Murray's laws, the least distance between arteries and veins.
-bool vessels_measure(const OutTree *tree, const VesselsParams *params, MeasureList *list, Error *e);
+// The recipe (see recipe.h). Grows both trees in one out-tree, colonies VESSELS_ARTERIES and
+// VESSELS_VEINS, radii and all. Every segment beyond the stems that lead in lies inside the organ
+// by its radius (or by the envelope's band, where that is less), at both ends and in the middle; no
+// artery comes nearer to a vein than `gap`. Both hold at every time of the growth. Measures
+// terminals, the fit to Murray's laws, the least distance between arteries and veins.
+bool vessels_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+bool vessels_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                    Error *e);
+bool vessels_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
+bool vessels_measure(const void *params, const Grown *grown, const Recipe *recipe,
+                     MeasureList *list, Error *e);
 
 // The nodes of one colony as an out-tree of its own.
 OutTree *vessels_colony(const OutTree *tree, int32_t colony, Error *e);
