@@ -2,7 +2,6 @@
 
 #include "export/heights.h"
 #include "land/height_measure.h"
-#include "scene/kind.h"
 #include "scene/picture.h"
 
 static RamifyLand *hand_land(HeightField *field, const Error *e, RamifyError *error)

@@ -2,7 +2,7 @@
 #include "api/handles.h"
 
 #include "render/material/material.h"
-#include "scene/kind.h"
+#include "scene/needs.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,8 +6,9 @@
 #include "land/height_measure.h"
 #include "mesh/geometry_measure.h"
 #include "outtree/measure.h"
+#include "render/world.h"
 #include "scene/builtin.h"
-#include "scene/kind.h"
+#include "scene/needs.h"
 #include "scene/place.h"
 #include "scene/scene_flood.h"
 
@@ -30,8 +31,10 @@ static bool names_material(const Scene *scene, const char *name)
 // The scene's materials, then the built-in ones that it does not redefine.
 static bool add_materials(World *world, const Scene *scene, Error *e)
 {
-    int builtin_count;
-    const Material *builtin = builtin_materials(&builtin_count);
+    int builtin_count = 0;
+    while (builtin_material_at(builtin_count)) {
+        builtin_count++;
+    }
     free(world->material);
     world->material_count = 0;
     world->material =
@@ -43,8 +46,9 @@ static bool add_materials(World *world, const Scene *scene, Error *e)
         world->material[world->material_count++] = scene->materials[i];
     }
     for (int i = 0; i < builtin_count; i++) {
-        if (!names_material(scene, builtin[i].name)) {
-            world->material[world->material_count++] = builtin[i];
+        const Material *builtin = builtin_material_at(i);
+        if (!names_material(scene, builtin->name)) {
+            world->material[world->material_count++] = *builtin;
         }
     }
     return true;
@@ -96,8 +100,8 @@ static bool making_begin(Making *m, const Scene *scene, int index, const Run *ru
     *m = (Making){.scene = scene, .index = index, .kind = object->kind};
     snprintf(m->label, sizeof m->label, "object '%s'", object->name);
     m->recipe = (Recipe){scene_object_seed(scene, index), m->label, run};
-    bool done = own_space_enter(&m->own, object, e);
-    m->params = m->own.object.params;
+    bool done = own_space_enter(&m->own, object->kind, object->params, e);
+    m->params = m->own.params;
     return done;
 }
 
@@ -219,7 +223,7 @@ static int find_material(const World *world, const char *name)
 static void find_materials(const World *world, const Making *m, int material[OBJECT_MOST_MATERIALS])
 {
     for (int i = 0; i < OBJECT_MOST_MATERIALS; i++) {
-        const char *name = m->own.object.material[i];
+        const char *name = m->scene->objects[m->index].material[i];
         int found = find_material(world, name ? name : m->kind->materials[i]);
         material[i] = found >= 0 ? found : i > 0 ? material[0] : 0;
     }

@@ -2,7 +2,8 @@
 
 #include "base/memory.h"
 #include "config/compare.h"
-#include "scene/kind.h"
+#include "render/world.h"
+#include "scene/needs.h"
 #include "scene/scene_flood.h"
 #include "scene/spec.h"
 

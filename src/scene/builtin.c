@@ -1,11 +1,12 @@
 #include "scene/builtin.h"
 
-#include <stddef.h>
+#include "objects/kinds.h"
+
 #include <string.h>
 
-// Oak bark and twig after reflectances of dry bark (0.1 to 0.2, reddish); leaves from PROSPECT-5 as
-// material_default has them, the grass yellower, fallen leaves without chlorophyll.
-static const Material MATERIALS[] = {
+// Those that several kinds use. Oak bark and twig after reflectances of dry bark (0.1 to 0.2,
+// reddish); leaves from PROSPECT-5 as material_default has them, the grass yellower.
+static const Material SHARED[] = {
     {.name = "bark",
      .kind = MATERIAL_PRINCIPLED,
      .color = {0.175f, 0.135f, 0.098f},
@@ -32,14 +33,6 @@ static const Material MATERIALS[] = {
      .ior = 1.5f,
      .pattern = PATTERN_LEAF,
      .variation = 0.35f},
-    {.name = "ground",
-     .kind = MATERIAL_DIFFUSE,
-     .color = {0.085f, 0.105f, 0.040f},
-     .color2 = {0.110f, 0.082f, 0.052f},
-     .roughness = 0.8f,
-     .ior = 1.5f,
-     .pattern = PATTERN_GROUND,
-     .pattern_depth = 0.03f},
     {.name = "grass",
      .kind = MATERIAL_LEAF,
      .color = {0.115f, 0.165f, 0.048f},
@@ -49,159 +42,40 @@ static const Material MATERIALS[] = {
      .specular = 0.15f,
      .ior = 1.5f,
      .variation = 0.5f},
-    {.name = "fallen",
-     .kind = MATERIAL_LEAF,
-     .color = {0.230f, 0.130f, 0.055f},
-     .color2 = {0.130f, 0.075f, 0.038f},
-     .transmittance = {0.090f, 0.040f, 0.010f},
-     .roughness = 0.6f,
-     .specular = 0.35f,
-     .ior = 1.5f,
-     .pattern = PATTERN_LEAF,
-     .variation = 0.7f},
-    // Ice: absorption after Picard et al. 2016. Rime is ice full of air.
-    {.name = "ice",
-     .kind = MATERIAL_DIELECTRIC,
-     .color = {1.0f, 1.0f, 1.0f},
-     .absorption = {0.25f, 0.05f, 0.02f},
-     .roughness = 0.3f,
-     .ior = 1.31f},
-    {.name = "rime",
-     .kind = MATERIAL_LEAF,
-     .color = {0.44f, 0.45f, 0.46f},
-     .transmittance = {0.48f, 0.49f, 0.50f},
-     .roughness = 0.4f,
-     .specular = 0.5f,
-     .ior = 1.31f},
-    {.name = "soap_film",
-     .kind = MATERIAL_THIN_FILM,
-     .color = {1.0f, 1.0f, 1.0f},
-     .ior = 1.33f,
-     .film_thickness = 480.0f,
-     .film_drainage = 0.6f,
-     .film_swirl = 0.35f},
-    // reflectance of copper at normal incidence, linear Rec. 709
-    {.name = "copper",
-     .kind = MATERIAL_CONDUCTOR,
-     .color = {0.955f, 0.638f, 0.538f},
-     .color2 = {0.1f, 0.1f, 0.1f},
-     .roughness = 0.35f,
-     .ior = 1.5f},
-    // The hue of nitrogen at 30,000 K; brightness is lightning.power.
-    {.name = "lightning", .kind = MATERIAL_EMISSION, .radiance = {0.75f, 0.85f, 1.25f}},
-    {.name = "coral",
-     .kind = MATERIAL_PRINCIPLED,
-     .color = {0.36f, 0.22f, 0.10f},
-     .color2 = {0.80f, 0.72f, 0.60f}, // of growing tips and margins
-     .roughness = 0.7f,
-     .specular = 0.2f,
-     .ior = 1.5f,
-     .pattern = PATTERN_CORALLITE,
-     .pattern_scale = 0.0024f,
-     .pattern_depth = 0.0007f},
-    {.name = "coral_polyp",
-     .kind = MATERIAL_PRINCIPLED,
-     .color = {0.40f, 0.25f, 0.12f},
-     .color2 = {0.86f, 0.79f, 0.68f},
-     .roughness = 0.65f,
-     .specular = 0.25f,
-     .ior = 1.5f,
-     .pattern = PATTERN_YOUTH},
-    {.name = "reef_rock",
-     .kind = MATERIAL_PRINCIPLED,
-     .color = {0.24f, 0.20f, 0.16f},
-     .color2 = {0.16f, 0.09f, 0.10f}, // coralline algae
-     .roughness = 0.9f,
-     .specular = 0.15f,
-     .ior = 1.5f,
-     .pattern = PATTERN_NOISE,
-     .pattern_scale = 0.05f,
-     .pattern_depth = 0.01f},
-    {.name = "mountain",
-     .kind = MATERIAL_DIFFUSE,
-     .color = {0.135f, 0.128f, 0.124f},
-     .color2 = {0.072f, 0.070f, 0.070f},
-     .roughness = 0.6f,
-     .ior = 1.5f,
-     .pattern = PATTERN_MOUNTAIN,
-     .pattern_depth = 1.0f,
-     .snow_line = 0.44f,
-     .grass_line = 0.36f},
-    {.name = "badlands",
-     .kind = MATERIAL_DIFFUSE,
-     .color = {0.315f, 0.135f, 0.075f},
-     .color2 = {0.360f, 0.215f, 0.125f},
-     .roughness = 0.6f,
-     .ior = 1.5f,
-     .pattern = PATTERN_BADLANDS,
-     .pattern_depth = 1.0f},
-    {.name = "lake",
-     .kind = MATERIAL_PRINCIPLED,
-     .color = {0.012f, 0.030f, 0.034f},
-     .roughness = 0.08f,
-     .specular = 0.28f,
-     .ior = 1.33f,
-     .pattern = PATTERN_WATER,
-     .pattern_depth = 0.012f},
-    {.name = "conifer",
-     .kind = MATERIAL_DIFFUSE,
-     .color = {0.026f, 0.042f, 0.017f},
-     .color2 = {0.1f, 0.1f, 0.1f},
-     .roughness = 0.8f,
-     .ior = 1.5f,
-     .variation = 0.7f},
-    // Wet walls of vessels.
-    {.name = "artery",
-     .kind = MATERIAL_PRINCIPLED,
-     .color = {0.45f, 0.022f, 0.016f},
-     .color2 = {0.3f, 0.01f, 0.01f},
-     .roughness = 0.28f,
-     .specular = 0.6f,
-     .ior = 1.5f},
-    {.name = "vein",
-     .kind = MATERIAL_PRINCIPLED,
-     .color = {0.035f, 0.06f, 0.26f},
-     .color2 = {0.02f, 0.03f, 0.15f},
-     .roughness = 0.28f,
-     .specular = 0.6f,
-     .ior = 1.5f},
-    // lignified: paler than the blade
-    {.name = "leaf_vein",
-     .kind = MATERIAL_LEAF,
-     .color = {0.34f, 0.32f, 0.16f},
-     .transmittance = {0.30f, 0.29f, 0.13f},
-     .roughness = 0.6f,
-     .specular = 0.3f,
-     .ior = 1.5f},
-    // a fresh break in stone: paler and rougher than its weathered outside
-    {.name = "broken",
-     .kind = MATERIAL_DIFFUSE,
-     .color = {0.40f, 0.36f, 0.31f},
-     .color2 = {0.26f, 0.23f, 0.20f},
-     .roughness = 0.95f,
-     .ior = 1.5f,
-     .pattern = PATTERN_NOISE},
     {.name = "clay",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.45f, 0.42f, 0.39f},
      .color2 = {0.1f, 0.1f, 0.1f},
      .roughness = 0.5f,
      .ior = 1.5f},
+    {.name = ""},
 };
 
-const Material *builtin_materials(int *count)
+// Number *index of a list; NULL and what is left of *index where the list is shorter.
+static const Material *entry(const Material *list, int *index)
 {
-    *count = (int)(sizeof MATERIALS / sizeof MATERIALS[0]);
-    return MATERIALS;
+    for (; list && list->name[0]; list++) {
+        if ((*index)-- == 0) {
+            return list;
+        }
+    }
+    return NULL;
+}
+
+const Material *builtin_material_at(int index)
+{
+    const Material *found = entry(SHARED, &index);
+    for (int i = 0; !found && kind_at(i); i++) {
+        found = entry(kind_at(i)->builtin, &index);
+    }
+    return found;
 }
 
 const Material *builtin_material(const char *name)
 {
-    int count;
-    const Material *materials = builtin_materials(&count);
-    for (int i = 0; i < count; i++) {
-        if (strcmp(materials[i].name, name) == 0) {
-            return &materials[i];
+    for (int i = 0; builtin_material_at(i); i++) {
+        if (strcmp(builtin_material_at(i)->name, name) == 0) {
+            return builtin_material_at(i);
         }
     }
     return NULL;

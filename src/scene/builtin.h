@@ -4,8 +4,9 @@
 
 #include "render/material/material.h"
 
-// Built-in materials as an array; *count of them: bark, twig, leaf, ground, grass, fallen, clay.
-const Material *builtin_materials(int *count);
+// Those that several kinds of objects use, then each kind's own (Kind.builtin). NULL from their
+// number on.
+const Material *builtin_material_at(int index);
 
 // NULL when there is none of that name.
 const Material *builtin_material(const char *name);

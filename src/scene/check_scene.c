@@ -1,7 +1,7 @@
 // Checks of camera, film, lamps, and of the scene as a whole.
 #include "config/hint.h"
+#include "render/light/light.h"
 #include "scene/builtin.h"
-#include "scene/kind.h"
 #include "scene/spec_check.h"
 
 #include <ctype.h>
@@ -146,13 +146,12 @@ static bool no_material(const Mapping *mapping, const Scene *scene, const SceneO
 {
     const char *names[MOST_HINTED];
     char hint[512];
-    int count = 0, builtin_count;
-    const Material *builtin = builtin_materials(&builtin_count);
-    for (int i = 0; i < scene->material_count && count < MOST_HINTED - builtin_count; i++) {
+    int count = 0;
+    for (int i = 0; i < scene->material_count && count < MOST_HINTED; i++) {
         names[count++] = scene->materials[i].name;
     }
-    for (int i = 0; i < builtin_count; i++) {
-        names[count++] = builtin[i].name;
+    for (int i = 0; builtin_material_at(i) && count < MOST_HINTED; i++) {
+        names[count++] = builtin_material_at(i)->name;
     }
     hint_format(named->text, names, count, hint, sizeof hint);
     return load_fail(mapping->loader, named, "objects.%s.%s: there is no material '%.60s'; %s",

@@ -1,8 +1,7 @@
 #include "scene/export_grids.h"
 
+#include "objects/common/own_space.h"
 #include "scene/build.h"
-#include "scene/kind.h"
-#include "scene/own_space.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -42,7 +41,7 @@ static bool collect(void *user, const char *label, const Envelope *envelope,
 static bool carry_grids(const SceneObject *object, GridFile *grids, int64_t first, Error *e)
 {
     OwnSpace own;
-    bool done = own_space_enter(&own, object, e) &&
+    bool done = own_space_enter(&own, object->kind, object->params, e) &&
                 (!own.moved || grid_file_move(grids, first, &own.to_scene, e));
     own_space_leave(&own);
     return done;

@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "config/hint.h"
 #include "export/pieces.h"
+#include "render/world.h"
 #include "scene/build.h"
 #include "scene/export_grids.h"
-#include "scene/kind.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -110,16 +110,15 @@ static Node *unknown_material(const Override *o, const Node *list, const char *t
 {
     const char *names[MAX_NAMES];
     char hint[512];
-    int count = 0, builtin_count;
-    const Material *builtin = builtin_materials(&builtin_count);
+    int count = 0;
     for (const Node *entry = list->first; entry && count < MAX_NAMES; entry = entry->next) {
         const char *name = node_get_text(entry, "name");
         if (name) {
             names[count++] = name;
         }
     }
-    for (int i = 0; i < builtin_count && count < MAX_NAMES; i++) {
-        names[count++] = builtin[i].name;
+    for (int i = 0; builtin_material_at(i) && count < MAX_NAMES; i++) {
+        names[count++] = builtin_material_at(i)->name;
     }
     hint_format(token, names, count, hint, sizeof hint);
     error_set(o->e, ERROR_INPUT, "there is no material '%.60s'; %s", token, hint);

@@ -1,7 +1,6 @@
 #include "scene/place.h"
 
 #include "config/yaml.h"
-#include "scene/kind.h"
 #include "scene/overrides.h"
 
 #include <stdio.h>

@@ -7,25 +7,13 @@
 
 #include "base/run.h"
 #include "image/tonemap.h"
+#include "objects/kind.h"
 #include "render/camera.h"
 #include "render/film_params.h"
 #include "render/render_params.h"
 #include "render/sky/sky.h"
 
 #include <stddef.h>
-
-typedef struct Arena Arena;
-
-enum { OBJECT_MOST_MATERIALS = 6 };
-
-typedef struct SceneObject {
-    char *name;
-    uint64_t seed; // 0 = from the scene's seed and the name
-    const struct Kind *kind;
-    void *params; // of the kind
-    // Names of materials, as the kind numbers them (Kind.materials); NULL = the kind's own choice.
-    char *material[OBJECT_MOST_MATERIALS];
-} SceneObject;
 
 typedef struct SceneTarget { // what a scene says of its own result
     char *object, *measure;  // names

@@ -4,7 +4,6 @@
 #include "config/compare.h"
 #include "render/material/material.h"
 #include "render/medium/medium.h"
-#include "scene/kind.h"
 #include "scene/spec.h"
 
 #include <math.h>

@@ -2,7 +2,6 @@
 
 #include "config/write.h"
 #include "scene/build.h"
-#include "scene/kind.h"
 #include "scene/spec.h"
 
 #include <stdlib.h>

@@ -1,5 +1,4 @@
 // Objects: their names, and what kinds there are.
-#include "scene/kind.h"
 #include "scene/scene.h"
 #include "scene/spec.h"
 

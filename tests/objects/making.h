@@ -2,7 +2,7 @@
 #ifndef RAMIFY_TESTS_OBJECTS_MAKING_H
 #define RAMIFY_TESTS_OBJECTS_MAKING_H
 
-#include "scene/kinds.h"
+#include "objects/kinds.h"
 
 // The out-tree of what has grown at grow_to. NULL and e on failure.
 static inline OutTree *grow_kind(const Kind *kind, const void *params, const Recipe *recipe,

@@ -1,8 +1,9 @@
 #include "making.h"
 #include "objects/common/foliage.h"
 #include "objects/ground/ground.h"
+#include "objects/kinds.h"
 #include "objects/tree/tree.h"
-#include "scene/kinds.h"
+#include "scene/build.h"
 #include "testing.h"
 
 #include <math.h>

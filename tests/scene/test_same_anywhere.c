@@ -2,8 +2,9 @@
 // half the size: as many nodes, the same measures, every node and vertex where the motion takes it.
 #include "testing.h"
 
+#include "objects/kinds.h"
+#include "render/world.h"
 #include "scene/build.h"
-#include "scene/kind.h"
 
 #include <math.h>
 #include <stdio.h>

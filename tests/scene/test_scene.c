@@ -6,9 +6,10 @@
 #include "config/compare.h"
 #include "config/hint.h"
 #include "config/scalar.h"
+#include "objects/kinds.h"
+#include "objects/mesh/mesh.h"
+#include "objects/shape/shape.h"
 #include "objects/tree/tree.h"
-#include "scene/drawn.h"
-#include "scene/kinds.h"
 #include "scene/spec.h"
 
 #include <locale.h>
@@ -163,7 +164,7 @@ static void shapes_and_fields_are_placed(void **state)
                              "    tree: {crown: {fields: [{kind: nuclei, turn: 360}, {kind: "
                              "point, weight: 2}]}}\n",
                              NULL, 0);
-    const SceneShape *solid = params_of(scene, 0, &kind_shape);
+    const SolidParams *solid = params_of(scene, 0, &kind_shape);
     const Shape *shape = solid->shapes;
     assert_int_equal(solid->shape_count, 2);
     assert_true(shape[0].transform.m[0][0] == 2.0f && shape[0].transform.m[2][3] == 3.0f);
@@ -209,7 +210,7 @@ static void files_are_found_beside_the_scene(void **state)
     const char text[] = "objects: [{name: a, mesh: {file: stone.obj}}]";
     Scene *scene = scene_read(fixture_write(fixture, "s.yaml", text, sizeof text - 1), NULL, 0, &e);
     assert_non_null(scene);
-    const SceneMesh *stone = params_of(scene, 0, &kind_mesh);
+    const MeshParams *stone = params_of(scene, 0, &kind_mesh);
     assert_string_equal(stone->file, wanted);
     assert_string_equal(scene->text, text);
     scene_free(scene);

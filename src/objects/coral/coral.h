@@ -85,4 +85,6 @@ bool coral_measure(const OutTree *tree, CoralMeasures *measures, Error *e);
 // The rock that encrusting and massive forms grow on. Free with envelope_free.
 Envelope *coral_base(const CoralParams *resolved, uint64_t seed, const Run *run, Error *e);
 
+extern const struct Table coral_table; // of its parameters
+
 #endif

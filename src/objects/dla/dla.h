@@ -26,4 +26,6 @@ bool dla_model_finish(const void *params, const Recipe *recipe, const Grown *who
                       Error *e);
 bool dla_model_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
+extern const struct Table dla_table; // of its parameters
+
 #endif

@@ -48,4 +48,6 @@ bool forest_geometry(const void *params, const Grown *grown, const Placing *plac
 // tips that have one within half a trunk spacing; NAN without. 0 would be crowns that interleave.
 bool forest_crown_gap(const OutTree *tree, const ForestParams *params, double *gap, Error *e);
 
+extern const struct Table forest_table; // of its parameters
+
 #endif

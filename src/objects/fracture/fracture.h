@@ -40,4 +40,6 @@ bool fracture_measure(const void *params, const Grown *grown, const Recipe *reci
 bool fracture_pieces(const OutTree *network, const FractureParams *params, const Recipe *recipe,
                      MeshPieces *pieces, double *base, Error *e);
 
+extern const struct Table fracture_table; // of its parameters
+
 #endif

@@ -67,4 +67,6 @@ bool frost_geometry(const void *params, const Grown *grown, const Placing *placi
 bool frost_measure(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,
                    Error *e);
 
+extern const struct Table frost_table; // of its parameters
+
 #endif

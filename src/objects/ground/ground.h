@@ -41,4 +41,6 @@ float ground_height(const GroundParams *params, uint64_t seed, float x, float z)
 // The land, and on it grass, leaves and trees: see recipe.h. Nothing grows, so there is no Grown.
 bool ground_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
+extern const struct Table ground_table; // of its parameters
+
 #endif

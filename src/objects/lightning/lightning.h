@@ -67,4 +67,6 @@ bool lightning_geometry(const void *params, const Grown *grown, const Placing *p
 bool lightning_measure(const void *params, const Grown *grown, const Recipe *recipe,
                        MeasureList *list, Error *e);
 
+extern const struct Table lightning_table; // of its parameters
+
 #endif

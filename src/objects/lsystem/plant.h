@@ -32,4 +32,6 @@ bool lsystem_plant_finish(const void *params, const Recipe *recipe, const Grown 
 bool lsystem_plant_geometry(const void *params, const Grown *grown, const Placing *placing,
                             Error *e);
 
+extern const struct Table lsystem_table; // of its parameters
+
 #endif

@@ -23,4 +23,6 @@ SculptureParams sculpture_params_default(void); // a ball of 1 m radius, 9 clust
 bool sculpture_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
 bool sculpture_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
+extern const struct Table sculpture_table; // of its parameters
+
 #endif

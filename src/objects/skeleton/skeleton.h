@@ -45,4 +45,6 @@ bool skeleton_geometry(const void *params, const Grown *grown, const Placing *pl
 // distance of an outline's points from their middle as its radius, whichever is larger. NULL and e.
 OutTree *skeleton_round_soma(const OutTree *tree, Error *e);
 
+extern const struct Table skeleton_table; // of its parameters
+
 #endif

@@ -117,4 +117,6 @@ enum { TERRAIN_LAND, TERRAIN_WATER, TERRAIN_FOLIAGE }; // roles of materials
 // Adds land (finer toward the eye, no cracks; even without one), water and forest.
 bool terrain_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
+extern const struct Table terrain_table; // of its parameters
+
 #endif

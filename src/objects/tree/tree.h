@@ -105,4 +105,6 @@ bool tree_finish(const void *params, const Recipe *recipe, const Grown *whole, G
 float tree_tip_radius(const void *params, const OutTree *whole); // m
 bool tree_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
+extern const struct Table tree_table, radii_table, leaves_table, skin_table; // of its parameters
+
 #endif

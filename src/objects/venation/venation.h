@@ -46,4 +46,6 @@ bool venation_measure(const void *params, const Grown *grown, const Recipe *reci
 bool venation_paint(const void *params, const OutTree *tree, int width, int height, float *pixel,
                     Error *e);
 
+extern const struct Table venation_table; // of its parameters
+
 #endif

@@ -43,4 +43,6 @@ bool vessels_measure(const void *params, const Grown *grown, const Recipe *recip
 // The nodes of one colony as an out-tree of its own.
 OutTree *vessels_colony(const OutTree *tree, int32_t colony, Error *e);
 
+extern const struct Table vessels_table; // of its parameters
+
 #endif

@@ -1,0 +1,154 @@
+// Checks of what objects are made of.
+#include "objects/common/tables.h"
+
+#include "grow/lsystem/lsystem.h"
+#include "grow/rules/sectors.h"
+#include "shape/import_check.h"
+
+#include <string.h>
+
+bool check_scale(const Mapping *mapping, Vec3 scale)
+{
+    return (scale.x != 0.0f && scale.y != 0.0f && scale.z != 0.0f) ||
+           mapping_fail(mapping, "scale", " has a 0, which flattens it; no factor may be 0");
+}
+
+bool check_mesh_file(const Mapping *mapping, const char *path)
+{
+    Error e = {0};
+    return import_check(path, &e) || mapping_fail(mapping, "file", ": '%s': %s",
+                                                  node_get_text(mapping->given, "file"), e.message);
+}
+
+// ---- envelopes ----
+
+static const struct {
+    int count; // of the components that must be greater than 0
+    const char *words, *kind;
+} NEEDED_SIZES[] = {
+    [SHAPE_SPHERE] = {1, "radius", "sphere"},
+    [SHAPE_ELLIPSOID] = {3, "all sizes", "ellipsoid"},
+    [SHAPE_BOX] = {3, "all sizes", "box"},
+    [SHAPE_CONE] = {2, "radius below and height", "cone"},
+    [SHAPE_CAPSULE] = {1, "radius", "capsule"},
+    [SHAPE_MESH] = {0},
+    [SHAPE_HALF_SPACE] = {0},
+    [SHAPE_BODY] = {1, "the height", "body"},
+};
+
+static bool check_size(const Mapping *mapping, const Shape *shape)
+{
+    const float size[3] = {shape->size.x, shape->size.y, shape->size.z};
+    for (int i = 0; i < 3 && i < NEEDED_SIZES[shape->kind].count; i++) {
+        if (!(size[i] > 0.0f)) {
+            return mapping_fail(mapping, "size", ": %s of a %s must be greater than 0 m",
+                                NEEDED_SIZES[shape->kind].words, NEEDED_SIZES[shape->kind].kind);
+        }
+    }
+    return true;
+}
+
+bool check_shape(const Mapping *mapping, void *params)
+{
+    Shape *shape = params;
+    // A sphere is the unit sphere, scaled.
+    float factor = shape->kind == SHAPE_SPHERE ? shape->size.x : 1.0f;
+    shape->transform =
+        transform_compose(shape->position, shape->rotation, vec3_scale(shape->scale, factor));
+    return check_size(mapping, shape) &&
+           (shape->kind != SHAPE_MESH || check_mesh_file(mapping, shape->file)) &&
+           check_scale(mapping, shape->scale);
+}
+
+bool check_shapes(const Mapping *mapping, const Shape *shapes, int count)
+{
+    const Node *list = node_get(mapping->given, "envelope"), *given = list ? list->first : NULL;
+    for (int i = 0; given && i < count; i++, given = given->next) {
+        const char *name = mapping_path(mapping, "envelope");
+        if (i == 0 && shapes[i].op != SHAPE_UNION) {
+            return load_fail(mapping->loader, given,
+                             "%s begins with a %s; the first shape must be a union", name,
+                             node_get_text(given, "op"));
+        }
+        if (shapes[i].op == SHAPE_UNION && shapes[i].kind == SHAPE_HALF_SPACE) {
+            return load_fail(mapping->loader, given,
+                             "%s: a half_space has no end; its op must be difference or "
+                             "intersection",
+                             name);
+        }
+    }
+    return true;
+}
+
+// ---- growth ----
+
+static bool check_sectors(const Mapping *mapping, const ElementParams *element)
+{
+    SectorTable table;
+    Error e = {0};
+    return element->growth.rule != GROW_SECTORS || element->growth.sector_angle == 0.0f ||
+           sectors_init(&table, element->growth.sector_angle,
+                        element->points.place == SCATTER_SURFACE, &e) ||
+           mapping_fail(mapping, "growth.sector_angle", ": %s", e.message);
+}
+
+bool check_element(const Mapping *mapping, const ElementParams *element)
+{
+    if (element->points.pattern == SCATTER_POISSON && element->points.anchored) {
+        return mapping_fail(mapping, "points.anchored",
+                            ": anchored points keep no distance; use the pattern random, or "
+                            "anchored: false");
+    }
+    return check_sectors(mapping, element) &&
+           check_shapes(mapping, element->shapes, element->shape_count);
+}
+
+bool check_level(const Mapping *mapping, void *params)
+{
+    const GrowLevel *level = params;
+    return level->kill < level->influence ||
+           mapping_fail(mapping, "kill",
+                        " is %g; it must be less than influence, %g, or attractors go before they "
+                        "pull",
+                        (double)level->kill, (double)level->influence);
+}
+
+bool check_growth(const Mapping *mapping, void *params)
+{
+    const ElementParams *element = params;
+    if (element->growth.max_angle > 0.0f && element->growth.min_angle > element->growth.max_angle) {
+        return mapping_fail(mapping, "min_angle",
+                            " is %g; it must be at most max_angle, %g degrees",
+                            (double)element->growth.min_angle, (double)element->growth.max_angle);
+    }
+    const Node *list = node_get(mapping->given, "levels"), *given = list ? list->first : NULL;
+    for (int i = 0; given && i < element->level_count; i++, given = given->next) {
+        GrowLevel *level = &element->levels[i];
+        if (!node_get(given, "noise")) {
+            level->noise = element->growth.noise;
+        }
+        if (!node_get(given, "tropism")) {
+            level->tropism = node_get(mapping->given, "tropism") ? 1.0f : 0.0f;
+        }
+    }
+    return true;
+}
+
+bool check_field(const Mapping *mapping, void *params)
+{
+    const FieldParams *field = params;
+    bool has_vector = field->kind != FIELD_RADIAL && field->kind != FIELD_CURL;
+    return !has_vector || vec3_length(field->vector) > 0.0f ||
+           mapping_fail(mapping, "vector", " is zero; it must point somewhere");
+}
+
+bool check_grammar(const Mapping *mapping, const char *axiom, const char *rules)
+{
+    Error e = {0};
+    LSystemParams params = {.axiom = axiom ? axiom : "F", .rules = rules ? rules : ""};
+    if (lsystem_check(&params, &e)) {
+        return true;
+    }
+    bool of_axiom = axiom && strcmp(e.key, "axiom") == 0;
+    return mapping_fail(mapping, of_axiom ? "axiom" : "rules", ": %s", e.message);
+}

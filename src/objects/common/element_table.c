@@ -1,0 +1,279 @@
+// What elements (trunk, crown, roots) are made of: shapes, points, growth levels, guide fields.
+#include "objects/common/tables.h"
+
+#define BIT(kind) (1u << (kind))
+
+static const EnumName SHAPES[] = {{"sphere", SHAPE_SPHERE},
+                                  {"ellipsoid", SHAPE_ELLIPSOID},
+                                  {"box", SHAPE_BOX},
+                                  {"cone", SHAPE_CONE},
+                                  {"capsule", SHAPE_CAPSULE},
+                                  {"mesh", SHAPE_MESH},
+                                  {"half_space", SHAPE_HALF_SPACE},
+                                  {"body", SHAPE_BODY},
+                                  {0}};
+static const EnumName SHAPE_OPS[] = {{"union", SHAPE_UNION},
+                                     {"difference", SHAPE_DIFFERENCE},
+                                     {"intersection", SHAPE_INTERSECTION},
+                                     {0}};
+
+static const Key SHAPE_KEYS[] = {
+    {KEY_OF(Shape, kind, "shape", KEY_ENUM), .flags = KEY_REQUIRED, .names = SHAPES,
+     .doc = "sphere: about the origin; ellipsoid: about the origin, with three half-axes; box: "
+            "about the origin; cone: stands on the origin, with its tip cut off if wanted; "
+            "capsule: a round rod up from the origin; mesh: from a file; half_space: all below y = "
+            "0, to cut with; body: a standing human, feet at the origin, facing +Z."},
+    {KEY_OF(Shape, op, "op", KEY_ENUM), .names = SHAPE_OPS,
+     .doc = "union: add the shape; difference: take it away; intersection: keep only what lies in "
+            "it too. The first shape of a list is a union."},
+    {KEY_OF(Shape, size, "size", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3, .high = 1e6,
+     .kinds = BIT(SHAPE_SPHERE) | BIT(SHAPE_ELLIPSOID) | BIT(SHAPE_BOX) | BIT(SHAPE_CONE) |
+              BIT(SHAPE_CAPSULE) | BIT(SHAPE_BODY),
+     .unit = "m",
+     .doc = "sphere: the radius; ellipsoid: the three half-axes; box: half of its three extents; "
+            "cone: radius below, height, radius above; capsule: radius, length between the centres "
+            "of its ends, and a number that is not used; body: its height in the first."},
+    {KEY_OF(Shape, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(SHAPE_MESH),
+     .doc = "OBJ, PLY, STL, glTF or GLB file, relative to the scene's folder."},
+    {KEY_OF(Shape, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Where the shape's origin goes."},
+    {KEY_OF(Shape, rotation, "rotation", KEY_VECTOR), .count = 3, .unit = "degrees",
+     .doc = "Turns about x, then y, then z."},
+    {KEY_OF(Shape, scale, "scale", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3,
+     .doc = "Factors along x, y and z, before the turns; negative ones mirror."},
+    {0},
+};
+
+static void shape_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    *(Shape *)out = (Shape){
+        .kind = kind < 0 ? SHAPE_SPHERE : (ShapeKind)kind, .size = {1, 1, 1}, .scale = {1, 1, 1}};
+}
+
+const Table shape_table = {
+    .name = "shape",
+    .doc = "One shape of an envelope, the region that something grows in. A list of them is "
+           "joined, cut and intersected in its order. Each is scaled, then rotated, then moved.",
+    .example = "objects:\n"
+               "  - name: umbrella\n"
+               "    tree:\n"
+               "      crown:\n"
+               "        envelope:\n"
+               "          - {shape: ellipsoid, size: [5, 1, 5], position: [0, 9, 0]}\n"
+               "          - {shape: sphere, size: 2, position: [3, 8, 0], op: difference}\n",
+    .size = sizeof(Shape),
+    .keys = SHAPE_KEYS,
+    .kind_key = "shape",
+    .kind_defaults = shape_defaults,
+    .check = check_shape};
+
+static const EnumName PLACES[] = {{"volume", SCATTER_VOLUME}, {"surface", SCATTER_SURFACE}, {0}};
+static const EnumName SCATTERS[] = {{"random", SCATTER_RANDOM}, {"poisson", SCATTER_POISSON}, {0}};
+
+static const Key POINTS_KEYS[] = {
+    {KEY_OF(ElementParams, points.place, "place", KEY_ENUM), .names = PLACES,
+     .doc = "volume: fill the envelope; surface: cover its surface."},
+    {KEY_OF(ElementParams, points.pattern, "pattern", KEY_ENUM), .names = SCATTERS,
+     .doc = "random: independent points; poisson: evenly spread ones."},
+    {KEY_OF(ElementParams, points.shell, "shell", KEY_FLOAT), .high = 1,
+     .doc = "Share of the points that is pushed out toward the surface: leaves and twigs sit "
+            "outside, as light has it."},
+    {KEY_OF(ElementParams, points.gradient, "gradient", KEY_FLOAT), .low = -1, .high = 1,
+     .doc = "Density by height: -1 = only below, 0 = even, 1 = only above."},
+    {KEY_OF(ElementParams, points.depth_gradient, "depth_gradient", KEY_FLOAT), .low = -1,
+     .high = 1,
+     .doc = "Density by depth: -1 = only in the middle, 0 = even, 1 = only near the surface."},
+    {KEY_OF(ElementParams, points.anchored, "anchored", KEY_BOOL),
+     .doc = "For films and edits: attractors stay where they are when the envelope moves or "
+            "changes, so that growth elsewhere hardly does; counts are then approximate."},
+    {0},
+};
+
+const Table points_table = {
+    .name = "points",
+    .doc = "How attractors, the points that growth reaches for, are scattered "
+           "in the envelope. How many there are, the levels of growth say.",
+    .example = "objects:\n"
+               "  - name: hollow\n"
+               "    tree: {crown: {points: {pattern: poisson, depth_gradient: 0.6}}}\n",
+    .size = sizeof(ElementParams),
+    .keys = POINTS_KEYS};
+
+static const Key LEVEL_KEYS[] = {
+    {KEY_OF(GrowLevel, attractors, "attractors", KEY_INT64), .flags = KEY_REQUIRED, .low = 1,
+     .high = 2147483647, .doc = "Number of attractors to scatter."},
+    {KEY_OF(GrowLevel, step, "step", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .unit = "spacings",
+     .doc = "Distance from node to node, in mean spacings of this level's attractors."},
+    {KEY_OF(GrowLevel, kill, "kill", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
+     .unit = "spacings",
+     .doc = "An attractor that comes this near to a node is used up; a larger distance makes "
+            "sparser branches."},
+    {KEY_OF(GrowLevel, influence, "influence", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
+     .unit = "spacings",
+     .doc = "How far an attractor pulls; it pulls only the node that is nearest to it."},
+    {KEY_OF(GrowLevel, scale, "scale", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .doc = "Scale of the envelope in this level, about the middle of its box."},
+    {KEY_OF(GrowLevel, relax, "relax", KEY_FLOAT), .high = 1,
+     .doc = "After the level each new node moves this share of the way to its parent."},
+    {KEY_OF(GrowLevel, noise, "noise", KEY_FLOAT), .flags = KEY_NO_DEFAULT, .high = 100,
+     .doc = "Gaussian noise on each direction, per component; left out: growth.noise."},
+    {KEY_OF(GrowLevel, tropism, "tropism", KEY_FLOAT), .flags = KEY_NO_DEFAULT, .low = -1000,
+     .high = 1000,
+     .doc = "Factor on growth.tropism; left out: 1 if the file gives growth.tropism, else 0."},
+    {0},
+};
+
+// The papers' plain case: one level, tried in between the coarsest and the finest of the oak.
+static void level_defaults(void *out)
+{
+    *(GrowLevel *)out =
+        (GrowLevel){.step = 0.3f, .kill = 0.9f, .influence = 2.2f, .scale = 1.0f, .relax = 0.5f};
+}
+
+static const Table LEVEL_TABLE = {
+    .name = "level",
+    .doc =
+        "One level of coarse-to-fine growth: it scatters attractors of its own, coarse ones for "
+        "limbs, fine ones for twigs. Lengths count in the mean spacing of the level's attractors.",
+    .example = "objects:\n"
+               "  - name: two_levels\n"
+               "    tree:\n"
+               "      crown:\n"
+               "        growth:\n"
+               "          levels:\n"
+               "            - {attractors: 300, step: 0.3, kill: 0.9}\n"
+               "            - {attractors: 8000, step: 0.4, kill: 0.8, influence: 2}\n",
+    .size = sizeof(GrowLevel),
+    .keys = LEVEL_KEYS,
+    .defaults = level_defaults,
+    .check = check_level};
+
+static const EnumName RULES[] = {
+    {"mean", GROW_MEAN}, {"snap", GROW_SNAP}, {"sectors", GROW_SECTORS}, {0}};
+static const EnumName FIELD_MODES[] = {{"steer", FIELD_STEER}, {"additive", FIELD_ADDITIVE}, {0}};
+
+static const Key GROWTH_KEYS[] = {
+    {KEY_OF(ElementParams, growth.rule, "rule", KEY_ENUM), .names = RULES,
+     .doc = "mean: one child a step along the mean pull; snap: reached attractors become nodes; "
+            "sectors: at most one child in each sector of angle about the heading."},
+    {KEY_OF(ElementParams, levels, "levels", KEY_LIST),
+     .count_offset = offsetof(ElementParams, level_count), .count = 100, .table = &LEVEL_TABLE,
+     .doc = "Coarse to fine: each level scatters new attractors and grows from all nodes so far. "
+            "Left out: the model's own levels."},
+    {KEY_OF(ElementParams, growth.max_children, "max_children", KEY_INT), .high = 1000,
+     .doc = "Most children of a node; 0 = no limit."},
+    {KEY_OF(ElementParams, growth.min_angle, "min_angle", KEY_FLOAT), .high = 180,
+     .unit = "degrees",
+     .doc = "Least angle between a branching child and its parent's direction; 0 = off."},
+    {KEY_OF(ElementParams, growth.max_angle, "max_angle", KEY_FLOAT), .high = 180,
+     .unit = "degrees",
+     .doc = "Largest angle between a child and its parent's direction; 0 = off."},
+    {KEY_OF(ElementParams, growth.cone_angle, "cone_angle", KEY_FLOAT), .high = 180,
+     .unit = "degrees", .doc = "Largest angle between a child and cone_axis, in space; 0 = off."},
+    {KEY_OF(ElementParams, growth.cone_axis, "cone_axis", KEY_VECTOR), .count = 3,
+     .doc = "Axis that cone_angle counts from; any length."},
+    {KEY_OF(ElementParams, growth.noise, "noise", KEY_FLOAT), .high = 100,
+     .doc = "Gaussian noise on each direction, per component, for levels that name none."},
+    {KEY_OF(ElementParams, growth.tropism, "tropism", KEY_VECTOR), .count = 3, .low = -1000,
+     .high = 1000,
+     .doc = "A pull that is the same everywhere, added to the unit direction: [0, 1, 0] is up."},
+    {KEY_OF(ElementParams, growth.apical, "apical", KEY_FLOAT), .high = 1,
+     .doc = "Apical dominance: probability that a side branch is suppressed."},
+    {KEY_OF(ElementParams, growth.sector_angle, "sector_angle", KEY_FLOAT), .high = 180,
+     .unit = "degrees", .doc = "Width of a sector for the rule sectors; 0 = 60."},
+    {KEY_OF(ElementParams, growth.sector_axis, "sector_axis", KEY_BOOL),
+     .doc = "Grow along a sector's axis rather than along the mean of its pulls."},
+    {KEY_OF(ElementParams, growth.field_weight, "field_weight", KEY_FLOAT), .low = -1000,
+     .high = 1000,
+     .doc = "Weight of the guide fields against the attractors' pull; 0 = they do nothing."},
+    {KEY_OF(ElementParams, growth.field_mode, "field_mode", KEY_ENUM), .names = FIELD_MODES,
+     .doc = "steer: the field turns the direction, steps keep their length; additive: the field's "
+            "vector is added to the new position."},
+    {KEY_OF(ElementParams, growth.max_steps, "max_steps", KEY_INT64), .high = 1e9,
+     .doc = "Stop after this many steps a level; 0 = no limit."},
+    {KEY_OF(ElementParams, growth.max_nodes, "max_nodes", KEY_INT64), .high = 2147483647,
+     .doc = "Stop at this many nodes; 0 = no limit."},
+    {0},
+};
+
+const Table growth_table = {
+    .name = "growth",
+    .doc = "How an element grows toward its attractors: in each step every attractor pulls the "
+           "node nearest to it, and each node that is pulled makes a child.",
+    .example = "objects:\n"
+               "  - name: windswept\n"
+               "    tree: {crown: {growth: {tropism: [0.8, 0.2, 0], noise: 0.3, max_angle: 70}}}\n",
+    .size = sizeof(ElementParams),
+    .keys = GROWTH_KEYS,
+    .check = check_growth};
+
+static const EnumName FIELD_KINDS[] = {{"uniform", FIELD_UNIFORM}, {"radial", FIELD_RADIAL},
+                                       {"vortex", FIELD_VORTEX},   {"nuclei", FIELD_NUCLEI},
+                                       {"grid", FIELD_GRID},       {"curl", FIELD_CURL},
+                                       {"point", FIELD_POINT},     {0}};
+static const EnumName PROFILES[] = {{"swept", PROFILE_SWEPT}, {"constant", PROFILE_CONSTANT}, {0}};
+
+#define NUCLEI (BIT(FIELD_NUCLEI) | BIT(FIELD_GRID))
+
+static const Key FIELD_KEYS[] = {
+    {KEY_OF(FieldParams, kind, "kind", KEY_ENUM), .flags = KEY_REQUIRED, .names = FIELD_KINDS,
+     .doc = "uniform: `vector` everywhere; radial: away from `center`; vortex: about the axis "
+            "`vector` through `center`; nuclei: away from the nearest initial node, turned by "
+            "`turn`; grid: the same on voxels; curl: swirling noise; point: `vector` at `center`, "
+            "falling off over `scale`."},
+    {KEY_OF(FieldParams, weight, "weight", KEY_FLOAT), .low = -1000, .high = 1000,
+     .doc = "Weight in the sum of the fields; negative turns it around."},
+    {KEY_OF(FieldParams, vector, "vector", KEY_VECTOR), .count = 3,
+     .kinds = BIT(FIELD_UNIFORM) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT) | NUCLEI,
+     .doc = "The direction; of a vortex, nuclei and grid the axis to turn about."},
+    {KEY_OF(FieldParams, center, "center", KEY_VECTOR), .flags = KEY_NO_DEFAULT,
+     .given_offset = offsetof(FieldParams, centered), .count = 3,
+     .kinds = BIT(FIELD_RADIAL) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT), .unit = "m",
+     .doc = "Middle of the field; left out: where the object stands, or where the origin of its "
+            "envelope's first shape is."},
+    {KEY_OF(FieldParams, turn, "turn", KEY_FLOAT), .kinds = NUCLEI, .low = -36000, .high = 36000,
+     .unit = "degrees",
+     .doc = "Azimuth that a streamline sweeps from the nucleus to the rim (profile swept), or by "
+            "which every vector is turned (profile constant)."},
+    {KEY_OF(FieldParams, scale, "scale", KEY_FLOAT), .kinds = BIT(FIELD_CURL) | BIT(FIELD_POINT),
+     .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
+     .doc = "Of curl the wavelength of the noise; of a point the distance over which its vector "
+            "fades."},
+    {KEY_OF(FieldParams, profile, "profile", KEY_ENUM), .kinds = NUCLEI, .names = PROFILES,
+     .doc = "swept: streamlines wind more and more on their way from the nucleus; constant: every "
+            "vector is turned by the same angle."},
+    {KEY_OF(FieldParams, spherical, "spherical", KEY_BOOL), .kinds = NUCLEI,
+     .doc =
+         "Sweep by polar angle on a sphere about the middle of the envelope's first shape, instead "
+         "of by distance."},
+    {KEY_OF(FieldParams, surface, "surface", KEY_BOOL), .kinds = NUCLEI,
+     .doc = "Turn about the attractors' surface normals rather than about `vector`."},
+    {KEY_OF(FieldParams, resolution, "resolution", KEY_INT), .kinds = BIT(FIELD_GRID), .high = 1024,
+     .doc = "Voxels along the longest side; 0 = 48."},
+    {0},
+};
+
+static void field_defaults(const Node *given, int kind, void *out)
+{
+    (void)given;
+    *(FieldParams *)out = field_params_default(kind < 0 ? FIELD_UNIFORM : (FieldKind)kind);
+}
+
+const Table guide_field_table = {
+    .name = "field",
+    .doc = "A guide vector field, which steers growth: it leans, winds "
+           "or swirls a tree. Several are summed with their weights.",
+    .example = "objects:\n"
+               "  - name: wound\n"
+               "    tree:\n"
+               "      crown:\n"
+               "        fields:\n"
+               "          - {kind: vortex, vector: [0, 1, 0], weight: 0.8}\n"
+               "          - {kind: curl, scale: 3, weight: 0.3}\n",
+    .size = sizeof(FieldParams),
+    .keys = FIELD_KEYS,
+    .kind_key = "kind",
+    .kind_defaults = field_defaults,
+    .check = check_field};

@@ -1,0 +1,55 @@
+// Tables and checks that the tables of several kinds use (see config/table.h).
+#ifndef RAMIFY_OBJECTS_COMMON_TABLES_H
+#define RAMIFY_OBJECTS_COMMON_TABLES_H
+
+#include "config/load.h"
+#include "objects/common/element.h"
+
+// Of an element's envelope, points, growth and guide fields.
+extern const Table shape_table, points_table, growth_table, guide_field_table;
+
+// The rows of an element (trunk, crown, roots): envelope, voxel, points, growth, fields.
+#define ELEMENT_ROWS(STRUCT)                                                                      \
+    {KEY_OF(STRUCT, element.shapes, "envelope", KEY_LIST),                                        \
+     .count_offset = offsetof(STRUCT, element.shape_count), .count = 1000, .table = &shape_table, \
+     .doc = "The region to grow in: shapes joined, cut and intersected in this order. Left out: " \
+            "a form of the kind's own, in proportion."},                                          \
+        {KEY_OF(STRUCT, element.voxel, "voxel", KEY_FLOAT), .high = 100, .unit = "m",             \
+         .doc = "Voxel size of the envelope's level set, where it is not one plain shape; 0 = "   \
+                "1/128 of its largest extent."},                                                  \
+        {KEY_OF(STRUCT, element, "points", KEY_GROUP), .table = &points_table,                    \
+         .doc = "How attractors are scattered in the envelope."},                                 \
+        {KEY_OF(STRUCT, element, "growth", KEY_GROUP), .table = &growth_table,                    \
+         .doc = "How the element grows toward its attractors."},                                  \
+    {                                                                                             \
+        KEY_OF(STRUCT, element.fields, "fields", KEY_LIST),                                       \
+            .count_offset = offsetof(STRUCT, element.field_count), .count = 100,                  \
+            .table = &guide_field_table,                                                          \
+            .doc = "Guide vector fields that steer the growth, summed with their weights."        \
+    }
+
+// ---- parts of Table.check
+
+// The list under `envelope`.
+bool check_shapes(const Mapping *mapping, const Shape *shapes, int count);
+
+// Envelope, points and growth of a mapping with ELEMENT_ROWS.
+bool check_element(const Mapping *mapping, const ElementParams *element);
+
+// What a look at a mesh file's name, size and header tells. path: under the mapping's key `file`.
+bool check_mesh_file(const Mapping *mapping, const char *path);
+
+// No factor of the mapping's `scale` is 0.
+bool check_scale(const Mapping *mapping, Vec3 scale);
+
+// An L-system's axiom and rules, as far as the file gives them (NULL = not).
+bool check_grammar(const Mapping *mapping, const char *axiom, const char *rules);
+
+// ---- checks of the tables above: see Table.check
+
+bool check_shape(const Mapping *mapping, void *shape); // also makes its transform
+bool check_level(const Mapping *mapping, void *level);
+bool check_growth(const Mapping *mapping, void *element); // also fills in what levels leave out
+bool check_field(const Mapping *mapping, void *field);
+
+#endif

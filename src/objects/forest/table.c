@@ -1,0 +1,67 @@
+// Forests.
+#include "objects/common/tables.h"
+#include "objects/forest/forest.h"
+
+static const Key FOREST_KEYS[] = {
+    {KEY_OF(ForestParams, height, "height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
+     .unit = "m", .doc = "Height of the tallest trees."},
+    {KEY_OF(ForestParams, spacing, "spacing", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "Distance from trunk to trunk; 0 = a share of the height."},
+    {KEY_OF(ForestParams, crown, "crown", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1,
+     .doc = "Share of the height, from the top, that bears branches."},
+    {KEY_OF(ForestParams, stand_trees, "stand_trees", KEY_INT), .low = 1, .high = 1000,
+     .doc = "Trees of a stand: they grow together and share its light."},
+    {KEY_OF(ForestParams, stands, "stands", KEY_INT), .low = 1, .high = 1000,
+     .doc = "How many different stands are grown, to be repeated over the land."},
+    {KEY_OF(ForestParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e5,
+     .unit = "m", .doc = "How far the forest goes."},
+    {KEY_OF(ForestParams, center, "center", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Middle of the forest."},
+    {KEY_OF(ForestParams, glade, "glade", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc = "Radius of a glade; 0 = none."},
+    {KEY_OF(ForestParams, glade_center, "glade_center", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Middle of the glade, and of the ferns."},
+    {KEY_OF(ForestParams, density, "density", KEY_FLOAT), .high = 1,
+     .doc = "Share of the places that are taken: 1 = a closed forest."},
+    {KEY_OF(ForestParams, clumping, "clumping", KEY_FLOAT), .high = 1,
+     .doc = "0 = even, 1 = in woods with open land between."},
+    {KEY_OF(ForestParams, max_slope, "max_slope", KEY_FLOAT), .high = 89, .unit = "degrees",
+     .doc = "Nothing stands where the land is steeper."},
+    {KEY_OF(ForestParams, ferns, "ferns", KEY_INT64), .high = 1e9,
+     .doc = "How many ferns grow below the trees; 0 = none."},
+    {KEY_OF(ForestParams, fern_height, "fern_height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .unit = "m", .doc = "Height of the tallest ferns."},
+    {KEY_OF(ForestParams, fern_radius, "fern_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e5,
+     .unit = "m", .doc = "Radius about the glade's middle that bears ferns."},
+    {KEY_OF(ForestParams, radii, "radii", KEY_GROUP), .table = &radii_table,
+     .doc = "Thickness of trunks and branches."},
+    {KEY_OF(ForestParams, leaves, "leaves", KEY_GROUP), .table = &leaves_table,
+     .doc = "The leaves of one stand."},
+    {KEY_OF(ForestParams, skin, "skin", KEY_GROUP), .table = &skin_table, .doc = "The surface."},
+    ELEMENT_ROWS(ForestParams),
+    {0},
+};
+
+static void forest_defaults(void *out)
+{
+    *(ForestParams *)out = forest_params_default();
+}
+
+static bool check_forest(const Mapping *mapping, void *params)
+{
+    return check_element(mapping, &((const ForestParams *)params)->element);
+}
+
+const Table forest_table = {
+    .name = "forest",
+    .doc = "A forest: stands of trees grown together, competing for the same light, set over the "
+           "ground by the thousand. Materials: bark, twig, leaf; grass for the ferns.",
+    .example = "objects:\n"
+               "  - name: floor\n"
+               "    ground: {relief: 4}\n"
+               "  - name: wood\n"
+               "    forest: {height: 18, radius: 80, glade: 6, ferns: 2000}\n",
+    .size = sizeof(ForestParams),
+    .keys = FOREST_KEYS,
+    .defaults = forest_defaults,
+    .check = check_forest};

@@ -1,0 +1,68 @@
+// The ground as a kind of object.
+#include "objects/kind.h"
+#include "objects/ground/ground.h"
+#include "render/material/material.h"
+
+static float height(const void *params, uint64_t seed, float x, float z)
+{
+    return ground_height(params, seed, x, z);
+}
+
+static int64_t copies(const void *params)
+{
+    const GroundParams *ground = params;
+    return ground->grass_tufts + ground->fallen_leaves + ground->trees.count;
+}
+
+static void needs(const void *params, Needs *needs)
+{
+    enum { TUFT_FACES = 88, LEAF_FACES = 25, TREE_BYTES = 15000000, PARTS = 3 };
+    const GroundParams *ground = params;
+    needs_add(needs, "grass_tufts", (double)ground->grass_tufts, // half of them find no place
+              0.5 * (sizeof(Transform) + sizeof(float)));
+    needs_add_copies(needs, "grass_tufts", 0.55 * (double)ground->grass_tufts, TUFT_FACES);
+    needs_add_copies(needs, "fallen_leaves", (double)ground->fallen_leaves, LEAF_FACES);
+    if (ground->trees.count > 0) {
+        needs_add(needs, "trees.variants", ground->trees.variants, TREE_BYTES);
+        needs_add_copies(needs, "trees.count", PARTS * (double)ground->trees.count, 1e9);
+    }
+}
+
+static const Material BUILTIN[] = {
+    {.name = "ground",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.085f, 0.105f, 0.040f},
+     .color2 = {0.110f, 0.082f, 0.052f},
+     .roughness = 0.8f,
+     .ior = 1.5f,
+     .pattern = PATTERN_GROUND,
+     .pattern_depth = 0.03f},
+    {.name = "fallen",
+     .kind = MATERIAL_LEAF,
+     .color = {0.230f, 0.130f, 0.055f},
+     .color2 = {0.130f, 0.075f, 0.038f},
+     .transmittance = {0.090f, 0.040f, 0.010f},
+     .roughness = 0.6f,
+     .specular = 0.35f,
+     .ior = 1.5f,
+     .pattern = PATTERN_LEAF,
+     .variation = 0.7f},
+    {.name = ""},
+};
+
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    LEAF_MATERIAL_ROW(1),
+    GRASS_MATERIAL_ROW(2),
+    {0},
+};
+
+const Kind kind_ground = {
+    .variant = {KIND_ROW("ground", &ground_table, "Ground to stand on, with grass."), MATERIALS},
+    .reads_water = true,
+    .materials = {"ground", "fallen", "grass", "bark", "leaf"},
+    .builtin = BUILTIN,
+    .needs = needs,
+    .ground = height,
+    .copies = copies,
+    .geometry = ground_geometry};

@@ -1,0 +1,29 @@
+// The registry of the kinds of objects, in the order in which people read of them: a line a kind.
+#ifndef RAMIFY_OBJECTS_KINDS_H
+#define RAMIFY_OBJECTS_KINDS_H
+
+#include "objects/kind.h"
+
+#define KINDS(X) \
+    X(tree)      \
+    X(coral)     \
+    X(lsystem)   \
+    X(vessels)   \
+    X(forest)    \
+    X(ground)    \
+    X(frost)     \
+    X(mesh)      \
+    X(shape)     \
+    X(dla)       \
+    X(lightning) \
+    X(sculpture) \
+    X(terrain)   \
+    X(venation)  \
+    X(fracture)  \
+    X(skeleton)
+
+#define DECLARE_KIND(NAME) extern const Kind kind_##NAME;
+KINDS(DECLARE_KIND)
+#undef DECLARE_KIND
+
+#endif

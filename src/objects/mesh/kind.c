@@ -1,0 +1,54 @@
+// An imported mesh as a kind of object.
+#include "objects/kind.h"
+#include "objects/mesh/mesh.h"
+#include "shape/import.h"
+
+// In its place; NULL and e otherwise.
+static Mesh *import(const MeshParams *params, const Run *run, Error *e)
+{
+    Transform transform = transform_compose(params->position, params->rotation, params->scale);
+    Mesh *mesh = mesh_import(params->file, run, e);
+    if (!mesh) {
+        error_key(e, "file");
+    } else if (!mesh_transform(mesh, &transform, e)) {
+        mesh_free(mesh);
+        mesh = NULL;
+    }
+    return mesh;
+}
+
+static bool geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
+{
+    (void)grown;
+    const MeshParams *params = given;
+    Mesh *mesh = import(params, placing->recipe->run, e);
+    if (mesh && params->smooth && !mesh->normal && !mesh_compute_normals(mesh, e)) {
+        mesh_free(mesh);
+        return false;
+    }
+    return placing_add(placing, (Part){.mesh = mesh}, 0, e);
+}
+
+static void needs(const void *params, Needs *needs)
+{
+    needs_add_mesh_file(needs, "file", ((const MeshParams *)params)->file);
+}
+
+static bool cover(const void *params, Cover *cover, const Run *run, Error *e)
+{
+    Mesh *mesh = import(params, run, e);
+    bool done = mesh && cover_add(cover, mesh, e);
+    mesh_free(mesh);
+    return done;
+}
+
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    {0},
+};
+
+const Kind kind_mesh = {.variant = {KIND_ROW("mesh", &mesh_table, "An imported mesh."), MATERIALS},
+                        .materials = {"clay"},
+                        .needs = needs,
+                        .geometry = geometry,
+                        .cover = cover};

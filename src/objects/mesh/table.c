@@ -1,0 +1,36 @@
+// The keys of an imported mesh.
+#include "objects/common/tables.h"
+#include "objects/mesh/mesh.h"
+
+static const Key MESH_KEYS[] = {
+    {KEY_OF(MeshParams, file, "file", KEY_FILE), .flags = KEY_REQUIRED,
+     .doc = "OBJ, PLY, STL, glTF or GLB file, relative to the scene's folder."},
+    {KEY_OF(MeshParams, smooth, "smooth", KEY_BOOL),
+     .doc = "Make smooth normals when the file has none."},
+    {KEY_OF(MeshParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Where the mesh's origin goes."},
+    {KEY_OF(MeshParams, rotation, "rotation", KEY_VECTOR), .count = 3, .unit = "degrees",
+     .doc = "Turns about x, then y, then z."},
+    {KEY_OF(MeshParams, scale, "scale", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3,
+     .doc = "Factors along x, y and z, before the turns; negative ones mirror."},
+    {0},
+};
+
+static void mesh_defaults(void *out)
+{
+    *(MeshParams *)out = (MeshParams){.scale = {1, 1, 1}};
+}
+
+static bool check_mesh(const Mapping *mapping, void *params)
+{
+    const MeshParams *mesh = params;
+    return check_mesh_file(mapping, mesh->file) && check_scale(mapping, mesh->scale);
+}
+
+const Table mesh_table = {
+    .name = "mesh",
+    .doc = "A mesh that another program made. Material: clay, if the object names no other.",
+    .size = sizeof(MeshParams),
+    .keys = MESH_KEYS,
+    .defaults = mesh_defaults,
+    .check = check_mesh};

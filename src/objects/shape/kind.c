@@ -1,0 +1,103 @@
+// Envelopes drawn as they are, as a kind of object.
+#include "objects/kind.h"
+#include "objects/shape/shape.h"
+#include "shape/primitive.h"
+
+#include <string.h>
+
+static Mesh *copy_mesh(const Mesh *mesh, Error *e)
+{
+    int arrays = (mesh->normal ? MESH_NORMAL : 0) | (mesh->uv ? MESH_UV : 0);
+    Mesh *copy = mesh_new(mesh->face_size, mesh->vertex_count, mesh->face_count, arrays, e);
+    if (!copy) {
+        return NULL;
+    }
+    size_t vertices = (size_t)mesh->vertex_count;
+    size_t corners = (size_t)mesh->face_count * (size_t)mesh->face_size;
+    memcpy(copy->index, mesh->index, sizeof *mesh->index * corners);
+    memcpy(copy->position, mesh->position, sizeof *mesh->position * vertices);
+    if (mesh->normal) {
+        memcpy(copy->normal, mesh->normal, sizeof *mesh->normal * vertices);
+    }
+    if (mesh->uv) {
+        memcpy(copy->uv, mesh->uv, sizeof *mesh->uv * vertices);
+    }
+    return copy;
+}
+
+static bool own_space(OwnSpace *own, void *params, Error *e)
+{
+    SolidParams *shape = params;
+    own_space_of_shapes(own, shape->shapes, shape->shape_count);
+    return own_space_take_shapes(own, &shape->shapes, shape->shape_count, e);
+}
+
+static Envelope *make(const SolidParams *shape, const Run *run, Error *e)
+{
+    EnvelopeParams params = {shape->shapes, shape->shape_count, shape->voxel};
+    return envelope_new(&params, run, e);
+}
+
+static bool geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
+{
+    (void)grown;
+    Envelope *envelope = make(given, placing->recipe->run, e);
+    if (!envelope) {
+        return false;
+    }
+    Mesh *mesh = copy_mesh(envelope_surface(envelope), e);
+    envelope_free(envelope);
+    return placing_add(placing, (Part){.mesh = mesh}, 0, e);
+}
+
+// Of the surface that a level set is made along, m^2. Half spaces only cut.
+static double surface_area(const Shape *shape)
+{
+    const double man = 0.62; // of the square of his height
+    Primitive primitive;
+    if (shape->kind == SHAPE_BODY) {
+        return man * (double)(shape->size.x * shape->size.x);
+    }
+    bool bounded = shape->kind != SHAPE_HALF_SPACE && shape->kind != SHAPE_MESH;
+    return bounded && primitive_new(shape, &primitive, NULL) ? primitive_area(&primitive) : 0.0;
+}
+
+static void needs(const void *params, Needs *needs)
+{
+    const double voxel_bytes = 370.0; // of a voxel on the surface, with its faces
+    const double voxels_by_default = 6.0 * 128.0 * 128.0;
+    const SolidParams *shape = params;
+    double area = 0.0;
+    for (int i = 0; i < shape->shape_count; i++) {
+        area += surface_area(&shape->shapes[i]);
+        needs_add_mesh_file(needs, "envelope", shape->shapes[i].file);
+    }
+    if (shape->shape_count == 1 && shape->shapes[0].kind != SHAPE_BODY) {
+        return; // no level set
+    }
+    double voxel = (double)shape->voxel;
+    needs_add(needs, "voxel", voxel > 0.0 ? area / (voxel * voxel) : voxels_by_default,
+              voxel_bytes);
+}
+
+static bool cover(const void *params, Cover *cover, const Run *run, Error *e)
+{
+    Envelope *envelope = make(params, run, e);
+    bool done = envelope && cover_add(cover, envelope_surface(envelope), e);
+    envelope_free(envelope);
+    return done;
+}
+
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    {0},
+};
+
+const Kind kind_shape = {
+    .variant = {KIND_ROW("shape", &solid_table, "Spheres, boxes, ... drawn as they are."),
+                MATERIALS},
+    .materials = {"clay"},
+    .needs = needs,
+    .own_space = own_space,
+    .geometry = geometry,
+    .cover = cover};

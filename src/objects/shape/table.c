@@ -1,0 +1,40 @@
+// The keys of envelopes that are drawn as they are.
+#include "objects/common/tables.h"
+#include "objects/shape/shape.h"
+
+static const Key SOLID_KEYS[] = {
+    {KEY_OF(SolidParams, shapes, "envelope", KEY_LIST),
+     .count_offset = offsetof(SolidParams, shape_count), .flags = KEY_REQUIRED, .low = 1,
+     .count = 1000, .table = &shape_table,
+     .doc = "Shapes joined, cut and intersected in this order."},
+    {KEY_OF(SolidParams, voxel, "voxel", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "Voxel size where it is not one plain shape; 0 = 1/128 of the largest extent."},
+    {0},
+};
+
+static void solid_defaults(void *out)
+{
+    *(SolidParams *)out = (SolidParams){0};
+}
+
+static bool check_solid(const Mapping *mapping, void *params)
+{
+    const SolidParams *solid = params;
+    return check_shapes(mapping, solid->shapes, solid->shape_count);
+}
+
+const Table solid_table = {
+    .name = "solid",
+    .doc = "Spheres, boxes, bodies and what they cut out of each other, drawn as they are. "
+           "Material: clay, if the object names no other.",
+    .example = "objects:\n"
+               "  - name: bowl\n"
+               "    shape:\n"
+               "      envelope:\n"
+               "        - {shape: sphere, size: 0.5}\n"
+               "        - {shape: sphere, size: 0.45, op: difference}\n"
+               "        - {shape: half_space, op: intersection}\n",
+    .size = sizeof(SolidParams),
+    .keys = SOLID_KEYS,
+    .defaults = solid_defaults,
+    .check = check_solid};

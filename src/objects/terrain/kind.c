@@ -1,0 +1,101 @@
+// Terrain as a kind of object.
+#include "objects/kind.h"
+#include "objects/terrain/terrain.h"
+#include "render/material/material.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void describe(const void *params, char *text, size_t size)
+{
+    const TerrainParams *terrain = params;
+    snprintf(text, size, ", %g km, %d x %d cells", (double)terrain->size * 1e-3,
+             terrain->resolution, terrain->resolution);
+}
+
+static int64_t attractors(const void *params)
+{
+    const TerrainParams *terrain = params;
+    int64_t count = terrain->rivers.count;
+    return count + count / 8;
+}
+
+static int64_t copies(const void *params)
+{
+    const TerrainParams *terrain = params;
+    return terrain->forest.count;
+}
+
+static void needs(const void *params, Needs *needs)
+{
+    enum { CELL_BYTES = 200, RIVER_BYTES = 1500 };
+    const TerrainParams *terrain = params;
+    double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // a tree each
+    needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, CELL_BYTES);
+    needs_add(needs, "rivers.count", (double)attractors(params), RIVER_BYTES);
+    needs_add_copies(needs, "forest.count", fmin(terrain->forest.count, rows * rows), 1e9);
+}
+
+static void settle(const void *params, void *settled)
+{
+    TerrainParams p = terrain_params_resolve(params);
+    memcpy(settled, &p, sizeof p);
+}
+
+static const Material BUILTIN[] = {
+    {.name = "mountain",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.135f, 0.128f, 0.124f},
+     .color2 = {0.072f, 0.070f, 0.070f},
+     .roughness = 0.6f,
+     .ior = 1.5f,
+     .pattern = PATTERN_MOUNTAIN,
+     .pattern_depth = 1.0f,
+     .snow_line = 0.44f,
+     .grass_line = 0.36f},
+    {.name = "badlands",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.315f, 0.135f, 0.075f},
+     .color2 = {0.360f, 0.215f, 0.125f},
+     .roughness = 0.6f,
+     .ior = 1.5f,
+     .pattern = PATTERN_BADLANDS,
+     .pattern_depth = 1.0f},
+    {.name = "lake",
+     .kind = MATERIAL_PRINCIPLED,
+     .color = {0.012f, 0.030f, 0.034f},
+     .roughness = 0.08f,
+     .specular = 0.28f,
+     .ior = 1.33f,
+     .pattern = PATTERN_WATER,
+     .pattern_depth = 0.012f},
+    {.name = "conifer",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.026f, 0.042f, 0.017f},
+     .color2 = {0.1f, 0.1f, 0.1f},
+     .roughness = 0.8f,
+     .ior = 1.5f,
+     .variation = 0.7f},
+    {.name = ""},
+};
+
+static const Key MATERIALS[] = {
+    MATERIAL_ROW(1, "water_material", "Material of a terrain's lakes and rivers; left out: lake."),
+    OWN_MATERIAL_ROW(0),
+    {0},
+};
+
+const Kind kind_terrain = {
+    .variant = {KIND_ROW("terrain", &terrain_table, "Mountains, valleys and rivers."), MATERIALS},
+    .materials = {"mountain", "lake", "conifer"},
+    .builtin = BUILTIN,
+    .needs = needs,
+    .describe = describe,
+    .attractors = attractors,
+    .copies = copies,
+    .settle = settle,
+    .grow = terrain_grow,
+    .finish = terrain_finish,
+    .geometry = terrain_geometry,
+    .heights = terrain_heights};

@@ -1,0 +1,108 @@
+// A tree as a kind of object.
+#include "objects/kind.h"
+#include "objects/tree/defaults.h"
+#include "objects/tree/tree.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// It stands on its trunk and has no turn.
+static bool own_space(OwnSpace *own, void *params, Error *e)
+{
+    TreeParams *tree = params;
+    own_space_stand(own, tree->position, vec3(0, 0, 0));
+    tree->position = vec3(0, 0, 0);
+    return own_space_take_element(own, &tree->trunk.element, e) &&
+           own_space_take_element(own, &tree->crown.element, e) &&
+           own_space_take_element(own, &tree->roots.element, e);
+}
+
+static void describe(const void *params, char *text, size_t size)
+{
+    const TreeParams *tree = params;
+    snprintf(text, size, ", %g m", (double)tree->height);
+}
+
+static void settle(const void *params, void *settled)
+{
+    TreePlan plan;
+    tree_plan_make(&plan, params, 0); // no seed changes a number of the file's keys
+    memcpy(settled, &plan.params, sizeof plan.params);
+}
+
+typedef struct TreeAttractors {
+    int64_t trunk, crown, roots;
+} TreeAttractors;
+
+// Those of the model's own levels too.
+static TreeAttractors count_attractors(const void *params)
+{
+    TreePlan plan;
+    tree_plan_make(&plan, params, 0); // no seed changes how many
+    const TreeParams *p = &plan.params;
+    return (TreeAttractors){element_attractors(&p->trunk.element),
+                            element_attractors(&p->crown.element),
+                            p->roots.count > 0 ? element_attractors(&p->roots.element) : 0};
+}
+
+static int64_t attractors(const void *params)
+{
+    TreeAttractors count = count_attractors(params);
+    return count.trunk + count.crown + count.roots;
+}
+
+static int64_t copies(const void *params)
+{
+    const TreeParams *tree = params;
+    return tree->leaves.max_count;
+}
+
+// Nature's ranges: radii after Eloy (2011); the others are usual for broad-leaved trees.
+static bool measure(const void *given, const Grown *grown, const Recipe *recipe, MeasureList *list,
+                    Error *e)
+{
+    (void)given, (void)grown, (void)recipe, (void)e;
+    measures_set_range(list, "radius_exponent", 1.8, 2.3);
+    measures_set_range(list, "branch_angle", 30.0, 70.0);
+    measures_set_range(list, "horton_number", 3.0, 5.0);
+    measures_set_range(list, "tip_radius", 0.0005, 0.002);
+    return true;
+}
+
+static void needs(const void *params, Needs *needs)
+{
+    const TreeParams *tree = params;
+    enum { LEAF_FACES = 25, LEAVES_AN_ATTRACTOR = 6 };
+    TreeAttractors each = count_attractors(params);
+    double count = (double)attractors(params), leaves = (double)tree->leaves.max_count;
+    int levels = tree->skin.levels;
+    double twig = (double)(tree->skin.curve_radius / tree->radii.tip);
+    needs_add_skinned_growth(needs, "trunk.growth.levels", (double)each.trunk, levels, twig);
+    needs_add_skinned_growth(needs, "crown.growth.levels", (double)each.crown, levels, twig);
+    needs_add_skinned_growth(needs, "roots.growth.levels", (double)each.roots, levels, twig);
+    needs_add_copies(needs, "leaves.max_count", fmin(leaves, LEAVES_AN_ATTRACTOR * count),
+                     LEAF_FACES);
+}
+
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    TWIG_MATERIAL_ROW(1),
+    LEAF_MATERIAL_ROW(2),
+    {0},
+};
+
+const Kind kind_tree = {
+    .variant = {KIND_ROW("tree", &tree_table, "A tree; left out keys make an oak."), MATERIALS},
+    .materials = {"bark", "twig", "leaf"},
+    .own_space = own_space,
+    .needs = needs,
+    .measure = measure,
+    .describe = describe,
+    .settle = settle,
+    .attractors = attractors,
+    .copies = copies,
+    .grow = tree_grow,
+    .tip_radius = tree_tip_radius,
+    .finish = tree_finish,
+    .geometry = tree_geometry};
