@@ -1,5 +1,6 @@
 // Limbs that leave a trunk go their own ways: none runs close along another or comes back to it
 // like a handle.
+#include "making.h"
 #include "objects/tree/tree.h"
 #include "testing.h"
 
@@ -18,7 +19,7 @@ static OutTree *grow(uint64_t seed)
     params.roots.count = 0;
     Error e = {0};
     Run run = run_default();
-    OutTree *tree = tree_grow(&params, &(Recipe){seed, "oak", 1.0f, &run, NULL}, &e);
+    OutTree *tree = grow_kind(&kind_tree, &params, &(Recipe){seed, "oak", &run}, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }

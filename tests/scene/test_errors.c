@@ -142,7 +142,7 @@ static const Case scenes[] = {
      ":1:39: objects.a.material: there is no material 'barc'; did you mean 'bark'?"},
     {"objects: [{name: a, tree: , leaf_material: gold}]\n",
      ":1:44: objects.a.leaf_material: there is no material 'gold'; known: bark, twig, leaf, "
-     "ground, grass, fallen..."},
+     "grass, clay, coral..."},
     {"objects: [{name: a, tree: , grass_material: grass}]\n",
      ":1:45: objects.a: a tree has no grass_material; leave it out"},
     {"objects: [{name: a, tree: {height: 5, crown: {base: 5}}}]\n",

@@ -188,7 +188,7 @@ static bool grow_crown_in(OutTree *tree, const TreeParams *params, const Envelop
         height = tree->position[tree_highest_node(tree)].y - params->position.y;
     }
     if (!start_branches(tree, params, height, random_key(seed, 1), e) ||
-        !tree_thin_limbs(tree, first, params, envelope, seed, run, e)) {
+        !tree_thin_limbs(tree, first, params, envelope, seed, recipe->run, e)) {
         return false;
     }
     int64_t pieces = tree->count - first;
