@@ -73,10 +73,10 @@ const Material *builtin_material_at(int index)
 
 const Material *builtin_material(const char *name)
 {
-    for (int i = 0; builtin_material_at(i); i++) {
-        if (strcmp(builtin_material_at(i)->name, name) == 0) {
-            return builtin_material_at(i);
-        }
+    int i = 0;
+    const Material *material = builtin_material_at(i);
+    while (material && strcmp(material->name, name) != 0) {
+        material = builtin_material_at(++i);
     }
-    return NULL;
+    return material;
 }
