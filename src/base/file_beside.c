@@ -211,7 +211,7 @@ FILE *file_open_regular(const char *file, Error *e)
     if (number < 0 || fstat(number, &status) != 0) {
         error_set(e, ERROR_INPUT, "'%s' cannot be read: %s", file, strerror(errno));
     } else if (!S_ISREG(status.st_mode)) {
-        error_set(e, ERROR_INPUT, "'%s' cannot be read: it is no regular file", file);
+        error_set(e, ERROR_INPUT, "'%s' cannot be read: it is not a regular file", file);
     } else if (!(stream = fdopen(number, "rb"))) {
         error_set(e, ERROR_MEMORY, "'%s' cannot be read: out of memory", file);
     }

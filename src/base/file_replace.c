@@ -51,7 +51,7 @@ bool file_replace_check(const char *file, Error *e)
         return false;
     }
     if (stat(file, &status) == 0 && !S_ISREG(status.st_mode)) {
-        return error_set(e, ERROR_IO, "cannot write '%s': it is no regular file; name another",
+        return error_set(e, ERROR_IO, "cannot write '%s': it is not a regular file; name another",
                          file);
     }
     char target[PATH_MAX];

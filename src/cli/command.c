@@ -62,12 +62,12 @@ bool output_check(const char *file, RamifyError *e)
         fail(e, RAMIFY_BAD_INPUT, "cannot write '%.40s...': %s; give it a shorter one", file,
              strerror(errno));
     } else if (exists && !S_ISREG(status.st_mode)) {
-        fail(e, RAMIFY_IO, "cannot write '%s': it is no regular file; name another", file);
+        fail(e, RAMIFY_IO, "cannot write '%s': it is not a regular file; name another", file);
     } else if (access(folder, W_OK | X_OK) != 0) {
         fail(e, RAMIFY_IO, "cannot write '%s': folder '%s': %s", file, folder, strerror(errno));
     } else {
         writable = (stat(folder, &status) == 0 && S_ISDIR(status.st_mode)) ||
-                   fail(e, RAMIFY_IO, "cannot write '%s': '%s' is no folder", file, folder);
+                   fail(e, RAMIFY_IO, "cannot write '%s': '%s' is not a folder", file, folder);
     }
     free(folder);
     return writable;

@@ -75,7 +75,7 @@ static void print_counts(const Options *options, const RamifyGoldenCounts *n)
 static bool check_files(const Options *options, RamifyError *e)
 {
     if (options->exact && options->statistical) {
-        return fail(e, RAMIFY_BAD_INPUT, "--exact and --statistical; one of them would do");
+        return fail(e, RAMIFY_BAD_INPUT, "--exact and --statistical; give one of them");
     }
     bool native = options->isa && strcmp(options->isa, "native") == 0;
     return (native || ramify_check_isa(options->isa, e)) &&

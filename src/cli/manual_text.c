@@ -68,13 +68,14 @@ static const ManualText TEXTS[] = {
           {"a summer's day", "ramify turntable pine.yaml --turns 0 --sun 5:19 -o day.mp4"},
           {"one frame of it", "ramify render pine.yaml --frame 12 -o frame.png"}}},
     {.command = "grow",
-     .paragraphs = {"Grows the objects of a scene and prints how many nodes each has, without "
-                    "skin or picture. With -o the out-trees are written: .swc, as neuroscience "
-                    "keeps its trees, with one line per node (number, type, x, y, z, radius, "
-                    "parent), or .json. If there are several objects, their names precede the "
-                    "extension.",
-                    "A .png or .exr holds a picture of a leaf's veins, or the heights of a terrain: "
-                    ".png with 16 bits, .exr in metres."},
+     .paragraphs =
+         {"Grows the objects of a scene and prints how many nodes each has, without "
+          "skin or picture. With -o the out-trees are written: .swc, as neuroscience "
+          "keeps its trees, with one line per node (number, type, x, y, z, radius, "
+          "parent), or .json. If there are several objects, their names precede the "
+          "extension.",
+          "A .png or .exr holds a picture of a leaf's veins, or the heights of a terrain: "
+          ".png with 16 bits, .exr in metres."},
      .examples = {{"count", "ramify grow pine.yaml"},
                   {"the tree as a file", "ramify grow pine.yaml -o pine.swc"},
                   {"the numbers for a script", "ramify grow pine.yaml --json --quiet"}}},

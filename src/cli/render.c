@@ -173,12 +173,11 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
     ramify_film_free(film);
     ramify_world_free(world);
     if (done && *run.cancelled) {
-        done =
-            job.render.samples > 0
-                ? fail(e, RAMIFY_CANCELLED, "interrupted; %s has %d samples a pixel",
-                       outputs->display, job.render.samples)
-                : fail(e, RAMIFY_CANCELLED,
-                       "interrupted in the first pass; %s is whole only in part", outputs->display);
+        done = job.render.samples > 0
+                   ? fail(e, RAMIFY_CANCELLED, "interrupted; %s has %d samples per pixel",
+                          outputs->display, job.render.samples)
+                   : fail(e, RAMIFY_CANCELLED, "interrupted in the first pass; %s is incomplete",
+                          outputs->display);
     }
     return done;
 }

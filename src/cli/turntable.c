@@ -24,7 +24,7 @@ static bool fill_turntable(const Options *options, RamifyTurntable *turntable, R
     }
     bool ends = option_given(options, "end");
     if (ends && options->end < turntable->start) {
-        return fail(e, RAMIFY_BAD_INPUT, "--start %d comes after --end %d; turn them round",
+        return fail(e, RAMIFY_BAD_INPUT, "--start %d comes after --end %d; swap them",
                     turntable->start, options->end);
     }
     turntable->count = ends ? options->end - turntable->start + 1 : 0;
@@ -33,7 +33,7 @@ static bool fill_turntable(const Options *options, RamifyTurntable *turntable, R
 
 static void print_summary(const char *output, const RamifyTurntableInfo *i, double seconds)
 {
-    fprintf(stderr, "%s: %d of %d frames rendered, %d there already, %.0f MB at most\n", output,
+    fprintf(stderr, "%s: %d of %d frames rendered, %d skipped, %.0f MB at most\n", output,
             i->rendered, i->frames, i->skipped, (double)ramify_memory_peak() * 1e-6);
     fprintf(stderr,
             "prepare %.2f s, grow %.2f s, mesh %.2f s, build %.2f s, trace %.2f s, finish %.2f s, "
@@ -74,7 +74,7 @@ static bool shoot(const Options *options, const RamifyScene *scene, const char *
     }
     if (!done && e->code == RAMIFY_CANCELLED) {
         fail(e, RAMIFY_CANCELLED,
-             "interrupted; %d frames of %s are finished, run the same again for the others",
+             "interrupted; %d frames of %s are finished; run the same command again to continue",
              info.skipped + info.rendered, output);
     }
     return done;

@@ -27,7 +27,7 @@ static bool check_file(const char *file, Error *e)
         return error_set(e, ERROR_INPUT, "%s", strerror(errno));
     }
     return S_ISREG(status.st_mode) ||
-           error_set(e, ERROR_INPUT, "it is no regular file; " WANTED " is needed");
+           error_set(e, ERROR_INPUT, "it is not a regular file; " WANTED " is needed");
 }
 
 static bool check_header(const DecodeHeader *h, const DecodeJob *job, int64_t left, Error *e)

@@ -275,7 +275,7 @@ static FILE *open_file(const char *file, Error *e)
     if (stat(file, &status) != 0) {
         error_set(e, ERROR_INPUT, "cannot read it: %s; name an SWC file", strerror(errno));
     } else if (!S_ISREG(status.st_mode)) {
-        error_set(e, ERROR_INPUT, "no regular file; name an SWC file");
+        error_set(e, ERROR_INPUT, "not a regular file; name an SWC file");
     } else {
         FILE *stream = fopen(file, "re");
         if (stream) {

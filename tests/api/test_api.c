@@ -394,7 +394,7 @@ static void where_a_picture_cannot_go_is_known_before(void **state)
     snprintf(file, sizeof file, "%s/x.png", folder);
     assert_int_equal(mkdir(file, 0700), 0);
     assert_false(ramify_image_check(file, &error));
-    assert_non_null(strstr(error.message, "it is no regular file; name another"));
+    assert_non_null(strstr(error.message, "it is not a regular file; name another"));
     assert_int_equal(rmdir(file) | rmdir(folder), 0);
 }
 

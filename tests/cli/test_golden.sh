@@ -79,7 +79,7 @@ matches broken_scene out 'bro<b>ken & "bad"  *failed  *g/bro.*key .file. means n
 matches time_limit out "hurried  *failed .*render.seconds is 3"
 matches other_size out "sized  *different 40 x 32 pixels against 48 x 32"
 matches harmed_picture out "harmed  *failed .*harmed.png' cannot be read"
-matches pipe_as_picture out "piped  *failed .*piped.png' cannot be read: it is no regular file"
+matches pipe_as_picture out "piped  *failed .*piped.png' cannot be read: it is not a regular file"
 matches counts out "^1 alike, 3 different, 0 missing, 4 failed, 0 stored, 1 orphans$"
 cat >junit.py <<'END'
 import sys, xml.etree.ElementTree as tree

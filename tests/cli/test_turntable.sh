@@ -163,7 +163,7 @@ interrupt() { # interrupt SIGNAL: when 5 frames are there
 }
 interrupt INT
 yes interrupted_is_130 [ $status -eq 130 ]
-says interrupted_says_how_to_go_on err 'run the same again'
+says interrupted_says_how_to_go_on err 'run the same command again'
 there=$(count i/f-??.png)
 yes interrupted_half_way [ "$there" -ge 5 -a "$there" -lt 30 ]
 no interrupted_leaves_nothing_half ls i/*.part

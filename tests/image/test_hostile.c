@@ -87,9 +87,9 @@ static void what_is_no_regular_file_is_refused(void **state)
 {
     (void)state;
     assert_int_equal(mkfifo(path_of("pipe.png"), 0600), 0);
-    refused(path_of("pipe.png"), "it is no regular file");
-    refused("/dev/zero", "it is no regular file");
-    refused(folder, "it is no regular file");
+    refused(path_of("pipe.png"), "it is not a regular file");
+    refused("/dev/zero", "it is not a regular file");
+    refused(folder, "it is not a regular file");
     refused("some.null", "No such file"); // OpenImageIO would make a picture of the name alone
     refused("", "no name is given");
 }
