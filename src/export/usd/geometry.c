@@ -9,7 +9,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define BINDING "prepend apiSchemas = [\"MaterialBindingAPI\"]"
 
@@ -262,34 +261,14 @@ static bool object_prim(Usda *usda, int object, const char *name, Error *e)
     return done;
 }
 
-static bool is_taken(char (*name)[USDA_NAME], int count, const char *wanted)
-{
-    static const char *const others[] = {"Camera", "Materials", "Lights"};
-    for (int i = 0; i < 3; i++) {
-        if (strcmp(others[i], wanted) == 0) {
-            return true;
-        }
-    }
-    for (int i = 0; i < count; i++) {
-        if (strcmp(name[i], wanted) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 bool usda_objects(Usda *usda, Error *e)
 {
+    static const char *const reserved[] = {"Camera", "Materials", "Lights", NULL};
     const ExportSource *source = usda->source;
     char(*name)[USDA_NAME] = memory_alloc(source->object_count, sizeof *name, e);
     bool done = name;
     for (int i = 0; done && i < source->object_count; i++) {
-        usda_identifier(source->object_name[i], name[i]);
-        for (int k = 2; is_taken(name, i, name[i]); k++) {
-            char again[USDA_NAME];
-            usda_identifier(source->object_name[i], again);
-            snprintf(name[i], sizeof name[i], "%.80s_%d", again, k);
-        }
+        usda_unique_identifier(source->object_name[i], name, i, reserved);
         run_progress(usda->run, "export", (double)i / (double)source->object_count);
         done = object_prim(usda, i, name[i], e);
     }

@@ -9,7 +9,8 @@
 
 enum { LINE = 1024, BATCH = 4096 };
 
-void usda_identifier(const char *text, char name[USDA_NAME])
+// Other characters become _, and a leading digit gets one before it.
+static void make_identifier(const char *text, char name[USDA_NAME])
 {
     int length = 0;
     if (isdigit((unsigned char)text[0]) || !text[0]) {
@@ -20,6 +21,32 @@ void usda_identifier(const char *text, char name[USDA_NAME])
         name[length++] = (char)(c < 128 && isalnum(c) ? c : '_');
     }
     name[length] = 0;
+}
+
+static bool is_taken(char (*name)[USDA_NAME], int count, const char *const *reserved)
+{
+    for (; reserved && *reserved; reserved++) {
+        if (strcmp(*reserved, name[count]) == 0) {
+            return true;
+        }
+    }
+    for (int i = 0; i < count; i++) {
+        if (strcmp(name[i], name[count]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void usda_unique_identifier(const char *text, char (*name)[USDA_NAME], int index,
+                            const char *const *reserved)
+{
+    char own[USDA_NAME];
+    make_identifier(text, own);
+    memcpy(name[index], own, sizeof own);
+    for (int k = 2; is_taken(name, index, reserved); k++) {
+        snprintf(name[index], sizeof name[index], "%.80s_%d", own, k);
+    }
 }
 
 static void indent(UsdaText *text)

@@ -14,8 +14,10 @@ typedef struct UsdaText {
 
 enum { USDA_NAME = 96 };
 
-// `text` as a USD identifier: other characters become _, and a leading digit gets one before it.
-void usda_identifier(const char *text, char name[USDA_NAME]);
+// Fills name[index] with `text` as a USD identifier, numbered if it equals one of name[0 .. index -
+// 1] or of reserved (NULL, or ending in NULL).
+void usda_unique_identifier(const char *text, char (*name)[USDA_NAME], int index,
+                            const char *const *reserved);
 
 // A line of its own, indented.
 void usda_line(UsdaText *text, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -5,31 +5,7 @@
 #include "base/memory.h"
 #include "export/formats.h"
 
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-static bool is_taken(char (*name)[USDA_NAME], int count, const char *wanted)
-{
-    bool taken = false;
-    for (int i = 0; i < count; i++) {
-        taken = taken || strcmp(name[i], wanted) == 0;
-    }
-    return taken;
-}
-
-// Unique identifiers of all materials.
-static void name_materials(const World *world, char (*name)[USDA_NAME])
-{
-    for (int i = 0; i < world->material_count; i++) {
-        char own[USDA_NAME];
-        usda_identifier(world->material[i].name, own);
-        memcpy(name[i], own, sizeof own);
-        for (int k = 2; is_taken(name, i, name[i]); k++) {
-            snprintf(name[i], sizeof name[i], "%.80s_%d", own, k);
-        }
-    }
-}
 
 static bool look_through(Usda *usda, Error *e)
 {
@@ -40,7 +16,9 @@ static bool look_through(Usda *usda, Error *e)
     if (!usda->material || !usda->used || !usda->glows) {
         return false;
     }
-    name_materials(world, usda->material);
+    for (int i = 0; i < world->material_count; i++) {
+        usda_unique_identifier(world->material[i].name, usda->material, i, NULL);
+    }
     for (int64_t i = 0; i < world->geometry.count; i++) {
         const Part *part = &world->geometry.part[i];
         usda->used[part->material] = true;
