@@ -225,7 +225,7 @@ static void find_materials(const World *world, const Making *m, int material[OBJ
     for (int i = 0; i < OBJECT_MOST_MATERIALS; i++) {
         const char *name = m->scene->objects[m->index].material[i];
         int found = find_material(world, name ? name : m->kind->materials[i]);
-        material[i] = found >= 0 ? found : i > 0 ? material[0] : 0;
+        material[i] = found >= 0 ? found : material[0];
     }
 }
 
@@ -257,7 +257,7 @@ static Land find_land(const Scene *scene, GroundObject *ground)
 
 static bool add_geometry(World *world, const Making *m, Error *e)
 {
-    int material[OBJECT_MOST_MATERIALS];
+    int material[OBJECT_MOST_MATERIALS] = {0};
     find_materials(world, m, material);
     GroundObject ground;
     SceneFlood water = {0};
