@@ -332,7 +332,7 @@ static bool add_frames(Shooting *s, Video *video, Error *e)
             return run_cancel_error(e);
         }
         char *file = pattern_name(s->pattern, frame, e);
-        Image *image = file ? image_read(file, e) : NULL;
+        Image *image = file ? image_read(file, s->run, e) : NULL;
         bool done = image && video_add(video, image, e);
         image_free(image);
         free(file);

@@ -141,7 +141,8 @@ typedef enum Outcome { OUTCOME_ENDED, OUTCOME_LATE, OUTCOME_CANCELLED } Outcome;
 
 static Outcome wait_for(Child *child, double seconds, const Run *run)
 {
-    Outcome outcome = OUTCOME_ENDED;
+    // A child that ends before the first look leaves a cancelled run cancelled.
+    Outcome outcome = run_is_cancelled(run) ? OUTCOME_CANCELLED : OUTCOME_ENDED;
     double waited = 0.0, last = run_seconds();
     struct pollfd watched = {.fd = child->pidfd, .events = POLLIN};
     for (look(child, WNOHANG); !child->gone && outcome == OUTCOME_ENDED; look(child, WNOHANG)) {

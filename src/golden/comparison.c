@@ -238,8 +238,8 @@ bool compare_files(const char *ours, const char *stored, const Limits *limits, b
 {
     bool linear[2] = {false, false};
     *comparison = (Comparison){0};
-    Image *a = image_read_color(ours, &linear[0], e);
-    Image *b = a ? image_read_color(stored, &linear[1], e) : NULL;
+    Image *a = image_read_color(ours, &linear[0], NULL, e);
+    Image *b = a ? image_read_color(stored, &linear[1], NULL, e) : NULL;
     bool done = b;
     if (done && linear[0] != linear[1]) {
         done = error_set(e, ERROR_INPUT,

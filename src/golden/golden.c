@@ -87,7 +87,7 @@ static bool compare_with_png(const GoldenOptions *options, const Png *png, const
                              GoldenResult *result, Error *e)
 {
     bool linear;
-    Image *kept = image_read_color(file, &linear, e);
+    Image *kept = image_read_color(file, &linear, NULL, e);
     Image *ours = kept ? image_decode_png(png->bytes, png->size, e) : NULL;
     bool done = ours && compare_images(ours, kept, false, &result->limits, options->pictures,
                                        &result->comparison, e);

@@ -64,12 +64,13 @@ static bool check_runs(const char *file, const Image *runs, Error *e)
 
 bool noisy_picture_read(NoisyPicture *picture, const char *file, Error *e)
 {
-    Image *runs = image_read_layer(file, "runs", "V", e);
+    Image *runs = image_read_layer(file, "runs", "V", NULL, e);
     *picture = (NoisyPicture){0};
     if (runs && check_runs(file, runs, e)) {
         picture->runs = (int)runs->pixel[0];
-        picture->mean = image_read_layer(file, "", "RGB", e);
-        picture->variance = picture->mean ? image_read_layer(file, "variance", "RGB", e) : NULL;
+        picture->mean = image_read_layer(file, "", "RGB", NULL, e);
+        picture->variance =
+            picture->mean ? image_read_layer(file, "variance", "RGB", NULL, e) : NULL;
     }
     image_free(runs);
     if (!picture->variance) {

@@ -6,9 +6,12 @@
 #define RAMIFY_IMAGE_IMAGE_H
 
 #include "base/error.h"
+#include "base/run.h"
 
 #include <stddef.h>
 #include <stdint.h>
+
+// Reading stops with ERROR_CANCELLED when its run is cancelled; run NULL = it cannot be.
 
 // width * height * channels floats, row by row from the top left.
 typedef struct Image {
@@ -20,17 +23,18 @@ Image *image_new(int width, int height, int channels, Error *e);
 void image_free(Image *image); // NULL is fine
 
 // Reads any format of OpenImageIO as stored values (8-bit: 0..1, not linearised).
-Image *image_read(const char *file, Error *e);
+Image *image_read(const char *file, const Run *run, Error *e);
 
 // Reads R, G, B and, if present, A, as stored; grey as three equal channels. *linear: whether the
 // file holds floating-point radiance (EXR, HDR; alpha premultiplied) or display values (alpha
 // straight). Other channels are ignored.
-Image *image_read_color(const char *file, bool *linear, Error *e);
+Image *image_read_color(const char *file, bool *linear, const Run *run, Error *e);
 
 // Reads channels of one layer of a file, in the order named, as written by image_write_exr: layer
 // "variance" and channels "RGB" are variance.R, variance.G, variance.B. ERROR_INPUT when one is
 // missing.
-Image *image_read_layer(const char *file, const char *layer, const char *channels, Error *e);
+Image *image_read_layer(const char *file, const char *layer, const char *channels, const Run *run,
+                        Error *e);
 
 // A picture in its stored type, for random access.
 typedef enum TexelType { TEXEL_BYTE, TEXEL_SHORT, TEXEL_HALF, TEXEL_FLOAT } TexelType;
@@ -50,7 +54,7 @@ typedef struct Texels {
 } Texels;
 
 // Reads any format of OpenImageIO.
-Texels *image_read_texels(const char *file, Error *e);
+Texels *image_read_texels(const char *file, const Run *run, Error *e);
 void texels_free(Texels *texels); // NULL is fine
 
 // Decodes the whole picture to check that it is complete, and copies the metadata text stored under

@@ -56,7 +56,8 @@ static bool fail(const DecodeJob *job, Error *e)
 }
 
 // Reads the header; leaves output open at the pixels, to be closed by the caller.
-static bool start(const DecodeJob *job, DecodeHeader *header, ChildOutput *output, Error *e)
+static bool start(const DecodeJob *job, DecodeHeader *header, ChildOutput *output, const Run *run,
+                  Error *e)
 {
     const ChildJob child = {.task = decode_picture,
                             .data = job,
@@ -64,9 +65,9 @@ static bool start(const DecodeJob *job, DecodeHeader *header, ChildOutput *outpu
                             .wanted = WANTED,
                             .seconds = MAX_SECONDS,
                             .memory = MAX_MEMORY};
-    Run run = run_default();
+    const Run alone = run_default();
     *output = (ChildOutput){.file = -1};
-    bool done = check_file(job->file, e) && child_run(&child, &run, output, e) &&
+    bool done = check_file(job->file, e) && child_run(&child, run ? run : &alone, output, e) &&
                 child_read(output, header, 1, sizeof *header, e) &&
                 check_header(header, job, output->left, e);
     if (!done) {
@@ -76,11 +77,11 @@ static bool start(const DecodeJob *job, DecodeHeader *header, ChildOutput *outpu
     return true;
 }
 
-static Image *read_floats(const DecodeJob *job, bool *linear, Error *e)
+static Image *read_floats(const DecodeJob *job, bool *linear, const Run *run, Error *e)
 {
     ChildOutput output;
     DecodeHeader h;
-    if (!start(job, &h, &output, e)) {
+    if (!start(job, &h, &output, run, e)) {
         return NULL;
     }
     Image *image = image_new(h.width, h.height, h.channels, e);
@@ -95,23 +96,24 @@ static Image *read_floats(const DecodeJob *job, bool *linear, Error *e)
     return image;
 }
 
-Image *image_read(const char *file, Error *e)
+Image *image_read(const char *file, const Run *run, Error *e)
 {
     bool linear;
-    return read_floats(&(DecodeJob){.file = file, .kind = DECODE_ALL}, &linear, e);
+    return read_floats(&(DecodeJob){.file = file, .kind = DECODE_ALL}, &linear, run, e);
 }
 
-Image *image_read_color(const char *file, bool *linear, Error *e)
+Image *image_read_color(const char *file, bool *linear, const Run *run, Error *e)
 {
-    return read_floats(&(DecodeJob){.file = file, .kind = DECODE_COLOR}, linear, e);
+    return read_floats(&(DecodeJob){.file = file, .kind = DECODE_COLOR}, linear, run, e);
 }
 
-Image *image_read_layer(const char *file, const char *layer, const char *channels, Error *e)
+Image *image_read_layer(const char *file, const char *layer, const char *channels, const Run *run,
+                        Error *e)
 {
     bool linear;
     return read_floats(
         &(DecodeJob){.file = file, .kind = DECODE_LAYER, .layer = layer, .channels = channels},
-        &linear, e);
+        &linear, run, e);
 }
 
 bool image_read_text(const char *file, const char *key, char *text, int size)
@@ -119,7 +121,7 @@ bool image_read_text(const char *file, const char *key, char *text, int size)
     const DecodeJob job = {.file = file, .kind = DECODE_TEXT, .key = key};
     ChildOutput output;
     DecodeHeader h;
-    if (!start(&job, &h, &output, NULL)) {
+    if (!start(&job, &h, &output, NULL, NULL)) {
         return false;
     }
     child_output_close(&output);
@@ -127,12 +129,12 @@ bool image_read_text(const char *file, const char *key, char *text, int size)
     return h.text[0] != '\0';
 }
 
-Texels *image_read_texels(const char *file, Error *e)
+Texels *image_read_texels(const char *file, const Run *run, Error *e)
 {
     const DecodeJob job = {.file = file, .kind = DECODE_TEXTURE};
     ChildOutput output;
     DecodeHeader h;
-    if (!start(&job, &h, &output, e)) {
+    if (!start(&job, &h, &output, run, e)) {
         return NULL;
     }
     int64_t count = (int64_t)h.width * h.height * h.channels;

@@ -32,7 +32,7 @@ static bool build_accel(Renderer *renderer, const Run *run, Error *e)
 }
 
 // A world holds every built-in material; tables are made only for those that parts use.
-static MaterialSet *prepare_materials(const World *world, Error *e)
+static MaterialSet *prepare_materials(const World *world, const Run *run, Error *e)
 {
     bool *used = memory_alloc_zero(world->material_count, sizeof *used, e);
     if (!used) {
@@ -41,7 +41,7 @@ static MaterialSet *prepare_materials(const World *world, Error *e)
     for (int64_t i = 0; i < world->geometry.count; i++) {
         used[world->geometry.part[i].material] = true;
     }
-    MaterialSet *set = material_set_new(world->material, used, world->material_count, e);
+    MaterialSet *set = material_set_new(world->material, used, world->material_count, run, e);
     free(used);
     return set;
 }
@@ -54,7 +54,7 @@ Renderer *renderer_new(const World *world, const char *isa, const Run *run, Erro
     }
     renderer->world = world;
     renderer->isa = isa;
-    renderer->materials = prepare_materials(world, e);
+    renderer->materials = prepare_materials(world, run, e);
     if (!renderer->materials || !build_accel(renderer, run, e) || !build_lights(renderer, run, e)) {
         renderer_free(renderer);
         return NULL;
@@ -66,7 +66,7 @@ bool renderer_update(Renderer *renderer, unsigned changed, const Run *run, Error
 {
     const World *world = renderer->world;
     if (changed & RENDERER_MATERIALS) {
-        MaterialSet *fresh = prepare_materials(world, e);
+        MaterialSet *fresh = prepare_materials(world, run, e);
         if (!fresh) {
             return false;
         }

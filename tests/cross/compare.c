@@ -22,7 +22,7 @@ static int fail(const char *what)
 static Image *read_picture(const char *file)
 {
     Error e = {0};
-    Image *image = image_read(file, &e);
+    Image *image = image_read(file, NULL, &e);
     return image ? image : (fail(e.message), NULL);
 }
 

@@ -88,7 +88,7 @@ static void vertices_have_the_colours_that_rays_meet(void **state)
     Scene *scene = read_scene();
     World *world = scene_build(scene, &run, NULL, &e);
     assert_non_null(world);
-    MaterialSet *set = material_set_new(world->material, NULL, world->material_count, &e);
+    MaterialSet *set = material_set_new(world->material, NULL, world->material_count, NULL, &e);
     Accel *accel = accel_new(world, set, NULL, &run, &e);
     assert_non_null(accel);
     int compared = 0;

@@ -100,7 +100,8 @@ static void expect_different(const char *name, const char *change)
     Run run = two_threads();
     Scene *scene = read_scene(name, change);
     snprintf(stored_png, sizeof stored_png, "tests/golden/%s.png", name);
-    Image *stored = image_read_color(stored_png, &is_linear, NULL), *ours = developed(scene, &run);
+    Image *stored = image_read_color(stored_png, &is_linear, NULL, NULL),
+          *ours = developed(scene, &run);
     Limits limits = {scene->golden.max_rmse, scene->golden.threshold, scene->golden.max_failing};
     Comparison c;
     assert_true(compare_images(ours, stored, false, &limits, false, &c, NULL));

@@ -48,15 +48,15 @@ static void refused(const char *path, const char *words)
     Error e = {0};
     bool linear;
     char text[8];
-    assert_null(image_read(path, &e));
+    assert_null(image_read(path, NULL, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     assert_non_null(strstr(e.message, path));
     assert_non_null(strstr(e.message, words));
     assert_string_equal(e.file, ""); // the scene's place may be told
-    assert_null(image_read_color(path, &linear, &e));
-    assert_null(image_read_layer(path, "", "RGB", &e));
+    assert_null(image_read_color(path, &linear, NULL, &e));
+    assert_null(image_read_layer(path, "", "RGB", NULL, &e));
     assert_false(image_read_text(path, "Software", text, sizeof text));
-    assert_null(image_read_texels(path, &e));
+    assert_null(image_read_texels(path, NULL, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     assert_non_null(strstr(e.message, words));
 }
@@ -106,7 +106,7 @@ static size_t read_file(const char *path, unsigned char *bytes, size_t capacity)
 static void pixels_or_an_error(const char *path)
 {
     Error e = {0};
-    Image *image = image_read(path, &e);
+    Image *image = image_read(path, NULL, &e);
     if (!image) {
         assert_true(e.code == ERROR_INPUT || e.code == ERROR_IO);
         assert_non_null(strstr(e.message, path));
@@ -141,7 +141,7 @@ static void mutated_pictures_harm_nothing(void **state)
     for (size_t f = 0; f < sizeof names / sizeof names[0]; f++) {
         size_t size = read_file(path_of(names[f]), sound, CAPACITY);
         Error e = {0};
-        Image *whole = image_read(path_of(names[f]), &e);
+        Image *whole = image_read(path_of(names[f]), NULL, &e);
         assert_non_null(whole);
         image_free(whole);
         for (int turn = 0; turn < TURNS; turn++) {
@@ -154,6 +154,25 @@ static void mutated_pictures_harm_nothing(void **state)
 }
 
 // What a file stores is what a texture gets.
+// The child that decodes is killed, however far it is.
+static void reading_stops_when_it_is_cancelled(void **state)
+{
+    (void)state;
+    int cancelled = 1;
+    Run run = run_default();
+    run.cancelled = &cancelled;
+    Error e = {0};
+    Image *image = image_new(64, 64, 3, &e);
+    assert_non_null(image);
+    memset(image->pixel, 0, sizeof(float) * 64 * 64 * 3);
+    assert_true(image_write_display(path_of("c.png"), image, NULL, &e));
+    image_free(image);
+    assert_null(image_read(path_of("c.png"), &run, &e));
+    assert_int_equal(e.code, ERROR_CANCELLED);
+    assert_null(image_read_texels(path_of("c.png"), &run, &e));
+    assert_int_equal(e.code, ERROR_CANCELLED);
+}
+
 static void texels_are_as_stored(void **state)
 {
     (void)state;
@@ -163,7 +182,7 @@ static void texels_are_as_stored(void **state)
     }
     Error e = {0};
     assert_true(image_write_display(path_of("t.png"), image, NULL, &e));
-    Texels *texels = image_read_texels(path_of("t.png"), &e);
+    Texels *texels = image_read_texels(path_of("t.png"), NULL, &e);
     assert_non_null(texels);
     assert_true(texels->width == 5 && texels->height == 3 && texels->channels == 4);
     assert_int_equal(texels->type, TEXEL_BYTE);
@@ -173,7 +192,7 @@ static void texels_are_as_stored(void **state)
     texels_free(texels);
     ImageLayer layer = {"", "RGBA", image};
     assert_true(image_write_exr(path_of("t.exr"), &layer, 1, NULL, &e));
-    texels = image_read_texels(path_of("t.exr"), &e);
+    texels = image_read_texels(path_of("t.exr"), NULL, &e);
     assert_non_null(texels);
     assert_int_equal(texels->type, TEXEL_FLOAT);
     assert_memory_equal(texels->data, image->pixel, sizeof(float) * 5 * 3 * 4);
@@ -188,6 +207,7 @@ int main(void)
         cmocka_unit_test(what_is_no_regular_file_is_refused),
         cmocka_unit_test(mutated_pictures_harm_nothing),
         cmocka_unit_test(texels_are_as_stored),
+        cmocka_unit_test(reading_stops_when_it_is_cancelled),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

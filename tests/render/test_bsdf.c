@@ -74,7 +74,7 @@ static int set_up(void **state)
         cases.list[i].number = i;
         materials[i] = cases.list[i].material;
     }
-    cases.set = material_set_new(materials, NULL, cases.count, NULL);
+    cases.set = material_set_new(materials, NULL, cases.count, NULL, NULL);
     *state = &cases;
     return cases.set ? 0 : -1;
 }
@@ -169,7 +169,7 @@ static void test_mirrors(void **state)
     (void)state;
     for (int k = 0; k < 2; k++) {
         Material m = white(k ? MATERIAL_DIELECTRIC : MATERIAL_CONDUCTOR, 0.0f);
-        MaterialSet *set = material_set_new(&m, NULL, 1, NULL);
+        MaterialSet *set = material_set_new(&m, NULL, 1, NULL, NULL);
         SurfacePoint point = flat_point(false);
         Vec3 wo = at_cosine(0.5f, 0.0f), seen = vec3_splat(0.0f);
         Bsdf bsdf = bsdf_at(set, &point, wo);
@@ -387,7 +387,7 @@ static void test_transmission_reciprocity(void **state)
 {
     (void)state;
     Material m = white(MATERIAL_DIELECTRIC, 0.7f);
-    MaterialSet *set = material_set_new(&m, NULL, 1, NULL);
+    MaterialSet *set = material_set_new(&m, NULL, 1, NULL, NULL);
     SurfacePoint outside = flat_point(false), inside = flat_point(true);
     inside.normal = inside.geometric_normal = vec3(0, 0, -1);
     for (uint64_t k = 0; k < 200; k++) {
@@ -437,7 +437,7 @@ static void test_leaf_sides(void **state)
 {
     (void)state;
     Material m = material_default(MATERIAL_LEAF);
-    MaterialSet *set = material_set_new(&m, NULL, 1, NULL);
+    MaterialSet *set = material_set_new(&m, NULL, 1, NULL, NULL);
     SurfacePoint above = flat_point(false), below = flat_point(true);
     Vec3 wo = at_cosine(0.8f, 0.0f);
     Bsdf upper = bsdf_at(set, &above, wo), under = bsdf_at(set, &below, wo);
@@ -455,7 +455,7 @@ static void test_emission_and_glass_body(void **state)
     Material m[2] = {material_default(MATERIAL_EMISSION), material_default(MATERIAL_DIELECTRIC)};
     m[0].radiance = vec3(3, 2, 1);
     m[1].absorption = vec3(0.1f, 0.2f, 0.3f);
-    MaterialSet *set = material_set_new(m, NULL, 2, NULL);
+    MaterialSet *set = material_set_new(m, NULL, 2, NULL, NULL);
     SurfacePoint point = flat_point(false);
     Vec3 wo = vec3(0, 0, 1);
     Bsdf lamp = bsdf_at(set, &point, wo);

@@ -291,7 +291,8 @@ static double by_chance(const World *world, double *error)
 {
     Run run = run_default();
     Error e = {0};
-    MaterialSet *materials = material_set_new(world->material, NULL, world->material_count, &e);
+    MaterialSet *materials =
+        material_set_new(world->material, NULL, world->material_count, NULL, &e);
     Accel *accel = accel_new(world, materials, NULL, &run, &e);
     assert_non_null(accel);
     enum { N = 400000 };

@@ -67,7 +67,7 @@ static void test_texture(void **state)
     m.texture = files.color;
     m.alpha_texture = files.opacity;
     Error e = {0};
-    MaterialSet *set = material_set_new(&m, NULL, 1, &e);
+    MaterialSet *set = material_set_new(&m, NULL, 1, NULL, &e);
     assert_non_null(set);
     SurfacePoint left = point_at(0.25f, 0.5f), right = point_at(1.75f, -0.5f);
     Vec3 red = bsdf_at(set, &left, vec3(0, 0, 1)).color;
@@ -94,7 +94,7 @@ static void test_leaf_texture(void **state)
     m.transmittance = vec3(0.1f, 0.15f, 0.19f);
     m.texture = files.color;
     Error e = {0};
-    MaterialSet *set = material_set_new(&m, NULL, 1, &e);
+    MaterialSet *set = material_set_new(&m, NULL, 1, NULL, &e);
     assert_non_null(set);
     for (int under = 0; under < 2; under++) {
         SurfacePoint left = point_at(0.25f, 0.5f), right = point_at(0.75f, 0.5f);
@@ -119,7 +119,7 @@ static void test_missing(void **state)
         m[1].texture = k ? NULL : "/nowhere/leaf.png";
         m[1].alpha_texture = k ? "/nowhere/leaf.png" : NULL;
         Error e = {0};
-        assert_null(material_set_new(m, NULL, 2, &e));
+        assert_null(material_set_new(m, NULL, 2, NULL, &e));
         assert_int_equal(e.code, ERROR_INPUT);
         assert_non_null(strstr(e.message, "material 'oak leaf': texture '/nowhere/leaf.png'"));
     }
@@ -137,7 +137,7 @@ static void test_wild_numbers(void **state)
         m.metallic = 5.0f;
         m.specular = 1.0f;
         m.ior = kind % 2 ? 1.0f : 0.0f;
-        MaterialSet *set = material_set_new(&m, NULL, 1, NULL);
+        MaterialSet *set = material_set_new(&m, NULL, 1, NULL, NULL);
         assert_non_null(set);
         SurfacePoint p = point_at(0, 0);
         Vec3 wo = vec3(0.6f, 0, 0.8f), sum = vec3_splat(0.0f);
@@ -162,7 +162,7 @@ static void test_wild_numbers(void **state)
 static void test_none(void **state)
 {
     (void)state;
-    MaterialSet *set = material_set_new(NULL, NULL, 0, NULL);
+    MaterialSet *set = material_set_new(NULL, NULL, 0, NULL, NULL);
     assert_non_null(set);
     material_set_free(set);
     material_set_free(NULL);

@@ -110,7 +110,7 @@ static void nothing_is_lost(void **state)
 {
     (void)state;
     Material m = material_default(MATERIAL_THIN_FILM);
-    MaterialSet *set = material_set_new(&m, NULL, 1, NULL);
+    MaterialSet *set = material_set_new(&m, NULL, 1, NULL, NULL);
     assert_non_null(set);
     for (int i = 0; i < 200; i++) {
         uint64_t key = random_key(5, (uint64_t)i);

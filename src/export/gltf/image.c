@@ -47,15 +47,15 @@ static bool read_bytes(const char *file, GlbImage *image, Error *e)
 }
 
 // Reads the picture to check it, since files that are copied are not decoded otherwise.
-static bool check_picture(const char *file, Error *e)
+static bool check_picture(const char *file, const Run *run, Error *e)
 {
-    Image *picture = image_read(file, e);
+    Image *picture = image_read(file, run, e);
     image_free(picture);
     return picture != NULL;
 }
 
 // Copies PNG and JPEG files unchanged.
-static bool take_file(GlbImage *image, const char *file, bool *taken, Error *e)
+static bool take_file(GlbImage *image, const char *file, bool *taken, const Run *run, Error *e)
 {
     static const unsigned char png[4] = {0x89, 'P', 'N', 'G'}, jpeg[3] = {0xff, 0xd8, 0xff};
     if (!read_bytes(file, image, e)) {
@@ -64,7 +64,7 @@ static bool take_file(GlbImage *image, const char *file, bool *taken, Error *e)
     image->jpeg = image->size > 3 && memcmp(image->bytes, jpeg, sizeof jpeg) == 0;
     *taken = image->jpeg || (image->size > 4 && memcmp(image->bytes, png, sizeof png) == 0);
     if (*taken) {
-        return check_picture(file, e);
+        return check_picture(file, run, e);
     }
     free(image->bytes);
     image->bytes = NULL;
@@ -103,12 +103,12 @@ static Image *combine(const Image *color, bool linear, const Image *alpha, Error
     return out;
 }
 
-static bool make_picture(GlbImage *image, Error *e)
+static bool make_picture(GlbImage *image, const Run *run, Error *e)
 {
     bool linear = false;
     size_t size = 0;
-    Image *color = given(image->color) ? image_read_color(image->color, &linear, e) : NULL;
-    Image *alpha = given(image->alpha) ? image_read(image->alpha, e) : NULL;
+    Image *color = given(image->color) ? image_read_color(image->color, &linear, run, e) : NULL;
+    Image *alpha = given(image->alpha) ? image_read(image->alpha, run, e) : NULL;
     bool read = (color || !given(image->color)) && (alpha || !given(image->alpha));
     Image *both = read ? combine(color, linear, alpha, e) : NULL;
     bool done = both && image_encode_png(both, NULL, &image->bytes, &size, e);
@@ -149,8 +149,8 @@ bool glb_add_image(Glb *glb, const Material *m, Error *e)
         return false;
     }
     bool taken = false;
-    bool done = given(m->alpha_texture) || take_file(image, m->texture, &taken, e);
-    done = done && (taken || make_picture(image, e));
+    bool done = given(m->alpha_texture) || take_file(image, m->texture, &taken, glb->run, e);
+    done = done && (taken || make_picture(image, glb->run, e));
     if (!done) {
         error_prefix(e, "material '%s': ", m->name);
     }

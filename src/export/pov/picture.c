@@ -74,9 +74,10 @@ bool pov_bake_picture(Pov *pov, int material, char *name, int size)
     snprintf(file, sizeof file, "%s/%d.png", pov->folder, material);
     snprintf(name, (size_t)size, "png \"%s/%d.png\" gamma srgb", pov->beside, material);
     TextureCache *cache = texture_cache_new(pov->e);
-    const Texture *color = cache && m->texture ? texture_open(cache, m->texture, pov->e) : NULL;
-    Image *own = color ? image_read(m->texture, pov->e) : NULL;
-    Image *alpha = m->alpha_texture ? image_read(m->alpha_texture, pov->e) : NULL;
+    const Texture *color =
+        cache && m->texture ? texture_open(cache, m->texture, pov->run, pov->e) : NULL;
+    Image *own = color ? image_read(m->texture, pov->run, pov->e) : NULL;
+    Image *alpha = m->alpha_texture ? image_read(m->alpha_texture, pov->run, pov->e) : NULL;
     bool done = cache && (own || !m->texture) && (alpha || !m->alpha_texture) &&
                 pov_make_folder(pov) && bake(pov, m, color, own, alpha, file);
     image_free(own);

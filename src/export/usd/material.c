@@ -68,9 +68,9 @@ static void place_reader(UsdaText *text)
 }
 
 // The channel of an alpha texture: alpha if it has one, else the first.
-static bool opacity_channel(const char *picture, char *channel, Error *e)
+static bool opacity_channel(const char *picture, char *channel, const Run *run, Error *e)
 {
-    Image *image = image_read(picture, e);
+    Image *image = image_read(picture, run, e);
     if (image) {
         *channel = image->channels == 2 || image->channels == 4 ? 'a' : 'r';
     }
@@ -118,7 +118,7 @@ static bool material(Usda *usda, int index, Error *e)
     const char *name = usda->material[index];
     UsdaText *text = &usda->text;
     char opacity_from = 0;
-    if (m->alpha_texture && !opacity_channel(m->alpha_texture, &opacity_from, e)) {
+    if (m->alpha_texture && !opacity_channel(m->alpha_texture, &opacity_from, usda->run, e)) {
         return false;
     }
     usda_begin(text, NULL, "def Material \"%s\"", name);

@@ -23,7 +23,7 @@ typedef struct Terrain {
 } Terrain;
 
 // uplift.c: fills terrain->uplift, at least 0.02 at each node. Reads the user's picture.
-bool terrain_uplift(Terrain *terrain, Error *e);
+bool terrain_uplift(Terrain *terrain, const Run *run, Error *e);
 
 // areas.c: fills terrain->area: every bit of land drains through its nearest node.
 bool terrain_areas(Terrain *terrain, const Run *run, Error *e);

@@ -117,7 +117,7 @@ static bool scale_heights(Terrain *terrain, const Run *run, Error *e)
 static bool fill_rivers(Terrain *terrain, const Run *run, Error *e)
 {
     enum { MOST_PASSES = 6 }; // captures change areas, areas change heights
-    if (!terrain_uplift(terrain, e)) {
+    if (!terrain_uplift(terrain, run, e)) {
         return false;
     }
     int64_t captures = 1;

@@ -65,10 +65,10 @@ static float uplift_at(const TerrainParams *params, const Image *image, uint64_t
     return sum > 0.02f ? sum : 0.02f;
 }
 
-bool terrain_uplift(Terrain *terrain, Error *e)
+bool terrain_uplift(Terrain *terrain, const Run *run, Error *e)
 {
     const char *file = terrain->params->uplift.image;
-    Image *image = file ? image_read(file, e) : NULL;
+    Image *image = file ? image_read(file, run, e) : NULL;
     if (file && !image) {
         return error_key(e, "uplift.image");
     }

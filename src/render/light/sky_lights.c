@@ -41,7 +41,7 @@ static bool make_sky(Lights *lights, const Run *run, Error *e)
         lights->dome = night_dome(sky, &lights->sun, e);
         break;
     case SKY_ENVIRONMENT:
-        lights->dome = environment_dome(sky, e);
+        lights->dome = environment_dome(sky, run, e);
         break;
     }
     if (lights->dome) {

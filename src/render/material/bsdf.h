@@ -11,7 +11,7 @@
 #ifndef RAMIFY_RENDER_MATERIAL_BSDF_H
 #define RAMIFY_RENDER_MATERIAL_BSDF_H
 
-#include "base/error.h"
+#include "base/run.h"
 #include "render/material/material.h"
 #include "render/surface.h"
 
@@ -20,7 +20,8 @@ typedef struct MaterialSet MaterialSet;
 
 // Copies the materials. used: which of them parts have; tables are made for those alone; NULL =
 // all. ERROR_INPUT names the material and the file if a texture cannot be read.
-MaterialSet *material_set_new(const Material *materials, const bool *used, int count, Error *e);
+MaterialSet *material_set_new(const Material *materials, const bool *used, int count,
+                              const Run *run, Error *e);
 void material_set_free(MaterialSet *set); // NULL is fine
 
 struct GgxTable;

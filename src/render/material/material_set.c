@@ -27,7 +27,7 @@ bool material_entry_is_mirror(const MaterialEntry *entry)
 }
 
 static bool open_texture(MaterialSet *set, const Material *m, const char *key, const char *file,
-                         Texture **texture, Error *e)
+                         Texture **texture, const Run *run, Error *e)
 {
     if (!file || !file[0]) {
         return true;
@@ -35,7 +35,7 @@ static bool open_texture(MaterialSet *set, const Material *m, const char *key, c
     if (!set->textures) {
         set->textures = texture_cache_new(e);
     }
-    *texture = set->textures ? texture_open(set->textures, file, e) : NULL;
+    *texture = set->textures ? texture_open(set->textures, file, run, e) : NULL;
     if (!*texture) {
         error_prefix(e, "material '%s': ", m->name);
         error_key(e, "materials.%s.%s", m->name, key);
@@ -44,7 +44,7 @@ static bool open_texture(MaterialSet *set, const Material *m, const char *key, c
 }
 
 static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material *material,
-                          bool used, Error *e)
+                          bool used, const Run *run, Error *e)
 {
     entry->material = *material;
     Material *m = &entry->material;
@@ -57,11 +57,12 @@ static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material
     entry->plain = !entry->ops->prepare && m->pattern == PATTERN_NONE && m->variation <= 0.0f &&
                    !(m->texture && m->texture[0]);
     return (!used || !entry->ops->tabulate || entry->ops->tabulate(entry, set, e)) &&
-           open_texture(set, m, "texture", m->texture, &entry->color, e) &&
-           open_texture(set, m, "alpha_texture", m->alpha_texture, &entry->opacity, e);
+           open_texture(set, m, "texture", m->texture, &entry->color, run, e) &&
+           open_texture(set, m, "alpha_texture", m->alpha_texture, &entry->opacity, run, e);
 }
 
-MaterialSet *material_set_new(const Material *materials, const bool *used, int count, Error *e)
+MaterialSet *material_set_new(const Material *materials, const bool *used, int count,
+                              const Run *run, Error *e)
 {
     MaterialSet *set = memory_alloc_zero(1, sizeof *set, e);
     if (!set) {
@@ -71,7 +72,7 @@ MaterialSet *material_set_new(const Material *materials, const bool *used, int c
     bool done = set->entry != NULL;
     set->count = done ? count : 0;
     for (int i = 0; done && i < count; i++) {
-        done = prepare_entry(set, &set->entry[i], &materials[i], !used || used[i], e);
+        done = prepare_entry(set, &set->entry[i], &materials[i], !used || used[i], run, e);
     }
     if (!done) {
         material_set_free(set);

@@ -149,7 +149,7 @@ bool hand_over(Texture *texture)
     return texture->handle && texture->system->good(texture->handle);
 }
 
-Texture *open_texture(TextureCache *cache, const char *file, Error *e)
+Texture *open_texture(TextureCache *cache, const char *file, const Run *run, Error *e)
 {
     for (auto &known : cache->textures) {
         if (known->file == file) {
@@ -159,7 +159,7 @@ Texture *open_texture(TextureCache *cache, const char *file, Error *e)
     auto texture = std::make_unique<Texture>();
     texture->file = file;
     texture->system = cache->system;
-    texture->texels = image_read_texels(file, e);
+    texture->texels = image_read_texels(file, run, e);
     if (!texture->texels) {
         return nullptr;
     }
@@ -219,10 +219,10 @@ extern "C" void texture_cache_free(TextureCache *cache)
     delete cache;
 }
 
-extern "C" Texture *texture_open(TextureCache *cache, const char *file, Error *e)
+extern "C" Texture *texture_open(TextureCache *cache, const char *file, const Run *run, Error *e)
 {
     try {
-        return open_texture(cache, file, e);
+        return open_texture(cache, file, run, e);
     } catch (const std::bad_alloc &) {
         error_set(e, ERROR_MEMORY, "out of memory while texture '%s' is read", file);
     } catch (const std::exception &failure) {

@@ -4,7 +4,7 @@
 #ifndef RAMIFY_RENDER_MATERIAL_TEXTURE_H
 #define RAMIFY_RENDER_MATERIAL_TEXTURE_H
 
-#include "base/error.h"
+#include "base/run.h"
 #include "base/vec.h"
 
 typedef struct TextureCache TextureCache;
@@ -15,7 +15,7 @@ void texture_cache_free(TextureCache *cache); // NULL is fine; frees its texture
 
 // Owned by the cache, which reads a file once. ERROR_INPUT naming the file when it cannot be read
 // as an image.
-Texture *texture_open(TextureCache *cache, const char *file, Error *e);
+Texture *texture_open(TextureCache *cache, const char *file, const Run *run, Error *e);
 
 // Linear colour at uv (v up, repeating), averaged over a patch of du by dv. 8-bit files are sRGB.
 // May be called from many threads.

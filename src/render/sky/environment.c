@@ -24,13 +24,13 @@ static float usable(float x)
     return isfinite(x) && x > 0.0f ? x : 0.0f;
 }
 
-Dome *environment_dome(const Sky *sky, Error *e)
+Dome *environment_dome(const Sky *sky, const Run *run, Error *e)
 {
     if (!sky->file) {
         error_set(e, ERROR_INPUT, "the sky is an environment without a file");
         return NULL;
     }
-    Image *image = image_read(sky->file, e);
+    Image *image = image_read(sky->file, run, e);
     if (!image) {
         error_key(e, "sky.file");
         return NULL;
