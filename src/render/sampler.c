@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+enum { STREAM_PIXELS = 0x50b01 }; // of the seed
+
 typedef uint32_t Lanes __attribute__((vector_size(16)));
 typedef int32_t SignedLanes __attribute__((vector_size(16)));
 typedef float FloatLanes __attribute__((vector_size(16)));
@@ -106,7 +108,7 @@ Sampler sampler_at(const SobolTable *table, uint64_t seed, uint32_t pixel, uint3
 {
     uint32_t reversed = reverse_bits(sample);
     return (Sampler){.table = table,
-                     .key = (uint32_t)random_key(random_key(seed, 0x50b01), pixel),
+                     .key = (uint32_t)random_key(random_key(seed, STREAM_PIXELS), pixel),
                      .reversed = reversed,
                      .lowest = sample ? __builtin_ctz(reversed) / 4 : 8};
 }

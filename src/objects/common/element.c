@@ -161,11 +161,14 @@ bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope
 {
     const Run *run = recipe->run;
     GuideField *field;
-    if (!element_guide_field(tree, element, envelope, random_key(seed, 1), run, &field, e)) {
+    if (!element_guide_field(tree, element, envelope, random_key(seed, STREAM_ELEMENT_FIELD), run,
+                             &field, e)) {
         return false;
     }
-    ScatterParams scatter = element_scatter_params(tree, element, random_key(seed, 2));
-    ColonizeParams params = element_colonize_params(tree, element, field, random_key(seed, 3));
+    ScatterParams scatter =
+        element_scatter_params(tree, element, random_key(seed, STREAM_ELEMENT_POINTS));
+    ColonizeParams params =
+        element_colonize_params(tree, element, field, random_key(seed, STREAM_ELEMENT_GROWTH));
     GrowReport *reports = memory_alloc_zero(element->level_count, sizeof *reports, e);
     bool done = reports && growth_witness(recipe, part, envelope, field, e) &&
                 colonize_levels(tree, envelope, &scatter, element->levels, element->level_count,

@@ -37,6 +37,9 @@ typedef struct GrowthWitness {
 bool growth_witness(const Recipe *recipe, const char *part, const Envelope *envelope,
                     const GuideField *field, Error *e);
 
+// Streams of the seed that an element grows from.
+enum { STREAM_ELEMENT_FIELD = 1, STREAM_ELEMENT_POINTS = 2, STREAM_ELEMENT_GROWTH = 3 };
+
 // Attractors of all its own levels; 0 where it has none.
 int64_t element_attractors(const ElementParams *element);
 

@@ -7,6 +7,19 @@
 
 #include <stdlib.h>
 
+enum { STREAM_LENGTH = 1, STREAM_WIDTH = 2, STREAM_FOLD = 3, STREAM_CURL = 4 }; // of a leaf mesh
+// Of a twig; LEAVES + i: leaf i.
+enum { STREAM_OFFSET = 1, STREAM_REFERENCE = 2, STREAM_LEAVES = 100 };
+// Of a leaf.
+enum {
+    STREAM_ANGLE = 1,
+    STREAM_LIGHT = 2,
+    STREAM_SIZE = 3,
+    STREAM_TURN = 8,
+    STREAM_VARIANT = 9,
+    STREAM_VARIATION = 10
+};
+
 // Instances of one leaf variant on their way to a part.
 typedef struct LeafBatch {
     Transform *instance;
@@ -31,11 +44,11 @@ Mesh *foliage_leaf_mesh(const LeavesParams *leaves, int variant, uint64_t seed, 
 {
     uint64_t key = random_key(seed, (uint64_t)variant);
     LeafParams params = {
-        .length = leaves->length * random_range(random_key(key, 1), 0.9f, 1.1f),
-        .width = leaves->width * random_range(random_key(key, 2), 0.9f, 1.1f),
+        .length = leaves->length * random_range(random_key(key, STREAM_LENGTH), 0.9f, 1.1f),
+        .width = leaves->width * random_range(random_key(key, STREAM_WIDTH), 0.9f, 1.1f),
         .petiole = leaves->petiole,
-        .fold = leaves->fold * random_range(random_key(key, 3), 0.4f, 1.3f),
-        .curl = leaves->curl * random_range(random_key(key, 4), -0.4f, 1.5f),
+        .fold = leaves->fold * random_range(random_key(key, STREAM_FOLD), 0.4f, 1.3f),
+        .curl = leaves->curl * random_range(random_key(key, STREAM_CURL), -0.4f, 1.5f),
         .wave = 0.05f,
         .lobes = leaves->lobes,
         .lobe_depth = 0.42f,
@@ -55,7 +68,8 @@ static float leaf_gap(const Foliage *foliage, int64_t number)
 static Transform leaf_frame(const Foliage *foliage, Vec3 p, Vec3 along, Vec3 out, uint64_t key)
 {
     const LeavesParams *leaves = foliage->leaves;
-    float angle = leaves->angle * random_range(random_key(key, 1), 0.7f, 1.3f), sine, cosine;
+    float angle = leaves->angle * random_range(random_key(key, STREAM_ANGLE), 0.7f, 1.3f), sine,
+          cosine;
     exact_sincos(angle * RADIANS_PER_DEGREE, &sine, &cosine);
     Vec3 y = vec3_madd(vec3_scale(along, cosine), sine, out);
     Vec3 z = vec3_madd(vec3_scale(along, sine), -cosine, out);
@@ -64,11 +78,11 @@ static Transform leaf_frame(const Foliage *foliage, Vec3 p, Vec3 along, Vec3 out
     y = vec3_normalize(vec3_madd(y, leaves->droop * 0.6f, vec3(0, -1, 0)));
     Vec3 light = vec3_normalize(vec3_sub(p, foliage->center));
     light = vec3_add(vec3(0, 1.2f, 0), vec3_scale(light, 0.7f));
-    light = vec3_madd(light, 0.55f, random_direction(random_key(key, 2)));
+    light = vec3_madd(light, 0.55f, random_direction(random_key(key, STREAM_LIGHT)));
     z = vec3_add(vec3_scale(z, 1.0f - leaves->droop), vec3_scale(light, leaves->droop));
     z = vec3_madd(z, -vec3_dot(z, y), y);
     z = vec3_dot(z, z) > 1e-6f ? vec3_normalize(z) : vec3_perpendicular(y);
-    float size = 1.0f - leaves->size_variation * random_unit(random_key(key, 3));
+    float size = 1.0f - leaves->size_variation * random_unit(random_key(key, STREAM_SIZE));
     return transform_from_axes(vec3_scale(vec3_cross(y, z), size), vec3_scale(y, size),
                                vec3_scale(z, size), p);
 }
@@ -94,8 +108,8 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
     const LeavesParams *leaves = foliage->leaves;
     uint64_t twig_key = random_key(foliage->seed, twigs->id[curve]);
     int64_t first = twigs->first[curve], last = twigs->first[curve + 1] - 1, number = 0;
-    float until = 0.2f * foliage->spacing * random_unit(random_key(twig_key, 1));
-    Vec3 reference = random_direction(random_key(twig_key, 2));
+    float until = 0.2f * foliage->spacing * random_unit(random_key(twig_key, STREAM_OFFSET));
+    Vec3 reference = random_direction(random_key(twig_key, STREAM_REFERENCE));
     for (int64_t i = last; i > first && twigs->radius[i] < leaves->twig_radius; i--) {
         Vec3 a = twigs->position[i], b = twigs->position[i - 1];
         float length = vec3_distance(a, b);
@@ -105,17 +119,18 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
                                                            : vec3_perpendicular(along);
         while (until < length) {
             if (place) {
-                uint64_t key = random_key(twig_key, 100 + (uint64_t)number);
+                uint64_t key = random_key(twig_key, STREAM_LEAVES + (uint64_t)number);
                 float turn = (float)number * leaves->phyllotaxis +
-                             8.0f * (random_unit(random_key(key, 8)) - 0.5f);
+                             8.0f * (random_unit(random_key(key, STREAM_TURN)) - 0.5f);
                 float sine, cosine;
                 exact_sincos(turn * RADIANS_PER_DEGREE, &sine, &cosine);
                 Vec3 out = vec3_rotate(reference, along, cosine, sine);
                 Vec3 p = vec3_lerp(a, b, until / length);
                 p = vec3_madd(p, 0.8f * twigs->radius[i], out);
-                int variant = (int)(random_unit(random_key(key, 9)) * (float)leaves->variants);
+                int variant =
+                    (int)(random_unit(random_key(key, STREAM_VARIANT)) * (float)leaves->variants);
                 if (!batch_add(&foliage->batch[variant], leaf_frame(foliage, p, along, out, key),
-                               random_unit(random_key(key, 10)), e)) {
+                               random_unit(random_key(key, STREAM_VARIATION)), e)) {
                     *failed = true;
                     return number;
                 }

@@ -11,6 +11,12 @@
 
 #include <stdlib.h>
 
+enum { STREAM_LUMP_TURN = 1, STREAM_LUMP_SIZE = 2 };                     // of a boulder's lump
+enum { STREAM_POINT_X = 0, STREAM_POINT_Y = 1, STREAM_POINT_LIGHT = 2 }; // of a fan's attractor
+enum { STREAM_BRANCHLETS = 77 };                                         // of a node's id
+// Of a node's branchlets; those of attractor k start at STREAMS_A_BRANCHLET * k.
+enum { STREAM_RISE = 0, STREAM_X = 1, STREAM_Z = 2, STREAMS_A_BRANCHLET = 4 };
+
 #define GOLDEN_ANGLE 2.39996323f
 
 enum { STEM_NODES = 4, MOST_COLONIES = 256 };
@@ -55,9 +61,10 @@ static int boulder(const CoralParams *p, uint64_t seed, Shape *shapes, int most)
     for (int i = 0; i < lumps && count < most; i++) {
         uint64_t key = random_key(seed, (uint64_t)i);
         float s, c, y = ((float)i + 0.3f) / (float)lumps, across = sqrtf(1.0f - y * y);
-        exact_sincos((float)i * GOLDEN_ANGLE + random_range(random_key(key, 1), -0.4f, 0.4f), &s,
-                     &c);
-        float size = random_range(random_key(key, 2), 0.3f, 0.5f) * r;
+        exact_sincos((float)i * GOLDEN_ANGLE +
+                         random_range(random_key(key, STREAM_LUMP_TURN), -0.4f, 0.4f),
+                     &s, &c);
+        float size = random_range(random_key(key, STREAM_LUMP_SIZE), 0.3f, 0.5f) * r;
         Vec3 at =
             vec3(c * across * (r - 0.9f * size), y * 0.62f * h, s * across * (r - 0.9f * size));
         shapes[count++] = ellipsoid(vec3_add(p->position, at),
@@ -72,7 +79,7 @@ Envelope *coral_base(const CoralParams *p, uint64_t seed, const Run *run, Error 
     EnvelopeParams params = {p->base, p->base_count, p->size / 110.0f};
     if (p->base_count == 0) {
         params.shapes = shapes;
-        params.shape_count = boulder(p, random_key(seed, 40), shapes, 16);
+        params.shape_count = boulder(p, random_key(seed, STREAM_CORAL_BOULDER), shapes, 16);
     }
     return envelope_new(&params, run, e);
 }
@@ -112,8 +119,8 @@ static PointSet *flat_room(const CoralParams *p, uint64_t seed, Error *e)
     int64_t wanted = p->attractors * p->colonies;
     for (uint64_t draw = 0; points && points->count < wanted; draw++) {
         uint64_t key = random_key(seed, draw);
-        Vec3 at = vec3(random_range(random_key(key, 0), -wide, wide),
-                       random_range(random_key(key, 1), 0.0f, p->height), 0.0f);
+        Vec3 at = vec3(random_range(random_key(key, STREAM_POINT_X), -wide, wide),
+                       random_range(random_key(key, STREAM_POINT_Y), 0.0f, p->height), 0.0f);
         bool inside = false;
         for (int i = 0; i < p->colonies && !inside; i++) {
             Vec3 foot = vec3_sub(colony_foot(p, i), p->position);
@@ -122,7 +129,7 @@ static PointSet *flat_room(const CoralParams *p, uint64_t seed, Error *e)
         }
         // light from above: below there is less of it
         float lit = lerpf(1.0f - p->light, 1.0f, at.y / p->height);
-        if (inside && random_unit(random_key(key, 2)) < lit &&
+        if (inside && random_unit(random_key(key, STREAM_POINT_LIGHT)) < lit &&
             !points_add(points, vec3_add(p->position, at), vec3(0, 0, 1), key, e)) {
             points_free(points);
             return NULL;
@@ -171,7 +178,9 @@ static bool plant_upright(Growing *g, int colony, Error *e)
     int64_t node = plant(g->tree, at, vec3(0, 0, 1), colony, g->recipe->seed, e);
     float s, c;
     exact_sincos(
-        flat ? 0.0f : 2.0f * PI_F * random_unit(random_key(g->recipe->seed, 90 + (uint64_t)colony)),
+        flat ? 0.0f
+             : 2.0f * PI_F *
+                   random_unit(random_key(g->recipe->seed, STREAM_CORAL_STEMS + (uint64_t)colony)),
         &s, &c);
     for (int i = 0; node >= 0 && i < pieces; i++) {
         at.y += stem / (float)pieces;
@@ -217,7 +226,7 @@ static ColonizeParams colonize_params(const Growing *g, double spacing)
 {
     const CoralParams *p = g->params;
     ColonizeParams c = colonize_params_default();
-    c.seed = random_key(g->recipe->seed, 3);
+    c.seed = random_key(g->recipe->seed, STREAM_CORAL_GROWTH);
     c.noise = p->noise;
     c.tropism = vec3(0, p->form == CORAL_BRANCHING ? 0.12f * p->light : 0.0f, 0);
     // a table's plate is as good as a surface: its attractors' normals point up
@@ -261,14 +270,20 @@ static bool grow_branchlets(Growing *g, int32_t first_step, Error *e)
     int64_t plate = g->tree->count;
     bool done = points;
     for (int64_t i = 0; done && i < plate; i++) {
-        uint64_t key = random_key(g->tree->id[i], 77);
+        uint64_t key = random_key(g->tree->id[i], STREAM_BRANCHLETS);
         if (g->tree->birth[i] == 0) {
             continue;
         }
         for (uint64_t k = 0; done && k < 4; k++) {
-            float rise = p->size * random_range(random_key(key, 4 * k), 0.016f, 0.05f);
-            Vec3 d = vec3(random_range(random_key(key, 4 * k + 1), -0.012f, 0.012f) * p->size, rise,
-                          random_range(random_key(key, 4 * k + 2), -0.012f, 0.012f) * p->size);
+            float rise =
+                p->size *
+                random_range(random_key(key, STREAMS_A_BRANCHLET * k + STREAM_RISE), 0.016f, 0.05f);
+            Vec3 d = vec3(
+                random_range(random_key(key, STREAMS_A_BRANCHLET * k + STREAM_X), -0.012f, 0.012f) *
+                    p->size,
+                rise,
+                random_range(random_key(key, STREAMS_A_BRANCHLET * k + STREAM_Z), -0.012f, 0.012f) *
+                    p->size);
             done = points_add(points, vec3_add(g->tree->position[i], d), vec3(0, 1, 0), key + k, e);
         }
     }
@@ -276,7 +291,7 @@ static bool grow_branchlets(Growing *g, int32_t first_step, Error *e)
         points->dimension = 3;
         points->measure = 0.2 * (double)(p->size * p->size * p->size);
         ColonizeParams c = colonize_params_default();
-        c.seed = random_key(g->recipe->seed, 6);
+        c.seed = random_key(g->recipe->seed, STREAM_CORAL_BRANCHLETS);
         c.first_step = first_step;
         c.step = 0.011f * p->size;
         c.kill = 0.0125f * p->size;
@@ -300,7 +315,7 @@ static bool grow_in_room(Growing *g, const PointSet *points, Error *e)
 static bool grow_upright(Growing *g, Error *e)
 {
     const CoralParams *p = g->params;
-    uint64_t seed = random_key(g->recipe->seed, 2);
+    uint64_t seed = random_key(g->recipe->seed, STREAM_CORAL_POINTS);
     bool planted = true;
     for (int i = 0; planted && i < p->colonies; i++) {
         planted = plant_upright(g, i, e);
@@ -329,9 +344,10 @@ static bool grow_on_rock(Growing *g, Error *e)
     const CoralParams *p = g->params;
     Envelope *rock = coral_base(p, g->recipe->seed, g->recipe->run, e);
     bool seen = rock && growth_witness(g->recipe, NULL, rock, NULL, e);
-    PointSet *points = seen ? scatter(rock, p, SCATTER_SURFACE, p->attractors,
-                                      random_key(g->recipe->seed, 2), g->recipe->run, e)
-                            : NULL;
+    PointSet *points =
+        seen ? scatter(rock, p, SCATTER_SURFACE, p->attractors,
+                       random_key(g->recipe->seed, STREAM_CORAL_POINTS), g->recipe->run, e)
+             : NULL;
     bool done = points && plant_on_rock(g, points, e) && grow_in_room(g, points, e);
     points_free(points);
     envelope_free(rock);
@@ -344,7 +360,7 @@ static bool prepare_string(Growing *g, Error *e)
     LSystemParams params = {.axiom = p->axiom,
                             .rules = p->rules,
                             .generations = p->generations,
-                            .seed = random_key(g->recipe->seed, 5)};
+                            .seed = random_key(g->recipe->seed, STREAM_CORAL_STRING)};
     ModuleString modules;
     bool done = lsystem_derive(&params, g->recipe->run, &modules, e) &&
                 (grow_string_init(&g->string, &modules, p->angle, e) || error_key(e, "axiom"));

@@ -60,6 +60,22 @@ typedef struct CoralParams {
 
 enum { CORAL_SKIN, CORAL_POLYPS, CORAL_ROCK }; // roles of materials
 
+// Streams of the object's seed; colony i uses i for its root's id, and VARIATIONS, COLONIES and
+// STEMS + i. POLYPS is also a stream of COLONIES + i.
+enum {
+    STREAM_CORAL_POINTS = 2,
+    STREAM_CORAL_GROWTH = 3,
+    STREAM_CORAL_STRING = 5,
+    STREAM_CORAL_BRANCHLETS = 6,
+    STREAM_CORAL_CRUST = 8,
+    STREAM_CORAL_POLYPS = 9,
+    STREAM_CORAL_ROCK = 12,
+    STREAM_CORAL_BOULDER = 40,
+    STREAM_CORAL_VARIATIONS = 50,
+    STREAM_CORAL_COLONIES = 60,
+    STREAM_CORAL_STEMS = 90
+};
+
 CoralParams coral_params_default(void); // staghorn, half a metre wide
 
 // The same with every number that was left to the form filled in. axiom and rules point to static

@@ -78,7 +78,7 @@ static CrustParams crust_params(const CoralParams *p, uint64_t seed)
                          .seam = 0.35f * p->length_tip,
                          .pale = (massive ? 0.03f : 0.025f) * p->size,
                          .lump = (massive ? 0.10f : 0.05f) * p->size,
-                         .seed = random_key(seed, 8)};
+                         .seed = random_key(seed, STREAM_CORAL_CRUST)};
 }
 
 // Adds a colony's skin and its corallites. seed: the colony's own; variation: likewise, 0..1. Takes
@@ -92,7 +92,7 @@ static bool add_colony(Mesh *mesh, float variation, const CoralParams *p, uint64
                           .height = p->polyps.height,
                           .lean = p->polyps.lean,
                           .floor = p->position.y,
-                          .seed = random_key(seed, 9)};
+                          .seed = random_key(seed, STREAM_CORAL_POLYPS)};
     if (p->polyps.max_count > 0 && !polyps_add(mesh, &places, placing, CORAL_POLYPS, e)) {
         mesh_free(mesh);
         return false;
@@ -118,8 +118,9 @@ static bool add_crusts(const OutTree *tree, const CoralParams *p, const Placing 
     const Run *run = placing->recipe->run;
     uint64_t seed = placing->recipe->seed;
     Envelope *base = coral_base(p, seed, run, e);
-    Mesh *rock =
-        base ? weathered(envelope_surface(base), 0.035f * p->size, random_key(seed, 12), e) : NULL;
+    Mesh *rock = base ? weathered(envelope_surface(base), 0.035f * p->size,
+                                  random_key(seed, STREAM_CORAL_ROCK), e)
+                      : NULL;
     envelope_free(base);
     CrustParams params = crust_params(p, seed);
     CrustPoint *points = rock ? crust_points(rock, tree, &params, run, e) : NULL;
@@ -130,8 +131,9 @@ static bool add_crusts(const OutTree *tree, const CoralParams *p, const Placing 
         if (mesh && mesh->face_count == 0) {
             mesh_free(mesh);
         } else if (mesh) {
-            float variation = random_unit(random_key(seed, 50 + (uint64_t)c));
-            done = add_colony(mesh, variation, p, random_key(seed, 60 + (uint64_t)c), placing, e);
+            float variation = random_unit(random_key(seed, STREAM_CORAL_VARIATIONS + (uint64_t)c));
+            done = add_colony(mesh, variation, p,
+                              random_key(seed, STREAM_CORAL_COLONIES + (uint64_t)c), placing, e);
         }
     }
     free(points);
@@ -150,5 +152,6 @@ bool coral_geometry(const void *params, const Grown *grown, const Placing *placi
     }
     uint64_t seed = placing->recipe->seed;
     Mesh *mesh = branches(grown->tree, &p, placing->recipe->run, e);
-    return mesh && add_colony(mesh, random_unit(random_key(seed, 50)), &p, seed, placing, e);
+    return mesh && add_colony(mesh, random_unit(random_key(seed, STREAM_CORAL_VARIATIONS)), &p,
+                              seed, placing, e);
 }

@@ -8,6 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { STREAM_BARYCENTRIC_A = 0, STREAM_BARYCENTRIC_B = 1 };  // of a place
+enum { STREAM_ROUNDING = 0, STREAM_DRAWS = 1 };               // of a triangle; DRAWS + i: draw i
+enum { STREAM_LEAN = 2, STREAM_SIZE = 3, STREAM_HEIGHT = 4 }; // of a cup
+
 enum { AGES = 5, SIDES = 10, TRIES = 6 };
 
 // Outer wall, rim, inner wall, floor: radius and height as shares of the rim's radius and of the
@@ -143,7 +147,8 @@ static Facet facet_of(const Mesh *mesh, int64_t triangle)
 
 static Place place_on(const Mesh *mesh, const Facet *f, uint64_t key)
 {
-    float a = sqrtf(random_unit(random_key(key, 0))), b = random_unit(random_key(key, 1));
+    float a = sqrtf(random_unit(random_key(key, STREAM_BARYCENTRIC_A))),
+          b = random_unit(random_key(key, STREAM_BARYCENTRIC_B));
     const float w[3] = {1.0f - a, a * (1.0f - b), a * b};
     Place place = {.along = f->along};
     for (int i = 0; i < 3; i++) {
@@ -170,12 +175,12 @@ static bool spread_over(Spread *s, const Mesh *mesh, const PolypPlaces *places, 
             uint64_t key = random_key(random_key(places->seed, (uint64_t)t), round);
             float wanted = 0.5f * f.area * per_area;
             int64_t draws = (int64_t)wanted;
-            draws += random_unit(random_key(key, 0)) < wanted - (float)draws;
+            draws += random_unit(random_key(key, STREAM_ROUNDING)) < wanted - (float)draws;
             for (int64_t i = 0; i < draws; i++) {
                 if (!run_goes_on(run, i, e)) {
                     return false;
                 }
-                Place place = place_on(mesh, &f, random_key(key, 1 + (uint64_t)i));
+                Place place = place_on(mesh, &f, random_key(key, STREAM_DRAWS + (uint64_t)i));
                 if (place.position.y > places->floor && is_free(s, place.position) &&
                     !put(s, place, e)) {
                     return false;
@@ -199,16 +204,16 @@ static double area_of(const Mesh *mesh)
 static Transform cup_frame(const Place *place, const PolypPlaces *places, uint64_t key)
 {
     float s, c;
-    float lean =
-        places->lean * (1.0f - 0.7f * place->youth) * random_range(random_key(key, 2), 0.8f, 1.15f);
+    float lean = places->lean * (1.0f - 0.7f * place->youth) *
+                 random_range(random_key(key, STREAM_LEAN), 0.8f, 1.15f);
     exact_sincos(lean * RADIANS_PER_DEGREE, &s, &c);
     Vec3 along = vec3_madd(place->along, -vec3_dot(place->along, place->normal), place->normal);
     bool known = vec3_dot(along, along) > 1e-6f;
     along = known ? vec3_normalize(along) : vec3_perpendicular(place->normal);
     Vec3 y = known ? vec3_madd(vec3_scale(place->normal, c), s, along) : place->normal;
     Vec3 x = vec3_normalize(vec3_cross(along, place->normal)), z = vec3_cross(x, y);
-    float size = places->diameter * random_range(random_key(key, 3), 0.75f, 1.15f);
-    float tall = size * random_range(random_key(key, 4), 0.6f, 1.25f);
+    float size = places->diameter * random_range(random_key(key, STREAM_SIZE), 0.75f, 1.15f);
+    float tall = size * random_range(random_key(key, STREAM_HEIGHT), 0.6f, 1.25f);
     return transform_from_axes(vec3_scale(x, size), vec3_scale(y, tall), vec3_scale(z, size),
                                place->position);
 }

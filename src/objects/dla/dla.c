@@ -8,6 +8,8 @@
 
 #include <stddef.h>
 
+enum { STREAM_GROWTH = 1, STREAM_HEAVE = 2 }; // of the object's seed
+
 enum { SMOOTHING = 4 };
 
 #define VOXELS_A_TIP 2.2f // voxels of the surface's level set to a tip's radius
@@ -57,7 +59,7 @@ bool dla_model_grow(const void *given, const Recipe *recipe, Grown *whole, Error
     DlaParams grow = dla_params_default();
     grow.dimension = params->dimension;
     grow.count = params->particles;
-    grow.seed = random_key(recipe->seed, 1);
+    grow.seed = random_key(recipe->seed, STREAM_GROWTH);
     OutTree *tree = whole->tree = dla_grow(&grow, recipe->run, e);
     if (!tree) {
         return false;
@@ -65,7 +67,7 @@ bool dla_model_grow(const void *given, const Recipe *recipe, Grown *whole, Error
     relax(tree);
     float extent = largest_extent(tree), scale = params->size / (extent > 1.0f ? extent : 1.0f);
     if (params->dimension == 2) {
-        heave(tree, params->swell, random_key(recipe->seed, 2));
+        heave(tree, params->swell, random_key(recipe->seed, STREAM_HEAVE));
     }
     Transform place = transform_compose(params->position, params->rotation, vec3_splat(scale));
     Transform turn = transform_compose(vec3(0, 0, 0), params->rotation, vec3_splat(1.0f));

@@ -9,6 +9,18 @@
 #include <math.h>
 #include <stdlib.h>
 
+// Of a stand; stand i has stream i of the object's seed.
+enum { STREAM_TRUNKS = 1, STREAM_CROWNS = 2 };
+// Of a tree; BENDS + i: piece i. The foot's streams are the height's and the lean's.
+enum {
+    STREAM_FOOT_X = 1,
+    STREAM_FOOT_Z = 2,
+    STREAM_HEIGHT = 1,
+    STREAM_LEAN = 2,
+    STREAM_ROOT_ID = 3,
+    STREAM_BENDS = 10
+};
+
 #define GOLDEN_ANGLE 2.39996323f
 #define STAND_GAP 1.5f // from stand to stand in the out-tree, in diameters
 
@@ -80,12 +92,12 @@ static bool plant_trunk(OutTree *tree, const ForestParams *params, Vec3 foot, in
                         uint64_t seed, Error *e)
 {
     float top = params->height * (1.0f - 0.8f * params->crown) *
-                random_range(random_key(seed, 1), 0.85f, 1.05f);
+                random_range(random_key(seed, STREAM_HEIGHT), 0.85f, 1.05f);
     float sunk = 0.014f * params->height; // no foot hangs over a slope
     float length = (top + sunk) / TRUNK_PIECES;
-    Vec3 lean = vec3_scale(random_direction(random_key(seed, 2)), 0.04f);
+    Vec3 lean = vec3_scale(random_direction(random_key(seed, STREAM_LEAN)), 0.04f);
     Vec3 p = vec3_add(foot, vec3(0, -sunk, 0));
-    uint64_t id = random_key(seed, 3);
+    uint64_t id = random_key(seed, STREAM_ROOT_ID);
     int64_t parent = -1;
     for (int i = 0; i <= TRUNK_PIECES; i++) {
         parent = out_tree_add_node(tree, p, parent, i, colony, id, e);
@@ -93,7 +105,8 @@ static bool plant_trunk(OutTree *tree, const ForestParams *params, Vec3 foot, in
             return false;
         }
         id = out_tree_child_id(id, 0);
-        lean = vec3_madd(lean, 0.018f, random_direction(random_key(seed, 10 + (uint64_t)i)));
+        lean =
+            vec3_madd(lean, 0.018f, random_direction(random_key(seed, STREAM_BENDS + (uint64_t)i)));
         lean = vec3_scale(lean, 0.93f);
         p = vec3_madd(p, length, vec3_normalize(vec3_add(vec3(0, 1, 0), lean)));
     }
@@ -111,8 +124,8 @@ static bool plant_stand(OutTree *tree, const ForestParams *params, int stand, ui
         float out = radius * sqrtf(((float)i + 0.5f) / (float)params->stand_trees), sine, cosine;
         exact_sincos((float)i * GOLDEN_ANGLE, &sine, &cosine);
         Vec3 foot = vec3_add(center, vec3(out * sine, 0, out * cosine));
-        foot.x += random_range(random_key(key, 1), -0.2f, 0.2f) * spacing;
-        foot.z += random_range(random_key(key, 2), -0.2f, 0.2f) * spacing;
+        foot.x += random_range(random_key(key, STREAM_FOOT_X), -0.2f, 0.2f) * spacing;
+        foot.z += random_range(random_key(key, STREAM_FOOT_Z), -0.2f, 0.2f) * spacing;
         done = plant_trunk(tree, params, foot, stand * params->stand_trees + i, key, e);
     }
     return done;
@@ -167,8 +180,8 @@ static bool grow_stand(OutTree *all, const ForestParams *params, int stand, uint
     element.fields = stand_fields(params, stand, e);
     OutTree *tree = out_tree_new(e);
     bool done = tree && element.fields &&
-                plant_stand(tree, params, stand, random_key(seed, 1), e) &&
-                element_grow(tree, &element, random_key(seed, 2), recipe, NULL, e);
+                plant_stand(tree, params, stand, random_key(seed, STREAM_TRUNKS), e) &&
+                element_grow(tree, &element, random_key(seed, STREAM_CROWNS), recipe, NULL, e);
     if (done) {
         float trunk = 0.0105f * params->height;
         out_tree_pipe_radii(tree, params->radii.exponent, params->radii.tip, trunk);

@@ -10,6 +10,19 @@
 
 #include <stdlib.h>
 
+// Of the object's seed; its growth uses stream i for stand i, its skin STANDS + i.
+enum { STREAM_PLACES = 20, STREAM_FERNS = 21, STREAM_STANDS = 30 };
+enum { STREAM_PATCHES = 100 }; // of the ferns; variant i uses stream i
+enum { STREAM_VARIANT_PLACES = 1, STREAM_VARIANT_MESH = 2 }; // of a variant
+// Of a fern.
+enum {
+    STREAM_RADIUS = 1,
+    STREAM_AZIMUTH = 2,
+    STREAM_PATCH_EDGE = 3,
+    STREAM_SIZE = 4,
+    STREAM_TURN = 5
+};
+
 enum { FERN_VARIANTS = 3 };
 #define FERN_PATCH 7.0f // m, from patch to patch
 
@@ -37,7 +50,7 @@ static bool add_stand(const OutTree *all, const ForestParams *params, int stand,
     tree.leaves = params->leaves;
     tree.skin = params->skin;
     Recipe recipe = *placing->recipe;
-    recipe.seed = random_key(recipe.seed, 30 + (uint64_t)stand);
+    recipe.seed = random_key(recipe.seed, STREAM_STANDS + (uint64_t)stand);
     Geometry single = {0};
     Placing own = *placing;
     own.recipe = &recipe;
@@ -66,19 +79,21 @@ static int64_t place_ferns(const ForestParams *params, uint64_t seed, uint64_t p
             return -1;
         }
         uint64_t key = random_key(seed, (uint64_t)i);
-        float r = params->fern_radius * exact_pow(random_unit(random_key(key, 1)), 0.65f);
+        float r =
+            params->fern_radius * exact_pow(random_unit(random_key(key, STREAM_RADIUS)), 0.65f);
         float sine, cosine;
-        exact_sincos(random_range(random_key(key, 2), 0.0f, 2.0f * PI_F), &sine, &cosine);
+        exact_sincos(random_range(random_key(key, STREAM_AZIMUTH), 0.0f, 2.0f * PI_F), &sine,
+                     &cosine);
         float dx = r * sine, dz = r * cosine; // from the glade's middle
         float x = params->glade_center.x + dx, z = params->glade_center.z + dz;
         float patch = noise_plane_fractal(dx / FERN_PATCH, dz / FERN_PATCH, 2, patches);
         Vec3 foot = vec3(x, land_height(&around->land, x, z), z);
-        if (patch < random_range(random_key(key, 3), -0.25f, 0.25f) ||
+        if (patch < random_range(random_key(key, STREAM_PATCH_EDGE), -0.25f, 0.25f) ||
             flood_covers(around->flood, foot)) {
             continue;
         }
-        float size = random_range(random_key(key, 4), 0.6f, 1.0f) * (0.8f + 0.8f * patch);
-        exact_sincos(random_range(random_key(key, 5), 0.0f, 2.0f * PI_F), &sine, &cosine);
+        float size = random_range(random_key(key, STREAM_SIZE), 0.6f, 1.0f) * (0.8f + 0.8f * patch);
+        exact_sincos(random_range(random_key(key, STREAM_TURN), 0.0f, 2.0f * PI_F), &sine, &cosine);
         place[count++] =
             transform_from_axes(vec3(size * cosine, 0, -size * sine), vec3(0, size, 0),
                                 vec3(size * sine, 0, size * cosine), vec3(x, foot.y - 0.02f, z));
@@ -92,10 +107,10 @@ static bool add_ferns(const ForestParams *params, uint64_t seed, const Placing *
         uint64_t key = random_key(seed, (uint64_t)v);
         int64_t wanted = grove_share(params->ferns, FERN_VARIANTS, v);
         Transform *place = memory_alloc(wanted, sizeof *place, e);
-        int64_t count = place
-                            ? place_ferns(params, random_key(key, 1), random_key(seed, 100), wanted,
-                                          &placing->around, place, placing->recipe->run, e)
-                            : -1;
+        int64_t count = place ? place_ferns(params, random_key(key, STREAM_VARIANT_PLACES),
+                                            random_key(seed, STREAM_PATCHES), wanted,
+                                            &placing->around, place, placing->recipe->run, e)
+                              : -1;
         if (count <= 0) {
             free(place);
             if (count < 0) {
@@ -103,9 +118,10 @@ static bool add_ferns(const ForestParams *params, uint64_t seed, const Placing *
             }
             continue;
         }
-        Part part = {.mesh = fern_mesh_new(params->fern_height, random_key(key, 2), e),
-                     .instance = place,
-                     .instance_count = count};
+        Part part = {
+            .mesh = fern_mesh_new(params->fern_height, random_key(key, STREAM_VARIANT_MESH), e),
+            .instance = place,
+            .instance_count = count};
         if (!placing_add(placing, part, FOREST_FERN, e)) {
             return false;
         }
@@ -118,7 +134,7 @@ bool forest_geometry(const void *given, const Grown *grown, const Placing *placi
     const ForestParams *params = given;
     uint64_t seed = placing->recipe->seed;
     StandPlaces places;
-    if (!stand_places_init(&places, params, random_key(seed, 20), &placing->around,
+    if (!stand_places_init(&places, params, random_key(seed, STREAM_PLACES), &placing->around,
                            placing->recipe->run, e)) {
         return false;
     }
@@ -127,5 +143,6 @@ bool forest_geometry(const void *given, const Grown *grown, const Placing *placi
         done = add_stand(grown->tree, params, i, &places, placing, e);
     }
     stand_places_free(&places);
-    return done && (params->ferns == 0 || add_ferns(params, random_key(seed, 21), placing, e));
+    return done &&
+           (params->ferns == 0 || add_ferns(params, random_key(seed, STREAM_FERNS), placing, e));
 }

@@ -7,6 +7,17 @@
 
 #include <stdlib.h>
 
+// Of a place of the lattice.
+enum {
+    STREAM_X = 1,
+    STREAM_Z = 2,
+    STREAM_TURN = 3,
+    STREAM_DENSITY = 4,
+    STREAM_CLUMPING = 5,
+    STREAM_HEIGHT = 6,
+    STREAM_STAND = 7
+};
+
 #define WOOD_WAVELENGTH 90.0f // m, from wood to wood where they clump
 
 // Rise of the land along x and z at (x, z), over h (m) to both sides.
@@ -22,11 +33,11 @@ static bool is_free(const ForestParams *params, uint64_t seed, uint64_t key, flo
     float cx = x - params->center.x, cz = z - params->center.z;
     float glade = params->glade > 0.0f ? params->glade + forest_stand_radius(params) : 0.0f;
     if (gx * gx + gz * gz < glade * glade || cx * cx + cz * cz > params->radius * params->radius ||
-        random_unit(random_key(key, 4)) >= params->density) {
+        random_unit(random_key(key, STREAM_DENSITY)) >= params->density) {
         return false;
     }
     float wood = noise_plane_fractal(cx / WOOD_WAVELENGTH, cz / WOOD_WAVELENGTH, 3, seed);
-    return random_unit(random_key(key, 5)) >= params->clumping || wood > 0.0f;
+    return random_unit(random_key(key, STREAM_CLUMPING)) >= params->clumping || wood > 0.0f;
 }
 
 // Does water reach any of a stand's trees, wherever they are within its radius?
@@ -76,8 +87,8 @@ bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t
             uint64_t key = random_key(random_key(seed, (uint64_t)j), (uint64_t)i);
             float x = params->center.x + pitch * ((float)i + (j & 1 ? 0.5f : 0.0f));
             float z = params->center.z + row * (float)j, sine, cosine;
-            x += random_range(random_key(key, 1), -0.06f, 0.06f) * pitch;
-            z += random_range(random_key(key, 2), -0.06f, 0.06f) * pitch;
+            x += random_range(random_key(key, STREAM_X), -0.06f, 0.06f) * pitch;
+            z += random_range(random_key(key, STREAM_Z), -0.06f, 0.06f) * pitch;
             float dx, dz;
             land_slope(&around->land, x, z, 0.5f * forest_stand_radius(params), &dx, &dz);
             if (!is_free(params, seed, key, x, z) ||
@@ -85,14 +96,15 @@ bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t
                 is_wet(params, around, x, z)) {
                 continue;
             }
-            exact_sincos(random_range(random_key(key, 3), 0.0f, 2.0f * PI_F), &sine, &cosine);
-            float tall = random_range(random_key(key, 6), 0.88f, 1.06f);
+            exact_sincos(random_range(random_key(key, STREAM_TURN), 0.0f, 2.0f * PI_F), &sine,
+                         &cosine);
+            float tall = random_range(random_key(key, STREAM_HEIGHT), 0.88f, 1.06f);
             // trunks stay upright, their feet follow the slope
             Transform place =
                 transform_from_axes(vec3(cosine, dx * cosine - dz * sine, -sine), vec3(0, tall, 0),
                                     vec3(sine, dx * sine + dz * cosine, cosine),
                                     vec3(x, land_height(&around->land, x, z), z));
-            int stand = (int)(random_unit(random_key(key, 7)) * (float)params->stands);
+            int stand = (int)(random_unit(random_key(key, STREAM_STAND)) * (float)params->stands);
             done = add_place(places, place, stand, e);
         }
     }

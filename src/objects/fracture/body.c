@@ -138,7 +138,7 @@ static bool refine(FractureBody *body, const FractureParams *params, const Recip
 bool fracture_body_new(FractureBody *body, const FractureParams *params, const Recipe *recipe,
                        Error *e)
 {
-    *body = (FractureBody){.hollow = params->hollow, .seed = random_key(recipe->seed, 7)};
+    *body = (FractureBody){.hollow = params->hollow, .seed = random_key(recipe->seed, STREAM_BODY)};
     if (!make_envelope(body, params, params->element.voxel, recipe->run, e)) {
         return false;
     }

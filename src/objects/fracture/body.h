@@ -6,6 +6,9 @@
 #include "objects/fracture/fracture.h"
 #include "shape/depth_field.h"
 
+// Streams of the object's seed, besides those of its network (see sculpture.c).
+enum { STREAM_CELLS = 5, STREAM_PIECES = 6, STREAM_BODY = 7 };
+
 typedef struct FractureBody {
     Envelope *envelope;
     DepthField depth;

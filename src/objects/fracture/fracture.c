@@ -11,6 +11,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+enum { STREAM_AXIS = 1, STREAM_ANGLE = 2, STREAM_DISTANCE = 3 }; // of a piece
+
 #define CELL_VOXELS 1.6f    // spacing of the grid that tells cells apart, over a voxel
 #define CELL_SPACINGS 2.0f  // inner radius of the smallest cell, in those
 #define MOST_ACROSS 340.0f  // of those
@@ -94,7 +96,7 @@ static bool workpiece_new(Workpiece *work, const OutTree *network, const Fractur
                               .known = params->gap + 5.0f * body->voxel,
                               .roughness = 2.0f * params->roughness * body->extent,
                               .wavelength = 0.12f * body->extent,
-                              .seed = random_key(recipe->seed, 5)};
+                              .seed = random_key(recipe->seed, STREAM_CELLS)};
     work->cells = crack_cells_new(network, &cells, recipe->run, e);
     return work->cells;
 }
@@ -290,10 +292,10 @@ static Vec3 middle_of(const Mesh *mesh)
 static Transform piece_motion(const Workpiece *work, const FractureParams *params, Vec3 middle,
                               uint64_t key)
 {
-    Vec3 angle = vec3_scale(random_direction(random_key(key, 1)),
-                            params->turn * random_unit(random_key(key, 2)));
+    Vec3 angle = vec3_scale(random_direction(random_key(key, STREAM_AXIS)),
+                            params->turn * random_unit(random_key(key, STREAM_ANGLE)));
     Vec3 zero = vec3(0, 0, 0), one = vec3_splat(1.0f);
-    float far = params->explode * (0.8f + 0.4f * random_unit(random_key(key, 3)));
+    float far = params->explode * (0.8f + 0.4f * random_unit(random_key(key, STREAM_DISTANCE)));
     Vec3 goal = vec3_madd(middle, far, vec3_sub(middle, work->body.center));
     Transform back = transform_compose(vec3_neg(middle), zero, one);
     Transform turn = transform_compose(goal, angle, one);
@@ -351,7 +353,7 @@ bool fracture_geometry(const void *given, const Grown *grown, const Placing *pla
     bool done = workpiece_new(&work, grown->tree, params, recipe, e) &&
                 split(&work, params, recipe, &pieces, e);
     for (int64_t i = 0; done && i < pieces.count; i++) {
-        uint64_t key = random_key(random_key(recipe->seed, 6), (uint64_t)i);
+        uint64_t key = random_key(random_key(recipe->seed, STREAM_PIECES), (uint64_t)i);
         if (random_unit(key) >= params->missing) {
             done = add_piece(&work, params, pieces.piece[i], key, placing, e);
         }

@@ -76,7 +76,8 @@ static GuideField *make_field(const OutTree *tree, const FrostParams *params,
 static bool grow_spines(OutTree *tree, const FrostParams *params, const Recipe *recipe, Error *e)
 {
     PointSet *points =
-        frost_points(params, params->spines, random_key(recipe->seed, 2), recipe->run, e);
+        frost_points(params, params->spines, random_key(recipe->seed, STREAM_FROST_SPINE_POINTS),
+                     recipe->run, e);
     GuideField *field = points ? make_field(tree, params, points, recipe->run, e) : NULL;
     bool done = field != NULL;
     if (done) {
@@ -87,7 +88,7 @@ static bool grow_spines(OutTree *tree, const FrostParams *params, const Recipe *
         growth.noise = 0.06f;
         growth.field = field;
         growth.field_weight = params->field_weight;
-        growth.seed = random_key(recipe->seed, 3);
+        growth.seed = random_key(recipe->seed, STREAM_FROST_SPINES);
         done = colonize(tree, points, &growth, recipe->run, NULL, e);
     }
     guide_field_free(field);
@@ -142,8 +143,8 @@ static OutTree *refine_spines(OutTree *tree, const FrostParams *params, Error *e
 // Sides leave along their sector's axis, not along the mean of what pulls: else they are hair.
 static bool grow_sides(OutTree *tree, const FrostParams *params, const Recipe *recipe, Error *e)
 {
-    PointSet *points =
-        frost_points(params, params->sides, random_key(recipe->seed, 4), recipe->run, e);
+    PointSet *points = frost_points(
+        params, params->sides, random_key(recipe->seed, STREAM_FROST_SIDE_POINTS), recipe->run, e);
     if (!points) {
         return false;
     }
@@ -158,7 +159,7 @@ static bool grow_sides(OutTree *tree, const FrostParams *params, const Recipe *r
     growth.new_orders = true;
     growth.apical = params->skip;
     growth.noise = 0.02f;
-    growth.seed = random_key(recipe->seed, 5);
+    growth.seed = random_key(recipe->seed, STREAM_FROST_SIDES);
     bool done = colonize(tree, points, &growth, recipe->run, NULL, e);
     points_free(points);
     for (int64_t i = 0; done && i < tree->count; i++) { // steps are chords
@@ -219,7 +220,7 @@ bool frost_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     const FrostParams *params = given;
     OutTree *tree = out_tree_new(e);
-    if (!tree || !add_nuclei(tree, params, random_key(recipe->seed, 1), e) ||
+    if (!tree || !add_nuclei(tree, params, random_key(recipe->seed, STREAM_FROST_NUCLEI), e) ||
         !grow_spines(tree, params, recipe, e)) {
         out_tree_free(tree);
         return false;

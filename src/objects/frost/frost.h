@@ -47,6 +47,16 @@ typedef struct FrostParams {
 
 enum { FROST_ICE, FROST_RIME }; // roles of materials
 
+// Streams of the object's seed.
+enum {
+    STREAM_FROST_NUCLEI = 1,
+    STREAM_FROST_SPINE_POINTS = 2,
+    STREAM_FROST_SPINES = 3,
+    STREAM_FROST_SIDE_POINTS = 4,
+    STREAM_FROST_SIDES = 5,
+    STREAM_FROST_GRAINS = 6
+};
+
 // Window frost on a pane of 0.6 x 0.45 m; a bubble has its own numbers.
 FrostParams frost_params_default(FrostSurface surface);
 

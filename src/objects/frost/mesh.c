@@ -8,6 +8,12 @@
 
 #include <stdlib.h>
 
+enum { STREAM_WIDTH = 77, STREAM_RING = 78, STREAM_RIME = 79 }; // of a node's id
+enum { STREAM_RELIEF = 0, STREAM_SHIFT = 1 };                   // of a ring
+// Of a variant of grains; corner i of its mesh uses the first three + i.
+enum { STREAM_BASE_RADIUS = 0, STREAM_TOP_RADIUS = 10, STREAM_TOP_HEIGHT = 20, STREAM_PLACES = 99 };
+enum { STREAM_CHANCE = 1, STREAM_TILT = 2, STREAM_TURN = 3, STREAM_SIZE = 4 }; // of a grain
+
 // The section of a blade, across (in half-widths) and up (in heights of the rib), from its left
 // edge over the rib to its right edge; the flat underside closes it.
 enum { SECTION = 7 };
@@ -41,7 +47,7 @@ static float width_at(const OutTree *tree, const int32_t *node, int64_t count, i
         radius = tree->radius[node[1]];
     }
     float t = (float)k / (float)(count - 1);
-    uint64_t key = random_key(tree->id[node[k]], 77);
+    uint64_t key = random_key(tree->id[node[k]], STREAM_WIDTH);
     return radius * (1.0f - 0.6f * t * t) * random_range(key, 0.82f, 1.15f);
 }
 
@@ -65,10 +71,11 @@ static void add_ring(BladeMesh *b, const int32_t *node, int64_t count, int64_t k
     Vec3 normal = tree->normal[node[k]], along = direction_at(tree, node, count, k);
     Vec3 across = vec3_normalize(vec3_cross(along, normal));
     Vec3 center = ring_center(tree, node, k);
-    uint64_t key = random_key(tree->id[node[k]], 78);
+    uint64_t key = random_key(tree->id[node[k]], STREAM_RING);
     float width = width_at(tree, node, count, k);
-    float height = width * b->params->relief * random_range(random_key(key, 0), 0.75f, 1.25f);
-    float shift = random_range(random_key(key, 1), -0.12f, 0.12f);
+    float height =
+        width * b->params->relief * random_range(random_key(key, STREAM_RELIEF), 0.75f, 1.25f);
+    float shift = random_range(random_key(key, STREAM_SHIFT), -0.12f, 0.12f);
     for (int i = 0; i < SECTION; i++) {
         float x = SECTION_ACROSS[i] + (i > 0 && i < SECTION - 1 ? shift : 0.0f);
         Vec3 p = vec3_madd(center, x * width, across);
@@ -115,7 +122,7 @@ static bool is_rime(const OutTree *tree, const FrostParams *params, const ChainS
                     int64_t chain)
 {
     uint64_t id = tree->id[chains->node[chains->first[chain + 1] - 1]];
-    return chains->order[chain] > 0 && random_unit(random_key(id, 79)) < params->rime;
+    return chains->order[chain] > 0 && random_unit(random_key(id, STREAM_RIME)) < params->rime;
 }
 
 static Mesh *blade_mesh(const OutTree *tree, const FrostParams *params, const ChainSet *chains,
@@ -153,12 +160,13 @@ static Mesh *grain_mesh(uint64_t seed, Error *e)
     }
     uint32_t *corner = mesh->index;
     for (uint32_t i = 0; i < SIDES; i++) {
-        float s, c, r = random_range(random_key(seed, i), 0.75f, 1.1f);
+        float s, c, r = random_range(random_key(seed, STREAM_BASE_RADIUS + i), 0.75f, 1.1f);
         exact_sincos(2.0f * PI_F * (float)i / SIDES, &s, &c);
-        float top = random_range(random_key(seed, 10 + i), 0.25f, 0.6f);
+        float top = random_range(random_key(seed, STREAM_TOP_RADIUS + i), 0.25f, 0.6f);
         mesh->position[i] = vec3(r * c, r * s, 0.0f);
         mesh->position[SIDES + i] =
-            vec3(top * r * c, top * r * s, random_range(random_key(seed, 20 + i), 0.4f, 0.75f));
+            vec3(top * r * c, top * r * s,
+                 random_range(random_key(seed, STREAM_TOP_HEIGHT + i), 0.4f, 0.75f));
         uint32_t j = (i + 1) % SIDES;
         const uint32_t sides[6] = {i, j, SIDES + j, i, SIDES + j, SIDES + i};
         for (int k = 0; k < 6; k++) {
@@ -189,13 +197,13 @@ static int64_t place_grains(const FrostParams *params, uint64_t seed, int64_t wa
         uint64_t key = random_key(seed, (uint64_t)i);
         float depth = frost_depth(params, points->position[i]) / 0.3f;
         float chance = 0.06f + 0.94f / (1.0f + depth * depth * depth);
-        if (random_unit(random_key(key, 1)) > chance) {
+        if (random_unit(random_key(key, STREAM_CHANCE)) > chance) {
             continue;
         }
         Vec3 z = vec3_normalize(
-            vec3_madd(points->normal[i], 0.25f, random_direction(random_key(key, 2))));
-        Vec3 x = vec3_normalize(vec3_cross(random_direction(random_key(key, 3)), z));
-        float u = random_unit(random_key(key, 4)), s = size * (0.35f + 1.1f * u * u * u);
+            vec3_madd(points->normal[i], 0.25f, random_direction(random_key(key, STREAM_TILT))));
+        Vec3 x = vec3_normalize(vec3_cross(random_direction(random_key(key, STREAM_TURN)), z));
+        float u = random_unit(random_key(key, STREAM_SIZE)), s = size * (0.35f + 1.1f * u * u * u);
         instance[count++] =
             transform_from_axes(vec3_scale(x, s), vec3_scale(vec3_cross(z, x), s), vec3_scale(z, s),
                                 vec3_madd(points->position[i], -0.1f * s, points->normal[i]));
@@ -208,11 +216,11 @@ static bool add_grains(const FrostParams *params, float size, int variant, int64
                        const Placing *placing, Error *e)
 {
     const Recipe *recipe = placing->recipe;
-    uint64_t key = random_key(random_key(recipe->seed, 6), (uint64_t)variant);
+    uint64_t key = random_key(random_key(recipe->seed, STREAM_FROST_GRAINS), (uint64_t)variant);
     Mesh *mesh = grain_mesh(key, e);
     Transform *instance = memory_alloc(wanted, sizeof *instance, e);
-    int64_t count = mesh && instance ? place_grains(params, random_key(key, 99), wanted, size,
-                                                    instance, recipe->run, e)
+    int64_t count = mesh && instance ? place_grains(params, random_key(key, STREAM_PLACES), wanted,
+                                                    size, instance, recipe->run, e)
                                      : -1;
     if (count <= 0) {
         mesh_free(mesh);

@@ -5,6 +5,9 @@
 
 #include <stddef.h>
 
+#define STREAM_BORDER_OFFSET UINT64_MAX // of the nuclei; nucleus i uses stream i
+enum { STREAM_X = 0, STREAM_Y = 1 };    // of a point or nucleus on the pane
+
 #define GOLDEN_TURN 0.61803398875 // of a circle
 
 float frost_area(const FrostParams *params)
@@ -39,8 +42,8 @@ static bool fill_pane(const FrostParams *params, int64_t count, uint64_t seed, P
     for (int64_t i = 0; i < columns * rows; i++) {
         uint64_t key = random_key(seed, (uint64_t)i);
         int64_t row = i / columns, column = i % columns;
-        float x = (float)column + random_range(random_key(key, 0), 0.1f, 0.9f);
-        float y = (float)row + random_range(random_key(key, 1), 0.1f, 0.9f);
+        float x = (float)column + random_range(random_key(key, STREAM_X), 0.1f, 0.9f);
+        float y = (float)row + random_range(random_key(key, STREAM_Y), 0.1f, 0.9f);
         Vec3 p = vec3_add(params->position, vec3((x / (float)columns - 0.5f) * params->width,
                                                  (y / (float)rows - 0.5f) * params->height, 0.0f));
         if (!run_goes_on(run, i, e) || !points_add(points, p, vec3(0, 0, 1), key, e)) {
@@ -115,13 +118,14 @@ Vec3 frost_nucleus(const FrostParams *params, int i, uint64_t seed, Vec3 *normal
         Vec3 d = i == 0 ? vec3(0, -1, 0) : random_direction(key);
         p = vec3_madd(params->position, params->radius, d);
     } else if (params->place == FROST_BORDER) {
-        float offset = random_unit(random_key(seed, UINT64_MAX));
+        float offset = random_unit(random_key(seed, STREAM_BORDER_OFFSET));
         float share = ((float)i + random_range(key, 0.15f, 0.85f)) / (float)params->nuclei + offset;
         p = border_point(params, share - (float)(int)share);
     } else {
         p = vec3_add(params->position,
-                     vec3(random_range(random_key(key, 0), -0.5f, 0.5f) * params->width,
-                          random_range(random_key(key, 1), -0.5f, 0.5f) * params->height, 0.0f));
+                     vec3(random_range(random_key(key, STREAM_X), -0.5f, 0.5f) * params->width,
+                          random_range(random_key(key, STREAM_Y), -0.5f, 0.5f) * params->height,
+                          0.0f));
     }
     *normal = frost_project(params, &p);
     return p;

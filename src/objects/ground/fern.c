@@ -8,6 +8,9 @@
 
 #include <stdlib.h>
 
+enum { STREAM_LENGTH = 1, STREAM_ARCH = 2, STREAM_PAIRS = 10 }; // of a frond; PAIRS + i: pair i
+enum { STREAM_DROOP_FIRST = 0, STREAM_DROOP_SECOND = 2 };       // of a pair of leaflets
+
 enum { FRONDS = 11, PAIRS = 18 };
 #define GOLDEN_ANGLE 2.39996323f
 
@@ -38,8 +41,11 @@ static void add_pair(Part *part, Vec3 out, float length, float arch, float t, ui
         length * 0.3f * (t < 0.33f ? 0.35f + 1.97f * t : 1.5f - 1.5f * t) + 0.015f * length;
     for (int s = -1; s <= 1; s += 2) {
         Vec3 y = vec3_normalize(vec3_add(vec3_scale(side, (float)s), vec3_scale(along, 0.45f)));
-        y = vec3_normalize(
-            vec3_madd(y, random_range(random_key(key, s < 0 ? 0 : 2), -0.2f, 0.0f), up));
+        y = vec3_normalize(vec3_madd(
+            y,
+            random_range(random_key(key, s < 0 ? STREAM_DROOP_FIRST : STREAM_DROOP_SECOND), -0.2f,
+                         0.0f),
+            up));
         Vec3 z = vec3_normalize(vec3_madd(up, -vec3_dot(up, y), y));
         part->instance[part->instance_count++] = transform_from_axes(
             vec3_scale(vec3_cross(y, z), size), vec3_scale(y, size), vec3_scale(z, size), p);
@@ -58,12 +64,13 @@ Mesh *fern_mesh_new(float height, uint64_t seed, Error *e)
             uint64_t key = random_key(seed, (uint64_t)f);
             float sine, cosine;
             exact_sincos((float)f * GOLDEN_ANGLE, &sine, &cosine);
-            float length = 1.25f * height * random_range(random_key(key, 1), 0.7f, 1.05f);
-            float arch = random_range(random_key(key, 2), 1.2f, 1.9f);
+            float length =
+                1.25f * height * random_range(random_key(key, STREAM_LENGTH), 0.7f, 1.05f);
+            float arch = random_range(random_key(key, STREAM_ARCH), 1.2f, 1.9f);
             for (int i = 0; i < PAIRS; i++) {
                 float t = 0.12f + 0.88f * ((float)i + 0.5f) / PAIRS;
                 add_pair(&part, vec3(sine, 0, cosine), length, arch, t,
-                         random_key(key, 10 + (uint64_t)i));
+                         random_key(key, STREAM_PAIRS + (uint64_t)i));
             }
         }
         Run run = run_default();

@@ -10,6 +10,27 @@
 
 #include <stdlib.h>
 
+enum { STREAM_TUFT_PLACES = 1 };   // of a variant of grass
+enum { STREAM_LEAF_PLACES = 100 }; // of a variant of leaves; LEAF_PLACES + i: leaf i
+// Of a tuft.
+enum {
+    STREAM_TUFT_RADIUS = 1,
+    STREAM_TUFT_AZIMUTH = 2,
+    STREAM_TUFT_CHANCE = 3,
+    STREAM_TUFT_SIZE = 4,
+    STREAM_TUFT_VARIATION = 5,
+    STREAM_TUFT_TURN = 6
+};
+// Of a leaf on the ground.
+enum {
+    STREAM_LEAF_RADIUS = 1,
+    STREAM_LEAF_AZIMUTH = 2,
+    STREAM_LEAF_HEIGHT = 3,
+    STREAM_LEAF_TILT = 4,
+    STREAM_LEAF_FACE = 5,
+    STREAM_LEAF_TURN = 6
+};
+
 GroundParams ground_params_default(void)
 {
     return (GroundParams){.radius = 2000.0f,
@@ -34,8 +55,10 @@ GroundParams ground_params_default(void)
 float ground_height(const GroundParams *params, uint64_t seed, float x, float z)
 {
     float r = sqrtf(x * x + z * z), scale = 1.0f / params->wavelength;
-    float hills = noise_plane_fractal(x * scale, z * scale, 4, random_key(seed, 1));
-    float bumps = noise_plane_fractal(x * 0.35f, z * 0.35f, 2, random_key(seed, 2));
+    float hills =
+        noise_plane_fractal(x * scale, z * scale, 4, random_key(seed, STREAM_GROUND_HILLS));
+    float bumps =
+        noise_plane_fractal(x * 0.35f, z * 0.35f, 2, random_key(seed, STREAM_GROUND_BUMPS));
     float flat = params->flat_radius > 1e-3f ? params->flat_radius : 1e-3f; // a step has no slope
     float near = smoothstepf(flat, 8.0f * flat, r);
     return params->relief * hills * near + 0.07f * bumps * smoothstepf(0.5f, 4.0f, r);
@@ -141,22 +164,28 @@ static int64_t place_tufts(const GroundParams *params, uint64_t ground_seed, uin
             return -1;
         }
         uint64_t key = random_key(seed, (uint64_t)i);
-        float share = exact_pow(random_unit(random_key(key, 1)), 0.75f), sine, cosine;
-        exact_sincos(random_range(random_key(key, 2), 0.0f, 2.0f * PI_F), &sine, &cosine);
+        float share = exact_pow(random_unit(random_key(key, STREAM_TUFT_RADIUS)), 0.75f), sine,
+              cosine;
+        exact_sincos(random_range(random_key(key, STREAM_TUFT_AZIMUTH), 0.0f, 2.0f * PI_F), &sine,
+                     &cosine);
         float x = params->grass_center.x + params->grass_radius * share * sine;
         float z = params->grass_center.z + params->grass_radius * share * cosine;
-        float patch = noise_plane_fractal(x * 0.55f, z * 0.55f, 3, random_key(ground_seed, 3));
+        float patch = noise_plane_fractal(x * 0.55f, z * 0.55f, 3,
+                                          random_key(ground_seed, STREAM_GROUND_PATCHES));
         float keep = 1.0f - params->grass_clumping * smoothstepf(0.25f, -0.35f, patch);
         keep *= smoothstepf(1.0f, 0.55f, share); // no edge where the grass ends
-        if (random_unit(random_key(key, 3)) > keep ||
+        if (random_unit(random_key(key, STREAM_TUFT_CHANCE)) > keep ||
             flood_covers(flood, ground_point(params, ground_seed, x, z))) {
             continue;
         }
-        float scale = random_range(random_key(key, 4), 0.55f, 1.0f) * (1.0f + 0.35f * patch);
-        variation[count] =
-            clampf(0.5f + 0.6f * patch + 0.4f * random_unit(random_key(key, 5)) - 0.2f, 0.0f, 1.0f);
-        instance[count++] = upright(params, ground_seed, x, z,
-                                    random_range(random_key(key, 6), 0.0f, 2.0f * PI_F), scale);
+        float scale =
+            random_range(random_key(key, STREAM_TUFT_SIZE), 0.55f, 1.0f) * (1.0f + 0.35f * patch);
+        variation[count] = clampf(
+            0.5f + 0.6f * patch + 0.4f * random_unit(random_key(key, STREAM_TUFT_VARIATION)) - 0.2f,
+            0.0f, 1.0f);
+        instance[count++] =
+            upright(params, ground_seed, x, z,
+                    random_range(random_key(key, STREAM_TUFT_TURN), 0.0f, 2.0f * PI_F), scale);
     }
     return count;
 }
@@ -165,7 +194,7 @@ static bool add_grass_variant(const GroundParams *params, int variant, const Pla
                               Error *e)
 {
     const Recipe *recipe = placing->recipe;
-    uint64_t key = random_key(random_key(recipe->seed, 4), (uint64_t)variant);
+    uint64_t key = random_key(random_key(recipe->seed, STREAM_GROUND_GRASS), (uint64_t)variant);
     GrassParams tuft = {.blades = 22,
                         .height = params->grass_height,
                         .width = 0.0065f,
@@ -176,11 +205,11 @@ static bool add_grass_variant(const GroundParams *params, int variant, const Pla
     Part part = {.mesh = grass_tuft_new(&tuft, key, e),
                  .instance = memory_alloc(wanted, sizeof(Transform), e),
                  .variation = memory_alloc(wanted, sizeof(float), e)};
-    int64_t count =
-        part.mesh && part.instance && part.variation
-            ? place_tufts(params, recipe->seed, random_key(key, 1), placing->around.flood, wanted,
-                          part.instance, part.variation, recipe->run, e)
-            : -1;
+    int64_t count = part.mesh && part.instance && part.variation
+                        ? place_tufts(params, recipe->seed, random_key(key, STREAM_TUFT_PLACES),
+                                      placing->around.flood, wanted, part.instance, part.variation,
+                                      recipe->run, e)
+                        : -1;
     if (count <= 0) { // an instance count of 0 would draw the tuft once, at the origin
         mesh_free(part.mesh);
         free(part.instance);
@@ -194,15 +223,18 @@ static bool add_grass_variant(const GroundParams *params, int variant, const Pla
 // A leaf lying at (x, z): upper side up or down, tilted a little, on the tips of the short grass.
 static Transform lying_leaf(const GroundParams *params, uint64_t seed, uint64_t key)
 {
-    float r = params->fallen_radius * sqrtf(random_unit(random_key(key, 1))), sine, cosine;
-    exact_sincos(random_range(random_key(key, 2), 0.0f, 2.0f * PI_F), &sine, &cosine);
+    float r = params->fallen_radius * sqrtf(random_unit(random_key(key, STREAM_LEAF_RADIUS))), sine,
+          cosine;
+    exact_sincos(random_range(random_key(key, STREAM_LEAF_AZIMUTH), 0.0f, 2.0f * PI_F), &sine,
+                 &cosine);
     Vec3 p = ground_point(params, seed, r * sine, r * cosine);
-    p.y += random_range(random_key(key, 3), 0.005f, 0.06f);
-    Vec3 z = vec3_normalize(vec3_madd(vec3(0, 1, 0), 0.35f, random_direction(random_key(key, 4))));
-    if (random_unit(random_key(key, 5)) < 0.4f) {
+    p.y += random_range(random_key(key, STREAM_LEAF_HEIGHT), 0.005f, 0.06f);
+    Vec3 z = vec3_normalize(
+        vec3_madd(vec3(0, 1, 0), 0.35f, random_direction(random_key(key, STREAM_LEAF_TILT))));
+    if (random_unit(random_key(key, STREAM_LEAF_FACE)) < 0.4f) {
         z = vec3_neg(z);
     }
-    Vec3 y = vec3_normalize(vec3_cross(z, random_direction(random_key(key, 6))));
+    Vec3 y = vec3_normalize(vec3_cross(z, random_direction(random_key(key, STREAM_LEAF_TURN))));
     return transform_from_axes(vec3_cross(y, z), y, z, p);
 }
 
@@ -215,14 +247,15 @@ static bool add_fallen_leaves(const GroundParams *params, const Placing *placing
         if (each == 0) {
             break;
         }
-        uint64_t key = random_key(random_key(seed, 5), (uint64_t)v);
+        uint64_t key = random_key(random_key(seed, STREAM_GROUND_LEAVES), (uint64_t)v);
         leaves.curl = 60.0f; // dry leaves roll up
         Mesh *mesh = foliage_leaf_mesh(&leaves, v, key, e);
         Transform *instance = memory_alloc(each, sizeof *instance, e);
         bool done = mesh && instance;
         for (int64_t i = 0; done && i < each; i++) {
             done = run_goes_on(placing->recipe->run, i, e);
-            instance[i] = lying_leaf(params, seed, random_key(key, 100 + (uint64_t)i));
+            instance[i] =
+                lying_leaf(params, seed, random_key(key, STREAM_LEAF_PLACES + (uint64_t)i));
         }
         if (!done) {
             mesh_free(mesh);

@@ -33,6 +33,17 @@ typedef struct GroundParams {
 // Roles of materials; the last two are of the trees in the distance.
 enum { GROUND_LAND, GROUND_FALLEN, GROUND_GRASS, GROUND_BARK, GROUND_FOLIAGE };
 
+// Streams of the object's seed.
+enum {
+    STREAM_GROUND_HILLS = 1,
+    STREAM_GROUND_BUMPS = 2,
+    STREAM_GROUND_PATCHES = 3,
+    STREAM_GROUND_GRASS = 4,
+    STREAM_GROUND_LEAVES = 5,
+    STREAM_GROUND_TREES = 6,
+    STREAM_GROUND_WOODS = 7
+};
+
 GroundParams ground_params_default(void); // 2 km of meadow, 60,000 tufts
 
 // Height of the land at (x, z), m.

@@ -8,6 +8,17 @@
 
 #include <stdlib.h>
 
+enum { STREAM_HEIGHT = 1, STREAM_CROWN_WIDTH = 2, STREAM_CROWN_BASE = 3 }; // of a variant's tree
+enum { STREAM_PLACES = 1, STREAM_VARIANT_TREE = 2 };                       // of a variant
+// Of a tree's place.
+enum {
+    STREAM_RADIUS = 1,
+    STREAM_AZIMUTH = 2,
+    STREAM_CLUMPING = 3,
+    STREAM_SIZE = 4,
+    STREAM_TURN = 5
+};
+
 // A tree that will be a hundred pixels tall: fewer levels, few and large leaves, no roots.
 static TreeParams distant_tree(const GroveParams *grove, GrowLevel levels[3], uint64_t seed)
 {
@@ -15,9 +26,9 @@ static TreeParams distant_tree(const GroveParams *grove, GrowLevel levels[3], ui
     levels[1] = (GrowLevel){250, 0.20f, 0.7f, 2.5f, 0.92f, 0.3f, 0.0f, 0.5f};
     levels[2] = (GrowLevel){1600, 0.35f, 0.9f, 2.2f, 1.0f, 0.3f, 0.1f, 0.5f};
     TreeParams tree = tree_params_default();
-    tree.height = grove->height * random_range(random_key(seed, 1), 0.65f, 1.0f);
-    tree.crown.width = tree.height * random_range(random_key(seed, 2), 0.6f, 1.1f);
-    tree.crown.base = tree.height * random_range(random_key(seed, 3), 0.06f, 0.16f);
+    tree.height = grove->height * random_range(random_key(seed, STREAM_HEIGHT), 0.65f, 1.0f);
+    tree.crown.width = tree.height * random_range(random_key(seed, STREAM_CROWN_WIDTH), 0.6f, 1.1f);
+    tree.crown.base = tree.height * random_range(random_key(seed, STREAM_CROWN_BASE), 0.06f, 0.16f);
     tree.crown.element.levels = levels;
     tree.crown.element.level_count = 3;
     tree.crown.element.voxel = tree.height / 32.0f;
@@ -50,18 +61,20 @@ static int64_t place_trees(const GroundParams *ground, uint64_t ground_seed, uin
             return -1;
         }
         uint64_t key = random_key(seed, (uint64_t)i);
-        float u = random_unit(random_key(key, 1)), sine, cosine;
+        float u = random_unit(random_key(key, STREAM_RADIUS)), sine, cosine;
         float r = sqrtf(lerpf(grove->inner * grove->inner, grove->outer * grove->outer, u));
-        exact_sincos(random_range(random_key(key, 2), 0.0f, 2.0f * PI_F), &sine, &cosine);
+        exact_sincos(random_range(random_key(key, STREAM_AZIMUTH), 0.0f, 2.0f * PI_F), &sine,
+                     &cosine);
         float x = r * sine, z = r * cosine;
-        float wood = noise_plane_fractal(x * 0.008f, z * 0.008f, 3, random_key(ground_seed, 7));
+        float wood = noise_plane_fractal(x * 0.008f, z * 0.008f, 3,
+                                         random_key(ground_seed, STREAM_GROUND_WOODS));
         Vec3 foot = vec3(x, ground_height(ground, ground_seed, x, z), z);
-        if ((random_unit(random_key(key, 3)) < grove->clumping && wood < 0.12f) ||
+        if ((random_unit(random_key(key, STREAM_CLUMPING)) < grove->clumping && wood < 0.12f) ||
             flood_covers(flood, foot)) {
             continue;
         }
-        float size = random_range(random_key(key, 4), 0.7f, 1.0f);
-        exact_sincos(random_range(random_key(key, 5), 0.0f, 2.0f * PI_F), &sine, &cosine);
+        float size = random_range(random_key(key, STREAM_SIZE), 0.7f, 1.0f);
+        exact_sincos(random_range(random_key(key, STREAM_TURN), 0.0f, 2.0f * PI_F), &sine, &cosine);
         place[count++] =
             transform_from_axes(vec3(size * cosine, 0, -size * sine), vec3(0, size, 0),
                                 vec3(size * sine, 0, size * cosine), vec3(x, foot.y - 0.2f, z));
@@ -127,12 +140,13 @@ bool grove_add(const GroundParams *ground, const Placing *placing, Error *e)
         memory_alloc(grove_share(grove->count, grove->variants, 0), sizeof *place, e);
     bool done = place != NULL;
     for (int v = 0; done && v < grove->variants; v++) {
-        uint64_t key = random_key(random_key(recipe->seed, 6), (uint64_t)v);
+        uint64_t key = random_key(random_key(recipe->seed, STREAM_GROUND_TREES), (uint64_t)v);
         int64_t wanted = grove_share(grove->count, grove->variants, v);
-        int64_t count = place_trees(ground, recipe->seed, random_key(key, 1), wanted,
+        int64_t count = place_trees(ground, recipe->seed, random_key(key, STREAM_PLACES), wanted,
                                     placing->around.flood, place, recipe->run, e);
         done = count == 0 ||
-               (count > 0 && add_variant(grove, place, count, random_key(key, 2), placing, e));
+               (count > 0 &&
+                add_variant(grove, place, count, random_key(key, STREAM_VARIANT_TREE), placing, e));
     }
     free(place);
     return done;

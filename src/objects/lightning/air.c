@@ -7,6 +7,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+// Of a leader; attractor i uses stream i.
+enum { STREAM_LEADER_END = 1000, STREAM_FORK = 2000 };
+enum { STREAM_ALONG = 0, STREAM_TURN = 1, STREAM_RADIUS = 2 }; // of a leader's attractor
+enum { STREAM_GROUND_ACROSS = 0, STREAM_GROUND_DEPTH = 1 };    // of a point on the ground
+// Of a streamer.
+enum {
+    STREAM_STREAMER_AZIMUTH = 0,
+    STREAM_STREAMER_RADIUS = 1,
+    STREAM_STREAMER_LENGTH = 2,
+    STREAM_STREAMER_ID = 3
+};
+
 // Lengths of the leader's growth, as shares of the height.
 #define LEADER_STEP 0.02f
 #define LEADER_KILL 0.03f
@@ -19,10 +31,10 @@ static bool scatter_leader(PointSet *points, const Bolt *bolt, Vec3 from, Vec3 t
 {
     for (int i = 0; i < count; i++) {
         uint64_t key = random_key(seed, (uint64_t)i);
-        float t = ((float)i + random_unit(random_key(key, 0))) / (float)count;
+        float t = ((float)i + random_unit(random_key(key, STREAM_ALONG))) / (float)count;
         float width = LEADER_WIDTH * bolt->height * 4.0f * t * (1.0f - t);
-        float turn = random_range(random_key(key, 1), 0.0f, 2.0f * PI_F), sine, cosine;
-        float r = width * sqrtf(random_unit(random_key(key, 2)));
+        float turn = random_range(random_key(key, STREAM_TURN), 0.0f, 2.0f * PI_F), sine, cosine;
+        float r = width * sqrtf(random_unit(random_key(key, STREAM_RADIUS)));
         exact_sincos(turn, &sine, &cosine);
         Vec3 p = vec3_lerp(from, to, t);
         p = vec3_madd(p, r * cosine, bolt->side);
@@ -31,7 +43,7 @@ static bool scatter_leader(PointSet *points, const Bolt *bolt, Vec3 from, Vec3 t
             return false;
         }
     }
-    return points_add(points, to, vec3_neg(bolt->axis), random_key(seed, 1000), e);
+    return points_add(points, to, vec3_neg(bolt->axis), random_key(seed, STREAM_LEADER_END), e);
 }
 
 // Where the bolt's main channels end: the strike, then others on the ground about it.
@@ -40,11 +52,12 @@ static Vec3 ground_point(const Bolt *bolt, int number)
     if (number == 0) {
         return bolt->strike;
     }
-    uint64_t key = random_key(random_key(bolt->seed, 5), (uint64_t)number);
+    uint64_t key = random_key(random_key(bolt->seed, STREAM_BOLT_GROUND_POINTS), (uint64_t)number);
     int rank = (number + 1) / 2;
     float side = (number % 2 ? 1.0f : -1.0f) * (float)rank;
-    float across = side * random_range(random_key(key, 0), 0.14f, 0.24f) * bolt->height;
-    float away = random_range(random_key(key, 1), -0.06f, 0.06f) * bolt->height;
+    float across =
+        side * random_range(random_key(key, STREAM_GROUND_ACROSS), 0.14f, 0.24f) * bolt->height;
+    float away = random_range(random_key(key, STREAM_GROUND_DEPTH), -0.06f, 0.06f) * bolt->height;
     return vec3_add(bolt->strike, vec3(across, 0.0f, away));
 }
 
@@ -53,8 +66,8 @@ static PointSet *leader_points(const Bolt *bolt, Error *e)
     PointSet *points = points_new(e);
     bool done = points;
     for (int i = 0; done && i < bolt->params->ground_points; i++) {
-        uint64_t key = random_key(random_key(bolt->seed, 1), (uint64_t)i);
-        float from = i == 0 ? 0.0f : random_range(random_key(key, 2000), 0.35f, 0.55f);
+        uint64_t key = random_key(random_key(bolt->seed, STREAM_BOLT_LEADERS), (uint64_t)i);
+        float from = i == 0 ? 0.0f : random_range(random_key(key, STREAM_FORK), 0.35f, 0.55f);
         Vec3 fork = vec3_madd(bolt->start, from * bolt->height, bolt->axis);
         done = scatter_leader(points, bolt, fork, ground_point(bolt, i), i == 0 ? 18 : 9, key, e);
     }
@@ -78,7 +91,7 @@ static ColonizeParams leader_params(const Bolt *bolt)
     params.cone_axis = bolt->axis;
     params.cone_angle = 65.0f;
     params.max_children = 2;
-    params.seed = random_key(bolt->seed, 2);
+    params.seed = random_key(bolt->seed, STREAM_BOLT_LEADER_GROWTH);
     return params;
 }
 
@@ -122,8 +135,8 @@ static OutTree *grow_leader(const Bolt *bolt, const Run *run, Error *e)
     PointSet *points = tree ? leader_points(bolt, e) : NULL;
     ColonizeParams params = leader_params(bolt);
     bool done = points &&
-                out_tree_add_node(tree, bolt->start, -1, 0, bolt->colony, random_key(bolt->seed, 3),
-                                  e) >= 0 &&
+                out_tree_add_node(tree, bolt->start, -1, 0, bolt->colony,
+                                  random_key(bolt->seed, STREAM_BOLT_ROOT_ID), e) >= 0 &&
                 colonize(tree, points, &params, run, NULL, e);
     for (int i = 0; done && i < bolt->params->ground_points; i++) {
         done = jump_to(tree, bolt, ground_point(bolt, i), e);
@@ -166,7 +179,8 @@ static bool grow_branches(OutTree *tree, const Bolt *bolt, const Recipe *recipe,
     }
     char part[32];
     snprintf(part, sizeof part, "bolt %d", bolt->colony + 1);
-    return element_grow(tree, &element, random_key(bolt->seed, 4), recipe, part, e);
+    return element_grow(tree, &element, random_key(bolt->seed, STREAM_BOLT_BRANCHES), recipe, part,
+                        e);
 }
 
 // Leaders move on at one speed, so a node is born by its distance from the cloud.
@@ -232,16 +246,19 @@ bool lightning_add_streamers(OutTree *tree, const Bolt *bolt, int32_t last_birth
     enum { STEPS = 4 };
     int32_t colony = bolt->params->bolts + bolt->colony;
     for (int s = 0; s < bolt->params->streamers; s++) {
-        uint64_t key = random_key(random_key(bolt->seed, 6), (uint64_t)s);
-        float turn = random_range(random_key(key, 0), 0.0f, 2.0f * PI_F), sine, cosine;
-        float away = random_range(random_key(key, 1), 0.03f, 0.16f) * bolt->height;
-        float length = random_range(random_key(key, 2), 0.025f, 0.06f) * bolt->height;
+        uint64_t key = random_key(random_key(bolt->seed, STREAM_BOLT_STREAMERS), (uint64_t)s);
+        float turn = random_range(random_key(key, STREAM_STREAMER_AZIMUTH), 0.0f, 2.0f * PI_F),
+              sine, cosine;
+        float away =
+            random_range(random_key(key, STREAM_STREAMER_RADIUS), 0.03f, 0.16f) * bolt->height;
+        float length =
+            random_range(random_key(key, STREAM_STREAMER_LENGTH), 0.025f, 0.06f) * bolt->height;
         exact_sincos(turn, &sine, &cosine);
         Vec3 p = vec3_add(bolt->strike, vec3(away * cosine, 0.0f, 0.4f * away * sine));
         // up, and toward the leader that comes down
         Vec3 toward = vec3_madd(vec3_sub(bolt->strike, p), -0.3f * bolt->height, bolt->axis);
         int64_t parent = -1;
-        uint64_t id = random_key(key, 3);
+        uint64_t id = random_key(key, STREAM_STREAMER_ID);
         for (int k = 0; k <= STEPS; k++) {
             int32_t birth = last_birth - last_birth * (STEPS - k) / 40;
             parent = out_tree_add_node(tree, p, parent, birth, colony, id, e);

@@ -9,6 +9,8 @@
 
 #include <stdlib.h>
 
+enum { STREAM_STRIKE_ACROSS = 0, STREAM_STRIKE_DEPTH = 1 }; // of a strike
+
 LightningParams lightning_params_default(void)
 {
     LightningParams params = {.height = 1000.0f,
@@ -235,9 +237,9 @@ static Bolt make_bolt(const LightningParams *params, int number, uint64_t seed)
     // 0, +1, -1, +2, ... places to the side, a little uneven and in depth
     int rank = (number + 1) / 2;
     float place = (float)rank * (number % 2 ? 1.0f : -1.0f);
-    uint64_t key = random_key(bolt.seed, 77);
-    float across = place * apart * random_range(random_key(key, 0), 0.8f, 1.2f);
-    float away = place * apart * random_range(random_key(key, 1), -0.3f, 0.3f);
+    uint64_t key = random_key(bolt.seed, STREAM_BOLT_STRIKE);
+    float across = place * apart * random_range(random_key(key, STREAM_STRIKE_ACROSS), 0.8f, 1.2f);
+    float away = place * apart * random_range(random_key(key, STREAM_STRIKE_DEPTH), -0.3f, 0.3f);
     bolt.strike = vec3_add(params->position, vec3(across, 0.0f, away));
     bolt.start = vec3_madd(bolt.strike, params->height, up);
     return bolt;
@@ -281,7 +283,7 @@ bool lightning_finish(const void *given, const Recipe *recipe, const Grown *whol
     if (params.element.points.place == SCATTER_SURFACE) {
         return lightning_finish_surface(given, recipe, whole->state, grown, e);
     }
-    Wander wander = {.seed = random_key(recipe->seed, 9), .run = recipe->run};
+    Wander wander = {.seed = random_key(recipe->seed, STREAM_WANDER), .run = recipe->run};
     grown->tree = lightning_wander(grown->tree, &params, params.height, params.radius, &wander, e);
     return grown->tree;
 }

@@ -5,6 +5,20 @@
 #include "objects/lightning/lightning.h"
 #include "outtree/jitter.h"
 
+// Streams of the object's seed; bolts in the air use stream i for bolt i.
+enum { STREAM_SURFACE_ROOTS = 3, STREAM_SURFACE_GROWTH = 4, STREAM_WANDER = 9 };
+
+// Streams of a bolt's seed.
+enum {
+    STREAM_BOLT_LEADERS = 1,
+    STREAM_BOLT_LEADER_GROWTH = 2,
+    STREAM_BOLT_ROOT_ID = 3,
+    STREAM_BOLT_BRANCHES = 4,
+    STREAM_BOLT_GROUND_POINTS = 5,
+    STREAM_BOLT_STREAMERS = 6,
+    STREAM_BOLT_STRIKE = 77
+};
+
 // Where one bolt runs, every length filled in.
 typedef struct Bolt {
     const LightningParams *params;

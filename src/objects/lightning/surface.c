@@ -7,6 +7,8 @@
 
 #include <stdlib.h>
 
+enum { STREAM_ROOT_ID = 1 }; // of a root
+
 typedef struct Skin {
     const Envelope *envelope;
     float probe; // m, half the distance over which the distance's slope is taken
@@ -63,7 +65,7 @@ static bool plant(OutTree *tree, const LightningParams *params, const Skin *skin
         d = i == 0 ? d : random_direction(key);
         Vec3 p = extreme_point(skin->envelope, d), normal = d;
         project(skin, &p, &normal);
-        int64_t node = out_tree_add_node(tree, p, -1, 0, i, random_key(key, 1), e);
+        int64_t node = out_tree_add_node(tree, p, -1, 0, i, random_key(key, STREAM_ROOT_ID), e);
         if (node < 0) {
             return false;
         }
@@ -94,7 +96,8 @@ static bool grow_over(OutTree *tree, const LightningParams *params, const Envelo
         element.growth.max_angle = 60.0f;
     }
     return element.level_count == 0 ||
-           element_grow_in(tree, &element, envelope, random_key(recipe->seed, 4), recipe, NULL, e);
+           element_grow_in(tree, &element, envelope,
+                           random_key(recipe->seed, STREAM_SURFACE_GROWTH), recipe, NULL, e);
 }
 
 // Marks the node of each colony that is furthest from its root along the branches: there the main
@@ -174,7 +177,7 @@ bool lightning_grow_surface(const LightningParams *params, const Recipe *recipe,
         return false;
     }
     Skin skin = make_skin(envelope);
-    return plant(whole->tree, params, &skin, random_key(recipe->seed, 3), e) &&
+    return plant(whole->tree, params, &skin, random_key(recipe->seed, STREAM_SURFACE_ROOTS), e) &&
            grow_over(whole->tree, params, envelope, recipe, e);
 }
 
@@ -187,7 +190,7 @@ bool lightning_finish_surface(const LightningParams *params, const Recipe *recip
     Wander wander = {.project = project,
                      .surface = &skin,
                      .stride = band < 0.04f * size ? 0.5f * band : 0.02f * size,
-                     .seed = random_key(recipe->seed, 9),
+                     .seed = random_key(recipe->seed, STREAM_WANDER),
                      .run = recipe->run};
     if (!mark_ends(grown->tree, params->bolts, e)) {
         return false;

@@ -6,6 +6,8 @@
 
 #include <stddef.h>
 
+enum { STREAM_STRING = 1, STREAM_TURTLE = 2 }; // of the object's seed
+
 // Monopodial and sympodial forks by divergence angles, bent by gravity (The Algorithmic Beauty of
 // Plants, figure 2.8): a trunk that forks in three, branches that fork again.
 static const char TREE_AXIOM[] = "!(1)F(1.2)/(45)A";
@@ -71,7 +73,7 @@ static OutTree *draw(const LSystemPlantParams *p, const Recipe *recipe, Error *e
     LSystemParams system = {.axiom = p->axiom ? p->axiom : TREE_AXIOM,
                             .rules = p->rules ? p->rules : (p->axiom ? "" : TREE_RULES),
                             .generations = p->generations,
-                            .seed = random_key(recipe->seed, 1)};
+                            .seed = random_key(recipe->seed, STREAM_STRING)};
     ModuleString string;
     if (!lsystem_derive(&system, recipe->run, &string, e)) {
         return NULL;
@@ -82,7 +84,7 @@ static OutTree *draw(const LSystemPlantParams *p, const Recipe *recipe, Error *e
     turtle.tropism = p->tropism;
     turtle.elasticity = p->elasticity;
     turtle.noise = p->noise;
-    turtle.seed = random_key(recipe->seed, 2);
+    turtle.seed = random_key(recipe->seed, STREAM_TURTLE);
     OutTree *tree = turtle_draw(&string, &turtle, recipe->run, e);
     module_string_clear(&string);
     return tree;

@@ -8,6 +8,8 @@
 
 #include <stdlib.h>
 
+enum { STREAM_ROOTS = 1, STREAM_CANDIDATES = 2, STREAM_GROWTH = 3 }; // of the object's seed
+
 enum { CANDIDATES_A_ROOT = 60, SMOOTHING = 6, LEVELS = 2 };
 
 #define VOXELS_A_BAR 3.0f // voxels of the surface's level set to the thinnest bar's radius
@@ -87,10 +89,10 @@ static bool plant_roots(OutTree *tree, const SculptureParams *params, const Elem
     ScatterParams scatter = scatter_params_default();
     scatter.place = SCATTER_SURFACE;
     scatter.count = (int64_t)params->clusters * CANDIDATES_A_ROOT;
-    scatter.seed = random_key(recipe->seed, 2);
+    scatter.seed = random_key(recipe->seed, STREAM_CANDIDATES);
     PointSet *points = points_scatter(envelope, &scatter, recipe->run, e);
-    bool done = points &&
-                plant(tree, points, params->clusters, random_key(recipe->seed, 1), recipe->run, e);
+    bool done = points && plant(tree, points, params->clusters,
+                                random_key(recipe->seed, STREAM_ROOTS), recipe->run, e);
     if (done) {
         const GrowLevel *finest = &element->levels[element->level_count - 1];
         *spacing = sqrt(points->measure / (double)finest->attractors);
@@ -117,7 +119,7 @@ static bool grow_shell(OutTree *tree, const SculptureParams *params, const Eleme
 {
     double spacing;
     if (!plant_roots(tree, params, element, recipe, &spacing, e) ||
-        !element_grow(tree, element, random_key(recipe->seed, 3), recipe, NULL, e)) {
+        !element_grow(tree, element, random_key(recipe->seed, STREAM_GROWTH), recipe, NULL, e)) {
         return false;
     }
     JoinParams join = {.reach = params->reach * (float)spacing,

@@ -7,6 +7,21 @@
 
 #include <stdlib.h>
 
+// Of the forest; + i: form or tree i.
+enum { STREAM_FRAY = 5, STREAM_FORMS = 50, STREAM_TREES = 1000 };
+enum { STREAM_SLIM = 1, STREAM_BOUGHS = 100 }; // of a form; BOUGHS + i: bough i
+enum { STREAM_BOUGH_TURN = 1, STREAM_BOUGH_LENGTH = 2, STREAM_BOUGH_LIFT = 3 }; // of a bough
+// Of a tree.
+enum {
+    STREAM_TREE_X = 1,
+    STREAM_TREE_Z = 2,
+    STREAM_TREE_CHANCE = 3,
+    STREAM_TREE_HEIGHT = 4,
+    STREAM_TREE_FAR = 5,
+    STREAM_TREE_TURN = 6,
+    STREAM_TREE_WIDTH = 7
+};
+
 enum { FORMS = 3, WHORLS = 13, BOUGHS = 12 };
 
 #define MOST_ROWS 2e9f // of trees; their square must be a 64-bit number
@@ -18,20 +33,21 @@ static Mesh *conifer_mesh(uint64_t seed, Error *e)
     if (!mesh) {
         return NULL;
     }
-    float slim = random_range(random_key(seed, 1), 0.13f, 0.19f);
+    float slim = random_range(random_key(seed, STREAM_SLIM), 0.13f, 0.19f);
     for (int w = 0; w < WHORLS; w++) {
         float share = (float)w / (WHORLS - 1);
         float height = lerpf(0.10f, 0.97f, share);
         float reach = slim * (1.03f - share) * (0.6f + 0.4f * smoothstepf(0.0f, 0.2f, share));
         for (int b = 0; b < BOUGHS; b++) {
-            uint64_t key = random_key(seed, 100 + (uint64_t)(w * BOUGHS + b));
-            float turn = ((float)b + 0.5f * (float)(w & 1) + random_unit(random_key(key, 1))) *
+            uint64_t key = random_key(seed, STREAM_BOUGHS + (uint64_t)(w * BOUGHS + b));
+            float turn = ((float)b + 0.5f * (float)(w & 1) +
+                          random_unit(random_key(key, STREAM_BOUGH_TURN))) *
                          (2.0f * PI_F / BOUGHS);
-            float length = reach * random_range(random_key(key, 2), 0.65f, 1.15f);
+            float length = reach * random_range(random_key(key, STREAM_BOUGH_LENGTH), 0.65f, 1.15f);
             float wide = 0.34f * length + 0.004f, sine, cosine;
             exact_sincos(turn, &sine, &cosine);
             Vec3 out = vec3(cosine, 0.0f, sine), side = vec3(-sine, 0.0f, cosine);
-            float lift = random_range(random_key(key, 3), -0.01f, 0.01f);
+            float lift = random_range(random_key(key, STREAM_BOUGH_LIFT), -0.01f, 0.01f);
             int64_t v = 4 * (w * BOUGHS + b);
             Vec3 root = vec3(0.0f, height + lift + 0.05f, 0.0f);
             Vec3 middle = vec3_madd(vec3(0.0f, height + lift, 0.0f), 0.62f * length, out);
@@ -77,16 +93,17 @@ static float tree_size(const Planting *p, float x, float z, uint64_t key)
     float upright = 1.0f / sqrtf(1.0f + dx * dx + dz * dz);
     float altitude = (h - p->low) / (p->high - p->low);
     float fray = noise_plane_fractal(x / (12.0f * forest->height), z / (12.0f * forest->height), 4,
-                                     random_key(p->seed, 5));
+                                     random_key(p->seed, STREAM_FRAY));
     float line = smoothstepf(forest->high, 0.7f * forest->high, altitude + 0.12f * fray);
     float wood = smoothstepf(-0.15f, 0.15f, fray + 0.25f - 0.55f * forest->clumping);
     float keep = line * lerpf(1.0f, wood, forest->clumping) *
                  smoothstepf(p->least_upright - 0.05f, p->least_upright + 0.05f, upright);
-    if (altitude < forest->low || h < p->lake || random_unit(random_key(key, 3)) > keep) {
+    if (altitude < forest->low || h < p->lake ||
+        random_unit(random_key(key, STREAM_TREE_CHANCE)) > keep) {
         return 0.0f;
     }
-    float tall =
-        forest->height * random_range(random_key(key, 4), 0.45f, 1.0f) * (0.55f + 0.45f * line);
+    float tall = forest->height * random_range(random_key(key, STREAM_TREE_HEIGHT), 0.45f, 1.0f) *
+                 (0.55f + 0.45f * line);
     // Its lowest boughs, too, keep out of rivers.
     return terrain_shore(p->terrain, x, z) > 0.2f * tall ? tall : 0.0f;
 }
@@ -104,15 +121,17 @@ static bool plant(const Planting *p, Transform **place, int64_t *count, const Ru
         if (!run_goes_on(run, i, e)) {
             return false;
         }
-        uint64_t key = random_key(p->seed, 1000 + (uint64_t)i);
-        float x = ((float)(i % side) + random_unit(random_key(key, 1))) * spacing - 0.5f * size;
+        uint64_t key = random_key(p->seed, STREAM_TREES + (uint64_t)i);
+        float x = ((float)(i % side) + random_unit(random_key(key, STREAM_TREE_X))) * spacing -
+                  0.5f * size;
         int64_t row = i / side;
-        float z = ((float)row + random_unit(random_key(key, 2))) * spacing - 0.5f * size;
+        float z =
+            ((float)row + random_unit(random_key(key, STREAM_TREE_Z))) * spacing - 0.5f * size;
         float away = p->has_eye
                          ? sqrtf((x - p->eye.x) * (x - p->eye.x) + (z - p->eye.z) * (z - p->eye.z))
                          : 0.5f * size;
         float share = full / (away + 1.0f);
-        if (share < 1.0f && random_unit(random_key(key, 5)) > share * share) {
+        if (share < 1.0f && random_unit(random_key(key, STREAM_TREE_FAR)) > share * share) {
             continue;
         }
         float tall = tree_size(p, x, z, key), sine, cosine;
@@ -122,8 +141,9 @@ static bool plant(const Planting *p, Transform **place, int64_t *count, const Ru
         if (!memory_reserve(place, &capacity, *count + 1, sizeof **place, e)) {
             return false;
         }
-        exact_sincos(random_range(random_key(key, 6), 0.0f, 2.0f * PI_F), &sine, &cosine);
-        float wide = tall * random_range(random_key(key, 7), 0.85f, 1.2f);
+        exact_sincos(random_range(random_key(key, STREAM_TREE_TURN), 0.0f, 2.0f * PI_F), &sine,
+                     &cosine);
+        float wide = tall * random_range(random_key(key, STREAM_TREE_WIDTH), 0.85f, 1.2f);
         Vec3 foot = vec3(x, height_field_at(p->field, x, z) - 0.06f * tall, z);
         (*place)[(*count)++] = transform_from_axes(
             vec3(wide * cosine, 0, -wide * sine), vec3(0, tall, 0),
@@ -139,7 +159,7 @@ static bool add_form(const Transform *place, int64_t count, int form, uint64_t s
     if (own <= 0) {
         return true;
     }
-    Part part = {.mesh = conifer_mesh(random_key(seed, 50 + (uint64_t)form), e),
+    Part part = {.mesh = conifer_mesh(random_key(seed, STREAM_FORMS + (uint64_t)form), e),
                  .instance = memory_alloc(own, sizeof *part.instance, e),
                  .instance_count = own};
     if (!part.instance) {
@@ -161,7 +181,7 @@ bool terrain_add_forest(const Terrain *terrain, const HeightField *field, const 
                   .params = params,
                   .field = field,
                   .has_eye = eye,
-                  .seed = random_key(terrain->seed, 61)};
+                  .seed = random_key(terrain->seed, STREAM_FOREST)};
     if (eye) {
         p.eye = vec3_sub(*eye, params->position);
     }

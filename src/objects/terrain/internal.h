@@ -5,6 +5,22 @@
 #include "objects/terrain/envelope.h"
 #include "objects/terrain/terrain.h"
 
+// Streams of the object's seed.
+enum {
+    STREAM_OUTLETS = 1,
+    STREAM_RIVER_GROWTH = 2,
+    STREAM_FIELD = 4,
+    STREAM_RIVER_POINTS = 12,
+    STREAM_BROOK_POINTS = 13,
+    STREAM_WARP_X = 21,
+    STREAM_WARP_Z = 22,
+    STREAM_NOISE = 23,
+    STREAM_UPLIFT = 31,
+    STREAM_TERRACES = 41,
+    STREAM_WINDINGS = 42,
+    STREAM_FOREST = 61
+};
+
 // Rivers with all that follows from them.
 typedef struct Terrain {
     const TerrainParams *params; // borrowed

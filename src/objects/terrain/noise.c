@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+enum { STREAM_COUNT = 1000 }; // of a cell, and those behind it; kernel i uses stream i
+
 // exp(-SPARSE_NOISE_DENSITY)
 static const float NO_KERNEL = 0.049787068f;
 
@@ -11,11 +13,11 @@ int sparse_noise_count(uint64_t cell_key)
 {
     // Knuth: uniform numbers are multiplied until they fall below exp(-mean).
     enum { MOST = 24 };
-    float product = random_unit(random_key(cell_key, 1000));
+    float product = random_unit(random_key(cell_key, STREAM_COUNT));
     int count = 0;
     while (count < MOST && product > NO_KERNEL) {
         count++;
-        product *= random_unit(random_key(cell_key, 1000 + (uint64_t)count));
+        product *= random_unit(random_key(cell_key, STREAM_COUNT + (uint64_t)count));
     }
     return count;
 }

@@ -12,6 +12,9 @@
 
 #include <stdlib.h>
 
+enum { STREAM_X = 1, STREAM_Z = 2 }; // of an attractor
+enum { STREAM_JITTER = 1 };          // of an outlet
+
 // Points in a jittered grid: every square has one, so no land stays without a river.
 static PointSet *scatter_plane(float size, int64_t count, uint64_t seed, Error *e)
 {
@@ -26,9 +29,9 @@ static PointSet *scatter_plane(float size, int64_t count, uint64_t seed, Error *
     float cell = size / (float)side;
     for (int64_t i = 0; i < side * side; i++) {
         uint64_t id = random_key(seed, (uint64_t)i);
-        float x = ((float)(i % side) + random_unit(random_key(id, 1))) * cell - 0.5f * size;
+        float x = ((float)(i % side) + random_unit(random_key(id, STREAM_X))) * cell - 0.5f * size;
         int64_t row = i / side;
-        float z = ((float)row + random_unit(random_key(id, 2))) * cell - 0.5f * size;
+        float z = ((float)row + random_unit(random_key(id, STREAM_Z))) * cell - 0.5f * size;
         if (!points_add(points, vec3(x, 0.0f, z), vec3(0, 1, 0), id, e)) {
             points_free(points);
             return NULL;
@@ -47,7 +50,7 @@ static bool add_outlets(OutTree *tree, const TerrainParams *params, uint64_t see
     float first = rivers->side == SIDE_ALL ? 0.0f : (float)(rivers->side - SIDE_NORTH);
     for (int i = 0; i < rivers->outlets; i++) {
         uint64_t id = random_key(seed, (uint64_t)i);
-        float jitter = random_range(random_key(id, 1), 0.2f, 0.8f);
+        float jitter = random_range(random_key(id, STREAM_JITTER), 0.2f, 0.8f);
         float place = first + sides * ((float)i + jitter) / (float)rivers->outlets;
         int side = (int)place & 3;
         float along = params->size * (place - (float)(int)place) - half;
@@ -130,7 +133,7 @@ static bool grow_levels(OutTree **tree, const TerrainParams *params, const Guide
     colonizing.max_children = 2;
     colonizing.field = field;
     colonizing.field_weight = params->rivers.field_weight;
-    colonizing.seed = random_key(seed, 2);
+    colonizing.seed = random_key(seed, STREAM_RIVER_GROWTH);
     // Lengths in spacings of the level's own attractors. Brooks are relaxed: straight on the scale
     // of hillslopes.
     int64_t count = params->rivers.count > 12 ? params->rivers.count : 12;
@@ -148,12 +151,14 @@ static bool grow_levels(OutTree **tree, const TerrainParams *params, const Guide
                               .relax = 0.5f};
     if (rivers.attractors > 12) {
         float spacing = params->size / sqrtf((float)rivers.attractors);
-        if (!grow_level(*tree, params, &rivers, &colonizing, random_key(seed, 12), run, e) ||
-            !wind_rivers(tree, params, spacing, random_key(seed, 42), run, e)) {
+        if (!grow_level(*tree, params, &rivers, &colonizing, random_key(seed, STREAM_RIVER_POINTS),
+                        run, e) ||
+            !wind_rivers(tree, params, spacing, random_key(seed, STREAM_WINDINGS), run, e)) {
             return false;
         }
     }
-    return grow_level(*tree, params, &brooks, &colonizing, random_key(seed, 13), run, e);
+    return grow_level(*tree, params, &brooks, &colonizing, random_key(seed, STREAM_BROOK_POINTS),
+                      run, e);
 }
 
 // The guide field about the outlets.
@@ -181,12 +186,14 @@ bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *
 {
     const TerrainParams *params = given;
     whole->tree = out_tree_new(e);
-    if (!whole->tree || !add_outlets(whole->tree, params, random_key(recipe->seed, 1), e)) {
+    if (!whole->tree ||
+        !add_outlets(whole->tree, params, random_key(recipe->seed, STREAM_OUTLETS), e)) {
         return false;
     }
     GuideField *field = NULL;
     if (params->rivers.field_count > 0) {
-        field = river_field(whole->tree, params, random_key(recipe->seed, 4), recipe->run, e);
+        field = river_field(whole->tree, params, random_key(recipe->seed, STREAM_FIELD),
+                            recipe->run, e);
         if (!field) {
             return false;
         }

@@ -190,16 +190,16 @@ static float land_at(const Terrain *terrain, float x, float z, float *wetness)
         // Nothing moves at a river: the noise fades over half a wavelength.
         float fade = smoothstepf(0.0f, 0.5f * wavelength, away);
         float reach = 0.4f * warp_reach(params) * fade;
-        float push_x =
-            sparse_noise_fractal(0.5f * u, 0.5f * v, 2, 0.5f, 0.0f, random_key(terrain->seed, 21));
-        float push_z =
-            sparse_noise_fractal(0.5f * u, 0.5f * v, 2, 0.5f, 0.0f, random_key(terrain->seed, 22));
+        float push_x = sparse_noise_fractal(0.5f * u, 0.5f * v, 2, 0.5f, 0.0f,
+                                            random_key(terrain->seed, STREAM_WARP_X));
+        float push_z = sparse_noise_fractal(0.5f * u, 0.5f * v, 2, 0.5f, 0.0f,
+                                            random_key(terrain->seed, STREAM_WARP_Z));
         push_x = clampf(push_x, -2.0f, 2.0f);
         push_z = clampf(push_z, -2.0f, 2.0f);
         height = trough_envelope_at(terrain->land, x + reach * push_x, z + reach * push_z, &lowest);
         float up = terrain->uplift[lowest] * terrain->gradient;
         float n = sparse_noise_fractal(u, v, noise->iterations, noise->gain, noise->ridged,
-                                       random_key(terrain->seed, 23));
+                                       random_key(terrain->seed, STREAM_NOISE));
         height += n * noise->amplitude * wavelength * fade * (up < 1.5f ? up : 1.5f);
     } else {
         height = trough_envelope_at(terrain->land, x, z, &lowest);
@@ -290,7 +290,7 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
     if (!height_field_fill(field, 1e-5f, e)) {
         return false;
     }
-    make_terraces(field, &params->terraces, random_key(terrain->seed, 41));
+    make_terraces(field, &params->terraces, random_key(terrain->seed, STREAM_TERRACES));
     return (params->terraces.count <= 0 || height_field_fill(field, 0.0f, e)) &&
            terrain_lay_rivers(terrain, field, run, e); // on what all else has left
 }

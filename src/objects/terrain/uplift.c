@@ -52,8 +52,8 @@ static float uplift_at(const TerrainParams *params, const Image *image, uint64_t
     const UpliftParams *uplift = &params->uplift;
     float u = p.x / params->size, v = p.z / params->size;
     float sum = uplift->base;
-    sum *= 1.0f +
-           1.4f * uplift->noise * noise_plane_fractal(u * 4.0f, v * 4.0f, 2, random_key(seed, 31));
+    sum *= 1.0f + 1.4f * uplift->noise *
+                      noise_plane_fractal(u * 4.0f, v * 4.0f, 2, random_key(seed, STREAM_UPLIFT));
     for (int i = 0; i < uplift->stroke_count; i++) {
         const UpliftStroke *stroke = &uplift->strokes[i];
         float share = stroke_distance(stroke, u, v) / stroke->radius;

@@ -113,7 +113,8 @@ bool tree_grow_bole(OutTree *tree, const TreeParams *params, const Envelope *env
         return true;
     }
     float influence;
-    ScatterParams scatter = element_scatter_params(tree, crown, random_key(seed, 2));
+    ScatterParams scatter =
+        element_scatter_params(tree, crown, random_key(seed, STREAM_ELEMENT_POINTS));
     PointSet *points = colonize_first_attractors(envelope, &scatter, &crown->levels[0], &influence,
                                                  recipe->run, e);
     bool done = points && bole_toward(tree, points, influence, params, recipe, e);

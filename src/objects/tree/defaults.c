@@ -3,6 +3,8 @@
 #include "base/exact_math.h"
 #include "base/random.h"
 
+enum { STREAM_LOBE_SIZE = 1, STREAM_LOBE_TURN = 2 }; // of a lobe
+
 TreeParams tree_params_default(void)
 {
     return (TreeParams){
@@ -127,10 +129,11 @@ static int crown_shapes(TreePlan *plan, uint64_t seed)
     plan->crown_shape[0] = ellipsoid(center, vec3_scale(half, 0.74f));
     for (int i = 0; i < lobes; i++) {
         uint64_t key = random_key(seed, (uint64_t)i);
-        float sine, cosine, size = random_range(random_key(key, 1), 0.26f, 0.44f);
+        float sine, cosine, size = random_range(random_key(key, STREAM_LOBE_SIZE), 0.26f, 0.44f);
         float y =
             1.0f - 1.7f * ((float)i + 0.5f) / (float)lobes; // few below: they would be in the shade
-        float turn = (float)i * 2.39996f + random_range(random_key(key, 2), -0.4f, 0.4f);
+        float turn =
+            (float)i * 2.39996f + random_range(random_key(key, STREAM_LOBE_TURN), -0.4f, 0.4f);
         exact_sincos(turn, &sine, &cosine);
         float r = sqrtf(1.0f - y * y), reach = 1.0f - size;
         Vec3 place = vec3_mul(half, vec3(reach * r * sine, reach * y, reach * r * cosine));
@@ -187,7 +190,7 @@ void tree_plan_make(TreePlan *plan, const TreeParams *params, uint64_t seed)
 {
     plan->params = *params;
     plan_trunk(plan);
-    plan_crown(plan, random_key(seed, 1));
+    plan_crown(plan, random_key(seed, STREAM_TREE_LOBES));
     plan_roots(plan);
     fill(&plan->params.radii.flare_height, 2.5f * plan->params.trunk.radius);
 }

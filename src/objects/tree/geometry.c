@@ -42,9 +42,10 @@ static bool add_leaves(const OutTree *tree, const TreeParams *params, const Curv
     Vec3 center = vec3_add(params->position, vec3(0, 0.5f * params->height, 0));
     bool rooted = params->roots.count > 0;
     bool *bare = rooted ? find_roots(tree, twigs, e) : NULL;
-    bool done = (bare || !rooted) &&
-                foliage_add(twigs, bare, &params->leaves, center,
-                            random_key(placing->recipe->seed, 4), placing, TREE_LEAF, e);
+    bool done =
+        (bare || !rooted) &&
+        foliage_add(twigs, bare, &params->leaves, center,
+                    random_key(placing->recipe->seed, STREAM_TREE_LEAVES), placing, TREE_LEAF, e);
     free(bare);
     return done;
 }

@@ -182,8 +182,10 @@ static bool thin_once(OutTree *tree, int64_t first, const TreeParams *params,
                       bool *dropped, const Run *run, Error *e)
 {
     const ElementParams *crown = &params->crown.element;
-    ScatterParams scatter = element_scatter_params(tree, crown, random_key(seed, 2));
-    ColonizeParams colonize = element_colonize_params(tree, crown, field, random_key(seed, 3));
+    ScatterParams scatter =
+        element_scatter_params(tree, crown, random_key(seed, STREAM_ELEMENT_POINTS));
+    ColonizeParams colonize =
+        element_colonize_params(tree, crown, field, random_key(seed, STREAM_ELEMENT_GROWTH));
     OutTree *grown = out_tree_copy(tree, e);
     Limbs limbs = {.tree = grown,
                    .radius = params->trunk.radius / sqrtf((float)params->crown.branches)};
@@ -205,7 +207,8 @@ bool tree_thin_limbs(OutTree *tree, int64_t first, const TreeParams *params,
     if (crown->level_count < 1 || first == tree->count) {
         return true;
     }
-    if (!element_guide_field(tree, crown, envelope, random_key(seed, 1), run, &field, e)) {
+    if (!element_guide_field(tree, crown, envelope, random_key(seed, STREAM_ELEMENT_FIELD), run,
+                             &field, e)) {
         return false;
     }
     Run quiet = *run; // growth itself follows, which tells of itself

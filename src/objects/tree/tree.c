@@ -12,6 +12,11 @@
 
 #include <stdlib.h>
 
+// Of a crown or the roots, besides those of its element; the same number as ELEMENT_FIELD.
+enum { STREAM_STARTS = 1 };
+enum { STREAM_OFFSET = 1, STREAM_ROOTS = 10 }; // of the roots' starts; ROOTS + i: root i
+enum { STREAM_ROOT_ID = 2 };                   // of a root
+
 #define GOLDEN_ANGLE_DEGREES 137.50776f
 
 // Each node's unit direction, from its parent; a root's is that of its first child, or up.
@@ -187,7 +192,7 @@ static bool grow_crown_in(OutTree *tree, const TreeParams *params, const Envelop
         transport_normals(tree);
         height = tree->position[tree_highest_node(tree)].y - params->position.y;
     }
-    if (!start_branches(tree, params, height, random_key(seed, 1), e) ||
+    if (!start_branches(tree, params, height, random_key(seed, STREAM_STARTS), e) ||
         !tree_thin_limbs(tree, first, params, envelope, seed, recipe->run, e)) {
         return false;
     }
@@ -220,14 +225,14 @@ static bool plant_roots(OutTree *roots, const TreeParams *params, uint64_t seed,
     static const float beyond[TREE_ROOT_PIECES] = {0.0f, 0.0f, 0.1f, 0.6f, 1.3f, 2.1f};
     static const float up[TREE_ROOT_PIECES] = {1.0f, 0.5f, 0.12f, -0.06f, -0.18f, -0.36f};
     float radius = params->trunk.radius, flared = radius * (1.0f + params->radii.flare);
-    float offset = random_range(random_key(seed, 1), 0.0f, 2.0f * PI_F);
+    float offset = random_range(random_key(seed, STREAM_OFFSET), 0.0f, 2.0f * PI_F);
     for (int i = 0; i < params->roots.count; i++) {
-        uint64_t key = random_key(seed, 10 + (uint64_t)i);
+        uint64_t key = random_key(seed, STREAM_ROOTS + (uint64_t)i);
         float turn = ((float)i + random_range(key, -0.25f, 0.25f)) / (float)params->roots.count;
         float sine, cosine;
         exact_sincos(offset + 2.0f * PI_F * turn, &sine, &cosine);
         Vec3 out = vec3(sine, 0, cosine);
-        uint64_t id = random_key(key, 2);
+        uint64_t id = random_key(key, STREAM_ROOT_ID);
         int64_t parent = -1;
         for (int k = 0; k < TREE_ROOT_PIECES; k++) {
             Vec3 p = vec3_madd(params->position, inside[k] * flared + beyond[k] * radius, out);
@@ -269,7 +274,7 @@ static bool grow_roots(OutTree *tree, const TreeParams *params, uint64_t seed, c
                        Error *e)
 {
     OutTree *roots = out_tree_new(e);
-    bool done = roots && plant_roots(roots, params, random_key(seed, 1), e) &&
+    bool done = roots && plant_roots(roots, params, random_key(seed, STREAM_STARTS), e) &&
                 (element_grow(roots, &params->roots.element, seed, recipe, "roots", e) ||
                  error_key(e, "roots"));
     if (done) {
@@ -307,12 +312,14 @@ bool tree_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e)
     tree_plan_make(&plan, params, seed);
     const TreeParams *tree = &plan.params;
     whole->tree = out_tree_new(e);
-    if (!whole->tree || !grow_trunk(whole->tree, tree, random_key(seed, 1), recipe, e) ||
-        !grow_crown(whole->tree, tree, random_key(seed, 2), recipe, e)) {
+    if (!whole->tree ||
+        !grow_trunk(whole->tree, tree, random_key(seed, STREAM_TREE_TRUNK), recipe, e) ||
+        !grow_crown(whole->tree, tree, random_key(seed, STREAM_TREE_CROWN), recipe, e)) {
         return false;
     }
     compute_radii(whole->tree, tree);
-    return tree->roots.count <= 0 || grow_roots(whole->tree, tree, random_key(seed, 3), recipe, e);
+    return tree->roots.count <= 0 ||
+           grow_roots(whole->tree, tree, random_key(seed, STREAM_TREE_ROOTS), recipe, e);
 }
 
 float tree_tip_radius(const void *given, const OutTree *whole)

@@ -94,6 +94,15 @@ enum { TREE_TRUNK, TREE_CROWN, TREE_ROOTS };
 // Roles of materials.
 enum { TREE_BARK, TREE_TWIG, TREE_LEAF };
 
+// Streams of the object's seed. The lobes of the default crown share the trunk's number.
+enum {
+    STREAM_TREE_LOBES = 1,
+    STREAM_TREE_TRUNK = 1,
+    STREAM_TREE_CROWN = 2,
+    STREAM_TREE_ROOTS = 3,
+    STREAM_TREE_LEAVES = 4
+};
+
 // The documented defaults: an oak of 14 m.
 TreeParams tree_params_default(void);
 

@@ -9,6 +9,8 @@
 #include <math.h>
 #include <stddef.h>
 
+enum { STREAM_VEINS = 1, STREAM_PETIOLE = 7 }; // of the object's seed
+
 enum { BLADE_ROWS = 160, BLADE_COLUMNS = 48, PETIOLE_PIECES = 12, AREA_ROWS = 1000 };
 
 #define EXPONENT 3.0f // Murray's
@@ -52,7 +54,8 @@ static bool add_petiole(OutTree *tree, const VenationParams *params, uint64_t se
     int64_t node = -1;
     for (int i = 0; i < PETIOLE_PIECES; i++) {
         float y = params->petiole * ((float)i / PETIOLE_PIECES - 1.0f);
-        uint64_t id = node < 0 ? random_key(seed, 7) : out_tree_child_id(tree->id[node], 0);
+        uint64_t id =
+            node < 0 ? random_key(seed, STREAM_PETIOLE) : out_tree_child_id(tree->id[node], 0);
         node = out_tree_add_node(tree, vec3(0, y, 0), node, 0, 0, id, e);
         if (node < 0) {
             return false;
@@ -88,7 +91,7 @@ static OutTree *with_petiole(const OutTree *veins, const VenationParams *params,
 bool venation_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     VenationParams params = venation_params_resolve(given);
-    VeinParams grow = vein_params(&params, random_key(recipe->seed, 1));
+    VeinParams grow = vein_params(&params, random_key(recipe->seed, STREAM_VEINS));
     OutTree *veins = veins_grow(&grow, NULL, NULL, recipe->run, e);
     whole->tree = veins ? with_petiole(veins, &params, recipe->seed, e) : NULL;
     out_tree_free(veins);

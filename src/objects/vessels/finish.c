@@ -150,7 +150,7 @@ bool vessel_bed_finish(VesselBed *bed, Error *e)
         return false;
     }
     for (int t = 0; t < count; t++) {
-        uint64_t seed = random_key(bed->recipe->seed, 1000 + (uint64_t)t);
+        uint64_t seed = random_key(bed->recipe->seed, STREAM_THINNING + (uint64_t)t);
         if (!thin_out(&bed->trees[t], vessel_wanted_terminals(bed), seed, e)) {
             return false;
         }

@@ -5,6 +5,8 @@
 
 #include <stdlib.h>
 
+enum { STREAM_POINTS = 1, STREAM_GROWTH = 2 }; // of one level of one tree
+
 // Attractors of the finest level for each terminal, and of a level for each of the coarser one.
 #define ATTRACTORS_PER_TERMINAL 6
 #define LEVEL_RATIO 8
@@ -90,8 +92,9 @@ static bool grow_toward(VesselBed *bed, VesselTree *tree, PointSet *points, cons
 {
     const ElementParams *element = &bed->params->element;
     GuideField *field;
-    if (!element_guide_field(tree->tree, element, bed->envelope, random_key(bed->recipe->seed, 5),
-                             bed->recipe->run, &field, e)) {
+    if (!element_guide_field(tree->tree, element, bed->envelope,
+                             random_key(bed->recipe->seed, STREAM_FIELD), bed->recipe->run, &field,
+                             e)) {
         return false;
     }
     ColonizeParams params = element_colonize_params(tree->tree, element, field, seed);
@@ -118,7 +121,7 @@ static bool grow_around(VesselBed *bed, VesselTree *tree, const SegmentGrid *oth
                         const GrowLevel *level, bool coarse, uint64_t seed, Error *e)
 {
     ScatterParams scatter =
-        element_scatter_params(tree->tree, &bed->params->element, random_key(seed, 1));
+        element_scatter_params(tree->tree, &bed->params->element, random_key(seed, STREAM_POINTS));
     scatter.count = level->attractors;
     scatter.scale = level->scale;
     PointSet *points = points_scatter(bed->envelope, &scatter, bed->recipe->run, e);
@@ -129,7 +132,8 @@ static bool grow_around(VesselBed *bed, VesselTree *tree, const SegmentGrid *oth
     VesselRoom room = vessel_room(bed, tree, others, 0.05f * spacing);
     keep_free_points(points, &room, 0.2f * spacing);
     int64_t first = tree->tree->count;
-    bool done = points->count == 0 || grow_toward(bed, tree, points, level, random_key(seed, 2), e);
+    bool done = points->count == 0 ||
+                grow_toward(bed, tree, points, level, random_key(seed, STREAM_GROWTH), e);
     points_free(points);
     return done && foresee_radii(bed, tree, e) && keep_allowed(tree->tree, first, &room, e) &&
            foresee_radii(bed, tree, e) && (!coarse || vessel_room_turn(bed, &room, e));

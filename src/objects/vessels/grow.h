@@ -5,6 +5,9 @@
 #include "objects/vessels/vessels.h"
 #include "outtree/segment_grid.h"
 
+// Streams of the object's seed; levels and stems use the streams from 0 on. THINNING + i: tree i.
+enum { STREAM_FIELD = 5, STREAM_THINNING = 1000 };
+
 // One of the trees while it grows.
 typedef struct VesselTree {
     OutTree *tree;

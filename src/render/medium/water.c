@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { STREAM_WAVES = 0xca57 };                                     // of the scene's seed
+enum { STREAM_OCTAVE = 0, STREAM_DIRECTION = 1, STREAM_PHASE = 2 }; // of a wave
+
 enum {
     WAVES = 28,
     TILE_WAVES = 8,   // wavelengths along a side of the tile
@@ -75,14 +78,15 @@ static void make_waves(Water *water, float depth, uint64_t seed)
 {
     double curvature = 0.0, steepness = 0.0;
     for (int i = 0; i < WAVES; i++) {
-        uint64_t key = random_key(random_key(seed, 0xca57), (uint64_t)i);
-        float octave = random_range(random_key(key, 0), -0.7f, 1.3f);
+        uint64_t key = random_key(random_key(seed, STREAM_WAVES), (uint64_t)i);
+        float octave = random_range(random_key(key, STREAM_OCTAVE), -0.7f, 1.3f);
         float count = TILE_WAVES * exp2f(octave);
-        float angle = 2.0f * PI_F * ((float)i + random_unit(random_key(key, 1))) * 0.618034f;
+        float angle =
+            2.0f * PI_F * ((float)i + random_unit(random_key(key, STREAM_DIRECTION))) * 0.618034f;
         float kx = roundf(count * cosf(angle)), kz = roundf(count * sinf(angle));
         kx = kx == 0.0f && kz == 0.0f ? 1.0f : kx;
         Wave wave = {kx * 2.0f * PI_F / water->tile, kz * 2.0f * PI_F / water->tile, 0.0f,
-                     2.0f * PI_F * random_unit(random_key(key, 2))};
+                     2.0f * PI_F * random_unit(random_key(key, STREAM_PHASE))};
         float k = sqrtf(wave.kx * wave.kx + wave.kz * wave.kz);
         wave.height = powf(k * water->tile, -2.6f);
         curvature += 0.5 * (double)(wave.height * k * k * wave.height * k * k);

@@ -5,6 +5,9 @@
 
 #include <stddef.h>
 
+enum { STAR_SEED = 0x57a2 }; // the same stars in every scene
+enum { STREAM_U = 0, STREAM_V = 1, STREAM_MAGNITUDE = 2, STREAM_COLOR = 3 }; // of a star
+
 enum { COLUMNS = 384, ROWS = 256, BLOCK = 4, STAR_CELLS = 64, STARS_A_CELL = 2 };
 
 // Irradiance of a star of magnitude 0, and the faintest magnitude.
@@ -120,19 +123,20 @@ static Vec3 star_color(float u)
 static Vec3 star_light(int face, int i, int j, int number, Vec3 direction, float sigma)
 {
     uint64_t key = random_key(
-        random_key(random_key(0x57a2, (uint64_t)face), (uint64_t)j * STAR_CELLS + (uint64_t)i),
+        random_key(random_key(STAR_SEED, (uint64_t)face), (uint64_t)j * STAR_CELLS + (uint64_t)i),
         (uint64_t)number);
-    float u = ((float)i + random_unit(random_key(key, 0))) * (2.0f / STAR_CELLS) - 1.0f;
-    float v = ((float)j + random_unit(random_key(key, 1))) * (2.0f / STAR_CELLS) - 1.0f;
+    float u = ((float)i + random_unit(random_key(key, STREAM_U))) * (2.0f / STAR_CELLS) - 1.0f;
+    float v = ((float)j + random_unit(random_key(key, STREAM_V))) * (2.0f / STAR_CELLS) - 1.0f;
     Vec3 off = vec3_sub(cube_direction((CubePlace){face, u, v}), direction);
     float square = vec3_dot(off, off) / (sigma * sigma);
     if (square > 12.0f) {
         return vec3_splat(0.0f);
     }
-    float magnitude = FAINTEST + 2.0f * log10f(fmaxf(random_unit(random_key(key, 2)), 1e-6f));
+    float magnitude =
+        FAINTEST + 2.0f * log10f(fmaxf(random_unit(random_key(key, STREAM_MAGNITUDE)), 1e-6f));
     float light = STAR_LIGHT * powf(10.0f, -0.4f * fmaxf(magnitude, -1.0f));
     float density = expf(-0.5f * square) / (2.0f * PI_F * sigma * sigma);
-    return vec3_scale(star_color(random_unit(random_key(key, 3))), light * density);
+    return vec3_scale(star_color(random_unit(random_key(key, STREAM_COLOR))), light * density);
 }
 
 Vec3 night_stars(const Sky *sky, Vec3 direction, float spread)
