@@ -1,4 +1,4 @@
-// The registry of the kinds of objects, in the order in which people read of them: a line a kind.
+// The registry of kinds of objects, one line each, in the order of the documentation.
 #ifndef RAMIFY_OBJECTS_KINDS_H
 #define RAMIFY_OBJECTS_KINDS_H
 

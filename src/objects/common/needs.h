@@ -1,42 +1,40 @@
-// What objects will take in memory, told by the counts of their parameters before anything is made
-// of them.
+// Estimates of the memory that objects will take, from the counts in their parameters.
 //
-// Estimates are measured averages. They are meant to be right within a factor of NEEDS_FACTOR for
-// what a count is made for: arrays while it grows, its geometry and what the ray tracer makes of
-// it.
+// The estimates are measured averages, meant to be right within a factor of NEEDS_FACTOR. They
+// cover arrays during growth, the geometry and the ray tracer's structures.
 #ifndef RAMIFY_OBJECTS_COMMON_NEEDS_H
 #define RAMIFY_OBJECTS_COMMON_NEEDS_H
 
 #define NEEDS_FACTOR 3.0
 
-// The needs of some objects, as kinds add them (Kind.needs).
+// Sum of the needs of several objects, added by Kind.needs.
 typedef struct Needs {
-    double bytes;        // of all
-    double copied_faces; // that the ray tracer copies out so far; see COPY_FACES_LIMIT
-    int object;          // that is adding
+    double bytes;        // sum
+    double copied_faces; // instanced faces that the ray tracer copies; see COPY_FACES_LIMIT
+    int object;          // now adding
     int largest_object;  // of the largest single need; -1 = none
     double largest;      // bytes of it
     char largest_key[64];
 } Needs;
 
-// count things of `each` bytes. key: of the object's kind that says how many, "leaves.max_count".
+// Adds count items of `each` bytes. key: the kind's key that sets the count, "leaves.max_count".
 void needs_add(Needs *needs, const char *key, double count, double each);
 
-// count instances of a mesh of so many faces.
+// Adds count instances of a mesh with `faces` faces.
 void needs_add_copies(Needs *needs, const char *key, double count, double faces);
 
-// Growth to so many attractors, drawn as curves.
+// Adds growth with so many attractors, drawn as curves.
 void needs_add_growth(Needs *needs, const char *key, double attractors);
 
-// The same with a skin of so many levels over all that is thicker than `twig` radii of a tip.
+// The same with a skin of `levels` subdivisions over branches thicker than `twig` tip radii.
 void needs_add_skinned_growth(Needs *needs, const char *key, double attractors, int levels,
                               double twig);
 
-// What an imported file makes, at `each` bytes of memory for a byte of the file. A file that cannot
-// be looked at needs none; reading it will say why.
+// Adds an imported file, at `each` bytes of memory per byte of the file. Adds nothing if the file
+// cannot be examined; reading it reports the error.
 void needs_add_file(Needs *needs, const char *key, const char *file, double each);
 
-// An imported mesh.
+// Adds an imported mesh.
 void needs_add_mesh_file(Needs *needs, const char *key, const char *file);
 
 #endif

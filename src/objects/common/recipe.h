@@ -7,10 +7,10 @@
 //     bool KIND_measure(const void *params, const Grown *grown, const Recipe *recipe,
 //                       MeasureList *list, Error *e);
 //
-// grow makes all of the growth, with births that tell when each node came. What shows at a time of
-// the growth is cut from it by whoever calls (see kind_grow), which may keep the whole for other
-// times. finish gives what is left its radii and finds what the geometry needs beside the out-tree.
-// A recipe knows neither how much of it shows nor whether it has grown before.
+// grow makes the whole growth; births give the step at which each node appeared. The caller (see
+// kind_grow) cuts it at a time of the growth and may keep the whole for other times. finish
+// computes the radii of the cut tree and what the geometry needs besides the out-tree. A recipe
+// does not know the time of the cut or whether it has grown before.
 #ifndef RAMIFY_OBJECTS_COMMON_RECIPE_H
 #define RAMIFY_OBJECTS_COMMON_RECIPE_H
 
@@ -22,23 +22,23 @@
 
 #include <stdint.h>
 
-// What every recipe is told besides its own parameters.
+// Arguments of every recipe besides its parameters.
 typedef struct Recipe {
     uint64_t seed;     // the object's own
     const char *label; // names the object in warnings and errors: "object 'oak'"
     const Run *run;
 } Recipe;
 
-// What has grown. Begins as {0}.
+// The result of growth. Initialize to {0}.
 typedef struct Grown {
     OutTree *tree; // owned
-    void *state;   // owned: what else the kind keeps; NULL = nothing
+    void *state;   // owned: further data of the kind; NULL = none
     void (*free_state)(void *state);
 } Grown;
 
 void grown_clear(Grown *grown);
 
-// Where an object's geometry goes.
+// Where an object's geometry is added, and with which materials.
 typedef struct Placing {
     const Recipe *recipe;
     Geometry *geometry;
@@ -47,15 +47,15 @@ typedef struct Placing {
     Surroundings around;
 } Placing;
 
-// Adds a part with the material of the role. Takes what the part owns, also when it fails; a part
-// with neither mesh nor curves fails.
+// Adds a part with the material of the role. Takes ownership of the part's data, also on failure.
+// Fails if the part has neither mesh nor curves.
 bool placing_add(const Placing *placing, Part part, int role, Error *e);
 
-// Warns of the object, or of a part of it ("crown"; NULL = all of it).
+// Warns about the object or a part of it ("crown"; NULL = the whole object).
 void recipe_warn(const Recipe *recipe, const char *part, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// Puts the names of the object and of its part before the error. Returns false.
+// Prefixes the error with the names of the object and of its part. Returns false.
 bool recipe_fail(const Recipe *recipe, const char *part, Error *e);
 
 // "object 'oak', crown"

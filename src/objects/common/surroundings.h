@@ -1,4 +1,4 @@
-// What an object may see of the scene that it stands in.
+// What an object knows of the scene around it.
 #ifndef RAMIFY_OBJECTS_COMMON_SURROUNDINGS_H
 #define RAMIFY_OBJECTS_COMMON_SURROUNDINGS_H
 
@@ -6,13 +6,13 @@
 
 #include <stddef.h>
 
-// Where water covers the land: nothing that grows on land is set there.
+// Where water covers the land: no plant is placed there.
 typedef struct Flood {
     bool (*covers)(const void *user, Vec3 foot); // is the land at this place under water?
     const void *user;                            // borrowed
 } Flood;
 
-// The ground that things stand on.
+// The ground that objects stand on.
 typedef struct Land {
     float (*height)(const void *user, float x, float z); // m; NULL = level land at height 0
     const void *user;                                    // borrowed
@@ -21,8 +21,8 @@ typedef struct Land {
 // Zero = nothing: an object alone.
 typedef struct Surroundings {
     const Vec3 *eye;          // the camera; NULL = none
-    const Material *material; // the world's, which Placing.material counts; NULL = not known
-    const Flood *flood;       // NULL = all is dry
+    const Material *material; // the world's list, indexed by Placing.material; NULL = not known
+    const Flood *flood;       // NULL = no water
     Land land;
 } Surroundings;
 

@@ -1,4 +1,4 @@
-// Tables and checks that the tables of several kinds use (see config/table.h).
+// Tables and checks shared by the tables of several kinds (see config/table.h).
 #ifndef RAMIFY_OBJECTS_COMMON_TABLES_H
 #define RAMIFY_OBJECTS_COMMON_TABLES_H
 
@@ -36,20 +36,20 @@ bool check_shapes(const Mapping *mapping, const Shape *shapes, int count);
 // Envelope, points and growth of a mapping with ELEMENT_ROWS.
 bool check_element(const Mapping *mapping, const ElementParams *element);
 
-// What a look at a mesh file's name, size and header tells. path: under the mapping's key `file`.
+// Checks a mesh file's name, size and header. path: from the mapping's key `file`.
 bool check_mesh_file(const Mapping *mapping, const char *path);
 
 // No factor of the mapping's `scale` is 0.
 bool check_scale(const Mapping *mapping, Vec3 scale);
 
-// An L-system's axiom and rules, as far as the file gives them (NULL = not).
+// An L-system's axiom and rules; NULL = not given.
 bool check_grammar(const Mapping *mapping, const char *axiom, const char *rules);
 
 // ---- checks of the tables above: see Table.check
 
-bool check_shape(const Mapping *mapping, void *shape); // also makes its transform
+bool check_shape(const Mapping *mapping, void *shape); // also computes its transform
 bool check_level(const Mapping *mapping, void *level);
-bool check_growth(const Mapping *mapping, void *element); // also fills in what levels leave out
+bool check_growth(const Mapping *mapping, void *element); // also fills in what the levels omit
 bool check_field(const Mapping *mapping, void *field);
 
 #endif

@@ -1,6 +1,6 @@
-// Corals (Horiuchi et al., growth rules and territorial battle): an L-system string says where a
-// colony may branch, attractors (light and room) say where it can, and colonies that share them
-// stop where another was first. Branching and table forms grow in space, fans in a plane,
+// Corals (Horiuchi et al., growth rules and territorial battle): an L-system string gives the
+// directions of branching, attractors stand for light and free space, and colonies that share them
+// stop where another came first. Branching and table forms grow in space, fans in a plane,
 // encrusting and massive ones over a rock, which they cover with a crust.
 #ifndef RAMIFY_OBJECTS_CORAL_CORAL_H
 #define RAMIFY_OBJECTS_CORAL_CORAL_H
@@ -13,19 +13,19 @@
 typedef enum CoralForm {
     CORAL_BRANCHING,  // staghorn: long rounded branches that fork in space
     CORAL_TABLE,      // corymbose: a plate of radiating branches with upright branchlets
-    CORAL_FAN,        // in the plane z = 0, the paper's own case
+    CORAL_FAN,        // in the plane z = 0, as in the paper
     CORAL_ENCRUSTING, // a crust that creeps over a rock
     CORAL_MASSIVE     // a boulder of coral
 } CoralForm;
 
 typedef enum CoralRule {
     CORAL_STRING, // the paper's method
-    CORAL_MEAN    // plain space colonization, to compare with
+    CORAL_MEAN    // plain space colonization, for comparison
 } CoralRule;
 
 // Corallites: the cups that polyps sit in, as geometry.
 typedef struct PolypParams {
-    int64_t max_count; // 0 = none: the material's pattern alone shows them
+    int64_t max_count; // 0 = none: shown by the material's pattern alone
     float diameter;    // m, of a cup's rim; 0 = 0.0044 of the colony's size
     float spacing;     // m, between the cups' centres; 0 = 1.6 diameters
     float height;      // m, of a cup's wall; 0 = 0.9 diameters
@@ -35,23 +35,23 @@ typedef struct PolypParams {
 typedef struct CoralParams {
     CoralForm form;
     CoralRule rule;
-    Vec3 position;            // m: of the middle of the colonies, on the sea floor
+    Vec3 position;            // m: middle of the colonies, on the sea floor
     float size;               // m: width of one colony
     float height;             // m; 0 = the form's own share of the size
-    int colonies;             // that compete for the same room
-    float spread;             // m: radius of the circle they stand on; 0 = 0.42 of the size
-    int64_t attractors;       // a colony; 0 = the form's own
+    int colonies;             // that compete for the same space
+    float spread;             // m: radius of the circle of colonies; 0 = 0.42 of the size
+    int64_t attractors;       // per colony; 0 = the form's own
     char *axiom, *rules;      // the L-system; NULL = the form's own; borrowed
     int generations;          // of the string; 0 = the form's own
     float angle;              // degrees, of turns; 0 = the form's own
     float group;              // degrees, of a direction's group; 0 = the form's own
     float regularity;         // 0..1; -1 = the form's own. See ColonizeParams
-    float noise;              // Gaussian, on each direction; -1 = the form's own
+    float noise;              // Gaussian, of each direction; -1 = the form's own
     float length, length_tip; // m: growth distance at the root, and farthest from it; 0 = auto
-    float light;              // 0..1: how much more room to grow there is above than below
+    float light;              // 0..1: how much denser attractors are above than below
     float tip_radius;         // m; 0 = the form's own share of the size
     float exponent;           // of the radii: 4 keeps branches nearly as thick as their tips
-    float pale;               // m from a growing tip (or margin) that are pale; 0 = 4 tip radii
+    float pale;               // m from a growing tip (or margin) where it is pale; 0 = 4 tip radii
     PolypParams polyps;
     Shape *base; // of encrusting and massive forms: the rock; empty = a boulder of the size
     int base_count;
@@ -78,12 +78,12 @@ enum {
 
 CoralParams coral_params_default(void); // staghorn, half a metre wide
 
-// The same with every number that was left to the form filled in. axiom and rules point to static
-// text where they were NULL.
+// Fills in every number that is left to the form. axiom and rules point to static text if they were
+// NULL.
 CoralParams coral_params_resolve(const CoralParams *params);
 
 // The recipe (see recipe.h). Grows the colonies: one root (or its stem) and one OutTree.colony
-// each. Births count the steps. ERROR_INPUT for L-systems that are wrong. The geometry is skin or
+// each. Births count the steps. ERROR_INPUT for an invalid L-system. The geometry is skin or
 // crust, corallites, and the rock below a crust.
 bool coral_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
 bool coral_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,

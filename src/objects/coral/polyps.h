@@ -10,17 +10,17 @@ typedef struct PolypPlaces {
     float spacing;          // m, least distance between centres
     float diameter, height; // m, of a cup
     float lean;             // degrees from the skin's normal toward +v of its uv
-    float floor;            // m: none below this height
+    float floor;            // m: no cups below this height
     uint64_t seed;
 } PolypPlaces;
 
-// Adds the cups as instances of a few meshes, by the age (Mesh.birth) of the skin they stand on.
-// Where more than max_count would be, they stand farther apart.
+// Adds the cups as instances of a few meshes, chosen by the age (Mesh.birth) of the skin. The
+// spacing is widened if there would be more than max_count.
 bool polyps_add(const Mesh *skin, const PolypPlaces *places, const Placing *placing, int role,
                 Error *e);
 
-// One cup about +Y, open at the top, of unit rim diameter; youth: its births (0..1), the rim's
-// more.
+// One cup about +Y, open at the top, of unit rim diameter; youth: its births (0..1), higher at the
+// rim.
 Mesh *polyp_cup(float height, float youth, Error *e);
 
 #endif

@@ -1,5 +1,5 @@
 // Diffusion-limited aggregates as electrodeposited metal: the cluster of grow/aggregate/dla.h,
-// thicker where more of it hangs on a branch.
+// branches are thicker the more particles they carry.
 #ifndef RAMIFY_OBJECTS_DLA_DLA_H
 #define RAMIFY_OBJECTS_DLA_DLA_H
 
@@ -14,8 +14,8 @@ typedef struct DlaModel {
     int dimension;     // 2 or 3
     int64_t particles; // of the whole cluster
     float thickness;   // of the tips, particle diameters
-    float exponent;    // pipe model: how fast branches thicken toward the middle; larger is slower
-    float swell;       // particle diameters that a plane cluster heaves out of its plane
+    float exponent;    // pipe model: larger = branches thicken more slowly toward the middle
+    float swell;       // amplitude of a plane cluster's relief, particle diameters
 } DlaModel;
 
 DlaModel dla_model_default(void); // 2D, 1 m, 40,000 particles

@@ -12,16 +12,16 @@
 typedef struct ForestParams {
     float height;    // m, of the tallest trees
     float spacing;   // m from trunk to trunk; 0 = 0.24 of the height
-    int stand_trees; // trees that are grown together
-    int stands;      // different ones
-    float crown;     // share of the height that bears branches, from the top
-    float radius;    // m, how far the forest goes about `center`
+    int stand_trees; // trees grown together in a stand
+    int stands;      // different stands
+    float crown;     // share of the height with branches, from the top
+    float radius;    // m, of the forest about `center`
     Vec3 center;     // m
     float glade;     // m: no stand within this of glade_center
     Vec3 glade_center;
-    float density;         // 0..1, share of the places taken where the forest is thickest
+    float density;         // 0..1, share of the places taken where the forest is densest
     float clumping;        // 0 = even .. 1 = woods with open land between
-    float max_slope;       // degrees: nothing stands on steeper land
+    float max_slope;       // degrees: no trees on steeper land
     int64_t ferns;         // 0 = none
     float fern_height;     // m
     float fern_radius;     // m about glade_center that bear ferns
@@ -35,17 +35,17 @@ enum { FOREST_BARK, FOREST_TWIG, FOREST_LEAF, FOREST_FERN }; // roles; the first
 
 ForestParams forest_params_default(void);
 
-// The same with what is 0 as it follows from the other parameters. Borrows what params owns.
+// Fills in numbers that are 0 from the other parameters. Borrows the arrays of params.
 ForestParams forest_params_resolve(const ForestParams *params);
 
 // The recipe (see recipe.h). Grows all stands as one out-tree, side by side along x: one colony a
-// tree, stand by stand. The geometry sets them over the land, and ferns under them, none in water.
+// tree, stand by stand. The geometry places them over the land with ferns below, outside of water.
 bool forest_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
 float forest_tip_radius(const void *params, const OutTree *whole); // m
 bool forest_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
-// How far tips keep from the nearest branch of another tree in the stand, m, the median over those
-// tips that have one within half a trunk spacing; NAN without. 0 would be crowns that interleave.
+// Crown shyness: median distance (m) from a tip to the nearest branch of another tree in the stand,
+// over tips with one within half a trunk spacing; NAN without any. 0 = crowns interleave.
 bool forest_crown_gap(const OutTree *tree, const ForestParams *params, double *gap, Error *e);
 
 extern const struct Table forest_table; // of its parameters

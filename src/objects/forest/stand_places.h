@@ -1,4 +1,4 @@
-// Where a forest's stands stand. Shared by forest.c and forest_geometry.c.
+// Places of a forest's stands. Shared by forest.c and geometry.c.
 #ifndef RAMIFY_OBJECTS_FOREST_STAND_PLACES_H
 #define RAMIFY_OBJECTS_FOREST_STAND_PLACES_H
 
@@ -11,11 +11,11 @@ OutTree *forest_stand(const OutTree *all, const ForestParams *params, int stand,
 
 typedef struct StandPlaces {
     Transform *place; // from a stand at the origin to its place on the land
-    int *stand;       // which one
+    int *stand;       // index of the stand
     int64_t count, place_capacity, stand_capacity;
 } StandPlaces;
 
-// On the land and off the water of the surroundings.
+// Places on the land of the surroundings and outside of its water.
 bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t seed,
                        const Surroundings *around, const Run *run, Error *e);
 void stand_places_free(StandPlaces *places);

@@ -1,5 +1,5 @@
-// The body that breaks: its envelope, weathered and hollowed, at a resolution that its thin parts
-// need.
+// The body to break: its envelope, weathered and hollowed, at a resolution that resolves thin
+// parts.
 #ifndef RAMIFY_OBJECTS_FRACTURE_BODY_H
 #define RAMIFY_OBJECTS_FRACTURE_BODY_H
 
@@ -12,20 +12,20 @@ enum { STREAM_CELLS = 5, STREAM_PIECES = 6, STREAM_BODY = 7 };
 typedef struct FractureBody {
     Envelope *envelope;
     DepthField depth;
-    Aabb box; // m: around the body with its bumps
+    Aabb box; // m: of the body with its bumps
     Vec3 center;
-    float extent, voxel; // m: the largest extent; of the level sets
+    float extent, voxel; // m: largest extent; voxel size of the level sets
     float hollow;
     float bumps, wavelength; // m, of the outside
     uint64_t seed;
 } FractureBody;
 
-// Warns where parts stay too thin for the finest voxels. Zero on failure.
+// Warns if parts are too thin for the finest voxels. Zero on failure.
 bool fracture_body_new(FractureBody *body, const FractureParams *params, const Recipe *recipe,
                        Error *e);
 void fracture_body_clear(FractureBody *body);
 
-// Signed distance, m, negative inside: to the outer surface, and to the body with its hollow.
+// Signed distance, m, negative inside: to the outer surface, and to the hollow body.
 double fracture_body_outer(const FractureBody *body, Vec3 p);
 double fracture_body_distance(const FractureBody *body, Vec3 p);
 

@@ -1,5 +1,4 @@
-// Grid points in and right beside a body, with distances that stay in the body: what
-// fracture labels.
+// Grid points in and next to a body, and shortest paths within the body.
 #ifndef RAMIFY_OBJECTS_FRACTURE_BODY_GRID_H
 #define RAMIFY_OBJECTS_FRACTURE_BODY_GRID_H
 
@@ -9,9 +8,9 @@
 
 #include <stdint.h>
 
-// Signed distance to the body, m, negative inside, clamped to +- a band that is not below the
-// grid's spacing. *outer: to its outer surface alone, as if it had no hollow. Called from several
-// threads.
+// Signed distance to the body, m, negative inside, clamped to +- a band of at least the grid's
+// spacing. *outer: the distance to the outer surface alone, ignoring the hollow. Called from
+// several threads.
 typedef float (*BodyDistance)(const void *body, Vec3 p, float *outer);
 
 typedef struct BodyGrid {
@@ -25,8 +24,8 @@ typedef struct BodyGrid {
     int32_t count;    // of nodes
 } BodyGrid;
 
-// The nodes: points inside the body or less than a spacing from it. ERROR_MEMORY when there are
-// too many points. Zero on failure.
+// The nodes: points inside the body or less than a spacing from it. ERROR_MEMORY if there are too
+// many points. Zero on failure.
 bool body_grid_new(BodyGrid *grid, BodyDistance distance, const void *body, Aabb box, float spacing,
                    const Run *run, Error *e);
 void body_grid_clear(BodyGrid *grid);
@@ -35,12 +34,12 @@ void body_grid_clear(BodyGrid *grid);
 // place in the cell, 0..1 an axis. False when no corner has a node.
 bool body_grid_cell(const BodyGrid *grid, Vec3 p, int32_t corner[8], float t[3]);
 
-// What spreads through the body: costs `cost` at `at`, and more with the distance from there.
+// A source that spreads through the body: `cost` at `at`, rising with the distance from there.
 typedef struct SpreadSource {
     Vec3 at;
     float cost;
     int32_t label;
-    int32_t node; // where it starts
+    int32_t node; // start node
 } SpreadSource;
 
 typedef struct SpreadEntry {
@@ -50,8 +49,8 @@ typedef struct SpreadEntry {
 
 // Sets, for each node, the `kept` cheapest sources of different labels, cheapest first (Dijkstra's
 // algorithm; entry holds count * kept). The cost is a source's own plus the straight distance, and
-// grows by at least 0.8 of each step, so that ways around a bend count. order (count; may be NULL):
-// nodes by their least cost; *reached (may be NULL) of them have one.
+// grows by at least 0.8 of each step, so that paths around a bend cost more. order (count; may be
+// NULL): nodes sorted by least cost; *reached (may be NULL): how many have one.
 bool body_grid_spread(const BodyGrid *grid, const SpreadSource *source, int64_t source_count,
                       int kept, SpreadEntry *entry, int32_t *order, int32_t *reached,
                       const Run *run, Error *e);

@@ -1,6 +1,6 @@
 // Basins of the distance to a network of cracks: which nodes of a body's grid belong together
-// (watershed by flooding from the middles; Vincent and Soille 1991), merged where what parts them
-// is open.
+// (watershed by flooding from the middles; Vincent and Soille 1991). Basins are merged where the
+// border between them is open.
 #ifndef RAMIFY_OBJECTS_FRACTURE_CRACK_BASINS_H
 #define RAMIFY_OBJECTS_FRACTURE_CRACK_BASINS_H
 
@@ -9,10 +9,10 @@
 
 typedef struct CrackBasins {
     int32_t count; // of cells
-    int32_t small; // basins that joined a neighbour for holding no ball of the least radius
+    int32_t small; // basins merged because no ball of the least radius fits in
     int32_t *cell; // per node
-    float *far;    // per node: way through the body to the network, m; right at surface nodes
-    float *peak;   // per cell: the greatest of them, m
+    float *far;    // per node: path length in the body to the network, m; exact at surface nodes
+    float *peak;   // per cell: the greatest `far`, m
 } CrackBasins;
 
 // least: m. Zero on failure; release with crack_basins_clear.

@@ -1,4 +1,4 @@
-// What frost grows on: a pane or a sphere. Private to the frost's files.
+// The surface that frost grows on: a pane or a sphere. Private to the frost's files.
 #ifndef RAMIFY_OBJECTS_FROST_SURFACE_H
 #define RAMIFY_OBJECTS_FROST_SURFACE_H
 
@@ -10,18 +10,18 @@ float frost_area(const FrostParams *params); // m^2
 // Moves p to the nearest point of the surface; returns the unit normal there.
 Vec3 frost_project(const FrostParams *params, Vec3 *p);
 
-// About `count` attractors, one at random in each cell of an even pattern. Owned by the caller.
+// About `count` attractors, one at random in each cell of a regular pattern. Owned by the caller.
 PointSet *frost_points(const FrostParams *params, int64_t count, uint64_t seed, const Run *run,
                        Error *e);
 
-// Nucleus number i and the normal there.
+// Position of nucleus number i, and the normal there.
 Vec3 frost_nucleus(const FrostParams *params, int i, uint64_t seed, Vec3 *normal);
 
-// How many there are.
+// Number of nuclei, listed and placed.
 int frost_nucleus_total(const FrostParams *params);
 
-// How far p is from the pane's border, as a share of half its shorter side; on a bubble, from the
-// first nucleus, as a share of the way to the opposite pole. 0..1.
+// Distance of p from the pane's border over half the shorter side; on a bubble, from the first
+// nucleus over the arc to the opposite pole. 0..1.
 float frost_depth(const FrostParams *params, Vec3 p);
 
 #endif

@@ -1,4 +1,4 @@
-// Ground to stand on: gently rolling land out to the horizon, and grass near the camera's subject.
+// Ground: gently rolling land out to the horizon, with grass near the camera's subject.
 #ifndef RAMIFY_OBJECTS_GROUND_GROUND_H
 #define RAMIFY_OBJECTS_GROUND_GROUND_H
 
@@ -7,7 +7,7 @@
 // Woods in the distance: a few trees, grown once and instanced.
 typedef struct GroveParams {
     int count;          // trees; 0 = none
-    float inner, outer; // m from the origin between which they stand
+    float inner, outer; // m from the origin: the ring where they stand
     float height;       // m, of the tallest
     float clumping;     // 0 = even .. 1 = in woods with open land between
     int variants;       // different trees
@@ -18,9 +18,9 @@ typedef struct GroundParams {
     float radius;        // m, to the horizon
     float relief;        // m, height of the hills
     float wavelength;    // m, from hill to hill
-    float flat_radius;   // m about the origin that stay flat (height 0), where the subject stands
+    float flat_radius;   // m about the origin that are flat (height 0), under the subject
     int64_t grass_tufts; // 0 = no grass
-    float grass_radius;  // m about grass_center that bear grass; density falls toward the rim
+    float grass_radius;  // m about grass_center with grass; density falls toward the rim
     Vec3 grass_center;
     float grass_height;    // m, of the tallest blades
     float grass_clumping;  // 0 = even .. 1 = in patches
@@ -30,7 +30,7 @@ typedef struct GroundParams {
     GroveParams trees;
 } GroundParams;
 
-// Roles of materials; the last two are of the trees in the distance.
+// Roles of materials; the last two are of the distant trees.
 enum { GROUND_LAND, GROUND_FALLEN, GROUND_GRASS, GROUND_BARK, GROUND_FOLIAGE };
 
 // Streams of the object's seed.
@@ -49,7 +49,7 @@ GroundParams ground_params_default(void); // 2 km of meadow, 60,000 tufts
 // Height of the land at (x, z), m.
 float ground_height(const GroundParams *params, uint64_t seed, float x, float z);
 
-// The land, and on it grass, leaves and trees: see recipe.h. Nothing grows, so there is no Grown.
+// The land with grass, leaves and trees: see recipe.h. Nothing grows, so grown is not used.
 bool ground_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 extern const struct Table ground_table; // of its parameters

@@ -1,4 +1,4 @@
-// What the files of the lightning share.
+// Shared by the files of the lightning.
 #ifndef RAMIFY_OBJECTS_LIGHTNING_PARTS_H
 #define RAMIFY_OBJECTS_LIGHTNING_PARTS_H
 
@@ -19,39 +19,38 @@ enum {
     STREAM_BOLT_STRIKE = 77
 };
 
-// Where one bolt runs, every length filled in.
+// The frame of one bolt, all lengths filled in.
 typedef struct Bolt {
     const LightningParams *params;
     Vec3 start, strike; // m
     Vec3 axis;          // unit, from start toward strike
     Vec3 side, depth;   // unit, across it
-    float height;       // m, of the bolt: |strike - start|
+    float height;       // m: |strike - start|
     int colony;
     uint64_t seed;
 } Bolt;
 
 enum { LIGHTNING_MOST_LEVELS = 3 };
 
-// The levels by which side branches (on a surface: everything) grow when the scene names none;
-// returns how many.
+// The default growth levels of side branches (on a surface: of everything); returns how many.
 int lightning_own_levels(const LightningParams *params, GrowLevel levels[LIGHTNING_MOST_LEVELS]);
 
-// Until radii are known, the radius of the nodes where main channels end; that of others is 0.
+// Until radii are computed, marks the end nodes of main channels; the radius of others is 0.
 #define LIGHTNING_STRIKE 1.0f
 
 // Grows one bolt in the air.
 OutTree *lightning_grow_bolt(const Bolt *bolt, const Recipe *recipe, Error *e);
 
-// Adds the short leaders that rise about the strike as roots of their own.
+// Adds the short leaders that rise around the strike, each with its own root.
 bool lightning_add_streamers(OutTree *tree, const Bolt *bolt, int32_t last_birth, Error *e);
 
-// Grows everything over the surface of the element's envelope, which is the state.
+// Grows all bolts on the surface of the element's envelope; whole->state is the envelope.
 bool lightning_grow_surface(const LightningParams *params, const Recipe *recipe, Grown *whole,
                             Error *e);
 bool lightning_finish_surface(const LightningParams *params, const Recipe *recipe,
                               const Envelope *envelope, Grown *grown, Error *e);
 
-// How ways wander, besides the parameters.
+// How channels are jittered, besides the parameters.
 typedef struct Wander {
     SurfaceProject *project; // NULL in space
     const void *surface;
@@ -60,9 +59,9 @@ typedef struct Wander {
     const Run *run;
 } Wander;
 
-// Takes the tree and gives it its ways and radii: resampled to steps, jittered, resampled to
-// segments, jittered within the steps. Radii: core for the way from a root to each strike, dimmer
-// and dimmer for what leaves it, fading toward tips.
+// Takes the tree and returns it with jittered channels and radii: resampled to steps, jittered,
+// resampled to segments, jittered within the steps. Radii: core from a root to each strike, smaller
+// with each order of branching, fading toward tips.
 OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float size, float core,
                           const Wander *wander, Error *e);
 

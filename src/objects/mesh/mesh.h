@@ -1,4 +1,4 @@
-// An imported mesh that is drawn as it is.
+// An imported mesh, drawn unchanged.
 #ifndef RAMIFY_OBJECTS_MESH_MESH_H
 #define RAMIFY_OBJECTS_MESH_MESH_H
 
@@ -6,8 +6,8 @@
 
 typedef struct MeshParams {
     char *file;
-    Vec3 position, rotation, scale; // scaled, then turned (degrees), then moved
-    bool smooth;                    // make smooth normals when the file has none
+    Vec3 position, rotation, scale; // scale, then rotation (degrees), then translation
+    bool smooth;                    // compute smooth normals if the file has none
 } MeshParams;
 
 extern const struct Table mesh_table; // of its parameters

@@ -8,18 +8,18 @@
 #include "objects/common/recipe.h"
 
 typedef struct SculptureParams {
-    ElementParams element; // its envelope is the sculpture's form; points lie on the surface
+    ElementParams element; // its envelope is the form; attractors lie on the surface
     int clusters;          // roots, spread evenly over the surface
-    int64_t attractors;    // how fine the shell is, where growth.levels are left out
+    int64_t attractors;    // fineness of the shell if growth.levels are omitted
     float thickness;       // of the thinnest bars, mean spacings of the finest attractors
     float contrast;        // thickest bar over thinnest
-    float reach;           // how far tips reach to merge, mean spacings
+    float reach;           // reach of merging tips, mean spacings
 } SculptureParams;
 
 SculptureParams sculpture_params_default(void); // a ball of 1 m radius, 9 clusters
 
-// The recipe (see recipe.h). Grows the clusters with radii, merged: see outtree/join.h for how an
-// out-tree holds the loops. The geometry is one surface of the one material.
+// The recipe (see recipe.h). Grows the clusters with radii and merges them; outtree/join.h
+// describes how an out-tree represents loops. The geometry is one surface of the one material.
 bool sculpture_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
 bool sculpture_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 

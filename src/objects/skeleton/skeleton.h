@@ -1,5 +1,5 @@
-// An out-tree that another program traced, from an SWC file: a neuron, a vessel tree, roots. It is
-// placed, given a soma and skinned as what grows here is.
+// An out-tree traced by another program, from an SWC file: a neuron, a vessel tree, roots. It is
+// placed, given a soma and skinned like a grown tree.
 #ifndef RAMIFY_OBJECTS_SKELETON_SKELETON_H
 #define RAMIFY_OBJECTS_SKELETON_SKELETON_H
 
@@ -7,24 +7,25 @@
 #include "objects/tree/tree.h"
 #include "outtree/out_tree.h"
 
-// What goes to `position`: the file's own origin, its first root, or the middle of its box.
+// The point placed at `position`: the file's origin, its first root, or the middle of its bounding
+// box.
 typedef enum SkeletonOrigin { SKELETON_FILE, SKELETON_ROOT, SKELETON_MIDDLE } SkeletonOrigin;
 
-// Nodes of type 1 at a root: made one round body of about their size, taken as they are, left out.
+// Nodes of type 1 at a root: replaced by a round body of their size, kept, or left out.
 typedef enum SkeletonSoma { SKELETON_ROUND, SKELETON_AS_IS, SKELETON_NO_SOMA } SkeletonSoma;
 
 typedef struct SkeletonParams {
     char *file;  // SWC; borrowed
-    float scale; // of its lengths to metres
+    float scale; // from its lengths to metres
     SkeletonOrigin origin;
     Vec3 position;                  // m
     Vec3 rotation;                  // degrees about x, then y, then z
     SkeletonSoma soma;              //
     bool axon, basal, apical, rest; // types to show: 2, 3, 4, and any other
     float radius_factor;
-    float min_radius; // m: thinner ways are drawn this thick; 0 = only those of radius 0 are, with
-                      // 0.0003 of the extent
-    int smoothing;    // passes over the ways' bends
+    float min_radius; // m: least radius drawn; 0 = only nodes of radius 0 are replaced, by 0.0003
+                      // of the extent
+    int smoothing;    // smoothing passes over the branches
     SkinningParams skin;
 } SkeletonParams;
 
@@ -32,17 +33,17 @@ enum { SKELETON_BODY, SKELETON_AXON }; // roles of materials
 
 SkeletonParams skeleton_params_default(void);
 
-// The recipe (see recipe.h). Reads the file in a child process (out_tree_import_swc), picks, places
-// and mends it. Colonies are the types; births count the nodes from the root. ERROR_INPUT also when
-// nothing is left of it or it is out of all bounds.
+// The recipe (see recipe.h). Reads the file in a child process (out_tree_import_swc), selects,
+// places and repairs it. Colonies are the types; births count the nodes from the root. ERROR_INPUT
+// also if no node is left or coordinates are out of bounds.
 bool skeleton_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
 float skeleton_tip_radius(const void *params, const OutTree *whole); // m
 bool skeleton_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
-// The part of skeleton_grow that replaces the nodes of type 1 at roots (skeleton_soma.c): by a
-// chain of nodes as thick as a ball is, along the way to the thickest of what leaves it. The ball
-// has the area of their segments, which is what a soma of three points stands for, or the mean
-// distance of an outline's points from their middle as its radius, whichever is larger. NULL and e.
+// Replaces the nodes of type 1 at roots (soma.c) by a chain of nodes with a ball's radii, toward
+// the thickest branch that leaves it. The ball has the surface area of their segments, which is the
+// meaning of a soma of three points, or the mean distance of an outline's points from their middle
+// as its radius, whichever is larger. NULL and e on failure.
 OutTree *skeleton_round_soma(const OutTree *tree, Error *e);
 
 extern const struct Table skeleton_table; // of its parameters

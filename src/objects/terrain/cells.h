@@ -1,4 +1,4 @@
-// The terrain's square in square cells. Private to terrain*.c.
+// Division of the terrain's square into square cells. Private to this folder.
 #ifndef RAMIFY_OBJECTS_TERRAIN_CELLS_H
 #define RAMIFY_OBJECTS_TERRAIN_CELLS_H
 
@@ -11,7 +11,7 @@ typedef struct TerrainCells {
     float size, scale; // of the terrain, m; cells a metre
 } TerrainCells;
 
-// A power of two of cells along each side, at most `most`, until there are `wanted` of them.
+// At least `wanted` cells, if `most` a side allows; a power of two along each side.
 static inline TerrainCells terrain_cells(float size, int64_t wanted, int most)
 {
     int side = 1;
@@ -21,7 +21,7 @@ static inline TerrainCells terrain_cells(float size, int64_t wanted, int most)
     return (TerrainCells){side, size, (float)side / size};
 }
 
-// The column or row of a coordinate; what lies beyond the border counts to the cells at it.
+// The column or row of a coordinate, clamped to the border cells.
 static inline int terrain_cell(const TerrainCells *cells, float x)
 {
     int i = (int)((x + 0.5f * cells->size) * cells->scale);

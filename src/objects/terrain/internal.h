@@ -1,4 +1,4 @@
-// What the parts of the terrain share: private to this folder.
+// Shared by the parts of the terrain. Private to this folder.
 #ifndef RAMIFY_OBJECTS_TERRAIN_INTERNAL_H
 #define RAMIFY_OBJECTS_TERRAIN_INTERNAL_H
 
@@ -21,18 +21,18 @@ enum {
     STREAM_FOREST = 61
 };
 
-// Rivers with all that follows from them.
+// Rivers and everything derived from them.
 typedef struct Terrain {
     const TerrainParams *params; // borrowed
     uint64_t seed;
     OutTree *rivers;          // heights and radii filled in; owned by the Grown
-    float *area;              // m^2 that drain through each node
+    float *area;              // m^2, drainage area of each node
     float *uplift;            // factor on gradients at each node
-    float gradient;           // of hillslopes where the uplift is 1
+    float gradient;           // of hillslopes at uplift 1
     TroughEnvelope *land;     // heights of valleys and slopes
-    TroughEnvelope *distance; // m to the nearest river, whatever its height
-    // What shows of the rivers on the finished heights, once terrain_heights has laid it there;
-    // NULL or without nodes where nothing shows.
+    TroughEnvelope *distance; // m to the nearest river, in plan
+    // The visible rivers on the finished heights, set by terrain_heights; NULL or without nodes if
+    // none is wide enough.
     OutTree *water; // steps of at most half a cell; y = the water's level, radius = half width
     TroughEnvelope *shore; // m to the water's edge, negative in the water
     uint8_t *bank;         // of each sample: 1 = in a bed or at its edge
@@ -41,7 +41,7 @@ typedef struct Terrain {
 // uplift.c: fills terrain->uplift, at least 0.02 at each node. Reads the user's picture.
 bool terrain_uplift(Terrain *terrain, const Run *run, Error *e);
 
-// areas.c: fills terrain->area: every bit of land drains through its nearest node.
+// areas.c: fills terrain->area: land drains through its nearest node.
 bool terrain_areas(Terrain *terrain, const Run *run, Error *e);
 
 // profile.c: one pass over the rivers: areas, then heights for hillslopes of gradient
@@ -58,8 +58,7 @@ static inline float terrain_valley(const TerrainParams *params, float area)
 // The trough of node i's piece of river (to its parent), for hillslopes of `gradient` times uplift.
 Trough terrain_trough(const Terrain *terrain, int64_t i, float gradient);
 
-// How far beds reach beyond the water's edge, in cells: the corners of every cell that water
-// touches.
+// Reach of beds beyond the water's edge, in cells: the corners of every cell that water touches.
 #define TERRAIN_STRAND 2.0f
 
 // How deep the bed of water of half width `half` lies under the water's level, d from its middle:
@@ -70,11 +69,11 @@ static inline float terrain_bed_depth(float half, float d)
     return half * (0.03f + 0.25f * (1.0f - share * share));
 }
 
-// bed.c: lays the rivers that the grid can show on the finished heights: fills
-// terrain->water, ->shore and ->bank and digs the beds.
+// bed.c: lays the rivers that the grid resolves on the finished heights: fills terrain->water,
+// ->shore and ->bank and digs the beds.
 bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Error *e);
 
-// Of each node of terrain->water the child that is the widest, -1 at the ends; the caller frees it.
+// The widest child of each node of terrain->water, -1 at the ends; the caller frees the array.
 int32_t *terrain_main_children(const OutTree *water, Error *e);
 
 // m from a place to the nearest river's water, negative in it; infinite without water.

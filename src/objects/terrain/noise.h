@@ -5,16 +5,16 @@
 
 #include <stdint.h>
 
-// Mean 0, variance 1, in a band about one wave a unit of length: the kernel's integral is 0. A pure
-// function of place and seed.
+// Mean 0, variance 1, band-limited to about one wave per unit of length (the kernel's integral is
+// 0). A pure function of place and seed.
 float sparse_noise(float x, float y, uint64_t seed);
 
 // The number of kernels in a unit cell: Poisson distributed, of mean SPARSE_NOISE_DENSITY.
 int sparse_noise_count(uint64_t cell_key);
 #define SPARSE_NOISE_DENSITY 3.0f
 
-// `iterations` octaves, each of twice the frequency and `gain` times the height of the last, turned
-// against it. ridged 0..1 blends each from round to sharp crests.
+// `iterations` octaves, each rotated, with twice the frequency and `gain` times the height of the
+// last. ridged 0..1 blends each from round to sharp crests.
 float sparse_noise_fractal(float x, float y, int iterations, float gain, float ridged,
                            uint64_t seed);
 

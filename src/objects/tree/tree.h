@@ -1,6 +1,6 @@
-// The tree (Tanaka et al., section 5.1): trunk, crown and roots grown as elements with envelopes
-// and fields of their own, branches placed on the trunk by height and oriented by its normals,
-// radii by the pipe model or by birth, root flare, leaves by phyllotaxis on the twigs.
+// The tree (Tanaka et al., section 5.1): trunk, crown and roots grown as elements with their own
+// envelopes and fields, branches placed on the trunk by height and oriented by its normals, radii
+// by the pipe model or by birth, root flare, leaves placed on twigs by phyllotaxis.
 #ifndef RAMIFY_OBJECTS_TREE_TREE_H
 #define RAMIFY_OBJECTS_TREE_TREE_H
 
@@ -26,8 +26,8 @@ typedef struct CrownParams {
     float width;         // m; 0 = 1.05 of the tree's height
     float base;          // m above the ground where the crown begins; 0 = 0.18 of the height
     int branches;        // placed on the trunk by sorted height
-    float branch_from;   // share of the trunk's height where the lowest branch stands
-    float branch_angle;  // degrees between a branch and the trunk where it starts
+    float branch_from;   // height of the lowest branch, as a share of the trunk's
+    float branch_angle;  // degrees between a branch's start and the trunk
     float branch_length; // m, of the starting piece; 0 = 0.08 of the tree's height
     int lobes; // of the default envelope: bulges about an ellipsoid; 0 = the plain ellipsoid
 } CrownParams;
@@ -37,7 +37,7 @@ typedef struct RootParams {
     int count;    // main roots; 0 = none
     float spread; // m; 0 = 0.2 of the tree's height
     float depth;  // m below the ground; 0 = 0.25 of the spread
-    float radius; // of a main root where it leaves the trunk, as a share of the trunk's radius
+    float radius; // of a main root at the trunk, as a share of the trunk's radius
 } RootParams;
 
 typedef enum RadiusModel { RADIUS_PIPE, RADIUS_BIRTH } RadiusModel;
@@ -46,7 +46,7 @@ typedef struct RadiiParams {
     RadiusModel model;
     float exponent;     // pipe model, r_parent^e = sum r_child^e
     float tip;          // m, radius of the twigs' tips
-    float flare;        // how much wider the trunk is at the ground, 0.5 = half as wide again
+    float flare;        // extra width of the trunk at the ground; 0.5 = 1.5 times as wide
     float flare_height; // m; 0 = 2.5 trunk radii
 } RadiiParams;
 
@@ -57,19 +57,18 @@ typedef struct LeavesParams {
     float length, width;  // m
     float size_variation; // 0..1
     float petiole;        // m
-    float fold;           // degrees that the halves are folded up about the midrib
+    float fold;           // degrees that the halves fold up about the midrib
     float curl;           // degrees that the blade bends along its length
     int lobes;            // a side; 0 = a plain oval
     float angle;          // degrees between a leaf and its twig
-    float droop; // 0..1, how far blades turn from the twig's frame toward hanging and facing the
-                 // light
-    float phyllotaxis; // degrees from one leaf to the next about the twig; 137.5 in nature
-    int variants;      // different leaf meshes
-    int detail;        // of a leaf's mesh: 1 for whole trees, 2 for close-ups
+    float droop;          // 0..1, from the twig's frame to hanging and facing the light
+    float phyllotaxis;    // degrees about the twig between successive leaves; 137.5 in nature
+    int variants;         // different leaf meshes
+    int detail;           // of a leaf's mesh: 1 for whole trees, 2 for close-ups
 } LeavesParams;
 
 typedef struct SkinningParams {
-    float curve_radius; // m: twigs thinner than this are traced as curves; 0 = everything is mesh
+    float curve_radius; // m: thinner twigs are curves; 0 = all is mesh
     int levels;         // subdivision, 0..4
     float ring_spacing; // in radii
 } SkinningParams;
@@ -85,7 +84,7 @@ typedef struct TreeParams {
     SkinningParams skin;
 } TreeParams;
 
-// Nodes that a main root starts with, from inside the trunk's flare to where growth takes over.
+// Nodes of a main root's start, from inside the trunk's flare to where growth begins.
 enum { TREE_ROOT_PIECES = 6 };
 
 // Colonies of the out-trees that tree_grow makes.

@@ -9,16 +9,16 @@
 
 typedef struct VenationParams {
     Vec3 position;       // m, of the blade's base
-    Vec3 rotation;       // degrees about x, y, z; before it the leaf stands upright, facing +Z
+    Vec3 rotation;       // degrees about x, y, z; without it the leaf is upright, facing +Z
     LeafOutline outline; // width 0 = half of the length
-    bool closed;         // veins with loops; else a tree
-    bool marginal;       // the blade grows at its margin; else evenly
+    bool closed;         // veins with loops; otherwise a tree
+    bool marginal;       // the blade grows at its margin; otherwise evenly
     int detail;          // meshes of the net along the leaf's length
     float midrib;        // m, radius at the base; 0 = 0.008 of the length
     float vein;          // m, radius of the finest; 0 = 0.06 of a mesh
     float petiole;       // m, length of the stalk; 0 = none
     float curl;          // degrees that the blade bends back along its length
-    float fold;          // degrees that each half is folded up about the midrib
+    float fold;          // degrees that each half folds up about the midrib
     bool blade;          // with the blade between the veins
 } VenationParams;
 
@@ -26,7 +26,7 @@ enum { VENATION_VEINS, VENATION_BLADE }; // roles of materials
 
 VenationParams venation_params_default(void); // closed, 0.1 m
 
-// The same parameters with every open number (0) filled in, in proportion to the others.
+// Fills in numbers that are 0, in proportion to the others.
 VenationParams venation_params_resolve(const VenationParams *given);
 
 // The recipe (see recipe.h). Grows the veins flat in the plane z = 0, the base at the origin: the
@@ -40,9 +40,9 @@ bool venation_geometry(const void *params, const Grown *grown, const Placing *pl
 bool venation_measure(const void *params, const Grown *grown, const Recipe *recipe,
                       MeasureList *list, Error *e);
 
-// The veins as a texture for leaves: how high they stand out, 0 between them and 1 in the middle of
-// the midrib, of width x height pixels row by row from the tip. Across, the blade fills the whole
-// row at every height, as the uv of leaf meshes does. pixel: width * height floats.
+// The veins as a texture for leaves: their relief, 0 between veins and 1 in the middle of the
+// midrib, as width x height pixels row by row from the tip. The blade fills the whole width of
+// every row, as the uv of leaf meshes does. pixel: width * height floats.
 bool venation_paint(const void *params, const OutTree *tree, int width, int height, float *pixel,
                     Error *e);
 

@@ -10,29 +10,29 @@
 enum { VESSELS_ARTERIES, VESSELS_VEINS }; // colonies of the out-tree and roles of materials
 
 typedef struct VesselsParams {
-    ElementParams element; // the organ; levels left out follow from `terminals`. An envelope that
-                           // begins with a body is supplied from its heart through the great
-                           // vessels, any other from its inlet
-    int64_t terminals;     // ends of arteries and veins together
-    bool veins;            // two trees; else arteries alone
-    Vec3 inlet;            // m: where the vessels enter; all 0 = the hilum, which is the place of
-                           // the surface nearest to the middle
-    float root_radius;     // m, of the artery's root; 0 = in proportion to the organ
-    float vein_radius;     // of the veins' root, in units of the artery's
+    ElementParams
+        element; // the organ; omitted levels follow from `terminals`. If the first shape is a body,
+                 // the great vessels from its heart supply it, otherwise the inlet
+    int64_t terminals; // ends of arteries and veins together
+    bool veins;        // two trees; otherwise arteries alone
+    Vec3 inlet; // m: where the vessels enter; all 0 = the hilum, the surface point nearest to the
+                // middle
+    float root_radius; // m, of the artery's root; 0 = in proportion to the organ
+    float vein_radius; // of the veins' root, in units of the artery's
     MurrayLaw law;
     float gap; // least distance between an artery and a vein, in radii of the finest vessels
-    bool turn; // stand daughters at Murray's angles
-    float curve_radius; // m: vessels thicker than this get a skin; 0 = all are round curves
+    bool turn; // turn daughters to Murray's angles
+    float curve_radius; // m: thicker vessels get a skin; 0 = all are round curves
     int skin_levels;
 } VesselsParams;
 
 VesselsParams vessels_params_default(void);
 
 // The recipe (see recipe.h). Grows both trees in one out-tree, colonies VESSELS_ARTERIES and
-// VESSELS_VEINS, radii and all. Every segment beyond the stems that lead in lies inside the organ
-// by its radius (or by the envelope's band, where that is less), at both ends and in the middle; no
-// artery comes nearer to a vein than `gap`. Both hold at every time of the growth. Measures
-// terminals, the fit to Murray's laws, the least distance between arteries and veins.
+// VESSELS_VEINS, radii and all. Every segment beyond the stems is inside the organ by its radius
+// (or by the envelope's band, if that is less), at both ends and in the middle; no artery is closer
+// to a vein than `gap`. Both hold at every time of the growth. Measures terminals, the fit to
+// Murray's laws, the least distance between arteries and veins.
 bool vessels_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
 bool vessels_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
                     Error *e);
@@ -40,7 +40,7 @@ bool vessels_geometry(const void *params, const Grown *grown, const Placing *pla
 bool vessels_measure(const void *params, const Grown *grown, const Recipe *recipe,
                      MeasureList *list, Error *e);
 
-// The nodes of one colony as an out-tree of its own.
+// The nodes of one colony as a separate out-tree.
 OutTree *vessels_colony(const OutTree *tree, int32_t colony, Error *e);
 
 extern const struct Table vessels_table; // of its parameters
