@@ -296,6 +296,7 @@ static void the_resolved_scene_reads_back_to_itself(void **state)
                              "  - {name: d, coral: {size: 1}}\n"
                              "  - {name: e, forest: {height: 10}}\n"
                              "  - {name: f, terrain: {rivers: {count: 36}}}\n"
+                             "  - {name: g, vessels: {envelope: [{shape: body, size: 1.8}]}}\n"
                              "camera: {position: [0, 0, 3], target: [0, 0, 0]}\n",
                              NULL, 0);
     assert_non_null(strstr(grown->resolved, "      stem_circle: 0 # used: 0.5\n"));
@@ -307,6 +308,7 @@ static void the_resolved_scene_reads_back_to_itself(void **state)
     assert_non_null(strstr(grown->resolved, "        wavelength: 0 # used: 1\n"));
     assert_non_null(strstr(grown->resolved, "  focus_distance: 0 # used: 3\n"));
     assert_non_null(strstr(grown->resolved, "    seed: 0 # used: "));
+    assert_non_null(strstr(grown->resolved, "      root_radius: 0 # used: 0.0"));
     assert_non_null(strstr(grown->resolved, "      voxel: 0\n")); // nothing is known of it yet
     scene_free(grown);
     assert_memory_equal(&again->camera, &scene->camera, sizeof scene->camera);

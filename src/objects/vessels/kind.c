@@ -1,5 +1,6 @@
 // Blood vessels as a kind of object.
 #include "objects/kind.h"
+#include "objects/vessels/stem.h"
 #include "objects/vessels/vessels.h"
 #include "render/material/material.h"
 
@@ -42,6 +43,16 @@ static void describe(const void *params, char *text, size_t size)
     snprintf(text, size, ", %lld terminals", (long long)vessels->terminals);
 }
 
+// The radius in an organ follows from its volume, which is not known before growth.
+static void settle(const void *params, void *settled)
+{
+    const VesselsParams *vessels = params;
+    const Shape *shape = &vessels->element.shapes[0];
+    if (vessels->root_radius == 0.0f && shape->kind == SHAPE_BODY) {
+        ((VesselsParams *)settled)->root_radius = vessels_aorta_radius(shape);
+    }
+}
+
 static void needs(const void *params, Needs *needs)
 {
     const VesselsParams *vessels = params;
@@ -80,6 +91,7 @@ const Kind kind_vessels = {.variant = {KIND_ROW("vessels", &vessels_table,
                            .materials = {"artery", "vein"},
                            .builtin = BUILTIN,
                            .own_space = own_space,
+                           .settle = settle,
                            .needs = needs,
                            .measure = measure,
                            .describe = describe,
