@@ -29,7 +29,7 @@ bool kind_grow(const Kind *kind, const void *params, const Recipe *recipe, float
         grown_clear(whole);
         return false;
     }
-    bool alone = !memory && grow_to >= 1.0f; // nobody else wants the whole
+    bool alone = !memory && grow_to >= 1.0f; // the whole growth is not kept
     grown->tree = alone ? whole->tree : out_tree_copy(whole->tree, e);
     bool done = grown->tree && cut(kind, params, whole->tree, grow_to, grown->tree, e) &&
                 (!kind->finish || kind->finish(params, recipe, whole, grown, e));

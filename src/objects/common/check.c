@@ -1,4 +1,4 @@
-// Checks of what objects are made of.
+// Checks shared by kinds: shapes, growth, files.
 #include "objects/common/tables.h"
 
 #include "grow/lsystem/lsystem.h"

@@ -20,7 +20,7 @@ ColonizeParams element_colonize_params(const OutTree *tree, const ElementParams 
     params.on_surface = element->points.place == SCATTER_SURFACE;
     params.sector_angle = params.sector_angle > 0.0f ? params.sector_angle : 60.0f;
     params.seed = seed;
-    for (int64_t i = 0; i < tree->count; i++) { // what grows now is younger than what is there
+    for (int64_t i = 0; i < tree->count; i++) { // new nodes are younger than existing ones
         params.first_step = tree->birth[i] > params.first_step ? tree->birth[i] : params.first_step;
     }
     return params;
@@ -54,8 +54,8 @@ int64_t element_attractors(const ElementParams *element)
     return sum;
 }
 
-// Of the sphere that polar angles count on: the middle of the envelope's first shape where that has
-// one, else that of the envelope's box.
+// Centre of the sphere for polar angles: the middle of the envelope's first shape if it has one,
+// otherwise of the envelope's bounding box.
 static Vec3 sphere_center(const ElementParams *element, Aabb bounds)
 {
     const Shape *first = element->shape_count > 0 ? &element->shapes[0] : NULL;
@@ -66,8 +66,7 @@ static Vec3 sphere_center(const ElementParams *element, Aabb bounds)
     return vec3_lerp(bounds.low, bounds.high, 0.5f);
 }
 
-// The guide field about the roots of the tree so far, its nuclei (Tanaka eq. (9); Tanaka
-// report 3.7.3).
+// The guide field with the tree's present roots as nuclei (Tanaka eq. (9); Tanaka report 3.7.3).
 static GuideField *element_field(const OutTree *tree, const ElementParams *element,
                                  const Envelope *envelope, uint64_t seed, const Run *run, Error *e)
 {
@@ -117,8 +116,8 @@ static void warn_out_of_reach(const GrowReport *reports, const ElementParams *el
     }
 }
 
-// Warns when a tenth of the last level's attractors or more were never reached. The level with the
-// longest reach is the one to change.
+// Warns if at least a tenth of the last level's attractors were never reached, and names the level
+// with the longest reach as the one to change.
 static void warn_ends_short(const GrowReport *reports, const ElementParams *element,
                             const Recipe *recipe, const char *part)
 {

@@ -20,14 +20,14 @@ enum {
     STREAM_VARIATION = 10
 };
 
-// Instances of one leaf variant on their way to a part.
+// Instances of one leaf variant, collected for a part.
 typedef struct LeafBatch {
     Transform *instance;
     float *variation;
     int64_t count, capacity, variation_capacity;
 } LeafBatch;
 
-// Of a leaf: here, and the least that the ray tracer makes of it.
+// Of a leaf: here, and at least in the ray tracer.
 #define LEAF_BYTES (1.5 * (sizeof(Transform) + sizeof(float)) + 100.0)
 
 typedef struct Foliage {
@@ -35,7 +35,7 @@ typedef struct Foliage {
     const bool *bare; // per curve; NULL = none
     LeafBatch *batch; // leaves->variants of them
     Vec3 center;
-    float spacing; // m, the scene's, widened when the leaves would be too many
+    float spacing; // m, the scene's, widened if there are too many leaves
     uint64_t seed;
     const Run *run;
 } Foliage;
@@ -57,7 +57,7 @@ Mesh *foliage_leaf_mesh(const LeavesParams *leaves, int variant, uint64_t seed, 
     return leaf_mesh_new(&params, key, e);
 }
 
-// Distance from leaf to leaf, counted from the twig's tip: leaves crowd at the end.
+// Distance to the next leaf, number counted from the twig's tip: leaves are denser at the end.
 static float leaf_gap(const Foliage *foliage, int64_t number)
 {
     float crowding = number < 5 ? 0.25f + 0.15f * (float)number : 1.0f;
@@ -73,8 +73,7 @@ static Transform leaf_frame(const Foliage *foliage, Vec3 p, Vec3 along, Vec3 out
     exact_sincos(angle * RADIANS_PER_DEGREE, &sine, &cosine);
     Vec3 y = vec3_madd(vec3_scale(along, cosine), sine, out);
     Vec3 z = vec3_madd(vec3_scale(along, sine), -cosine, out);
-    // Blades sink with their weight and turn their upper side to the light, each a little
-    // differently.
+    // Blades sag under their weight and turn the upper side to the light, with random deviations.
     y = vec3_normalize(vec3_madd(y, leaves->droop * 0.6f, vec3(0, -1, 0)));
     Vec3 light = vec3_normalize(vec3_sub(p, foliage->center));
     light = vec3_add(vec3(0, 1.2f, 0), vec3_scale(light, 0.7f));
@@ -100,8 +99,8 @@ static bool batch_add(LeafBatch *batch, Transform instance, float variation, Err
     return true;
 }
 
-// Walks one twig from its tip toward its start and calls for a leaf at every gap while the twig is
-// thin enough. Without `place` leaves are only counted, and nothing fails.
+// Walks one twig from its tip toward its start and adds a leaf at every gap while the twig is thin
+// enough. If not `place`, only counts them and cannot fail.
 static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curve, bool place,
                            bool *failed, Error *e)
 {
@@ -179,9 +178,9 @@ static bool add_parts(Foliage *foliage, const Placing *placing, int role, Error 
     return true;
 }
 
-// Widens the spacing until there are no more leaves than asked for. Every twig keeps its first leaf
-// for long, so that one step by the ratio does not do; the least factor makes an end certain.
-// Also false when there is no memory for so many.
+// Widens the spacing until there are at most max_count leaves. One step by the ratio is not enough,
+// because every twig keeps its first leaf for long; the least factor guarantees termination. Also
+// false if memory is short.
 static bool limit_leaves(Foliage *foliage, const CurveSet *twigs, Error *e)
 {
     bool failed = false;

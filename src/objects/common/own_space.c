@@ -30,7 +30,7 @@ void own_space_leave(OwnSpace *own)
     own->arena = NULL;
 }
 
-// ---- where it is ----
+// ---- placing ----
 
 static void set(OwnSpace *own, Transform to_scene)
 {
@@ -52,8 +52,8 @@ static Vec3 column(const Transform *t, int i)
     return vec3(t->m[0][i], t->m[1][i], t->m[2][i]);
 }
 
-// Where a shape's x axis heads in the horizontal plane, or its z axis (as the x axis that goes with
-// it) where x stands upright. A turn of the shape about Y turns it likewise.
+// Azimuth of a shape's x axis, or of its z axis (as the matching x axis) if x is vertical. Rotating
+// the shape about Y rotates it by the same angle.
 static Vec3 heading(const Transform *t)
 {
     Vec3 x = column(t, 0), z = column(t, 2);
@@ -80,7 +80,7 @@ void own_space_of_element(OwnSpace *own, const ElementParams *element)
     }
 }
 
-// ---- into it ----
+// ---- into own space ----
 
 void *own_space_copy(OwnSpace *own, const void *of, size_t size, Error *e)
 {
@@ -131,7 +131,7 @@ bool own_space_take_shapes(OwnSpace *own, Shape **shapes, int count, Error *e)
     return mine;
 }
 
-// A centre that the file leaves out is the object's origin and stays it.
+// An omitted centre is the object's origin in either space.
 static bool take_fields(OwnSpace *own, FieldParams **fields, int count, Error *e)
 {
     FieldParams *mine = own_space_copy(own, *fields, sizeof **fields * (size_t)count, e);
@@ -157,13 +157,13 @@ bool own_space_take_element(OwnSpace *own, ElementParams *element, Error *e)
             take_fields(own, &element->fields, element->field_count, e));
 }
 
-// ---- and back ----
+// ---- into the scene ----
 
-// May what fits this box be carried so far without losing its shape?
+// Does geometry in this box keep its shape when moved that far?
 static bool check_place(const OwnSpace *own, Aabb box, Error *e)
 {
     float way = vec3_length(column(&own->to_scene, 3)), size = vec3_distance(box.low, box.high);
-    float step = way * FLT_EPSILON; // between neighbouring numbers there
+    float step = way * FLT_EPSILON; // spacing of floats there
     return aabb_is_empty(box) || step <= size * COARSEST ||
            error_set(e, ERROR_INPUT,
                      "it is %.3g m large and stands %.3g m from the origin, where coordinates come "

@@ -1,4 +1,4 @@
-// Growth of corals: room to grow, roots, the string's directions, thickness.
+// Growth of corals: attractors, roots, the string's directions, thickness.
 #include "objects/coral/coral.h"
 
 #include "base/exact_math.h"
@@ -21,7 +21,7 @@ enum { STREAM_RISE = 0, STREAM_X = 1, STREAM_Z = 2, STREAMS_A_BRANCHLET = 4 };
 
 enum { STEM_NODES = 4, MOST_COLONIES = 256 };
 
-// One coral on its way to an out-tree.
+// State of a coral's growth.
 typedef struct Growing {
     const CoralParams *params; // resolved
     const Recipe *recipe;
@@ -51,7 +51,7 @@ static Shape ellipsoid(Vec3 center, Vec3 half)
                    .transform = transform_compose(center, vec3_splat(0), vec3_splat(1))};
 }
 
-// Boulders: an ellipsoid sunk into the ground with smaller ones about it.
+// Boulders: an ellipsoid sunk into the ground with smaller ones around it.
 static int boulder(const CoralParams *p, uint64_t seed, Shape *shapes, int most)
 {
     int lumps = p->form == CORAL_MASSIVE ? 9 : 12;
@@ -127,7 +127,7 @@ static PointSet *flat_room(const CoralParams *p, uint64_t seed, Error *e)
             float x = (at.x - foot.x) / r, y = at.y / p->height;
             inside = x * x + y * y < 1.0f;
         }
-        // light from above: below there is less of it
+        // light comes from above
         float lit = lerpf(1.0f - p->light, 1.0f, at.y / p->height);
         if (inside && random_unit(random_key(key, STREAM_POINT_LIGHT)) < lit &&
             !points_add(points, vec3_add(p->position, at), vec3(0, 0, 1), key, e)) {
@@ -165,7 +165,7 @@ static int64_t plant(OutTree *tree, Vec3 at, Vec3 normal, int colony, uint64_t s
     return node;
 }
 
-// A foot in the ground and a node (a table: a whole stem) above it, which gives the heading.
+// Plants a foot in the ground and a node above it (a table: a whole stem), which gives the heading.
 static bool plant_upright(Growing *g, int colony, Error *e)
 {
     const CoralParams *p = g->params;
@@ -191,12 +191,12 @@ static bool plant_upright(Growing *g, int colony, Error *e)
         }
     }
     if (node >= 0 && p->form == CORAL_TABLE) {
-        g->tree->normal[node] = vec3(0, 1, 0); // of the plate that it bears
+        g->tree->normal[node] = vec3(0, 1, 0); // normal of the plate on it
     }
     return node >= 0;
 }
 
-// On the rock: at the attractors nearest to where the colonies stand on their circle, high up.
+// Plants on the rock, at the attractors nearest to the colonies' places on their circle, high up.
 static bool plant_on_rock(Growing *g, const PointSet *points, Error *e)
 {
     const CoralParams *p = g->params;
@@ -229,7 +229,7 @@ static ColonizeParams colonize_params(const Growing *g, double spacing)
     c.seed = random_key(g->recipe->seed, STREAM_CORAL_GROWTH);
     c.noise = p->noise;
     c.tropism = vec3(0, p->form == CORAL_BRANCHING ? 0.12f * p->light : 0.0f, 0);
-    // a table's plate is as good as a surface: its attractors' normals point up
+    // a table's plate acts as a surface: its attractors' normals point up
     c.on_surface =
         p->form == CORAL_TABLE || p->form == CORAL_ENCRUSTING || p->form == CORAL_MASSIVE;
     c.length_near = p->length;
@@ -239,7 +239,7 @@ static ColonizeParams colonize_params(const Growing *g, double spacing)
     c.rule = p->rule == CORAL_STRING ? GROW_STRING : GROW_MEAN;
     c.string = &g->string;
     c.step = 0.5f * (p->length + p->length_tip);
-    // what a node uses up: a little less than a step, so that its children find something
+    // slightly less than a step, so that attractors remain for a node's children
     c.kill = (p->form == CORAL_FAN ? 0.55f : 0.85f) * c.step;
     c.influence = 5.0f * c.step;
     float reach = (float)(3.0 * spacing);
@@ -262,7 +262,7 @@ static bool colonize_points(Growing *g, const PointSet *points, ColonizeParams *
     return true;
 }
 
-// Upright branchlets on a table's plate: room just above it, filled from below.
+// Grows upright branchlets on a table's plate, toward attractors just above it.
 static bool grow_branchlets(Growing *g, int32_t first_step, Error *e)
 {
     const CoralParams *p = g->params;
@@ -368,7 +368,7 @@ static bool prepare_string(Growing *g, Error *e)
     return done;
 }
 
-// Growing ends: the last stretch of every branch narrows toward its axial corallite.
+// Tapers the growing ends: the last stretch of every branch narrows toward its axial corallite.
 static bool narrow_tips(OutTree *tree, Error *e)
 {
     const float share = 0.72f;

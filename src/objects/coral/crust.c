@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-// Distances from p to the nearest node of the colony that is nearest, and of any other.
+// Distances from p to the nearest node of the nearest colony, and of any other colony.
 static int32_t nearest_two(const OutTree *tree, Vec3 p, float *own, float *other)
 {
     float best = INFINITY, second = INFINITY;
@@ -30,7 +30,7 @@ static int32_t nearest_two(const OutTree *tree, Vec3 p, float *own, float *other
     return colony;
 }
 
-// Two planes of noise make one of space; about -1..1.
+// Spatial noise from two plane noises; about -1..1.
 static float swelling(Vec3 p, uint64_t seed)
 {
     return noise_plane_fractal(p.x + 0.37f * p.y, p.z, 3, seed) +
@@ -42,7 +42,7 @@ CrustPoint crust_at(const OutTree *tree, const CrustParams *params, Vec3 p)
     float own, other;
     CrustPoint point = {.colony = nearest_two(tree, p, &own, &other)};
     float wave = swelling(vec3_scale(p, 1.0f / params->lump), params->seed);
-    // metres inside the margin: from where the nodes' reach ends, and from the seam
+    // m inside the margin: from the end of the nodes' reach, and from the seam
     float reach = params->reach * (0.8f + 0.25f * wave) - own;
     float inside = 0.5f * (other - own) - params->seam;
     inside = inside < reach ? inside : reach;

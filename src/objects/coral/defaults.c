@@ -1,4 +1,4 @@
-// What a coral is where the scene file leaves it open: form by form, in proportion to its size.
+// Defaults of a coral by form, in proportion to its size.
 #include "objects/coral/coral.h"
 
 #include <stddef.h>
@@ -15,7 +15,7 @@ typedef struct FormDefaults {
 } FormDefaults;
 
 static const FormDefaults FORMS[] = {
-    // a leader that forks now and then, each fork turned on from the last by the golden angle
+    // a leader that forks occasionally, each fork rotated by the golden angle from the last
     [CORAL_BRANCHING] = {.height = 0.62f,
                          .attractors = 1300,
                          .axiom = "[&(40)FX]/(120)[&(44)FX]/(120)[&(36)FX]/(60)FX",
@@ -40,7 +40,7 @@ static const FormDefaults FORMS[] = {
                      .length = 0.06f,
                      .length_tip = 0.035f,
                      .tip_radius = 0.0065f},
-    [CORAL_FAN] = {.height = 0.8f, // the paper's numbers
+    [CORAL_FAN] = {.height = 0.8f, // values of the paper
                    .attractors = 1500,
                    .axiom = "X",
                    .rules = "X -> [+FX][-FX]FX",

@@ -12,8 +12,9 @@
 
 enum { YOUTH_STEPS = 1000 };
 
-// A copy of the tree whose births tell how near a growing tip is (YOUTH_STEPS there, 0 from `pale`
-// metres on): what living coral shows is the age of its tissue, not of its skeleton.
+// A copy of the tree whose births are the closeness to a growing tip (YOUTH_STEPS at the tip, 0
+// from `pale` metres on): the colour of living coral shows the age of its tissue, not of its
+// skeleton.
 static OutTree *with_youth(const OutTree *tree, float pale, Error *e)
 {
     OutTree *copy = out_tree_copy(tree, e);
@@ -50,7 +51,7 @@ static Mesh *branches(const OutTree *tree, const CoralParams *p, const Run *run,
     return mesh;
 }
 
-// The rock: its surface knobbly and eaten into by weather; `depth` (m) is that of its hollows.
+// Weathers the rock's surface: bumps and hollows of `depth` (m).
 static Mesh *weathered(const Mesh *from, float depth, uint64_t seed, Error *e)
 {
     Mesh *to = mesh_new(from->face_size, from->vertex_count, from->face_count, 0, e);
@@ -81,8 +82,8 @@ static CrustParams crust_params(const CoralParams *p, uint64_t seed)
                          .seed = random_key(seed, STREAM_CORAL_CRUST)};
 }
 
-// Adds a colony's skin and its corallites. seed: the colony's own; variation: likewise, 0..1. Takes
-// the mesh.
+// Adds a colony's skin and its corallites. seed, variation (0..1): the colony's own. Takes the
+// mesh.
 static bool add_colony(Mesh *mesh, float variation, const CoralParams *p, uint64_t seed,
                        const Placing *placing, Error *e)
 {
@@ -112,7 +113,7 @@ static bool add_colony(Mesh *mesh, float variation, const CoralParams *p, uint64
     return placing_add(placing, part, CORAL_SKIN, e);
 }
 
-// A crust each colony, and the rock below them.
+// Adds a crust per colony, and the rock below.
 static bool add_crusts(const OutTree *tree, const CoralParams *p, const Placing *placing, Error *e)
 {
     const Run *run = placing->recipe->run;

@@ -66,7 +66,7 @@ static void needs(const void *params, Needs *needs)
         CUPS = 30000 // as many as fit a colony of usual proportions
     };
     CoralParams p = coral_params_resolve(params);
-    bool crust = p.form == CORAL_ENCRUSTING || p.form == CORAL_MASSIVE; // no thick branches
+    bool crust = p.form == CORAL_ENCRUSTING || p.form == CORAL_MASSIVE; // has no thick branches
     needs_add(needs, "attractors", (double)attractors(params),
               ATTRACTOR_BYTES + (crust ? 0.0 : SKIN_BYTES * exp2(2.0 * p.levels)));
     needs_add_copies(needs, "polyps.max_count", fmin((double)p.polyps.max_count, CUPS), CUP_FACES);

@@ -1,4 +1,4 @@
-// What corals are held to: thickness of branches, distance between them, the seam between colonies.
+// Measures of corals: thickness of branches, distance between them, seam between colonies.
 #include "objects/coral/coral.h"
 
 #include "base/memory.h"

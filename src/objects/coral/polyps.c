@@ -15,7 +15,7 @@ enum { STREAM_LEAN = 2, STREAM_SIZE = 3, STREAM_HEIGHT = 4 }; // of a cup
 enum { AGES = 5, SIDES = 10, TRIES = 6 };
 
 // Outer wall, rim, inner wall, floor: radius and height as shares of the rim's radius and of the
-// cup's height; how much younger than the skin it looks.
+// cup's height; offset of its youth from the skin's.
 static const float PROFILE[][3] = {
     {0.98f, -0.30f, 0.0f}, {0.94f, 0.35f, 0.0f}, {0.98f, 0.82f, 0.2f},  {0.93f, 0.98f, 0.5f},
     {0.80f, 1.00f, 0.5f},  {0.64f, 0.90f, 0.3f}, {0.50f, 0.55f, -0.3f}, {0.22f, 0.42f, -0.5f}};
@@ -166,7 +166,7 @@ static bool spread_over(Spread *s, const Mesh *mesh, const PolypPlaces *places, 
 {
     int64_t triangles = mesh->face_count * (mesh->face_size - 2);
     float per_area = (float)TRIES / (s->spacing * s->spacing);
-    for (uint64_t round = 0; round < 2; round++) { // twice, so that later faces do not lose
+    for (uint64_t round = 0; round < 2; round++) { // twice, so that late faces get cups too
         for (int64_t t = 0; t < triangles; t++) {
             if (!run_goes_on(run, t, e)) {
                 return false;
@@ -200,7 +200,7 @@ static double area_of(const Mesh *mesh)
     return sum;
 }
 
-// Axis of the cup +Y, leaned from the normal toward the tip, of a size of its own.
+// The cup's frame: axis +Y, leaned from the normal toward the tip, random size.
 static Transform cup_frame(const Place *place, const PolypPlaces *places, uint64_t key)
 {
     float s, c;
@@ -254,7 +254,7 @@ bool polyps_add(const Mesh *skin, const PolypPlaces *places, const Placing *plac
                 Error *e)
 {
     double area = area_of(skin), most = (double)places->max_count;
-    // darts fill about 0.7 of a plane's places
+    // dart throwing fills about 0.7 of a plane's places
     double fitting = 0.7 * area / ((double)places->spacing * (double)places->spacing);
     Spread s = {.spacing = places->spacing * (float)(fitting > most ? sqrt(fitting / most) : 1.0)};
     s.buckets = (int64_t)(fitting > most ? most : fitting) * 2 + 64;

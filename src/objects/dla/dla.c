@@ -43,7 +43,7 @@ static float largest_extent(const OutTree *tree)
     return most > extent.z ? most : extent.z;
 }
 
-// Heaves a plane cluster (of unit particles) out of its plane by smooth noise.
+// Displaces a plane cluster (of unit particles) out of its plane by smooth noise.
 static void heave(OutTree *tree, float swell, uint64_t seed)
 {
     float extent = largest_extent(tree), wave = 6.0f / (extent > 1.0f ? extent : 1.0f);
@@ -74,7 +74,7 @@ bool dla_model_grow(const void *given, const Recipe *recipe, Grown *whole, Error
     for (int64_t i = 0; i < tree->count; i++) {
         tree->position[i] = transform_point(&place, tree->position[i]);
         tree->normal[i] = transform_vector(&turn, tree->normal[i]);
-        tree->radius[i] = 0.5f * params->thickness * scale; // of a tip, which each was
+        tree->radius[i] = 0.5f * params->thickness * scale; // at birth every node is a tip
     }
     return true;
 }

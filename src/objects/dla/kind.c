@@ -36,7 +36,7 @@ static void describe(const void *params, char *text, size_t size)
 static void needs(const void *params, Needs *needs)
 {
     const DlaModel *dla = params;
-    enum { PARTICLE_BYTES = 20000 }; // of the level set through it, at its thinnest
+    enum { PARTICLE_BYTES = 20000 }; // of the level set per particle, at the least thickness
     needs_add(needs, "particles", (double)dla->particles, PARTICLE_BYTES);
 }
 

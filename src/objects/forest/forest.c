@@ -70,7 +70,7 @@ ForestParams forest_params_resolve(const ForestParams *params)
     return resolved;
 }
 
-// m from trunk to trunk.
+// Distance from trunk to trunk, m.
 static float forest_spacing(const ForestParams *params)
 {
     return forest_params_resolve(params).spacing;
@@ -81,19 +81,19 @@ float forest_stand_radius(const ForestParams *params)
     return forest_spacing(params) * sqrtf((float)params->stand_trees / PI_F);
 }
 
-// Where stand number `stand` grows.
+// Centre of stand number `stand` during growth.
 static Vec3 stand_center(const ForestParams *params, int stand)
 {
     return vec3(2.0f * STAND_GAP * forest_stand_radius(params) * (float)stand, 0, 0);
 }
 
-// One trunk, slightly wandering, up to where the branches begin: its nodes are type-0 points.
+// Plants one slightly bent trunk up to the start of the branches; its nodes are type-0 points.
 static bool plant_trunk(OutTree *tree, const ForestParams *params, Vec3 foot, int colony,
                         uint64_t seed, Error *e)
 {
     float top = params->height * (1.0f - 0.8f * params->crown) *
                 random_range(random_key(seed, STREAM_HEIGHT), 0.85f, 1.05f);
-    float sunk = 0.014f * params->height; // no foot hangs over a slope
+    float sunk = 0.014f * params->height; // so that no foot hangs over a slope
     float length = (top + sunk) / TRUNK_PIECES;
     Vec3 lean = vec3_scale(random_direction(random_key(seed, STREAM_LEAN)), 0.04f);
     Vec3 p = vec3_add(foot, vec3(0, -sunk, 0));
@@ -131,7 +131,7 @@ static bool plant_stand(OutTree *tree, const ForestParams *params, int stand, ui
     return done;
 }
 
-// The light that all trees of a stand share: a drum from the lowest branches to the tops.
+// The crown envelope shared by all trees of a stand: a drum from the lowest branches to the tops.
 static Shape canopy(const ForestParams *params, int stand)
 {
     Vec3 base = stand_center(params, stand);
@@ -142,7 +142,7 @@ static Shape canopy(const ForestParams *params, int stand)
                    .transform = transform_compose(base, vec3_splat(0), vec3_splat(1))};
 }
 
-// The stand's guide fields: those whose centre is left out stand about the stand. Copies; free
+// The stand's guide fields: without a centre, at the centre of the stand. Copies; the caller frees
 // them.
 static FieldParams *stand_fields(const ForestParams *params, int stand, Error *e)
 {

@@ -1,4 +1,4 @@
-// From grown stands to a forest: each stand skinned once and instanced; ferns under them.
+// Geometry of a forest: each stand skinned once and instanced, with ferns below.
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/noise.h"
@@ -26,7 +26,7 @@ enum {
 enum { FERN_VARIANTS = 3 };
 #define FERN_PATCH 7.0f // m, from patch to patch
 
-// The places of one stand; *count may be 0. The caller frees them.
+// The places of one stand; *count may be 0. The caller frees the array.
 static Transform *places_of(const StandPlaces *places, int stand, int64_t *count, Error *e)
 {
     Transform *mine = memory_alloc(places->count, sizeof *mine, e);
@@ -45,7 +45,7 @@ static bool add_stand(const OutTree *all, const ForestParams *params, int stand,
 {
     TreeParams tree = tree_params_default();
     tree.height = params->height;
-    tree.roots.count = 0; // colonies are trees of the stand here
+    tree.roots.count = 0; // here colonies are trees, not parts of one
     tree.radii = params->radii;
     tree.leaves = params->leaves;
     tree.skin = params->skin;
@@ -68,7 +68,7 @@ static bool add_stand(const OutTree *all, const ForestParams *params, int stand,
     return done;
 }
 
-// Ferns of one variant, in patches, larger in their middle. -1 when interrupted.
+// Places ferns of one variant in patches, larger in the middle of each. -1 if interrupted.
 static int64_t place_ferns(const ForestParams *params, uint64_t seed, uint64_t patches,
                            int64_t wanted, const Surroundings *around, Transform *place,
                            const Run *run, Error *e)

@@ -20,7 +20,7 @@ enum {
 
 #define WOOD_WAVELENGTH 90.0f // m, from wood to wood where they clump
 
-// Rise of the land along x and z at (x, z), over h (m) to both sides.
+// Slope of the land along x and z at (x, z), by differences over h (m) to both sides.
 static void land_slope(const Land *land, float x, float z, float h, float *dx, float *dz)
 {
     *dx = (land_height(land, x + h, z) - land_height(land, x - h, z)) / (2.0f * h);
@@ -40,7 +40,7 @@ static bool is_free(const ForestParams *params, uint64_t seed, uint64_t key, flo
     return random_unit(random_key(key, STREAM_CLUMPING)) >= params->clumping || wood > 0.0f;
 }
 
-// Does water reach any of a stand's trees, wherever they are within its radius?
+// Is there water within the stand's radius?
 static bool is_wet(const ForestParams *params, const Surroundings *around, float x, float z)
 {
     enum { AROUND = 8, RINGS = 3 };
@@ -68,7 +68,7 @@ static bool add_place(StandPlaces *places, Transform place, int stand, Error *e)
     return true;
 }
 
-// Stands lie on a triangular lattice, each as far from its neighbours as its crowns reach.
+// Places stands on a triangular lattice with a pitch of about the crowns' extent.
 bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t seed,
                        const Surroundings *around, const Run *run, Error *e)
 {
@@ -99,7 +99,7 @@ bool stand_places_init(StandPlaces *places, const ForestParams *params, uint64_t
             exact_sincos(random_range(random_key(key, STREAM_TURN), 0.0f, 2.0f * PI_F), &sine,
                          &cosine);
             float tall = random_range(random_key(key, STREAM_HEIGHT), 0.88f, 1.06f);
-            // trunks stay upright, their feet follow the slope
+            // trunks stay vertical, their feet follow the slope
             Transform place =
                 transform_from_axes(vec3(cosine, dx * cosine - dz * sine, -sine), vec3(0, tall, 0),
                                     vec3(sine, dx * sine + dz * cosine, cosine),

@@ -39,8 +39,8 @@ double fracture_body_distance(const FractureBody *body, Vec3 p)
 
 // ---- resolution ----
 
-// Share of the envelope's surface under which, most of a voxel deep, there is no body: a grid of
-// such voxels may miss what is thinner.
+// Share of the envelope's surface with no body THINNEST voxels below it: a grid of such voxels may
+// miss these parts.
 static double lost_share(const FractureBody *body)
 {
     const Mesh *mesh = envelope_surface(body->envelope);
@@ -92,14 +92,14 @@ static void measure_envelope(FractureBody *body, const FractureParams *params)
     body->center = vec3_lerp(body->box.low, body->box.high, 0.5f);
 }
 
-// The envelope at this resolution; a mesh's level set has the voxels of the pieces.
+// Makes the envelope at this resolution; a mesh's level set has the voxels of the pieces.
 static bool set_resolution(FractureBody *body, const FractureParams *params, float across,
                            const Run *run, Error *e)
 {
     body->voxel = body->extent / across;
     bool exact = isinf(envelope_band(body->envelope)), given = params->element.voxel > 0.0f;
     if (!exact && !given) {
-        Run quiet = *run; // it has said already what it has to say
+        Run quiet = *run; // it has already warned
         quiet.warn = NULL;
         if (!make_envelope(body, params, body->voxel, &quiet, e)) {
             return false;

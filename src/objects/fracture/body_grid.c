@@ -52,7 +52,7 @@ static bool add_nodes(BodyGrid *grid, BodyDistance distance, const void *body, c
 {
     int64_t points = grid->size[0] * grid->size[1] * grid->size[2];
     int64_t capacity = 0, flags = 0, places = 0;
-    float near = 0.99f * grid->spacing; // beyond that a distance may be clamped
+    float near = 0.99f * grid->spacing; // distances beyond may be clamped
     for (int64_t i = 0; i < points; i++) {
         if (i % POLL == 0 && run_is_cancelled(run)) {
             return run_cancel_error(e);
@@ -143,7 +143,7 @@ static void find_neighbours(Spread *s)
     }
 }
 
-// Among the node's entries, which stay sorted; nothing when they are all as cheap.
+// Inserts into the node's sorted entries; does nothing if all are at least as cheap.
 static bool offer(Spread *s, int32_t node, SpreadEntry offered, Error *e)
 {
     SpreadEntry *slot = s->entry + (int64_t)node * s->kept;
@@ -212,7 +212,7 @@ static bool run_spread(Spread *s, int32_t *order, int32_t *reached, const Run *r
             entry = s->entry[(int64_t)item.index * s->kept + place];
         }
         if (entry.source < 0 || entry.cost != item.height) {
-            continue; // something cheaper took its place
+            continue; // replaced by a cheaper entry
         }
         s->settled[item.index]++;
         if (place == 0 && order) {

@@ -26,8 +26,8 @@ static bool add_source(Sources *sources, Vec3 at, float cost, int32_t node, Erro
     return true;
 }
 
-// Bars of the network run straight, the surface does not: what lies deeper than the grid's spacing
-// goes to the surface, what lies in the air cracks nothing.
+// Segments of the network are straight, the surface is not: points deeper than the grid's spacing
+// are projected to the surface, points in the air are dropped.
 static bool add_point(Sources *sources, const BodyGrid *grid, const SpreadEntry *to_surface, Vec3 p,
                       Error *e)
 {
@@ -109,7 +109,7 @@ static bool measure_far(CrackBasins *basins, const BodyGrid *grid, const OutTree
 // ---- flooding ----
 
 typedef struct Basin {
-    int32_t joined; // the basin that it is part of; itself at first
+    int32_t joined; // the basin it was merged into; itself at first
     float peak;
 } Basin;
 
@@ -117,7 +117,7 @@ typedef struct Flood {
     const BodyGrid *grid;
     const SpreadEntry *entry; // per node: minus the cost is its height
     float least;
-    int32_t *basin; // per node, -1 = still dry
+    int32_t *basin; // per node, -1 = not flooded yet
     Basin *list;
     int64_t count, capacity;
     int32_t small;
@@ -132,8 +132,7 @@ static int32_t top_of(Flood *flood, int32_t basin)
     return basin;
 }
 
-// Two basins that meet at this height become one where the pass between them is high, or one is
-// small.
+// Merges two basins that meet at this height if the pass between them is high or one is small.
 static void meet(Flood *flood, int32_t a, int32_t b, float height)
 {
     if (flood->list[a].peak < flood->list[b].peak ||
@@ -149,7 +148,7 @@ static void meet(Flood *flood, int32_t a, int32_t b, float height)
     }
 }
 
-// The basin of the highest wet neighbour; others that it touches meet.
+// The basin of the highest flooded neighbour; merges others it touches if needed.
 static bool wet(Flood *flood, int32_t node, Error *e)
 {
     const BodyGrid *grid = flood->grid;
@@ -184,7 +183,7 @@ static bool wet(Flood *flood, int32_t node, Error *e)
     return true;
 }
 
-// Numbers the basins that are left in the order of their middles, highest first.
+// Numbers the remaining basins in order of their peaks, highest first.
 static bool number_cells(CrackBasins *basins, Flood *flood, Error *e)
 {
     int32_t *number = memory_alloc(flood->count, sizeof *number, e);
@@ -207,7 +206,7 @@ static bool number_cells(CrackBasins *basins, Flood *flood, Error *e)
     return true;
 }
 
-// From the surface inward a height falls by the way from there.
+// From the surface inward heights fall by the path length.
 static bool flood_body(CrackBasins *basins, const BodyGrid *grid, float least, SpreadEntry *entry,
                        const Run *run, Error *e)
 {

@@ -31,7 +31,7 @@ struct CrackCells {
 
 // ---- making ----
 
-// The surface's nodes carry their cell inward.
+// Surface nodes spread their cell inward.
 static int64_t add_sources(CrackCells *cells)
 {
     const BodyGrid *grid = &cells->grid;
@@ -151,7 +151,7 @@ Aabb crack_cells_bounds(const CrackCells *cells, int32_t cell)
 // A cell of the grid about a point.
 typedef struct Place {
     int32_t corner[8];
-    float weight[8]; // 0 where there is no node; their sum is 1
+    float weight[8]; // 0 if there is no node; their sum is 1
     float t[3];
     bool whole; // every corner has a node
 } Place;
@@ -178,7 +178,7 @@ static bool find_place(const CrackCells *cells, Vec3 p, Place *place)
     return sum > 0.0f;
 }
 
-// Of a cell at a node; a bit below all that are known where it is not among them.
+// Value of a cell at a node; slightly below all known ones if it is not among them.
 static float value_at(const CrackCells *cells, int32_t node, int32_t cell)
 {
     const SpreadEntry *entry = cells->entry + (int64_t)KEPT * node;
@@ -216,7 +216,7 @@ static float roughness(const CrackCells *cells, const Place *place)
     return weighted(place, v);
 }
 
-// A cell's own noise: a wall between two is moved by half the difference of theirs.
+// A cell's own noise: a wall between two cells is displaced by half the difference of theirs.
 static float bumps(const CrackCells *cells, int32_t cell, Vec3 p, float height)
 {
     uint64_t key = random_key(cells->params.seed, (uint64_t)cell);
@@ -229,7 +229,7 @@ static float bumps(const CrackCells *cells, int32_t cell, Vec3 p, float height)
     return sum;
 }
 
-// The cells known at the corners but one, each once.
+// The distinct cells known at the corners, without one.
 static int others_near(const CrackCells *cells, const Place *place, int32_t cell,
                        int32_t other[NEAR])
 {
@@ -250,8 +250,8 @@ static int others_near(const CrackCells *cells, const Place *place, int32_t cell
     return count;
 }
 
-// How fast the difference of two cells' values changes with the place: 2 at a wall on the surface,
-// less where both come from the same side.
+// Gradient magnitude of the difference of two cells' values: 2 at a wall on the surface, less if
+// both come from the same side.
 static float slope(const CrackCells *cells, const Place *place, const float own[8],
                    const float other[8])
 {
@@ -270,7 +270,7 @@ static float slope(const CrackCells *cells, const Place *place, const float own[
     return clampf(vec3_length(g) / cells->grid.spacing, LEAST_SLOPE, 2.0f);
 }
 
-// A point with the values of the cells about it, without their bumps. cell[0] is asked about.
+// A point with the values of the cells around it, without bumps. cell[0] is the queried cell.
 typedef struct Rivals {
     Place place;
     int32_t cell[NEAR + 1];
@@ -299,7 +299,7 @@ static float slope_between(const CrackCells *cells, const Rivals *r, int i, int 
     return slope(cells, &r->place, a, b);
 }
 
-// Between the two greatest, whichever is asked about.
+// Between the two greatest values, whichever cell is queried.
 static float main_slope(const CrackCells *cells, const Rivals *r)
 {
     int first = 0, second = -1;
@@ -314,8 +314,8 @@ static float main_slope(const CrackCells *cells, const Rivals *r)
     return slope_between(cells, r, first, second);
 }
 
-// To the rough wall, near it. Bumps shrink with the slope, so that they move a wall by as much
-// everywhere and cut no chips off.
+// Distance to the rough wall, near it. Bumps scale with the gradient, so that they displace a wall
+// equally everywhere and cut no chips off.
 static double rough_distance(const CrackCells *cells, const Rivals *r, Vec3 p, float height,
                              double *bound)
 {
@@ -338,10 +338,10 @@ double crack_cells_distance(const CrackCells *cells, int32_t cell, Vec3 p, doubl
     Rivals r;
     *bound = 0.0;
     if (!find_place(cells, p, &r.place)) {
-        return (double)cells->grid.spacing; // not in the body
+        return (double)cells->grid.spacing; // outside of the body
     }
     float best = fill_rivals(cells, cell, &r);
-    if (r.count == 1) { // nothing else in reach
+    if (r.count == 1) { // no other cell in reach
         *bound = (double)(4.0f * cells->grid.spacing);
         return -*bound;
     }

@@ -40,7 +40,7 @@ FractureParams fracture_params_default(void)
 bool fracture_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     const FractureParams *params = given;
-    // A hollow branch sculpture's net, with a reach that leaves few cracks without an end.
+    // A hollow branch sculpture's network, with a reach that leaves few cracks open.
     SculptureParams net = sculpture_params_default();
     net.element = params->element;
     net.clusters = params->impacts;
@@ -59,7 +59,7 @@ typedef struct Workpiece {
     float gap, least; // m; of the cells: see CrackCellsParams
 } Workpiece;
 
-// A piece of it; without cells all of it.
+// One cell of the workpiece; the whole body if there are no cells.
 typedef struct Cut {
     const Workpiece *work;
     int32_t cell;
@@ -140,8 +140,8 @@ static bool holds_hollow(const MeshPieces *parts, double dust)
     return false;
 }
 
-// What hangs together of a cell is a piece, chips too; dust goes. A mesh about a hollow is one
-// piece. Takes what it keeps out of parts, or *mesh, of which these are the parts.
+// Each connected part of a cell is a piece, chips too; dust is dropped. A mesh around a hollow is
+// one piece. Moves what it keeps out of parts, or out of *mesh, which consists of these parts.
 static bool add_parts(MeshPieces *parts, Mesh **mesh, double dust, MeshPieces *pieces,
                       int64_t *capacity, Error *e)
 {
@@ -182,7 +182,7 @@ static bool cut_cell(const Workpiece *work, int32_t cell, MeshPieces *pieces, in
     return done;
 }
 
-// Says what did not break as the scene asks.
+// Warns where the result differs from the scene's request.
 static void warn_of_pieces(const Workpiece *work, const FractureParams *params,
                            const MeshPieces *pieces, int32_t gone, const Recipe *recipe)
 {
@@ -277,7 +277,7 @@ bool fracture_measure(const void *params, const Grown *grown, const Recipe *reci
     return done;
 }
 
-// ---- the pieces on their way into the world ----
+// ---- placing the pieces ----
 
 static Vec3 middle_of(const Mesh *mesh)
 {
@@ -288,7 +288,7 @@ static Vec3 middle_of(const Mesh *mesh)
     return sum;
 }
 
-// Away from the middle, and turned a little about its own.
+// Moves a piece away from the body's middle and rotates it about its own.
 static Transform piece_motion(const Workpiece *work, const FractureParams *params, Vec3 middle,
                               uint64_t key)
 {
@@ -302,7 +302,7 @@ static Transform piece_motion(const Workpiece *work, const FractureParams *param
     return transform_multiply(&turn, &back);
 }
 
-// The faces of the old surface, or those that broke, as a mesh of their own.
+// The faces of the old surface, or the fracture faces, as a separate mesh.
 static Mesh *part_of(const Workpiece *work, const Mesh *piece, bool outside, Error *e)
 {
     Mesh *part = mesh_new(3, piece->vertex_count, piece->face_count, MESH_NORMAL, e);

@@ -1,4 +1,4 @@
-// A broken thing as a kind of object.
+// A fractured body as a kind of object.
 #include "objects/kind.h"
 #include "objects/fracture/fracture.h"
 #include "render/material/material.h"
@@ -28,7 +28,7 @@ static int64_t attractors(const void *params)
 static void needs(const void *params, Needs *needs)
 {
     const FractureParams *fracture = params;
-    enum { VOXEL_BYTES = 900 }; // of one along the surfaces, old and new
+    enum { VOXEL_BYTES = 900 }; // per voxel along the surfaces, old and new
     double voxels = fracture->resolution;
     needs_add(needs, "resolution", 6.0 * voxels * voxels, VOXEL_BYTES);
     needs_add_growth(needs, "attractors", (double)attractors(params));

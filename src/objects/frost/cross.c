@@ -5,8 +5,8 @@
 
 #include <stdlib.h>
 
-// Segments by the cell that their middle lies in; cells are as wide as the longest segment, so that
-// two that cross lie in the same or in neighbouring cells.
+// Segments hashed by the cell of their midpoint. Cells are as wide as the longest segment, so
+// crossing segments are in the same or in neighbouring cells.
 typedef struct SegmentGrid {
     const OutTree *tree;
     float inverse_cell; // 1/m
@@ -101,7 +101,7 @@ static bool grid_init(SegmentGrid *grid, const OutTree *tree, Error *e)
     return grid->head && grid->next;
 }
 
-// The nodes in order of birth; of the same birth, of index.
+// The nodes in order of birth, then of index.
 static bool sort_by_birth(const OutTree *tree, int32_t *order, Error *e)
 {
     int32_t last = 0;

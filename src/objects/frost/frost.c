@@ -11,10 +11,10 @@
 
 #include <stdlib.h>
 
-// Nodes stand this many spacings of the sides' attractors apart.
+// Distance between nodes, in spacings of the sides' attractors.
 static const float SIDE_STEP = 0.55f;
 
-// A blade that goes on so far without a side, in spacings between spines, has escaped.
+// Length without sides, in spacings between spines, beyond which a blade is cut.
 static const float MOST_BARE = 1.5f;
 
 FrostParams frost_params_default(FrostSurface surface)
@@ -72,7 +72,7 @@ static GuideField *make_field(const OutTree *tree, const FrostParams *params,
     return guide_field_new(&field, 1, tree->position, tree->normal, tree->count, bounds, run, e);
 }
 
-// The spines: the papers' plain growth, steered by the turned field (Tanaka eq. (9)-(13)).
+// Grows the spines by plain space colonization, steered by the turned field (Tanaka eq. (9)-(13)).
 static bool grow_spines(OutTree *tree, const FrostParams *params, const Recipe *recipe, Error *e)
 {
     PointSet *points =
@@ -96,7 +96,7 @@ static bool grow_spines(OutTree *tree, const FrostParams *params, const Recipe *
     return done;
 }
 
-// Takes the corners out of the spines: nodes between forks move to the middle of their neighbours.
+// Smooths the spines: nodes between forks move to the middle of their neighbours.
 static void smooth_spines(OutTree *tree, const int32_t *only_child)
 {
     for (int pass = 0; pass < 4; pass++) {
@@ -128,7 +128,7 @@ static bool smooth(OutTree *tree, Error *e)
     return true;
 }
 
-// The spines with nodes as close as sides may stand, on the surface. Takes the tree.
+// Resamples the spines to the closest spacing of sides, on the surface. Takes the tree.
 static OutTree *refine_spines(OutTree *tree, const FrostParams *params, Error *e)
 {
     OutTree *fine =
@@ -140,7 +140,8 @@ static OutTree *refine_spines(OutTree *tree, const FrostParams *params, Error *e
     return fine;
 }
 
-// Sides leave along their sector's axis, not along the mean of what pulls: else they are hair.
+// Grows the sides along their sector's axis, not along the mean direction of attractors, which
+// would make them look like hair.
 static bool grow_sides(OutTree *tree, const FrostParams *params, const Recipe *recipe, Error *e)
 {
     PointSet *points = frost_points(
@@ -153,7 +154,7 @@ static bool grow_sides(OutTree *tree, const FrostParams *params, const Recipe *r
     growth.rule = GROW_SECTORS;
     growth.sector_angle = params->angle;
     growth.sector_axis = true;
-    growth.max_angle = 1.02f * params->angle; // forward and to the two sides
+    growth.max_angle = 1.02f * params->angle; // forward and to both sides
     growth.on_surface = true;
     growth.max_order = params->orders;
     growth.new_orders = true;
@@ -168,8 +169,8 @@ static bool grow_sides(OutTree *tree, const FrostParams *params, const Recipe *r
     return done;
 }
 
-// A node is born when its parent can have grown so far: spines run ahead, sides follow at half
-// their speed.
+// Sets births from the distance along the path: spines grow ahead, sides follow at half their
+// speed.
 static void give_births(OutTree *tree, int64_t spine_count)
 {
     for (int64_t i = 0; i < tree->count; i++) {
@@ -178,11 +179,11 @@ static void give_births(OutTree *tree, int64_t spine_count)
     }
 }
 
-// since[i]: how many nodes before i, i among them, have come since the last fork of a way that
-// forks no more; 0 where it still does.
+// since[i]: number of nodes up to and including i since the last fork, on a path without further
+// forks; 0 if forks follow.
 static void count_bare(const OutTree *tree, int32_t *since, uint8_t *children)
 {
-    for (int64_t i = tree->count - 1; i >= 0; i--) { // 2 = several, or a fork further on
+    for (int64_t i = tree->count - 1; i >= 0; i--) { // 2 = several, or a later fork
         int32_t parent = tree->parent[i];
         if (parent >= 0) {
             children[parent] = children[parent] > 0 || children[i] > 1 ? 2 : 1;
@@ -194,7 +195,7 @@ static void count_bare(const OutTree *tree, int32_t *since, uint8_t *children)
     }
 }
 
-// Ends every way soon after its last side: rods that escaped into empty space.
+// Cuts every path soon after its last side, to remove rods that grew into empty space.
 static bool trim_rods(OutTree *tree, const FrostParams *params, Error *e)
 {
     float spine_spacing = sqrtf(frost_area(params) / (float)params->spines);

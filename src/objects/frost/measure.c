@@ -1,4 +1,4 @@
-// What frost is held to: the angle of its sides, their orders, how far its spines turn.
+// Measures of frost: the angle of its sides, their orders, the rotation of its spines.
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "objects/frost/frost.h"
@@ -22,8 +22,8 @@ static double turn_at(const OutTree *tree, int64_t node)
                                  vec3_sub(tree->position[parent], tree->position[before]));
 }
 
-// Sides are what leaves by more than half the angle of ice, the growth's own border between forward
-// and to the side.
+// A branch is a side if it leaves at more than half the angle of ice, the border between forward
+// and sideways in the growth.
 static bool measure_sides(const OutTree *tree, MeasureList *list, Error *e)
 {
     int32_t *order = memory_alloc(tree->count, sizeof *order, e), highest = 0;
@@ -50,7 +50,7 @@ static bool measure_sides(const OutTree *tree, MeasureList *list, Error *e)
 }
 
 // Azimuth of p about a nucleus, radians: on a bubble about the axis through it, on a pane in its
-// plane. False where it says nothing: near a bubble's poles.
+// plane. False where it is undefined: near a bubble's poles.
 static bool azimuth(const FrostParams *params, Vec3 nucleus, Vec3 p, float *out)
 {
     if (params->surface == FROST_PANE) {
@@ -64,7 +64,7 @@ static bool azimuth(const FrostParams *params, Vec3 nucleus, Vec3 p, float *out)
     return fabsf(vec3_dot(d, axis)) < 0.95f;
 }
 
-// What is swept on the way from `parent` to `node`, degrees.
+// Azimuth swept from `parent` to `node`, degrees.
 static double step_swept(const OutTree *tree, const FrostParams *params, Vec3 nucleus,
                          int32_t parent, int64_t node)
 {
@@ -78,7 +78,7 @@ static double step_swept(const OutTree *tree, const FrostParams *params, Vec3 nu
     return (double)(turn / RADIANS_PER_DEGREE);
 }
 
-// Mean over the nodes at least half as far along their way as the furthest.
+// Mean over nodes at least half as far along their path as the farthest.
 static bool measure_swept(const OutTree *tree, const FrostParams *params, MeasureList *list,
                           Error *e)
 {

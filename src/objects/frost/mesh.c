@@ -43,7 +43,7 @@ static Vec3 direction_at(const OutTree *tree, const int32_t *node, int64_t count
 static float width_at(const OutTree *tree, const int32_t *node, int64_t count, int64_t k)
 {
     float radius = tree->radius[node[k]];
-    if (k == 0 && count > 1) { // the node that it leaves has its own, greater one
+    if (k == 0 && count > 1) { // the parent chain's node has a larger radius
         radius = tree->radius[node[1]];
     }
     float t = (float)k / (float)(count - 1);
@@ -51,7 +51,7 @@ static float width_at(const OutTree *tree, const int32_t *node, int64_t count, i
     return radius * (1.0f - 0.6f * t * t) * random_range(key, 0.82f, 1.15f);
 }
 
-// Where the ring at place k stands. A side begins under its parent's flank, not under its rib.
+// Centre of the ring at place k. A side starts under its parent's flank, not under its rib.
 static Vec3 ring_center(const OutTree *tree, const int32_t *node, int64_t k)
 {
     Vec3 p = tree->position[node[k]];
@@ -64,7 +64,7 @@ static Vec3 ring_center(const OutTree *tree, const int32_t *node, int64_t k)
     return vec3_lerp(p, next, share < 0.8f ? share : 0.8f);
 }
 
-// The corners of the ring at place k. Blades of ice are not alike: ribs run a little to one side.
+// Adds the corners of the ring at place k. Ribs are shifted to one side at random, for variety.
 static void add_ring(BladeMesh *b, const int32_t *node, int64_t count, int64_t k)
 {
     const OutTree *tree = b->tree;
@@ -91,7 +91,7 @@ static void add_face(BladeMesh *b, int64_t u, int64_t v, int64_t w)
     corner[2] = (uint32_t)w;
 }
 
-// All but the last node of the chain have a ring; that one is the point.
+// Every node of the chain but the last has a ring; the last is the tip.
 static void add_blade(BladeMesh *b, const int32_t *node, int64_t count)
 {
     int64_t first = b->vertex;
@@ -117,7 +117,7 @@ static void add_blade(BladeMesh *b, const int32_t *node, int64_t count)
     }
 }
 
-// Is the chain one of rime, or of clear ice? Spines are clear.
+// Is the chain rime? Otherwise it is clear ice, as all spines are.
 static bool is_rime(const OutTree *tree, const FrostParams *params, const ChainSet *chains,
                     int64_t chain)
 {
@@ -150,7 +150,7 @@ static Mesh *blade_mesh(const OutTree *tree, const FrostParams *params, const Ch
     return b.mesh;
 }
 
-// A grain: a six-sided low pyramid without its top, unit half-width, closed.
+// A grain: a low truncated six-sided pyramid of unit half-width, closed.
 static Mesh *grain_mesh(uint64_t seed, Error *e)
 {
     enum { SIDES = 6 };
@@ -182,8 +182,8 @@ static Mesh *grain_mesh(uint64_t seed, Error *e)
     return mesh;
 }
 
-// Grains are dense near the border (on a bubble: near the nucleus) and rare elsewhere. -1 and e
-// when they cannot be placed.
+// Places grains densely near the border (on a bubble: near the nucleus), sparsely elsewhere. -1 and
+// e on failure.
 static int64_t place_grains(const FrostParams *params, uint64_t seed, int64_t wanted, float size,
                             Transform *instance, const Run *run, Error *e)
 {

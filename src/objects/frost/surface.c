@@ -30,7 +30,7 @@ Vec3 frost_project(const FrostParams *params, Vec3 *p)
     return normal;
 }
 
-// A square cell each, the point at random in its middle 80 %.
+// One point per square cell, at random in its middle 80 %.
 static bool fill_pane(const FrostParams *params, int64_t count, uint64_t seed, PointSet *points,
                       const Run *run, Error *e)
 {
@@ -53,7 +53,7 @@ static bool fill_pane(const FrostParams *params, int64_t count, uint64_t seed, P
     return true;
 }
 
-// Fibonacci's spiral, each point moved at random within about its own cell.
+// A Fibonacci spiral, each point moved at random within about its own cell.
 static bool fill_bubble(const FrostParams *params, int64_t count, uint64_t seed, PointSet *points,
                         const Run *run, Error *e)
 {
@@ -92,7 +92,8 @@ PointSet *frost_points(const FrostParams *params, int64_t count, uint64_t seed, 
     return points;
 }
 
-// The point of the pane's border at a share of its girth, from the lower left corner to the right.
+// The point of the pane's border at a share of its perimeter, from the lower left corner to the
+// right.
 static Vec3 border_point(const FrostParams *params, float share)
 {
     float w = params->width, h = params->height, s = share * 2.0f * (w + h), x, y;

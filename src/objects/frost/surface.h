@@ -20,8 +20,8 @@ Vec3 frost_nucleus(const FrostParams *params, int i, uint64_t seed, Vec3 *normal
 // Number of nuclei, listed and placed.
 int frost_nucleus_total(const FrostParams *params);
 
-// Distance of p from the pane's border over half the shorter side; on a bubble, from the first
-// nucleus over the arc to the opposite pole. 0..1.
+// Distance of p from the pane's border over half the shorter side; on a bubble, its height above
+// the lowest point over the diameter. 0..1.
 float frost_depth(const FrostParams *params, Vec3 p);
 
 #endif

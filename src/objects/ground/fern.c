@@ -14,7 +14,7 @@ enum { STREAM_DROOP_FIRST = 0, STREAM_DROOP_SECOND = 2 };       // of a pair of 
 enum { FRONDS = 11, PAIRS = 18 };
 #define GOLDEN_ANGLE 2.39996323f
 
-// A frond starts steeply, arches over and droops: the place and direction at t = 0..1 along it.
+// Position and direction at t = 0..1 along a frond, which starts steeply, arches over and droops.
 static void frond_at(Vec3 out, float length, float arch, float t, Vec3 *position, Vec3 *along)
 {
     enum { PIECES = 16 };

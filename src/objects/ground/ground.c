@@ -59,13 +59,13 @@ float ground_height(const GroundParams *params, uint64_t seed, float x, float z)
         noise_plane_fractal(x * scale, z * scale, 4, random_key(seed, STREAM_GROUND_HILLS));
     float bumps =
         noise_plane_fractal(x * 0.35f, z * 0.35f, 2, random_key(seed, STREAM_GROUND_BUMPS));
-    float flat = params->flat_radius > 1e-3f ? params->flat_radius : 1e-3f; // a step has no slope
+    float flat = params->flat_radius > 1e-3f ? params->flat_radius : 1e-3f; // 0 would be a step
     float near = smoothstepf(flat, 8.0f * flat, r);
     return params->relief * hills * near + 0.07f * bumps * smoothstepf(0.5f, 4.0f, r);
 }
 
-// Rings of a polar grid: half a metre apart near the middle, then in geometric progression to the
-// horizon.
+// Radii of a polar grid's rings: half a metre apart near the middle, then in geometric progression
+// to the horizon.
 enum { GROUND_SECTORS = 256 };
 
 static int64_t ground_rings(const GroundParams *params, float *radius, int64_t most)
@@ -141,7 +141,7 @@ static Mesh *ground_mesh(const GroundParams *params, uint64_t seed, Error *e)
     return mesh;
 }
 
-// An upright instance at (x, z), turned and scaled.
+// An upright instance at (x, z), rotated and scaled.
 static Transform upright(const GroundParams *params, uint64_t seed, float x, float z, float turn,
                          float scale)
 {
@@ -152,7 +152,7 @@ static Transform upright(const GroundParams *params, uint64_t seed, float x, flo
                                ground_point(params, seed, x, z));
 }
 
-// Tufts of one variant: dense in the middle, thinner but larger toward the rim, in patches. -1 when
+// Tufts of one variant: dense in the middle, sparse but larger toward the rim, in patches. -1 if
 // interrupted.
 static int64_t place_tufts(const GroundParams *params, uint64_t ground_seed, uint64_t seed,
                            const Flood *flood, int64_t wanted, Transform *instance,
@@ -173,7 +173,7 @@ static int64_t place_tufts(const GroundParams *params, uint64_t ground_seed, uin
         float patch = noise_plane_fractal(x * 0.55f, z * 0.55f, 3,
                                           random_key(ground_seed, STREAM_GROUND_PATCHES));
         float keep = 1.0f - params->grass_clumping * smoothstepf(0.25f, -0.35f, patch);
-        keep *= smoothstepf(1.0f, 0.55f, share); // no edge where the grass ends
+        keep *= smoothstepf(1.0f, 0.55f, share); // soft edge of the grass
         if (random_unit(random_key(key, STREAM_TUFT_CHANCE)) > keep ||
             flood_covers(flood, ground_point(params, ground_seed, x, z))) {
             continue;
@@ -220,7 +220,7 @@ static bool add_grass_variant(const GroundParams *params, int variant, const Pla
     return placing_add(placing, part, GROUND_GRASS, e);
 }
 
-// A leaf lying at (x, z): upper side up or down, tilted a little, on the tips of the short grass.
+// A fallen leaf on the tips of the short grass: either side up, slightly tilted.
 static Transform lying_leaf(const GroundParams *params, uint64_t seed, uint64_t key)
 {
     float r = params->fallen_radius * sqrtf(random_unit(random_key(key, STREAM_LEAF_RADIUS))), sine,

@@ -19,7 +19,7 @@ enum {
     STREAM_TURN = 5
 };
 
-// A tree that will be a hundred pixels tall: fewer levels, few and large leaves, no roots.
+// A tree of about a hundred pixels: fewer levels, few and large leaves, no roots.
 static TreeParams distant_tree(const GroveParams *grove, GrowLevel levels[3], uint64_t seed)
 {
     levels[0] = (GrowLevel){25, 0.10f, 0.4f, 4.0f, 0.70f, 0.3f, 0.0f, 0.5f};
@@ -32,7 +32,7 @@ static TreeParams distant_tree(const GroveParams *grove, GrowLevel levels[3], ui
     tree.crown.element.levels = levels;
     tree.crown.element.level_count = 3;
     tree.crown.element.voxel = tree.height / 32.0f;
-    tree.crown.element.points.shell = 0.0f; // its depths would cost more than the growth
+    tree.crown.element.points.shell = 0.0f; // its depth field would cost more than the growth
     tree.roots.count = 0;
     tree.radii.tip = 0.004f;
     tree.skin.curve_radius = 0.03f;
@@ -48,8 +48,7 @@ static TreeParams distant_tree(const GroveParams *grove, GrowLevel levels[3], ui
     return tree;
 }
 
-// Where the trees of one variant stand; transforms from the origin to the land. -1 when
-// interrupted.
+// Places the trees of one variant: transforms from the origin to the land. -1 if interrupted.
 static int64_t place_trees(const GroundParams *ground, uint64_t ground_seed, uint64_t seed,
                            int64_t wanted, const Flood *flood, Transform *place, const Run *run,
                            Error *e)

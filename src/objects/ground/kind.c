@@ -18,7 +18,7 @@ static void needs(const void *params, Needs *needs)
 {
     enum { TUFT_FACES = 88, LEAF_FACES = 25, TREE_BYTES = 15000000, PARTS = 3 };
     const GroundParams *ground = params;
-    needs_add(needs, "grass_tufts", (double)ground->grass_tufts, // half of them find no place
+    needs_add(needs, "grass_tufts", (double)ground->grass_tufts, // about half are rejected
               0.5 * (sizeof(Transform) + sizeof(float)));
     needs_add_copies(needs, "grass_tufts", 0.55 * (double)ground->grass_tufts, TUFT_FACES);
     needs_add_copies(needs, "fallen_leaves", (double)ground->fallen_leaves, LEAF_FACES);

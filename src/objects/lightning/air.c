@@ -1,4 +1,4 @@
-// One bolt in the air: a leader that weaves down to the ground, then side branches coarse to fine.
+// One bolt in the air: a leader that grows down to the ground, then side branches, coarse to fine.
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -46,7 +46,7 @@ static bool scatter_leader(PointSet *points, const Bolt *bolt, Vec3 from, Vec3 t
     return points_add(points, to, vec3_neg(bolt->axis), random_key(seed, STREAM_LEADER_END), e);
 }
 
-// Where the bolt's main channels end: the strike, then others on the ground about it.
+// End of main channel `number`: the strike, then other points on the ground around it.
 static Vec3 ground_point(const Bolt *bolt, int number)
 {
     if (number == 0) {
@@ -95,8 +95,8 @@ static ColonizeParams leader_params(const Bolt *bolt)
     return params;
 }
 
-// The node nearest to the target among those that it lies below, at most 50 degrees aside; the root
-// where there is none.
+// The node nearest to the target among those with the target at most 50 degrees from straight
+// below; the root if there is none.
 static int32_t nearest_above(const OutTree *tree, const Bolt *bolt, Vec3 target)
 {
     int32_t nearest = 0;
@@ -111,7 +111,7 @@ static int32_t nearest_above(const OutTree *tree, const Bolt *bolt, Vec3 target)
     return nearest;
 }
 
-// The final jump: once near, straight to the ground, step by step.
+// The final jump: straight to the ground, step by step.
 static bool jump_to(OutTree *tree, const Bolt *bolt, Vec3 target, Error *e)
 {
     int64_t parent = nearest_above(tree, bolt, target);
@@ -149,8 +149,8 @@ static OutTree *grow_leader(const Bolt *bolt, const Run *run, Error *e)
     return tree;
 }
 
-// The side branches' own numbers, where the scene leaves them out: a flat cone that widens toward
-// the ground, coarse to fine, drawn along the bolt.
+// Defaults of the side branches: a flat cone that widens toward the ground, levels from coarse to
+// fine, tropism along the bolt.
 static bool grow_branches(OutTree *tree, const Bolt *bolt, const Recipe *recipe, Error *e)
 {
     const LightningParams *params = bolt->params;
@@ -183,7 +183,7 @@ static bool grow_branches(OutTree *tree, const Bolt *bolt, const Recipe *recipe,
                         e);
 }
 
-// Leaders move on at one speed, so a node is born by its distance from the cloud.
+// Leaders have a constant speed, so births follow the path length from the cloud.
 static void set_births(OutTree *tree, const Bolt *bolt, float *distance)
 {
     for (int64_t i = 0; i < tree->count; i++) {
@@ -196,8 +196,8 @@ static void set_births(OutTree *tree, const Bolt *bolt, float *distance)
     }
 }
 
-// Keeps the ways to the strikes (on_way); of the rest, drops what is born after the last strike
-// (the return stroke ends all growth) and side branches that touch the ground.
+// Keeps the paths to the strikes (on_way); of the rest, drops nodes born after the last strike (the
+// return stroke ends all growth) and side branches that touch the ground.
 static bool drop_late(OutTree *tree, const Bolt *bolt, int32_t strike_birth, bool *on_way, Error *e)
 {
     for (int64_t i = 0; i < tree->count; i++) {
@@ -255,7 +255,7 @@ bool lightning_add_streamers(OutTree *tree, const Bolt *bolt, int32_t last_birth
             random_range(random_key(key, STREAM_STREAMER_LENGTH), 0.025f, 0.06f) * bolt->height;
         exact_sincos(turn, &sine, &cosine);
         Vec3 p = vec3_add(bolt->strike, vec3(away * cosine, 0.0f, 0.4f * away * sine));
-        // up, and toward the leader that comes down
+        // up, and toward the descending leader
         Vec3 toward = vec3_madd(vec3_sub(bolt->strike, p), -0.3f * bolt->height, bolt->axis);
         int64_t parent = -1;
         uint64_t id = random_key(key, STREAM_STREAMER_ID);

@@ -1,10 +1,10 @@
-// The bolts as round curves that glow.
+// The bolts as emissive round curves.
 #include "base/color.h"
 #include "base/memory.h"
 #include "objects/lightning/lightning.h"
 #include "outtree/chains.h"
 
-// Radiance of the main channel when its power is left out, W/(m^2 sr).
+// Radiance of the main channel if no power is given, W/(m^2 sr).
 #define OWN_RADIANCE 40.0f
 
 static void fill_curve(CurveSet *curves, int64_t curve, const OutTree *tree, const int32_t *node,
@@ -14,21 +14,21 @@ static void fill_curve(CurveSet *curves, int64_t curve, const OutTree *tree, con
     curves->first[curve + 1] = first + count;
     float along = 0.0f;
     for (int64_t k = 0; k < count; k++) {
-        // a branch is as thin as itself where it leaves another, not as thick as that one
+        // a branch has its own radius where it leaves another, not the parent's
         int32_t own = k == 0 && count > 1 && tree->radius[node[0]] > tree->radius[node[1]]
                           ? node[1]
                           : node[k];
         along += k > 0 ? vec3_distance(tree->position[node[k - 1]], tree->position[node[k]]) : 0.0f;
         curves->position[first + k] = tree->position[node[k]];
         curves->radius[first + k] = tree->radius[own];
-        float thin = tree->radius[own] / core; // power is its cube, so radiance its square
+        float thin = tree->radius[own] / core; // power ~ its cube, so radiance ~ its square
         curves->glow[first + k] = glow * thin * thin;
         curves->along[first + k] = along;
         curves->birth[first + k] = (float)tree->birth[node[k]] / last_birth;
     }
 }
 
-// Of the material, W/(m^2 sr); 0 = not known.
+// Luminance of the material's radiance, W/(m^2 sr); 0 = not known.
 static float luminance_of(const Placing *placing)
 {
     const Material *materials = placing->around.material;
@@ -55,7 +55,7 @@ bool lightning_geometry(const void *given, const Grown *grown, const Placing *pl
     }
     bool done = drawn == 0 || (curves && curves->glow);
     if (done && drawn > 0) {
-        // A cylinder of radius r and radiance L all around sends out 2 pi^2 r L a metre.
+        // A cylinder of radius r and radiance L emits 2 pi^2 r L per metre.
         float core = lightning_radius(params, tree);
         float radiance =
             params->power > 0.0f ? params->power / (2.0f * PI_F * PI_F * core) : OWN_RADIANCE;

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// A bolt stands at its strike; what crawls over a surface belongs to that.
+// Origin at the strike; on a surface, at that of the envelope.
 static bool own_space(OwnSpace *own, void *params, Error *e)
 {
     LightningParams *lightning = params;

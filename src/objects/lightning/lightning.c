@@ -1,4 +1,4 @@
-// Bolts put together: where they run, one out-tree for all of them, radii from powers.
+// Assembles bolts: their frames, one out-tree for all, radii from powers.
 #include "objects/lightning/lightning.h"
 
 #include "base/exact_math.h"
@@ -70,7 +70,7 @@ int64_t lightning_attractors(const LightningParams *params)
 
 // ---- radii ----
 
-// Walks from the strike back to the root and marks the way with radius 1.
+// Marks the path from the strike back to the root with radius 1.
 static void mark_main(OutTree *tree, uint64_t strike_id)
 {
     int32_t node = (int32_t)tree->count - 1;
@@ -91,13 +91,13 @@ static float chain_length(const OutTree *tree, const int32_t *node, int64_t coun
     return length;
 }
 
-// Powers along one chain, as shares of the main channel's. rank: 0 = the main channel, 1 = what
-// leaves it, ...
+// Powers along one chain, as shares of the main channel's. rank: 0 = the main channel, 1 = its
+// branches, ...
 static void chain_powers(OutTree *tree, const LightningParams *params, float size, int rank,
                          bool from_root, const int32_t *node, int64_t count)
 {
     enum { LONG = 4 };               // a branch of 1 / LONG of the bolt has its full power
-    static const float faded = 0.1f; // share of it that is left at the tip
+    static const float faded = 0.1f; // share left at the tip
     float share = 1.0f, length = chain_length(tree, node, count), done = 0.0f;
     if (rank > 0) {
         share = params->branch_power * exact_pow((float)rank, -1.2f);
@@ -159,9 +159,9 @@ float lightning_radius(const LightningParams *params, const OutTree *tree)
     return most;
 }
 
-// ---- the way ----
+// ---- jitter ----
 
-// The ids of the strikes; the caller frees them.
+// The node ids of the strikes; the caller frees them.
 static uint64_t *find_strikes(const OutTree *tree, int *count, Error *e)
 {
     *count = 0;
@@ -177,8 +177,8 @@ static uint64_t *find_strikes(const OutTree *tree, int *count, Error *e)
     return id;
 }
 
-// Powers first, so that chains follow the main channel; and again in the end, along the ways as
-// they are drawn.
+// Computes powers first, so that chains follow the main channel, and again at the end, along the
+// final channels.
 OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float size, float core,
                           const Wander *wander, Error *e)
 {
@@ -201,7 +201,7 @@ OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float si
                 error_key(e, "%s", i == 0 ? "step" : "segment");
             }
             jitter.amplitude = params->jitter * size * (i == 0 ? 1.0f : 0.4f);
-            jitter.amplitude *= wander->project ? 0.7f : 1.0f; // in one direction, round bends
+            jitter.amplitude *= wander->project ? 0.7f : 1.0f; // in one direction, around bends
             jitter.seed = random_key(wander->seed, (uint64_t)i);
             done = next && out_tree_jitter(next, &jitter, wander->run, e);
             out_tree_free(tree);
@@ -234,7 +234,7 @@ static Bolt make_bolt(const LightningParams *params, int number, uint64_t seed)
                                                           : vec3_perpendicular(up);
     bolt.side = vec3_cross(up, bolt.depth);
     float apart = params->bolt_spread;
-    // 0, +1, -1, +2, ... places to the side, a little uneven and in depth
+    // 0, +1, -1, +2, ... places to the side, with random offsets aside and in depth
     int rank = (number + 1) / 2;
     float place = (float)rank * (number % 2 ? 1.0f : -1.0f);
     uint64_t key = random_key(bolt.seed, STREAM_BOLT_STRIKE);
@@ -249,7 +249,7 @@ LightningParams lightning_params_resolve(const LightningParams *given)
 {
     LightningParams params = *given;
     float size = params.height;
-    if (params.element.points.place != SCATTER_SURFACE) { // where all follows the surface's extent
+    if (params.element.points.place != SCATTER_SURFACE) { // there the extent sets lengths
         params.step = params.step > 0.0f ? params.step : size / 40.0f;
         params.segment = params.segment > 0.0f ? params.segment : size / 400.0f;
         params.radius = params.radius > 0.0f ? params.radius : size / 1600.0f;

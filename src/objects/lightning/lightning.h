@@ -58,7 +58,7 @@ int64_t lightning_attractors(const LightningParams *params);
 float lightning_radius(const LightningParams *params, const OutTree *tree);
 
 // Adds the bolts as emissive round curves; the one material should be an emission. The curves' glow
-// divides by the luminance of its radiance, so that the result follows the power.
+// is relative to that emission's luminance, so that their radiance follows the power.
 bool lightning_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 // Adds "turning" (mean absolute change of direction along the main channel, degrees, seen from the

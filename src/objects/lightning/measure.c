@@ -1,4 +1,4 @@
-// What photographs of lightning are measured by.
+// Measures that are taken from photographs of lightning.
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "objects/lightning/lightning.h"
@@ -9,7 +9,7 @@
 
 enum { VIEWS = 4, PIECES = 64, FINEST = 128 };
 
-// A photographer's picture plane: across and up.
+// A photograph's picture plane: across and up.
 typedef struct View {
     Vec3 right, up;
 } View;
@@ -26,8 +26,8 @@ static Vec3 seen(const View *view, Vec3 p)
     return vec3(vec3_dot(p, view->right), vec3_dot(p, view->up), 0.0f);
 }
 
-// Mean absolute angle between successive pieces of `length` m (as the picture shows them) along a
-// chain; adds the sum and the count.
+// Absolute angles between successive pieces of `length` m (in the picture plane) along a chain;
+// adds their sum and count.
 static void add_turning(const OutTree *tree, const int32_t *node, int64_t count, const View *view,
                         float length, double *sum, int64_t *turns)
 {
@@ -70,7 +70,7 @@ static double channel_turning(const OutTree *tree, const ChainSet *chains, int b
     return turns > 0 ? sum / (double)turns : (double)NAN;
 }
 
-// The branches as points closer than the finest boxes.
+// Samples the branches by points closer than the finest boxes.
 static Vec3 *line_points(const OutTree *tree, float spacing, const View *view, int64_t *count,
                          Error *e)
 {
@@ -123,7 +123,7 @@ bool lightning_measure(const void *given, const Grown *grown, const Recipe *reci
     double dimension;
     bool done = chains && seen_dimension(tree, &dimension, e);
     bool air =
-        params->element.points.place == SCATTER_VOLUME; // nature's ranges are those of the sky
+        params->element.points.place == SCATTER_VOLUME; // natural ranges apply to the sky only
     done = done &&
            measures_add(list, "channel_turning", channel_turning(tree, chains, params->bolts),
                         "degrees", air ? 15.0 : (double)NAN, air ? 18.0 : (double)NAN, e) &&

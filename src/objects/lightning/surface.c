@@ -11,7 +11,7 @@ enum { STREAM_ROOT_ID = 1 }; // of a root
 
 typedef struct Skin {
     const Envelope *envelope;
-    float probe; // m, half the distance over which the distance's slope is taken
+    float probe; // m, half the step of the distance's finite differences
 } Skin;
 
 static Vec3 slope_at(const Skin *skin, Vec3 p)
@@ -25,8 +25,8 @@ static Vec3 slope_at(const Skin *skin, Vec3 p)
     return vec3_scale(vec3(g[0], g[1], g[2]), 0.5f / h);
 }
 
-// Down the slope of the distance to the surface; where it is flat (beyond a level set's band),
-// along the normal of where p came from.
+// Moves p down the gradient of the distance to the surface; where that is 0 (beyond a level set's
+// band), along the previous normal.
 static void project(const void *surface, Vec3 *p, Vec3 *normal)
 {
     enum { ROUNDS = 6 };
@@ -42,7 +42,7 @@ static void project(const void *surface, Vec3 *p, Vec3 *normal)
     }
 }
 
-// The vertex that lies furthest along d.
+// The vertex farthest along d.
 static Vec3 extreme_point(const Envelope *envelope, Vec3 d)
 {
     const Mesh *mesh = envelope_surface(envelope);
@@ -83,8 +83,7 @@ static bool grow_over(OutTree *tree, const LightningParams *params, const Envelo
         element.levels = levels;
         element.level_count = lightning_own_levels(params, levels);
     }
-    // Away from where it started, and no hairpins: discharges do not come back over their own
-    // charge.
+    // Away from the starting point, without hairpins: discharges avoid their own charge.
     FieldParams away = field_params_default(FIELD_NUCLEI);
     away.surface = true;
     if (element.field_count == 0) {
@@ -100,8 +99,8 @@ static bool grow_over(OutTree *tree, const LightningParams *params, const Envelo
                            random_key(recipe->seed, STREAM_SURFACE_GROWTH), recipe, NULL, e);
 }
 
-// Marks the node of each colony that is furthest from its root along the branches: there the main
-// channel goes.
+// Marks the node of each colony farthest from its root along the branches: the end of the main
+// channel.
 static bool mark_ends(OutTree *tree, int bolts, Error *e)
 {
     float *distance = memory_alloc(tree->count, sizeof *distance, e);
@@ -126,8 +125,8 @@ static bool mark_ends(OutTree *tree, int bolts, Error *e)
     return done;
 }
 
-// Drops what leads through the air or the body, across an armpit: nodes that were not found on the
-// surface, and jumps. What is left may skip a dent, as discharges do.
+// Drops paths through the air or the body: nodes that are not on the surface, and jumps. The rest
+// may skip a dent, as discharges do.
 static bool drop_strays(OutTree *tree, const Skin *skin, float size, Error *e)
 {
     bool *keep = memory_alloc(tree->count, sizeof *keep, e);
@@ -150,7 +149,7 @@ static float larger(float a, float b)
     return a > b ? a : b;
 }
 
-// Of the envelope, m.
+// Largest extent of the envelope, m.
 static float largest_extent(const Envelope *envelope)
 {
     Aabb box = envelope_bounds(envelope);

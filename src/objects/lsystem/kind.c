@@ -28,7 +28,7 @@ static int64_t copies(const void *params)
 
 static void needs(const void *params, Needs *needs)
 {
-    // of a large plant; three branches a fork are typical
+    // of a large plant; three branches per fork are typical
     enum { LEAF_FACES = 25, LEAVES = 50000, GENERATIONS = 6, BRANCH_BYTES = 69000 };
     const LSystemPlantParams *plant = params;
     double branches = pow(3.0, fmin(plant->generations, GENERATIONS));

@@ -9,7 +9,7 @@
 enum { STREAM_STRING = 1, STREAM_TURTLE = 2 }; // of the object's seed
 
 // Monopodial and sympodial forks by divergence angles, bent by gravity (The Algorithmic Beauty of
-// Plants, figure 2.8): a trunk that forks in three, branches that fork again.
+// Plants, figure 2.8): the trunk forks in three, branches fork again.
 static const char TREE_AXIOM[] = "!(1)F(1.2)/(45)A";
 static const char TREE_RULES[] =
     "d1 = 94.74; d2 = 132.63; a = 18.95; l = 1.109; w = 1.732\n"
@@ -41,7 +41,7 @@ static bool sets_widths(const OutTree *tree)
     return true;
 }
 
-// To the wanted height about the first root, which goes to the position.
+// Scales to the given height and moves the first root to the position.
 static void scale_to(OutTree *tree, float height, Vec3 position)
 {
     float top = 0.0f;
@@ -56,7 +56,7 @@ static void scale_to(OutTree *tree, float height, Vec3 position)
     }
 }
 
-// Widths are drawn in the string's own unit: the widest becomes the root's radius.
+// Widths are in the string's own unit: scales the widest to the root's radius.
 static void scale_widths(OutTree *tree, float radius)
 {
     float widest = 0.0f;

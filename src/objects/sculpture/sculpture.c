@@ -27,7 +27,7 @@ SculptureParams sculpture_params_default(void)
     return params;
 }
 
-// Coarse bars first, then what fills the surface between them.
+// Coarse bars first, then finer ones between them.
 static void fill_levels(GrowLevel levels[LEVELS], int64_t attractors, float noise)
 {
     levels[0] = (GrowLevel){.attractors = attractors / 9 > 0 ? attractors / 9 : 1,
@@ -46,7 +46,7 @@ static void fill_levels(GrowLevel levels[LEVELS], int64_t attractors, float nois
                             .relax = 0.5f};
 }
 
-// Farthest-point sampling (Gonzalez 1985) among points of the surface, from the lowest on.
+// Farthest-point sampling (Gonzalez 1985) of surface points, starting with the lowest.
 static bool plant(OutTree *tree, const PointSet *points, int clusters, uint64_t seed,
                   const Run *run, Error *e)
 {
@@ -102,7 +102,7 @@ static bool plant_roots(OutTree *tree, const SculptureParams *params, const Elem
     return done;
 }
 
-// A bar that closes a loop is as thick as the one it goes on from.
+// A bar that closes a loop has the radius of its parent.
 static void compute_radii(OutTree *tree, int64_t grown, float thin, float contrast)
 {
     int64_t all = tree->count;

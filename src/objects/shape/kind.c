@@ -50,10 +50,10 @@ static bool geometry(const void *given, const Grown *grown, const Placing *placi
     return placing_add(placing, (Part){.mesh = mesh}, 0, e);
 }
 
-// Of the surface that a level set is made along, m^2. Half spaces only cut.
+// Area of the surface sampled by a level set, m^2. Half spaces add none.
 static double surface_area(const Shape *shape)
 {
-    const double man = 0.62; // of the square of his height
+    const double man = 0.62; // of the square of the height
     Primitive primitive;
     if (shape->kind == SHAPE_BODY) {
         return man * (double)(shape->size.x * shape->size.x);

@@ -22,8 +22,8 @@ static void describe(const void *params, char *text, size_t size)
     snprintf(text, size, ", %s", slash ? slash + 1 : skeleton->file);
 }
 
-// A traced cell's skin at 36 bytes of file a node: mean of a pyramidal neuron, whose nodes stand
-// some five rings apart.
+// Skin of a traced cell at 36 bytes of file per node: mean of a pyramidal neuron, with about five
+// rings between nodes.
 static void needs(const void *params, Needs *needs)
 {
     const double file_bytes = 36.0, node_bytes = 6500.0;

@@ -21,7 +21,7 @@ SkeletonParams skeleton_params_default(void)
                             .skin = {.levels = 2, .ring_spacing = 1.0f}};
 }
 
-// ---- picking ----
+// ---- selection ----
 
 static bool is_shown(const SkeletonParams *params, int32_t type)
 {
@@ -39,7 +39,7 @@ static bool is_shown(const SkeletonParams *params, int32_t type)
     }
 }
 
-// The nodes of the types that show; what grew from one that does not is a root.
+// Copies the nodes of visible types; children of hidden nodes become roots.
 static OutTree *pick(const OutTree *tree, const SkeletonParams *params, Error *e)
 {
     OutTree *out = out_tree_new(e);
@@ -183,7 +183,7 @@ static bool add_skin(const OutTree *tree, const SkeletonParams *params, int role
                        role, e);
 }
 
-// The axons with all that grew from them, each from inside of what it leaves.
+// The axons with their descendants, each starting inside its parent branch.
 static OutTree *axons_of(const OutTree *tree, const bool *of_axon, Error *e)
 {
     OutTree *axons = out_tree_new(e);
@@ -251,7 +251,7 @@ static bool add_all(const OutTree *tree, const SkeletonParams *params, const Pla
     return done;
 }
 
-// What grows from a curve is curves: a soma, thin at its pole, must not be one.
+// Descendants of a curve are curves, so a soma, thin at its pole, must not be a curve.
 bool skeleton_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
     const SkeletonParams *params = given;

@@ -17,7 +17,7 @@ typedef struct Soma {
     float radius;
     int64_t nodes;
     int32_t stem;  // the thickest that leaves it; -1 = none
-    int64_t first; // of its chain in the new tree
+    int64_t first; // first node of its chain in the new tree
 } Soma;
 
 typedef struct Rounding {
@@ -25,11 +25,11 @@ typedef struct Rounding {
     OutTree *out;
     Soma *soma;
     int64_t count;
-    int32_t *soma_of; // per node; -1 = of no soma
+    int32_t *soma_of; // per node; -1 = none
     int32_t *place;   // per node that stays: in the new tree
 } Rounding;
 
-// Numbers the somas and says which nodes belong to them.
+// Numbers the somas and assigns nodes to them.
 static bool find_somas(Rounding *r, Error *e)
 {
     const OutTree *tree = r->tree;
@@ -60,7 +60,7 @@ static void find_middles(Rounding *r)
     }
 }
 
-// The radius of the ball with the area of the segments, or that of an outline.
+// The radius of the ball with the area of the segments, or of the outline.
 static bool find_radii(Rounding *r, Error *e)
 {
     const OutTree *tree = r->tree;
@@ -103,8 +103,8 @@ static void find_stems(Rounding *r)
     }
 }
 
-// The axis of each ball points to where its stem first is outside of it. Until add_nodes, place
-// says whose stem has come to a node.
+// The axis of each ball points to the first node of its stem outside of it. Until add_nodes, place
+// holds the soma whose stem has reached a node.
 static void find_axes(Rounding *r)
 {
     const OutTree *tree = r->tree;
@@ -131,8 +131,8 @@ static void find_axes(Rounding *r)
     }
 }
 
-// Along and across the axis, in radii; fuller than a circle, for the skin's axis is filtered, which
-// takes that off.
+// Coordinates along and across the axis, in radii. Fuller than a circle, to offset the filtering of
+// the skin's axis.
 static void ball_node(int k, float *along, float *across)
 {
     exact_sincos(3.14159265f * ((float)k + 0.12f) / ((float)BALL_NODES - 0.76f), across, along);
@@ -160,7 +160,7 @@ static bool add_ball(Rounding *r, int64_t root, Soma *soma, Error *e)
     return true;
 }
 
-// The node of the ball's chain that a way which leaves the ball at i begins at.
+// The node of the ball's chain at which a branch that leaves the ball at i starts.
 static int64_t leaving_at(const Rounding *r, const Soma *soma, int64_t i)
 {
     if (i == soma->stem) {

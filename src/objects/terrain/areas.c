@@ -1,4 +1,4 @@
-// Drainage areas: the land that drains through each node of the rivers.
+// Drainage areas: the area of land that drains through each river node.
 #include "objects/terrain/internal.h"
 
 #include "base/memory.h"
@@ -76,8 +76,8 @@ static int32_t nearest_node(const NodeGrid *grid, const OutTree *tree, float x, 
     return found;
 }
 
-// Land belongs to its nearest node: counted on a grid that the number of rivers decides, not the
-// resolution asked for.
+// Land drains to its nearest node, counted on a grid that depends on the number of rivers, not on
+// the resolution.
 bool terrain_areas(Terrain *terrain, const Run *run, Error *e)
 {
     const OutTree *tree = terrain->rivers;
@@ -104,7 +104,7 @@ bool terrain_areas(Terrain *terrain, const Run *run, Error *e)
             terrain->area[owner[i]] += cell;
         }
         for (int64_t i = tree->count - 1; i >= 0; i--) {
-            float least = 0.25f * cell; // a node between others, nearest to no sample
+            float least = 0.25f * cell; // least area, for nodes nearest to no sample
             terrain->area[i] = terrain->area[i] > least ? terrain->area[i] : least;
             if (tree->parent[i] >= 0) {
                 terrain->area[tree->parent[i]] += terrain->area[i];

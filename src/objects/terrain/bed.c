@@ -1,6 +1,6 @@
-// Rivers on the finished land: how high their water stands, and their beds. Noise, erosion and
-// terraces change the heights that rivers had when they grew; so the water is laid into what is
-// there in the end, and always falls.
+// Rivers on the finished land: water levels and beds. Noise, erosion and terraces change the land
+// after the rivers' heights are computed, so water levels are fitted to the final land and always
+// fall downstream.
 #include "base/memory.h"
 #include "base/random.h"
 #include "land/height_drainage.h"
@@ -12,7 +12,7 @@
 
 // ---- the water as an out-tree
 
-// The child that carries most water on; -1 where none does.
+// The child with the largest drainage area; -1 = none.
 static int32_t *heaviest_children(const Terrain *terrain, Error *e)
 {
     const OutTree *rivers = terrain->rivers;
@@ -48,7 +48,7 @@ static int64_t add_piece(OutTree *water, const OutTree *rivers, int64_t i, int64
     return lower;
 }
 
-// The rivers that the grid can show, in steps of at most half a cell; empty when there are none.
+// The rivers that the grid resolves, in steps of at most half a cell; empty if there are none.
 static OutTree *wide_rivers(const Terrain *terrain, float cell, Error *e)
 {
     const OutTree *rivers = terrain->rivers;
@@ -83,7 +83,7 @@ static OutTree *wide_rivers(const Terrain *terrain, float cell, Error *e)
     return water;
 }
 
-// The child that is the widest; -1 where there is none.
+// The widest child; -1 = none.
 int32_t *terrain_main_children(const OutTree *water, Error *e)
 {
     int32_t *main = memory_alloc(water->count, sizeof *main, e);
@@ -97,7 +97,7 @@ int32_t *terrain_main_children(const OutTree *water, Error *e)
     return main;
 }
 
-// Rounds bends over a cell or two: each node goes toward the middle of its neighbours, and stays
+// Smooths bends over a cell or two: each node moves toward the middle of its neighbours, except
 // where a river begins or ends.
 static bool round_bends(OutTree *water, Error *e)
 {
@@ -121,7 +121,7 @@ static bool round_bends(OutTree *water, Error *e)
     return done;
 }
 
-// ---- how high it stands
+// ---- water levels
 
 static float nearest_sample(const HeightField *field, float x, float z)
 {
@@ -131,7 +131,7 @@ static float nearest_sample(const HeightField *field, float x, float z)
     return field->height[(int64_t)row * field->columns + column];
 }
 
-// The lowest land from bank to bank at node i: water that stands no higher floats nowhere.
+// The lowest land from bank to bank at node i: the highest level at which no water floats.
 static float lowest_across(const OutTree *water, int64_t i, const HeightField *field)
 {
     Vec3 p = water->position[i], q = water->position[water->parent[i]];
@@ -146,8 +146,8 @@ static float lowest_across(const OutTree *water, int64_t i, const HeightField *f
     return low;
 }
 
-// Each level becomes the mean of itself and those some cells downstream, which are lower, twice:
-// samples of the land would let the water fall in steps of a cell.
+// Averages each level with those a few cells downstream, which are lower, twice: otherwise the
+// water falls in steps of a cell.
 static bool smooth_levels(OutTree *water, Error *e)
 {
     enum { REACH = 8, TIMES = 2 };
@@ -171,7 +171,7 @@ static bool smooth_levels(OutTree *water, Error *e)
     return done;
 }
 
-// Sets each node's height to that of the water: as high as the land allows, falling downstream.
+// Sets each node's height to the water level: as high as the land allows, falling downstream.
 static void find_levels(OutTree *water, const HeightField *field)
 {
     const float least_fall = 1e-5f;
@@ -180,7 +180,7 @@ static void find_levels(OutTree *water, const HeightField *field)
         water->position[i].y =
             water->parent[i] < 0 ? nearest_sample(field, p.x, p.z) : lowest_across(water, i, field);
     }
-    for (int64_t i = water->count - 1; i >= 0; i--) { // children stand after their parents
+    for (int64_t i = water->count - 1; i >= 0; i--) { // children follow their parents
         if (water->parent[i] >= 0) {
             Vec3 p = water->position[i], *q = &water->position[water->parent[i]];
             float dx = p.x - q->x, dz = p.z - q->z;
@@ -192,7 +192,7 @@ static void find_levels(OutTree *water, const HeightField *field)
 
 // ---- the shore
 
-// The envelope of the distances to the water: to each node's piece (to its parent), less half the
+// The envelope of the distances to the water: to each node's segment (to its parent), less half the
 // water's width.
 static TroughEnvelope *make_shore(const OutTree *water, float size, const Run *run, Error *e)
 {
@@ -204,7 +204,7 @@ static TroughEnvelope *make_shore(const OutTree *water, float size, const Run *r
         int64_t below = water->parent[i] >= 0 ? water->parent[i] : i;
         Vec3 a = water->position[below], b = water->position[i];
         float dx = b.x - a.x, dz = b.z - a.z, length = sqrtf(dx * dx + dz * dz);
-        // Half as fast as distances grow at most, where a brook enters a wide river.
+        // At most half of a distance's gradient, where a brook enters a wide river.
         float widens = clampf(water->radius[below] - water->radius[i], 0.0f, 0.5f * length);
         trough[i] = (Trough){.x = a.x,
                              .z = a.z,
@@ -229,7 +229,7 @@ float terrain_shore(const Terrain *terrain, float x, float z)
 // ---- beds
 
 // The height of the bed at a place `away` from the water's edge (negative: in the water) whose
-// nearest piece is that of `node`. Beside the water the land lies as low as under its edge.
+// nearest segment is that of `node`. Beside the water the land is as low as at its edge.
 static float bed_at(const OutTree *water, int32_t node, float x, float z, float away)
 {
     int32_t below = water->parent[node] >= 0 ? water->parent[node] : node;

@@ -8,7 +8,7 @@
 enum { TASK_LEVELS = 3, TASKS = 64, MOST_LEVELS = 9 };
 
 typedef struct Leaf {
-    int32_t *list; // of its task
+    int32_t *list; // of the task that filled it
     int64_t start;
     int32_t count;
 } Leaf;
@@ -45,9 +45,9 @@ static int side_of(const TroughEnvelope *envelope)
     return 1 << envelope->levels;
 }
 
-// A square on its way down: candidates are troughs that can be lowest somewhere in it.
+// A square of the subdivision: candidates are troughs that can be lowest somewhere in it.
 typedef struct Square {
-    int column, row, level; // of 2^level a side
+    int column, row, level; // of 2^level per side
 } Square;
 
 static void square_center(const TroughEnvelope *envelope, Square s, float *x, float *z, float *r)
@@ -70,7 +70,7 @@ static int64_t prune(const TroughEnvelope *envelope, Square square, const int32_
         low[i] = h - reach;
         bound = h + reach < bound ? h + reach : bound;
     }
-    bound += 1e-5f * (bound < 0.0f ? -bound : bound) + 1e-5f; // of rounding
+    bound += 1e-5f * (bound < 0.0f ? -bound : bound) + 1e-5f; // for rounding errors
     int64_t some = 0;
     for (int64_t i = 0; i < count; i++) {
         if (low[i] <= bound) {
@@ -139,7 +139,7 @@ static bool fill_leaves(TroughEnvelope *envelope, const int32_t *all, const Run 
     return done || (run_is_cancelled(run) ? run_cancel_error(e) : false);
 }
 
-// Which task filled a leaf: the square of level TASK_LEVELS that it lies in.
+// The task that filled a leaf: its square of level TASK_LEVELS.
 static void link_leaves(TroughEnvelope *envelope)
 {
     int side = side_of(envelope), shift = envelope->levels - TASK_LEVELS;

@@ -9,8 +9,9 @@
 #include <stdint.h>
 
 // A trough over the segment from (x, z) along the unit direction (dx, dz), rising from height h0 by
-// `slope` per metre. At a distance d to its sides it rises by gradient * (sqrt(d^2 + width^2) -
-// width): a round floor, then straight slopes. slope < gradient.
+// `slope` per metre. Its height is the minimum over the segment of the river's height + gradient *
+// sqrt(d^2 + width^2), d the distance, lowered to touch the river: a round floor, then straight
+// slopes. slope < gradient.
 typedef struct Trough {
     float x, z, dx, dz, length;
     float h0, slope, gradient, width;

@@ -1,6 +1,6 @@
-// Erosion of a height field: slopes that fall down (thermal) and brooks that cut in (stream power).
-// It works on a grid of its own, the same for every resolution, so that more samples show the same
-// erosion; what it changed is laid over the field by splines.
+// Erosion of a height field: slides of steep slopes (thermal) and incision by brooks (stream
+// power). It runs on its own grid, the same for every resolution, so that more samples show the
+// same erosion; the change is added to the field by splines.
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "land/height_drainage.h"
@@ -11,9 +11,10 @@
 
 enum { ERODED_CELLS = 512 }; // a side
 
-// ---- thermal: what stands steeper than the talus slides to lower neighbours
+// ---- thermal: land steeper than the talus slides to lower neighbours
 
-// What sample i gains from and loses to its four neighbours, for a slope limit a cell.
+// Height that sample i exchanges with its four neighbours; limit: largest height difference per
+// cell.
 static float slide(const HeightField *field, int row, int column, float limit)
 {
     const float *h = &field->height[(int64_t)row * field->columns + column];
@@ -22,7 +23,7 @@ static float slide(const HeightField *field, int row, int column, float limit)
     for (int k = 0; k < 4; k++) {
         float drop = *h - h[beside[k]];
         float over = drop > limit ? drop - limit : drop < -limit ? drop + limit : 0.0f;
-        change -= 0.2f * over; // a fifth each: never past even
+        change -= 0.2f * over; // a fifth each: never overshoots
     }
     return change;
 }
@@ -75,9 +76,9 @@ static bool erode_streams_once(HeightField *field, float strength, float reach, 
         bool diagonal =
             to != i - 1 && to != i + 1 && to != i - field->columns && to != i + field->columns;
         float length = field->cell.x * (diagonal ? 1.4142135f : 1.0f);
-        // Below a patch of this area no brook gathers: slopes keep their form on any grid.
+        // Below this area no brook forms, so slopes keep their form on any grid.
         float area = (float)drainage->area[i];
-        // Rivers have their steady heights already: gullies grow, they do not sink.
+        // Rivers are already in steady state: only gullies erode.
         float most = 64.0f * reach * reach;
         float share = area / (area + reach * reach) * (most / (area + most));
         float f = strength * share * sqrtf(area) / length;
@@ -105,7 +106,7 @@ static bool erode_streams(HeightField *field, const TerrainErosionParams *params
     return true;
 }
 
-// The field on the grid of the erosion.
+// Resamples the field on the grid of the erosion.
 static HeightField *resample(const HeightField *field, Error *e)
 {
     float scale_x = (float)(field->columns - 1) / ERODED_CELLS;

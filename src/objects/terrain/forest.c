@@ -56,7 +56,7 @@ static Mesh *conifer_mesh(uint64_t seed, Error *e)
             mesh->position[v + 2] =
                 vec3_madd(vec3(0.0f, height - 0.35f * length, 0.0f), length, out);
             mesh->position[v + 3] = vec3_madd(middle, -wide, side);
-            // Seen as a cone with soft needles, not as sheets.
+            // Normals of a cone, so that it shades like soft needles, not like sheets.
             for (int k = 0; k < 4; k++) {
                 mesh->normal[v + k] =
                     vec3_normalize(vec3_madd(vec3(0.0f, 0.55f, 0.0f), k == 0 ? 0.5f : 1.0f, out));
@@ -81,7 +81,7 @@ typedef struct Planting {
     uint64_t seed;
 } Planting;
 
-// Does a tree grow at a place, and how large (0 = none)?
+// Height of the tree at a place; 0 = none.
 static float tree_size(const Planting *p, float x, float z, uint64_t key)
 {
     const TerrainForestParams *forest = &p->params->forest;
@@ -104,18 +104,17 @@ static float tree_size(const Planting *p, float x, float z, uint64_t key)
     }
     float tall = forest->height * random_range(random_key(key, STREAM_TREE_HEIGHT), 0.45f, 1.0f) *
                  (0.55f + 0.45f * line);
-    // Its lowest boughs, too, keep out of rivers.
+    // Its lowest boughs must not reach over rivers either.
     return terrain_shore(p->terrain, x, z) > 0.2f * tall ? tall : 0.0f;
 }
 
-// Trees stand in a jittered grid. Where there are too many for `count`, far ones are left out
-// first.
+// Plants trees in a jittered grid. If there are more than `count`, far ones are left out first.
 static bool plant(const Planting *p, Transform **place, int64_t *count, const Run *run, Error *e)
 {
     const TerrainForestParams *forest = &p->params->forest;
     float spacing = 0.36f * forest->height, size = p->params->size;
     int64_t side = (int64_t)fminf(size / spacing, MOST_ROWS);
-    float full = 0.32f * sqrtf((float)forest->count) * spacing; // all trees stand nearer than this
+    float full = 0.32f * sqrtf((float)forest->count) * spacing; // no tree is left out within
     int64_t capacity = 0;
     for (int64_t i = 0; i < side * side && *count < forest->count; i++) {
         if (!run_goes_on(run, i, e)) {

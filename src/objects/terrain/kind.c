@@ -31,7 +31,7 @@ static void needs(const void *params, Needs *needs)
 {
     enum { CELL_BYTES = 200, RIVER_BYTES = 1500 };
     const TerrainParams *terrain = params;
-    double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // a tree each
+    double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // trees per side
     needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, CELL_BYTES);
     needs_add(needs, "rivers.count", (double)attractors(params), RIVER_BYTES);
     needs_add_copies(needs, "forest.count", fmin(terrain->forest.count, rows * rows), 1e9);

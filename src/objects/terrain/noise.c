@@ -70,7 +70,7 @@ float sparse_noise_fractal(float x, float y, int iterations, float gain, float r
     float sum = 0.0f, height = 1.0f;
     for (int i = 0; i < iterations; i++) {
         float n = sparse_noise(x, y, random_key(seed, (uint64_t)i));
-        float crest = (mean - fabsf(n)) * 1.65f; // again of variance 1
+        float crest = (mean - fabsf(n)) * 1.65f; // rescaled to variance 1
         sum += height * lerpf(n, crest, ridged);
         height *= gain;
         float turned = 1.6f * x - 1.2f * y; // twice the frequency, 37 degrees

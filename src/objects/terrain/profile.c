@@ -1,7 +1,7 @@
 // Heights of rivers. From the outlet up a river rises as streams in a steady state do, slope =
-// S0 min(1, (A / A0)^-concavity) (Flint 1974), times the uplift. All rivers rise at once, the
-// lowest first; where a river would have to cross the slope of one that is lower it is captured and
-// runs down that slope instead, as brooks are when divides move.
+// S0 min(1, (A / A0)^-concavity) (Flint 1974), times the uplift. All rivers are raised together,
+// lowest nodes first. A river that would cross the slope of a lower one is captured and runs down
+// that slope instead, as in nature when divides move.
 #include "objects/terrain/internal.h"
 
 #include "base/exact_math.h"
@@ -35,7 +35,7 @@ Trough terrain_trough(const Terrain *terrain, int64_t i, float gradient)
     return t;
 }
 
-// What is known of the troughs in one cell, for skipping it.
+// Bounds of the troughs in one cell, for skipping it.
 typedef struct TroughCell {
     int32_t first; // -1 = none; next in Ascent.next
     float low, gradient, reach;
@@ -105,7 +105,7 @@ static void search_cell(const Ascent *a, int column, int row, Vec3 p, float *bes
     }
 }
 
-// The lowest settled slope at p that is below `best`; -1 = none.
+// The node of the lowest settled slope at p below `best`; -1 = none.
 static int32_t lowest_slope(const Ascent *a, Vec3 p, float *best)
 {
     int column = terrain_cell(&a->cells, p.x), row = terrain_cell(&a->cells, p.z),
@@ -128,7 +128,7 @@ static int32_t lowest_slope(const Ascent *a, Vec3 p, float *best)
     return found;
 }
 
-// The height that node i would have above its parent by the slope-area law.
+// Height of node i above its parent by the slope-area law.
 static float tentative(const Ascent *a, int32_t i)
 {
     const Terrain *terrain = a->terrain;
@@ -145,7 +145,7 @@ static float tentative(const Ascent *a, int32_t i)
     return q.y + slope * sqrtf(dx * dx + dz * dz);
 }
 
-// Every river keeps this much fall at least.
+// Least fall of every river.
 static float least_rise(const OutTree *tree, int32_t i, int32_t below)
 {
     Vec3 p = tree->position[i], q = tree->position[below];
@@ -153,7 +153,7 @@ static float least_rise(const OutTree *tree, int32_t i, int32_t below)
     return q.y + 1e-5f * sqrtf(dx * dx + dz * dz) + 1e-6f * (q.y + 1.0f);
 }
 
-// The floor of a river's own valley reaches a little upstream: that is no capture.
+// The floor of a river's own valley reaches slightly upstream; this is no capture.
 static bool is_ancestor(const OutTree *tree, int32_t other, int32_t i)
 {
     for (int k = 0; k < 100 && i >= 0; k++, i = tree->parent[i]) {
@@ -164,14 +164,14 @@ static bool is_ancestor(const OutTree *tree, int32_t other, int32_t i)
     return false;
 }
 
-// Gives node i its height: the tentative one, if no slope is lower there.
+// Sets the height of node i: the tentative one, unless a slope is lower there.
 static void rise(Ascent *a, int32_t i, float tentative_height)
 {
     OutTree *tree = a->terrain->rivers;
     int32_t parent = tree->parent[i];
     Vec3 p = tree->position[i], q = tree->position[parent];
     float length = sqrtf((p.x - q.x) * (p.x - q.x) + (p.z - q.z) * (p.z - q.z));
-    // A valley needs some room to both sides before others' slopes begin.
+    // A valley needs some width before other slopes begin.
     float height = tentative_height + 0.3f * a->terrain->uplift[i] * length;
     int32_t other = lowest_slope(a, p, &height);
     bool foreign = other >= 0 && tree->parent[other] >= 0 && !is_ancestor(tree, other, parent);
@@ -211,12 +211,12 @@ static bool ascend(Ascent *a, Error *e)
     return true;
 }
 
-// Ends of rivers that lie on the slope of another are no rivers but its hillside: marks them in
-// drop, from the tips down to the first node that lies in a valley of its own.
+// River ends on another river's slope are part of its hillside: marks them in drop, from the tips
+// down to the first node in its own valley.
 static void drop_drowned(const Ascent *a, uint8_t *drop)
 {
     const OutTree *tree = a->terrain->rivers;
-    uint8_t *bears = drop; // 2 = a child stays
+    uint8_t *bears = drop; // 2 = a child is kept
     for (int64_t k = a->settled_count - 1; k >= 0; k--) {
         int32_t i = a->settled[k], parent = tree->parent[i];
         if (parent < 0) {
@@ -283,8 +283,8 @@ static int compare_ranks(const void *a, const void *b)
     return x->node < y->node ? -1 : x->node > y->node;
 }
 
-// A copy of the tree with every parent before its children: by height, which grows upstream.
-// Nodes to be dropped are left out.
+// A copy of the tree without dropped nodes, sorted by height, which rises upstream: parents come
+// before their children.
 static bool sort_by_height(Terrain *terrain, const uint8_t *drop, int64_t *dropped, Error *e)
 {
     OutTree *tree = terrain->rivers, *sorted = out_tree_new(e);

@@ -1,7 +1,7 @@
 // Rivers as an out-tree on a plane: space colonization from outlets on the border, the main rivers
-// first, then their brooks. Main rivers wind at every scale and run inland side by side, so that
-// large basins are longer for their width than small ones and rivers grow with their basins about
-// as Hack's law has it (length ~ area^0.57).
+// first, then their brooks. Main rivers meander at every scale and run inland side by side, so that
+// large basins are more elongated than small ones and river lengths follow Hack's law (length ~
+// area^0.57).
 #include "base/random.h"
 #include "grow/colonize.h"
 #include "objects/terrain/internal.h"
@@ -15,7 +15,7 @@
 enum { STREAM_X = 1, STREAM_Z = 2 }; // of an attractor
 enum { STREAM_JITTER = 1 };          // of an outlet
 
-// Points in a jittered grid: every square has one, so no land stays without a river.
+// Points in a jittered grid: one per square, so that rivers reach all land.
 static PointSet *scatter_plane(float size, int64_t count, uint64_t seed, Error *e)
 {
     PointSet *points = points_new(e);
@@ -42,7 +42,7 @@ static PointSet *scatter_plane(float size, int64_t count, uint64_t seed, Error *
     return points;
 }
 
-// Outlets stand evenly along their sides, each moved by a random share of its room.
+// Places outlets evenly along their sides, each moved at random within its interval.
 static bool add_outlets(OutTree *tree, const TerrainParams *params, uint64_t seed, Error *e)
 {
     const RiverParams *rivers = &params->rivers;
@@ -96,7 +96,7 @@ static bool grow_level(OutTree *tree, const TerrainParams *params, const GrowLev
     return done;
 }
 
-// Rivers stay on the plane and inside the land.
+// Clamps rivers to the plane and to the land.
 static void project_on_land(const void *surface, Vec3 *p, Vec3 *normal)
 {
     float half = 0.499f * ((const TerrainParams *)surface)->size;
@@ -104,7 +104,7 @@ static void project_on_land(const void *surface, Vec3 *p, Vec3 *normal)
     *normal = vec3(0, 1, 0);
 }
 
-// Lays windings of all lengths over the rivers so far; outlets and sources stay. *tree is replaced.
+// Jitters the rivers at all scales; outlets and sources stay in place. *tree is replaced.
 static bool wind_rivers(OutTree **tree, const TerrainParams *params, float spacing, uint64_t seed,
                         const Run *run, Error *e)
 {
@@ -121,7 +121,7 @@ static bool wind_rivers(OutTree **tree, const TerrainParams *params, float spaci
     jitter.seed = seed;
     jitter.project = project_on_land;
     jitter.surface = params;
-    jitter.stride = params->size; // a plane: one stride is as good as many
+    jitter.stride = params->size; // on a plane one stride is enough
     return out_tree_jitter(fine, &jitter, run, e);
 }
 
@@ -134,8 +134,8 @@ static bool grow_levels(OutTree **tree, const TerrainParams *params, const Guide
     colonizing.field = field;
     colonizing.field_weight = params->rivers.field_weight;
     colonizing.seed = random_key(seed, STREAM_RIVER_GROWTH);
-    // Lengths in spacings of the level's own attractors. Brooks are relaxed: straight on the scale
-    // of hillslopes.
+    // Lengths in spacings of the level's own attractors. Brooks are relaxed, so that they are
+    // straight on the scale of hillslopes.
     int64_t count = params->rivers.count > 12 ? params->rivers.count : 12;
     float winding = params->rivers.winding;
     const GrowLevel rivers = {.attractors = count / 8,
@@ -161,7 +161,7 @@ static bool grow_levels(OutTree **tree, const TerrainParams *params, const Guide
                       run, e);
 }
 
-// The guide field about the outlets.
+// The guide field with the outlets as nuclei.
 static GuideField *river_field(const OutTree *tree, const TerrainParams *params, uint64_t seed,
                                const Run *run, Error *e)
 {

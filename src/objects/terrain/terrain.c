@@ -39,10 +39,10 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
     return resolved;
 }
 
-// How far the noise pushes places about, m.
+// Displacement of places by the noise, m.
 static float warp_reach(const TerrainParams *params);
 
-// The wavelength of the noise's first iteration, m.
+// Wavelength of the noise's first octave, m.
 static float noise_wavelength(const TerrainParams *params)
 {
     return terrain_params_resolve(params).noise.wavelength * params->size;
@@ -53,7 +53,7 @@ static float warp_reach(const TerrainParams *params)
     return params->noise.iterations > 0 ? params->noise.warp * noise_wavelength(params) : 0.0f;
 }
 
-// The envelope of all troughs. flat: of distances, each river lying at height 0.
+// The envelope of all troughs. flat: envelope of distances, with each river at height 0.
 static TroughEnvelope *make_envelope(const Terrain *terrain, bool flat, const Run *run, Error *e)
 {
     const OutTree *tree = terrain->rivers;
@@ -76,7 +76,7 @@ static TroughEnvelope *make_envelope(const Terrain *terrain, bool flat, const Ru
 
 enum { PEAK_SAMPLES = 256 };
 
-// The highest place of the envelope, on a grid that nothing changes.
+// The highest point of the envelope, on a grid of fixed size.
 static float envelope_peak(const TroughEnvelope *envelope, float size)
 {
     float peak = 0.0f;
@@ -91,8 +91,8 @@ static float envelope_peak(const TroughEnvelope *envelope, float size)
     return peak;
 }
 
-// Heights so far are those of gradient 1. Everything is linear in the gradient: one factor makes
-// the highest place as high as asked.
+// Present heights are those of gradient 1. Heights are linear in the gradient, so one factor scales
+// the highest point to the wanted relief.
 static bool scale_heights(Terrain *terrain, const Run *run, Error *e)
 {
     const float natural = 0.65f; // tan(33 degrees): slopes of loose rock
@@ -126,7 +126,7 @@ static bool fill_rivers(Terrain *terrain, const Run *run, Error *e)
             return false;
         }
     }
-    OutTree *tree = terrain->rivers; // the profile has sorted it
+    OutTree *tree = terrain->rivers; // sorted by terrain_profile
     if (!scale_heights(terrain, run, e)) {
         return false;
     }
@@ -177,7 +177,7 @@ bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole
 
 // ---- heights
 
-// The land's height at a place and how wet it is there.
+// The land's height and wetness at a place.
 static float land_at(const Terrain *terrain, float x, float z, float *wetness)
 {
     const TerrainParams *params = terrain->params;
@@ -187,7 +187,7 @@ static float land_at(const Terrain *terrain, float x, float z, float *wetness)
     float height, wavelength = noise_wavelength(params);
     float u = x / wavelength, v = z / wavelength;
     if (noise->iterations > 0) {
-        // Nothing moves at a river: the noise fades over half a wavelength.
+        // No displacement at a river: the noise fades over half a wavelength.
         float fade = smoothstepf(0.0f, 0.5f * wavelength, away);
         float reach = 0.4f * warp_reach(params) * fade;
         float push_x = sparse_noise_fractal(0.5f * u, 0.5f * v, 2, 0.5f, 0.0f,
@@ -226,8 +226,8 @@ static bool sample_land(const Terrain *terrain, HeightField *field, const Run *r
     return !run_is_cancelled(run);
 }
 
-// Hard beds stand out as steps: within each the land first lies, then climbs. Rising where it rose,
-// so water still runs the same way.
+// Makes hard beds stand out as steps: flat at first, then steep. Heights stay monotonic, so
+// drainage is unchanged.
 static void make_terraces(HeightField *field, const TerrainTerraceParams *terraces, uint64_t seed)
 {
     float low, high;
@@ -250,8 +250,8 @@ static void make_terraces(HeightField *field, const TerrainTerraceParams *terrac
 
 // ---- rivers on the grid
 
-// Lowers the samples under a river where noise or erosion left sills: along the line from each node
-// to its parent no sample is higher than the river's own height there.
+// Lowers samples under a river where noise or erosion left sills: no sample along the line from
+// each node to its parent is above the river's height there.
 static void carve_piece(HeightField *field, Vec3 from, Vec3 to)
 {
     float dx = to.x - from.x, dz = to.z - from.z;
@@ -292,7 +292,7 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
     }
     make_terraces(field, &params->terraces, random_key(terrain->seed, STREAM_TERRACES));
     return (params->terraces.count <= 0 || height_field_fill(field, 0.0f, e)) &&
-           terrain_lay_rivers(terrain, field, run, e); // on what all else has left
+           terrain_lay_rivers(terrain, field, run, e); // on the final land
 }
 
 HeightField *terrain_heights(const void *given, const Grown *grown, const Run *run, Error *e)

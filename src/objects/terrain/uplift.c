@@ -1,4 +1,4 @@
-// Where the land rises faster: what the user paints.
+// The user's uplift map: strokes and picture.
 #include "base/noise.h"
 #include "base/random.h"
 #include "image/image.h"
@@ -16,7 +16,7 @@ static float stroke_distance(const UpliftStroke *stroke, float x, float z)
     return sqrtf(px * px + pz * pz);
 }
 
-// The mean of its colours, in the front of its own pixels: those lie before the ones still to read.
+// Converts to grey in place: writes stay behind the pixels still to be read.
 static void make_grey(Image *image)
 {
     int64_t count = (int64_t)image->width * image->height;

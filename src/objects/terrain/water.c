@@ -12,10 +12,10 @@ enum { LAKE_BLOCKS = 64 }; // a side
 
 typedef struct Lake {
     const HeightField *field;
-    float level, over; // m; land up to this far over the level may be drawn lower
+    float level, over; // m; land up to this height above the level may be drawn lower
 } Lake;
 
-// Is any of the land in a block of the field under water?
+// Is any land in a block of the field under water?
 static bool is_wet(const Lake *lake, int column, int row)
 {
     const HeightField *field = lake->field;
@@ -32,8 +32,8 @@ static bool is_wet(const Lake *lake, int column, int row)
     return false;
 }
 
-// Level squares over all blocks with land under water, so that no water shows under the mountains
-// where they end at the border.
+// Level squares over all blocks with land under water, so that no water is visible below mountains
+// cut off at the border.
 static Mesh *lake_mesh(const Lake *lake, Vec3 move, Error *e)
 {
     const HeightField *field = lake->field;
@@ -77,14 +77,14 @@ typedef struct Ribbons {
     const Terrain *terrain;
     const OutTree *water;
     const HeightField *field;
-    const int32_t *main; // of each node the child that carries most water on; -1 = none
+    const int32_t *main; // per node: the child with the most water; -1 = none
     float lake;          // level below which the lake's surface covers the river's
     Mesh *mesh;          // NULL = only count
     int64_t vertices, faces;
 } Ribbons;
 
 // A vertex `side` times half the width from the middle: at the river's level, but in cascades,
-// which the cells only show roughly, always on the land. The outermost, beyond 1, go under the
+// which the cells resolve poorly, always on the land. Outermost vertices, beyond 1, are below the
 // shore.
 static Vec3 water_vertex(const Ribbons *r, Vec3 middle, Vec3 across, float half, float side)
 {
@@ -102,7 +102,7 @@ static Vec3 water_vertex(const Ribbons *r, Vec3 middle, Vec3 across, float half,
     return p;
 }
 
-// The normal of the water that falls from `above` to `below`.
+// Normal of the water surface from `above` to `below`.
 static Vec3 water_normal(Vec3 below, Vec3 above)
 {
     float dx = above.x - below.x, dz = above.z - below.z, squared = dx * dx + dz * dz;
@@ -110,7 +110,7 @@ static Vec3 water_normal(Vec3 below, Vec3 above)
     return vec3_normalize(vec3(-slope * dx, 1.0f, -slope * dz));
 }
 
-// One row of `columns` vertices across the river, which comes from `above` and goes to `below`.
+// Adds one row of `columns` vertices across the river, which flows from `above` to `below`.
 static void add_row(Ribbons *r, Vec3 middle, Vec3 below, Vec3 above, float half, int columns)
 {
     Vec3 across = vec3_normalize(vec3(above.z - below.z, 0.0f, below.x - above.x));
@@ -127,8 +127,8 @@ static void add_row(Ribbons *r, Vec3 middle, Vec3 below, Vec3 above, float half,
     }
 }
 
-// Faces to the row that was added last from the one before, counter-clockwise from above; also
-// where rows cross each other, at the inner bank of a sharp bend.
+// Adds faces between the last two rows, counter-clockwise from above; also if rows cross at the
+// inner bank of a sharp bend.
 static void add_faces(Ribbons *r, int columns)
 {
     for (int i = 0; i + 1 < columns; i++) {
@@ -145,7 +145,7 @@ static void add_faces(Ribbons *r, int columns)
     }
 }
 
-// A river from its root, or a tributary from the river that it enters (the parent of `first`).
+// Adds a river from its root, or a tributary from the river that it enters (the parent of `first`).
 static void add_stem(Ribbons *r, int32_t first)
 {
     enum { MOST_PIECES = 16 }; // to each side

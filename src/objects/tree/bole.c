@@ -32,8 +32,8 @@ static float tree_distance(const PointSet *points, const OutTree *tree)
     return best;
 }
 
-// The mean direction of the attractors that would pull p if the nearest one stood beside it, no
-// further than 60 degrees from that one: each step on brings it nearer.
+// Mean direction of the attractors that would influence p if the nearest one were next to it, at
+// most 60 degrees from the direction of that one, so that each step approaches it.
 static Vec3 pull_at(const PointSet *points, Vec3 p, float influence)
 {
     float near = nearest_distance(points, p);
@@ -51,7 +51,7 @@ static Vec3 pull_at(const PointSet *points, Vec3 p, float influence)
     return vec3_dot(mean, first) >= 0.5f ? mean : first;
 }
 
-// Nodes from `node` on until an attractor is within `goal`; returns their length in *length, m.
+// Adds nodes from `node` on until an attractor is within `goal`; *length: their length, m.
 static bool lengthen(OutTree *tree, int64_t node, const PointSet *points, float goal,
                      float influence, float step, float *length, const Run *run, Error *e)
 {

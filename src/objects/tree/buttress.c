@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-// A piece of branch as a rounded cone.
+// A branch segment as a rounded cone.
 typedef struct Cone {
     Vec3 a, b;
     float radius_a, radius_b; // m
@@ -16,7 +16,7 @@ typedef struct Foot {
     int64_t count, capacity;
     int bodies;
     Aabb box;    // of what may be moved
-    float blend; // m: surfaces nearer to each other than this are blended
+    float blend; // m: surfaces closer to each other than this are blended
 } Foot;
 
 // A signed distance, m, with its gradient.
@@ -36,7 +36,7 @@ static Distance cone_distance(const Cone *cone, Vec3 p)
     return (Distance){length - lerpf(cone->radius_a, cone->radius_b, t), out};
 }
 
-// Smooth minimum (a quadratic spline); *fillet adds up how far it lies below the plain one.
+// Smooth minimum (a quadratic spline); *fillet accumulates its distance below the plain minimum.
 static Distance blend(Distance a, Distance b, float width, float *fillet)
 {
     float h = clampf(0.5f + 0.5f * (b.value - a.value) / width, 0.0f, 1.0f);
@@ -63,7 +63,7 @@ static Vec3 drawn_out(const Foot *foot, Vec3 p)
         least = body.value < least ? body.value : least;
         i = k;
     }
-    // Under another body's surface, as above a root's mouth: out to it.
+    // Below another body's surface, as above a root's mouth: move out to it.
     float under = least < 0.0f ? -least * clampf(8.0f * fillet / foot->blend, 0.0f, 1.0f) : 0.0f;
     Vec3 way = vec3_normalize(sum.gradient);
     return vec3_dot(way, way) > 0.5f ? vec3_madd(p, fillet + under, way) : p;
@@ -93,7 +93,7 @@ static bool gather_trunk(Foot *foot, const OutTree *tree, float below, Error *e)
     return good;
 }
 
-// The pieces that main roots start with follow each other in the out-tree.
+// The starting pieces of main roots are consecutive in the out-tree.
 static bool gather_roots(Foot *foot, const OutTree *tree, Error *e)
 {
     bool good = true;

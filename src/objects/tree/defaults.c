@@ -112,8 +112,7 @@ static Shape ellipsoid(Vec3 center, Vec3 half)
 }
 
 // The default crown: an ellipsoid, or a smaller one with lobes spread evenly over it (by the golden
-// angle), which bulge unevenly as limbs do that each fight for their own light. Returns how many
-// shapes.
+// angle), of uneven size, as limbs compete for light. Returns the number of shapes.
 static int crown_shapes(TreePlan *plan, uint64_t seed)
 {
     const TreeParams *tree = &plan->params;
@@ -130,8 +129,7 @@ static int crown_shapes(TreePlan *plan, uint64_t seed)
     for (int i = 0; i < lobes; i++) {
         uint64_t key = random_key(seed, (uint64_t)i);
         float sine, cosine, size = random_range(random_key(key, STREAM_LOBE_SIZE), 0.26f, 0.44f);
-        float y =
-            1.0f - 1.7f * ((float)i + 0.5f) / (float)lobes; // few below: they would be in the shade
+        float y = 1.0f - 1.7f * ((float)i + 0.5f) / (float)lobes; // few at the shaded bottom
         float turn =
             (float)i * 2.39996f + random_range(random_key(key, STREAM_LOBE_TURN), -0.4f, 0.4f);
         exact_sincos(turn, &sine, &cosine);

@@ -21,8 +21,8 @@ static bool add_bark(const OutTree *tree, const TreeParams *params, const SkinPa
     return placing_add(placing, (Part){.mesh = mesh}, TREE_BARK, e);
 }
 
-// Which curves are roots, which bear no leaves. A curve has the id of its first node, and curves
-// follow each other as those nodes do.
+// Marks the curves that are roots, which bear no leaves. A curve has the id of its first node, and
+// curves are in the order of those nodes.
 static bool *find_roots(const OutTree *tree, const CurveSet *curves, Error *e)
 {
     bool *root = memory_alloc(curves->curve_count, sizeof *root, e);
@@ -50,8 +50,8 @@ static bool add_leaves(const OutTree *tree, const TreeParams *params, const Curv
     return done;
 }
 
-// Leaves stand on the same curves that are drawn as twigs, so that none floats. When every twig is
-// mesh, the curves are made for the leaves alone.
+// Leaves are placed on the curves drawn as twigs, so that none floats. If every twig is mesh, the
+// curves are made for the leaves alone.
 static bool add_twigs_and_leaves(const OutTree *tree, const TreeParams *params,
                                  const SkinParams *skin, const Placing *placing, Error *e)
 {

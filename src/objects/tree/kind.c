@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// It stands on its trunk and has no turn.
+// Origin at the trunk's base, not rotated.
 static bool own_space(OwnSpace *own, void *params, Error *e)
 {
     TreeParams *tree = params;
@@ -27,7 +27,7 @@ static void describe(const void *params, char *text, size_t size)
 static void settle(const void *params, void *settled)
 {
     TreePlan plan;
-    tree_plan_make(&plan, params, 0); // no seed changes a number of the file's keys
+    tree_plan_make(&plan, params, 0); // the seed does not affect numbers of the file's keys
     memcpy(settled, &plan.params, sizeof plan.params);
 }
 
@@ -35,11 +35,11 @@ typedef struct TreeAttractors {
     int64_t trunk, crown, roots;
 } TreeAttractors;
 
-// Those of the model's own levels too.
+// Includes the default levels.
 static TreeAttractors count_attractors(const void *params)
 {
     TreePlan plan;
-    tree_plan_make(&plan, params, 0); // no seed changes how many
+    tree_plan_make(&plan, params, 0); // the seed does not affect their number
     const TreeParams *p = &plan.params;
     return (TreeAttractors){element_attractors(&p->trunk.element),
                             element_attractors(&p->crown.element),
@@ -58,7 +58,7 @@ static int64_t copies(const void *params)
     return tree->leaves.max_count;
 }
 
-// Nature's ranges: radii after Eloy (2011); the others are usual for broad-leaved trees.
+// Natural ranges: radii after Eloy (2011); the others are typical of broad-leaved trees.
 static bool measure(const void *given, const Grown *grown, const Recipe *recipe, MeasureList *list,
                     Error *e)
 {

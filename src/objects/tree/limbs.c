@@ -5,13 +5,13 @@
 
 #include <stdlib.h>
 
-// Limbs' axes keep this far apart on this part of their ways from where they part. In radii of a
-// limb, for which branches of one thickness and together of the trunk's cross-section stand.
+// Limbs' axes keep APART between FROM and TO along their paths from the fork. In radii of a limb,
+// taken as equal branches that together have the trunk's cross-section.
 #define APART 4.75f
 #define FROM 5.3f
 #define TO 21.0f
 
-// What grows from one node of the trunk beside the trunk.
+// A limb: the branch that leaves one node of the trunk.
 typedef struct Limb {
     int32_t base; // its first node
     bool kept;
@@ -22,7 +22,7 @@ typedef struct Limbs {
     Limb *limb;
     int64_t count, capacity;
     float radius;   // m, about that of a limb
-    int32_t *above; // per node: nodes that grew from it
+    int32_t *above; // per node: number of descendants
     int32_t *heir;  // per node: the child with the most of them, -1 = none
     float *way;     // per node: m along the branches from the root
 } Limbs;
@@ -35,7 +35,7 @@ static void free_limbs(Limbs *limbs)
     free(limbs->way);
 }
 
-// Axes: from node to heir.
+// Finds the axes, from node to heir.
 static bool find_axes(Limbs *limbs, Error *e)
 {
     const OutTree *tree = limbs->tree;
@@ -80,7 +80,7 @@ static bool find_limbs(Limbs *limbs, int64_t first, Error *e)
     return find_axes(limbs, e);
 }
 
-// The node of the trunk where two limbs part; -1 when they are of different stems.
+// The trunk node where two limbs part; -1 if they are of different stems.
 static int32_t find_parting(const OutTree *tree, const Limb *a, const Limb *b)
 {
     int32_t i = tree->parent[a->base], k = tree->parent[b->base];
@@ -94,7 +94,7 @@ static int32_t find_parting(const OutTree *tree, const Limb *a, const Limb *b)
     return i;
 }
 
-// Do the axes of two limbs come close to each other not far from where they part?
+// Do the axes of two limbs run close to each other near their fork?
 static bool are_close(const Limbs *limbs, const Limb *a, const Limb *b)
 {
     const Vec3 *position = limbs->tree->position;
@@ -126,7 +126,7 @@ static bool is_crowded(const Limbs *limbs, const Limb *limb)
     return false;
 }
 
-// The strongest limb that has not been looked at; -1 = none.
+// The strongest limb not yet visited; -1 = none.
 static int64_t find_strongest(const Limbs *limbs, const bool *seen)
 {
     int64_t best = -1;
@@ -139,8 +139,8 @@ static int64_t find_strongest(const Limbs *limbs, const bool *seen)
     return best;
 }
 
-// Keeps limbs from the strongest on; from `starts_end` on they are the trunk's own growth, no
-// branches that were started, and stay.
+// Chooses limbs in order of strength. Limbs from `starts_end` on are the trunk's own growth, not
+// started branches, and are kept.
 static bool choose_limbs(Limbs *limbs, int64_t starts_end, const Run *run, Error *e)
 {
     bool *seen = memory_alloc_zero(limbs->count, sizeof *seen, e);
@@ -157,7 +157,7 @@ static bool choose_limbs(Limbs *limbs, int64_t starts_end, const Run *run, Error
     return good;
 }
 
-// Drops the starting pieces of limbs that are not kept.
+// Drops the starting pieces of limbs not kept.
 static bool drop_crowded(OutTree *tree, const Limbs *limbs, bool *dropped, Error *e)
 {
     bool *keep = memory_alloc(tree->count, sizeof *keep, e);
@@ -176,7 +176,7 @@ static bool drop_crowded(OutTree *tree, const Limbs *limbs, bool *dropped, Error
     return done;
 }
 
-// One look: grows the first level on a copy, drops what is crowded there.
+// One pass: grows the first level on a copy and drops crowded limbs.
 static bool thin_once(OutTree *tree, int64_t first, const TreeParams *params,
                       const Envelope *envelope, const GuideField *field, uint64_t seed,
                       bool *dropped, const Run *run, Error *e)
@@ -211,7 +211,7 @@ bool tree_thin_limbs(OutTree *tree, int64_t first, const TreeParams *params,
                              &field, e)) {
         return false;
     }
-    Run quiet = *run; // growth itself follows, which tells of itself
+    Run quiet = *run; // the growth that follows reports its own warnings
     quiet.warn = NULL;
     quiet.progress = NULL;
     bool done = true;

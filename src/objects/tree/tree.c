@@ -19,7 +19,7 @@ enum { STREAM_ROOT_ID = 2 };                   // of a root
 
 #define GOLDEN_ANGLE_DEGREES 137.50776f
 
-// Each node's unit direction, from its parent; a root's is that of its first child, or up.
+// Each node's unit direction from its parent; a root has that of its first child, or up.
 static Vec3 node_direction(const OutTree *tree, int64_t node)
 {
     int64_t parent = tree->parent[node];
@@ -35,7 +35,7 @@ static Vec3 node_direction(const OutTree *tree, int64_t node)
     return vec3_dot(d, d) > 0.5f ? d : vec3(0, 1, 0);
 }
 
-// Normals across the branches, carried from parent to child without twist.
+// Normals across the branches, transported from parent to child without twist.
 static void transport_normals(OutTree *tree)
 {
     for (int64_t i = 0; i < tree->count; i++) {
@@ -46,7 +46,7 @@ static void transport_normals(OutTree *tree)
     }
 }
 
-// A node under the ground and one on it for each stem, so that the trunk's end never shows.
+// Plants a node below the ground and one on it for each stem, so that the trunk's end is hidden.
 static bool plant_stems(OutTree *tree, const TreeParams *params, uint64_t seed, Error *e)
 {
     int stems = params->trunk.stems > 1 ? params->trunk.stems : 1;
@@ -81,8 +81,8 @@ static int compare_height(const void *a, const void *b)
     return p->node < q->node ? -1 : (p->node > q->node);
 }
 
-// Starts one branch at a trunk node: a short piece that leaves the trunk along the node's normal.
-// place: of the branch among those of this node.
+// Starts one branch at a trunk node: a short piece along the node's normal. place: index of the
+// branch at this node.
 static bool start_branch(OutTree *tree, int64_t node, int place, Vec3 normal, float length,
                          const CrownParams *crown, Error *e)
 {
@@ -105,8 +105,8 @@ static bool start_branch(OutTree *tree, int64_t node, int place, Vec3 normal, fl
     return true;
 }
 
-// Branches stand on the trunk's upper nodes, taken in order of height, each turned by the golden
-// angle from the last about the trunk and along the node's normal. height: of the trunk, m.
+// Starts branches on the trunk's upper nodes in order of height, along the node's normal, each
+// rotated about the trunk by the golden angle from the last. height: of the trunk, m.
 static bool start_branches(OutTree *tree, const TreeParams *params, float height, uint64_t seed,
                            Error *e)
 {
@@ -153,15 +153,14 @@ static bool grow_trunk(OutTree *tree, const TreeParams *params, uint64_t seed, c
     return true;
 }
 
-// Whether a starting piece came to nothing: no node but its own three grew from it. count[i]: nodes
-// that grew from node i.
+// Did nothing grow from a starting piece but its own three nodes? count[i]: descendants of node i.
 static bool is_barren(const OutTree *tree, int64_t i, const int32_t *count)
 {
     return tree->parent[i] >= 0 && tree->colony[tree->parent[i]] == TREE_TRUNK && count[i] < 3;
 }
 
-// Drops the branches that found nothing to grow toward, which would stick out of the trunk as
-// stubs. pieces: the nodes that branches started with, from `first` on.
+// Drops branches that did not grow, which would be stubs. pieces: number of nodes in starting
+// pieces, from `first` on.
 static bool drop_barren(OutTree *tree, int64_t first, int64_t pieces, Error *e)
 {
     int32_t *count = memory_alloc_zero(tree->count, sizeof *count, e);
@@ -215,12 +214,12 @@ static bool grow_crown(OutTree *tree, const TreeParams *params, uint64_t seed, c
     return done || recipe_fail(recipe, "crown", e) || error_key(e, "crown");
 }
 
-// Main roots leave the foot evenly spread about it, the centre of the trunk's base.
+// Plants main roots evenly around the foot, the centre of the trunk's base.
 static bool plant_roots(OutTree *roots, const TreeParams *params, uint64_t seed, Error *e)
 {
-    // Each comes down inside the flare, where it stands out as a buttress, leaves it close to the
-    // ground and goes on just under the turf. In trunk radii: outward from the axis, the part that
-    // the flare widens and the part beyond it; upward from the ground.
+    // Each root descends inside the flare, where it forms a buttress, leaves it close to the ground
+    // and continues just below the turf. In trunk radii: outward from the axis, a share of the
+    // flared radius and a part beyond it; upward from the ground.
     static const float inside[TREE_ROOT_PIECES] = {0.4f, 0.66f, 0.98f, 1.0f, 1.0f, 1.0f};
     static const float beyond[TREE_ROOT_PIECES] = {0.0f, 0.0f, 0.1f, 0.6f, 1.3f, 2.1f};
     static const float up[TREE_ROOT_PIECES] = {1.0f, 0.5f, 0.12f, -0.06f, -0.18f, -0.36f};
@@ -247,8 +246,8 @@ static bool plant_roots(OutTree *roots, const TreeParams *params, uint64_t seed,
     return true;
 }
 
-// Joins the roots to the trunk: each root's first node becomes a child of the foot node. Roots grow
-// along with all the rest, from its first birth to its last.
+// Joins the roots to the trunk: each root's first node becomes a child of the foot node. Births of
+// roots are scaled to span those of the rest.
 static bool graft_roots(OutTree *tree, const OutTree *roots, int64_t foot, Error *e)
 {
     int64_t base = tree->count;
@@ -294,14 +293,14 @@ static void compute_radii(OutTree *tree, const TreeParams *params)
     } else {
         out_tree_pipe_radii(tree, radii->exponent, radii->tip, params->trunk.radius);
     }
-    // Stems that wind about each other stay stout whether or not the crown favoured them.
+    // Stems that wind about each other keep a least radius even if few branches grew from them.
     float least = params->trunk.stems > 1 ? 0.75f * params->trunk.radius : 0.0f;
     for (int64_t i = 0; i < tree->count; i++) {
         if (tree->colony[i] == TREE_TRUNK && tree->radius[i] < least) {
             tree->radius[i] = least;
         }
     }
-    // the first node stands a radius below the ground
+    // the first node is a radius below the ground
     out_tree_root_flare(tree, radii->flare, params->trunk.radius, radii->flare_height);
 }
 

@@ -22,7 +22,7 @@ static void settle(const void *params, void *settled)
 static void needs(const void *params, Needs *needs)
 {
     const VenationParams *venation = params;
-    enum { MESH_BYTES = 500 }; // of the net of veins, in a blade half as wide as long
+    enum { MESH_BYTES = 500 }; // per mesh of the vein network, in a blade half as wide as long
     double detail = venation->detail;
     needs_add(needs, "detail", 0.4 * detail * detail, MESH_BYTES);
 }

@@ -65,7 +65,7 @@ static bool add_petiole(OutTree *tree, const VenationParams *params, uint64_t se
     return true;
 }
 
-// The petiole, and the veins behind it: every index moves up.
+// The petiole followed by the veins, with shifted indices.
 static OutTree *with_petiole(const OutTree *veins, const VenationParams *params, uint64_t seed,
                              Error *e)
 {
@@ -109,7 +109,8 @@ bool venation_finish(const void *given, const Recipe *recipe, const Grown *whole
 
 // ---- geometry ----
 
-// Bends the flat leaf: halves folded up about the midrib, the length bent back, the stalk straight.
+// Bends the flat leaf: folds the halves up about the midrib, bends the length back, leaves the
+// stalk straight.
 static Vec3 bend(const VenationParams *params, Vec3 p)
 {
     float sine, cosine;
@@ -127,7 +128,7 @@ static Vec3 bend(const VenationParams *params, Vec3 p)
     return vec3(x, y, (radius + z) * cosine - radius);
 }
 
-// Every piece of vein as a round curve of its own: they overlap by their round ends.
+// Every vein segment as a separate round curve; their round ends overlap.
 static CurveSet *vein_curves(const OutTree *tree, const VenationParams *params,
                              const Transform *place, Error *e)
 {
@@ -141,7 +142,7 @@ static CurveSet *vein_curves(const OutTree *tree, const VenationParams *params,
         const int64_t end[2] = {tree->parent[i], i};
         for (int k = 0; end[0] >= 0 && k < 2; k++, point++) {
             curves->position[point] = transform_point(place, bend(params, tree->position[end[k]]));
-            curves->radius[point] = tree->radius[i]; // a child does not begin as its parent
+            curves->radius[point] = tree->radius[i]; // the child's radius, not the parent's
             curves->birth[point] = last > 0 ? (float)tree->birth[end[k]] / (float)last : 0.0f;
             curves->along[point] = tree->position[end[k]].y;
             curves->first[point / 2 + 1] = point + 1;
@@ -201,7 +202,7 @@ typedef struct Canvas {
     float *pixel;
 } Canvas;
 
-// Where a pixel's middle lies on the flat leaf.
+// Position of a pixel's middle on the flat leaf.
 static Vec3 pixel_place(const Canvas *canvas, int column, int row)
 {
     float y = canvas->params->outline.length * (1.0f - ((float)row + 0.5f) / (float)canvas->height);
@@ -209,7 +210,7 @@ static Vec3 pixel_place(const Canvas *canvas, int column, int row)
     return vec3((2.0f * u - 1.0f) * leaf_half_width(&canvas->params->outline, y), y, 0);
 }
 
-// Highest where veins overlap; a vein's height is that of a round bar, softened to a pixel.
+// Paints the maximum of overlapping veins; a vein's profile is a round bar, blurred to a pixel.
 static void paint_bar(const Canvas *canvas, Vec3 a, Vec3 b, float radius)
 {
     const LeafOutline *outline = &canvas->params->outline;
@@ -259,7 +260,7 @@ bool venation_paint(const void *given, const OutTree *tree, int width, int heigh
 
 // ---- measures ----
 
-// m^2, of the flat leaf.
+// Area of the flat leaf, m^2.
 static double blade_area(const LeafOutline *outline)
 {
     double row = (double)outline->length / AREA_ROWS, sum = 0.0;

@@ -1,12 +1,11 @@
-// The end of growth: what touches goes, then the terminals that are too many; the last radii and
-// angles.
+// End of growth: removes vessels that touch, then surplus terminals; final radii and angles.
 #include "base/memory.h"
 #include "base/random.h"
 #include "objects/vessels/room.h"
 
 #include <stdlib.h>
 
-// Leaves out what touches the other tree (the thinner of two goes; of two alike the vein) or the
+// Removes vessels that touch the other tree (the thinner of the two, the vein if equal) or the
 // outside.
 static void clear_tree(VesselBed *bed, int t, const SegmentGrid *others, float gap, bool *keep)
 {
@@ -25,7 +24,7 @@ static void clear_tree(VesselBed *bed, int t, const SegmentGrid *others, float g
     }
 }
 
-// Stems come first, also among those that stay.
+// Stem nodes come first, also after removal.
 static bool keep_marked(VesselTree *tree, bool *keep, Error *e)
 {
     int64_t stems = 0;
@@ -76,7 +75,7 @@ static int compare_terminals(const void *a, const void *b)
     return p->node < q->node ? -1 : (p->node > q->node);
 }
 
-// Removes a terminal with all that leads to it alone; false when it is the last below a stem.
+// Removes a terminal and the nodes that lead only to it; false if it is the last below a stem.
 static bool drop_terminal(const VesselTree *tree, int32_t *children, bool *keep, int64_t node)
 {
     const int32_t *parent = tree->tree->parent;
@@ -92,7 +91,7 @@ static bool drop_terminal(const VesselTree *tree, int32_t *children, bool *keep,
     return true;
 }
 
-// Drops terminals here and there until `wanted` are left.
+// Drops random terminals until `wanted` are left.
 static bool thin_out(VesselTree *tree, int64_t wanted, uint64_t seed, Error *e)
 {
     int64_t terminals = 0, count = 0, nodes = tree->tree->count;
@@ -145,7 +144,7 @@ bool vessel_bed_finish(VesselBed *bed, Error *e)
         gap = bed->params->gap * tip[t] < gap ? bed->params->gap * tip[t] : gap;
         out_tree_murray_radii(bed->trees[t].tree, law, tip[t]);
     }
-    // Fewer terminals make thinner vessels: what is clear now stays clear.
+    // Fewer terminals make thinner vessels, so vessels that are clear now stay clear.
     if (!clear_touching(bed, gap, e)) {
         return false;
     }

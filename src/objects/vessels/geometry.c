@@ -1,4 +1,4 @@
-// From grown vessels to geometry and numbers.
+// Geometry and measures of grown vessels.
 #include "base/memory.h"
 #include "objects/vessels/grow.h"
 #include "objects/vessels/vessels.h"

@@ -1,10 +1,11 @@
-// The great arteries and veins of a body: ways through its trunk and limbs that growth starts from.
+// The great arteries and veins of a body: courses through its trunk and limbs, from which growth
+// starts.
 #include "base/random.h"
 #include "objects/vessels/stem.h"
 
 // In a body of height 1 (see shape/body.h): the body's left is +x.
 typedef struct Course {
-    int from_course, from_point; // where it leaves another; -1 = the heart
+    int from_course, from_point; // where it branches from another; -1 = the heart
     bool both_sides;             // this is the left one; the right mirrors it
     int count;
     float point[12][3];
@@ -183,7 +184,7 @@ typedef struct Planting {
     OutTree *tree;
     const Shape *body;
     int32_t colony;
-    int64_t node[MOST_COURSES][2][MOST_POINTS]; // of each course's points, left and right
+    int64_t node[MOST_COURSES][2][MOST_POINTS]; // nodes of each course's points, left and right
 } Planting;
 
 static Vec3 place(const Planting *p, Vec3 at)
@@ -191,7 +192,7 @@ static Vec3 place(const Planting *p, Vec3 at)
     return transform_point(&p->body->transform, vec3_scale(at, p->body->size.x));
 }
 
-// Through b and c, with the slopes that their neighbours give (Catmull-Rom).
+// Interpolates between b and c, with slopes from their neighbours (Catmull-Rom).
 static Vec3 between(Vec3 a, Vec3 b, Vec3 c, Vec3 d, float t)
 {
     Vec3 m0 = vec3_scale(vec3_sub(c, a), 0.5f), m1 = vec3_scale(vec3_sub(d, b), 0.5f);
@@ -249,7 +250,7 @@ static bool plant_course(Planting *p, const Course *courses, int number, bool ri
         bool side = right && from->both_sides;
         parent = p->node[course->from_course][side][course->from_point];
         if (right && !side && course->from_point + 1 < from->count) {
-            // from the middle both sides leave, one after the other: vessels fork in two
+            // both sides leave the middle one after the other, because forks are binary
             parent = p->tree->parent[p->tree->parent[parent]];
         }
         point[count++] = to_vec3(from->point[course->from_point], side);
@@ -261,7 +262,7 @@ static bool plant_course(Planting *p, const Course *courses, int number, bool ri
     if (!follow(p, point, count, parent, node, id, e)) {
         return false;
     }
-    if (course->from_course >= 0) { // number the points as the table does, without the first
+    if (course->from_course >= 0) { // index the points as in the table, without the first
         for (int i = 0; i + 1 < count; i++) {
             node[i] = node[i + 1];
         }

@@ -7,11 +7,12 @@
 
 enum { STREAM_POINTS = 1, STREAM_GROWTH = 2 }; // of one level of one tree
 
-// Attractors of the finest level for each terminal, and of a level for each of the coarser one.
+// Attractors of the finest level per terminal, and of a level per attractor of the next coarser
+// one.
 #define ATTRACTORS_PER_TERMINAL 6
 #define LEVEL_RATIO 8
 
-// More than the wanted terminals are grown: some go when vessels touch.
+// Surplus of grown terminals: some are removed where vessels touch.
 #define SURPLUS 1.06
 
 enum { MOST_LEVELS = 12, LEAST_ATTRACTORS = 24, MOST_FILLS = 4 };
@@ -46,7 +47,7 @@ static void relax(OutTree *tree, int64_t first, float share)
     }
 }
 
-// Drops the points that lie outside, or in the other tree's vessels.
+// Drops points outside of the organ or inside the other tree's vessels.
 static void keep_free_points(PointSet *points, const VesselRoom *room, float clearance)
 {
     int64_t kept = 0;
@@ -62,7 +63,8 @@ static void keep_free_points(PointSet *points, const VesselRoom *room, float cle
     points->count = kept;
 }
 
-// Radii as they will be if every terminal so far feeds an equal share of the organ.
+// Estimates the final radii, assuming that every present terminal supplies an equal share of the
+// organ.
 static bool foresee_radii(const VesselBed *bed, VesselTree *tree, Error *e)
 {
     int64_t terminals;
@@ -74,7 +76,7 @@ static bool foresee_radii(const VesselBed *bed, VesselTree *tree, Error *e)
     return true;
 }
 
-// Drops the nodes from `first` on that may not lie where they are, and all below them.
+// Drops nodes from `first` on at places not allowed, with their descendants.
 static bool keep_allowed(OutTree *tree, int64_t first, const VesselRoom *room, Error *e)
 {
     bool *keep = memory_alloc(tree->count, sizeof *keep, e);
@@ -116,7 +118,7 @@ static bool grow_toward(VesselBed *bed, VesselTree *tree, PointSet *points, cons
     return done;
 }
 
-// One level of one tree, around what the other has so far.
+// Grows one level of one tree around the other tree.
 static bool grow_around(VesselBed *bed, VesselTree *tree, const SegmentGrid *others,
                         const GrowLevel *level, bool coarse, uint64_t seed, Error *e)
 {
@@ -139,7 +141,7 @@ static bool grow_around(VesselBed *bed, VesselTree *tree, const SegmentGrid *oth
            foresee_radii(bed, tree, e) && (!coarse || vessel_room_turn(bed, &room, e));
 }
 
-// coarse: more levels follow, which fill what turning the forks lays open.
+// coarse: more levels follow, which fill the gaps that turning the forks opens.
 static bool grow_level(VesselBed *bed, const GrowLevel *level, int number, bool coarse, Error *e)
 {
     int32_t last = 0;
@@ -156,12 +158,12 @@ static bool grow_level(VesselBed *bed, const GrowLevel *level, int number, bool 
         last = bed->trees[t].last_birth > last ? bed->trees[t].last_birth : last;
     }
     for (int t = 0; t < bed->tree_count; t++) {
-        bed->trees[t].last_birth = last; // both begin their next level at the same time
+        bed->trees[t].last_birth = last; // both start their next level at the same time
     }
     return true;
 }
 
-// Coarse to fine: the recipe of the oak, scaled to the number of terminals. Returns how many.
+// Default levels, coarse to fine, scaled to the number of terminals. Returns how many.
 static int choose_levels(const VesselBed *bed, GrowLevel *levels)
 {
     const ElementParams *element = &bed->params->element;
@@ -195,7 +197,7 @@ static bool grow_levels(VesselBed *bed, const GrowLevel *levels, int count, Erro
             return false;
         }
     }
-    // The finest level once more, until there are enough.
+    // Repeat the finest level until there are enough terminals.
     for (int fill = 0; fill < MOST_FILLS; fill++) {
         bool enough = true;
         for (int t = 0; t < bed->tree_count; t++) {

@@ -7,7 +7,7 @@
 #include <float.h>
 #include <stdio.h>
 
-// An inlet at the origin stands for the hilum, so one that comes to lie there stays a little aside.
+// An inlet at the origin means the hilum, so one that is moved there is set slightly aside.
 static Vec3 take_inlet(const OwnSpace *own, Vec3 inlet)
 {
     if (!own->moved || vec3_dot(inlet, inlet) == 0.0f) {

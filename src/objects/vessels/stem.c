@@ -1,8 +1,8 @@
 #include "objects/vessels/stem.h"
 #include "base/random.h"
 
-// The place of the surface nearest to the middle of the surface: the hollow of a kidney, the flat
-// side of a liver.
+// The hilum: the surface point nearest to the surface's centroid, such as the hollow of a kidney or
+// the flat side of a liver.
 static Vec3 find_hilum(const Mesh *surface, Vec3 *middle)
 {
     double sum[4] = {0, 0, 0, 0};
@@ -38,7 +38,7 @@ bool vessels_plant_stem(OutTree *tree, const VesselsParams *params, const Envelo
     if (!(vec3_dot(inward, inward) > 0.0f)) {
         inward = vec3(0, 1, 0);
     }
-    // The artery above, the vein below, a little apart.
+    // The artery above, the vein below, slightly apart.
     Vec3 up = vec3_madd(vec3(0, 1, 0), -inward.y, inward);
     up = vec3_dot(up, up) > 1e-4f ? vec3_normalize(up) : vec3_perpendicular(inward);
     float aside = params->veins ? 0.7f * root_radius * (1.0f + params->vein_radius) : 0.0f;

@@ -106,7 +106,7 @@ static float finest_radius(const OutTree *tree, int32_t colony)
     return radius;
 }
 
-// The trees as they were at an earlier time, by Murray's law then too: thinner than they will be.
+// Radii of the trees at an earlier time: by Murray's law, so thinner than the final ones.
 bool vessels_finish(const void *given, const Recipe *recipe, const Grown *whole, Grown *grown,
                     Error *e)
 {
