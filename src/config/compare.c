@@ -9,7 +9,7 @@ static bool is_text(const Key *row)
     return row->type == KEY_TEXT || row->type == KEY_ANY || row->type == KEY_FILE;
 }
 
-// The structs below a key and how many there are; a pointer leads to one or none.
+// The structs below a key and their number; for a pointer, one or none.
 static const char *entries(const Key *row, const void *params, int *count)
 {
     const char *first = pointer_at((const char *)params + row->offset);

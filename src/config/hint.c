@@ -37,7 +37,7 @@ int hint_distance(const char *a, const char *b)
 int hint_nearest(const char *word, const char *const *known, int count)
 {
     int nearest = -1;
-    // Up to a third of the letters may be wrong, at least one, or two in words of four and more.
+    // Up to a third of the letters may differ, but at least one, or two in words of four or more.
     int length = (int)strnlen(word, LONGEST), limit = length < 4 ? 1 : 2 + (length - 4) / 5;
     for (int i = 0; i < count; i++) {
         int distance = hint_distance(word, known[i]);

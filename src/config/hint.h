@@ -1,4 +1,4 @@
-// "did you mean": the known word nearest to an unknown one.
+// Hints for unknown words: "did you mean" the nearest known word.
 #ifndef RAMIFY_CONFIG_HINT_H
 #define RAMIFY_CONFIG_HINT_H
 
@@ -6,10 +6,10 @@
 // fewer than 64 letters; a large number for longer ones.
 int hint_distance(const char *a, const char *b);
 
-// Index of the word nearest to `word`; -1 when none is near enough to be meant.
+// Index of the word nearest to `word`; -1 when none is similar enough.
 int hint_nearest(const char *word, const char *const *known, int count);
 
-// Writes "a, b, c" into text; lists of more than 24 words are cut short.
+// Writes "a, b, c" into text; lists of more than 24 words are truncated.
 void hint_list(const char *const *known, int count, char *text, int size);
 
 // Writes "did you mean 'x'?" when a known word is near, "known: a, b, c" otherwise, or "nothing is

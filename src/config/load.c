@@ -43,7 +43,7 @@ bool load_fail(const Loader *loader, const Node *at, const char *format, ...)
     return fail_at(loader, at, at ? at->line : 0, at ? at->column : 0, message);
 }
 
-// The same about a key itself rather than its value.
+// The same for a key itself instead of its value.
 static bool fail_key(const Mapping *mapping, const Node *child, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -57,7 +57,7 @@ static bool fail_key(const Mapping *mapping, const Node *child, const char *form
     return fail_at(mapping->loader, child, child->key_line, child->key_column, message);
 }
 
-// The deepest node on the way to the key that the file has.
+// The deepest node on the path to the key that exists in the file.
 static const Node *place_of(const Node *given, const char *key)
 {
     while (given && key && *key) {
@@ -87,7 +87,7 @@ bool mapping_fail(const Mapping *mapping, const char *key, const char *format, .
 
 // ---- keys ----
 
-// Names that a mapping of this kind may have; returns how many.
+// Collects the allowed keys of a mapping of this kind; returns their number.
 static int known_keys(const Table *table, int kind, const char **known)
 {
     int count = 0;
@@ -136,7 +136,7 @@ static bool check_keys_in_kind(const Mapping *mapping, const Table *table, int k
             const char *known[MAX_KNOWN];
             char list[512];
             hint_list(known, known_keys(table, kind, known), list, sizeof list);
-            return fail_key(mapping, child, "key '%s' means nothing in %s of %s '%s'; known: %s",
+            return fail_key(mapping, child, "key '%s' does not apply to %s of %s '%s'; known: %s",
                             child->key, mapping_path(mapping, NULL), table->kind_key,
                             enum_name(table_find(table, table->kind_key)->names, kind), list);
         }
@@ -146,14 +146,15 @@ static bool check_keys_in_kind(const Mapping *mapping, const Table *table, int k
 
 static bool missing_key(const Mapping *mapping, const Key *row)
 {
-    return mapping_fail(mapping, NULL, " has no '%s'; it must have one: %s", row->key, row->doc);
+    return mapping_fail(mapping, NULL, " has no '%s'; this key is required: %s", row->key,
+                        row->doc);
 }
 
 // ---- mappings ----
 
 static bool load_mapping(const Mapping *mapping, const Table *table, void *out);
 
-// "oak" for the entry that has a name, "3" for others.
+// "oak" for a named entry, "3" for others.
 static const char *entry_name(const Loader *loader, const Node *entry, int index)
 {
     const char *name = node_get_text(entry, "name");
@@ -197,7 +198,7 @@ static bool load_pointer(const Mapping *mapping, const Key *row, char *out)
     return params && load_mapping(mapping, row->table, params);
 }
 
-// Zero for what a mapping does not have.
+// Zeroes the members of keys that a mapping does not have.
 static void clear_key(const Key *row, char *out)
 {
     if (row->type == KEY_GROUP) {
@@ -212,7 +213,7 @@ static void clear_key(const Key *row, char *out)
     }
 }
 
-// What the file leaves out has its default already.
+// Members of omitted keys already have their defaults.
 static bool load_absent(const Mapping *mapping, const Key *row, char *out)
 {
     if (row->flags & KEY_REQUIRED) {
@@ -262,7 +263,7 @@ static bool load_keys(const Mapping *mapping, const Key *rows, int kind, char *o
     return true;
 }
 
-// The kind that the file names in *kind, -1 when it does not.
+// Sets *kind to the kind in the file, or -1 if it gives none.
 static bool find_kind(const Mapping *mapping, const Table *table, int *kind)
 {
     *kind = -1;
@@ -300,10 +301,10 @@ static void say_no_variant(const Mapping *mapping, const Table *table)
         keys[count] = variant->row.key;
     }
     hint_list(keys, count, list, sizeof list);
-    mapping_fail(mapping, NULL, " is nothing; it must have one of %s", list);
+    mapping_fail(mapping, NULL, " has no kind; it must have one of %s", list);
 }
 
-// The one variant that the file names; NULL and an error when it names none or two.
+// The variant in the file; NULL and an error when there is none or more than one.
 static const Variant *find_variant(const Mapping *mapping, const Table *table)
 {
     const Variant *found = NULL;
@@ -311,8 +312,7 @@ static const Variant *find_variant(const Mapping *mapping, const Table *table)
     for (const Node *child = given ? given->first : NULL; child; child = child->next) {
         const Variant *variant = variant_of(table, child->key);
         if (variant && found) {
-            load_fail(mapping->loader, child,
-                      "%s is a %s and a %s; it must be one, make two %ss of it",
+            load_fail(mapping->loader, child, "%s is both a %s and a %s; split it into two %ss",
                       mapping_path(mapping, NULL), found->row.key, child->key, table->name);
             return NULL;
         }
@@ -324,7 +324,7 @@ static const Variant *find_variant(const Mapping *mapping, const Table *table)
     return found;
 }
 
-// No key that belongs beside other variants only.
+// Checks that no key belongs only to other variants.
 static bool check_keys_in_variant(const Mapping *mapping, const Table *table,
                                   const Variant *variant)
 {
@@ -332,7 +332,7 @@ static bool check_keys_in_variant(const Mapping *mapping, const Table *table,
     for (const Node *child = given->first; child; child = child->next) {
         if (!rows_find(table->keys, child->key) && !rows_find(variant->beside, child->key) &&
             strcmp(child->key, variant->row.key) != 0) {
-            return load_fail(mapping->loader, child, "%s: a %s has no %s; leave it out",
+            return load_fail(mapping->loader, child, "%s: a %s has no %s; remove this key",
                              mapping_path(mapping, NULL), variant->row.key, child->key);
         }
     }

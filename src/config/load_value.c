@@ -17,7 +17,7 @@
 
 #define MAX_NAMES 32
 
-// A value on its way from the file to its member.
+// A value to be stored in its member.
 typedef struct Value {
     Loader *loader;
     const Key *row;
@@ -44,7 +44,7 @@ const char *node_describe(const Loader *loader, const Node *node)
     return text ? text : "";
 }
 
-// "greater than 0 and at most 90 degrees", "a finite number": what a number must be.
+// The range of a number in words: "greater than 0 and at most 90 degrees", "a finite number".
 static void key_range(const Key *row, char *text, int size)
 {
     bool whole = row->type == KEY_INT || row->type == KEY_INT64 || row->type == KEY_UINT64;
@@ -123,7 +123,7 @@ static bool load_integer(const Value *v, bool *negative, uint64_t *magnitude)
     bool too_large = false;
     double between;
     if (given->animated && is_plain(given) && scalar_number(given->text, &between) &&
-        fabs(between) < 1e15) { // between two keys
+        fabs(between) < 1e15) { // interpolated between two keys
         between = round(between);
         *negative = between < 0.0;
         *magnitude = (uint64_t)fabs(between);
@@ -170,7 +170,7 @@ static bool load_truth(const Value *v, bool *member)
 static bool load_enum(const Value *v, int *member)
 {
     const Node *given = v->given;
-    // YAML 1.1 reads a bare `none` as text, but people write it with quotes or without.
+    // YAML 1.1 reads a plain `none` as text; it is accepted with or without quotes.
     const char *text = given->kind == NODE_SCALAR ? given->text : "";
     const EnumName *found = enum_find(v->row->names, text);
     if (!found) {

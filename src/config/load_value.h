@@ -1,11 +1,11 @@
-// Values that are no mappings: numbers, texts, enums, vectors, colours, files.
+// Loads values other than mappings: numbers, texts, enums, vectors, colours, files.
 #ifndef RAMIFY_CONFIG_LOAD_VALUE_H
 #define RAMIFY_CONFIG_LOAD_VALUE_H
 
 #include "config/load.h"
 
-// Puts the value of a key of the mapping into its member; false and the loader's error when it is
-// not what the row asks for.
+// Stores the value of a key of the mapping in its member; false and the loader's error when it does
+// not match the row.
 bool load_value(const Mapping *mapping, const Key *row, const Node *given, void *member);
 
 // "a list", "'blue'", "200", ... for messages.

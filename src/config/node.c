@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define BLOCK_SIZE 65536
-#define TEXT_A_VALUE 64 // bytes of text that count as one more value where aliases unfold
+#define TEXT_A_VALUE 64 // bytes of text that count as one more value when aliases expand
 
 typedef struct Block {
     struct Block *next;
@@ -134,9 +134,9 @@ Node *node_copy(Arena *arena, const Node *node, int *budget, Error *e)
 {
     *budget -= 1 + (node->text ? (int)(strlen(node->text) / TEXT_A_VALUE) : 0);
     if (*budget < 0) {
-        error_set(e, ERROR_INPUT,
-                  "the aliases of this file unfold to too much; at most a million values in all "
-                  "are read");
+        error_set(
+            e, ERROR_INPUT,
+            "the aliases of this file expand to too much; the limit is a million values in all");
         return NULL;
     }
     Node *copy = node_new(arena, node->kind, e);

@@ -1,5 +1,5 @@
-// A YAML document as a tree of nodes that remember where they stand in the file. All nodes and
-// texts of a document live in one arena and go with it.
+// A YAML document as a tree of nodes with their places in the file. All nodes and texts of a
+// document are allocated in one arena and freed with it.
 #ifndef RAMIFY_CONFIG_NODE_H
 #define RAMIFY_CONFIG_NODE_H
 
@@ -12,13 +12,13 @@ typedef struct Arena Arena;
 Arena *arena_new(Error *e);
 void arena_free(Arena *arena); // NULL is fine
 
-// size zeroed bytes, aligned for any type; NULL and e when memory is short. Freed with the arena.
+// Allocates size zeroed bytes, aligned for any type; NULL and e when out of memory.
 void *arena_alloc(Arena *arena, size_t size, Error *e);
 
-// A copy of length bytes with a NUL after them.
+// Copies length bytes and adds a NUL.
 char *arena_text(Arena *arena, const char *bytes, size_t length, Error *e);
 
-// printf into the arena.
+// Formats a text, as printf, in the arena.
 char *arena_format(Arena *arena, Error *e, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -26,10 +26,10 @@ typedef enum NodeKind { NODE_SCALAR, NODE_LIST, NODE_MAP } NodeKind;
 
 typedef struct Node {
     NodeKind kind;
-    bool animated;      // a number between two keys: rounded where a whole one is asked for
-    bool quoted;        // scalar written with quotes, so never a number, a truth value or null
-    int line, column;   // 1-based; 0 for a node that no file holds (a default)
-    const char *source; // "--set path=value" it comes from; NULL = the scene file
+    bool animated;      // interpolated number: rounded for keys of whole numbers
+    bool quoted;        // scalar in quotes, so never a number, a bool or null
+    int line, column;   // 1-based; 0 for a node that is in no file (a default)
+    const char *source; // origin, "--set path=value"; NULL = the scene file
     const char *text;   // scalar
     const char *key;    // when the parent is a map
     int key_line, key_column;
@@ -41,27 +41,27 @@ typedef struct Node {
 Node *node_new(Arena *arena, NodeKind kind, Error *e);
 Node *node_scalar(Arena *arena, const char *text, Error *e); // text is borrowed from the arena
 
-// Puts child at the end of parent; key for maps, NULL for lists, borrowed from the arena.
+// Appends child to parent; key: for maps, borrowed from the arena; NULL for lists.
 void node_append(Node *parent, Node *child, const char *key);
 
-// The child of a map with this key; NULL when there is none or map is NULL or no map.
+// The child of a map with this key; NULL when there is none or map is NULL or not a map.
 Node *node_get(const Node *map, const char *key);
 
 // Text of a scalar child; NULL when there is none.
 const char *node_get_text(const Node *map, const char *key);
 
-// Where a message about map's key points: at the key's value, else at map itself.
+// The node for a message about map's key: the key's value, else map itself.
 static inline const Node *node_place(const Node *map, const char *key)
 {
     const Node *child = node_get(map, key);
     return child ? child : map;
 }
 
-// A copy of the whole tree below node. *budget is the number of nodes still allowed, where a long
-// text counts as several; running out is ERROR_INPUT.
+// Copies the whole tree below node. *budget: the number of nodes still allowed; a long text counts
+// as several. ERROR_INPUT when it is exhausted.
 Node *node_copy(Arena *arena, const Node *node, int *budget, Error *e);
 
-// Takes child out of parent.
+// Removes child from parent.
 void node_remove(Node *parent, const Node *child);
 
 // Is the scalar empty, ~ or null (and not quoted)?

@@ -12,7 +12,7 @@
 
 #define LONGEST 64
 
-// Copies text without underscores between digits; false when it is too long or has others.
+// Copies text without the underscores between digits; false when it is too long or has other ones.
 static bool strip_underscores(const char *text, char *out)
 {
     size_t used = 0;
@@ -73,7 +73,7 @@ bool scalar_number(const char *text, double *value)
         return false;
     }
     if (*digits == '0' && isdigit((unsigned char)digits[1])) {
-        return false; // octal to YAML 1.1, decimal to people
+        return false; // ambiguous: octal in YAML 1.1, but decimal to most readers
     }
     char *end;
     *value = strtod(number, &end);

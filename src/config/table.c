@@ -12,7 +12,7 @@ const Key *rows_find(const Key *rows, const char *key)
     return NULL;
 }
 
-// The variants before number `end` that have the key beside them.
+// Does a variant before number `end` have the key beside it?
 static bool is_beside_earlier(const Table *table, int end, const char *key)
 {
     for (int i = 0; i < end; i++) {

@@ -1,7 +1,7 @@
-// What may stand in a scene file: one table a mapping, one row a key. These tables alone say how
-// YAML becomes structs (load.h), how structs are written (write.h) and compared, what the defaults
-// and ranges are, and what the JSON Schema (scene/schema_json.c) and the reference docs/scene.md
-// (scene/schema_markdown.c) tell.
+// The format of scene files: one table per mapping, one row per key. The tables alone determine how
+// YAML is converted to structs (load.h), how structs are written (write.h) and compared, all
+// defaults and ranges, and the contents of the JSON Schema (scene/schema_json.c) and the reference
+// docs/scene.md (scene/schema_markdown.c).
 #ifndef RAMIFY_CONFIG_TABLE_H
 #define RAMIFY_CONFIG_TABLE_H
 
@@ -17,28 +17,28 @@ typedef enum KeyType {
     KEY_UINT64,  // uint64_t
     KEY_FLOAT,   // float
     KEY_DOUBLE,  // double
-    KEY_ENUM,    // a C enum, by the names of `names`
+    KEY_ENUM,    // a C enum, with the names in `names`
     KEY_TEXT,    // char *
     KEY_NAME,    // char[count]
-    KEY_ANY,     // char *: a number, a word or a list of numbers, as YAML; and a bool: in quotes?
+    KEY_ANY,     // char *: a number, a word or a list of numbers, as YAML; a bool: is it quoted?
     KEY_FILE,    // char *: a path relative to the scene's folder; the file must exist
     KEY_VECTOR,  // float[count]
     KEY_COLOR,   // float[3]: [r, g, b] linear Rec. 709, one number for a grey, or "#rrggbb" in sRGB
-    KEY_GROUP,   // a mapping whose table's offsets count from this key's offset in the same struct
-    KEY_POINTER, // pointer to a struct of its own; NULL when the key is left out
-    KEY_LIST     // pointer to an array of structs, and an int that counts them; NULL when left out
+    KEY_GROUP,   // a mapping in the same struct; its table's offsets are relative to this key's
+    KEY_POINTER, // pointer to a separate struct; NULL when the key is omitted
+    KEY_LIST     // pointer to an array of structs, and an int, their count; NULL when omitted
 } KeyType;
 
 enum {
     KEY_REQUIRED = 1,
     KEY_ABOVE = 2,      // low itself is not allowed
     KEY_BELOW = 4,      // high itself is not allowed
-    KEY_INSTEAD = 8,    // in the member of another key, which a check converts it to
-    KEY_SPLAT = 16,     // vectors: one number stands for all components
-    KEY_NO_DEFAULT = 32 // zero, or what a check puts there, when the file does not name it
+    KEY_INSTEAD = 8,    // alternative to another key: stored in its member, converted by a check
+    KEY_SPLAT = 16,     // vectors: one number sets all components
+    KEY_NO_DEFAULT = 32 // zero, or set by a check, when the file does not have the key
 };
 
-// A C enum's value and its name in the file. Lists of them end with {0}.
+// A value of a C enum and its name in the file. Lists end with {0}.
 typedef struct EnumName {
     const char *name;
     int value;
@@ -49,8 +49,8 @@ typedef struct Key {
     KeyType type;
     unsigned flags;
     size_t offset;             // in the struct
-    size_t count_offset;       // of the count of a list; of the bool of KEY_ANY
-    size_t given_offset;       // of a bool: does the file name the key? 0 = there is none
+    size_t count_offset;       // of a list's count; of the bool of KEY_ANY
+    size_t given_offset;       // of a bool: does the file have the key? 0 = none
     double low, high;          // range of numbers; both 0 = any finite number
     const EnumName *names;     // KEY_ENUM
     const struct Table *table; // of groups, pointers and lists
@@ -60,33 +60,33 @@ typedef struct Key {
     unsigned kinds; // bits of the kinds (see Table.kind_key) that have this key; 0 = all
 } Key;
 
-// One of several things that a mapping can be. It is exactly one.
+// One of several variants of a mapping. A mapping has exactly one.
 typedef struct Variant {
-    Key row;           // KEY_POINTER: the key that chooses it, and its parameters
-    const Key *beside; // keys that only a mapping with `row` has; ended by {0}
+    Key row;           // KEY_POINTER: the key that selects it, with its parameters
+    const Key *beside; // keys that are allowed only with `row`; ended by {0}
 } Variant;
 
 typedef struct Mapping Mapping; // see load.h
 
 typedef struct Table {
-    const char *name; // as the JSON Schema calls it
+    const char *name; // in the JSON Schema
     const char *doc;
-    const char *example; // a piece of a scene file that shows it, from its root; may be NULL
+    const char *example; // part of a scene file that shows it, from the root; may be NULL
     size_t size;         // of the struct
     const Key *keys;
-    const char *kind_key; // the enum that decides which keys there are; NULL = none
+    const char *kind_key; // the enum that determines the allowed keys; NULL = none
 
-    // Variant number index, NULL from their count on; NULL = the table has none.
+    // Variant number index, NULL past the last one; NULL = the table has no variants.
     const Variant *(*variant)(int index);
-    size_t variant_offset; // in the struct: pointer to the variant that it is
+    size_t variant_offset; // in the struct: pointer to its variant
 
-    // Fill a zeroed struct with the defaults for a mapping: one of the two, or none where the
-    // mapping's parent has them or all are 0. kind: value of kind_key, -1 when the mapping does not
-    // name it (set it, then). given may be NULL.
+    // Fill a zeroed struct with the defaults of a mapping. Set at most one; set none if the parent
+    // mapping sets the defaults or all are 0. kind: value of kind_key; -1 when the mapping does not
+    // have it (the function then sets it). given may be NULL.
     void (*defaults)(void *out);
     void (*kind_defaults)(const Node *given, int kind, void *out);
 
-    // Checks the struct once it is filled, and may complete it; NULL = nothing to check.
+    // Checks the filled struct and may complete it; NULL = no check.
     bool (*check)(const Mapping *mapping, void *params);
 } Table;
 
@@ -94,26 +94,26 @@ typedef struct Table {
 #define KEY_OF(STRUCT, MEMBER, KEY, TYPE) \
     .key = (KEY), .type = (TYPE), .offset = offsetof(STRUCT, MEMBER)
 
-// All rows that a file may name: the table's own, those that choose variants, those beside them
-// (each key once). NULL from their count on.
+// Row number index of all allowed keys: the table's own, those that select variants, those beside
+// them (each key once). NULL past the last one.
 const Key *table_row(const Table *table, int index);
 
 // The row of a key; NULL when no variant has it.
 const Key *table_find(const Table *table, const char *key);
 
-// The row of a key among rows that {0} ends; NULL when there is none.
+// The row of a key in a list of rows that ends with {0}; NULL when there is none.
 const Key *rows_find(const Key *rows, const char *key);
 
-// Bytes of the key's member (of a pointer to it, where it is one).
+// Size of the key's member in bytes (of the pointer, if it is one).
 size_t key_size(const Key *row);
 
-// Calls whichever function for defaults the table has; false when it has none.
+// Calls the table's function for defaults; false when it has none.
 bool table_defaults(const Table *table, const Node *given, int kind, void *out);
 
-// The variant that a filled struct is; NULL where the table has none.
+// The variant of a filled struct; NULL when the table has no variants.
 const Variant *table_variant(const Table *table, const void *params);
 
-// Has a mapping of this kind (-1: no kinds) the key?
+// Does a mapping of this kind (-1: no kinds) have the key?
 static inline bool key_in_kind(const Key *key, int kind)
 {
     return kind < 0 || key->kinds == 0 || (key->kinds >> kind & 1u);
@@ -123,7 +123,7 @@ static inline bool key_in_kind(const Key *key, int kind)
 const EnumName *enum_find(const EnumName *names, const char *name);
 const char *enum_name(const EnumName *names, int value);
 
-// Members of structs whose types the rows tell.
+// Access to members of structs by the types in their rows.
 void *pointer_at(const void *member);
 void pointer_set(void *member, const void *pointer);
 int int_at(const void *member);

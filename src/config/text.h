@@ -1,4 +1,4 @@
-// Text that grows on the heap.
+// Growing text on the heap.
 #ifndef RAMIFY_CONFIG_TEXT_H
 #define RAMIFY_CONFIG_TEXT_H
 
@@ -9,14 +9,14 @@
 typedef struct Text {
     char *bytes; // owned; ended by NUL once something was put
     int64_t length, capacity;
-    bool failed; // memory was short, e says so
+    bool failed; // out of memory; e is set
     Error *e;
 } Text;
 
-// printf to the end of the text.
+// Appends formatted text, as printf.
 void text_put(Text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// The text itself, for the caller to free; NULL when it failed.
+// The text, which the caller frees; NULL on failure.
 char *text_take(Text *text);
 
 #endif

@@ -101,7 +101,7 @@ static void put_plain(Writer *w, const Key *row, const char *params, const char 
     text_put(&w->text, strcmp(instead, "0") == 0 ? "\n" : " # used: %s\n", instead);
 }
 
-// As it was written, not where it was found.
+// The path as in the scene file, not joined to the folder.
 static const char *file_text(const Writer *w, const char *path)
 {
     const FileName *file = w->files;
@@ -145,7 +145,7 @@ static void put_list(Writer *w, const Key *row, const char *params, int depth)
     }
 }
 
-// Does the file name it, or has it a default?
+// Is the key in the file, or does it have a default?
 static bool is_there(const Key *row, const char *params)
 {
     if (row->flags & KEY_INSTEAD || (row->given_offset && !params[row->given_offset])) {
@@ -191,7 +191,7 @@ static void put_key(Writer *w, const Key *row, const char *params, const char *u
     }
 }
 
-// depth < 0: an entry of a list, whose first key stands in the line that has begun.
+// depth < 0: an entry of a list, whose first key continues the current line.
 static void put_keys(Writer *w, const Key *rows, int kind, const char *params, const char *used,
                      int *depth)
 {

@@ -48,7 +48,7 @@ static bool syntax_error(const Composer *c)
     }
     bool token = p->problem && strstr(p->problem, "cannot start any token");
     error_set(c->e, ERROR_INPUT, "not valid YAML: %s%s%s%s",
-              p->problem ? p->problem : "unknown trouble", p->context ? " " : "",
+              p->problem ? p->problem : "unknown error", p->context ? " " : "",
               p->context ? p->context : "",
               token ? "; indent with spaces, not tabs, and quote texts with special characters"
                     : "; check indentation, brackets and quotes here and just above");
@@ -58,7 +58,7 @@ static bool syntax_error(const Composer *c)
 static Node *start_node(Composer *c, NodeKind kind, const yaml_event_t *event)
 {
     if (--c->budget < 0) {
-        error_set(c->e, ERROR_INPUT, "more than a million values; a scene has at most that many");
+        error_set(c->e, ERROR_INPUT, "more than a million values; this is the limit for a scene");
         fail_at(c, event->start_mark);
         return NULL;
     }
@@ -76,7 +76,7 @@ static bool check_tag(const Composer *c, const yaml_char_t *tag, const yaml_even
     if (!tag) {
         return true;
     }
-    error_set(c->e, ERROR_INPUT, "tag '%s'; a scene has no tags, write the plain value",
+    error_set(c->e, ERROR_INPUT, "tag '%s'; tags are not supported, write the plain value",
               (const char *)tag);
     return fail_at(c, event->start_mark);
 }
@@ -87,7 +87,7 @@ static bool remember(Composer *c, const yaml_char_t *anchor, const Node *node)
         return true;
     }
     if (c->anchor_count == MAX_ANCHORS) {
-        error_set(c->e, ERROR_INPUT, "more than %d anchors; a scene has at most that many",
+        error_set(c->e, ERROR_INPUT, "more than %d anchors; this is the limit for a scene",
                   MAX_ANCHORS);
         return fail_at(c, (yaml_mark_t){0, (size_t)node->line - 1, (size_t)node->column - 1});
     }
@@ -110,8 +110,8 @@ static Node *copy_of_anchor(Composer *c, const yaml_event_t *event)
         }
     }
     error_set(c->e, ERROR_INPUT,
-              "alias '*%s' has no anchor; write '&%s' before the value it shall repeat, above",
-              name, name);
+              "alias '*%s' has no anchor; write '&%s' before the value to repeat, above", name,
+              name);
     fail_at(c, event->start_mark);
     return NULL;
 }
@@ -144,16 +144,15 @@ static bool compose_list(Composer *c, Node *list, int depth)
 static const char *compose_key(Composer *c, const Node *map, const yaml_event_t *event)
 {
     if (event->type != YAML_SCALAR_EVENT) {
-        error_set(c->e, ERROR_INPUT, "a key that is no text; keys are plain words");
+        error_set(c->e, ERROR_INPUT, "a key is not text; keys must be plain words");
         fail_at(c, event->start_mark);
         return NULL;
     }
     const char *text = (const char *)event->data.scalar.value;
     const Node *same = strcmp(text, "<<") == 0 ? NULL : node_get(map, text);
     if (same) {
-        error_set(c->e, ERROR_INPUT,
-                  "key '%s' is given twice; it stands in line %d already, keep one", text,
-                  same->key_line);
+        error_set(c->e, ERROR_INPUT, "duplicate key '%s'; it is already in line %d, remove one",
+                  text, same->key_line);
         fail_at(c, event->start_mark);
         return NULL;
     }
@@ -165,7 +164,7 @@ static const char *compose_key(Composer *c, const Node *map, const yaml_event_t 
     return arena_text(c->arena, text, event->data.scalar.length, c->e);
 }
 
-// Adds the entries of from that map has not.
+// Adds the entries of from that map does not have.
 static bool merge_map(Composer *c, Node *map, const Node *from)
 {
     for (const Node *entry = from->first; entry; entry = entry->next) {
@@ -249,7 +248,7 @@ static Node *compose_scalar(Composer *c, const yaml_event_t *event)
     }
     const char *text = (const char *)event->data.scalar.value;
     if (strlen(text) != event->data.scalar.length) {
-        error_set(c->e, ERROR_INPUT, "a text with a NUL character in it; leave it out");
+        error_set(c->e, ERROR_INPUT, "text contains a NUL character; remove it");
         fail_at(c, event->start_mark);
         return NULL;
     }
@@ -285,14 +284,14 @@ static Node *compose(Composer *c, yaml_event_t *event, int depth)
         map ? event->data.mapping_start.anchor : event->data.sequence_start.anchor;
     bool done = node && check_tag(c, tag, event) &&
                 (map ? compose_map(c, node, depth + 1) : compose_list(c, node, depth + 1));
-    if (done && node->height > MAX_DEPTH) { // aliases can hide depth
+    if (done && node->height > MAX_DEPTH) { // aliases can add depth
         too_deep(c, event);
         return NULL;
     }
     return done && remember(c, anchor, node) ? node : NULL;
 }
 
-// Skips events up to the document's first; *end says that there is none.
+// Skips events up to the document's first; *end is true when there is none.
 static bool find_document(Composer *c, yaml_event_t *event, bool *end)
 {
     for (;;) {
@@ -320,7 +319,7 @@ static Node *compose_document(Composer *c)
     if (end) {
         yaml_event_delete(&event);
         error_set(c->e, ERROR_INPUT,
-                  "nothing in it; a scene has at least 'objects:' with one object");
+                  "the file is empty; a scene needs at least 'objects:' with one object");
         error_locate(c->e, c->source ? c->source : c->name, 0, 0);
         return NULL;
     }
@@ -330,7 +329,7 @@ static Node *compose_document(Composer *c)
         return NULL;
     }
     if (!end) {
-        error_set(c->e, ERROR_INPUT, "a second document; a scene is one YAML document");
+        error_set(c->e, ERROR_INPUT, "a second YAML document; a scene file must hold one document");
         fail_at(c, event.start_mark);
         root = NULL;
     }

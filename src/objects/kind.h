@@ -95,18 +95,18 @@ typedef struct Kind {
     }
 
 // Rows shared by several kinds.
-#define OWN_MATERIAL_ROW(INDEX)                                                                 \
-    MATERIAL_ROW(INDEX, "material",                                                             \
-                 "Material of the whole, or of a tree's bark; left out: what the kind usually " \
-                 "has, as bark, ground, coral, ice; clay for a mesh or a shape.")
+#define OWN_MATERIAL_ROW(INDEX)                                                                  \
+    MATERIAL_ROW(INDEX, "material",                                                              \
+                 "Material of the object, or of a tree's bark; default: that of the kind, such " \
+                 "as bark, ground, coral or ice; clay for a mesh or a shape.")
 #define TWIG_MATERIAL_ROW(INDEX) \
-    MATERIAL_ROW(INDEX, "twig_material", "Material of a tree's twigs; left out: twig.")
-#define LEAF_MATERIAL_ROW(INDEX)                                                               \
-    MATERIAL_ROW(INDEX, "leaf_material",                                                       \
-                 "Material of a tree's leaves, or of those that lie on the ground; left out: " \
+    MATERIAL_ROW(INDEX, "twig_material", "Material of a tree's twigs; default: twig.")
+#define LEAF_MATERIAL_ROW(INDEX)                                                             \
+    MATERIAL_ROW(INDEX, "leaf_material",                                                     \
+                 "Material of a tree's leaves, or of fallen leaves on the ground; default: " \
                  "leaf, fallen.")
 #define GRASS_MATERIAL_ROW(INDEX) \
-    MATERIAL_ROW(INDEX, "grass_material", "Material of the ground's grass; left out: grass.")
+    MATERIAL_ROW(INDEX, "grass_material", "Material of the ground's grass; default: grass.")
 
 // NULL if index is not below the number of kinds.
 const Kind *kind_at(int index);

@@ -71,7 +71,7 @@ static bool add_lights(World *world, const Scene *scene, Error *e)
 
 // ---- objects ----
 
-// From its name and the scene's seed: an object keeps its form when others come and go.
+// Derived from its name and the scene's seed, so that it does not depend on other objects.
 uint64_t scene_object_seed(const Scene *scene, int index)
 {
     const SceneObject *object = &scene->objects[index];
@@ -110,7 +110,7 @@ static bool making_grow(Making *m, Grown *memory, Error *e)
     return kind_grow(m->kind, m->params, &m->recipe, m->scene->grow_to, memory, &m->grown, e);
 }
 
-// Errors tell the object and the place in the file.
+// Errors name the object and the place in the file.
 static bool making_end(Making *m, bool done, Error *e)
 {
     grown_clear(&m->grown);
@@ -127,7 +127,8 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
     }
     const Kind *kind = scene->objects[index].kind;
     if (!kind->grow) {
-        error_set(e, ERROR_INPUT, "it does not grow; a %s never does", kind_name(kind));
+        error_set(e, ERROR_INPUT, "it does not grow; objects of kind %s have no growth",
+                  kind_name(kind));
         scene_fail_object(scene, index, e);
         return NULL;
     }
@@ -151,7 +152,7 @@ HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, c
 {
     const Kind *kind = scene->objects[index].kind;
     if (!kind->heights) {
-        error_set(e, ERROR_INPUT, "it is no land; a terrain would be");
+        error_set(e, ERROR_INPUT, "it is not land; only a terrain has heights");
         scene_fail_object(scene, index, e);
         return NULL;
     }
@@ -170,7 +171,7 @@ HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, c
     return field;
 }
 
-// Measures of the land that a kind with heights makes; others have none.
+// Measures of the land; only kinds with heights have them.
 static bool measure_land(const Making *m, MeasureList *list, Error *e)
 {
     if (!m->kind->heights) {
@@ -182,7 +183,7 @@ static bool measure_land(const Making *m, MeasureList *list, Error *e)
     return done;
 }
 
-// What neither grows nor has measures of its own is built and measured by its geometry.
+// A kind that neither grows nor has its own measures is built and measured by its geometry.
 static bool measure_built(const Scene *scene, int index, const Run *run, MeasureList *list,
                           Error *e)
 {
@@ -219,7 +220,7 @@ static int find_material(const World *world, const char *name)
     return -1;
 }
 
-// By role. Names were checked when the scene was read.
+// Materials by role. Their names were checked when the scene was read.
 static void find_materials(const World *world, const Making *m, int material[OBJECT_MOST_MATERIALS])
 {
     for (int i = 0; i < OBJECT_MOST_MATERIALS; i++) {

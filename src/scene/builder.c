@@ -14,7 +14,7 @@ struct SceneBuilder {
     World *world;
     bool remember;
     bool built;    // false at first and after a failure
-    Scene scene;   // as it was built; borrows what it points to
+    Scene scene;   // the scene that was built; borrows everything it points to
     Grown *memory; // the whole growth of each object; owned
     int count;     // of objects
 };
@@ -52,16 +52,16 @@ void scene_builder_free(SceneBuilder *builder)
     }
 }
 
-// ---- what fits
+// ---- what can be kept
 
-// Is the object itself the same, with all that it draws by chance?
+// Is the object unchanged, including its random numbers?
 static bool same_object(const Scene *a, const Scene *b, int index)
 {
     return table_equal(&object_table, &a->objects[index], &b->objects[index], NULL) &&
            scene_object_seed(a, index) == scene_object_seed(b, index);
 }
 
-// Does a kind that reads the scene see any change in it?
+// Does a kind that depends on the scene see a change in it?
 static bool same_surroundings(const Scene *a, const Scene *b)
 {
     for (int i = 0; i < a->object_count; i++) {
@@ -72,7 +72,7 @@ static bool same_surroundings(const Scene *a, const Scene *b)
     return key_equal(table_find(&scene_table, "materials"), a, b);
 }
 
-// Do the object's parts stay as they are?
+// Can the object's parts be kept?
 static bool object_fits(const SceneBuilder *builder, const Scene *scene, int index, bool alike)
 {
     const Scene *old = &builder->scene;
@@ -82,8 +82,8 @@ static bool object_fits(const SceneBuilder *builder, const Scene *scene, int ind
            (!kind->grow || old->grow_to == scene->grow_to);
 }
 
-// Can anything stay? Parts name their materials by number, and the scene's own come first, so those
-// must have the same names.
+// Can any part be kept? Parts refer to materials by number, and the scene's own come first, so
+// these must have the same names.
 static bool same_kind_of_scene(const SceneBuilder *builder, const Scene *scene)
 {
     const Scene *old = &builder->scene;
@@ -122,7 +122,7 @@ static bool place_object(SceneBuilder *builder, const Scene *scene, int index, c
                               stats, e);
 }
 
-// Moves the parts of object index out of `from`, which stays the owner of the others.
+// Moves the parts of object index out of `from`, which continues to own the others.
 static bool move_parts(Geometry *from, int index, Geometry *to, Error *e)
 {
     for (int64_t i = 0; i < from->count; i++) {

@@ -1,5 +1,5 @@
-// One world for one scene after another: what two scenes have in common is grown, skinned and
-// placed once.
+// Builds the worlds of successive scenes in one world. Objects that a scene shares with the
+// previous one are not grown, skinned or placed again.
 #ifndef RAMIFY_SCENE_BUILDER_H
 #define RAMIFY_SCENE_BUILDER_H
 
@@ -9,17 +9,17 @@ typedef struct World World;
 
 typedef struct SceneBuilder SceneBuilder;
 
-// remember: keeps what objects have grown, so that another grow_to grows nothing anew.
+// remember: keep the whole growth of objects, so that a change of grow_to does not grow them again.
 SceneBuilder *scene_builder_new(bool remember, Error *e);
 void scene_builder_free(SceneBuilder *builder); // NULL is fine; frees the world, too
 
-// Has the world the geometry that this scene asks for? If not, who looks at the geometry (a
-// renderer) must go before scene_builder_build.
+// Does the world already have the geometry of this scene? If not, free everything that borrows the
+// geometry (a renderer) before scene_builder_build.
 bool scene_builder_fits(const SceneBuilder *builder, const Scene *scene);
 
-// Makes the world that of the scene, bit for bit as scene_build does. It borrows strings from the
-// scene: keep it until the next scene is built or the builder is gone. After a failure the builder
-// can only be freed. Adds to stats what was done.
+// Updates the world to the scene, with the same bits as scene_build. It borrows strings from the
+// scene: keep the scene until the next one is built or the builder is freed. After a failure the
+// builder can only be freed. Adds the work done to stats.
 World *scene_builder_build(SceneBuilder *builder, const Scene *scene, const Run *run,
                            BuildStats *stats, Error *e);
 

@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-// Those that several kinds use. Oak bark and twig after reflectances of dry bark (0.1 to 0.2,
-// reddish); leaves from PROSPECT-5 as material_default has them, the grass yellower.
+// Materials shared by several kinds. Oak bark and twig: reflectances of dry bark (0.1 to 0.2,
+// reddish); leaves: PROSPECT-5, as in material_default; grass: the same, yellower.
 static const Material SHARED[] = {
     {.name = "bark",
      .kind = MATERIAL_PRINCIPLED,
@@ -51,7 +51,8 @@ static const Material SHARED[] = {
     {.name = ""},
 };
 
-// Number *index of a list; NULL and what is left of *index where the list is shorter.
+// Entry *index of a list; if the list is shorter, returns NULL and subtracts its length from
+// *index.
 static const Material *entry(const Material *list, int *index)
 {
     for (; list && list->name[0]; list++) {

@@ -1,4 +1,4 @@
-// Checks of tracks: keys in order of time, all of one kind.
+// Checks of tracks: keys in order of time, all of one type.
 #include "config/scalar.h"
 #include "scene/spec_check.h"
 
@@ -55,17 +55,17 @@ static bool check_keys(const Mapping *mapping, const SceneTrack *track)
         const SceneKey *key = &track->keys[i];
         int count = scene_key_numbers(key, numbers);
         if (i > 0 && !(key->at > key[-1].at)) {
-            return load_fail(mapping->loader, node_get(given, "at"),
-                             "%s: the key at %g comes after one at %g; order keys by time, one "
-                             "at each",
-                             mapping_path(mapping, NULL), key->at, key[-1].at);
+            return load_fail(
+                mapping->loader, node_get(given, "at"),
+                "%s: the key at %g follows one at %g; times must increase from key to key",
+                mapping_path(mapping, NULL), key->at, key[-1].at);
         }
         if (count != wanted) {
             char is[32], was[32];
             describe(count, is);
             describe(wanted, was);
             return load_fail(mapping->loader, node_get(given, "value"),
-                             "%s: this key is %s, the first one %s; all must be alike",
+                             "%s: this key is %s, the first one is %s; all must be of one type",
                              mapping_path(mapping, NULL), is, was);
         }
     }
@@ -80,7 +80,7 @@ bool check_track(const Mapping *mapping, void *params)
     track->column = named->source ? 0 : named->column;
     if (strcmp(track->path, "animation") == 0 || strncmp(track->path, "animation.", 10) == 0) {
         return load_fail(mapping->loader, named,
-                         "%s: the animation cannot change itself; name another value",
+                         "%s: the animation cannot change itself; use another path",
                          mapping_path(mapping, NULL));
     }
     return check_keys(mapping, track);

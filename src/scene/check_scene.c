@@ -11,7 +11,7 @@
 
 #define MOST_PIXELS 100000000.0
 
-// Vertical field of view of a lens before a full frame, 24 mm high.
+// Vertical field of view of a lens on a full-frame sensor, 24 mm high.
 static float fov_from_focal_length(float focal_length)
 {
     return fminf(2.0f * atanf(12.0f / focal_length) / RADIANS_PER_DEGREE, 179.999f);
@@ -30,15 +30,17 @@ bool check_camera(const Mapping *mapping, void *params)
     }
     Vec3 view = vec3_sub(camera->target, camera->position);
     if (!(vec3_length(view) > 0.0f)) {
-        return mapping_fail(mapping, "target", " is where the camera is; it must be another point");
+        return mapping_fail(mapping, "target",
+                            " is the camera's position; it must be another point");
     }
     Vec3 aside = vec3_cross(vec3_normalize(view), vec3_normalize(camera->up));
     return vec3_length(aside) > 1e-5f ||
-           mapping_fail(mapping, "up",
-                        " is zero or along the line of sight; it must point aside from it");
+           mapping_fail(
+               mapping, "up",
+               " is zero or parallel to the line of sight; it must have another direction");
 }
 
-// Do the edges of the crop fall together in whole pixels?
+// Do opposite edges of the crop coincide when rounded to whole pixels?
 static bool crop_is_empty(float low, float high, int pixels)
 {
     return !(lroundf(high * (float)pixels) > lroundf(low * (float)pixels));
@@ -81,13 +83,13 @@ bool check_target(const Mapping *mapping, void *params)
     const SceneTarget *target = params;
     return target->low <= target->high ||
            load_fail(mapping->loader, node_place(mapping->given, "low"),
-                     "%s: low %g is above high %g; nothing can meet it",
+                     "%s: low %g is above high %g; low must not exceed high",
                      mapping_path(mapping, NULL), target->low, target->high);
 }
 
 // ---- names ----
 
-// Names are parts of --set paths and of layers' names.
+// Names are used in --set paths and in layer names.
 static bool check_name(const Mapping *scene, const Node *name, const char *what)
 {
     const char *text = name->text;
@@ -97,8 +99,8 @@ static bool check_name(const Mapping *scene, const Node *name, const char *what)
     }
     return (plain && strlen(text) <= 63) ||
            load_fail(scene->loader, name,
-                     "%s name '%.70s'; it must be letters, digits, spaces, - and _, at most 63 of "
-                     "them, and not begin with a digit",
+                     "%s name '%.70s' is invalid; use at most 63 letters, digits, spaces, - and _, "
+                     "and do not begin with a digit",
                      what, text);
 }
 
@@ -109,7 +111,7 @@ static int compare_names(const void *a, const void *b)
     return order ? order : ((*left)->line > (*right)->line) - ((*left)->line < (*right)->line);
 }
 
-// Valid and unique names in a list of mappings.
+// Checks that names in a list of mappings are valid and unique.
 static bool check_names(const Mapping *scene, const char *key, const char *what)
 {
     const Node *list = node_get(scene->given, key);
@@ -132,14 +134,14 @@ static bool check_names(const Mapping *scene, const char *key, const char *what)
     for (int i = 1; names && i < count; i++) {
         if (strcmp(names[i - 1]->text, names[i]->text) == 0) {
             return load_fail(scene->loader, names[i],
-                             "%s name '%s' is taken in line %d already; give each its own", what,
+                             "%s name '%s' is already used in line %d; names must be unique", what,
                              names[i]->text, names[i - 1]->line);
         }
     }
     return names;
 }
 
-enum { MOST_HINTED = 4096 }; // names that a hint is looked for among
+enum { MOST_HINTED = 4096 }; // maximum number of names searched for a hint
 
 static bool no_material(const Mapping *mapping, const Scene *scene, const SceneObject *object,
                         const Node *named)
@@ -183,7 +185,7 @@ static bool has_object(const Scene *scene, const char *name)
     return false;
 }
 
-// Each target's object exists. (Which measures it has shows when it is measured.)
+// Checks that each target's object exists. (Its measures are known only after measuring.)
 static bool check_targets(const Mapping *mapping, const Scene *scene)
 {
     const Node *list = node_get(mapping->given, "targets"), *given = list ? list->first : NULL;

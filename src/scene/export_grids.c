@@ -12,11 +12,11 @@ typedef struct Collecting {
     GridFile *grids;
     const char *object;
     const Run *run;
-    int elements; // of the object so far
+    int elements; // elements of the object so far
 } Collecting;
 
-// "object 'oak', crown" is the oak's crown. What has no name of its own is numbered from the
-// second.
+// The name of an element: "object 'oak', crown" is the oak's crown. Unnamed elements after the
+// first are numbered.
 static bool collect(void *user, const char *label, const Envelope *envelope,
                     const GuideField *field, Error *e)
 {
@@ -37,7 +37,7 @@ static bool collect(void *user, const char *label, const Envelope *envelope,
     return !field || guide_field_add_to(field, envelope, FIELD_VOXELS, name, to->grids, to->run, e);
 }
 
-// Objects grow in their own space; grids from number first on are carried from there.
+// Moves the grids from number first on out of the object's own space.
 static bool carry_grids(const SceneObject *object, GridFile *grids, int64_t first, Error *e)
 {
     OwnSpace own;
@@ -72,8 +72,8 @@ GridFile *scene_grids(const Scene *scene, const Run *run, Error *e)
     bool done = grids && grow_all(scene, grids, run, e);
     if (done && grid_file_count(grids) == 0) {
         done = error_set(e, ERROR_INPUT,
-                         "no object of '%s' grows in an envelope; a tree, coral, sculpture, "
-                         "lightning or vessels would",
+                         "no object of '%s' grows in an envelope; trees, corals, sculptures, "
+                         "lightning and vessels do",
                          scene->file);
     }
     if (!done) {

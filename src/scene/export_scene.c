@@ -23,11 +23,11 @@ bool scene_export_check(const char *file, Error *e)
         used += snprintf(endings + used, sizeof endings - (size_t)used, "%s%s", i > 0 ? " " : "",
                          export_format_at(i)->ending);
     }
-    return error_set(e, ERROR_INPUT, "'%s' ends in no format that can be written; one of %s would",
-                     file, endings);
+    return error_set(e, ERROR_INPUT, "'%s' has no known file extension; use one of %s", file,
+                     endings);
 }
 
-// What a source is made of, owned.
+// Owned data of a source.
 typedef struct Parts {
     World *world;
     OutTree **tree;
@@ -53,7 +53,7 @@ static void clear_parts(Parts *parts, int object_count)
     free(parts->name);
 }
 
-// Out-trees of all that grows, or of land alone.
+// Grows the out-trees of all objects that grow, or of land only.
 static bool make_trees(const Scene *scene, bool all, Parts *parts, const Run *run, Error *e)
 {
     parts->tree = memory_alloc_zero(scene->object_count, sizeof(OutTree *), e);
@@ -141,7 +141,7 @@ static bool write_scene(const Scene *scene, const char *file, const ExportOption
     return done;
 }
 
-// The scene's object of this name; -1 and e when there is none.
+// Index of the object with this name; -1 and e when there is none.
 static int find_object(const Scene *scene, const char *name, Error *e)
 {
     for (int i = 0; i < scene->object_count; i++) {
@@ -174,11 +174,11 @@ bool scene_export(const Scene *scene, const char *file, const ExportOptions *opt
     if (options->object_count == 0) {
         return write_scene(scene, file, options, run, report, e);
     }
-    // Objects stay what they are when others go: a scene of those alone is all that is needed.
+    // Objects do not depend on each other, so a scene with only these objects is sufficient.
     Scene few = *scene;
     few.objects = memory_alloc(options->object_count, sizeof *few.objects, e);
     few.object_count = 0;
-    few.whole = scene; // what they stand on
+    few.whole = scene; // has the ground they stand on
     bool done = few.objects;
     for (int i = 0; done && i < options->object_count; i++) {
         int index = find_object(scene, options->object[i], e);

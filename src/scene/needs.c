@@ -6,7 +6,7 @@
 
 // Measured on x86-64 with Embree 3.12.
 #define PROGRAM_BYTES 1.4e8     // the program and its libraries
-#define PIXEL_WRITE_BYTES 160.0 // of a pixel while it is denoised and written
+#define PIXEL_WRITE_BYTES 160.0 // per pixel while denoising and writing
 
 static Needs needs_of(const Scene *scene, int only)
 {
@@ -35,11 +35,9 @@ bool scene_check_memory(const Scene *scene, int object, Error *e)
     if (needs.bytes / NEEDS_FACTOR <= there || needs.largest_object < 0) {
         return true;
     }
-    error_set(
-        e, ERROR_INPUT,
-        "%s asks for about %.1f GB of memory, and %.1f GB are there; a smaller number would be "
-        "right",
-        needs.largest_key, needs.largest * 1e-9, there * 1e-9);
+    error_set(e, ERROR_INPUT,
+              "%s needs about %.1f GB of memory, but %.1f GB are available; use a smaller number",
+              needs.largest_key, needs.largest * 1e-9, there * 1e-9);
     error_key(e, "%s", needs.largest_key);
     return scene_fail_object(scene, needs.largest_object, e);
 }

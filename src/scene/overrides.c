@@ -16,7 +16,7 @@ typedef struct Override {
     Error *e;
 } Override;
 
-// The caller, who knows the scene's name, locates what comes from the file.
+// The caller knows the scene's name and adds the place of values from the file.
 static Node *fail(const Override *o)
 {
     if (o->source) {
@@ -70,7 +70,7 @@ static Node *new_node(const Override *o, NodeKind kind)
     return node;
 }
 
-// The child that token names, made when a mapping lacks it.
+// The child with the name token; created if a mapping lacks it.
 static Node *step_into(const Override *o, Node *node, const char *token)
 {
     if (node->kind == NODE_LIST) {
@@ -78,8 +78,8 @@ static Node *step_into(const Override *o, Node *node, const char *token)
     }
     if (node->kind == NODE_SCALAR) {
         if (!node_is_null(node)) {
-            error_set(o->e, ERROR_INPUT, "'%.60s' lies below a value that is no mapping; %s", token,
-                      "the path ends before it");
+            error_set(o->e, ERROR_INPUT,
+                      "'%.60s' is below a value that is not a mapping; shorten the path", token);
             return fail(o);
         }
         node->kind = NODE_MAP;
@@ -105,7 +105,7 @@ static void replace(Node *node, const Node *value)
     node->next = old.next;
 }
 
-// All names that a material may be called by: the file's, then the built-in ones.
+// All known material names: those of the file, then the built-in ones.
 static Node *unknown_material(const Override *o, const Node *list, const char *token)
 {
     const char *names[MAX_NAMES];
@@ -125,7 +125,7 @@ static Node *unknown_material(const Override *o, const Node *list, const char *t
     return fail(o);
 }
 
-// The root's list of materials, made when there is none.
+// The root's list of materials; created if there is none.
 static Node *material_list(const Override *o, Node *root)
 {
     Node *list = node_get(root, "materials");
@@ -138,7 +138,7 @@ static Node *material_list(const Override *o, Node *root)
     return list;
 }
 
-// A built-in material that the file does not list is listed as soon as something of it is set.
+// Adds an entry for a built-in material that is not in the file's list, so that it can be changed.
 static Node *step_into_materials(const Override *o, Node *list, const char *token)
 {
     if (list->kind != NODE_LIST || (*token >= '0' && *token <= '9')) {
@@ -164,7 +164,7 @@ static Node *step_into_materials(const Override *o, Node *list, const char *toke
     return entry;
 }
 
-// Puts value where path (which is cut up) leads.
+// Puts value at path (which is modified).
 static bool apply(const Override *o, Node *root, char *path, const Node *value)
 {
     Node *node = root, *materials = NULL;
@@ -206,7 +206,7 @@ bool override_apply(Arena *arena, Node *root, const char *override, Error *e)
     return path && value && apply(&o, root, path, value);
 }
 
-// Where every node of the value comes from.
+// Sets the origin of every node of the value.
 static void place_nodes(const Override *o, Node *node)
 {
     node->source = o->source;

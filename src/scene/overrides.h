@@ -5,12 +5,12 @@
 #include "config/node.h"
 #include "scene/scene.h"
 
-// Carries out one override, "camera.fov=35" or "objects.oak.tree.leaves.max_count=0". Entries of a
-// list go by their number, from 0, or by their name. Mappings on the way are made when missing;
-// whether the keys exist is for the tables to say. The value is YAML: 3, [1, 2, 3], {a: 1}.
+// Applies one override, "camera.fov=35" or "objects.oak.tree.leaves.max_count=0". Entries of a list
+// are selected by number, from 0, or by name. Missing mappings on the path are created; the tables
+// check later whether the keys exist. The value is YAML: 3, [1, 2, 3], {a: 1}.
 bool override_apply(Arena *arena, Node *root, const char *override, Error *e);
 
-// The same for a change that comes from elsewhere; see scene.h.
+// Applies a change that is not a "path=value" text; see SceneChange in scene.h.
 bool override_change(Arena *arena, Node *root, const SceneChange *change, Error *e);
 
 #endif

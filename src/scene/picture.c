@@ -18,7 +18,7 @@ bool picture_is_exr(const char *file)
     return file_name_ends(file, ".exr");
 }
 
-// Before the work of developing it.
+// Checks the file name before the image is developed.
 static bool check_ending(const char *file, Error *e)
 {
     return picture_is_exr(file) || file_name_ends(file, ".png") || file_name_ends(file, ".jpg") ||
@@ -52,7 +52,7 @@ static Image *beauty_image(const Film *film, Error *e)
     return image;
 }
 
-// A copy of one of the film's planes.
+// Copies one of the film's planes.
 static Image *plane_image(const Film *film, const void *plane, int channels, Error *e)
 {
     Image *image = image_new(film->width, film->height, channels, e);
@@ -63,7 +63,8 @@ static Image *plane_image(const Film *film, const void *plane, int channels, Err
     return image;
 }
 
-// "key\0value\0 ... \0" on the heap. mark: NULL = none; first, where a JPEG has room for sure.
+// "key\0value\0 ... \0" on the heap. mark: NULL = none; put first, so that it always fits in a
+// JPEG.
 static char *make_metadata(const Scene *scene, const char *mark, Error *e)
 {
     static const char program[] = "ramify " RAMIFY_VERSION;

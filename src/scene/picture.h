@@ -1,4 +1,4 @@
-// From the film, and from other results that are pictures, to files.
+// Writes the film, and other results that are images, to files.
 #ifndef RAMIFY_SCENE_PICTURE_H
 #define RAMIFY_SCENE_PICTURE_H
 
@@ -7,18 +7,18 @@
 #include "render/film.h"
 #include "scene/scene.h"
 
-// Does the file's name end in .exr, in any case?
+// Does the file name end in .exr (upper or lower case)?
 bool picture_is_exr(const char *file);
 
-// Whether a picture could be written there, before the work: ERROR_INPUT when its name ends in none
-// of .png, .jpg, .jpeg and .exr, ERROR_IO as file_replace_check.
+// Checks before rendering whether an image could be written there: ERROR_INPUT when its name does
+// not end in .png, .jpg, .jpeg or .exr, ERROR_IO as from file_replace_check.
 bool picture_check(const char *file, Error *e);
 
-// Display values of a film, as tone_map gives them, to be freed. denoise: take the noise out first.
+// Display values of a film, as from tone_map; free them. denoise: denoise first.
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run,
                        Error *e);
 
-// Develops and writes a .png or .jpg. denoise: take the noise out first.
+// Develops and writes a .png or .jpg. denoise: denoise first.
 bool picture_write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
                            const Run *run, Error *e);
 
@@ -26,19 +26,19 @@ bool picture_write_display(const char *file, const Scene *scene, const Film *fil
 // text and every setting as metadata.
 bool picture_write_exr(const char *file, const Scene *scene, const Film *film, Error *e);
 
-// One of the two by the file's ending, denoised if the scene says so, with `mark` as metadata under
-// PICTURE_MARK: the same mark, the same picture.
+// Writes either format, selected by the file extension and denoised if the scene asks for it, with
+// `mark` as metadata under PICTURE_MARK: equal marks mean equal images.
 #define PICTURE_MARK "ramify:frame"
 bool picture_write_marked(const char *file, const Scene *scene, const Film *film, const char *mark,
                           const Run *run, Error *e);
 
-// Stops by which auto_exposure would brighten the film; NAN and e when memory is short.
+// Stops by which auto_exposure would brighten the film; NAN and e when out of memory.
 double picture_metered_stops(const Film *film, Error *e);
 
 // Radiance and alpha of a film: 4 * width * height floats.
 void picture_copy_rgba(const Film *film, float *rgba);
 
-// A picture of that kind, as large as the scene's film: .exr as it is, others developed.
+// Writes an image of that kind, of the size of the scene's film: .exr unchanged, others developed.
 bool picture_write_rgba(const char *file, const Scene *scene, const float *rgba, Error *e);
 
 // width * height values, 0..1, as grey .png, .jpg or .exr.

@@ -9,8 +9,8 @@
 
 enum { LONGEST_PATH = 512 };
 
-// The document as it was read; NULL when memory is short. Reading it again costs nothing while all
-// goes well.
+// Parses the document again; NULL when out of memory. This is needed only for errors, so that
+// scenes need not keep their documents.
 static const Node *read_again(Arena *arena, const Scene *scene)
 {
     Node *root = yaml_parse(arena, scene->text, strlen(scene->text), scene->file, NULL, NULL);
@@ -21,7 +21,7 @@ static const Node *read_again(Arena *arena, const Scene *scene)
     return *at ? NULL : root;
 }
 
-// The entry of a list that a number or a name tells.
+// Finds an entry of a list by number or name.
 static const Node *entry_of(const Node *list, const char *token)
 {
     char *end;
@@ -57,7 +57,7 @@ static const Node *follow(const Node *root, const char *path)
 
 static void locate(const Node *node, const Scene *scene, Error *e)
 {
-    bool by_key = node->key && node->kind != NODE_SCALAR; // what is below it starts lines later
+    bool by_key = node->key && node->kind != NODE_SCALAR; // its contents can start on a later line
     if (node->source) {
         error_locate(e, node->source, 0, 0);
     } else {
@@ -93,7 +93,8 @@ bool scene_fail_object(const Scene *scene, int index, Error *e)
     char label[128], path[128];
     int length = snprintf(label, sizeof label, "object '%s'", object->name);
     error_quote_file(e);
-    if (strncmp(e->message, label, (size_t)length) != 0) { // some growth names a part of it, too
+    if (strncmp(e->message, label, (size_t)length) !=
+        0) { // growth may have added the label already
         error_prefix(e, "%s: ", label);
     }
     snprintf(path, sizeof path, "objects.%s.%s", object->name, kind_name(object->kind));

@@ -1,18 +1,18 @@
-// Where in the scene's file a value stands: for errors that show only while the scene is grown,
-// built or rendered.
+// Locates values in the scene file, for errors that are found only while the scene is grown, built
+// or rendered.
 #ifndef RAMIFY_SCENE_PLACE_H
 #define RAMIFY_SCENE_PLACE_H
 
 #include "scene/scene.h"
 
-// Gives an error the place of the value that it is about: of `path` (as in --set; "" = the scene)
-// and below it of the error's key, as far down as the file or an override names anything. A place
-// in another file (an SWC's line) stays; a file without a line goes into the message.
-// ERROR_CANCELLED gets none. To be called once an error. Returns false.
+// Sets the error's place to that of its value: `path` (as in --set; "" = the scene), then the
+// error's key below it, down to the deepest node that the file or an override names. A place in
+// another file (a line of an SWC) is kept; a file without a line is added to the message.
+// ERROR_CANCELLED gets no place. Call once per error. Returns false.
 bool scene_fail_at(const Scene *scene, const char *path, Error *e);
 
-// The same for object number index; the error's key is one of its kind's mapping. The message names
-// the object.
+// The same for object number index; the error's key belongs to the mapping of its kind. The message
+// names the object.
 bool scene_fail_object(const Scene *scene, int index, Error *e);
 
 #endif

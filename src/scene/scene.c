@@ -18,7 +18,7 @@
 
 #define LARGEST_FILE (16 << 20) // bytes
 
-// What a scene is read from.
+// The source of a scene.
 typedef struct SceneSource {
     const char *text;
     size_t length;
@@ -29,7 +29,7 @@ typedef struct SceneSource {
     int change_count;
 } SceneSource;
 
-// Parsed and overridden; NULL and e otherwise.
+// The parsed document with overrides applied; NULL and e on failure.
 static Node *read_document(Arena *arena, const SceneSource *source, Error *e)
 {
     const char *zero = memchr(source->text, 0, source->length);
@@ -41,7 +41,7 @@ static Node *read_document(Arena *arena, const SceneSource *source, Error *e)
         return NULL;
     }
     Node *root = yaml_parse(arena, source->text, source->length, source->name, NULL, e);
-    if (root && root->kind != NODE_MAP && !node_is_null(root)) { // nothing that could be overridden
+    if (root && root->kind != NODE_MAP && !node_is_null(root)) { // has no keys to override
         return root;
     }
     for (int i = 0; root && i < source->override_count; i++) {
@@ -73,7 +73,7 @@ static char *keep_overrides(Arena *arena, const SceneSource *source, Error *e)
     return kept;
 }
 
-// What the scene remembers of where it came from.
+// Stores the scene's source in it.
 static bool keep_source(Scene *scene, const SceneSource *source, Error *e)
 {
     Arena *arena = scene->arena;
@@ -84,7 +84,7 @@ static bool keep_source(Scene *scene, const SceneSource *source, Error *e)
     return scene->file && scene->folder && scene->text && scene->overrides;
 }
 
-// The scene of a document, which goes with the arena.
+// Creates the scene of a document. It takes over the arena.
 static Scene *load_scene(Arena *arena, const Node *document, const SceneSource *source, Error *e)
 {
     Loader loader = {.arena = arena, .file = source->name, .folder = source->folder, .e = e};
@@ -160,7 +160,7 @@ Scene *scene_changed(const Scene *scene, const SceneChange *changes, int count, 
     return changed;
 }
 
-// The whole file as heap text.
+// Reads the whole file as heap text.
 static char *read_file(const char *file, size_t *length, Error *e)
 {
     struct stat status;

@@ -1,7 +1,7 @@
-// The scene file as a value: everything a picture is made from, read from YAML and checked. Strict:
-// unknown keys, wrong types and numbers out of range are errors with line, column and what would be
-// right. All defaults stand in one set of tables (spec.h), from which the JSON Schema is printed
-// too.
+// A scene: the checked contents of a scene file, from which an image is made. Reading is strict:
+// unknown keys, wrong types and numbers out of range are errors that give line, column and the
+// correction. One set of tables (spec.h) holds all keys and defaults; the JSON Schema is written
+// from them, too.
 #ifndef RAMIFY_SCENE_SCENE_H
 #define RAMIFY_SCENE_SCENE_H
 
@@ -15,7 +15,7 @@
 
 #include <stddef.h>
 
-typedef struct SceneTarget { // what a scene says of its own result
+typedef struct SceneTarget { // required range of a measure
     char *object, *measure;  // names
     double low, high;        // inclusive
 } SceneTarget;
@@ -23,30 +23,30 @@ typedef struct SceneTarget { // what a scene says of its own result
 typedef enum GoldenMode {
     GOLDEN_TOLERANCE,  // a PNG, equal within max_rmse and max_failing
     GOLDEN_EXACT,      // a PNG, equal to the bit
-    GOLDEN_STATISTICAL // an EXR of means and variances, equal but for noise
+    GOLDEN_STATISTICAL // an EXR of means and variances, equal except for noise
 } GoldenMode;
 
-typedef struct SceneGolden { // how `ramify golden` compares the scene with its stored image
+typedef struct SceneGolden { // how `ramify golden` compares the image with the stored one
     GoldenMode mode;
     double max_rmse, threshold, max_failing; // of display values; shares of 1
-    double alpha;                            // GOLDEN_STATISTICAL: chance of a false alarm
-    int runs;                                // GOLDEN_STATISTICAL: renderings a side
+    double alpha;                            // GOLDEN_STATISTICAL: false alarm probability
+    int runs;                                // GOLDEN_STATISTICAL: renderings per side
 } SceneGolden;
 
-#define TARGET_NO_BOUND 1e300 // and beyond: that side is open
+#define TARGET_NO_BOUND 1e300 // at or beyond this: no bound on that side
 
-// How a value goes from one key to the next.
+// Interpolation between keys.
 typedef enum Ease {
     EASE_LINEAR,
     EASE_SMOOTH, // slow at every key: smoothstep
-    EASE_STEP,   // stays until the next key
-    EASE_SPLINE  // a smooth curve through the keys that never overshoots them
+    EASE_STEP,   // constant until the next key
+    EASE_SPLINE  // smooth curve through the keys, without overshoot
 } Ease;
 
-enum { SCENE_KEY_MOST_NUMBERS = 16 }; // more than any value of a scene has
+enum { SCENE_KEY_MOST_NUMBERS = 16 }; // more than any value of a scene needs
 
 typedef struct SceneKey {
-    double at;   // 0..1, share of the animation
+    double at;   // time, 0..1 of the animation
     char *value; // YAML: a number, a list of numbers, a colour, a word
     bool quoted; // in the file
 } SceneKey;
@@ -62,8 +62,8 @@ typedef struct SceneTrack { // one value of the scene over time
 typedef struct SceneAnimation {
     int frames;
     double fps;
-    bool loop;       // frame number `frames` would be the first again
-    bool vary_noise; // another pattern of noise in every frame
+    bool loop;       // frame number `frames` equals the first
+    bool vary_noise; // new noise pattern in every frame
     SceneTrack *tracks;
     int track_count;
 } SceneAnimation;
@@ -73,15 +73,15 @@ typedef struct Material Material;
 typedef struct Medium Medium;
 
 typedef struct Scene {
-    Arena *arena;    // of the scene itself and all that it points to
-    char *file;      // where it was read from, for messages and to resolve relative paths
+    Arena *arena;    // holds the scene itself and everything it points to
+    char *file;      // the scene file, for messages
     char *text;      // the file's text, stored in images as metadata
-    char *resolved;  // the same as YAML with every default and override written out
-    char *folder;    // that files named in the text are relative to; "" = the current one
-    char *overrides; // those it was read with: "path=value\0 ... \0"
-    uint64_t files;  // hash of names, sizes and times of the files it names
+    char *resolved;  // the scene as YAML with all defaults and overrides
+    char *folder;    // base of relative paths in the text; "" = the current folder
+    char *overrides; // overrides it was read with: "path=value\0 ... \0"
+    uint64_t files;  // hash of names, sizes and times of the referenced files
     uint64_t seed;
-    float grow_to; // 0..1: how much of all growth shows
+    float grow_to; // 0..1: fraction of the growth that is shown
     Camera camera;
     FilmParams film;
     ToneParams tone;
@@ -99,7 +99,7 @@ typedef struct Scene {
     int target_count;
     SceneAnimation *animation; // NULL = a still
     SceneGolden golden;
-    const struct Scene *whole; // that this holds some of the objects of; NULL = it is all there is
+    const struct Scene *whole; // full scene this subset came from; NULL if complete
 } Scene;
 
 // Reads and checks a scene. overrides: "path=value" strings (objects.0.tree.height=9, or
@@ -112,36 +112,36 @@ Scene *scene_read(const char *file, const char *const *overrides, int override_c
 Scene *scene_read_text(const char *text, size_t length, const char *name, const char *folder,
                        const char *const *overrides, int override_count, Error *e);
 
-// A value of the scene that shall be another one, as YAML. line, column: of the scene's file, for
+// A new value, as YAML, for one key of a scene. line, column: place in the scene file, for
 // messages; line 0: messages name `source` instead.
 typedef struct SceneChange {
     const char *path, *value, *source;
     int line, column;
 } SceneChange;
 
-// The scene anew with changes on top of its own overrides. Numbers are rounded where the key wants
-// whole ones. ERROR_INPUT as for scene_read.
+// Reads the scene again with changes in addition to its own overrides. Numbers are rounded for keys
+// of whole numbers. ERROR_INPUT as for scene_read.
 Scene *scene_changed(const Scene *scene, const SceneChange *changes, int count, Error *e);
 
 void scene_free(Scene *scene); // NULL is fine
 
-// The material of that name: the scene's own, else a built-in one; NULL = there is none.
+// Finds a material by name: the scene's own, else a built-in one; NULL = not found.
 const Material *scene_material(const Scene *scene, const char *name);
 
-// The numbers of a key's value: one, those of a list, or the three of a colour in linear light.
-// Their count; 0 = a word.
+// Gets the numbers of a key's value: one, those of a list, or the three of a colour in linear
+// light. Returns their count; 0 = a word.
 int scene_key_numbers(const SceneKey *key, double numbers[SCENE_KEY_MOST_NUMBERS]);
 
-// What holds where a scene says nothing.
+// Golden comparison of a scene that sets none.
 SceneGolden scene_golden_default(void);
 
 // JSON Schema of scene files (draft 2020-12) as heap text.
 char *scene_schema_json(Error *e);
 
-// The reference of scene files, docs/scene.md, in Markdown as heap text.
+// Reference of scene files, docs/scene.md, as Markdown in heap text.
 char *scene_schema_markdown(Error *e);
 
-// The paths of all keys as --set takes them, one a line: "objects.NAME.tree.height". Heap text.
+// Paths of all keys, as for --set, one per line: "objects.NAME.tree.height". Heap text.
 char *scene_schema_paths(Error *e);
 
 #endif

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-// A pattern of ripples, or a dielectric of about water's index.
+// Is it water: a pattern of ripples, or a dielectric with about the index of water?
 static bool is_water(const Material *material)
 {
     return material &&

@@ -1,4 +1,4 @@
-// The water of a scene, for what grows on land: its medium, and shapes and meshes of water.
+// The water of a scene, where land plants do not grow: its medium, and shapes and meshes of water.
 #ifndef RAMIFY_SCENE_SCENE_FLOOD_H
 #define RAMIFY_SCENE_SCENE_FLOOD_H
 
@@ -16,7 +16,7 @@ typedef struct SceneFlood {
 bool scene_flood_init(SceneFlood *flood, const Scene *scene, const Run *run, Error *e);
 void scene_flood_clear(SceneFlood *flood);
 
-// The same for the same water in two scenes; 0 = none.
+// Hash of the water: equal for scenes with equal water; 0 = none.
 uint64_t scene_flood_hash(const Scene *scene);
 
 #endif

@@ -11,7 +11,7 @@
 
 typedef struct Default {
     const char *text;
-    char where[512]; // the places or kinds that have it
+    char where[512]; // places or kinds with this default
     int count;
 } Default;
 
@@ -61,7 +61,7 @@ static const char *section_title(const Outline *o, const Table *table)
     return table->name;
 }
 
-// 1e6 and beyond as powers of ten where that is exact: nobody counts zeros.
+// Writes numbers from 1e6 on as powers of ten if that is exact, which is easier to read.
 static void put_number(SchemaText *s, double value)
 {
     char text[32];
@@ -73,7 +73,7 @@ static void put_number(SchemaText *s, double value)
     }
 }
 
-// "0 to 90 degrees", "above 0, below 1"; first: what stands before it.
+// Puts "0 to 90 degrees", "above 0, below 1"; first: text before it.
 static void put_range(SchemaText *s, const Key *row, const char *first)
 {
     bool open = row->low == 0.0 && row->high == 0.0;
@@ -175,7 +175,7 @@ static void add_default(Default *found, int *count, const char *text, const char
     found[i].count++;
 }
 
-// The place that holds this one: "tree crown" of "tree crown points".
+// Title of the parent place: "tree crown" for "tree crown points".
 static const char *holder_title(SchemaText *s, const OutlinePlace *place)
 {
     const char *last = strrchr(place->title, ' ');
@@ -185,7 +185,7 @@ static const char *holder_title(SchemaText *s, const OutlinePlace *place)
     return title ? title : "";
 }
 
-// Tables with kinds fill in their own defaults, the same everywhere; others differ by place.
+// Tables with kinds set their own defaults, equal in all places; other defaults differ by place.
 static int find_defaults(SchemaText *s, const OutlineSection *section, const Key *row,
                          Default *found)
 {

@@ -9,7 +9,7 @@
 
 typedef struct Writer {
     SchemaText *text;
-    const Table *shared[MOST_TABLES]; // tables that go to $defs, in the order met
+    const Table *shared[MOST_TABLES]; // tables written to $defs, in the order of first use
     int shared_count;
 } Writer;
 
@@ -24,7 +24,7 @@ static void put_string(Writer *w, const char *text)
     put(w, "\"");
 }
 
-// Words that follow the documentation: unit, kinds.
+// The documentation, followed by the unit and the kinds.
 static void put_description(Writer *w, const Table *table, const Key *row)
 {
     char text[1024];
@@ -34,7 +34,7 @@ static void put_description(Writer *w, const Table *table, const Key *row)
     }
     if (row->kinds) {
         const Key *kind = table_find(table, table->kind_key);
-        used += snprintf(text + used, sizeof text - (size_t)used, " Only of %s", table->kind_key);
+        used += snprintf(text + used, sizeof text - (size_t)used, " Only for %s", table->kind_key);
         const char *before = " ";
         for (const EnumName *n = kind->names; n->name; n++) {
             if (row->kinds >> n->value & 1u) {
@@ -185,7 +185,7 @@ static void put_required(Writer *w, const Table *table)
     put(w, count ? "]" : "");
 }
 
-// The members of an object schema, without its braces.
+// Puts the members of an object schema, without braces.
 static void put_table(Writer *w, const Table *table, const char *base, int depth)
 {
     base = schema_base(w->text, table, -1, base);
@@ -211,7 +211,7 @@ static void put_schema(SchemaText *text)
     put(w, ",\n  ");
     put_table(w, &scene_table, NULL, 2);
     put(w, ",\n  \"$defs\": {");
-    for (int i = 0; i < w->shared_count; i++) { // grows while its tables are written
+    for (int i = 0; i < w->shared_count; i++) { // the list grows while tables are written
         put(w, "%s\n    \"%s\": {\"description\": ", i ? "," : "", w->shared[i]->name);
         put_string(w, w->shared[i]->doc);
         put(w, ", ");

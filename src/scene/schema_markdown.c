@@ -1,12 +1,12 @@
-// The reference of scene files (docs/scene.md) and the list of all their keys' paths, written from
-// the tables of spec.h.
+// Writes the reference of scene files (docs/scene.md) and the list of all key paths from the tables
+// of spec.h.
 #include "scene/scene.h"
 #include "scene/schema_cells.h"
 #include "scene/schema_intro.h"
 
 #include <string.h>
 
-// "Only of leaf." or "Not of emission.": the shorter of the two.
+// "Only for leaf." or "Not for emission.", whichever is shorter.
 static void put_kinds_of(SchemaText *s, const Table *table, const Key *row)
 {
     const Key *kinds = row->kinds ? table_find(table, table->kind_key) : NULL;
@@ -16,7 +16,7 @@ static void put_kinds_of(SchemaText *s, const Table *table, const Key *row)
         without += !key_in_kind(row, n->value);
     }
     bool only = with <= without;
-    const char *before = only ? " *Only of " : " *Not of ";
+    const char *before = only ? " *Only for " : " *Not for ";
     for (const EnumName *n = kinds ? kinds->names : NULL; n && n->name && without; n++) {
         if (key_in_kind(row, n->value) == only) {
             schema_put(s, "%s%s", before, n->name);
@@ -39,7 +39,7 @@ static void put_key(SchemaText *s, const Outline *o, const OutlineSection *secti
     }
     schema_put(s, " | ");
     if (table->kind_key && row == table_find(table, table->kind_key)) {
-        schema_put(s, "Which of those above.");
+        schema_put(s, "One of the kinds above.");
     } else {
         schema_put_doc(s, row, row->doc, strlen(row->doc));
     }
@@ -47,7 +47,7 @@ static void put_key(SchemaText *s, const Outline *o, const OutlineSection *secti
     schema_put(s, " |\n");
 }
 
-// What the kind key's documentation says of one kind: from its name to the next one's.
+// Writes the part of the kind key's documentation about one kind: from its label to the next.
 static void put_kind_doc(SchemaText *s, const Key *row, const char *name)
 {
     for (const char *at = row->doc; *at; at++) {
@@ -67,11 +67,11 @@ static void put_kind_doc(SchemaText *s, const Key *row, const char *name)
 static void put_kinds(SchemaText *s, const Table *table)
 {
     const Key *kinds = table_find(table, table->kind_key);
-    schema_put(s, "`%s` says which:\n\n", table->kind_key);
+    schema_put(s, "`%s` selects one of:\n\n", table->kind_key);
     for (const EnumName *n = kinds->names; n->name; n++) {
         schema_put(s, "- `%s`", n->name);
         put_kind_doc(s, kinds, n->name);
-        const char *before = ". Its keys: ";
+        const char *before = ". Keys: ";
         for (const Key *row = table->keys; row->key; row++) {
             if (row != kinds && key_in_kind(row, n->value)) {
                 schema_put(s, "%s`%s`", before, row->key);
@@ -91,7 +91,7 @@ static void put_places(SchemaText *s, const Outline *o, const OutlineSection *se
     }
     const char *key = section->places[0].key;
     bool list = strcmp(section->table->name, key) != 0;
-    schema_put(s, "%s`%s` of ", list ? "An entry of " : "", key);
+    schema_put(s, "%s`%s` in ", list ? "Entry of " : "Key ", key);
     for (int i = 0; i < section->place_count; i++) {
         const OutlinePlace *place = &section->places[i];
         bool seen = false;
@@ -139,7 +139,7 @@ static void put_contents(SchemaText *s, const Outline *o)
     for (int i = 0; i < o->count; i++) {
         const OutlineSection *section = &o->sections[i];
         if (!shared && section->place_count > 1) {
-            schema_put(s, "- parts that several of them have\n");
+            schema_put(s, "- shared sections\n");
             shared = true;
         }
         schema_put(s, "%s- ", section->depth || shared ? "  " : "");

@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-// "objects.NAME.tree.trunk" as a reader calls it: "tree trunk". Of a list's entry the list's name.
+// Readable form of a path: "tree trunk" for "objects.NAME.tree.trunk"; for a list's entry, the
+// list.
 static const char *title_of(SchemaText *s, const char *path)
 {
     const char *prefix = "objects.NAME.";
@@ -67,7 +68,7 @@ static void visit(SchemaText *s, Outline *o, const Table *table, OutlinePlace pl
     }
 }
 
-// Sections that stand in several places go to the end; parents are renumbered with them.
+// Moves sections with several places to the end and renumbers the parents.
 static void sort_sections(const Outline *from, Outline *to)
 {
     int where[OUTLINE_MOST_SECTIONS] = {0};

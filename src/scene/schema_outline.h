@@ -1,5 +1,5 @@
-// All mappings of a scene file in the order in which a reader meets them, each with the places
-// where it may stand.
+// All mappings of a scene file, in reading order, each with the places where it can
+// appear.
 #ifndef RAMIFY_SCENE_SCHEMA_OUTLINE_H
 #define RAMIFY_SCENE_SCHEMA_OUTLINE_H
 
@@ -10,15 +10,15 @@
 
 typedef struct OutlinePlace {
     const char *path;  // "objects.NAME.tree.trunk"; "" = the scene itself
-    const char *title; // the same for readers: "tree trunk"
-    const char *key;   // in the mapping that holds it
+    const char *title; // readable form: "tree trunk"
+    const char *key;   // in the parent mapping
     int parent;        // section of that mapping; -1 for the scene
-    const char *base;  // struct with the defaults there; NULL = none
+    const char *base;  // struct with the defaults at this place; NULL = none
 } OutlinePlace;
 
 typedef struct OutlineSection {
     const Table *table;
-    const char *title; // of its only place, or its key where it has several
+    const char *title; // title of its only place, or its key if it has several
     int depth;         // 0 = the scene's own mappings and the kinds of objects, 1 = within those
     OutlinePlace places[OUTLINE_MOST_PLACES];
     int place_count;
@@ -29,7 +29,7 @@ typedef struct Outline {
     int count;
 } Outline;
 
-// In the arena of s; NULL and s->failed when it does not fit.
+// Allocated in the arena of s; NULL and s->failed when a limit is exceeded.
 Outline *outline_new(SchemaText *s);
 
 #endif

@@ -9,8 +9,8 @@
 
 typedef struct Settling {
     const Scene *scene;
-    const SceneObject *object; // that is being written
-    Arena *arena;              // of what is made
+    const SceneObject *object; // being written
+    Arena *arena;              // for the settled parameters
     bool failed;
     Error *e;
 } Settling;

@@ -1,14 +1,14 @@
-// The resolved text of a scene: every value it has, with notes on what follows from other keys
-// where the file leaves a key at 0.
+// The resolved text of a scene: all values, with notes that give the automatic value of keys that
+// are 0.
 #ifndef RAMIFY_SCENE_SETTLE_H
 #define RAMIFY_SCENE_SETTLE_H
 
 #include "config/load.h"
 #include "scene/scene.h"
 
-// In the scene's arena. Numbers that are 0, but something else in what the object's kind makes of
-// them, get a note what that is; they stay, so that the text can be read again. files: as they were
-// loaded.
+// Allocated in the scene's arena. A number that is 0 and that the object's kind replaces by an
+// automatic value gets a comment with that value; it stays 0, so that the text can be read again.
+// files: the list from the loader.
 char *settle_write(const Scene *scene, const FileName *files, Error *e);
 
 #endif

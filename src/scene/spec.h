@@ -1,4 +1,4 @@
-// The tables of scene files, one spec_*.c a subject.
+// The tables of scene files, one spec_*.c per subject.
 #ifndef RAMIFY_SCENE_SPEC_H
 #define RAMIFY_SCENE_SPEC_H
 
@@ -6,7 +6,7 @@
 
 extern const Table scene_table; // the root
 
-// Tables that another file's table uses.
+// Tables used by tables of other files.
 extern const Table sky_table, light_table, material_table, medium_table, object_table,
     animation_table;
 

@@ -1,4 +1,4 @@
-// What changes over time.
+// Keys of the animation.
 #include "scene/scene.h"
 #include "scene/spec_check.h"
 
@@ -10,28 +10,29 @@ static const EnumName EASES[] = {{"linear", EASE_LINEAR},
 
 static const Key KEY_KEYS[] = {
     {KEY_OF(SceneKey, at, "at", KEY_DOUBLE), .flags = KEY_REQUIRED, .high = 1,
-     .doc = "When: 0 = the animation's beginning, 1 = its end."},
+     .doc = "Time: 0 = start of the animation, 1 = its end."},
     {KEY_OF(SceneKey, value, "value", KEY_ANY), .count_offset = offsetof(SceneKey, quoted),
      .flags = KEY_REQUIRED, .count = SCENE_KEY_MOST_NUMBERS,
-     .doc = "The value at that time: a number, a list of numbers, a colour or a word."},
+     .doc = "Value at that time: a number, a list of numbers, a colour or a word."},
     {0},
 };
 
-static const Table KEY_TABLE = {
-    .name = "key", .doc = "The value at one time.", .size = sizeof(SceneKey), .keys = KEY_KEYS};
+static const Table KEY_TABLE = {.name = "key",
+                                .doc = "A keyframe: the value at one time.",
+                                .size = sizeof(SceneKey),
+                                .keys = KEY_KEYS};
 
 static const Key TRACK_KEYS[] = {
     {KEY_OF(SceneTrack, path, "path", KEY_TEXT), .flags = KEY_REQUIRED,
-     .doc = "Which value of the scene, as for --set: camera.position, sky.sun_elevation, "
+     .doc = "Path of the animated value, as for --set: camera.position, sky.sun_elevation, "
             "objects.oak.tree.height."},
     {KEY_OF(SceneTrack, ease, "ease", KEY_ENUM), .names = EASES,
-     .doc = "From key to key. linear: evenly; smooth: slow at every key; step: stays until the "
-            "next key; "
-            "spline: a smooth curve through all keys that never overshoots them. Words always "
-            "step."},
+     .doc = "Interpolation between keys. linear: constant speed; smooth: slow at every key; step: "
+            "holds the value until the next key; spline: smooth curve through all keys, without "
+            "overshoot. Words always step."},
     {KEY_OF(SceneTrack, keys, "keys", KEY_LIST), .flags = KEY_REQUIRED,
      .count_offset = offsetof(SceneTrack, key_count), .low = 1, .count = 10000, .table = &KEY_TABLE,
-     .doc = "The value at certain times, in order."},
+     .doc = "Keyframes, in order of time."},
     {0},
 };
 
@@ -41,7 +42,7 @@ static void track_defaults(void *out)
 }
 
 static const Table TRACK_TABLE = {.name = "track",
-                                  .doc = "One value of the scene over time.",
+                                  .doc = "Animation of one value of the scene.",
                                   .size = sizeof(SceneTrack),
                                   .keys = TRACK_KEYS,
                                   .defaults = track_defaults,
@@ -49,19 +50,19 @@ static const Table TRACK_TABLE = {.name = "track",
 
 static const Key ANIMATION_KEYS[] = {
     {KEY_OF(SceneAnimation, frames, "frames", KEY_INT), .low = 1, .high = 1000000,
-     .doc = "How many frames."},
+     .doc = "Number of frames."},
     {KEY_OF(SceneAnimation, fps, "fps", KEY_DOUBLE), .flags = KEY_ABOVE, .high = 1000,
-     .unit = "frames a second", .doc = "Speed of the film."},
+     .unit = "frames a second", .doc = "Frame rate."},
     {KEY_OF(SceneAnimation, loop, "loop", KEY_BOOL),
-     .doc = "After the last frame comes the first: frame i of N shows the time i/N, and values go "
-            "on from their last key to their first. If not, frame i shows i/(N-1) and values stay "
-            "before their first and after their last key."},
+     .doc = "Loop from the last frame to the first: frame i of N shows the time i/N, and values "
+            "run from their last key on to their first. If false, frame i shows the time i/(N-1), "
+            "and values are constant before their first key and after their last."},
     {KEY_OF(SceneAnimation, vary_noise, "vary_noise", KEY_BOOL),
-     .doc = "Another pattern of noise in every frame, as film grain has; if not, what does not "
-            "move keeps every bit."},
+     .doc = "Change the noise pattern in every frame, like film grain; if false, parts that do not "
+            "move stay identical."},
     {KEY_OF(SceneAnimation, tracks, "tracks", KEY_LIST),
      .count_offset = offsetof(SceneAnimation, track_count), .count = 1000, .table = &TRACK_TABLE,
-     .doc = "What changes."},
+     .doc = "Tracks, one for each animated value."},
     {0},
 };
 
@@ -72,7 +73,7 @@ static void animation_defaults(void *out)
 
 const Table animation_table = {
     .name = "animation",
-    .doc = "What changes over time.",
+    .doc = "Animation of the scene: frames, speed and tracks.",
     .example =
         "objects:\n"
         "  - name: oak\n"

@@ -1,5 +1,5 @@
-// Checks of whole mappings, named by the tables of spec_*.c: what no single key's range can say.
-// See Table.check.
+// Checks of whole mappings, for conditions on several keys; used by the tables of spec_*.c. See
+// Table.check.
 #ifndef RAMIFY_SCENE_SPEC_CHECK_H
 #define RAMIFY_SCENE_SPEC_CHECK_H
 
@@ -9,10 +9,10 @@
 
 typedef bool TableCheck(const Mapping *mapping, void *params);
 
-TableCheck check_scene;  // names are unique, what they name exists
+TableCheck check_scene;  // names are unique, references exist
 TableCheck check_camera; // also turns focal_length into fov
 TableCheck check_film, check_light;
 TableCheck check_target; // low <= high
-TableCheck check_track;  // keys in order and of one kind; notes its place
+TableCheck check_track;  // keys in order and of one type; stores line and column
 
 #endif

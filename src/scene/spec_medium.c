@@ -1,4 +1,4 @@
-// What fills the space of a scene.
+// Keys of the medium that fills a scene.
 #include "render/medium/medium.h"
 #include "scene/spec.h"
 
@@ -9,26 +9,30 @@ static const EnumName KINDS[] = {
 
 static const Key MEDIUM_KEYS[] = {
     {KEY_OF(Medium, kind, "kind", KEY_ENUM), .names = KINDS,
-     .doc = "everywhere: a ball of haze around the scene; water: all under `height`; "
-            "layer: even under `height` and thinning out above, as fog."},
+     .doc = "everywhere: a sphere of uniform haze around the scene; water: everything below "
+            "`height`; layer: uniform below `height` and thinning out above, like fog."},
     {KEY_OF(Medium, scattering, "scattering", KEY_COLOR), .high = 1e6, .unit = "1/m",
-     .doc = "Share of light turned aside on a metre; 3 / scattering is about as far as one sees."},
+     .doc = "Scattering coefficient; the visibility is about 3 / scattering."},
     {KEY_OF(Medium, absorption, "absorption", KEY_COLOR), .high = 1e6, .unit = "1/m",
-     .doc = "Share of light lost on a metre."},
+     .doc = "Absorption coefficient."},
     {KEY_OF(Medium, anisotropy, "anisotropy", KEY_FLOAT), .low = -0.98, .high = 0.98,
-     .doc = "Mean cosine of scattering: 0 = to all sides, near 1 = forward, as fog and water do."},
+     .doc = "Mean cosine of the scattering angle: 0 = isotropic, near 1 = forward, as in fog and "
+            "water."},
     {KEY_OF(Medium, height, "height", KEY_FLOAT), .kinds = BIT(MEDIUM_WATER) | BIT(MEDIUM_LAYER),
-     .low = -1e6, .high = 1e6, .unit = "m", .doc = "Height of its surface."},
+     .low = -1e6, .high = 1e6, .unit = "m",
+     .doc = "Height of the water's surface, or of the layer's top."},
     {KEY_OF(Medium, falloff, "falloff", KEY_FLOAT), .kinds = BIT(MEDIUM_LAYER), .flags = KEY_ABOVE,
-     .high = 1e6, .unit = "m", .doc = "Climb over which it thins out to 1/e."},
+     .high = 1e6, .unit = "m",
+     .doc = "Height above the layer over which the density falls to 1/e."},
     {KEY_OF(Medium, caustics, "caustics", KEY_FLOAT), .kinds = BIT(MEDIUM_WATER), .high = 1,
-     .doc = "Strength of the network of light that waves focus the sun into; 0 = calm water."},
+     .doc = "Strength of the caustics that waves cast in sunlight; 0 = calm water."},
     {KEY_OF(Medium, wavelength, "wavelength", KEY_FLOAT), .kinds = BIT(MEDIUM_WATER), .high = 1e4,
-     .unit = "m", .doc = "From wave to wave; 0 = a third of the depth of the camera's target."},
+     .unit = "m",
+     .doc = "Distance between waves; 0 = a third of the depth of the camera's target."},
     {KEY_OF(Medium, extent, "extent", KEY_FLOAT), .kinds = BIT(MEDIUM_EVERYWHERE), .high = 1e9,
      .unit = "m",
-     .doc = "Radius of the ball; 0 = three times the scene's. Light from the sky loses itself in "
-            "a large one."},
+     .doc = "Radius of the sphere; 0 = three times the scene's radius. A large sphere attenuates "
+            "the light from the sky."},
     {0},
 };
 

@@ -1,13 +1,13 @@
-// Objects: their names, and what kinds there are.
+// Keys of objects: name, seed and the kinds.
 #include "scene/scene.h"
 #include "scene/spec.h"
 
 static const Key OBJECT_KEYS[] = {
     {KEY_OF(SceneObject, name, "name", KEY_TEXT), .flags = KEY_REQUIRED,
-     .doc = "What messages, targets, --set and the object's random numbers go by; no two objects "
-            "have the same."},
+     .doc = "Unique name, used in messages, targets and --set paths. The object's random numbers "
+            "depend on it."},
     {KEY_OF(SceneObject, seed, "seed", KEY_UINT64), .high = 18446744073709551615.0,
-     .doc = "Seed of this object; 0 = from the scene's seed and the object's name."},
+     .doc = "Seed of this object; 0 = derived from the scene's seed and the object's name."},
     {0},
 };
 
@@ -24,8 +24,8 @@ static const Variant *object_variant(int index)
 
 const Table object_table = {
     .name = "object",
-    .doc = "One thing of the scene: a name, exactly one of the kinds below (those that lead to a "
-           "section), and the names of its materials if they are not the usual ones.",
+    .doc = "An object of the scene: a name, exactly one of the kinds below (the keys that link to "
+           "a section), and the names of materials that replace the default ones.",
     .example = "objects:\n"
                "  - name: land\n"
                "    ground: {relief: 10}\n"

@@ -1,4 +1,4 @@
-// Sky and lamps.
+// Keys of the sky and of area lights.
 #include "render/world.h"
 #include "scene/spec_check.h"
 
@@ -12,60 +12,63 @@ static const EnumName SKY_KINDS[] = {{"sun_sky", SKY_SUN_SKY},   {"environment",
 
 static const Key SKY_KEYS[] = {
     {KEY_OF(Sky, kind, "kind", KEY_ENUM), .names = SKY_KINDS,
-     .doc = "sun_sky: a clear day, dusk or dawn computed from the sun's place; environment: an HDR "
-            "panorama from a file; constant: one colour all around; night: stars, airglow and the "
-            "moon, as an exposure for the night shows them; none: black."},
+     .doc = "sun_sky: clear sky by day, at dusk or at dawn, computed from the sun's position; "
+            "environment: HDR panorama from a file; constant: one colour in all directions; night: "
+            "stars, airglow and the moon, exposed for the night; none: black."},
     {KEY_OF(Sky, color, "color", KEY_COLOR), .kinds = BIT(SKY_CONSTANT), .high = 1e9,
-     .unit = "W/(m^2 sr)", .doc = "Radiance of the whole sky."},
+     .unit = "W/(m^2 sr)", .doc = "Radiance of the sky."},
     {KEY_OF(Sky, sun_elevation, "sun_elevation", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = -10,
      .high = 90, .unit = "degrees",
-     .doc = "Height of the sun above the horizon: 2 to 6 makes long shadows and warm light; below "
-            "-0.3 it has set."},
+     .doc = "Elevation of the sun above the horizon: 2 to 6 gives long shadows and warm light; "
+            "below -0.3 the sun has set."},
     {KEY_OF(Sky, sun_azimuth, "sun_azimuth", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = -360,
-     .high = 360, .unit = "degrees", .doc = "Where the sun stands, from +Z toward +X."},
+     .high = 360, .unit = "degrees", .doc = "Azimuth of the sun, from +Z toward +X."},
     {KEY_OF(Sky, sun_size, "sun_size", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .flags = KEY_ABOVE,
      .high = 90, .unit = "degrees",
-     .doc = "Angular diameter of the sun; larger = softer shadows of the same strength."},
+     .doc = "Angular diameter of the sun; a larger sun casts softer shadows and is as bright in "
+            "total."},
     {KEY_OF(Sky, sun_strength, "sun_strength", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1e6,
-     .doc = "Factor on the sun alone; 1 = physical, 0 = no sun."},
+     .doc = "Multiplier of the sun's light only; 1 = physical, 0 = no sun."},
     {KEY_OF(Sky, turbidity, "turbidity", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = 1,
      .high = 10,
-     .doc = "Haze in the air: 1 = pure air, 2 to 3 = clear, 6 and more = hazy, with a pale sky and "
+     .doc = "Haze in the air: 1 = pure air, 2 to 3 = clear, 6 or more = hazy, with a pale sky and "
             "a red sun."},
     {KEY_OF(Sky, ground_albedo, "ground_albedo", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1,
-     .doc = "Reflectance of the land below, which brightens the sky."},
+     .doc = "Reflectance of the ground; light that it reflects brightens the sky."},
     {KEY_OF(Sky, clouds, "clouds", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1,
-     .doc = "Share of the sky under thin clouds; they are seen, but cast no shadow."},
+     .doc = "Fraction of the sky covered by thin clouds; they are visible but cast no shadows."},
     {KEY_OF(Sky, moon, "moon", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .high = 1e6,
-     .doc = "Light of the full moon: 1 = a moonlit landscape, 0 = no moon."},
+     .doc = "Multiplier of the full moon's light: 1 = a moonlit landscape, 0 = no moon."},
     {KEY_OF(Sky, moon_elevation, "moon_elevation", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .low = -10,
-     .high = 90, .unit = "degrees", .doc = "Height of the moon above the horizon."},
+     .high = 90, .unit = "degrees", .doc = "Elevation of the moon above the horizon."},
     {KEY_OF(Sky, moon_azimuth, "moon_azimuth", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .low = -360,
-     .high = 360, .unit = "degrees", .doc = "Where the moon stands, from +Z toward +X."},
+     .high = 360, .unit = "degrees", .doc = "Azimuth of the moon, from +Z toward +X."},
     {KEY_OF(Sky, moon_size, "moon_size", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .flags = KEY_ABOVE,
      .high = 90, .unit = "degrees", .doc = "Angular diameter of the moon."},
     {KEY_OF(Sky, stars, "stars", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .high = 1e6,
-     .doc = "Factor on the light of the stars."},
+     .doc = "Multiplier of the starlight."},
     {KEY_OF(Sky, city_glow, "city_glow", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .high = 1e6,
-     .doc = "Light of towns along the horizon: 1 = a suburb, 0 = none."},
+     .doc = "Glow of city lights along the horizon: 1 = a suburb, 0 = none."},
     {KEY_OF(Sky, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(SKY_ENVIRONMENT),
      .doc = "Latitude-longitude HDR panorama (.hdr, .exr), relative to the scene's folder."},
     {KEY_OF(Sky, rotation, "rotation", KEY_FLOAT), .kinds = SKY_ANY & ~BIT(SKY_CONSTANT),
      .low = -360000, .high = 360000, .unit = "degrees",
-     .doc = "Turns the whole sky about +Y from +Z toward +X: panorama, sun, moon, clouds, stars."},
+     .doc = "Rotation of the whole sky (panorama, sun, moon, clouds, stars) about +Y, from +Z "
+            "toward +X."},
     {KEY_OF(Sky, strength, "strength", KEY_FLOAT), .kinds = SKY_ANY, .high = 1e9,
-     .doc = "Factor on all of the sky's light."},
+     .doc = "Multiplier of all light from the sky."},
     {KEY_OF(Sky, visible, "visible", KEY_BOOL), .kinds = SKY_ANY,
-     .doc = "Seen by the camera; if not, the background is transparent."},
+     .doc = "Show the sky to the camera; if false, the background is transparent."},
     {KEY_OF(Sky, haze_distance, "haze_distance", KEY_FLOAT), .kinds = SKY_ANY, .high = 1e9,
      .unit = "m",
-     .doc = "Distance over which surfaces fade to 1/e into the horizon's colour; 0 = no haze."},
+     .doc = "Distance at which haze reduces a surface's light to 1/e and replaces the rest by the "
+            "horizon's colour; 0 = no haze."},
     {0},
 };
 
 const Table sky_table = {
     .name = "sky",
-    .doc = "What lights the scene from all around.",
+    .doc = "Light from the environment: day sky, night sky, panorama or constant colour.",
     .example =
         "sky: {kind: sun_sky, sun_elevation: 4, sun_azimuth: 200, turbidity: 4, clouds: 0.3}\n",
     .size = sizeof(Sky),
@@ -76,27 +79,27 @@ static const EnumName LIGHT_KINDS[] = {{"quad", LIGHT_QUAD}, {"sphere", LIGHT_SP
 
 static const Key LIGHT_KEYS[] = {
     {KEY_OF(Light, kind, "kind", KEY_ENUM), .flags = KEY_REQUIRED, .names = LIGHT_KINDS,
-     .doc = "quad: a parallelogram that shines to one side; sphere: a ball."},
+     .doc = "quad: a parallelogram that emits to one side; sphere: a sphere."},
     {KEY_OF(Light, radiance, "radiance", KEY_COLOR), .high = 1e12, .unit = "W/(m^2 sr)",
-     .doc = "Light that it sends out, per area and solid angle: halve the area, double this, and "
-            "the scene is as bright."},
+     .doc = "Emitted radiance, which is power per area and solid angle: a light of half the area "
+            "needs twice the radiance to be as bright."},
     {KEY_OF(Light, center, "center", KEY_VECTOR), .count = 3, .kinds = BIT(LIGHT_SPHERE),
-     .unit = "m", .doc = "Middle of the ball."},
+     .unit = "m", .doc = "Centre of the sphere."},
     {KEY_OF(Light, radius, "radius", KEY_FLOAT), .kinds = BIT(LIGHT_SPHERE), .flags = KEY_ABOVE,
-     .high = 1e6, .unit = "m", .doc = "Radius of the ball."},
+     .high = 1e6, .unit = "m", .doc = "Radius of the sphere."},
     {KEY_OF(Light, corner, "corner", KEY_VECTOR), .count = 3, .kinds = BIT(LIGHT_QUAD), .unit = "m",
      .doc = "One corner of the quad."},
     {KEY_OF(Light, edge_u, "edge_u", KEY_VECTOR), .count = 3, .kinds = BIT(LIGHT_QUAD), .unit = "m",
-     .doc = "From the corner along one side; the quad shines to the side of edge_u x edge_v."},
+     .doc = "First edge, from the corner; the quad emits toward edge_u x edge_v."},
     {KEY_OF(Light, edge_v, "edge_v", KEY_VECTOR), .count = 3, .kinds = BIT(LIGHT_QUAD), .unit = "m",
-     .doc = "From the corner along the other side."},
+     .doc = "Second edge, from the corner."},
     {0},
 };
 
 static void light_defaults(const Node *given, int kind, void *out)
 {
     (void)given;
-    // A square metre that shines down from 3 m; a ball of 10 cm in its place.
+    // A square of 1 m^2 at 3 m that emits downward; or a sphere of 10 cm radius at that place.
     *(Light *)out = (Light){.kind = kind < 0 ? LIGHT_SPHERE : (LightKind)kind,
                             .radiance = {10, 10, 10},
                             .center = {0, 3, 0},
@@ -108,7 +111,7 @@ static void light_defaults(const Node *given, int kind, void *out)
 
 const Table light_table = {
     .name = "light",
-    .doc = "A lamp: a panel or a glowing ball.",
+    .doc = "An area light: a flat panel or a sphere.",
     .example =
         "lights:\n"
         "  - {kind: quad, corner: [-1, 3, 1], edge_u: [2, 0, 0], edge_v: [0, 0, 1], radiance: 8}\n"

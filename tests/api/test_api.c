@@ -131,7 +131,8 @@ static void growth_gives_an_out_tree(void **state)
     }
     ramify_tree_free(tree);
     assert_null(ramify_grow(scene, BALL, NULL, &error));
-    assert_string_equal(error.message, "object 'ball': it does not grow; a shape never does");
+    assert_string_equal(error.message,
+                        "object 'ball': it does not grow; objects of kind shape have no growth");
     assert_null(ramify_grow(scene, OBJECTS, NULL, &error));
     assert_int_equal(error.code, RAMIFY_BAD_INPUT);
     ramify_scene_free(scene);
@@ -239,7 +240,7 @@ static void land_has_heights(void **state)
     assert_false(ramify_land_write(land, "/tmp/x.tga", &error));
     assert_int_equal(error.code, RAMIFY_BAD_INPUT);
     assert_null(ramify_land(scene, BALL, NULL, NULL, &error));
-    assert_string_equal(error.message, "object 'ball': it is no land; a terrain would be");
+    assert_string_equal(error.message, "object 'ball': it is not land; only a terrain has heights");
     ramify_measures_free(measures);
     ramify_land_free(grown);
     ramify_land_free(land);

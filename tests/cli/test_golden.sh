@@ -75,7 +75,7 @@ matches changed_material out "plain  *different RMSE 0.01.* is allowed"
 matches changed_material_in_noise out "noisy  *different .*blocks differ by more than noise"
 matches orphan out "gone.png  *orphan "
 yes named_picture_is_no_orphan sh -c '! grep -q "kept.png .*orphan" out'
-matches broken_scene out 'bro<b>ken & "bad"  *failed  *g/bro.*key .file. means nothing'
+matches broken_scene out 'bro<b>ken & "bad"  *failed  *g/bro.*key .file. does not apply'
 matches time_limit out "hurried  *failed .*render.seconds is 3"
 matches other_size out "sized  *different 40 x 32 pixels against 48 x 32"
 matches harmed_picture out "harmed  *failed .*harmed.png' cannot be read"

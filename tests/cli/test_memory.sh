@@ -32,7 +32,7 @@ refuses() { # refuses NAME KEY OBJECT: before anything is made, by name and line
     scene "$1" "$3"
     check "$1" 2 timeout 60 "$RAMIFY" render "$1.yaml" -o "$1.png" -q
     says "$1_place" err "$1.yaml:6:"
-    says "$1_key" err "$2 asks for about"
+    says "$1_key" err "$2 needs about"
 }
 
 # AddressSanitizer takes memory of its own.

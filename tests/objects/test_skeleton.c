@@ -178,7 +178,7 @@ static void types_are_picked(void **state)
     assert_null(grow_kind(&kind_skeleton, &params, &recipe, 1.0f, &e));
     unlink(FILE_NAME);
     assert_int_equal(e.code, ERROR_INPUT);
-    assert_non_null(strstr(e.message, "nothing of '"));
+    assert_non_null(strstr(e.message, "all nodes of '"));
 }
 
 // An axon of another material is a mesh of its own that begins inside of the soma.

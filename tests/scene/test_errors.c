@@ -14,8 +14,9 @@ typedef struct Case {
 
 static const Case scenes[] = {
     // not YAML
-    {"", ": nothing in it; a scene has at least 'objects:' with one object"},
-    {"# only a comment\n", ": nothing in it; a scene has at least 'objects:' with one object"},
+    {"", ": the file is empty; a scene needs at least 'objects:' with one object"},
+    {"# only a comment\n",
+     ": the file is empty; a scene needs at least 'objects:' with one object"},
     {"a: [1, 2\n", ":2:1: not valid YAML: did not find expected ',' or ']' while parsing a flow "
                    "sequence; check indentation, brackets and quotes here and just above"},
     {"\tseed: 1\n",
@@ -25,18 +26,18 @@ static const Case scenes[] = {
                      "YAML text in UTF-8"},
     {"seed: \xff\n", ": not a text file: invalid leading UTF-8 octet at byte 6; a scene is YAML "
                      "text in UTF-8"},
-    {"seed: 1\n--- \nseed: 2\n", ":3:1: a second document; a scene is one YAML document"},
+    {"seed: 1\n--- \nseed: 2\n",
+     ":3:1: a second YAML document; a scene file must hold one document"},
     {"seed: !!int 4\n",
-     ":1:7: tag 'tag:yaml.org,2002:int'; a scene has no tags, write the plain value"},
-    {"objects: *x\n", ":1:10: alias '*x' has no anchor; write '&x' before the value it shall "
-                      "repeat, above"},
-    {"a: &a [*a]\n", ":1:8: alias '*a' has no anchor; write '&a' before the value it shall "
-                     "repeat, above"},
-    {"? [1]\n: 2\n", ":1:3: a key that is no text; keys are plain words"},
+     ":1:7: tag 'tag:yaml.org,2002:int'; tags are not supported, write the plain value"},
+    {"objects: *x\n",
+     ":1:10: alias '*x' has no anchor; write '&x' before the value to repeat, above"},
+    {"a: &a [*a]\n",
+     ":1:8: alias '*a' has no anchor; write '&a' before the value to repeat, above"},
+    {"? [1]\n: 2\n", ":1:3: a key is not text; keys must be plain words"},
     {"camera: {<<: 3}\n",
      ":1:14: the merge key '<<' needs a mapping or a list of mappings, usually an alias"},
-    {"seed: 1\nseed: 2\n",
-     ":2:1: key 'seed' is given twice; it stands in line 1 already, keep one"},
+    {"seed: 1\nseed: 2\n", ":2:1: duplicate key 'seed'; it is already in line 1, remove one"},
     // keys
     {"sed: 1\n" TREE, ":1:1: unknown key 'sed' in the scene; did you mean 'seed'?"},
     {TREE "camera: {heigth: 3}\n",
@@ -47,21 +48,21 @@ static const Case scenes[] = {
     {"objects: [{name: oak, tree: {transform: 5}}]\n",
      ":1:30: unknown key 'transform' in objects.oak.tree; known: position, height, trunk, crown, "
      "roots, radii, leaves, skin"},
-    {"{}", ":1:1: the scene has no 'objects'; it must have one: What there is to see."},
-    {"objects: [{tree: }]", ":1:11: objects.0 has no 'name'; it must have one: What messages, "
-                            "targets, --set and the object's random numbers go by; no two "
-                            "objects have the same."},
+    {"{}", ":1:1: the scene has no 'objects'; this key is required: Objects of the scene."},
+    {"objects: [{tree: }]",
+     ":1:11: objects.0 has no 'name'; this key is required: Unique name, used in messages, targets "
+     "and --set paths. The object's random numbers depend on it."},
     {"objects: [{name: a, mesh: }]",
-     ":1:27: objects.a.mesh has no 'file'; it must have one: OBJ, PLY, STL, glTF or GLB file, "
+     ":1:27: objects.a.mesh has no 'file'; this key is required: OBJ, PLY, STL, glTF or GLB file, "
      "relative to the scene's folder."},
     {TREE "sky: {kind: environment}\n",
-     ":2:6: sky has no 'file'; it must have one: Latitude-longitude HDR panorama (.hdr, .exr), "
+     ":2:6: sky has no 'file'; this key is required: Latitude-longitude HDR panorama (.hdr, .exr), "
      "relative to the scene's folder."},
     {TREE "sky: {kind: constant, turbidity: 3}\n",
-     ":2:23: key 'turbidity' means nothing in sky of kind 'constant'; known: kind, color, "
+     ":2:23: key 'turbidity' does not apply to sky of kind 'constant'; known: kind, color, "
      "strength, visible, haze_distance"},
     {TREE "lights: [{kind: sphere, corner: [0, 0, 0]}]\n",
-     ":2:25: key 'corner' means nothing in lights.0 of kind 'sphere'; known: kind, radiance, "
+     ":2:25: key 'corner' does not apply to lights.0 of kind 'sphere'; known: kind, radiance, "
      "center, radius"},
     // types
     {"- 1\n",
@@ -120,9 +121,9 @@ static const Case scenes[] = {
     {TREE "camera: {fov: 40, focal_length: 35}\n",
      ":2:33: camera has both fov and focal_length; give one"},
     {TREE "camera: {target: [0, 1.7, 10]}\n",
-     ":2:18: camera.target is where the camera is; it must be another point"},
+     ":2:18: camera.target is the camera's position; it must be another point"},
     {TREE "camera: {up: [0, 0, 1]}\n",
-     ":2:14: camera.up is zero or along the line of sight; it must point aside from it"},
+     ":2:14: camera.up is zero or parallel to the line of sight; it must have another direction"},
     {TREE "film: {crop: [0.5, 0, 0.5, 1]}\n",
      ":2:14: film.crop is empty; it must be [x0, y0, x1, y1] with x0 < x1, y0 < y1"},
     {TREE "film: {width: 2, height: 2, crop: [0, 0, 1, 0.2]}\n",
@@ -130,37 +131,37 @@ static const Case scenes[] = {
     {TREE "lights: [{kind: quad, edge_u: [0, 0, 2]}]\n",
      ":2:31: lights.0 has edges that span no area; they must not be parallel or zero"},
     {"objects: [{name: a}]\n",
-     ":1:11: objects.a is nothing; it must have one of tree, coral, lsystem, vessels..."},
+     ":1:11: objects.a has no kind; it must have one of tree, coral, lsystem, vessels..."},
     {"objects: [{name: a, tree: {}, ground: {}}]\n",
-     ":1:39: objects.a is a tree and a ground; it must be one, make two objects of it"},
+     ":1:39: objects.a is both a tree and a ground; split it into two objects"},
     {"objects: [{name: a.b, tree: }]\n",
-     ":1:18: object name 'a.b'; it must be letters, digits, spaces, - and _, at most 63 of them, "
-     "and not begin with a digit"},
+     ":1:18: object name 'a.b' is invalid; use at most 63 letters, digits, spaces, - and _, and do "
+     "not begin with a digit"},
     {"objects: [{name: a, tree: }, {name: a, ground: }]\n",
-     ":1:37: object name 'a' is taken in line 1 already; give each its own"},
+     ":1:37: object name 'a' is already used in line 1; names must be unique"},
     {"objects: [{name: a, tree: , material: barc}]\n",
      ":1:39: objects.a.material: there is no material 'barc'; did you mean 'bark'?"},
     {"objects: [{name: a, tree: , leaf_material: gold}]\n",
      ":1:44: objects.a.leaf_material: there is no material 'gold'; known: bark, twig, leaf, "
      "grass, clay, coral..."},
     {"objects: [{name: a, tree: , grass_material: grass}]\n",
-     ":1:45: objects.a: a tree has no grass_material; leave it out"},
+     ":1:45: objects.a: a tree has no grass_material; remove this key"},
     {"objects: [{name: a, tree: {height: 5, crown: {base: 5}}}]\n",
      ":1:53: objects.a.tree.crown.base is 5 m; it must be below the tree's height, 5 m"},
     {"objects: [{name: a, tree: {crown: {growth: {levels: [{attractors: 5, kill: 3}]}}}}]\n",
      ":1:76: objects.a.tree.crown.growth.levels.0.kill is 3; it must be less than influence, 2.2, "
-     "or attractors go before they pull"},
+     "or attractors are removed before they pull"},
     {"objects: [{name: a, tree: {crown: {envelope: [{shape: box, op: difference}]}}}]\n",
      ":1:47: objects.a.tree.crown.envelope begins with a difference; the first shape must be a "
      "union"},
     {"objects: [{name: a, shape: {envelope: [{shape: half_space}]}}]\n",
-     ":1:40: objects.a.shape.envelope: a half_space has no end; its op must be difference or "
+     ":1:40: objects.a.shape.envelope: a half_space is unbounded; its op must be difference or "
      "intersection"},
     {"objects: [{name: a, shape: {envelope: [{shape: cone, size: [0, 1, 1]}]}}]\n",
      ":1:60: objects.a.shape.envelope.0.size: radius below and height of a cone must be greater "
      "than 0 m"},
     {"objects: [{name: a, shape: {envelope: [{shape: box, scale: [1, 0, 1]}]}}]\n",
-     ":1:60: objects.a.shape.envelope.0.scale has a 0, which flattens it; no factor may be 0"},
+     ":1:60: objects.a.shape.envelope.0.scale has a 0; every factor must differ from 0"},
     {"objects: [{name: a, ground: {radius: 10, flat_radius: 10}}]\n",
      ":1:55: objects.a.ground.flat_radius is 10 m; it must be less than the radius, 10 m"},
     // files
@@ -174,8 +175,8 @@ static const Case scenes[] = {
      ":1:49: objects.a.tree.skin.ring_spacing is 0.05; it must be at least 0.1 and "
      "at most 100 radii"},
     {"objects: [{name: a, tree: {crown: {points: {anchored: true, pattern: poisson}}}}]\n",
-     ":1:55: objects.a.tree.crown.points.anchored: anchored points keep no distance; use the "
-     "pattern random, or anchored: false"},
+     ":1:55: objects.a.tree.crown.points.anchored: anchored points cannot be evenly spaced; use "
+     "the pattern random, or anchored: false"},
     {"objects: [{name: a, tree: {crown: {growth: {rule: sectors, sector_angle: 9}}}}]\n",
      ":1:74: objects.a.tree.crown.growth.sector_angle: sector angle 9 makes more than 64 sectors; "
      "use a larger angle"},
@@ -234,7 +235,7 @@ static const Case overrides[] = {
     {"camera.fov=190", ": camera.fov is 190; it must be greater than 0 and less than 180 degrees"},
     {"objects.b.seed=3", ": no entry named 'b' in this list; did you mean 'a'?"},
     {"objects.7.seed=3", ": no entry 7 in this list; it has 1, counted from 0"},
-    {"objects.a.name.x=3", ": 'x' lies below a value that is no mapping; the path ends before it"},
+    {"objects.a.name.x=3", ": 'x' is below a value that is not a mapping; shorten the path"},
     {"materials.leav.color=0.3", ": there is no material 'leav'; did you mean 'leaf'?"},
     {"materials.leaf.colour=0.3",
      ": unknown key 'colour' in materials.leaf; did you mean 'color'?"},
@@ -402,7 +403,7 @@ static void aliases_cannot_explode(void **state)
                  "a%d: &a%d [*a%d, *a%d, *a%d, *a%d, *a%d, *a%d, *a%d, *a%d, *a%d]\n", i, i, i - 1,
                  i - 1, i - 1, i - 1, i - 1, i - 1, i - 1, i - 1, i - 1);
     }
-    refuse_soon(text, "the aliases of this file unfold to too much");
+    refuse_soon(text, "the aliases of this file expand to too much");
 }
 
 static void nesting_is_bounded(void **state)

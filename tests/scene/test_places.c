@@ -77,7 +77,7 @@ static const Place places[] = {
     {"tree", "height: 5, roots: {count: 3, " GONE "}", 4, 41, "roots: the envelope is empty"},
     {"tree", "height: 5, roots: {count: 3, " LINE "}", 0, 0, "degenerate"},
     // sizes that numbers cannot hold
-    {"tree", "position: [1e30, 0, 0]", 4, 5, "move it nearer"},
+    {"tree", "position: [1e30, 0, 0]", 4, 5, "move it closer"},
     {"tree", "height: 1e-30", 4, 5, "capsule of radius 0"},
     {"tree",
      "height: 5, crown: {growth: {levels: [{attractors: 99}, {attractors: 99, kill: 1e-30}]}}", 4,
@@ -105,7 +105,7 @@ static const Place places[] = {
     {"skeleton", "file: short.swc", 2, 0, "has only 4 numbers"},
     {"skeleton", "file: orphan.swc", 2, 0, "is no node"},
     {"skeleton", "file: far.swc, scale: 1e9", 4, 38, "reaches farther"},
-    {"skeleton", "file: far.swc, basal: false", 4, 5, "shows"},
+    {"skeleton", "file: far.swc, basal: false", 4, 5, "are hidden"},
 };
 
 typedef struct SceneText {

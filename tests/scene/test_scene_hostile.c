@@ -159,7 +159,7 @@ static void refuses_size(void **state)
     refuses_repeated("", "x", 5000000, ": 1", NULL);
     refuses_repeated("seed: ", "9", 5000000, "", NULL);
     refuses_repeated("objects: \"", "\\x41", 1000000, "\"", NULL);
-    refuses_repeated("", "#", 5000000, "\n", "nothing in it");
+    refuses_repeated("", "#", 5000000, "\n", "the file is empty");
     refuses_repeated("objects: ", "!t ", 1000, "x", NULL);
 }
 

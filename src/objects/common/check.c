@@ -10,7 +10,7 @@
 bool check_scale(const Mapping *mapping, Vec3 scale)
 {
     return (scale.x != 0.0f && scale.y != 0.0f && scale.z != 0.0f) ||
-           mapping_fail(mapping, "scale", " has a 0, which flattens it; no factor may be 0");
+           mapping_fail(mapping, "scale", " has a 0; every factor must differ from 0");
 }
 
 bool check_mesh_file(const Mapping *mapping, const char *path)
@@ -71,10 +71,9 @@ bool check_shapes(const Mapping *mapping, const Shape *shapes, int count)
                              node_get_text(given, "op"));
         }
         if (shapes[i].op == SHAPE_UNION && shapes[i].kind == SHAPE_HALF_SPACE) {
-            return load_fail(mapping->loader, given,
-                             "%s: a half_space has no end; its op must be difference or "
-                             "intersection",
-                             name);
+            return load_fail(
+                mapping->loader, given,
+                "%s: a half_space is unbounded; its op must be difference or intersection", name);
         }
     }
     return true;
@@ -96,7 +95,7 @@ bool check_element(const Mapping *mapping, const ElementParams *element)
 {
     if (element->points.pattern == SCATTER_POISSON && element->points.anchored) {
         return mapping_fail(mapping, "points.anchored",
-                            ": anchored points keep no distance; use the pattern random, or "
+                            ": anchored points cannot be evenly spaced; use the pattern random, or "
                             "anchored: false");
     }
     return check_sectors(mapping, element) &&
@@ -108,8 +107,8 @@ bool check_level(const Mapping *mapping, void *params)
     const GrowLevel *level = params;
     return level->kill < level->influence ||
            mapping_fail(mapping, "kill",
-                        " is %g; it must be less than influence, %g, or attractors go before they "
-                        "pull",
+                        " is %g; it must be less than influence, %g, or attractors are removed "
+                        "before they pull",
                         (double)level->kill, (double)level->influence);
 }
 
@@ -139,7 +138,7 @@ bool check_field(const Mapping *mapping, void *params)
     const FieldParams *field = params;
     bool has_vector = field->kind != FIELD_RADIAL && field->kind != FIELD_CURL;
     return !has_vector || vec3_length(field->vector) > 0.0f ||
-           mapping_fail(mapping, "vector", " is zero; it must point somewhere");
+           mapping_fail(mapping, "vector", " is zero; it must have a direction");
 }
 
 bool check_grammar(const Mapping *mapping, const char *axiom, const char *rules)

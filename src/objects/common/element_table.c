@@ -19,28 +19,29 @@ static const EnumName SHAPE_OPS[] = {{"union", SHAPE_UNION},
 
 static const Key SHAPE_KEYS[] = {
     {KEY_OF(Shape, kind, "shape", KEY_ENUM), .flags = KEY_REQUIRED, .names = SHAPES,
-     .doc = "sphere: about the origin; ellipsoid: about the origin, with three half-axes; box: "
-            "about the origin; cone: stands on the origin, with its tip cut off if wanted; "
-            "capsule: a round rod up from the origin; mesh: from a file; half_space: all below y = "
-            "0, to cut with; body: a standing human, feet at the origin, facing +Z."},
+     .doc =
+         "sphere: centred at the origin; ellipsoid: centred at the origin, with three half-axes; "
+         "box: centred at the origin; cone: base at the origin, optionally truncated; capsule: rod "
+         "with round ends, from the origin up; mesh: from a file; half_space: everything below y = "
+         "0, for cutting; body: a standing human, feet at the origin, facing +Z."},
     {KEY_OF(Shape, op, "op", KEY_ENUM), .names = SHAPE_OPS,
-     .doc = "union: add the shape; difference: take it away; intersection: keep only what lies in "
-            "it too. The first shape of a list is a union."},
+     .doc = "union: add the shape; difference: subtract it; intersection: keep only what also lies "
+            "in it. The first shape of a list must be a union."},
     {KEY_OF(Shape, size, "size", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3, .high = 1e6,
      .kinds = BIT(SHAPE_SPHERE) | BIT(SHAPE_ELLIPSOID) | BIT(SHAPE_BOX) | BIT(SHAPE_CONE) |
               BIT(SHAPE_CAPSULE) | BIT(SHAPE_BODY),
      .unit = "m",
-     .doc = "sphere: the radius; ellipsoid: the three half-axes; box: half of its three extents; "
-            "cone: radius below, height, radius above; capsule: radius, length between the centres "
-            "of its ends, and a number that is not used; body: its height in the first."},
+     .doc = "sphere: radius; ellipsoid: three half-axes; box: three half-extents; cone: base "
+            "radius, height, top radius; capsule: radius, distance between the centres of its "
+            "ends, unused; body: height, unused, unused."},
     {KEY_OF(Shape, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(SHAPE_MESH),
      .doc = "OBJ, PLY, STL, glTF or GLB file, relative to the scene's folder."},
     {KEY_OF(Shape, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
-     .doc = "Where the shape's origin goes."},
+     .doc = "Position of the shape's origin."},
     {KEY_OF(Shape, rotation, "rotation", KEY_VECTOR), .count = 3, .unit = "degrees",
-     .doc = "Turns about x, then y, then z."},
+     .doc = "Rotation about x, then y, then z."},
     {KEY_OF(Shape, scale, "scale", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3,
-     .doc = "Factors along x, y and z, before the turns; negative ones mirror."},
+     .doc = "Scale along x, y and z, applied before the rotation; negative values mirror."},
     {0},
 };
 
@@ -53,8 +54,8 @@ static void shape_defaults(const Node *given, int kind, void *out)
 
 const Table shape_table = {
     .name = "shape",
-    .doc = "One shape of an envelope, the region that something grows in. A list of them is "
-           "joined, cut and intersected in its order. Each is scaled, then rotated, then moved.",
+    .doc = "One shape of an envelope, the region that something grows in. The shapes of a list are "
+           "combined in order. Each is scaled, then rotated, then moved.",
     .example = "objects:\n"
                "  - name: umbrella\n"
                "    tree:\n"
@@ -75,25 +76,25 @@ static const Key POINTS_KEYS[] = {
     {KEY_OF(ElementParams, points.place, "place", KEY_ENUM), .names = PLACES,
      .doc = "volume: fill the envelope; surface: cover its surface."},
     {KEY_OF(ElementParams, points.pattern, "pattern", KEY_ENUM), .names = SCATTERS,
-     .doc = "random: independent points; poisson: evenly spread ones."},
+     .doc = "random: independent points; poisson: evenly spaced points."},
     {KEY_OF(ElementParams, points.shell, "shell", KEY_FLOAT), .high = 1,
-     .doc = "Share of the points that is pushed out toward the surface: leaves and twigs sit "
-            "outside, as light has it."},
+     .doc = "Fraction of the points that are pushed out toward the surface, where light lets "
+            "leaves and twigs grow."},
     {KEY_OF(ElementParams, points.gradient, "gradient", KEY_FLOAT), .low = -1, .high = 1,
-     .doc = "Density by height: -1 = only below, 0 = even, 1 = only above."},
+     .doc = "Density by height: -1 = only at the bottom, 0 = uniform, 1 = only at the top."},
     {KEY_OF(ElementParams, points.depth_gradient, "depth_gradient", KEY_FLOAT), .low = -1,
      .high = 1,
-     .doc = "Density by depth: -1 = only in the middle, 0 = even, 1 = only near the surface."},
+     .doc = "Density by depth: -1 = only in the middle, 0 = uniform, 1 = only near the surface."},
     {KEY_OF(ElementParams, points.anchored, "anchored", KEY_BOOL),
-     .doc = "For films and edits: attractors stay where they are when the envelope moves or "
-            "changes, so that growth elsewhere hardly does; counts are then approximate."},
+     .doc = "Keep attractors in place when the envelope moves or changes, so that growth elsewhere "
+            "hardly changes; for animation and editing. Counts are then approximate."},
     {0},
 };
 
 const Table points_table = {
     .name = "points",
-    .doc = "How attractors, the points that growth reaches for, are scattered "
-           "in the envelope. How many there are, the levels of growth say.",
+    .doc = "How attractors, the points that growth reaches for, are scattered in the envelope. The "
+           "levels of growth set their number.",
     .example = "objects:\n"
                "  - name: hollow\n"
                "    tree: {crown: {points: {pattern: poisson, depth_gradient: 0.6}}}\n",
@@ -102,26 +103,27 @@ const Table points_table = {
 
 static const Key LEVEL_KEYS[] = {
     {KEY_OF(GrowLevel, attractors, "attractors", KEY_INT64), .flags = KEY_REQUIRED, .low = 1,
-     .high = 2147483647, .doc = "Number of attractors to scatter."},
+     .high = 2147483647, .doc = "Number of attractors."},
     {KEY_OF(GrowLevel, step, "step", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
      .unit = "spacings",
-     .doc = "Distance from node to node, in mean spacings of this level's attractors."},
+     .doc = "Distance between nodes, in mean spacings of this level's attractors."},
     {KEY_OF(GrowLevel, kill, "kill", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
      .unit = "spacings",
-     .doc = "An attractor that comes this near to a node is used up; a larger distance makes "
+     .doc = "Kill distance: an attractor this near to a node is removed. A larger distance gives "
             "sparser branches."},
     {KEY_OF(GrowLevel, influence, "influence", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
      .unit = "spacings",
-     .doc = "How far an attractor pulls; it pulls only the node that is nearest to it."},
+     .doc = "Influence distance: an attractor pulls the node nearest to it within this distance."},
     {KEY_OF(GrowLevel, scale, "scale", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
-     .doc = "Scale of the envelope in this level, about the middle of its box."},
+     .doc = "Scale of the envelope in this level, about the centre of its bounding box."},
     {KEY_OF(GrowLevel, relax, "relax", KEY_FLOAT), .high = 1,
-     .doc = "After the level each new node moves this share of the way to its parent."},
+     .doc =
+         "Smoothing after the level: each new node moves this fraction of the way to its parent."},
     {KEY_OF(GrowLevel, noise, "noise", KEY_FLOAT), .flags = KEY_NO_DEFAULT, .high = 100,
-     .doc = "Gaussian noise on each direction, per component; left out: growth.noise."},
+     .doc = "Gaussian noise added to each component of the direction; default: growth.noise."},
     {KEY_OF(GrowLevel, tropism, "tropism", KEY_FLOAT), .flags = KEY_NO_DEFAULT, .low = -1000,
      .high = 1000,
-     .doc = "Factor on growth.tropism; left out: 1 if the file gives growth.tropism, else 0."},
+     .doc = "Multiplier of growth.tropism; default: 1 if the file sets growth.tropism, else 0."},
     {0},
 };
 
@@ -134,9 +136,8 @@ static void level_defaults(void *out)
 
 static const Table LEVEL_TABLE = {
     .name = "level",
-    .doc =
-        "One level of coarse-to-fine growth: it scatters attractors of its own, coarse ones for "
-        "limbs, fine ones for twigs. Lengths count in the mean spacing of the level's attractors.",
+    .doc = "One level of coarse-to-fine growth. It scatters its own attractors: few for limbs, "
+           "many for twigs. Its lengths are in mean spacings of these attractors.",
     .example = "objects:\n"
                "  - name: two_levels\n"
                "    tree:\n"
@@ -156,52 +157,51 @@ static const EnumName FIELD_MODES[] = {{"steer", FIELD_STEER}, {"additive", FIEL
 
 static const Key GROWTH_KEYS[] = {
     {KEY_OF(ElementParams, growth.rule, "rule", KEY_ENUM), .names = RULES,
-     .doc = "mean: one child a step along the mean pull; snap: reached attractors become nodes; "
-            "sectors: at most one child in each sector of angle about the heading."},
+     .doc = "mean: one child per step, along the mean pull; snap: reached attractors become nodes; "
+            "sectors: at most one child in each angular sector about the heading."},
     {KEY_OF(ElementParams, levels, "levels", KEY_LIST),
      .count_offset = offsetof(ElementParams, level_count), .count = 100, .table = &LEVEL_TABLE,
-     .doc = "Coarse to fine: each level scatters new attractors and grows from all nodes so far. "
-            "Left out: the model's own levels."},
+     .doc = "Levels, coarse to fine: each scatters new attractors and grows from all existing "
+            "nodes. Default: the kind's own levels."},
     {KEY_OF(ElementParams, growth.max_children, "max_children", KEY_INT), .high = 1000,
-     .doc = "Most children of a node; 0 = no limit."},
+     .doc = "Maximum number of children of a node; 0 = no limit."},
     {KEY_OF(ElementParams, growth.min_angle, "min_angle", KEY_FLOAT), .high = 180,
      .unit = "degrees",
-     .doc = "Least angle between a branching child and its parent's direction; 0 = off."},
+     .doc = "Minimum angle between a branching child and its parent's direction; 0 = off."},
     {KEY_OF(ElementParams, growth.max_angle, "max_angle", KEY_FLOAT), .high = 180,
      .unit = "degrees",
-     .doc = "Largest angle between a child and its parent's direction; 0 = off."},
+     .doc = "Maximum angle between a child and its parent's direction; 0 = off."},
     {KEY_OF(ElementParams, growth.cone_angle, "cone_angle", KEY_FLOAT), .high = 180,
-     .unit = "degrees", .doc = "Largest angle between a child and cone_axis, in space; 0 = off."},
+     .unit = "degrees", .doc = "Maximum angle between a child and cone_axis; 0 = off."},
     {KEY_OF(ElementParams, growth.cone_axis, "cone_axis", KEY_VECTOR), .count = 3,
-     .doc = "Axis that cone_angle counts from; any length."},
+     .doc = "Axis that cone_angle is measured from; any length."},
     {KEY_OF(ElementParams, growth.noise, "noise", KEY_FLOAT), .high = 100,
-     .doc = "Gaussian noise on each direction, per component, for levels that name none."},
+     .doc = "Gaussian noise added to each component of the direction, for levels that set none."},
     {KEY_OF(ElementParams, growth.tropism, "tropism", KEY_VECTOR), .count = 3, .low = -1000,
-     .high = 1000,
-     .doc = "A pull that is the same everywhere, added to the unit direction: [0, 1, 0] is up."},
+     .high = 1000, .doc = "Constant pull, added to the unit direction: [0, 1, 0] is up."},
     {KEY_OF(ElementParams, growth.apical, "apical", KEY_FLOAT), .high = 1,
      .doc = "Apical dominance: probability that a side branch is suppressed."},
     {KEY_OF(ElementParams, growth.sector_angle, "sector_angle", KEY_FLOAT), .high = 180,
-     .unit = "degrees", .doc = "Width of a sector for the rule sectors; 0 = 60."},
+     .unit = "degrees", .doc = "Width of a sector, for the rule sectors; 0 = 60."},
     {KEY_OF(ElementParams, growth.sector_axis, "sector_axis", KEY_BOOL),
-     .doc = "Grow along a sector's axis rather than along the mean of its pulls."},
+     .doc = "Grow along a sector's axis instead of the mean of its pulls."},
     {KEY_OF(ElementParams, growth.field_weight, "field_weight", KEY_FLOAT), .low = -1000,
      .high = 1000,
-     .doc = "Weight of the guide fields against the attractors' pull; 0 = they do nothing."},
+     .doc = "Weight of the guide fields relative to the attractors' pull; 0 = no effect."},
     {KEY_OF(ElementParams, growth.field_mode, "field_mode", KEY_ENUM), .names = FIELD_MODES,
-     .doc = "steer: the field turns the direction, steps keep their length; additive: the field's "
-            "vector is added to the new position."},
+     .doc = "steer: the field turns the direction, and steps keep their length; additive: the "
+            "field's vector is added to the new position."},
     {KEY_OF(ElementParams, growth.max_steps, "max_steps", KEY_INT64), .high = 1e9,
-     .doc = "Stop after this many steps a level; 0 = no limit."},
+     .doc = "Maximum number of steps per level; 0 = no limit."},
     {KEY_OF(ElementParams, growth.max_nodes, "max_nodes", KEY_INT64), .high = 2147483647,
-     .doc = "Stop at this many nodes; 0 = no limit."},
+     .doc = "Maximum number of nodes; 0 = no limit."},
     {0},
 };
 
 const Table growth_table = {
     .name = "growth",
-    .doc = "How an element grows toward its attractors: in each step every attractor pulls the "
-           "node nearest to it, and each node that is pulled makes a child.",
+    .doc = "How an element grows toward its attractors (space colonization): in each step every "
+           "attractor pulls the node nearest to it, and each pulled node adds a child.",
     .example = "objects:\n"
                "  - name: windswept\n"
                "    tree: {crown: {growth: {tropism: [0.8, 0.2, 0], noise: 0.3, max_angle: 70}}}\n",
@@ -219,37 +219,35 @@ static const EnumName PROFILES[] = {{"swept", PROFILE_SWEPT}, {"constant", PROFI
 
 static const Key FIELD_KEYS[] = {
     {KEY_OF(FieldParams, kind, "kind", KEY_ENUM), .flags = KEY_REQUIRED, .names = FIELD_KINDS,
-     .doc = "uniform: `vector` everywhere; radial: away from `center`; vortex: about the axis "
+     .doc = "uniform: `vector` everywhere; radial: away from `center`; vortex: around the axis "
             "`vector` through `center`; nuclei: away from the nearest initial node, turned by "
-            "`turn`; grid: the same on voxels; curl: swirling noise; point: `vector` at `center`, "
-            "falling off over `scale`."},
+            "`turn`; grid: the same, sampled on voxels; curl: swirling curl noise; point: `vector` "
+            "at `center`, fading over `scale`."},
     {KEY_OF(FieldParams, weight, "weight", KEY_FLOAT), .low = -1000, .high = 1000,
-     .doc = "Weight in the sum of the fields; negative turns it around."},
+     .doc = "Weight in the sum of the fields; a negative weight reverses the field."},
     {KEY_OF(FieldParams, vector, "vector", KEY_VECTOR), .count = 3,
      .kinds = BIT(FIELD_UNIFORM) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT) | NUCLEI,
-     .doc = "The direction; of a vortex, nuclei and grid the axis to turn about."},
+     .doc = "Direction of the field; for vortex, nuclei and grid, the axis of rotation."},
     {KEY_OF(FieldParams, center, "center", KEY_VECTOR), .flags = KEY_NO_DEFAULT,
      .given_offset = offsetof(FieldParams, centered), .count = 3,
      .kinds = BIT(FIELD_RADIAL) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT), .unit = "m",
-     .doc = "Middle of the field; left out: where the object stands, or where the origin of its "
-            "envelope's first shape is."},
+     .doc = "Centre of the field; default: the object's position, or the origin of its envelope's "
+            "first shape."},
     {KEY_OF(FieldParams, turn, "turn", KEY_FLOAT), .kinds = NUCLEI, .low = -36000, .high = 36000,
      .unit = "degrees",
-     .doc = "Azimuth that a streamline sweeps from the nucleus to the rim (profile swept), or by "
+     .doc = "Angle that a streamline sweeps from the nucleus to the rim (profile swept), or by "
             "which every vector is turned (profile constant)."},
     {KEY_OF(FieldParams, scale, "scale", KEY_FLOAT), .kinds = BIT(FIELD_CURL) | BIT(FIELD_POINT),
      .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
-     .doc = "Of curl the wavelength of the noise; of a point the distance over which its vector "
-            "fades."},
+     .doc = "Wavelength of the noise (curl), or distance over which the vector fades (point)."},
     {KEY_OF(FieldParams, profile, "profile", KEY_ENUM), .kinds = NUCLEI, .names = PROFILES,
-     .doc = "swept: streamlines wind more and more on their way from the nucleus; constant: every "
-            "vector is turned by the same angle."},
+     .doc = "swept: the turn increases along a streamline from the nucleus; constant: every vector "
+            "is turned by the same angle."},
     {KEY_OF(FieldParams, spherical, "spherical", KEY_BOOL), .kinds = NUCLEI,
-     .doc =
-         "Sweep by polar angle on a sphere about the middle of the envelope's first shape, instead "
-         "of by distance."},
+     .doc = "Measure the sweep by the polar angle on a sphere about the centre of the envelope's "
+            "first shape, instead of by distance."},
     {KEY_OF(FieldParams, surface, "surface", KEY_BOOL), .kinds = NUCLEI,
-     .doc = "Turn about the attractors' surface normals rather than about `vector`."},
+     .doc = "Turn about the attractors' surface normals instead of `vector`."},
     {KEY_OF(FieldParams, resolution, "resolution", KEY_INT), .kinds = BIT(FIELD_GRID), .high = 1024,
      .doc = "Voxels along the longest side; 0 = 48."},
     {0},
@@ -263,8 +261,8 @@ static void field_defaults(const Node *given, int kind, void *out)
 
 const Table guide_field_table = {
     .name = "field",
-    .doc = "A guide vector field, which steers growth: it leans, winds "
-           "or swirls a tree. Several are summed with their weights.",
+    .doc = "A guide vector field, which steers growth: it makes a tree lean, wind or swirl. "
+           "Several fields are summed with their weights.",
     .example = "objects:\n"
                "  - name: wound\n"
                "    tree:\n"

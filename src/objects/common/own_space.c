@@ -166,8 +166,8 @@ static bool check_place(const OwnSpace *own, Aabb box, Error *e)
     float step = way * FLT_EPSILON; // spacing of floats there
     return aabb_is_empty(box) || step <= size * COARSEST ||
            error_set(e, ERROR_INPUT,
-                     "it is %.3g m large and stands %.3g m from the origin, where coordinates come "
-                     "in steps of %.3g m; move it nearer",
+                     "it is %.3g m large and %.3g m from the origin, where coordinates have a "
+                     "resolution of %.3g m; move it closer",
                      (double)size, (double)way, (double)step);
 }
 

@@ -12,10 +12,10 @@ extern const Table shape_table, points_table, growth_table, guide_field_table;
 #define ELEMENT_ROWS(STRUCT)                                                                      \
     {KEY_OF(STRUCT, element.shapes, "envelope", KEY_LIST),                                        \
      .count_offset = offsetof(STRUCT, element.shape_count), .count = 1000, .table = &shape_table, \
-     .doc = "The region to grow in: shapes joined, cut and intersected in this order. Left out: " \
-            "a form of the kind's own, in proportion."},                                          \
+     .doc = "Region to grow in: shapes, combined in this order. Default: a shape of the kind's "  \
+            "own, in proportion."},                                                               \
         {KEY_OF(STRUCT, element.voxel, "voxel", KEY_FLOAT), .high = 100, .unit = "m",             \
-         .doc = "Voxel size of the envelope's level set, where it is not one plain shape; 0 = "   \
+         .doc = "Voxel size of the envelope's level set, unless it is a single plain shape; 0 = " \
                 "1/128 of its largest extent."},                                                  \
         {KEY_OF(STRUCT, element, "points", KEY_GROUP), .table = &points_table,                    \
          .doc = "How attractors are scattered in the envelope."},                                 \

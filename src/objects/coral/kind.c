@@ -106,15 +106,15 @@ static const Material BUILTIN[] = {
 
 static const Key MATERIALS[] = {
     OWN_MATERIAL_ROW(0),
-    MATERIAL_ROW(1, "polyp_material", "Material of a coral's cups; left out: coral_polyp."),
+    MATERIAL_ROW(1, "polyp_material", "Material of a coral's cups; default: coral_polyp."),
     MATERIAL_ROW(2, "rock_material",
-                 "Material of the rock that a coral grows on; left out: reef_rock."),
+                 "Material of the rock on which a coral grows; default: reef_rock."),
     {0},
 };
 
 const Kind kind_coral = {
     .variant = {KIND_ROW("coral", &coral_table,
-                         "Corals: an L-system's directions that fight for room."),
+                         "Corals, grown by an L-system and competition for space."),
                 MATERIALS},
     .materials = {"coral", "coral_polyp", "reef_rock"},
     .builtin = BUILTIN,

@@ -9,79 +9,84 @@ static const EnumName RULES[] = {{"string", CORAL_STRING}, {"mean", CORAL_MEAN},
 
 static const Key POLYP_KEYS[] = {
     {KEY_OF(PolypParams, max_count, "max_count", KEY_INT64), .high = 1e8,
-     .doc = "Most cups as geometry; 0 = none: the material's pattern alone shows them."},
+     .doc = "Maximum number of cups modelled as geometry; 0 = none: only the material's pattern "
+            "shows them."},
     {KEY_OF(PolypParams, diameter, "diameter", KEY_FLOAT), .high = 10, .unit = "m",
-     .doc = "Diameter of a cup's rim; 0 = a share of the colony's size."},
+     .doc = "Diameter of a cup's rim; 0 = a fraction of the colony's size."},
     {KEY_OF(PolypParams, spacing, "spacing", KEY_FLOAT), .high = 10, .unit = "m",
-     .doc = "Least distance between the cups' centres; 0 = 1.6 diameters."},
+     .doc = "Minimum distance between the cups' centres; 0 = 1.6 diameters."},
     {KEY_OF(PolypParams, height, "height", KEY_FLOAT), .high = 10, .unit = "m",
      .doc = "Height of a cup's wall; 0 = 0.9 diameters."},
     {KEY_OF(PolypParams, lean, "lean", KEY_FLOAT), .high = 85, .unit = "degrees",
-     .doc = "How far cups lean toward the branch's tip."},
+     .doc = "Angle by which cups lean toward the branch's tip."},
     {0},
 };
 
 static const Table POLYP_TABLE = {.name = "polyps",
-                                  .doc = "Corallites: the cups that polyps sit in.",
+                                  .doc = "Corallites: the cups in which polyps sit.",
                                   .size = sizeof(PolypParams),
                                   .keys = POLYP_KEYS};
 
 static const Key CORAL_KEYS[] = {
     {KEY_OF(CoralParams, form, "form", KEY_ENUM), .names = FORMS,
-     .doc = "branching: a bush, as staghorn coral; table: a plate with upright branchlets; fan: "
-            "flat; encrusting: a crust over a rock; massive: a boulder."},
+     .doc = "branching: a bush, like staghorn coral; table: a plate with upright branchlets; fan: "
+            "a flat fan; encrusting: a crust over a rock; massive: a boulder."},
     {KEY_OF(CoralParams, rule, "rule", KEY_ENUM), .names = RULES,
-     .doc = "string: directions by the L-system, room by the attractors; mean: attractors alone."},
+     .doc = "string: the L-system gives directions, the attractors limit the space; mean: "
+            "attractors only."},
     {KEY_OF(CoralParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
-     .doc = "Middle of the colonies, on the sea floor."},
+     .doc = "Centre of the colonies, on the sea floor."},
     {KEY_OF(CoralParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000, .unit = "m",
-     .doc = "Width of a colony: everything else follows it."},
+     .doc = "Width of a colony; other sizes that are omitted or 0 follow it."},
     {KEY_OF(CoralParams, height, "height", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "Height of a colony; 0 = the form's share of the size."},
+     .doc = "Height of a colony; 0 = the form's default, a fraction of the size."},
     {KEY_OF(CoralParams, colonies, "colonies", KEY_INT), .low = 1, .high = 64,
-     .doc = "Colonies that fight for the same room."},
+     .doc = "Number of colonies that compete for the same space."},
     {KEY_OF(CoralParams, spread, "spread", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "Radius of the circle they stand on; 0 = 0.42 of the size."},
+     .doc = "Radius of the circle on which the colonies stand; 0 = 0.42 of the size."},
     {KEY_OF(CoralParams, attractors, "attractors", KEY_INT64), .high = 1e8,
-     .doc = "Attractors for each colony (for the whole rock where it grows on one); 0 = the form's "
-            "own."},
+     .doc = "Number of attractors per colony (of the whole rock for forms that grow on one); 0 = "
+            "the form's default."},
     {KEY_OF(CoralParams, axiom, "axiom", KEY_TEXT),
-     .doc = "The L-system's first string; left out: the form's own."},
+     .doc = "Axiom (initial string) of the L-system; default: the form's."},
     {KEY_OF(CoralParams, rules, "rules", KEY_TEXT),
-     .doc = "The L-system's rules, one a line or parted by ';', as \"X -> [+FX][-FX]FX\"; left "
-            "out: the form's own."},
+     .doc = "Rules of the L-system, one per line or separated by ';', as in \"X -> [+FX][-FX]FX\"; "
+            "default: the form's."},
     {KEY_OF(CoralParams, generations, "generations", KEY_INT), .high = 40,
-     .doc = "How often the rules are applied; 0 = the form's own."},
+     .doc = "Number of times the rules are applied; 0 = the form's default."},
     {KEY_OF(CoralParams, angle, "angle", KEY_FLOAT), .high = 180, .unit = "degrees",
-     .doc = "Angle of turns that name none; 0 = the form's own."},
+     .doc = "Angle of turns that have no parameter; 0 = the form's default."},
     {KEY_OF(CoralParams, group, "group", KEY_FLOAT), .high = 360, .unit = "degrees",
-     .doc = "Width of a direction: it owns the attractors within half of it; 0 = the form's own."},
+     .doc = "Angular width of a direction, which owns the attractors within half of it; 0 = the "
+            "form's default."},
     {KEY_OF(CoralParams, regularity, "regularity", KEY_FLOAT), .low = -1, .high = 1,
-     .doc = "0 = toward the attractors a direction owns, 1 = just as the L-system says; -1 = the "
-            "form's own."},
+     .doc = "Regularity of directions: 0 = toward the attractors that a direction owns, 1 = "
+            "exactly as the L-system says; -1 = the form's default."},
     {KEY_OF(CoralParams, noise, "noise", KEY_FLOAT), .low = -1, .high = 10,
-     .doc = "Gaussian noise on each direction, per component; -1 = the form's own."},
+     .doc = "Gaussian noise added to each component of the direction; -1 = the form's default."},
     {KEY_OF(CoralParams, length, "length", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "Growth distance next to the root; 0 = the form's share of the size."},
+     .doc = "Length of growth steps next to the root; 0 = the form's default, a fraction of the "
+            "size."},
     {KEY_OF(CoralParams, length_tip, "length_tip", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "Growth distance farthest from the root; 0 = the form's share of the size."},
+     .doc = "Length of growth steps farthest from the root; 0 = the form's default, a fraction of "
+            "the size."},
     {KEY_OF(CoralParams, light, "light", KEY_FLOAT), .high = 1,
-     .doc = "How much more room to grow there is above than below."},
+     .doc = "Effect of light: how much more space to grow there is above than below."},
     {KEY_OF(CoralParams, tip_radius, "tip_radius", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "Radius of the branches' tips; 0 = the form's share of the size."},
+     .doc = "Radius of the branches' tips; 0 = the form's default, a fraction of the size."},
     {KEY_OF(CoralParams, exponent, "exponent", KEY_FLOAT), .low = 1, .high = 10,
-     .doc = "e of the radii, r_parent^e = sum of r_child^e: 4 keeps branches near their tips' "
-            "thickness."},
+     .doc = "Exponent e of the radii, r_parent^e = sum of r_child^e; 4 keeps branches nearly as "
+            "thin as their tips."},
     {KEY_OF(CoralParams, pale, "pale", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "How far from a growing tip the tissue is pale; 0 = 4 tip radii."},
+     .doc = "Distance from a growing tip over which the tissue is pale; 0 = 4 tip radii."},
     {KEY_OF(CoralParams, polyps, "polyps", KEY_GROUP), .table = &POLYP_TABLE,
-     .doc = "Corallites: the cups that polyps sit in."},
+     .doc = "Corallites: the cups in which polyps sit."},
     {KEY_OF(CoralParams, base, "base", KEY_LIST), .count_offset = offsetof(CoralParams, base_count),
      .count = 1000, .table = &shape_table,
-     .doc = "Shapes that make the rock that encrusting and massive forms grow on; left out: a "
-            "boulder of the size."},
+     .doc = "Shapes of the rock on which encrusting and massive forms grow; default: a boulder as "
+            "wide as size."},
     {KEY_OF(CoralParams, levels, "levels", KEY_INT), .high = 4,
-     .doc = "Subdivision of the branches' skin."},
+     .doc = "Number of subdivision levels of the branches' skin."},
     {0},
 };
 
@@ -100,8 +105,9 @@ static bool check_coral(const Mapping *mapping, void *params)
 
 const Table coral_table = {
     .name = "coral",
-    .doc = "Corals: an L-system says where branches want to go, attractors how much room there is, "
-           "and colonies fight for it (Horiuchi et al.). Materials: coral, coral_polyp, reef_rock.",
+    .doc =
+        "Corals (Horiuchi et al.): an L-system gives the branches' directions, attractors the "
+        "available space, and colonies compete for it. Materials: coral, coral_polyp, reef_rock.",
     .example = "objects:\n"
                "  - name: staghorn\n"
                "    coral: {form: branching, size: 0.4, colonies: 3}\n",

@@ -58,7 +58,7 @@ static const Key MATERIALS[] = {
 
 const Kind kind_dla = {
     .variant = {KIND_ROW("dla", &dla_table,
-                         "A dendrite of metal, by diffusion-limited aggregation."),
+                         "A metal dendrite, grown by diffusion-limited aggregation."),
                 MATERIALS},
     .materials = {"copper"},
     .builtin = BUILTIN,

@@ -4,21 +4,23 @@
 
 static const Key DLA_KEYS[] = {
     {KEY_OF(DlaModel, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
-     .doc = "Where the first particle lies."},
+     .doc = "Position of the first particle."},
     {KEY_OF(DlaModel, rotation, "rotation", KEY_VECTOR), .count = 3, .unit = "degrees",
-     .doc = "Turns about x, then y, then z; a plane cluster stands upright, facing +Z."},
+     .doc = "Rotation about x, then y, then z; without it a planar cluster stands upright, facing "
+            "+Z."},
     {KEY_OF(DlaModel, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
-     .doc = "Largest extent of the whole cluster; particles are as large as that makes them."},
+     .doc = "Largest extent of the whole cluster; it determines the size of particles."},
     {KEY_OF(DlaModel, dimension, "dimension", KEY_INT), .low = 2, .high = 3,
      .doc = "2: walkers and cluster in a plane; 3: in space."},
     {KEY_OF(DlaModel, particles, "particles", KEY_INT64), .low = 1, .high = 2147483647,
-     .doc = "Particles of the whole cluster."},
+     .doc = "Number of particles of the whole cluster."},
     {KEY_OF(DlaModel, thickness, "thickness", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
      .unit = "particles", .doc = "Thickness of the tips."},
     {KEY_OF(DlaModel, exponent, "exponent", KEY_FLOAT), .low = 1, .high = 100,
-     .doc = "e of r_parent^e = sum of r_child^e: the larger, the more even the thickness."},
+     .doc = "Exponent e of the radii, r_parent^e = sum of r_child^e; a larger one gives a more "
+            "even thickness."},
     {KEY_OF(DlaModel, swell, "swell", KEY_FLOAT), .high = 1e4, .unit = "particles",
-     .doc = "How far a plane cluster heaves out of its plane."},
+     .doc = "How far a planar cluster bulges out of its plane."},
     {0},
 };
 
@@ -28,8 +30,8 @@ static void dla_defaults(void *out)
 }
 
 const Table dla_table = {.name = "dla",
-                         .doc = "A diffusion-limited aggregate, as electrodeposited metal: what "
-                                "the papers compare their method with. Material: copper.",
+                         .doc = "A diffusion-limited aggregate, like electrodeposited metal; the "
+                                "papers compare their method with it. Material: copper.",
                          .example = "objects:\n"
                                     "  - name: dendrite\n"
                                     "    dla: {size: 0.3, particles: 20000}\n",

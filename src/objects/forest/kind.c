@@ -60,7 +60,7 @@ static const Key MATERIALS[] = {
 };
 
 const Kind kind_forest = {
-    .variant = {KIND_ROW("forest", &forest_table, "Stands of trees over the land, with ferns."),
+    .variant = {KIND_ROW("forest", &forest_table, "A forest: stands of trees, with ferns."),
                 MATERIALS},
     .reads_scene = true,
     .reads_water = true,

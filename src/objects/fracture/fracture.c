@@ -190,22 +190,23 @@ static void warn_of_pieces(const Workpiece *work, const FractureParams *params,
     double kept = 0.0, own = envelope_volume(work->body.envelope);
     if (cells == 1) {
         recipe_warn(recipe, NULL,
-                    "%d impacts with %lld attractors close no crack, and it stays in one piece; "
-                    "more of either break it",
+                    "cracks from %d impacts with %lld attractors separate no pieces; use more "
+                    "impacts or attractors",
                     params->impacts,
                     (long long)(params->element.level_count ? element_attractors(&params->element)
                                                             : params->attractors));
     }
     if (small > 0) {
-        recipe_warn(
-            recipe, NULL,
-            "%d cells between cracks are less than %.2g m wide and stay with a "
-            "neighbour; %d are left; a resolution above %d, a narrower gap or fewer attractors "
-            "keep them apart",
-            small, 2.0 * (double)work->least, cells, params->resolution);
+        recipe_warn(recipe, NULL,
+                    "%d cells between cracks are less than %.2g m wide and were merged with a "
+                    "neighbour; %d remain; a resolution above %d, a narrower gap or fewer "
+                    "attractors would separate them",
+                    small, 2.0 * (double)work->least, cells, params->resolution);
     }
     if (gone > 0) {
-        recipe_warn(recipe, NULL, "%d of %d pieces are thinner than the gap of %g m and are gone",
+        recipe_warn(recipe, NULL,
+                    "%d of %d pieces are thinner than the gap of %g m and were removed; use a "
+                    "narrower gap to keep them",
                     gone, cells, (double)params->gap);
     }
     for (int64_t i = 0; i < pieces->count; i++) {
@@ -213,8 +214,8 @@ static void warn_of_pieces(const Workpiece *work, const FractureParams *params,
     }
     if (params->hollow <= 0.0f && params->gap <= 0.0f && fabs(kept / own - 1.0) > CHANGE_MOST) {
         recipe_warn(recipe, NULL,
-                    "the pieces have %.1f %% of the body's volume; a resolution above %d or "
-                    "less weathering (%g now) keep more of its shape",
+                    "the pieces have %.1f %% of the body's volume; a resolution above %d or less "
+                    "weathering (now %g) would preserve more of its shape",
                     100.0 * kept / own, params->resolution, (double)params->weathering);
     }
 }

@@ -48,12 +48,12 @@ static const Material BUILTIN[] = {
 
 static const Key MATERIALS[] = {
     OWN_MATERIAL_ROW(0),
-    MATERIAL_ROW(1, "inside_material", "Material of the faces that broke; left out: broken."),
+    MATERIAL_ROW(1, "inside_material", "Material of the broken faces; default: broken."),
     {0},
 };
 
 const Kind kind_fracture = {
-    .variant = {KIND_ROW("fracture", &fracture_table, "A thing broken along grown cracks."),
+    .variant = {KIND_ROW("fracture", &fracture_table, "A body broken along grown cracks."),
                 MATERIALS},
     .materials = {"clay", "broken"},
     .builtin = BUILTIN,

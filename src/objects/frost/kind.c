@@ -77,7 +77,7 @@ static const Material BUILTIN[] = {
 static const Key MATERIALS[] = {
     OWN_MATERIAL_ROW(0),
     MATERIAL_ROW(1, "rime_material",
-                 "Material of frost that is white with enclosed air; left out: rime."),
+                 "Material of frost that is white with enclosed air; default: rime."),
     {0},
 };
 

@@ -58,7 +58,7 @@ static const Key MATERIALS[] = {
 };
 
 const Kind kind_ground = {
-    .variant = {KIND_ROW("ground", &ground_table, "Ground to stand on, with grass."), MATERIALS},
+    .variant = {KIND_ROW("ground", &ground_table, "Rolling ground with grass."), MATERIALS},
     .reads_water = true,
     .materials = {"ground", "fallen", "grass", "bark", "leaf"},
     .builtin = BUILTIN,

@@ -3,18 +3,20 @@
 #include "objects/ground/ground.h"
 
 static const Key GROVE_KEYS[] = {
-    {KEY_OF(GroveParams, count, "count", KEY_INT), .high = 1e6, .doc = "How many trees; 0 = none."},
+    {KEY_OF(GroveParams, count, "count", KEY_INT), .high = 1e6,
+     .doc = "Number of trees; 0 = none."},
     {KEY_OF(GroveParams, inner, "inner", KEY_FLOAT), .high = 1e6, .unit = "m",
-     .doc = "Least distance from the origin."},
+     .doc = "Minimum distance from the origin."},
     {KEY_OF(GroveParams, outer, "outer", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
-     .doc = "Largest distance from the origin."},
+     .doc = "Maximum distance from the origin."},
     {KEY_OF(GroveParams, height, "height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
      .unit = "m", .doc = "Height of the tallest trees."},
     {KEY_OF(GroveParams, clumping, "clumping", KEY_FLOAT), .high = 1,
-     .doc = "0 = even, 1 = in woods with open land between."},
+     .doc = "Distribution: 0 = uniform, 1 = woods with open land between."},
     {KEY_OF(GroveParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
-     .doc = "How many different trees are grown; all others are copies."},
-    {KEY_OF(GroveParams, bare, "bare", KEY_BOOL), .doc = "Without leaves, as in winter."},
+     .doc = "Number of different trees that are grown; all others are copies."},
+    {KEY_OF(GroveParams, bare, "bare", KEY_BOOL),
+     .doc = "Grow trees without leaves, as in winter."},
     {0},
 };
 
@@ -27,39 +29,39 @@ static bool check_grove(const Mapping *mapping, void *params)
 }
 
 static const Table GROVE_TABLE = {.name = "grove",
-                                  .doc = "Woods in the distance: copies of a few trees.",
+                                  .doc = "Distant woods: copies of a few trees.",
                                   .size = sizeof(GroveParams),
                                   .keys = GROVE_KEYS,
                                   .check = check_grove};
 
 static const Key GROUND_KEYS[] = {
     {KEY_OF(GroundParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6,
-     .unit = "m", .doc = "How far the land goes, to the horizon."},
+     .unit = "m", .doc = "Radius of the land, out to the horizon."},
     {KEY_OF(GroundParams, relief, "relief", KEY_FLOAT), .high = 1e4, .unit = "m",
      .doc = "Height of the hills."},
     {KEY_OF(GroundParams, wavelength, "wavelength", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6,
-     .unit = "m", .doc = "Distance from hill to hill."},
+     .unit = "m", .doc = "Distance between hills."},
     {KEY_OF(GroundParams, flat_radius, "flat_radius", KEY_FLOAT), .high = 1e6, .unit = "m",
-     .doc = "Radius about the origin that stays flat, at height 0, where the subject stands."},
+     .doc = "Radius about the origin in which the land is flat, at height 0, for the subject to "
+            "stand on."},
     {KEY_OF(GroundParams, grass_tufts, "grass_tufts", KEY_INT64), .high = 1e9,
-     .doc = "Tufts of grass; 0 = none."},
+     .doc = "Number of tufts of grass; 0 = none."},
     {KEY_OF(GroundParams, grass_radius, "grass_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e5,
-     .unit = "m",
-     .doc = "Radius about grass_center that bears grass; it thins out toward the rim."},
+     .unit = "m", .doc = "Radius of the grass about grass_center; it thins out toward the rim."},
     {KEY_OF(GroundParams, grass_center, "grass_center", KEY_VECTOR), .count = 3, .unit = "m",
-     .doc = "Middle of the grass."},
+     .doc = "Centre of the grass."},
     {KEY_OF(GroundParams, grass_height, "grass_height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
      .unit = "m", .doc = "Height of the tallest blades."},
     {KEY_OF(GroundParams, grass_clumping, "grass_clumping", KEY_FLOAT), .high = 1,
-     .doc = "0 = even, 1 = in patches."},
+     .doc = "Distribution: 0 = uniform, 1 = in patches."},
     {KEY_OF(GroundParams, grass_variants, "grass_variants", KEY_INT), .low = 1, .high = 1000,
-     .doc = "How many different tufts there are."},
+     .doc = "Number of different tufts."},
     {KEY_OF(GroundParams, fallen_leaves, "fallen_leaves", KEY_INT64), .high = 1e9,
-     .doc = "Leaves that lie about the origin; 0 = none."},
+     .doc = "Number of fallen leaves about the origin; 0 = none."},
     {KEY_OF(GroundParams, fallen_radius, "fallen_radius", KEY_FLOAT), .flags = KEY_ABOVE,
-     .high = 1e5, .unit = "m", .doc = "How far fallen leaves lie."},
+     .high = 1e5, .unit = "m", .doc = "Radius of the fallen leaves about the origin."},
     {KEY_OF(GroundParams, trees, "trees", KEY_GROUP), .table = &GROVE_TABLE,
-     .doc = "Woods in the distance: copies of a few trees."},
+     .doc = "Distant woods: copies of a few trees."},
     {0},
 };
 
@@ -78,11 +80,9 @@ static void ground_defaults(void *out)
 
 const Table ground_table = {
     .name = "ground",
-    .doc =
-        "Gently rolling land with grass on it, out to the horizon. Neither grass nor trees stand "
-        "in "
-        "water: a `medium` of water, or a shape or mesh of a material with the pattern `water` or "
-        "of a dielectric with water's index. Materials: ground, grass, fallen.",
+    .doc = "Gently rolling land with grass, out to the horizon. Grass and trees do not grow in "
+           "water: a `medium` of water, or a shape or mesh whose material has the pattern `water` "
+           "or is a dielectric with the index of water. Materials: ground, grass, fallen.",
     .example =
         "objects:\n"
         "  - name: meadow\n"

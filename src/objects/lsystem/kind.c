@@ -44,7 +44,8 @@ static const Key MATERIALS[] = {
 };
 
 const Kind kind_lsystem = {
-    .variant = {KIND_ROW("lsystem", &lsystem_table, "A plant written as an L-system."), MATERIALS},
+    .variant = {KIND_ROW("lsystem", &lsystem_table, "A plant described by an L-system."),
+                MATERIALS},
     .materials = {"bark", "twig", "leaf"},
     .own_space = own_space,
     .needs = needs,

@@ -6,13 +6,13 @@ static const Key MESH_KEYS[] = {
     {KEY_OF(MeshParams, file, "file", KEY_FILE), .flags = KEY_REQUIRED,
      .doc = "OBJ, PLY, STL, glTF or GLB file, relative to the scene's folder."},
     {KEY_OF(MeshParams, smooth, "smooth", KEY_BOOL),
-     .doc = "Make smooth normals when the file has none."},
+     .doc = "Compute smooth normals if the file has none."},
     {KEY_OF(MeshParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
-     .doc = "Where the mesh's origin goes."},
+     .doc = "Position of the mesh's origin."},
     {KEY_OF(MeshParams, rotation, "rotation", KEY_VECTOR), .count = 3, .unit = "degrees",
-     .doc = "Turns about x, then y, then z."},
+     .doc = "Rotation about x, then y, then z."},
     {KEY_OF(MeshParams, scale, "scale", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3,
-     .doc = "Factors along x, y and z, before the turns; negative ones mirror."},
+     .doc = "Scale along x, y and z, applied before the rotation; negative values mirror."},
     {0},
 };
 
@@ -27,10 +27,9 @@ static bool check_mesh(const Mapping *mapping, void *params)
     return check_mesh_file(mapping, mesh->file) && check_scale(mapping, mesh->scale);
 }
 
-const Table mesh_table = {
-    .name = "mesh",
-    .doc = "A mesh that another program made. Material: clay, if the object names no other.",
-    .size = sizeof(MeshParams),
-    .keys = MESH_KEYS,
-    .defaults = mesh_defaults,
-    .check = check_mesh};
+const Table mesh_table = {.name = "mesh",
+                          .doc = "A mesh imported from a file. Material: clay.",
+                          .size = sizeof(MeshParams),
+                          .keys = MESH_KEYS,
+                          .defaults = mesh_defaults,
+                          .check = check_mesh};

@@ -94,7 +94,7 @@ static const Key MATERIALS[] = {
 };
 
 const Kind kind_shape = {
-    .variant = {KIND_ROW("shape", &solid_table, "Spheres, boxes, ... drawn as they are."),
+    .variant = {KIND_ROW("shape", &solid_table, "Solids: spheres, boxes and their combinations."),
                 MATERIALS},
     .materials = {"clay"},
     .needs = needs,

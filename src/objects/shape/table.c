@@ -5,10 +5,10 @@
 static const Key SOLID_KEYS[] = {
     {KEY_OF(SolidParams, shapes, "envelope", KEY_LIST),
      .count_offset = offsetof(SolidParams, shape_count), .flags = KEY_REQUIRED, .low = 1,
-     .count = 1000, .table = &shape_table,
-     .doc = "Shapes joined, cut and intersected in this order."},
+     .count = 1000, .table = &shape_table, .doc = "Shapes, combined in this order."},
     {KEY_OF(SolidParams, voxel, "voxel", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "Voxel size where it is not one plain shape; 0 = 1/128 of the largest extent."},
+     .doc = "Voxel size, unless the envelope is a single plain shape; 0 = 1/128 of the largest "
+            "extent."},
     {0},
 };
 
@@ -25,8 +25,7 @@ static bool check_solid(const Mapping *mapping, void *params)
 
 const Table solid_table = {
     .name = "solid",
-    .doc = "Spheres, boxes, bodies and what they cut out of each other, drawn as they are. "
-           "Material: clay, if the object names no other.",
+    .doc = "Spheres, boxes, bodies and their combinations, rendered as solids. Material: clay.",
     .example = "objects:\n"
                "  - name: bowl\n"
                "    shape:\n"

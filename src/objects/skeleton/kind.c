@@ -37,7 +37,7 @@ static void needs(const void *params, Needs *needs)
 
 static const Key MATERIALS[] = {
     OWN_MATERIAL_ROW(0),
-    MATERIAL_ROW(1, "axon_material", "Material of a skeleton's axon; left out: that of the rest."),
+    MATERIAL_ROW(1, "axon_material", "Material of a skeleton's axon; default: that of the rest."),
     {0},
 };
 

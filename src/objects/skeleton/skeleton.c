@@ -61,9 +61,9 @@ static OutTree *pick(const OutTree *tree, const SkeletonParams *params, Error *e
     }
     free(place);
     if (done && out->count == 0) {
-        done =
-            error_set(e, ERROR_INPUT, "nothing of '%s' shows; one of the types in it must be shown",
-                      params->file);
+        done = error_set(e, ERROR_INPUT,
+                         "all nodes of '%s' are hidden; show at least one type that it contains",
+                         params->file);
     }
     if (!done) {
         out_tree_free(out);

@@ -13,33 +13,33 @@ static const Key SKELETON_KEYS[] = {
      .doc = "SWC file, relative to the scene's folder."},
     {KEY_OF(SkeletonParams, scale, "scale", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e9,
      .unit = "m",
-     .doc = "Length of the file's unit, which is mostly the micrometre: 1e-6 shows a "
-            "neuron at its size, 0.001 a thousand times larger."},
+     .doc = "Length of the file's unit, usually the micrometre: 1e-6 shows a neuron at its true "
+            "size, 0.001 a thousand times larger."},
     {KEY_OF(SkeletonParams, origin, "origin", KEY_ENUM), .names = ORIGINS,
-     .doc = "What goes to position: file: the file's own origin; root: its first root; middle: the "
-            "middle of its bounding box."},
+     .doc = "Point that is placed at position. file: the file's origin; root: its first root; "
+            "middle: the centre of its bounding box."},
     {KEY_OF(SkeletonParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
-     .doc = "Where the origin goes."},
+     .doc = "Position of the origin."},
     {KEY_OF(SkeletonParams, rotation, "rotation", KEY_VECTOR), .count = 3, .unit = "degrees",
-     .doc = "Turns about x, then y, then z, about the origin."},
+     .doc = "Rotation about x, then y, then z, around the origin."},
     {KEY_OF(SkeletonParams, soma, "soma", KEY_ENUM), .names = SOMAS,
-     .doc = "Nodes of type 1 at a root: round: one round body of about their size; as_is: as the "
-            "file has them; none: left out."},
-    {KEY_OF(SkeletonParams, axon, "axon", KEY_BOOL), .doc = "Show nodes of type 2."},
+     .doc = "Display of nodes of type 1 at a root. round: one round body of about their size; "
+            "as_is: as in the file; none: omitted."},
+    {KEY_OF(SkeletonParams, axon, "axon", KEY_BOOL), .doc = "Show nodes of type 2, the axon."},
     {KEY_OF(SkeletonParams, basal, "basal", KEY_BOOL),
      .doc = "Show nodes of type 3, basal dendrites."},
     {KEY_OF(SkeletonParams, apical, "apical", KEY_BOOL),
      .doc = "Show nodes of type 4, apical dendrites."},
     {KEY_OF(SkeletonParams, rest, "rest", KEY_BOOL), .doc = "Show nodes of all other types."},
     {KEY_OF(SkeletonParams, radius_factor, "radius_factor", KEY_FLOAT), .flags = KEY_ABOVE,
-     .high = 1000, .doc = "How much thicker than in the file it is drawn."},
+     .high = 1000, .doc = "Multiplier of the radii in the file."},
     {KEY_OF(SkeletonParams, min_radius, "min_radius", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "Thinner ways are drawn this thick; 0 = only those of radius 0 are, with 0.0003 of the "
-            "extent."},
+     .doc = "Minimum radius, which thinner branches get; 0 = only branches of radius 0 are "
+            "thickened, to 0.0003 of the extent."},
     {KEY_OF(SkeletonParams, smoothing, "smoothing", KEY_INT), .high = 1000,
-     .doc = "Passes that round off the bends of traced ways."},
+     .doc = "Number of passes that smooth the bends of traced branches."},
     {KEY_OF(SkeletonParams, skin, "skin", KEY_GROUP), .table = &skin_table,
-     .doc = "How it becomes a mesh."},
+     .doc = "Surface of the branches."},
     {0},
 };
 
@@ -50,8 +50,7 @@ static void skeleton_defaults(void *out)
 
 const Table skeleton_table = {
     .name = "skeleton",
-    .doc = "A neuron, or another out-tree that a program traced, from an "
-           "SWC file.",
+    .doc = "A neuron, or another traced out-tree, from an SWC file.",
     .example =
         "objects:\n"
         "  - name: neuron\n"

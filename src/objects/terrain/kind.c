@@ -81,7 +81,7 @@ static const Material BUILTIN[] = {
 };
 
 static const Key MATERIALS[] = {
-    MATERIAL_ROW(1, "water_material", "Material of a terrain's lakes and rivers; left out: lake."),
+    MATERIAL_ROW(1, "water_material", "Material of a terrain's lakes and rivers; default: lake."),
     OWN_MATERIAL_ROW(0),
     {0},
 };

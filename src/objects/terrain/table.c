@@ -5,14 +5,14 @@
 static const Key STROKE_KEYS[] = {
     {KEY_OF(UpliftStroke, from, "from", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 2,
      .unit = "sizes",
-     .doc = "Where the stroke begins: x and z as shares of the terrain's size, "
-            "[0, 0] in the middle, [-0.5, -0.5] in the north-west."},
+     .doc = "Start of the stroke: x and z as fractions of the terrain's size; [0, 0] = the centre, "
+            "[-0.5, -0.5] = the north-west corner."},
     {KEY_OF(UpliftStroke, to, "to", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 2, .unit = "sizes",
-     .doc = "Where it ends; the same place makes a round spot."},
+     .doc = "End of the stroke; the same point as `from` makes a round spot."},
     {KEY_OF(UpliftStroke, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
-     .unit = "sizes", .doc = "Distance at which it has faded away."},
+     .unit = "sizes", .doc = "Distance at which the stroke has faded to zero."},
     {KEY_OF(UpliftStroke, strength, "strength", KEY_FLOAT), .low = -100, .high = 100,
-     .doc = "Added to the uplift in its middle; negative sinks the land."},
+     .doc = "Uplift added along the stroke's middle; a negative value lowers the land."},
     {0},
 };
 
@@ -22,26 +22,26 @@ static void stroke_defaults(void *out)
 }
 
 static const Table STROKE_TABLE = {.name = "uplift_stroke",
-                                   .doc = "A stroke of the brush that raises land.",
+                                   .doc = "A brush stroke that raises land.",
                                    .size = sizeof(UpliftStroke),
                                    .keys = STROKE_KEYS,
                                    .defaults = stroke_defaults};
 
 static const Key UPLIFT_KEYS[] = {
     {KEY_OF(UpliftParams, base, "base", KEY_FLOAT), .high = 100,
-     .doc = "Uplift where nothing is painted."},
+     .doc = "Uplift where there is no stroke."},
     {KEY_OF(UpliftParams, noise, "noise", KEY_FLOAT), .high = 1,
-     .doc = "How far it wavers from place to place."},
+     .doc = "Variation of the uplift from place to place."},
     {KEY_OF(UpliftParams, strokes, "strokes", KEY_LIST),
      .count_offset = offsetof(UpliftParams, stroke_count), .count = 1000, .table = &STROKE_TABLE,
-     .doc = "Strokes of the brush."},
+     .doc = "Brush strokes that raise or lower land."},
     {KEY_OF(UpliftParams, image, "image", KEY_FILE),
-     .doc = "Grey picture laid over the terrain, north up: multiplies the uplift."},
+     .doc = "Grey image laid over the terrain, north up; it multiplies the uplift."},
     {0},
 };
 
 static const Table UPLIFT_TABLE = {.name = "uplift",
-                                   .doc = "Where the land rises: high uplift makes the mountains.",
+                                   .doc = "Uplift of the land: high uplift makes mountains.",
                                    .size = sizeof(UpliftParams),
                                    .keys = UPLIFT_KEYS};
 
@@ -50,33 +50,34 @@ static const EnumName SIDES[] = {{"all", SIDE_ALL},     {"north", SIDE_NORTH}, {
 
 static const Key RIVER_KEYS[] = {
     {KEY_OF(RiverParams, outlets, "outlets", KEY_INT), .low = 1, .high = 10000,
-     .doc = "Rivers that leave the terrain."},
+     .doc = "Number of rivers that leave the terrain."},
     {KEY_OF(RiverParams, side, "side", KEY_ENUM), .names = SIDES,
-     .doc = "Border over which they leave."},
+     .doc = "Side of the terrain where the rivers leave."},
     {KEY_OF(RiverParams, count, "count", KEY_INT64), .low = 12, .high = 4e6,
-     .doc = "Attractors of the finest level, about as many as brooks: few make long slopes."},
+     .doc = "Number of attractors of the finest level, about the number of brooks; few make long "
+            "slopes."},
     {KEY_OF(RiverParams, winding, "winding", KEY_FLOAT), .high = 1,
-     .doc = "How far rivers wind: noise of their growth and the windings laid over main rivers."},
+     .doc = "How far rivers wind: noise of their growth, and meanders added to main rivers."},
     {KEY_OF(RiverParams, gradient, "gradient", KEY_FLOAT), .high = 0.9,
-     .doc = "Gradient of brooks, as a share of the slopes' gradient."},
+     .doc = "Gradient of brooks, as a fraction of the slopes' gradient."},
     {KEY_OF(RiverParams, concavity, "concavity", KEY_FLOAT), .high = 2,
-     .doc = "Exponent by which rivers flatten as they gather water; 0.42 in nature."},
+     .doc = "Concavity index: rivers flatten with their drainage area to the power of -concavity; "
+            "0.42 in nature."},
     {KEY_OF(RiverParams, valley, "valley", KEY_FLOAT), .high = 1,
-     .doc = "Half width of valley floors, as a share of the root of the drainage area."},
+     .doc = "Half-width of valley floors, as a fraction of the square root of the drainage area."},
     {KEY_OF(RiverParams, water, "water", KEY_FLOAT), .high = 1,
-     .doc =
-         "Half width of the water, likewise as a share of the root of the drainage area; 0 = dry. "
-         "Only rivers wider than 1.2 cells show."},
+     .doc = "Half-width of the water, as a fraction of the square root of the drainage area; 0 = "
+            "dry. Only rivers wider than 1.2 cells are visible."},
     {KEY_OF(RiverParams, fields, "fields", KEY_LIST),
      .count_offset = offsetof(RiverParams, field_count), .count = 100, .table = &guide_field_table,
      .doc = "Guide vector fields that steer the rivers' growth, summed with their weights."},
     {KEY_OF(RiverParams, field_weight, "field_weight", KEY_FLOAT), .low = -1000, .high = 1000,
-     .doc = "Weight of the fields against the attractors' pull."},
+     .doc = "Weight of the fields relative to the attractors' pull."},
     {0},
 };
 
 static const Table RIVER_TABLE = {.name = "rivers",
-                                  .doc = "The out-tree of rivers.",
+                                  .doc = "The network of rivers, an out-tree from each outlet.",
                                   .size = sizeof(RiverParams),
                                   .keys = RIVER_KEYS};
 
@@ -84,65 +85,65 @@ static const Key NOISE_KEYS[] = {
     {KEY_OF(TerrainNoiseParams, iterations, "iterations", KEY_INT), .high = 16,
      .doc = "Octaves of sparse convolution noise (Tanaka et al., eq. (16)); 0 = none."},
     {KEY_OF(TerrainNoiseParams, amplitude, "amplitude", KEY_FLOAT), .high = 10,
-     .doc =
-         "Height of the first octave, as a share of its wavelength and of the slopes' gradient."},
+     .doc = "Height of the first octave, relative to its wavelength and to the slopes' gradient."},
     {KEY_OF(TerrainNoiseParams, wavelength, "wavelength", KEY_FLOAT), .high = 10, .unit = "sizes",
-     .doc = "Wavelength of the first octave; 0 = a few brooks apart."},
+     .doc = "Wavelength of the first octave; 0 = the distance between a few brooks."},
     {KEY_OF(TerrainNoiseParams, gain, "gain", KEY_FLOAT), .high = 1,
-     .doc = "Height of each octave as a share of the one before."},
+     .doc = "Height of each octave, as a fraction of the previous one."},
     {KEY_OF(TerrainNoiseParams, ridged, "ridged", KEY_FLOAT), .high = 1,
-     .doc = "0 = round, 1 = with sharp crests."},
+     .doc = "Shape of crests: 0 = round, 1 = sharp."},
     {KEY_OF(TerrainNoiseParams, warp, "warp", KEY_FLOAT), .high = 2,
-     .doc = "How far slopes are pushed about, as a share of the first wavelength."},
+     .doc = "Horizontal distortion of the slopes, as a fraction of the first wavelength."},
     {0},
 };
 
 static const Table NOISE_TABLE = {.name = "terrain_noise",
-                                  .doc = "Fine erosion, fading to nothing at the rivers.",
+                                  .doc =
+                                      "Fine erosion by noise, which fades to zero at the rivers.",
                                   .size = sizeof(TerrainNoiseParams),
                                   .keys = NOISE_KEYS};
 
 static const Key EROSION_KEYS[] = {
     {KEY_OF(TerrainErosionParams, streams, "streams", KEY_FLOAT), .high = 10,
-     .doc = "How deep running water cuts gullies; 0 = not, 1 = well."},
+     .doc = "How deep running water cuts gullies; 0 = not at all, 1 = clearly."},
     {KEY_OF(TerrainErosionParams, thermal, "thermal", KEY_FLOAT), .high = 10,
-     .doc = "How much of what stands too steep falls down; 0 = nothing, 1 = most."},
+     .doc = "How much of the rock above the talus angle falls down; 0 = nothing, 1 = most."},
     {KEY_OF(TerrainErosionParams, talus, "talus", KEY_FLOAT), .low = 1, .high = 89,
-     .unit = "degrees", .doc = "Steepest slope on which rubble stays."},
+     .unit = "degrees", .doc = "Talus angle: the steepest slope on which rubble stays."},
     {0},
 };
 
 static const Table EROSION_TABLE = {.name = "erosion",
-                                    .doc = "Erosion of the finished heights.",
+                                    .doc = "Erosion of the finished height field.",
                                     .size = sizeof(TerrainErosionParams),
                                     .keys = EROSION_KEYS};
 
 static const Key TERRACE_KEYS[] = {
     {KEY_OF(TerrainTerraceParams, count, "count", KEY_INT), .high = 1000,
-     .doc = "Hard beds between the lowest and the highest point; 0 = none."},
+     .doc = "Number of hard beds between the lowest and the highest point; 0 = none."},
     {KEY_OF(TerrainTerraceParams, strength, "strength", KEY_FLOAT), .high = 1,
-     .doc = "How far the land steps over them."},
+     .doc = "Strength of the steps: 0 = none, 1 = full."},
     {0},
 };
 
 static const Table TERRACE_TABLE = {.name = "terraces",
-                                    .doc = "Beds of hard rock that stand out as steps.",
+                                    .doc = "Beds of hard rock, which form steps.",
                                     .size = sizeof(TerrainTerraceParams),
                                     .keys = TERRACE_KEYS};
 
 static const Key FOREST_KEYS[] = {
     {KEY_OF(TerrainForestParams, count, "count", KEY_INT), .high = 1e7,
-     .doc = "Most conifers; 0 = none. Far ones are left out first."},
+     .doc = "Maximum number of conifers; 0 = none. Distant ones are omitted first."},
     {KEY_OF(TerrainForestParams, height, "height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
-     .unit = "m", .doc = "Height of the tallest."},
+     .unit = "m", .doc = "Height of the tallest conifers."},
     {KEY_OF(TerrainForestParams, low, "low", KEY_FLOAT), .high = 1,
-     .doc = "Altitude of the lowest trees, a share of the relief."},
+     .doc = "Altitude of the lowest trees, as a fraction of the relief."},
     {KEY_OF(TerrainForestParams, high, "high", KEY_FLOAT), .high = 1,
-     .doc = "Altitude of the tree line, a share of the relief."},
+     .doc = "Altitude of the tree line, as a fraction of the relief."},
     {KEY_OF(TerrainForestParams, slope, "slope", KEY_FLOAT), .high = 89, .unit = "degrees",
-     .doc = "None grow on steeper land."},
+     .doc = "Steepest slope on which trees grow."},
     {KEY_OF(TerrainForestParams, clumping, "clumping", KEY_FLOAT), .high = 1,
-     .doc = "0 = even, 1 = woods with clearings."},
+     .doc = "Distribution: 0 = uniform, 1 = woods with clearings."},
     {0},
 };
 
@@ -153,29 +154,29 @@ static const Table FOREST_TABLE = {.name = "forest",
 
 static const Key TERRAIN_KEYS[] = {
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
-     .doc = "The middle, at the height of the outlets."},
+     .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
-     .doc = "Side of the square; all else follows it."},
+     .doc = "Side length of the square; all else scales with it."},
     {KEY_OF(TerrainParams, relief, "relief", KEY_FLOAT), .high = 1e5, .unit = "m",
      .doc = "Height of the highest valley slopes above the outlets; 0 = natural slopes."},
     {KEY_OF(TerrainParams, resolution, "resolution", KEY_INT), .low = 16, .high = 8192,
-     .doc = "Cells a side, a power of two: detail, not form."},
+     .doc = "Cells per side, a power of two; it changes the detail, not the form."},
     {KEY_OF(TerrainParams, water_level, "water_level", KEY_FLOAT), .high = 1,
-     .doc = "Share of the relief under a lake or the sea; 0 = none."},
+     .doc = "Level of a lake or the sea, as a fraction of the relief; 0 = none."},
     {KEY_OF(TerrainParams, uplift, "uplift", KEY_GROUP), .table = &UPLIFT_TABLE,
-     .doc = "Where the land rises."},
+     .doc = "Uplift of the land: high uplift makes mountains."},
     {KEY_OF(TerrainParams, rivers, "rivers", KEY_GROUP), .table = &RIVER_TABLE,
-     .doc = "The rivers that the land follows."},
+     .doc = "Rivers, which shape the land."},
     {KEY_OF(TerrainParams, noise, "noise", KEY_GROUP), .table = &NOISE_TABLE,
      .doc = "Fine erosion by sparse convolution noise."},
     {KEY_OF(TerrainParams, erosion, "erosion", KEY_GROUP), .table = &EROSION_TABLE,
      .doc = "Erosion by streams and falling rock."},
     {KEY_OF(TerrainParams, terraces, "terraces", KEY_GROUP), .table = &TERRACE_TABLE,
-     .doc = "Steps of hard beds."},
+     .doc = "Beds of hard rock, which form steps."},
     {KEY_OF(TerrainParams, forest, "forest", KEY_GROUP), .table = &FOREST_TABLE,
-     .doc = "Conifers."},
+     .doc = "Conifers on the slopes."},
     {KEY_OF(TerrainParams, mesh_error, "mesh_error", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1,
-     .doc = "Largest error of the mesh, as a share of the distance to the camera."},
+     .doc = "Maximum error of the mesh, as a fraction of the distance to the camera."},
     {0},
 };
 
@@ -194,8 +195,8 @@ static bool check_terrain(const Mapping *mapping, void *params)
 
 const Table terrain_table = {
     .name = "terrain",
-    .doc = "Mountains, valleys and rivers (Tanaka et al., section 5.5): rivers grow first, and the "
-           "land is what stands between them. Materials: mountain, lake.",
+    .doc = "Mountains, valleys and rivers (Tanaka et al., section 5.5). The rivers grow first; the "
+           "land between them follows. Materials: mountain, lake.",
     .example =
         "objects:\n"
         "  - name: range\n"

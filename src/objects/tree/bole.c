@@ -97,9 +97,9 @@ static bool bole_toward(OutTree *tree, const PointSet *points, float influence,
     }
     if (length > params->height) {
         recipe_warn(recipe, "crown",
-                    "its nearest attractor is %.3g m from the trunk, the first level's influence "
-                    "%.3g m: the trunk grows %.3g m longer to get there; if that is not meant, "
-                    "move the crown's envelope",
+                    "its nearest attractor is %.3g m from the trunk, but the influence of the "
+                    "first level is %.3g m: the trunk was extended by %.3g m to reach it; if this "
+                    "is not intended, move the crown's envelope",
                     (double)away, (double)influence, (double)length);
     }
     return true;

@@ -93,7 +93,7 @@ static const Key MATERIALS[] = {
 };
 
 const Kind kind_tree = {
-    .variant = {KIND_ROW("tree", &tree_table, "A tree; left out keys make an oak."), MATERIALS},
+    .variant = {KIND_ROW("tree", &tree_table, "A tree; the defaults make an oak."), MATERIALS},
     .materials = {"bark", "twig", "leaf"},
     .own_space = own_space,
     .needs = needs,

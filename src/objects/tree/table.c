@@ -4,17 +4,19 @@
 
 static const Key TRUNK_KEYS[] = {
     {KEY_OF(TrunkParams, height, "height", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "From the ground to the trunk's last node; 0 = a share of the tree's height."},
+     .doc =
+         "Height of the trunk's last node above the ground; 0 = a fraction of the tree's height."},
     {KEY_OF(TrunkParams, radius, "radius", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "Radius above the root flare; 0 = from the tree's height, by elastic similarity."},
+     .doc = "Radius above the root flare; 0 = computed from the tree's height, by elastic "
+            "similarity."},
     {KEY_OF(TrunkParams, lean, "lean", KEY_FLOAT), .high = 89, .unit = "degrees",
-     .doc = "Angle from the vertical."},
+     .doc = "Angle between the trunk and the vertical."},
     {KEY_OF(TrunkParams, lean_azimuth, "lean_azimuth", KEY_FLOAT), .low = -360, .high = 360,
-     .unit = "degrees", .doc = "Where it leans to, from +Z toward +X."},
+     .unit = "degrees", .doc = "Direction of the lean, from +Z toward +X."},
     {KEY_OF(TrunkParams, stems, "stems", KEY_INT), .low = 1, .high = 1000,
-     .doc = "Stems that start on a circle about the base; 1 = a plain trunk."},
+     .doc = "Number of stems, which start on a circle about the base; 1 = a single trunk."},
     {KEY_OF(TrunkParams, stem_circle, "stem_circle", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "Radius of that circle; 0 = the trunk's radius."},
+     .doc = "Radius of the circle of stems; 0 = the trunk's radius."},
     ELEMENT_ROWS(TrunkParams),
     {0},
 };
@@ -24,30 +26,32 @@ static bool check_trunk(const Mapping *mapping, void *params)
     return check_element(mapping, &((const TrunkParams *)params)->element);
 }
 
-static const Table TRUNK_TABLE = {.name = "trunk",
-                                  .doc = "The trunk: it grows straight up unless it leans, its "
-                                         "growth has a tropism, or a field winds it.",
-                                  .size = sizeof(TrunkParams),
-                                  .keys = TRUNK_KEYS,
-                                  .check = check_trunk};
+static const Table TRUNK_TABLE = {
+    .name = "trunk",
+    .doc =
+        "The trunk. It grows straight up unless lean, a tropism of its growth or a field bends it.",
+    .size = sizeof(TrunkParams),
+    .keys = TRUNK_KEYS,
+    .check = check_trunk};
 
 static const Key CROWN_KEYS[] = {
     {KEY_OF(CrownParams, width, "width", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "Width of the crown; 0 = about the tree's height."},
     {KEY_OF(CrownParams, base, "base", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "Height above the ground where the crown begins; 0 = a share of the tree's height."},
+     .doc =
+         "Height of the crown's lower end above the ground; 0 = a fraction of the tree's height."},
     {KEY_OF(CrownParams, branches, "branches", KEY_INT), .high = 10000,
-     .doc = "Main branches placed on the trunk, the first of them lowest; of two whose limbs would "
-            "lie side by side the weaker is left out."},
+     .doc = "Number of main branches placed on the trunk, from the lowest up. If the limbs of two "
+            "branches would lie side by side, the weaker one is omitted."},
     {KEY_OF(CrownParams, branch_from, "branch_from", KEY_FLOAT), .high = 1,
-     .doc = "Share of the trunk's height where the lowest branch stands."},
+     .doc = "Height of the lowest branch, as a fraction of the trunk's height."},
     {KEY_OF(CrownParams, branch_angle, "branch_angle", KEY_FLOAT), .high = 180, .unit = "degrees",
-     .doc = "Angle between a branch and the trunk where it starts."},
+     .doc = "Angle between a branch and the trunk at the branch's base."},
     {KEY_OF(CrownParams, branch_length, "branch_length", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "Length of the piece that a branch starts with; 0 = a share of the tree's height."},
+     .doc = "Length of a branch's first segment; 0 = a fraction of the tree's height."},
     {KEY_OF(CrownParams, lobes, "lobes", KEY_INT), .high = TREE_MOST_LOBES,
-     .doc = "Bulges about the ellipsoid that a crown without envelope fills: limbs that fight for "
-            "light make an uneven outline; 0 = a plain ellipsoid."},
+     .doc = "Number of bulges of the default envelope, an ellipsoid: they give the uneven outline "
+            "of limbs that compete for light; 0 = a plain ellipsoid."},
     ELEMENT_ROWS(CrownParams),
     {0},
 };
@@ -59,20 +63,22 @@ static bool check_crown(const Mapping *mapping, void *params)
 
 static const Table CROWN_TABLE = {
     .name = "crown",
-    .doc = "The crown: main branches placed on the trunk, and all that grows from them toward the "
+    .doc = "The crown: main branches on the trunk, and everything that grows from them toward the "
            "attractors in the crown's envelope.",
     .size = sizeof(CrownParams),
     .keys = CROWN_KEYS,
     .check = check_crown};
 
 static const Key ROOTS_KEYS[] = {
-    {KEY_OF(RootParams, count, "count", KEY_INT), .high = 10000, .doc = "Main roots; 0 = none."},
+    {KEY_OF(RootParams, count, "count", KEY_INT), .high = 10000,
+     .doc = "Number of main roots; 0 = none."},
     {KEY_OF(RootParams, spread, "spread", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "How far they reach; 0 = a share of the tree's height."},
+     .doc = "Horizontal reach of the roots; 0 = a fraction of the tree's height."},
     {KEY_OF(RootParams, depth, "depth", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "How deep they go; 0 = 0.25 of the spread."},
+     .doc = "Depth of the roots; 0 = 0.25 of the spread."},
     {KEY_OF(RootParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
-     .doc = "Radius of a main root where it leaves the trunk, as a share of the trunk's."},
+     .doc =
+         "Radius of a main root where it leaves the trunk, as a fraction of the trunk's radius."},
     ELEMENT_ROWS(RootParams),
     {0},
 };
@@ -83,7 +89,8 @@ static bool check_roots(const Mapping *mapping, void *params)
 }
 
 static const Table ROOTS_TABLE = {.name = "roots",
-                                  .doc = "The roots, grown like the crown, but down and outward.",
+                                  .doc =
+                                      "The roots. They grow like the crown, but down and outward.",
                                   .size = sizeof(RootParams),
                                   .keys = ROOTS_KEYS,
                                   .check = check_roots};
@@ -92,15 +99,16 @@ static const EnumName RADIUS_MODELS[] = {{"pipe", RADIUS_PIPE}, {"birth", RADIUS
 
 static const Key RADII_KEYS[] = {
     {KEY_OF(RadiiParams, model, "model", KEY_ENUM), .names = RADIUS_MODELS,
-     .doc = "pipe: r_parent^e = sum of r_child^e; birth: older is thicker."},
+     .doc = "pipe: r_parent^e = sum of r_child^e; birth: thickness increases with age."},
     {KEY_OF(RadiiParams, exponent, "exponent", KEY_FLOAT), .low = 1, .high = 10,
-     .doc = "e of the pipe model: 2 keeps the area (da Vinci), 3 is Murray's."},
+     .doc = "Exponent e of the pipe model: 2 preserves the cross-section area (da Vinci), 3 is "
+            "Murray's law."},
     {KEY_OF(RadiiParams, tip, "tip", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10, .unit = "m",
-     .doc = "Radius of the twigs' tips; thickness adds up from there."},
+     .doc = "Radius of the tips of twigs; thickness accumulates from there."},
     {KEY_OF(RadiiParams, flare, "flare", KEY_FLOAT), .high = 10,
-     .doc = "How much wider the trunk is at the ground: 0.5 = half as wide again."},
+     .doc = "Root flare: how much wider the trunk is at the ground; 0.5 = 50 % wider."},
     {KEY_OF(RadiiParams, flare_height, "flare_height", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "How far up the flare goes; 0 = 2.5 trunk radii."},
+     .doc = "Height of the root flare; 0 = 2.5 trunk radii."},
     {0},
 };
 
@@ -115,42 +123,43 @@ const Table radii_table = {.name = "radii",
 
 static const Key LEAVES_KEYS[] = {
     {KEY_OF(LeavesParams, max_count, "max_count", KEY_INT64), .high = 1e9,
-     .doc = "Most leaves: when the twigs have room for more, they stand further apart. 0 = a bare "
-            "tree."},
+     .doc = "Maximum number of leaves; if the twigs have room for more, the spacing increases. 0 = "
+            "a bare tree."},
     {KEY_OF(LeavesParams, spacing, "spacing", KEY_FLOAT), .low = 1e-4, .high = 100, .unit = "m",
-     .doc = "Distance from leaf to leaf along a twig."},
+     .doc = "Distance between leaves along a twig."},
     {KEY_OF(LeavesParams, twig_radius, "twig_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
-     .unit = "m", .doc = "Only branches thinner than this bear leaves."},
+     .unit = "m", .doc = "Maximum radius of branches that bear leaves."},
     {KEY_OF(LeavesParams, length, "length", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
      .unit = "m", .doc = "Length of a blade."},
     {KEY_OF(LeavesParams, width, "width", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100, .unit = "m",
      .doc = "Width of a blade."},
     {KEY_OF(LeavesParams, size_variation, "size_variation", KEY_FLOAT), .high = 1,
-     .doc = "How far sizes differ from leaf to leaf: 0 = all alike."},
+     .doc = "Variation of size between leaves: 0 = all equal."},
     {KEY_OF(LeavesParams, petiole, "petiole", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Length of the stalk."},
     {KEY_OF(LeavesParams, fold, "fold", KEY_FLOAT), .low = -90, .high = 90, .unit = "degrees",
-     .doc = "How far the halves are folded up about the midrib."},
+     .doc = "Angle by which each half is folded up about the midrib."},
     {KEY_OF(LeavesParams, curl, "curl", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
-     .doc = "How far the blade bends along its length."},
+     .doc = "Angle by which the blade bends along its length."},
     {KEY_OF(LeavesParams, lobes, "lobes", KEY_INT), .high = 100,
-     .doc = "Lobes a side; 0 = a plain oval."},
+     .doc = "Number of lobes on each side; 0 = a plain oval."},
     {KEY_OF(LeavesParams, angle, "angle", KEY_FLOAT), .high = 180, .unit = "degrees",
      .doc = "Angle between a leaf and its twig."},
     {KEY_OF(LeavesParams, droop, "droop", KEY_FLOAT), .high = 1,
-     .doc = "How far blades turn from the twig's frame toward hanging and facing the light."},
+     .doc = "How far blades turn from the twig's frame toward hanging down and facing the light."},
     {KEY_OF(LeavesParams, phyllotaxis, "phyllotaxis", KEY_FLOAT), .low = -360, .high = 360,
-     .unit = "degrees", .doc = "Turn about the twig from one leaf to the next; 137.5 in nature."},
+     .unit = "degrees",
+     .doc = "Divergence angle about the twig from one leaf to the next; 137.5 in nature."},
     {KEY_OF(LeavesParams, detail, "detail", KEY_INT), .low = 1, .high = 2,
      .doc = "Detail of a leaf's mesh: 1 for whole trees, 2 for close-ups."},
     {KEY_OF(LeavesParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
-     .doc = "How many different blades there are."},
+     .doc = "Number of different blades."},
     {0},
 };
 
 const Table leaves_table = {
     .name = "leaves",
-    .doc = "The leaves (or needles: narrow ones), copies of a few blades along the thin twigs.",
+    .doc = "Leaves, or needles (narrow leaves): copies of a few blades along the thin twigs.",
     .example = "objects:\n"
                "  - name: willow\n"
                "    tree: {leaves: {length: 0.09, width: 0.014, lobes: 0, droop: 0.9}}\n",
@@ -159,43 +168,44 @@ const Table leaves_table = {
 
 static const Key SKIN_KEYS[] = {
     {KEY_OF(SkinningParams, curve_radius, "curve_radius", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "Twigs thinner than this are traced as round curves; 0 = everything is mesh."},
+     .doc = "Branches thinner than this are rendered as round curves; 0 = everything is a mesh."},
     {KEY_OF(SkinningParams, levels, "levels", KEY_INT), .high = 4,
-     .doc = "How often the surface is subdivided: each level has four times as many faces."},
+     .doc = "Number of subdivision levels of the surface; each has four times as many faces."},
     {KEY_OF(SkinningParams, ring_spacing, "ring_spacing", KEY_FLOAT), .low = 0.1, .high = 100,
-     .unit = "radii", .doc = "Distance between the rings of the coarse cage that is subdivided."},
+     .unit = "radii", .doc = "Distance between the rings of the control cage that is subdivided."},
     {0},
 };
 
-const Table skin_table = {.name = "skin",
-                          .doc = "The surface that is put over the branches: mesh where they are "
-                                 "thick, round curves where they are thin.",
-                          .example = "objects:\n"
-                                     "  - name: close\n"
-                                     "    tree: {skin: {curve_radius: 0.004, levels: 3}}\n",
-                          .size = sizeof(SkinningParams),
-                          .keys = SKIN_KEYS};
+const Table skin_table = {
+    .name = "skin",
+    .doc =
+        "Surface of the branches: a mesh where they are thick, round curves where they are thin.",
+    .example = "objects:\n"
+               "  - name: close\n"
+               "    tree: {skin: {curve_radius: 0.004, levels: 3}}\n",
+    .size = sizeof(SkinningParams),
+    .keys = SKIN_KEYS};
 
 static const Key TREE_KEYS[] = {
     {KEY_OF(TreeParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
-     .doc = "Where the trunk stands."},
+     .doc = "Position of the trunk's base."},
     {KEY_OF(TreeParams, height, "height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000, .unit = "m",
-     .doc = "Height of the whole tree; what is left out elsewhere follows it."},
+     .doc = "Height of the whole tree; other sizes that are omitted or 0 follow it."},
     {KEY_OF(TreeParams, trunk, "trunk", KEY_GROUP), .table = &TRUNK_TABLE,
-     .doc = "The trunk: it grows straight up unless it leans, its growth has a tropism, or a field "
-            "winds it."},
+     .doc = "The trunk. It grows straight up unless lean, a tropism of its growth or a field bends "
+            "it."},
     {KEY_OF(TreeParams, crown, "crown", KEY_GROUP), .table = &CROWN_TABLE,
-     .doc = "The crown: main branches placed on the trunk, and all that grows from them toward the "
+     .doc = "The crown: main branches on the trunk, and everything that grows from them toward the "
             "attractors in the crown's envelope."},
     {KEY_OF(TreeParams, roots, "roots", KEY_GROUP), .table = &ROOTS_TABLE,
-     .doc = "The roots, grown like the crown, but down and outward."},
+     .doc = "The roots. They grow like the crown, but down and outward."},
     {KEY_OF(TreeParams, radii, "radii", KEY_GROUP), .table = &radii_table,
      .doc = "Thickness of trunk, branches and roots."},
     {KEY_OF(TreeParams, leaves, "leaves", KEY_GROUP), .table = &leaves_table,
-     .doc = "The leaves (or needles: narrow ones), copies of a few blades along the thin twigs."},
+     .doc = "Leaves, or needles (narrow leaves): copies of a few blades along the thin twigs."},
     {KEY_OF(TreeParams, skin, "skin", KEY_GROUP), .table = &skin_table,
-     .doc = "The surface that is put over the branches: mesh where they are thick, round curves "
-            "where they are thin."},
+     .doc =
+         "Surface of the branches: a mesh where they are thick, round curves where they are thin."},
     {0},
 };
 
@@ -221,7 +231,7 @@ static bool check_tree(const Mapping *mapping, void *params)
 const Table tree_table = {
     .name = "tree",
     .doc = "A tree: trunk, crown and roots grown as separate elements (Tanaka et al., section "
-           "5.1). Everything left out makes an oak. Materials: bark, twig, leaf.",
+           "5.1). The defaults make an oak. Materials: bark, twig, leaf.",
     .example = "objects:\n"
                "  - name: pine\n"
                "    tree:\n"

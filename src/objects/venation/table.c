@@ -4,35 +4,36 @@
 
 static const Key VENATION_KEYS[] = {
     {KEY_OF(VenationParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
-     .doc = "Where the blade's base is."},
+     .doc = "Position of the blade's base."},
     {KEY_OF(VenationParams, rotation, "rotation", KEY_VECTOR), .count = 3, .unit = "degrees",
-     .doc = "Turns about x, then y, then z; before them the leaf stands upright, facing +Z."},
+     .doc = "Rotation about x, then y, then z; without it the leaf stands upright, facing +Z."},
     {KEY_OF(VenationParams, outline.length, "length", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
      .unit = "m", .doc = "Length of the blade."},
     {KEY_OF(VenationParams, outline.width, "width", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "Width of the blade; 0 = half of its length."},
+     .doc = "Width of the blade; 0 = half its length."},
     {KEY_OF(VenationParams, outline.widest, "widest", KEY_FLOAT), .low = 0.05, .high = 0.95,
-     .doc = "Where the blade is widest, as a share of its length from the base."},
+     .doc = "Position of the greatest width, as a fraction of the length from the base."},
     {KEY_OF(VenationParams, outline.tip, "tip", KEY_FLOAT), .low = 0.2, .high = 10,
-     .doc = "How pointed base and tip are: 1 = an ellipse's, 2 = drawn out."},
+     .doc = "How pointed base and tip are: 1 = elliptical, 2 = drawn out."},
     {KEY_OF(VenationParams, closed, "closed", KEY_BOOL),
-     .doc = "Veins meet in loops, as in most leaves; false: they are a tree."},
+     .doc = "Veins form loops, as in most leaves; false = they form a tree."},
     {KEY_OF(VenationParams, marginal, "marginal", KEY_BOOL),
-     .doc = "The blade grows at its margin; false: evenly everywhere, taking its veins along."},
+     .doc =
+         "The blade grows at its margin; false = it grows uniformly and carries its veins along."},
     {KEY_OF(VenationParams, detail, "detail", KEY_INT), .low = 4, .high = 2000,
-     .doc = "Meshes of the net of veins along the leaf's length."},
+     .doc = "Number of areoles (meshes of the vein network) along the leaf's length."},
     {KEY_OF(VenationParams, midrib, "midrib", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Radius of the midrib at the base; 0 = 0.008 of the length."},
     {KEY_OF(VenationParams, vein, "vein", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "Radius of the finest veins; 0 = 0.06 of a mesh."},
+     .doc = "Radius of the finest veins; 0 = 0.06 of an areole."},
     {KEY_OF(VenationParams, petiole, "petiole", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "Length of the stalk; 0 = none."},
     {KEY_OF(VenationParams, curl, "curl", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
-     .doc = "How far the blade bends back along its length."},
+     .doc = "Angle by which the blade bends back along its length."},
     {KEY_OF(VenationParams, fold, "fold", KEY_FLOAT), .low = -80, .high = 80, .unit = "degrees",
-     .doc = "How far each half is folded up about the midrib."},
+     .doc = "Angle by which each half is folded up about the midrib."},
     {KEY_OF(VenationParams, blade, "blade", KEY_BOOL),
-     .doc = "With the blade between the veins; false: a skeleton leaf."},
+     .doc = "Show the blade between the veins; false = a skeleton leaf."},
     {0},
 };
 
@@ -41,12 +42,12 @@ static void venation_defaults(void *out)
     *(VenationParams *)out = venation_params_default();
 }
 
-const Table venation_table = {
-    .name = "venation",
-    .doc = "A single leaf with its net of veins (Runions et al. 2005). Materials: leaf, leaf_vein.",
-    .example = "objects:\n"
-               "  - name: blade\n"
-               "    venation: {length: 0.12, width: 0.07, detail: 60}\n",
-    .size = sizeof(VenationParams),
-    .keys = VENATION_KEYS,
-    .defaults = venation_defaults};
+const Table venation_table = {.name = "venation",
+                              .doc = "A single leaf with its network of veins (Runions et al. "
+                                     "2005). Materials: leaf, leaf_vein.",
+                              .example = "objects:\n"
+                                         "  - name: blade\n"
+                                         "    venation: {length: 0.12, width: 0.07, detail: 60}\n",
+                              .size = sizeof(VenationParams),
+                              .keys = VENATION_KEYS,
+                              .defaults = venation_defaults};

@@ -81,7 +81,7 @@ static const Material BUILTIN[] = {
 
 static const Key MATERIALS[] = {
     OWN_MATERIAL_ROW(0),
-    MATERIAL_ROW(1, "vein_material", "Material of veins; left out: vein."),
+    MATERIAL_ROW(1, "vein_material", "Material of veins; default: vein."),
     {0},
 };
 

@@ -4,29 +4,30 @@
 
 static const Key VESSELS_KEYS[] = {
     {KEY_OF(VesselsParams, terminals, "terminals", KEY_INT64), .low = 2, .high = 1e8,
-     .doc = "Ends of arteries and veins together."},
+     .doc = "Number of vessel ends, of arteries and veins together."},
     {KEY_OF(VesselsParams, veins, "veins", KEY_BOOL),
-     .doc = "Arteries and veins, which share the organ without touching; false = arteries alone."},
+     .doc =
+         "Grow arteries and veins, which share the organ without touching; false = arteries only."},
     {KEY_OF(VesselsParams, inlet, "inlet", KEY_VECTOR), .count = 3, .unit = "m",
-     .doc = "Where the vessels enter; [0, 0, 0] = the hilum, the place of the surface nearest to "
-            "the middle. A body is supplied from its heart."},
+     .doc = "Where the vessels enter; [0, 0, 0] = the hilum, the surface point nearest to the "
+            "centre. A body is supplied from its heart."},
     {KEY_OF(VesselsParams, root_radius, "root_radius", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "Radius of the artery's root; 0 = in proportion to the organ."},
+     .doc = "Radius of the artery's root; 0 = proportional to the organ."},
     {KEY_OF(VesselsParams, vein_radius, "vein_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
-     .doc = "Radius of the vein's root, in units of the artery's."},
+     .doc = "Radius of the vein's root, relative to the artery's."},
     {KEY_OF(VesselsParams, law.exponent, "exponent", KEY_FLOAT), .high = 10,
-     .doc = "e of Murray's law, r_mother^e = sum of r_daughter^e; 0 = by size, as in arteries: 3 "
-            "up to 0.1 mm, 2.7 to 1 mm, 2.3 above."},
+     .doc = "Exponent e of Murray's law, r_parent^e = sum of r_child^e; 0 = dependent on size, as "
+            "in arteries: 3 up to 0.1 mm, 2.7 up to 1 mm, 2.3 above."},
     {KEY_OF(VesselsParams, gap, "gap", KEY_FLOAT), .high = 100,
-     .doc = "Least distance between an artery and a vein, in radii of the finest vessels."},
+     .doc = "Minimum distance between an artery and a vein, in radii of the finest vessels."},
     {KEY_OF(VesselsParams, turn, "turn", KEY_BOOL),
-     .doc = "Turn what lies below each fork until the daughters stand at Murray's angles, as far "
-            "as all of it stays in the organ and clear of the other tree."},
+     .doc = "Rotate the subtrees below each fork to Murray's angles, as far as they stay inside "
+            "the organ and clear of the other tree."},
     {KEY_OF(VesselsParams, curve_radius, "curve_radius", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "Vessels thinner than this are traced as round curves, others get a skin; 0 = all are "
-            "curves."},
+     .doc = "Vessels thinner than this are rendered as round curves, others get a skin; 0 = all "
+            "are curves."},
     {KEY_OF(VesselsParams, skin_levels, "skin_levels", KEY_INT), .high = 4,
-     .doc = "Subdivision levels of the thick vessels' skin."},
+     .doc = "Number of subdivision levels of the thick vessels' skin."},
     ELEMENT_ROWS(VesselsParams),
     {0},
 };
@@ -47,8 +48,8 @@ static bool check_vessels(const Mapping *mapping, void *params)
 
 const Table vessels_table = {
     .name = "vessels",
-    .doc = "Blood vessels that fill an organ or a body (Tanaka et al., section 5.4): radii and "
-           "angles by Murray's laws. The envelope must be given. Materials: artery, vein.",
+    .doc = "Blood vessels that fill an organ or a body (Tanaka et al., section 5.4), with radii "
+           "and angles by Murray's laws. The envelope is required. Materials: artery, vein.",
     .example = "objects:\n"
                "  - name: organ\n"
                "    vessels: {envelope: [{shape: ellipsoid, size: [0.05, 0.03, 0.04]}], terminals: "
