@@ -58,7 +58,7 @@ refuses wide radius 'forest: {radius: 100000, spacing: 0.01}'
 refuses aggregate particles 'dla: {particles: 2147483647}'
 scene small 'ground: {grass_tufts: 60000000}'
 check limit_of_address_space 2 sh -c "ulimit -v 2000000; exec '$RAMIFY' render small.yaml -o small.png -q"
-says limit_is_told err '2.0 GB are there'
+says limit_is_told err '2.0 GB are available'
 # Libraries allocate before main(). The least limit under which the system's loader maps them all leaves them no memory to
 # start with: an error, not an abort.
 if ! nm "$RAMIFY" 2>/dev/null | grep -q __asan_init; then
