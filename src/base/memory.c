@@ -160,6 +160,6 @@ bool memory_check(double needed, Error *e, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    return error_set(e, ERROR_MEMORY, "%s would take %.1f GB, and %.1f GB are there; ask for less",
+    return error_set(e, ERROR_MEMORY, "%s: %.1f GB needed, %.1f GB available; use a smaller number",
                      what, needed * 1e-9, there * 1e-9);
 }

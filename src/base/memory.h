@@ -30,8 +30,8 @@ int64_t memory_peak(void);
 double memory_allowed(void);
 
 // For work of known size: false and ERROR_MEMORY when `needed` bytes exceed memory_allowed. The
-// message is `format`, which names what takes the memory, followed by " would take 12.3 GB, and 4.0
-// GB are there".
+// message is `format`, which names what takes the memory, followed by ": 12.3 GB needed, 4.0 GB
+// available; ...".
 bool memory_check(double needed, Error *e, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

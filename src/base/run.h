@@ -14,8 +14,8 @@ typedef struct Run {
     void (*progress)(void *user, const char *stage, double done); // done in [0, 1]; may be NULL
     void (*warn)(void *user, const char *message);                // may be NULL
     void *user;
-    const struct GrowthWitness *witness; // growth observer: told what things grow in
-                                         // (objects/common/element.h); may be NULL
+    // Told what objects grow in (objects/common/element.h); may be NULL.
+    const struct GrowthObserver *observer;
 } Run;
 
 // One thread, silent.

@@ -4,7 +4,6 @@
 #include "scene/build.h"
 
 #include <stdio.h>
-#include <string.h>
 
 enum { FIELD_VOXELS = 96, NAME = 192 }; // along the longest side
 
@@ -15,17 +14,16 @@ typedef struct Collecting {
     int elements; // elements of the object so far
 } Collecting;
 
-// The name of an element: "object 'oak', crown" is the oak's crown. Unnamed elements after the
-// first are numbered.
-static bool collect(void *user, const char *label, const Envelope *envelope,
-                    const GuideField *field, Error *e)
+// The oak's crown is "oak/crown". An object without parts that grows more than once numbers them
+// from the second.
+static bool collect(void *user, const char *part, const Envelope *envelope, const GuideField *field,
+                    Error *e)
 {
     Collecting *to = user;
-    const char *comma = strstr(label, "', ");
     char element[64] = "", name[NAME];
     to->elements++;
-    if (comma) {
-        snprintf(element, sizeof element, "/%s", comma + 3);
+    if (part) {
+        snprintf(element, sizeof element, "/%s", part);
     } else if (to->elements > 1) {
         snprintf(element, sizeof element, "/%d", to->elements);
     }
@@ -55,9 +53,9 @@ static bool grow_all(const Scene *scene, GridFile *grids, const Run *run, Error 
             continue;
         }
         Collecting to = {grids, scene->objects[i].name, run, 0};
-        const GrowthWitness witness = {collect, &to};
+        const GrowthObserver observer = {collect, &to};
         Run watched = *run;
-        watched.witness = &witness;
+        watched.observer = &observer;
         int64_t first = grid_file_count(grids);
         OutTree *tree = scene_grow_object(scene, i, &watched, e);
         done = tree && carry_grids(&scene->objects[i], grids, first, e);

@@ -36,13 +36,11 @@ ScatterParams element_scatter_params(const OutTree *tree, const ElementParams *e
     return params;
 }
 
-bool growth_witness(const Recipe *recipe, const char *part, const Envelope *envelope,
+bool growth_observe(const Recipe *recipe, const char *part, const Envelope *envelope,
                     const GuideField *field, Error *e)
 {
-    const GrowthWitness *witness = recipe->run->witness;
-    char name[RECIPE_NAME_SIZE];
-    return !witness ||
-           witness->see(witness->user, recipe_name(recipe, part, name), envelope, field, e);
+    const GrowthObserver *observer = recipe->run->observer;
+    return !observer || observer->see(observer->user, part, envelope, field, e);
 }
 
 int64_t element_attractors(const ElementParams *element)
@@ -169,7 +167,7 @@ bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope
     ColonizeParams params =
         element_colonize_params(tree, element, field, random_key(seed, STREAM_ELEMENT_GROWTH));
     GrowReport *reports = memory_alloc_zero(element->level_count, sizeof *reports, e);
-    bool done = reports && growth_witness(recipe, part, envelope, field, e) &&
+    bool done = reports && growth_observe(recipe, part, envelope, field, e) &&
                 colonize_levels(tree, envelope, &scatter, element->levels, element->level_count,
                                 &params, run, reports, e);
     if (done) {

@@ -23,17 +23,17 @@ typedef struct ElementParams {
     int field_count;
 } ElementParams;
 
-// Observer of the envelopes and guide fields that objects grow in, set as Run.witness.
-typedef struct GrowthWitness {
-    // Called before each growth. label: the object and its part ("object 'oak', crown"). field:
-    // NULL = none. envelope and field are valid during the call only. False and e stop the growth.
-    bool (*see)(void *user, const char *label, const Envelope *envelope, const GuideField *field,
+// Observer of the envelopes and guide fields that objects grow in, set as Run.observer.
+typedef struct GrowthObserver {
+    // Called before each growth. part: "crown"; NULL = the object has no parts. field: NULL = none.
+    // envelope and field are valid during the call only. False and e stop the growth.
+    bool (*see)(void *user, const char *part, const Envelope *envelope, const GuideField *field,
                 Error *e);
     void *user;
-} GrowthWitness;
+} GrowthObserver;
 
 // Calls the run's observer, if there is one.
-bool growth_witness(const Recipe *recipe, const char *part, const Envelope *envelope,
+bool growth_observe(const Recipe *recipe, const char *part, const Envelope *envelope,
                     const GuideField *field, Error *e);
 
 // Streams of the seed that an element grows from.

@@ -328,7 +328,7 @@ static bool grow_upright(Growing *g, Error *e)
         points = flat_room(p, seed, e);
     } else {
         Envelope *envelope = room(p, g->recipe->run, e);
-        bool seen = envelope && growth_witness(g->recipe, NULL, envelope, NULL, e);
+        bool seen = envelope && growth_observe(g->recipe, NULL, envelope, NULL, e);
         points = seen ? scatter(envelope, p, SCATTER_VOLUME, p->attractors * p->colonies, seed,
                                 g->recipe->run, e)
                       : NULL;
@@ -343,7 +343,7 @@ static bool grow_on_rock(Growing *g, Error *e)
 {
     const CoralParams *p = g->params;
     Envelope *rock = coral_base(p, g->recipe->seed, g->recipe->run, e);
-    bool seen = rock && growth_witness(g->recipe, NULL, rock, NULL, e);
+    bool seen = rock && growth_observe(g->recipe, NULL, rock, NULL, e);
     PointSet *points =
         seen ? scatter(rock, p, SCATTER_SURFACE, p->attractors,
                        random_key(g->recipe->seed, STREAM_CORAL_POINTS), g->recipe->run, e)

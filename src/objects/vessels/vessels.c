@@ -71,7 +71,7 @@ static void report(const VesselBed *bed)
 
 static bool grow_all(VesselBed *bed, Error *e)
 {
-    if (!bed->envelope || !growth_witness(bed->recipe, NULL, bed->envelope, NULL, e) ||
+    if (!bed->envelope || !growth_observe(bed->recipe, NULL, bed->envelope, NULL, e) ||
         !plant(bed, e) || !vessel_bed_grow(bed, e) || !vessel_bed_finish(bed, e)) {
         return false;
     }
