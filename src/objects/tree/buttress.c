@@ -99,7 +99,7 @@ static bool gather_roots(Foot *foot, const OutTree *tree, Error *e)
     bool good = true;
     for (int64_t i = 1; good && i < tree->count; i++) {
         int32_t parent = tree->parent[i];
-        if (tree->colony[i] != TREE_ROOTS || tree->colony[parent] != TREE_TRUNK) {
+        if (tree->colony[i] != TREE_ROOTS || parent < 0 || tree->colony[parent] != TREE_TRUNK) {
             continue;
         }
         foot->bodies++;
