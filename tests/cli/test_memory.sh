@@ -35,8 +35,10 @@ refuses() { # refuses NAME KEY OBJECT: before anything is made, by name and line
     says "$1_key" err "$2 needs about"
 }
 
-# AddressSanitizer takes memory of its own.
-if ! "$RAMIFY" --version 2>/dev/null | grep -qi sanitize && ! nm "$RAMIFY" 2>/dev/null | grep -q __asan_init; then
+# AddressSanitizer takes memory of its own, and reserves more address space than any limit here leaves.
+sanitized=no
+nm "$RAMIFY" 2>/dev/null | grep -q __asan_init && sanitized=yes
+if [ "$sanitized" = no ]; then
     tells grass 'ground: {grass_tufts: 150000}'
     tells leaves 'tree: {leaves: {max_count: 100000}}'
     tells sides 'frost: {sides: 120000}'
@@ -56,12 +58,12 @@ refuses many_terminals attractors 'coral: {attractors: 100000000}'
 refuses trunk trunk.growth.levels 'tree: {trunk: {growth: {levels: [{attractors: 2147483647}]}}}'
 refuses wide radius 'forest: {radius: 100000, spacing: 0.01}'
 refuses aggregate particles 'dla: {particles: 2147483647}'
-scene small 'ground: {grass_tufts: 60000000}'
-check limit_of_address_space 2 sh -c "ulimit -v 2000000; exec '$RAMIFY' render small.yaml -o small.png -q"
-says limit_is_told err '2.0 GB are available'
-# Libraries allocate before main(). The least limit under which the system's loader maps them all leaves them no memory to
-# start with: an error, not an abort.
-if ! nm "$RAMIFY" 2>/dev/null | grep -q __asan_init; then
+if [ "$sanitized" = no ]; then
+    scene small 'ground: {grass_tufts: 60000000}'
+    check limit_of_address_space 2 sh -c "ulimit -v 2000000; exec '$RAMIFY' render small.yaml -o small.png -q"
+    says limit_is_told err '2.0 GB are available'
+    # Libraries allocate before main(). The least limit under which the system's loader maps them all leaves them no memory
+    # to start with: an error, not an abort.
     limit=250000 status=127
     while [ "$status" -eq 127 ] && [ "$limit" -lt 1500000 ]; do
         limit=$((limit + 10000))
