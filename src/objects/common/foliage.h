@@ -3,7 +3,7 @@
 #define RAMIFY_OBJECTS_COMMON_FOLIAGE_H
 
 #include "mesh/geometry.h"
-#include "objects/tree/tree.h"
+#include "objects/common/branches.h"
 
 // Adds one part per leaf variant, with an instance for every leaf on the thin ends of the curves.
 // bare: one entry per curve, true = without leaves; NULL = all bear leaves. The spacing is widened

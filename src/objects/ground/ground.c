@@ -7,6 +7,7 @@
 #include "mesh/leaf.h"
 #include "objects/common/foliage.h"
 #include "objects/ground/grove.h"
+#include "objects/tree/tree.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,7 @@
 // Discharges that crawl over an object: growth on its surface, jitter that stays on it.
 #include "base/memory.h"
 #include "base/random.h"
+#include "objects/common/on_surface.h"
 #include "objects/lightning/parts.h"
 
 #include "base/exact_math.h"
@@ -8,39 +9,6 @@
 #include <stdlib.h>
 
 enum { STREAM_ROOT_ID = 1 }; // of a root
-
-typedef struct Skin {
-    const Envelope *envelope;
-    float probe; // m, half the step of the distance's finite differences
-} Skin;
-
-static Vec3 slope_at(const Skin *skin, Vec3 p)
-{
-    float h = skin->probe, g[3];
-    for (int i = 0; i < 3; i++) {
-        Vec3 d = vec3(i == 0 ? h : 0.0f, i == 1 ? h : 0.0f, i == 2 ? h : 0.0f);
-        g[i] = envelope_distance(skin->envelope, vec3_add(p, d)) -
-               envelope_distance(skin->envelope, vec3_sub(p, d));
-    }
-    return vec3_scale(vec3(g[0], g[1], g[2]), 0.5f / h);
-}
-
-// Moves p down the gradient of the distance to the surface; where that is 0 (beyond a level set's
-// band), along the previous normal.
-static void project(const void *surface, Vec3 *p, Vec3 *normal)
-{
-    enum { ROUNDS = 6 };
-    const Skin *skin = surface;
-    for (int i = 0; i < ROUNDS; i++) {
-        float d = envelope_distance(skin->envelope, *p);
-        Vec3 g = slope_at(skin, *p);
-        float steep = vec3_dot(g, g);
-        if (steep > 0.04f) {
-            *normal = vec3_normalize(g);
-        }
-        *p = vec3_madd(*p, -d / (steep > 0.25f ? sqrtf(steep) : 1.0f), *normal);
-    }
-}
 
 // The vertex farthest along d.
 static Vec3 extreme_point(const Envelope *envelope, Vec3 d)
@@ -53,8 +21,8 @@ static Vec3 extreme_point(const Envelope *envelope, Vec3 d)
     return best;
 }
 
-static bool plant(OutTree *tree, const LightningParams *params, const Skin *skin, uint64_t seed,
-                  Error *e)
+static bool plant(OutTree *tree, const LightningParams *params, const OnSurface *skin,
+                  uint64_t seed, Error *e)
 {
     for (int i = 0; i < params->bolts; i++) {
         float sine, cosine, east, south;
@@ -64,7 +32,7 @@ static bool plant(OutTree *tree, const LightningParams *params, const Skin *skin
         uint64_t key = random_key(seed, (uint64_t)i);
         d = i == 0 ? d : random_direction(key);
         Vec3 p = extreme_point(skin->envelope, d), normal = d;
-        project(skin, &p, &normal);
+        surface_project(skin, &p, &normal);
         int64_t node = out_tree_add_node(tree, p, -1, 0, i, random_key(key, STREAM_ROOT_ID), e);
         if (node < 0) {
             return false;
@@ -125,43 +93,6 @@ static bool mark_ends(OutTree *tree, int bolts, Error *e)
     return done;
 }
 
-// Drops paths through the air or the body: nodes that are not on the surface, and jumps. The rest
-// may skip a dent, as discharges do.
-static bool drop_strays(OutTree *tree, const Skin *skin, float size, Error *e)
-{
-    bool *keep = memory_alloc(tree->count, sizeof *keep, e);
-    if (!keep) {
-        return false;
-    }
-    for (int64_t i = 0; i < tree->count; i++) {
-        int32_t parent = tree->parent[i];
-        float off = envelope_distance(skin->envelope, tree->position[i]);
-        float jump = parent < 0 ? 0.0f : vec3_distance(tree->position[i], tree->position[parent]);
-        keep[i] = parent < 0 || (off < skin->probe && off > -skin->probe && jump < 0.05f * size);
-    }
-    bool done = out_tree_keep_nodes(tree, keep, e);
-    free(keep);
-    return done;
-}
-
-static float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
-
-// Largest extent of the envelope, m.
-static float largest_extent(const Envelope *envelope)
-{
-    Aabb box = envelope_bounds(envelope);
-    Vec3 extent = vec3_sub(box.high, box.low);
-    return larger(extent.x, larger(extent.y, extent.z));
-}
-
-static Skin make_skin(const Envelope *envelope)
-{
-    return (Skin){envelope, 0.004f * largest_extent(envelope)};
-}
-
 static void free_envelope(void *envelope)
 {
     envelope_free(envelope);
@@ -175,7 +106,7 @@ bool lightning_grow_surface(const LightningParams *params, const Recipe *recipe,
     if (!whole->tree) {
         return false;
     }
-    Skin skin = make_skin(envelope);
+    OnSurface skin = on_surface(envelope);
     return plant(whole->tree, params, &skin, random_key(recipe->seed, STREAM_SURFACE_ROOTS), e) &&
            grow_over(whole->tree, params, envelope, recipe, e);
 }
@@ -183,19 +114,19 @@ bool lightning_grow_surface(const LightningParams *params, const Recipe *recipe,
 bool lightning_finish_surface(const LightningParams *params, const Recipe *recipe,
                               const Envelope *envelope, Grown *grown, Error *e)
 {
-    Skin skin = make_skin(envelope);
-    float size = largest_extent(envelope), band = envelope_band(envelope);
+    OnSurface skin = on_surface(envelope);
+    float size = skin.extent;
     float core = params->radius > 0.0f ? params->radius : size / 700.0f;
-    Wander wander = {.project = project,
+    Wander wander = {.project = surface_project,
                      .surface = &skin,
-                     .stride = band < 0.04f * size ? 0.5f * band : 0.02f * size,
+                     .stride = skin.stride,
                      .seed = random_key(recipe->seed, STREAM_WANDER),
                      .run = recipe->run};
     if (!mark_ends(grown->tree, params->bolts, e)) {
         return false;
     }
     OutTree *tree = grown->tree = lightning_wander(grown->tree, params, size, core, &wander, e);
-    if (!tree || !drop_strays(tree, &skin, size, e)) {
+    if (!tree || !surface_drop_strays(&skin, tree, 0.05f * size, e)) {
         return false;
     }
     float lift = params->lift > 0.0f ? params->lift : 2.0f * core;

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "mesh/lattice.h"
+#include "objects/common/starts.h"
 #include "outtree/join.h"
 #include "outtree/radii.h"
 
@@ -46,38 +47,6 @@ static void fill_levels(GrowLevel levels[LEVELS], int64_t attractors, float nois
                             .relax = 0.5f};
 }
 
-// Farthest-point sampling (Gonzalez 1985) of surface points, starting with the lowest.
-static bool plant(OutTree *tree, const PointSet *points, int clusters, uint64_t seed,
-                  const Run *run, Error *e)
-{
-    float *gap = memory_alloc(points->count, sizeof *gap, e);
-    if (!gap) {
-        return false;
-    }
-    int64_t next = 0;
-    for (int64_t i = 0; i < points->count; i++) {
-        gap[i] = INFINITY;
-        next = points->position[i].y < points->position[next].y ? i : next;
-    }
-    bool done = true;
-    for (int c = 0; done && c < clusters && gap[next] > 0.0f; c++) {
-        Vec3 at = points->position[next];
-        int64_t node = out_tree_add_node(tree, at, -1, 0, c, random_key(seed, (uint64_t)c), e);
-        done = node >= 0 && run_goes_on(run, 0, e);
-        if (done) {
-            tree->normal[node] = points->normal[next];
-        }
-        next = 0;
-        for (int64_t i = 0; i < points->count; i++) {
-            float distance = vec3_distance(points->position[i], at);
-            gap[i] = distance < gap[i] ? distance : gap[i];
-            next = gap[i] > gap[next] ? i : next;
-        }
-    }
-    free(gap);
-    return done;
-}
-
 // Roots on the surface; *spacing = mean spacing of as many attractors as the finest level has.
 static bool plant_roots(OutTree *tree, const SculptureParams *params, const ElementParams *element,
                         const Recipe *recipe, double *spacing, Error *e)
@@ -91,8 +60,8 @@ static bool plant_roots(OutTree *tree, const SculptureParams *params, const Elem
     scatter.count = (int64_t)params->clusters * CANDIDATES_A_ROOT;
     scatter.seed = random_key(recipe->seed, STREAM_CANDIDATES);
     PointSet *points = points_scatter(envelope, &scatter, recipe->run, e);
-    bool done = points && plant(tree, points, params->clusters,
-                                random_key(recipe->seed, STREAM_ROOTS), recipe->run, e);
+    bool done = points && starts_spread(tree, points, vec3(0, -1, 0), params->clusters,
+                                        random_key(recipe->seed, STREAM_ROOTS), recipe->run, e);
     if (done) {
         const GrowLevel *finest = &element->levels[element->level_count - 1];
         *spacing = sqrt(points->measure / (double)finest->attractors);

@@ -3,8 +3,8 @@
 #ifndef RAMIFY_OBJECTS_SKELETON_SKELETON_H
 #define RAMIFY_OBJECTS_SKELETON_SKELETON_H
 
+#include "objects/common/branches.h"
 #include "objects/common/recipe.h"
-#include "objects/tree/tree.h"
 #include "outtree/out_tree.h"
 
 // The point placed at `position`: the file's origin, its first root, or the middle of its bounding

@@ -6,6 +6,7 @@
 
 #include "base/run.h"
 #include "mesh/geometry.h"
+#include "objects/common/branches.h"
 #include "objects/common/element.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
@@ -39,39 +40,6 @@ typedef struct RootParams {
     float depth;  // m below the ground; 0 = 0.25 of the spread
     float radius; // of a main root at the trunk, as a share of the trunk's radius
 } RootParams;
-
-typedef enum RadiusModel { RADIUS_PIPE, RADIUS_BIRTH } RadiusModel;
-
-typedef struct RadiiParams {
-    RadiusModel model;
-    float exponent;     // pipe model, r_parent^e = sum r_child^e
-    float tip;          // m, radius of the twigs' tips
-    float flare;        // extra width of the trunk at the ground; 0.5 = 1.5 times as wide
-    float flare_height; // m; 0 = 2.5 trunk radii
-} RadiiParams;
-
-typedef struct LeavesParams {
-    int64_t max_count;    // 0 = bare
-    float spacing;        // m between leaves along a twig
-    float twig_radius;    // m: only branches thinner than this bear leaves
-    float length, width;  // m
-    float size_variation; // 0..1
-    float petiole;        // m
-    float fold;           // degrees that the halves fold up about the midrib
-    float curl;           // degrees that the blade bends along its length
-    int lobes;            // a side; 0 = a plain oval
-    float angle;          // degrees between a leaf and its twig
-    float droop;          // 0..1, from the twig's frame to hanging and facing the light
-    float phyllotaxis;    // degrees about the twig between successive leaves; 137.5 in nature
-    int variants;         // different leaf meshes
-    int detail;           // of a leaf's mesh: 1 for whole trees, 2 for close-ups
-} LeavesParams;
-
-typedef struct SkinningParams {
-    float curve_radius; // m: thinner twigs are curves; 0 = all is mesh
-    int levels;         // subdivision, 0..4
-    float ring_spacing; // in radii
-} SkinningParams;
 
 typedef struct TreeParams {
     Vec3 position; // m, of the trunk's base
@@ -113,6 +81,6 @@ bool tree_finish(const void *params, const Recipe *recipe, const Grown *whole, G
 float tree_tip_radius(const void *params, const OutTree *whole); // m
 bool tree_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
-extern const struct Table tree_table, radii_table, leaves_table, skin_table; // of its parameters
+extern const struct Table tree_table; // of its parameters
 
 #endif

@@ -1,0 +1,65 @@
+#include "objects/common/branches.h"
+
+#include "base/memory.h"
+#include "objects/common/foliage.h"
+
+#include <stdlib.h>
+
+SkinParams branches_skin(const SkinningParams *given)
+{
+    SkinParams skin = skin_params_default();
+    skin.min_radius = given->curve_radius;
+    skin.levels = given->levels;
+    if (given->ring_spacing > 0.0f) {
+        skin.ring_spacing = given->ring_spacing;
+    }
+    return skin;
+}
+
+// Marks the curves of a colony. A curve has the id of its first node, and curves are in the order
+// of those nodes.
+static bool *find_bare(const OutTree *tree, const CurveSet *curves, int32_t colony, Error *e)
+{
+    bool *bare = memory_alloc(curves->curve_count, sizeof *bare, e);
+    int64_t node = 0;
+    for (int64_t i = 0; bare && i < curves->curve_count; i++) {
+        while (tree->id[node] != curves->id[i]) {
+            node++;
+        }
+        bare[i] = tree->colony[node] == colony;
+    }
+    return bare;
+}
+
+static bool add_leaves(const OutTree *tree, const TwigParams *params, const CurveSet *twigs,
+                       const Placing *placing, Error *e)
+{
+    bool some = params->bare_colony >= 0;
+    bool *bare = some ? find_bare(tree, twigs, params->bare_colony, e) : NULL;
+    bool done = (bare || !some) && foliage_add(twigs, bare, params->leaves, params->center,
+                                               params->seed, placing, params->leaf_role, e);
+    free(bare);
+    return done;
+}
+
+bool branches_add_twigs(const OutTree *tree, const TwigParams *params, const Placing *placing,
+                        Error *e)
+{
+    bool drawn = params->skin->curve_radius > 0.0f;
+    bool leafy = params->leaves && params->leaves->max_count > 0;
+    if (!drawn && !leafy) {
+        return true;
+    }
+    SkinParams skin = branches_skin(params->skin);
+    float radius = drawn ? params->skin->curve_radius : params->leaves->twig_radius;
+    CurveSet *twigs = skin_curves(tree, radius, &skin, e);
+    if (!twigs) {
+        return false;
+    }
+    bool done = !leafy || add_leaves(tree, params, twigs, placing, e);
+    if (!done || !drawn) {
+        curves_free(twigs);
+        return done;
+    }
+    return placing_add(placing, (Part){.curves = twigs}, params->twig_role, e);
+}

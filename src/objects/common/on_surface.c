@@ -1,0 +1,64 @@
+#include "objects/common/on_surface.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+OnSurface on_surface(const Envelope *envelope)
+{
+    Aabb box = envelope_bounds(envelope);
+    Vec3 sides = vec3_sub(box.high, box.low);
+    float extent = larger(sides.x, larger(sides.y, sides.z)), band = envelope_band(envelope);
+    return (OnSurface){.envelope = envelope,
+                       .extent = extent,
+                       .probe = 0.004f * extent,
+                       .stride = band < 0.04f * extent ? 0.5f * band : 0.02f * extent};
+}
+
+static Vec3 slope_at(const OnSurface *on, Vec3 p)
+{
+    float h = on->probe, g[3];
+    for (int i = 0; i < 3; i++) {
+        Vec3 d = vec3(i == 0 ? h : 0.0f, i == 1 ? h : 0.0f, i == 2 ? h : 0.0f);
+        g[i] = envelope_distance(on->envelope, vec3_add(p, d)) -
+               envelope_distance(on->envelope, vec3_sub(p, d));
+    }
+    return vec3_scale(vec3(g[0], g[1], g[2]), 0.5f / h);
+}
+
+void surface_project(const void *surface, Vec3 *p, Vec3 *normal)
+{
+    enum { ROUNDS = 6 };
+    const OnSurface *on = surface;
+    for (int i = 0; i < ROUNDS; i++) {
+        float d = envelope_distance(on->envelope, *p);
+        Vec3 g = slope_at(on, *p);
+        float steep = vec3_dot(g, g);
+        if (steep > 0.04f) {
+            *normal = vec3_normalize(g);
+        }
+        *p = vec3_madd(*p, -d / (steep > 0.25f ? sqrtf(steep) : 1.0f), *normal);
+    }
+}
+
+bool surface_drop_strays(const OnSurface *on, OutTree *tree, float jump, Error *e)
+{
+    bool *keep = memory_alloc(tree->count, sizeof *keep, e);
+    if (!keep) {
+        return false;
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        float off = envelope_distance(on->envelope, tree->position[i]);
+        float way = parent < 0 ? 0.0f : vec3_distance(tree->position[i], tree->position[parent]);
+        keep[i] = parent < 0 || (off < on->probe && off > -on->probe && way < jump);
+    }
+    bool done = out_tree_keep_nodes(tree, keep, e);
+    free(keep);
+    return done;
+}
