@@ -46,7 +46,9 @@ typedef struct AttractorGrid {
     ActiveCell *active;               // cells with an attractor within reach of a node
     int64_t active_count, idle_count; // length of the list, and how many listed cells are empty now
     AttractorBlock *block;
-    int32_t *source; // per lane: index in the point set
+    int32_t *source;  // per lane: index in the point set
+    int32_t *removed; // borrowed: per attractor, set to `now` when it is removed; NULL = not wanted
+    int32_t now;
     int64_t alive;
     int axis;                                      // 0 or 1: threads own slabs of slices along it
     int slab_count, slab_end[ATTRACTOR_MAX_SLABS]; // in the last update

@@ -186,6 +186,9 @@ static int64_t settle_cell(AttractorGrid *grid, int32_t cell, const NodeBits *ch
         int lane = (int)((first + i) % BLOCK_LANES);
         if (a->best[lane] < grid->kill2) {
             set_bit(changed, a->previous[lane]);
+            if (grid->removed) {
+                grid->removed[grid->source[first + i]] = grid->now;
+            }
             move_lane(grid, first + i, first + --count);
             continue;
         }

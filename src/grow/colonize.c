@@ -277,6 +277,7 @@ static bool grow(Growth *growth, const Run *run, GrowReport *report, Error *e)
     int64_t seen = 0;
     bool full = false;
     for (;;) {
+        growth->grid.now = params->first_step + (int32_t)report->steps;
         attractor_grid_update(&growth->grid, growth->tree, seen, run, growth->threads,
                               &growth->changed);
         if (run_is_cancelled(run)) {
@@ -327,6 +328,22 @@ static void free_growth(Growth *growth)
     free(growth->grew);
 }
 
+static bool record_attractors(Growth *growth, Error *e)
+{
+    const ColonizeParams *params = growth->params;
+    AttractorLog *log = params->log;
+    if (!log) {
+        return true;
+    }
+    int64_t first = log->count;
+    if (!attractor_log_add(log, growth->attractors, params->kill, params->influence,
+                           params->first_step, e)) {
+        return false;
+    }
+    growth->grid.removed = log->removed + first;
+    return true;
+}
+
 static bool prepare(Growth *growth, Error *e)
 {
     const ColonizeParams *params = growth->params;
@@ -340,8 +357,9 @@ static bool prepare(Growth *growth, Error *e)
     }
     return begin(growth, e) &&
            (growth->attractors->count == 0 ||
-            attractor_grid_init(&growth->grid, growth->attractors, params->influence, params->kill,
-                                growth->run, e));
+            (attractor_grid_init(&growth->grid, growth->attractors, params->influence, params->kill,
+                                 growth->run, e) &&
+             record_attractors(growth, e)));
 }
 
 static const Rule *rule_of(GrowRule rule)

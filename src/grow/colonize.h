@@ -5,6 +5,7 @@
 
 #include "base/run.h"
 #include "field/guide_field.h"
+#include "grow/attractor_log.h"
 #include "grow/rules/grow_string.h"
 #include "outtree/out_tree.h"
 #include "shape/points.h"
@@ -66,6 +67,7 @@ typedef struct ColonizeParams {
     int32_t first_step; // birth of the first new nodes is first_step + 1
     int64_t max_steps;  // 0 = no limit
     int64_t max_nodes;  // of the whole tree including initial nodes; 0 = no limit
+    AttractorLog *log;  // gets the attractors and when they were removed; NULL = not recorded
 } ColonizeParams;
 
 ColonizeParams colonize_params_default(void); // mean rule, lengths 0, everything else off, seed 1

@@ -99,12 +99,13 @@ typedef struct Kind {
     MATERIAL_ROW(INDEX, "material",                                                              \
                  "Material of the object, or of a tree's bark; default: that of the kind, such " \
                  "as bark, ground, coral or ice; clay for a mesh or a shape.")
-#define TWIG_MATERIAL_ROW(INDEX) \
-    MATERIAL_ROW(INDEX, "twig_material", "Material of a tree's twigs; default: twig.")
-#define LEAF_MATERIAL_ROW(INDEX)                                                             \
-    MATERIAL_ROW(INDEX, "leaf_material",                                                     \
-                 "Material of a tree's leaves, or of fallen leaves on the ground; default: " \
-                 "leaf, fallen.")
+#define TWIG_MATERIAL_ROW(INDEX)         \
+    MATERIAL_ROW(INDEX, "twig_material", \
+                 "Material of twigs drawn as curves; default: twig, of an outtree its material.")
+#define LEAF_MATERIAL_ROW(INDEX)                                                          \
+    MATERIAL_ROW(INDEX, "leaf_material",                                                  \
+                 "Material of leaves, or of fallen leaves on the ground; default: leaf, " \
+                 "fallen.")
 #define GRASS_MATERIAL_ROW(INDEX) \
     MATERIAL_ROW(INDEX, "grass_material", "Material of the ground's grass; default: grass.")
 

@@ -20,7 +20,8 @@
     X(terrain)   \
     X(venation)  \
     X(fracture)  \
-    X(skeleton)
+    X(skeleton)  \
+    X(outtree)
 
 #define DECLARE_KIND(NAME) extern const Kind kind_##NAME;
 KINDS(DECLARE_KIND)

@@ -280,6 +280,23 @@ static const struct {
     {"mesh: {file: tests/cross/sheet.obj, position: @p(0 0 0), rotation: [0, @a(0), 0], scale: "
      "@l(1)}",
      ALL},
+    {"outtree: {envelope: [{shape: sphere, size: @l(1), position: @p(0 0 0), rotation: [0, @a(0), "
+     "0]}], starts: {count: 2, direction: @v(0.3 -1 0.2)}, fields: [{kind: nuclei, turn: 60}], "
+     "growth: {levels: [{attractors: 300}]}, leaves: {max_count: 40, spacing: @l(0.05), "
+     "twig_radius: @l(0.05), length: @l(0.1), width: @l(0.06), petiole: @l(0.01)}, "
+     "skin: {levels: 0, curve_radius: @l(0.02)}}",
+     ALL},
+    {"outtree: {envelope: [{shape: ellipsoid, size: [@l(1), @l(0.5), @l(0.7)], position: @p(0.25 "
+     "0.125 0), rotation: [0, @a(0), 0]}], points: {place: surface}, lift: @l(0.01), placed: "
+     "{points: [{position: @p(1 0 0)}, {position: @p(0 1 0), group: 1}, {position: @p(0 1 0.25), "
+     "group: 1}, {position: @p(0 0.5 1), group: 1, normal: @v(0 0.2 1)}]}, growth: {levels: "
+     "[{attractors: 100}]}, further: [{growth: {rule: sectors, levels: [{attractors: 300}]}, "
+     "fields: [{kind: uniform, vector: @v(1 0 0)}]}], radii: {model: birth}, skin: {levels: 0}}",
+     MOVE | SCALE},
+    {"outtree: {placed: {points: [{position: @p(0 0 0)}, {position: @p(0.5 0 0), normal: @v(0 0 "
+     "1)}, {position: @p(0.25 0.5 0.25), group: 1}, {position: @p(0.25 1 0), group: 1}]}, "
+     "skin: {levels: 0}}",
+     MOVE | SCALE},
     {"forest: {stands: 2, stand_trees: 2, height: @l(8), radius: @l(60), center: @p(0 0 0), "
      "glade_center: @p(3 0 0), glade: @l(5), ferns: 20, fern_radius: @l(8), fern_height: @l(1), "
      "leaves: {max_count: 0}, radii: {tip: @l(0.01)}, skin: {curve_radius: @l(0.1), levels: 0}, "

@@ -103,7 +103,17 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"terrain: {resolution: 64, rivers: {count: 200}}", 0xfaa674fa934997ce},
         {"shape: {envelope: [{shape: capsule, size: [0.3, 1, 0.3]}, "
          "{shape: box, size: 0.5, rotation: [10, 20, 30]}]}",
-         0x02ae3c4879220b89}};
+         0x02ae3c4879220b89},
+        {"outtree: {growth: {levels: [{attractors: 200}]}, leaves: {max_count: 20}}",
+         0x0486c35f33d5e558},
+        {"outtree: {envelope: [{shape: box, size: 1}], points: {place: surface}, growth: {rule: "
+         "string, levels: [{attractors: 200, step: 0.8, kill: 0.7}]}, further: [{growth: {rule: "
+         "sectors, max_order: 1, levels: [{attractors: 500}]}}], radii: {model: order}, jitter: "
+         "{amplitude: 0.05, segment: 0.04}, skin: {levels: 0}}",
+         0x1ad4ce989c573503},
+        {"outtree: {placed: {points: [{position: [0, 0, 0]}, {position: [0, 1, 0], group: 1}, "
+         "{position: [1, 1, 0], group: 1}]}, growth: {rule: snap}, skin: {levels: 0}}",
+         0xf14cd4e3be8fa42d}};
     int wrong = 0;
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         uint64_t hash = hash_of(kinds[i].object);

@@ -93,6 +93,16 @@ static bool check_sectors(const Mapping *mapping, const ElementParams *element)
 
 bool check_element(const Mapping *mapping, const ElementParams *element)
 {
+    if (element->growth.rule == GROW_STRING) {
+        return mapping_fail(mapping, "growth.rule",
+                            " is string, which only an outtree has an L-system for; use mean, snap "
+                            "or sectors, or an outtree");
+    }
+    return check_string_element(mapping, element);
+}
+
+bool check_string_element(const Mapping *mapping, const ElementParams *element)
+{
     if (element->points.pattern == SCATTER_POISSON && element->points.anchored) {
         return mapping_fail(mapping, "points.anchored",
                             ": anchored points cannot be evenly spaced; use the pattern random, or "
@@ -114,7 +124,8 @@ bool check_level(const Mapping *mapping, void *params)
 
 bool check_growth(const Mapping *mapping, void *params)
 {
-    const ElementParams *element = params;
+    ElementParams *element = params;
+    element->growth.new_orders = element->growth.max_order > 0;
     if (element->growth.max_angle > 0.0f && element->growth.min_angle > element->growth.max_angle) {
         return mapping_fail(mapping, "min_angle",
                             " is %g; it must be at most max_angle, %g degrees",

@@ -151,20 +151,27 @@ static const Table LEVEL_TABLE = {
     .defaults = level_defaults,
     .check = check_level};
 
-static const EnumName RULES[] = {
-    {"mean", GROW_MEAN}, {"snap", GROW_SNAP}, {"sectors", GROW_SECTORS}, {0}};
+static const EnumName RULES[] = {{"mean", GROW_MEAN},
+                                 {"snap", GROW_SNAP},
+                                 {"sectors", GROW_SECTORS},
+                                 {"string", GROW_STRING},
+                                 {0}};
 static const EnumName FIELD_MODES[] = {{"steer", FIELD_STEER}, {"additive", FIELD_ADDITIVE}, {0}};
 
 static const Key GROWTH_KEYS[] = {
     {KEY_OF(ElementParams, growth.rule, "rule", KEY_ENUM), .names = RULES,
      .doc = "mean: one child per step, along the mean pull; snap: reached attractors become nodes; "
-            "sectors: at most one child in each angular sector about the heading."},
+            "sectors: at most one child in each angular sector about the heading; string: "
+            "directions by an L-system, only in an outtree."},
     {KEY_OF(ElementParams, levels, "levels", KEY_LIST),
      .count_offset = offsetof(ElementParams, level_count), .count = 100, .table = &LEVEL_TABLE,
      .doc = "Levels, coarse to fine: each scatters new attractors and grows from all existing "
             "nodes. Default: the kind's own levels."},
     {KEY_OF(ElementParams, growth.max_children, "max_children", KEY_INT), .high = 1000,
      .doc = "Maximum number of children of a node; 0 = no limit."},
+    {KEY_OF(ElementParams, growth.max_order, "max_order", KEY_INT), .high = 1000,
+     .doc = "Maximum order of branching, counted from the nodes that a level begins with, which "
+            "have order 0; 0 = no limit."},
     {KEY_OF(ElementParams, growth.min_angle, "min_angle", KEY_FLOAT), .high = 180,
      .unit = "degrees",
      .doc = "Minimum angle between a branching child and its parent's direction; 0 = off."},

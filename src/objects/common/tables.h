@@ -36,6 +36,9 @@ bool check_shapes(const Mapping *mapping, const Shape *shapes, int count);
 // Envelope, points and growth of a mapping with ELEMENT_ROWS.
 bool check_element(const Mapping *mapping, const ElementParams *element);
 
+// The same for a kind that has an L-system for the rule string; check_element refuses that rule.
+bool check_string_element(const Mapping *mapping, const ElementParams *element);
+
 // Checks a mesh file's name, size and header. path: from the mapping's key `file`.
 bool check_mesh_file(const Mapping *mapping, const char *path);
 

@@ -1,0 +1,110 @@
+// A general out-tree as a kind of object.
+#include "objects/kind.h"
+#include "objects/outtree/outtree.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// Origin at the envelope's; without one, at the first placed point.
+static bool take_points(OwnSpace *own, PlacedParams *placed, Error *e)
+{
+    size_t size = sizeof *placed->points * (size_t)placed->count;
+    placed->points = size > 0 ? own_space_copy(own, placed->points, size, e) : NULL;
+    for (int i = 0; placed->points && i < placed->count; i++) {
+        placed->points[i].position = own_space_place(own, placed->points[i].position);
+        placed->points[i].normal = own_space_direction(own, placed->points[i].normal);
+    }
+    return placed->points || size == 0;
+}
+
+static bool take_further(OwnSpace *own, OuttreeParams *p, Error *e)
+{
+    size_t size = sizeof *p->further * (size_t)p->further_count;
+    p->further = size > 0 ? own_space_copy(own, p->further, size, e) : NULL;
+    bool done = p->further || size == 0;
+    for (int i = 0; done && i < p->further_count; i++) {
+        done = own_space_take_element(own, &p->further[i], e);
+    }
+    return done;
+}
+
+static bool own_space(OwnSpace *own, void *params, Error *e)
+{
+    OuttreeParams *p = params;
+    if (p->element.shape_count > 0) {
+        own_space_of_element(own, &p->element);
+    } else if (p->placed.count > 0 && !p->element.points.anchored) {
+        own_space_stand(own, p->placed.points[0].position, vec3(0, 0, 0));
+    }
+    p->starts.direction = own_space_direction(own, p->starts.direction);
+    return take_points(own, &p->placed, e) && own_space_take_element(own, &p->element, e) &&
+           take_further(own, p, e);
+}
+
+static int64_t attractors(const void *params)
+{
+    const OuttreeParams *p = params;
+    int own;
+    outtree_own_levels(&own);
+    int64_t sum = element_attractors(&p->element);
+    if (p->element.level_count == 0 && outtree_scatters(p)) {
+        const GrowLevel *levels = outtree_own_levels(&own);
+        for (int i = 0; i < own; i++) {
+            sum += levels[i].attractors;
+        }
+    }
+    for (int i = 0; i < p->further_count; i++) {
+        sum += element_attractors(&p->further[i]);
+    }
+    for (int i = 0; i < p->placed.count; i++) {
+        sum += p->placed.points[i].group == GROUP_ATTRACTOR;
+    }
+    return sum;
+}
+
+static void describe(const void *params, char *text, size_t size)
+{
+    const OuttreeParams *p = params;
+    snprintf(text, size, ", %s",
+             p->element.points.place == SCATTER_SURFACE ? "over a surface" : "in a volume");
+}
+
+static int64_t copies(const void *params)
+{
+    const OuttreeParams *p = params;
+    return p->leaves.max_count;
+}
+
+static void needs(const void *params, Needs *needs)
+{
+    const OuttreeParams *p = params;
+    enum { LEAF_FACES = 25, LEAVES_AN_ATTRACTOR = 6 };
+    double count = (double)attractors(params), leaves = (double)p->leaves.max_count;
+    double twig = p->radii.tip > 0.0f ? (double)(p->skin.curve_radius / p->radii.tip)
+                                      : (p->skin.curve_radius > 0.0f ? 4.0 : 0.0);
+    needs_add_skinned_growth(needs, "growth.levels", count, p->skin.levels, twig);
+    needs_add_copies(needs, "leaves.max_count", fmin(leaves, LEAVES_AN_ATTRACTOR * count),
+                     LEAF_FACES);
+}
+
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(OUTTREE_SKIN),
+    TWIG_MATERIAL_ROW(OUTTREE_TWIG),
+    LEAF_MATERIAL_ROW(OUTTREE_LEAF),
+    {0},
+};
+
+const Kind kind_outtree = {
+    .variant = {KIND_ROW("outtree", &outtree_table,
+                         "A general out-tree: any envelope, start points, rules and fields."),
+                MATERIALS},
+    .materials = {"clay", NULL, "leaf"},
+    .own_space = own_space,
+    .needs = needs,
+    .describe = describe,
+    .attractors = attractors,
+    .copies = copies,
+    .grow = outtree_grow,
+    .tip_radius = outtree_tip_radius,
+    .finish = outtree_finish,
+    .geometry = outtree_geometry};

@@ -1,0 +1,135 @@
+// A general out-tree (Tanaka et al., sections 3 and 4): any envelope, start points and attractors
+// placed by the user or scattered, any growth rule, guide fields and levels, radii by one of
+// several rules, jitter by fractional Brownian motion, and skin, leaves, lamps and the attractors
+// themselves to be seen. The other kinds are recipes for particular things.
+#ifndef RAMIFY_OBJECTS_OUTTREE_OUTTREE_H
+#define RAMIFY_OBJECTS_OUTTREE_OUTTREE_H
+
+#include "objects/common/branches.h"
+#include "objects/common/element.h"
+#include "objects/common/recipe.h"
+
+// Type of a placed point (Tanaka et al., section 4.2).
+enum { GROUP_NODE = 0, GROUP_ATTRACTOR = 1 };
+
+typedef struct PlacedPoint {
+    Vec3 position; // m; on a surface it is moved to the nearest point of the envelope
+    int group;
+    Vec3 normal; // zero = that of the surface, in space +Y
+} PlacedPoint;
+
+// Points that the user places. Attractors among them are a level of their own, the first.
+typedef struct PlacedParams {
+    PlacedPoint *points;
+    int count;
+    float step, kill, influence; // m; 0 = 0.5, 1 and 6 mean distances from a point to the nearest
+} PlacedParams;
+
+// Roots placed by the program, on the envelope's surface.
+typedef struct StartsParams {
+    int count;      // 0 = none if the user places some, else 1
+    Vec3 direction; // the first is the farthest point this way
+} StartsParams;
+
+// The L-system of the growth rule "string"; see grow/rules/grow_string.h.
+typedef struct StringParams {
+    char *axiom, *rules; // NULL = the paper's; borrowed
+    int generations;
+    float angle;              // degrees, of turns
+    float group;              // degrees, of a direction's group
+    float regularity;         // 0..1
+    float length, length_tip; // m: growth distance at the root, and farthest from it; 0 = the step
+} StringParams;
+
+typedef enum OuttreeRadii {
+    OUTTREE_PIPE,   // r_parent^e = sum of r_child^e
+    OUTTREE_MURRAY, // flow as measured in arteries: the exponent depends on the size
+    OUTTREE_BIRTH,  // thicker with age
+    OUTTREE_ORDER,  // each order of branching thinner by a factor
+    OUTTREE_EVEN    // all the same
+} OuttreeRadii;
+
+typedef struct ThicknessParams {
+    OuttreeRadii model;
+    float exponent; // pipe
+    float tip;      // m; 0 = 0.12 of the mean distance between nodes
+    float root;     // m; 0 = as the rule gives; birth: 8 tips; order: 4 tips
+    float ratio;    // order
+} ThicknessParams;
+
+typedef struct WanderParams {
+    float
+        amplitude; // share of the envelope's extent: standard deviation over that distance; 0 = off
+    float hurst;
+    float segment; // m between nodes from then on; 0 = as they grew
+    bool pin_forks;
+} WanderParams;
+
+typedef struct OuttreeParams {
+    ElementParams element;  // envelope and first growth; without shapes: the unit sphere, or a box
+                            // about the placed attractors
+    ElementParams *further; // growths that follow in the same envelope, on all nodes so far: their
+                            // shapes and points are not used
+    int further_count;
+    PlacedParams placed;
+    StartsParams starts;
+    StringParams string;
+    ThicknessParams radii;
+    WanderParams jitter;
+    float lift; // m above the surface
+    SkinningParams skin;
+    LeavesParams leaves;
+} OuttreeParams;
+
+// Roles of materials.
+enum { OUTTREE_SKIN, OUTTREE_TWIG, OUTTREE_LEAF };
+
+// Streams of the object's seed. Further growth i has FURTHER + i.
+enum {
+    STREAM_OUTTREE_PLACED = 1,
+    STREAM_OUTTREE_STARTS = 2,
+    STREAM_OUTTREE_CANDIDATES = 3,
+    STREAM_OUTTREE_STRING = 4,
+    STREAM_OUTTREE_GROWTH = 5,
+    STREAM_OUTTREE_JITTER = 6,
+    STREAM_OUTTREE_LEAVES = 7,
+    STREAM_OUTTREE_FURTHER = 100
+};
+
+OuttreeParams outtree_params_default(void); // in a ball of 1 m radius, from its lowest point
+
+// Shape of the envelope if the parameters list none.
+Shape outtree_own_shape(const OuttreeParams *params);
+
+// Does the object scatter attractors, besides those placed?
+bool outtree_scatters(const OuttreeParams *params);
+
+// The levels used if the parameters list none; *count = how many.
+const GrowLevel *outtree_own_levels(int *count);
+
+// The start points: placed nodes, then those placed by the program. Colony: the number of the
+// start.
+bool outtree_plant(OutTree *tree, const OuttreeParams *params, const Envelope *envelope,
+                   const Recipe *recipe, Error *e);
+
+// The placed attractors.
+PointSet *outtree_placed_attractors(const OuttreeParams *params, const Envelope *envelope,
+                                    uint64_t seed, Error *e);
+
+// Fills in the tips' radius from the tree's nodes.
+ThicknessParams outtree_resolve_radii(const OutTree *tree, const ThicknessParams *given);
+
+// Radii by the rule of the resolved parameters.
+bool outtree_radii(OutTree *tree, const ThicknessParams *params, Error *e);
+
+// The recipe (see recipe.h). Grows the out-tree with radii and jitter; whole->state and
+// grown->state are the attractors (AttractorLog), of the whole growth and at its cut.
+bool outtree_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
+float outtree_tip_radius(const void *params, const OutTree *whole); // m
+bool outtree_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
+                    Error *e);
+bool outtree_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
+
+extern const struct Table outtree_table; // of its parameters
+
+#endif
