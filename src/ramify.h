@@ -431,11 +431,12 @@ RAMIFY_API const float *ramify_film_layer(const RamifyFilm *film, const char *na
 RAMIFY_API void ramify_film_rgba(const RamifyFilm *film, float *rgba);
 
 // Develops the film of this scene: fills rgba with 4 * width * height display values, 0..1 in sRGB,
-// with straight alpha. denoise: remove the noise first; run (may be NULL) applies to that.
+// with straight alpha. denoise: remove the noise first, unless pixels of the scene's crop have
+// no sample, because the first pass was cancelled; run (may be NULL) applies to that.
 RAMIFY_API bool ramify_film_develop(const RamifyFilm *film, const RamifyScene *scene, bool denoise,
                                     float *rgba, const RamifyRun *run, RamifyError *error);
 
-// Writes the film of this scene. .png, .jpg: developed, and denoised first if denoise. .exr: linear
+// Writes the film of this scene. .png, .jpg: developed as by ramify_film_develop. .exr: linear
 // RGBA and the layers albedo, normal, depth, position, object and samples unchanged. The scene's
 // text and settings are stored as metadata. run (may be NULL) applies to the denoiser.
 RAMIFY_API bool ramify_film_write(const RamifyFilm *film, const RamifyScene *scene,

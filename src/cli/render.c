@@ -137,8 +137,7 @@ static bool write_pictures(Job *job, const RamifyFilm *film, const RamifyRun *ru
     RamifyRun patient = *run; // does not cancel: an interrupted picture is still written
     patient.cancelled = NULL;
     bool cut_short = *run->cancelled; // cancelled before writing started
-    // An incomplete first sample per pixel is not denoised, which would be slow and useless.
-    bool denoise = job->info.denoise && job->render.samples > 0;
+    bool denoise = job->info.denoise;
     bool done = ramify_film_write(film, job->scene, job->outputs->display, denoise,
                                   cut_short ? &patient : run, e);
     if (!done && !cut_short && *run->cancelled) { // cancelled while denoising: write without

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static bool film_make_planes(Film *film, Error *e)
@@ -65,4 +66,30 @@ void film_free(Film *film)
         free(film->variance);
         free(film);
     }
+}
+
+static int crop_edge(float share, int pixels)
+{
+    return (int)lroundf(clampf(share, 0.0f, 1.0f) * (float)pixels);
+}
+
+PixelBox film_crop_pixels(int width, int height, const float crop[4])
+{
+    return (PixelBox){.x0 = crop_edge(crop[0], width),
+                      .y0 = crop_edge(crop[1], height),
+                      .x1 = crop_edge(crop[2], width),
+                      .y1 = crop_edge(crop[3], height)};
+}
+
+bool film_is_complete(const Film *film, const float crop[4])
+{
+    PixelBox box = film_crop_pixels(film->width, film->height, crop);
+    for (int y = box.y0; y < box.y1; y++) {
+        for (int x = box.x0; x < box.x1; x++) {
+            if (film->samples[(int64_t)y * film->width + x] < 1.0f) {
+                return false;
+            }
+        }
+    }
+    return true;
 }

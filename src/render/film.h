@@ -29,4 +29,15 @@ typedef struct Film {
 Film *film_new(int width, int height, Error *e);
 void film_free(Film *film); // NULL is fine
 
+// Pixels x0 <= x < x1, y0 <= y < y1.
+typedef struct PixelBox {
+    int x0, y0, x1, y1;
+} PixelBox;
+
+// The pixels of a crop (see FilmParams) of a picture.
+PixelBox film_crop_pixels(int width, int height, const float crop[4]);
+
+// Has every pixel of the crop a sample? False after a first pass that was cancelled.
+bool film_is_complete(const Film *film, const float crop[4]);
+
 #endif

@@ -120,10 +120,8 @@ static void render_pass(Job *job, int before, int end)
 
 static Tile *make_tiles(const FilmParams *film, int *count, int64_t *pixels, Error *e)
 {
-    int x0 = (int)lroundf(clampf(film->crop[0], 0.0f, 1.0f) * (float)film->width);
-    int y0 = (int)lroundf(clampf(film->crop[1], 0.0f, 1.0f) * (float)film->height);
-    int x1 = (int)lroundf(clampf(film->crop[2], 0.0f, 1.0f) * (float)film->width);
-    int y1 = (int)lroundf(clampf(film->crop[3], 0.0f, 1.0f) * (float)film->height);
+    PixelBox crop = film_crop_pixels(film->width, film->height, film->crop);
+    int x0 = crop.x0, y0 = crop.y0, x1 = crop.x1, y1 = crop.y1;
     if (x0 >= x1 || y0 >= y1) {
         error_set(e, ERROR_INPUT, "the crop leaves no pixel; x0 < x1 and y0 < y1 are needed");
         return NULL;

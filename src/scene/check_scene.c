@@ -1,5 +1,6 @@
 // Checks of camera, film, lamps, and of the scene as a whole.
 #include "config/hint.h"
+#include "render/film.h"
 #include "render/light/light.h"
 #include "scene/builtin.h"
 #include "scene/spec_check.h"
@@ -40,12 +41,6 @@ bool check_camera(const Mapping *mapping, void *params)
                " is zero or parallel to the line of sight; it must have another direction");
 }
 
-// Do opposite edges of the crop coincide when rounded to whole pixels?
-static bool crop_is_empty(float low, float high, int pixels)
-{
-    return !(lroundf(high * (float)pixels) > lroundf(low * (float)pixels));
-}
-
 bool check_film(const Mapping *mapping, void *params)
 {
     const FilmParams *film = &((const Scene *)params)->film;
@@ -60,8 +55,8 @@ bool check_film(const Mapping *mapping, void *params)
         return mapping_fail(mapping, "crop",
                             " is empty; it must be [x0, y0, x1, y1] with x0 < x1, y0 < y1");
     }
-    if (crop_is_empty(crop[0], crop[2], film->width) ||
-        crop_is_empty(crop[1], crop[3], film->height)) {
+    PixelBox box = film_crop_pixels(film->width, film->height, crop);
+    if (box.x0 >= box.x1 || box.y0 >= box.y1) {
         return mapping_fail(mapping, "crop",
                             " is less than half a pixel wide or high; make it larger");
     }

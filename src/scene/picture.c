@@ -105,7 +105,7 @@ static Image *denoised_image(const Image *beauty, const Film *film, const Run *r
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run, Error *e)
 {
     Image *beauty = beauty_image(film, e);
-    if (beauty && denoise) {
+    if (beauty && denoise && film_is_complete(film, scene->film.crop)) {
         Image *clean = denoised_image(beauty, film, run, e);
         image_free(beauty);
         beauty = clean;

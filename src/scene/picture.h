@@ -14,11 +14,12 @@ bool picture_is_exr(const char *file);
 // not end in .png, .jpg, .jpeg or .exr, ERROR_IO as from file_replace_check.
 bool picture_check(const char *file, Error *e);
 
-// Display values of a film, as from tone_map; free them. denoise: denoise first.
+// Display values of a film, as from tone_map; free them. denoise: denoise first, unless a pixel of
+// the crop has no sample, because a first pass was cancelled.
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run,
                        Error *e);
 
-// Develops and writes a .png or .jpg. denoise: denoise first.
+// Develops and writes a .png or .jpg. denoise: as for picture_develop.
 bool picture_write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
                            const Run *run, Error *e);
 

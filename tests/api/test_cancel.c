@@ -25,8 +25,8 @@ static const char text[] =
 // Cancels at report number `at`.
 typedef struct Moment {
     volatile int cancelled;
-    int reports, at;
-    char stage[40]; // of that report
+    int reports, at; // at < 0: never
+    char stage[40];  // of that report
 } Moment;
 
 static void count_down(void *user, const char *stage, double done)
@@ -105,6 +105,71 @@ static void exporting(void **state)
     cancel_everywhere(way_export, 20);
 }
 
+static void cancel_at_first_trace(void *user, const char *stage, double done)
+{
+    Moment *moment = user;
+    (void)done;
+    moment->cancelled = moment->cancelled || strcmp(stage, "trace") == 0;
+}
+
+// Does denoising change the picture of the cropped ground, traced until `moment` cancels it?
+static bool denoising_matters(const char *crop, Moment *moment, int *samples)
+{
+    char sheet[300];
+    int length = snprintf(sheet, sizeof sheet,
+                          "film: {width: %d, height: %d, crop: %s}\n"
+                          "render: {samples: 2}\n"
+                          "objects: [{name: ground, ground: {}}]\n",
+                          WIDTH, HEIGHT, crop);
+    RamifyError error = {0};
+    RamifyRun run = {.threads = 1, .cancelled = &moment->cancelled, .user = moment};
+    RamifyRenderInfo info = {0};
+    static float plain[4 * WIDTH * HEIGHT], clean[4 * WIDTH * HEIGHT];
+    RamifyScene *scene =
+        ramify_scene_load_text(sheet, (size_t)length, "sheet", "", NULL, 0, &error);
+    RamifyWorld *world = scene ? ramify_build(scene, &run, &error) : NULL;
+    RamifyRenderer *renderer = world ? ramify_renderer_new(world, NULL, &run, &error) : NULL;
+    RamifyFilm *film = ramify_film_new(WIDTH, HEIGHT, &error);
+    run.progress = moment->at < 0 ? NULL : cancel_at_first_trace;
+    if (!renderer || !film ||
+        !ramify_renderer_render(renderer, film, NULL, NULL, &run, &info, &error) ||
+        !ramify_film_develop(film, scene, false, plain, NULL, &error) ||
+        !ramify_film_develop(film, scene, true, clean, NULL, &error)) {
+        fail_msg("%s", error.message);
+    }
+    *samples = info.samples;
+    ramify_film_free(film);
+    ramify_renderer_free(renderer);
+    ramify_world_free(world);
+    ramify_scene_free(scene);
+    bool differ = false;
+    for (int i = 0; i < 4 * WIDTH * HEIGHT; i++) {
+        differ = differ || plain[i] != clean[i];
+    }
+    return differ;
+}
+
+// One thread reports after its first tile of 16 x 16 pixels.
+static void incomplete_pictures_are_not_denoised(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *crop;
+        int at, samples;
+        bool denoised;
+    } cases[] = {{"[0, 0, 1, 1]", 0, 0, false},
+                 {"[0, 0, 1, 1]", -1, 2, true},
+                 {"[0, 0, 0.6, 1]", 0, 1, true}, // all of the crop in one tile
+                 {"[0.1, 0, 0.9, 1]", 0, 0, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        Moment moment = {.at = cases[i].at};
+        int samples = -1;
+        bool denoised = denoising_matters(cases[i].crop, &moment, &samples);
+        assert_int_equal(samples, cases[i].samples);
+        assert_int_equal(denoised, cases[i].denoised);
+    }
+}
+
 static int enter_folder(void **state)
 {
     static char folder[] = "/tmp/ramify_cancel_XXXXXX";
@@ -124,6 +189,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rendering),
         cmocka_unit_test(exporting),
+        cmocka_unit_test(incomplete_pictures_are_not_denoised),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
