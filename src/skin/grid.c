@@ -14,12 +14,16 @@ void skin_grid_clear(SkinGrid *grid)
 
 // ---- number of sides, spacing of rings ----
 
-// Number of sides that gives all branches faces of about the same width.
-static float wanted_sides(const SkinPlan *plan, float radius)
+float skin_grid_sides(float radius, float thinnest, float thickest)
 {
-    float unit = plan->thickest / 6.0f, thin = 2.5f * plan->thinnest;
+    float unit = thickest / 6.0f, thin = 2.5f * thinnest;
     unit = unit > thin ? unit : thin;
     return clampf(4.0f * radius / unit, 4.0f, (float)SKIN_MAX_SIDES);
+}
+
+static float wanted_sides(const SkinPlan *plan, float radius)
+{
+    return skin_grid_sides(radius, plan->thinnest, plan->thickest);
 }
 
 // Four sides are too few for children to leave from; a tube without children needs no more.

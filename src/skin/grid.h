@@ -33,6 +33,10 @@ typedef struct SkinGrid {
     int64_t child_count, child_capacity;
 } SkinGrid;
 
+// Number of sides, 4 to SKIN_MAX_SIDES, that gives branches of thinnest to thickest radius faces of
+// about the same width.
+float skin_grid_sides(float radius, float thinnest, float thickest);
+
 // Number of sides at the start of a root's tube: its faces are about as wide as those of branches a
 // sixth as thick as the thickest.
 int skin_grid_root_sides(const SkinGrid *grid, const SkinPlan *plan, int32_t chain);

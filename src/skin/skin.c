@@ -3,7 +3,9 @@
 #include "base/memory.h"
 #include "mesh/refine.h"
 #include "skin/cage.h"
+#include "skin/grid.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -88,6 +90,14 @@ static Mesh *copy_with_normals(const Mesh *cage, Error *e)
 
 // Thin branches have few sides and get lower levels: one less below a 24th of the thickest radius,
 // two less below a 96th, but at least 1. (Thick ones have more sides, so face sizes differ little.)
+static int graded_level(int levels, float radius, float thickest)
+{
+    for (float limit = thickest / 24.0f; levels > 1 && radius < limit; limit *= 0.25f) {
+        levels--;
+    }
+    return levels;
+}
+
 static void grade_levels(const Mesh *cage, int levels, uint8_t *face_level)
 {
     float thickest = 0.0f;
@@ -100,11 +110,7 @@ static void grade_levels(const Mesh *cage, int levels, uint8_t *face_level)
             float here = cage->radius[cage->index[4 * f + k]];
             radius = here > radius ? here : radius;
         }
-        int level = levels;
-        for (float limit = thickest / 24.0f; level > 1 && radius < limit; limit *= 0.25f) {
-            level--;
-        }
-        face_level[f] = (uint8_t)level;
+        face_level[f] = (uint8_t)graded_level(levels, radius, thickest);
     }
 }
 
@@ -125,4 +131,38 @@ Mesh *skin_tree(const OutTree *tree, const SkinParams *params, const Run *run, E
     free(face_level);
     mesh_free(cage);
     return mesh;
+}
+
+// Cage faces around so much of a branch; tips have four sides.
+static double cage_faces(const SkinParams *params, float length, float radius, float thinnest,
+                         float thickest)
+{
+    enum { MOST_RINGS = 72 }; // of a chain of one node, however thin it is
+    bool tip = radius < 1.01f * thinnest;
+    float sides = tip ? 4.0f : fmaxf(8.0f, skin_grid_sides(radius, thinnest, thickest));
+    float step = params->ring_spacing * radius * fminf(1.0f, 2.0f * PI_F / sides);
+    return (double)(sides * fminf(length / step, (float)MOST_RINGS));
+}
+
+double skin_estimate(const OutTree *tree, const SkinParams *params)
+{
+    float thinnest = INFINITY, thickest = 0.0f;
+    for (int64_t i = 0; i < tree->count; i++) {
+        float radius = tree->radius[i];
+        if (radius > 0.0f && radius >= params->min_radius) {
+            thinnest = fminf(thinnest, radius);
+            thickest = fmaxf(thickest, radius);
+        }
+    }
+    double triangles = 0.0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        float radius = tree->radius[i];
+        if (tree->parent[i] >= 0 && radius > 0.0f && radius >= params->min_radius) {
+            float length = vec3_distance(tree->position[i], tree->position[tree->parent[i]]);
+            int level = graded_level(params->levels, radius, thickest);
+            triangles +=
+                2.0 * exp2(2.0 * level) * cage_faces(params, length, radius, thinnest, thickest);
+        }
+    }
+    return triangles;
 }

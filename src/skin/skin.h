@@ -36,6 +36,10 @@ Mesh *skin_cage(const OutTree *tree, const SkinParams *params, const Run *run, E
 // few tens of MB per thread. The caller frees it with mesh_free.
 Mesh *skin_tree(const OutTree *tree, const SkinParams *params, const Run *run, Error *e);
 
+// About how many triangles skin_tree will make (quads count as two), from lengths and radii alone.
+// Within a factor of 1.5 on plants of usual shape.
+double skin_estimate(const OutTree *tree, const SkinParams *params);
+
 // The chains thinner than max_radius as round curves. Together with skin_tree at min_radius =
 // max_radius every branch is shown exactly once (a curve's first point lies inside its parent's
 // surface). The caller frees it with curves_free.

@@ -47,6 +47,8 @@ if [ "$sanitized" = no ]; then
     tells skeleton "skeleton: {file: $neuron, scale: 0.01, skin: {levels: 1}}" 160
     tells twigs 'tree: {crown: {growth: {levels: [{attractors: 4000}]}}, roots: {count: 0}, leaves: {max_count: 0}, radii: {tip: 0.004}, skin: {curve_radius: 0.006}}' 160
     tells rules 'lsystem: {height: 11.5, generations: 6, leaves: {max_count: 0}}'
+    tells drawn 'lsystem: {height: 0.52, axiom: X, rules: "X -> [+FX][-FX]FX", generations: 5, elasticity: 0, radii: {exponent: 4, tip: 0.0016}, leaves: {max_count: 0}, skin: {curve_radius: 0}}' 130
+    tells fan 'coral: {form: fan, levels: 3}' 130
     tells surface 'shape: {voxel: 0.007, envelope: [{shape: sphere}, {shape: sphere, position: [0.7, 0, 0]}]}' 160
     check surface_export 0 "$RAMIFY" export surface.yaml -o surface.stl -q
     tells mesh 'mesh: {file: surface.stl}' 160

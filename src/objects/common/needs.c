@@ -12,6 +12,7 @@
 #define INSTANCE_BYTES 400.0  // of an instance that is not
 #define NODE_BYTES 700.0      // of a node while it grows, and of its curve
 #define NODES_AN_ATTRACTOR 0.8
+#define SKIN_TRIANGLE_BYTES 92.0
 #define MESH_FILE_BYTES 3.4 // of a byte of OBJ; STL 2.5
 #define SKIN_BYTES 10400.0  // of a node's skin at level 0; each level has four times as much
 #define TWIG_EXPONENT \
@@ -49,6 +50,11 @@ void needs_add_skinned_growth(Needs *needs, const char *key, double attractors, 
     double share = pow(fmax(1.0, twig), -TWIG_EXPONENT);
     needs_add(needs, key, NODES_AN_ATTRACTOR * attractors,
               NODE_BYTES + SKIN_BYTES * share * exp2(2.0 * levels));
+}
+
+void needs_add_skin(Needs *needs, const char *key, double triangles)
+{
+    needs_add(needs, key, triangles, SKIN_TRIANGLE_BYTES);
 }
 
 void needs_add_file(Needs *needs, const char *key, const char *file, double each)

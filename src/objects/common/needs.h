@@ -30,6 +30,9 @@ void needs_add_growth(Needs *needs, const char *key, double attractors);
 void needs_add_skinned_growth(Needs *needs, const char *key, double attractors, int levels,
                               double twig);
 
+// Adds a skin of so many triangles.
+void needs_add_skin(Needs *needs, const char *key, double triangles);
+
 // Adds an imported file, at `each` bytes of memory per byte of the file. Adds nothing if the file
 // cannot be examined; reading it reports the error.
 void needs_add_file(Needs *needs, const char *key, const char *file, double each);

@@ -57,18 +57,45 @@ static int64_t copies(const void *params)
     return coral->polyps.max_count;
 }
 
+// Growth steps of all colonies. A colony has room for so many; few are as dense as that.
+static double growth_steps(const CoralParams *p, double an_attractor, double density)
+{
+    double radius = 0.5 * (double)p->size, step = (double)p->length_tip;
+    double room = p->form == CORAL_FAN // half an ellipse, else half an ellipsoid
+                      ? 1.57 * radius * (double)p->height / (step * step)
+                      : 2.09 * radius * radius * (double)p->height / (step * step * step);
+    return p->colonies * fmin(an_attractor * (double)p->attractors, density * room);
+}
+
+// Triangles of the branches' skin.
+static double skin_triangles(const CoralParams *p)
+{
+    static const struct {
+        double an_attractor, density; // of growth_steps
+        double faces;                 // of the cage, per tip radius of length
+    } measured[] = {
+        [CORAL_BRANCHING] = {0.57, 0.4, 12.5},
+        [CORAL_TABLE] = {1.8, 0.95, 4.5},
+        [CORAL_FAN] = {0.6, 1.0, 7.8},
+        [CORAL_ENCRUSTING] = {0}, // these have no skin
+        [CORAL_MASSIVE] = {0},
+    };
+    double length = 0.5 * (double)(p->length + p->length_tip);
+    double faces = measured[p->form].faces * length / (double)p->tip_radius;
+    return growth_steps(p, measured[p->form].an_attractor, measured[p->form].density) * faces *
+           2.0 * exp2(2.0 * p->levels);
+}
+
 static void needs(const void *params, Needs *needs)
 {
     enum {
         ATTRACTOR_BYTES = 5000,
-        SKIN_BYTES = 940, // at level 0; each level has four times as much
         CUP_FACES = 75,
         CUPS = 30000 // as many as fit a colony of usual proportions
     };
     CoralParams p = coral_params_resolve(params);
-    bool crust = p.form == CORAL_ENCRUSTING || p.form == CORAL_MASSIVE; // has no thick branches
-    needs_add(needs, "attractors", (double)attractors(params),
-              ATTRACTOR_BYTES + (crust ? 0.0 : SKIN_BYTES * exp2(2.0 * p.levels)));
+    needs_add(needs, "attractors", (double)attractors(params), ATTRACTOR_BYTES);
+    needs_add_skin(needs, "levels", skin_triangles(&p));
     needs_add_copies(needs, "polyps.max_count", fmin((double)p.polyps.max_count, CUPS), CUP_FACES);
 }
 

@@ -1,5 +1,6 @@
 // Plants written as L-systems as a kind of object.
 #include "objects/kind.h"
+#include "objects/common/branches.h"
 #include "objects/lsystem/plant.h"
 
 #include <math.h>
@@ -26,13 +27,23 @@ static int64_t copies(const void *params)
     return plant->leaves.max_count;
 }
 
+// A plant is drawn in milliseconds; what takes memory is its skin. A string that cannot be drawn
+// adds nothing: growth reports the error.
 static void needs(const void *params, Needs *needs)
 {
-    // of a large plant; three branches per fork are typical
-    enum { LEAF_FACES = 25, LEAVES = 50000, GENERATIONS = 6, BRANCH_BYTES = 69000 };
+    enum { LEAF_FACES = 25, LEAVES = 50000, NODE_BYTES = 700 };
     const LSystemPlantParams *plant = params;
-    double branches = pow(3.0, fmin(plant->generations, GENERATIONS));
-    needs_add(needs, "generations", branches, BRANCH_BYTES * exp2(2.0 * plant->skin.levels));
+    Run run = run_default();
+    Recipe recipe = {.run = &run};
+    Grown grown = {0};
+    Error e = {0};
+    if (lsystem_plant_grow(params, &recipe, &grown, &e) &&
+        lsystem_plant_finish(params, &recipe, &grown, &grown, &e)) {
+        SkinParams skin = branches_skin(&plant->skin);
+        needs_add(needs, "generations", (double)grown.tree->count, NODE_BYTES);
+        needs_add_skin(needs, "generations", skin_estimate(grown.tree, &skin));
+    }
+    grown_clear(&grown);
     needs_add_copies(needs, "leaves.max_count", fmin((double)copies(params), LEAVES), LEAF_FACES);
 }
 
