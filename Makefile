@@ -3,7 +3,8 @@
 # The one list of Debian packages. BUILD: to compile and run. CHECK: only for lint, format, sanitize and bench. PEERS: other
 # programs that tests hold our files against, as COMMAND:PACKAGE.
 BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libboost-dev libopenimageio-dev \
-                 libopenexr-dev libassimp-dev libyaml-dev libtbb-dev libseccomp-dev libcmocka-dev ffmpeg
+                 libopenexr-dev libassimp-dev libyaml-dev libtbb-dev libnlopt-dev libseccomp-dev \
+                 libcmocka-dev ffmpeg
 CHECK_PACKAGES = clang-format clang-tidy cppcheck
 PEER_COMMANDS  = povray:povray povray:povray-includes blender:blender node:nodejs npm:npm chromium:chromium mandoc:mandoc \
                  oiiotool:openimageio-tools assimp:assimp-utils zsh:zsh
@@ -27,7 +28,7 @@ COMMON   := -g $(OPT) -march=$(ARCH) -ffp-contract=off -fno-tree-slp-vectorize -
             -Wall -Wextra -Werror
 CFLAGS   := -std=c17 -D_GNU_SOURCE $(COMMON) -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 CXXFLAGS := -std=c++17 $(COMMON)
-LDLIBS   := -lembree3 -losdCPU -lopenvdb -lImath -lOpenImageIO -lOpenImageIO_Util -lassimp -lyaml -ltbb -lseccomp -lstdc++ -lm
+LDLIBS   := -lembree3 -losdCPU -lopenvdb -lImath -lOpenImageIO -lOpenImageIO_Util -lassimp -lyaml -ltbb -lnlopt -lseccomp -lstdc++ -lm
 LDFLAGS  := -Wl,-z,relro,-z,now,-z,noexecstack -fopenmp $(if $(filter sanitize,$(CONFIG)),-fsanitize=address$(,)undefined)
 
 # The path tracer's small functions call each other across files: inlining them while linking makes it 1.1 x faster.
@@ -37,7 +38,7 @@ $(OBJ)/base/fft.c.o: CFLAGS += -fno-tree-vectorize
 $(OUT)/ramify $(OUT)/libramify.so $(OUT)/tests/bench/%: private LDFLAGS += $(LTO)
 
 SOURCES   := $(sort $(wildcard src/*.c $(foreach d,src/* src/*/*,$d/*.c $d/*.cpp)))
-COMMANDS  := render turntable grow measure export compare golden info schema completion help
+COMMANDS  := render turntable grow measure fit export compare golden info schema completion help
 MANUAL    := $(OUT)/man/ramify.1 $(COMMANDS:%=$(OUT)/man/ramify-%.1) $(OUT)/completion/ramify $(OUT)/completion/_ramify
 # Text files that become arrays of the program: report.css is report_css[].
 EMBEDDED  := $(sort $(foreach e,css html js bash zsh,$(wildcard src/*/*.$e)))

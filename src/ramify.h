@@ -286,6 +286,76 @@ RAMIFY_API void ramify_measures_get(const RamifyMeasures *measures, int index,
 // Index of the measure with this name; -1 if there is none.
 RAMIFY_API int ramify_measures_find(const RamifyMeasures *measures, const char *name);
 
+// ---- fitting ----
+
+typedef struct RamifyFit RamifyFit; // the way of a search for parameters
+
+// A number of the scene to vary: path as for overrides, "objects.oak.tree.height".
+typedef struct RamifyRange {
+    const char *path;
+    double low, high;    // low < high, within what the key allows
+    int32_t logarithmic; // 1 = equal steps are equal factors; low > 0
+} RamifyRange;
+
+// Values of RamifyFitOptions.until.
+enum {
+    RAMIFY_UNTIL_TARGETS = 0,    // stop at the first scene that meets all targets
+    RAMIFY_UNTIL_EVALUATIONS = 1 // use all evaluations: measures move toward the middle of ranges
+};
+
+typedef struct RamifyFitOptions {
+    const RamifyRange *ranges; // range_count, 1 to 32
+    int32_t range_count;
+    int32_t evaluations; // most scenes to grow; 0 = 64
+    int32_t until;
+    // told after each evaluation, from the calling thread, or NULL; the fit is for reading in it
+    void (*evaluated)(void *user, const RamifyFit *fit);
+    void *user;
+} RamifyFitOptions;
+
+// Searches values within the ranges with which the scene's measures meet its targets: around the
+// scene's own values, then in the whole ranges, then around the best found, by the algorithms
+// COBYLA, DIRECT-L and Sbplx of NLopt. Grows and measures what the targets name; renders nothing.
+// RAMIFY_BAD_INPUT for an unknown path, a range that the key does not allow, a scene without
+// targets, or a target that cannot be measured. Cancelled after the first evaluation, it returns
+// what it has found. The scene must live as long as the fit. run may be NULL.
+RAMIFY_API RamifyFit *ramify_fit(const RamifyScene *scene, const RamifyFitOptions *options,
+                                 const RamifyRun *run, RamifyError *error);
+RAMIFY_API void ramify_fit_free(RamifyFit *fit);
+
+typedef struct RamifyFitInfo {
+    int32_t evaluation_count;
+    int32_t range_count, target_count;
+    int32_t best;      // index of the best evaluation
+    int32_t met;       // 1 = it meets all targets
+    int32_t cancelled; // 1 = the search was interrupted
+} RamifyFitInfo;
+
+// What the search did and found.
+RAMIFY_API void ramify_fit_info(const RamifyFit *fit, RamifyFitInfo *info);
+
+typedef struct RamifyEvaluation {
+    const double *parameters; // range_count values; borrowed
+    const double *measures;   // target_count values, NAN = not measurable; borrowed
+    double misfit;       // 0 = all targets met; grows with the distances from their ranges, in half
+                         // widths; INFINITY if the scene could not be grown
+    const char *failure; // why it could not be grown, or NULL; borrowed
+} RamifyEvaluation;
+
+// Evaluation number index, 0 .. evaluation_count - 1.
+RAMIFY_API void ramify_fit_evaluation(const RamifyFit *fit, int index,
+                                      RamifyEvaluation *evaluation);
+
+// Writes the scene's file with the parameters of the best evaluation in place. *whole (may be
+// NULL): false if comments and layout could not be kept, because a value comes from an alias, say;
+// the file then has all values written out. Files that the scene names are relative to the new
+// file's folder.
+RAMIFY_API bool ramify_fit_write(const RamifyFit *fit, const char *file, bool *whole,
+                                 RamifyError *error);
+
+// Draws misfit, parameters and measures over the evaluations: .svg.
+RAMIFY_API bool ramify_fit_draw(const RamifyFit *fit, const char *file, RamifyError *error);
+
 // ---- geometry ----
 
 typedef struct RamifyWorld RamifyWorld; // everything that is rendered: grown, skinned and placed

@@ -4,6 +4,7 @@
 #define RAMIFY_API_HANDLES_H
 
 #include "base/run.h"
+#include "fit/fit.h"
 #include "ramify.h"
 #include "render/renderer.h"
 #include "scene/build.h"
@@ -41,6 +42,11 @@ static inline const HeightField *land_of(const RamifyLand *land)
 static inline const MeasureList *measures_of(const RamifyMeasures *measures)
 {
     return (const MeasureList *)(const void *)measures;
+}
+
+static inline const Fit *fit_of(const RamifyFit *fit)
+{
+    return (const Fit *)(const void *)fit;
 }
 
 static inline const Film *film_of(const RamifyFilm *film)

@@ -46,8 +46,10 @@ static Offer offer_of_option(const Option *option, CommandId command)
     if (option->choices) {
         offer_words(&offer, "words");
         offer_words(&offer, option->choices);
-    } else if (option->type == OPTION_SET || option->type == OPTION_OBJECT) {
-        offer_words(&offer, option->type == OPTION_SET ? "set" : "object");
+    } else if (option->type == OPTION_OBJECT) {
+        offer_words(&offer, "object");
+    } else if (option->type == OPTION_SET || option->type == OPTION_VARY) {
+        offer_words(&offer, "set");
     } else if (strcmp(option->name, "output") == 0) {
         offer_words(&offer, "output");
         option_doc(option, command, doc, sizeof doc);
@@ -160,7 +162,7 @@ static void zsh_text(const char *text)
 static void zsh_option(const Option *o, CommandId command)
 {
     char doc[512], names[96] = "";
-    bool repeats = o->type == OPTION_SET || o->type == OPTION_OBJECT;
+    bool repeats = o->type == OPTION_SET || o->type == OPTION_VARY || o->type == OPTION_OBJECT;
     option_doc(o, command, doc, sizeof doc);
     if (o->letter) {
         snprintf(names, sizeof names, "'(-%c --%s)'{-%c,--%s%s}'", o->letter, o->name, o->letter,

@@ -93,6 +93,29 @@ static const ManualText TEXTS[] = {
                   {"the same of a tree in a file",
                    "ramify grow pine.yaml -o pine.swc && ramify measure pine.swc"},
                   {"the numbers for a script", "ramify measure pine.yaml --json --quiet"}}},
+    {.command = "fit",
+     .paragraphs =
+         {"Finds values of numbers of a scene with which its measures meet its targets: for "
+          "instance the height of a crown and the length of its internodes that give the angles "
+          "and the ratios of lengths of real trees. Each evaluation grows and measures the objects "
+          "that targets name, and prints one line; * marks the best so far.",
+          "The misfit of a scene is 0 if all targets are met. Each missed target adds e^2 / (1 + "
+          "e), where e is the distance from its range in half widths of the range (of a range with "
+          "one end: relative to that end).",
+          "The search goes around the scene's own values first, then through the whole ranges, "
+          "then "
+          "around the best found (NLopt's COBYLA, DIRECT-L, COBYLA again, and Sbplx). It draws no "
+          "random numbers: the same command finds the same scene, with any number of threads. "
+          "Keys of whole numbers get whole numbers.",
+          "-o writes the scene file with the best values in place, its comments and layout as they "
+          "were."},
+     .failure = "a target is still missed after all evaluations",
+     .examples = {{"two numbers of a pine, until its targets are met",
+                   "ramify fit pine.yaml --vary objects.pine.tree.height=6:12 --vary "
+                   "objects.pine.tree.radii.flare=0.3:1.2 -o fitted.yaml"},
+                  {"with a picture of the way",
+                   "ramify fit pine.yaml --vary objects.pine.tree.height=4:20:log --until "
+                   "evaluations --evaluations 12 --picture way.svg"}}},
     {.command = "export",
      .paragraphs = {"Writes what the scene grows for another program. The file's extension "
                     "selects the format; docs/formats.md describes what each can hold."},

@@ -7,7 +7,7 @@
 #define BIT(command) (1u << (command))
 #define GROWS                                                                                  \
     (BIT(COMMAND_RENDER) | BIT(COMMAND_TURNTABLE) | BIT(COMMAND_GROW) | BIT(COMMAND_MEASURE) | \
-     BIT(COMMAND_EXPORT))
+     BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT))
 #define SCENES (GROWS | BIT(COMMAND_INFO))
 #define COMPARES (BIT(COMMAND_COMPARE) | BIT(COMMAND_GOLDEN))
 #define EVERY \
@@ -21,13 +21,13 @@ const Option option_table[] = {
      .value = "FILE",
      .offset = AT(output),
      .type = OPTION_TEXT,
-     .commands = RENDERS | BIT(COMMAND_GROW) | BIT(COMMAND_EXPORT),
+     .commands = RENDERS | BIT(COMMAND_GROW) | BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT),
      .letter = 'o',
      .doc =
          "what to write; render: .png or .jpg with the .exr beside it; turntable: .mp4, or .png, "
          ".jpg or .exr with the frame's number in the name, as in oak-%04d.png; grow: .swc, .json, "
          ".graphml or, of a leaf's veins or a terrain's heights, .png or .exr (heights also .asc); "
-         "export: the format by its ending"},
+         "fit: .yaml, the scene with the best values; export: the format by its ending"},
     {.name = "frames",
      .value = "N",
      .offset = AT(turntable.frames),
@@ -223,6 +223,36 @@ const Option option_table[] = {
      .type = OPTION_SET,
      .commands = SCENES,
      .doc = "change the scene: --set camera.fov=35 --set objects.oak.tree.height=9"},
+    {.name = "vary",
+     .value = "PATH=LOW:HIGH",
+     .offset = AT(varied),
+     .type = OPTION_VARY,
+     .commands = BIT(COMMAND_FIT),
+     .doc = "a number of the scene and its range; LOW:HIGH:log takes equal factors as equal steps; "
+            "may be repeated"},
+    {.name = "until",
+     .value = "WHAT",
+     .offset = AT(until),
+     .choices = "targets evaluations",
+     .type = OPTION_TEXT,
+     .commands = BIT(COMMAND_FIT),
+     .doc =
+         "when to stop: targets (at the first scene that meets all; the default), or evaluations "
+         "(when all are used; measures move toward the middle of their ranges)"},
+    {.name = "evaluations",
+     .value = "N",
+     .offset = AT(evaluations),
+     .low = 1,
+     .high = 100000,
+     .type = OPTION_INT,
+     .commands = BIT(COMMAND_FIT),
+     .doc = "grow at most N scenes; 64 by default"},
+    {.name = "picture",
+     .value = "FILE.svg",
+     .offset = AT(picture),
+     .type = OPTION_TEXT,
+     .commands = BIT(COMMAND_FIT),
+     .doc = "draw misfit, parameters and measures over the evaluations"},
     {.name = "object",
      .value = "NAME",
      .offset = AT(objects),
@@ -386,6 +416,11 @@ const Command command_table[COMMAND_COUNT] = {
     [COMMAND_MEASURE] = {"measure", "SCENE|FILE.swc|FILE.asc",
                          "measure what a scene grows, or an out-tree in a file",
                          "Exit status 1 if a target of the scene is missed.\n", command_measure},
+    [COMMAND_FIT] =
+        {"fit", "SCENE", "find parameters with which a scene meets its targets",
+         "Varies the numbers named by --vary and grows, but renders nothing. Exit status "
+         "1 if targets are\nmissed. Ctrl-C keeps the best scene so far.\n",
+         command_fit},
     [COMMAND_EXPORT] = {"export", "SCENE", "write a scene as another program's file",
                         "The extension of -o FILE selects the format; see docs/formats.md.\n",
                         command_export},

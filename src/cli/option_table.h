@@ -17,6 +17,7 @@ typedef enum OptionType {
     OPTION_CROP,  // x0,y0,x1,y1, only with a scene_key
     OPTION_KEYS,  // RamifyKeys, a:b:c
     OPTION_SET,   // path=value, repeatable
+    OPTION_VARY,  // path=low:high, repeatable
     OPTION_OBJECT // name, repeatable
 } OptionType;
 

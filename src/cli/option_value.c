@@ -81,11 +81,16 @@ static bool bad_value(const Option *option, const char *text, RamifyError *e)
                  text, (int)RAMIFY_MOST_KEYS, option->low, option->high);
         break;
     case OPTION_SET:
+        snprintf(message, sizeof message,
+                 " is given more than %d times; put some keys into the scene file", MAX_OVERRIDES);
+        break;
+    case OPTION_VARY:
+        snprintf(message, sizeof message, " is given more than %d times; vary fewer numbers",
+                 MAX_VARIED);
+        break;
     case OPTION_OBJECT:
-        snprintf(message, sizeof message, " is given more than %d times; %s",
-                 option->type == OPTION_SET ? MAX_OVERRIDES : MAX_OBJECTS,
-                 option->type == OPTION_SET ? "put some keys into the scene file"
-                                            : "leave it out to write all objects");
+        snprintf(message, sizeof message,
+                 " is given more than %d times; leave it out to write all objects", MAX_OBJECTS);
         break;
     default:
         snprintf(message, sizeof message, " %.60s; it must be a %s of %.9g to %.9g", text,
@@ -150,6 +155,9 @@ bool option_take(Options *options, const Option *option, const char *text, Ramif
         break;
     case OPTION_SET:
         valid = append(options->overrides, &options->override_count, MAX_OVERRIDES, text);
+        break;
+    case OPTION_VARY:
+        valid = append(options->varied, &options->vary_count, MAX_VARIED, text);
         break;
     case OPTION_OBJECT:
         valid = append(options->objects, &options->object_count, MAX_OBJECTS, text);

@@ -6,6 +6,7 @@
 
 #define MAX_OVERRIDES 256
 #define MAX_OBJECTS 64
+#define MAX_VARIED 32
 
 enum { MAX_KEYS = 16, MAX_KEY_TEXT = 160, MAX_OPTIONS = 64 };
 
@@ -14,6 +15,7 @@ typedef enum CommandId {
     COMMAND_TURNTABLE,
     COMMAND_GROW,
     COMMAND_MEASURE,
+    COMMAND_FIT,
     COMMAND_EXPORT,
     COMMAND_COMPARE,
     COMMAND_GOLDEN,
@@ -48,11 +50,15 @@ typedef struct Options {
     const char *report, *junit, *filter;     // NULL = none
     const char *objects[MAX_OBJECTS];        // to export
     int object_count;                        // 0 = all
-    const char *instances, *colors;          // NULL = the format's own
-    int tube_sides;                          // 0 = the default
-    int end;                                 // the last frame to render
-    int frame;                               // the single frame to render
-    double time;                             // likewise, by time
+    const char *varied[MAX_VARIED];          // fit: PATH=LOW:HIGH
+    int vary_count;
+    const char *until, *picture;    // fit; NULL = the default, none
+    int evaluations;                // fit; 0 = the default
+    const char *instances, *colors; // NULL = the format's own
+    int tube_sides;                 // 0 = the default
+    int end;                        // the last frame to render
+    int frame;                      // the single frame to render
+    double time;                    // likewise, by time
     double turns;
     const char *ease;          // NULL = default
     RamifyTurntable turntable; // remaining turntable options

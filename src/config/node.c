@@ -130,6 +130,36 @@ const char *node_get_text(const Node *map, const char *key)
     return child && child->kind == NODE_SCALAR ? child->text : NULL;
 }
 
+static Node *entry_named(const Node *list, const char *name)
+{
+    Node *entry = list->first;
+    while (entry) {
+        const char *own = node_get_text(entry, "name");
+        if (own && strcmp(own, name) == 0) {
+            return entry;
+        }
+        entry = entry->next;
+    }
+    return NULL;
+}
+
+Node *node_step(const Node *node, const char *token)
+{
+    if (node->kind != NODE_LIST) {
+        return node_get(node, token);
+    }
+    Node *entry = entry_named(node, token);
+    char *end;
+    long index = strtol(token, &end, 10);
+    if (!entry && *end == 0 && end != token && index >= 0) {
+        entry = node->first;
+        for (long i = 0; entry && i < index; i++) {
+            entry = entry->next;
+        }
+    }
+    return entry;
+}
+
 Node *node_copy(Arena *arena, const Node *node, int *budget, Error *e)
 {
     *budget -= 1 + (node->text ? (int)(strlen(node->text) / TEXT_A_VALUE) : 0);

@@ -47,6 +47,10 @@ void node_append(Node *parent, Node *child, const char *key);
 // The child of a map with this key; NULL when there is none or map is NULL or not a map.
 Node *node_get(const Node *map, const char *key);
 
+// One step of a path: the child of a map with this key, or the entry of a list with this name or
+// number, counted from 0. NULL when there is none or node is a scalar.
+Node *node_step(const Node *node, const char *token);
+
 // Text of a scalar child; NULL when there is none.
 const char *node_get_text(const Node *map, const char *key);
 

@@ -28,30 +28,24 @@ static Node *fail(const Override *o)
 // Entry of a list by name or number.
 static Node *find_entry(const Override *o, const Node *list, const char *token)
 {
-    const char *names[MAX_NAMES];
-    int count = 0;
-    for (Node *entry = list->first; entry; entry = entry->next) {
-        const char *name = node_get_text(entry, "name");
-        if (name && strcmp(name, token) == 0) {
-            return entry;
-        }
-        if (name && count < MAX_NAMES) {
-            names[count++] = name;
-        }
+    Node *found = node_step(list, token);
+    if (found) {
+        return found;
     }
     char *end;
     long index = strtol(token, &end, 10);
     if (*end == 0 && end != token) {
-        Node *entry = list->first;
-        for (long i = 0; entry && i < index; i++) {
-            entry = entry->next;
-        }
-        if (entry && index >= 0) {
-            return entry;
-        }
         error_set(o->e, ERROR_INPUT, "no entry %ld in this list; it has %d, counted from 0", index,
                   list->count);
         return fail(o);
+    }
+    const char *names[MAX_NAMES];
+    int count = 0;
+    for (const Node *entry = list->first; entry && count < MAX_NAMES; entry = entry->next) {
+        const char *name = node_get_text(entry, "name");
+        if (name) {
+            names[count++] = name;
+        }
     }
     char hint[512];
     hint_format(token, names, count, hint, sizeof hint);

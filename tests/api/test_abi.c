@@ -22,6 +22,10 @@ static void structs_lie_as_before(void **state)
         STRUCT(RamifyTarget, high, 32, 24),
         STRUCT(RamifyLandInfo, hash, 40, 32),
         STRUCT(RamifyMeasure, high, 40, 32),
+        STRUCT(RamifyRange, logarithmic, 32, 24),
+        STRUCT(RamifyFitOptions, user, 40, 32),
+        STRUCT(RamifyFitInfo, cancelled, 24, 20),
+        STRUCT(RamifyEvaluation, failure, 32, 24),
         STRUCT(RamifyWorldInfo, mesh_seconds, 56, 48),
         STRUCT(RamifyPart, variations, 120, 112),
         STRUCT(RamifyExportOptions, tube_sides, 24, 20),
@@ -55,6 +59,7 @@ static void zero_is_the_usual_way(void **state)
     assert_int_equal(RAMIFY_COLORS_ALL, 0);
     assert_int_equal(RAMIFY_GOLDEN_AS_SCENE, 0);
     assert_int_equal(RAMIFY_EASE_USUAL, 0);
+    assert_int_equal(RAMIFY_UNTIL_TARGETS, 0);
 }
 
 int main(void)

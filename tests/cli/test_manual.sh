@@ -97,6 +97,7 @@ render: {samples: 1}
 objects:
   - name: pine
     tree: {height: 3, crown: {lobes: 0, growth: {levels: [{attractors: 60}]}}, leaves: {max_count: 50}}
+targets: [{object: pine, measure: height, low: 2, high: 12}]
 END
 mkdir -p bin
 cat >bin/ramify <<END
@@ -186,6 +187,8 @@ for shell in bash zsh; do
     offers $shell ending "ramify export pine.yaml -o pine." pine.glb pine.obj '!pine.jpg'
     offers $shell object "ramify export pine.yaml --object " pine
     offers $shell key "ramify render pine.yaml --set camera.fo" camera.fov= camera.focal_length= '!film.'
+    offers $shell varied "ramify fit pine.yaml --vary objects.pine.tree.h" objects.pine.tree.height=
+    offers $shell until "ramify fit pine.yaml --until t" targets '!evaluations'
     offers $shell object_key "ramify render pine.yaml --set objects.pine.tree.h" objects.pine.tree.height=
     offers $shell value "ramify render pine.yaml --set sky.kind=" '!pine.yaml'
     offers $shell frames "ramify turntable pine.yaml -o pine" pine-%04d.png pine.mp4 '!pine-%04d.mp4'
