@@ -82,7 +82,7 @@ static bool bad_value(const Option *option, const char *text, RamifyError *e)
         break;
     case OPTION_SET:
         snprintf(message, sizeof message,
-                 " is given more than %d times; put some keys into the scene file", MAX_OVERRIDES);
+                 " is given more than %d times; set some keys in the scene file", MAX_OVERRIDES);
         break;
     case OPTION_VARY:
         snprintf(message, sizeof message, " is given more than %d times; vary fewer numbers",
@@ -90,7 +90,7 @@ static bool bad_value(const Option *option, const char *text, RamifyError *e)
         break;
     case OPTION_OBJECT:
         snprintf(message, sizeof message,
-                 " is given more than %d times; leave it out to write all objects", MAX_OBJECTS);
+                 " is given more than %d times; without it, all objects are written", MAX_OBJECTS);
         break;
     default:
         snprintf(message, sizeof message, " %.60s; it must be a %s of %.9g to %.9g", text,

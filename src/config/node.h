@@ -29,7 +29,7 @@ typedef struct Node {
     bool animated;      // interpolated number: rounded for keys of whole numbers
     bool quoted;        // scalar in quotes, so never a number, a bool or null
     int line, column;   // 1-based; 0 for a node that is in no file (a default)
-    const char *source; // origin, "--set path=value"; NULL = the scene file
+    const char *source; // origin, "override path=value"; NULL = the scene file
     const char *text;   // scalar
     const char *key;    // when the parent is a map
     int key_line, key_column;

@@ -203,8 +203,8 @@ void export_warn_of_instances(const ExportSource *source, const Run *run)
     }
     if ((double)instanced > MANY_TRIANGLES) {
         run_warn(run,
-                 "instances written out make %.0f million triangles; --object NAME writes only "
-                 "that object, and .glb and .usda keep instances",
+                 "instances written out make %.0f million triangles; export fewer objects, or a "
+                 ".glb or .usda file, which keep instances",
                  (double)instanced * 1e-6);
     }
 }

@@ -113,8 +113,8 @@ static bool write(const ExportSource *source, const char *file, const Run *run, 
     ExportTally tally = export_all_tally(source);
     if (tally.vertices > INT32_MAX) {
         return error_set(e, ERROR_INPUT,
-                         "%lld vertices; readers of PLY take at most %d: --object NAME writes only "
-                         "that object, and .glb keeps instances",
+                         "%lld vertices; readers of PLY take at most %d: export fewer objects, or "
+                         "a .glb file, which keeps instances",
                          (long long)tally.vertices, INT32_MAX);
     }
     export_warn_of_instances(source, run);

@@ -45,8 +45,8 @@ static bool write(const ExportSource *source, const char *file, const Run *run, 
     int64_t count = export_all_tally(source).triangles;
     if (count > UINT32_MAX) {
         return error_set(e, ERROR_INPUT,
-                         "%lld triangles; an STL file holds at most %u: --object NAME writes only "
-                         "that object, and .glb keeps instances",
+                         "%lld triangles; an STL file holds at most %u: export fewer objects, or "
+                         "a .glb file, which keeps instances",
                          (long long)count, UINT32_MAX);
     }
     export_warn_of_instances(source, run);

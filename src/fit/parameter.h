@@ -5,7 +5,7 @@
 #include "scene/scene.h"
 
 typedef struct FitRange {
-    const char *path; // as for --set: objects.oak.tree.height
+    const char *path; // as in an override: objects.oak.tree.height
     double low, high; // low < high
     bool logarithmic; // equal steps are equal factors; low > 0
 } FitRange;

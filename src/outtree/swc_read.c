@@ -194,7 +194,8 @@ static bool link_rows(SwcFile *swc, Error *e)
     qsort(swc->name, (size_t)swc->count, sizeof *swc->name, compare_names);
     for (int64_t i = 1; i < swc->count; i++) {
         if (swc->name[i].number == swc->name[i - 1].number) {
-            error_set(e, ERROR_INPUT, "number %lld is taken in line %d already; give each its own",
+            error_set(e, ERROR_INPUT,
+                      "number %lld is already used in line %d; each point must have its own number",
                       (long long)swc->name[i].number, swc->row[swc->name[i - 1].row].line);
             return fail_at(swc, swc->row[swc->name[i].row].line, e);
         }

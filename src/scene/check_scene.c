@@ -84,7 +84,7 @@ bool check_target(const Mapping *mapping, void *params)
 
 // ---- names ----
 
-// Names are used in --set paths and in layer names.
+// Names are used in the paths of keys and in layer names.
 static bool check_name(const Mapping *scene, const Node *name, const char *what)
 {
     const char *text = name->text;

@@ -11,7 +11,7 @@
 
 typedef struct Override {
     Arena *arena;
-    const char *source; // "--set path=value"; NULL = the scene's file, at line and column
+    const char *source; // "override path=value"; NULL = the scene's file, at line and column
     int line, column;
     Error *e;
 } Override;
@@ -186,7 +186,7 @@ static bool apply(const Override *o, Node *root, char *path, const Node *value)
 
 bool override_apply(Arena *arena, Node *root, const char *override, Error *e)
 {
-    Override o = {arena, arena_format(arena, e, "--set %s", override), 0, 0, e};
+    Override o = {arena, arena_format(arena, e, "override %s", override), 0, 0, e};
     const char *equals = strchr(override, '=');
     if (!o.source) {
         return false;

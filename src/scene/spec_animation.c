@@ -24,7 +24,7 @@ static const Table KEY_TABLE = {.name = "key",
 
 static const Key TRACK_KEYS[] = {
     {KEY_OF(SceneTrack, path, "path", KEY_TEXT), .flags = KEY_REQUIRED,
-     .doc = "Path of the animated value, as for --set: camera.position, sky.sun_elevation, "
+     .doc = "Path of the animated value, as for an override: camera.position, sky.sun_elevation, "
             "objects.oak.tree.height."},
     {KEY_OF(SceneTrack, ease, "ease", KEY_ENUM), .names = EASES,
      .doc = "Interpolation between keys. linear: constant speed; smooth: slow at every key; step: "

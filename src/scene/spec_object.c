@@ -4,7 +4,7 @@
 
 static const Key OBJECT_KEYS[] = {
     {KEY_OF(SceneObject, name, "name", KEY_TEXT), .flags = KEY_REQUIRED,
-     .doc = "Unique name, used in messages, targets and --set paths. The object's random numbers "
+     .doc = "Unique name, used in messages, targets and paths of keys. The object's random numbers "
             "depend on it."},
     {KEY_OF(SceneObject, seed, "seed", KEY_UINT64), .high = 18446744073709551615.0,
      .doc = "Seed of this object; 0 = derived from the scene's seed and the object's name."},

@@ -57,7 +57,7 @@ static Aabb box_common(Aabb a, Aabb b)
 static bool check_list(const EnvelopeParams *params, Error *e)
 {
     if (params->shape_count < 1) {
-        return error_set(e, ERROR_INPUT, "an envelope of no shapes; give one at least");
+        return error_set(e, ERROR_INPUT, "the envelope has no shapes; it needs at least one");
     }
     if (!isfinite(params->voxel) || params->voxel < 0.0f) {
         return error_set(e, ERROR_INPUT,
@@ -68,13 +68,13 @@ static bool check_list(const EnvelopeParams *params, Error *e)
         const Shape *shape = &params->shapes[i];
         if (shape->kind == SHAPE_HALF_SPACE && (i == 0 || shape->op == SHAPE_UNION)) {
             return error_set(e, ERROR_INPUT,
-                             "shape %d: a half space has no end and can only cut; put it after "
+                             "shape %d: a half space is unbounded and can only cut; put it after "
                              "another shape, as an intersection or a difference",
                              i + 1);
         }
         if (i == 0 && shape->op != SHAPE_UNION) {
             return error_set(e, ERROR_INPUT,
-                             "shape 1: there is nothing yet to cut; the first shape of the list "
+                             "shape 1: there is no shape to cut yet; the first shape of the list "
                              "must be a union");
         }
     }

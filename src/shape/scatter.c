@@ -144,7 +144,7 @@ static bool check_share(const char *name, float value, float low, Error *e)
 static bool check_count(int64_t count, Error *e)
 {
     if (count < 1) {
-        return error_set(e, ERROR_INPUT, "%lld points; one at least is needed", (long long)count);
+        return error_set(e, ERROR_INPUT, "%lld points; at least one is needed", (long long)count);
     }
     if (count > INT32_MAX) {
         return error_set(e, ERROR_INPUT, "%lld points; at most %d are possible", (long long)count,
@@ -165,18 +165,19 @@ static bool check_params(const Envelope *envelope, const ScatterParams *params, 
         return error_set(e, ERROR_INPUT, "scale is %g; it must be positive", (double)params->scale);
     }
     if (params->anchored && params->pattern == SCATTER_POISSON) {
-        error_set(e, ERROR_INPUT,
-                  "anchored points keep no distance; use the pattern random, or anchored: false");
+        error_set(
+            e, ERROR_INPUT,
+            "anchored points keep no minimum distance; use the pattern random, or anchored: false");
         return error_key(e, "points.anchored");
     }
     if (params->place == SCATTER_VOLUME && !(envelope_volume(envelope) > 0.0)) {
         error_set(e, ERROR_INPUT,
-                  "the envelope has no inside to put points in; close its mesh, make its voxel "
-                  "smaller, or put the points on its surface");
+                  "the envelope has no interior for points; close its mesh, make its voxel "
+                  "smaller, or place the points on its surface");
         return error_key(e, "envelope");
     }
     if (params->place == SCATTER_SURFACE && !(envelope_area(envelope) > 0.0)) {
-        error_set(e, ERROR_INPUT, "the envelope has no surface to put points on; make it larger");
+        error_set(e, ERROR_INPUT, "the envelope has no surface for points; make it larger");
         return error_key(e, "envelope");
     }
     return true;
@@ -185,8 +186,8 @@ static bool check_params(const Envelope *envelope, const ScatterParams *params, 
 bool scatter_empty_error(const Scatter *scatter, int64_t draws, Error *e)
 {
     error_set(e, ERROR_INPUT,
-              "only a vanishing part of the envelope's box is to be filled: %lld draws "
-              "were not enough for %lld points; make the envelope thicker, or the points fewer",
+              "the envelope fills too little of its bounding box: %lld random draws did not give "
+              "%lld points; make the envelope thicker, or use fewer points",
               (long long)draws, (long long)scatter->params->count);
     return error_key(e, "envelope");
 }

@@ -121,7 +121,7 @@ static bool grid_add(DartGrid *g, Vec3 p, Error *e)
     Dart *slot = &g->slot[slot_of(g, c[0], c[1], c[2])];
     if (slot->next != DART_NONE) {
         if (g->spilled_count == INT32_MAX) {
-            return error_set(e, ERROR_INPUT, "too many points; fewer are needed");
+            return error_set(e, ERROR_INPUT, "too many points; use fewer");
         }
         if (!memory_reserve(&g->spilled, &g->spilled_capacity, g->spilled_count + 1,
                             sizeof *g->spilled, e)) {

@@ -50,7 +50,7 @@ check two_scenes 2 "$RAMIFY" info scene.yaml scene.yaml
 check absent_scene 2 "$RAMIFY" render nope.yaml
 says absent_scene_message err "nope.yaml: cannot read it: No such file or directory"
 check wrong_scene 2 "$RAMIFY" info scene.yaml --set camera.fvo=3
-says wrong_scene_message err "--set camera.fvo=3: unknown key 'fvo' in camera; did you mean 'fov'?"
+says wrong_scene_message err "override camera.fvo=3: unknown key 'fvo' in camera; did you mean 'fov'?"
 
 check schema 0 "$RAMIFY" schema
 says schema_title out '"title": "ramify scene"'

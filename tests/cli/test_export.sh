@@ -74,6 +74,15 @@ check forest_and_floor 0 "$RAMIFY" export slope.yaml -o both.stl -q
 tail -c +85 both.stl >both # triangles alone
 yes a_forest_alone_stands_where_it_stood sh -c '{ tail -c +85 floor.stl; tail -c +85 forest.stl; } | cmp - both'
 
+# A soap film is smooth in every format.
+printf 'objects: [{name: bubble, shape: {envelope: [{shape: sphere}], voxel: 0.3}, material: soap_film}]\n' >soap.yaml
+for format in obj glb usda; do
+    check soap_$format 0 "$RAMIFY" export soap.yaml -o soap.$format -q
+done
+yes soap_is_smooth_in_mtl grep -qx 'Pr 0' soap.mtl
+yes soap_is_smooth_in_glb grep -qa '"roughnessFactor":0[,}]' soap.glb
+yes soap_is_smooth_in_usda grep -qE 'inputs:roughness = 0$' soap.usda
+
 # A picture that is cut off is found out, also where it would go into the file as it is.
 printf '\211PNG\r\n\032\n' >cut.png
 cat >pictured.yaml <<'END'

@@ -143,7 +143,7 @@ static void wrong_files_are_refused(void **state)
         {"1 0 0 0 0 1 -1 9\n", "'9' after seven numbers", 1},
         {"1 0 0 zero 0 1 -1\n", "'zero 0 1 -1' is no number", 1},
         {"1 0 0 0x 0 1 -1\n", "is no number", 1},
-        {"1 0 0 0 0 1 -1\n1 0 0 0 0 1 -1\n", "number 1 is taken in line 1 already", 2},
+        {"1 0 0 0 0 1 -1\n1 0 0 0 0 1 -1\n", "number 1 is already used in line 1", 2},
         {"1 0 0 0 0 1 2\n", "parent 2 is no node", 1},
         {"1 0 0 0 0 1 1\n", "node 1 is its own ancestor", 1},
         {"1 0 0 0 0 1 -1\n2 0 0 0 0 1 3\n3 0 0 0 0 1 2\n", "node 2 is its own ancestor", 2},

@@ -51,7 +51,7 @@ static const Case scenes[] = {
     {"{}", ":1:1: the scene has no 'objects'; this key is required: Objects of the scene."},
     {"objects: [{tree: }]",
      ":1:11: objects.0 has no 'name'; this key is required: Unique name, used in messages, targets "
-     "and --set paths. The object's random numbers depend on it."},
+     "and paths of keys. The object's random numbers depend on it."},
     {"objects: [{name: a, mesh: }]",
      ":1:27: objects.a.mesh has no 'file'; this key is required: OBJ, PLY, STL, glTF or GLB file, "
      "relative to the scene's folder."},
@@ -251,7 +251,7 @@ static void bad_overrides_are_refused_in_exact_words(void **state)
         Error e = {0};
         char wanted[1200];
         assert_null(scene_read_text(TREE, strlen(TREE), "s.yaml", "", &overrides[i].text, 1, &e));
-        snprintf(wanted, sizeof wanted, "--set %s%s", overrides[i].text, overrides[i].message);
+        snprintf(wanted, sizeof wanted, "override %s%s", overrides[i].text, overrides[i].message);
         wrong += expect(overrides[i].text, &e, wanted);
     }
     assert_int_equal(wrong, 0);

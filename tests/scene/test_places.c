@@ -215,7 +215,7 @@ static void overrides_are_blamed(void **state)
     scene = ramify_scene_load_text(text, strlen(text), "s.yaml", "", &set, 1, &e);
     assert_non_null(scene);
     assert_false(prepare(scene, &e));
-    assert_string_equal(e.file, "--set objects.x.dla={size: 1e-30}");
+    assert_string_equal(e.file, "override objects.x.dla={size: 1e-30}");
     ramify_scene_free(scene);
 }
 

@@ -307,21 +307,21 @@ static void refuses_what_is_no_envelope(void **state)
         float voxel;
         const char *message;
     } cases[] = {
-        {{box}, 0, 0, "an envelope of no shapes; give one at least"},
+        {{box}, 0, 0, "the envelope has no shapes; it needs at least one"},
         {{half},
          1,
          0,
-         "shape 1: a half space has no end and can only cut; put it after another shape, as an "
+         "shape 1: a half space is unbounded and can only cut; put it after another shape, as an "
          "intersection or a difference"},
         {{box, half},
          2,
          0,
-         "shape 2: a half space has no end and can only cut; put it after another shape, as an "
+         "shape 2: a half space is unbounded and can only cut; put it after another shape, as an "
          "intersection or a difference"},
         {{ball, box},
          2,
          0,
-         "shape 1: there is nothing yet to cut; the first shape of the list must be a union"},
+         "shape 1: there is no shape to cut yet; the first shape of the list must be a union"},
         {{thin}, 1, 0, "shape 1 (box): box of half-axes 1, -1, 1 m; all must be positive"},
         {{cone},
          1,

@@ -307,7 +307,7 @@ static void refuses_absurd_params(void **state)
     list[5].depth_gradient = -2.0f;
     list[6].count = (int64_t)INT32_MAX + 1;
     static const char *const messages[7] = {"1000000000000 points; at most 2147483647 are possible",
-                                            "0 points; one at least is needed",
+                                            "0 points; at least one is needed",
                                             "scale is -1; it must be positive",
                                             "shell is 1.5; it must lie between 0 and 1",
                                             "gradient is nan; it must lie between -1 and 1",

@@ -111,8 +111,8 @@ bool glb_too_large(Error *e, double bytes)
 {
     return error_set(e, ERROR_INPUT,
                      "the file would have more than %.1f GB; a GLB file holds at most 4.29: "
-                     "--instances gpu keeps instances, --object NAME writes only that object, and "
-                     ".ply has no such limit",
+                     "keep instances by EXT_mesh_gpu_instancing, export fewer objects, or export a "
+                     ".ply file, which has no such limit",
                      bytes * 1e-9);
 }
 
@@ -212,7 +212,7 @@ static void warn_of_placing(const Glb *glb)
     }
     if (gpu && glb->source->options.instances == EXPORT_INSTANCES_AUTO) {
         run_warn(glb->run, "instances need EXT_mesh_gpu_instancing, which Blender knows from 4.0 "
-                           "on; --instances nodes or flat is for readers without it");
+                           "on; readers without it need instances as nodes or written out");
     }
     if (glb->source->options.instances == EXPORT_INSTANCES_FLAT) {
         export_warn_of_instances(glb->source, glb->run);

@@ -82,7 +82,7 @@ static void surface(Usda *usda, const Material *m, const char *name, bool glows,
 {
     UsdaText *text = &usda->text;
     Appearance a = material_appearance(m);
-    float roughness = appearance_is_matt(&a) ? 1.0f : a.traits & TRAIT_THIN ? 0.0f : a.roughness;
+    float roughness = appearance_is_matt(&a) ? 1.0f : a.roughness;
     usda_begin(text, NULL, "def Shader \"Surface\"");
     usda_line(text, "uniform token info:id = \"UsdPreviewSurface\"");
     if (m->texture || vertex_colors_wanted(&usda->source->options, m)) {

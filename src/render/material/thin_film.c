@@ -167,6 +167,7 @@ static float shadow_opacity(const Material *m, float cosine)
 
 static void describe(const Material *m, Appearance *a)
 {
+    a->roughness = 0.0f;
     a->ior = m->ior;
     a->film_thickness = m->film_thickness;
     a->film_variation = fmaxf(m->film_swirl, m->film_drainage);
