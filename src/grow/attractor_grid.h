@@ -10,7 +10,7 @@
 
 #include <stdint.h>
 
-enum { BLOCK_LANES = 8, ATTRACTOR_MAX_SLABS = 256 };
+enum { BLOCK_LANES = 8, ATTRACTOR_MAX_SLABS = 256, NEAREST_RIVAL = -2 };
 
 // Eight attractors of one cell; lanes beyond the cell's count have best = -1, below any distance.
 // Three cache lines.
@@ -18,7 +18,7 @@ typedef struct AttractorBlock {
     _Alignas(64) float x[BLOCK_LANES];
     float y[BLOCK_LANES], z[BLOCK_LANES];
     float best[BLOCK_LANES];       // m^2: squared distance to the nearest node, or reach^2
-    int32_t nearest[BLOCK_LANES];  // that node; -1 when none is within reach
+    int32_t nearest[BLOCK_LANES];  // that node; -1: none is within reach; NEAREST_RIVAL: not ours
     int32_t previous[BLOCK_LANES]; // the nearest node one step earlier
 } AttractorBlock;
 
@@ -69,11 +69,19 @@ void attractor_grid_free(AttractorGrid *grid);
 // Cell along an axis of a point at this offset from the grid's low corner, m; clamped.
 int attractor_grid_cell_along(const AttractorGrid *grid, int axis, float offset);
 
-// Processes nodes first..tree->count-1: updates the nearest nodes, removes attractors closer than
-// kill to any node, and sets the bits in `changed` of all nodes that gained or lost a living
-// attractor. Ties go to the lowest node index; the result does not depend on the number of threads.
-// If cancelled (check run), it stops early and the grid is no longer valid.
-void attractor_grid_update(AttractorGrid *grid, const OutTree *tree, int64_t first, const Run *run,
-                           int threads, const NodeBits *changed);
+// Nodes that are new to the grid.
+typedef struct NewNodes {
+    const OutTree *tree;
+    int64_t first;     // first .. tree->count - 1
+    const Vec3 *rival; // nodes of other out-trees: they take attractors, but are never pulled
+    int64_t rival_count;
+} NewNodes;
+
+// Updates the nearest nodes, removes attractors closer than kill to any node, and sets the bits in
+// `changed` of all the tree's nodes that gained or lost a living attractor. Ties go to the tree's
+// lowest node index, then to rivals; the result does not depend on the number of threads. If
+// cancelled (check run), it stops early and the grid is no longer valid.
+void attractor_grid_update(AttractorGrid *grid, const NewNodes *nodes, const Run *run, int threads,
+                           const NodeBits *changed);
 
 #endif

@@ -219,13 +219,14 @@ static int64_t settle_cell(AttractorGrid *grid, int32_t cell, const NodeBits *ch
 
 // Splits the grid into at most `wanted` slabs of about equal work. Slabs change little from step to
 // step, so a thread finds most of its cells in its own cache.
-static void plan_slabs(AttractorGrid *grid, const OutTree *tree, int64_t first, int wanted)
+static void plan_slabs(AttractorGrid *grid, const NewNodes *nodes, int wanted)
 {
+    const OutTree *tree = nodes->tree;
     int axis = grid->axis, slices = grid->size[axis];
     int64_t *work = grid->work;
     memset(work, 0, (size_t)(slices + 1) * sizeof *work);
     float low = axis == 0 ? grid->low.x : grid->low.y;
-    for (int64_t k = first; k < tree->count && wanted > 1; k++) {
+    for (int64_t k = nodes->first; k < tree->count && wanted > 1; k++) {
         float at = axis == 0 ? tree->position[k].x : tree->position[k].y;
         work[attractor_grid_cell_along(grid, axis, at - low - grid->reach)]++;
         work[attractor_grid_cell_along(grid, axis, at - low + grid->reach) + 1]--;
@@ -245,11 +246,15 @@ static void plan_slabs(AttractorGrid *grid, const OutTree *tree, int64_t first, 
     }
 }
 
-static int64_t update_slab(AttractorGrid *grid, Slab *slab, const OutTree *tree, int64_t first,
-                           const Run *run, const NodeBits *changed)
+static int64_t update_slab(AttractorGrid *grid, Slab *slab, const NewNodes *nodes, const Run *run,
+                           const NodeBits *changed)
 {
-    for (int64_t k = first; k < tree->count && run_goes_on(run, k, NULL); k++) {
+    const OutTree *tree = nodes->tree;
+    for (int64_t k = nodes->first; k < tree->count && run_goes_on(run, k, NULL); k++) {
         offer_node(grid, slab, tree->position[k], (int32_t)k);
+    }
+    for (int64_t k = 0; k < nodes->rival_count && run_goes_on(run, k, NULL); k++) {
+        offer_node(grid, slab, nodes->rival[k], NEAREST_RIVAL);
     }
     int64_t removed = 0;
     for (int64_t i = 0; i < slab->touched_count && run_goes_on(run, i, NULL); i++) {
@@ -274,11 +279,12 @@ static void drop_idle_cells(AttractorGrid *grid)
     grid->idle_count = 0;
 }
 
-void attractor_grid_update(AttractorGrid *grid, const OutTree *tree, int64_t first, const Run *run,
-                           int threads, const NodeBits *changed)
+void attractor_grid_update(AttractorGrid *grid, const NewNodes *nodes, const Run *run, int threads,
+                           const NodeBits *changed)
 {
-    bool shared = threads > 1 && tree->count - first >= MIN_SHARED;
-    plan_slabs(grid, tree, first, shared ? threads : 1);
+    int64_t count = nodes->tree->count - nodes->first + nodes->rival_count;
+    bool shared = threads > 1 && count >= MIN_SHARED;
+    plan_slabs(grid, nodes, shared ? threads : 1);
     int slabs = grid->slab_count, row = grid->size[2] + BLOCK_LANES;
     int64_t removed = 0, slice = grid->cell_count / grid->size[grid->axis];
 #pragma omp parallel for schedule(static, 1) num_threads(slabs) reduction(+ : removed) if (slabs > 1)
@@ -286,7 +292,7 @@ void attractor_grid_update(AttractorGrid *grid, const OutTree *tree, int64_t fir
         Slab slab = {.begin = s > 0 ? grid->slab_end[s - 1] : 0, .end = grid->slab_end[s]};
         slab.touched = grid->touched + slab.begin * slice;
         slab.gap2 = grid->gap2 + (int64_t)s * row;
-        removed += update_slab(grid, &slab, tree, first, run, changed);
+        removed += update_slab(grid, &slab, nodes, run, changed);
     }
     grid->alive -= removed;
     drop_idle_cells(grid);

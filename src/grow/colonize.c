@@ -188,6 +188,19 @@ static bool choose_growers(Growth *growth, Error *e)
            memory_reserve(&growth->grew, &growth->grew_capacity, count, sizeof *growth->grew, e);
 }
 
+// Turns children out of taken space and drops those that cannot; returns how many remain.
+static int keep_free(const Growth *growth, const Grower *grower, Child *child, int count)
+{
+    const Room *room = growth->params->room;
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        if (!room || room_give_way(room, grower->position, &child[i].position)) {
+            child[kept++] = child[i];
+        }
+    }
+    return kept;
+}
+
 static void make_children(Growth *growth)
 {
     int64_t growers = growth->grower_count, bins = growth->bins;
@@ -207,8 +220,10 @@ static void make_children(Growth *growth)
     for (int64_t i = 0; i < growers; i++) {
         if (!run_is_cancelled(growth->run)) {
             growth_merge_pulls(growth, i, threads);
-            growth->child_count[i] = growth_make_children(
-                growth, &growth->grower[i], &growth->pull[i * bins], &growth->child[i * bins]);
+            Child *child = &growth->child[i * bins];
+            int count =
+                growth_make_children(growth, &growth->grower[i], &growth->pull[i * bins], child);
+            growth->child_count[i] = keep_free(growth, &growth->grower[i], child, count);
         }
     }
 }
@@ -269,6 +284,20 @@ static bool check_reach(const Growth *growth, const Run *run, GrowReport *report
     return reach_warn(growth->tree, growth->params, growth->attractors, &growth->changed, run, e);
 }
 
+// Tells rivals the nodes from `seen` on, waits for this growth's turn, and lets the attractors see
+// all new nodes.
+static bool update_attractors(Growth *growth, int64_t seen, Error *e)
+{
+    const Room *room = growth->params->room;
+    NewNodes nodes = {.tree = growth->tree, .first = seen};
+    if (room && room->meet &&
+        !room->meet(room->user, growth->tree, seen, &nodes.rival, &nodes.rival_count, e)) {
+        return false;
+    }
+    attractor_grid_update(&growth->grid, &nodes, growth->run, growth->threads, &growth->changed);
+    return !run_is_cancelled(growth->run) || run_cancel_error(e);
+}
+
 // Iterates until nothing grows or a limit is reached.
 static bool grow(Growth *growth, const Run *run, GrowReport *report, Error *e)
 {
@@ -278,10 +307,8 @@ static bool grow(Growth *growth, const Run *run, GrowReport *report, Error *e)
     bool full = false;
     for (;;) {
         growth->grid.now = params->first_step + (int32_t)report->steps;
-        attractor_grid_update(&growth->grid, growth->tree, seen, run, growth->threads,
-                              &growth->changed);
-        if (run_is_cancelled(run)) {
-            return run_cancel_error(e);
+        if (!update_attractors(growth, seen, e)) {
+            return false;
         }
         seen = growth->tree->count;
         if (report->steps == 0 && !check_reach(growth, run, report, e)) {
@@ -376,10 +403,11 @@ static int clamp_threads(int threads)
     return threads < 1 ? 1 : (threads > ATTRACTOR_MAX_SLABS ? ATTRACTOR_MAX_SLABS : threads);
 }
 
-bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *params,
-              const Run *run, GrowReport *report, Error *e)
+// Grows toward the attractors, all of which the room allows.
+static bool colonize_allowed(OutTree *tree, const PointSet *attractors,
+                             const ColonizeParams *params, const Run *run, GrowReport *report,
+                             Error *e)
 {
-    GrowReport mine = {.stop = STOP_NO_PULL, .influence = params->influence};
     Growth growth = {.tree = tree,
                      .attractors = attractors,
                      .params = params,
@@ -390,19 +418,30 @@ bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *p
     int64_t before = tree->count;
     bool grown = prepare(&growth, e);
     if (grown && attractors->count == 0) {
-        mine.stop = STOP_OUT_OF_REACH;
-        mine.nearest = INFINITY;
+        report->stop = STOP_OUT_OF_REACH;
+        report->nearest = INFINITY;
     } else if (grown) {
-        grown = grow(&growth, run, &mine, e);
-        if (grown && mine.stop == STOP_NO_PULL) {
-            reach_measure_left(tree, &growth.grid, attractors->count, &mine);
+        grown = grow(&growth, run, report, e);
+        if (grown && report->stop == STOP_NO_PULL) {
+            reach_measure_left(tree, &growth.grid, attractors->count, report);
         }
     }
-    mine.new_nodes = tree->count - before;
-    mine.attractors_left = growth.grid.alive;
+    report->new_nodes = tree->count - before;
+    report->attractors_left = growth.grid.alive;
+    free_growth(&growth);
+    return grown;
+}
+
+bool colonize(OutTree *tree, const PointSet *attractors, const ColonizeParams *params,
+              const Run *run, GrowReport *report, Error *e)
+{
+    GrowReport mine = {.stop = STOP_NO_PULL, .influence = params->influence};
+    PointSet *allowed = params->room ? room_allowed_points(params->room, attractors, run, e) : NULL;
+    bool grown = (allowed || !params->room) &&
+                 colonize_allowed(tree, allowed ? allowed : attractors, params, run, &mine, e);
+    points_free(allowed);
     if (report) {
         *report = mine;
     }
-    free_growth(&growth);
     return grown;
 }

@@ -6,6 +6,7 @@
 #include "base/run.h"
 #include "field/guide_field.h"
 #include "grow/attractor_log.h"
+#include "grow/room.h"
 #include "grow/rules/grow_string.h"
 #include "outtree/out_tree.h"
 #include "shape/points.h"
@@ -62,7 +63,8 @@ typedef struct ColonizeParams {
                       // direction of the attractors owned, as in Horiuchi
     float length_near, length_far; // GROW_STRING, m: growth distance of the attractors nearest to
                                    // their root and of the farthest; 0 = step
-    float apical; // apical dominance 0..1: probability that a lateral child is suppressed
+    float apical;     // apical dominance 0..1: probability that a lateral child is suppressed
+    const Room *room; // obstacles and rivals; NULL = the growth is alone
     uint64_t seed;
     int32_t first_step; // birth of the first new nodes is first_step + 1
     int64_t max_steps;  // 0 = no limit

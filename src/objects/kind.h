@@ -12,9 +12,26 @@
 
 enum { OBJECT_MOST_MATERIALS = 6 };
 
+// Another object, whose surface a growth keeps clear of.
+typedef struct ClearOf {
+    char *object;   // its name
+    float distance; // m
+    float within;   // m: the growth also stays as near to it as this; 0 = anywhere
+} ClearOf;
+
+// Objects of one group grow at the same time, in turns of one step, and take attractors and space
+// from each other.
+typedef struct Contest {
+    char *group;
+    float gap; // m: between their nodes' axes
+} Contest;
+
 typedef struct SceneObject {
     char *name;
     uint64_t seed; // 0 = from the scene's seed and the name
+    ClearOf *clear_of;
+    int clear_of_count;
+    Contest *contest; // NULL = none
     const struct Kind *kind;
     void *params; // of the kind
     // Names of materials by the kind's roles; NULL = the kind's own choice (Kind.materials).
@@ -35,6 +52,7 @@ typedef struct Kind {
 
     bool reads_scene; // its geometry depends on materials' values or on other objects
     bool reads_water; // it avoids the scene's water
+    bool keeps_room;  // its growth keeps to Recipe.room
 
     // Sets the object's own space and transforms its parameters (a copy) into it; NULL = scene
     // space. The recipe works in the object's own space; its results are transformed into the

@@ -8,6 +8,7 @@
 #include "outtree/measure.h"
 #include "render/world.h"
 #include "scene/builtin.h"
+#include "scene/making.h"
 #include "scene/needs.h"
 #include "scene/place.h"
 #include "scene/scene_flood.h"
@@ -77,45 +78,6 @@ uint64_t scene_object_seed(const Scene *scene, int index)
     const SceneObject *object = &scene->objects[index];
     uint64_t name = hash_bytes(HASH_START, object->name, strlen(object->name));
     return object->seed ? object->seed : random_key(name, scene->seed);
-}
-
-enum { LABEL_SIZE = 128 };
-
-// One object in its own space, on its way to growth and geometry.
-typedef struct Making {
-    const Scene *scene;
-    int index;
-    const Kind *kind;
-    OwnSpace own;
-    const void *params;
-    char label[LABEL_SIZE];
-    Recipe recipe;
-    Grown grown;
-} Making;
-
-// End with making_end, also on failure.
-static bool making_begin(Making *m, const Scene *scene, int index, const Run *run, Error *e)
-{
-    const SceneObject *object = &scene->objects[index];
-    *m = (Making){.scene = scene, .index = index, .kind = object->kind};
-    snprintf(m->label, sizeof m->label, "object '%s'", object->name);
-    m->recipe = (Recipe){scene_object_seed(scene, index), m->label, run};
-    bool done = own_space_enter(&m->own, object->kind, object->params, e);
-    m->params = m->own.params;
-    return done;
-}
-
-static bool making_grow(Making *m, Grown *memory, Error *e)
-{
-    return kind_grow(m->kind, m->params, &m->recipe, m->scene->grow_to, memory, &m->grown, e);
-}
-
-// Errors name the object and the place in the file.
-static bool making_end(Making *m, bool done, Error *e)
-{
-    grown_clear(&m->grown);
-    own_space_leave(&m->own);
-    return done || scene_fail_object(m->scene, m->index, e);
 }
 
 OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error *e)
@@ -279,14 +241,14 @@ static bool add_geometry(World *world, const Making *m, Error *e)
 }
 
 // Grows and meshes the object in its own space, and carries its parts into the scene.
-static bool place(World *world, Making *m, Grown *memory, BuildStats *stats, Error *e)
+static bool place(World *world, Making *m, Grown *memories, BuildStats *stats, Error *e)
 {
     if (run_is_cancelled(m->recipe.run)) {
         return run_cancel_error(e);
     }
     int64_t first = world->geometry.count;
     double start = run_seconds();
-    if (!making_grow(m, memory, e)) {
+    if (!making_grow(m, memories, e)) {
         return false;
     }
     double grown = run_seconds();
@@ -298,11 +260,11 @@ static bool place(World *world, Making *m, Grown *memory, BuildStats *stats, Err
     return done;
 }
 
-bool scene_place_object(World *world, const Scene *scene, int index, Grown *memory, const Run *run,
-                        BuildStats *stats, Error *e)
+bool scene_place_object(World *world, const Scene *scene, int index, Grown *memories,
+                        const Run *run, BuildStats *stats, Error *e)
 {
     Making m;
-    bool done = making_begin(&m, scene, index, run, e) && place(world, &m, memory, stats, e);
+    bool done = making_begin(&m, scene, index, run, e) && place(world, &m, memories, stats, e);
     return making_end(&m, done, e);
 }
 
@@ -316,6 +278,23 @@ bool scene_give_settings(const Scene *scene, World *world, Error *e)
     return add_materials(world, scene, e) && add_lights(world, scene, e);
 }
 
+// Only the growth of rivals is kept from object to object.
+static bool place_objects(World *world, const Scene *scene, const Run *run, BuildStats *stats,
+                          Error *e)
+{
+    Grown *memories = memory_alloc_zero(scene->object_count, sizeof *memories, e);
+    bool done = memories;
+    for (int i = 0; done && i < scene->object_count; i++) {
+        bool contests = scene->objects[i].contest != NULL;
+        done = scene_place_object(world, scene, i, contests ? memories : NULL, run, stats, e);
+    }
+    for (int i = 0; memories && i < scene->object_count; i++) {
+        grown_clear(&memories[i]);
+    }
+    free(memories);
+    return done;
+}
+
 World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error *e)
 {
     BuildStats own = {0};
@@ -325,10 +304,7 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
     if (!world) {
         return NULL;
     }
-    bool done = scene_give_settings(scene, world, e);
-    for (int i = 0; done && i < scene->object_count; i++) {
-        done = scene_place_object(world, scene, i, NULL, run, stats, e);
-    }
+    bool done = scene_give_settings(scene, world, e) && place_objects(world, scene, run, stats, e);
     if (!done) {
         world_free(world);
         return NULL;

@@ -40,9 +40,10 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
 // world borrows strings from the scene.
 bool scene_give_settings(const Scene *scene, World *world, Error *e);
 
-// Grows, skins and places object number index and adds to stats. memory: see kind_grow; may be
-// NULL.
-bool scene_place_object(World *world, const Scene *scene, int index, Grown *memory, const Run *run,
-                        BuildStats *stats, Error *e);
+// Grows, skins and places object number index and adds to stats. memories: whole growths, an entry
+// per object ({0} at first), in which those of the object and its rivals are found and kept; NULL =
+// none.
+bool scene_place_object(World *world, const Scene *scene, int index, Grown *memories,
+                        const Run *run, BuildStats *stats, Error *e);
 
 #endif

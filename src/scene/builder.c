@@ -77,7 +77,8 @@ static bool object_fits(const SceneBuilder *builder, const Scene *scene, int ind
 {
     const Scene *old = &builder->scene;
     const Kind *kind = scene->objects[index].kind;
-    return same_object(old, scene, index) && (alike || !kind->reads_scene) &&
+    bool reads_scene = kind->reads_scene || scene_object_has_neighbours(&scene->objects[index]);
+    return same_object(old, scene, index) && (alike || !reads_scene) &&
            (!kind->reads_water || scene_flood_hash(old) == scene_flood_hash(scene)) &&
            (!kind->grow || old->grow_to == scene->grow_to);
 }
@@ -114,12 +115,21 @@ bool scene_builder_fits(const SceneBuilder *builder, const Scene *scene)
 static bool place_object(SceneBuilder *builder, const Scene *scene, int index, const Run *run,
                          BuildStats *stats, Error *e)
 {
-    Grown *memory = &builder->memory[index];
-    if (builder->built && !same_object(&builder->scene, scene, index)) {
-        grown_clear(memory);
+    bool contests = scene->objects[index].contest != NULL;
+    return scene_place_object(builder->world, scene, index,
+                              builder->remember || contests ? builder->memory : NULL, run, stats,
+                              e);
+}
+
+// Forgets the growths that the new scene changes.
+static void forget(SceneBuilder *builder, const Scene *scene, bool alike)
+{
+    for (int i = 0; builder->built && i < scene->object_count; i++) {
+        bool lone = !scene_object_has_neighbours(&scene->objects[i]);
+        if (!same_object(&builder->scene, scene, i) || !(lone || alike)) {
+            grown_clear(&builder->memory[i]);
+        }
     }
-    return scene_place_object(builder->world, scene, index, builder->remember ? memory : NULL, run,
-                              stats, e);
 }
 
 // Moves the parts of object index out of `from`, which continues to own the others.
@@ -183,6 +193,7 @@ World *scene_builder_build(SceneBuilder *builder, const Scene *scene, const Run 
         stays[i] = !anew && object_fits(builder, scene, i, alike);
         all = all && stays[i];
     }
+    forget(builder, scene, alike);
     bool done = scene_give_settings(scene, builder->world, e) &&
                 (all || build_objects(builder, scene, stays, run, stats, e));
     free(stays);

@@ -7,6 +7,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -170,14 +171,19 @@ static bool check_materials(const Mapping *mapping, const Scene *scene)
     return true;
 }
 
-static bool has_object(const Scene *scene, const char *name)
+// Fails at a key that names an object that does not exist.
+static bool no_object(const Mapping *mapping, const Scene *scene, const Node *named,
+                      const char *where)
 {
-    for (int i = 0; i < scene->object_count; i++) {
-        if (strcmp(scene->objects[i].name, name) == 0) {
-            return true;
-        }
+    const char *names[MOST_HINTED];
+    char hint[512];
+    int count = 0;
+    for (; count < scene->object_count && count < MOST_HINTED; count++) {
+        names[count] = scene->objects[count].name;
     }
-    return false;
+    hint_format(named->text, names, count, hint, sizeof hint);
+    return load_fail(mapping->loader, named, "%s: there is no object '%.60s'; %s", where,
+                     named->text, hint);
 }
 
 // Checks that each target's object exists. (Its measures are known only after measuring.)
@@ -185,20 +191,92 @@ static bool check_targets(const Mapping *mapping, const Scene *scene)
 {
     const Node *list = node_get(mapping->given, "targets"), *given = list ? list->first : NULL;
     for (int i = 0; given && i < scene->target_count; i++, given = given->next) {
-        if (has_object(scene, scene->targets[i].object)) {
-            continue;
+        if (scene_find_object(scene, scene->targets[i].object) < 0) {
+            return no_object(mapping, scene, node_get(given, "object"), "targets");
         }
-        const char *names[MOST_HINTED];
-        char hint[512];
-        int count = 0;
-        for (; count < scene->object_count && count < MOST_HINTED; count++) {
-            names[count] = scene->objects[count].name;
-        }
-        hint_format(scene->targets[i].object, names, count, hint, sizeof hint);
-        return load_fail(mapping->loader, node_get(given, "object"),
-                         "targets: there is no object '%.60s'; %s", scene->targets[i].object, hint);
     }
     return true;
+}
+
+// ---- neighbours
+
+static const Node *neighbour_key(const Mapping *mapping, int object, const char *key)
+{
+    const Node *given = node_get(mapping->given, "objects")->first;
+    for (int i = 0; i < object; i++) {
+        given = given->next;
+    }
+    return node_get(given, key);
+}
+
+// Does the growth of `object` wait for that of `other`? Rivals wait for what any of them waits for.
+// depth: of the recursion; a way without repetition visits no more than all objects.
+static bool waits_for(const Scene *scene, int object, int other, int depth)
+{
+    for (int i = 0; depth <= scene->object_count && i < scene->object_count; i++) {
+        const SceneObject *mate = &scene->objects[i];
+        if (i != object && !scene_objects_contend(&scene->objects[object], mate)) {
+            continue;
+        }
+        for (int k = 0; k < mate->clear_of_count; k++) {
+            int next = scene_find_object(scene, mate->clear_of[k].object);
+            if (next == other ||
+                scene_objects_contend(&scene->objects[next], &scene->objects[other]) ||
+                waits_for(scene, next, other, depth + 1)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static bool check_obstacles(const Mapping *mapping, const Scene *scene, int index)
+{
+    const SceneObject *object = &scene->objects[index];
+    const Node *list = neighbour_key(mapping, index, "clear_of"),
+               *given = list ? list->first : NULL;
+    char where[128];
+    snprintf(where, sizeof where, "objects.%s.clear_of", object->name);
+    for (int i = 0; i < object->clear_of_count; i++, given = given->next) {
+        const ClearOf *of = &object->clear_of[i];
+        if (scene_find_object(scene, of->object) < 0) {
+            return no_object(mapping, scene, node_get(given, "object"), where);
+        }
+        if (of->within > 0.0f && of->within <= of->distance) {
+            return load_fail(mapping->loader, node_get(given, "within"),
+                             "%s.%d.within is %g m; it must be above distance, %g m, or 0", where,
+                             i, (double)of->within, (double)of->distance);
+        }
+    }
+    return true;
+}
+
+// Objects that grow have neighbours; the others would ignore them.
+static bool check_keeps_room(const Mapping *mapping, const Scene *scene, int index)
+{
+    const SceneObject *object = &scene->objects[index];
+    const char *key = object->clear_of_count > 0 ? "clear_of" : "contest";
+    return !scene_object_has_neighbours(object) || object->kind->keeps_room ||
+           load_fail(mapping->loader, neighbour_key(mapping, index, key),
+                     "objects.%s.%s: objects of kind %s do not grow among others; leave it out",
+                     object->name, key, kind_name(object->kind));
+}
+
+static bool check_neighbours(const Mapping *mapping, const Scene *scene)
+{
+    bool done = true;
+    for (int i = 0; done && i < scene->object_count; i++) {
+        done = check_keeps_room(mapping, scene, i) && check_obstacles(mapping, scene, i);
+    }
+    for (int i = 0; done && i < scene->object_count; i++) {
+        if (scene->objects[i].clear_of_count > 0 && waits_for(scene, i, i, 0)) {
+            return load_fail(mapping->loader, neighbour_key(mapping, i, "clear_of"),
+                             "objects.%s.clear_of leads back to '%s' itself; one of the objects "
+                             "must grow first",
+                             scene->objects[i].name, scene->objects[i].name);
+        }
+    }
+    return done;
 }
 
 bool check_scene(const Mapping *mapping, void *params)
@@ -206,5 +284,5 @@ bool check_scene(const Mapping *mapping, void *params)
     const Scene *scene = params;
     return check_names(mapping, "materials", "material") &&
            check_names(mapping, "objects", "object") && check_targets(mapping, scene) &&
-           check_materials(mapping, scene);
+           check_materials(mapping, scene) && check_neighbours(mapping, scene);
 }

@@ -144,10 +144,9 @@ static bool write_scene(const Scene *scene, const char *file, const ExportOption
 // Index of the object with this name; -1 and e when there is none.
 static int find_object(const Scene *scene, const char *name, Error *e)
 {
-    for (int i = 0; i < scene->object_count; i++) {
-        if (strcmp(scene->objects[i].name, name) == 0) {
-            return i;
-        }
+    int found = scene_find_object(scene, name);
+    if (found >= 0) {
+        return found;
     }
     const char **known = memory_alloc(scene->object_count, sizeof *known, e);
     if (known) {

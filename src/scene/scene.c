@@ -217,6 +217,16 @@ Scene *scene_read(const char *file, const char *const *overrides, int override_c
     return scene;
 }
 
+int scene_find_object(const Scene *scene, const char *name)
+{
+    for (int i = 0; i < scene->object_count; i++) {
+        if (strcmp(scene->objects[i].name, name) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
 const Material *scene_material(const Scene *scene, const char *name)
 {
     for (int i = 0; i < scene->material_count; i++) {

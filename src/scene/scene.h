@@ -14,6 +14,7 @@
 #include "render/sky/sky.h"
 
 #include <stddef.h>
+#include <string.h>
 
 typedef struct SceneTarget { // required range of a measure
     char *object, *measure;  // names
@@ -124,6 +125,21 @@ typedef struct SceneChange {
 Scene *scene_changed(const Scene *scene, const SceneChange *changes, int count, Error *e);
 
 void scene_free(Scene *scene); // NULL is fine
+
+// Index of an object by name; -1 = not found.
+int scene_find_object(const Scene *scene, const char *name);
+
+// Does the object's growth depend on other objects?
+static inline bool scene_object_has_neighbours(const SceneObject *object)
+{
+    return object->clear_of_count > 0 || object->contest != NULL;
+}
+
+// Do both belong to one contest?
+static inline bool scene_objects_contend(const SceneObject *a, const SceneObject *b)
+{
+    return a->contest && b->contest && strcmp(a->contest->group, b->contest->group) == 0;
+}
 
 // Finds a material by name: the scene's own, else a built-in one; NULL = not found.
 const Material *scene_material(const Scene *scene, const char *name);

@@ -27,7 +27,8 @@ static OutTree *grow(const TreeParams *params, float grow_to, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = grow_kind(&kind_tree, params, &(Recipe){4, "oak", &run}, grow_to, &e);
+    OutTree *tree = grow_kind(&kind_tree, params, &(Recipe){.seed = 4, .label = "oak", .run = &run},
+                              grow_to, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }

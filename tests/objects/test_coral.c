@@ -15,7 +15,8 @@ static OutTree *grow(const CoralParams *params, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = grow_kind(&kind_coral, params, &(Recipe){7, "coral", &run}, 1.0f, &e);
+    OutTree *tree = grow_kind(&kind_coral, params,
+                              &(Recipe){.seed = 7, .label = "coral", .run = &run}, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -38,7 +39,7 @@ static Geometry geometry_of(const CoralParams *params, const OutTree *tree, int 
     Run run = run_default();
     run.threads = threads;
     Geometry geometry = {0};
-    Recipe recipe = {7, "coral", &run};
+    Recipe recipe = {.seed = 7, .label = "coral", .run = &run};
     Placing placing = placing_in(&geometry, &recipe);
     placing.material++; // from 1 on
     Grown grown = grown_of(tree);
@@ -156,7 +157,8 @@ static void growth_in_progress_is_a_part_of_the_whole(void **state)
     CoralParams params = small(CORAL_BRANCHING);
     Run run = run_default();
     OutTree *whole = grow(&params, 1);
-    OutTree *half = grow_kind(&kind_coral, &params, &(Recipe){7, "coral", &run}, 0.5f, NULL);
+    OutTree *half = grow_kind(&kind_coral, &params,
+                              &(Recipe){.seed = 7, .label = "coral", .run = &run}, 0.5f, NULL);
     assert_true(half->count > 10 && half->count < whole->count);
     assert_memory_equal(half->position, whole->position, (size_t)half->count * sizeof(Vec3));
     out_tree_free(whole);
@@ -213,7 +215,8 @@ static void a_wrong_rule_is_one_clear_error(void **state)
     params.rules = "X -> [+FX";
     Run run = run_default();
     Error e = {0};
-    assert_null(grow_kind(&kind_coral, &params, &(Recipe){7, "object 'reef'", &run}, 1.0f, &e));
+    assert_null(grow_kind(&kind_coral, &params,
+                          &(Recipe){.seed = 7, .label = "object 'reef'", .run = &run}, 1.0f, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     assert_string_equal(e.message, "the L-system's rules, line 1, column 10: '[' is "
                                    "not closed; put a ']' for each '['");

@@ -26,7 +26,8 @@ static OutTree *grow(const ForestParams *params, float grow_to, int threads)
     Run run = run_default();
     run.threads = threads;
     Error e = {0};
-    OutTree *tree = grow_kind(&kind_forest, params, &(Recipe){9, "forest", &run}, grow_to, &e);
+    OutTree *tree = grow_kind(&kind_forest, params,
+                              &(Recipe){.seed = 9, .label = "forest", .run = &run}, grow_to, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -103,7 +104,7 @@ static void stands_follow_slope_glade_and_density(void **state)
     OutTree *tree = grow(&params, 1.0f, 1);
     Run run = run_default();
     Geometry geometry = {0};
-    Recipe recipe = {9, "forest", &run};
+    Recipe recipe = {.seed = 9, .label = "forest", .run = &run};
     Placing placing = placing_in(&geometry, &recipe);
     placing.around.land = (Land){hill, NULL};
     Grown grown = grown_of(tree);

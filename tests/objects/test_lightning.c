@@ -12,7 +12,8 @@ static OutTree *grow_to(const LightningParams *params, uint64_t seed, float shar
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = grow_kind(&kind_lightning, params, &(Recipe){seed, "bolt", &run}, share, &e);
+    OutTree *tree = grow_kind(&kind_lightning, params,
+                              &(Recipe){.seed = seed, .label = "bolt", .run = &run}, share, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -290,7 +291,8 @@ static void cancelled_growth_says_so(void **state)
     Run run = run_default();
     run.cancelled = &cancelled;
     Error e = {0};
-    assert_null(grow_kind(&kind_lightning, &params, &(Recipe){1, "bolt", &run}, 1.0f, &e));
+    assert_null(grow_kind(&kind_lightning, &params,
+                          &(Recipe){.seed = 1, .label = "bolt", .run = &run}, 1.0f, &e));
     assert_int_equal(e.code, ERROR_CANCELLED);
 }
 

@@ -26,7 +26,8 @@ static OutTree *grow(const TerrainParams *params, uint64_t seed, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = grow_kind(&kind_terrain, params, &(Recipe){seed, "land", &run}, 1.0f, &e);
+    OutTree *tree = grow_kind(&kind_terrain, params,
+                              &(Recipe){.seed = seed, .label = "land", .run = &run}, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -50,7 +51,8 @@ static HeightField *heights(const TerrainParams *params, const OutTree *tree, ui
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    Grown grown = grown_terrain(params, tree, &(Recipe){seed, "land", &run});
+    Grown grown =
+        grown_terrain(params, tree, &(Recipe){.seed = seed, .label = "land", .run = &run});
     HeightField *field = terrain_heights(params, &grown, &run, &e);
     grown_clear(&grown);
     if (!field) {
@@ -509,7 +511,7 @@ static void land_water_and_forest_become_parts(void **state)
     Error e = {0};
     Run run = run_default();
     Vec3 eye = {0.0f, 600.0f, 0.0f};
-    Recipe recipe = {5, "land", &run};
+    Recipe recipe = {.seed = 5, .label = "land", .run = &run};
     Placing placing = placing_in(&geometry, &recipe);
     placing.material++; // from 1 on
     placing.around.eye = &eye;
@@ -664,7 +666,7 @@ static Geometry water_scene(const WaterCase *c, OutTree **tree)
     Run run = run_default();
     run.threads = 2;
     Vec3 eye = {0.0f, 2500.0f, 9000.0f};
-    Recipe recipe = {4, "land", &run};
+    Recipe recipe = {.seed = 4, .label = "land", .run = &run};
     Placing placing = placing_in(&geometry, &recipe);
     placing.material++; // from 1 on
     placing.around.eye = c->eye ? &eye : NULL;

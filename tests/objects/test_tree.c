@@ -30,7 +30,8 @@ static OutTree *grow(const TreeParams *params, uint64_t seed, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    OutTree *tree = grow_kind(&kind_tree, params, &(Recipe){seed, "oak", &run}, 1.0f, &e);
+    OutTree *tree = grow_kind(&kind_tree, params,
+                              &(Recipe){.seed = seed, .label = "oak", .run = &run}, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }
@@ -106,7 +107,7 @@ static void leaves_sit_on_their_twigs(void **state)
     Error e = {0};
     Run run = run_default();
     Geometry geometry = {0};
-    Recipe recipe = {4, "oak", &run};
+    Recipe recipe = {.seed = 4, .label = "oak", .run = &run};
     Placing placing = placing_in(&geometry, &recipe);
     Grown grown = grown_of(tree);
     assert_true(tree_geometry(&params, &grown, &placing, &e));
@@ -150,7 +151,7 @@ static void grass_stands_on_the_ground(void **state)
     Error e = {0};
     Run run = run_default();
     Geometry geometry = {0};
-    Recipe recipe = {9, "ground", &run};
+    Recipe recipe = {.seed = 9, .label = "ground", .run = &run};
     Placing placing = placing_in(&geometry, &recipe);
     assert_true(ground_geometry(&params, NULL, &placing, &e));
     int64_t tufts = 0;
@@ -226,7 +227,7 @@ static void a_few_things_are_not_lost_among_variants(void **state)
     Run run = {.threads = 1};
     Geometry geometry = {0};
     Error e = {0};
-    Recipe recipe = {9, "ground", &run};
+    Recipe recipe = {.seed = 9, .label = "ground", .run = &run};
     Placing placing = placing_in(&geometry, &recipe);
     assert_true(ground_geometry(&params, NULL, &placing, &e));
     assert_int_equal(copies_of(&geometry, GROUND_FALLEN), 3);
@@ -258,7 +259,8 @@ static void crowded_branches_have_names_of_their_own(void **state)
     params.roots.count = 0;
     Run run = {.threads = 1};
     Error e = {0};
-    OutTree *tree = grow_kind(&kind_tree, &params, &(Recipe){5, "tree", &run}, 1.0f, &e);
+    OutTree *tree = grow_kind(&kind_tree, &params,
+                              &(Recipe){.seed = 5, .label = "tree", .run = &run}, 1.0f, &e);
     assert_non_null(tree);
     qsort(tree->id, (size_t)tree->count, sizeof *tree->id, compare_ids);
     for (int64_t i = 1; i < tree->count; i++) {
@@ -337,7 +339,7 @@ static void distant_trees_stand_on_the_ground(void **state)
     Error e = {0};
     Run run = run_default();
     Geometry geometry = {0};
-    Recipe recipe = {9, "ground", &run};
+    Recipe recipe = {.seed = 9, .label = "ground", .run = &run};
     Placing placing = placing_in(&geometry, &recipe);
     assert_true(ground_geometry(&params, NULL, &placing, &e));
     const Mesh *land = geometry.part[0].mesh;

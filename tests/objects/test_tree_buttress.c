@@ -13,7 +13,8 @@ static OutTree *grow(const TreeParams *params)
 {
     Error e = {0};
     Run run = run_default();
-    OutTree *tree = grow_kind(&kind_tree, params, &(Recipe){3, "oak", &run}, 1.0f, &e);
+    OutTree *tree =
+        grow_kind(&kind_tree, params, &(Recipe){.seed = 3, .label = "oak", .run = &run}, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }

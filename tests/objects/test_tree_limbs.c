@@ -19,7 +19,8 @@ static OutTree *grow(uint64_t seed)
     params.roots.count = 0;
     Error e = {0};
     Run run = run_default();
-    OutTree *tree = grow_kind(&kind_tree, &params, &(Recipe){seed, "oak", &run}, 1.0f, &e);
+    OutTree *tree = grow_kind(&kind_tree, &params,
+                              &(Recipe){.seed = seed, .label = "oak", .run = &run}, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }

@@ -38,7 +38,8 @@ static OutTree *grow(const TreeParams *params, uint64_t seed, char *warning)
         run.warn = keep_trunks;
         run.user = warning;
     }
-    OutTree *tree = grow_kind(&kind_tree, params, &(Recipe){seed, "oak", &run}, 1.0f, &e);
+    OutTree *tree = grow_kind(&kind_tree, params,
+                              &(Recipe){.seed = seed, .label = "oak", .run = &run}, 1.0f, &e);
     if (!tree) {
         fail_msg("%s", e.message);
     }

@@ -166,6 +166,7 @@ bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope
         element_scatter_params(tree, element, random_key(seed, STREAM_ELEMENT_POINTS));
     ColonizeParams params =
         element_colonize_params(tree, element, field, random_key(seed, STREAM_ELEMENT_GROWTH));
+    params.room = recipe->room;
     GrowReport *reports = memory_alloc_zero(element->level_count, sizeof *reports, e);
     bool done = reports && growth_observe(recipe, part, envelope, field, e) &&
                 colonize_levels(tree, envelope, &scatter, element->levels, element->level_count,

@@ -27,6 +27,7 @@ typedef struct Recipe {
     uint64_t seed;     // the object's own
     const char *label; // names the object in warnings and errors: "object 'oak'"
     const Run *run;
+    const struct Room *room; // obstacles and rivals (grow/room.h); NULL = it grows alone
 } Recipe;
 
 // The result of growth. Initialize to {0}.

@@ -227,6 +227,7 @@ static ColonizeParams colonize_params(const Growing *g, double spacing)
     const CoralParams *p = g->params;
     ColonizeParams c = colonize_params_default();
     c.seed = random_key(g->recipe->seed, STREAM_CORAL_GROWTH);
+    c.room = g->recipe->room;
     c.noise = p->noise;
     c.tropism = vec3(0, p->form == CORAL_BRANCHING ? 0.12f * p->light : 0.0f, 0);
     // a table's plate acts as a surface: its attractors' normals point up
@@ -292,6 +293,7 @@ static bool grow_branchlets(Growing *g, int32_t first_step, Error *e)
         points->measure = 0.2 * (double)(p->size * p->size * p->size);
         ColonizeParams c = colonize_params_default();
         c.seed = random_key(g->recipe->seed, STREAM_CORAL_BRANCHLETS);
+        c.room = g->recipe->room;
         c.first_step = first_step;
         c.step = 0.011f * p->size;
         c.kill = 0.0125f * p->size;

@@ -146,6 +146,7 @@ const Kind kind_coral = {
     .materials = {"coral", "coral_polyp", "reef_rock"},
     .builtin = BUILTIN,
     .own_space = own_space,
+    .keeps_room = true,
     .needs = needs,
     .measure = measure,
     .describe = describe,

@@ -116,7 +116,7 @@ static bool add_variant(const GroveParams *grove, const Transform *place, int64_
     const int material[] = {placing->material[GROUND_BARK], placing->material[GROUND_BARK],
                             placing->material[GROUND_FOLIAGE]};
     const Run *run = placing->recipe->run;
-    Recipe recipe = {seed, "distant tree", run};
+    Recipe recipe = {.seed = seed, .label = "distant tree", .run = run};
     Geometry single = {0};
     Placing own = {&recipe, &single, material, placing->object, {0}};
     Grown tree = {0};

@@ -100,6 +100,7 @@ const Kind kind_outtree = {
                 MATERIALS},
     .materials = {"clay", NULL, "leaf"},
     .own_space = own_space,
+    .keeps_room = true,
     .needs = needs,
     .describe = describe,
     .attractors = attractors,

@@ -137,6 +137,7 @@ static bool grow_placed(Growing *g, Error *e)
     if (done) {
         ColonizeParams params = element_colonize_params(g->tree, &element, field, seed);
         GrowReport report;
+        params.room = g->recipe->room;
         params.step = placed->step;
         params.kill = placed->kill;
         params.influence = placed->influence;

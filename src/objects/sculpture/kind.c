@@ -52,6 +52,7 @@ const Kind kind_sculpture = {
     .variant = {KIND_ROW("sculpture", &sculpture_table, "A hollow branch sculpture."), MATERIALS},
     .materials = {"clay"},
     .own_space = own_space,
+    .keeps_room = true,
     .needs = needs,
     .measure = measure,
     .describe = describe,

@@ -96,6 +96,7 @@ const Kind kind_tree = {
     .variant = {KIND_ROW("tree", &tree_table, "A tree; the defaults make an oak."), MATERIALS},
     .materials = {"bark", "twig", "leaf"},
     .own_space = own_space,
+    .keeps_room = true,
     .needs = needs,
     .measure = measure,
     .describe = describe,

@@ -1,0 +1,62 @@
+#include "grow/room.h"
+
+enum { MOST_TURNS = 4 };   // of a step toward free space
+enum { MOST_PROBES = 16 }; // of a step's way
+
+// Is the way from -> to free, or does it at least lead out? A step is probed at intervals of the
+// clearance found, so thin obstacles are not jumped over.
+static bool way_is_free(const Room *room, Vec3 from, float at_start, Vec3 to)
+{
+    Vec3 away;
+    float length = vec3_distance(from, to), done = 0.0f;
+    float least = at_start < 0.0f ? at_start : 0.0f;
+    for (int i = 0; i < MOST_PROBES && done < length; i++) {
+        float clearance = room->clearance(room->user, vec3_lerp(from, to, done / length), &away);
+        if (clearance < least) {
+            return false;
+        }
+        float shortest = length / (float)MOST_PROBES;
+        done += clearance > shortest ? clearance : shortest;
+    }
+    float clearance = room->clearance(room->user, to, &away);
+    return clearance >= 0.0f || clearance > at_start;
+}
+
+bool room_give_way(const Room *room, Vec3 from, Vec3 *child)
+{
+    Vec3 away;
+    float step = vec3_distance(from, *child);
+    float at_start = room->clearance(room->user, from, &away);
+    for (int turn = 0; turn < MOST_TURNS; turn++) {
+        if (way_is_free(room, from, at_start, *child)) {
+            return true;
+        }
+        float depth = -room->clearance(room->user, *child, &away);
+        Vec3 aside = vec3_madd(vec3_sub(*child, from), 1.25f * (depth > 0.0f ? depth : step), away);
+        if (!(vec3_dot(away, away) > 0.0f) || !(vec3_length(aside) > 1e-3f * step)) {
+            return false;
+        }
+        *child = vec3_madd(from, step, vec3_normalize(aside));
+    }
+    return way_is_free(room, from, at_start, *child);
+}
+
+PointSet *room_allowed_points(const Room *room, const PointSet *points, const Run *run, Error *e)
+{
+    PointSet *allowed = points_new(e);
+    for (int64_t i = 0; allowed && i < points->count; i++) {
+        bool taken = !room->allows(room->user, points->position[i]);
+        if (!run_goes_on(run, i, e) ||
+            (!taken &&
+             !points_add(allowed, points->position[i], points->normal[i], points->id[i], e))) {
+            points_free(allowed);
+            return NULL;
+        }
+    }
+    if (allowed) {
+        double share = points->count > 0 ? (double)allowed->count / (double)points->count : 1.0;
+        allowed->measure = points->measure * share;
+        allowed->dimension = points->dimension;
+    }
+    return allowed;
+}

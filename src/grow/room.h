@@ -1,0 +1,35 @@
+// What else takes up the space of a growth: obstacles, and rivals that grow at the same time.
+#ifndef RAMIFY_GROW_ROOM_H
+#define RAMIFY_GROW_ROOM_H
+
+#include "base/run.h"
+#include "outtree/out_tree.h"
+#include "shape/points.h"
+
+// Positions are in the growth's own space.
+typedef struct Room {
+    // Distance (m) from p to the space that is taken: negative inside. *away: unit direction in
+    // which it grows; zero if unknown. Called by many threads, between two calls of `meet`.
+    float (*clearance)(const void *user, Vec3 p, Vec3 *away);
+
+    // Is p an attractor's place: free, and near enough to what it must be near?
+    bool (*allows)(const void *user, Vec3 p);
+
+    // Called before every step with the nodes that are new to the rivals: first .. tree->count - 1;
+    // first = 0 begins a growth. Returns when it is this growth's turn; *rival then are the rivals'
+    // nodes that are new to it (all of them if first = 0), valid until the next call. False and e
+    // if the growth must stop. NULL = no rivals.
+    bool (*meet)(void *user, const OutTree *tree, int64_t first, const Vec3 **rival, int64_t *count,
+                 Error *e);
+    void *user;
+} Room;
+
+// The points that the room allows, as a new set with the same mean spacing.
+PointSet *room_allowed_points(const Room *room, const PointSet *points, const Run *run, Error *e);
+
+// Makes a child of `from` at *child keep out of taken space: turns its step toward free space,
+// keeping the length. False if there is none. A child may be in taken space if its parent is deeper
+// in it, so that growth can leave an obstacle that it starts in.
+bool room_give_way(const Room *room, Vec3 from, Vec3 *child);
+
+#endif

@@ -1,0 +1,111 @@
+#include "scene/making.h"
+
+#include "base/memory.h"
+#include "scene/build.h"
+#include "scene/place.h"
+#include "scene/rivals.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+bool making_begin(Making *m, const Scene *scene, int index, const Run *run, Error *e)
+{
+    const SceneObject *object = &scene->objects[index];
+    *m = (Making){.scene = scene, .index = index, .kind = object->kind};
+    snprintf(m->label, sizeof m->label, "object '%s'", object->name);
+    m->recipe = (Recipe){.seed = scene_object_seed(scene, index), .label = m->label, .run = run};
+    bool done = own_space_enter(&m->own, object->kind, object->params, e);
+    m->params = m->own.params;
+    return done;
+}
+
+bool making_end(Making *m, bool done, Error *e)
+{
+    grown_clear(&m->grown);
+    own_space_leave(&m->own);
+    return done || scene_fail_object(m->scene, m->index, e);
+}
+
+// ---- among neighbours
+
+static bool enter(Making *m, Rival *rival, const Scene *scene, int index, const Run *run, Error *e)
+{
+    if (!making_begin(m, scene, index, run, e)) {
+        return false;
+    }
+    const Contest *contest = scene->objects[index].contest;
+    *rival = (Rival){.kind = m->kind,
+                     .params = m->params,
+                     .recipe = m->recipe,
+                     .to_scene = m->own.to_scene,
+                     .gap = contest ? contest->gap : 0.0f};
+    return obstacles_new(scene, index, run, &rival->obstacles, e);
+}
+
+// Grows object number index of the scene with its rivals, into their entries of memories.
+static bool grow_rivals(const Scene *scene, int index, Grown *memories, const Run *run, Error *e)
+{
+    Making *m = memory_alloc_zero(scene->object_count, sizeof *m, e);
+    Rival *rival = memory_alloc_zero(scene->object_count, sizeof *rival, e);
+    int count = 0, failed = 0;
+    bool done = m && rival;
+    for (int i = 0; done && i < scene->object_count; i++) {
+        if (i == index || scene_objects_contend(&scene->objects[index], &scene->objects[i])) {
+            done = enter(&m[count], &rival[count], scene, i, run, e);
+            failed = count++;
+        }
+    }
+    if (done && !rivals_grow(rival, count, &failed)) {
+        done = false;
+        if (e) {
+            *e = rival[failed].error;
+        }
+    }
+    for (int i = 0; i < count; i++) {
+        if (done) {
+            grown_clear(&memories[m[i].index]);
+            memories[m[i].index] = rival[i].whole;
+        } else {
+            grown_clear(&rival[i].whole);
+        }
+        obstacles_free(rival[i].obstacles);
+        making_end(&m[i], done || i != failed, e);
+    }
+    free(rival);
+    free(m);
+    return done;
+}
+
+// The same for the object's entry alone. Neighbours are found in the whole scene.
+static bool grow_alone(Making *m, Grown *memory, Error *e)
+{
+    const Scene *scene = m->scene->whole ? m->scene->whole : m->scene;
+    int index = scene_find_object(scene, m->scene->objects[m->index].name);
+    Grown *memories = memory_alloc_zero(scene->object_count, sizeof *memories, e);
+    bool done = memories && grow_rivals(scene, index, memories, m->recipe.run, e);
+    if (done) {
+        *memory = memories[index];
+        memories[index] = (Grown){0};
+    }
+    for (int i = 0; memories && i < scene->object_count; i++) {
+        grown_clear(&memories[i]);
+    }
+    free(memories);
+    return done;
+}
+
+bool making_grow(Making *m, Grown *memories, Error *e)
+{
+    Grown own = {0}, *memory = memories ? &memories[m->index] : NULL;
+    bool done = true;
+    if (scene_object_has_neighbours(&m->scene->objects[m->index])) {
+        memory = memory ? memory : &own;
+        done = memory->tree || (memories && !m->scene->whole
+                                    ? grow_rivals(m->scene, m->index, memories, m->recipe.run, e)
+                                    : grow_alone(m, memory, e));
+    }
+    done =
+        done && kind_grow(m->kind, m->params, &m->recipe, m->scene->grow_to, memory, &m->grown, e);
+    grown_clear(&own);
+    return done;
+}

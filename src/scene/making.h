@@ -1,0 +1,28 @@
+// An object on its way from its parameters to growth and geometry, in its own space.
+#ifndef RAMIFY_SCENE_MAKING_H
+#define RAMIFY_SCENE_MAKING_H
+
+#include "scene/scene.h"
+
+typedef struct Making {
+    const Scene *scene;
+    int index;
+    const Kind *kind;
+    OwnSpace own;
+    const void *params;
+    char label[128];
+    Recipe recipe;
+    Grown grown;
+} Making;
+
+// End with making_end, also on failure.
+bool making_begin(Making *m, const Scene *scene, int index, const Run *run, Error *e);
+
+// Grows the object, among its neighbours if it has any, and cuts it at the scene's time. memories:
+// see scene_place_object.
+bool making_grow(Making *m, Grown *memories, Error *e);
+
+// Frees. Errors name the object and the place in the file. Returns done.
+bool making_end(Making *m, bool done, Error *e);
+
+#endif

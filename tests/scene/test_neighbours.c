@@ -1,0 +1,286 @@
+// Objects that share a world: obstacles, contests for space, and what is refused.
+#include "outtree/segment_grid.h"
+#include "render/world.h"
+#include "scene/build.h"
+#include "scene/builder.h"
+
+#include "scene_fixture.h"
+
+#define TREE(NAME, X, MORE)                                                              \
+    "  - name: " NAME "\n"                                                               \
+    "    tree: {position: [" X ", 0, 0], height: 6, roots: {count: 0}, crown: {growth: " \
+    "{levels: [{attractors: 150}, {attractors: 700}]}}, leaves: {max_count: 0}, skin: " \
+    "{levels: 0}}\n" MORE
+#define ROCK                                                                                 \
+    "  - name: rock\n    shape: {envelope: [{shape: sphere, scale: 1.2, position: [0, 3.5, " \
+    "0]}]}\n"
+#define CONTEST(GAP) "    contest: {group: grove, gap: " GAP "}\n"
+#define CLEAR "    clear_of: [{object: rock, distance: 0.1}]\n"
+
+static Scene *try_text(Fixture *fixture, const char *text, Error *e)
+{
+    return scene_read(fixture_write(fixture, "scene.yaml", text, strlen(text)), NULL, 0, e);
+}
+
+static Scene *read_text(Fixture *fixture, const char *text)
+{
+    Error e = {0};
+    Scene *scene = try_text(fixture, text, &e);
+    if (!scene) {
+        fail_msg("%s", e.message);
+    }
+    return scene;
+}
+
+static OutTree *grow(const Scene *scene, const char *name, int threads)
+{
+    Run run = run_default();
+    run.threads = threads;
+    Error e = {0};
+    OutTree *tree = scene_grow_object(scene, scene_find_object(scene, name), &run, &e);
+    if (!tree) {
+        fail_msg("%s", e.message);
+    }
+    return tree;
+}
+
+static void assert_same(const OutTree *a, const OutTree *b)
+{
+    assert_int_equal(a->count, b->count);
+    assert_memory_equal(a->position, b->position, (size_t)a->count * sizeof *a->position);
+    assert_memory_equal(a->parent, b->parent, (size_t)a->count * sizeof *a->parent);
+}
+
+static float least_to(const OutTree *tree, Vec3 p)
+{
+    float least = INFINITY;
+    for (int64_t i = 0; i < tree->count; i++) {
+        least = fminf(least, vec3_distance(tree->position[i], p));
+    }
+    return least;
+}
+
+// Least distance between the axes of two trees, by brute force.
+static float least_between(const OutTree *a, const OutTree *b)
+{
+    float least = INFINITY;
+    for (int64_t i = 0; i < a->count; i++) {
+        for (int64_t k = 0; a->parent[i] >= 0 && k < b->count; k++) {
+            if (b->parent[k] >= 0) {
+                least = fminf(least, segment_distance(a->position[a->parent[i]], a->position[i],
+                                                      b->position[b->parent[k]], b->position[k]));
+            }
+        }
+    }
+    return least;
+}
+
+static void test_obstacle_is_kept_clear(void **state)
+{
+    Scene *free_scene = read_text(*state, "objects:\n" ROCK TREE("oak", "0.9", ""));
+    Scene *scene = read_text(*state, "objects:\n" TREE("oak", "0.9", CLEAR) ROCK);
+    OutTree *alone = grow(free_scene, "oak", 2), *tree = grow(scene, "oak", 2);
+    Vec3 rock = vec3(0, 3.5f, 0);
+    assert_true(least_to(alone, rock) < 1.0f); // it would grow through the rock
+    // a level's nodes move toward their parents when it is done: a chord instead of an arc
+    assert_true(least_to(tree, rock) > 1.3f - 0.05f);
+    assert_true(tree->count > alone->count / 3); // and still be a tree, beyond the rock too
+    Aabb box = aabb_empty();
+    for (int64_t i = 0; i < tree->count; i++) {
+        box = aabb_add(box, tree->position[i]);
+    }
+    assert_true(box.low.x < -0.2f && box.high.y > 5.0f);
+    out_tree_free(alone);
+    out_tree_free(tree);
+    scene_free(free_scene);
+    scene_free(scene);
+}
+
+static void test_growth_stays_within(void **state)
+{
+    const char *text = "objects:\n" ROCK TREE(
+        "ivy", "0.2", "    clear_of: [{object: rock, distance: 0.02, within: 0.3}]\n");
+    Scene *scene = read_text(*state, text);
+    OutTree *tree = grow(scene, "ivy", 1);
+    int64_t near = 0, tips = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->birth[i] > 0 && tree->position[i].y > 3.0f) {
+            float height = vec3_distance(tree->position[i], vec3(0, 3.5f, 0)) - 1.2f;
+            tips++;
+            near += height < 0.35f;
+        }
+    }
+    assert_true(tips > 50 && near == tips);
+    out_tree_free(tree);
+    scene_free(scene);
+}
+
+static void test_rivals_keep_apart(void **state)
+{
+    Scene *alone = read_text(*state, "objects:\n" TREE("a", "-0.7", "") TREE("b", "0.7", ""));
+    Scene *scene = read_text(*state, "objects:\n" TREE("a", "-0.7", CONTEST("0.15"))
+                                         TREE("b", "0.7", CONTEST("0.15")));
+    OutTree *a0 = grow(alone, "a", 2), *b0 = grow(alone, "b", 2);
+    OutTree *a = grow(scene, "a", 2), *b = grow(scene, "b", 2);
+    assert_true(least_between(a0, b0) < 0.02f); // they interpenetrate without the contest
+    assert_true(least_between(a, b) > 0.12f);   // less than the gap: relaxed levels, see above
+    // crowns interlock: neither is pushed back to its own half
+    Aabb mine = aabb_empty(), other = aabb_empty();
+    for (int64_t i = 0; i < a->count; i++) {
+        mine = aabb_add(mine, a->position[i]);
+    }
+    for (int64_t i = 0; i < b->count; i++) {
+        other = aabb_add(other, b->position[i]);
+    }
+    assert_true(mine.high.x > other.low.x + 0.2f);
+    assert_true(a->count + b->count > (a0->count + b0->count) / 2);
+    assert_true(a->count < a0->count && b->count < b0->count);
+    out_tree_free(a0);
+    out_tree_free(b0);
+    out_tree_free(a);
+    out_tree_free(b);
+    scene_free(alone);
+    scene_free(scene);
+}
+
+#define BATTLE                                                                    \
+    "objects:\n" ROCK TREE("a", "-0.7", CONTEST("0.15") CLEAR) TREE("c", "5", "") \
+        TREE("b", "0.7", CONTEST("0.1"))
+
+static void test_threads_and_neighbours_do_not_show(void **state)
+{
+    Scene *scene = read_text(*state, BATTLE);
+    OutTree *one = grow(scene, "b", 1), *three = grow(scene, "b", 3);
+    assert_same(one, three);
+    // an object outside the contest grows as it does alone
+    Scene *alone = read_text(*state, "objects:\n" TREE("c", "5", ""));
+    OutTree *c = grow(scene, "c", 1), *lone = grow(alone, "c", 1);
+    assert_same(c, lone);
+    out_tree_free(one);
+    out_tree_free(three);
+    out_tree_free(c);
+    out_tree_free(lone);
+    scene_free(scene);
+    scene_free(alone);
+}
+
+static int64_t nodes_built(const Scene *scene)
+{
+    Run run = run_default();
+    BuildStats stats;
+    Error e = {0};
+    World *world = scene_build(scene, &run, &stats, &e);
+    if (!world) {
+        fail_msg("%s", e.message);
+    }
+    world_free(world);
+    return stats.nodes;
+}
+
+// A builder that changes one rival or the obstacle regrows all that depend on it.
+static void test_builder_regrows_neighbours(void **state)
+{
+    Scene *first = read_text(*state, BATTLE);
+    Error e = {0};
+    SceneChange change = {.path = "objects.a.seed", .value = "77", .source = "test"};
+    Scene *second = scene_changed(first, &change, 1, &e);
+    SceneChange moved = {
+        .path = "objects.rock.shape.envelope.0.position", .value = "[0, 4.6, 0]", .source = "test"};
+    Scene *third = scene_changed(second, &moved, 1, &e);
+    assert_non_null(third);
+    const Scene *const scenes[3] = {first, second, third};
+    Run run = run_default();
+    SceneBuilder *builder = scene_builder_new(true, &e);
+    for (int i = 0; i < 3; i++) {
+        BuildStats stats = {0};
+        assert_true(i == 0 || !scene_builder_fits(builder, scenes[i]));
+        World *world = scene_builder_build(builder, scenes[i], &run, &stats, &e);
+        assert_non_null(world);
+        BuildStats fresh;
+        World *anew = scene_build(scenes[i], &run, &fresh, &e);
+        assert_int_equal(world->geometry.count, anew->geometry.count);
+        assert_int_equal(stats.geometry.triangles, fresh.geometry.triangles);
+        world_free(anew);
+    }
+    assert_int_not_equal(nodes_built(first), nodes_built(second));
+    assert_int_not_equal(nodes_built(second), nodes_built(third));
+    scene_builder_free(builder);
+    scene_free(third);
+    scene_free(second);
+    scene_free(first);
+}
+
+static void test_failure_and_cancel_end_all(void **state)
+{
+    Scene *scene = read_text(
+        *state,
+        "objects:\n" TREE("a", "-0.7",
+                          CONTEST("0.15")) "  - name: b\n"
+                                           "    coral: {axiom: 'F('}\n" CONTEST("0.15"));
+    Run run = run_default();
+    Error e = {0};
+    assert_null(scene_grow_object(scene, 0, &run, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    assert_non_null(strstr(e.message, "object 'b'")); // whose fault it is
+    assert_int_equal(e.line, 5);
+    volatile int cancelled = 1;
+    run.cancelled = &cancelled;
+    Scene *fine = read_text(*state, BATTLE);
+    e = (Error){0};
+    assert_null(scene_grow_object(fine, 1, &run, &e));
+    assert_int_equal(e.code, ERROR_CANCELLED);
+    scene_free(fine);
+    scene_free(scene);
+}
+
+static void refuse(void **state, const char *text, const char *why, int line)
+{
+    Error e = {0};
+    assert_null(try_text(*state, text, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    if (!strstr(e.message, why)) {
+        fail_msg("'%s' does not say '%s'", e.message, why);
+    }
+    assert_int_equal(e.line, line);
+}
+
+static void test_refusals(void **state)
+{
+    refuse(state, "objects:\n  - name: a\n    tree: {}\n    clear_of: [{object: rack}]\n" ROCK,
+           "there is no object 'rack'; did you mean 'rock'", 4);
+    refuse(state, "objects:\n  - name: a\n    tree: {}\n    clear_of: [{object: a}]\n",
+           "leads back to 'a' itself", 4);
+    refuse(state,
+           "objects:\n  - name: a\n    tree: {}\n    clear_of: [{object: b}]\n"
+           "  - name: b\n    tree: {}\n    clear_of: [{object: a}]\n",
+           "leads back to 'a' itself", 4);
+    refuse(state,
+           "objects:\n  - name: a\n    tree: {}\n    contest: {group: g}\n    clear_of: [{object: "
+           "b}]\n  - name: b\n    tree: {}\n    contest: {group: g}\n",
+           "leads back to 'a' itself", 5);
+    refuse(state, "objects:\n" ROCK "    contest: {group: g}\n",
+           "objects of kind shape do not grow among others", 4);
+    refuse(state,
+           "objects:\n" ROCK "  - name: a\n    tree: {}\n    clear_of:\n      - {object: rock, "
+           "distance: 0.2, within: 0.1}\n",
+           "it must be above distance", 7);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_obstacle_is_kept_clear, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_growth_stays_within, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_rivals_keep_apart, fixture_set_up, fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_threads_and_neighbours_do_not_show, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_builder_regrows_neighbours, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_failure_and_cancel_end_all, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_refusals, fixture_set_up, fixture_tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
