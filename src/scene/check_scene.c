@@ -237,7 +237,7 @@ static bool check_obstacles(const Mapping *mapping, const Scene *scene, int inde
                *given = list ? list->first : NULL;
     char where[128];
     snprintf(where, sizeof where, "objects.%s.clear_of", object->name);
-    for (int i = 0; i < object->clear_of_count; i++, given = given->next) {
+    for (int i = 0; given && i < object->clear_of_count; i++, given = given->next) {
         const ClearOf *of = &object->clear_of[i];
         if (scene_find_object(scene, of->object) < 0) {
             return no_object(mapping, scene, node_get(given, "object"), where);

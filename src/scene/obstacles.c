@@ -70,7 +70,7 @@ bool obstacles_new(const Scene *scene, int index, const Run *run, Obstacles **ob
 void obstacles_free(Obstacles *obstacles)
 {
     if (obstacles) {
-        for (int i = 0; i < obstacles->count; i++) {
+        for (int i = 0; obstacles->obstacle && i < obstacles->count; i++) {
             nearest_free(obstacles->obstacle[i].surface);
         }
         free(obstacles->obstacle);

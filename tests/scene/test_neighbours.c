@@ -222,7 +222,7 @@ static void test_failure_and_cancel_end_all(void **state)
     assert_null(scene_grow_object(scene, 0, &run, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     assert_non_null(strstr(e.message, "object 'b'")); // whose fault it is
-    assert_int_equal(e.line, 5);
+    assert_int_equal(e.line, 6);
     volatile int cancelled = 1;
     run.cancelled = &cancelled;
     Scene *fine = read_text(*state, BATTLE);
