@@ -31,8 +31,10 @@ bool kind_grow(const Kind *kind, const void *params, const Recipe *recipe, float
     }
     bool alone = !memory && grow_to >= 1.0f; // the whole growth is not kept
     grown->tree = alone ? whole->tree : out_tree_copy(whole->tree, e);
-    bool done = grown->tree && cut(kind, params, whole->tree, grow_to, grown->tree, e) &&
-                (!kind->finish || kind->finish(params, recipe, whole, grown, e));
+    bool done =
+        grown->tree && cut(kind, params, whole->tree, grow_to, grown->tree, e) &&
+        (!recipe->carrier || recipe->carrier->carry(recipe->carrier->user, grown->tree, e)) &&
+        (!kind->finish || kind->finish(params, recipe, whole, grown, e));
     if (alone) {
         whole->tree = NULL;
     }

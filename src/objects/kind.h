@@ -31,7 +31,9 @@ typedef struct SceneObject {
     uint64_t seed; // 0 = from the scene's seed and the name
     ClearOf *clear_of;
     int clear_of_count;
-    Contest *contest; // NULL = none
+    Contest *contest;            // NULL = none
+    struct DeformParams *deform; // carry the object from its rest, in order
+    int deform_count;
     const struct Kind *kind;
     void *params; // of the kind
     // Names of materials by the kind's roles; NULL = the kind's own choice (Kind.materials).
@@ -53,6 +55,7 @@ typedef struct Kind {
     bool reads_scene; // its geometry depends on materials' values or on other objects
     bool reads_water; // it avoids the scene's water
     bool keeps_room;  // its growth keeps to Recipe.room
+    bool carried;     // it can be deformed: it is its out-tree, or plain meshes, and nothing else
 
     // Sets the object's own space and transforms its parameters (a copy) into it; NULL = scene
     // space. The recipe works in the object's own space; its results are transformed into the

@@ -8,6 +8,7 @@
 #include "outtree/measure.h"
 #include "render/world.h"
 #include "scene/builtin.h"
+#include "scene/carry.h"
 #include "scene/making.h"
 #include "scene/needs.h"
 #include "scene/place.h"
@@ -252,8 +253,10 @@ static bool place(World *world, Making *m, Grown *memories, BuildStats *stats, E
         return false;
     }
     double grown = run_seconds();
-    bool done =
-        add_geometry(world, m, e) && own_space_carry_parts(&m->own, &world->geometry, first, e);
+    bool done = add_geometry(world, m, e) &&
+                own_space_carry_parts(&m->own, &world->geometry, first, e) &&
+                (!m->deformation || m->kind->grow ||
+                 carry_parts(m->deformation, &world->geometry, first, m->recipe.run, e));
     stats->nodes += m->grown.tree ? m->grown.tree->count : 0;
     stats->grow_seconds += grown - start;
     stats->mesh_seconds += run_seconds() - grown;

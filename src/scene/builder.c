@@ -61,6 +61,13 @@ static bool same_object(const Scene *a, const Scene *b, int index)
            scene_object_seed(a, index) == scene_object_seed(b, index);
 }
 
+// Is its growth unchanged?
+static bool same_growth(const Scene *a, const Scene *b, int index)
+{
+    return table_equal(&object_table, &a->objects[index], &b->objects[index], "deform") &&
+           scene_object_seed(a, index) == scene_object_seed(b, index);
+}
+
 // Does a kind that depends on the scene see a change in it?
 static bool same_surroundings(const Scene *a, const Scene *b)
 {
@@ -126,7 +133,7 @@ static void forget(SceneBuilder *builder, const Scene *scene, bool alike)
 {
     for (int i = 0; builder->built && i < scene->object_count; i++) {
         bool lone = !scene_object_has_neighbours(&scene->objects[i]);
-        if (!same_object(&builder->scene, scene, i) || !(lone || alike)) {
+        if (!same_growth(&builder->scene, scene, i) || !(lone || alike)) {
             grown_clear(&builder->memory[i]);
         }
     }

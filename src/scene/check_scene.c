@@ -200,7 +200,7 @@ static bool check_targets(const Mapping *mapping, const Scene *scene)
 
 // ---- neighbours
 
-static const Node *neighbour_key(const Mapping *mapping, int object, const char *key)
+static const Node *object_key(const Mapping *mapping, int object, const char *key)
 {
     const Node *given = node_get(mapping->given, "objects")->first;
     for (int i = 0; i < object; i++) {
@@ -233,8 +233,7 @@ static bool waits_for(const Scene *scene, int object, int other, int depth)
 static bool check_obstacles(const Mapping *mapping, const Scene *scene, int index)
 {
     const SceneObject *object = &scene->objects[index];
-    const Node *list = neighbour_key(mapping, index, "clear_of"),
-               *given = list ? list->first : NULL;
+    const Node *list = object_key(mapping, index, "clear_of"), *given = list ? list->first : NULL;
     char where[128];
     snprintf(where, sizeof where, "objects.%s.clear_of", object->name);
     for (int i = 0; given && i < object->clear_of_count; i++, given = given->next) {
@@ -257,20 +256,30 @@ static bool check_keeps_room(const Mapping *mapping, const Scene *scene, int ind
     const SceneObject *object = &scene->objects[index];
     const char *key = object->clear_of_count > 0 ? "clear_of" : "contest";
     return !scene_object_has_neighbours(object) || object->kind->keeps_room ||
-           load_fail(mapping->loader, neighbour_key(mapping, index, key),
+           load_fail(mapping->loader, object_key(mapping, index, key),
                      "objects.%s.%s: objects of kind %s do not grow among others; leave it out",
                      object->name, key, kind_name(object->kind));
+}
+
+static bool check_carried(const Mapping *mapping, const Scene *scene, int index)
+{
+    const SceneObject *object = &scene->objects[index];
+    return object->deform_count == 0 || object->kind->carried ||
+           load_fail(mapping->loader, object_key(mapping, index, "deform"),
+                     "objects.%s.deform: objects of kind %s cannot be deformed; leave it out",
+                     object->name, kind_name(object->kind));
 }
 
 static bool check_neighbours(const Mapping *mapping, const Scene *scene)
 {
     bool done = true;
     for (int i = 0; done && i < scene->object_count; i++) {
-        done = check_keeps_room(mapping, scene, i) && check_obstacles(mapping, scene, i);
+        done = check_keeps_room(mapping, scene, i) && check_obstacles(mapping, scene, i) &&
+               check_carried(mapping, scene, i);
     }
     for (int i = 0; done && i < scene->object_count; i++) {
         if (scene->objects[i].clear_of_count > 0 && waits_for(scene, i, i, 0)) {
-            return load_fail(mapping->loader, neighbour_key(mapping, i, "clear_of"),
+            return load_fail(mapping->loader, object_key(mapping, i, "clear_of"),
                              "objects.%s.clear_of leads back to '%s' itself; one of the objects "
                              "must grow first",
                              scene->objects[i].name, scene->objects[i].name);

@@ -2,11 +2,26 @@
 
 #include "base/memory.h"
 #include "scene/build.h"
+#include "scene/carry.h"
 #include "scene/place.h"
 #include "scene/rivals.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+
+static bool carry(const void *user, OutTree *tree, Error *e)
+{
+    const Making *m = user;
+    return carry_tree(m->deformation, &m->own.to_scene, tree, m->recipe.run, e);
+}
+
+static bool prepare_deformation(Making *m, const SceneObject *object, Error *e)
+{
+    m->deformation = deformation_new(object->deform, object->deform_count, m->recipe.run, e);
+    m->carrier = (Carrier){carry, m};
+    m->recipe.carrier = &m->carrier;
+    return m->deformation;
+}
 
 bool making_begin(Making *m, const Scene *scene, int index, const Run *run, Error *e)
 {
@@ -16,13 +31,14 @@ bool making_begin(Making *m, const Scene *scene, int index, const Run *run, Erro
     m->recipe = (Recipe){.seed = scene_object_seed(scene, index), .label = m->label, .run = run};
     bool done = own_space_enter(&m->own, object->kind, object->params, e);
     m->params = m->own.params;
-    return done;
+    return done && (object->deform_count == 0 || prepare_deformation(m, object, e));
 }
 
 bool making_end(Making *m, bool done, Error *e)
 {
     grown_clear(&m->grown);
     own_space_leave(&m->own);
+    deformation_free(m->deformation);
     return done || scene_fail_object(m->scene, m->index, e);
 }
 

@@ -3,6 +3,7 @@
 #define RAMIFY_SCENE_MAKING_H
 
 #include "scene/scene.h"
+#include "shape/deformation.h"
 
 typedef struct Making {
     const Scene *scene;
@@ -12,6 +13,8 @@ typedef struct Making {
     const void *params;
     char label[128];
     Recipe recipe;
+    Deformation *deformation; // NULL = none
+    Carrier carrier;
     Grown grown;
 } Making;
 

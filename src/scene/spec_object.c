@@ -71,6 +71,11 @@ static const Key OBJECT_KEYS[] = {
      .doc = "Obstacles: objects that grow first and that this one keeps clear of (outtree, tree, "
             "coral, "
             "sculpture)."},
+    {KEY_OF(SceneObject, deform, "deform", KEY_LIST),
+     .count_offset = offsetof(SceneObject, deform_count), .count = 16, .table = &deform_table,
+     .doc = "Deformations that carry the object from the form in which it grew, in this order "
+            "(outtree, tree, lightning, lsystem, sculpture, skeleton, dla, mesh, shape). Growth "
+            "does not depend on them, so an animation of them keeps every branch."},
     {KEY_OF(SceneObject, contest, "contest", KEY_POINTER), .table = &CONTEST_TABLE,
      .doc = "Contest for space with other objects (outtree, tree, coral, sculpture)."},
     {0},

@@ -22,12 +22,19 @@
 
 #include <stdint.h>
 
+// Carries a cut growth, in the object's own space, from its rest to its present form.
+typedef struct Carrier {
+    bool (*carry)(const void *user, OutTree *tree, Error *e);
+    const void *user;
+} Carrier;
+
 // Arguments of every recipe besides its parameters.
 typedef struct Recipe {
     uint64_t seed;     // the object's own
     const char *label; // names the object in warnings and errors: "object 'oak'"
     const Run *run;
     const struct Room *room; // obstacles and rivals (grow/room.h); NULL = it grows alone
+    const Carrier *carrier;  // NULL = it stays at rest
 } Recipe;
 
 // The result of growth. Initialize to {0}.

@@ -60,6 +60,7 @@ const Kind kind_dla = {
     .variant = {KIND_ROW("dla", &dla_table,
                          "A metal dendrite, grown by diffusion-limited aggregation."),
                 MATERIALS},
+    .carried = true,
     .materials = {"copper"},
     .builtin = BUILTIN,
     .own_space = own_space,

@@ -63,6 +63,7 @@ const Kind kind_lightning = {
                          "Bolts in the air, or discharges over a surface."),
                 MATERIALS},
     .reads_scene = true,
+    .carried = true,
     .materials = {"lightning"},
     .builtin = BUILTIN,
     .own_space = own_space,

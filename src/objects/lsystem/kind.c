@@ -57,6 +57,7 @@ static const Key MATERIALS[] = {
 const Kind kind_lsystem = {
     .variant = {KIND_ROW("lsystem", &lsystem_table, "A plant described by an L-system."),
                 MATERIALS},
+    .carried = true,
     .materials = {"bark", "twig", "leaf"},
     .own_space = own_space,
     .needs = needs,

@@ -48,6 +48,7 @@ static const Key MATERIALS[] = {
 };
 
 const Kind kind_mesh = {.variant = {KIND_ROW("mesh", &mesh_table, "An imported mesh."), MATERIALS},
+                        .carried = true,
                         .materials = {"clay"},
                         .needs = needs,
                         .geometry = geometry,

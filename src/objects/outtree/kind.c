@@ -98,6 +98,7 @@ const Kind kind_outtree = {
     .variant = {KIND_ROW("outtree", &outtree_table,
                          "A general out-tree: any envelope, start points, rules and fields."),
                 MATERIALS},
+    .carried = true,
     .materials = {"clay", NULL, "leaf"},
     .own_space = own_space,
     .keeps_room = true,

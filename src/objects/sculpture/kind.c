@@ -50,6 +50,7 @@ static const Key MATERIALS[] = {
 
 const Kind kind_sculpture = {
     .variant = {KIND_ROW("sculpture", &sculpture_table, "A hollow branch sculpture."), MATERIALS},
+    .carried = true,
     .materials = {"clay"},
     .own_space = own_space,
     .keeps_room = true,

@@ -96,6 +96,7 @@ static const Key MATERIALS[] = {
 const Kind kind_shape = {
     .variant = {KIND_ROW("shape", &solid_table, "Solids: spheres, boxes and their combinations."),
                 MATERIALS},
+    .carried = true,
     .materials = {"clay"},
     .needs = needs,
     .own_space = own_space,

@@ -44,6 +44,7 @@ static const Key MATERIALS[] = {
 const Kind kind_skeleton = {.variant = {KIND_ROW("skeleton", &skeleton_table,
                                                  "A neuron or another out-tree from an SWC file."),
                                         MATERIALS},
+                            .carried = true,
                             .materials = {"clay"},
                             .own_space = own_space,
                             .describe = describe,

@@ -94,6 +94,7 @@ static const Key MATERIALS[] = {
 
 const Kind kind_tree = {
     .variant = {KIND_ROW("tree", &tree_table, "A tree; the defaults make an oak."), MATERIALS},
+    .carried = true,
     .materials = {"bark", "twig", "leaf"},
     .own_space = own_space,
     .keeps_room = true,

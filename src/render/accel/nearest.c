@@ -1,6 +1,7 @@
 #include "render/accel/nearest.h"
 
 #include "base/memory.h"
+#include "base/triangle.h"
 #include "mesh/cover.h"
 
 #include <embree3/rtcore.h>
@@ -31,40 +32,6 @@ typedef struct Query {
     bool found;
 } Query;
 
-// Nearest point of a triangle (Ericson 2005, 5.1.5).
-static Vec3 on_triangle(const Piece *t, Vec3 p)
-{
-    Vec3 ab = vec3_sub(t->b, t->a), ac = vec3_sub(t->c, t->a), ap = vec3_sub(p, t->a);
-    float d1 = vec3_dot(ab, ap), d2 = vec3_dot(ac, ap);
-    if (d1 <= 0.0f && d2 <= 0.0f) {
-        return t->a;
-    }
-    Vec3 bp = vec3_sub(p, t->b);
-    float d3 = vec3_dot(ab, bp), d4 = vec3_dot(ac, bp);
-    if (d3 >= 0.0f && d4 <= d3) {
-        return t->b;
-    }
-    float vc = d1 * d4 - d3 * d2;
-    if (vc <= 0.0f && d1 >= 0.0f && d3 <= 0.0f) {
-        return vec3_madd(t->a, d1 / (d1 - d3), ab);
-    }
-    Vec3 cp = vec3_sub(p, t->c);
-    float d5 = vec3_dot(ab, cp), d6 = vec3_dot(ac, cp);
-    if (d6 >= 0.0f && d5 <= d6) {
-        return t->c;
-    }
-    float vb = d5 * d2 - d1 * d6;
-    if (vb <= 0.0f && d2 >= 0.0f && d6 <= 0.0f) {
-        return vec3_madd(t->a, d2 / (d2 - d6), ac);
-    }
-    float va = d3 * d6 - d5 * d4;
-    if (va <= 0.0f && d4 - d3 >= 0.0f && d5 - d6 >= 0.0f) {
-        return vec3_lerp(t->b, t->c, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    }
-    float sum = va + vb + vc;
-    return vec3_madd(vec3_madd(t->a, vb / sum, ab), vc / sum, ac);
-}
-
 // Nearest point of a segment's axis; *radius there.
 static Vec3 on_axis(const Piece *s, Vec3 p, float *radius)
 {
@@ -81,7 +48,8 @@ static bool visit(struct RTCPointQueryFunctionArguments *args)
     Query *q = args->userPtr;
     const Piece *piece = &q->nearest->piece[args->primID];
     float radius = 0.0f;
-    Vec3 point = piece->round ? on_axis(piece, q->p, &radius) : on_triangle(piece, q->p);
+    Vec3 point = piece->round ? on_axis(piece, q->p, &radius)
+                              : triangle_nearest(piece->a, piece->b, piece->c, q->p);
     float distance = vec3_distance(point, q->p) - radius;
     // ties go to the first piece: the order of traversal does not show
     if (distance > q->best || (distance == q->best && q->found && args->primID >= q->primitive)) {
