@@ -48,7 +48,7 @@ static Mesh *read_closed(const char *file, const char *key, int number, const Ru
         error_set(e, ERROR_INPUT,
                   "the mesh has %lld open edges; only a closed mesh carries what is in and around "
                   "it",
-                  (long long)(topology.open_edges + topology.overused_edges));
+                  (long long)topology.open_edges + (long long)topology.overused_edges);
     }
     mesh_free(mesh);
     error_key(e, "%d.%s", number, key);
