@@ -390,7 +390,9 @@ extern "C" bool level_set_smooth(LevelSet *level_set, int steps, const Run *run,
 {
     return guarded(e, [&] {
         with_threads(run->threads, [&] {
-            openvdb::tools::LevelSetFilter<FloatGrid> filter(*level_set->grid);
+            Interrupter interrupter{run};
+            openvdb::tools::LevelSetFilter<FloatGrid, FloatGrid, Interrupter> filter(
+                *level_set->grid, &interrupter);
             filter.setSpatialScheme(openvdb::math::FIRST_BIAS); // the other schemes are five times
                                                                 // slower
             for (int i = 0; i < steps && !run_is_cancelled(run); i++) {
