@@ -391,10 +391,9 @@ static bool prepare(Growth *growth, Error *e)
 
 static const Rule *rule_of(GrowRule rule)
 {
-    static const Rule *const rules[] = {[GROW_MEAN] = &rule_mean,
-                                        [GROW_SNAP] = &rule_snap,
-                                        [GROW_SECTORS] = &rule_sectors,
-                                        [GROW_STRING] = &rule_string};
+#define RULE_ENTRY(NAME, VALUE, DOC) [VALUE] = &rule_##NAME,
+    static const Rule *const rules[] = {GROWTH_RULES(RULE_ENTRY)};
+#undef RULE_ENTRY
     return rules[rule];
 }
 

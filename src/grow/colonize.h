@@ -8,18 +8,9 @@
 #include "grow/attractor_log.h"
 #include "grow/room.h"
 #include "grow/rules/grow_string.h"
+#include "grow/rules/rules.h"
 #include "outtree/out_tree.h"
 #include "shape/points.h"
-
-typedef enum GrowRule {
-    GROW_MEAN,    // one child per step along the mean pull (Tanaka eq. (6)-(7))
-    GROW_SNAP,    // the nearest reached attractor becomes the node (Tanaka fig. 5-6); field,
-                  // tropism and noise make attractors in their direction count as nearer
-    GROW_SECTORS, // pulls binned by angle about the heading; at most one child per sector over a
-                  // node's life
-    GROW_STRING   // directions chosen by an L-system string; each owns the attractors nearest to it
-                  // in angle, within half a group (Horiuchi, steps a to f)
-} GrowRule;
 
 typedef enum FieldMode {
     FIELD_STEER,   // direction normalize(n + w X_f); the step length stays exact

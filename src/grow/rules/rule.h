@@ -37,7 +37,9 @@ typedef struct Rule {
                          Child *child);
 } Rule;
 
-extern const Rule rule_mean, rule_snap, rule_sectors, rule_string;
+#define DECLARE_RULE(NAME, VALUE, DOC) extern const Rule rule_##NAME;
+GROWTH_RULES(DECLARE_RULE)
+#undef DECLARE_RULE
 
 // ---- shared by the rules (children.c) ----
 

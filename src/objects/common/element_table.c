@@ -151,18 +151,14 @@ static const Table LEVEL_TABLE = {
     .defaults = level_defaults,
     .check = check_level};
 
-static const EnumName RULES[] = {{"mean", GROW_MEAN},
-                                 {"snap", GROW_SNAP},
-                                 {"sectors", GROW_SECTORS},
-                                 {"string", GROW_STRING},
-                                 {0}};
+#define RULE_NAME(NAME, VALUE, DOC) {#NAME, VALUE},
+static const EnumName RULES[] = {GROWTH_RULES(RULE_NAME){0}};
+#define RULE_DOC(NAME, VALUE, DOC) " " #NAME ": " DOC "."
 static const EnumName FIELD_MODES[] = {{"steer", FIELD_STEER}, {"additive", FIELD_ADDITIVE}, {0}};
 
 static const Key GROWTH_KEYS[] = {
     {KEY_OF(ElementParams, growth.rule, "rule", KEY_ENUM), .names = RULES,
-     .doc = "mean: one child per step, along the mean pull; snap: reached attractors become nodes; "
-            "sectors: at most one child in each angular sector about the heading; string: "
-            "directions by an L-system, only in an outtree."},
+     .doc = "Growth rule." GROWTH_RULES(RULE_DOC)},
     {KEY_OF(ElementParams, levels, "levels", KEY_LIST),
      .count_offset = offsetof(ElementParams, level_count), .count = 100, .table = &LEVEL_TABLE,
      .doc = "Levels, coarse to fine: each scatters new attractors and grows from all existing "
