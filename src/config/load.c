@@ -178,16 +178,15 @@ static bool load_list(const Mapping *list, const Key *row, char *out)
     }
     size_t size = row->table->size;
     char *entries = arena_alloc(list->loader->arena, size * (size_t)given->count, list->loader->e);
+    bool done = entries;
     int index = 0;
-    for (const Node *node = given->first; entries && node; node = node->next, index++) {
+    for (const Node *node = given->first; done && node; node = node->next, index++) {
         Mapping entry = {list->loader, list, entry_name(list->loader, node, index), node};
-        if (!load_mapping(&entry, row->table, entries + size * (size_t)index)) {
-            return false;
-        }
+        done = load_mapping(&entry, row->table, entries + size * (size_t)index);
     }
     pointer_set(out + row->offset, entries);
     memcpy(out + row->count_offset, &given->count, sizeof given->count);
-    return entries;
+    return done;
 }
 
 static bool load_pointer(const Mapping *mapping, const Key *row, char *out)
@@ -205,9 +204,9 @@ static void clear_key(const Key *row, char *out)
         for (const Key *below = row->table->keys; below->key; below++) {
             clear_key(below, out + row->offset);
         }
-        return;
+    } else {
+        memset(out + row->offset, 0, key_size(row));
     }
-    memset(out + row->offset, 0, key_size(row));
     if (row->type == KEY_LIST) {
         memset(out + row->count_offset, 0, sizeof(int));
     }
@@ -253,14 +252,15 @@ static bool load_key(const Mapping *mapping, const Key *row, char *out)
 
 static bool load_keys(const Mapping *mapping, const Key *rows, int kind, char *out)
 {
-    for (const Key *row = rows; row->key; row++) {
-        if (!key_in_kind(row, kind)) {
+    bool done = true;
+    for (const Key *row = rows; done && row->key; row++) {
+        if (key_in_kind(row, kind)) {
+            done = load_key(mapping, row, out);
+        } else {
             clear_key(row, out);
-        } else if (!load_key(mapping, row, out)) {
-            return false;
         }
     }
-    return true;
+    return done;
 }
 
 // Sets *kind to the kind in the file, or -1 if it gives none.

@@ -49,21 +49,19 @@ static void key_range(const Key *row, char *text, int size)
 {
     bool whole = row->type == KEY_INT || row->type == KEY_INT64 || row->type == KEY_UINT64;
     const char *unit = row->unit ? row->unit : "", *space = row->unit ? " " : "";
-    if (row->low == 0.0 && row->high == 0.0) {
-        snprintf(text, (size_t)size, "a finite number%s%s%s", row->unit ? " (" : "", unit,
-                 row->unit ? ")" : "");
-        return;
-    }
-    if (row->type == KEY_UINT64) {
-        snprintf(text, (size_t)size, "a whole number, at least 0 and below 2^64");
-        return;
-    }
     char low[32], high[32];
     scalar_from_double(row->low, low);
     scalar_from_double(row->high, high);
-    snprintf(text, (size_t)size, "%s%s %s and %s %s%s%s", whole ? "a whole number, " : "",
-             row->flags & KEY_ABOVE ? "greater than" : "at least", low,
-             row->flags & KEY_BELOW ? "less than" : "at most", high, space, unit);
+    if (row->low == 0.0 && row->high == 0.0) {
+        snprintf(text, (size_t)size, "a finite number%s%s%s", row->unit ? " (" : "", unit,
+                 row->unit ? ")" : "");
+    } else if (row->type == KEY_UINT64) {
+        snprintf(text, (size_t)size, "a whole number, at least 0 and below 2^64");
+    } else {
+        snprintf(text, (size_t)size, "%s%s %s and %s %s%s%s", whole ? "a whole number, " : "",
+                 row->flags & KEY_ABOVE ? "greater than" : "at least", low,
+                 row->flags & KEY_BELOW ? "less than" : "at most", high, space, unit);
+    }
 }
 
 static bool out_of_range(const Value *v)
@@ -109,11 +107,9 @@ static bool load_real(const Value *v, double *value)
 static bool load_float(const Value *v, float *member)
 {
     double value = 0.0;
-    if (!load_real(v, &value)) {
-        return false;
-    }
-    *member = (float)value;
-    return true;
+    bool done = load_real(v, &value);
+    *member = done ? (float)value : 0.0f;
+    return done;
 }
 
 // A whole number as sign and magnitude.
@@ -135,28 +131,15 @@ static bool load_integer(const Value *v, bool *negative, uint64_t *magnitude)
     return (!too_large && in_range(v->row, value)) || out_of_range(v);
 }
 
-static bool load_number(const Value *v, void *member)
+static bool load_whole(const Value *v, void *member)
 {
     bool negative = false;
     uint64_t magnitude = 0;
-    double real = 0.0;
-    if (v->row->type == KEY_FLOAT) {
-        return load_float(v, member);
-    }
-    if (v->row->type == KEY_DOUBLE) {
-        if (!load_real(v, &real)) {
-            return false;
-        }
-        memcpy(member, &real, sizeof real);
-        return true;
-    }
-    if (!load_integer(v, &negative, &magnitude)) {
-        return false;
-    }
+    bool done = load_integer(v, &negative, &magnitude);
     uint64_t bits = negative ? 0 - magnitude : magnitude; // two's complement
     int whole = (int)(int64_t)bits;
     memcpy(member, v->row->type == KEY_INT ? (void *)&whole : (void *)&bits, key_size(v->row));
-    return true;
+    return done;
 }
 
 // ---- words ----
@@ -203,9 +186,6 @@ static bool keep_text(const Value *v, const char *text, char **member)
 
 static bool load_name(const Value *v, char *member)
 {
-    if (!check_text(v)) {
-        return false;
-    }
     size_t length = strlen(v->given->text), size = (size_t)v->row->count;
     if (length >= size) {
         return load_fail(v->loader, v->given, "%s has %zu bytes; it must have fewer than %d",
@@ -244,9 +224,6 @@ static bool check_file(const Value *v, const char *path)
 static bool load_file(const Value *v, char **member)
 {
     Loader *loader = v->loader;
-    if (!check_text(v)) {
-        return false;
-    }
     const char *text = v->given->text;
     bool whole = *text == '/' || !*loader->folder;
     char *path = whole ? arena_text(loader->arena, text, strlen(text), loader->e)
@@ -267,14 +244,11 @@ static bool load_vector(const Value *v, float *member, int count)
 {
     const Node *given = v->given;
     if ((v->row->flags & KEY_SPLAT || v->row->type == KEY_COLOR) && is_plain(given)) {
-        float value;
-        if (!load_float(v, &value)) {
-            return false;
+        bool done = load_float(v, member);
+        for (int i = 1; i < count; i++) {
+            member[i] = member[0];
         }
-        for (int i = 0; i < count; i++) {
-            member[i] = value;
-        }
-        return true;
+        return done;
     }
     char right[96];
     snprintf(right, sizeof right, "a list of %d numbers", count);
@@ -285,15 +259,14 @@ static bool load_vector(const Value *v, float *member, int count)
         return load_fail(v->loader, given, "%s has %d entries; it must be %s", v->name,
                          given->count, right);
     }
+    bool done = true;
     int index = 0;
-    for (const Node *item = given->first; item; item = item->next, index++) {
+    for (const Node *item = given->first; done && item; item = item->next, index++) {
         char name[256];
         snprintf(name, sizeof name, "%s[%d]", v->name, index);
-        if (!load_float(&(Value){v->loader, v->row, item, name}, &member[index])) {
-            return false;
-        }
+        done = load_float(&(Value){v->loader, v->row, item, name}, &member[index]);
     }
-    return true;
+    return done;
 }
 
 static bool load_color(const Value *v, float *member)
@@ -355,16 +328,20 @@ bool load_value(const Mapping *mapping, const Key *row, const Node *given, void 
     case KEY_TEXT:
         return check_text(&v) && keep_text(&v, given->text, member);
     case KEY_NAME:
-        return load_name(&v, member);
+        return check_text(&v) && load_name(&v, member);
     case KEY_FILE:
-        return load_file(&v, member);
+        return check_text(&v) && load_file(&v, member);
     case KEY_VECTOR:
         return load_vector(&v, member, row->count);
     case KEY_COLOR:
         return load_color(&v, member);
     case KEY_ANY:
         return load_any(&v, member);
+    case KEY_FLOAT:
+        return load_float(&v, member);
+    case KEY_DOUBLE:
+        return load_real(&v, member);
     default:
-        return load_number(&v, member);
+        return load_whole(&v, member);
     }
 }

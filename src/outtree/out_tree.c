@@ -96,6 +96,17 @@ int64_t out_tree_add_node(OutTree *tree, Vec3 position, int64_t parent, int32_t 
     return i;
 }
 
+int64_t out_tree_copy_node(OutTree *tree, int64_t parent, const OutTree *from, int64_t i, Error *e)
+{
+    int64_t node = out_tree_add_node(tree, from->position[i], parent, from->birth[i],
+                                     from->colony[i], from->id[i], e);
+    if (node >= 0) {
+        tree->radius[node] = from->radius[i];
+        tree->normal[node] = from->normal[i];
+    }
+    return node;
+}
+
 uint64_t out_tree_child_id(uint64_t parent_id, int64_t place)
 {
     return random_key(parent_id, (uint64_t)place);

@@ -35,6 +35,9 @@ bool out_tree_reserve(OutTree *tree, int64_t count, Error *e);
 int64_t out_tree_add_node(OutTree *tree, Vec3 position, int64_t parent, int32_t birth,
                           int32_t colony, uint64_t id, Error *e);
 
+// Appends a copy of node i of another tree under this parent; returns its index, or -1 and e.
+int64_t out_tree_copy_node(OutTree *tree, int64_t parent, const OutTree *from, int64_t i, Error *e);
+
 // Id of a parent's child number place (0 for the first).
 uint64_t out_tree_child_id(uint64_t parent_id, int64_t place);
 

@@ -49,14 +49,9 @@ static OutTree *pick(const OutTree *tree, const SkeletonParams *params, Error *e
         int32_t parent = tree->parent[i];
         place[i] = -1;
         if (is_shown(params, tree->colony[i])) {
-            int64_t node =
-                out_tree_add_node(out, tree->position[i], parent < 0 ? -1 : place[parent],
-                                  tree->birth[i], tree->colony[i], tree->id[i], e);
-            done = node >= 0;
-            if (done) {
-                out->radius[node] = tree->radius[i];
-                place[i] = (int32_t)node;
-            }
+            int64_t above = parent < 0 ? -1 : place[parent];
+            place[i] = (int32_t)out_tree_copy_node(out, above, tree, i, e);
+            done = place[i] >= 0;
         }
     }
     free(place);
@@ -203,14 +198,8 @@ static OutTree *axons_of(const OutTree *tree, const bool *of_axon, Error *e)
                 axons->radius[above] = tree->radius[i];
             }
         }
-        int64_t node = done ? out_tree_add_node(axons, tree->position[i], above, tree->birth[i],
-                                                tree->colony[i], tree->id[i], e)
-                            : -1;
-        done = node >= 0;
-        if (done) {
-            axons->radius[node] = tree->radius[i];
-            place[i] = (int32_t)node;
-        }
+        place[i] = done ? (int32_t)out_tree_copy_node(axons, above, tree, i, e) : -1;
+        done = place[i] >= 0;
     }
     free(place);
     if (!done) {

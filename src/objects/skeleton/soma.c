@@ -195,13 +195,10 @@ static bool add_nodes(Rounding *r, Error *e)
         int64_t above = parent < 0    ? -1
                         : number >= 0 ? leaving_at(r, &r->soma[number], i)
                                       : r->place[parent];
-        int64_t node = out_tree_add_node(r->out, tree->position[i], above, tree->birth[i],
-                                         tree->colony[i], tree->id[i], e);
-        if (node < 0) {
+        r->place[i] = (int32_t)out_tree_copy_node(r->out, above, tree, i, e);
+        if (r->place[i] < 0) {
             return false;
         }
-        r->out->radius[node] = tree->radius[i];
-        r->place[i] = (int32_t)node;
     }
     return true;
 }
