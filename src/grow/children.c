@@ -176,6 +176,9 @@ static Vec3 limit_cone(const Growth *growth, Vec3 d)
 static Vec3 keep_on_surface(const Growth *growth, const Pull *pull, Vec3 normal, Vec3 d)
 {
     d = vec3_normalize(vec3_madd(d, -vec3_dot(d, normal), normal));
+    if (growth->params->project) { // no step leaves it
+        return d;
+    }
     float height = (float)pull->height / (PULL_ONE * (float)pull->count);
     float rise = height * growth->params->influence / growth->params->step;
     return vec3_normalize(vec3_madd(d, -clampf(rise, -0.7f, 0.7f), normal));
@@ -203,7 +206,7 @@ bool growth_make_child(const Growth *growth, const Grower *grower, const Pull *p
     }
     Vec3 normal = grower->normal;
     if (params->on_surface) {
-        normal = mean_normal(pull, grower->normal);
+        normal = params->project ? grower->normal : mean_normal(pull, grower->normal);
         d = keep_on_surface(growth, pull, normal, d);
     }
     if (is_zero(d)) {
@@ -246,7 +249,12 @@ Vec3 growth_to_frame(const Grower *grower, Vec3 v)
 
 int growth_make_children(const Growth *growth, const Grower *grower, const Pull *pull, Child *child)
 {
-    return growth->rule->make_children(growth, grower, pull, child);
+    const ColonizeParams *params = growth->params;
+    int count = growth->rule->make_children(growth, grower, pull, child);
+    for (int i = 0; params->project && i < count; i++) {
+        params->project(params->surface, &child[i].position, &child[i].normal);
+    }
+    return count;
 }
 
 int growth_make_single(const Growth *growth, const Grower *grower, const Pull *pull, Child *child,

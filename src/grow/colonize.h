@@ -9,6 +9,7 @@
 #include "grow/room.h"
 #include "grow/rules/grow_string.h"
 #include "grow/rules/rules.h"
+#include "outtree/jitter.h"
 #include "outtree/out_tree.h"
 #include "shape/points.h"
 
@@ -40,10 +41,15 @@ typedef struct ColonizeParams {
     const GuideField *field; // may be NULL
     float field_weight;
     FieldMode field_mode;
-    bool on_surface;    // growth on a surface: directions stay in the tangent plane of the nearest
-                        // attractors' normals
-    float sector_angle; // degrees per sector (GROW_SECTORS) or group (GROW_STRING), 60 in Horiuchi
-    bool sector_axis;   // GROW_SECTORS: grow along the sector's axis instead of its mean
+    bool on_surface; // growth on a surface: directions stay in the tangent plane of the nearest
+                     // attractors' normals
+    // with on_surface: moves every new node onto the surface; directions then stay in the tangent
+    // plane at the node, however far the attractors are. Called from several threads; NULL = not
+    // moved
+    SurfaceProject *project;
+    const void *surface; // passed to project
+    float sector_angle;  // degrees per sector (GROW_SECTORS) or group (GROW_STRING), 60 in Horiuchi
+    bool sector_axis;    // GROW_SECTORS: grow along the sector's axis instead of its mean
     // highest branching order; 0 = no limit. The continuation (first child; GROW_SECTORS: forward
     // sector) keeps its parent's order, other children have one more; a root's children all have
     // order 0

@@ -10,7 +10,7 @@
 #include "objects/common/own_space.h"
 #include "objects/common/recipe.h"
 
-enum { OBJECT_MOST_MATERIALS = 6 };
+enum { OBJECT_MOST_MATERIALS = 7 };
 
 // Another object, whose surface a growth keeps clear of.
 typedef struct ClearOf {
@@ -129,6 +129,10 @@ typedef struct Kind {
                  "fallen.")
 #define GRASS_MATERIAL_ROW(INDEX) \
     MATERIAL_ROW(INDEX, "grass_material", "Material of the ground's grass; default: grass.")
+
+#define RIME_MATERIAL_ROW(INDEX)         \
+    MATERIAL_ROW(INDEX, "rime_material", \
+                 "Material of frost that is white with enclosed air; default: rime.")
 
 // NULL if index is not below the number of kinds.
 const Kind *kind_at(int index);

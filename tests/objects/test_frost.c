@@ -4,8 +4,8 @@
 #include "testing.h"
 
 #include "base/random.h"
-#include "objects/frost/cross.h"
 #include "objects/frost/surface.h"
+#include "outtree/crossings.h"
 
 static Recipe recipe_on(const Run *run)
 {
@@ -140,7 +140,7 @@ static void crystals_do_not_cross(void **state)
     int64_t before = tangle->count, crossings = count_crossings(tangle);
     Run run = run_default();
     assert_true(crossings > 20);
-    assert_true(frost_drop_crossings(tangle, &run, NULL));
+    assert_true(out_tree_drop_crossings(tangle, &run, NULL));
     assert_int_equal(count_crossings(tangle), 0);
     assert_true(tangle->count < before && before - tangle->count <= crossings);
     out_tree_free(tangle);

@@ -3,8 +3,9 @@
 #include "making.h"
 #include "testing.h"
 
-#include "objects/common/on_surface.h"
 #include "objects/outtree/outtree.h"
+#include "outtree/crossings.h"
+#include "render/world.h"
 #include "scene/build.h"
 
 #include <math.h>
@@ -126,6 +127,113 @@ static void growth_stays_on_the_surface(void **state)
         assert_float_equal(vec3_length(tree->position[i]), 1.02f, 2e-3);
         assert_true(vec3_dot(tree->normal[i], vec3_normalize(tree->position[i])) > 0.999f);
     }
+    out_tree_free(tree);
+}
+
+// Few attractors, far apart, pull through the body; growth goes around it.
+static void distant_attractors_do_not_lead_off_the_surface(void **state)
+{
+    (void)state;
+    OutTree *tree = grow("points: {place: surface}, growth: {noise: 0, levels: [{attractors: 12, "
+                         "step: 0.1, kill: 0.4, influence: 6, relax: 0}]}");
+    float lowest = 1.0f, highest = -1.0f;
+    for (int64_t i = 0; i < tree->count; i++) {
+        assert_float_equal(vec3_length(tree->position[i]), 1.0f, 1e-3);
+        lowest = fminf(lowest, tree->position[i].y);
+        highest = fmaxf(highest, tree->position[i].y);
+    }
+    assert_true(lowest < -0.9f && highest > 0.5f);
+    out_tree_free(tree);
+}
+
+// A second search for crossings finds none.
+static void crystals_do_not_cross(void **state)
+{
+    (void)state;
+    static const char keys[] =
+        "points: {place: surface}, crossings: %s, starts: {count: 5}, growth: {rule: sectors, "
+        "sector_axis: true, max_angle: 61, levels: [{attractors: 2000, step: 0.5, kill: 0.9, "
+        "influence: 5, relax: 0}]}";
+    char text[512];
+    Run run = run_default();
+    snprintf(text, sizeof text, keys, "true");
+    OutTree *any = grow(text);
+    snprintf(text, sizeof text, keys, "false");
+    OutTree *none = grow(text);
+    int64_t before = any->count, count = none->count;
+    assert_true(out_tree_drop_crossings(any, &run, NULL));
+    assert_true(any->count < before);
+    assert_true(out_tree_drop_crossings(none, &run, NULL));
+    assert_int_equal(none->count, count);
+    out_tree_free(any);
+    out_tree_free(none);
+}
+
+typedef struct Shown {
+    int64_t parts, balls, curves; // balls: instances of all parts
+} Shown;
+
+static Shown show(const char *keys)
+{
+    Error e = {0};
+    Run run = run_default();
+    Scene *scene = read(keys, &e);
+    World *world = scene ? scene_build(scene, &run, NULL, &e) : NULL;
+    if (!world) {
+        fail_msg("%s: %s", keys, e.message);
+    }
+    Shown shown = {.parts = world->geometry.count};
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        const Part *part = &world->geometry.part[i];
+        shown.balls += part->instance_count;
+        shown.curves += part->curves ? part->curves->curve_count : 0;
+    }
+    world_free(world);
+    scene_free(scene);
+    return shown;
+}
+
+#define CROSS_POINTS                                                                             \
+    "placed: {points: [{position: [0, 0, 0]}, {position: [1, 0, 0], group: 1}, {position: [-1, " \
+    "0, 0.1], "                                                                                  \
+    "group: 1}, {position: [0, 1, 0.2], group: 1}, {position: [0, -1, -0.1], group: 1}], kill: " \
+    "0.2, "                                                                                      \
+    "influence: 2}"
+
+// Of four attractors around a start point: all are there before the first step, none at the end.
+static void growth_itself_can_be_seen(void **state)
+{
+    (void)state;
+    Shown at_first = show(CROSS_POINTS ", form: none, growth: {rule: snap, max_steps: 1}, show: "
+                                       "{attractors: 0.1, nodes: 0.1, starts: 0.1, edges: 0.01}");
+    assert_int_equal(at_first.balls, 3 + 2 + 1); // the first step reaches one
+    assert_int_equal(at_first.curves, 1);
+    Shown at_end = show(CROSS_POINTS ", form: none, growth: {rule: snap}, show: {attractors: 0.1, "
+                                     "nodes: 0.1, kill: 0.01, influence: 0.01, pulls: 0.01}");
+    assert_int_equal(at_end.balls, 5);
+    assert_true(at_end.curves >= 2); // circles about each tip
+    Shown pulls = show(CROSS_POINTS ", form: none, growth: {max_nodes: 1}, show: {pulls: 0.01}");
+    assert_int_equal(pulls.curves, 4);
+    Shown band =
+        show("form: none, voxel: 0.1, growth: {levels: [{attractors: 9}]}, show: {band: 0.02}");
+    assert_true(band.parts == 2 && band.balls > 100);
+}
+
+static void tips_bear_lamps(void **state)
+{
+    (void)state;
+    OutTree *tree = grow("growth: {levels: [{attractors: 100}]}");
+    int64_t tips = tree->count;
+    for (int64_t i = 0; i < tree->count; i++) {
+        bool bears = false;
+        for (int64_t k = i + 1; k < tree->count; k++) {
+            bears = bears || tree->parent[k] == i;
+        }
+        tips -= bears;
+    }
+    assert_int_equal(show("growth: {levels: [{attractors: 100}]}, lamps: {max_count: 1000}").balls,
+                     tips);
+    assert_int_equal(show("growth: {levels: [{attractors: 100}]}, lamps: {max_count: 7}").balls, 7);
     out_tree_free(tree);
 }
 
@@ -287,6 +395,7 @@ static void errors_name_what_is_wrong(void **state)
     expect_error("string: {axiom: X, rules: 'X -> ]['}", "rules");
     expect_error("growth: {rule: sectors, sector_angle: 1}", "sector_angle");
     expect_error("jitter: {hurst: 1}", "hurst");
+    expect_error("show: {facing: [0, 0, 0]}", "facing is zero");
     Error e = {0};
     static const char tree[] =
         "objects:\n  - name: a\n    tree: {crown: {growth: {rule: string}}}\n";
@@ -300,6 +409,10 @@ int main(void)
         cmocka_unit_test(placed_points_are_starts_and_attractors),
         cmocka_unit_test(starts_lie_apart_on_the_surface),
         cmocka_unit_test(growth_stays_on_the_surface),
+        cmocka_unit_test(distant_attractors_do_not_lead_off_the_surface),
+        cmocka_unit_test(crystals_do_not_cross),
+        cmocka_unit_test(growth_itself_can_be_seen),
+        cmocka_unit_test(tips_bear_lamps),
         cmocka_unit_test(every_rule_grows_and_threads_do_not_show),
         cmocka_unit_test(a_string_says_where_branches_go),
         cmocka_unit_test(radii_follow_their_rule),

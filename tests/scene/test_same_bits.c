@@ -110,7 +110,7 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
          "string, levels: [{attractors: 200, step: 0.8, kill: 0.7}]}, further: [{growth: {rule: "
          "sectors, max_order: 1, levels: [{attractors: 500}]}}], radii: {model: order}, jitter: "
          "{amplitude: 0.05, segment: 0.04}, skin: {levels: 0}}",
-         0x1ad4ce989c573503},
+         0xf8068646ddccb74e},
         {"outtree: {placed: {points: [{position: [0, 0, 0]}, {position: [0, 1, 0], group: 1}, "
          "{position: [1, 1, 0], group: 1}]}, growth: {rule: snap}, skin: {levels: 0}}",
          0xf14cd4e3be8fa42d}};

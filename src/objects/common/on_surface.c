@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static float larger(float a, float b)
@@ -59,6 +60,29 @@ bool surface_drop_strays(const OnSurface *on, OutTree *tree, float jump, Error *
         keep[i] = parent < 0 || (off < on->probe && off > -on->probe && way < jump);
     }
     bool done = out_tree_keep_nodes(tree, keep, e);
+    free(keep);
+    return done;
+}
+
+// A step of length L on a ball of radius R passes L^2 / (8 R) below its surface; far from a level
+// set, distances are clamped.
+static bool is_bridge(const OnSurface *on, Vec3 a, Vec3 b)
+{
+    float off = fabsf(envelope_distance(on->envelope, vec3_lerp(a, b, 0.5f)));
+    return off > 0.2f * vec3_distance(a, b) || off > 0.95f * envelope_band(on->envelope);
+}
+
+bool surface_settle(const OnSurface *on, OutTree *tree, Error *e)
+{
+    bool *keep = memory_alloc(tree->count, sizeof *keep, e);
+    for (int64_t i = 0; keep && i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        surface_project(on, &tree->position[i], &tree->normal[i]);
+        float off = fabsf(envelope_distance(on->envelope, tree->position[i]));
+        keep[i] = parent < 0 ||
+                  (off < on->probe && !is_bridge(on, tree->position[parent], tree->position[i]));
+    }
+    bool done = keep && out_tree_keep_nodes(tree, keep, e);
     free(keep);
     return done;
 }

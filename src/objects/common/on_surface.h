@@ -23,4 +23,9 @@ void surface_project(const void *surface, Vec3 *p, Vec3 *normal);
 // parents, with all that grew from them: paths through the air or the body.
 bool surface_drop_strays(const OnSurface *surface, OutTree *tree, float jump, Error *e);
 
+// Moves the nodes onto the surface, of which steps are chords, and drops those that are not on it
+// and those that a bridge leads to: a step whose middle is farther from the surface than a fifth of
+// its length, with all that grew from them.
+bool surface_settle(const OnSurface *surface, OutTree *tree, Error *e);
+
 #endif

@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "grow/colonize.h"
-#include "objects/frost/cross.h"
 #include "objects/frost/surface.h"
 #include "outtree/chains.h"
+#include "outtree/crossings.h"
 #include "outtree/radii.h"
 
 #include <stdlib.h>
@@ -235,7 +235,7 @@ bool frost_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
         return false;
     }
     give_births(tree, spine_count);
-    return frost_drop_crossings(tree, recipe->run, e) &&
+    return out_tree_drop_crossings(tree, recipe->run, e) &&
            (params->sides == 0 || trim_rods(tree, params, e));
 }
 

@@ -76,8 +76,7 @@ static const Material BUILTIN[] = {
 
 static const Key MATERIALS[] = {
     OWN_MATERIAL_ROW(0),
-    MATERIAL_ROW(1, "rime_material",
-                 "Material of frost that is white with enclosed air; default: rime."),
+    RIME_MATERIAL_ROW(1),
     {0},
 };
 

@@ -1,7 +1,12 @@
 // From a grown out-tree to what is seen of it.
 #include "objects/outtree/outtree.h"
 
+#include "base/memory.h"
 #include "base/random.h"
+#include "objects/common/balls.h"
+#include "outtree/branching.h"
+
+#include <stdlib.h>
 
 static bool has_skin(const OutTree *tree, float curve_radius)
 {
@@ -34,7 +39,45 @@ static bool add_branches(const OuttreeParams *params, const OutTree *tree, const
     return branches_add_twigs(tree, &twigs, placing, e);
 }
 
+// Balls at tips, evenly chosen if there are too many.
+static bool add_lamps(const LampsParams *lamps, const OutTree *tree, const Placing *placing,
+                      Error *e)
+{
+    Branching branching;
+    if (lamps->max_count == 0) {
+        return true;
+    }
+    if (!branching_init(&branching, tree, e)) {
+        return false;
+    }
+    Vec3 *place = memory_alloc(tree->count, sizeof *place, e);
+    int64_t tips = 0;
+    for (int64_t i = 0; place && i < tree->count; i++) {
+        if (branching.children[i] == 0) {
+            place[tips++] = vec3_madd(tree->position[i], lamps->drop, vec3(0, -1, 0));
+        }
+    }
+    int64_t count = tips < lamps->max_count ? tips : lamps->max_count;
+    for (int64_t i = 0; place && i < count; i++) {
+        place[i] = place[(int64_t)((double)i * (double)tips / (double)count)];
+    }
+    bool done = place && balls_add(place, count, lamps->radius, placing, OUTTREE_LAMP, e);
+    free(place);
+    branching_free(&branching);
+    return done;
+}
+
 bool outtree_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
-    return add_branches(given, grown->tree, placing, e);
+    const OuttreeParams *params = given;
+    const OutTree *tree = grown->tree;
+    const int blade_roles[2] = {OUTTREE_SKIN, OUTTREE_WHITE};
+    bool done = true;
+    if (params->form == OUTTREE_TUBES) {
+        done = add_branches(params, tree, placing, e);
+    } else if (params->form == OUTTREE_BLADES) {
+        done = blades_add(tree, &params->blades, placing, blade_roles, e);
+    }
+    return done && add_lamps(&params->lamps, tree, placing, e) &&
+           outtree_show(params, tree, grown->state, placing, e);
 }

@@ -6,6 +6,7 @@
 #include "grow/lsystem/lsystem.h"
 #include "objects/common/on_surface.h"
 #include "outtree/chains.h"
+#include "outtree/crossings.h"
 #include "outtree/jitter.h"
 
 #include <stdlib.h>
@@ -34,7 +35,11 @@ OuttreeParams outtree_params_default(void)
                                        .droop = 0.3f,
                                        .phyllotaxis = 137.5f,
                                        .variants = 4,
-                                       .detail = 1}};
+                                       .detail = 1},
+                            .crossings = true,
+                            .blades = {.relief = 0.5f},
+                            .lamps = {.radius = 0.02f},
+                            .show = {.facing = {0, 0, 1}}};
     params.element.growth.max_children = 3;
     params.element.growth.noise = 0.2f;
     params.element.growth.field_weight = 1.0f;
@@ -63,7 +68,8 @@ bool outtree_scatters(const OuttreeParams *params)
     return params->element.level_count > 0 || placed_attractors(params) == 0;
 }
 
-Shape outtree_own_shape(const OuttreeParams *params)
+// The unit sphere, or a box about the placed points if attractors are among them.
+static Shape own_shape(const OuttreeParams *params)
 {
     Shape shape = {.kind = SHAPE_SPHERE, .size = {1, 1, 1}, .transform = transform_identity()};
     if (placed_attractors(params) > 0) {
@@ -80,12 +86,24 @@ Shape outtree_own_shape(const OuttreeParams *params)
     return shape;
 }
 
+Envelope *outtree_envelope(const OuttreeParams *params, const Run *run, Error *e)
+{
+    ElementParams element = params->element;
+    Shape own = own_shape(params);
+    if (element.shape_count == 0) {
+        element.shapes = &own;
+        element.shape_count = 1;
+    }
+    return element_envelope(&element, run, e);
+}
+
 // What all steps of one growth share.
 typedef struct Growing {
     const OuttreeParams *params;
     const Recipe *recipe;
     const Envelope *envelope;
     OutTree *tree;
+    OnSurface on; // of the envelope
     AttractorLog *log;
     GrowString string;
 } Growing;
@@ -110,6 +128,8 @@ static ElementParams complete(const Growing *g, const ElementParams *given)
     ElementParams element = *given;
     element.points = g->params->element.points;
     element.growth.log = g->log;
+    element.growth.project = element.points.place == SCATTER_SURFACE ? surface_project : NULL;
+    element.growth.surface = &g->on;
     if (element.growth.rule == GROW_STRING) {
         const StringParams *string = &g->params->string;
         element.growth.string = &g->string;
@@ -156,31 +176,53 @@ static bool grow_placed(Growing *g, Error *e)
     return done;
 }
 
+static bool settle(Growing *g, Error *e)
+{
+    return g->params->element.points.place != SCATTER_SURFACE || surface_settle(&g->on, g->tree, e);
+}
+
+static bool resample(Growing *g, float segment, Error *e)
+{
+    OutTree *fine = out_tree_resample(g->tree, segment, e);
+    out_tree_free(g->tree);
+    g->tree = fine;
+    return (fine && settle(g, e)) || error_key(e, "segment");
+}
+
+static bool grow_first(Growing *g, Error *e)
+{
+    if (!outtree_scatters(g->params)) {
+        return true;
+    }
+    ElementParams element = complete(g, &g->params->element);
+    int own;
+    const GrowLevel *levels = outtree_own_levels(&own);
+    if (element.level_count == 0) {
+        element.levels = (GrowLevel *)levels;
+        element.level_count = own;
+    }
+    return element_grow_in(g->tree, &element, g->envelope,
+                           random_key(g->recipe->seed, STREAM_OUTTREE_GROWTH), g->recipe, NULL, e);
+}
+
+static bool grow_further(Growing *g, int number, Error *e)
+{
+    const FurtherParams *further = &g->params->further[number];
+    ElementParams element = complete(g, &further->element);
+    uint64_t stream = STREAM_OUTTREE_FURTHER + (uint64_t)number;
+    bool done = (further->segment <= 0.0f || resample(g, further->segment, e)) &&
+                element_grow_in(g->tree, &element, g->envelope, random_key(g->recipe->seed, stream),
+                                g->recipe, NULL, e) &&
+                settle(g, e);
+    return done || error_key(e, "further.%d", number);
+}
+
 static bool grow_all(Growing *g, Error *e)
 {
-    const OuttreeParams *params = g->params;
-    const Recipe *recipe = g->recipe;
-    if (!outtree_plant(g->tree, params, g->envelope, recipe, e) || !grow_placed(g, e)) {
-        return false;
-    }
-    bool done = true;
-    if (outtree_scatters(params)) {
-        ElementParams element = complete(g, &params->element);
-        int own;
-        const GrowLevel *levels = outtree_own_levels(&own);
-        if (element.level_count == 0) {
-            element.levels = (GrowLevel *)levels;
-            element.level_count = own;
-        }
-        done = element_grow_in(g->tree, &element, g->envelope,
-                               random_key(recipe->seed, STREAM_OUTTREE_GROWTH), recipe, NULL, e);
-    }
-    for (int i = 0; done && i < params->further_count; i++) {
-        ElementParams element = complete(g, &params->further[i]);
-        uint64_t stream = STREAM_OUTTREE_FURTHER + (uint64_t)i;
-        done = element_grow_in(g->tree, &element, g->envelope, random_key(recipe->seed, stream),
-                               recipe, NULL, e) ||
-               error_key(e, "further.%d", i);
+    bool done = outtree_plant(g->tree, g->params, g->envelope, g->recipe, e) && grow_placed(g, e) &&
+                grow_first(g, e) && settle(g, e);
+    for (int i = 0; done && i < g->params->further_count; i++) {
+        done = grow_further(g, i, e);
     }
     return done;
 }
@@ -219,31 +261,20 @@ static OutTree *wander(OutTree *tree, const OuttreeParams *params, const OnSurfa
     return tree;
 }
 
-// Moves the nodes onto the surface, of which steps are chords.
-static void settle_on(OutTree *tree, const OnSurface *on)
-{
-    for (int64_t i = 0; i < tree->count; i++) {
-        surface_project(on, &tree->position[i], &tree->normal[i]);
-    }
-}
-
 static bool finish_growth(Growing *g, Error *e)
 {
     const OuttreeParams *params = g->params;
     bool over_surface = params->element.points.place == SCATTER_SURFACE;
-    OnSurface on = on_surface(g->envelope);
-    if (over_surface) {
-        settle_on(g->tree, &on);
-        if (!surface_drop_strays(&on, g->tree, INFINITY, e)) {
-            return false;
-        }
+    if (over_surface && !params->crossings &&
+        !out_tree_drop_crossings(g->tree, g->recipe->run, e)) {
+        return false;
     }
     ThicknessParams radii = outtree_resolve_radii(g->tree, &params->radii);
     if (!outtree_radii(g->tree, &radii, e)) { // jitter follows the thickest branches
         return false;
     }
-    g->tree = wander(g->tree, params, &on, g->recipe, e);
-    if (!g->tree || (over_surface && !surface_drop_strays(&on, g->tree, INFINITY, e)) ||
+    g->tree = wander(g->tree, params, &g->on, g->recipe, e);
+    if (!g->tree || (over_surface && !surface_drop_strays(&g->on, g->tree, INFINITY, e)) ||
         !outtree_radii(g->tree, &radii, e)) {
         return false;
     }
@@ -261,22 +292,12 @@ static void free_log(void *log)
     free(log);
 }
 
-static Envelope *make_envelope(const OuttreeParams *params, const Run *run, Error *e)
-{
-    ElementParams element = params->element;
-    Shape own = outtree_own_shape(params);
-    if (element.shape_count == 0) {
-        element.shapes = &own;
-        element.shape_count = 1;
-    }
-    return element_envelope(&element, run, e);
-}
-
 bool outtree_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     Growing g = {.params = given, .recipe = recipe};
-    Envelope *envelope = make_envelope(given, recipe->run, e);
+    Envelope *envelope = outtree_envelope(given, recipe->run, e);
     g.envelope = envelope;
+    g.on = envelope ? on_surface(envelope) : (OnSurface){0};
     g.tree = envelope ? out_tree_new(e) : NULL;
     whole->state = g.log = g.tree ? memory_alloc_zero(1, sizeof *g.log, e) : NULL;
     whole->free_state = free_log;
@@ -297,12 +318,29 @@ float outtree_tip_radius(const void *params, const OutTree *whole)
     return least;
 }
 
+// Moves the attractors left as the nodes were: as roots of an out-tree of their own.
+static bool carry_attractors(const Carrier *carrier, AttractorLog *log, Error *e)
+{
+    OutTree *points = out_tree_new(e);
+    bool done = points && out_tree_reserve(points, log->count, e);
+    for (int64_t i = 0; done && i < log->count; i++) {
+        done = out_tree_add_node(points, log->position[i], -1, 0, 0, (uint64_t)i, e) >= 0;
+    }
+    done = done && carrier->carry(carrier->user, points, e);
+    for (int64_t i = 0; done && i < log->count; i++) {
+        log->position[i] = points->position[i];
+    }
+    out_tree_free(points);
+    return done;
+}
+
 bool outtree_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
                     Error *e)
 {
-    (void)params, (void)recipe;
+    (void)params;
     AttractorLog *then = memory_alloc_zero(1, sizeof *then, e);
     grown->state = then;
     grown->free_state = free_log;
-    return then && attractor_log_at(whole->state, out_tree_last_birth(grown->tree), then, e);
+    return then && attractor_log_at(whole->state, out_tree_last_birth(grown->tree), then, e) &&
+           (!recipe->carrier || then->count == 0 || carry_attractors(recipe->carrier, then, e));
 }

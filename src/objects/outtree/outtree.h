@@ -5,6 +5,7 @@
 #ifndef RAMIFY_OBJECTS_OUTTREE_OUTTREE_H
 #define RAMIFY_OBJECTS_OUTTREE_OUTTREE_H
 
+#include "objects/common/blades.h"
 #include "objects/common/branches.h"
 #include "objects/common/element.h"
 #include "objects/common/recipe.h"
@@ -65,24 +66,69 @@ typedef struct WanderParams {
     bool pin_forks;
 } WanderParams;
 
+// Glowing balls at the branches' tips.
+typedef struct LampsParams {
+    int64_t max_count; // 0 = none
+    float radius;      // m
+    float drop;        // m: how far they hang below their tips
+} LampsParams;
+
+// Nodes that circles are drawn around.
+typedef enum ShowAround { SHOW_TIPS, SHOW_STARTS, SHOW_NODES } ShowAround;
+
+// What is shown of growth itself. 0 = not shown.
+typedef struct ShowParams {
+    float attractors, nodes, starts; // m, radius of balls; attractors: those left of the last group
+    float edges;                     // m, radius of straight lines from nodes to their parents
+    float pulls;                     // m, radius of lines from attractors to the nodes they pull
+    float kill, influence;           // m, radius of lines: circles of these distances
+    ShowAround around;
+    float band;  // m, radius of balls at the voxels of the envelope's narrow band, in one slice
+    Vec3 facing; // normal of the circles and the slice
+} ShowParams;
+
+typedef enum OuttreeForm {
+    OUTTREE_TUBES,
+    OUTTREE_BLADES,
+    OUTTREE_NONE // only what ShowParams tells
+} OuttreeForm;
+
+// A growth that follows in the same envelope, on all nodes so far.
+typedef struct FurtherParams {
+    ElementParams element; // its shapes and points are not used
+    float segment;         // m between the nodes that it starts from; 0 = as they grew
+} FurtherParams;
+
 typedef struct OuttreeParams {
-    ElementParams element;  // envelope and first growth; without shapes: the unit sphere, or a box
-                            // about the placed attractors
-    ElementParams *further; // growths that follow in the same envelope, on all nodes so far: their
-                            // shapes and points are not used
+    ElementParams element; // envelope and first growth; without shapes: the unit sphere, or a box
+                           // about the placed attractors
+    FurtherParams *further;
     int further_count;
     PlacedParams placed;
     StartsParams starts;
     StringParams string;
     ThicknessParams radii;
     WanderParams jitter;
-    float lift; // m above the surface
-    SkinningParams skin;
-    LeavesParams leaves;
+    bool crossings; // on a surface: false = a branch ends where it would cross an older one
+    float lift;     // m above the surface
+    OuttreeForm form;
+    SkinningParams skin; // tubes
+    BladeParams blades;
+    LeavesParams leaves; // tubes
+    LampsParams lamps;
+    ShowParams show;
 } OuttreeParams;
 
 // Roles of materials.
-enum { OUTTREE_SKIN, OUTTREE_TWIG, OUTTREE_LEAF };
+enum {
+    OUTTREE_SKIN,
+    OUTTREE_TWIG,
+    OUTTREE_LEAF,
+    OUTTREE_LAMP,
+    OUTTREE_ATTRACTOR,
+    OUTTREE_NODE,
+    OUTTREE_WHITE
+};
 
 // Streams of the object's seed. Further growth i has FURTHER + i.
 enum {
@@ -98,8 +144,8 @@ enum {
 
 OuttreeParams outtree_params_default(void); // in a ball of 1 m radius, from its lowest point
 
-// Shape of the envelope if the parameters list none.
-Shape outtree_own_shape(const OuttreeParams *params);
+// The envelope of the parameters' shapes, or the object's own. Free with envelope_free.
+Envelope *outtree_envelope(const OuttreeParams *params, const Run *run, Error *e);
 
 // Does the object scatter attractors, besides those placed?
 bool outtree_scatters(const OuttreeParams *params);
@@ -121,6 +167,10 @@ ThicknessParams outtree_resolve_radii(const OutTree *tree, const ThicknessParams
 
 // Radii by the rule of the resolved parameters.
 bool outtree_radii(OutTree *tree, const ThicknessParams *params, Error *e);
+
+// Adds what is shown of growth. log: the attractors left; NULL = not known.
+bool outtree_show(const OuttreeParams *params, const OutTree *tree, const AttractorLog *log,
+                  const Placing *placing, Error *e);
 
 // The recipe (see recipe.h). Grows the out-tree with radii and jitter; whole->state and
 // grown->state are the attractors (AttractorLog), of the whole growth and at its cut.

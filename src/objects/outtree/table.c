@@ -154,26 +154,109 @@ static const Table WANDER_TABLE = {.name = "jitter",
                                    .size = sizeof(WanderParams),
                                    .keys = WANDER_KEYS};
 
+static const EnumName FORMS[] = {
+    {"tubes", OUTTREE_TUBES}, {"blades", OUTTREE_BLADES}, {"none", OUTTREE_NONE}, {0}};
+
+static const Key BLADES_KEYS[] = {
+    {KEY_OF(BladeParams, relief, "relief", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
+     .doc = "Height of a blade's rib, relative to its half-width."},
+    {KEY_OF(BladeParams, white, "rime", KEY_FLOAT), .high = 1,
+     .doc = "Fraction of the side branches that have the rime_material."},
+    {0},
+};
+
+static const Table BLADES_TABLE = {.name = "blades",
+                                   .doc = "Flat crystals, for form: blades.",
+                                   .size = sizeof(BladeParams),
+                                   .keys = BLADES_KEYS};
+
+static const Key LAMPS_KEYS[] = {
+    {KEY_OF(LampsParams, max_count, "max_count", KEY_INT64), .high = 1e7,
+     .doc = "Maximum number of lamps, spread evenly over the tips; 0 = none."},
+    {KEY_OF(LampsParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
+     .unit = "m", .doc = "Radius of a lamp."},
+    {KEY_OF(LampsParams, drop, "drop", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "Distance by which lamps hang below their tips."},
+    {0},
+};
+
+static const Table LAMPS_TABLE = {.name = "lamps",
+                                  .doc = "Glowing balls at the tips of branches.",
+                                  .size = sizeof(LampsParams),
+                                  .keys = LAMPS_KEYS};
+
+static const EnumName AROUND[] = {
+    {"tips", SHOW_TIPS}, {"starts", SHOW_STARTS}, {"nodes", SHOW_NODES}, {0}};
+
+#define SHOW_RADIUS .high = 1000, .unit = "m"
+
+static const Key SHOW_KEYS[] = {
+    {KEY_OF(ShowParams, attractors, "attractors", KEY_FLOAT), SHOW_RADIUS,
+     .doc = "Radius of balls at the attractors that are left of the last level begun, in the state "
+            "of growth that is shown (grow_to, growth.max_steps); 0 = not shown, as below."},
+    {KEY_OF(ShowParams, nodes, "nodes", KEY_FLOAT), SHOW_RADIUS,
+     .doc = "Radius of balls at all nodes."},
+    {KEY_OF(ShowParams, starts, "starts", KEY_FLOAT), SHOW_RADIUS,
+     .doc = "Radius of balls at the start points."},
+    {KEY_OF(ShowParams, edges, "edges", KEY_FLOAT), SHOW_RADIUS,
+     .doc = "Radius of straight lines from all nodes to their parents, in the object's material."},
+    {KEY_OF(ShowParams, pulls, "pulls", KEY_FLOAT), SHOW_RADIUS,
+     .doc = "Radius of lines from these attractors to the nodes that they pull: the nearest within "
+            "the influence distance."},
+    {KEY_OF(ShowParams, kill, "kill", KEY_FLOAT), SHOW_RADIUS,
+     .doc = "Radius of the lines of circles as large as the kill distance, in node_material."},
+    {KEY_OF(ShowParams, influence, "influence", KEY_FLOAT), SHOW_RADIUS,
+     .doc = "Radius of the lines of circles as large as the influence distance, in "
+            "attractor_material."},
+    {KEY_OF(ShowParams, around, "around", KEY_ENUM), .names = AROUND,
+     .doc = "Nodes that these circles are drawn around."},
+    {KEY_OF(ShowParams, band, "band", KEY_FLOAT), SHOW_RADIUS,
+     .doc = "Radius of balls at the voxels of the envelope's narrow-band level set, in a slice "
+            "through its middle: node_material inside, attractor_material outside."},
+    {KEY_OF(ShowParams, facing, "facing", KEY_VECTOR), .count = 3,
+     .doc = "Normal of the circles and the slice: the direction to the camera."},
+    {0},
+};
+
+static bool check_show(const Mapping *mapping, void *params)
+{
+    return vec3_length(((const ShowParams *)params)->facing) > 0.0f ||
+           mapping_fail(mapping, "facing", " is zero; it must have a direction");
+}
+
+static const Table SHOW_TABLE = {
+    .name = "show",
+    .doc = "Growth itself made visible: its attractors, nodes and distances.",
+    .example = "objects:\n"
+               "  - name: diagram\n"
+               "    outtree:\n"
+               "      growth: {max_steps: 12, levels: [{attractors: 300}]}\n"
+               "      show: {attractors: 0.02, nodes: 0.015, kill: 0.003, pulls: 0.002}\n",
+    .size = sizeof(ShowParams),
+    .keys = SHOW_KEYS,
+    .check = check_show};
+
 static const Key FURTHER_KEYS[] = {
-    {.key = "growth",
-     .type = KEY_GROUP,
-     .table = &growth_table,
+    {KEY_OF(FurtherParams, element, "growth", KEY_GROUP), .table = &growth_table,
      .doc = "How this growth proceeds; its levels are required."},
-    {KEY_OF(ElementParams, fields, "fields", KEY_LIST),
-     .count_offset = offsetof(ElementParams, field_count), .count = 100,
+    {KEY_OF(FurtherParams, element.fields, "fields", KEY_LIST),
+     .count_offset = offsetof(FurtherParams, element.field_count), .count = 100,
      .table = &guide_field_table, .doc = "Guide vector fields of this growth."},
+    {KEY_OF(FurtherParams, segment, "segment", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "Distance between nodes along the branches so far, which are divided anew before this "
+            "growth starts from them; 0 = as they grew."},
     {0},
 };
 
 static void further_defaults(void *out)
 {
-    ((ElementParams *)out)->growth.field_weight = 1.0f;
+    ((FurtherParams *)out)->element.growth.field_weight = 1.0f;
 }
 
 static bool check_further(const Mapping *mapping, void *params)
 {
-    const ElementParams *element = params;
-    return element->level_count > 0 ||
+    const FurtherParams *further = params;
+    return further->element.level_count > 0 ||
            mapping_fail(mapping, "growth.levels", " is missing; list the levels of this growth");
 }
 
@@ -189,7 +272,7 @@ static const Table FURTHER_TABLE = {
                "        - growth:\n"
                "            {rule: sectors, sector_angle: 60, sector_axis: true, max_angle: 61,\n"
                "             levels: [{attractors: 3000, step: 0.55, kill: 0.9, influence: 5}]}\n",
-    .size = sizeof(ElementParams),
+    .size = sizeof(FurtherParams),
     .keys = FURTHER_KEYS,
     .defaults = further_defaults,
     .check = check_further};
@@ -210,13 +293,25 @@ static const Key OUTTREE_KEYS[] = {
      .doc = "Thickness of the branches."},
     {KEY_OF(OuttreeParams, jitter, "jitter", KEY_GROUP), .table = &WANDER_TABLE,
      .doc = "Jitter of the branches."},
+    {KEY_OF(OuttreeParams, crossings, "crossings", KEY_BOOL),
+     .doc = "May branches on a surface cross? If not, each ends where it would cross an older one, "
+            "as crystals do."},
     {KEY_OF(OuttreeParams, lift, "lift", KEY_FLOAT), .high = 1e4, .unit = "m",
      .doc = "Distance by which nodes are moved along their normals after growth: over a surface, "
             "their height above it."},
+    {KEY_OF(OuttreeParams, form, "form", KEY_ENUM), .names = FORMS,
+     .doc = "tubes: round branches, with skin and leaves; blades: flat crystals with a rib along "
+            "the normal, twice as wide as the radius; none: only what `show` draws."},
     {KEY_OF(OuttreeParams, skin, "skin", KEY_GROUP), .table = &skin_table,
-     .doc = "Surface of the branches."},
+     .doc = "Surface of tubes."},
+    {KEY_OF(OuttreeParams, blades, "blades", KEY_GROUP), .table = &BLADES_TABLE,
+     .doc = "Shape of blades."},
     {KEY_OF(OuttreeParams, leaves, "leaves", KEY_GROUP), .table = &leaves_table,
-     .doc = "Leaves on the thin branches; none unless max_count is set."},
+     .doc = "Leaves on thin tubes; none unless max_count is set."},
+    {KEY_OF(OuttreeParams, lamps, "lamps", KEY_GROUP), .table = &LAMPS_TABLE,
+     .doc = "Glowing balls at the tips of branches; none unless max_count is set."},
+    {KEY_OF(OuttreeParams, show, "show", KEY_GROUP), .table = &SHOW_TABLE,
+     .doc = "Growth itself made visible: its attractors, nodes and distances."},
     {0},
 };
 
@@ -254,7 +349,7 @@ const Table outtree_table = {
     .doc = "A general out-tree (Tanaka et al., sections 3 and 4): grown in any envelope or over "
            "its surface, from any start points, toward scattered and placed attractors, by any "
            "rule and in any guide fields. The other kinds are recipes for particular things. "
-           "Materials: clay, leaf.",
+           "Materials: clay, leaf, lamp, attractor, node, rime.",
     .example = "objects:\n"
                "  - name: veins\n"
                "    outtree:\n"

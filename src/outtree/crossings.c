@@ -1,4 +1,4 @@
-#include "objects/frost/cross.h"
+#include "outtree/crossings.h"
 
 #include "base/memory.h"
 #include "base/random.h"
@@ -141,7 +141,7 @@ static bool mark(SegmentGrid *grid, const int32_t *order, bool *keep, const Run 
     return true;
 }
 
-bool frost_drop_crossings(OutTree *tree, const Run *run, Error *e)
+bool out_tree_drop_crossings(OutTree *tree, const Run *run, Error *e)
 {
     SegmentGrid grid = {0};
     int32_t *order = memory_alloc(tree->count, sizeof *order, e);

@@ -1,0 +1,13 @@
+// Balls at many places: markers of points, lamps on branches.
+#ifndef RAMIFY_OBJECTS_COMMON_BALLS_H
+#define RAMIFY_OBJECTS_COMMON_BALLS_H
+
+#include "objects/common/recipe.h"
+
+enum { BALL_FACES = 224 }; // of each
+
+// Adds a part with a ball of this radius (m) at every position; nothing if there are none.
+bool balls_add(const Vec3 *position, int64_t count, float radius, const Placing *placing, int role,
+               Error *e);
+
+#endif
