@@ -112,7 +112,9 @@ bool vessels_measure(const void *given, const Grown *grown, const Recipe *recipe
     MurrayFit fit[2];
     bool done = trees[0] && trees[1] && out_tree_murray_fit(trees[0], params->law, &fit[0], e) &&
                 out_tree_murray_fit(trees[1], params->law, &fit[1], e) &&
-                add_measures(trees[0], trees[1], fit, list, e);
+                add_measures(trees[0], trees[1], fit, list, e) &&
+                vessels_measure_flow(trees[0], &params->flow, "artery", list, e) &&
+                (!params->veins || vessels_measure_flow(trees[1], &params->flow, "vein", list, e));
     out_tree_free(trees[0]);
     out_tree_free(trees[1]);
     return done;

@@ -2,6 +2,43 @@
 #include "objects/common/tables.h"
 #include "objects/vessels/vessels.h"
 
+static const EnumName VISCOSITIES[] = {
+    {"constant", FLOW_CONSTANT}, {"measured", FLOW_MEASURED}, {0}};
+static const EnumName ENDS[] = {
+    {"equal_pressure", FLOW_EQUAL_PRESSURE}, {"equal_flow", FLOW_EQUAL_FLOW}, {0}};
+
+static const Key FLOW_KEYS[] = {
+    {KEY_OF(FlowParams, viscosity, "viscosity", KEY_ENUM), .names = VISCOSITIES,
+     .doc =
+         "constant: 3.5 mPa s everywhere, as Murray assumes; measured: dependent on diameter and "
+         "hematocrit, as in living microvessels (Pries 1994)."},
+    {KEY_OF(FlowParams, ends, "ends", KEY_ENUM), .names = ENDS,
+     .doc = "What all ends have in common: equal_pressure (flow follows the resistances) or "
+            "equal_flow (as Murray's radii assume)."},
+    {KEY_OF(FlowParams, hematocrit, "hematocrit", KEY_FLOAT), .high = 0.9,
+     .doc = "Volume of cells in the blood, for the measured viscosity."},
+    {KEY_OF(FlowParams, velocity, "velocity", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .unit = "m/s", .doc = "Mean velocity in the section of each root, which sets the flow."},
+    {KEY_OF(FlowParams, pressure, "pressure", KEY_FLOAT), .low = -1e7, .high = 1e7, .unit = "Pa",
+     .doc = "Pressure at the root of the arteries."},
+    {KEY_OF(FlowParams, return_pressure, "vein_pressure", KEY_FLOAT), .low = -1e7, .high = 1e7,
+     .unit = "Pa", .doc = "Pressure at the root of the veins."},
+    {0},
+};
+
+static const Table FLOW_TABLE = {
+    .name = "flow",
+    .doc =
+        "Steady flow by Poiseuille's law, which `ramify measure` reports and network files hold; "
+        "it changes no geometry.",
+    .example = "objects:\n"
+               "  - name: organ\n"
+               "    vessels:\n"
+               "      envelope: [{shape: ellipsoid, size: [0.05, 0.03, 0.04]}]\n"
+               "      flow: {viscosity: measured, velocity: 0.3}\n",
+    .size = sizeof(FlowParams),
+    .keys = FLOW_KEYS};
+
 static const Key VESSELS_KEYS[] = {
     {KEY_OF(VesselsParams, terminals, "terminals", KEY_INT64), .low = 2, .high = 1e8,
      .doc = "Number of vessel ends, of arteries and veins together."},
@@ -28,6 +65,8 @@ static const Key VESSELS_KEYS[] = {
             "are curves."},
     {KEY_OF(VesselsParams, skin_levels, "skin_levels", KEY_INT), .high = 4,
      .doc = "Number of subdivision levels of the thick vessels' skin."},
+    {KEY_OF(VesselsParams, flow, "flow", KEY_GROUP), .table = &FLOW_TABLE,
+     .doc = "Pressure and flow of the blood, for measures and network files."},
     ELEMENT_ROWS(VesselsParams),
     {0},
 };

@@ -9,6 +9,8 @@
 
 VesselsParams vessels_params_default(void)
 {
+    FlowParams flow = flow_params_default();
+    flow.returning = VESSELS_VEINS;
     return (VesselsParams){.element.growth = {.max_children = 2,
                                               .max_angle = 100.0f,
                                               .noise = 0.2f,
@@ -19,7 +21,8 @@ VesselsParams vessels_params_default(void)
                            .law = {2.7f},
                            .gap = 0.3f,
                            .turn = true,
-                           .skin_levels = 2};
+                           .skin_levels = 2,
+                           .flow = flow};
 }
 
 static bool is_body(const VesselsParams *params)

@@ -5,6 +5,7 @@
 
 #include "objects/common/element.h"
 #include "objects/common/recipe.h"
+#include "outtree/flow.h"
 #include "outtree/murray.h"
 
 enum { VESSELS_ARTERIES, VESSELS_VEINS }; // colonies of the out-tree and roles of materials
@@ -24,6 +25,7 @@ typedef struct VesselsParams {
     bool turn; // turn daughters to Murray's angles
     float curve_radius; // m: thicker vessels get a skin; 0 = all are round curves
     int skin_levels;
+    FlowParams flow; // for measures and exports
 } VesselsParams;
 
 VesselsParams vessels_params_default(void);
@@ -32,13 +34,23 @@ VesselsParams vessels_params_default(void);
 // VESSELS_VEINS, radii and all. Every segment beyond the stems is inside the organ by its radius
 // (or by the envelope's band, if that is less), at both ends and in the middle; no artery is closer
 // to a vein than `gap`. Both hold at every time of the growth. Measures terminals, the fit to
-// Murray's laws, the least distance between arteries and veins.
+// Murray's laws, the least distance between arteries and veins, flow and orders by diameter
+// (flow_measures.c).
 bool vessels_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
 bool vessels_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
                     Error *e);
 bool vessels_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 bool vessels_measure(const void *params, const Grown *grown, const Recipe *recipe,
                      MeasureList *list, Error *e);
+
+// Appends, for prefix "artery" or "vein": PREFIX_inflow (of its roots; ml/min), PREFIX_resistance
+// (mean fall of pressure from root to ends over the flow; Pa s/m^3), PREFIX_pressure_drop (Pa, that
+// mean fall), PREFIX_wall_shear, PREFIX_wall_shear_low, PREFIX_wall_shear_high (Pa; median, 10th
+// and 90th percentile over the segments), PREFIX_orders, PREFIX_order_number,
+// PREFIX_order_diameter, PREFIX_order_length (orders by diameter and their ratios),
+// PREFIX_segments_in_series (mean of an element). NAN without such vessels.
+bool vessels_measure_flow(const OutTree *tree, const FlowParams *params, const char *prefix,
+                          MeasureList *list, Error *e);
 
 // The nodes of one colony as a separate out-tree.
 OutTree *vessels_colony(const OutTree *tree, int32_t colony, Error *e);

@@ -1,0 +1,147 @@
+// Orders by diameter and their connectivity on trees that can be counted by hand.
+#include "outtree/diameter_orders.h"
+#include "outtree/strahler.h"
+#include "testing.h"
+
+#include <math.h>
+
+#define assert_near(a, b) assert_true(fabs((double)(a) - (double)(b)) < 1e-5)
+
+static int64_t add(OutTree *tree, Vec3 p, int64_t parent, float diameter)
+{
+    int64_t node = out_tree_add_node(tree, p, parent, 0, 0, (uint64_t)tree->count, NULL);
+    assert_true(node >= 0);
+    tree->radius[node] = 0.5f * diameter;
+    return node;
+}
+
+enum { SIDES = 20 };
+
+// A trunk of 21 segments of diameter 4 and length 1, each but the last with a side vessel of
+// diameter 2 and length 3 (in two pieces), which forks into two ends of diameter 1 and length 0.5.
+static OutTree *bush(void)
+{
+    OutTree *tree = out_tree_new(NULL);
+    int64_t trunk = add(tree, vec3(0, 0, 0), -1, 4.0f);
+    for (int i = 1; i <= SIDES + 1; i++) {
+        float y = (float)i;
+        trunk = add(tree, vec3(0, y, 0), trunk, 4.0f);
+        if (i <= SIDES) {
+            int64_t side = add(tree, vec3(1, y, 0), trunk, 2.0f);
+            side = add(tree, vec3(3, y, 0), side, 2.0f);
+            add(tree, vec3(3, y, 0.5f), side, 1.0f);
+            add(tree, vec3(3, y, -0.5f), side, 1.0f);
+        }
+    }
+    return tree;
+}
+
+static void segments_run_from_fork_to_fork(void **state)
+{
+    (void)state;
+    OutTree *tree = bush();
+    SegmentList list;
+    assert_true(segments_init(&list, tree, NULL));
+    assert_int_equal(list.count, SIDES + 1 + 3 * SIDES);
+    double length = 0.0;
+    for (int64_t i = 0; i < list.count; i++) {
+        const Segment *s = &list.segment[i];
+        length += s->length;
+        assert_true(s->parent < i);
+        assert_true(s->parent < 0 ? tree->parent[s->from] < 0
+                                  : list.segment[s->parent].to == s->from);
+    }
+    assert_near(length, SIDES + 1 + 3 * SIDES + SIDES);
+    assert_int_equal(list.segment[0].children, 2);
+    assert_int_equal(list.of_node[0], -1);
+    segments_free(&list);
+    out_tree_free(tree);
+}
+
+static void orders_follow_the_diameter(void **state)
+{
+    (void)state;
+    OutTree *tree = bush();
+    SegmentList list;
+    DiameterOrders orders;
+    assert_true(segments_init(&list, tree, NULL));
+    assert_true(diameter_orders_init(&orders, tree, &list, NULL));
+    assert_int_equal(orders.highest, 3);
+    for (int64_t i = 0; i < list.count; i++) {
+        double d = 2.0 * list.segment[i].radius;
+        assert_int_equal(orders.order[i], d > 3.0 ? 3 : (d > 1.5 ? 2 : 1));
+    }
+    // Topology alone puts the trunk's end into the lowest order.
+    int32_t *topological = calloc((size_t)tree->count, sizeof *topological);
+    assert_non_null(topological);
+    out_tree_strahler(tree, topological);
+    assert_int_equal(topological[list.segment[list.count - 1].to], 1);
+    assert_near(2.0 * list.segment[list.count - 1].radius, 4.0);
+    free(topological);
+    diameter_orders_free(&orders);
+    segments_free(&list);
+    out_tree_free(tree);
+}
+
+static void tables_are_those_counted_by_hand(void **state)
+{
+    (void)state;
+    OutTree *tree = bush();
+    SegmentList list;
+    DiameterOrders orders;
+    assert_true(segments_init(&list, tree, NULL));
+    assert_true(diameter_orders_init(&orders, tree, &list, NULL));
+    const OrderClass *of = orders.of;
+    assert_int_equal(of[1].segments, 2 * SIDES);
+    assert_int_equal(of[2].segments, SIDES);
+    assert_int_equal(of[3].segments, SIDES + 1);
+    assert_int_equal(of[1].elements, 2 * SIDES);
+    assert_int_equal(of[2].elements, SIDES);
+    assert_int_equal(of[3].elements, 1); // all in series
+    assert_int_equal(orders.element_count, 3 * SIDES + 1);
+    for (int n = 1; n <= 3; n++) {
+        assert_near(of[n].diameter, n == 3 ? 4.0 : n);
+        assert_near(of[n].diameter_spread, 0.0);
+        for (int m = 1; m <= 3; m++) {
+            double wanted = m == 2 && n == 3 ? SIDES : (m == 1 && n == 2 ? 2.0 : 0.0);
+            assert_near(orders.connectivity[m][n], wanted);
+        }
+    }
+    assert_near(of[1].length, 0.5);
+    assert_near(of[2].length, 3.0);
+    assert_near(of[3].length, SIDES + 1);
+    assert_near(orders.diameter_ratio, 2.0);
+    assert_near(orders.number, sqrt(2.0 * SIDES)); // from 40 to 1 over two orders
+    assert_near(orders.length_ratio, sqrt((SIDES + 1) / 0.5));
+    diameter_orders_free(&orders);
+    segments_free(&list);
+    out_tree_free(tree);
+}
+
+static void empty_trees_have_no_orders(void **state)
+{
+    (void)state;
+    OutTree *tree = out_tree_new(NULL);
+    add(tree, vec3(0, 0, 0), -1, 1.0f);
+    SegmentList list;
+    DiameterOrders orders;
+    assert_true(segments_init(&list, tree, NULL));
+    assert_true(diameter_orders_init(&orders, tree, &list, NULL));
+    assert_int_equal(list.count, 0);
+    assert_int_equal(orders.highest, 0);
+    assert_true(isnan(orders.number));
+    diameter_orders_free(&orders);
+    segments_free(&list);
+    out_tree_free(tree);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(segments_run_from_fork_to_fork),
+        cmocka_unit_test(orders_follow_the_diameter),
+        cmocka_unit_test(tables_are_those_counted_by_hand),
+        cmocka_unit_test(empty_trees_have_no_orders),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
