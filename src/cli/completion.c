@@ -32,7 +32,10 @@ static void offer_words(Offer *offer, const char *words)
 static void offer_add_endings(Offer *offer, const char *text)
 {
     for (const char *dot = strchr(text, '.'); dot; dot = strchr(dot + 1, '.')) {
-        size_t length = strspn(dot + 1, "abcdefghijklmnopqrstuvwxyz0123456789");
+        size_t length = strspn(dot + 1, "abcdefghijklmnopqrstuvwxyz0123456789.");
+        while (length > 0 && dot[length] == '.') { // the end of a sentence
+            length--;
+        }
         if (length > 0 && (dot == text || strchr(" E(/", dot[-1]))) {
             offer_add(offer, dot + 1, length);
         }

@@ -4,6 +4,7 @@
 
 #include "base/run.h"
 #include "land/height_field.h"
+#include "outtree/flow.h"
 #include "outtree/out_tree.h"
 #include "shape/grid_file.h"
 
@@ -42,6 +43,7 @@ typedef struct ExportSource {
     int object_count;               // of the scene: Part.object is an index
     const char *const *object_name; // object_count entries
     const OutTree *const *tree;     // EXPORT_TREES; NULL where nothing grew
+    const FlowParams *flow;         // EXPORT_TREES: what flows through each; NULL = the default
     const HeightField *const *land; // EXPORT_LAND; NULL where an object is no land
     const GridFile *grids;          // EXPORT_GRIDS: envelopes and guide fields, named
 } ExportSource;

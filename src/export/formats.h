@@ -1,4 +1,5 @@
 // The registry of formats: FORMAT(name) is name_format, defined in the file that writes it.
+// The first whose ending a file's name has writes it.
 #ifndef RAMIFY_EXPORT_FORMATS_H
 #define RAMIFY_EXPORT_FORMATS_H
 
@@ -12,6 +13,8 @@
     FORMAT(pov)                \
     FORMAT(stl)                \
     FORMAT(swc)                \
+    FORMAT(network)            \
+    FORMAT(vtp)                \
     FORMAT(json)               \
     FORMAT(graphml)            \
     FORMAT(vdb)                \

@@ -9,6 +9,7 @@
 #include "objects/common/needs.h"
 #include "objects/common/own_space.h"
 #include "objects/common/recipe.h"
+#include "outtree/flow.h"
 
 enum { OBJECT_MOST_MATERIALS = 7 };
 
@@ -97,6 +98,9 @@ typedef struct Kind {
 
     // Adds the memory that the object will need; NULL = negligible.
     void (*needs)(const void *params, Needs *needs);
+
+    // What flows through the out-tree, for network files; NULL = flow_params_default.
+    void (*flow)(const void *params, FlowParams *flow);
 
     // Number of attractors, and largest number of copies (leaves, tufts); NULL = none.
     int64_t (*attractors)(const void *params);

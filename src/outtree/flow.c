@@ -134,3 +134,21 @@ void flow_free(Flow *flow)
     free(flow->resistance);
     *flow = (Flow){0};
 }
+
+double flow_wall_stiffness(double radius)
+{
+    return 2e6 * exact_exp(-2253.0 * radius) + 8.65e4;
+}
+
+FlowLumped flow_lumped(const Flow *flow, const OutTree *tree, const Segment *segment)
+{
+    FlowLumped sum = {0};
+    for (int32_t i = segment->to; i != segment->from; i = tree->parent[i]) {
+        double r = (double)tree->radius[i], area = PI * r * r;
+        double length = (double)vec3_distance(tree->position[i], tree->position[tree->parent[i]]);
+        sum.resistance += flow->resistance[i];
+        sum.inertance += BLOOD_DENSITY * length / area;
+        sum.compliance += 1.5 * area * length / flow_wall_stiffness(r);
+    }
+    return sum;
+}

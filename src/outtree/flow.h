@@ -4,7 +4,7 @@
 #ifndef RAMIFY_OUTTREE_FLOW_H
 #define RAMIFY_OUTTREE_FLOW_H
 
-#include "outtree/out_tree.h"
+#include "outtree/segments.h"
 
 typedef enum FlowViscosity {
     FLOW_CONSTANT, // 3.5 mPa s in every vessel, as Murray assumes
@@ -50,5 +50,20 @@ double flow_viscosity(const FlowParams *params, double radius);
 
 // Mean shear (Pa) at the wall of a tube: 4 mu Q / (pi r^3).
 double flow_wall_shear(double viscosity, double flow, double radius);
+
+#define BLOOD_DENSITY 1060.0 // kg/m^3
+
+// Stiffness E h / r of the wall (Pa), dependent on the radius (m), as fitted to arteries (Olufsen
+// 1999).
+double flow_wall_stiffness(double radius);
+
+// A segment as lumped elements in series: its tubes' sums.
+typedef struct FlowLumped {
+    double resistance; // Pa s/m^3: 8 mu L / (pi r^4)
+    double inertance;  // Pa s^2/m^3: rho L / (pi r^2)
+    double compliance; // m^3/Pa: 3 pi r^3 L / (2 E h), of a thin incompressible wall
+} FlowLumped;
+
+FlowLumped flow_lumped(const Flow *flow, const OutTree *tree, const Segment *segment);
 
 #endif

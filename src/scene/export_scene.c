@@ -31,6 +31,7 @@ bool scene_export_check(const char *file, Error *e)
 typedef struct Parts {
     World *world;
     OutTree **tree;
+    FlowParams *flow;
     HeightField **land;
     GridFile *grids;
     const char **name;
@@ -49,8 +50,23 @@ static void clear_parts(Parts *parts, int object_count)
     world_free(parts->world);
     grid_file_free(parts->grids);
     free(parts->tree);
+    free(parts->flow);
     free(parts->land);
     free(parts->name);
+}
+
+// What flows through each object's out-tree.
+static FlowParams *make_flows(const Scene *scene, Error *e)
+{
+    FlowParams *flow = memory_alloc(scene->object_count, sizeof *flow, e);
+    for (int i = 0; flow && i < scene->object_count; i++) {
+        const SceneObject *object = &scene->objects[i];
+        flow[i] = flow_params_default();
+        if (object->kind->flow) {
+            object->kind->flow(object->params, &flow[i]);
+        }
+    }
+    return flow;
 }
 
 // Grows the out-trees of all objects that grow, or of land only.
@@ -93,7 +109,8 @@ static bool make_parts(const Scene *scene, unsigned needs, Parts *parts, const R
         done = parts->world;
     }
     if (done && needs & (EXPORT_TREES | EXPORT_LAND)) {
-        done = make_trees(scene, needs & EXPORT_TREES, parts, run, e) &&
+        parts->flow = make_flows(scene, e);
+        done = parts->flow && make_trees(scene, needs & EXPORT_TREES, parts, run, e) &&
                (!(needs & EXPORT_LAND) || make_lands(scene, parts, run, e));
     }
     if (done && needs & EXPORT_GRIDS) {
@@ -132,6 +149,7 @@ static bool write_scene(const Scene *scene, const char *file, const ExportOption
                                .object_count = scene->object_count,
                                .object_name = parts.name,
                                .tree = (const OutTree *const *)parts.tree,
+                               .flow = parts.flow,
                                .land = (const HeightField *const *)parts.land,
                                .grids = parts.grids};
         done = format->write(&source, file, run, e) &&
@@ -204,6 +222,7 @@ bool scene_write_grown(const Scene *scene, const OutTree *const *trees,
                                : "heights; .png, .exr and .asc can");
     }
     const char **name = memory_alloc(scene->object_count, sizeof *name, e);
+    FlowParams *flow = make_flows(scene, e);
     for (int i = 0; name && i < scene->object_count; i++) {
         name[i] = scene->objects[i].name;
     }
@@ -211,8 +230,10 @@ bool scene_write_grown(const Scene *scene, const OutTree *const *trees,
                            .object_count = scene->object_count,
                            .object_name = name,
                            .tree = trees,
+                           .flow = flow,
                            .land = lands};
-    bool done = name && format->write(&source, file, run, e);
+    bool done = name && flow && format->write(&source, file, run, e);
+    free(flow);
     free(name);
     return done;
 }

@@ -53,6 +53,11 @@ static void settle(const void *params, void *settled)
     }
 }
 
+static void flow(const void *params, FlowParams *flow)
+{
+    *flow = ((const VesselsParams *)params)->flow;
+}
+
 static void needs(const void *params, Needs *needs)
 {
     const VesselsParams *vessels = params;
@@ -93,6 +98,7 @@ const Kind kind_vessels = {.variant = {KIND_ROW("vessels", &vessels_table,
                            .own_space = own_space,
                            .settle = settle,
                            .needs = needs,
+                           .flow = flow,
                            .measure = measure,
                            .describe = describe,
                            .grow = vessels_grow,
