@@ -161,10 +161,8 @@ static bool check(const Scene *scene, const FitParams *params, Error *e)
 {
     bool valid = true;
     if (params->range_count < 1 || params->range_count > SEARCH_MOST_DIMENSIONS) {
-        return error_set(e, ERROR_INPUT,
-                         "%d parameters to vary; name 1 to %d, as --vary "
-                         "objects.oak.tree.height=5:20",
-                         params->range_count, SEARCH_MOST_DIMENSIONS);
+        return error_set(e, ERROR_INPUT, "%d ranges to search; give 1 to %d", params->range_count,
+                         SEARCH_MOST_DIMENSIONS);
     }
     if (scene->target_count == 0) {
         valid = error_set(e, ERROR_INPUT,

@@ -90,7 +90,7 @@ static bool check_range(const FitParameter *p, Error *e)
     bool valid = true;
     if (!(p->low < p->high) || !isfinite(p->low) || !isfinite(p->high)) {
         valid =
-            error_set(e, ERROR_INPUT, "the range is empty; write PATH=LOW:HIGH with LOW < HIGH");
+            error_set(e, ERROR_INPUT, "the range is empty; its low end must be below its high one");
     } else if (p->logarithmic && p->low <= 0.0) {
         valid = error_set(e, ERROR_INPUT, "a logarithmic range begins above 0; raise %.9g", p->low);
     }
@@ -126,7 +126,7 @@ bool fit_parameter_read(const Scene *scene, const FitRange *range, Arena *arena,
     *parameter = (FitParameter){
         .low = range->low, .high = range->high, .logarithmic = range->logarithmic, .start = 0.5};
     parameter->path = arena_text(arena, range->path, strlen(range->path), e);
-    parameter->source = arena_format(arena, e, "--vary %s=%.9g:%.9g%s", range->path, range->low,
+    parameter->source = arena_format(arena, e, "range %s=%.9g:%.9g%s", range->path, range->low,
                                      range->high, range->logarithmic ? ":log" : "");
     double value = 0.0;
     bool known = false;

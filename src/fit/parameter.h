@@ -13,7 +13,7 @@ typedef struct FitRange {
 enum { FIT_NUMBER_TEXT = 40 };
 
 typedef struct FitParameter {
-    char *path, *source; // source names it in messages: "--vary path=low:high"
+    char *path, *source; // source names it in messages: "range path=low:high"
     double low, high;
     bool logarithmic;
     bool whole;   // the key takes whole numbers only

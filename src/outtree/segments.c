@@ -33,18 +33,9 @@ static void add_piece(SegmentList *list, const OutTree *tree, const int32_t *chi
     segment->radius += length * (double)tree->radius[node]; // divided by the length at the end
 }
 
-bool segments_init(SegmentList *list, const OutTree *tree, Error *e)
+static void find_segments(SegmentList *list, const OutTree *tree, const int32_t *children)
 {
-    *list = (SegmentList){.segment = memory_alloc(tree->count, sizeof *list->segment, e),
-                          .of_node = memory_alloc(tree->count, sizeof *list->of_node, e)};
-    int32_t *children = memory_alloc_zero(tree->count, sizeof *children, e);
-    bool done = list->segment && list->of_node && children;
-    if (done) {
-        count_children(tree, children);
-    } else {
-        segments_free(list);
-    }
-    for (int64_t i = 0; done && i < tree->count; i++) {
+    for (int64_t i = 0; i < tree->count; i++) {
         list->of_node[i] = -1;
         if (tree->parent[i] >= 0) {
             add_piece(list, tree, children, i);
@@ -54,6 +45,20 @@ bool segments_init(SegmentList *list, const OutTree *tree, Error *e)
         Segment *segment = &list->segment[i];
         segment->radius = segment->length > 0.0 ? segment->radius / segment->length
                                                 : (double)tree->radius[segment->to];
+    }
+}
+
+bool segments_init(SegmentList *list, const OutTree *tree, Error *e)
+{
+    *list = (SegmentList){.segment = memory_alloc(tree->count, sizeof *list->segment, e),
+                          .of_node = memory_alloc(tree->count, sizeof *list->of_node, e)};
+    int32_t *children = memory_alloc_zero(tree->count, sizeof *children, e);
+    bool done = list->segment && list->of_node && children;
+    if (done) {
+        count_children(tree, children);
+        find_segments(list, tree, children);
+    } else {
+        segments_free(list);
     }
     free(children);
     return done;

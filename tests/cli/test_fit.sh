@@ -96,10 +96,10 @@ refused unknown_key "did you mean 'angle'?" --vary $vary.angel=15:60
 refused unknown_object "did you mean 'weed'?" --vary objects.wed.lsystem.angle=15:60
 refused no_number "sky.kind" --vary sky.kind=1:2
 refused mapping "must be a mapping" --vary $vary=1:2
-refused empty_range "LOW < HIGH" --vary $vary.angle=60:15
+refused empty_range "must be below its high one" --vary $vary.angle=60:15
 refused half_a_range "PATH=LOW:HIGH" --vary $vary.angle=60
 refused words "PATH=LOW:HIGH" --vary $vary.angle=low:high
-refused not_finite "LOW < HIGH" --vary $vary.angle=nan:60
+refused not_finite "must be below its high one" --vary $vary.angle=nan:60
 refused beyond_the_key "greater than 0" --vary $vary.step=-2:8
 refused logarithm_of_nothing "above 0" --vary $vary.angle=0:60:log
 refused no_whole_number "widen it" --vary $vary.generations=2.2:2.9

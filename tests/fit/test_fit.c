@@ -117,7 +117,7 @@ static void parameters_know_their_keys(void **state)
     FitRange none = {"objects.oak.tree.hight", 4.0, 12.0, false};
     assert_false(fit_parameter_read(scene, &none, arena, &p, &e));
     assert_int_equal(e.code, ERROR_INPUT);
-    assert_string_equal(e.file, "--vary objects.oak.tree.hight=4:12");
+    assert_string_equal(e.file, "range objects.oak.tree.hight=4:12");
     scene_free(scene);
     arena_free(arena);
 }
