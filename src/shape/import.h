@@ -1,4 +1,4 @@
-// Imports meshes through Assimp: OBJ, PLY, STL, glTF, GLB.
+// Imports meshes through Assimp (OBJ, PLY, STL, glTF, GLB) and surfaces of OpenVDB grids (VDB).
 #ifndef RAMIFY_SHAPE_IMPORT_H
 #define RAMIFY_SHAPE_IMPORT_H
 

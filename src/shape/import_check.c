@@ -14,7 +14,7 @@
 
 static bool check_extension(const char *file, Error *e)
 {
-    static const char *const known[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
+    static const char *const known[] = {".obj", ".ply", ".stl", ".gltf", ".glb", ".vdb"};
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         if (strcasecmp(file_name_ending(file), known[i]) == 0) {
             return true;
@@ -22,7 +22,7 @@ static bool check_extension(const char *file, Error *e)
     }
     return error_set(e, ERROR_INPUT,
                      "the name does not end in a mesh format that can be read; .obj, .ply, .stl, "
-                     ".gltf or .glb would be right");
+                     ".gltf, .glb or .vdb would be right");
 }
 
 // ---- PLY ----
@@ -194,6 +194,18 @@ static bool check_obj(FILE *stream, Error *e)
     return error_set(e, ERROR_INPUT, IMPORT_NO_TRIANGLES);
 }
 
+// An OpenVDB file begins with its magic number, as 64 bits.
+static bool check_vdb(FILE *stream, Error *e)
+{
+    static const unsigned char magic[8] = {0x20, 'B', 'D', 'V'};
+    unsigned char head[8] = {0};
+    bool whole = fread(head, 1, sizeof head, stream) == sizeof head;
+    return (whole && memcmp(head, magic, sizeof magic) == 0) ||
+           error_set(e, ERROR_INPUT,
+                     "not an OpenVDB file: its first bytes are others; a whole "
+                     ".vdb file is needed");
+}
+
 static bool check_contents(FILE *stream, const char *file, int64_t size, Error *e)
 {
     if (size == 0) {
@@ -204,6 +216,9 @@ static bool check_contents(FILE *stream, const char *file, int64_t size, Error *
     }
     if (strcasecmp(file_name_ending(file), ".stl") == 0) {
         return check_stl(stream, size, e);
+    }
+    if (strcasecmp(file_name_ending(file), ".vdb") == 0) {
+        return check_vdb(stream, e);
     }
     return strcasecmp(file_name_ending(file), ".obj") != 0 || check_obj(stream, e);
 }

@@ -1,9 +1,11 @@
 #include "shape/import_read.h"
 
+#include "base/file_name.h"
 #include "base/memory.h"
 #include "base/vec.h"
 #include "shape/import_check.h"
 #include "shape/import_files.h"
+#include "shape/vdb_read.h"
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
@@ -198,8 +200,12 @@ static bool write_mesh(const Mesh *mesh, ChildOutput *output, Error *e)
 bool import_read(const void *data, ChildOutput *output, Error *e)
 {
     const char *file = data;
-    const struct aiScene *scene = import_check(file, e) ? read_scene(file, e) : NULL;
-    Mesh *mesh = scene ? gather(scene, e) : NULL;
+    if (!import_check(file, e)) {
+        return false;
+    }
+    bool grid = file_name_ends(file, ".vdb");
+    const struct aiScene *scene = grid ? NULL : read_scene(file, e);
+    Mesh *mesh = grid ? vdb_surface(file, e) : (scene ? gather(scene, e) : NULL);
     bool done = mesh && write_mesh(mesh, output, e);
     mesh_free(mesh);
     return done; // the scene is freed with the process: freeing its faces one by one is slow

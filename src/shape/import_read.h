@@ -11,7 +11,7 @@ typedef struct ImportHeader {
     int32_t normals, uvs;             // 0 or 1: given for every vertex
 } ImportHeader;
 
-#define IMPORT_WANTED "a whole OBJ, PLY, STL, glTF or GLB file"
+#define IMPORT_WANTED "a whole OBJ, PLY, STL, glTF, GLB or VDB file"
 #define IMPORT_NO_TRIANGLES \
     "the file holds no triangles; a surface of triangles or polygons is needed"
 

@@ -36,6 +36,9 @@ typedef struct ScatterParams {
                     // is t^4, with t = 0 at the deepest point, 1 at the surface
     float gradient; // density from bottom to top: -1 = only below, 0 = even, 1 = only above (linear
                     // in height)
+    // density at a point of the unscaled region, 0..1, on top of the others; NULL = even
+    float (*density)(const void *user, Vec3 p);
+    const void *density_user;
     float depth_gradient; // volume: density from the centre to the surface, same scale as gradient
     // points and their mean spacing stay fixed in space when the envelope moves or changes
     // slightly: SCATTER_RANDOM, about count points (the spacing is rounded to a quarter octave)

@@ -32,6 +32,9 @@ static double weight_at(const Scatter *s, Vec3 p)
     const ScatterParams *params = s->params;
     double height = (double)clampf((p.y - s->lowest) * s->inverse_height, 0.0f, 1.0f);
     double weight = 1.0 + (double)params->gradient * (2.0 * height - 1.0);
+    if (params->density) {
+        weight *= (double)params->density(params->density_user, p);
+    }
     if (s->uses_depth) {
         double out = 1.0 - (double)depth_field_at(&s->depth, p), out2 = out * out;
         weight *= 1.0 + (double)params->depth_gradient * (2.0 * out - 1.0);
@@ -263,7 +266,7 @@ static bool scatter_prepare(const Envelope *envelope, const ScatterParams *param
     float height = box.high.y - box.low.y;
     s->inverse_height = height > 0.0f ? 1.0f / height : 0.0f;
     s->uses_depth = volume && (params->shell > 0.0f || params->depth_gradient != 0.0f);
-    s->weighted = s->uses_depth || params->gradient != 0.0f;
+    s->weighted = s->uses_depth || params->gradient != 0.0f || params->density;
     if (!volume && !sum_areas(s, e)) {
         return false;
     }

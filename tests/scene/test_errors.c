@@ -53,7 +53,7 @@ static const Case scenes[] = {
      ":1:11: objects.0 has no 'name'; this key is required: Unique name, used in messages, targets "
      "and paths of keys. The object's random numbers depend on it."},
     {"objects: [{name: a, mesh: }]",
-     ":1:27: objects.a.mesh has no 'file'; this key is required: OBJ, PLY, STL, glTF or GLB file, "
+     ":1:27: objects.a.mesh has no 'file'; this key is required: OBJ, PLY, STL, glTF, GLB or VDB file, "
      "relative to the scene's folder."},
     {TREE "sky: {kind: environment}\n",
      ":2:6: sky has no 'file'; this key is required: Latitude-longitude HDR panorama (.hdr, .exr), "

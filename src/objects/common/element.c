@@ -153,6 +153,22 @@ bool element_guide_field(const OutTree *tree, const ElementParams *element,
     return true;
 }
 
+bool element_density(const ElementParams *element, ScatterParams *scatter, Density **density,
+                     const Run *run, Error *e)
+{
+    *density = NULL;
+    if (!element->density) {
+        return true;
+    }
+    *density = density_new(element->density, run, e);
+    scatter->density = density_at;
+    scatter->density_user = *density;
+    if (!*density) {
+        error_key(e, "points.density");
+    }
+    return *density;
+}
+
 bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope *envelope,
                      uint64_t seed, const Recipe *recipe, const char *part, Error *e)
 {
@@ -167,8 +183,10 @@ bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope
     ColonizeParams params =
         element_colonize_params(tree, element, field, random_key(seed, STREAM_ELEMENT_GROWTH));
     params.room = recipe->room;
+    Density *density = NULL;
     GrowReport *reports = memory_alloc_zero(element->level_count, sizeof *reports, e);
-    bool done = reports && growth_observe(recipe, part, envelope, field, e) &&
+    bool done = reports && element_density(element, &scatter, &density, run, e) &&
+                growth_observe(recipe, part, envelope, field, e) &&
                 colonize_levels(tree, envelope, &scatter, element->levels, element->level_count,
                                 &params, run, reports, e);
     if (done) {
@@ -176,6 +194,7 @@ bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope
         warn_ends_short(reports, element, recipe, part);
     }
     free(reports);
+    density_free(density);
     guide_field_free(field);
     return done;
 }

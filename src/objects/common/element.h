@@ -5,6 +5,7 @@
 
 #include "field/guide_field.h"
 #include "grow/colonize.h"
+#include "objects/common/density.h"
 #include "objects/common/recipe.h"
 #include "shape/envelope.h"
 #include "shape/points.h"
@@ -14,9 +15,10 @@
 typedef struct ElementParams {
     Shape *shapes; // the envelope
     int shape_count;
-    float voxel;           // m, of level sets; 0 = automatic
-    ScatterParams points;  // the levels set count and scale, the growth anchor and seed
-    ColonizeParams growth; // the levels set lengths; noise: of levels that give none
+    float voxel;            // m, of level sets; 0 = automatic
+    ScatterParams points;   // the levels set count and scale, the growth anchor and seed
+    ColonizeParams growth;  // the levels set lengths; noise: of levels that give none
+    DensityParams *density; // of the attractors; NULL = even
     GrowLevel *levels;
     int level_count;
     FieldParams *fields;
@@ -60,6 +62,11 @@ ColonizeParams element_colonize_params(const OutTree *tree, const ElementParams 
                                        const GuideField *field, uint64_t seed);
 ScatterParams element_scatter_params(const OutTree *tree, const ElementParams *element,
                                      uint64_t seed);
+
+// The density of the element's attractors, set in scatter; *density is NULL if it has none. Free it
+// with density_free after the scattering.
+bool element_density(const ElementParams *element, ScatterParams *scatter, Density **density,
+                     const Run *run, Error *e);
 
 // The element's guide fields with the tree's present roots as nuclei; *field is NULL if it has
 // none.

@@ -35,7 +35,7 @@ static const Key SHAPE_KEYS[] = {
             "radius, height, top radius; capsule: radius, distance between the centres of its "
             "ends, unused; body: height, unused, unused."},
     {KEY_OF(Shape, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(SHAPE_MESH),
-     .doc = "OBJ, PLY, STL, glTF or GLB file, relative to the scene's folder."},
+     .doc = "OBJ, PLY, STL, glTF, GLB or VDB file, relative to the scene's folder."},
     {KEY_OF(Shape, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Position of the shape's origin."},
     {KEY_OF(Shape, rotation, "rotation", KEY_VECTOR), .count = 3, .unit = "degrees",
@@ -72,6 +72,48 @@ const Table shape_table = {
 static const EnumName PLACES[] = {{"volume", SCATTER_VOLUME}, {"surface", SCATTER_SURFACE}, {0}};
 static const EnumName SCATTERS[] = {{"random", SCATTER_RANDOM}, {"poisson", SCATTER_POISSON}, {0}};
 
+static const Key DENSITY_KEYS[] = {
+    {KEY_OF(DensityParams, file, "file", KEY_FILE), .flags = KEY_REQUIRED,
+     .doc = "VDB file with a scalar grid (a fog volume's values, or the inside of a level set), or "
+            "any picture, whose white places are the densest."},
+    {KEY_OF(DensityParams, grid, "grid", KEY_TEXT),
+     .doc = "Name of the grid in the VDB file; default: the first of floats."},
+    {KEY_OF(DensityParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Position of the grid's origin, or of the picture's middle."},
+    {KEY_OF(DensityParams, rotation, "rotation", KEY_VECTOR), .count = 3, .unit = "degrees",
+     .doc = "Rotation about x, then y, then z. A picture lies level, its top toward -z, and counts "
+            "at every height."},
+    {KEY_OF(DensityParams, scale, "scale", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3,
+     .doc = "Scale along x, y and z; a picture is x wide and z deep, in metres."},
+    {KEY_OF(DensityParams, invert, "invert", KEY_BOOL), .doc = "Use 1 - density."},
+    {0},
+};
+
+static void density_defaults(void *out)
+{
+    *(DensityParams *)out = (DensityParams){.scale = {1, 1, 1}};
+}
+
+static bool check_density(const Mapping *mapping, void *params)
+{
+    DensityParams *density = params;
+    density->transform = transform_compose(density->position, density->rotation, density->scale);
+    return check_scale(mapping, density->scale);
+}
+
+static const Table density_table = {
+    .name = "density",
+    .doc = "How densely attractors lie, from a file: growth reaches where it is dense.",
+    .example = "objects:\n"
+               "  - name: lawn\n"
+               "    outtree:\n"
+               "      envelope: [{shape: box, size: [2, 0.02, 2]}]\n"
+               "      points: {density: {file: ../docs/tutorial/2-tree.jpg, scale: 4}}\n",
+    .size = sizeof(DensityParams),
+    .keys = DENSITY_KEYS,
+    .defaults = density_defaults,
+    .check = check_density};
+
 static const Key POINTS_KEYS[] = {
     {KEY_OF(ElementParams, points.place, "place", KEY_ENUM), .names = PLACES,
      .doc = "volume: fill the envelope; surface: cover its surface."},
@@ -88,6 +130,8 @@ static const Key POINTS_KEYS[] = {
     {KEY_OF(ElementParams, points.anchored, "anchored", KEY_BOOL),
      .doc = "Keep attractors in place when the envelope moves or changes, so that growth elsewhere "
             "hardly changes; for animation and editing. Counts are then approximate."},
+    {KEY_OF(ElementParams, density, "density", KEY_POINTER), .table = &density_table,
+     .doc = "Density of the attractors from an OpenVDB grid or a picture."},
     {0},
 };
 

@@ -150,6 +150,14 @@ bool own_space_take_element(OwnSpace *own, ElementParams *element, Error *e)
     if (!own->moved) {
         return true;
     }
+    if (element->density) {
+        DensityParams *density = own_space_copy(own, element->density, sizeof *density, e);
+        if (!density) {
+            return false;
+        }
+        density->transform = take_transform(own, &density->transform);
+        element->density = density;
+    }
     element->growth.cone_axis = own_space_direction(own, element->growth.cone_axis);
     element->growth.tropism = own_space_direction(own, element->growth.tropism);
     return own_space_take_shapes(own, &element->shapes, element->shape_count, e) &&

@@ -4,7 +4,7 @@
 
 static const Key MESH_KEYS[] = {
     {KEY_OF(MeshParams, file, "file", KEY_FILE), .flags = KEY_REQUIRED,
-     .doc = "OBJ, PLY, STL, glTF or GLB file, relative to the scene's folder."},
+     .doc = "OBJ, PLY, STL, glTF, GLB or VDB file, relative to the scene's folder."},
     {KEY_OF(MeshParams, smooth, "smooth", KEY_BOOL),
      .doc = "Compute smooth normals if the file has none."},
     {KEY_OF(MeshParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",

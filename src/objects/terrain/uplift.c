@@ -1,7 +1,7 @@
 // The user's uplift map: strokes and picture.
 #include "base/noise.h"
 #include "base/random.h"
-#include "image/image.h"
+#include "objects/common/grey.h"
 #include "objects/terrain/internal.h"
 
 // Distance from p to the line from a to b.
@@ -14,37 +14,6 @@ static float stroke_distance(const UpliftStroke *stroke, float x, float z)
     px -= t * dx;
     pz -= t * dz;
     return sqrtf(px * px + pz * pz);
-}
-
-// Converts to grey in place: writes stay behind the pixels still to be read.
-static void make_grey(Image *image)
-{
-    int64_t count = (int64_t)image->width * image->height;
-    int colours = image->channels < 3 ? 1 : 3;
-    for (int64_t i = 0; i < count; i++) {
-        float sum = 0.0f;
-        for (int c = 0; c < colours; c++) {
-            sum += image->pixel[i * image->channels + c];
-        }
-        image->pixel[i] = sum / (float)colours;
-    }
-}
-
-// The grey picture, bilinear; u and v run from 0 at its north-west corner to 1.
-static float image_at(const Image *image, float u, float v)
-{
-    int width = image->width, height = image->height;
-    float x = clampf(u * (float)width - 0.5f, 0.0f, (float)(width - 1));
-    float y = clampf(v * (float)height - 0.5f, 0.0f, (float)(height - 1));
-    int column = (int)x, row = (int)y;
-    int next_column = column + 1 < width ? column + 1 : column;
-    int next_row = row + 1 < height ? row + 1 : row;
-    const float *p = image->pixel;
-    float above = lerpf(p[(int64_t)row * width + column], p[(int64_t)row * width + next_column],
-                        x - (float)column);
-    float below = lerpf(p[(int64_t)next_row * width + column],
-                        p[(int64_t)next_row * width + next_column], x - (float)column);
-    return lerpf(above, below, y - (float)row);
 }
 
 static float uplift_at(const TerrainParams *params, const Image *image, uint64_t seed, Vec3 p)
@@ -60,7 +29,7 @@ static float uplift_at(const TerrainParams *params, const Image *image, uint64_t
         sum += stroke->strength * (1.0f - smoothstepf(0.0f, 1.0f, share));
     }
     if (image) {
-        sum *= image_at(image, u + 0.5f, v + 0.5f);
+        sum *= grey_at(image, u + 0.5f, v + 0.5f);
     }
     return sum > 0.02f ? sum : 0.02f;
 }
@@ -68,12 +37,9 @@ static float uplift_at(const TerrainParams *params, const Image *image, uint64_t
 bool terrain_uplift(Terrain *terrain, const Run *run, Error *e)
 {
     const char *file = terrain->params->uplift.image;
-    Image *image = file ? image_read(file, run, e) : NULL;
+    Image *image = file ? grey_read(file, run, e) : NULL;
     if (file && !image) {
         return error_key(e, "uplift.image");
-    }
-    if (image) {
-        make_grey(image);
     }
     const OutTree *rivers = terrain->rivers;
     for (int64_t i = 0; i < rivers->count; i++) {

@@ -115,8 +115,12 @@ bool tree_grow_bole(OutTree *tree, const TreeParams *params, const Envelope *env
     float influence;
     ScatterParams scatter =
         element_scatter_params(tree, crown, random_key(seed, STREAM_ELEMENT_POINTS));
-    PointSet *points = colonize_first_attractors(envelope, &scatter, &crown->levels[0], &influence,
-                                                 recipe->run, e);
+    Density *density;
+    PointSet *points = element_density(crown, &scatter, &density, recipe->run, e)
+                           ? colonize_first_attractors(envelope, &scatter, &crown->levels[0],
+                                                       &influence, recipe->run, e)
+                           : NULL;
+    density_free(density);
     bool done = points && bole_toward(tree, points, influence, params, recipe, e);
     points_free(points);
     return done;

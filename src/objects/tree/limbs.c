@@ -189,11 +189,13 @@ static bool thin_once(OutTree *tree, int64_t first, const TreeParams *params,
     OutTree *grown = out_tree_copy(tree, e);
     Limbs limbs = {.tree = grown,
                    .radius = params->trunk.radius / sqrtf((float)params->crown.branches)};
+    Density *density;
     bool done =
-        grown &&
+        element_density(crown, &scatter, &density, run, e) && grown &&
         colonize_levels(grown, envelope, &scatter, crown->levels, 1, &colonize, run, NULL, e) &&
         find_limbs(&limbs, first, e) && choose_limbs(&limbs, tree->count, run, e) &&
         drop_crowded(tree, &limbs, dropped, e);
+    density_free(density);
     free_limbs(&limbs);
     out_tree_free(grown);
     return done;

@@ -126,7 +126,12 @@ static bool grow_around(VesselBed *bed, VesselTree *tree, const SegmentGrid *oth
         element_scatter_params(tree->tree, &bed->params->element, random_key(seed, STREAM_POINTS));
     scatter.count = level->attractors;
     scatter.scale = level->scale;
-    PointSet *points = points_scatter(bed->envelope, &scatter, bed->recipe->run, e);
+    Density *density;
+    PointSet *points =
+        element_density(&bed->params->element, &scatter, &density, bed->recipe->run, e)
+            ? points_scatter(bed->envelope, &scatter, bed->recipe->run, e)
+            : NULL;
+    density_free(density);
     if (!points) {
         return false;
     }
