@@ -297,6 +297,9 @@ PointSet *points_scatter(const Envelope *envelope, const ScatterParams *params, 
         points->dimension = volume ? 3 : 2;
         points->measure = volume ? envelope_volume(envelope) * scale * scale * scale
                                  : envelope_area(envelope) * scale * scale;
+        if (params->density) { // the mean spacing is that where the points are
+            points->measure *= s.mean_weight;
+        }
         done = params->anchored                     ? scatter_anchored(&s, points, run, e)
                : params->pattern == SCATTER_POISSON ? scatter_poisson(&s, points, run, e)
                                                     : scatter_random(&s, points, run, e);
