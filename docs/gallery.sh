@@ -30,7 +30,7 @@ panel() {
 
 # sheet NAME COLUMNSxROWS: joins the panels since the last sheet into renders/NAME.jpg.
 sheet() {
-    oiiotool "$parts"/*.png --mosaic:pad=4 "$2" --ch R,G,B --compression jpeg:88 -o "renders/$1.jpg"
+    oiiotool "$parts"/*.png --mosaic:pad=4 "$2" --ch R,G,B --compression jpeg:90 -o "renders/$1.jpg"
     rm -f "$parts"/*
     count=0
 }
@@ -61,6 +61,7 @@ fi
 # ---- trees, fields, forest ----
 
 still figure-9 field-grid
+still twisted twisted --size 1600x900
 still forest forest --samples 24
 if is_wanted figure-10; then
     for time in 0.2 0.45 0.62 0.8 0.9 1; do
@@ -70,7 +71,7 @@ if is_wanted figure-10; then
 fi
 if is_wanted figure-18; then
     for tree in tree-plain tree-field-crown tree-field-trunk tree-field-dragon; do
-        panel "$tree" --size 720x405 --samples 16
+        panel "$tree" --size 800x450 --samples 16
     done
     sheet figure-18 2x2
 fi
@@ -102,7 +103,7 @@ still frost-bubble frost-bubble
 if is_wanted figure-7; then
     for turn in 0 120 360; do
         for step in 0.25 0.5 1; do
-            panel guide-field-plane --size 480x480 --set "objects.tree.frost.turn=$turn" --grow-to "$step"
+            panel guide-field-plane --size 540x540 --set "objects.tree.frost.turn=$turn" --grow-to "$step"
         done
     done
     sheet figure-7 3x3
@@ -121,7 +122,7 @@ if is_wanted figure-13; then
 fi
 if is_wanted figure-20; then
     for turn in 0 120 360 720; do
-        panel frost-bubble-turn --set "objects.frost.frost.turn=$turn"
+        panel frost-bubble-turn --size 810x720 --set "objects.frost.frost.turn=$turn"
     done
     sheet figure-20 2x2
 fi

@@ -13,24 +13,29 @@ struct GuideField {
     FieldParams *params; // count of them
     FieldGrid *grid;     // count of them; used for FIELD_GRID only
     int count;
-    Nuclei nuclei;
+    Nuclei nuclei; // the initial nodes
+    Nuclei *named; // count of them; empty for fields that name none
 };
+
+static bool has_nuclei(FieldKind kind)
+{
+    return kind == FIELD_NUCLEI || kind == FIELD_GRID;
+}
 
 FieldParams field_params_default(FieldKind kind)
 {
-    bool nuclei = kind == FIELD_NUCLEI || kind == FIELD_GRID;
     return (FieldParams){.kind = kind,
                          .weight = 1.0f,
-                         .vector = {0, 1, 0},
-                         .scale = nuclei ? 0.0f : 1.0f,
+                         .vector = {0, has_nuclei(kind) ? 0.0f : 1.0f, 0},
+                         .scale = 1.0f,
                          .profile = PROFILE_SWEPT,
                          .seed = 1};
 }
 
 static bool check_params(const FieldParams *p, int64_t nucleus_count, Error *e)
 {
-    if (!isfinite(p->weight) || !isfinite(p->turn) || !isfinite(p->scale) ||
-        !vec3_finite(p->vector) || !vec3_finite(p->center)) {
+    if (!isfinite(p->weight) || !isfinite(p->turn) || !isfinite(p->scale) || !isfinite(p->rim) ||
+        !isfinite(p->pull) || !vec3_finite(p->vector) || !vec3_finite(p->center)) {
         return error_set(e, ERROR_INPUT, "a field's numbers must be finite");
     }
     if ((p->kind == FIELD_CURL || p->kind == FIELD_POINT) && p->scale <= 0.0f) {
@@ -40,8 +45,7 @@ static bool check_params(const FieldParams *p, int64_t nucleus_count, Error *e)
         return error_set(e, ERROR_INPUT, "field turn %g degrees; at most 1000000 make sense",
                          (double)p->turn);
     }
-    bool nuclei = p->kind == FIELD_NUCLEI || p->kind == FIELD_GRID;
-    if (nuclei && nucleus_count < 1) {
+    if (has_nuclei(p->kind) && p->nucleus_count < 1 && nucleus_count < 1) {
         return error_set(e, ERROR_INPUT,
                          "a nuclei field needs at least one root to lead away from");
     }
@@ -59,9 +63,14 @@ static Vec3 sample_nuclei(const void *context, Vec3 p)
     return nuclei_at(source->nuclei, &source->params, p, vec3(0, 0, 0));
 }
 
+static const Nuclei *nuclei_of(const GuideField *field, int i)
+{
+    return field->params[i].nucleus_count > 0 ? &field->named[i] : &field->nuclei;
+}
+
 static bool make_grid(GuideField *field, int i, const Run *run, Error *e)
 {
-    GridSource source = {.nuclei = &field->nuclei, .params = field->params[i]};
+    GridSource source = {.nuclei = nuclei_of(field, i), .params = field->params[i]};
     source.params.surface = false; // no surface passes through a voxel's corner
     int resolution = source.params.resolution;
     return field_grid_init(&field->grid[i], sample_nuclei, &source, field->nuclei.bounds,
@@ -76,6 +85,12 @@ static bool fill(GuideField *field, const FieldParams *params, int64_t nucleus_c
             return error_key(e, "%d", i);
         }
         field->params[i] = params[i];
+        if (has_nuclei(params[i].kind) && params[i].nucleus_count > 0 &&
+            !nuclei_init_named(&field->named[i], params[i].nucleus, params[i].nucleus_count,
+                               field->nuclei.bounds, run, e)) {
+            error_key(e, "nuclei");
+            return error_key(e, "%d", i);
+        }
         if (params[i].kind == FIELD_GRID && !make_grid(field, i, run, e)) {
             return error_key(e, "%d", i);
         }
@@ -94,7 +109,8 @@ GuideField *guide_field_new(const FieldParams *params, int count, const Vec3 *nu
     field->count = count;
     field->params = memory_alloc_zero(count, sizeof *field->params, e);
     field->grid = memory_alloc_zero(count, sizeof *field->grid, e);
-    if (!field->params || !field->grid ||
+    field->named = memory_alloc_zero(count, sizeof *field->named, e);
+    if (!field->params || !field->grid || !field->named ||
         !nuclei_init(&field->nuclei, nuclei, nucleus_normals, nucleus_count, bounds, e) ||
         !fill(field, params, nucleus_count, run, e)) {
         guide_field_free(field);
@@ -109,9 +125,13 @@ void guide_field_free(GuideField *field)
         for (int i = 0; field->grid && i < field->count; i++) {
             field_grid_free(&field->grid[i]);
         }
+        for (int i = 0; field->named && i < field->count; i++) {
+            nuclei_free(&field->named[i]);
+        }
         nuclei_free(&field->nuclei);
         free(field->params);
         free(field->grid);
+        free(field->named);
         free(field);
     }
 }
@@ -133,7 +153,7 @@ static Vec3 one_field_at(const GuideField *field, int i, Vec3 p, Vec3 n)
     case FIELD_VORTEX:
         return vec3_normalize(vec3_cross(params->vector, from_center));
     case FIELD_NUCLEI:
-        return nuclei_at(&field->nuclei, params, p, n);
+        return nuclei_at(nuclei_of(field, i), params, p, n);
     case FIELD_GRID: {
         Vec3 x = field_grid_at(&field->grid[i], p);
         return params->surface ? tangential(x, n) : vec3_normalize(x);

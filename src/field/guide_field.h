@@ -15,7 +15,7 @@ typedef enum FieldKind {
     FIELD_UNIFORM, // along `vector` everywhere: a tropism
     FIELD_RADIAL,  // away from `center`
     FIELD_VORTEX,  // about the axis `vector` through `center`
-    FIELD_NUCLEI,  // away from the nearest initial node, rotated about the normal by `turn` (Tanaka
+    FIELD_NUCLEI,  // away from the nearest nucleus, rotated about the normal by `turn` (Tanaka
                    // eq. (9)-(12))
     FIELD_GRID,    // FIELD_NUCLEI sampled on a sparse voxel grid, trilinear between voxels
                    // (Tanaka 4.4)
@@ -24,12 +24,26 @@ typedef enum FieldKind {
 } FieldKind;
 
 typedef enum FieldProfile {
-    PROFILE_SWEPT,   // local angle grows so that a streamline sweeps `turn` from nucleus to rim
-    PROFILE_CONSTANT // every vector is rotated by `turn`, as Tanaka eq. (10) is written
+    PROFILE_SWEPT,    // local angle grows so that a streamline sweeps `turn` from nucleus to rim
+    PROFILE_CONSTANT, // every vector is rotated by `turn`, as Tanaka eq. (10) is written
+    PROFILE_GROWN     // rotated further than PROFILE_SWEPT, so that growth, which attractors pull
+                      // outward, sweeps `turn`
 } FieldProfile;
 
+typedef enum NucleusKind { NUCLEUS_POINT, NUCLEUS_LINE, NUCLEUS_SURFACE } NucleusKind;
+
+// A nucleus named by the user, in place of the initial nodes.
+typedef struct Nucleus {
+    NucleusKind kind;
+    Vec3 position; // m; of a line: its start
+    Vec3 end;      // m, of a line
+    Vec3 normal;   // rotation axis, any length; zero = a line's direction, otherwise +Y
+    Shape *shapes; // of a surface
+    int shape_count;
+} Nucleus;
+
 // Rotation axis of nuclei and grid fields: the surface normal if `surface` is set, else `vector`,
-// else (if that is zero) the axis from the nearest nucleus. The axis need not be unit: a longer one
+// else (if that is zero) the normal of the nearest nucleus. The axis need not be unit: a longer one
 // rotates further.
 typedef struct FieldParams {
     FieldKind kind;
@@ -37,9 +51,13 @@ typedef struct FieldParams {
     Vec3 vector, center;
     bool centered; // center was given explicitly, not taken from the object's origin
     float turn;    // degrees
-    float scale; // m; wavelength or falloff distance; nuclei and grid: distance of the rim from the
-                 // nucleus, 0 = the farthest side of the attractors' bounds
+    float scale;   // m; wavelength or falloff distance
+    float rim;     // m; nuclei and grid: distance of the rim from the nucleus, 0 = the farthest
+                   // side of the attractors' bounds
     FieldProfile profile;
+    float pull;        // PROFILE_GROWN: outward pull of the attractors relative to this field's
+    Nucleus *nucleus;  // nuclei and grid; borrowed
+    int nucleus_count; // 0 = the initial nodes
     bool spherical; // swept angle depends on the polar angle on the sphere about `center`, atan(t
                     // sin(phi) / pi), instead of on the distance, atan(t r / rim)
     bool surface;   // stay in the tangent plane of the attractors' surface and rotate about its
@@ -48,13 +66,21 @@ typedef struct FieldParams {
     int resolution; // FIELD_GRID: voxels along the longest side; 0 = 48, at most 2048
 } FieldParams;
 
-// Weight 1, vector +Y, swept profile; scale 1 (0 for nuclei and grid).
+// The `pull` of a field in growth with this ColonizeParams.field_weight, where the attractors' pull
+// has the length 1; 0 if the field does not lead outward.
+static inline float field_params_pull(const FieldParams *params, float field_weight)
+{
+    float weight = field_weight * params->weight;
+    return weight > 0.0f ? 1.0f / weight : 0.0f;
+}
+
+// Weight 1, vector +Y (0 for nuclei and grid), swept profile, scale 1.
 FieldParams field_params_default(FieldKind kind);
 
-// nuclei: positions and unit normals of the initial type-0 nodes, copied. bounds: the region of the
-// attractors. params: `count` fields, summed with their weights. ERROR_INPUT for non-finite
-// numbers, a scale that is not positive where one is needed, or a nuclei field without nuclei. Free
-// with guide_field_free.
+// nuclei: positions and unit normals (NULL = +Y) of the initial type-0 nodes, copied; fields that
+// name nuclei do not use them. bounds: the region of the attractors. params: `count` fields, summed
+// with their weights. ERROR_INPUT for non-finite numbers, a scale that is not positive where one is
+// needed, or a nuclei field without nuclei. Free with guide_field_free.
 GuideField *guide_field_new(const FieldParams *params, int count, const Vec3 *nuclei,
                             const Vec3 *nucleus_normals, int64_t nucleus_count, Aabb bounds,
                             const Run *run, Error *e);

@@ -1,47 +1,41 @@
 #include "field/nuclei.h"
 
 #include "base/exact_math.h"
-#include "base/memory.h"
 
-#include <stdlib.h>
-#include <string.h>
+// The point of the nuclei that is nearest to p, and its normal. Of equally near ones, points come
+// before lines, and the first of the list before the others.
+typedef struct Near {
+    Vec3 position, normal;
+    float distance2;
+} Near;
 
-bool nuclei_init(Nuclei *nuclei, const Vec3 *position, const Vec3 *normal, int64_t count,
-                 Aabb bounds, Error *e)
+static Vec3 nearest_on(const NucleusLine *line, Vec3 p)
 {
-    *nuclei = (Nuclei){.count = count, .bounds = bounds};
-    nuclei->position = memory_alloc(count, sizeof(Vec3), e);
-    nuclei->normal = memory_alloc(count, sizeof(Vec3), e);
-    if (!nuclei->position || !nuclei->normal) {
-        return false;
-    }
-    for (int64_t i = 0; i < count; i++) {
-        nuclei->position[i] = position[i];
-        nuclei->normal[i] = normal ? normal[i] : vec3(0, 1, 0);
-    }
-    return true;
+    Vec3 along = vec3_sub(line->to, line->from);
+    float share = vec3_dot(vec3_sub(p, line->from), along) / vec3_dot(along, along);
+    return vec3_madd(line->from, clampf(share, 0.0f, 1.0f), along);
 }
 
-void nuclei_free(Nuclei *nuclei)
+static void take_nearer(Near *near, Vec3 p, Vec3 position, Vec3 normal)
 {
-    free(nuclei->position);
-    free(nuclei->normal);
-    *nuclei = (Nuclei){0};
+    Vec3 v = vec3_sub(p, position);
+    float d = vec3_dot(v, v);
+    if (d < near->distance2) {
+        *near = (Near){position, normal, d};
+    }
 }
 
-static int64_t nearest_nucleus(const Nuclei *nuclei, Vec3 p)
+static Near nearest_nucleus(const Nuclei *nuclei, Vec3 p)
 {
-    int64_t nearest = 0;
-    float best = INFINITY;
-    for (int64_t i = 0; i < nuclei->count; i++) {
-        Vec3 v = vec3_sub(p, nuclei->position[i]);
-        float d = vec3_dot(v, v);
-        if (d < best) {
-            best = d;
-            nearest = i;
-        }
+    Near near = {.position = p, .normal = {0, 1, 0}, .distance2 = INFINITY};
+    const TreePoint *point = point_tree_nearest(&nuclei->points, p);
+    if (point) {
+        take_nearer(&near, p, point->position, nuclei->normal[point->index]);
     }
-    return nearest;
+    for (int i = 0; i < nuclei->line_count; i++) {
+        take_nearer(&near, p, nearest_on(&nuclei->line[i], p), nuclei->line[i].normal);
+    }
+    return near;
 }
 
 static Vec3 across(Vec3 v, Vec3 axis)
@@ -75,8 +69,23 @@ static float swept_tangent(const Nuclei *nuclei, const FieldParams *params, Vec3
         Vec3 b = vec3_normalize(vec3_sub(p, params->center));
         return turn * vec3_length(vec3_cross(a, b)) / PI_F;
     }
-    float rim = params->scale > 0.0f ? params->scale : rim_distance(nuclei, nucleus, axis);
+    float rim = params->rim > 0.0f ? params->rim : rim_distance(nuclei, nucleus, axis);
     return rim > 0.0f ? turn * vec3_length(across(vec3_sub(p, nucleus), axis)) / rim : 0.0f;
+}
+
+// Turns the angle (c, s) further, so that the field added to an outward pull of length k has that
+// angle: by the law of sines, the field's angle from the sum then has the sine k s. A pull longer
+// than the field leaves the sum an angle of at most the sine 1 / k.
+static void turn_against_pull(float k, float *c, float *s)
+{
+    if (k * fabsf(*s) > 1.0f) {
+        *s = (*s < 0.0f ? -1.0f : 1.0f) / k;
+        *c = sqrtf(1.0f - *s * *s);
+    }
+    float sine = k * *s, cosine = sqrtf(clampf(1.0f - sine * sine, 0.0f, 1.0f));
+    float turned = *c * cosine - *s * sine;
+    *s = *s * cosine + *c * sine;
+    *c = turned;
 }
 
 // Computes q X q* with q = cos(t/2) + N sin(t/2), N not necessarily unit (Tanaka eq. (10)-(11)): w
@@ -90,14 +99,11 @@ static Vec3 turn_by_quaternion(Vec3 x, Vec3 v, float w)
 
 Vec3 nuclei_at(const Nuclei *nuclei, const FieldParams *params, Vec3 p, Vec3 n)
 {
-    if (nuclei->count == 0) {
-        return vec3(0, 0, 0);
-    }
-    int64_t i = nearest_nucleus(nuclei, p);
-    Vec3 nucleus = nuclei->position[i], away = vec3_sub(p, nucleus);
+    Near near = nearest_nucleus(nuclei, p);
+    Vec3 away = vec3_sub(p, near.position);
     Vec3 normal = params->surface ? n : params->vector;
     if (vec3_dot(normal, normal) == 0.0f) {
-        normal = nuclei->normal[i];
+        normal = near.normal;
     }
     Vec3 axis = vec3_normalize(normal);
     away = vec3_normalize(params->surface ? across(away, axis) : away); // Tanaka eq. (9)
@@ -107,8 +113,11 @@ Vec3 nuclei_at(const Nuclei *nuclei, const FieldParams *params, Vec3 p, Vec3 n)
         // Tanaka eq. (10)-(12)
         return vec3_normalize(turn_by_quaternion(away, vec3_scale(normal, s), c));
     }
-    float tangent = swept_tangent(nuclei, params, nucleus, p, axis) * vec3_length(normal);
+    float tangent = swept_tangent(nuclei, params, near.position, p, axis) * vec3_length(normal);
     c = 1.0f / sqrtf(1.0f + tangent * tangent);
     s = tangent * c;
+    if (params->profile == PROFILE_GROWN) {
+        turn_against_pull(params->pull, &c, &s);
+    }
     return vec3_normalize(vec3_rotate(away, axis, c, s));
 }

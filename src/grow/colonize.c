@@ -208,7 +208,7 @@ static void make_children(Growth *growth)
     int threads = shared ? growth->grid.slab_count : 1;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int64_t i = 0; i < growers; i++) {
-        if (!run_is_cancelled(growth->run)) { // a field asks each of its nuclei
+        if (!run_is_cancelled(growth->run)) { // a field may list many lines of nuclei
             growth_prepare(growth, &growth->grower[i]);
         }
     }

@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "field/curl.h"
 #include "field/guide_field.h"
+#include "field/point_tree.h"
 
 #include <string.h>
 
@@ -201,6 +202,128 @@ static void curl_noise_has_no_divergence(void **state)
     assert_true(largest > 0.5f);
 }
 
+// Equally near points are frequent on a lattice, and some points are the same.
+static void the_nearest_point_is_that_of_a_search_through_all(void **state)
+{
+    (void)state;
+    enum { COUNT = 700 };
+    static const float lattice[] = {0.0f, 0.25f, 0.03125f}; // 0: no lattice
+    for (int k = 0; k < 3; k++) {
+        Vec3 point[COUNT];
+        for (uint64_t i = 0; i < COUNT; i++) {
+            Vec3 p = random_point(17, i);
+            float s = lattice[k];
+            point[i] = s == 0.0f ? p : vec3(s * floorf(p.x / s), s * floorf(p.y / s), 0.5f);
+        }
+        PointTree tree;
+        assert_true(point_tree_init(&tree, point, COUNT, NULL));
+        for (uint64_t i = 0; i < 1000; i++) {
+            Vec3 p = i % 2 ? random_point(18, i) : point[i % COUNT];
+            int32_t nearest = 0;
+            float best = INFINITY;
+            for (int32_t j = 0; j < COUNT; j++) {
+                Vec3 v = vec3_sub(p, point[j]);
+                nearest = vec3_dot(v, v) < best ? j : nearest;
+                best = fminf(best, vec3_dot(v, v));
+            }
+            assert_int_equal(point_tree_nearest(&tree, p)->index, nearest);
+        }
+        point_tree_free(&tree);
+    }
+    PointTree empty;
+    assert_true(point_tree_init(&empty, NULL, 0, NULL));
+    assert_null(point_tree_nearest(&empty, vec3(0, 0, 0)));
+    point_tree_free(&empty);
+}
+
+// Of two points and a column, each governs what is nearest to it, with its own normal.
+static void the_nearest_of_the_named_nuclei_counts(void **state)
+{
+    (void)state;
+    Nucleus nucleus[3] = {{.kind = NUCLEUS_POINT, .position = {4, 0, 0}},
+                          {.kind = NUCLEUS_POINT, .position = {-4, 0, 0}, .normal = {0, 0, 1}},
+                          {.kind = NUCLEUS_LINE, .position = {0, 0, -3}, .end = {0, 0, 3}}};
+    FieldParams params = field_params_default(FIELD_NUCLEI);
+    params.profile = PROFILE_CONSTANT;
+    params.turn = 90.0f;
+    params.nucleus = nucleus;
+    params.nucleus_count = 3;
+    GuideField *field = field_new(&params, 1, vec3(9, 9, 9), vec3(1, 0, 0), 5.0f);
+    const Vec3 at[] = {{5, 0, 0}, {-5, 0, 0}, {1, 0, 2}, {0, -1, -3}, {0, 0, 4}};
+    const Vec3 expected[] = {{0, 0, -1}, {0, -1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}};
+    for (int i = 0; i < 5; i++) {
+        assert_vec3(guide_field_at(field, at[i], vec3(1, 0, 0)), expected[i], 1e-5f);
+    }
+    guide_field_free(field);
+    params.vector = vec3(0, 1, 0); // of the field: it counts for all nuclei
+    field = field_new(&params, 1, vec3(9, 9, 9), vec3(1, 0, 0), 5.0f);
+    assert_vec3(guide_field_at(field, at[1], vec3(1, 0, 0)), vec3(0, 0, 1), 1e-5f);
+    guide_field_free(field);
+}
+
+static void a_surface_of_nuclei_is_left_on_both_sides(void **state)
+{
+    (void)state;
+    Shape ball = {.kind = SHAPE_SPHERE, .transform = transform_identity()};
+    Nucleus nucleus = {.kind = NUCLEUS_SURFACE, .shapes = &ball, .shape_count = 1};
+    FieldParams params = field_params_default(FIELD_NUCLEI);
+    params.nucleus = &nucleus;
+    params.nucleus_count = 1;
+    GuideField *field = field_new(&params, 1, vec3(0, 0, 0), vec3(0, 1, 0), 2.0f);
+    for (uint64_t i = 0; i < 200; i++) {
+        Vec3 d = random_direction(random_key(6, i));
+        Vec3 out = guide_field_at(field, vec3_scale(d, 1.5f), d);
+        Vec3 in = guide_field_at(field, vec3_scale(d, 0.5f), d);
+        assert_true(vec3_dot(out, d) > 0.998f && vec3_dot(in, d) < -0.998f);
+    }
+    guide_field_free(field);
+}
+
+// What growth with this weight does whose attractors pull straight outward.
+static void growth_under_the_grown_profile_sweeps_the_turn(void **state)
+{
+    (void)state;
+    const float turns[] = {120.0f, 360.0f, -720.0f}, weights[] = {1.2f, 3.0f};
+    for (int i = 0; i < 6; i++) {
+        float turn = turns[i / 2], weight = weights[i % 2], swept = 0.0f;
+        FieldParams params = field_params_default(FIELD_NUCLEI);
+        params.turn = turn;
+        params.profile = PROFILE_GROWN;
+        params.pull = 1.0f / weight;
+        GuideField *field = field_new(&params, 1, vec3(0, 0, 0), vec3(0, 1, 0), 2.0f);
+        Vec3 p = vec3(0.01f, 0, 0);
+        while (vec3_length(p) < 2.0f) {
+            Vec3 x = guide_field_at(field, p, vec3(0, 1, 0));
+            Vec3 d = vec3_normalize(vec3_madd(vec3_normalize(p), weight, x));
+            Vec3 q = vec3_madd(p, 0.001f, d);
+            assert_true(vec3_length(q) > vec3_length(p));
+            swept += azimuth_between(p, q);
+            p = q;
+        }
+        assert_float_equal(swept, turn, 0.02f * fabsf(turn));
+        guide_field_free(field);
+    }
+}
+
+// A weak field turns growth as far as it can, and not backwards.
+static void a_weak_field_under_the_grown_profile_does_its_best(void **state)
+{
+    (void)state;
+    float sine[2];
+    for (int i = 0; i < 2; i++) {
+        FieldParams params = field_params_default(FIELD_NUCLEI);
+        params.turn = i == 0 ? 360.0f : 3600.0f;
+        params.profile = PROFILE_GROWN;
+        params.pull = 4.0f;
+        GuideField *field = field_new(&params, 1, vec3(0, 0, 0), vec3(0, 1, 0), 2.0f);
+        Vec3 x = guide_field_at(field, vec3(1, 0, 0), vec3(0, 1, 0));
+        sine[i] = -vec3_normalize(vec3_madd(vec3(1, 0, 0), 0.25f, x)).z;
+        guide_field_free(field);
+    }
+    assert_float_equal(sine[0], 0.25f, 1e-4f);
+    assert_float_equal(sine[1], 0.25f, 1e-4f);
+}
+
 static void wrong_fields_are_errors(void **state)
 {
     (void)state;
@@ -235,6 +358,11 @@ int main(void)
         cmocka_unit_test(constant_profile_is_the_literal_quaternion),
         cmocka_unit_test(the_grid_is_close_to_the_field_it_samples),
         cmocka_unit_test(curl_noise_has_no_divergence),
+        cmocka_unit_test(the_nearest_point_is_that_of_a_search_through_all),
+        cmocka_unit_test(the_nearest_of_the_named_nuclei_counts),
+        cmocka_unit_test(a_surface_of_nuclei_is_left_on_both_sides),
+        cmocka_unit_test(growth_under_the_grown_profile_sweeps_the_turn),
+        cmocka_unit_test(a_weak_field_under_the_grown_profile_does_its_best),
         cmocka_unit_test(wrong_fields_are_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

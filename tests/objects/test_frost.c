@@ -182,6 +182,59 @@ static void swirl_grows_with_the_turn(void **state)
     }
 }
 
+// Figures 7, 8 and 20 of Tanaka et al.: the spines alone, on a plane about its middle and on a ball
+// from the bottom, sweep most of the turn.
+static void spines_sweep_more_with_the_turn(void **state)
+{
+    (void)state;
+    const float turns[] = {0.0f, 120.0f, 360.0f, 720.0f};
+    FrostNucleus middle = {{0, 0, 0}};
+    for (int surface = FROST_PANE; surface <= FROST_BUBBLE; surface++) {
+        for (int sides = 0; sides <= 3000; sides += 3000) {
+            double last = -INFINITY;
+            for (int i = 0; i < 4; i++) {
+                FrostParams params = frost_params_default((FrostSurface)surface);
+                params.nucleus = surface == FROST_PANE ? &middle : NULL;
+                params.nucleus_count = surface == FROST_PANE;
+                params.width = params.height = 0.5f;
+                params.turn = turns[i];
+                params.profile = PROFILE_GROWN;
+                params.field_weight = 1.5f;
+                params.spines = 420;
+                params.sides = sides;
+                OutTree *tree = grow(&params, 1, 1.0f);
+                double swept = measured(tree, &params, "spine_swept");
+                assert_true(i > 0 ? swept > last + 40.0 : fabs(swept) < 25.0);
+                assert_true(i == 0 ||
+                            (swept > 0.45 * (double)turns[i] && swept < 1.1 * (double)turns[i]));
+                last = swept;
+                out_tree_free(tree);
+            }
+        }
+    }
+}
+
+// The sign tells the side: by the right-hand rule about the normal at the nucleus.
+static void a_negative_turn_sweeps_the_other_way(void **state)
+{
+    (void)state;
+    FrostNucleus middle = {{0, 0, 0}};
+    for (int surface = FROST_PANE; surface <= FROST_BUBBLE; surface++) {
+        double swept[2];
+        for (int i = 0; i < 2; i++) {
+            FrostParams params = small_params((FrostSurface)surface);
+            params.nucleus = surface == FROST_PANE ? &middle : NULL;
+            params.nucleus_count = surface == FROST_PANE;
+            params.sides = 0;
+            params.turn = i == 0 ? 200.0f : -200.0f;
+            OutTree *tree = grow(&params, 1, 1.0f);
+            swept[i] = measured(tree, &params, "spine_swept");
+            out_tree_free(tree);
+        }
+        assert_true(swept[0] > 20.0 && swept[1] < -20.0);
+    }
+}
+
 static void growth_shows_from_the_nuclei(void **state)
 {
     (void)state;
@@ -316,6 +369,8 @@ int main(void)
         cmocka_unit_test(crystals_do_not_cross),
         cmocka_unit_test(bubbles_stay_round),
         cmocka_unit_test(swirl_grows_with_the_turn),
+        cmocka_unit_test(spines_sweep_more_with_the_turn),
+        cmocka_unit_test(a_negative_turn_sweeps_the_other_way),
         cmocka_unit_test(growth_shows_from_the_nuclei),
         cmocka_unit_test(threads_do_not_show),
         cmocka_unit_test(ten_times_the_size_looks_the_same),

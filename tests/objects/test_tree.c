@@ -269,7 +269,7 @@ static void crowded_branches_have_names_of_their_own(void **state)
     out_tree_free(tree);
 }
 
-static void a_vortex_winds_the_stems(void **state)
+static void the_turned_field_winds_the_stems(void **state)
 {
     (void)state;
     Error e = {0};
@@ -307,6 +307,88 @@ static void a_vortex_winds_the_stems(void **state)
     }
     assert_true(fabs(straight / count) < 25.0); // without a field no side is favoured
     scene_free(scene);
+}
+
+static double measured(const OutTree *tree, const TreeParams *params, const char *name)
+{
+    MeasureList list = {0};
+    Grown grown = grown_of(tree);
+    assert_true(kind_tree.measure(params, &grown, NULL, &list, NULL));
+    const Measure *measure = measures_find(&list, name);
+    assert_non_null(measure);
+    double value = measure->value;
+    measures_clear(&list);
+    return value;
+}
+
+// Figure 18 (c) of Tanaka et al.: a column of nuclei on the trunk's axis.
+static void stems_wind_more_with_the_turn(void **state)
+{
+    (void)state;
+    const float turns[] = {0.0f, 120.0f, 360.0f, 720.0f};
+    Nucleus column = {.kind = NUCLEUS_LINE, .position = {0, -1, 0}, .end = {0, 6, 0}};
+    FieldParams field = field_params_default(FIELD_NUCLEI);
+    field.nucleus = &column;
+    field.nucleus_count = 1;
+    field.rim = 3.0f;
+    TreeParams params = small_tree();
+    params.height = 10.0f;
+    params.trunk.height = 4.2f;
+    params.trunk.radius = 0.16f;
+    params.trunk.lean = 0.0f;
+    params.trunk.stems = 5;
+    params.trunk.stem_circle = 0.5f;
+    params.trunk.element.growth.field_weight = 1.4f;
+    params.trunk.element.growth.noise = 0.03f;
+    params.trunk.element.fields = &field;
+    params.trunk.element.field_count = 1;
+    params.roots.count = 0;
+    double last = 0.0;
+    for (int i = 0; i < 4; i++) {
+        field.turn = turns[i];
+        OutTree *tree = grow(&params, 5, 1);
+        double swept = measured(tree, &params, "trunk_swept"), turn[MOST_STEMS], mean = 0.0;
+        int stems = stem_turns(tree, params.position, turn);
+        for (int s = 0; s < stems; s++) {
+            mean += turn[s] / stems;
+        }
+        assert_true(i > 0 ? swept > last + 25.0 : fabs(swept) < 25.0);
+        assert_true(fabs(swept - mean) < 60.0); // the measure is what is counted here
+        last = swept;
+        out_tree_free(tree);
+    }
+    assert_true(last > 250.0);
+}
+
+// Figure 18 (b): the nuclei are the trunk's nodes, among which the foot of the tree is far away.
+static void the_crown_winds_more_with_the_turn(void **state)
+{
+    (void)state;
+    const float turns[] = {0.0f, 120.0f, 360.0f, 720.0f};
+    GrowLevel level = {1500, 0.3f, 1.0f, 4.0f, 1.0f, 0.05f, 0.0f, 0.0f};
+    FieldParams field = field_params_default(FIELD_NUCLEI);
+    field.profile = PROFILE_GROWN;
+    TreeParams params = small_tree();
+    params.height = 10.0f;
+    params.trunk.lean = 0.0f;
+    params.crown.width = 9.5f;
+    params.crown.base = 2.6f;
+    params.crown.element.levels = &level;
+    params.crown.element.level_count = 1;
+    params.crown.element.growth.field_weight = 2.0f;
+    params.crown.element.fields = &field;
+    params.crown.element.field_count = 1;
+    params.roots.count = 0;
+    double last = 0.0;
+    for (int i = 0; i < 4; i++) {
+        field.turn = turns[i];
+        OutTree *tree = grow(&params, 5, 1);
+        double swept = measured(tree, &params, "crown_swept");
+        assert_true(i > 0 ? swept > last + 40.0 : fabs(swept) < 20.0);
+        last = swept;
+        out_tree_free(tree);
+    }
+    assert_true(last > 250.0);
 }
 
 // Height of the land as it is drawn below (x, z): the faces are flat, ground_height is not.
@@ -416,7 +498,9 @@ int main(void)
         cmocka_unit_test(grass_stands_on_the_ground),
         cmocka_unit_test(a_few_things_are_not_lost_among_variants),
         cmocka_unit_test(crowded_branches_have_names_of_their_own),
-        cmocka_unit_test(a_vortex_winds_the_stems),
+        cmocka_unit_test(the_turned_field_winds_the_stems),
+        cmocka_unit_test(stems_wind_more_with_the_turn),
+        cmocka_unit_test(the_crown_winds_more_with_the_turn),
         cmocka_unit_test(distant_trees_stand_on_the_ground),
         cmocka_unit_test(an_objects_name_makes_its_tree),
     };

@@ -154,6 +154,28 @@ static const Case scenes[] = {
     {"objects: [{name: a, tree: {crown: {envelope: [{shape: box, op: difference}]}}}]\n",
      ":1:47: objects.a.tree.crown.envelope begins with a difference; the first shape must be a "
      "union"},
+    {"objects: [{name: a, tree: {crown: {fields: [{kind: nuclei, nuclei: [{kind: line, position: "
+     "[0, 1, 0], end: [0, 1, 0]}]}]}}}]\n",
+     ":1:108: objects.a.tree.crown.fields.0.nuclei.0.end equals position; a line needs two "
+     "different ends, or use kind: point"},
+    {"objects: [{name: a, tree: {crown: {fields: [{kind: nuclei, nuclei: [{kind: line}]}]}}}]\n",
+     ":1:69: objects.a.tree.crown.fields.0.nuclei.0 has no 'position'; this key is required: The "
+     "point, or the line's start, in the scene's space."},
+    {"objects: [{name: a, tree: {crown: {fields: [{kind: nuclei, nuclei: [{kind: surface}]}]}}}]\n",
+     ":1:69: objects.a.tree.crown.fields.0.nuclei.0 has no 'envelope'; this key is required: "
+     "Shapes, combined in this order. Their surface is represented by 20,000 points."},
+    {"objects: [{name: a, tree: {crown: {fields: [{kind: nuclei, nuclei: [{kind: surface, "
+     "envelope: [{shape: half_space}]}]}]}}}]\n",
+     ":1:96: objects.a.tree.crown.fields.0.nuclei.0.envelope: a half_space is unbounded; its op "
+     "must be difference or intersection"},
+    {"objects: [{name: a, tree: {crown: {fields: [{kind: vortex, nuclei: [{kind: point, position: "
+     "[0, 0, 0]}]}]}}}]\n",
+     ":1:60: key 'nuclei' does not apply to objects.a.tree.crown.fields.0 of kind 'vortex'; known: "
+     "kind, weight, vector, center"},
+    {"objects: [{name: a, tree: {crown: {fields: [{kind: nuclei, nuclei: [{kind: point, position: "
+     "[0, 0, 0], end: [0, 1, 0]}]}]}}}]\n",
+     ":1:104: key 'end' does not apply to objects.a.tree.crown.fields.0.nuclei.0 of kind 'point'; "
+     "known: kind, position, normal"},
     {"objects: [{name: a, shape: {envelope: [{shape: half_space}]}}]\n",
      ":1:40: objects.a.shape.envelope: a half_space is unbounded; its op must be difference or "
      "intersection"},

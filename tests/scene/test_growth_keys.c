@@ -170,6 +170,48 @@ static void fields_that_are_listed_bend_growth(void **state)
     }
 }
 
+// Nuclei that are named change what grows, and the elements' own nodes are the default.
+static void nuclei_that_are_named_bend_growth(void **state)
+{
+    static const char *const nuclei[] = {
+        "", ", nuclei: [{kind: point, position: [0, 4, 0]}]",
+        ", nuclei: [{kind: line, position: [0, 0, 0], end: [0, 9, 0]}]",
+        ", nuclei: [{kind: surface, envelope: [{shape: sphere, size: 0.5, position: [0, 5, 0]}]}]"};
+    for (int k = 0; k < 2; k++) {
+        uint64_t hash[4];
+        for (int i = 0; i < 4; i++) {
+            char object[400];
+            snprintf(object, sizeof object,
+                     "tree: {height: 8, crown: {lobes: 0, growth: {levels: [{attractors: 80}]}, "
+                     "fields: [{kind: %s, turn: 90%s}]}}",
+                     k == 0 ? "nuclei" : "grid", nuclei[i]);
+            hash[i] = hash_of(*state, object);
+            for (int j = 0; j < i; j++) {
+                assert_true(hash[i] != hash[j]);
+            }
+        }
+    }
+}
+
+// The field is turned about the normal of the start point, unless the field has an axis itself.
+static void the_normal_of_a_start_turns_the_field(void **state)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        uint64_t hash[2];
+        for (int normal = 0; normal < 2; normal++) {
+            char object[400];
+            snprintf(
+                object, sizeof object,
+                "outtree: {placed: {points: [{position: [0, -0.9, 0], group: 0%s}]}, envelope: "
+                "[{shape: sphere, size: 1}], growth: {levels: [{attractors: 80}]}, fields: "
+                "[{kind: nuclei, turn: 90%s}]}",
+                normal ? ", normal: [1, 0, 0]" : "", axis ? ", vector: [0, 0, 1]" : "");
+            hash[normal] = hash_of(*state, object);
+        }
+        assert_true((hash[0] == hash[1]) == (axis == 1));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -178,6 +220,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(limits_hold_on_the_grown_tree, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(fields_that_are_listed_bend_growth, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(the_normal_of_a_start_turns_the_field, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(nuclei_that_are_named_bend_growth, fixture_set_up,
                                         fixture_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -216,6 +216,13 @@ static const struct {
      "[{attractors: 500}]}}, radii: {tip: @l(0.004)}, leaves: {max_count: 0}, "
      "skin: {curve_radius: @l(0.02), levels: 0}}",
      MOVE | SCALE},
+    {"tree: {position: @p(0 0 0), height: @l(8), trunk: {radius: @l(0.2), stems: 3, fields: "
+     "[{kind: nuclei, turn: 90, rim: @l(2), nuclei: [{kind: line, position: @p(0 -1 0), end: "
+     "@p(0 4 0)}]}]}, crown: {lobes: 0, growth: {levels: [{attractors: 300}]}, fields: [{kind: "
+     "nuclei, turn: 60, profile: grown, nuclei: [{kind: point, position: @p(1 4 0), normal: [0, 2, "
+     "0]}, {kind: surface, envelope: [{shape: box, size: @l(0.5), position: @p(0 5 0)}]}]}]}, "
+     "radii: {tip: @l(0.004)}, leaves: {max_count: 0}, skin: {curve_radius: @l(0.02), levels: 0}}",
+     MOVE | SCALE},
     {"sculpture: {envelope: [{shape: sphere, size: @l(1), position: @p(0 0 0), rotation: [0, "
      "@a(0), 0]}], clusters: 1, thickness: 0.9, attractors: 100, fields: [{kind: nuclei, turn: "
      "120, spherical: "

@@ -147,9 +147,21 @@ bool check_growth(const Mapping *mapping, void *params)
 bool check_field(const Mapping *mapping, void *params)
 {
     const FieldParams *field = params;
-    bool has_vector = field->kind != FIELD_RADIAL && field->kind != FIELD_CURL;
-    return !has_vector || vec3_length(field->vector) > 0.0f ||
+    bool needs_vector =
+        field->kind == FIELD_UNIFORM || field->kind == FIELD_VORTEX || field->kind == FIELD_POINT;
+    return !needs_vector || vec3_length(field->vector) > 0.0f ||
            mapping_fail(mapping, "vector", " is zero; it must have a direction");
+}
+
+bool check_nucleus(const Mapping *mapping, void *params)
+{
+    const Nucleus *nucleus = params;
+    if (nucleus->kind == NUCLEUS_LINE && vec3_distance(nucleus->position, nucleus->end) == 0.0f) {
+        return mapping_fail(
+            mapping, "end",
+            " equals position; a line needs two different ends, or use kind: point");
+    }
+    return check_shapes(mapping, nucleus->shapes, nucleus->shape_count);
 }
 
 bool check_grammar(const Mapping *mapping, const char *axiom, const char *rules)

@@ -64,41 +64,41 @@ static Vec3 sphere_center(const ElementParams *element, Aabb bounds)
     return vec3_lerp(bounds.low, bounds.high, 0.5f);
 }
 
-// The guide field with the tree's present roots as nuclei (Tanaka eq. (9); Tanaka report 3.7.3).
-static GuideField *element_field(const OutTree *tree, const ElementParams *element,
+// The normals of start points turn the field, as in the papers. Those of branches point to any
+// side; about them it is turned about +Y (NULL).
+static const Vec3 *nucleus_normals(const OutTree *tree, int64_t nuclei)
+{
+    for (int64_t i = 0; i < nuclei; i++) {
+        if (tree->parent[i] >= 0) {
+            return NULL;
+        }
+    }
+    return tree->normal;
+}
+
+// The guide field with the tree's first nodes as nuclei (Tanaka eq. (9); Tanaka report 3.7.3).
+static GuideField *element_field(const OutTree *tree, int64_t nuclei, const ElementParams *element,
                                  const Envelope *envelope, uint64_t seed, const Run *run, Error *e)
 {
-    Vec3 *position = memory_alloc(tree->count, 2 * sizeof *position, e);
-    if (!position) {
+    FieldParams *fields = memory_alloc(element->field_count, sizeof *fields, e);
+    Aabb bounds = envelope_bounds(envelope);
+    if (!fields) {
         return NULL;
     }
-    Vec3 *normal = position + tree->count;
-    int64_t count = 0;
-    for (int64_t i = 0; i < tree->count; i++) {
-        if (tree->parent[i] < 0) {
-            position[count] = tree->position[i];
-            normal[count++] = tree->normal[i];
+    for (int i = 0; i < element->field_count; i++) {
+        fields[i] = element->fields[i];
+        fields[i].seed = random_key(seed, (uint64_t)i);
+        fields[i].pull = field_params_pull(&fields[i], element->growth.field_weight);
+        if (fields[i].spherical) {
+            fields[i].center = sphere_center(element, bounds);
         }
     }
-    FieldParams *fields = memory_alloc(element->field_count, sizeof *fields, e);
-    GuideField *field = NULL;
-    Aabb bounds = envelope_bounds(envelope);
-    if (fields) {
-        for (int i = 0; i < element->field_count; i++) {
-            fields[i] = element->fields[i];
-            fields[i].seed = random_key(seed, (uint64_t)i);
-            if (fields[i].spherical) {
-                fields[i].center = sphere_center(element, bounds);
-            }
-        }
-        field =
-            guide_field_new(fields, element->field_count, position, normal, count, bounds, run, e);
-        if (!field) {
-            error_key(e, "fields");
-        }
+    GuideField *field = guide_field_new(fields, element->field_count, tree->position,
+                                        nucleus_normals(tree, nuclei), nuclei, bounds, run, e);
+    if (!field) {
+        error_key(e, "fields");
     }
     free(fields);
-    free(position);
     return field;
 }
 
@@ -141,13 +141,13 @@ static void warn_ends_short(const GrowReport *reports, const ElementParams *elem
         (double)reports[last].nearest, far + 1, (double)wanted, (double)multiple);
 }
 
-bool element_guide_field(const OutTree *tree, const ElementParams *element,
+bool element_guide_field(const OutTree *tree, int64_t nuclei, const ElementParams *element,
                          const Envelope *envelope, uint64_t seed, const Run *run,
                          GuideField **field, Error *e)
 {
     *field = NULL;
     if (element->field_count > 0) {
-        *field = element_field(tree, element, envelope, seed, run, e);
+        *field = element_field(tree, nuclei, element, envelope, seed, run, e);
         return *field;
     }
     return true;
@@ -169,13 +169,14 @@ bool element_density(const ElementParams *element, ScatterParams *scatter, Densi
     return *density;
 }
 
-bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope *envelope,
-                     uint64_t seed, const Recipe *recipe, const char *part, Error *e)
+bool element_grow_in(OutTree *tree, int64_t nuclei, const ElementParams *element,
+                     const Envelope *envelope, uint64_t seed, const Recipe *recipe,
+                     const char *part, Error *e)
 {
     const Run *run = recipe->run;
     GuideField *field;
-    if (!element_guide_field(tree, element, envelope, random_key(seed, STREAM_ELEMENT_FIELD), run,
-                             &field, e)) {
+    if (!element_guide_field(tree, nuclei, element, envelope,
+                             random_key(seed, STREAM_ELEMENT_FIELD), run, &field, e)) {
         return false;
     }
     ScatterParams scatter =
@@ -209,7 +210,8 @@ bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, co
                   const char *part, Error *e)
 {
     Envelope *envelope = element_envelope(element, recipe->run, e);
-    bool done = envelope && element_grow_in(tree, element, envelope, seed, recipe, part, e);
+    bool done =
+        envelope && element_grow_in(tree, tree->count, element, envelope, seed, recipe, part, e);
     envelope_free(envelope);
     return done || recipe_fail(recipe, part, e);
 }

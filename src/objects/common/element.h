@@ -47,15 +47,17 @@ int64_t element_attractors(const ElementParams *element);
 // The envelope of the element's shapes.
 Envelope *element_envelope(const ElementParams *element, const Run *run, Error *e);
 
-// Grows the element into tree, whose existing nodes are the type-0 points. seed: the element's own.
+// Grows the element into tree, whose existing nodes are the type-0 points and the nuclei of its
+// guide fields. seed: the element's own.
 // part: the element's name in warnings and errors ("crown"); NULL = the whole object.
 bool element_grow(OutTree *tree, const ElementParams *element, uint64_t seed, const Recipe *recipe,
                   const char *part, Error *e);
 
 // The same in an existing envelope: the element's shapes are ignored, and errors do not name the
-// element.
-bool element_grow_in(OutTree *tree, const ElementParams *element, const Envelope *envelope,
-                     uint64_t seed, const Recipe *recipe, const char *part, Error *e);
+// element. nuclei: only so many of the tree's first nodes are nuclei.
+bool element_grow_in(OutTree *tree, int64_t nuclei, const ElementParams *element,
+                     const Envelope *envelope, uint64_t seed, const Recipe *recipe,
+                     const char *part, Error *e);
 
 // The steps of element_grow, for recipes that grow level by level.
 ColonizeParams element_colonize_params(const OutTree *tree, const ElementParams *element,
@@ -68,9 +70,8 @@ ScatterParams element_scatter_params(const OutTree *tree, const ElementParams *e
 bool element_density(const ElementParams *element, ScatterParams *scatter, Density **density,
                      const Run *run, Error *e);
 
-// The element's guide fields with the tree's present roots as nuclei; *field is NULL if it has
-// none.
-bool element_guide_field(const OutTree *tree, const ElementParams *element,
+// The element's guide fields with the tree's first nodes as nuclei; *field is NULL if it has none.
+bool element_guide_field(const OutTree *tree, int64_t nuclei, const ElementParams *element,
                          const Envelope *envelope, uint64_t seed, const Run *run,
                          GuideField **field, Error *e);
 

@@ -131,18 +131,37 @@ bool own_space_take_shapes(OwnSpace *own, Shape **shapes, int count, Error *e)
     return mine;
 }
 
+static bool take_nuclei(OwnSpace *own, Nucleus **nuclei, int count, Error *e)
+{
+    if (count == 0) {
+        return true;
+    }
+    Nucleus *mine = own_space_copy(own, *nuclei, sizeof **nuclei * (size_t)count, e);
+    bool done = mine != NULL;
+    for (int i = 0; done && i < count; i++) {
+        mine[i].position = own_space_place(own, mine[i].position);
+        mine[i].end = own_space_place(own, mine[i].end);
+        mine[i].normal = own_space_direction(own, mine[i].normal);
+        done = own_space_take_shapes(own, &mine[i].shapes, mine[i].shape_count, e);
+    }
+    *nuclei = mine;
+    return done;
+}
+
 // An omitted centre is the object's origin in either space.
 static bool take_fields(OwnSpace *own, FieldParams **fields, int count, Error *e)
 {
     FieldParams *mine = own_space_copy(own, *fields, sizeof **fields * (size_t)count, e);
-    for (int i = 0; mine && i < count; i++) {
+    bool done = mine != NULL;
+    for (int i = 0; done && i < count; i++) {
         mine[i].vector = own_space_direction(own, mine[i].vector);
         if (mine[i].centered) {
             mine[i].center = own_space_place(own, mine[i].center);
         }
+        done = take_nuclei(own, &mine[i].nucleus, mine[i].nucleus_count, e);
     }
     *fields = mine;
-    return mine;
+    return done;
 }
 
 bool own_space_take_element(OwnSpace *own, ElementParams *element, Error *e)

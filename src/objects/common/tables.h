@@ -7,6 +7,7 @@
 
 // Of an element's envelope, points, growth and guide fields.
 extern const Table shape_table, points_table, growth_table, guide_field_table;
+extern const EnumName field_profiles[];
 
 // The rows of an element (trunk, crown, roots): envelope, voxel, points, growth, fields.
 #define ELEMENT_ROWS(STRUCT)                                                                      \
@@ -54,5 +55,6 @@ bool check_shape(const Mapping *mapping, void *shape); // also computes its tran
 bool check_level(const Mapping *mapping, void *level);
 bool check_growth(const Mapping *mapping, void *element); // also fills in what the levels omit
 bool check_field(const Mapping *mapping, void *field);
+bool check_nucleus(const Mapping *mapping, void *nucleus);
 
 #endif

@@ -66,6 +66,8 @@ static GuideField *make_field(const OutTree *tree, const FrostParams *params,
         bounds = aabb_add(bounds, points->position[i]);
     }
     field.turn = params->turn;
+    field.profile = params->profile;
+    field.pull = field_params_pull(&field, params->field_weight);
     field.surface = true;
     field.spherical = params->surface == FROST_BUBBLE;
     field.center = params->position;

@@ -5,6 +5,7 @@
 #ifndef RAMIFY_OBJECTS_FROST_FROST_H
 #define RAMIFY_OBJECTS_FROST_FROST_H
 
+#include "field/guide_field.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
 
@@ -31,7 +32,8 @@ typedef struct FrostParams {
     FrostPlace place;
     FrostNucleus *nucleus; // listed ones
     int nucleus_count;
-    float turn;         // degrees that the field sweeps from a nucleus to the rim
+    float turn; // degrees that the field sweeps from a nucleus to the rim
+    FieldProfile profile;
     float field_weight; // of the field against the pull of the free surface
     int64_t spines;     // attractors of the spines: more = closer spines
     int64_t sides;      // attractors of the sides: more = finer sides; 0 = bare spines
@@ -71,8 +73,9 @@ bool frost_finish(const void *params, const Recipe *recipe, const Grown *whole, 
 bool frost_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 // Appends orders (of branching, spines being 0), side_angle and side_angle_spread (degrees, between
-// a side and its parent), swept (degrees that spines turn about the nucleus, mean over nodes at
-// least half as far out as the farthest).
+// a side and its parent), swept (degrees that spines and sides turn about the nucleus, either way,
+// mean over nodes at least half as far out as the farthest), spine_swept (degrees that the spines
+// alone turn from base to tip; see objects/common/swept.h).
 bool frost_measure(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,
                    Error *e);
 

@@ -1,6 +1,7 @@
 // Measures of frost: the angle of its sides, their orders, the rotation of its spines.
 #include "base/exact_math.h"
 #include "base/memory.h"
+#include "objects/common/swept.h"
 #include "objects/frost/frost.h"
 
 #include <math.h>
@@ -110,9 +111,34 @@ static bool measure_swept(const OutTree *tree, const FrostParams *params, Measur
                                 NAN, NAN, e);
 }
 
+// On a bubble the axis through the nucleus, on a pane the normal at it.
+static SweptAxis nucleus_axis(const void *context, const OutTree *tree, int64_t base)
+{
+    const FrostParams *params = context;
+    Vec3 nucleus = tree->position[base];
+    return params->surface == FROST_PANE
+               ? (SweptAxis){nucleus, vec3(0, 0, 1)}
+               : (SweptAxis){params->position, vec3_normalize(vec3_sub(nucleus, params->position))};
+}
+
+static bool measure_spines(const OutTree *tree, const FrostParams *params, MeasureList *list,
+                           Error *e)
+{
+    bool *is_spine = memory_alloc(tree->count, sizeof *is_spine, e);
+    for (int64_t i = 0; is_spine && i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        is_spine[i] = parent < 0 || tree->birth[i] - tree->birth[parent] == 1;
+    }
+    bool done =
+        is_spine && swept_measure(tree, is_spine, nucleus_axis, params, "spine_swept", list, e);
+    free(is_spine);
+    return done;
+}
+
 bool frost_measure(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,
                    Error *e)
 {
     (void)recipe;
-    return measure_sides(grown->tree, list, e) && measure_swept(grown->tree, params, list, e);
+    return measure_sides(grown->tree, list, e) && measure_swept(grown->tree, params, list, e) &&
+           measure_spines(grown->tree, params, list, e);
 }

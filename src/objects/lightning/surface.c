@@ -63,7 +63,7 @@ static bool grow_over(OutTree *tree, const LightningParams *params, const Envelo
         element.growth.max_angle = 60.0f;
     }
     return element.level_count == 0 ||
-           element_grow_in(tree, &element, envelope,
+           element_grow_in(tree, tree->count, &element, envelope,
                            random_key(recipe->seed, STREAM_SURFACE_GROWTH), recipe, NULL, e);
 }
 

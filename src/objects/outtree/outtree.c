@@ -106,6 +106,7 @@ typedef struct Growing {
     OnSurface on; // of the envelope
     AttractorLog *log;
     GrowString string;
+    int64_t starts; // number of start points, the tree's first nodes
 } Growing;
 
 static bool prepare_string(Growing *g, Error *e)
@@ -152,8 +153,8 @@ static bool grow_placed(Growing *g, Error *e)
     uint64_t seed = random_key(g->recipe->seed, STREAM_OUTTREE_PLACED);
     PointSet *points = outtree_placed_attractors(g->params, g->envelope, seed, e);
     GuideField *field = NULL;
-    bool done = points && element_guide_field(g->tree, &element, g->envelope, seed, g->recipe->run,
-                                              &field, e);
+    bool done = points && element_guide_field(g->tree, g->starts, &element, g->envelope, seed,
+                                              g->recipe->run, &field, e);
     if (done) {
         ColonizeParams params = element_colonize_params(g->tree, &element, field, seed);
         GrowReport report;
@@ -201,7 +202,7 @@ static bool grow_first(Growing *g, Error *e)
         element.levels = (GrowLevel *)levels;
         element.level_count = own;
     }
-    return element_grow_in(g->tree, &element, g->envelope,
+    return element_grow_in(g->tree, g->starts, &element, g->envelope,
                            random_key(g->recipe->seed, STREAM_OUTTREE_GROWTH), g->recipe, NULL, e);
 }
 
@@ -211,16 +212,19 @@ static bool grow_further(Growing *g, int number, Error *e)
     ElementParams element = complete(g, &further->element);
     uint64_t stream = STREAM_OUTTREE_FURTHER + (uint64_t)number;
     bool done = (further->segment <= 0.0f || resample(g, further->segment, e)) &&
-                element_grow_in(g->tree, &element, g->envelope, random_key(g->recipe->seed, stream),
-                                g->recipe, NULL, e) &&
+                element_grow_in(g->tree, g->tree->count, &element, g->envelope,
+                                random_key(g->recipe->seed, stream), g->recipe, NULL, e) &&
                 settle(g, e);
     return done || error_key(e, "further.%d", number);
 }
 
 static bool grow_all(Growing *g, Error *e)
 {
-    bool done = outtree_plant(g->tree, g->params, g->envelope, g->recipe, e) && grow_placed(g, e) &&
-                grow_first(g, e) && settle(g, e);
+    if (!outtree_plant(g->tree, g->params, g->envelope, g->recipe, e)) {
+        return false;
+    }
+    g->starts = g->tree->count;
+    bool done = grow_placed(g, e) && grow_first(g, e) && settle(g, e);
     for (int i = 0; done && i < g->params->further_count; i++) {
         done = grow_further(g, i, e);
     }

@@ -173,6 +173,7 @@ static GuideField *river_field(const OutTree *tree, const TerrainParams *params,
     for (int i = 0; i < rivers->field_count; i++) {
         fields[i] = rivers->fields[i];
         fields[i].seed = random_key(seed, (uint64_t)i);
+        fields[i].pull = field_params_pull(&fields[i], rivers->field_weight);
     }
     float half = 0.5f * params->size;
     Aabb box = {vec3(-half, 0.0f, -half), vec3(half, 0.0f, half)};

@@ -1,10 +1,13 @@
 // A tree as a kind of object.
 #include "objects/kind.h"
+#include "base/memory.h"
+#include "objects/common/swept.h"
 #include "objects/tree/defaults.h"
 #include "objects/tree/tree.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 // Origin at the trunk's base, not rotated.
@@ -58,16 +61,40 @@ static int64_t copies(const void *params)
     return tree->leaves.max_count;
 }
 
+static SweptAxis trunk_axis(const void *context, const OutTree *tree, int64_t base)
+{
+    (void)tree, (void)base;
+    const TreeParams *params = context;
+    return (SweptAxis){params->position, vec3(0, 1, 0)};
+}
+
+// How far the stems of the trunk and the leaders of the crown wind about the vertical axis.
+static bool measure_swept(const TreeParams *params, const OutTree *tree, MeasureList *list,
+                          Error *e)
+{
+    bool *is_in = memory_alloc(tree->count, sizeof *is_in, e);
+    bool done = is_in;
+    for (int32_t colony = TREE_TRUNK; done && colony <= TREE_CROWN; colony++) {
+        for (int64_t i = 0; i < tree->count; i++) {
+            is_in[i] = tree->colony[i] == colony;
+        }
+        done = swept_measure(tree, is_in, trunk_axis, params,
+                             colony == TREE_TRUNK ? "trunk_swept" : "crown_swept", list, e);
+    }
+    free(is_in);
+    return done;
+}
+
 // Natural ranges: radii after Eloy (2011); the others are typical of broad-leaved trees.
 static bool measure(const void *given, const Grown *grown, const Recipe *recipe, MeasureList *list,
                     Error *e)
 {
-    (void)given, (void)grown, (void)recipe, (void)e;
+    (void)recipe;
     measures_set_range(list, "radius_exponent", 1.8, 2.3);
     measures_set_range(list, "branch_angle", 30.0, 70.0);
     measures_set_range(list, "horton_number", 3.0, 5.0);
     measures_set_range(list, "tip_radius", 0.0005, 0.002);
-    return true;
+    return measure_swept(given, grown->tree, list, e);
 }
 
 static void needs(const void *params, Needs *needs)

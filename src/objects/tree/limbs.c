@@ -209,8 +209,8 @@ bool tree_thin_limbs(OutTree *tree, int64_t first, const TreeParams *params,
     if (crown->level_count < 1 || first == tree->count) {
         return true;
     }
-    if (!element_guide_field(tree, crown, envelope, random_key(seed, STREAM_ELEMENT_FIELD), run,
-                             &field, e)) {
+    if (!element_guide_field(tree, first, crown, envelope, random_key(seed, STREAM_ELEMENT_FIELD),
+                             run, &field, e)) {
         return false;
     }
     Run quiet = *run; // the growth that follows reports its own warnings

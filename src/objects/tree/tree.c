@@ -196,7 +196,7 @@ static bool grow_crown_in(OutTree *tree, const TreeParams *params, const Envelop
         return false;
     }
     int64_t pieces = tree->count - first;
-    if (!element_grow_in(tree, &params->crown.element, envelope, seed, recipe, "crown", e)) {
+    if (!element_grow_in(tree, first, &params->crown.element, envelope, seed, recipe, "crown", e)) {
         return false;
     }
     for (int64_t i = first; i < tree->count; i++) {

@@ -94,7 +94,7 @@ static bool grow_toward(VesselBed *bed, VesselTree *tree, PointSet *points, cons
 {
     const ElementParams *element = &bed->params->element;
     GuideField *field;
-    if (!element_guide_field(tree->tree, element, bed->envelope,
+    if (!element_guide_field(tree->tree, tree->stem_count, element, bed->envelope,
                              random_key(bed->recipe->seed, STREAM_FIELD), bed->recipe->run, &field,
                              e)) {
         return false;

@@ -1,0 +1,113 @@
+#include "field/point_tree.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+
+static float coordinate(Vec3 p, int axis)
+{
+    return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
+}
+
+static int compare(const TreePoint *a, const TreePoint *b, int axis)
+{
+    float p = coordinate(a->position, axis), q = coordinate(b->position, axis);
+    if (p != q) {
+        return p < q ? -1 : 1;
+    }
+    return a->index < b->index ? -1 : a->index > b->index;
+}
+
+static int compare_x(const void *a, const void *b)
+{
+    return compare(a, b, 0);
+}
+
+static int compare_y(const void *a, const void *b)
+{
+    return compare(a, b, 1);
+}
+
+static int compare_z(const void *a, const void *b)
+{
+    return compare(a, b, 2);
+}
+
+static int longest_side(const TreePoint *point, int64_t count)
+{
+    Aabb box = aabb_empty();
+    for (int64_t i = 0; i < count; i++) {
+        box = aabb_add(box, point[i].position);
+    }
+    Vec3 side = vec3_sub(box.high, box.low);
+    int axis = side.y > side.x ? 1 : 0;
+    return side.z > (axis == 1 ? side.y : side.x) ? 2 : axis;
+}
+
+static void split(TreePoint *point, int64_t count)
+{
+    static int (*const order[3])(const void *, const void *) = {compare_x, compare_y, compare_z};
+    while (count > 1) {
+        int axis = longest_side(point, count);
+        int64_t middle = count / 2;
+        qsort(point, (size_t)count, sizeof *point, order[axis]);
+        point[middle].axis = axis;
+        split(point, middle);
+        point += middle + 1;
+        count -= middle + 1;
+    }
+}
+
+bool point_tree_init(PointTree *tree, const Vec3 *position, int64_t count, Error *e)
+{
+    *tree = (PointTree){.count = count};
+    tree->point = memory_alloc(count, sizeof *tree->point, e);
+    if (!tree->point) {
+        return false;
+    }
+    for (int64_t i = 0; i < count; i++) {
+        tree->point[i] = (TreePoint){.position = position[i], .index = (int32_t)i};
+    }
+    split(tree->point, count);
+    return true;
+}
+
+void point_tree_free(PointTree *tree)
+{
+    free(tree->point);
+    *tree = (PointTree){0};
+}
+
+typedef struct Nearest {
+    Vec3 p;
+    float distance2;
+    const TreePoint *point;
+} Nearest;
+
+static void search(const TreePoint *point, int64_t count, Nearest *nearest)
+{
+    if (count == 0) {
+        return;
+    }
+    int64_t middle = count / 2;
+    const TreePoint *at = &point[middle], *upper = at + 1;
+    Vec3 v = vec3_sub(nearest->p, at->position);
+    float d = vec3_dot(v, v);
+    if (d < nearest->distance2 || (d == nearest->distance2 && at->index < nearest->point->index)) {
+        nearest->distance2 = d;
+        nearest->point = at;
+    }
+    float beyond = coordinate(v, at->axis);
+    bool after = beyond > 0.0f;
+    search(after ? upper : point, after ? count - middle - 1 : middle, nearest);
+    if (beyond * beyond <= nearest->distance2) { // equally near points may lie on the other side
+        search(after ? point : upper, after ? middle : count - middle - 1, nearest);
+    }
+}
+
+const TreePoint *point_tree_nearest(const PointTree *tree, Vec3 p)
+{
+    Nearest nearest = {.p = p, .distance2 = INFINITY, .point = tree->point};
+    search(tree->point, tree->count, &nearest);
+    return tree->count > 0 ? nearest.point : NULL;
+}
