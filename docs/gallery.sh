@@ -41,6 +41,37 @@ sheet() {
 #       sheet figure-7 3x1
 #   fi
 
+# ---- points and out-trees ----
+
+# figure 1 is a sheet of other pictures of the gallery
+if is_wanted figure-1; then
+    for picture in forest frost-window lightning vessels-organ mountains sculpture; do
+        count=$((${count:-0} + 1))
+        oiiotool "renders/$picture.jpg" --fit 560x420 --crop 560x315+0+52 -o "$parts/$(printf %03d "$count").png" 2> /dev/null
+    done
+    sheet figure-1 3x2
+fi
+if is_wanted figure-2; then
+    for step in 0 0.25 0.6 1; do
+        panel outtree-plane --grow-to "$step"
+    done
+    sheet figure-2 2x2
+fi
+still figure-3 outtree-band
+still figure-4 outtree-placement
+if is_wanted figure-5; then
+    panel outtree-groups --grow-to 0
+    panel outtree-groups
+    sheet figure-5 2x1
+fi
+if is_wanted figure-6; then
+    panel outtree-groups --set objects.groups.outtree.growth.levels.0.kill=0.01 --set objects.groups.outtree.growth.levels.0.influence=9
+    panel outtree-groups --set objects.groups.outtree.growth.levels.0.kill=1.3 --set objects.groups.outtree.growth.max_children=2
+    sheet figure-6 2x1
+fi
+still outtree-frost outtree-frost
+still outtree-lightning outtree-lightning
+
 still sculpture sculpture
 still dla dla
 still fracture fracture

@@ -7,6 +7,7 @@
 #include "outtree/flow.h"
 #include "outtree/out_tree.h"
 #include "shape/grid_file.h"
+#include "shape/points.h"
 
 typedef struct World World;
 
@@ -46,9 +47,10 @@ typedef struct ExportSource {
     const FlowParams *flow;         // EXPORT_TREES: what flows through each; NULL = the default
     const HeightField *const *land; // EXPORT_LAND; NULL where an object is no land
     const GridFile *grids;          // EXPORT_GRIDS: envelopes and guide fields, named
+    const PointSet *const *points;  // EXPORT_POINTS: attractors; NULL where none are kept
 } ExportSource;
 
-enum { EXPORT_WORLD = 1, EXPORT_TREES = 2, EXPORT_LAND = 4, EXPORT_GRIDS = 8 };
+enum { EXPORT_WORLD = 1, EXPORT_TREES = 2, EXPORT_LAND = 4, EXPORT_GRIDS = 8, EXPORT_POINTS = 16 };
 
 typedef struct ExportFormat {
     const char *ending; // ".glb"

@@ -18,6 +18,7 @@
     FORMAT(json)               \
     FORMAT(graphml)            \
     FORMAT(vdb)                \
+    FORMAT(csv)                \
     FORMAT(asc)                \
     FORMAT(exr)                \
     FORMAT(png)

@@ -89,6 +89,10 @@ typedef struct Kind {
     bool (*paint)(const void *params, const OutTree *tree, int width, int height, float *pixel,
                   Error *e);
 
+    // Adds the attractors that are left at the cut to the points, in the object's own space; NULL =
+    // they are not kept.
+    bool (*points)(const Grown *grown, PointSet *points, Error *e);
+
     // For `ramify info`: prints ", 14 m, ..." after the name of the kind; NULL = nothing to add.
     void (*describe)(const void *params, char *text, size_t size);
 

@@ -7,6 +7,7 @@
 #include "render/world.h"
 #include "scene/build.h"
 #include "scene/export_grids.h"
+#include "scene/export_points.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,6 +35,7 @@ typedef struct Parts {
     FlowParams *flow;
     HeightField **land;
     GridFile *grids;
+    PointSet **points;
     const char **name;
 } Parts;
 
@@ -46,12 +48,16 @@ static void clear_parts(Parts *parts, int object_count)
         if (parts->land) {
             height_field_free(parts->land[i]);
         }
+        if (parts->points) {
+            points_free(parts->points[i]);
+        }
     }
     world_free(parts->world);
     grid_file_free(parts->grids);
     free(parts->tree);
     free(parts->flow);
     free(parts->land);
+    free(parts->points);
     free(parts->name);
 }
 
@@ -97,6 +103,19 @@ static bool make_lands(const Scene *scene, Parts *parts, const Run *run, Error *
     return done;
 }
 
+static bool make_points(const Scene *scene, Parts *parts, const Run *run, Error *e)
+{
+    parts->points = memory_alloc_zero(scene->object_count, sizeof(PointSet *), e);
+    bool done = parts->points;
+    for (int i = 0; done && i < scene->object_count; i++) {
+        if (scene->objects[i].kind->points) {
+            parts->points[i] = scene_points(scene, i, run, e);
+            done = parts->points[i];
+        }
+    }
+    return done;
+}
+
 static bool make_parts(const Scene *scene, unsigned needs, Parts *parts, const Run *run, Error *e)
 {
     parts->name = memory_alloc(scene->object_count, sizeof *parts->name, e);
@@ -116,6 +135,9 @@ static bool make_parts(const Scene *scene, unsigned needs, Parts *parts, const R
     if (done && needs & EXPORT_GRIDS) {
         parts->grids = scene_grids(scene, run, e);
         done = parts->grids;
+    }
+    if (done && needs & EXPORT_POINTS) {
+        done = make_points(scene, parts, run, e);
     }
     return done;
 }
@@ -151,7 +173,8 @@ static bool write_scene(const Scene *scene, const char *file, const ExportOption
                                .tree = (const OutTree *const *)parts.tree,
                                .flow = parts.flow,
                                .land = (const HeightField *const *)parts.land,
-                               .grids = parts.grids};
+                               .grids = parts.grids,
+                               .points = (const PointSet *const *)parts.points};
         done = format->write(&source, file, run, e) &&
                (!report || !parts.world || make_report(&source, run, report, e));
     }

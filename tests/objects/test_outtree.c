@@ -7,13 +7,15 @@
 #include "outtree/crossings.h"
 #include "render/world.h"
 #include "scene/build.h"
+#include "scene/export_scene.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 // Reads a scene with one outtree of these keys.
-static Scene *read(const char *keys, Error *e)
+static Scene *read_outtree(const char *keys, Error *e)
 {
     char text[2048];
     snprintf(text, sizeof text, "seed: 3\nobjects:\n  - name: a\n    outtree: {%s}\n", keys);
@@ -25,7 +27,7 @@ static OutTree *grow_on(const char *keys, int threads)
     Error e = {0};
     Run run = run_default();
     run.threads = threads;
-    Scene *scene = read(keys, &e);
+    Scene *scene = read_outtree(keys, &e);
     OutTree *tree = scene ? scene_grow_object(scene, 0, &run, &e) : NULL;
     if (!tree) {
         fail_msg("%s: %s", keys, e.message);
@@ -43,7 +45,7 @@ static OutTree *grow(const char *keys)
 static void expect_error(const char *keys, const char *wanted)
 {
     Error e = {0};
-    Scene *scene = read(keys, &e);
+    Scene *scene = read_outtree(keys, &e);
     assert_null(scene);
     if (!strstr(e.message, wanted)) {
         fail_msg("%s: '%s' instead of '%s'", keys, e.message, wanted);
@@ -177,7 +179,7 @@ static Shown show(const char *keys)
 {
     Error e = {0};
     Run run = run_default();
-    Scene *scene = read(keys, &e);
+    Scene *scene = read_outtree(keys, &e);
     World *world = scene ? scene_build(scene, &run, NULL, &e) : NULL;
     if (!world) {
         fail_msg("%s: %s", keys, e.message);
@@ -217,6 +219,44 @@ static void growth_itself_can_be_seen(void **state)
     Shown band =
         show("form: none, voxel: 0.1, growth: {levels: [{attractors: 9}]}, show: {band: 0.02}");
     assert_true(band.parts == 2 && band.balls > 100);
+}
+
+// Before growth all attractors but those within the kill distance of the start are left.
+static void attractors_can_be_exported(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "grow_to: 0\nobjects:\n  - name: a\n    outtree: {envelope: [{shape: "
+        "sphere, size: 0.5, position: [2, 0, 7]}], points: {place: surface}, "
+        "growth: {levels: [{attractors: 100}]}}\n  - {name: b, shape: "
+        "{envelope: [{shape: sphere}]}}\n";
+    char line[256], file[] = "/tmp/ramify_attractors_XXXXXX.csv";
+    Error e = {0};
+    Run run = run_default();
+    ExportOptions options = {0};
+    int handle = mkstemps(file, 4), count = 0;
+    assert_true(handle >= 0);
+    close(handle);
+    Scene *scene = scene_read_text(text, strlen(text), "s.yaml", "", NULL, 0, &e);
+    if (!scene || !scene_export(scene, file, &options, &run, NULL, &e)) {
+        fail_msg("%s", e.message);
+    }
+    FILE *stream = fopen(file, "r");
+    assert_non_null(fgets(line, sizeof line, stream));
+    assert_string_equal(line, "object,x,y,z,nx,ny,nz\n");
+    while (fgets(line, sizeof line, stream)) {
+        Vec3 p, n;
+        assert_int_equal(
+            sscanf(line, "\"a\",%f,%f,%f,%f,%f,%f", &p.x, &p.y, &p.z, &n.x, &n.y, &n.z), 6);
+        p = vec3_sub(p, vec3(2, 0, 7));
+        assert_float_equal(vec3_length(p), 0.5f, 1e-3);
+        assert_true(vec3_dot(vec3_normalize(p), n) > 0.99f);
+        count++;
+    }
+    assert_true(count > 90 && count <= 100);
+    fclose(stream);
+    unlink(file);
+    scene_free(scene);
 }
 
 static void tips_bear_lamps(void **state)
@@ -412,6 +452,7 @@ int main(void)
         cmocka_unit_test(distant_attractors_do_not_lead_off_the_surface),
         cmocka_unit_test(crystals_do_not_cross),
         cmocka_unit_test(growth_itself_can_be_seen),
+        cmocka_unit_test(attractors_can_be_exported),
         cmocka_unit_test(tips_bear_lamps),
         cmocka_unit_test(every_rule_grows_and_threads_do_not_show),
         cmocka_unit_test(a_string_says_where_branches_go),

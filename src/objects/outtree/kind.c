@@ -135,4 +135,5 @@ const Kind kind_outtree = {
     .grow = outtree_grow,
     .tip_radius = outtree_tip_radius,
     .finish = outtree_finish,
+    .points = outtree_points,
     .geometry = outtree_geometry};

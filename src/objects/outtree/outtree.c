@@ -348,3 +348,16 @@ bool outtree_finish(const void *params, const Recipe *recipe, const Grown *whole
     return then && attractor_log_at(whole->state, out_tree_last_birth(grown->tree), then, e) &&
            (!recipe->carrier || then->count == 0 || carry_attractors(recipe->carrier, then, e));
 }
+
+bool outtree_points(const Grown *grown, PointSet *points, Error *e)
+{
+    const AttractorLog *log = grown->state;
+    bool done = true;
+    for (int64_t g = 0; done && g < log->group_count; g++) {
+        const AttractorGroup *group = &log->group[g];
+        for (int64_t i = group->first; done && i < group->first + group->count; i++) {
+            done = points_add(points, log->position[i], log->normal[i], (uint64_t)i, e);
+        }
+    }
+    return done;
+}

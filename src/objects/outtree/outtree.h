@@ -178,6 +178,7 @@ bool outtree_grow(const void *params, const Recipe *recipe, Grown *whole, Error 
 float outtree_tip_radius(const void *params, const OutTree *whole); // m
 bool outtree_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
                     Error *e);
+bool outtree_points(const Grown *grown, PointSet *points, Error *e); // see Kind.points
 bool outtree_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 extern const struct Table outtree_table; // of its parameters
