@@ -47,7 +47,7 @@ sheet() {
 if is_wanted figure-1; then
     for picture in forest frost-window lightning vessels-organ mountains sculpture; do
         count=$((${count:-0} + 1))
-        oiiotool "renders/$picture.jpg" --fit 560x420 --crop 560x315+0+52 -o "$parts/$(printf %03d "$count").png" 2> /dev/null
+        oiiotool "renders/$picture.jpg" --resize 560x315 -o "$parts/$(printf %03d "$count").png"
     done
     sheet figure-1 3x2
 fi
