@@ -128,6 +128,7 @@ static ElementParams complete(const Growing *g, const ElementParams *given)
 {
     ElementParams element = *given;
     element.points = g->params->element.points;
+    element.density = g->params->element.density;
     element.growth.log = g->log;
     element.growth.project = element.points.place == SCATTER_SURFACE ? surface_project : NULL;
     element.growth.surface = &g->on;
