@@ -68,8 +68,10 @@ static bool reassign(DiameterOrders *orders, const SegmentList *list)
     double end[MOST_DIAMETER_ORDERS + 1]; // of the range of each order but the highest
     for (int32_t n = 1; n < orders->highest; n++) {
         const OrderClass *low = &orders->of[n], *high = &orders->of[n + 1];
-        end[n] =
+        double between =
             0.5 * (low->diameter + low->diameter_spread + high->diameter - high->diameter_spread);
+        bool separates = between > low->diameter && between < high->diameter;
+        end[n] = separates ? between : 0.5 * (low->diameter + high->diameter);
     }
     bool changes = false;
     for (int64_t i = 0; i < list->count; i++) {

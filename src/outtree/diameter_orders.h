@@ -29,9 +29,10 @@ typedef struct DiameterOrders {
 
 // Segments begin with their Strahler order. Their order then is that of the class in whose range
 // their diameter D is: the range of order n ends half way between the mean plus the standard
-// deviation of n and the mean minus the standard deviation of n + 1. Repeated until no segment
-// changes (at most 100 times). Where two segments of an element's order leave it, the thicker one
-// continues it, the first if they are equal.
+// deviation of n and the mean minus the standard deviation of n + 1; half way between the means,
+// where that end is not between them, since few vessels of one order may differ much. Repeated
+// until no segment changes (at most 100 times). Where two segments of an element's order leave it,
+// the thicker one continues it, the first if they are equal.
 bool diameter_orders_init(DiameterOrders *orders, const OutTree *tree, const SegmentList *list,
                           Error *e);
 void diameter_orders_free(DiameterOrders *orders);

@@ -232,6 +232,91 @@ static void skins_and_curves_come_out_of_both(void **state)
     out_tree_free(tree);
 }
 
+// However few terminals there are: the stems never take a tree away.
+static void few_terminals_leave_both_trees(void **state)
+{
+    (void)state;
+    for (int64_t terminals = 60; terminals <= 180; terminals += 60) {
+        Shape shape = organ_shape(0.04f);
+        VesselsParams params = organ(&shape, terminals);
+        OutTree *tree = grow(&params, 2, 1.0f);
+        assert_true(2 * count_terminals(tree, VESSELS_ARTERIES) > terminals / 2);
+        assert_true(2 * count_terminals(tree, VESSELS_VEINS) > terminals / 2);
+        assert_true(least_gap(tree) > 0.0f);
+        out_tree_free(tree);
+    }
+}
+
+// Distance from a place to the nearest node of a colony.
+static float distance_to(const OutTree *tree, int32_t colony, Vec3 place)
+{
+    float least = INFINITY;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->colony[i] == colony) {
+            least = fminf(least, vec3_distance(tree->position[i], place));
+        }
+    }
+    return least;
+}
+
+static void growth_starts_from_placed_vessels(void **state)
+{
+    (void)state;
+    Shape shape = organ_shape(0.05f);
+    GreatVessel great[] = {
+        {.from = {0, -0.08f, 0}, .to = {0, -0.01f, 0}},
+        {.from = {0.01f, -0.02f, 0}, .to = {0.045f, 0, 0}, .by = {0.02f, 0.01f, 0}, .bent = true},
+        {.from = {0, -0.03f, 0}, .to = {-0.045f, 0, 0}},
+        {.vein = true, .from = {0, -0.08f, 0.02f}, .to = {0, 0.01f, 0.02f}}};
+    VesselsParams params = organ(&shape, 300);
+    params.great = great;
+    params.great_count = 4;
+    OutTree *tree = grow(&params, 1, 1.0f);
+    for (int i = 0; i < 4; i++) { // they begin and end where they were placed
+        int32_t colony = great[i].vein ? VESSELS_VEINS : VESSELS_ARTERIES;
+        assert_true(distance_to(tree, colony, great[i].to) < 1e-6f);
+        assert_true(distance_to(tree, colony, great[i].from) < (i % 3 == 0 ? 1e-6f : 2e-3f));
+    }
+    // half way along the curve: (from + 2 by + to) / 4
+    assert_true(distance_to(tree, VESSELS_ARTERIES, vec3(0.02375f, 0, 0)) < 2e-3f);
+    int roots = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        roots += tree->parent[i] < 0;
+    }
+    assert_int_equal(roots, 2);
+    assert_true(count_terminals(tree, VESSELS_ARTERIES) > 100);
+    OutTree *same = grow(&params, 2, 1.0f);
+    assert_true(out_tree_hash(same) == out_tree_hash(tree));
+    out_tree_free(same);
+    out_tree_free(tree);
+}
+
+// Flow of the root, its orders: measures of the whole kind.
+static void flow_is_measured(void **state)
+{
+    (void)state;
+    Shape shape = organ_shape(0.04f);
+    VesselsParams params = organ(&shape, 1000);
+    params.flow.velocity = 0.3f;
+    OutTree *tree = grow(&params, 2, 1.0f);
+    Grown grown = grown_of(tree);
+    Run run = run_default();
+    Recipe recipe = {.seed = 8, .label = "object 'test'", .run = &run};
+    MeasureList list = {0};
+    assert_true(vessels_measure(&params, &grown, &recipe, &list, NULL));
+    double r = (double)tree->radius[0], inflow = 0.3 * 3.14159265358979 * r * r * 6e7;
+    assert_true(fabs(measures_find(&list, "artery_inflow")->value / inflow - 1.0) < 1e-5);
+    assert_true(measures_find(&list, "vein_pressure_drop")->value > 0.0);
+    double low = measures_find(&list, "artery_wall_shear_low")->value;
+    assert_true(low > 0.0 && low < measures_find(&list, "artery_wall_shear_high")->value);
+    assert_true(measures_find(&list, "artery_orders")->value >= 4.0);
+    assert_true(measures_find(&list, "artery_order_number")->value > 2.0);
+    assert_true(measures_find(&list, "vein_order_diameter")->value > 1.2);
+    assert_true(measures_find(&list, "vein_segments_in_series")->value >= 1.0);
+    measures_clear(&list);
+    out_tree_free(tree);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -240,6 +325,9 @@ int main(void)
         cmocka_unit_test(size_threads_and_time_change_nothing_else),
         cmocka_unit_test(a_body_is_supplied_to_its_ends),
         cmocka_unit_test(skins_and_curves_come_out_of_both),
+        cmocka_unit_test(few_terminals_leave_both_trees),
+        cmocka_unit_test(growth_starts_from_placed_vessels),
+        cmocka_unit_test(flow_is_measured),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,22 +5,40 @@
 
 #include <stdlib.h>
 
+// The other tree: all of it, and its stems alone. NULL = there is none.
+typedef struct Others {
+    SegmentGrid *all, *stems;
+} Others;
+
+// Radius that a stem will have at most: as long as there are surplus terminals, it is thicker.
+static float stem_radius(const VesselTree *tree, int64_t node)
+{
+    float radius = tree->tree->radius[node];
+    return radius < tree->root_radius ? radius : tree->root_radius;
+}
+
 // Removes vessels that touch the other tree (the thinner of the two, the vein if equal) or the
-// outside.
-static void clear_tree(VesselBed *bed, int t, const SegmentGrid *others, float gap, bool *keep)
+// outside. Whatever touches a stem gives way to it, unless it is a stem, too: a stem takes its
+// whole tree with it.
+static void clear_tree(VesselBed *bed, int t, const Others *others, float gap, bool *keep)
 {
     const VesselTree *mine = &bed->trees[t];
     const OutTree *tree = mine->tree;
-    VesselRoom room = vessel_room(bed, mine, others, gap);
+    VesselRoom room = vessel_room(bed, mine, others->all, gap);
     for (int64_t i = 0; i < tree->count; i++) {
         keep[i] = 1;
         if (tree->parent[i] < 0) {
             continue;
         }
         Vec3 a = tree->position[tree->parent[i]], b = tree->position[i];
-        float r = tree->radius[i], least = t == VESSELS_ARTERIES ? nextafterf(r, INFINITY) : r;
-        keep[i] = (i < mine->stem_count || vessel_room_is_inside(&room, a, b, r)) &&
-                  !(others && segment_grid_touches(others, a, b, r + gap, least));
+        bool stem = i < mine->stem_count;
+        float r = stem ? stem_radius(mine, i) : tree->radius[i];
+        float least = t == VESSELS_ARTERIES ? nextafterf(r, INFINITY) : r;
+        keep[i] =
+            (stem || vessel_room_is_inside(&room, a, b, r)) &&
+            !(others->all &&
+              segment_grid_touches(stem ? others->stems : others->all, a, b, r + gap, least)) &&
+            !(others->all && !stem && segment_grid_touches(others->stems, a, b, r + gap, 0.0f));
     }
 }
 
@@ -37,25 +55,40 @@ static bool keep_marked(VesselTree *tree, bool *keep, Error *e)
     return out_tree_keep_nodes(tree->tree, keep, e);
 }
 
+static bool make_others(const VesselTree *tree, Others *others, Error *e)
+{
+    OutTree stems = *tree->tree; // come first
+    stems.count = tree->stem_count;
+    stems.radius = memory_alloc(stems.count, sizeof *stems.radius, e);
+    for (int64_t i = 0; stems.radius && i < stems.count; i++) {
+        stems.radius[i] = stem_radius(tree, i);
+    }
+    others->all = stems.radius ? segment_grid_new(tree->tree, e) : NULL;
+    others->stems = others->all ? segment_grid_new(&stems, e) : NULL;
+    free(stems.radius);
+    return others->stems;
+}
+
 static bool clear_touching(VesselBed *bed, float gap, Error *e)
 {
     const int count = bed->tree_count > 1 ? 2 : 1;
-    SegmentGrid *grid[2] = {NULL, NULL};
+    Others trees[2] = {{NULL, NULL}, {NULL, NULL}};
+    const Others none = {NULL, NULL};
     bool *keep[2] = {NULL, NULL};
     bool done = true;
     for (int t = 0; done && t < count; t++) {
-        grid[t] = segment_grid_new(bed->trees[t].tree, e);
         keep[t] = memory_alloc(bed->trees[t].tree->count, sizeof *keep[t], e);
-        done = grid[t] && keep[t];
+        done = keep[t] && make_others(&bed->trees[t], &trees[t], e);
     }
     for (int t = 0; done && t < count; t++) {
-        clear_tree(bed, t, count > 1 ? grid[1 - t] : NULL, gap, keep[t]);
+        clear_tree(bed, t, count > 1 ? &trees[1 - t] : &none, gap, keep[t]);
     }
     for (int t = 0; done && t < count; t++) {
         done = keep_marked(&bed->trees[t], keep[t], e);
     }
     for (int t = 0; t < 2; t++) {
-        segment_grid_free(grid[t]);
+        segment_grid_free(trees[t].all);
+        segment_grid_free(trees[t].stems);
         free(keep[t]);
     }
     return done;

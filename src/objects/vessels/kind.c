@@ -17,12 +17,25 @@ static Vec3 take_inlet(const OwnSpace *own, Vec3 inlet)
     return vec3_dot(mine, mine) > 0.0f ? mine : vec3(FLT_MIN, 0, 0);
 }
 
+static bool take_great(OwnSpace *own, VesselsParams *vessels, Error *e)
+{
+    size_t size = (size_t)vessels->great_count * sizeof *vessels->great;
+    vessels->great = size > 0 ? own_space_copy(own, vessels->great, size, e) : NULL;
+    for (int i = 0; vessels->great && i < vessels->great_count; i++) {
+        GreatVessel *great = &vessels->great[i];
+        great->from = own_space_place(own, great->from);
+        great->to = own_space_place(own, great->to);
+        great->by = own_space_place(own, great->by);
+    }
+    return vessels->great || size == 0;
+}
+
 static bool own_space(OwnSpace *own, void *params, Error *e)
 {
     VesselsParams *vessels = params;
     own_space_of_element(own, &vessels->element);
     vessels->inlet = take_inlet(own, vessels->inlet);
-    return own_space_take_element(own, &vessels->element, e);
+    return take_great(own, vessels, e) && own_space_take_element(own, &vessels->element, e);
 }
 
 static bool measure(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,

@@ -9,6 +9,12 @@
 bool vessels_plant_stem(OutTree *tree, const VesselsParams *params, const Envelope *envelope,
                         int32_t colony, float root_radius, float reach, uint64_t seed, Error *e);
 
+// Plants the great vessels of colony that the user has placed (VesselsParams.great) into the empty
+// tree; plants none if there are none of that colony. reach: as above. Births increase from the
+// root on.
+bool vessels_plant_placed(OutTree *tree, const VesselsParams *params, int32_t colony, float reach,
+                          uint64_t seed, Error *e);
+
 // Plants the great arteries or veins of the body that is the envelope's first shape. Births
 // increase from the heart on.
 bool vessels_plant_great(OutTree *tree, const Shape *body, int32_t colony, uint64_t seed, Error *e);

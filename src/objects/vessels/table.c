@@ -39,6 +39,36 @@ static const Table FLOW_TABLE = {
     .size = sizeof(FlowParams),
     .keys = FLOW_KEYS};
 
+static const Key GREAT_KEYS[] = {
+    {KEY_OF(GreatVessel, vein, "vein", KEY_BOOL), .doc = "A vein; otherwise an artery."},
+    {KEY_OF(GreatVessel, from, "from", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 3, .unit = "m",
+     .doc = "Where it begins. The first artery and the first vein begin there; others leave the "
+            "nearest vessel of their tree, and run from there to this point first."},
+    {KEY_OF(GreatVessel, to, "to", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 3, .unit = "m",
+     .doc = "Where it ends and branches on."},
+    {KEY_OF(GreatVessel, by, "by", KEY_VECTOR), .count = 3, .unit = "m",
+     .given_offset = offsetof(GreatVessel, bent),
+     .doc = "Point toward which its way bends (the middle control point of a quadratic Bezier "
+            "curve); default: it runs straight."},
+    {0},
+};
+
+static const Table GREAT_TABLE = {
+    .name = "great",
+    .doc =
+        "Great vessels, placed by hand, from which growth starts in place of the stem at the inlet "
+        "or of a body's own vessels. They may lie outside of the envelope.",
+    .example = "objects:\n"
+               "  - name: liver\n"
+               "    vessels:\n"
+               "      envelope: [{shape: ellipsoid, size: [0.1, 0.05, 0.06]}]\n"
+               "      great:\n"
+               "        - {from: [0, -0.08, 0], to: [0, -0.02, 0]}\n"
+               "        - {from: [0, -0.02, 0], to: [0.06, 0, 0], by: [0.02, 0.01, 0]}\n"
+               "        - {from: [0, -0.03, 0], to: [-0.06, 0, 0], by: [-0.02, 0.01, 0]}\n",
+    .size = sizeof(GreatVessel),
+    .keys = GREAT_KEYS};
+
 static const Key VESSELS_KEYS[] = {
     {KEY_OF(VesselsParams, terminals, "terminals", KEY_INT64), .low = 2, .high = 1e8,
      .doc = "Number of vessel ends, of arteries and veins together."},
@@ -48,6 +78,10 @@ static const Key VESSELS_KEYS[] = {
     {KEY_OF(VesselsParams, inlet, "inlet", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Where the vessels enter; [0, 0, 0] = the hilum, the surface point nearest to the "
             "centre. A body is supplied from its heart."},
+    {KEY_OF(VesselsParams, great, "great", KEY_LIST),
+     .count_offset = offsetof(VesselsParams, great_count), .table = &GREAT_TABLE, .count = 1000,
+     .doc = "Great vessels, from which growth starts; default: a stem at the inlet, or those of a "
+            "body."},
     {KEY_OF(VesselsParams, root_radius, "root_radius", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Radius of the artery's root; 0 = proportional to the organ."},
     {KEY_OF(VesselsParams, vein_radius, "vein_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
@@ -81,6 +115,12 @@ static bool check_vessels(const Mapping *mapping, void *params)
     const ElementParams *element = &((const VesselsParams *)params)->element;
     if (element->shape_count == 0) {
         return mapping_fail(mapping, NULL, " has no envelope; it must name the organ to fill");
+    }
+    const VesselsParams *vessels = params;
+    for (int i = 0; i < vessels->great_count; i++) {
+        if (!(vec3_distance(vessels->great[i].from, vessels->great[i].to) > 0.0f)) {
+            return mapping_fail(mapping, "great", " has a vessel that ends where it begins");
+        }
     }
     return check_element(mapping, element);
 }

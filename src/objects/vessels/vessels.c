@@ -30,6 +30,24 @@ static bool is_body(const VesselsParams *params)
     return params->element.shapes[0].kind == SHAPE_BODY;
 }
 
+// Plants the vessels from which one tree grows: those that the user has placed, else those of the
+// body, else a stem at the inlet.
+static bool plant_tree(const VesselBed *bed, OutTree *tree, int32_t colony, float root, float reach,
+                       Error *e)
+{
+    const VesselsParams *params = bed->params;
+    uint64_t seed = bed->recipe->seed;
+    if (!vessels_plant_placed(tree, params, colony, reach, seed, e)) {
+        return false;
+    }
+    if (tree->count > 0) {
+        return true;
+    }
+    return is_body(params)
+               ? vessels_plant_great(tree, &params->element.shapes[0], colony, seed, e)
+               : vessels_plant_stem(tree, params, bed->envelope, colony, root, reach, seed, e);
+}
+
 static bool plant(VesselBed *bed, Error *e)
 {
     const VesselsParams *params = bed->params;
@@ -45,10 +63,7 @@ static bool plant(VesselBed *bed, Error *e)
         tree->colony = t;
         tree->root_radius = root * (t == VESSELS_VEINS ? params->vein_radius : 1.0f);
         tree->tree = out_tree_new(e);
-        if (!tree->tree || !(body ? vessels_plant_great(tree->tree, &params->element.shapes[0], t,
-                                                        bed->recipe->seed, e)
-                                  : vessels_plant_stem(tree->tree, params, bed->envelope, t, root,
-                                                       reach, bed->recipe->seed, e))) {
+        if (!tree->tree || !plant_tree(bed, tree->tree, t, root, reach, e)) {
             return false;
         }
         tree->stem_count = tree->tree->count;

@@ -10,6 +10,14 @@
 
 enum { VESSELS_ARTERIES, VESSELS_VEINS }; // colonies of the out-tree and roles of materials
 
+// A stretch of a great vessel, from which growth starts: straight, or bent by `by`.
+typedef struct GreatVessel {
+    bool vein;
+    Vec3 from, to; // m
+    Vec3 by;       // m: the way bends toward this point; meaningless unless bent
+    bool bent;
+} GreatVessel;
+
 typedef struct VesselsParams {
     ElementParams
         element; // the organ; omitted levels follow from `terminals`. If the first shape is a body,
@@ -18,6 +26,10 @@ typedef struct VesselsParams {
     bool veins;        // two trees; otherwise arteries alone
     Vec3 inlet; // m: where the vessels enter; all 0 = the hilum, the surface point nearest to the
                 // middle
+    // Great vessels that the user places, instead of the stem at the inlet: the first artery and
+    // the first vein begin their trees, each further one leaves the nearest vessel of its tree.
+    GreatVessel *great;
+    int great_count;
     float root_radius; // m, of the artery's root; 0 = in proportion to the organ
     float vein_radius; // of the veins' root, in units of the artery's
     MurrayLaw law;
