@@ -33,3 +33,15 @@ printf 'objects: [{name: floor, ground: {grass_tufts: 0}}]\n' >bare.yaml
 check nothing_grows 2 "$RAMIFY" export bare.yaml -o bare.vtp -q
 says nothing_grows_says_so err "no object of 'bare.yaml' grows"
 yes nothing_grows_writes_nothing [ ! -e bare.vtp ]
+
+# The surface mesh: as fine as its vessels are thin, from the trunk to the ends.
+cat >skin.yaml <<'END'
+objects:
+  - {name: organ, vessels: {terminals: 60, curve_radius: 1.0e-9, skin_levels: 1, envelope: [{shape: ellipsoid, size: [0.05, 0.03, 0.04]}]}}
+END
+check skin_is_written 0 "$RAMIFY" export skin.yaml -o skin.ply -q
+yes edges_follow_the_radius python3 "$here/edge_check.py" skin.ply
+fine=$(cat log)
+check coarser_skin 0 "$RAMIFY" export skin.yaml -o skin.ply -q --set objects.organ.vessels.ring_spacing=2
+python3 "$here/edge_check.py" skin.ply >coarse
+yes rings_are_further_apart [ "$(cat coarse)" -lt "$((fine * 3 / 4))" ]

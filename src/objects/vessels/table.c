@@ -99,6 +99,10 @@ static const Key VESSELS_KEYS[] = {
             "are curves."},
     {KEY_OF(VesselsParams, skin_levels, "skin_levels", KEY_INT), .high = 4,
      .doc = "Number of subdivision levels of the thick vessels' skin."},
+    {KEY_OF(VesselsParams, ring_spacing, "ring_spacing", KEY_FLOAT), .low = 0.1, .high = 100,
+     .doc =
+         "Distance between the rings of faces of the skin, in radii of the vessel: the mesh is as "
+         "fine as its vessels are thin. A curve_radius of 1e-9 gives all vessels a skin."},
     {KEY_OF(VesselsParams, flow, "flow", KEY_GROUP), .table = &FLOW_TABLE,
      .doc = "Pressure and flow of the blood, for measures and network files."},
     ELEMENT_ROWS(VesselsParams),

@@ -22,6 +22,7 @@ VesselsParams vessels_params_default(void)
                            .gap = 0.3f,
                            .turn = true,
                            .skin_levels = 2,
+                           .ring_spacing = 1.0f,
                            .flow = flow};
 }
 

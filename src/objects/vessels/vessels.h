@@ -37,7 +37,8 @@ typedef struct VesselsParams {
     bool turn; // turn daughters to Murray's angles
     float curve_radius; // m: thicker vessels get a skin; 0 = all are round curves
     int skin_levels;
-    FlowParams flow; // for measures and exports
+    float ring_spacing; // of the skin, in radii: see SkinParams
+    FlowParams flow;    // for measures and exports
 } VesselsParams;
 
 VesselsParams vessels_params_default(void);
