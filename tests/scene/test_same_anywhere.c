@@ -133,8 +133,14 @@ static double unit_scale(const char *unit, double scale)
     if (strcmp(unit, "m") == 0 || strcmp(unit, "mm") == 0) {
         return scale;
     }
-    return strcmp(unit, "mm^2") == 0 ? scale * scale
-                                     : (strcmp(unit, "mm/mm^2") == 0 ? 1.0 / scale : 1.0);
+    // of flow at one velocity: a section's, a tube's resistance, a fall of pressure
+    if (strcmp(unit, "mm^2") == 0 || strcmp(unit, "ml/min") == 0) {
+        return scale * scale;
+    }
+    if (strcmp(unit, "Pa s/m3") == 0) {
+        return 1.0 / (scale * scale * scale);
+    }
+    return strcmp(unit, "mm/mm^2") == 0 || strcmp(unit, "Pa") == 0 ? 1.0 / scale : 1.0;
 }
 
 static int compare_measures(const MeasureList *a, const MeasureList *b, const Motion *m)
@@ -246,6 +252,14 @@ static const struct {
     {"vessels: {terminals: 200, inlet: @p(0.1 0.1 0), skin_levels: 0, curve_radius: @l(0.005), "
      "envelope: [{shape: ellipsoid, size: [@l(0.2), @l(0.1), @l(0.15)], position: @p(0.1 0 0), "
      "rotation: [0, @a(0), 0]}]}",
+     ALL},
+    {"vessels: {terminals: 100, great: [{from: @p(0.1 -0.2 0), to: @p(0.1 0 0)}, {from: @p(0.1 "
+     "-0.05 "
+     "0), to: @p(0.25 0 0), by: @p(0.2 0.03 0)}, {vein: true, from: @p(0.1 -0.2 0.05), to: @p(0.1 "
+     "0 "
+     "0.05)}], envelope: [{shape: ellipsoid, size: [@l(0.2), @l(0.1), @l(0.15)], position: @p(0.1 "
+     "0 "
+     "0), rotation: [0, @a(0), 0]}]}",
      ALL},
     {"fracture: {attractors: 40, resolution: 32, envelope: [{shape: sphere, size: @l(1), "
      "position: @p(0 0 0), rotation: [0, @a(0), 0]}]}",
