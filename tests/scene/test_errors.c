@@ -52,9 +52,9 @@ static const Case scenes[] = {
     {"objects: [{tree: }]",
      ":1:11: objects.0 has no 'name'; this key is required: Unique name, used in messages, targets "
      "and paths of keys. The object's random numbers depend on it."},
-    {"objects: [{name: a, mesh: }]",
-     ":1:27: objects.a.mesh has no 'file'; this key is required: OBJ, PLY, STL, glTF, GLB or VDB file, "
-     "relative to the scene's folder."},
+    {"objects: [{name: a, mesh: }]", ":1:27: objects.a.mesh has no 'file'; this key is required: "
+                                     "OBJ, PLY, STL, glTF, GLB or VDB file, "
+                                     "relative to the scene's folder."},
     {TREE "sky: {kind: environment}\n",
      ":2:6: sky has no 'file'; this key is required: Latitude-longitude HDR panorama (.hdr, .exr), "
      "relative to the scene's folder."},
@@ -340,7 +340,8 @@ static const MeshCase meshes[] = {
     {"head.ply", "ply\nformat ascii 1.0\n", false,
      "not a PLY file, or its header is cut off; a header from 'ply' to 'end_header' is needed"},
     {"mesh.xyz", "0 0 0\n", false,
-     "the name does not end in a mesh format that can be read; .obj, .ply, .stl, .gltf or .glb "
+     "the name does not end in a mesh format that can be read; .obj, .ply, .stl, .gltf, .glb or "
+     ".vdb "
      "would be right"},
     {"nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", true,
      "vertex 1 has a coordinate that is not finite; coordinates must be numbers in metres"},

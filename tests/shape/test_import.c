@@ -126,7 +126,8 @@ static const BrokenFile broken[] = {
     {"flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n",
      "all faces of the file are degenerate; triangles with an area are needed"},
     {"index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
-     "not readable as a mesh: OBJ: vertex index out of range; a whole OBJ, PLY, STL, glTF, GLB or VDB "
+     "not readable as a mesh: OBJ: vertex index out of range; a whole OBJ, PLY, STL, glTF, GLB or "
+     "VDB "
      "file is needed"},
     {"cut.ply", PLY_HEAD("ascii", "3", "1") "0 0 0\n1 0 0\n",
      "truncated: the header promises 3 vertices and 1 faces, which need 4 lines, but 2 follow; the "
@@ -144,7 +145,8 @@ static const BrokenFile broken[] = {
     {"json.gltf", "{\"asset\":", NULL},
     {"noise.glb", "\x01\x02\x03\x04garbage", NULL},
     {"mesh.txt", "v 0 0 0\n",
-     "the name does not end in a mesh format that can be read; .obj, .ply, .stl, .gltf or .glb "
+     "the name does not end in a mesh format that can be read; .obj, .ply, .stl, .gltf, .glb or "
+     ".vdb "
      "would be right"},
 };
 
