@@ -9,7 +9,7 @@
 #define TREE(NAME, X, MORE)                                                              \
     "  - name: " NAME "\n"                                                               \
     "    tree: {position: [" X ", 0, 0], height: 6, roots: {count: 0}, crown: {growth: " \
-    "{levels: [{attractors: 150}, {attractors: 700}]}}, leaves: {max_count: 0}, skin: " \
+    "{levels: [{attractors: 150}, {attractors: 700}]}}, leaves: {max_count: 0}, skin: "  \
     "{levels: 0}}\n" MORE
 #define ROCK                                                                                 \
     "  - name: rock\n    shape: {envelope: [{shape: sphere, scale: 1.2, position: [0, 3.5, " \
@@ -213,10 +213,9 @@ static void test_builder_regrows_neighbours(void **state)
 static void test_failure_and_cancel_end_all(void **state)
 {
     Scene *scene = read_text(
-        *state,
-        "objects:\n" TREE("a", "-0.7",
-                          CONTEST("0.15")) "  - name: b\n"
-                                           "    coral: {axiom: 'F('}\n" CONTEST("0.15"));
+        *state, "objects:\n" TREE("a", "-0.7",
+                                  CONTEST("0.15")) "  - name: b\n"
+                                                   "    coral: {axiom: 'F('}\n" CONTEST("0.15"));
     Run run = run_default();
     Error e = {0};
     assert_null(scene_grow_object(scene, 0, &run, &e));

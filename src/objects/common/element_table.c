@@ -108,7 +108,7 @@ static const Table density_table = {
                "  - name: lawn\n"
                "    outtree:\n"
                "      envelope: [{shape: box, size: [2, 0.02, 2]}]\n"
-               "      points: {density: {file: ../docs/tutorial/2-tree.jpg, scale: 4}}\n",
+               "      points: {density: {file: meadow.png, scale: 4}}\n",
     .size = sizeof(DensityParams),
     .keys = DENSITY_KEYS,
     .defaults = density_defaults,
