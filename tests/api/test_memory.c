@@ -46,7 +46,7 @@ bool __wrap_memory_reserve(void *array, int64_t *capacity, int64_t count, size_t
     return !(grows && fails(e)) && __real_memory_reserve(array, capacity, count, size, e);
 }
 
-static const char text[] =
+static const char bush[] =
     "camera: {position: [0, 1.5, 7], target: [0, 1.4, 0]}\n"
     "film: {width: 24, height: 16, denoise: true, bloom: 0.01}\n"
     "render: {samples: 2, max_depth: 2}\n"
@@ -57,6 +57,12 @@ static const char text[] =
     "    tree: {height: 3, leaves: {max_count: 40}, crown: {lobes: 0, growth: {levels: "
     "[{attractors: 60}]}}}\n"
     "  - {name: floor, ground: {}}\n";
+
+static const char net[] = // keeps its attractors, which can be exported
+    "objects:\n"
+    "  - {name: net, outtree: {growth: {levels: [{attractors: 20}]}}}\n";
+
+static const char *text = bush; // the scene
 
 static RamifyScene *load(RamifyError *error)
 {
@@ -211,10 +217,12 @@ static void exporting(void **state)
     for (int i = 0; i < ramify_export_format_count(); i++) {
         ending = ramify_export_format_ending(i);
         bool heights = strstr(".png .exr .asc", ending); // of a terrain, which this scene lacks
+        text = strcmp(ending, ".csv") == 0 ? net : bush;
         if (!heights) {
             let_each_fail(way_export, 8);
         }
     }
+    text = bush;
 }
 
 // All files go to a folder of their own: some formats write others beside theirs.
