@@ -4,6 +4,7 @@
 #include "field/curl.h"
 #include "field/field_grid.h"
 #include "field/nuclei.h"
+#include "field/volume_field.h"
 
 #include <stdlib.h>
 
@@ -13,8 +14,9 @@ struct GuideField {
     FieldParams *params; // count of them
     FieldGrid *grid;     // count of them; used for FIELD_GRID only
     int count;
-    Nuclei nuclei; // the initial nodes
-    Nuclei *named; // count of them; empty for fields that name none
+    Nuclei nuclei;       // the initial nodes
+    VolumeField *volume; // count of them; used for FIELD_VOLUME only
+    Nuclei *named;       // count of them; empty for fields that name none
 };
 
 static bool has_nuclei(FieldKind kind)
@@ -38,7 +40,8 @@ static bool check_params(const FieldParams *p, int64_t nucleus_count, Error *e)
         !isfinite(p->pull) || !vec3_finite(p->vector) || !vec3_finite(p->center)) {
         return error_set(e, ERROR_INPUT, "a field's numbers must be finite");
     }
-    if ((p->kind == FIELD_CURL || p->kind == FIELD_POINT) && p->scale <= 0.0f) {
+    bool scaled = p->kind == FIELD_CURL || p->kind == FIELD_POINT || p->kind == FIELD_VOLUME;
+    if (scaled && p->scale <= 0.0f) {
         return error_set(e, ERROR_INPUT, "field scale %g m; it must be positive", (double)p->scale);
     }
     if (fabsf(p->turn) > 1e6f) {
@@ -91,6 +94,10 @@ static bool fill(GuideField *field, const FieldParams *params, int64_t nucleus_c
             error_key(e, "nuclei");
             return error_key(e, "%d", i);
         }
+        if (params[i].kind == FIELD_VOLUME &&
+            !volume_field_init(&field->volume[i], &params[i], run, e)) {
+            return error_key(e, "%d", i);
+        }
         if (params[i].kind == FIELD_GRID && !make_grid(field, i, run, e)) {
             return error_key(e, "%d", i);
         }
@@ -110,7 +117,8 @@ GuideField *guide_field_new(const FieldParams *params, int count, const Vec3 *nu
     field->params = memory_alloc_zero(count, sizeof *field->params, e);
     field->grid = memory_alloc_zero(count, sizeof *field->grid, e);
     field->named = memory_alloc_zero(count, sizeof *field->named, e);
-    if (!field->params || !field->grid || !field->named ||
+    field->volume = memory_alloc_zero(count, sizeof *field->volume, e);
+    if (!field->params || !field->grid || !field->named || !field->volume ||
         !nuclei_init(&field->nuclei, nuclei, nucleus_normals, nucleus_count, bounds, e) ||
         !fill(field, params, nucleus_count, run, e)) {
         guide_field_free(field);
@@ -125,6 +133,9 @@ void guide_field_free(GuideField *field)
         for (int i = 0; field->grid && i < field->count; i++) {
             field_grid_free(&field->grid[i]);
         }
+        for (int i = 0; field->volume && i < field->count; i++) {
+            volume_field_free(&field->volume[i]);
+        }
         for (int i = 0; field->named && i < field->count; i++) {
             nuclei_free(&field->named[i]);
         }
@@ -132,6 +143,7 @@ void guide_field_free(GuideField *field)
         free(field->params);
         free(field->grid);
         free(field->named);
+        free(field->volume);
         free(field);
     }
 }
@@ -158,6 +170,8 @@ static Vec3 one_field_at(const GuideField *field, int i, Vec3 p, Vec3 n)
         Vec3 x = field_grid_at(&field->grid[i], p);
         return params->surface ? tangential(x, n) : vec3_normalize(x);
     }
+    case FIELD_VOLUME:
+        return volume_field_at(&field->volume[i], p);
     case FIELD_CURL:
         return vec3_normalize(curl_noise(vec3_scale(p, 1.0f / params->scale), params->seed));
     case FIELD_POINT: {

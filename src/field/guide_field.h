@@ -20,6 +20,7 @@ typedef enum FieldKind {
     FIELD_GRID,    // FIELD_NUCLEI sampled on a sparse voxel grid, trilinear between voxels
                    // (Tanaka 4.4)
     FIELD_CURL,    // direction of divergence-free noise of wavelength `scale`
+    FIELD_VOLUME,  // the vectors of a grid in a file, or the way up the values of a scalar one
     FIELD_POINT    // control point: along `vector` at `center`, falling to 0 at distance `scale`
 } FieldKind;
 
@@ -63,7 +64,10 @@ typedef struct FieldParams {
     bool surface;   // stay in the tangent plane of the attractors' surface and rotate about its
                     // normal
     uint64_t seed;
-    int resolution; // FIELD_GRID: voxels along the longest side; 0 = 48, at most 2048
+    const char *file, *grid; // FIELD_VOLUME: .vdb, and a name in it (NULL = the first); borrowed
+    Vec3 position, rotation; // m, degrees: of the file's space, scaled by `scale`
+    Transform from_file;     // made of them
+    int resolution;          // FIELD_GRID: voxels along the longest side; 0 = 48, at most 2048
 } FieldParams;
 
 // The `pull` of a field in growth with this ColonizeParams.field_weight, where the attractors' pull
@@ -80,7 +84,7 @@ FieldParams field_params_default(FieldKind kind);
 // nuclei: positions and unit normals (NULL = +Y) of the initial type-0 nodes, copied; fields that
 // name nuclei do not use them. bounds: the region of the attractors. params: `count` fields, summed
 // with their weights. ERROR_INPUT for non-finite numbers, a scale that is not positive where one is
-// needed, or a nuclei field without nuclei. Free with guide_field_free.
+// needed, a nuclei field without nuclei, or a file that cannot be read. Free with guide_field_free.
 GuideField *guide_field_new(const FieldParams *params, int count, const Vec3 *nuclei,
                             const Vec3 *nucleus_normals, int64_t nucleus_count, Aabb bounds,
                             const Run *run, Error *e);

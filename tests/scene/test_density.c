@@ -130,12 +130,47 @@ static void an_unknown_grid_has_its_place(void **state)
     scene_free(scene);
 }
 
+// The values of a ball's level set rise outward: near its surface growth goes straight out.
+static void growth_follows_the_vectors_of_a_grid(void **state)
+{
+    write_ball(*state);
+    double reach[2];
+    for (int i = 0; i < 2; i++) {
+        char text[1024];
+        snprintf(text, sizeof text,
+                 "objects:\n  - name: a\n    outtree:\n      envelope: [{shape: box, size: 1}]\n"
+                 "      placed: {points: [{position: [0, 0, 0]}]}\n"
+                 "      fields: [{kind: volume, file: ball.vdb, weight: %s}]\n"
+                 "      growth: {field_weight: 3, levels: [{attractors: 1500}]}\n",
+                 i == 0 ? "1" : "0");
+        Scene *scene = read_text(*state, text);
+        OutTree *tree = grow(scene);
+        double along = 0.0, count = 0.0;
+        for (int64_t k = 1; k < tree->count; k++) {
+            Vec3 from = tree->position[tree->parent[k]];
+            Vec3 way = vec3_normalize(vec3_sub(tree->position[k], from));
+            if (fabsf(vec3_length(from) - 1.0f) < 0.05f) { // where the level set has a gradient
+                along += (double)vec3_dot(way, vec3_normalize(from));
+                count += 1.0;
+            }
+        }
+        assert_true(count > 5.0);
+        reach[i] = along / count;
+        out_tree_free(tree);
+        scene_free(scene);
+    }
+    assert_true(reach[0] > 0.95);
+    assert_true(reach[1] < 0.9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(growth_follows_a_picture, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(growth_follows_a_grid, fixture_set_up, fixture_tear_down),
+        cmocka_unit_test_setup_teardown(growth_follows_the_vectors_of_a_grid, fixture_set_up,
+                                        fixture_tear_down),
         cmocka_unit_test_setup_teardown(an_unknown_grid_has_its_place, fixture_set_up,
                                         fixture_tear_down),
     };

@@ -146,7 +146,9 @@ bool check_growth(const Mapping *mapping, void *params)
 
 bool check_field(const Mapping *mapping, void *params)
 {
-    const FieldParams *field = params;
+    FieldParams *field = params;
+    field->from_file =
+        transform_compose(field->position, field->rotation, vec3_splat(field->scale));
     bool needs_vector =
         field->kind == FIELD_UNIFORM || field->kind == FIELD_VORTEX || field->kind == FIELD_POINT;
     return !needs_vector || vec3_length(field->vector) > 0.0f ||

@@ -3,10 +3,10 @@
 
 #define BIT(kind) (1u << (kind))
 
-static const EnumName FIELD_KINDS[] = {{"uniform", FIELD_UNIFORM}, {"radial", FIELD_RADIAL},
-                                       {"vortex", FIELD_VORTEX},   {"nuclei", FIELD_NUCLEI},
-                                       {"grid", FIELD_GRID},       {"curl", FIELD_CURL},
-                                       {"point", FIELD_POINT},     {0}};
+static const EnumName FIELD_KINDS[] = {
+    {"uniform", FIELD_UNIFORM}, {"radial", FIELD_RADIAL}, {"vortex", FIELD_VORTEX},
+    {"nuclei", FIELD_NUCLEI},   {"grid", FIELD_GRID},     {"curl", FIELD_CURL},
+    {"volume", FIELD_VOLUME},   {"point", FIELD_POINT},   {0}};
 const EnumName field_profiles[] = {
     {"swept", PROFILE_SWEPT}, {"constant", PROFILE_CONSTANT}, {"grown", PROFILE_GROWN}, {0}};
 static const EnumName NUCLEUS_KINDS[] = {
@@ -52,10 +52,12 @@ static const Table NUCLEUS_TABLE = {
 
 static const Key FIELD_KEYS[] = {
     {KEY_OF(FieldParams, kind, "kind", KEY_ENUM), .flags = KEY_REQUIRED, .names = FIELD_KINDS,
-     .doc = "uniform: `vector` everywhere; radial: away from `center`; vortex: around the axis "
-            "`vector` through `center`; nuclei: away from the nearest nucleus, turned by `turn`; "
-            "grid: the same, sampled on voxels; curl: swirling curl noise; point: `vector` at "
-            "`center`, fading over `scale`."},
+     .doc =
+         "uniform: `vector` everywhere; radial: away from `center`; vortex: around the axis "
+         "`vector` through `center`; nuclei: away from the nearest nucleus, turned by `turn`; "
+         "grid: the same, sampled on voxels; curl: swirling curl noise; volume: the vectors of a "
+         "grid in `file`, or the way in which a scalar grid's values rise; point: `vector` at "
+         "`center`, fading over `scale`."},
     {KEY_OF(FieldParams, weight, "weight", KEY_FLOAT), .low = -1000, .high = 1000,
      .doc = "Weight in the sum of the fields; a negative weight reverses the field."},
     {KEY_OF(FieldParams, vector, "vector", KEY_VECTOR), .count = 3,
@@ -79,9 +81,19 @@ static const Key FIELD_KEYS[] = {
             "growth sweeps on this way (grown), or by which every vector is turned (constant)."},
     {KEY_OF(FieldParams, rim, "rim", KEY_FLOAT), .kinds = NUCLEI, .high = 1e6, .unit = "m",
      .doc = "Distance of the rim from the nucleus; 0 = as far as the attractors' bounds."},
-    {KEY_OF(FieldParams, scale, "scale", KEY_FLOAT), .kinds = BIT(FIELD_CURL) | BIT(FIELD_POINT),
-     .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
-     .doc = "Wavelength of the noise (curl), or distance over which the vector fades (point)."},
+    {KEY_OF(FieldParams, scale, "scale", KEY_FLOAT),
+     .kinds = BIT(FIELD_CURL) | BIT(FIELD_POINT) | BIT(FIELD_VOLUME), .flags = KEY_ABOVE,
+     .high = 1e6, .unit = "m",
+     .doc = "Wavelength of the noise (curl), distance over which the vector fades (point), or the "
+            "file's unit (volume)."},
+    {KEY_OF(FieldParams, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(FIELD_VOLUME),
+     .doc = "VDB file with a grid of float vectors or of floats."},
+    {KEY_OF(FieldParams, grid, "grid", KEY_TEXT), .kinds = BIT(FIELD_VOLUME),
+     .doc = "Name of the grid; default: the first of floats or vectors."},
+    {KEY_OF(FieldParams, position, "position", KEY_VECTOR), .count = 3, .kinds = BIT(FIELD_VOLUME),
+     .unit = "m", .doc = "Position of the file's origin."},
+    {KEY_OF(FieldParams, rotation, "rotation", KEY_VECTOR), .count = 3, .kinds = BIT(FIELD_VOLUME),
+     .unit = "degrees", .doc = "Rotation of the file's space about x, then y, then z."},
     {KEY_OF(FieldParams, profile, "profile", KEY_ENUM), .kinds = NUCLEI, .names = field_profiles,
      .doc =
          "swept: the turn increases along a streamline from the nucleus; grown: it increases more, "

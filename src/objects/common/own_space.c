@@ -158,6 +158,7 @@ static bool take_fields(OwnSpace *own, FieldParams **fields, int count, Error *e
         if (mine[i].centered) {
             mine[i].center = own_space_place(own, mine[i].center);
         }
+        mine[i].from_file = take_transform(own, &mine[i].from_file);
         done = take_nuclei(own, &mine[i].nucleus, mine[i].nucleus_count, e);
     }
     *fields = mine;
