@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "field/curl.h"
+#include "field/curvature_field.h"
 #include "field/field_grid.h"
 #include "field/nuclei.h"
 #include "field/volume_field.h"
@@ -14,9 +15,10 @@ struct GuideField {
     FieldParams *params; // count of them
     FieldGrid *grid;     // count of them; used for FIELD_GRID only
     int count;
-    Nuclei nuclei;       // the initial nodes
-    VolumeField *volume; // count of them; used for FIELD_VOLUME only
-    Nuclei *named;       // count of them; empty for fields that name none
+    Nuclei nuclei;             // the initial nodes
+    CurvatureField *curvature; // count of them; used for FIELD_CURVATURE only
+    VolumeField *volume;       // count of them; used for FIELD_VOLUME only
+    Nuclei *named;             // count of them; empty for fields that name none
 };
 
 static bool has_nuclei(FieldKind kind)
@@ -47,6 +49,10 @@ static bool check_params(const FieldParams *p, int64_t nucleus_count, Error *e)
     if (fabsf(p->turn) > 1e6f) {
         return error_set(e, ERROR_INPUT, "field turn %g degrees; at most 1000000 make sense",
                          (double)p->turn);
+    }
+    if (p->kind == FIELD_CURVATURE && !p->envelope) {
+        return error_set(e, ERROR_INPUT,
+                         "a curvature field needs an envelope with a surface; use another kind");
     }
     if (has_nuclei(p->kind) && p->nucleus_count < 1 && nucleus_count < 1) {
         return error_set(e, ERROR_INPUT,
@@ -94,6 +100,11 @@ static bool fill(GuideField *field, const FieldParams *params, int64_t nucleus_c
             error_key(e, "nuclei");
             return error_key(e, "%d", i);
         }
+        if (params[i].kind == FIELD_CURVATURE &&
+            !curvature_field_init(&field->curvature[i], envelope_surface(params[i].envelope),
+                                  params[i].least, e)) {
+            return error_key(e, "%d", i);
+        }
         if (params[i].kind == FIELD_VOLUME &&
             !volume_field_init(&field->volume[i], &params[i], run, e)) {
             return error_key(e, "%d", i);
@@ -117,8 +128,9 @@ GuideField *guide_field_new(const FieldParams *params, int count, const Vec3 *nu
     field->params = memory_alloc_zero(count, sizeof *field->params, e);
     field->grid = memory_alloc_zero(count, sizeof *field->grid, e);
     field->named = memory_alloc_zero(count, sizeof *field->named, e);
+    field->curvature = memory_alloc_zero(count, sizeof *field->curvature, e);
     field->volume = memory_alloc_zero(count, sizeof *field->volume, e);
-    if (!field->params || !field->grid || !field->named || !field->volume ||
+    if (!field->params || !field->grid || !field->named || !field->curvature || !field->volume ||
         !nuclei_init(&field->nuclei, nuclei, nucleus_normals, nucleus_count, bounds, e) ||
         !fill(field, params, nucleus_count, run, e)) {
         guide_field_free(field);
@@ -133,6 +145,9 @@ void guide_field_free(GuideField *field)
         for (int i = 0; field->grid && i < field->count; i++) {
             field_grid_free(&field->grid[i]);
         }
+        for (int i = 0; field->curvature && i < field->count; i++) {
+            curvature_field_free(&field->curvature[i]);
+        }
         for (int i = 0; field->volume && i < field->count; i++) {
             volume_field_free(&field->volume[i]);
         }
@@ -143,6 +158,7 @@ void guide_field_free(GuideField *field)
         free(field->params);
         free(field->grid);
         free(field->named);
+        free(field->curvature);
         free(field->volume);
         free(field);
     }
@@ -170,6 +186,8 @@ static Vec3 one_field_at(const GuideField *field, int i, Vec3 p, Vec3 n)
         Vec3 x = field_grid_at(&field->grid[i], p);
         return params->surface ? tangential(x, n) : vec3_normalize(x);
     }
+    case FIELD_CURVATURE:
+        return curvature_field_at(&field->curvature[i], p, params->vector);
     case FIELD_VOLUME:
         return volume_field_at(&field->volume[i], p);
     case FIELD_CURL:

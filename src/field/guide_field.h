@@ -12,16 +12,17 @@ typedef struct GuideField GuideField; // immutable; evaluated from many threads
 
 // Each kind gives a unit vector (FIELD_POINT: times a falloff; zero where no direction is defined).
 typedef enum FieldKind {
-    FIELD_UNIFORM, // along `vector` everywhere: a tropism
-    FIELD_RADIAL,  // away from `center`
-    FIELD_VORTEX,  // about the axis `vector` through `center`
-    FIELD_NUCLEI,  // away from the nearest nucleus, rotated about the normal by `turn` (Tanaka
-                   // eq. (9)-(12))
-    FIELD_GRID,    // FIELD_NUCLEI sampled on a sparse voxel grid, trilinear between voxels
-                   // (Tanaka 4.4)
-    FIELD_CURL,    // direction of divergence-free noise of wavelength `scale`
-    FIELD_VOLUME,  // the vectors of a grid in a file, or the way up the values of a scalar one
-    FIELD_POINT    // control point: along `vector` at `center`, falling to 0 at distance `scale`
+    FIELD_UNIFORM,   // along `vector` everywhere: a tropism
+    FIELD_RADIAL,    // away from `center`
+    FIELD_VORTEX,    // about the axis `vector` through `center`
+    FIELD_NUCLEI,    // away from the nearest nucleus, rotated about the normal by `turn` (Tanaka
+                     // eq. (9)-(12))
+    FIELD_GRID,      // FIELD_NUCLEI sampled on a sparse voxel grid, trilinear between voxels
+                     // (Tanaka 4.4)
+    FIELD_CURL,      // direction of divergence-free noise of wavelength `scale`
+    FIELD_CURVATURE, // along the envelope's lines of curvature, on the side of `vector`
+    FIELD_VOLUME,    // the vectors of a grid in a file, or the way up the values of a scalar one
+    FIELD_POINT      // control point: along `vector` at `center`, falling to 0 at distance `scale`
 } FieldKind;
 
 typedef enum FieldProfile {
@@ -64,10 +65,12 @@ typedef struct FieldParams {
     bool surface;   // stay in the tangent plane of the attractors' surface and rotate about its
                     // normal
     uint64_t seed;
-    const char *file, *grid; // FIELD_VOLUME: .vdb, and a name in it (NULL = the first); borrowed
-    Vec3 position, rotation; // m, degrees: of the file's space, scaled by `scale`
-    Transform from_file;     // made of them
-    int resolution;          // FIELD_GRID: voxels along the longest side; 0 = 48, at most 2048
+    bool least;               // FIELD_CURVATURE: of the least principal curvature, not the greatest
+    const Envelope *envelope; // FIELD_CURVATURE: the surface, used by guide_field_new alone
+    const char *file, *grid;  // FIELD_VOLUME: .vdb, and a name in it (NULL = the first); borrowed
+    Vec3 position, rotation;  // m, degrees: of the file's space, scaled by `scale`
+    Transform from_file;      // made of them
+    int resolution;           // FIELD_GRID: voxels along the longest side; 0 = 48, at most 2048
 } FieldParams;
 
 // The `pull` of a field in growth with this ColonizeParams.field_weight, where the attractors' pull

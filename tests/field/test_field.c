@@ -348,6 +348,45 @@ static void wrong_fields_are_errors(void **state)
     assert_string_equal(e.message, "a field's numbers must be finite");
 }
 
+// Around and along the middle of a capsule and of a prolate ellipsoid; nowhere on a sphere.
+static void curvature_leads_around_or_along(void **state)
+{
+    (void)state;
+    Run run = run_default();
+    Error e = {0};
+    const Shape shapes[3] = {
+        {.kind = SHAPE_CAPSULE, .size = {0.5f, 2, 0}, .transform = transform_identity()},
+        {.kind = SHAPE_ELLIPSOID, .size = {0.5f, 1.5f, 0.5f}, .transform = transform_identity()},
+        {.kind = SHAPE_SPHERE, .size = {1, 1, 1}, .transform = transform_identity()}};
+    for (int i = 0; i < 6; i++) {
+        EnvelopeParams envelope_params = {&shapes[i / 2], 1, 0};
+        Envelope *envelope = envelope_new(&envelope_params, &run, &e);
+        FieldParams params = field_params_default(FIELD_CURVATURE);
+        params.vector = vec3(0.1f, 1, 0.2f);
+        params.least = i % 2;
+        params.envelope = envelope;
+        GuideField *field =
+            guide_field_new(&params, 1, NULL, NULL, 0, envelope_bounds(envelope), &run, &e);
+        assert_non_null(field);
+        for (int k = 0; k < 32; k++) {
+            float s, c, y = (i / 2 == 0 ? 1.0f : 0.0f) + 0.3f * sinf((float)k);
+            exact_sincos(0.19635f * (float)k, &s, &c);
+            Vec3 normal = vec3(c, 0, s);
+            Vec3 x = guide_field_at(field, vec3(0.5f * c, y, 0.5f * s), normal);
+            if (i / 2 == 2) {
+                assert_true(vec3_length(x) < 1e-3f);
+                continue;
+            }
+            float up = fabsf(x.y);
+            assert_float_equal(vec3_length(x), 1.0f, 1e-4f);
+            assert_true(i % 2 ? up > 0.9f : up < 0.2f);
+            assert_true(vec3_dot(x, params.vector) >= 0.0f);
+        }
+        guide_field_free(field);
+        envelope_free(envelope);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -364,6 +403,7 @@ int main(void)
         cmocka_unit_test(growth_under_the_grown_profile_sweeps_the_turn),
         cmocka_unit_test(a_weak_field_under_the_grown_profile_does_its_best),
         cmocka_unit_test(wrong_fields_are_errors),
+        cmocka_unit_test(curvature_leads_around_or_along),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -149,8 +149,8 @@ bool check_field(const Mapping *mapping, void *params)
     FieldParams *field = params;
     field->from_file =
         transform_compose(field->position, field->rotation, vec3_splat(field->scale));
-    bool needs_vector =
-        field->kind == FIELD_UNIFORM || field->kind == FIELD_VORTEX || field->kind == FIELD_POINT;
+    bool needs_vector = field->kind == FIELD_UNIFORM || field->kind == FIELD_VORTEX ||
+                        field->kind == FIELD_POINT || field->kind == FIELD_CURVATURE;
     return !needs_vector || vec3_length(field->vector) > 0.0f ||
            mapping_fail(mapping, "vector", " is zero; it must have a direction");
 }

@@ -89,6 +89,7 @@ static GuideField *element_field(const OutTree *tree, int64_t nuclei, const Elem
         fields[i] = element->fields[i];
         fields[i].seed = random_key(seed, (uint64_t)i);
         fields[i].pull = field_params_pull(&fields[i], element->growth.field_weight);
+        fields[i].envelope = envelope;
         if (fields[i].spherical) {
             fields[i].center = sphere_center(element, bounds);
         }

@@ -3,10 +3,11 @@
 
 #define BIT(kind) (1u << (kind))
 
-static const EnumName FIELD_KINDS[] = {
-    {"uniform", FIELD_UNIFORM}, {"radial", FIELD_RADIAL}, {"vortex", FIELD_VORTEX},
-    {"nuclei", FIELD_NUCLEI},   {"grid", FIELD_GRID},     {"curl", FIELD_CURL},
-    {"volume", FIELD_VOLUME},   {"point", FIELD_POINT},   {0}};
+static const EnumName FIELD_KINDS[] = {{"uniform", FIELD_UNIFORM},     {"radial", FIELD_RADIAL},
+                                       {"vortex", FIELD_VORTEX},       {"nuclei", FIELD_NUCLEI},
+                                       {"grid", FIELD_GRID},           {"curl", FIELD_CURL},
+                                       {"curvature", FIELD_CURVATURE}, {"volume", FIELD_VOLUME},
+                                       {"point", FIELD_POINT},         {0}};
 const EnumName field_profiles[] = {
     {"swept", PROFILE_SWEPT}, {"constant", PROFILE_CONSTANT}, {"grown", PROFILE_GROWN}, {0}};
 static const EnumName NUCLEUS_KINDS[] = {
@@ -55,13 +56,16 @@ static const Key FIELD_KEYS[] = {
      .doc =
          "uniform: `vector` everywhere; radial: away from `center`; vortex: around the axis "
          "`vector` through `center`; nuclei: away from the nearest nucleus, turned by `turn`; "
-         "grid: the same, sampled on voxels; curl: swirling curl noise; volume: the vectors of a "
+         "grid: the same, sampled on voxels; curl: swirling curl noise; curvature: along the lines "
+         "of "
+         "curvature of the envelope's surface, on the side of `vector`; volume: the vectors of a "
          "grid in `file`, or the way in which a scalar grid's values rise; point: `vector` at "
          "`center`, fading over `scale`."},
     {KEY_OF(FieldParams, weight, "weight", KEY_FLOAT), .low = -1000, .high = 1000,
      .doc = "Weight in the sum of the fields; a negative weight reverses the field."},
     {KEY_OF(FieldParams, vector, "vector", KEY_VECTOR), .count = 3,
-     .kinds = BIT(FIELD_UNIFORM) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT) | NUCLEI,
+     .kinds =
+         BIT(FIELD_UNIFORM) | BIT(FIELD_VORTEX) | BIT(FIELD_POINT) | BIT(FIELD_CURVATURE) | NUCLEI,
      .doc = "Direction of the field; for vortex, nuclei and grid, the axis of rotation. For nuclei "
             "and grid, zero = the normal of the nearest nucleus: of a start on a surface the "
             "surface's, of a line its direction, otherwise up."},
@@ -86,6 +90,9 @@ static const Key FIELD_KEYS[] = {
      .high = 1e6, .unit = "m",
      .doc = "Wavelength of the noise (curl), distance over which the vector fades (point), or the "
             "file's unit (volume)."},
+    {KEY_OF(FieldParams, least, "least", KEY_BOOL), .kinds = BIT(FIELD_CURVATURE),
+     .doc = "Along the least curvature (of a branch or a wrinkle: its length) instead of the "
+            "greatest (around it)."},
     {KEY_OF(FieldParams, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(FIELD_VOLUME),
      .doc = "VDB file with a grid of float vectors or of floats."},
     {KEY_OF(FieldParams, grid, "grid", KEY_TEXT), .kinds = BIT(FIELD_VOLUME),
