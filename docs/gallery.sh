@@ -96,7 +96,7 @@ still twisted twisted --size 1600x900
 still forest forest --samples 24
 if is_wanted figure-10; then
     for time in 0.2 0.45 0.62 0.8 0.9 1; do
-        panel oak --size 426x360 --denoise --samples 16 --set camera.fov=44 --grow-to "$time"
+        panel oak --size 534x450 --denoise --samples 16 --set camera.fov=44 --grow-to "$time"
     done
     sheet figure-10 3x2
 fi
