@@ -79,7 +79,7 @@ still venation venation
 
 # ---- vessels ----
 
-still figure-14 vessels-forks
+still figure-14 vessels-forks --size 1600x900
 still vessels-organ vessels-organ
 still vessels-body vessels-body
 if is_wanted figure-15; then
@@ -91,7 +91,7 @@ fi
 
 # ---- trees, fields, forest ----
 
-still figure-9 field-grid
+still figure-9 field-grid --size 1600x900
 still twisted twisted --size 1600x900
 still forest forest --samples 24
 if is_wanted figure-10; then
@@ -113,15 +113,15 @@ if is_wanted figure-11; then
     sheet figure-11 5x1
 fi
 if is_wanted figure-12; then
-    for share in 0.2 0.45 0.7 1; do panel lightning-surface --grow-to $share --size 640x360 --samples 6; done
+    for share in 0.2 0.45 0.7 1; do panel lightning-surface --grow-to $share --size 800x450 --samples 6; done
     sheet figure-12 2x2
 fi
 still lsystem-tree lsystem-tree
 if is_wanted coral-figure-2; then
-    panel coral-figure-2 --size 640x480
-    panel coral-figure-2-b --size 640x480
-    panel coral-figure-2 --size 640x480 --set objects.coral.coral.rule=mean
-    panel coral-figure-2 --size 640x480 --set objects.coral.coral.rule=mean --set objects.coral.coral.colonies=2 \
+    panel coral-figure-2 --size 800x600
+    panel coral-figure-2-b --size 800x600
+    panel coral-figure-2 --size 800x600 --set objects.coral.coral.rule=mean
+    panel coral-figure-2 --size 800x600 --set objects.coral.coral.rule=mean --set objects.coral.coral.colonies=2 \
         --set objects.coral.coral.size=0.52 --set objects.coral.coral.height=0.6
     sheet coral-figure-2 2x2
 fi
@@ -147,7 +147,7 @@ if is_wanted figure-8; then
 fi
 if is_wanted figure-13; then
     for step in 0.12 0.3 0.55 1; do
-        panel frost-window --size 720x405 --grow-to "$step"
+        panel frost-window --size 800x450 --grow-to "$step"
     done
     sheet figure-13 2x2
 fi
@@ -163,26 +163,26 @@ still mountains mountains
 still badlands badlands
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
-        panel terrain-strip --set objects.range.material=relief --set objects.range.terrain.rivers.water=0 \
+        panel terrain-strip --size 800x450 --set objects.range.material=relief --set objects.range.terrain.rivers.water=0 \
             --set objects.range.terrain.noise.iterations=$iterations
     done
     sheet figure-16 2x2
 fi
 if is_wanted figure-17; then
-    panel terrain-strip --set objects.range.material=relief --set objects.range.terrain.relief=1 \
+    panel terrain-strip --size 800x450 --set objects.range.material=relief --set objects.range.terrain.relief=1 \
         --set objects.range.terrain.rivers.water=0.03 --set objects.range.terrain.noise.iterations=0
-    panel terrain-strip --set objects.range.material=relief --set objects.range.terrain.rivers.water=0 \
+    panel terrain-strip --size 800x450 --set objects.range.material=relief --set objects.range.terrain.rivers.water=0 \
         --set objects.range.terrain.noise.iterations=0
-    panel terrain-strip --set objects.range.material=relief --set objects.range.terrain.rivers.water=0
-    panel terrain-strip
+    panel terrain-strip --size 800x450 --set objects.range.material=relief --set objects.range.terrain.rivers.water=0
+    panel terrain-strip --size 800x450
     sheet figure-17 2x2
 fi
 if is_wanted figure-21; then
-    panel terrain-strip --set seed=8 --set objects.range.terrain.water_level=0.12
-    panel terrain-strip --set 'objects.range.terrain.rivers.fields=[{kind: vortex, vector: [0, 1, 0], center: [0, 0, 0]}]'
-    panel terrain-strip --set objects.range.terrain.rivers.count=150 --set objects.range.terrain.relief=950 \
+    panel terrain-strip --size 800x450 --set seed=8 --set objects.range.terrain.water_level=0.12
+    panel terrain-strip --size 800x450 --set 'objects.range.terrain.rivers.fields=[{kind: vortex, vector: [0, 1, 0], center: [0, 0, 0]}]'
+    panel terrain-strip --size 800x450 --set objects.range.terrain.rivers.count=150 --set objects.range.terrain.relief=950 \
         --set objects.range.terrain.erosion.streams=1
-    panel terrain-strip --set objects.range.material=badlands --set objects.range.terrain.relief=500 \
+    panel terrain-strip --size 800x450 --set objects.range.material=badlands --set objects.range.terrain.relief=500 \
         --set objects.range.terrain.terraces.count=7 --set objects.range.terrain.terraces.strength=0.9 \
         --set objects.range.terrain.rivers.water=0
     sheet figure-21 2x2
