@@ -192,9 +192,10 @@ static bool choose_growers(Growth *growth, Error *e)
 static int keep_free(const Growth *growth, const Grower *grower, Child *child, int count)
 {
     const Room *room = growth->params->room;
+    Vec3 normal = growth->params->on_surface ? grower->normal : vec3(0, 0, 0);
     int kept = 0;
     for (int i = 0; i < count; i++) {
-        if (!room || room_give_way(room, grower->position, &child[i].position)) {
+        if (!room || room_give_way(room, grower->position, normal, &child[i].position)) {
             child[kept++] = child[i];
         }
     }

@@ -22,21 +22,38 @@ static bool way_is_free(const Room *room, Vec3 from, float at_start, Vec3 to)
     return clearance >= 0.0f || clearance > at_start;
 }
 
-bool room_give_way(const Room *room, Vec3 from, Vec3 *child)
+// The step turned toward free space: `share` of what leads into taken space is removed, and the
+// rest, along its border, stretched to the old length. False if nothing is left.
+static bool turn_aside(const Room *room, Vec3 from, Vec3 normal, float share, Vec3 *child)
+{
+    Vec3 away, step = vec3_sub(*child, from);
+    float depth = -room->clearance(room->user, *child, &away), length = vec3_length(step);
+    away = vec3_madd(away, -vec3_dot(away, normal), normal);
+    if (!(vec3_dot(away, away) > 0.0f)) {
+        return false;
+    }
+    away = vec3_normalize(away);
+    float inward = -vec3_dot(step, away);
+    float push = (inward > 0.0f ? share * inward : 0.0f) + (depth > 0.0f ? 0.25f * depth : 0.0f);
+    step = vec3_madd(step, push, away);
+    if (!(vec3_length(step) > 1e-3f * length)) {
+        return false;
+    }
+    *child = vec3_madd(from, length, vec3_normalize(step));
+    return true;
+}
+
+bool room_give_way(const Room *room, Vec3 from, Vec3 normal, Vec3 *child)
 {
     Vec3 away;
-    float step = vec3_distance(from, *child);
     float at_start = room->clearance(room->user, from, &away);
-    for (int turn = 0; turn < MOST_TURNS; turn++) {
+    for (int turn = 1; turn <= MOST_TURNS; turn++) {
         if (way_is_free(room, from, at_start, *child)) {
             return true;
         }
-        float depth = -room->clearance(room->user, *child, &away);
-        Vec3 aside = vec3_madd(vec3_sub(*child, from), 1.25f * (depth > 0.0f ? depth : step), away);
-        if (!(vec3_dot(away, away) > 0.0f) || !(vec3_length(aside) > 1e-3f * step)) {
+        if (!turn_aside(room, from, normal, (float)turn / (float)MOST_TURNS, child)) {
             return false;
         }
-        *child = vec3_madd(from, step, vec3_normalize(aside));
     }
     return way_is_free(room, from, at_start, *child);
 }

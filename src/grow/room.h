@@ -29,7 +29,8 @@ PointSet *room_allowed_points(const Room *room, const PointSet *points, const Ru
 
 // Makes a child of `from` at *child keep out of taken space: turns its step toward free space,
 // keeping the length. False if there is none. A child may be in taken space if its parent is deeper
-// in it, so that growth can leave an obstacle that it starts in.
-bool room_give_way(const Room *room, Vec3 from, Vec3 *child);
+// in it, so that growth can leave an obstacle that it starts in. normal: the step turns about this
+// unit vector alone, which keeps it on a surface; zero = in any direction.
+bool room_give_way(const Room *room, Vec3 from, Vec3 normal, Vec3 *child);
 
 #endif
