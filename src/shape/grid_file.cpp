@@ -1,10 +1,8 @@
-// With level_set.cpp the only file that uses OpenVDB: level_set.cpp makes one kind of grid, this
-// file reads and writes grids of any kind. openvdb comes first, because its headers conflict with
+// OpenVDB is used in three files: level_set.cpp makes level sets, vdb_read.cpp reads files, this
+// one collects and writes grids of any kind. openvdb comes first, because its headers conflict with
 // macros of other headers
 #include <openvdb/io/Archive.h>
-#include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
-#include <openvdb/tools/Interpolation.h>
 
 #include "base/hash.h"
 #include "shape/grid_file_internal.h"
@@ -31,7 +29,7 @@ namespace
 {
 
 // Runs f, which returns whether it succeeded, and converts exceptions to an Error.
-template <typename F> bool guarded(Error *e, ErrorCode code, const F &f)
+template <typename F> bool guarded(Error *e, const F &f)
 {
     try {
         SpareMemory spare;
@@ -39,9 +37,9 @@ template <typename F> bool guarded(Error *e, ErrorCode code, const F &f)
     } catch (const std::bad_alloc &) {
         return error_set(e, ERROR_MEMORY, "out of memory for OpenVDB grids");
     } catch (const std::exception &x) {
-        return error_set(e, code, "OpenVDB failed: %s", x.what());
+        return error_set(e, ERROR_INTERNAL, "OpenVDB failed: %s", x.what());
     } catch (...) {
-        return error_set(e, code, "OpenVDB failed");
+        return error_set(e, ERROR_INTERNAL, "OpenVDB failed");
     }
 }
 
@@ -78,20 +76,6 @@ void name_after_contents(std::string &bytes)
     }
 }
 
-template <typename Grid>
-bool value_at(const GridFile *grids, const char *name, Vec3 p, typename Grid::ValueType *value)
-{
-    for (const auto &base : grids->grids) {
-        auto grid = openvdb::gridConstPtrCast<Grid>(base);
-        if (grid && grid->getName() == name) {
-            openvdb::tools::GridSampler<Grid, openvdb::tools::BoxSampler> sampler(*grid);
-            *value = sampler.wsSample(openvdb::Vec3R(p.x, p.y, p.z));
-            return true;
-        }
-    }
-    return false;
-}
-
 // Voxels of a plane of constant x.
 struct Plane {
     std::vector<Vec3> value;
@@ -103,7 +87,7 @@ struct Plane {
 extern "C" GridFile *grid_file_new(Error *e)
 {
     GridFile *made = nullptr;
-    guarded(e, ERROR_INTERNAL, [&] {
+    guarded(e, [&] {
         openvdb::initialize();
         made = new GridFile;
         return true;
@@ -125,7 +109,7 @@ extern "C" bool grid_file_add_vectors(GridFile *grids, const char *name, Aabb bo
                                       GridVectors vectors, const void *context, const Run *run,
                                       Error *e)
 {
-    return guarded(e, ERROR_INTERNAL, [&] {
+    return guarded(e, [&] {
         auto grid = openvdb::Vec3SGrid::create();
         auto transform = openvdb::math::Transform::createLinearTransform(voxel);
         transform->postTranslate(openvdb::Vec3d(bounds.low.x, bounds.low.y, bounds.low.z));
@@ -163,7 +147,7 @@ extern "C" bool grid_file_add_vectors(GridFile *grids, const char *name, Aabb bo
 
 extern "C" bool grid_file_move(GridFile *grids, int64_t first, const Transform *motion, Error *e)
 {
-    return guarded(e, ERROR_INTERNAL, [&] {
+    return guarded(e, [&] {
         const float(*m)[4] = motion->m;
         // the library's vectors are rows, multiplied from the left
         const float rows[16] = {m[0][0], m[1][0], m[2][0], 0, m[0][1], m[1][1], m[2][1], 0,
@@ -191,43 +175,9 @@ extern "C" bool grid_file_move(GridFile *grids, int64_t first, const Transform *
 
 extern "C" bool grid_file_write(const GridFile *grids, const char *file, Error *e)
 {
-    return guarded(e, ERROR_INTERNAL, [&] {
+    return guarded(e, [&] {
         std::string bytes = Writer().bytes(grids->grids);
         name_after_contents(bytes);
         return file_replace(file, bytes.data(), bytes.size(), e);
     });
-}
-
-extern "C" GridFile *grid_file_read(const char *file, Error *e)
-{
-    std::unique_ptr<GridFile> made(grid_file_new(e));
-    bool done = made && guarded(e, ERROR_INPUT, [&] {
-                    openvdb::io::File in(file);
-                    in.open(false); // no delayed loading: the file may change
-                    made->grids = *in.getGrids();
-                    in.close();
-                    return true;
-                });
-    if (!done) {
-        if (made) {
-            error_prefix(e, "'%s' cannot be read as OpenVDB grids: ", file);
-        }
-        return nullptr;
-    }
-    return made.release();
-}
-
-extern "C" bool grid_file_float_at(const GridFile *grids, const char *name, Vec3 p, float *value)
-{
-    return value_at<openvdb::FloatGrid>(grids, name, p, value);
-}
-
-extern "C" bool grid_file_vector_at(const GridFile *grids, const char *name, Vec3 p, Vec3 *value)
-{
-    openvdb::Vec3s found;
-    bool there = value_at<openvdb::Vec3SGrid>(grids, name, p, &found);
-    if (there) {
-        *value = vec3(found.x(), found.y(), found.z());
-    }
-    return there;
 }

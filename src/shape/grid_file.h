@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-typedef struct GridFile GridFile; // grids in memory, to be written or just read
+typedef struct GridFile GridFile; // grids in memory, to be written
 
 GridFile *grid_file_new(Error *e);
 void grid_file_free(GridFile *grids); // NULL is fine
@@ -29,14 +29,6 @@ bool grid_file_move(GridFile *grids, int64_t first, const Transform *motion, Err
 
 // Writes the grids; equal grids give equal bytes. On failure an existing file stays unchanged.
 bool grid_file_write(const GridFile *grids, const char *file, Error *e);
-
-// Reads all grids of a file. ERROR_INPUT when it is not a valid .vdb.
-GridFile *grid_file_read(const char *file, Error *e);
-
-// Trilinear value at p of the named float or vector grid; false when there is no such grid. Slow
-// for many points of large grids.
-bool grid_file_float_at(const GridFile *grids, const char *name, Vec3 p, float *value);
-bool grid_file_vector_at(const GridFile *grids, const char *name, Vec3 p, Vec3 *value);
 
 #ifdef __cplusplus
 }

@@ -45,4 +45,28 @@ static inline const char *fixture_write(Fixture *fixture, const char *name, cons
     return fixture->path;
 }
 
+// Reads a scene from text that must be right.
+static inline Scene *fixture_read(Fixture *fixture, const char *text)
+{
+    Error e = {0};
+    Scene *scene =
+        scene_read(fixture_write(fixture, "scene.yaml", text, strlen(text)), NULL, 0, &e);
+    if (!scene) {
+        fail_msg("%s", e.message);
+    }
+    return scene;
+}
+
+// Reads a scene from text that must be refused, in these words and in this line.
+static inline void fixture_refuse(Fixture *fixture, const char *text, const char *why, int line)
+{
+    Error e = {0};
+    assert_null(scene_read(fixture_write(fixture, "scene.yaml", text, strlen(text)), NULL, 0, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    if (!strstr(e.message, why)) {
+        fail_msg("'%s' does not say '%s'", e.message, why);
+    }
+    assert_int_equal(e.line, line);
+}
+
 #endif

@@ -10,17 +10,6 @@
     "{levels: [{attractors: 150}, {attractors: 700}]}}, leaves: {max_count: 0}, skin: {levels: " \
     "0}}\n"
 
-static Scene *read_text(Fixture *fixture, const char *text)
-{
-    Error e = {0};
-    Scene *scene =
-        scene_read(fixture_write(fixture, "scene.yaml", text, strlen(text)), NULL, 0, &e);
-    if (!scene) {
-        fail_msg("%s", e.message);
-    }
-    return scene;
-}
-
 static OutTree *grow(const Scene *scene)
 {
     Run run = run_default();
@@ -38,7 +27,7 @@ static void assert_carried(void **state, const char *deform, const Transform *t)
 {
     char text[1024];
     snprintf(text, sizeof text, OAK "    deform: [{kind: affine, %s}]\n", deform);
-    Scene *rest = read_text(*state, OAK), *scene = read_text(*state, text);
+    Scene *rest = fixture_read(*state, OAK), *scene = fixture_read(*state, text);
     OutTree *a = grow(rest), *b = grow(scene);
     assert_int_equal(a->count, b->count);
     assert_memory_equal(a->radius, b->radius, (size_t)a->count * sizeof *a->radius);
@@ -64,7 +53,7 @@ static void turns_and_shears_carry_every_node(void **state)
 // A keyed deformation does not grow the object again, and gives the bits of a fresh build.
 static void keyed_deformations_keep_the_growth(void **state)
 {
-    Scene *first = read_text(
+    Scene *first = fixture_read(
         *state, OAK "    deform: [{kind: bend, toward: [0, 0, 1], angle: 10, length: 6}]\n");
     Error e = {0};
     SceneChange change = {.path = "objects.oak.deform.0.angle", .value = "25", .source = "test"};
@@ -98,8 +87,8 @@ static void keyed_deformations_keep_the_growth(void **state)
 static void plain_meshes_are_carried(void **state)
 {
     Scene *scene =
-        read_text(*state, "objects:\n  - name: ball\n    shape: {envelope: [{shape: sphere}]}\n"
-                          "    deform: [{kind: affine, scale: [2, 1, 1], move: [5, 0, 0]}]\n");
+        fixture_read(*state, "objects:\n  - name: ball\n    shape: {envelope: [{shape: sphere}]}\n"
+                             "    deform: [{kind: affine, scale: [2, 1, 1], move: [5, 0, 0]}]\n");
     Run run = run_default();
     Error e = {0};
     World *world = scene_build(scene, &run, NULL, &e);
@@ -112,24 +101,17 @@ static void plain_meshes_are_carried(void **state)
     scene_free(scene);
 }
 
-static void refuse(void **state, const char *text, const char *why, int line)
-{
-    Error e = {0};
-    assert_null(scene_read(fixture_write(*state, "scene.yaml", text, strlen(text)), NULL, 0, &e));
-    assert_int_equal(e.code, ERROR_INPUT);
-    if (!strstr(e.message, why)) {
-        fail_msg("'%s' does not say '%s'", e.message, why);
-    }
-    assert_int_equal(e.line, line);
-}
-
 static void what_cannot_be_carried_is_refused(void **state)
 {
-    refuse(state, "objects:\n  - name: land\n    ground: {}\n    deform: [{kind: twist}]\n",
-           "objects of kind ground cannot be deformed", 4);
-    refuse(state, OAK "    deform: [{kind: bend, toward: [0, 2, 0]}]\n", "must lean across it", 4);
-    refuse(state, OAK "    deform: [{kind: twist, axis: [0, 0, 0]}]\n", "must have a direction", 4);
-    refuse(state, OAK "    deform: [{kind: mesh, rest: a.obj, posed: b.obj}]\n", "a.obj", 4);
+    fixture_refuse(*state,
+                   "objects:\n  - name: land\n    ground: {}\n    deform: [{kind: twist}]\n",
+                   "objects of kind ground cannot be deformed", 4);
+    fixture_refuse(*state, OAK "    deform: [{kind: bend, toward: [0, 2, 0]}]\n",
+                   "must lean across it", 4);
+    fixture_refuse(*state, OAK "    deform: [{kind: twist, axis: [0, 0, 0]}]\n",
+                   "must have a direction", 4);
+    fixture_refuse(*state, OAK "    deform: [{kind: mesh, rest: a.obj, posed: b.obj}]\n", "a.obj",
+                   4);
 }
 
 int main(void)

@@ -6,17 +6,6 @@
 
 #include "scene_fixture.h"
 
-static Scene *read_text(Fixture *fixture, const char *text)
-{
-    Error e = {0};
-    Scene *scene =
-        scene_read(fixture_write(fixture, "scene.yaml", text, strlen(text)), NULL, 0, &e);
-    if (!scene) {
-        fail_msg("%s", e.message);
-    }
-    return scene;
-}
-
 static OutTree *grow(const Scene *scene)
 {
     Run run = run_default();
@@ -63,9 +52,9 @@ static double share_left(const OutTree *tree, float middle)
 static void growth_follows_a_picture(void **state)
 {
     write_picture(*state);
-    Scene *scene = read_text(*state, DISC("0", "0", ""));
-    Scene *inverted = read_text(*state, DISC("0", "0", ", invert: true"));
-    Scene *moved = read_text(*state, DISC("3", "180", ""));
+    Scene *scene = fixture_read(*state, DISC("0", "0", ""));
+    Scene *inverted = fixture_read(*state, DISC("0", "0", ", invert: true"));
+    Scene *moved = fixture_read(*state, DISC("3", "180", ""));
     OutTree *a = grow(scene), *b = grow(inverted), *c = grow(moved);
     assert_true(a->count > 300);
     assert_true(share_left(a, 0.0f) > 0.97);
@@ -99,7 +88,7 @@ static void write_ball(const Fixture *fixture)
 static void growth_follows_a_grid(void **state)
 {
     write_ball(*state);
-    Scene *scene = read_text(
+    Scene *scene = fixture_read(
         *state,
         "objects:\n  - name: a\n    outtree:\n      envelope: [{shape: box, size: 1}]\n      "
         "placed: {points: [{position: [0, 0, 0]}]}\n      growth: {levels: [{attractors: 1500}]}\n"
@@ -116,7 +105,7 @@ static void growth_follows_a_grid(void **state)
 static void an_unknown_grid_has_its_place(void **state)
 {
     write_ball(*state);
-    Scene *scene = read_text(
+    Scene *scene = fixture_read(
         *state,
         "objects:\n  - name: a\n    outtree:\n      envelope: [{shape: box, size: 1}]\n      "
         "placed: {points: [{position: [0, 0, 0]}]}\n      points:\n        density:\n"
@@ -143,7 +132,7 @@ static void growth_follows_the_vectors_of_a_grid(void **state)
                  "      fields: [{kind: volume, file: ball.vdb, weight: %s}]\n"
                  "      growth: {field_weight: 3, levels: [{attractors: 1500}]}\n",
                  i == 0 ? "1" : "0");
-        Scene *scene = read_text(*state, text);
+        Scene *scene = fixture_read(*state, text);
         OutTree *tree = grow(scene);
         double along = 0.0, count = 0.0;
         for (int64_t k = 1; k < tree->count; k++) {

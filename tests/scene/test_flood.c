@@ -14,17 +14,6 @@
     "fern_radius: 30, leaves: {max_count: 50}}\n"
 #define POND "shape: {envelope: [{shape: box, size: [15, 1, 15], position: [15, -0.5, 0]}]}\n"
 
-static Scene *read_text(Fixture *fixture, const char *text)
-{
-    Error e = {0};
-    Scene *scene =
-        scene_read(fixture_write(fixture, "scene.yaml", text, strlen(text)), NULL, 0, &e);
-    if (!scene) {
-        fail_msg("%s", e.message);
-    }
-    return scene;
-}
-
 // Things with instances, and those of them in x 0.5 .. 29.5, z -14.5 .. 14.5: where the pond lies.
 typedef struct Plants {
     int all, in_pond;
@@ -46,7 +35,7 @@ static Plants count_plants(const World *world)
 
 static Plants plants_of(Fixture *fixture, const char *text)
 {
-    Scene *scene = read_text(fixture, text);
+    Scene *scene = fixture_read(fixture, text);
     Error e = {0};
     Run run = run_default();
     World *world = scene_build(scene, &run, NULL, &e);
@@ -98,9 +87,9 @@ static void nothing_stands_under_the_sea(void **state)
 static void a_pond_that_dries_up_frees_the_land(void **state)
 {
     Scene *scene =
-        read_text(*state, "objects:\n" WOODS "  - name: pond\n    material: lake\n    " POND
-                          "  - name: stone\n    shape: {envelope: [{shape: sphere, "
-                          "size: 1, position: [-50, 0, 0]}]}\n");
+        fixture_read(*state, "objects:\n" WOODS "  - name: pond\n    material: lake\n    " POND
+                             "  - name: stone\n    shape: {envelope: [{shape: sphere, "
+                             "size: 1, position: [-50, 0, 0]}]}\n");
     Error e = {0};
     Run run = run_default();
     BuildStats stats = {0};

@@ -17,21 +17,6 @@
 #define CONTEST(GAP) "    contest: {group: grove, gap: " GAP "}\n"
 #define CLEAR "    clear_of: [{object: rock, distance: 0.1}]\n"
 
-static Scene *try_text(Fixture *fixture, const char *text, Error *e)
-{
-    return scene_read(fixture_write(fixture, "scene.yaml", text, strlen(text)), NULL, 0, e);
-}
-
-static Scene *read_text(Fixture *fixture, const char *text)
-{
-    Error e = {0};
-    Scene *scene = try_text(fixture, text, &e);
-    if (!scene) {
-        fail_msg("%s", e.message);
-    }
-    return scene;
-}
-
 static OutTree *grow(const Scene *scene, const char *name, int threads)
 {
     Run run = run_default();
@@ -77,8 +62,8 @@ static float least_between(const OutTree *a, const OutTree *b)
 
 static void test_obstacle_is_kept_clear(void **state)
 {
-    Scene *free_scene = read_text(*state, "objects:\n" ROCK TREE("oak", "0.9", ""));
-    Scene *scene = read_text(*state, "objects:\n" TREE("oak", "0.9", CLEAR) ROCK);
+    Scene *free_scene = fixture_read(*state, "objects:\n" ROCK TREE("oak", "0.9", ""));
+    Scene *scene = fixture_read(*state, "objects:\n" TREE("oak", "0.9", CLEAR) ROCK);
     OutTree *alone = grow(free_scene, "oak", 2), *tree = grow(scene, "oak", 2);
     Vec3 rock = vec3(0, 3.5f, 0);
     assert_true(least_to(alone, rock) < 1.0f); // it would grow through the rock
@@ -100,7 +85,7 @@ static void test_growth_stays_within(void **state)
 {
     const char *text = "objects:\n" ROCK TREE(
         "ivy", "0.2", "    clear_of: [{object: rock, distance: 0.02, within: 0.3}]\n");
-    Scene *scene = read_text(*state, text);
+    Scene *scene = fixture_read(*state, text);
     OutTree *tree = grow(scene, "ivy", 1);
     int64_t near = 0, tips = 0;
     for (int64_t i = 0; i < tree->count; i++) {
@@ -117,9 +102,9 @@ static void test_growth_stays_within(void **state)
 
 static void test_rivals_keep_apart(void **state)
 {
-    Scene *alone = read_text(*state, "objects:\n" TREE("a", "-0.7", "") TREE("b", "0.7", ""));
-    Scene *scene = read_text(*state, "objects:\n" TREE("a", "-0.7", CONTEST("0.15"))
-                                         TREE("b", "0.7", CONTEST("0.15")));
+    Scene *alone = fixture_read(*state, "objects:\n" TREE("a", "-0.7", "") TREE("b", "0.7", ""));
+    Scene *scene = fixture_read(*state, "objects:\n" TREE("a", "-0.7", CONTEST("0.15"))
+                                            TREE("b", "0.7", CONTEST("0.15")));
     OutTree *a0 = grow(alone, "a", 2), *b0 = grow(alone, "b", 2);
     OutTree *a = grow(scene, "a", 2), *b = grow(scene, "b", 2);
     assert_true(least_between(a0, b0) < 0.02f); // they interpenetrate without the contest
@@ -149,11 +134,11 @@ static void test_rivals_keep_apart(void **state)
 
 static void test_threads_and_neighbours_do_not_show(void **state)
 {
-    Scene *scene = read_text(*state, BATTLE);
+    Scene *scene = fixture_read(*state, BATTLE);
     OutTree *one = grow(scene, "b", 1), *three = grow(scene, "b", 3);
     assert_same(one, three);
     // an object outside the contest grows as it does alone
-    Scene *alone = read_text(*state, "objects:\n" TREE("c", "5", ""));
+    Scene *alone = fixture_read(*state, "objects:\n" TREE("c", "5", ""));
     OutTree *c = grow(scene, "c", 1), *lone = grow(alone, "c", 1);
     assert_same(c, lone);
     out_tree_free(one);
@@ -180,7 +165,7 @@ static int64_t nodes_built(const Scene *scene)
 // A builder that changes one rival or the obstacle regrows all that depend on it.
 static void test_builder_regrows_neighbours(void **state)
 {
-    Scene *first = read_text(*state, BATTLE);
+    Scene *first = fixture_read(*state, BATTLE);
     Error e = {0};
     SceneChange change = {.path = "objects.a.seed", .value = "77", .source = "test"};
     Scene *second = scene_changed(first, &change, 1, &e);
@@ -212,7 +197,7 @@ static void test_builder_regrows_neighbours(void **state)
 
 static void test_failure_and_cancel_end_all(void **state)
 {
-    Scene *scene = read_text(
+    Scene *scene = fixture_read(
         *state, "objects:\n" TREE("a", "-0.7",
                                   CONTEST("0.15")) "  - name: b\n"
                                                    "    coral: {axiom: 'F('}\n" CONTEST("0.15"));
@@ -224,7 +209,7 @@ static void test_failure_and_cancel_end_all(void **state)
     assert_int_equal(e.line, 6);
     volatile int cancelled = 1;
     run.cancelled = &cancelled;
-    Scene *fine = read_text(*state, BATTLE);
+    Scene *fine = fixture_read(*state, BATTLE);
     e = (Error){0};
     assert_null(scene_grow_object(fine, 1, &run, &e));
     assert_int_equal(e.code, ERROR_CANCELLED);
@@ -232,37 +217,29 @@ static void test_failure_and_cancel_end_all(void **state)
     scene_free(scene);
 }
 
-static void refuse(void **state, const char *text, const char *why, int line)
-{
-    Error e = {0};
-    assert_null(try_text(*state, text, &e));
-    assert_int_equal(e.code, ERROR_INPUT);
-    if (!strstr(e.message, why)) {
-        fail_msg("'%s' does not say '%s'", e.message, why);
-    }
-    assert_int_equal(e.line, line);
-}
-
 static void test_refusals(void **state)
 {
-    refuse(state, "objects:\n  - name: a\n    tree: {}\n    clear_of: [{object: rack}]\n" ROCK,
-           "there is no object 'rack'; did you mean 'rock'", 4);
-    refuse(state, "objects:\n  - name: a\n    tree: {}\n    clear_of: [{object: a}]\n",
-           "leads back to 'a' itself", 4);
-    refuse(state,
-           "objects:\n  - name: a\n    tree: {}\n    clear_of: [{object: b}]\n"
-           "  - name: b\n    tree: {}\n    clear_of: [{object: a}]\n",
-           "leads back to 'a' itself", 4);
-    refuse(state,
-           "objects:\n  - name: a\n    tree: {}\n    contest: {group: g}\n    clear_of: [{object: "
-           "b}]\n  - name: b\n    tree: {}\n    contest: {group: g}\n",
-           "leads back to 'a' itself", 5);
-    refuse(state, "objects:\n" ROCK "    contest: {group: g}\n",
-           "objects of kind shape do not grow among others", 4);
-    refuse(state,
-           "objects:\n" ROCK "  - name: a\n    tree: {}\n    clear_of:\n      - {object: rock, "
-           "distance: 0.2, within: 0.1}\n",
-           "it must be above distance", 7);
+    fixture_refuse(*state,
+                   "objects:\n  - name: a\n    tree: {}\n    clear_of: [{object: rack}]\n" ROCK,
+                   "there is no object 'rack'; did you mean 'rock'", 4);
+    fixture_refuse(*state, "objects:\n  - name: a\n    tree: {}\n    clear_of: [{object: a}]\n",
+                   "leads back to 'a' itself", 4);
+    fixture_refuse(*state,
+                   "objects:\n  - name: a\n    tree: {}\n    clear_of: [{object: b}]\n"
+                   "  - name: b\n    tree: {}\n    clear_of: [{object: a}]\n",
+                   "leads back to 'a' itself", 4);
+    fixture_refuse(
+        *state,
+        "objects:\n  - name: a\n    tree: {}\n    contest: {group: g}\n    clear_of: [{object: "
+        "b}]\n  - name: b\n    tree: {}\n    contest: {group: g}\n",
+        "leads back to 'a' itself", 5);
+    fixture_refuse(*state, "objects:\n" ROCK "    contest: {group: g}\n",
+                   "objects of kind shape do not grow among others", 4);
+    fixture_refuse(*state,
+                   "objects:\n" ROCK
+                   "  - name: a\n    tree: {}\n    clear_of:\n      - {object: rock, "
+                   "distance: 0.2, within: 0.1}\n",
+                   "it must be above distance", 7);
 }
 
 int main(void)
