@@ -1,4 +1,4 @@
-// Definition of GridFile, for the two files that use OpenVDB. C++.
+// Definition of GridFile, for the three files that use OpenVDB. C++.
 #ifndef RAMIFY_SHAPE_GRID_FILE_INTERNAL_H
 #define RAMIFY_SHAPE_GRID_FILE_INTERNAL_H
 
