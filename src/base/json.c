@@ -1,5 +1,7 @@
 #include "base/json.h"
 
+#include <math.h>
+
 void json_put_string(FILE *stream, const char *text)
 {
     fputc('"', stream);
@@ -12,4 +14,13 @@ void json_put_string(FILE *stream, const char *text)
         }
     }
     fputc('"', stream);
+}
+
+void json_put_number(FILE *stream, double value, int digits)
+{
+    if (isfinite(value)) {
+        fprintf(stream, "%.*g", digits, value);
+    } else {
+        fputs("null", stream);
+    }
 }

@@ -29,6 +29,10 @@ RamifyScene *command_scene(const Options *options, RamifyError *e);
 // Limits for comparing pictures; negative if not given.
 RamifyLimits command_limits(const Options *options);
 
+// Index of an option's word in a list; -1 and e when it is not there. NULL gives 0.
+int command_choice(const char *option, const char *word, const char *const known[], int count,
+                   RamifyError *e);
+
 // The path without its folders.
 const char *file_name(const char *path);
 

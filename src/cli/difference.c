@@ -1,6 +1,7 @@
 #include "cli/difference.h"
 
-#include <math.h>
+#include "base/json.h"
+
 #include <stdio.h>
 
 static bool of_one_size(const RamifyDifference *d)
@@ -24,15 +25,10 @@ void difference_print(const RamifyDifference *d, double threshold)
     printf("perceptual %.6g", d->perceptual);
 }
 
-// JSON has no infinity.
 static void print_number(const char *name, double value)
 {
     printf(", \"%s\": ", name);
-    if (isfinite(value)) {
-        printf("%.6g", value);
-    } else {
-        printf("null");
-    }
+    json_put_number(stdout, value, 6);
 }
 
 void difference_print_json(const RamifyDifference *d)

@@ -5,28 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
-// Index of the word in a list; -1 and e when it is not there. NULL gives 0.
-static int choice(const char *option, const char *word, const char *const known[], int count,
-                  RamifyError *e)
-{
-    char list[128];
-    for (int i = 0, used = 0; i < count; i++) {
-        if (!word || strcmp(word, known[i]) == 0) {
-            return i;
-        }
-        used +=
-            snprintf(list + used, sizeof list - (size_t)used, "%s%s", i > 0 ? ", " : "", known[i]);
-    }
-    fail(e, RAMIFY_BAD_INPUT, "--%s %.60s; it must be one of %s", option, word, list);
-    return -1;
-}
-
 static bool read_options(const Options *options, RamifyExportOptions *own, RamifyError *e)
 {
     static const char *const instances[] = {"auto", "nodes", "gpu", "flat"};
     static const char *const colors[] = {"all", "pattern", "growth", "none"};
-    int how = choice("instances", options->instances, instances, 4, e);
-    int what = how >= 0 ? choice("colors", options->colors, colors, 4, e) : -1;
+    int how = command_choice("instances", options->instances, instances, 4, e);
+    int what = how >= 0 ? command_choice("colors", options->colors, colors, 4, e) : -1;
     if (what < 0) {
         return false;
     }

@@ -1,22 +1,17 @@
-// ramify fit: finds parameters with which a scene meets its targets, and prints the way.
-#include "base/json.h"
+// ramify fit: finds parameters with which a scene meets its targets.
 #include "cli/command.h"
+#include "cli/fit_report.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEAST_COLUMN = 10, MOST_COLUMN = 20 };
-
 // The work, for the callback that prints a line of the table.
-typedef struct Table {
-    const RamifyScene *scene;
-    const RamifyRange *ranges;
-    int range_count, target_count;
+typedef struct Work {
+    FitReport report;
     Progress *progress;
     bool silent; // JSON follows at the end
-} Table;
+} Work;
 
 // ---- ranges
 
@@ -76,188 +71,6 @@ static RamifyRange *read_ranges(const Options *options, RamifyError *e)
         ranges = NULL;
     }
     return ranges;
-}
-
-// ---- the table
-
-static const char *path_end(const char *path)
-{
-    const char *end = path + strlen(path);
-    bool is_number = true; // of a list's entry, which tells nothing alone
-    while (end > path && (end[-1] != '.' || is_number)) {
-        end--;
-        is_number = is_number && (*end == '.' || (*end >= '0' && *end <= '9'));
-    }
-    return end;
-}
-
-static int column_width(const char *title)
-{
-    int length = (int)strlen(title);
-    return length < LEAST_COLUMN ? LEAST_COLUMN : (length > MOST_COLUMN ? MOST_COLUMN : length);
-}
-
-static void print_title(const char *title)
-{
-    printf("  %*.*s", column_width(title), MOST_COLUMN, title);
-}
-
-static void print_value(const char *title, double value)
-{
-    if (isfinite(value)) {
-        printf("  %*.6g", column_width(title), value);
-    } else {
-        printf("  %*s", column_width(title), "-");
-    }
-}
-
-static RamifyTarget target_at(const Table *table, int index)
-{
-    RamifyTarget target;
-    ramify_scene_target(table->scene, index, &target);
-    return target;
-}
-
-static void print_head(const Table *table)
-{
-    for (int i = 0; i < table->range_count; i++) {
-        const RamifyRange *range = &table->ranges[i];
-        printf("vary    %s in %.9g .. %.9g%s\n", range->path, range->low, range->high,
-               range->logarithmic ? ", logarithmic" : "");
-    }
-    for (int i = 0; i < table->target_count; i++) {
-        RamifyTarget target = target_at(table, i);
-        printf("target  %s %s in %.9g .. %.9g\n", target.object, target.measure, target.low,
-               target.high);
-    }
-    printf("   no     misfit");
-    for (int i = 0; i < table->range_count; i++) {
-        print_title(path_end(table->ranges[i].path));
-    }
-    for (int i = 0; i < table->target_count; i++) {
-        print_title(target_at(table, i).measure);
-    }
-    printf("\n");
-}
-
-static void print_line(const Table *table, const RamifyFit *fit, int index, bool best)
-{
-    RamifyEvaluation step;
-    ramify_fit_evaluation(fit, index, &step);
-    printf("%c%4d", best ? '*' : ' ', index + 1);
-    print_value("", step.misfit);
-    for (int i = 0; i < table->range_count; i++) {
-        print_value(path_end(table->ranges[i].path), step.parameters[i]);
-    }
-    for (int i = 0; !step.failure && i < table->target_count; i++) {
-        print_value(target_at(table, i).measure, step.measures[i]);
-    }
-    printf("%s%s\n", step.failure ? "  " : "", step.failure ? step.failure : "");
-}
-
-static void evaluated(void *user, const RamifyFit *fit)
-{
-    const Table *table = user;
-    RamifyFitInfo info;
-    ramify_fit_info(fit, &info);
-    if (table->silent) {
-        return;
-    }
-    progress_end(table->progress);
-    if (info.evaluation_count == 1) {
-        print_head(table);
-    }
-    print_line(table, fit, info.evaluation_count - 1, info.best == info.evaluation_count - 1);
-    fflush(stdout);
-}
-
-static void print_best(const Table *table, const RamifyFit *fit)
-{
-    RamifyFitInfo info;
-    RamifyEvaluation best;
-    ramify_fit_info(fit, &info);
-    ramify_fit_evaluation(fit, info.best, &best);
-    printf("best    evaluation %d, misfit %.6g:", info.best + 1, best.misfit);
-    for (int i = 0; i < table->range_count; i++) {
-        printf(" --set %s=%.9g", table->ranges[i].path, best.parameters[i]);
-    }
-    printf("\n");
-}
-
-// ---- JSON
-
-static void print_json_number(double value)
-{
-    if (isfinite(value)) {
-        printf("%.9g", value);
-    } else {
-        printf("null");
-    }
-}
-
-static void print_json_numbers(const char *key, const double *value, int count)
-{
-    printf("\"%s\": [", key);
-    for (int i = 0; i < count; i++) {
-        printf("%s", i > 0 ? ", " : "");
-        print_json_number(value[i]);
-    }
-    printf("]");
-}
-
-static void print_json_terms(const Table *table, const RamifyEvaluation *best)
-{
-    printf("\"parameters\": [");
-    for (int i = 0; i < table->range_count; i++) {
-        const RamifyRange *range = &table->ranges[i];
-        printf("%s\n  {\"path\": ", i > 0 ? "," : "");
-        json_put_string(stdout, range->path);
-        printf(", \"low\": %.9g, \"high\": %.9g, \"value\": %.9g}", range->low, range->high,
-               best->parameters[i]);
-    }
-    printf("],\n\"targets\": [");
-    for (int i = 0; i < table->target_count; i++) {
-        RamifyTarget target = target_at(table, i);
-        double value = best->measures[i];
-        printf("%s\n  {\"object\": ", i > 0 ? "," : "");
-        json_put_string(stdout, target.object);
-        printf(", \"measure\": ");
-        json_put_string(stdout, target.measure);
-        printf(", \"low\": ");
-        print_json_number(target.low);
-        printf(", \"high\": ");
-        print_json_number(target.high);
-        printf(", \"value\": ");
-        print_json_number(value);
-        printf(", \"met\": %s}", value >= target.low && value <= target.high ? "true" : "false");
-    }
-    printf("]");
-}
-
-static void print_json(const Table *table, const RamifyFit *fit)
-{
-    RamifyFitInfo info;
-    RamifyEvaluation step;
-    ramify_fit_info(fit, &info);
-    ramify_fit_evaluation(fit, info.best, &step);
-    printf("{\"met\": %s, \"best\": %d,\n", info.met ? "true" : "false", info.best + 1);
-    print_json_terms(table, &step);
-    printf(",\n\"evaluations\": [");
-    for (int i = 0; i < info.evaluation_count; i++) {
-        ramify_fit_evaluation(fit, i, &step);
-        printf("%s\n  {\"misfit\": ", i > 0 ? "," : "");
-        print_json_number(step.misfit);
-        printf(", ");
-        print_json_numbers("parameters", step.parameters, table->range_count);
-        printf(", ");
-        print_json_numbers("measures", step.measures, table->target_count);
-        if (step.failure) {
-            printf(", \"failure\": ");
-            json_put_string(stdout, step.failure);
-        }
-        printf("}");
-    }
-    printf("]}\n");
 }
 
 // ---- output
@@ -323,51 +136,55 @@ static bool judge(const Options *options, const RamifyFit *fit, RamifyError *e)
                                info.evaluation_count);
 }
 
+static void evaluated(void *user, const RamifyFit *fit)
+{
+    const Work *work = user;
+    if (!work->silent) {
+        progress_end(work->progress);
+        fit_report_last(&work->report, fit);
+    }
+}
+
 static bool fit_scene(const Options *options, const RamifyScene *scene, const RamifyRange *ranges,
-                      RamifyError *e)
+                      int until, RamifyError *e)
 {
     Progress progress;
     RamifySceneInfo info;
     RamifyRun run = command_run(options, &progress);
     ramify_scene_info(scene, &info);
-    Table table = {.scene = scene,
-                   .ranges = ranges,
-                   .range_count = options->vary_count,
-                   .target_count = info.target_count,
-                   .progress = &progress,
-                   .silent = options->json};
-    bool all = options->until && strcmp(options->until, "evaluations") == 0;
+    Work work = {.report = {.scene = scene,
+                            .ranges = ranges,
+                            .range_count = options->vary_count,
+                            .target_count = info.target_count},
+                 .progress = &progress,
+                 .silent = options->json};
     RamifyFitOptions how = {.ranges = ranges,
                             .range_count = options->vary_count,
                             .evaluations = options->evaluations,
-                            .until = all ? RAMIFY_UNTIL_EVALUATIONS : RAMIFY_UNTIL_TARGETS,
+                            .until = until,
                             .evaluated = evaluated,
-                            .user = &table};
+                            .user = &work};
     RamifyFit *fit = ramify_fit(scene, &how, &run, e);
     progress_end(&progress);
     bool done = fit && write_outputs(options, fit, e);
     if (done && options->json) {
-        print_json(&table, fit);
+        fit_report_json(&work.report, fit);
     } else if (done) {
-        print_best(&table, fit);
+        fit_report_best(&work.report, fit);
     }
     done = done && judge(options, fit, e);
     ramify_fit_free(fit);
     return done;
 }
 
-static bool check_until(const Options *options, RamifyError *e)
-{
-    const char *until = options->until ? options->until : "targets";
-    return strcmp(until, "targets") == 0 || strcmp(until, "evaluations") == 0 ||
-           fail(e, RAMIFY_BAD_INPUT, "--until %.60s; it must be targets or evaluations", until);
-}
-
 bool command_fit(const Options *options, RamifyError *e)
 {
-    RamifyRange *ranges = check_until(options, e) ? read_ranges(options, e) : NULL;
+    static const char *const ends[] = {"targets", "evaluations"}; // in the order of RAMIFY_UNTIL_
+    int until = command_choice("until", options->until, ends, 2, e);
+    RamifyRange *ranges = until >= 0 ? read_ranges(options, e) : NULL;
     RamifyScene *scene = ranges ? command_scene(options, e) : NULL;
-    bool done = scene && check_outputs(options, scene, e) && fit_scene(options, scene, ranges, e);
+    bool done =
+        scene && check_outputs(options, scene, e) && fit_scene(options, scene, ranges, until, e);
     ramify_scene_free(scene);
     free_ranges(ranges, options->vary_count);
     return done;

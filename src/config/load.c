@@ -60,18 +60,8 @@ static bool fail_key(const Mapping *mapping, const Node *child, const char *form
 // The deepest node on the path to the key that exists in the file.
 static const Node *place_of(const Node *given, const char *key)
 {
-    while (given && key && *key) {
-        char name[64];
-        size_t length = strcspn(key, ".");
-        snprintf(name, sizeof name, "%.*s", (int)length, key);
-        key += length + (key[length] == '.');
-        const Node *child = node_get(given, name);
-        if (!child) {
-            return given;
-        }
-        given = child;
-    }
-    return given;
+    const char *rest;
+    return given && key ? node_follow(given, key, &rest) : given;
 }
 
 bool mapping_fail(const Mapping *mapping, const char *key, const char *format, ...)

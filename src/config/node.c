@@ -10,6 +10,8 @@
 #define BLOCK_SIZE 65536
 #define TEXT_A_VALUE 64 // bytes of text that count as one more value when aliases expand
 
+enum { LONGEST_TOKEN = 255 }; // bytes of one name of a path
+
 typedef struct Block {
     struct Block *next;
     size_t used, size;
@@ -158,6 +160,28 @@ Node *node_step(const Node *node, const char *token)
         }
     }
     return entry;
+}
+
+const Node *node_follow(const Node *root, const char *path, const char **rest)
+{
+    const Node *node = root;
+    char token[LONGEST_TOKEN + 1];
+    while (*path) {
+        size_t length = strcspn(path, ".");
+        if (length > LONGEST_TOKEN) {
+            break;
+        }
+        memcpy(token, path, length);
+        token[length] = 0;
+        const Node *next = node_step(node, token);
+        if (!next) {
+            break;
+        }
+        node = next;
+        path += length + (path[length] == '.');
+    }
+    *rest = path;
+    return node;
 }
 
 Node *node_copy(Arena *arena, const Node *node, int *budget, Error *e)

@@ -51,6 +51,10 @@ Node *node_get(const Node *map, const char *key);
 // number, counted from 0. NULL when there is none or node is a scalar.
 Node *node_step(const Node *node, const char *token);
 
+// The deepest node on a path of keys, names and numbers ("objects.oak.tree.height"). *rest: the
+// part of the path below it, part of `path`; "" = the node is the path's own.
+const Node *node_follow(const Node *root, const char *path, const char **rest);
+
 // Text of a scalar child; NULL when there is none.
 const char *node_get_text(const Node *map, const char *key);
 

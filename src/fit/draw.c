@@ -3,6 +3,7 @@
 
 #include "base/c_locale.h"
 #include "base/file_writer.h"
+#include "base/key_path.h"
 #include "base/markup.h"
 #include "fit/misfit.h"
 
@@ -107,7 +108,7 @@ static void draw_parameter(Diagram d, int index)
     char path[LONGEST_PATH + 8]; // its end
     snprintf(path, sizeof path, "%s%s", length > most ? "..." : "",
              p->path + (length > most ? length - most : 0));
-    put_frame(&d, fit_path_end(p->path), path);
+    put_frame(&d, key_path_end(p->path), path);
     for (int64_t i = 0; i < d.fit->count; i++) {
         put_dot(&d, i, d.fit->steps[i].parameters[index]);
     }

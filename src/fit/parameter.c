@@ -21,17 +21,13 @@ static bool read_value(const Scene *scene, const FitParameter *parameter, double
                        bool *known, Error *e)
 {
     Arena *arena = arena_new(e);
-    Node *node =
+    const Node *root =
         arena ? yaml_parse(arena, scene->resolved, strlen(scene->resolved), scene->file, NULL, e)
               : NULL;
-    bool read = node;
-    char name[256];
-    for (const char *at = parameter->path; node && at;) {
-        size_t length = strcspn(at, ".");
-        snprintf(name, sizeof name, "%.*s", (int)length, at);
-        node = node_step(node, name);
-        at = at[length] ? at + length + 1 : NULL;
-    }
+    bool read = root;
+    const char *rest = "";
+    const Node *node = root ? node_follow(root, parameter->path, &rest) : NULL;
+    node = *rest ? NULL : node;
     *known = node && node->kind == NODE_SCALAR && !node_is_null(node);
     if (*known && (node->quoted || !scalar_number(node->text, value))) {
         read = error_set(e, ERROR_INPUT, "its value is '%.60s'; only numbers can be varied",
@@ -174,15 +170,4 @@ double fit_parameter_value(const FitParameter *p, double at, char text[FIT_NUMBE
 double fit_parameter_step(const FitParameter *p)
 {
     return p->whole ? 1.0 / (floor(p->high) - ceil(p->low) + 1.0) : 0.0;
-}
-
-const char *fit_path_end(const char *path)
-{
-    const char *end = path + strlen(path);
-    bool is_number = true; // of a list's entry, which tells nothing alone
-    while (end > path && (end[-1] != '.' || is_number)) {
-        end--;
-        is_number = is_number && (*end == '.' || (*end >= '0' && *end <= '9'));
-    }
-    return end;
 }

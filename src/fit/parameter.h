@@ -32,7 +32,4 @@ double fit_parameter_value(const FitParameter *parameter, double at, char text[F
 // The step in 0..1 that changes a whole number by about 1; 0 for other numbers.
 double fit_parameter_step(const FitParameter *parameter);
 
-// The last name of a path: "height".
-const char *fit_path_end(const char *path);
-
 #endif

@@ -103,36 +103,12 @@ static bool add_key(const char *text, const Node *map, const char *rest, const c
     return true;
 }
 
-// Follows the path as far as the document goes; *rest: what remains, "" = nothing.
-static const Node *follow(const Node *root, const char *path, const char **rest)
-{
-    const Node *node = root;
-    const char *at = path;
-    char name[256];
-    while (*at) {
-        size_t length = strcspn(at, ".");
-        if (length >= sizeof name) {
-            break;
-        }
-        memcpy(name, at, length);
-        name[length] = 0;
-        const Node *next = node_step(node, name);
-        if (!next) {
-            break;
-        }
-        node = next;
-        at += at[length] ? length + 1 : length;
-    }
-    *rest = at;
-    return node;
-}
-
 // Plans the edit of one value; false if the text cannot hold it.
 static bool plan_edit(const char *text, const Node *root, const char *path, const char *value,
                       Edit *edit)
 {
     const char *rest;
-    const Node *node = follow(root, path, &rest);
+    const Node *node = node_follow(root, path, &rest);
     if (*rest) {
         return add_key(text, node, rest, value, edit);
     }

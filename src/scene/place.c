@@ -4,7 +4,6 @@
 #include "scene/overrides.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LONGEST_PATH = 512 };
@@ -19,40 +18,6 @@ static const Node *read_again(Arena *arena, const Scene *scene)
         at += strlen(at) + 1;
     }
     return *at ? NULL : root;
-}
-
-// Finds an entry of a list by number or name.
-static const Node *entry_of(const Node *list, const char *token)
-{
-    char *end;
-    long index = strtol(token, &end, 10);
-    bool number = end != token && *end == 0;
-    long i = 0;
-    for (const Node *entry = list->first; entry; entry = entry->next, i++) {
-        const char *name = node_get_text(entry, "name");
-        if (number ? i == index : name && strcmp(name, token) == 0) {
-            return entry;
-        }
-    }
-    return NULL;
-}
-
-// The deepest node on the path.
-static const Node *follow(const Node *root, const char *path)
-{
-    const Node *node = root;
-    char token[LONGEST_PATH];
-    while (*path) {
-        size_t length = strcspn(path, ".");
-        snprintf(token, sizeof token, "%.*s", (int)length, path);
-        path += length + (path[length] == '.');
-        const Node *next = node->kind == NODE_LIST ? entry_of(node, token) : node_get(node, token);
-        if (!next) {
-            break;
-        }
-        node = next;
-    }
-    return node;
 }
 
 static void locate(const Node *node, const Scene *scene, Error *e)
@@ -77,7 +42,8 @@ bool scene_fail_at(const Scene *scene, const char *path, Error *e)
     Arena *arena = *whole ? arena_new(NULL) : NULL;
     const Node *root = arena ? read_again(arena, scene) : NULL;
     if (root) {
-        locate(follow(root, whole), scene, e);
+        const char *rest;
+        locate(node_follow(root, whole, &rest), scene, e);
     }
     arena_free(arena);
     error_locate(e, scene->file, 0, 0);
