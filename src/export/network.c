@@ -2,8 +2,6 @@
 // their centre lines (1D). docs/formats.md describes the keys.
 #include "export/formats.h"
 
-#include "base/c_locale.h"
-#include "base/file_writer.h"
 #include "base/number_text.h"
 #include "export/networks.h"
 
@@ -28,8 +26,7 @@ static void write_points(FileWriter *out, const Network *network, int64_t index)
 
 static void write_segment(FileWriter *out, const Network *network, int64_t index)
 {
-    double row[NETWORK_COLUMNS];
-    network_row(network, index, row);
+    const double *row = network->row[index];
     for (int k = 0; k < NETWORK_COLUMNS; k++) {
         file_writer_print(out, "%s\"%s\": %.9g", k > 0 ? ", " : "\n    {", network_column[k],
                           row[k]);
@@ -75,29 +72,22 @@ static void write_network(FileWriter *out, const ExportSource *source, const Net
     file_writer_text(out, "]}");
 }
 
+static void write_list(FileWriter *out, const NetworkList *list)
+{
+    file_writer_print(out,
+                      "{\"format\": \"ramify network\", \"version\": 1, \"unit\": \"SI\", "
+                      "\"density\": %g,\n \"networks\": [",
+                      BLOOD_DENSITY);
+    for (int64_t i = 0; i < list->count; i++) {
+        file_writer_text(out, i > 0 ? "," : "");
+        write_network(out, list->source, &list->network[i]);
+    }
+    file_writer_text(out, "]}\n");
+}
+
 static bool write(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
-    NetworkList list;
-    if (!networks_init(&list, source, run, e)) {
-        return false;
-    }
-    CLocale locale;
-    FileWriter *out = file_writer_open(file, e);
-    bool done = out && c_locale_enter(&locale, e);
-    if (done) {
-        file_writer_print(out,
-                          "{\"format\": \"ramify network\", \"version\": 1, \"unit\": \"SI\", "
-                          "\"density\": %g,\n \"networks\": [",
-                          BLOOD_DENSITY);
-        for (int64_t i = 0; i < list.count; i++) {
-            file_writer_text(out, i > 0 ? "," : "");
-            write_network(out, source, &list.network[i]);
-        }
-        file_writer_text(out, "]}\n");
-        c_locale_leave(&locale);
-    }
-    networks_free(&list);
-    return file_writer_close(out, done, e) && done;
+    return networks_write(source, file, run, write_list, e);
 }
 
 const ExportFormat network_format = {".network.json",

@@ -1,5 +1,6 @@
 #include "export/networks.h"
 
+#include "base/c_locale.h"
 #include "base/memory.h"
 #include "outtree/strahler.h"
 
@@ -10,11 +11,12 @@ const char *const network_column[NETWORK_COLUMNS] = {
     "inertance",  "compliance", "stiffness", "flow",   "pressure_from", "pressure_to",
     "wall_shear", "strahler",   "order",     "element"};
 
-void network_row(const Network *network, int64_t segment, double row[NETWORK_COLUMNS])
+static void fill_row(const Network *network, const int32_t *strahler, int64_t segment)
 {
     const Segment *s = &network->segments.segment[segment];
     const Flow *flow = &network->flow;
     FlowLumped lumped = flow_lumped(flow, network->tree, s);
+    double *row = network->row[segment];
     row[NETWORK_FROM] = s->from;
     row[NETWORK_TO] = s->to;
     row[NETWORK_PARENT] = s->parent;
@@ -29,7 +31,7 @@ void network_row(const Network *network, int64_t segment, double row[NETWORK_COL
     row[NETWORK_PRESSURE_TO] = flow->pressure[s->to];
     row[NETWORK_WALL_SHEAR] = flow_wall_shear(flow->viscosity[s->to], flow->flow[s->to],
                                               (double)network->tree->radius[s->to]);
-    row[NETWORK_STRAHLER] = network->strahler[s->to];
+    row[NETWORK_STRAHLER] = strahler[s->to];
     row[NETWORK_ORDER] = network->orders.order[segment];
     row[NETWORK_ELEMENT] = network->orders.element[segment];
 }
@@ -82,7 +84,7 @@ static void clear_network(Network *network)
     segments_free(&network->segments);
     flow_free(&network->flow);
     diameter_orders_free(&network->orders);
-    free(network->strahler);
+    free(network->row);
     free(network->line);
     free(network->line_start);
 }
@@ -113,19 +115,30 @@ static bool find_lines(Network *network, Error *e)
     return true;
 }
 
+static bool find_rows(Network *network, Error *e)
+{
+    int32_t *strahler = memory_alloc(network->tree->count, sizeof *strahler, e);
+    network->row = memory_alloc(network->segments.count, sizeof *network->row, e);
+    bool done = strahler && network->row;
+    if (done) {
+        out_tree_strahler(network->tree, strahler);
+        for (int64_t i = 0; i < network->segments.count; i++) {
+            fill_row(network, strahler, i);
+        }
+    }
+    free(strahler);
+    return done;
+}
+
 // Computes what is known of a network.
 static bool fill_network(Network *network, const ExportSource *source, Error *e)
 {
     const OutTree *tree = network->tree;
     FlowParams params = source->flow ? source->flow[network->object] : flow_params_default();
-    network->strahler = memory_alloc(tree->count, sizeof *network->strahler, e);
-    bool done = network->strahler && segments_init(&network->segments, tree, e) &&
-                find_lines(network, e) &&
+    bool done = segments_init(&network->segments, tree, e) && find_lines(network, e) &&
                 diameter_orders_init(&network->orders, tree, &network->segments, e) &&
-                flow_init(&network->flow, tree, &params, e);
-    if (done) {
-        out_tree_strahler(tree, network->strahler);
-    } else {
+                flow_init(&network->flow, tree, &params, e) && find_rows(network, e);
+    if (!done) {
         error_prefix(e, "object '%s': ", source->object_name[network->object]);
     }
     return done;
@@ -157,9 +170,18 @@ static bool add_object(NetworkList *list, const ExportSource *source, int object
     return done;
 }
 
-bool networks_init(NetworkList *list, const ExportSource *source, const Run *run, Error *e)
+static void free_networks(NetworkList *list)
 {
+    for (int64_t i = 0; i < list->count; i++) {
+        clear_network(&list->network[i]);
+    }
+    free(list->network);
     *list = (NetworkList){0};
+}
+
+static bool init_networks(NetworkList *list, const ExportSource *source, const Run *run, Error *e)
+{
+    *list = (NetworkList){.source = source};
     bool done = true;
     for (int i = 0; done && i < source->object_count; i++) {
         if (source->tree[i]) {
@@ -174,16 +196,25 @@ bool networks_init(NetworkList *list, const ExportSource *source, const Run *run
                          source->title);
     }
     if (!done) {
-        networks_free(list);
+        free_networks(list);
     }
     return done;
 }
 
-void networks_free(NetworkList *list)
+bool networks_write(const ExportSource *source, const char *file, const Run *run,
+                    void (*write)(FileWriter *out, const NetworkList *list), Error *e)
 {
-    for (int64_t i = 0; i < list->count; i++) {
-        clear_network(&list->network[i]);
+    NetworkList list;
+    if (!init_networks(&list, source, run, e)) {
+        return false;
     }
-    free(list->network);
-    *list = (NetworkList){0};
+    CLocale locale;
+    FileWriter *out = file_writer_open(file, e);
+    bool done = out && c_locale_enter(&locale, e);
+    if (done) {
+        write(out, &list);
+        c_locale_leave(&locale);
+    }
+    free_networks(&list);
+    return file_writer_close(out, done, e) && done;
 }

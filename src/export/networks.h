@@ -3,32 +3,9 @@
 #ifndef RAMIFY_EXPORT_NETWORKS_H
 #define RAMIFY_EXPORT_NETWORKS_H
 
+#include "base/file_writer.h"
 #include "export/export.h"
 #include "outtree/diameter_orders.h"
-
-typedef struct Network {
-    int object;     // index in the source
-    int32_t colony; // of the root
-    OutTree *tree;  // all that grows from the root; owned
-    SegmentList segments;
-    Flow flow;
-    DiameterOrders orders;
-    int32_t *strahler; // of each node; owned
-    // nodes of the segments, from their first to their last: segment i has those from line_start[i]
-    // to before line_start[i + 1]; owned
-    int32_t *line;
-    int64_t *line_start;
-} Network;
-
-typedef struct NetworkList {
-    Network *network; // owned
-    int64_t count, capacity;
-} NetworkList;
-
-// Roots from which nothing grows are left out. ERROR_INPUT, with the object's name, when a vessel
-// has no radius, and when nothing grows at all.
-bool networks_init(NetworkList *list, const ExportSource *source, const Run *run, Error *e);
-void networks_free(NetworkList *list);
 
 // Numbers of a segment (SI units): what files hold of each. Integers up to NETWORK_LENGTH and from
 // NETWORK_STRAHLER on.
@@ -54,7 +31,31 @@ enum {
 
 extern const char *const network_column[NETWORK_COLUMNS]; // names
 
-void network_row(const Network *network, int64_t segment, double row[NETWORK_COLUMNS]);
+typedef struct Network {
+    int object;     // index in the source
+    int32_t colony; // of the root
+    OutTree *tree;  // all that grows from the root; owned
+    SegmentList segments;
+    Flow flow;
+    DiameterOrders orders;
+    double (*row)[NETWORK_COLUMNS]; // of each segment; owned
+    // nodes of the segments, from their first to their last: segment i has those from line_start[i]
+    // to before line_start[i + 1]; owned
+    int32_t *line;
+    int64_t *line_start;
+} Network;
+
+typedef struct NetworkList {
+    const ExportSource *source; // borrowed
+    Network *network;           // owned
+    int64_t count, capacity;
+} NetworkList;
+
+// Computes the networks of the source and writes them to the file with `write`, in the C locale.
+// Roots from which nothing grows are left out. ERROR_INPUT, with the object's name, when a vessel
+// has no radius, and when nothing grows at all; ERROR_IO.
+bool networks_write(const ExportSource *source, const char *file, const Run *run,
+                    void (*write)(FileWriter *out, const NetworkList *list), Error *e);
 
 static inline bool network_column_is_whole(int column)
 {

@@ -2,8 +2,6 @@
 // pressure at its points and the segment's numbers as cell data.
 #include "export/formats.h"
 
-#include "base/c_locale.h"
-#include "base/file_writer.h"
 #include "base/number_text.h"
 #include "export/networks.h"
 
@@ -102,9 +100,7 @@ static void write_column(const Vtp *v, int column)
     for (int64_t n = 0; n < v->list->count; n++) {
         const Network *network = &v->list->network[n];
         for (int64_t i = 0; i < network->segments.count; i++) {
-            double row[NETWORK_COLUMNS];
-            network_row(network, i, row);
-            file_writer_print(v->out, "%.17g\n", row[column]);
+            file_writer_print(v->out, "%.17g\n", network->row[i][column]);
         }
     }
     end_array(v);
@@ -126,11 +122,12 @@ static void write_origins(const Vtp *v)
     }
 }
 
-static void write_all(const Vtp *v)
+static void write_list(FileWriter *out, const NetworkList *list)
 {
+    const Vtp *v = &(Vtp){out, list};
     int64_t points = 0, lines = 0;
     for (int64_t n = 0; n < v->list->count; n++) {
-        points += v->list->network[n].tree->count;
+        points += list->network[n].tree->count;
         lines += v->list->network[n].segments.count;
     }
     file_writer_print(v->out,
@@ -152,19 +149,7 @@ static void write_all(const Vtp *v)
 
 static bool write(const ExportSource *source, const char *file, const Run *run, Error *e)
 {
-    NetworkList list;
-    if (!networks_init(&list, source, run, e)) {
-        return false;
-    }
-    CLocale locale;
-    FileWriter *out = file_writer_open(file, e);
-    bool done = out && c_locale_enter(&locale, e);
-    if (done) {
-        write_all(&(Vtp){out, &list});
-        c_locale_leave(&locale);
-    }
-    networks_free(&list);
-    return file_writer_close(out, done, e) && done;
+    return networks_write(source, file, run, write_list, e);
 }
 
 const ExportFormat vtp_format = {".vtp", "vessels as VTK lines with radius, flow and pressure", 0,
