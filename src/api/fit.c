@@ -1,42 +1,56 @@
 #include "api/handles.h"
 
 #include "base/file_replace.h"
-#include "base/memory.h"
+#include "fit/search.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { USUAL_EVALUATIONS = 64 };
 
-// The caller's function, which gets its own type.
-typedef struct Listener {
-    const RamifyFitOptions *options;
-} Listener;
-
+// FitParams.evaluated: tells the caller's function, with the API's type.
 static void tell(void *user, const Fit *fit)
 {
-    const RamifyFitOptions *options = ((const Listener *)user)->options;
+    const RamifyFitOptions *options = user;
     options->evaluated(options->user, (const RamifyFit *)(const void *)fit);
 }
 
-static FitRange *copy_ranges(const RamifyFitOptions *options, Error *e)
+static bool check_options(const RamifyFitOptions *options, Error *e)
 {
-    int count = options->range_count > 0 ? options->range_count : 0;
-    FitRange *ranges = memory_alloc(count, sizeof *ranges, e);
-    for (int i = 0; ranges && i < count; i++) {
-        ranges[i] = (FitRange){options->ranges[i].path, options->ranges[i].low,
-                               options->ranges[i].high, options->ranges[i].logarithmic != 0};
+    int count = options->range_count;
+    if (count < 1 || count > SEARCH_MOST_DIMENSIONS) {
+        return error_set(e, ERROR_INPUT, "%d ranges to search; give 1 to %d", count,
+                         SEARCH_MOST_DIMENSIONS);
     }
-    return ranges;
+    for (int i = 0; i < count; i++) {
+        if (!options->ranges[i].path) {
+            return error_set(e, ERROR_INPUT, "range %d has no path; name a number of the scene", i);
+        }
+    }
+    if (options->evaluations < 0) {
+        return error_set(e, ERROR_INPUT, "%d evaluations; there must be 1 or more, or 0 for %d",
+                         options->evaluations, USUAL_EVALUATIONS);
+    }
+    return options->until == RAMIFY_UNTIL_TARGETS || options->until == RAMIFY_UNTIL_EVALUATIONS ||
+           error_set(e, ERROR_INPUT, "until is %d; it must be one of its named values",
+                     options->until);
 }
 
 RamifyFit *ramify_fit(const RamifyScene *scene, const RamifyFitOptions *options,
                       const RamifyRun *run, RamifyError *error)
 {
     Error e = {0};
+    if (!check_options(options, &e)) {
+        api_fail(error, &e);
+        return NULL;
+    }
     Run own = api_run(run);
-    Listener listener = {options};
-    FitRange *ranges = copy_ranges(options, &e);
+    RamifyFitOptions listener = *options;
+    FitRange ranges[SEARCH_MOST_DIMENSIONS];
+    for (int i = 0; i < options->range_count; i++) {
+        const RamifyRange *range = &options->ranges[i];
+        ranges[i] = (FitRange){range->path, range->low, range->high, range->logarithmic != 0};
+    }
     FitParams params = {.ranges = ranges,
                         .range_count = options->range_count,
                         .evaluations =
@@ -44,8 +58,7 @@ RamifyFit *ramify_fit(const RamifyScene *scene, const RamifyFitOptions *options,
                         .spend_all = options->until == RAMIFY_UNTIL_EVALUATIONS,
                         .evaluated = options->evaluated ? tell : NULL,
                         .user = &listener};
-    Fit *fit = ranges ? fit_scene(scene_of(scene), &params, &own, &e) : NULL;
-    free(ranges);
+    Fit *fit = fit_scene(scene_of(scene), &params, &own, &e);
     if (!fit) {
         api_fail(error, &e);
     }

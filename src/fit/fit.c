@@ -160,10 +160,6 @@ static bool evaluate(void *user, const double *x, double *value, int *spent)
 static bool check(const Scene *scene, const FitParams *params, Error *e)
 {
     bool valid = true;
-    if (params->range_count < 1 || params->range_count > SEARCH_MOST_DIMENSIONS) {
-        return error_set(e, ERROR_INPUT, "%d ranges to search; give 1 to %d", params->range_count,
-                         SEARCH_MOST_DIMENSIONS);
-    }
     if (scene->target_count == 0) {
         valid = error_set(e, ERROR_INPUT,
                           "the scene has no targets to meet; add them, as in 'targets: [{object: "
