@@ -58,64 +58,103 @@ static void segments_run_from_fork_to_fork(void **state)
     out_tree_free(tree);
 }
 
+// A tree, its segments and their orders.
+typedef struct Ordered {
+    OutTree *tree;
+    SegmentList list;
+    DiameterOrders orders;
+} Ordered;
+
+static Ordered order_tree(OutTree *tree)
+{
+    Ordered o = {.tree = tree};
+    assert_true(segments_init(&o.list, tree, NULL));
+    assert_true(diameter_orders_init(&o.orders, tree, &o.list, NULL));
+    return o;
+}
+
+static void free_ordered(Ordered *o)
+{
+    diameter_orders_free(&o->orders);
+    segments_free(&o->list);
+    out_tree_free(o->tree);
+}
+
 static void orders_follow_the_diameter(void **state)
 {
     (void)state;
-    OutTree *tree = bush();
-    SegmentList list;
-    DiameterOrders orders;
-    assert_true(segments_init(&list, tree, NULL));
-    assert_true(diameter_orders_init(&orders, tree, &list, NULL));
-    assert_int_equal(orders.highest, 3);
-    for (int64_t i = 0; i < list.count; i++) {
-        double d = 2.0 * list.segment[i].radius;
-        assert_int_equal(orders.order[i], d > 3.0 ? 3 : (d > 1.5 ? 2 : 1));
+    Ordered o = order_tree(bush());
+    assert_int_equal(o.orders.highest, 3);
+    for (int64_t i = 0; i < o.list.count; i++) {
+        double d = 2.0 * o.list.segment[i].radius;
+        assert_int_equal(o.orders.order[i], d > 3.0 ? 3 : (d > 1.5 ? 2 : 1));
     }
     // Topology alone puts the trunk's end into the lowest order.
-    int32_t *topological = calloc((size_t)tree->count, sizeof *topological);
+    int32_t *topological = calloc((size_t)o.tree->count, sizeof *topological);
     assert_non_null(topological);
-    out_tree_strahler(tree, topological);
-    assert_int_equal(topological[list.segment[list.count - 1].to], 1);
-    assert_near(2.0 * list.segment[list.count - 1].radius, 4.0);
+    out_tree_strahler(o.tree, topological);
+    assert_int_equal(topological[o.list.segment[o.list.count - 1].to], 1);
+    assert_near(2.0 * o.list.segment[o.list.count - 1].radius, 4.0);
     free(topological);
-    diameter_orders_free(&orders);
-    segments_free(&list);
-    out_tree_free(tree);
+    free_ordered(&o);
 }
 
 static void tables_are_those_counted_by_hand(void **state)
 {
     (void)state;
-    OutTree *tree = bush();
-    SegmentList list;
-    DiameterOrders orders;
-    assert_true(segments_init(&list, tree, NULL));
-    assert_true(diameter_orders_init(&orders, tree, &list, NULL));
-    const OrderClass *of = orders.of;
+    Ordered o = order_tree(bush());
+    const OrderClass *of = o.orders.of;
     assert_int_equal(of[1].segments, 2 * SIDES);
     assert_int_equal(of[2].segments, SIDES);
     assert_int_equal(of[3].segments, SIDES + 1);
     assert_int_equal(of[1].elements, 2 * SIDES);
     assert_int_equal(of[2].elements, SIDES);
     assert_int_equal(of[3].elements, 1); // all in series
-    assert_int_equal(orders.element_count, 3 * SIDES + 1);
+    assert_int_equal(o.orders.element_count, 3 * SIDES + 1);
     for (int n = 1; n <= 3; n++) {
         assert_near(of[n].diameter, n == 3 ? 4.0 : n);
         assert_near(of[n].diameter_spread, 0.0);
         for (int m = 1; m <= 3; m++) {
             double wanted = m == 2 && n == 3 ? SIDES : (m == 1 && n == 2 ? 2.0 : 0.0);
-            assert_near(orders.connectivity[m][n], wanted);
+            assert_near(o.orders.connectivity[m][n], wanted);
         }
     }
     assert_near(of[1].length, 0.5);
     assert_near(of[2].length, 3.0);
     assert_near(of[3].length, SIDES + 1);
-    assert_near(orders.diameter_ratio, 2.0);
-    assert_near(orders.number, sqrt(2.0 * SIDES)); // from 40 to 1 over two orders
-    assert_near(orders.length_ratio, sqrt((SIDES + 1) / 0.5));
-    diameter_orders_free(&orders);
-    segments_free(&list);
-    out_tree_free(tree);
+    assert_near(o.orders.diameter_ratio, 2.0);
+    assert_near(o.orders.number, sqrt(2.0 * SIDES)); // from 40 to 1 over two orders
+    assert_near(o.orders.length_ratio, sqrt((SIDES + 1) / 0.5));
+    free_ordered(&o);
+}
+
+// A trunk of four segments of diameter 4, each with a side end of diameter 1, and an end of
+// diameter 9 beyond them. By topology the ends are order 1: diameters 1, 1, 1, 1 and 9, mean 2.6,
+// standard deviation 3.2; the trunk is order 2: 4 and 0. The range of order 1 by Jiang 1994 ends at
+// (2.6 + 3.2 + 4 - 0) / 2 = 4.9, above the mean of order 2, and takes the trunk in. Half way
+// between the means, at 3.3, it leaves the trunk out; then the orders are {1} and {4, 9}.
+static void overlapping_orders_are_split_between_their_means(void **state)
+{
+    (void)state;
+    OutTree *tree = out_tree_new(NULL);
+    int64_t trunk = add(tree, vec3(0, 0, 0), -1, 4.0f);
+    for (int i = 1; i <= 4; i++) {
+        trunk = add(tree, vec3(0, (float)i, 0), trunk, 4.0f);
+        add(tree, vec3(1, (float)i, 0), trunk, 1.0f);
+    }
+    add(tree, vec3(0, 5, 0), trunk, 9.0f);
+    Ordered o = order_tree(tree);
+    assert_int_equal(o.orders.highest, 2);
+    for (int64_t i = 0; i < o.list.count; i++) {
+        assert_int_equal(o.orders.order[i], o.list.segment[i].radius > 1.0 ? 2 : 1);
+    }
+    assert_near(o.orders.of[1].diameter, 1.0);
+    assert_near(o.orders.of[1].diameter_spread, 0.0);
+    assert_near(o.orders.of[2].diameter, 5.0); // of 4, 4, 4, 4 and 9
+    assert_near(o.orders.of[2].diameter_spread, 2.0);
+    assert_int_equal(o.orders.of[2].elements, 1);
+    assert_near(o.orders.connectivity[1][2], 4.0);
+    free_ordered(&o);
 }
 
 static void empty_trees_have_no_orders(void **state)
@@ -123,16 +162,11 @@ static void empty_trees_have_no_orders(void **state)
     (void)state;
     OutTree *tree = out_tree_new(NULL);
     add(tree, vec3(0, 0, 0), -1, 1.0f);
-    SegmentList list;
-    DiameterOrders orders;
-    assert_true(segments_init(&list, tree, NULL));
-    assert_true(diameter_orders_init(&orders, tree, &list, NULL));
-    assert_int_equal(list.count, 0);
-    assert_int_equal(orders.highest, 0);
-    assert_true(isnan(orders.number));
-    diameter_orders_free(&orders);
-    segments_free(&list);
-    out_tree_free(tree);
+    Ordered o = order_tree(tree);
+    assert_int_equal(o.list.count, 0);
+    assert_int_equal(o.orders.highest, 0);
+    assert_true(isnan(o.orders.number));
+    free_ordered(&o);
 }
 
 int main(void)
@@ -141,6 +175,7 @@ int main(void)
         cmocka_unit_test(segments_run_from_fork_to_fork),
         cmocka_unit_test(orders_follow_the_diameter),
         cmocka_unit_test(tables_are_those_counted_by_hand),
+        cmocka_unit_test(overlapping_orders_are_split_between_their_means),
         cmocka_unit_test(empty_trees_have_no_orders),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
