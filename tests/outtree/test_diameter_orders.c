@@ -157,6 +157,35 @@ static void overlapping_orders_are_split_between_their_means(void **state)
     free_ordered(&o);
 }
 
+// A trunk of eight segments, of diameters 2.6 and 5.4 in turn, with side ends of diameters 1
+// and 2.9 in turn and one more end of 1 at its own. By topology the ends are order 1: mean 1.84,
+// standard deviation 0.94, so up to 2.79; the trunk is order 2: 4.0 and 1.4, so from 2.6. These
+// ranges overlap, and the orders part at the overlap's middle, 2.69: ends of 2.9 and segments
+// of 2.6 change their orders. Then both ranges leave a gap, 2.51 to 2.9, and its middle changes
+// nothing. Half way between the means, at 2.92, the ends of 2.9 would have stayed.
+static void orders_part_in_the_middle_of_overlap_and_gap(void **state)
+{
+    (void)state;
+    OutTree *tree = out_tree_new(NULL);
+    int64_t trunk = add(tree, vec3(0, 0, 0), -1, 2.6f);
+    for (int i = 1; i <= 8; i++) {
+        trunk = add(tree, vec3(0, (float)i, 0), trunk, i % 2 ? 2.6f : 5.4f);
+        add(tree, vec3(1, (float)i, 0), trunk, i % 2 ? 1.0f : 2.9f);
+    }
+    add(tree, vec3(0, 9, 0), trunk, 1.0f);
+    Ordered o = order_tree(tree);
+    assert_int_equal(o.orders.highest, 2);
+    for (int64_t i = 0; i < o.list.count; i++) {
+        assert_int_equal(o.orders.order[i], 2.0 * o.list.segment[i].radius > 2.75 ? 2 : 1);
+    }
+    assert_int_equal(o.orders.of[1].segments, 9);
+    assert_near(o.orders.of[1].diameter, (5 * 1.0 + 4 * 2.6) / 9);
+    assert_int_equal(o.orders.of[2].segments, 8);
+    assert_near(o.orders.of[2].diameter, 4.15);
+    assert_near(o.orders.of[2].diameter_spread, 1.25);
+    free_ordered(&o);
+}
+
 static void empty_trees_have_no_orders(void **state)
 {
     (void)state;
@@ -176,6 +205,7 @@ int main(void)
         cmocka_unit_test(orders_follow_the_diameter),
         cmocka_unit_test(tables_are_those_counted_by_hand),
         cmocka_unit_test(overlapping_orders_are_split_between_their_means),
+        cmocka_unit_test(orders_part_in_the_middle_of_overlap_and_gap),
         cmocka_unit_test(empty_trees_have_no_orders),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
