@@ -65,11 +65,8 @@ static void print_table(const Subject *subject)
 
 static void print_json_number(const char *key, double value)
 {
-    if (isfinite(value)) {
-        printf("\"%s\": %.9g", key, value);
-    } else {
-        printf("\"%s\": null", key);
-    }
+    printf("\"%s\": ", key);
+    json_put_number(stdout, value, 9);
 }
 
 static void print_json_subject(const Subject *subject)
