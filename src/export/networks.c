@@ -71,6 +71,7 @@ static bool split_tree(NetworkList *list, int object, const OutTree *tree, int64
             return false;
         }
         of[i] = parent < 0 ? list->count - 1 : of[parent];
+        // a node's parent is before it, so a root has begun a network; NOLINTNEXTLINE
         if (!add_node(list->network[of[i]].tree, tree, i, place, e)) {
             return false;
         }
