@@ -11,14 +11,18 @@
 
 enum { DEFAULT_RESOLUTION = 48 };
 
+typedef struct OneField {
+    FieldParams params;
+    Nuclei named;             // empty if it names none
+    FieldGrid grid;           // FIELD_GRID
+    CurvatureField curvature; // FIELD_CURVATURE
+    VolumeField volume;       // FIELD_VOLUME
+} OneField;
+
 struct GuideField {
-    FieldParams *params; // count of them
-    FieldGrid *grid;     // count of them; used for FIELD_GRID only
+    OneField *field; // count of them
     int count;
-    Nuclei nuclei;             // the initial nodes
-    CurvatureField *curvature; // count of them; used for FIELD_CURVATURE only
-    VolumeField *volume;       // count of them; used for FIELD_VOLUME only
-    Nuclei *named;             // count of them; empty for fields that name none
+    Nuclei nuclei; // the initial nodes
 };
 
 static bool has_nuclei(FieldKind kind)
@@ -36,7 +40,7 @@ FieldParams field_params_default(FieldKind kind)
                          .seed = 1};
 }
 
-static bool check_params(const FieldParams *p, int64_t nucleus_count, Error *e)
+static bool check_params(const FieldParams *p, const FieldSite *site, Error *e)
 {
     if (!isfinite(p->weight) || !isfinite(p->turn) || !isfinite(p->scale) || !isfinite(p->rim) ||
         !isfinite(p->pull) || !vec3_finite(p->vector) || !vec3_finite(p->center)) {
@@ -50,11 +54,11 @@ static bool check_params(const FieldParams *p, int64_t nucleus_count, Error *e)
         return error_set(e, ERROR_INPUT, "field turn %g degrees; at most 1000000 make sense",
                          (double)p->turn);
     }
-    if (p->kind == FIELD_CURVATURE && !p->envelope) {
+    if (p->kind == FIELD_CURVATURE && !site->envelope) {
         return error_set(e, ERROR_INPUT,
                          "a curvature field needs an envelope with a surface; use another kind");
     }
-    if (has_nuclei(p->kind) && p->nucleus_count < 1 && nucleus_count < 1) {
+    if (has_nuclei(p->kind) && p->nucleus_count < 1 && site->nucleus_count < 1) {
         return error_set(e, ERROR_INPUT,
                          "a nuclei field needs at least one root to lead away from");
     }
@@ -72,67 +76,68 @@ static Vec3 sample_nuclei(const void *context, Vec3 p)
     return nuclei_at(source->nuclei, &source->params, p, vec3(0, 0, 0));
 }
 
-static const Nuclei *nuclei_of(const GuideField *field, int i)
+static const Nuclei *nuclei_of(const GuideField *field, const OneField *one)
 {
-    return field->params[i].nucleus_count > 0 ? &field->named[i] : &field->nuclei;
+    return one->params.nucleus_count > 0 ? &one->named : &field->nuclei;
 }
 
-static bool make_grid(GuideField *field, int i, const Run *run, Error *e)
+static bool make_grid(const GuideField *field, OneField *one, const Run *run, Error *e)
 {
-    GridSource source = {.nuclei = nuclei_of(field, i), .params = field->params[i]};
+    GridSource source = {.nuclei = nuclei_of(field, one), .params = one->params};
     source.params.surface = false; // no surface passes through a voxel's corner
     int resolution = source.params.resolution;
-    return field_grid_init(&field->grid[i], sample_nuclei, &source, field->nuclei.bounds,
+    return field_grid_init(&one->grid, sample_nuclei, &source, field->nuclei.bounds,
                            resolution == 0 ? DEFAULT_RESOLUTION : resolution, run, e);
 }
 
-static bool fill(GuideField *field, const FieldParams *params, int64_t nucleus_count,
-                 const Run *run, Error *e)
+static bool init_one(const GuideField *field, OneField *one, const FieldSite *site, const Run *run,
+                     Error *e)
 {
-    for (int i = 0; i < field->count; i++) {
-        if (!check_params(&params[i], nucleus_count, e)) {
-            return error_key(e, "%d", i);
-        }
-        field->params[i] = params[i];
-        if (has_nuclei(params[i].kind) && params[i].nucleus_count > 0 &&
-            !nuclei_init_named(&field->named[i], params[i].nucleus, params[i].nucleus_count,
-                               field->nuclei.bounds, run, e)) {
-            error_key(e, "nuclei");
-            return error_key(e, "%d", i);
-        }
-        if (params[i].kind == FIELD_CURVATURE &&
-            !curvature_field_init(&field->curvature[i], envelope_surface(params[i].envelope),
-                                  params[i].least, e)) {
-            return error_key(e, "%d", i);
-        }
-        if (params[i].kind == FIELD_VOLUME &&
-            !volume_field_init(&field->volume[i], &params[i], run, e)) {
-            return error_key(e, "%d", i);
-        }
-        if (params[i].kind == FIELD_GRID && !make_grid(field, i, run, e)) {
+    const FieldParams *params = &one->params;
+    if (!check_params(params, site, e)) {
+        return false;
+    }
+    if (has_nuclei(params->kind) && params->nucleus_count > 0 &&
+        !nuclei_init_named(&one->named, params->nucleus, params->nucleus_count, site->bounds, run,
+                           e)) {
+        return error_key(e, "nuclei");
+    }
+    switch (params->kind) {
+    case FIELD_GRID:
+        return make_grid(field, one, run, e);
+    case FIELD_CURVATURE:
+        return curvature_field_init(&one->curvature, envelope_surface(site->envelope),
+                                    params->least, e);
+    case FIELD_VOLUME:
+        return volume_field_init(&one->volume, params, run, e);
+    default:
+        return true;
+    }
+}
+
+static bool init_all(GuideField *field, const FieldParams *params, int count, const FieldSite *site,
+                     const Run *run, Error *e)
+{
+    field->field = memory_alloc_zero(count, sizeof *field->field, e);
+    if (!field->field || !nuclei_init(&field->nuclei, site->nuclei, site->normals,
+                                      site->nucleus_count, site->bounds, e)) {
+        return false;
+    }
+    field->count = count;
+    for (int i = 0; i < count; i++) {
+        field->field[i].params = params[i];
+        if (!init_one(field, &field->field[i], site, run, e)) {
             return error_key(e, "%d", i);
         }
     }
     return true;
 }
 
-GuideField *guide_field_new(const FieldParams *params, int count, const Vec3 *nuclei,
-                            const Vec3 *nucleus_normals, int64_t nucleus_count, Aabb bounds,
+GuideField *guide_field_new(const FieldParams *params, int count, const FieldSite *site,
                             const Run *run, Error *e)
 {
     GuideField *field = memory_alloc_zero(1, sizeof *field, e);
-    if (!field) {
-        return NULL;
-    }
-    field->count = count;
-    field->params = memory_alloc_zero(count, sizeof *field->params, e);
-    field->grid = memory_alloc_zero(count, sizeof *field->grid, e);
-    field->named = memory_alloc_zero(count, sizeof *field->named, e);
-    field->curvature = memory_alloc_zero(count, sizeof *field->curvature, e);
-    field->volume = memory_alloc_zero(count, sizeof *field->volume, e);
-    if (!field->params || !field->grid || !field->named || !field->curvature || !field->volume ||
-        !nuclei_init(&field->nuclei, nuclei, nucleus_normals, nucleus_count, bounds, e) ||
-        !fill(field, params, nucleus_count, run, e)) {
+    if (field && !init_all(field, params, count, site, run, e)) {
         guide_field_free(field);
         return NULL;
     }
@@ -141,27 +146,18 @@ GuideField *guide_field_new(const FieldParams *params, int count, const Vec3 *nu
 
 void guide_field_free(GuideField *field)
 {
-    if (field) {
-        for (int i = 0; field->grid && i < field->count; i++) {
-            field_grid_free(&field->grid[i]);
-        }
-        for (int i = 0; field->curvature && i < field->count; i++) {
-            curvature_field_free(&field->curvature[i]);
-        }
-        for (int i = 0; field->volume && i < field->count; i++) {
-            volume_field_free(&field->volume[i]);
-        }
-        for (int i = 0; field->named && i < field->count; i++) {
-            nuclei_free(&field->named[i]);
-        }
-        nuclei_free(&field->nuclei);
-        free(field->params);
-        free(field->grid);
-        free(field->named);
-        free(field->curvature);
-        free(field->volume);
-        free(field);
+    if (!field) {
+        return;
     }
+    for (int i = 0; i < field->count; i++) {
+        nuclei_free(&field->field[i].named);
+        field_grid_free(&field->field[i].grid);
+        curvature_field_free(&field->field[i].curvature);
+        volume_field_free(&field->field[i].volume);
+    }
+    nuclei_free(&field->nuclei);
+    free(field->field);
+    free(field);
 }
 
 static Vec3 tangential(Vec3 x, Vec3 n)
@@ -169,9 +165,9 @@ static Vec3 tangential(Vec3 x, Vec3 n)
     return vec3_normalize(vec3_madd(x, -vec3_dot(x, n), n));
 }
 
-static Vec3 one_field_at(const GuideField *field, int i, Vec3 p, Vec3 n)
+static Vec3 one_field_at(const GuideField *field, const OneField *one, Vec3 p, Vec3 n)
 {
-    const FieldParams *params = &field->params[i];
+    const FieldParams *params = &one->params;
     Vec3 from_center = vec3_sub(p, params->center);
     switch (params->kind) {
     case FIELD_UNIFORM:
@@ -181,15 +177,15 @@ static Vec3 one_field_at(const GuideField *field, int i, Vec3 p, Vec3 n)
     case FIELD_VORTEX:
         return vec3_normalize(vec3_cross(params->vector, from_center));
     case FIELD_NUCLEI:
-        return nuclei_at(nuclei_of(field, i), params, p, n);
+        return nuclei_at(nuclei_of(field, one), params, p, n);
     case FIELD_GRID: {
-        Vec3 x = field_grid_at(&field->grid[i], p);
+        Vec3 x = field_grid_at(&one->grid, p);
         return params->surface ? tangential(x, n) : vec3_normalize(x);
     }
     case FIELD_CURVATURE:
-        return curvature_field_at(&field->curvature[i], p, params->vector);
+        return curvature_field_at(&one->curvature, p, params->vector);
     case FIELD_VOLUME:
-        return volume_field_at(&field->volume[i], p);
+        return volume_field_at(&one->volume, p);
     case FIELD_CURL:
         return vec3_normalize(curl_noise(vec3_scale(p, 1.0f / params->scale), params->seed));
     case FIELD_POINT: {
@@ -204,7 +200,8 @@ Vec3 guide_field_at(const GuideField *field, Vec3 p, Vec3 n)
 {
     Vec3 sum = vec3(0, 0, 0);
     for (int i = 0; i < field->count; i++) {
-        sum = vec3_madd(sum, field->params[i].weight, one_field_at(field, i, p, n));
+        const OneField *one = &field->field[i];
+        sum = vec3_madd(sum, one->params.weight, one_field_at(field, one, p, n));
     }
     return sum;
 }

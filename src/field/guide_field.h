@@ -44,34 +44,50 @@ typedef struct Nucleus {
     int shape_count;
 } Nucleus;
 
-// Rotation axis of nuclei and grid fields: the surface normal if `surface` is set, else `vector`,
-// else (if that is zero) the normal of the nearest nucleus. The axis need not be unit: a longer one
-// rotates further.
 typedef struct FieldParams {
     FieldKind kind;
     float weight; // share in a sum of fields
+
     Vec3 vector, center;
     bool centered; // center was given explicitly, not taken from the object's origin
-    float turn;    // degrees
-    float scale;   // m; wavelength or falloff distance
-    float rim;     // m; nuclei and grid: distance of the rim from the nucleus, 0 = the farthest
-                   // side of the attractors' bounds
-    FieldProfile profile;
-    float pull;        // PROFILE_GROWN: outward pull of the attractors relative to this field's
-    Nucleus *nucleus;  // nuclei and grid; borrowed
+    float scale;   // m: FIELD_CURL: wavelength; FIELD_POINT: falloff distance; FIELD_VOLUME: the
+                   // file's unit
+    uint64_t seed; // FIELD_CURL
+
+    // FIELD_NUCLEI and FIELD_GRID. The rotation axis is the surface normal if `surface` is set,
+    // otherwise `vector`, otherwise (if that is zero) the normal of the nearest nucleus. It need
+    // not be unit: a longer one rotates further.
+    Nucleus *nucleus;  // borrowed
     int nucleus_count; // 0 = the initial nodes
-    bool spherical; // swept angle depends on the polar angle on the sphere about `center`, atan(t
-                    // sin(phi) / pi), instead of on the distance, atan(t r / rim)
+    float turn;        // degrees
+    FieldProfile profile;
+    float pull;     // PROFILE_GROWN: outward pull of the attractors relative to this field's
+    float rim;      // m: distance of the rim from the nucleus; 0 = the farthest side of the
+                    // attractors' bounds
+    bool spherical; // swept angle depends on the polar angle on the sphere about `center`,
+                    // atan(t sin(phi) / pi), instead of on the distance, atan(t r / rim)
     bool surface;   // stay in the tangent plane of the attractors' surface and rotate about its
-                    // normal
-    uint64_t seed;
-    bool least;               // FIELD_CURVATURE: of the least principal curvature, not the greatest
-    const Envelope *envelope; // FIELD_CURVATURE: the surface, used by guide_field_new alone
-    const char *file, *grid;  // FIELD_VOLUME: .vdb, and a name in it (NULL = the first); borrowed
-    Vec3 position, rotation;  // m, degrees: of the file's space, scaled by `scale`
-    Transform from_file;      // made of them
-    int resolution;           // FIELD_GRID: voxels along the longest side; 0 = 48, at most 2048
+                    // normal; a grid has no normals where it is sampled: it rotates as without
+                    // `surface`, and its vectors are projected into the tangent plane
+    int resolution; // FIELD_GRID: voxels along the longest side; 0 = 48, at most 2048
+
+    // FIELD_CURVATURE
+    bool least; // along the least principal curvature, not the greatest
+
+    // FIELD_VOLUME
+    const char *file, *grid; // .vdb, and a name in it (NULL = the first); borrowed
+    Vec3 position, rotation; // m, degrees: of the file's space, scaled by `scale`
+    Transform from_file;     // made of them
 } FieldParams;
+
+// Where fields act. Used by guide_field_new alone, which copies what fields need later.
+typedef struct FieldSite {
+    const Vec3 *nuclei;  // positions of the initial type-0 nodes; not for fields that name nuclei
+    const Vec3 *normals; // of them, unit; NULL = +Y
+    int64_t nucleus_count;
+    Aabb bounds;              // region of the attractors
+    const Envelope *envelope; // FIELD_CURVATURE: its surface; NULL = none
+} FieldSite;
 
 // The `pull` of a field in growth with this ColonizeParams.field_weight, where the attractors' pull
 // has the length 1; 0 if the field does not lead outward.
@@ -84,12 +100,10 @@ static inline float field_params_pull(const FieldParams *params, float field_wei
 // Weight 1, vector +Y (0 for nuclei and grid), swept profile, scale 1.
 FieldParams field_params_default(FieldKind kind);
 
-// nuclei: positions and unit normals (NULL = +Y) of the initial type-0 nodes, copied; fields that
-// name nuclei do not use them. bounds: the region of the attractors. params: `count` fields, summed
-// with their weights. ERROR_INPUT for non-finite numbers, a scale that is not positive where one is
-// needed, a nuclei field without nuclei, or a file that cannot be read. Free with guide_field_free.
-GuideField *guide_field_new(const FieldParams *params, int count, const Vec3 *nuclei,
-                            const Vec3 *nucleus_normals, int64_t nucleus_count, Aabb bounds,
+// The sum of `count` fields with their weights. ERROR_INPUT for non-finite numbers, a scale that is
+// not positive where one is needed, a nuclei field without nuclei, a curvature field without an
+// envelope, or a file that cannot be read. Free with guide_field_free.
+GuideField *guide_field_new(const FieldParams *params, int count, const FieldSite *site,
                             const Run *run, Error *e);
 void guide_field_free(GuideField *field); // NULL is fine
 

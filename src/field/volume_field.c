@@ -5,7 +5,17 @@ bool volume_field_init(VolumeField *field, const FieldParams *params, const Run 
     *field = (VolumeField){.from_file = params->from_file};
     transform_inverse(&field->from_file, &field->to_file);
     field->volume = volume_read(params->file, params->grid, run, e);
-    return field->volume || error_key(e, "file");
+    Transform to_world;
+    if (!field->volume) {
+        return error_key(e, "file");
+    }
+    if (transform_inverse(&field->volume->to_index, &to_world)) {
+        for (int axis = 0; axis < 3; axis++) {
+            Vec3 unit = vec3(axis == 0, axis == 1, axis == 2);
+            field->half_voxel[axis] = vec3_scale(transform_vector(&to_world, unit), 0.5f);
+        }
+    }
+    return true;
 }
 
 void volume_field_free(VolumeField *field)
@@ -15,19 +25,14 @@ void volume_field_free(VolumeField *field)
 }
 
 // Central differences over a voxel, in the file's space.
-static Vec3 gradient(const Volume *volume, Vec3 at)
+static Vec3 gradient(const VolumeField *field, Vec3 at)
 {
-    Transform to_world;
+    const Volume *volume = field->volume;
     float rise[3];
-    if (!transform_inverse(&volume->to_index, &to_world)) {
-        return vec3(0, 0, 0);
-    }
     for (int axis = 0; axis < 3; axis++) {
-        Vec3 unit = vec3(axis == 0, axis == 1, axis == 2);
-        Vec3 half = vec3_scale(transform_vector(&to_world, unit), 0.5f);
         float above, below;
-        volume_at(volume, vec3_add(at, half), &above);
-        volume_at(volume, vec3_sub(at, half), &below);
+        volume_at(volume, vec3_add(at, field->half_voxel[axis]), &above);
+        volume_at(volume, vec3_sub(at, field->half_voxel[axis]), &below);
         rise[axis] = above - below;
     }
     // differences by sample number, carried into the world as gradients are
@@ -43,7 +48,7 @@ Vec3 volume_field_at(const VolumeField *field, Vec3 p)
         volume_at(volume, at, value);
         x = vec3(value[0], value[1], value[2]);
     } else {
-        x = gradient(volume, at);
+        x = gradient(field, at);
     }
     x = transform_vector(&field->from_file, x); // rotated, and scaled evenly
     return vec3_dot(x, x) > 0.0f ? vec3_normalize(x) : vec3(0, 0, 0);

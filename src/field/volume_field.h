@@ -8,6 +8,7 @@
 typedef struct VolumeField {
     Volume *volume; // owned
     Transform from_file, to_file;
+    Vec3 half_voxel[3]; // m of the file, along the grid's axes
 } VolumeField;
 
 // Reads params->file. Errors have the key "file". Clear with volume_field_free, also on failure.

@@ -15,8 +15,8 @@ static GuideField *field_new(const FieldParams *params, int count, Vec3 nucleus,
     Run run = run_default();
     run.threads = 2;
     Error e = {0};
-    Aabb bounds = {vec3_splat(-half), vec3_splat(half)};
-    GuideField *field = guide_field_new(params, count, &nucleus, &normal, 1, bounds, &run, &e);
+    FieldSite site = {&nucleus, &normal, 1, {vec3_splat(-half), vec3_splat(half)}, NULL};
+    GuideField *field = guide_field_new(params, count, &site, &run, &e);
     if (!field) {
         fail_msg("%s", e.message);
     }
@@ -328,24 +328,29 @@ static void wrong_fields_are_errors(void **state)
 {
     (void)state;
     Run run = run_default();
-    Aabb bounds = {vec3_splat(-1), vec3_splat(1)};
     Vec3 at = vec3(0, 0, 0), up = vec3(0, 1, 0);
+    FieldSite site = {&at, &up, 1, {vec3_splat(-1), vec3_splat(1)}, NULL};
+    FieldSite nowhere = {.bounds = site.bounds};
     Error e = {0};
     FieldParams params = field_params_default(FIELD_NUCLEI);
-    assert_null(guide_field_new(&params, 1, NULL, NULL, 0, bounds, &run, &e));
+    assert_null(guide_field_new(&params, 1, &nowhere, &run, &e));
     assert_string_equal(e.message, "a nuclei field needs at least one root to lead away from");
     params = field_params_default(FIELD_CURL);
     params.scale = -1.0f;
-    assert_null(guide_field_new(&params, 1, &at, &up, 1, bounds, &run, &e));
+    assert_null(guide_field_new(&params, 1, &site, &run, &e));
     assert_string_equal(e.message, "field scale -1 m; it must be positive");
     params = field_params_default(FIELD_GRID);
     params.resolution = 5000;
-    assert_null(guide_field_new(&params, 1, &at, &up, 1, bounds, &run, &e));
+    assert_null(guide_field_new(&params, 1, &site, &run, &e));
     assert_string_equal(e.message, "field resolution 5000; it must be 1 to 2048");
     params = field_params_default(FIELD_NUCLEI);
     params.turn = NAN;
-    assert_null(guide_field_new(&params, 1, &at, &up, 1, bounds, &run, &e));
+    assert_null(guide_field_new(&params, 1, &site, &run, &e));
     assert_string_equal(e.message, "a field's numbers must be finite");
+    params = field_params_default(FIELD_CURVATURE);
+    assert_null(guide_field_new(&params, 1, &site, &run, &e));
+    assert_string_equal(e.message,
+                        "a curvature field needs an envelope with a surface; use another kind");
 }
 
 // Around and along the middle of a capsule and of a prolate ellipsoid; nowhere on a sphere.
@@ -364,9 +369,8 @@ static void curvature_leads_around_or_along(void **state)
         FieldParams params = field_params_default(FIELD_CURVATURE);
         params.vector = vec3(0.1f, 1, 0.2f);
         params.least = i % 2;
-        params.envelope = envelope;
-        GuideField *field =
-            guide_field_new(&params, 1, NULL, NULL, 0, envelope_bounds(envelope), &run, &e);
+        FieldSite site = {.bounds = envelope_bounds(envelope), .envelope = envelope};
+        GuideField *field = guide_field_new(&params, 1, &site, &run, &e);
         assert_non_null(field);
         for (int k = 0; k < 32; k++) {
             float s, c, y = (i / 2 == 0 ? 1.0f : 0.0f) + 0.3f * sinf((float)k);

@@ -39,7 +39,8 @@ static void field_of_weight_zero_is_plain_growth(void **state)
         for (int rule = GROW_MEAN; rule <= GROW_SECTORS; rule++) {
             PointSet *points = points_in_ball(2000, 9);
             FieldParams field = field_params_default(FIELD_CURL);
-            GuideField *curl = guide_field_new(&field, 1, NULL, NULL, 0, aabb_empty(), &run, NULL);
+            GuideField *curl =
+                guide_field_new(&field, 1, &(FieldSite){.bounds = aabb_empty()}, &run, NULL);
             assert_non_null(curl);
             ColonizeParams params = params_auto(points, 0.5f, 1.5f, 6.0f);
             params.rule = (GrowRule)rule;
@@ -67,7 +68,8 @@ static void every_node_is_a_step_from_its_parent(void **state)
     (void)state;
     Run run = run_default();
     FieldParams field = field_params_default(FIELD_VORTEX);
-    GuideField *vortex = guide_field_new(&field, 1, NULL, NULL, 0, aabb_empty(), &run, NULL);
+    GuideField *vortex =
+        guide_field_new(&field, 1, &(FieldSite){.bounds = aabb_empty()}, &run, NULL);
     for (int surface = 0; surface < 2; surface++) {
         PointSet *points = surface ? points_on_sphere(3000, 2) : points_in_ball(3000, 2);
         OutTree *tree = tree_from(vec3(0, -1, 0));

@@ -176,7 +176,8 @@ static void growth_in_a_field_equals_brute_force(void **state)
     (void)state;
     Run run = run_default();
     FieldParams field = field_params_default(FIELD_VORTEX);
-    GuideField *vortex = guide_field_new(&field, 1, NULL, NULL, 0, aabb_empty(), &run, NULL);
+    GuideField *vortex =
+        guide_field_new(&field, 1, &(FieldSite){.bounds = aabb_empty()}, &run, NULL);
     assert_non_null(vortex);
     PointSet *points = points_in_ball(1500, 3);
     OutTree *start = tree_from(vec3(0.1f, -1, 0));

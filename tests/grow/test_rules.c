@@ -341,7 +341,8 @@ static void additive_mode_is_the_printed_formula(void **state)
     FieldParams field = field_params_default(FIELD_UNIFORM);
     field.vector = vec3(3, 0, 0);
     Run run = run_default();
-    GuideField *uniform = guide_field_new(&field, 1, NULL, NULL, 0, aabb_empty(), &run, NULL);
+    GuideField *uniform =
+        guide_field_new(&field, 1, &(FieldSite){.bounds = aabb_empty()}, &run, NULL);
     ColonizeParams params = colonize_params_default();
     params.step = 0.1f, params.kill = 0.2f, params.influence = 2.0f;
     params.field = uniform;

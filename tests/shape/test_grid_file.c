@@ -116,7 +116,7 @@ static void fields_read_back_as_they_are(void **state)
     params[1].scale = 3.0f;
     params[1].weight = 0.5f;
     GuideField *field =
-        guide_field_new(params, 2, NULL, NULL, 0, envelope_bounds(envelope), &run, NULL);
+        guide_field_new(params, 2, &(FieldSite){.bounds = envelope_bounds(envelope)}, &run, NULL);
     assert_non_null(field);
     GridFile *grids = grid_file_new(NULL);
     assert_true(guide_field_add_to(field, envelope, 48, "crown/field", grids, &run, NULL));
@@ -162,8 +162,8 @@ static void the_same_grids_give_the_same_bytes(void **state)
         run.threads = 1 + i;
         Envelope *envelope = make_envelope(2);
         FieldParams params = field_params_default(FIELD_VORTEX);
-        GuideField *field =
-            guide_field_new(&params, 1, NULL, NULL, 0, envelope_bounds(envelope), &run, NULL);
+        GuideField *field = guide_field_new(
+            &params, 1, &(FieldSite){.bounds = envelope_bounds(envelope)}, &run, NULL);
         GridFile *grids = grid_file_new(NULL);
         assert_true(envelope_add_to(envelope, "a", grids, &run, NULL));
         assert_true(guide_field_add_to(field, envelope, 24, "b", grids, &run, NULL));
@@ -208,7 +208,7 @@ static void grids_that_move_take_their_vectors_along(void **state)
     FieldParams params = field_params_default(FIELD_RADIAL);
     params.center = vec3(3, 4, -1);
     Aabb box = envelope_bounds(envelope);
-    GuideField *field = guide_field_new(&params, 1, NULL, NULL, 0, box, &run, NULL);
+    GuideField *field = guide_field_new(&params, 1, &(FieldSite){.bounds = box}, &run, NULL);
     assert_true(envelope_add_to(envelope, "stays", grids, &run, NULL));
     assert_true(envelope_add_to(envelope, "level", grids, &run, NULL));
     assert_true(guide_field_add_to(field, envelope, 40, "field", grids, &run, NULL));

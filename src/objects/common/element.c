@@ -89,13 +89,16 @@ static GuideField *element_field(const OutTree *tree, int64_t nuclei, const Elem
         fields[i] = element->fields[i];
         fields[i].seed = random_key(seed, (uint64_t)i);
         fields[i].pull = field_params_pull(&fields[i], element->growth.field_weight);
-        fields[i].envelope = envelope;
         if (fields[i].spherical) {
             fields[i].center = sphere_center(element, bounds);
         }
     }
-    GuideField *field = guide_field_new(fields, element->field_count, tree->position,
-                                        nucleus_normals(tree, nuclei), nuclei, bounds, run, e);
+    FieldSite site = {.nuclei = tree->position,
+                      .normals = nucleus_normals(tree, nuclei),
+                      .nucleus_count = nuclei,
+                      .bounds = bounds,
+                      .envelope = envelope};
+    GuideField *field = guide_field_new(fields, element->field_count, &site, run, e);
     if (!field) {
         error_key(e, "fields");
     }

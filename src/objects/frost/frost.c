@@ -61,9 +61,9 @@ static GuideField *make_field(const OutTree *tree, const FrostParams *params,
                               const PointSet *points, const Run *run, Error *e)
 {
     FieldParams field = field_params_default(FIELD_NUCLEI);
-    Aabb bounds = aabb_empty();
+    FieldSite site = {tree->position, tree->normal, tree->count, aabb_empty(), NULL};
     for (int64_t i = 0; i < points->count; i++) {
-        bounds = aabb_add(bounds, points->position[i]);
+        site.bounds = aabb_add(site.bounds, points->position[i]);
     }
     field.turn = params->turn;
     field.profile = params->profile;
@@ -71,7 +71,7 @@ static GuideField *make_field(const OutTree *tree, const FrostParams *params,
     field.surface = true;
     field.spherical = params->surface == FROST_BUBBLE;
     field.center = params->position;
-    return guide_field_new(&field, 1, tree->position, tree->normal, tree->count, bounds, run, e);
+    return guide_field_new(&field, 1, &site, run, e);
 }
 
 // Grows the spines by plain space colonization, steered by the turned field (Tanaka eq. (9)-(13)).

@@ -177,8 +177,8 @@ static GuideField *river_field(const OutTree *tree, const TerrainParams *params,
     }
     float half = 0.5f * params->size;
     Aabb box = {vec3(-half, 0.0f, -half), vec3(half, 0.0f, half)};
-    GuideField *field = guide_field_new(fields, rivers->field_count, tree->position, tree->normal,
-                                        tree->count, box, run, e);
+    FieldSite site = {tree->position, tree->normal, tree->count, box, NULL};
+    GuideField *field = guide_field_new(fields, rivers->field_count, &site, run, e);
     free(fields);
     return field;
 }
