@@ -137,7 +137,7 @@ void curvature_field_free(CurvatureField *field)
 
 Vec3 curvature_field_at(const CurvatureField *field, Vec3 p, Vec3 toward)
 {
-    const TreePoint *nearest = point_tree_nearest(&field->tree, p);
+    const TreePoint *nearest = point_tree_nearest(&field->tree, p, -1);
     Vec3 direction = nearest ? field->direction[nearest->index] : vec3(0, 0, 0);
     return vec3_dot(direction, toward) < 0.0f ? vec3_scale(direction, -1.0f) : direction;
 }

@@ -28,7 +28,7 @@ static void take_nearer(Near *near, Vec3 p, Vec3 position, Vec3 normal)
 static Near nearest_nucleus(const Nuclei *nuclei, Vec3 p)
 {
     Near near = {.position = p, .normal = {0, 1, 0}, .distance2 = INFINITY};
-    const TreePoint *point = point_tree_nearest(&nuclei->points, p);
+    const TreePoint *point = point_tree_nearest(&nuclei->points, p, -1);
     if (point) {
         take_nearer(&near, p, point->position, nuclei->normal[point->index]);
     }

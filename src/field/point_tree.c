@@ -80,9 +80,21 @@ void point_tree_free(PointTree *tree)
 
 typedef struct Nearest {
     Vec3 p;
+    int64_t skip;
     float distance2;
-    const TreePoint *point;
+    const TreePoint *point; // NULL = none so far
 } Nearest;
+
+static void take_nearer(Nearest *nearest, const TreePoint *point, Vec3 offset)
+{
+    float d = vec3_dot(offset, offset);
+    bool nearer = d < nearest->distance2 || (d == nearest->distance2 && nearest->point &&
+                                             point->index < nearest->point->index);
+    if (nearer && point->index != nearest->skip) {
+        nearest->distance2 = d;
+        nearest->point = point;
+    }
+}
 
 static void search(const TreePoint *point, int64_t count, Nearest *nearest)
 {
@@ -92,11 +104,7 @@ static void search(const TreePoint *point, int64_t count, Nearest *nearest)
     int64_t middle = count / 2;
     const TreePoint *at = &point[middle], *upper = at + 1;
     Vec3 v = vec3_sub(nearest->p, at->position);
-    float d = vec3_dot(v, v);
-    if (d < nearest->distance2 || (d == nearest->distance2 && at->index < nearest->point->index)) {
-        nearest->distance2 = d;
-        nearest->point = at;
-    }
+    take_nearer(nearest, at, v);
     float beyond = coordinate(v, at->axis);
     bool after = beyond > 0.0f;
     search(after ? upper : point, after ? count - middle - 1 : middle, nearest);
@@ -105,9 +113,9 @@ static void search(const TreePoint *point, int64_t count, Nearest *nearest)
     }
 }
 
-const TreePoint *point_tree_nearest(const PointTree *tree, Vec3 p)
+const TreePoint *point_tree_nearest(const PointTree *tree, Vec3 p, int64_t skip)
 {
-    Nearest nearest = {.p = p, .distance2 = INFINITY, .point = tree->point};
+    Nearest nearest = {.p = p, .skip = skip, .distance2 = INFINITY};
     search(tree->point, tree->count, &nearest);
-    return tree->count > 0 ? nearest.point : NULL;
+    return nearest.point;
 }

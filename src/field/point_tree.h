@@ -24,7 +24,8 @@ typedef struct PointTree {
 bool point_tree_init(PointTree *tree, const Vec3 *position, int64_t count, Error *e);
 void point_tree_free(PointTree *tree);
 
-// The point nearest to p, of equally near ones that of the lowest index; NULL if the tree is empty.
-const TreePoint *point_tree_nearest(const PointTree *tree, Vec3 p);
+// The point nearest to p, of equally near ones that of the lowest index. skip: index of a point
+// that does not count, -1 = none. NULL if there is no point.
+const TreePoint *point_tree_nearest(const PointTree *tree, Vec3 p, int64_t skip);
 
 #endif

@@ -49,23 +49,21 @@ bool attractor_log_add(AttractorLog *log, const PointSet *points, float kill, fl
 bool attractor_log_at(const AttractorLog *log, int32_t birth, AttractorLog *then, Error *e)
 {
     *then = (AttractorLog){0};
-    if (!reserve(then, log->count, e)) {
-        return false;
-    }
-    for (int64_t g = 0; g < log->group_count && log->group[g].born <= birth; g++) {
+    bool done = reserve(then, log->count, e);
+    for (int64_t g = 0; done && g < log->group_count && log->group[g].born <= birth; g++) {
         const AttractorGroup *from = &log->group[g];
         AttractorGroup *to = add_group(then, from->kill, from->influence, from->born, e);
-        if (!to) {
-            attractor_log_clear(then);
-            return false;
-        }
-        for (int64_t i = from->first; i < from->first + from->count; i++) {
+        done = to;
+        for (int64_t i = from->first; done && i < from->first + from->count; i++) {
             if (log->removed[i] > birth) {
                 add(then, to, log->position[i], log->normal[i], log->removed[i]);
             }
         }
     }
-    return true;
+    if (!done) {
+        attractor_log_clear(then);
+    }
+    return done;
 }
 
 void attractor_log_clear(AttractorLog *log)

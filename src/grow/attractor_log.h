@@ -29,9 +29,10 @@ bool attractor_log_add(AttractorLog *log, const PointSet *points, float kill, fl
                        int32_t born, Error *e);
 
 // Copies what was there when the youngest node had this birth: the groups that had appeared, with
-// the attractors that were left.
+// the attractors that were left. Clear `then` with attractor_log_clear; it is empty on failure.
 bool attractor_log_at(const AttractorLog *log, int32_t birth, AttractorLog *then, Error *e);
 
+// Frees the arrays; the log is then empty.
 void attractor_log_clear(AttractorLog *log);
 
 #endif

@@ -219,20 +219,26 @@ static void the_nearest_point_is_that_of_a_search_through_all(void **state)
         assert_true(point_tree_init(&tree, point, COUNT, NULL));
         for (uint64_t i = 0; i < 1000; i++) {
             Vec3 p = i % 2 ? random_point(18, i) : point[i % COUNT];
-            int32_t nearest = 0;
+            int32_t skip = i % 3 ? (int32_t)(i % COUNT) : -1, nearest = 0;
             float best = INFINITY;
             for (int32_t j = 0; j < COUNT; j++) {
                 Vec3 v = vec3_sub(p, point[j]);
-                nearest = vec3_dot(v, v) < best ? j : nearest;
-                best = fminf(best, vec3_dot(v, v));
+                if (j != skip && vec3_dot(v, v) < best) {
+                    nearest = j;
+                    best = vec3_dot(v, v);
+                }
             }
-            assert_int_equal(point_tree_nearest(&tree, p)->index, nearest);
+            assert_int_equal(point_tree_nearest(&tree, p, skip)->index, nearest);
         }
         point_tree_free(&tree);
     }
-    PointTree empty;
+    PointTree one, empty;
+    assert_true(point_tree_init(&one, &(Vec3){1, 2, 3}, 1, NULL));
+    assert_non_null(point_tree_nearest(&one, vec3(0, 0, 0), -1));
+    assert_null(point_tree_nearest(&one, vec3(0, 0, 0), 0));
+    point_tree_free(&one);
     assert_true(point_tree_init(&empty, NULL, 0, NULL));
-    assert_null(point_tree_nearest(&empty, vec3(0, 0, 0)));
+    assert_null(point_tree_nearest(&empty, vec3(0, 0, 0), -1));
     point_tree_free(&empty);
 }
 

@@ -110,7 +110,9 @@ static const Key FIELD_KEYS[] = {
      .doc = "Measure the sweep by the polar angle on a sphere about the centre of the envelope's "
             "first shape, instead of by distance."},
     {KEY_OF(FieldParams, surface, "surface", KEY_BOOL), .kinds = NUCLEI,
-     .doc = "Turn about the attractors' surface normals instead of `vector`."},
+     .doc = "Turn about the attractors' surface normals instead of `vector` (grid: turn about "
+            "`vector`, "
+            "then stay in the surface's tangent plane)."},
     {KEY_OF(FieldParams, resolution, "resolution", KEY_INT), .kinds = BIT(FIELD_GRID), .high = 1024,
      .doc = "Voxels along the longest side; 0 = 48."},
     {0},

@@ -47,14 +47,11 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
 static int64_t attractors(const void *params)
 {
     const OuttreeParams *p = params;
-    int own;
-    outtree_own_levels(&own);
     int64_t sum = element_attractors(&p->element);
-    if (p->element.level_count == 0 && outtree_scatters(p)) {
-        const GrowLevel *levels = outtree_own_levels(&own);
-        for (int i = 0; i < own; i++) {
-            sum += levels[i].attractors;
-        }
+    int own;
+    const GrowLevel *levels = outtree_own_levels(&own);
+    for (int i = 0; p->element.level_count == 0 && outtree_scatters(p) && i < own; i++) {
+        sum += levels[i].attractors;
     }
     for (int i = 0; i < p->further_count; i++) {
         sum += element_attractors(&p->further[i].element);

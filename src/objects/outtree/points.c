@@ -1,13 +1,10 @@
 // Start points and attractors that are placed, not scattered.
 #include "objects/outtree/outtree.h"
 
-#include "base/memory.h"
 #include "base/random.h"
+#include "field/point_tree.h"
 #include "objects/common/starts.h"
 #include "shape/mesh_nearest.h"
-
-#include <math.h>
-#include <stdlib.h>
 
 enum { CANDIDATES_A_START = 60 };
 
@@ -63,30 +60,36 @@ bool outtree_plant(OutTree *tree, const OuttreeParams *params, const Envelope *e
     scatter.count = (int64_t)count * CANDIDATES_A_START;
     scatter.seed = random_key(recipe->seed, STREAM_OUTTREE_CANDIDATES);
     PointSet *points = points_scatter(envelope, &scatter, recipe->run, e);
+    int64_t first = tree->count;
     bool done =
         points && starts_spread(tree, points, params->starts.direction, count,
                                 random_key(recipe->seed, STREAM_OUTTREE_STARTS), recipe->run, e);
     points_free(points);
-    for (int64_t i = 0; done && !lies_on_surface(params) && i < tree->count; i++) {
-        // a start on the surface of a volume heads into it
-        tree->normal[i] = i < tree->count - count ? tree->normal[i] : vec3_neg(tree->normal[i]);
+    for (int64_t i = first; done && !lies_on_surface(params) && i < tree->count; i++) {
+        tree->normal[i] = vec3_neg(tree->normal[i]); // on the surface of a volume, it heads inward
     }
     return done;
 }
 
 // Mean distance from a point to its nearest neighbour, m.
-static double mean_gap(const PointSet *points)
+static bool mean_gap(const PointSet *points, double *gap, Error *e)
 {
+    PointTree tree;
     double sum = 0.0;
-    for (int64_t i = 0; i < points->count; i++) {
-        float least = INFINITY;
-        for (int64_t k = 0; k < points->count; k++) {
-            float gap = vec3_distance(points->position[i], points->position[k]);
-            least = k != i && gap < least ? gap : least;
-        }
-        sum += (double)least;
+    *gap = 1.0;
+    if (points->count < 2) {
+        return true;
     }
-    return points->count > 1 ? sum / (double)points->count : 1.0;
+    if (!point_tree_init(&tree, points->position, points->count, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < points->count; i++) {
+        const TreePoint *nearest = point_tree_nearest(&tree, points->position[i], i);
+        sum += (double)vec3_distance(points->position[i], nearest->position);
+    }
+    point_tree_free(&tree);
+    *gap = sum / (double)points->count;
+    return true;
 }
 
 PointSet *outtree_placed_attractors(const OuttreeParams *params, const Envelope *envelope,
@@ -101,11 +104,11 @@ PointSet *outtree_placed_attractors(const OuttreeParams *params, const Envelope 
                 points_add(points, point.position, point.normal, random_key(seed, (uint64_t)i), e);
         }
     }
-    if (!done) {
+    double gap;
+    if (!done || !mean_gap(points, &gap, e)) {
         points_free(points);
         return NULL;
     }
-    double gap = mean_gap(points);
     points->dimension = lies_on_surface(params) ? 2 : 3;
     points->measure =
         (double)points->count * (points->dimension == 2 ? gap * gap : gap * gap * gap);

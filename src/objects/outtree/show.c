@@ -2,8 +2,10 @@
 // influence distances.
 #include "base/exact_math.h"
 #include "base/memory.h"
+#include "field/point_tree.h"
 #include "objects/common/balls.h"
 #include "objects/outtree/outtree.h"
+#include "outtree/branching.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,24 +13,24 @@
 enum { CIRCLE_POINTS = 97 };
 
 // Which nodes are meant.
-typedef bool NodeTest(const OutTree *tree, const bool *bears, int64_t node);
+typedef bool NodeTest(const OutTree *tree, const Branching *branching, int64_t node);
 
-static bool is_any(const OutTree *tree, const bool *bears, int64_t node)
+static bool is_any(const OutTree *tree, const Branching *branching, int64_t node)
 {
-    (void)tree, (void)bears, (void)node;
+    (void)tree, (void)branching, (void)node;
     return true;
 }
 
-static bool is_start(const OutTree *tree, const bool *bears, int64_t node)
+static bool is_start(const OutTree *tree, const Branching *branching, int64_t node)
 {
-    (void)bears;
+    (void)branching;
     return tree->parent[node] < 0;
 }
 
-static bool is_tip(const OutTree *tree, const bool *bears, int64_t node)
+static bool is_tip(const OutTree *tree, const Branching *branching, int64_t node)
 {
     (void)tree;
-    return !bears[node];
+    return branching->children[node] == 0;
 }
 
 static NodeTest *const AROUND[] = {
@@ -37,20 +39,18 @@ static NodeTest *const AROUND[] = {
 // Positions of the nodes that are meant; the caller frees them.
 static Vec3 *find_nodes(const OutTree *tree, NodeTest *test, int64_t *count, Error *e)
 {
-    bool *bears = memory_alloc_zero(tree->count, sizeof *bears, e);
-    Vec3 *found = bears ? memory_alloc(tree->count, sizeof *found, e) : NULL;
+    Branching branching;
     *count = 0;
-    for (int64_t i = 0; found && i < tree->count; i++) {
-        if (tree->parent[i] >= 0) {
-            bears[tree->parent[i]] = true;
-        }
+    if (!branching_init(&branching, tree, e)) {
+        return NULL;
     }
+    Vec3 *found = memory_alloc(tree->count, sizeof *found, e);
     for (int64_t i = 0; found && i < tree->count; i++) {
-        if (test(tree, bears, i)) {
+        if (test(tree, &branching, i)) {
             found[(*count)++] = tree->position[i];
         }
     }
-    free(bears);
+    branching_free(&branching);
     return found;
 }
 
@@ -118,34 +118,36 @@ static bool add_zones(const OutTree *tree, const ShowParams *show, const Attract
     return done;
 }
 
-// The node nearest to p within reach, -1 = none.
-static int64_t pulled_by(const OutTree *tree, Vec3 p, float reach)
+// Nodes that the group's attractors pull, -1 = none: the nearest one within influence.
+static int64_t find_pulled(const PointTree *nodes, const AttractorLog *log,
+                           const AttractorGroup *group, int64_t *node)
 {
-    int64_t best = -1;
-    float least = reach;
-    for (int64_t i = 0; i < tree->count; i++) {
-        float gap = vec3_distance(tree->position[i], p);
-        if (gap < least) {
-            least = gap;
-            best = i;
-        }
+    int64_t count = 0;
+    for (int64_t i = 0; i < group->count; i++) {
+        Vec3 p = log->position[group->first + i];
+        const TreePoint *nearest = point_tree_nearest(nodes, p, -1);
+        bool pulls = nearest && vec3_distance(nearest->position, p) < group->influence;
+        node[i] = pulls ? nearest->index : -1;
+        count += pulls;
     }
-    return best;
+    return count;
 }
 
 // Lines from the group's attractors to the nodes that they pull (Tanaka et al., eq. (5)).
 static bool add_pulls(const OutTree *tree, const ShowParams *show, const AttractorLog *log,
                       const AttractorGroup *group, const Placing *placing, Error *e)
 {
-    int64_t *node = show->pulls > 0.0f ? memory_alloc(group->count, sizeof *node, e) : NULL;
-    bool done = show->pulls <= 0.0f || node;
-    int64_t count = 0;
-    for (int64_t i = 0; node && done && i < group->count; i++) {
-        node[i] = pulled_by(tree, log->position[group->first + i], group->influence);
-        count += node[i] >= 0;
-        done = run_goes_on(placing->recipe->run, 0, e);
+    PointTree nodes;
+    if (show->pulls <= 0.0f) {
+        return true;
     }
-    if (done && count > 0) {
+    if (!point_tree_init(&nodes, tree->position, tree->count, e)) {
+        return false;
+    }
+    int64_t *node = memory_alloc(group->count, sizeof *node, e);
+    int64_t count = node ? find_pulled(&nodes, log, group, node) : 0;
+    bool done = node;
+    if (count > 0) {
         CurveSet *curves = curves_new(2 * count, count, e);
         for (int64_t i = 0, c = 0; curves && i < group->count; i++) {
             if (node[i] >= 0) {
@@ -157,6 +159,7 @@ static bool add_pulls(const OutTree *tree, const ShowParams *show, const Attract
         done = placing_add(placing, (Part){.curves = curves}, OUTTREE_ATTRACTOR, e);
     }
     free(node);
+    point_tree_free(&nodes);
     return done;
 }
 
