@@ -43,7 +43,11 @@ void surface_project(const void *surface, Vec3 *p, Vec3 *normal)
         if (steep > 0.04f) {
             *normal = vec3_normalize(g);
         }
-        *p = vec3_madd(*p, -d / (steep > 0.25f ? sqrtf(steep) : 1.0f), *normal);
+        Vec3 last = *p;
+        *p = vec3_madd(last, -d / (steep > 0.25f ? sqrtf(steep) : 1.0f), *normal);
+        if (p->x == last.x && p->y == last.y && p->z == last.z) {
+            return; // further rounds would change nothing
+        }
     }
 }
 

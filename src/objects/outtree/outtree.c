@@ -289,14 +289,6 @@ static bool finish_growth(Growing *g, Error *e)
     return true;
 }
 
-static void free_log(void *log)
-{
-    if (log) {
-        attractor_log_clear(log);
-    }
-    free(log);
-}
-
 bool outtree_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     Growing g = {.params = given, .recipe = recipe};
@@ -305,7 +297,7 @@ bool outtree_grow(const void *given, const Recipe *recipe, Grown *whole, Error *
     g.on = envelope ? on_surface(envelope) : (OnSurface){0};
     g.tree = envelope ? out_tree_new(e) : NULL;
     whole->state = g.log = g.tree ? memory_alloc_zero(1, sizeof *g.log, e) : NULL;
-    whole->free_state = free_log;
+    whole->free_state = outtree_free_attractors;
     bool done = g.log && prepare_string(&g, e) && grow_all(&g, e) && finish_growth(&g, e);
     whole->tree = g.tree;
     grow_string_clear(&g.string);
@@ -321,44 +313,4 @@ float outtree_tip_radius(const void *params, const OutTree *whole)
         least = whole->radius[i] < least ? whole->radius[i] : least;
     }
     return least;
-}
-
-// Moves the attractors left as the nodes were: as roots of an out-tree of their own.
-static bool carry_attractors(const Carrier *carrier, AttractorLog *log, Error *e)
-{
-    OutTree *points = out_tree_new(e);
-    bool done = points && out_tree_reserve(points, log->count, e);
-    for (int64_t i = 0; done && i < log->count; i++) {
-        done = out_tree_add_node(points, log->position[i], -1, 0, 0, (uint64_t)i, e) >= 0;
-    }
-    done = done && carrier->carry(carrier->user, points, e);
-    for (int64_t i = 0; done && i < log->count; i++) {
-        log->position[i] = points->position[i];
-    }
-    out_tree_free(points);
-    return done;
-}
-
-bool outtree_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
-                    Error *e)
-{
-    (void)params;
-    AttractorLog *then = memory_alloc_zero(1, sizeof *then, e);
-    grown->state = then;
-    grown->free_state = free_log;
-    return then && attractor_log_at(whole->state, out_tree_last_birth(grown->tree), then, e) &&
-           (!recipe->carrier || then->count == 0 || carry_attractors(recipe->carrier, then, e));
-}
-
-bool outtree_points(const Grown *grown, PointSet *points, Error *e)
-{
-    const AttractorLog *log = grown->state;
-    bool done = true;
-    for (int64_t g = 0; done && g < log->group_count; g++) {
-        const AttractorGroup *group = &log->group[g];
-        for (int64_t i = group->first; done && i < group->first + group->count; i++) {
-            done = points_add(points, log->position[i], log->normal[i], (uint64_t)i, e);
-        }
-    }
-    return done;
 }

@@ -176,6 +176,7 @@ bool outtree_show(const OuttreeParams *params, const OutTree *tree, const Attrac
 // grown->state are the attractors (AttractorLog), of the whole growth and at its cut.
 bool outtree_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
 float outtree_tip_radius(const void *params, const OutTree *whole); // m
+void outtree_free_attractors(void *log); // whole->state or grown->state; NULL is fine
 bool outtree_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
                     Error *e);
 bool outtree_points(const Grown *grown, PointSet *points, Error *e); // see Kind.points
