@@ -111,8 +111,7 @@ static const Key FIELD_KEYS[] = {
             "first shape, instead of by distance."},
     {KEY_OF(FieldParams, surface, "surface", KEY_BOOL), .kinds = NUCLEI,
      .doc = "Turn about the attractors' surface normals instead of `vector` (grid: turn about "
-            "`vector`, "
-            "then stay in the surface's tangent plane)."},
+            "`vector`, then stay in the surface's tangent plane)."},
     {KEY_OF(FieldParams, resolution, "resolution", KEY_INT), .kinds = BIT(FIELD_GRID), .high = 1024,
      .doc = "Voxels along the longest side; 0 = 48."},
     {0},
