@@ -301,9 +301,65 @@ def test_warnings_are_pythons():
             pass
 
 
+WEED = {
+    "objects": [{"name": "weed", "lsystem": {"height": 12, "generations": 3}}],
+    "targets": [{"object": "weed", "measure": "height", "low": 6, "high": 7}],
+}
+HEIGHT = "objects.weed.lsystem.height"
+
+
+def test_a_fit_meets_targets(tmp_path):
+    seen = []
+    scene = ramify.Scene(WEED)
+    fit = scene.fit({HEIGHT: (np.float32(2), 20)}, each_evaluation=seen.append)
+    assert fit.met and fit.best == fit.evaluations[-1] and seen == fit.evaluations
+    assert fit.targets == [("weed", "height", 6, 7)]
+    assert fit.evaluations[0].misfit > 0 and fit.evaluations[0].parameters == {HEIGHT: pytest.approx(12, abs=1e-3)}
+    assert fit.best.misfit == 0 and fit.best.failure is None
+    assert fit.best.measures == (scene_height(ramify.Scene(WEED, fit.best.parameters)),)
+    del scene
+    fit.write(tmp_path / "fitted.yaml")
+    assert 6 <= scene_height(ramify.Scene.load(tmp_path / "fitted.yaml")) <= 7
+    fit.draw(tmp_path / "way.svg")
+    assert "<svg" in (tmp_path / "way.svg").read_text()
+
+
+def scene_height(scene):
+    return scene.measure("weed")["height"]
+
+
+def test_a_fit_spends_what_it_may(tmp_path):
+    alike = {"height": 3, "generations": 3}
+    text = f"objects: [{{name: a, lsystem: &same {alike}}}, {{name: b, lsystem: *same}}]\n".replace("'", "")
+    file = tmp_path / "alias.yaml"
+    file.write_text(text + "targets: [{object: b, measure: height, low: 3.9, high: 4.5}]\n")
+    fit = ramify.Scene.load(file).fit({"objects.b.lsystem.height": (2, 5, "log")}, 4, "evaluations")
+    assert len(fit.evaluations) == 4
+    with pytest.warns(RuntimeWarning, match="all values written out"):
+        fit.write(tmp_path / "whole.yaml")
+
+
+def test_a_fit_refuses_and_ends():
+    scene = ramify.Scene(WEED)
+    for ranges, how in (({}, {}), ({HEIGHT: (20, 2)}, {}), ({"objects.weed.lsystem.hight": (2, 20)}, {})):
+        with pytest.raises(ramify.BadInput):
+            scene.fit(ranges, **how)
+    for ranges, how in (({HEIGHT: (2, 20, "ln")}, {}), ({HEIGHT: (2, 20)}, {"until": "morning"})):
+        with pytest.raises(ValueError, match="must be"):
+            scene.fit(ranges, **how)
+
+    def stop(evaluation):
+        raise StopIteration(evaluation.misfit)
+
+    with pytest.raises(StopIteration):
+        scene.fit({HEIGHT: (2, 20)}, each_evaluation=stop)
+    with pytest.raises(ramify.Error, match="/nowhere/fit.yaml"):
+        scene.fit({HEIGHT: (2, 20)}).write("/nowhere/fit.yaml")
+
+
 def test_what_is_public_has_types():
     public = [ramify.render, ramify.schema]
-    for kind in (ramify.Scene, ramify.Tree, ramify.Land, ramify.World, ramify.Film):
+    for kind in (ramify.Scene, ramify.Tree, ramify.Land, ramify.World, ramify.Film, ramify.Fit):
         public += [getattr(kind, name) for name, f in vars(kind).items() if name[0] != "_" and not isinstance(f, property)]
     assert len(public) > 15
     for function in public:

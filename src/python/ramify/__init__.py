@@ -18,11 +18,27 @@ the scene or by their number. Everything that takes long takes threads (0 = all 
 from typing import Any, Dict, Mapping, Optional, Union
 
 from ._call import BadInput, Error, File, VERSION as __version__, call, path
+from .fit import Evaluation, Fit, Target
 from .scene import Scene, schema
 from .tree import Land, Tree
 from .world import Film, Mesh, Curves, World
 
-__all__ = ["BadInput", "Curves", "Error", "Film", "Land", "Mesh", "Scene", "Tree", "World", "schema", "render"]
+__all__ = [
+    "BadInput",
+    "Curves",
+    "Error",
+    "Evaluation",
+    "Film",
+    "Fit",
+    "Land",
+    "Mesh",
+    "Scene",
+    "Target",
+    "Tree",
+    "World",
+    "schema",
+    "render",
+]
 
 
 def render(

@@ -21,6 +21,7 @@ class Error(c.Structure):
 PROGRESS = c.CFUNCTYPE(None, c.c_void_p, c.c_char_p, c.c_double)
 WARN = c.CFUNCTYPE(None, c.c_void_p, c.c_char_p)
 PASS = c.CFUNCTYPE(None, c.c_void_p, c.c_void_p, c.c_int)
+EVALUATED = c.CFUNCTYPE(None, c.c_void_p, c.c_void_p)
 
 
 class Run(c.Structure):
@@ -85,6 +86,55 @@ class Measure(c.Structure):
         ("value", c.c_double),
         ("low", c.c_double),
         ("high", c.c_double),
+    ]
+
+
+class Target(c.Structure):
+    _fields_ = [
+        ("object", c.c_char_p),
+        ("measure", c.c_char_p),
+        ("low", c.c_double),
+        ("high", c.c_double),
+    ]
+
+
+class Range(c.Structure):
+    _fields_ = [
+        ("path", c.c_char_p),
+        ("low", c.c_double),
+        ("high", c.c_double),
+        ("logarithmic", c.c_int32),
+    ]
+
+
+class FitOptions(c.Structure):
+    _fields_ = [
+        ("ranges", c.POINTER(Range)),
+        ("range_count", c.c_int32),
+        ("evaluations", c.c_int32),
+        ("until", c.c_int32),
+        ("evaluated", EVALUATED),
+        ("user", c.c_void_p),
+    ]
+
+
+class FitInfo(c.Structure):
+    _fields_ = [
+        ("evaluation_count", c.c_int32),
+        ("range_count", c.c_int32),
+        ("target_count", c.c_int32),
+        ("best", c.c_int32),
+        ("met", c.c_int32),
+        ("cancelled", c.c_int32),
+    ]
+
+
+class Evaluation(c.Structure):
+    _fields_ = [
+        ("parameters", c.POINTER(c.c_double)),
+        ("measures", c.POINTER(c.c_double)),
+        ("misfit", c.c_double),
+        ("failure", c.c_char_p),
     ]
 
 
@@ -159,6 +209,11 @@ STRUCTS = {
     "RamifyObjectInfo": ObjectInfo,
     "RamifyLandInfo": LandInfo,
     "RamifyMeasure": Measure,
+    "RamifyTarget": Target,
+    "RamifyRange": Range,
+    "RamifyFitOptions": FitOptions,
+    "RamifyFitInfo": FitInfo,
+    "RamifyEvaluation": Evaluation,
     "RamifyWorldInfo": WorldInfo,
     "RamifyPart": Part,
     "RamifyExportOptions": ExportOptions,
@@ -207,6 +262,13 @@ FUNCTIONS = {
     "measures_free": (None, [_handle]),
     "measures_count": (_int, [_handle]),
     "measures_get": (None, [_handle, _int, c.POINTER(Measure)]),
+    "scene_target": (None, [_handle, _int, c.POINTER(Target)]),
+    "fit": (_handle, [_handle, c.POINTER(FitOptions), _run, _error]),
+    "fit_free": (None, [_handle]),
+    "fit_info": (None, [_handle, c.POINTER(FitInfo)]),
+    "fit_evaluation": (None, [_handle, _int, c.POINTER(Evaluation)]),
+    "fit_write": (c.c_bool, [_handle, _text, c.POINTER(c.c_bool), _error]),
+    "fit_draw": (c.c_bool, [_handle, _text, _error]),
     "build": (_handle, [_handle, _run, _error]),
     "world_free": (None, [_handle]),
     "world_info": (None, [_handle, c.POINTER(WorldInfo)]),

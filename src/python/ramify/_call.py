@@ -98,12 +98,12 @@ def _wait(function, state):
     return outcome[0]
 
 
-def run(function, threads=0, progress=None, each_pass=None, discard=None):
-    """Calls function(run, each_pass, error) of the library. threads: 0 = all processors. progress(stage, done): done in
-    0..1. If an exception is raised, the result is passed to discard."""
+def run(function, threads=0, progress=None, each=None, discard=None, each_type=_abi.PASS):
+    """Calls function(run, each, error) of the library. threads: 0 = all processors. progress(stage, done): done in
+    0..1. each: a further callback, of each_type. If an exception is raised, the result is passed to discard."""
     state, error = _State(), _abi.Error()
     how = _how(state, threads, progress)
-    show = _abi.PASS(_guard(state, each_pass)) if each_pass else _abi.PASS()
+    show = each_type(_guard(state, each)) if each else each_type()
     call = lambda: function(c.byref(how), show, c.byref(error))
     in_main = threading.current_thread() is threading.main_thread()
     result = _wait(call, state) if in_main else call()

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _abi
 from ._call import File, Handle, Progress, call, lib, path, run
+from .fit import Evaluation, Fit, Ranges, as_ranges, evaluation_at
 from .tree import Land, Tree, measures
 from .world import Film, World
 
@@ -19,6 +20,7 @@ Overrides = Optional[Mapping[str, Any]]
 
 _INSTANCES = ("auto", "nodes", "gpu", "flat")
 _COLORS = ("all", "pattern", "growth", "none")
+_UNTIL = ("targets", "evaluations")
 
 
 def _plain(value):
@@ -133,6 +135,38 @@ class Scene:
                 discard=lib.ramify_measures_free,
             )
         )
+
+    def fit(
+        self,
+        ranges: Ranges,
+        evaluations: int = 0,
+        until: str = "targets",
+        threads: int = 0,
+        progress: Progress = None,
+        each_evaluation: Optional[Callable[[Evaluation], object]] = None,
+    ) -> Fit:
+        """Searches parameters with which the scene meets its targets. ranges: {"objects.oak.tree.height": (15, 24)}, or
+        (low, high, "log"); evaluations: most scenes to grow, 0 = 64; until: "targets" to stop at the first scene that
+        meets all, or "evaluations". each_evaluation(evaluation) is called after each. Returns the Fit."""
+        made, paths = as_ranges(ranges), list(ranges)
+        end = _choice("until", until, _UNTIL)
+
+        def show(_user, pointer):
+            each_evaluation(evaluation_at(pointer, -1, paths))
+
+        def search(how, each, error):
+            options = _abi.FitOptions(made, len(made), evaluations, end, each)
+            return lib.ramify_fit(self._handle.pointer, c.byref(options), how, error)
+
+        pointer = run(
+            search,
+            threads,
+            progress,
+            show if each_evaluation else None,
+            discard=lib.ramify_fit_free,
+            each_type=_abi.EVALUATED,
+        )
+        return Fit(pointer, self._handle, paths)
 
     def build(self, threads: int = 0, progress: Progress = None) -> World:
         """Grows, skins and places everything; returns the World."""
