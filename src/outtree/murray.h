@@ -54,6 +54,15 @@ typedef struct MurrayReport {
 bool out_tree_murray_turn(OutTree *tree, MurrayAllowed *allowed, void *user, uint8_t *bound,
                           MurrayReport *report, Error *e);
 
+// Bends the daughters of forks that out_tree_murray_turn had to leave: their first segments take
+// the law's angles, in a plane about the mother as near to the fork's as is allowed, and what
+// follows returns within at most 8 generations to where it was. A first segment keeps at least 0.35
+// of its length, every other one 0.3. Where only one daughter can move, the angle between both is
+// the law's (eq. 15). Forks are visited from the roots to the tips, so a fork once bent stays
+// exact; those without an allowed bend are left unchanged. allowed: as above. Time O(n) plus the
+// checks.
+bool out_tree_murray_bend(OutTree *tree, MurrayAllowed *allowed, void *user, Error *e);
+
 // How well a tree obeys the laws.
 typedef struct MurrayFit {
     int64_t forks;

@@ -276,6 +276,86 @@ static void constrained_turns_keep_within_and_say_where_they_bound(void **state)
     out_tree_free(tree);
 }
 
+// What may be bent: the ball, and all nodes but one.
+typedef struct Bounds {
+    const OutTree *tree;
+    Ball ball;
+    int64_t fixed; // -1 = none
+} Bounds;
+
+static bool stays_in_bounds(void *user, int64_t node, Vec3 from, Vec3 to)
+{
+    Bounds *bounds = user;
+    return stays_in_ball(&bounds->ball, node, from, to) &&
+           (node != bounds->fixed || vec3_distance(bounds->tree->position[node], to) == 0.0f);
+}
+
+// A tree in the smallest ball about it, its forks turned as far as that allows.
+static OutTree *turned_in_bounds(Bounds *bounds, MurrayReport *report)
+{
+    OutTree *tree = make_tree(4000, 6, (MurrayLaw){2.7f});
+    *bounds = (Bounds){tree, {0.0f, 0}, -1};
+    for (int64_t i = 0; i < tree->count; i++) {
+        bounds->ball.radius = fmaxf(bounds->ball.radius, vec3_length(tree->position[i]));
+    }
+    bounds->ball.radius *= 1.0001f;
+    assert_true(out_tree_murray_turn(tree, stays_in_bounds, bounds, NULL, report, NULL));
+    return tree;
+}
+
+static void bends_make_the_constrained_forks_exact(void **state)
+{
+    (void)state;
+    Bounds bounds;
+    MurrayReport report;
+    OutTree *tree = turned_in_bounds(&bounds, &report), *old = out_tree_copy(tree, NULL);
+    assert_true(report.reduced > 20);
+    assert_true(out_tree_murray_bend(tree, stays_in_bounds, &bounds, NULL));
+    int64_t child[2], forks = 0, inexact = 0;
+    double lengths = 0.0, moved = 0.0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        assert_true(vec3_length(tree->position[i]) <= bounds.ball.radius);
+        moved += (double)vec3_distance(tree->position[i], old->position[i]);
+        if (tree->parent[i] >= 0) {
+            double length = (double)vec3_distance(old->position[i], old->position[tree->parent[i]]);
+            double now = (double)vec3_distance(tree->position[i], tree->position[tree->parent[i]]);
+            assert_true(now > 0.01 * length);
+            lengths += length;
+        }
+        if (tree->parent[i] >= 0 && children_of(tree, i, child) == 2) {
+            forks++;
+            inexact += fork_error(tree, i, child) > 0.5;
+        }
+    }
+    assert_true(forks > 300 && inexact * 100 <= forks); // turning alone leaves report.reduced
+    assert_true(moved < 2.0 * lengths);                 // nodes stay near where they were
+    out_tree_free(tree);
+    out_tree_free(old);
+}
+
+// A daughter that must stay: the other one takes the whole angle between them.
+static void bends_leave_what_must_stay(void **state)
+{
+    (void)state;
+    static const int parent[6] = {-1, 0, 1, 1, 2, 3};
+    static const Vec3 place[6] = {{0, 0, 0},        {0, 1, 0},    {0.1f, 2, 0},
+                                  {-0.1f, 2, 0.1f}, {0.2f, 3, 0}, {-0.2f, 3, 0.2f}};
+    for (int64_t fixed = 2; fixed <= 3; fixed++) {
+        OutTree *tree = out_tree_new(NULL);
+        for (int i = 0; i < 6; i++) {
+            assert_int_equal(out_tree_add_node(tree, place[i], parent[i], 0, 0, (uint64_t)i, NULL),
+                             i);
+        }
+        out_tree_murray_radii(tree, (MurrayLaw){3.0f}, 0.01f);
+        Bounds bounds = {tree, {10.0f, 0}, fixed};
+        assert_true(out_tree_murray_bend(tree, stays_in_bounds, &bounds, NULL));
+        const int64_t child[2] = {2, 3};
+        assert_true(vec3_distance(tree->position[fixed], place[fixed]) == 0.0f);
+        assert_true(fork_error(tree, 1, child) < 0.05);
+        out_tree_free(tree);
+    }
+}
+
 static void nodes_with_three_children_are_left(void **state)
 {
     (void)state;
@@ -308,6 +388,8 @@ int main(void)
         cmocka_unit_test(turning_agrees_with_brute_force),
         cmocka_unit_test(free_forks_stand_at_the_laws_angle_and_stay_rigid),
         cmocka_unit_test(constrained_turns_keep_within_and_say_where_they_bound),
+        cmocka_unit_test(bends_make_the_constrained_forks_exact),
+        cmocka_unit_test(bends_leave_what_must_stay),
         cmocka_unit_test(nodes_with_three_children_are_left),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

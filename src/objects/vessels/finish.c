@@ -42,8 +42,8 @@ static void clear_tree(VesselBed *bed, int t, const Others *others, float gap, b
     }
 }
 
-// Stem nodes come first, also after removal.
-static bool keep_marked(VesselTree *tree, bool *keep, Error *e)
+// Stem nodes come first, also after removal. Adds those removed to *lost.
+static bool keep_marked(VesselTree *tree, bool *keep, int64_t *lost, Error *e)
 {
     int64_t stems = 0;
     for (int64_t i = 0; i < tree->stem_count; i++) {
@@ -51,6 +51,7 @@ static bool keep_marked(VesselTree *tree, bool *keep, Error *e)
         keep[i] = keep[i] && (parent < 0 || keep[parent]);
         stems += keep[i];
     }
+    *lost += tree->stem_count - stems;
     tree->stem_count = stems;
     return out_tree_keep_nodes(tree->tree, keep, e);
 }
@@ -84,7 +85,7 @@ static bool clear_touching(VesselBed *bed, float gap, Error *e)
         clear_tree(bed, t, count > 1 ? &trees[1 - t] : &none, gap, keep[t]);
     }
     for (int t = 0; done && t < count; t++) {
-        done = keep_marked(&bed->trees[t], keep[t], e);
+        done = keep_marked(&bed->trees[t], keep[t], &bed->lost_stems, e);
     }
     for (int t = 0; t < 2; t++) {
         segment_grid_free(trees[t].all);
@@ -158,7 +159,8 @@ static bool turn_both(VesselBed *bed, float gap, Error *e)
         const OutTree *other = bed->tree_count > 1 ? bed->trees[1 - t].tree : NULL;
         SegmentGrid *others = other ? segment_grid_new(other, e) : NULL;
         VesselRoom room = vessel_room(bed, &bed->trees[t], others, gap);
-        bool done = (!other || others) && vessel_room_turn(bed, &room, e);
+        bool done = (!other || others) && vessel_room_turn(bed, &room, e) &&
+                    vessel_room_bend(bed, &room, e);
         segment_grid_free(others);
         if (!done) {
             return false;

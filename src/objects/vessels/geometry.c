@@ -76,7 +76,7 @@ static bool measure_gap(const OutTree *arteries, const OutTree *veins, double *g
     return true;
 }
 
-static bool add_measures(const OutTree *arteries, const OutTree *veins, const MurrayFit fit[2],
+static bool add_measures(const OutTree *arteries, const OutTree *veins, const MurrayFit *fit,
                          MeasureList *list, Error *e)
 {
     int64_t terminals[2];
@@ -89,15 +89,14 @@ static bool add_measures(const OutTree *arteries, const OutTree *veins, const Mu
         }
     }
     double gap, none = (double)NAN;
-    double residual = fit[0].residual > fit[1].residual ? fit[0].residual : fit[1].residual;
     return measure_gap(arteries, veins, &gap, e) &&
            measures_add(list, "arterial_terminals", (double)terminals[0], "", none, none, e) &&
            measures_add(list, "venous_terminals", (double)terminals[1], "", none, none, e) &&
-           measures_add(list, "flow_residual", residual, "", 0.0, 1e-4, e) &&
-           measures_add(list, "murray_angle_error_median", fit[0].angle_median, "degrees", none,
-                        none, e) &&
-           measures_add(list, "murray_angle_exact_share", fit[0].angle_exact, "", none, none, e) &&
-           measures_add(list, "bifurcation_side_angle", fit[0].side_angle, "degrees", 13.0, 43.0,
+           measures_add(list, "flow_residual", fit->residual, "", 0.0, 1e-4, e) &&
+           measures_add(list, "murray_angle_error_median", fit->angle_median, "degrees", none, none,
+                        e) &&
+           measures_add(list, "murray_angle_exact_share", fit->angle_exact, "", none, none, e) &&
+           measures_add(list, "bifurcation_side_angle", fit->side_angle, "degrees", 13.0, 43.0,
                         e) &&
            measures_add(list, "artery_vein_gap", gap, "m", 0.0, none, e);
 }
@@ -110,10 +109,9 @@ bool vessels_measure(const void *given, const Grown *grown, const Recipe *recipe
     const OutTree *tree = grown->tree;
     OutTree *trees[2] = {vessels_colony(tree, VESSELS_ARTERIES, e), NULL};
     trees[1] = trees[0] ? vessels_colony(tree, VESSELS_VEINS, e) : NULL;
-    MurrayFit fit[2];
-    bool done = trees[0] && trees[1] && out_tree_murray_fit(trees[0], params->law, &fit[0], e) &&
-                out_tree_murray_fit(trees[1], params->law, &fit[1], e) &&
-                add_measures(trees[0], trees[1], fit, list, e) &&
+    MurrayFit fit; // of both
+    bool done = trees[0] && trees[1] && out_tree_murray_fit(tree, params->law, &fit, e) &&
+                add_measures(trees[0], trees[1], &fit, list, e) &&
                 vessels_measure_flow(trees[0], &params->flow, "artery", list, e) &&
                 (!params->veins || vessels_measure_flow(trees[1], &params->flow, "vein", list, e));
     out_tree_free(trees[0]);

@@ -26,6 +26,7 @@ typedef struct VesselBed {
     bool limbs; // the envelope must not be scaled: points inside would end up outside
     const Recipe *recipe;
     MurrayReport turned; // last rotation of forks, both trees together
+    int64_t lost_stems;  // nodes of stems removed because stems of both trees touch
 } VesselBed;
 
 // Grows both trees to about the wanted number of terminals, coarse to fine and in turn, so that

@@ -48,3 +48,9 @@ bool vessel_room_turn(VesselBed *bed, const VesselRoom *room, Error *e)
     bed->turned.multiple += report.multiple;
     return true;
 }
+
+bool vessel_room_bend(VesselBed *bed, const VesselRoom *room, Error *e)
+{
+    return !bed->params->turn ||
+           out_tree_murray_bend(room->tree->tree, may_turn_to, (void *)room, e);
+}

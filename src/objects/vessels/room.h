@@ -26,4 +26,7 @@ bool vessel_room_is_free(const VesselRoom *room, Vec3 a, Vec3 b, float radius);
 // and counts them in bed->turned.
 bool vessel_room_turn(VesselBed *bed, const VesselRoom *room, Error *e);
 
+// Bends daughters to Murray's angles at the forks that turning left, likewise.
+bool vessel_room_bend(VesselBed *bed, const VesselRoom *room, Error *e);
+
 #endif

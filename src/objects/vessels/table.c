@@ -57,7 +57,8 @@ static const Table GREAT_TABLE = {
     .name = "great",
     .doc =
         "Great vessels, placed by hand, from which growth starts in place of the stem at the inlet "
-        "or of a body's own vessels. They may lie outside of the envelope.",
+        "or of a body's own vessels. They may lie outside of the envelope. Those of arteries and "
+        "veins must not touch.",
     .example = "objects:\n"
                "  - name: liver\n"
                "    vessels:\n"
@@ -65,7 +66,8 @@ static const Table GREAT_TABLE = {
                "      great:\n"
                "        - {from: [0, -0.08, 0], to: [0, -0.02, 0]}\n"
                "        - {from: [0, -0.02, 0], to: [0.06, 0, 0], by: [0.02, 0.01, 0]}\n"
-               "        - {from: [0, -0.03, 0], to: [-0.06, 0, 0], by: [-0.02, 0.01, 0]}\n",
+               "        - {from: [0, -0.03, 0], to: [-0.06, 0, 0], by: [-0.02, 0.01, 0]}\n"
+               "        - {vein: true, from: [0, -0.08, 0.02], to: [0, -0.01, 0.02]}\n",
     .size = sizeof(GreatVessel),
     .keys = GREAT_KEYS};
 
@@ -92,8 +94,8 @@ static const Key VESSELS_KEYS[] = {
     {KEY_OF(VesselsParams, gap, "gap", KEY_FLOAT), .high = 100,
      .doc = "Minimum distance between an artery and a vein, in radii of the finest vessels."},
     {KEY_OF(VesselsParams, turn, "turn", KEY_BOOL),
-     .doc = "Rotate the subtrees below each fork to Murray's angles, as far as they stay inside "
-            "the organ and clear of the other tree."},
+     .doc = "Rotate the subtrees below each fork to Murray's angles, or bend their first segments "
+            "where the whole would leave the organ or touch the other tree."},
     {KEY_OF(VesselsParams, curve_radius, "curve_radius", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Vessels thinner than this are rendered as round curves, others get a skin; 0 = all "
             "are curves."},

@@ -86,6 +86,12 @@ static void report(const VesselBed *bed)
                     "set there: keep growth.max_children at 2",
                     (long long)bed->turned.multiple);
     }
+    if (bed->lost_stems > 0) {
+        recipe_warn(bed->recipe, NULL,
+                    "great vessels of arteries and veins touch; %lld of their nodes were removed, "
+                    "with all that grew from them: place them farther apart",
+                    (long long)bed->lost_stems);
+    }
 }
 
 static bool grow_all(VesselBed *bed, Error *e)
