@@ -55,7 +55,8 @@ typedef struct Kind {
 
     bool reads_scene; // its geometry depends on materials' values or on other objects
     bool reads_water; // it avoids the scene's water
-    bool keeps_room;  // its growth keeps to Recipe.room
+    bool keeps_clear; // its growth keeps out of the obstacles of Recipe.room
+    bool contends;    // its growth takes turns with its rivals by Recipe.room
     bool carried;     // it can be deformed: it is its out-tree, or plain meshes, and nothing else
 
     // Sets the object's own space and transforms its parameters (a copy) into it; NULL = scene

@@ -250,15 +250,43 @@ static bool check_obstacles(const Mapping *mapping, const Scene *scene, int inde
     return true;
 }
 
-// Objects that grow have neighbours; the others would ignore them.
+static bool kind_contends(const Kind *kind)
+{
+    return kind->contends;
+}
+
+static bool kind_keeps_clear(const Kind *kind)
+{
+    return kind->keeps_clear;
+}
+
+// Refuses a key of an object whose kind would ignore it.
+static bool check_kind(const Mapping *mapping, const Scene *scene, int index, const char *key,
+                       bool (*able)(const Kind *kind))
+{
+    const SceneObject *object = &scene->objects[index];
+    char list[256] = "";
+    if (able(object->kind)) {
+        return true;
+    }
+    for (int i = 0; kind_at(i); i++) {
+        if (able(kind_at(i))) {
+            size_t used = strlen(list);
+            snprintf(list + used, sizeof list - used, "%s%s", used > 0 ? ", " : "",
+                     kind_name(kind_at(i)));
+        }
+    }
+    return load_fail(mapping->loader, object_key(mapping, index, key),
+                     "objects.%s.%s: objects of kind %s ignore it; only these take it: %s",
+                     object->name, key, kind_name(object->kind), list);
+}
+
 static bool check_keeps_room(const Mapping *mapping, const Scene *scene, int index)
 {
     const SceneObject *object = &scene->objects[index];
-    const char *key = object->clear_of_count > 0 ? "clear_of" : "contest";
-    return !scene_object_has_neighbours(object) || object->kind->keeps_room ||
-           load_fail(mapping->loader, object_key(mapping, index, key),
-                     "objects.%s.%s: objects of kind %s do not grow among others; leave it out",
-                     object->name, key, kind_name(object->kind));
+    return (object->clear_of_count == 0 ||
+            check_kind(mapping, scene, index, "clear_of", kind_keeps_clear)) &&
+           (!object->contest || check_kind(mapping, scene, index, "contest", kind_contends));
 }
 
 static bool check_carried(const Mapping *mapping, const Scene *scene, int index)

@@ -69,15 +69,14 @@ static const Key OBJECT_KEYS[] = {
     {KEY_OF(SceneObject, clear_of, "clear_of", KEY_LIST),
      .count_offset = offsetof(SceneObject, clear_of_count), .count = 16, .table = &CLEAR_OF_TABLE,
      .doc = "Obstacles: objects that grow first and that this one keeps clear of (outtree, tree, "
-            "coral, "
-            "sculpture)."},
+            "coral, frost, sculpture, vessels)."},
     {KEY_OF(SceneObject, deform, "deform", KEY_LIST),
      .count_offset = offsetof(SceneObject, deform_count), .count = 16, .table = &deform_table,
      .doc = "Deformations that carry the object from the form in which it grew, in this order "
             "(outtree, tree, lightning, lsystem, sculpture, skeleton, dla, mesh, shape). Growth "
             "does not depend on them, so an animation of them keeps every branch."},
     {KEY_OF(SceneObject, contest, "contest", KEY_POINTER), .table = &CONTEST_TABLE,
-     .doc = "Contest for space with other objects (outtree, tree, coral, sculpture)."},
+     .doc = "Contest for space with other objects (outtree, tree, coral, frost, sculpture)."},
     {0},
 };
 

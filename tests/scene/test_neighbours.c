@@ -81,6 +81,75 @@ static void test_obstacle_is_kept_clear(void **state)
     scene_free(scene);
 }
 
+// A pane of frost around a boss, and vessels around a cyst: both would grow through it.
+static void test_frost_and_vessels_keep_clear(void **state)
+{
+    static const struct {
+        const char *object, *obstacle, *clear;
+        Vec3 center;
+        float radius, distance, tolerance;
+    } one[] = {
+        {"  - name: a\n    frost: {width: 0.5, height: 0.4, nuclei: 5, spines: 60, sides: 3000}\n",
+         "  - {name: rock, shape: {envelope: [{shape: sphere, scale: 0.08, position: [0.1, 0, "
+         "0]}]}}\n",
+         "    clear_of: [{object: rock, distance: 0.01}]\n",
+         {0.1f, 0.0f, 0.0f},
+         0.08f,
+         0.01f,
+         0.001f},
+        {"  - name: a\n    vessels: {terminals: 300, envelope: [{shape: ellipsoid, size: [0.04, "
+         "0.05, 0.04]}]}\n",
+         "  - {name: rock, shape: {envelope: [{shape: sphere, scale: 0.012, position: [0, 0.02, "
+         "0]}]}}\n",
+         "    clear_of: [{object: rock, distance: 0.002}]\n",
+         {0.0f, 0.02f, 0.0f},
+         0.012f,
+         0.002f,
+         1e-6f},
+    };
+    for (size_t i = 0; i < sizeof one / sizeof one[0]; i++) {
+        char text[2][1024];
+        snprintf(text[0], sizeof text[0], "objects:\n%s%s", one[i].object, one[i].obstacle);
+        snprintf(text[1], sizeof text[1], "objects:\n%s%s%s", one[i].object, one[i].clear,
+                 one[i].obstacle);
+        Scene *free_scene = fixture_read(*state, text[0]), *scene = fixture_read(*state, text[1]);
+        OutTree *alone = grow(free_scene, "a", 2), *tree = grow(scene, "a", 1);
+        OutTree *again = grow(scene, "a", 2);
+        assert_same(tree, again);
+        assert_true(least_to(alone, one[i].center) < 0.8f * one[i].radius);
+        float kept = least_to(tree, one[i].center);
+        assert_true(kept > one[i].radius + one[i].distance - one[i].tolerance);
+        assert_true(tree->count > alone->count / 2);
+        out_tree_free(alone);
+        out_tree_free(tree);
+        out_tree_free(again);
+        scene_free(free_scene);
+        scene_free(scene);
+    }
+}
+
+#define FROST(NAME, MORE) \
+    "  - name: " NAME     \
+    "\n    frost: {width: 0.4, height: 0.3, nuclei: 2, spines: 20, sides: 800}\n" MORE
+
+// Crystals of two objects on one pane do not grow through each other.
+static void test_frost_contends(void **state)
+{
+    const char *text[2] = {"objects:\n" FROST("a", "") FROST("b", ""),
+                           "objects:\n" FROST("a", "    contest: {group: pane, gap: 0.004}\n")
+                               FROST("b", "    contest: {group: pane, gap: 0.004}\n")};
+    for (int i = 0; i < 2; i++) {
+        Scene *scene = fixture_read(*state, text[i]);
+        OutTree *a = grow(scene, "a", 2), *b = grow(scene, "b", 1);
+        float least = least_between(a, b);
+        assert_true(i == 0 ? least < 1e-4f : least > 0.002f);
+        assert_true(a->count > 100 && b->count > 100);
+        out_tree_free(a);
+        out_tree_free(b);
+        scene_free(scene);
+    }
+}
+
 static void test_growth_stays_within(void **state)
 {
     const char *text = "objects:\n" ROCK TREE(
@@ -234,7 +303,15 @@ static void test_refusals(void **state)
         "b}]\n  - name: b\n    tree: {}\n    contest: {group: g}\n",
         "leads back to 'a' itself", 5);
     fixture_refuse(*state, "objects:\n" ROCK "    contest: {group: g}\n",
-                   "objects of kind shape do not grow among others", 4);
+                   "kind shape ignore it; only these take it: tree, coral, frost,", 4);
+    fixture_refuse(*state,
+                   "objects:\n  - name: v\n    vessels: {envelope: [{shape: sphere}]}\n"
+                   "    contest: {group: g}\n",
+                   "objects of kind vessels ignore it", 4);
+    fixture_refuse(*state,
+                   "objects:\n" ROCK
+                   "  - name: a\n    lightning: {}\n    clear_of: [{object: rock}]\n",
+                   "only these take it: tree, coral, vessels, frost,", 6);
     fixture_refuse(*state,
                    "objects:\n" ROCK
                    "  - name: a\n    tree: {}\n    clear_of:\n      - {object: rock, "
@@ -247,6 +324,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_obstacle_is_kept_clear, fixture_set_up,
                                         fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_frost_and_vessels_keep_clear, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_frost_contends, fixture_set_up, fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_growth_stays_within, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_rivals_keep_apart, fixture_set_up, fixture_tear_down),

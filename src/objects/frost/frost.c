@@ -90,6 +90,7 @@ static bool grow_spines(OutTree *tree, const FrostParams *params, const Recipe *
         growth.noise = 0.06f;
         growth.field = field;
         growth.field_weight = params->field_weight;
+        growth.room = recipe->room;
         growth.seed = random_key(recipe->seed, STREAM_FROST_SPINES);
         done = colonize(tree, points, &growth, recipe->run, NULL, e);
     }
@@ -162,6 +163,7 @@ static bool grow_sides(OutTree *tree, const FrostParams *params, const Recipe *r
     growth.new_orders = true;
     growth.apical = params->skip;
     growth.noise = 0.02f;
+    growth.room = recipe->room;
     growth.seed = random_key(recipe->seed, STREAM_FROST_SIDES);
     bool done = colonize(tree, points, &growth, recipe->run, NULL, e);
     points_free(points);

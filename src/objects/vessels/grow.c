@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "grow/room.h"
 
 #include <stdlib.h>
 
@@ -47,13 +48,14 @@ static void relax(OutTree *tree, int64_t first, float share)
     }
 }
 
-// Drops points outside of the organ or inside the other tree's vessels.
+// Drops points outside of the organ, in obstacles or inside the other tree's vessels.
 static void keep_free_points(PointSet *points, const VesselRoom *room, float clearance)
 {
     int64_t kept = 0;
     for (int64_t i = 0; i < points->count; i++) {
         Vec3 p = points->position[i];
         if (envelope_contains(room->envelope, p) &&
+            (!room->taken || room->taken->allows(room->taken->user, p)) &&
             !(room->others && segment_grid_touches(room->others, p, p, clearance, 0.0f))) {
             points->position[kept] = p;
             points->normal[kept] = points->normal[i];
@@ -102,6 +104,7 @@ static bool grow_toward(VesselBed *bed, VesselTree *tree, PointSet *points, cons
     ColonizeParams params = element_colonize_params(tree->tree, element, field, seed);
     colonize_auto(&params, points_spacing(points), level->step, level->kill, level->influence);
     params.noise = level->noise;
+    params.room = bed->recipe->room;
     params.tropism = vec3_scale(params.tropism, level->tropism);
     params.first_step = tree->last_birth;
     GrowReport report;

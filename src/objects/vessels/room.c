@@ -1,18 +1,34 @@
 #include "objects/vessels/room.h"
 
+#include "grow/room.h"
+
 #include <stddef.h>
 
 VesselRoom vessel_room(const VesselBed *bed, const VesselTree *tree, const SegmentGrid *others,
                        float gap)
 {
-    return (VesselRoom){tree, bed->envelope, others, 0.9f * envelope_band(bed->envelope), gap};
+    return (VesselRoom){.tree = tree,
+                        .envelope = bed->envelope,
+                        .others = others,
+                        .taken = bed->recipe->room,
+                        .most_inset = 0.9f * envelope_band(bed->envelope),
+                        .gap = gap};
+}
+
+static bool is_clear(const Room *room, Vec3 a, Vec3 b)
+{
+    Vec3 away;
+    float at_end = room->clearance(room->user, b, &away);
+    float half_way = room->clearance(room->user, vec3_lerp(a, b, 0.5f), &away);
+    return (at_end >= 0.0f && half_way >= 0.0f) || at_end > room->clearance(room->user, a, &away);
 }
 
 bool vessel_room_is_inside(const VesselRoom *room, Vec3 a, Vec3 b, float radius)
 {
     float inset = radius < room->most_inset ? radius : room->most_inset;
     return envelope_distance(room->envelope, b) <= -inset &&
-           envelope_distance(room->envelope, vec3_lerp(a, b, 0.5f)) <= -inset;
+           envelope_distance(room->envelope, vec3_lerp(a, b, 0.5f)) <= -inset &&
+           (!room->taken || is_clear(room->taken, a, b));
 }
 
 bool vessel_room_is_free(const VesselRoom *room, Vec3 a, Vec3 b, float radius)

@@ -1,4 +1,5 @@
-// Where a vessel may lie: inside the organ and clear of the other tree. Private to this folder.
+// Where a vessel may lie: inside the organ, clear of obstacles and of the other tree. Private to
+// this folder.
 #ifndef RAMIFY_OBJECTS_VESSELS_ROOM_H
 #define RAMIFY_OBJECTS_VESSELS_ROOM_H
 
@@ -9,6 +10,7 @@ typedef struct VesselRoom {
     const VesselTree *tree;
     const Envelope *envelope;
     const SegmentGrid *others; // of the other tree; NULL = none
+    const struct Room *taken;  // obstacles; NULL = none
     float most_inset;          // m: largest known distance inside the envelope
     float gap;                 // m, beyond both radii
 } VesselRoom;
@@ -16,7 +18,8 @@ typedef struct VesselRoom {
 VesselRoom vessel_room(const VesselBed *bed, const VesselTree *tree, const SegmentGrid *others,
                        float gap);
 
-// Is a vessel from a to b inside the organ by at least its radius?
+// Is a vessel from a to b inside the organ by at least its radius, and clear of obstacles? It may
+// lead out of an obstacle.
 bool vessel_room_is_inside(const VesselRoom *room, Vec3 a, Vec3 b, float radius);
 
 // The same, and clear of the other tree.
