@@ -112,28 +112,19 @@ static void count_cells(AttractorGrid *grid, const PointSet *points, int threads
 // Assigns every cell its empty blocks; returns their number.
 static int64_t place_blocks(AttractorGrid *grid)
 {
-    int64_t blocks = 0;
+    int32_t blocks = 0; // at most one a point
     for (int64_t c = 0; c < grid->cell_count; c++) {
         AttractorCell *cell = &grid->cells[c];
         grid->furthest[c] = cell->count > 0 ? grid->reach2 : -1.0f;
         cell->first_block = blocks;
-        blocks += (cell->count + BLOCK_LANES - 1) / BLOCK_LANES;
+        blocks += (cell->count + LANES - 1) / LANES;
         cell->count = 0;
     }
-    for (int i = 0; i < BLOCK_LANES; i++) {
+    for (int i = 0; i < LANES; i++) {
         grid->furthest[grid->cell_count + i] = -1.0f; // padding: reading a row's last cells runs
                                                       // past its end
     }
     return blocks;
-}
-
-static void clear_block(AttractorBlock *block)
-{
-    for (int lane = 0; lane < BLOCK_LANES; lane++) {
-        block->x[lane] = block->y[lane] = block->z[lane] = 0.0f;
-        block->best[lane] = -1.0f;
-        block->nearest[lane] = block->previous[lane] = -1;
-    }
 }
 
 // Sorts the points into their cells, in index order.
@@ -146,26 +137,28 @@ static bool fill_cells(AttractorGrid *grid, const PointSet *points, const Run *r
     count_cells(grid, points, run->threads, cell);
     int64_t blocks = place_blocks(grid);
     grid->block = alloc_table(blocks, sizeof *grid->block, e);
-    grid->source = alloc_table(blocks * BLOCK_LANES, sizeof *grid->source, e);
-    if (!grid->block || !grid->source) {
+    if (!grid->block) {
         free(cell);
         return false;
     }
+    AttractorBlock empty = {0};
+    empty.best -= 1.0f;
+    empty.nearest -= 1;
 #pragma omp parallel for schedule(static) num_threads(run->threads)
     for (int64_t b = 0; b < blocks; b++) {
         if (!run_is_cancelled(run)) {
-            clear_block(&grid->block[b]);
+            grid->block[b] = empty;
         }
     }
     for (int64_t i = 0; i < points->count && run_goes_on(run, i, NULL); i++) {
         int32_t place = grid->cells[cell[i]].count++;
-        int64_t b = grid->cells[cell[i]].first_block + place / BLOCK_LANES;
-        int lane = place % BLOCK_LANES;
+        int64_t b = grid->cells[cell[i]].first_block + place / LANES;
+        int lane = place % LANES;
         grid->block[b].x[lane] = points->position[i].x;
         grid->block[b].y[lane] = points->position[i].y;
         grid->block[b].z[lane] = points->position[i].z;
         grid->block[b].best[lane] = grid->reach2;
-        grid->source[b * BLOCK_LANES + lane] = (int32_t)i;
+        grid->block[b].source[lane] = (int32_t)i;
     }
     free(cell);
     return !run_is_cancelled(run) || run_cancel_error(e);
@@ -183,26 +176,27 @@ bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reac
     choose_cells(grid, box, points);
     int64_t cells = grid->cell_count;
     grid->cells = alloc_table(cells, sizeof *grid->cells, e);
-    grid->furthest = alloc_table(cells + BLOCK_LANES, sizeof *grid->furthest, e);
+    grid->state = memory_alloc_zero(cells, sizeof *grid->state, e);
+    grid->furthest = alloc_table(cells + LANES, sizeof *grid->furthest, e);
     grid->touched = memory_alloc(cells, sizeof *grid->touched, e);
     grid->active = memory_alloc(cells, sizeof *grid->active, e);
     int longest = grid->size[0] > grid->size[1] ? grid->size[0] : grid->size[1];
     grid->work = memory_alloc(longest + 1, sizeof *grid->work, e);
-    grid->gap2 = memory_alloc((int64_t)ATTRACTOR_MAX_SLABS * (grid->size[2] + BLOCK_LANES),
-                              sizeof *grid->gap2, e);
-    return grid->work && grid->gap2 && grid->cells && grid->furthest && grid->touched &&
-           grid->active && fill_cells(grid, points, run, e);
+    int64_t gaps = (int64_t)grid->size[0] + grid->size[1] + grid->size[2] + 3 * LANES;
+    grid->gap2 = memory_alloc(ATTRACTOR_MAX_SLABS * gaps, sizeof *grid->gap2, e);
+    return grid->work && grid->gap2 && grid->cells && grid->state && grid->furthest &&
+           grid->touched && grid->active && fill_cells(grid, points, run, e);
 }
 
 void attractor_grid_free(AttractorGrid *grid)
 {
     free(grid->cells);
+    free(grid->state);
     free(grid->furthest);
     free(grid->touched);
     free(grid->work);
     free(grid->gap2);
     free(grid->active);
     free(grid->block);
-    free(grid->source);
     *grid = (AttractorGrid){0};
 }

@@ -5,27 +5,27 @@
 #define RAMIFY_GROW_ATTRACTOR_GRID_H
 
 #include "base/run.h"
+#include "grow/lanes.h"
 #include "outtree/out_tree.h"
 #include "shape/points.h"
 
 #include <stdint.h>
 
-enum { BLOCK_LANES = 8, ATTRACTOR_MAX_SLABS = 256, NEAREST_RIVAL = -2 };
+enum { ATTRACTOR_MAX_SLABS = 256, NEAREST_RIVAL = -2 };
 
-// Eight attractors of one cell; lanes beyond the cell's count have best = -1, below any distance.
-// Three cache lines.
+// Eight attractors of one cell; lanes beyond the cell's count have best = -1, below any distance,
+// and nearest = -1. Three cache lines.
 typedef struct AttractorBlock {
-    _Alignas(64) float x[BLOCK_LANES];
-    float y[BLOCK_LANES], z[BLOCK_LANES];
-    float best[BLOCK_LANES];       // m^2: squared distance to the nearest node, or reach^2
-    int32_t nearest[BLOCK_LANES];  // that node; -1: none is within reach; NEAREST_RIVAL: not ours
-    int32_t previous[BLOCK_LANES]; // the nearest node one step earlier
+    _Alignas(64) FloatLanes x;
+    FloatLanes y, z;
+    FloatLanes best;  // m^2: squared distance to the nearest node, or reach^2
+    IntLanes nearest; // that node; -1: none is within reach; NEAREST_RIVAL: not ours
+    IntLanes source;  // index in the point set
 } AttractorBlock;
 
 typedef struct AttractorCell {
-    int64_t first_block;
+    int32_t first_block;
     int32_t count; // attractors alive
-    int32_t state; // bits: searched in this step, listed as active
 } AttractorCell;
 
 typedef struct ActiveCell {
@@ -39,14 +39,14 @@ typedef struct AttractorGrid {
     int64_t cell_count;
     float reach, reach2, kill2; // m, m^2
     AttractorCell *cells;
+    uint8_t *state;                   // per cell, bits: searched in this step, listed as active
     float *furthest;                  // per cell: the largest best; -1 in empty cells
     int32_t *touched;                 // scratch: cells a search changed
     int64_t *work;                    // scratch: estimated work, for load balancing
-    float *gap2;                      // scratch: distances to the cells of a row
+    float *gap2;                      // scratch: distances to the cells along each axis
     ActiveCell *active;               // cells with an attractor within reach of a node
     int64_t active_count, idle_count; // length of the list, and how many listed cells are empty now
     AttractorBlock *block;
-    int32_t *source;  // per lane: index in the point set
     int32_t *removed; // borrowed: per attractor, set to `now` when it is removed; NULL = not wanted
     int32_t now;
     int64_t alive;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 enum { CELL_TOUCHED = 1, CELL_ACTIVE = 2 };
-enum { MAX_VISITS = 64 };
+enum { WORD_ROWS = 64 / LANES, MAX_ROWS = 8 * WORD_ROWS }; // rows of eight cells
 enum { MIN_SHARED = 64 }; // least number of new nodes worth sharing among threads
 
 // Shrinks distances to cells, so that rounding never makes a cell look farther than a point in it.
@@ -12,76 +12,131 @@ enum { MIN_SHARED = 64 }; // least number of new nodes worth sharing among threa
 
 // The cells that one thread owns during a search: slices begin..end-1 along the grid's axis.
 typedef struct Slab {
+    AttractorGrid *grid;
+    const NodeBits *changed;
     int begin, end;
+    int32_t first;    // nodes from this one on are new
     int32_t *touched; // room for all cells of the slab
     int64_t touched_count;
-    float *gap2; // scratch: a row of cells, rounded up to whole blocks
-    int32_t visit[MAX_VISITS];
+    float *gap2[3]; // scratch: along each axis, squared distances from a node to the cells in reach
+    int row_count;
+    int32_t row[MAX_ROWS];                // the first of eight cells along z
+    uint64_t visit[MAX_ROWS / WORD_ROWS]; // a bit for each of these rows' cells: must be visited
+    int32_t cell[MAX_ROWS * LANES];
 } Slab;
 
-// Offers node k at p to the attractors of a cell; each keeps the nearer of k and its nearest node.
-static void offer_to_cell(AttractorGrid *grid, Slab *slab, int32_t c, Vec3 p, int32_t k)
+static void set_bit(const NodeBits *bits, int32_t node)
 {
-    AttractorCell *cell = &grid->cells[c];
-    AttractorBlock *block = grid->block + cell->first_block;
-    int blocks = (cell->count + BLOCK_LANES - 1) / BLOCK_LANES;
-    float furthest = 0.0f;
-    int any = 0;
+    uint64_t *word = &bits->word[node >> 6], bit = 1ull << (node & 63);
+    if (!(__atomic_load_n(word, __ATOMIC_RELAXED) & bit)) {
+        __atomic_fetch_or(word, bit, __ATOMIC_RELAXED);
+    }
+}
+
+// Sets the bits of the nodes in these lanes; most lanes of a block hold the same node.
+static void set_bits(const NodeBits *bits, const IntLanes *nodes, unsigned lanes)
+{
+    while (lanes) {
+        int32_t node = (*nodes)[__builtin_ctz(lanes)];
+        set_bit(bits, node);
+        IntLanes same = *nodes == node;
+        lanes &= ~lanes_bits(&same);
+    }
+}
+
+static void prefetch_cell(const AttractorGrid *grid, int32_t cell)
+{
+    const AttractorBlock *block = &grid->block[grid->cells[cell].first_block];
+    __builtin_prefetch(&block->x, 1);
+    __builtin_prefetch(&block->z, 1);
+    __builtin_prefetch(&block->nearest, 1);
+}
+
+// Offers node k at p to the attractors of a cell; each keeps the nearer of k and its nearest node.
+static void offer_to_cell(Slab *slab, int32_t c, Vec3 p, int32_t k)
+{
+    AttractorGrid *grid = slab->grid;
+    AttractorBlock *block = grid->block + grid->cells[c].first_block;
+    int blocks = (grid->cells[c].count + LANES - 1) / LANES;
+    FloatLanes furthest = (FloatLanes){} - 1.0f;
+    unsigned any = 0;
     for (int b = 0; b < blocks; b++) {
         AttractorBlock *a = &block[b];
-#pragma omp simd reduction(max : furthest) reduction(| : any)
-        for (int i = 0; i < BLOCK_LANES; i++) {
-            float dx = a->x[i] - p.x, dy = a->y[i] - p.y, dz = a->z[i] - p.z;
-            float d = dx * dx + dy * dy + dz * dz;
-            float best = a->best[i];
-            int closer = d < best;
-            best = closer ? d : best;
-            a->best[i] = best;
-            a->nearest[i] = closer ? k : a->nearest[i];
-            furthest = best > furthest ? best : furthest;
-            any |= closer;
+        FloatLanes dx = a->x - p.x, dy = a->y - p.y, dz = a->z - p.z;
+        FloatLanes distance2 = dx * dx + dy * dy + dz * dz;
+        IntLanes closer = distance2 < a->best;
+        unsigned lanes = lanes_bits(&closer);
+        if (lanes) {
+            IntLanes loses = closer & (a->nearest >= 0) & (a->nearest < slab->first);
+            set_bits(slab->changed, &a->nearest, lanes_bits(&loses)); // nodes of earlier steps
+            a->best = (FloatLanes)((closer & (IntLanes)distance2) | (~closer & (IntLanes)a->best));
+            a->nearest = (closer & k) | (~closer & a->nearest);
+            any = lanes;
         }
+        lanes_raise(&furthest, &a->best);
     }
     if (any) {
-        grid->furthest[c] = furthest;
-        if (!(cell->state & CELL_TOUCHED)) {
-            cell->state |= CELL_TOUCHED;
+        grid->furthest[c] = lanes_largest(&furthest);
+        if (!(grid->state[c] & CELL_TOUCHED)) {
+            grid->state[c] |= CELL_TOUCHED;
             slab->touched[slab->touched_count++] = c;
         }
     }
 }
 
-// Squared distance (never overestimated) from the coordinate p to a cell along an axis.
-static float gap2_to(const AttractorGrid *grid, float low, float p, int cell)
+// Squared distances (never overestimated) from the coordinate p to the cells begin..end-1 along an
+// axis, then infinity for a block.
+static void find_gaps(const AttractorGrid *grid, float low, float p, int begin, int end,
+                      float *gap2)
 {
-    float a = low + (float)cell * grid->cell - p, b = -a - grid->cell;
-    float gap = (a > b ? a : b) - grid->slack;
-    gap = gap > 0.0f ? gap * CAUTION : 0.0f;
-    return gap * gap;
+    for (int i = 0; i < end - begin; i++) {
+        float a = low + (float)(begin + i) * grid->cell - p, b = -a - grid->cell;
+        float gap = (a > b ? a : b) - grid->slack;
+        gap = gap > 0.0f ? gap * CAUTION : 0.0f;
+        gap2[i] = gap * gap;
+    }
+    for (int i = 0; i < LANES; i++) {
+        gap2[end - begin + i] = INFINITY;
+    }
 }
 
+// Which of eight cells of a row hold an attractor that a node may be nearer to than its best.
 static unsigned cells_to_visit(const float *furthest, const float *gap2, float rest)
 {
-    unsigned mask = 0;
-#pragma omp simd reduction(| : mask)
-    for (int i = 0; i < BLOCK_LANES; i++) {
-        mask |= rest + gap2[i] < furthest[i] ? 1u << i : 0u;
-    }
-    return mask;
+    FloatLanes far, gap; // loaded this way because they are not aligned
+    memcpy(&far, furthest, sizeof far);
+    memcpy(&gap, gap2, sizeof gap);
+    IntLanes may = rest + gap < far;
+    return lanes_bits(&may);
 }
 
-// Offers the node to the listed cells while their attractors are prefetched.
-static void visit_cells(AttractorGrid *grid, Slab *slab, int count, Vec3 p, int32_t k)
+// Offers the node to the cells to visit of the rows listed. It takes the bits of many rows at once,
+// because the processor cannot predict how many bits a single row has.
+static void visit_rows(Slab *slab, Vec3 p, int32_t k)
 {
-    for (int i = 0; i < count; i++) {
-        const AttractorCell *cell = &grid->cells[slab->visit[i]];
-        __builtin_prefetch(&grid->block[cell->first_block], 1);
-        __builtin_prefetch(&grid->block[cell->first_block].best, 1);
-        __builtin_prefetch(&grid->block[cell->first_block].nearest[7], 1);
+    const AttractorGrid *grid = slab->grid;
+    int count = 0;
+    for (int i = 0; i * WORD_ROWS < slab->row_count; i++) {
+        for (uint64_t bits = slab->visit[i]; bits; bits &= bits - 1) {
+            int bit = __builtin_ctzll(bits);
+            int32_t cell = slab->row[i * WORD_ROWS + bit / LANES] + bit % LANES;
+            prefetch_cell(grid, cell);
+            slab->cell[count++] = cell;
+        }
+        slab->visit[i] = 0;
     }
+    slab->row_count = 0;
     for (int i = 0; i < count; i++) {
-        offer_to_cell(grid, slab, slab->visit[i], p, k);
+        offer_to_cell(slab, slab->cell[i], p, k);
     }
+}
+
+// Lists a row of up to eight cells with those to visit.
+static void list_row(Slab *slab, int32_t cell, unsigned visit)
+{
+    int row = slab->row_count++;
+    slab->row[row] = cell;
+    slab->visit[row / WORD_ROWS] |= (uint64_t)visit << row % WORD_ROWS * LANES;
 }
 
 // Range of cells along each axis that the node at p can reach in the slab; false if empty.
@@ -105,116 +160,95 @@ static bool range_of(const AttractorGrid *grid, const Slab *slab, const float at
     return begin[axis] < end[axis];
 }
 
-// Lists the cells of a row that the node may improve, and visits them. gap2: squared distances of
-// the row's cells.
-static void offer_to_row(AttractorGrid *grid, Slab *slab, int64_t cell, int count, float rest,
-                         Vec3 p, int32_t k, int *listed)
+static void offer_node(Slab *slab, Vec3 p, int32_t k)
 {
-    for (int z = 0; z < count; z += BLOCK_LANES) {
-        unsigned mask = cells_to_visit(grid->furthest + cell + z, slab->gap2 + z, rest);
-        mask &= count - z < BLOCK_LANES ? (1u << (count - z)) - 1u : ~0u;
-        for (; mask; mask &= mask - 1) {
-            slab->visit[(*listed)++] = (int32_t)(cell + z + __builtin_ctz(mask));
-        }
-        if (*listed > MAX_VISITS - BLOCK_LANES) {
-            visit_cells(grid, slab, *listed, p, k);
-            *listed = 0;
-        }
-    }
-}
-
-static void offer_node(AttractorGrid *grid, Slab *slab, Vec3 p, int32_t k)
-{
-    const float at[3] = {p.x, p.y, p.z};
-    int begin[3], end[3], listed = 0;
+    const AttractorGrid *grid = slab->grid;
+    const float at[3] = {p.x, p.y, p.z}, low[3] = {grid->low.x, grid->low.y, grid->low.z};
+    int begin[3], end[3];
     if (!range_of(grid, slab, at, begin, end)) {
         return;
     }
-    int count = end[2] - begin[2];
-    int padded = (count + BLOCK_LANES - 1) / BLOCK_LANES * BLOCK_LANES;
-    for (int z = 0; z < padded; z++) {
-        slab->gap2[z] = gap2_to(grid, grid->low.z, p.z, begin[2] + z);
+    for (int axis = 0; axis < 3; axis++) {
+        find_gaps(grid, low[axis], at[axis], begin[axis], end[axis], slab->gap2[axis]);
     }
     for (int x = begin[0]; x < end[0]; x++) {
-        float gap_x = gap2_to(grid, grid->low.x, p.x, x);
         for (int y = begin[1]; y < end[1]; y++) {
-            float gap = gap_x + gap2_to(grid, grid->low.y, p.y, y);
-            if (gap < grid->reach2) {
-                int64_t cell = ((int64_t)x * grid->size[1] + y) * grid->size[2] + begin[2];
-                offer_to_row(grid, slab, cell, count, gap, p, k, &listed);
+            float gap2 = slab->gap2[0][x - begin[0]] + slab->gap2[1][y - begin[1]];
+            int64_t row = ((int64_t)x * grid->size[1] + y) * grid->size[2];
+            for (int z = begin[2]; z < end[2] && gap2 < grid->reach2; z += LANES) {
+                const float *gap2_z = slab->gap2[2] + z - begin[2];
+                list_row(slab, (int32_t)row + z,
+                         cells_to_visit(grid->furthest + row + z, gap2_z, gap2));
+                if (slab->row_count == MAX_ROWS) {
+                    visit_rows(slab, p, k);
+                }
             }
         }
     }
-    visit_cells(grid, slab, listed, p, k);
+    visit_rows(slab, p, k);
 }
 
-static void set_bit(const NodeBits *bits, int32_t node)
+// Removes an attractor of a cell; the cell's last one takes its lane.
+static void remove_lane(AttractorGrid *grid, AttractorBlock *block, int32_t lane, int32_t last)
 {
-    if (node >= 0) {
-        uint64_t *word = &bits->word[node >> 6], bit = 1ull << (node & 63);
-        if (!(__atomic_load_n(word, __ATOMIC_RELAXED) & bit)) {
-            __atomic_fetch_or(word, bit, __ATOMIC_RELAXED);
-        }
+    AttractorBlock *t = &block[lane / LANES], *f = &block[last / LANES];
+    int i = lane % LANES, j = last % LANES;
+    if (grid->removed) {
+        grid->removed[t->source[i]] = grid->now;
     }
-}
-
-static void move_lane(AttractorGrid *grid, int64_t to, int64_t from)
-{
-    AttractorBlock *t = &grid->block[to / BLOCK_LANES];
-    AttractorBlock *f = &grid->block[from / BLOCK_LANES];
-    int i = (int)(to % BLOCK_LANES), j = (int)(from % BLOCK_LANES);
     t->x[i] = f->x[j];
     t->y[i] = f->y[j];
     t->z[i] = f->z[j];
     t->best[i] = f->best[j];
     t->nearest[i] = f->nearest[j];
-    t->previous[i] = f->previous[j];
-    grid->source[to] = grid->source[from];
+    t->source[i] = f->source[j];
     f->best[j] = -1.0f;
-    f->nearest[j] = f->previous[j] = -1;
+    f->nearest[j] = -1;
 }
 
-// After a search: records whose attractors changed and removes those within the kill radius.
-// Returns how many were removed.
-static int64_t settle_cell(AttractorGrid *grid, int32_t cell, const NodeBits *changed)
+// Keeps the list of active cells after a search of this one.
+static void list_cell(AttractorGrid *grid, int32_t cell)
 {
-    int64_t first = grid->cells[cell].first_block * BLOCK_LANES;
+    uint8_t *state = &grid->state[cell];
     int32_t count = grid->cells[cell].count;
-    float furthest = -1.0f;
-    for (int32_t i = 0; i < count;) {
-        AttractorBlock *a = &grid->block[(first + i) / BLOCK_LANES];
-        int lane = (int)((first + i) % BLOCK_LANES);
-        if (a->best[lane] < grid->kill2) {
-            set_bit(changed, a->previous[lane]);
-            if (grid->removed) {
-                grid->removed[grid->source[first + i]] = grid->now;
-            }
-            move_lane(grid, first + i, first + --count);
-            continue;
-        }
-        if (a->nearest[lane] != a->previous[lane]) {
-            set_bit(changed, a->previous[lane]);
-            set_bit(changed, a->nearest[lane]);
-            a->previous[lane] = a->nearest[lane];
-        }
-        furthest = a->best[lane] > furthest ? a->best[lane] : furthest;
-        i++;
-    }
-    int64_t removed = grid->cells[cell].count - count;
-    grid->cells[cell].count = count;
-    grid->furthest[cell] = furthest;
-    grid->cells[cell].state &= ~CELL_TOUCHED;
-    AttractorCell *c = &grid->cells[cell];
-    if (!(c->state & CELL_ACTIVE) && count > 0) {
-        c->state |= CELL_ACTIVE;
+    *state &= (uint8_t)~CELL_TOUCHED;
+    if (!(*state & CELL_ACTIVE) && count > 0) {
+        *state |= CELL_ACTIVE;
         int64_t place = __atomic_fetch_add(&grid->active_count, 1, __ATOMIC_RELAXED);
         int32_t row = cell / grid->size[2];
         int32_t slice = grid->axis == 0 ? row / grid->size[1] : row % grid->size[1];
         grid->active[place] = (ActiveCell){cell, slice};
-    } else if ((c->state & CELL_ACTIVE) && count == 0) {
+    } else if ((*state & CELL_ACTIVE) && count == 0) {
         __atomic_fetch_add(&grid->idle_count, 1, __ATOMIC_RELAXED);
     }
-    return removed;
+}
+
+// After a search: removes the attractors within the kill radius and marks the new nodes that gained
+// one of the others. Returns how many were removed.
+static int64_t settle_cell(const Slab *slab, int32_t cell)
+{
+    AttractorGrid *grid = slab->grid;
+    AttractorBlock *block = grid->block + grid->cells[cell].first_block;
+    int32_t before = grid->cells[cell].count, count = before;
+    FloatLanes furthest = (FloatLanes){} - 1.0f;
+    for (int32_t begin = 0; begin < count; begin += LANES) {
+        AttractorBlock *a = &block[begin / LANES];
+        for (;;) {
+            IntLanes killed = (a->best < grid->kill2) & (a->best >= 0.0f);
+            unsigned lanes = lanes_bits(&killed);
+            if (!lanes) {
+                break;
+            }
+            remove_lane(grid, block, begin + __builtin_ctz(lanes), --count);
+        }
+        IntLanes is_new = a->nearest >= slab->first;
+        set_bits(slab->changed, &a->nearest, lanes_bits(&is_new));
+        lanes_raise(&furthest, &a->best);
+    }
+    grid->cells[cell].count = count;
+    grid->furthest[cell] = lanes_largest(&furthest);
+    list_cell(grid, cell);
+    return before - count;
 }
 
 // Splits the grid into at most `wanted` slabs of about equal work. Slabs change little from step to
@@ -246,19 +280,28 @@ static void plan_slabs(AttractorGrid *grid, const NewNodes *nodes, int wanted)
     }
 }
 
-static int64_t update_slab(AttractorGrid *grid, Slab *slab, const NewNodes *nodes, const Run *run,
-                           const NodeBits *changed)
+static void place_gaps(Slab *slab, int number)
+{
+    const AttractorGrid *grid = slab->grid;
+    const int *size = grid->size;
+    int64_t room = (int64_t)size[0] + size[1] + size[2] + 3 * LANES;
+    slab->gap2[0] = grid->gap2 + number * room;
+    slab->gap2[1] = slab->gap2[0] + size[0] + LANES;
+    slab->gap2[2] = slab->gap2[1] + size[1] + LANES;
+}
+
+static int64_t update_slab(Slab *slab, const NewNodes *nodes, const Run *run)
 {
     const OutTree *tree = nodes->tree;
     for (int64_t k = nodes->first; k < tree->count && run_goes_on(run, k, NULL); k++) {
-        offer_node(grid, slab, tree->position[k], (int32_t)k);
+        offer_node(slab, tree->position[k], (int32_t)k);
     }
     for (int64_t k = 0; k < nodes->rival_count && run_goes_on(run, k, NULL); k++) {
-        offer_node(grid, slab, nodes->rival[k], NEAREST_RIVAL);
+        offer_node(slab, nodes->rival[k], NEAREST_RIVAL);
     }
     int64_t removed = 0;
     for (int64_t i = 0; i < slab->touched_count && run_goes_on(run, i, NULL); i++) {
-        removed += settle_cell(grid, slab->touched[i], changed);
+        removed += settle_cell(slab, slab->touched[i]);
     }
     return removed;
 }
@@ -285,14 +328,18 @@ void attractor_grid_update(AttractorGrid *grid, const NewNodes *nodes, const Run
     int64_t count = nodes->tree->count - nodes->first + nodes->rival_count;
     bool shared = threads > 1 && count >= MIN_SHARED;
     plan_slabs(grid, nodes, shared ? threads : 1);
-    int slabs = grid->slab_count, row = grid->size[2] + BLOCK_LANES;
+    int slabs = grid->slab_count;
     int64_t removed = 0, slice = grid->cell_count / grid->size[grid->axis];
 #pragma omp parallel for schedule(static, 1) num_threads(slabs) reduction(+ : removed) if (slabs > 1)
     for (int s = 0; s < slabs; s++) {
-        Slab slab = {.begin = s > 0 ? grid->slab_end[s - 1] : 0, .end = grid->slab_end[s]};
+        Slab slab = {.grid = grid,
+                     .changed = changed,
+                     .begin = s > 0 ? grid->slab_end[s - 1] : 0,
+                     .end = grid->slab_end[s],
+                     .first = (int32_t)nodes->first};
         slab.touched = grid->touched + slab.begin * slice;
-        slab.gap2 = grid->gap2 + (int64_t)s * row;
-        removed += update_slab(grid, &slab, nodes, run, changed);
+        place_gaps(&slab, s);
+        removed += update_slab(&slab, nodes, run);
     }
     grid->alive -= removed;
     drop_idle_cells(grid);

@@ -24,8 +24,9 @@ static void add_surface(const Growth *growth, const Grower *grower, Vec3 offset,
     pull->height -= fixed(vec3_dot(offset, between) / growth->params->influence);
 }
 
-static void add_attractor(const Growth *growth, const AttractorBlock *a, int lane,
-                          int32_t attractor, Pull *pulls)
+// nearness: 1 / distance
+static void add_attractor(const Growth *growth, const AttractorBlock *a, int lane, float distance,
+                          float nearness, Pull *pulls)
 {
     int64_t slot = growth->slot[a->nearest[lane]];
     if (slot < 0) {
@@ -33,8 +34,8 @@ static void add_attractor(const Growth *growth, const AttractorBlock *a, int lan
     }
     const Grower *grower = &growth->grower[slot];
     Vec3 offset = vec3_sub(vec3(a->x[lane], a->y[lane], a->z[lane]), grower->position);
-    float distance = sqrtf(a->best[lane]);
-    Vec3 unit = vec3_scale(offset, 1.0f / distance);
+    Vec3 unit = vec3_scale(offset, nearness);
+    int32_t attractor = a->source[lane];
     const Rule *rule = growth->rule;
     int bin = rule->bin ? rule->bin(growth, grower, unit) : 0;
     if (bin < 0) {
@@ -54,11 +55,19 @@ static void add_attractor(const Growth *growth, const AttractorBlock *a, int lan
 static void add_cell(const Growth *growth, int32_t cell, Pull *pulls)
 {
     const AttractorGrid *grid = &growth->grid;
-    int64_t first = grid->cells[cell].first_block * BLOCK_LANES;
-    for (int64_t i = first; i < first + grid->cells[cell].count; i++) {
-        const AttractorBlock *a = &grid->block[i / BLOCK_LANES];
-        if (a->nearest[i % BLOCK_LANES] >= 0) {
-            add_attractor(growth, a, (int)(i % BLOCK_LANES), grid->source[i], pulls);
+    const AttractorBlock *a = grid->block + grid->cells[cell].first_block;
+    const AttractorBlock *end = a + (grid->cells[cell].count + LANES - 1) / LANES;
+    for (; a < end; a++) {
+        float distance[LANES], nearness[LANES];
+#pragma omp simd
+        for (int i = 0; i < LANES; i++) {
+            distance[i] = sqrtf(a->best[i]);
+            nearness[i] = 1.0f / distance[i];
+        }
+        for (int i = 0; i < LANES; i++) {
+            if (a->nearest[i] >= 0) {
+                add_attractor(growth, a, i, distance[i], nearness[i], pulls);
+            }
         }
     }
 }

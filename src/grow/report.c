@@ -103,9 +103,9 @@ static int64_t visit_unreached(const OutTree *tree, const AttractorGrid *grid, i
     int64_t count = 0;
     for (int64_t c = 0; c < grid->cell_count; c++) {
         for (int32_t i = 0; i < grid->cells[c].count; i++) {
-            int64_t b = grid->cells[c].first_block + i / BLOCK_LANES;
+            int64_t b = grid->cells[c].first_block + i / LANES;
             const AttractorBlock *block = &grid->block[b];
-            int lane = i % BLOCK_LANES;
+            int lane = i % LANES;
             if (block->nearest[lane] >= 0) {
                 continue;
             }
