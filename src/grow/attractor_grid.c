@@ -96,6 +96,16 @@ static void choose_cells(AttractorGrid *grid, Aabb box, const PointSet *points)
     grid->cell_count = (int64_t)grid->size[0] * grid->size[1] * grid->size[2];
 }
 
+typedef struct CellRange {
+    int64_t begin, end;
+} CellRange;
+
+// Range of cells that one of `parts` threads fills; it looks at all points for those in its range.
+static CellRange cells_of_part(const AttractorGrid *grid, int part, int parts)
+{
+    return (CellRange){grid->cell_count * part / parts, grid->cell_count * (part + 1) / parts};
+}
+
 // Counts the points of every cell into cells[].count; cell: the cell of every point.
 static void count_cells(AttractorGrid *grid, const PointSet *points, int threads, int32_t *cell)
 {
@@ -104,8 +114,14 @@ static void count_cells(AttractorGrid *grid, const PointSet *points, int threads
     for (int64_t i = 0; i < points->count; i++) {
         cell[i] = (int32_t)cell_of(grid, points->position[i]);
     }
-    for (int64_t i = 0; i < points->count; i++) {
-        grid->cells[cell[i]].count++;
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
+    for (int part = 0; part < threads; part++) {
+        CellRange range = cells_of_part(grid, part, threads);
+        for (int64_t i = 0; i < points->count; i++) {
+            if (cell[i] >= range.begin && cell[i] < range.end) {
+                grid->cells[cell[i]].count++;
+            }
+        }
     }
 }
 
@@ -127,6 +143,23 @@ static int64_t place_blocks(AttractorGrid *grid)
     return blocks;
 }
 
+static void place_point(AttractorGrid *grid, AttractorCell *cell, Vec3 p, int32_t source)
+{
+    int32_t place = cell->count++;
+    AttractorBlock *block = &grid->block[cell->first_block + place / LANES];
+    int lane = place % LANES;
+    if (lane == 0) {
+        *block = (AttractorBlock){0};
+        block->best -= 1.0f;
+        block->nearest -= 1;
+    }
+    block->x[lane] = p.x;
+    block->y[lane] = p.y;
+    block->z[lane] = p.z;
+    block->best[lane] = grid->reach2;
+    block->source[lane] = source;
+}
+
 // Sorts the points into their cells, in index order.
 static bool fill_cells(AttractorGrid *grid, const PointSet *points, const Run *run, Error *e)
 {
@@ -134,31 +167,22 @@ static bool fill_cells(AttractorGrid *grid, const PointSet *points, const Run *r
     if (!cell) {
         return false;
     }
-    count_cells(grid, points, run->threads, cell);
+    int threads = run->threads > 1 ? run->threads : 1;
+    count_cells(grid, points, threads, cell);
     int64_t blocks = place_blocks(grid);
     grid->block = alloc_table(blocks, sizeof *grid->block, e);
     if (!grid->block) {
         free(cell);
         return false;
     }
-    AttractorBlock empty = {0};
-    empty.best -= 1.0f;
-    empty.nearest -= 1;
-#pragma omp parallel for schedule(static) num_threads(run->threads)
-    for (int64_t b = 0; b < blocks; b++) {
-        if (!run_is_cancelled(run)) {
-            grid->block[b] = empty;
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
+    for (int part = 0; part < threads; part++) {
+        CellRange range = cells_of_part(grid, part, threads);
+        for (int64_t i = 0; i < points->count && run_goes_on(run, i, NULL); i++) {
+            if (cell[i] >= range.begin && cell[i] < range.end) {
+                place_point(grid, &grid->cells[cell[i]], points->position[i], (int32_t)i);
+            }
         }
-    }
-    for (int64_t i = 0; i < points->count && run_goes_on(run, i, NULL); i++) {
-        int32_t place = grid->cells[cell[i]].count++;
-        int64_t b = grid->cells[cell[i]].first_block + place / LANES;
-        int lane = place % LANES;
-        grid->block[b].x[lane] = points->position[i].x;
-        grid->block[b].y[lane] = points->position[i].y;
-        grid->block[b].z[lane] = points->position[i].z;
-        grid->block[b].best[lane] = grid->reach2;
-        grid->block[b].source[lane] = (int32_t)i;
     }
     free(cell);
     return !run_is_cancelled(run) || run_cancel_error(e);

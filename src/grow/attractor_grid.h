@@ -66,6 +66,16 @@ bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reac
                          const Run *run, Error *e);
 void attractor_grid_free(AttractorGrid *grid);
 
+// Starts loading the first attractors of a cell. Loops over cells do so this many cells ahead.
+enum { ATTRACTOR_AHEAD = 8 };
+static inline void attractor_grid_prefetch(const AttractorGrid *grid, int32_t cell)
+{
+    const AttractorBlock *block = &grid->block[grid->cells[cell].first_block];
+    __builtin_prefetch(&block->x, 1);
+    __builtin_prefetch(&block->z, 1);
+    __builtin_prefetch(&block->nearest, 1);
+}
+
 // Cell along an axis of a point at this offset from the grid's low corner, m; clamped.
 int attractor_grid_cell_along(const AttractorGrid *grid, int axis, float offset);
 

@@ -44,14 +44,6 @@ static void set_bits(const NodeBits *bits, const IntLanes *nodes, unsigned lanes
     }
 }
 
-static void prefetch_cell(const AttractorGrid *grid, int32_t cell)
-{
-    const AttractorBlock *block = &grid->block[grid->cells[cell].first_block];
-    __builtin_prefetch(&block->x, 1);
-    __builtin_prefetch(&block->z, 1);
-    __builtin_prefetch(&block->nearest, 1);
-}
-
 // Offers node k at p to the attractors of a cell; each keeps the nearer of k and its nearest node.
 static void offer_to_cell(Slab *slab, int32_t c, Vec3 p, int32_t k)
 {
@@ -120,7 +112,7 @@ static void visit_rows(Slab *slab, Vec3 p, int32_t k)
         for (uint64_t bits = slab->visit[i]; bits; bits &= bits - 1) {
             int bit = __builtin_ctzll(bits);
             int32_t cell = slab->row[i * WORD_ROWS + bit / LANES] + bit % LANES;
-            prefetch_cell(grid, cell);
+            attractor_grid_prefetch(grid, cell);
             slab->cell[count++] = cell;
         }
         slab->visit[i] = 0;
@@ -301,6 +293,9 @@ static int64_t update_slab(Slab *slab, const NewNodes *nodes, const Run *run)
     }
     int64_t removed = 0;
     for (int64_t i = 0; i < slab->touched_count && run_goes_on(run, i, NULL); i++) {
+        if (i + ATTRACTOR_AHEAD < slab->touched_count) {
+            attractor_grid_prefetch(slab->grid, slab->touched[i + ATTRACTOR_AHEAD]);
+        }
         removed += settle_cell(slab, slab->touched[i]);
     }
     return removed;

@@ -202,29 +202,37 @@ static int keep_free(const Growth *growth, const Grower *grower, Child *child, i
     return kept;
 }
 
+static void make_children_of(Growth *growth, int64_t i)
+{
+    const Grower *grower = &growth->grower[i];
+    Child *child = &growth->child[i * growth->bins];
+    int count = growth_make_children(growth, grower, &growth->pull[i * growth->bins], child);
+    growth->child_count[i] = keep_free(growth, grower, child, count);
+}
+
 static void make_children(Growth *growth)
 {
-    int64_t growers = growth->grower_count, bins = growth->bins;
+    int64_t growers = growth->grower_count;
     bool shared = growers >= MIN_SHARED && growth->grid.active_count >= MIN_SHARED;
     int threads = shared ? growth->grid.slab_count : 1;
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (int64_t i = 0; i < growers; i++) {
-        if (!run_is_cancelled(growth->run)) { // a field may list many lines of nuclei
-            growth_prepare(growth, &growth->grower[i]);
+#pragma omp parallel num_threads(threads) if (threads > 1)
+    {
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < growers; i++) {
+            if (!run_is_cancelled(growth->run)) { // a field may list many lines of nuclei
+                growth_prepare(growth, &growth->grower[i]);
+            }
         }
-    }
-#pragma omp parallel for schedule(static, 1) num_threads(threads) if (threads > 1)
-    for (int part = 0; part < threads; part++) {
-        growth_sum_part(growth, part, threads);
-    }
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (int64_t i = 0; i < growers; i++) {
-        if (!run_is_cancelled(growth->run)) {
-            growth_merge_pulls(growth, i, threads);
-            Child *child = &growth->child[i * bins];
-            int count =
-                growth_make_children(growth, &growth->grower[i], &growth->pull[i * bins], child);
-            growth->child_count[i] = keep_free(growth, &growth->grower[i], child, count);
+#pragma omp for schedule(static, 1)
+        for (int part = 0; part < threads; part++) {
+            growth_sum_part(growth, part, threads);
+        }
+#pragma omp for schedule(dynamic, MIN_SHARED)
+        for (int64_t i = 0; i < growers; i++) {
+            if (!run_is_cancelled(growth->run)) {
+                growth_merge_pulls(growth, i, threads);
+                make_children_of(growth, i);
+            }
         }
     }
 }

@@ -28,12 +28,15 @@ static void add_surface(const Growth *growth, const Grower *grower, Vec3 offset,
 static void add_attractor(const Growth *growth, const AttractorBlock *a, int lane, float distance,
                           float nearness, Pull *pulls)
 {
-    int64_t slot = growth->slot[a->nearest[lane]];
+    int32_t node = a->nearest[lane];
+    int64_t slot = growth->slot[node];
     if (slot < 0) {
         return;
     }
+    // the grower itself is read only if the rule needs it: another thread has prepared it, so it is
+    // not in this one's cache
     const Grower *grower = &growth->grower[slot];
-    Vec3 offset = vec3_sub(vec3(a->x[lane], a->y[lane], a->z[lane]), grower->position);
+    Vec3 offset = vec3_sub(vec3(a->x[lane], a->y[lane], a->z[lane]), growth->tree->position[node]);
     Vec3 unit = vec3_scale(offset, nearness);
     int32_t attractor = a->source[lane];
     const Rule *rule = growth->rule;
@@ -83,6 +86,9 @@ void growth_sum_part(const Growth *growth, int part, int parts)
     int begin = part > 0 ? grid->slab_end[part - 1] : 0;
     int end = part < parts - 1 ? grid->slab_end[part] : INT32_MAX;
     for (int64_t i = 0; i < grid->active_count && run_goes_on(growth->run, i, NULL); i++) {
+        if (i + ATTRACTOR_AHEAD < grid->active_count) {
+            attractor_grid_prefetch(grid, grid->active[i + ATTRACTOR_AHEAD].cell);
+        }
         if (grid->active[i].slice >= begin && grid->active[i].slice < end) {
             add_cell(growth, grid->active[i].cell, pulls);
         }

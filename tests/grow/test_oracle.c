@@ -190,6 +190,29 @@ static void growth_in_a_field_equals_brute_force(void **state)
     guide_field_free(vortex);
 }
 
+// Thin sheets whose nodes reach more cells than a search looks at together: many rows of cells in
+// the plane x-y, long rows in the plane x-z.
+static void far_reaching_growth_equals_brute_force(void **state)
+{
+    (void)state;
+    for (int flat = 1; flat <= 2; flat++) {
+        PointSet *points = points_empty(0.2, 3);
+        for (uint64_t i = 0; i < 2000; i++) {
+            uint64_t key = random_key((uint64_t)flat, i);
+            float thin = random_range(random_key(key, 0), 0.0f, 0.05f);
+            float wide = random_range(random_key(key, 1), -1.0f, 1.0f);
+            float x = random_range(random_key(key, 2), -1.0f, 1.0f);
+            points_put(points, flat == 1 ? vec3(x, thin, wide) : vec3(x, wide, thin),
+                       vec3(0, 1, 0));
+        }
+        OutTree *start = tree_from(vec3(0.1f, 0, 0));
+        ColonizeParams params = params_auto(points, 0.5f, 1.5f, 25.0f);
+        compare(points, &params, start);
+        out_tree_free(start);
+        points_free(points);
+    }
+}
+
 // Lattice points: many attractors are exactly as far from two nodes, so ties decide everywhere.
 static void ties_go_to_the_lowest_index(void **state)
 {
@@ -217,6 +240,7 @@ int main(void)
         cmocka_unit_test(plain_growth_equals_brute_force),
         cmocka_unit_test(limited_noisy_growth_equals_brute_force),
         cmocka_unit_test(growth_in_a_field_equals_brute_force),
+        cmocka_unit_test(far_reaching_growth_equals_brute_force),
         cmocka_unit_test(ties_go_to_the_lowest_index),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
