@@ -163,19 +163,25 @@ still mountains mountains
 still badlands badlands
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
-        panel terrain-strip --size 800x450 --set objects.range.material=relief --set objects.range.terrain.rivers.water=0 \
-            --set objects.range.terrain.noise.iterations=$iterations
+        panel terrain-noise --size 800x450 --set objects.noise.terrain.noise.iterations=$iterations
     done
     sheet figure-16 2x2
 fi
 if is_wanted figure-17; then
-    panel terrain-strip --size 800x450 --set objects.range.material=relief --set objects.range.terrain.relief=1 \
-        --set objects.range.terrain.rivers.water=0.03 --set objects.range.terrain.noise.iterations=0
-    panel terrain-strip --size 800x450 --set objects.range.material=relief --set objects.range.terrain.rivers.water=0 \
-        --set objects.range.terrain.noise.iterations=0
-    panel terrain-strip --size 800x450 --set objects.range.material=relief --set objects.range.terrain.rivers.water=0
-    panel terrain-strip --size 800x450
-    sheet figure-17 2x2
+    land=objects.massif.terrain
+    stage() { # MATERIAL [OPTION...]: the massif before it has its own colours
+        material=$1
+        shift
+        panel terrain-ridges --size 800x450 --set film.exposure=1.1 --set $land.water_level=0 \
+            --set objects.massif.material="$material" "$@"
+    }
+    stage relief --set $land.show=tree
+    stage altitude --set $land.show=map --set $land.noise.iterations=0
+    stage altitude --set $land.noise.iterations=0
+    stage relief --set $land.noise.iterations=0
+    stage relief
+    panel terrain-ridges --size 800x450
+    sheet figure-17 2x3
 fi
 if is_wanted figure-21; then
     panel terrain-strip --size 800x450 --set seed=8 --set objects.range.terrain.water_level=0.12

@@ -4,6 +4,8 @@
 #include "scene/builtin.h"
 #include "scene/spec_check.h"
 
+#include <stdio.h>
+
 #define BIT(kind) (1u << (kind))
 #define ALL_BUT(kinds) (~(kinds))
 #define COLOURED ALL_BUT(BIT(MATERIAL_EMISSION))
@@ -14,11 +16,32 @@
 #define KIND(NAME, name) {#name, MATERIAL_##NAME},
 static const EnumName KINDS[] = {MATERIAL_KINDS(KIND){0}};
 #undef KIND
-static const EnumName PATTERNS[] = {
-    {"none", PATTERN_NONE},         {"bark", PATTERN_BARK},   {"ground", PATTERN_GROUND},
-    {"leaf", PATTERN_LEAF},         {"noise", PATTERN_NOISE}, {"corallite", PATTERN_CORALLITE},
-    {"youth", PATTERN_YOUTH},       {"sand", PATTERN_SAND},   {"mountain", PATTERN_MOUNTAIN},
-    {"badlands", PATTERN_BADLANDS}, {"water", PATTERN_WATER}, {0}};
+static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
+                                    {"bark", PATTERN_BARK},
+                                    {"ground", PATTERN_GROUND},
+                                    {"leaf", PATTERN_LEAF},
+                                    {"noise", PATTERN_NOISE},
+                                    {"corallite", PATTERN_CORALLITE},
+                                    {"youth", PATTERN_YOUTH},
+                                    {"sand", PATTERN_SAND},
+                                    {"mountain", PATTERN_MOUNTAIN},
+                                    {"badlands", PATTERN_BADLANDS},
+                                    {"water", PATTERN_WATER},
+                                    {"altitude", PATTERN_ALTITUDE},
+                                    {0}};
+
+static const Key STOP_KEYS[] = {
+    {KEY_OF(ColorStop, at, "at", KEY_FLOAT), .flags = KEY_REQUIRED, .high = 1,
+     .doc = "Altitude, as a fraction of the land's relief."},
+    {KEY_OF(ColorStop, color, "color", KEY_COLOR), .flags = KEY_REQUIRED, .high = 1,
+     .doc = "Reflectance there."},
+    {0},
+};
+
+static const Table STOP_TABLE = {.name = "color_stop",
+                                 .doc = "A point of a scale of colours.",
+                                 .size = sizeof(ColorStop),
+                                 .keys = STOP_KEYS};
 
 static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, name, "name", KEY_NAME), .flags = KEY_REQUIRED, .count = 64,
@@ -68,7 +91,11 @@ static const Key MATERIAL_KEYS[] = {
             "soil and grass in patches; leaf: veins and blotches; noise: plain noise; corallite: "
             "cups of a coral; youth: color2 where a branch still grows; sand: ripples of a sea "
             "floor; mountain: rock, scree, grass and snow; badlands: coloured strata; water: "
-            "ripples; none: one colour."},
+            "ripples; altitude: a map's scale of colours over a terrain; none: one colour."},
+    {KEY_OF(Material, colors, "colors", KEY_LIST), .kinds = PATTERNED,
+     .count_offset = offsetof(Material, color_count), .count = 64, .table = &STOP_TABLE,
+     .doc = "Pattern altitude: its colours by altitude, linear between these; none = from color to "
+            "color2."},
     {KEY_OF(Material, pattern_scale, "pattern_scale", KEY_FLOAT), .kinds = BUMPED | FILM,
      .high = 1e6, .unit = "m",
      .doc = "Wavelength of the pattern's largest features; 0 = the pattern's default."},
@@ -101,6 +128,23 @@ static void material_defaults(const Node *given, int kind, void *out)
     }
 }
 
+static bool check_material(const Mapping *mapping, void *params)
+{
+    const Material *material = params;
+    for (int i = 1; i < material->color_count; i++) {
+        float at = material->colors[i].at, last = material->colors[i - 1].at;
+        if (at <= last) {
+            char key[32];
+            snprintf(key, sizeof key, "colors.%d", i);
+            return mapping_fail(mapping, key,
+                                " is at the altitude %g, the one before it at %g; altitudes must "
+                                "ascend",
+                                (double)at, (double)last);
+        }
+    }
+    return true;
+}
+
 const Table material_table = {
     .name = "material",
     .doc = "A surface material. Objects refer to materials by name.",
@@ -115,4 +159,5 @@ const Table material_table = {
     .size = sizeof(Material),
     .keys = MATERIAL_KEYS,
     .kind_key = "kind",
-    .kind_defaults = material_defaults};
+    .kind_defaults = material_defaults,
+    .check = check_material};

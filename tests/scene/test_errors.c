@@ -158,6 +158,26 @@ static const Case scenes[] = {
      "[0, 1, 0], end: [0, 1, 0]}]}]}}}]\n",
      ":1:108: objects.a.tree.crown.fields.0.nuclei.0.end equals position; a line needs two "
      "different ends, or use kind: point"},
+    {"objects: [{name: a, terrain: {form: hills}}]\n",
+     ":1:37: objects.a.terrain.form is 'hills'; known: rivers, ridges, noise"},
+    {"objects: [{name: a, terrain: {ridges: {lift: [{distance: 0, height: 1}, {distance: 0, "
+     "height: 0}]}}}]\n",
+     ":1:73: objects.a.terrain.ridges.lift.1 is at the distance 0, the point before it at 0; "
+     "distances must ascend"},
+    {"objects: [{name: a, terrain: {ridges: {lift: [{distance: 0, height: 1}, {distance: 0.5, "
+     "height: -1}]}}}]\n",
+     ":1:73: objects.a.terrain.ridges.lift.1 has the height -1, one before it 1; all heights must "
+     "be positive, or all negative"},
+    {"objects: [{name: a, terrain: {rivers: {file: /etc/passwd, image: /etc/passwd}}}]\n",
+     ":1:66: objects.a.terrain.rivers.image: the tree already comes from a file; give a file or an "
+     "image"},
+    {"objects: [{name: a, terrain: {ridges: {file: no.swc}}}]\n",
+     ":1:46: objects.a.terrain.ridges.file: cannot read 'no.swc': No such file or directory; paths "
+     "are relative to the scene's folder"},
+    {"materials: [{name: m, pattern: altitude, colors: [{at: 0.5, color: [1, 1, 1]}, {at: 0.2, "
+     "color: [0, 0, 0]}]}]\n" TREE,
+     ":1:80: materials.m.colors.1 is at the altitude 0.2, the one before it at 0.5; altitudes must "
+     "ascend"},
     {"objects: [{name: a, tree: {crown: {fields: [{kind: nuclei, nuclei: [{kind: line}]}]}}}]\n",
      ":1:69: objects.a.tree.crown.fields.0.nuclei.0 has no 'position'; this key is required: The "
      "point, or the line's start, in the scene's space."},

@@ -21,6 +21,7 @@ static const BadFile files[] = {
     {"short.swc", "1 1 0 0 0 1 -1\n2 3 0 0\n"},
     {"orphan.swc", "1 1 0 0 0 1 -1\n2 3 0 0 1 1 7\n"},
     {"far.swc", "1 3 0 0 0 1 -1\n2 3 0 0 1e5 1 1\n"},
+    {"away.swc", "1 3 900 0 0 1 -1\n2 3 950 0 0 1 1\n"},
 };
 
 typedef struct Place {
@@ -87,6 +88,13 @@ static const Place places[] = {
     {"lightning", "segment: 1e-9", 4, 26, "segments of 1e-09 m"},
     {"terrain", "size: 1e-30", 4, 5, "step is "},
     {"terrain", "uplift: {image: junk.png}", 4, 31, "junk.png"},
+    // trees of rivers and ridges; in SWC files the line there
+    {"terrain", "rivers: {image: junk.png}", 4, 31, "junk.png"},
+    {"terrain", "form: ridges, ridges: {image: junk.png}", 4, 45, "junk.png"},
+    {"terrain", "form: ridges, ridges: {file: word.swc}", 2, 0, "is no number"},
+    {"terrain", "form: ridges, ridges: {file: junk.png}", 1, 0, "is no number"},
+    {"terrain", "rivers: {file: short.swc}", 2, 0, "has only 4 numbers"},
+    {"terrain", "size: 100, rivers: {file: away.swc}", 4, 41, "has no node within"},
     {"dla", "size: 1e-30", 4, 5, "a voxel of"},
     // L-systems
     {"lsystem", "axiom: A", 4, 5, "draws nothing"},

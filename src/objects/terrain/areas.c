@@ -80,7 +80,7 @@ static int32_t nearest_node(const NodeGrid *grid, const OutTree *tree, float x, 
 // the resolution.
 bool terrain_areas(Terrain *terrain, const Run *run, Error *e)
 {
-    const OutTree *tree = terrain->rivers;
+    const OutTree *tree = terrain->tree;
     float size = terrain->params->size;
     int side = 256;
     while (side < 2048 && (int64_t)side * side < 12 * tree->count) {

@@ -15,7 +15,7 @@
 // The child with the largest drainage area; -1 = none.
 static int32_t *heaviest_children(const Terrain *terrain, Error *e)
 {
-    const OutTree *rivers = terrain->rivers;
+    const OutTree *rivers = terrain->tree;
     int32_t *heaviest = memory_alloc(rivers->count, sizeof *heaviest, e);
     for (int64_t i = 0; heaviest && i < rivers->count; i++) {
         int32_t parent = rivers->parent[i];
@@ -51,7 +51,7 @@ static int64_t add_piece(OutTree *water, const OutTree *rivers, int64_t i, int64
 // The rivers that the grid resolves, in steps of at most half a cell; empty if there are none.
 static OutTree *wide_rivers(const Terrain *terrain, float cell, Error *e)
 {
-    const OutTree *rivers = terrain->rivers;
+    const OutTree *rivers = terrain->tree;
     float least = 0.6f * cell; // narrower channels would be gaps in the grid's cells
     OutTree *water = out_tree_new(e);
     int32_t *heaviest = water ? heaviest_children(terrain, e) : NULL;

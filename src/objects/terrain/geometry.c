@@ -1,5 +1,6 @@
-// The parts of a terrain: land, water, forest.
+// The parts of a terrain: land, water, forest; or the plane with its map or its tree.
 #include "land/height_mesh.h"
+#include "mesh/curves.h"
 #include "objects/terrain/internal.h"
 
 static bool add_land(const Terrain *terrain, const HeightField *field, const Placing *placing,
@@ -14,10 +15,47 @@ static bool add_land(const Terrain *terrain, const HeightField *field, const Pla
                                 .nearest = 2.0f * field->cell.x,
                                 .keep = terrain->bank};
     Mesh *mesh = height_mesh_new(field, &meshing, e);
+    bool flat = params->show != SHOW_LAND;
+    for (int64_t i = 0; flat && mesh && i < mesh->vertex_count; i++) {
+        mesh->position[i].y = 0.0f;
+        mesh->normal[i] = vec3(0, 1, 0);
+    }
     for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
         mesh->position[i] = vec3_add(mesh->position[i], params->position);
     }
     return placing_add(placing, (Part){.mesh = mesh}, TERRAIN_LAND, e);
+}
+
+// The tree as lines on the plane, their thickness in proportion to its radii.
+static bool add_lines(const Terrain *terrain, const Placing *placing, Error *e)
+{
+    const OutTree *tree = terrain->tree;
+    const TerrainParams *params = terrain->params;
+    const float thickest = 0.006f; // radius, as a share of the size
+    float largest = 0.0f;
+    int64_t count = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        largest = tree->radius[i] > largest ? tree->radius[i] : largest;
+        count += tree->parent[i] >= 0;
+    }
+    if (count == 0 || !(largest > 0.0f)) {
+        return true;
+    }
+    CurveSet *lines = curves_new(2 * count, count, e);
+    for (int64_t i = 0, c = 0; lines && i < tree->count; i++) {
+        for (int end = 0; end < 2 && tree->parent[i] >= 0; end++) {
+            int64_t node = end == 0 ? tree->parent[i] : i;
+            Vec3 p = tree->position[node];
+            lines->position[2 * c + end] = vec3_add(vec3(p.x, 0.0f, p.z), params->position);
+            float share = 0.15f + 0.85f * tree->radius[node] / largest;
+            lines->radius[2 * c + end] = thickest * share * params->size;
+        }
+        if (tree->parent[i] >= 0) {
+            lines->id[c++] = tree->id[i];
+            lines->first[c] = 2 * c;
+        }
+    }
+    return placing_add(placing, (Part){.curves = lines}, TERRAIN_LINES, e);
 }
 
 bool terrain_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
@@ -25,6 +63,12 @@ bool terrain_geometry(const void *given, const Grown *grown, const Placing *plac
     const TerrainParams *params = given;
     const Terrain *terrain = grown->state;
     HeightField *field = terrain_heights(params, grown, placing->recipe->run, e);
+    if (field && params->show != SHOW_LAND) {
+        bool drawn = add_land(terrain, field, placing, e) &&
+                     (params->show == SHOW_MAP || add_lines(terrain, placing, e));
+        height_field_free(field);
+        return drawn;
+    }
     bool done = field && add_land(terrain, field, placing, e) &&
                 terrain_add_water(terrain, field, placing, e) &&
                 (params->forest.count <= 0 || terrain_add_forest(terrain, field, placing, e));

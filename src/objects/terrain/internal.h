@@ -3,6 +3,7 @@
 #define RAMIFY_OBJECTS_TERRAIN_INTERNAL_H
 
 #include "objects/terrain/envelope.h"
+#include "objects/terrain/lift.h"
 #include "objects/terrain/terrain.h"
 
 // Streams of the object's seed.
@@ -21,11 +22,12 @@ enum {
     STREAM_FOREST = 61
 };
 
-// Rivers and everything derived from them.
+// The tree and everything derived from it.
 typedef struct Terrain {
     const TerrainParams *params; // borrowed
     uint64_t seed;
-    OutTree *rivers;          // heights and radii filled in; owned by the Grown
+    OutTree *tree;            // rivers or ridges, heights and radii filled in; owned by the Grown
+    RidgeLift *lift;          // of TERRAIN_RIDGES; all that follows is of TERRAIN_RIVERS
     float *area;              // m^2, drainage area of each node
     float *uplift;            // factor on gradients at each node
     float gradient;           // of hillslopes at uplift 1
@@ -37,6 +39,45 @@ typedef struct Terrain {
     TroughEnvelope *shore; // m to the water's edge, negative in the water
     uint8_t *bank;         // of each sample: 1 = in a bed or at its edge
 } Terrain;
+
+// grow_plane.c: how a tree grows on the plane.
+typedef struct PlaneGrowth {
+    float size;      // m, side of the square
+    bool ellipse;    // attractors lie within an ellipse about the middle, not in the whole square
+    float extent[2]; // m, of the ellipse along x and z
+    int64_t count;   // attractors of the finest level, if they covered the square
+    float winding;
+    const FieldParams *fields;
+    int field_count;
+    float field_weight;
+} PlaneGrowth;
+
+// Grows a tree that has its roots. *tree is replaced.
+bool terrain_grow_plane(OutTree **tree, const PlaneGrowth *growth, const Recipe *recipe, Error *e);
+
+// source.c: the tree of a file or a picture, on the plane y = 0, radii those of the source (those
+// of rivers 0). TREE_DRAINS leads its roots to the terrain's border. The caller frees the tree.
+typedef enum TreeUse { TREE_RISES, TREE_DRAINS } TreeUse;
+OutTree *terrain_read_tree(const TerrainParams *params, const TreeSource *source, TreeUse use,
+                           const Recipe *recipe, Error *e);
+
+static inline bool tree_source_given(const TreeSource *source)
+{
+    return source->file || source->image;
+}
+
+// rivers.c, ridges.c: the tree of the form, on the plane y = 0. *tree may be set on failure.
+bool terrain_grow_rivers(OutTree **tree, const TerrainParams *params, const Recipe *recipe,
+                         Error *e);
+bool terrain_grow_ridges(OutTree **tree, const TerrainParams *params, const Recipe *recipe,
+                         Error *e);
+
+// ridges.c: heights of the crests, radii = half widths of their bands.
+bool terrain_raise_ridges(Terrain *terrain, Error *e);
+float terrain_ridge_relief(const TerrainParams *params);   // m
+float terrain_lift_sign(const TerrainParams *params);      // -1 = the land is lowered
+LiftCurve terrain_lift_curve(const TerrainParams *params); // absolute heights
+RidgeLift *terrain_ridge_lift(const Terrain *terrain, float margin, const Run *run, Error *e);
 
 // uplift.c: fills terrain->uplift, at least 0.02 at each node. Reads the user's picture.
 bool terrain_uplift(Terrain *terrain, const Run *run, Error *e);

@@ -17,7 +17,12 @@ static void describe(const void *params, char *text, size_t size)
 static int64_t attractors(const void *params)
 {
     const TerrainParams *terrain = params;
-    int64_t count = terrain->rivers.count;
+    bool ridges = terrain->form == TERRAIN_RIDGES;
+    const TreeSource *source = ridges ? &terrain->ridges.source : &terrain->rivers.source;
+    if (terrain->form == TERRAIN_NOISE || source->file || source->image) {
+        return 0;
+    }
+    int64_t count = ridges ? terrain->ridges.count : terrain->rivers.count;
     return count + count / 8;
 }
 
@@ -33,7 +38,8 @@ static void needs(const void *params, Needs *needs)
     const TerrainParams *terrain = params;
     double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // trees per side
     needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, CELL_BYTES);
-    needs_add(needs, "rivers.count", (double)attractors(params), RIVER_BYTES);
+    needs_add(needs, terrain->form == TERRAIN_RIDGES ? "ridges.count" : "rivers.count",
+              (double)attractors(params), RIVER_BYTES);
     needs_add_copies(needs, "forest.count", fmin(terrain->forest.count, rows * rows), 1e9);
 }
 
@@ -42,6 +48,11 @@ static void settle(const void *params, void *settled)
     TerrainParams p = terrain_params_resolve(params);
     memcpy(settled, &p, sizeof p);
 }
+
+// From the plain to the summit.
+static ColorStop ALTITUDES[] = {{0.0f, {0.030f, 0.085f, 0.30f}}, {0.12f, {0.020f, 0.26f, 0.30f}},
+                                {0.35f, {0.10f, 0.42f, 0.07f}},  {0.6f, {0.72f, 0.55f, 0.05f}},
+                                {0.82f, {0.66f, 0.10f, 0.03f}},  {1.0f, {0.85f, 0.80f, 0.78f}}};
 
 static const Material BUILTIN[] = {
     {.name = "mountain",
@@ -77,18 +88,28 @@ static const Material BUILTIN[] = {
      .roughness = 0.8f,
      .ior = 1.5f,
      .variation = 0.7f},
+    {.name = "altitude",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.10f, 0.13f, 0.16f},
+     .roughness = 0.6f,
+     .ior = 1.5f,
+     .pattern = PATTERN_ALTITUDE,
+     .colors = ALTITUDES,
+     .color_count = sizeof ALTITUDES / sizeof ALTITUDES[0]},
     {.name = ""},
 };
 
 static const Key MATERIALS[] = {
     MATERIAL_ROW(1, "water_material", "Material of a terrain's lakes and rivers; default: lake."),
+    MATERIAL_ROW(3, "tree_material",
+                 "Material of the lines of a terrain's tree (show: tree); default: node."),
     OWN_MATERIAL_ROW(0),
     {0},
 };
 
 const Kind kind_terrain = {
     .variant = {KIND_ROW("terrain", &terrain_table, "Mountains, valleys and rivers."), MATERIALS},
-    .materials = {"mountain", "lake", "conifer"},
+    .materials = {"mountain", "lake", "conifer", "node"},
     .builtin = BUILTIN,
     .needs = needs,
     .describe = describe,

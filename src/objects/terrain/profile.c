@@ -14,7 +14,7 @@
 
 Trough terrain_trough(const Terrain *terrain, int64_t i, float gradient)
 {
-    const OutTree *tree = terrain->rivers;
+    const OutTree *tree = terrain->tree;
     Vec3 b = tree->position[i], a = tree->parent[i] >= 0 ? tree->position[tree->parent[i]] : b;
     float dx = b.x - a.x, dz = b.z - a.z, length = sqrtf(dx * dx + dz * dz);
     float own = gradient * terrain->uplift[i];
@@ -58,7 +58,7 @@ typedef struct Ascent {
 
 static void link_children(Ascent *a)
 {
-    const OutTree *tree = a->terrain->rivers;
+    const OutTree *tree = a->terrain->tree;
     for (int64_t i = tree->count - 1; i >= 0; i--) {
         int32_t parent = tree->parent[i];
         a->sibling[i] = -1;
@@ -72,7 +72,7 @@ static void link_children(Ascent *a)
 static void settle(Ascent *a, int32_t i)
 {
     Trough t = terrain_trough(a->terrain, i, 1.0f);
-    TroughCell *cell = &a->cell[terrain_cell_index(&a->cells, a->terrain->rivers->position[i])];
+    TroughCell *cell = &a->cell[terrain_cell_index(&a->cells, a->terrain->tree->position[i])];
     float reach = t.length + t.width;
     a->trough[i] = t;
     a->next[i] = cell->first;
@@ -132,7 +132,7 @@ static int32_t lowest_slope(const Ascent *a, Vec3 p, float *best)
 static float tentative(const Ascent *a, int32_t i)
 {
     const Terrain *terrain = a->terrain;
-    const OutTree *tree = terrain->rivers;
+    const OutTree *tree = terrain->tree;
     const RiverParams *rivers = &terrain->params->rivers;
     float headwater = terrain->params->size * terrain->params->size / (float)rivers->count;
     float share = terrain->area[i] / headwater;
@@ -167,7 +167,7 @@ static bool is_ancestor(const OutTree *tree, int32_t other, int32_t i)
 // Sets the height of node i: the tentative one, unless a slope is lower there.
 static void rise(Ascent *a, int32_t i, float tentative_height)
 {
-    OutTree *tree = a->terrain->rivers;
+    OutTree *tree = a->terrain->tree;
     int32_t parent = tree->parent[i];
     Vec3 p = tree->position[i], q = tree->position[parent];
     float length = sqrtf((p.x - q.x) * (p.x - q.x) + (p.z - q.z) * (p.z - q.z));
@@ -187,7 +187,7 @@ static void rise(Ascent *a, int32_t i, float tentative_height)
 
 static bool ascend(Ascent *a, Error *e)
 {
-    OutTree *tree = a->terrain->rivers;
+    OutTree *tree = a->terrain->tree;
     for (int64_t i = 0; i < tree->count; i++) {
         tree->position[i].y = 0.0f;
         if (tree->parent[i] < 0 && !lowest_queue_push(&a->queue, 0.0f, (int32_t)i, e)) {
@@ -215,7 +215,7 @@ static bool ascend(Ascent *a, Error *e)
 // down to the first node in its own valley.
 static void drop_drowned(const Ascent *a, uint8_t *drop)
 {
-    const OutTree *tree = a->terrain->rivers;
+    const OutTree *tree = a->terrain->tree;
     uint8_t *bears = drop; // 2 = a child is kept
     for (int64_t k = a->settled_count - 1; k >= 0; k--) {
         int32_t i = a->settled[k], parent = tree->parent[i];
@@ -232,7 +232,7 @@ static void drop_drowned(const Ascent *a, uint8_t *drop)
 
 static bool ascend_all(Terrain *terrain, uint8_t *drop, int64_t *captures, Error *e)
 {
-    int64_t count = terrain->rivers->count;
+    int64_t count = terrain->tree->count;
     Ascent a = {.terrain = terrain, .least_gradient = 3e38f};
     a.cells = terrain_cells(terrain->params->size, count / 3, 512);
     int64_t cells = (int64_t)a.cells.side * a.cells.side;
@@ -287,7 +287,7 @@ static int compare_ranks(const void *a, const void *b)
 // before their children.
 static bool sort_by_height(Terrain *terrain, const uint8_t *drop, int64_t *dropped, Error *e)
 {
-    OutTree *tree = terrain->rivers, *sorted = out_tree_new(e);
+    OutTree *tree = terrain->tree, *sorted = out_tree_new(e);
     Rank *rank = memory_alloc(tree->count, sizeof *rank, e);
     int32_t *place = memory_alloc(tree->count, sizeof *place, e);
     float *uplift = memory_alloc(tree->count, sizeof *uplift, e);
@@ -319,7 +319,7 @@ static bool sort_by_height(Terrain *terrain, const uint8_t *drop, int64_t *dropp
     if (done) {
         memcpy(terrain->uplift, uplift, sizeof *uplift * (size_t)tree->count);
         memcpy(terrain->area, area, sizeof *area * (size_t)tree->count);
-        terrain->rivers = sorted;
+        terrain->tree = sorted;
         sorted = tree;
     }
     out_tree_free(sorted);
@@ -336,7 +336,7 @@ bool terrain_profile(Terrain *terrain, const Run *run, int64_t *captures, Error 
         return run_cancel_error(e);
     }
     int64_t dropped = 0;
-    uint8_t *drop = memory_alloc_zero(terrain->rivers->count, 1, e);
+    uint8_t *drop = memory_alloc_zero(terrain->tree->count, 1, e);
     bool done = drop && terrain_areas(terrain, run, e) && ascend_all(terrain, drop, captures, e) &&
                 sort_by_height(terrain, drop, &dropped, e);
     free(drop);

@@ -1,6 +1,8 @@
-// The terrain: uplift, rivers, noise, erosion, forest.
+// The terrain: uplift, rivers, ridges, noise, erosion, forest.
 #include "objects/common/tables.h"
 #include "objects/terrain/terrain.h"
+
+#include <stdio.h>
 
 static const Key STROKE_KEYS[] = {
     {KEY_OF(UpliftStroke, from, "from", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 2,
@@ -45,10 +47,34 @@ static const Table UPLIFT_TABLE = {.name = "uplift",
                                    .size = sizeof(UpliftParams),
                                    .keys = UPLIFT_KEYS};
 
+// The rows of a tree that is not grown.
+#define SOURCE_ROWS(STRUCT, PART)                                                                 \
+    {KEY_OF(STRUCT, source.file, "file", KEY_FILE),                                               \
+     .doc = "SWC file with the tree of " PART ", instead of growing one: x and z of its nodes, "  \
+            "from the terrain's centre. Heights in it are ignored."},                             \
+        {KEY_OF(STRUCT, source.scale, "scale", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e9,       \
+         .unit = "m", .doc = "Length of the file's unit."},                                       \
+        {KEY_OF(STRUCT, source.image, "image", KEY_FILE),                                         \
+         .doc = "Image laid over the terrain, north up, in which " PART " are painted as bright " \
+                "lines on dark, instead of growing a tree. Lines that form a loop are parted "    \
+                "where it is farthest from the root."},                                           \
+    {                                                                                             \
+        KEY_OF(STRUCT, source.invert, "invert", KEY_BOOL),                                        \
+            .doc = "The image has dark lines on bright."                                          \
+    }
+
+static bool check_source(const Mapping *mapping, const TreeSource *source)
+{
+    return !source->file || !source->image ||
+           mapping_fail(mapping, "image",
+                        ": the tree already comes from a file; give a file or an image");
+}
+
 static const EnumName SIDES[] = {{"all", SIDE_ALL},     {"north", SIDE_NORTH}, {"east", SIDE_EAST},
                                  {"south", SIDE_SOUTH}, {"west", SIDE_WEST},   {0}};
 
 static const Key RIVER_KEYS[] = {
+    SOURCE_ROWS(RiverParams, "rivers"),
     {KEY_OF(RiverParams, outlets, "outlets", KEY_INT), .low = 1, .high = 10000,
      .doc = "Number of rivers that leave the terrain."},
     {KEY_OF(RiverParams, side, "side", KEY_ENUM), .names = SIDES,
@@ -76,18 +102,137 @@ static const Key RIVER_KEYS[] = {
     {0},
 };
 
-static const Table RIVER_TABLE = {.name = "rivers",
-                                  .doc = "The network of rivers, an out-tree from each outlet.",
-                                  .size = sizeof(RiverParams),
-                                  .keys = RIVER_KEYS};
+static bool check_rivers(const Mapping *mapping, void *params)
+{
+    return check_source(mapping, &((const RiverParams *)params)->source);
+}
+
+static const Table RIVER_TABLE = {
+    .name = "rivers",
+    .doc = "The network of rivers, an out-tree from each outlet. Each root in a file is an outlet, "
+           "and so is the point nearest to the border of each connected drawing in an image; a "
+           "river leads from there straight to the border.",
+    .size = sizeof(RiverParams),
+    .keys = RIVER_KEYS,
+    .check = check_rivers};
+
+// ---- ridges
+
+static const Key START_KEYS[] = {
+    {KEY_OF(RidgeStart, at, "at", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 2, .low = -0.5,
+     .high = 0.5, .unit = "sizes",
+     .doc = "Position: x and z as fractions of the terrain's size; [0, 0] = the centre."},
+    {0},
+};
+
+static const Table START_TABLE = {.name = "ridge_start",
+                                  .doc = "A summit from which ridges grow.",
+                                  .size = sizeof(RidgeStart),
+                                  .keys = START_KEYS};
+
+static const Key STOP_KEYS[] = {
+    {KEY_OF(LiftStop, distance, "distance", KEY_FLOAT), .flags = KEY_REQUIRED, .high = 1,
+     .doc = "Distance from the ridge, as a fraction of the band's half-width there."},
+    {KEY_OF(LiftStop, height, "height", KEY_FLOAT), .flags = KEY_REQUIRED, .low = -1, .high = 1,
+     .doc = "Lift at this distance, as a fraction of the relief and of the band's share of it."},
+    {0},
+};
+
+static const Table STOP_TABLE = {.name = "lift_stop",
+                                 .doc = "A point of the lift's curve.",
+                                 .size = sizeof(LiftStop),
+                                 .keys = STOP_KEYS};
+
+static const Key RIDGE_KEYS[] = {
+    SOURCE_ROWS(RidgeParams, "ridges"),
+    {KEY_OF(RidgeParams, starts, "starts", KEY_LIST),
+     .count_offset = offsetof(RidgeParams, start_count), .count = 1000, .table = &START_TABLE,
+     .doc = "Summits from which ridges grow; none = one in the centre."},
+    {KEY_OF(RidgeParams, extent, "extent", KEY_VECTOR), .flags = KEY_ABOVE, .count = 2, .high = 1.5,
+     .unit = "sizes", .doc = "Axes of the ellipse in which ridges grow, along x and z."},
+    {KEY_OF(RidgeParams, count, "count", KEY_INT64), .low = 12, .high = 4e6,
+     .doc = "Number of attractors of the finest level in the whole square, about the number of "
+            "spurs."},
+    {KEY_OF(RidgeParams, winding, "winding", KEY_FLOAT), .high = 1, .doc = "How far ridges wind."},
+    {KEY_OF(RidgeParams, fields, "fields", KEY_LIST),
+     .count_offset = offsetof(RidgeParams, field_count), .count = 100, .table = &guide_field_table,
+     .doc = "Guide vector fields that steer the ridges' growth, summed with their weights."},
+    {KEY_OF(RidgeParams, field_weight, "field_weight", KEY_FLOAT), .low = -1000, .high = 1000,
+     .doc = "Weight of the fields relative to the attractors' pull."},
+    {KEY_OF(RidgeParams, width, "width", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1, .unit = "sizes",
+     .doc =
+         "Half-width of the widest band, which is also the highest. The others' width and height "
+         "are in proportion to the radius in the file or the width of the painted line."},
+    {KEY_OF(RidgeParams, tip, "tip", KEY_FLOAT), .high = 1,
+     .doc = "Width and height at the tips of ridges that are grown, or have no radii in the file, "
+            "as a fraction of those at the start: from each fork a ridge falls evenly to them. 1 = "
+            "all bands are alike."},
+    {KEY_OF(RidgeParams, lift, "lift", KEY_LIST), .count_offset = offsetof(RidgeParams, lift_count),
+     .count = LIFT_MOST_STOPS, .table = &STOP_TABLE,
+     .doc = "Curve of the lift across a band, smooth and monotone between its points, 0 beyond the "
+            "last; none = a sharp crest with concave flanks. Negative heights carve valleys into a "
+            "plain."},
+    {0},
+};
+
+static bool check_ridges(const Mapping *mapping, void *params)
+{
+    const RidgeParams *ridges = params;
+    char key[64];
+    for (int i = 1; i < ridges->lift_count; i++) {
+        const LiftStop *stop = &ridges->lift[i], *last = stop - 1;
+        snprintf(key, sizeof key, "lift.%d", i);
+        if (stop->distance <= last->distance) {
+            return mapping_fail(mapping, key,
+                                " is at the distance %g, the point before it at %g; distances "
+                                "must ascend",
+                                (double)stop->distance, (double)last->distance);
+        }
+    }
+    const LiftStop *signed_stop = NULL;
+    for (int i = 0; i < ridges->lift_count; i++) {
+        const LiftStop *stop = &ridges->lift[i];
+        if (signed_stop && stop->height * signed_stop->height < 0.0f) {
+            snprintf(key, sizeof key, "lift.%d", i);
+            return mapping_fail(mapping, key,
+                                " has the height %g, one before it %g; all heights must be "
+                                "positive, or all negative",
+                                (double)stop->height, (double)signed_stop->height);
+        }
+        signed_stop = stop->height != 0.0f ? stop : signed_stop;
+    }
+    return check_source(mapping, &ridges->source);
+}
+
+static const Table RIDGE_TABLE = {
+    .name = "ridges",
+    .doc = "Land lifted by a tree of ridges (Tanaka et al., section 5.5): a band is swept along "
+           "the tree, and its colour, which is a height, tells the lift.",
+    .example = "objects:\n"
+               "  - name: massif\n"
+               "    terrain:\n"
+               "      form: ridges\n"
+               "      size: 8000\n"
+               "      ridges:\n"
+               "        starts: [{at: [-0.2, 0]}, {at: [0.2, 0.1]}]\n"
+               "        width: 0.15\n"
+               "        lift: [{distance: 0, height: 1}, {distance: 0.3, height: 0.4},\n"
+               "               {distance: 1, height: 0}]\n",
+    .size = sizeof(RidgeParams),
+    .keys = RIDGE_KEYS,
+    .check = check_ridges};
+
+// ---- noise, erosion, forest
 
 static const Key NOISE_KEYS[] = {
     {KEY_OF(TerrainNoiseParams, iterations, "iterations", KEY_INT), .high = 16,
      .doc = "Octaves of sparse convolution noise (Tanaka et al., eq. (16)); 0 = none."},
     {KEY_OF(TerrainNoiseParams, amplitude, "amplitude", KEY_FLOAT), .high = 10,
-     .doc = "Height of the first octave, relative to its wavelength and to the slopes' gradient."},
+     .doc = "Standard deviation of the first octave, relative to its wavelength and to the slopes' "
+            "gradient; of noise alone, relative to its wavelength."},
     {KEY_OF(TerrainNoiseParams, wavelength, "wavelength", KEY_FLOAT), .high = 10, .unit = "sizes",
-     .doc = "Wavelength of the first octave; 0 = the distance between a few brooks."},
+     .doc = "Wavelength of the first octave; 0 = the distance between a few brooks or spurs, of "
+            "noise alone 0.125."},
     {KEY_OF(TerrainNoiseParams, gain, "gain", KEY_FLOAT), .high = 1,
      .doc = "Height of each octave, as a fraction of the previous one."},
     {KEY_OF(TerrainNoiseParams, ridged, "ridged", KEY_FLOAT), .high = 1,
@@ -98,8 +243,8 @@ static const Key NOISE_KEYS[] = {
 };
 
 static const Table NOISE_TABLE = {.name = "terrain_noise",
-                                  .doc =
-                                      "Fine erosion by noise, which fades to zero at the rivers.",
+                                  .doc = "Fine erosion by noise, which fades to zero at the rivers "
+                                         "and on the plain around ridges.",
                                   .size = sizeof(TerrainNoiseParams),
                                   .keys = NOISE_KEYS};
 
@@ -152,21 +297,33 @@ static const Table FOREST_TABLE = {.name = "forest",
                                    .size = sizeof(TerrainForestParams),
                                    .keys = FOREST_KEYS};
 
+static const EnumName FORM_NAMES[] = {
+    {"rivers", TERRAIN_RIVERS}, {"ridges", TERRAIN_RIDGES}, {"noise", TERRAIN_NOISE}, {0}};
+
+static const EnumName SHOW_NAMES[] = {
+    {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
+
 static const Key TERRAIN_KEYS[] = {
+    {KEY_OF(TerrainParams, form, "form", KEY_ENUM), .names = FORM_NAMES,
+     .doc = "Source of the heights. rivers: valleys along a tree of rivers; ridges: land lifted "
+            "along a tree of ridges; noise: noise alone, on a plane."},
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
      .doc = "Side length of the square; all else scales with it."},
     {KEY_OF(TerrainParams, relief, "relief", KEY_FLOAT), .high = 1e5, .unit = "m",
-     .doc = "Height of the highest valley slopes above the outlets; 0 = natural slopes."},
+     .doc = "Height of the highest valley slopes above the outlets, or of the highest ridge above "
+            "the plain; 0 = natural slopes. Not of noise alone."},
     {KEY_OF(TerrainParams, resolution, "resolution", KEY_INT), .low = 16, .high = 8192,
      .doc = "Cells per side, a power of two; it changes the detail, not the form."},
     {KEY_OF(TerrainParams, water_level, "water_level", KEY_FLOAT), .high = 1,
      .doc = "Level of a lake or the sea, as a fraction of the relief; 0 = none."},
     {KEY_OF(TerrainParams, uplift, "uplift", KEY_GROUP), .table = &UPLIFT_TABLE,
-     .doc = "Uplift of the land: high uplift makes mountains."},
+     .doc = "Uplift of the land between rivers: high uplift makes mountains."},
     {KEY_OF(TerrainParams, rivers, "rivers", KEY_GROUP), .table = &RIVER_TABLE,
-     .doc = "Rivers, which shape the land."},
+     .doc = "Rivers, which shape the land of form: rivers."},
+    {KEY_OF(TerrainParams, ridges, "ridges", KEY_GROUP), .table = &RIDGE_TABLE,
+     .doc = "Ridges, which lift the land of form: ridges."},
     {KEY_OF(TerrainParams, noise, "noise", KEY_GROUP), .table = &NOISE_TABLE,
      .doc = "Fine erosion by sparse convolution noise."},
     {KEY_OF(TerrainParams, erosion, "erosion", KEY_GROUP), .table = &EROSION_TABLE,
@@ -175,6 +332,10 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Beds of hard rock, which form steps."},
     {KEY_OF(TerrainParams, forest, "forest", KEY_GROUP), .table = &FOREST_TABLE,
      .doc = "Conifers on the slopes."},
+    {KEY_OF(TerrainParams, show, "show", KEY_ENUM), .names = SHOW_NAMES,
+     .doc = "What is drawn. land: the land with its water and forest; map: the flat plane with the "
+            "land's altitudes, for a material of the pattern altitude; tree: the plane and the "
+            "lines of the tree."},
     {KEY_OF(TerrainParams, mesh_error, "mesh_error", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1,
      .doc = "Maximum error of the mesh, as a fraction of the distance to the camera."},
     {0},
@@ -195,8 +356,9 @@ static bool check_terrain(const Mapping *mapping, void *params)
 
 const Table terrain_table = {
     .name = "terrain",
-    .doc = "Mountains, valleys and rivers (Tanaka et al., section 5.5). The rivers grow first; the "
-           "land between them follows. Materials: mountain, lake.",
+    .doc = "Mountains, valleys and rivers (Tanaka et al., section 5.5). A tree of rivers or of "
+           "ridges grows first, or is read from a file or a picture; the land follows from it. "
+           "Materials: mountain, lake, node.",
     .example =
         "objects:\n"
         "  - name: range\n"

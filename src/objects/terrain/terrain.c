@@ -16,7 +16,14 @@ TerrainParams terrain_params_default(void)
         .size = 12000.0f,
         .resolution = 1024,
         .uplift = {.base = 1.0f, .noise = 0.4f},
-        .rivers = {.outlets = 7,
+        .ridges = {.source = {.scale = 1.0f},
+                   .extent = {0.8f, 0.8f},
+                   .count = 900,
+                   .winding = 0.4f,
+                   .field_weight = 1.0f,
+                   .width = 0.12f},
+        .rivers = {.source = {.scale = 1.0f},
+                   .outlets = 7,
                    .count = 2500,
                    .winding = 0.4f,
                    .gradient = 0.6f,
@@ -34,7 +41,16 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
 {
     TerrainParams resolved = *params;
     if (resolved.noise.wavelength == 0.0f) {
-        resolved.noise.wavelength = 6.0f / sqrtf((float)params->rivers.count); // brooks
+        switch (params->form) {
+        case TERRAIN_RIVERS: // brooks
+            resolved.noise.wavelength = 6.0f / sqrtf((float)params->rivers.count);
+            break;
+        case TERRAIN_RIDGES: // spurs
+            resolved.noise.wavelength = 3.0f / sqrtf((float)params->ridges.count);
+            break;
+        case TERRAIN_NOISE:
+            resolved.noise.wavelength = 0.125f;
+        }
     }
     return resolved;
 }
@@ -56,7 +72,7 @@ static float warp_reach(const TerrainParams *params)
 // The envelope of all troughs. flat: envelope of distances, with each river at height 0.
 static TroughEnvelope *make_envelope(const Terrain *terrain, bool flat, const Run *run, Error *e)
 {
-    const OutTree *tree = terrain->rivers;
+    const OutTree *tree = terrain->tree;
     Trough *trough = memory_alloc(tree->count, sizeof *trough, e);
     if (!trough) {
         return NULL;
@@ -108,10 +124,24 @@ static bool scale_heights(Terrain *terrain, const Run *run, Error *e)
     } else {
         terrain->gradient = natural;
     }
-    for (int64_t i = 0; i < terrain->rivers->count; i++) {
-        terrain->rivers->position[i].y *= terrain->gradient;
+    for (int64_t i = 0; i < terrain->tree->count; i++) {
+        terrain->tree->position[i].y *= terrain->gradient;
     }
     return true;
+}
+
+bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
+{
+    const TerrainParams *params = given;
+    switch (params->form) {
+    case TERRAIN_RIVERS:
+        return terrain_grow_rivers(&whole->tree, params, recipe, e);
+    case TERRAIN_RIDGES:
+        return terrain_grow_ridges(&whole->tree, params, recipe, e);
+    case TERRAIN_NOISE:
+        whole->tree = out_tree_new(e);
+    }
+    return whole->tree;
 }
 
 static bool fill_rivers(Terrain *terrain, const Run *run, Error *e)
@@ -126,7 +156,7 @@ static bool fill_rivers(Terrain *terrain, const Run *run, Error *e)
             return false;
         }
     }
-    OutTree *tree = terrain->rivers; // sorted by terrain_profile
+    OutTree *tree = terrain->tree; // sorted by terrain_profile
     if (!scale_heights(terrain, run, e)) {
         return false;
     }
@@ -138,11 +168,13 @@ static bool fill_rivers(Terrain *terrain, const Run *run, Error *e)
 
 static void forget(Terrain *terrain)
 {
+    ridge_lift_free(terrain->lift);
     trough_envelope_free(terrain->land);
     trough_envelope_free(terrain->distance);
     out_tree_free(terrain->water);
     trough_envelope_free(terrain->shore);
     free(terrain->bank);
+    terrain->lift = NULL;
     terrain->land = terrain->distance = terrain->shore = NULL;
     terrain->water = NULL;
     terrain->bank = NULL;
@@ -167,46 +199,95 @@ bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole
     }
     grown->state = terrain;
     grown->free_state = free_terrain;
-    *terrain = (Terrain){.params = params, .seed = recipe->seed, .rivers = grown->tree};
+    *terrain = (Terrain){.params = params, .seed = recipe->seed, .tree = grown->tree};
+    if (terrain->params->form != TERRAIN_RIVERS) {
+        return terrain->params->form == TERRAIN_NOISE || terrain_raise_ridges(terrain, e);
+    }
     terrain->area = memory_alloc(grown->tree->count, sizeof *terrain->area, e);
     terrain->uplift = memory_alloc(grown->tree->count, sizeof *terrain->uplift, e);
     bool done = terrain->area && terrain->uplift && fill_rivers(terrain, recipe->run, e);
-    grown->tree = terrain->rivers;
+    grown->tree = terrain->tree;
     return done;
 }
 
 // ---- heights
 
-// The land's height and wetness at a place.
-static float land_at(const Terrain *terrain, float x, float z, float *wetness)
+// Moves a place by the noise, at most by `share` of what the parameters allow.
+static void warp(const Terrain *terrain, float share, float *x, float *z)
+{
+    float wavelength = noise_wavelength(terrain->params);
+    float u = *x / wavelength, v = *z / wavelength;
+    float reach = 0.4f * warp_reach(terrain->params) * share;
+    float push_x = sparse_noise_fractal(0.5f * u, 0.5f * v, 2, 0.5f, 0.0f,
+                                        random_key(terrain->seed, STREAM_WARP_X));
+    float push_z = sparse_noise_fractal(0.5f * u, 0.5f * v, 2, 0.5f, 0.0f,
+                                        random_key(terrain->seed, STREAM_WARP_Z));
+    *x += reach * clampf(push_x, -2.0f, 2.0f);
+    *z += reach * clampf(push_z, -2.0f, 2.0f);
+}
+
+// All octaves of the noise, m, for slopes of gradient 1.
+static float noise_at(const Terrain *terrain, float x, float z)
+{
+    const TerrainNoiseParams *noise = &terrain->params->noise;
+    float wavelength = noise_wavelength(terrain->params);
+    float n = sparse_noise_fractal(x / wavelength, z / wavelength, noise->iterations, noise->gain,
+                                   noise->ridged, random_key(terrain->seed, STREAM_NOISE));
+    return n * noise->amplitude * wavelength;
+}
+
+// The height and the wetness at a place of the land between rivers.
+static float valleys_at(const Terrain *terrain, float x, float z, float *wetness)
 {
     const TerrainParams *params = terrain->params;
-    const TerrainNoiseParams *noise = &params->noise;
     int32_t lowest = 0, nearest = 0;
     float away = trough_envelope_at(terrain->distance, x, z, &nearest);
-    float height, wavelength = noise_wavelength(params);
-    float u = x / wavelength, v = z / wavelength;
-    if (noise->iterations > 0) {
+    float height;
+    if (params->noise.iterations > 0) {
         // No displacement at a river: the noise fades over half a wavelength.
-        float fade = smoothstepf(0.0f, 0.5f * wavelength, away);
-        float reach = 0.4f * warp_reach(params) * fade;
-        float push_x = sparse_noise_fractal(0.5f * u, 0.5f * v, 2, 0.5f, 0.0f,
-                                            random_key(terrain->seed, STREAM_WARP_X));
-        float push_z = sparse_noise_fractal(0.5f * u, 0.5f * v, 2, 0.5f, 0.0f,
-                                            random_key(terrain->seed, STREAM_WARP_Z));
-        push_x = clampf(push_x, -2.0f, 2.0f);
-        push_z = clampf(push_z, -2.0f, 2.0f);
-        height = trough_envelope_at(terrain->land, x + reach * push_x, z + reach * push_z, &lowest);
+        float fade = smoothstepf(0.0f, 0.5f * noise_wavelength(params), away);
+        float at_x = x, at_z = z;
+        warp(terrain, fade, &at_x, &at_z);
+        height = trough_envelope_at(terrain->land, at_x, at_z, &lowest);
         float up = terrain->uplift[lowest] * terrain->gradient;
-        float n = sparse_noise_fractal(u, v, noise->iterations, noise->gain, noise->ridged,
-                                       random_key(terrain->seed, STREAM_NOISE));
-        height += n * noise->amplitude * wavelength * fade * (up < 1.5f ? up : 1.5f);
+        height += noise_at(terrain, x, z) * fade * (up < 1.5f ? up : 1.5f);
     } else {
         height = trough_envelope_at(terrain->land, x, z, &lowest);
     }
     float valley = 1.5f * terrain_valley(params, terrain->area[nearest]) + 0.002f * params->size;
     *wetness = 1.0f - smoothstepf(0.0f, 1.0f, away / valley);
     return height;
+}
+
+// The height at a place of land that ridges lift. The noise is in proportion to the slopes and
+// fades toward the plain.
+static float ridges_at(const Terrain *terrain, float x, float z)
+{
+    const TerrainParams *params = terrain->params;
+    float relief = terrain_ridge_relief(params), sign = terrain_lift_sign(params);
+    if (params->noise.iterations == 0) {
+        return sign * relief * ridge_lift_at(terrain->lift, x, z);
+    }
+    float at_x = x, at_z = z;
+    warp(terrain, 1.0f, &at_x, &at_z);
+    float lift = ridge_lift_at(terrain->lift, at_x, at_z);
+    float up = relief / (params->ridges.width * params->size);
+    float noise = noise_at(terrain, x, z) * (up < 1.5f ? up : 1.5f);
+    return sign * relief * lift + noise * smoothstepf(0.0f, 0.4f, lift);
+}
+
+static float land_at(const Terrain *terrain, float x, float z, float *wetness)
+{
+    *wetness = 0.0f;
+    switch (terrain->params->form) {
+    case TERRAIN_RIVERS:
+        return valleys_at(terrain, x, z, wetness);
+    case TERRAIN_RIDGES:
+        return ridges_at(terrain, x, z);
+    case TERRAIN_NOISE:
+        break;
+    }
+    return noise_at(terrain, x, z);
 }
 
 static bool sample_land(const Terrain *terrain, HeightField *field, const Run *run)
@@ -286,13 +367,33 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
     if (!terrain_erode(field, &params->erosion, run, e)) {
         return false;
     }
-    carve_rivers(field, terrain->rivers);
-    if (!height_field_fill(field, 1e-5f, e)) {
-        return false;
+    bool drains = params->form == TERRAIN_RIVERS;
+    if (drains) {
+        carve_rivers(field, terrain->tree);
+        if (!height_field_fill(field, 1e-5f, e)) {
+            return false;
+        }
     }
     make_terraces(field, &params->terraces, random_key(terrain->seed, STREAM_TERRACES));
-    return (params->terraces.count <= 0 || height_field_fill(field, 0.0f, e)) &&
-           terrain_lay_rivers(terrain, field, run, e); // on the final land
+    return !drains || ((params->terraces.count <= 0 || height_field_fill(field, 0.0f, e)) &&
+                       terrain_lay_rivers(terrain, field, run, e)); // on the final land
+}
+
+// What the heights are looked up in.
+static bool prepare_land(Terrain *terrain, const Run *run, Error *e)
+{
+    switch (terrain->params->form) {
+    case TERRAIN_RIVERS:
+        terrain->land = make_envelope(terrain, false, run, e);
+        terrain->distance = terrain->land ? make_envelope(terrain, true, run, e) : NULL;
+        return terrain->distance;
+    case TERRAIN_RIDGES:
+        terrain->lift = terrain_ridge_lift(terrain, warp_reach(terrain->params), run, e);
+        return terrain->lift;
+    case TERRAIN_NOISE:
+        break;
+    }
+    return true;
 }
 
 HeightField *terrain_heights(const void *given, const Grown *grown, const Run *run, Error *e)
@@ -301,10 +402,8 @@ HeightField *terrain_heights(const void *given, const Grown *grown, const Run *r
     Terrain *terrain = grown->state;
     float cell = params->size / (float)params->resolution, corner = -0.5f * params->size;
     forget(terrain);
-    terrain->land = make_envelope(terrain, false, run, e);
-    terrain->distance = terrain->land ? make_envelope(terrain, true, run, e) : NULL;
     HeightField *field = NULL;
-    if (terrain->distance) {
+    if (prepare_land(terrain, run, e)) {
         field = height_field_new(params->resolution + 1, params->resolution + 1, (Vec2){cell, cell},
                                  (Vec2){corner, corner}, e);
     }

@@ -1,13 +1,15 @@
-// Terrain (Tanaka et al., section 5.5): rivers as out-trees on a plane, heights from the slope-area
-// law, ridges where the slopes of two rivers meet, sparse convolution noise for fine erosion. All
-// but the last passes are functions of the place, not of a grid: more samples show the same land in
-// more detail.
+// Terrain (Tanaka et al., section 5.5). Out-trees on a plane give the heights: rivers by the
+// slope-area law, with ridges where the slopes of two rivers meet, or ridges by a band swept along
+// them that lifts the land. Sparse convolution noise makes fine erosion, or land alone. All but the
+// last passes are functions of the place, not of a grid: more samples show the same land in more
+// detail.
 #ifndef RAMIFY_OBJECTS_TERRAIN_TERRAIN_H
 #define RAMIFY_OBJECTS_TERRAIN_TERRAIN_H
 
 #include "field/guide_field.h"
 #include "land/height_field.h"
 #include "objects/common/recipe.h"
+#include "objects/terrain/lift.h"
 #include "outtree/out_tree.h"
 
 // One stroke of the user's brush: the land rises faster along a line. Places are shares of the
@@ -34,7 +36,46 @@ typedef enum TerrainSide {
     SIDE_WEST
 } TerrainSide;
 
+// What the land's heights come from.
+typedef enum TerrainForm { TERRAIN_RIVERS, TERRAIN_RIDGES, TERRAIN_NOISE } TerrainForm;
+
+// What is drawn.
+typedef enum TerrainShow {
+    SHOW_LAND,
+    SHOW_MAP, // the plane with the altitudes of the land, for materials that show them
+    SHOW_TREE // the plane and the tree's lines
+} TerrainShow;
+
+// A tree that is not grown.
+typedef struct TreeSource {
+    char *file;  // SWC; NULL = none
+    float scale; // m per unit of the file
+    char *image; // painted lines, laid over the terrain, north up; NULL = none
+    bool invert; // dark lines on bright
+} TreeSource;
+
+typedef struct RidgeStart {
+    float at[2]; // shares of the size, as of strokes
+} RidgeStart;
+
+typedef struct RidgeParams {
+    TreeSource source;
+    RidgeStart *starts; // of grown ridges; none = the middle
+    int start_count;
+    float extent[2];     // of the ellipse that ridges grow in, shares of the size
+    int64_t count;       // attractors of the finest level, if they covered the square
+    float winding;       // as of rivers
+    FieldParams *fields; // guide vector fields over the ridges' growth
+    int field_count;
+    float field_weight;
+    float width;    // half width of the widest band, as a share of the size
+    float tip;      // height and width at the tips of grown ridges, as a share of the start's
+    LiftStop *lift; // NULL = the kind's own; all heights have one sign
+    int lift_count;
+} RidgeParams;
+
 typedef struct RiverParams {
+    TreeSource source;
     int outlets;         // on the border
     TerrainSide side;    // sides with outlets
     int64_t count;       // attractors of the finest level: about as many brooks
@@ -79,11 +120,15 @@ typedef struct TerrainForestParams {
 typedef struct TerrainParams {
     Vec3 position;     // m: of the middle, at the height of the outlets
     float size;        // m, side of the square
-    float relief;      // m from the outlets to the highest point; 0 = natural slopes
+    float relief;      // m from the outlets (of ridges: from the plain) to the highest point; 0 =
+                       // natural slopes
     int resolution;    // cells a side
     float water_level; // share of the relief under water (a lake or the sea); 0 = none
+    TerrainForm form;
+    TerrainShow show;
     UpliftParams uplift;
     RiverParams rivers;
+    RidgeParams ridges;
     TerrainNoiseParams noise;
     TerrainErosionParams erosion;
     TerrainTerraceParams terraces;
@@ -96,22 +141,26 @@ TerrainParams terrain_params_default(void); // 12 km of mountains
 // Fills in numbers that are 0 from the other parameters. Borrows the arrays of params.
 TerrainParams terrain_params_resolve(const TerrainParams *params);
 
-// The recipe (see recipe.h). Grows the rivers in the plane y = 0, roots at their outlets. After
-// finish, y is the river's height before erosion and terraces, and radii are half the width of the
-// water. In the terrain's own space, position not added. The state is a Terrain.
+// The stops of the ridges' lift: the user's, or the kind's own.
+const LiftStop *terrain_lift_stops(const TerrainParams *params, int *count);
+
+// The recipe (see recipe.h). Grows the tree in the plane y = 0, roots of rivers at their outlets;
+// none for TERRAIN_NOISE. After finish, y is the river's height before erosion and terraces, and
+// radii are half the width of the water; of ridges the crest's height before noise, and half the
+// width of the band. In the terrain's own space, position not added. The state is a Terrain.
 bool terrain_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
 bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
                     Error *e);
 
-// Heights and wetness from the rivers; square, resolution + 1 samples per side. Every sample off
-// the rim drains. Beds of rivers wide enough for the grid are dug last. The same bits for any
+// Heights and wetness; square, resolution + 1 samples per side. Of TERRAIN_RIVERS every sample off
+// the rim drains, and beds of rivers wide enough for the grid are dug last. The same bits for any
 // number of threads.
 HeightField *terrain_heights(const void *params, const Grown *grown, const Run *run, Error *e);
 
 // Height of the lake, in the field's own space.
 float terrain_water_height(const TerrainParams *params, const HeightField *field);
 
-enum { TERRAIN_LAND, TERRAIN_WATER, TERRAIN_FOLIAGE }; // roles of materials
+enum { TERRAIN_LAND, TERRAIN_WATER, TERRAIN_FOLIAGE, TERRAIN_LINES }; // roles of materials
 
 // Adds land (finer toward the eye, no cracks; even without one), water and forest.
 bool terrain_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);

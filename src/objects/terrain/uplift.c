@@ -41,7 +41,7 @@ bool terrain_uplift(Terrain *terrain, const Run *run, Error *e)
     if (file && !image) {
         return error_key(e, "uplift.image");
     }
-    const OutTree *rivers = terrain->rivers;
+    const OutTree *rivers = terrain->tree;
     for (int64_t i = 0; i < rivers->count; i++) {
         terrain->uplift[i] = uplift_at(terrain->params, image, terrain->seed, rivers->position[i]);
     }

@@ -45,8 +45,15 @@ typedef enum PatternKind {
     PATTERN_SAND,      // ripples on a sea floor
     PATTERN_MOUNTAIN,  // rock, scree, grass and snow by altitude, slope and wetness of the land
     PATTERN_BADLANDS,  // rock in coloured beds, rills, sandy flats
-    PATTERN_WATER      // ripples
+    PATTERN_WATER,     // ripples
+    PATTERN_ALTITUDE   // the colours of a map, by the altitude of the land
 } PatternKind;
+
+// A point of a map's scale of colours.
+typedef struct ColorStop {
+    float at;   // altitude, 0..1 of the land's relief
+    Vec3 color; // reflectance
+} ColorStop;
 
 typedef struct Material {
     char name[64];
@@ -70,6 +77,8 @@ typedef struct Material {
     float pattern_depth; // m: bump height; 0 = none
     float snow_line, grass_line; // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above
                                  // and below which they lie; 0 = none
+    ColorStop *colors;           // PATTERN_ALTITUDE: borrowed, `at` ascends; NULL = from color to
+    int color_count;             // color2
     float variation;             // 0..1: how far hue and value differ from instance to instance
     const char *texture;         // file that multiplies color, by uv; NULL = none; borrowed
     const char *alpha_texture;   // NULL = opaque; borrowed

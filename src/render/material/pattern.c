@@ -68,6 +68,9 @@ void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *s
     case PATTERN_WATER:
         pattern_water(m, point, shade);
         break;
+    case PATTERN_ALTITUDE:
+        pattern_altitude(m, point, shade);
+        break;
     case PATTERN_NOISE:
         noise_pattern(m, point, shade);
         break;

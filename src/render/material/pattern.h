@@ -20,6 +20,7 @@ void pattern_bark(const Material *material, const SurfacePoint *point, PatternSh
 void pattern_ground(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_mountain(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_badlands(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_altitude(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_water(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_leaf(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_corallite(const Material *material, const SurfacePoint *point, PatternShade *shade);

@@ -191,6 +191,22 @@ void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade
     shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, m->pattern_depth));
 }
 
+// Linear between the stops; between color and color2 without any.
+void pattern_altitude(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    const ColorStop ends[2] = {{0.0f, shade->color}, {1.0f, m->color2}};
+    const ColorStop *stop = m->color_count > 0 ? m->colors : ends;
+    int last = (m->color_count > 0 ? m->color_count : 2) - 1, i = 0;
+    float altitude = point->site.x;
+    while (i < last && altitude > stop[i + 1].at) {
+        i++;
+    }
+    int next = i < last ? i + 1 : last;
+    float run = stop[next].at - stop[i].at;
+    float t = run > 0.0f ? clampf((altitude - stop[i].at) / run, 0.0f, 1.0f) : 0.0f;
+    shade->color = vec3_lerp(stop[i].color, stop[next].color, t);
+}
+
 // Ripples: a few octaves of noise that fade where the pixel is too coarse.
 void pattern_water(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
