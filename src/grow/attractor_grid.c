@@ -188,6 +188,17 @@ static bool fill_cells(AttractorGrid *grid, const PointSet *points, const Run *r
     return !run_is_cancelled(run) || run_cancel_error(e);
 }
 
+// Gives every slice an empty list with room for its cells; false if there is no memory for them.
+static bool begin_active(AttractorGrid *grid)
+{
+    int slices = grid->size[grid->axis];
+    for (int s = 0; s < slices && grid->active && grid->active_table; s++) {
+        grid->active[s].cell = grid->active_table + grid->cell_count / slices * s;
+        grid->active[s].count = grid->active[s].empty = 0;
+    }
+    return grid->active && grid->active_table;
+}
+
 bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reach, float kill,
                          const Run *run, Error *e)
 {
@@ -203,13 +214,14 @@ bool attractor_grid_init(AttractorGrid *grid, const PointSet *points, float reac
     grid->state = memory_alloc_zero(cells, sizeof *grid->state, e);
     grid->furthest = alloc_table(cells + LANES, sizeof *grid->furthest, e);
     grid->touched = memory_alloc(cells, sizeof *grid->touched, e);
-    grid->active = memory_alloc(cells, sizeof *grid->active, e);
+    grid->active_table = memory_alloc(cells, sizeof *grid->active_table, e);
+    grid->active = memory_alloc(grid->size[grid->axis], sizeof *grid->active, e);
     int longest = grid->size[0] > grid->size[1] ? grid->size[0] : grid->size[1];
     grid->work = memory_alloc(longest + 1, sizeof *grid->work, e);
     int64_t gaps = (int64_t)grid->size[0] + grid->size[1] + grid->size[2] + 3 * LANES;
     grid->gap2 = memory_alloc(ATTRACTOR_MAX_SLABS * gaps, sizeof *grid->gap2, e);
     return grid->work && grid->gap2 && grid->cells && grid->state && grid->furthest &&
-           grid->touched && grid->active && fill_cells(grid, points, run, e);
+           grid->touched && begin_active(grid) && fill_cells(grid, points, run, e);
 }
 
 void attractor_grid_free(AttractorGrid *grid)
@@ -220,6 +232,7 @@ void attractor_grid_free(AttractorGrid *grid)
     free(grid->touched);
     free(grid->work);
     free(grid->gap2);
+    free(grid->active_table);
     free(grid->active);
     free(grid->block);
     *grid = (AttractorGrid){0};

@@ -28,9 +28,12 @@ typedef struct AttractorCell {
     int32_t count; // attractors alive
 } AttractorCell;
 
-typedef struct ActiveCell {
-    int32_t cell, slice; // slice: the cell's index along the grid's axis
-} ActiveCell;
+// The active cells of a slice across the grid's axis: those with an attractor within reach of a
+// node.
+typedef struct ActiveCells {
+    int32_t *cell;        // part of the grid's table
+    int32_t count, empty; // length of the list, and how many listed cells are empty now
+} ActiveCells;
 
 typedef struct AttractorGrid {
     Vec3 low;
@@ -39,13 +42,14 @@ typedef struct AttractorGrid {
     int64_t cell_count;
     float reach, reach2, kill2; // m, m^2
     AttractorCell *cells;
-    uint8_t *state;                   // per cell, bits: searched in this step, listed as active
-    float *furthest;                  // per cell: the largest best; -1 in empty cells
-    int32_t *touched;                 // scratch: cells a search changed
-    int64_t *work;                    // scratch: estimated work, for load balancing
-    float *gap2;                      // scratch: distances to the cells along each axis
-    ActiveCell *active;               // cells with an attractor within reach of a node
-    int64_t active_count, idle_count; // length of the list, and how many listed cells are empty now
+    uint8_t *state;        // per cell, bits: searched in this step, listed as active
+    float *furthest;       // per cell: the largest best; -1 in empty cells
+    int32_t *touched;      // scratch: cells a search changed
+    int64_t *work;         // scratch: estimated work, for load balancing
+    float *gap2;           // scratch: distances to the cells along each axis
+    int32_t *active_table; // room for all cells
+    ActiveCells *active;   // per slice
+    int64_t active_count;  // length of these lists together
     AttractorBlock *block;
     int32_t *removed; // borrowed: per attractor, set to `now` when it is removed; NULL = not wanted
     int32_t now;

@@ -201,17 +201,16 @@ static void remove_lane(AttractorGrid *grid, AttractorBlock *block, int32_t lane
 // Keeps the list of active cells after a search of this one.
 static void list_cell(AttractorGrid *grid, int32_t cell)
 {
+    int32_t row = cell / grid->size[2];
+    ActiveCells *active =
+        &grid->active[grid->axis == 0 ? row / grid->size[1] : row % grid->size[1]];
     uint8_t *state = &grid->state[cell];
-    int32_t count = grid->cells[cell].count;
-    *state &= (uint8_t)~CELL_TOUCHED;
-    if (!(*state & CELL_ACTIVE) && count > 0) {
+    bool empty = grid->cells[cell].count == 0;
+    if (!(*state & CELL_ACTIVE) && !empty) {
         *state |= CELL_ACTIVE;
-        int64_t place = __atomic_fetch_add(&grid->active_count, 1, __ATOMIC_RELAXED);
-        int32_t row = cell / grid->size[2];
-        int32_t slice = grid->axis == 0 ? row / grid->size[1] : row % grid->size[1];
-        grid->active[place] = (ActiveCell){cell, slice};
-    } else if ((*state & CELL_ACTIVE) && count == 0) {
-        __atomic_fetch_add(&grid->idle_count, 1, __ATOMIC_RELAXED);
+        active->cell[active->count++] = cell;
+    } else if ((*state & CELL_ACTIVE) && empty) {
+        active->empty++;
     }
 }
 
@@ -239,6 +238,7 @@ static int64_t settle_cell(const Slab *slab, int32_t cell)
     }
     grid->cells[cell].count = count;
     grid->furthest[cell] = lanes_largest(&furthest);
+    grid->state[cell] &= (uint8_t)~CELL_TOUCHED;
     list_cell(grid, cell);
     return before - count;
 }
@@ -282,6 +282,22 @@ static void place_gaps(Slab *slab, int number)
     slab->gap2[2] = slab->gap2[1] + size[1] + LANES;
 }
 
+// Removes emptied cells from a list of active ones once there are many.
+static void drop_empty_cells(const AttractorGrid *grid, ActiveCells *active)
+{
+    if (active->empty < active->count / 4) {
+        return;
+    }
+    int32_t kept = 0;
+    for (int32_t i = 0; i < active->count; i++) {
+        if (grid->cells[active->cell[i]].count > 0) {
+            active->cell[kept++] = active->cell[i];
+        }
+    }
+    active->count = kept;
+    active->empty = 0;
+}
+
 static int64_t update_slab(Slab *slab, const NewNodes *nodes, const Run *run)
 {
     const OutTree *tree = nodes->tree;
@@ -298,23 +314,10 @@ static int64_t update_slab(Slab *slab, const NewNodes *nodes, const Run *run)
         }
         removed += settle_cell(slab, slab->touched[i]);
     }
+    for (int s = slab->begin; s < slab->end; s++) {
+        drop_empty_cells(slab->grid, &slab->grid->active[s]);
+    }
     return removed;
-}
-
-// Removes emptied cells from the active list once there are many.
-static void drop_idle_cells(AttractorGrid *grid)
-{
-    if (grid->idle_count * 4 < grid->active_count) {
-        return;
-    }
-    int64_t kept = 0;
-    for (int64_t i = 0; i < grid->active_count; i++) {
-        if (grid->cells[grid->active[i].cell].count > 0) {
-            grid->active[kept++] = grid->active[i];
-        }
-    }
-    grid->active_count = kept;
-    grid->idle_count = 0;
 }
 
 void attractor_grid_update(AttractorGrid *grid, const NewNodes *nodes, const Run *run, int threads,
@@ -337,5 +340,8 @@ void attractor_grid_update(AttractorGrid *grid, const NewNodes *nodes, const Run
         removed += update_slab(&slab, nodes, run);
     }
     grid->alive -= removed;
-    drop_idle_cells(grid);
+    grid->active_count = 0;
+    for (int s = 0; s < grid->size[grid->axis]; s++) {
+        grid->active_count += grid->active[s].count;
+    }
 }

@@ -75,6 +75,16 @@ static void add_cell(const Growth *growth, int32_t cell, Pull *pulls)
     }
 }
 
+static void add_slice(const Growth *growth, const ActiveCells *active, Pull *pulls)
+{
+    for (int32_t i = 0; i < active->count && run_goes_on(growth->run, i, NULL); i++) {
+        if (i + ATTRACTOR_AHEAD < active->count) {
+            attractor_grid_prefetch(&growth->grid, active->cell[i + ATTRACTOR_AHEAD]);
+        }
+        add_cell(growth, active->cell[i], pulls);
+    }
+}
+
 void growth_sum_part(const Growth *growth, int part, int parts)
 {
     const AttractorGrid *grid = &growth->grid;
@@ -83,15 +93,10 @@ void growth_sum_part(const Growth *growth, int part, int parts)
     for (int64_t i = 0; i < count; i++) {
         pulls[i] = (Pull){.pick = UINT64_MAX};
     }
-    int begin = part > 0 ? grid->slab_end[part - 1] : 0;
-    int end = part < parts - 1 ? grid->slab_end[part] : INT32_MAX;
-    for (int64_t i = 0; i < grid->active_count && run_goes_on(growth->run, i, NULL); i++) {
-        if (i + ATTRACTOR_AHEAD < grid->active_count) {
-            attractor_grid_prefetch(grid, grid->active[i + ATTRACTOR_AHEAD].cell);
-        }
-        if (grid->active[i].slice >= begin && grid->active[i].slice < end) {
-            add_cell(growth, grid->active[i].cell, pulls);
-        }
+    int slice = part > 0 ? grid->slab_end[part - 1] : 0;
+    int end = part < parts - 1 ? grid->slab_end[part] : grid->size[grid->axis];
+    for (; slice < end && !run_is_cancelled(growth->run); slice++) {
+        add_slice(growth, &grid->active[slice], pulls);
     }
 }
 
