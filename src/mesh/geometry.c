@@ -23,6 +23,31 @@ bool geometry_add(Geometry *geometry, Part part, Error *e)
     return true;
 }
 
+bool geometry_order(Geometry *geometry, int objects, Error *e)
+{
+    int64_t *next = memory_alloc_zero((int64_t)objects + 1, sizeof *next, e);
+    Part *part = memory_alloc(geometry->count, sizeof *part, e);
+    bool done = next && part;
+    for (int64_t i = 0; done && i < geometry->count; i++) {
+        next[geometry->part[i].object + 1]++;
+    }
+    for (int i = 0; done && i < objects; i++) {
+        next[i + 1] += next[i];
+    }
+    for (int64_t i = 0; done && i < geometry->count; i++) {
+        part[next[geometry->part[i].object]++] = geometry->part[i];
+    }
+    free(next);
+    if (done) {
+        free(geometry->part);
+        geometry->part = part;
+        geometry->capacity = geometry->count;
+    } else {
+        free(part);
+    }
+    return done;
+}
+
 void geometry_clear(Geometry *geometry)
 {
     for (int64_t i = 0; i < geometry->count; i++) {

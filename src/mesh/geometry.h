@@ -37,6 +37,10 @@ static inline float part_variation(const Part *part, int64_t instance)
 
 // Appends a part. Takes ownership of mesh, curves, instance and variation, even on failure.
 bool geometry_add(Geometry *geometry, Part part, Error *e);
+
+// Puts the parts into the order of their objects, 0 .. objects - 1, and those of one object into
+// the order in which they were added.
+bool geometry_order(Geometry *geometry, int objects, Error *e);
 void geometry_clear(Geometry *geometry); // frees the parts and empties the Geometry
 
 // Copies the part's mesh to every instance as one mesh, which traces faster than many small distant

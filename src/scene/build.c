@@ -13,6 +13,7 @@
 #include "scene/needs.h"
 #include "scene/place.h"
 #include "scene/scene_flood.h"
+#include "scene/surfaces.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -100,7 +101,7 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
     }
     Making m;
     OutTree *tree = NULL;
-    bool done = making_begin(&m, scene, index, run, e) && making_grow(&m, NULL, e) &&
+    bool done = making_begin(&m, scene, index, run, e) && making_grow(&m, (Shared){0}, e) &&
                 own_space_carry_tree(&m.own, m.grown.tree, e);
     if (done) {
         tree = m.grown.tree;
@@ -153,7 +154,7 @@ static bool measure_built(const Scene *scene, int index, const Run *run, Measure
     BuildStats stats = {0};
     World *world = world_new(e);
     bool done = world && scene_give_settings(scene, world, e) &&
-                scene_place_object(world, scene, index, NULL, run, &stats, e) &&
+                scene_place_object(world, scene, index, (Shared){0}, run, &stats, e) &&
                 geometry_measure(&world->geometry, list, e);
     world_free(world);
     return done;
@@ -166,7 +167,7 @@ bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *l
         return measure_built(scene, index, run, list, e);
     }
     Making m;
-    bool done = making_begin(&m, scene, index, run, e) && making_grow(&m, NULL, e) &&
+    bool done = making_begin(&m, scene, index, run, e) && making_grow(&m, (Shared){0}, e) &&
                 (!m.grown.tree || out_tree_measure(m.grown.tree, list, e)) &&
                 measure_land(&m, list, e) &&
                 (!kind->measure || kind->measure(m.params, &m.grown, &m.recipe, list, e));
@@ -242,14 +243,14 @@ static bool add_geometry(World *world, const Making *m, Error *e)
 }
 
 // Grows and meshes the object in its own space, and carries its parts into the scene.
-static bool place(World *world, Making *m, Grown *memories, BuildStats *stats, Error *e)
+static bool place(World *world, Making *m, Shared shared, BuildStats *stats, Error *e)
 {
     if (run_is_cancelled(m->recipe.run)) {
         return run_cancel_error(e);
     }
     int64_t first = world->geometry.count;
     double start = run_seconds();
-    if (!making_grow(m, memories, e)) {
+    if (!making_grow(m, shared, e)) {
         return false;
     }
     double grown = run_seconds();
@@ -263,11 +264,11 @@ static bool place(World *world, Making *m, Grown *memories, BuildStats *stats, E
     return done;
 }
 
-bool scene_place_object(World *world, const Scene *scene, int index, Grown *memories,
-                        const Run *run, BuildStats *stats, Error *e)
+bool scene_place_object(World *world, const Scene *scene, int index, Shared shared, const Run *run,
+                        BuildStats *stats, Error *e)
 {
     Making m;
-    bool done = making_begin(&m, scene, index, run, e) && place(world, &m, memories, stats, e);
+    bool done = making_begin(&m, scene, index, run, e) && place(world, &m, shared, stats, e);
     return making_end(&m, done, e);
 }
 
@@ -281,20 +282,32 @@ bool scene_give_settings(const Scene *scene, World *world, Error *e)
     return add_materials(world, scene, e) && add_lights(world, scene, e);
 }
 
-// Only the growth of rivals is kept from object to object.
-static bool place_objects(World *world, const Scene *scene, const Run *run, BuildStats *stats,
-                          Error *e)
+bool scene_place_objects(World *world, const Scene *scene, const bool *placed, Grown *growths,
+                         bool keep, const Run *run, BuildStats *stats, Error *e)
 {
-    Grown *memories = memory_alloc_zero(scene->object_count, sizeof *memories, e);
-    bool done = memories;
+    Surfaces *surfaces = surfaces_new(scene, &world->geometry, e);
+    int *order = memory_alloc(scene->object_count, sizeof *order, e);
+    bool done = surfaces && order && surfaces_order(scene, order, e);
     for (int i = 0; done && i < scene->object_count; i++) {
-        bool contests = scene->objects[i].contest != NULL;
-        done = scene_place_object(world, scene, i, contests ? memories : NULL, run, stats, e);
+        int index = order[i];
+        bool kept = keep || scene->objects[index].contest;
+        Shared shared = {.growths = kept ? growths : NULL, .surfaces = surfaces};
+        done = (placed && placed[index]) ||
+               scene_place_object(world, scene, index, shared, run, stats, e);
     }
-    for (int i = 0; memories && i < scene->object_count; i++) {
-        grown_clear(&memories[i]);
+    surfaces_free(surfaces);
+    free(order);
+    return done && geometry_order(&world->geometry, scene->object_count, e);
+}
+
+static bool place_all(World *world, const Scene *scene, const Run *run, BuildStats *stats, Error *e)
+{
+    Grown *growths = memory_alloc_zero(scene->object_count, sizeof *growths, e);
+    bool done = growths && scene_place_objects(world, scene, NULL, growths, false, run, stats, e);
+    for (int i = 0; growths && i < scene->object_count; i++) {
+        grown_clear(&growths[i]);
     }
-    free(memories);
+    free(growths);
     return done;
 }
 
@@ -307,7 +320,7 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
     if (!world) {
         return NULL;
     }
-    bool done = scene_give_settings(scene, world, e) && place_objects(world, scene, run, stats, e);
+    bool done = scene_give_settings(scene, world, e) && place_all(world, scene, run, stats, e);
     if (!done) {
         world_free(world);
         return NULL;

@@ -11,6 +11,13 @@
 
 typedef struct World World;
 
+// What is made once for several objects of a scene; borrowed.
+typedef struct Shared {
+    Grown *growths; // whole growths, an entry per object ({0} at first), in which those of an
+                    // object and its rivals are found and kept; NULL = none
+    struct Surfaces *surfaces; // of obstacles; NULL = the object makes its own
+} Shared;
+
 typedef struct BuildStats {
     int64_t nodes;
     double grow_seconds, mesh_seconds;
@@ -40,10 +47,14 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
 // world borrows strings from the scene.
 bool scene_give_settings(const Scene *scene, World *world, Error *e);
 
-// Grows, skins and places object number index and adds to stats. memories: whole growths, an entry
-// per object ({0} at first), in which those of the object and its rivals are found and kept; NULL =
-// none.
-bool scene_place_object(World *world, const Scene *scene, int index, Grown *memories,
-                        const Run *run, BuildStats *stats, Error *e);
+// Grows, skins and places object number index and adds to stats.
+bool scene_place_object(World *world, const Scene *scene, int index, Shared shared, const Run *run,
+                        BuildStats *stats, Error *e);
+
+// Places the objects for which `placed` is false (NULL = all) in an order in which obstacles come
+// first, then puts the world's parts into the order of the scene's objects. growths: see Shared;
+// an entry per object. keep: keep the growths also of objects that do not contend.
+bool scene_place_objects(World *world, const Scene *scene, const bool *placed, Grown *growths,
+                         bool keep, const Run *run, BuildStats *stats, Error *e);
 
 #endif

@@ -119,15 +119,6 @@ bool scene_builder_fits(const SceneBuilder *builder, const Scene *scene)
 
 // ---- building
 
-static bool place_object(SceneBuilder *builder, const Scene *scene, int index, const Run *run,
-                         BuildStats *stats, Error *e)
-{
-    bool contests = scene->objects[index].contest != NULL;
-    return scene_place_object(builder->world, scene, index,
-                              builder->remember || contests ? builder->memory : NULL, run, stats,
-                              e);
-}
-
 // Forgets the growths that the new scene changes.
 static void forget(SceneBuilder *builder, const Scene *scene, bool alike)
 {
@@ -166,11 +157,11 @@ static bool build_objects(SceneBuilder *builder, const Scene *scene, const bool 
     }
     geometry_clear(&gone);
     for (int i = 0; done && i < scene->object_count; i++) {
-        done = stays[i] ? move_parts(&before, i, &world->geometry, e)
-                        : place_object(builder, scene, i, run, stats, e);
+        done = !stays[i] || move_parts(&before, i, &world->geometry, e);
     }
     geometry_clear(&before);
-    return done;
+    return done && scene_place_objects(world, scene, stays, builder->memory, builder->remember, run,
+                                       stats, e);
 }
 
 static bool begin_anew(SceneBuilder *builder, const Scene *scene, Error *e)

@@ -14,8 +14,8 @@ PointSet *scene_points(const Scene *scene, int index, const Run *run, Error *e)
 {
     Making m;
     PointSet *points = points_new(e);
-    bool done = making_begin(&m, scene, index, run, e) && points && making_grow(&m, NULL, e) &&
-                m.kind->points(&m.grown, points, e);
+    bool done = making_begin(&m, scene, index, run, e) && points &&
+                making_grow(&m, (Shared){0}, e) && m.kind->points(&m.grown, points, e);
     if (done) {
         carry_points(&m.own, points);
     }

@@ -1,7 +1,6 @@
 #include "scene/making.h"
 
 #include "base/memory.h"
-#include "scene/build.h"
 #include "scene/carry.h"
 #include "scene/place.h"
 #include "scene/rivals.h"
@@ -44,7 +43,8 @@ bool making_end(Making *m, bool done, Error *e)
 
 // ---- among neighbours
 
-static bool enter(Making *m, Rival *rival, const Scene *scene, int index, const Run *run, Error *e)
+static bool enter(Making *m, Rival *rival, const Scene *scene, int index, Surfaces *surfaces,
+                  const Run *run, Error *e)
 {
     if (!making_begin(m, scene, index, run, e)) {
         return false;
@@ -55,11 +55,11 @@ static bool enter(Making *m, Rival *rival, const Scene *scene, int index, const 
                      .recipe = m->recipe,
                      .to_scene = m->own.to_scene,
                      .gap = contest ? contest->gap : 0.0f};
-    return obstacles_new(scene, index, run, &rival->obstacles, e);
+    return obstacles_new(scene, index, surfaces, run, &rival->obstacles, e);
 }
 
-// Grows object number index of the scene with its rivals, into their entries of memories.
-static bool grow_rivals(const Scene *scene, int index, Grown *memories, const Run *run, Error *e)
+// Grows object number index of the scene with its rivals, into their entries of growths.
+static bool grow_rivals(const Scene *scene, int index, Shared shared, const Run *run, Error *e)
 {
     Making *m = memory_alloc_zero(scene->object_count, sizeof *m, e);
     Rival *rival = memory_alloc_zero(scene->object_count, sizeof *rival, e);
@@ -67,7 +67,7 @@ static bool grow_rivals(const Scene *scene, int index, Grown *memories, const Ru
     bool done = m && rival;
     for (int i = 0; done && i < scene->object_count; i++) {
         if (i == index || scene_objects_contend(&scene->objects[index], &scene->objects[i])) {
-            done = enter(&m[count], &rival[count], scene, i, run, e);
+            done = enter(&m[count], &rival[count], scene, i, shared.surfaces, run, e);
             failed = count++;
         }
     }
@@ -79,8 +79,8 @@ static bool grow_rivals(const Scene *scene, int index, Grown *memories, const Ru
     }
     for (int i = 0; i < count; i++) {
         if (done) {
-            grown_clear(&memories[m[i].index]);
-            memories[m[i].index] = rival[i].whole;
+            grown_clear(&shared.growths[m[i].index]);
+            shared.growths[m[i].index] = rival[i].whole;
         } else {
             grown_clear(&rival[i].whole);
         }
@@ -93,32 +93,37 @@ static bool grow_rivals(const Scene *scene, int index, Grown *memories, const Ru
 }
 
 // The same for the object's entry alone. Neighbours are found in the whole scene.
-static bool grow_alone(Making *m, Grown *memory, Error *e)
+static bool grow_alone(Making *m, Surfaces *surfaces, Grown *growth, Error *e)
 {
     const Scene *scene = m->scene->whole ? m->scene->whole : m->scene;
     int index = scene_find_object(scene, m->scene->objects[m->index].name);
-    Grown *memories = memory_alloc_zero(scene->object_count, sizeof *memories, e);
-    bool done = memories && grow_rivals(scene, index, memories, m->recipe.run, e);
+    bool borrows = surfaces && scene == m->scene;
+    Surfaces *own = borrows ? NULL : surfaces_new(scene, NULL, e);
+    Shared shared = {.growths = memory_alloc_zero(scene->object_count, sizeof *growth, e),
+                     .surfaces = borrows ? surfaces : own};
+    bool done =
+        shared.growths && shared.surfaces && grow_rivals(scene, index, shared, m->recipe.run, e);
     if (done) {
-        *memory = memories[index];
-        memories[index] = (Grown){0};
+        *growth = shared.growths[index];
+        shared.growths[index] = (Grown){0};
     }
-    for (int i = 0; memories && i < scene->object_count; i++) {
-        grown_clear(&memories[i]);
+    for (int i = 0; shared.growths && i < scene->object_count; i++) {
+        grown_clear(&shared.growths[i]);
     }
-    free(memories);
+    free(shared.growths);
+    surfaces_free(own);
     return done;
 }
 
-bool making_grow(Making *m, Grown *memories, Error *e)
+bool making_grow(Making *m, Shared shared, Error *e)
 {
-    Grown own = {0}, *memory = memories ? &memories[m->index] : NULL;
+    Grown own = {0}, *memory = shared.growths ? &shared.growths[m->index] : NULL;
     bool done = true;
     if (scene_object_has_neighbours(&m->scene->objects[m->index])) {
+        bool together = shared.growths && shared.surfaces && !m->scene->whole;
         memory = memory ? memory : &own;
-        done = memory->tree || (memories && !m->scene->whole
-                                    ? grow_rivals(m->scene, m->index, memories, m->recipe.run, e)
-                                    : grow_alone(m, memory, e));
+        done = memory->tree || (together ? grow_rivals(m->scene, m->index, shared, m->recipe.run, e)
+                                         : grow_alone(m, shared.surfaces, memory, e));
     }
     done =
         done && kind_grow(m->kind, m->params, &m->recipe, m->scene->grow_to, memory, &m->grown, e);

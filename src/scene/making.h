@@ -2,7 +2,7 @@
 #ifndef RAMIFY_SCENE_MAKING_H
 #define RAMIFY_SCENE_MAKING_H
 
-#include "scene/scene.h"
+#include "scene/build.h"
 #include "shape/deformation.h"
 
 typedef struct Making {
@@ -21,9 +21,8 @@ typedef struct Making {
 // End with making_end, also on failure.
 bool making_begin(Making *m, const Scene *scene, int index, const Run *run, Error *e);
 
-// Grows the object, among its neighbours if it has any, and cuts it at the scene's time. memories:
-// see scene_place_object.
-bool making_grow(Making *m, Grown *memories, Error *e);
+// Grows the object, among its neighbours if it has any, and cuts it at the scene's time.
+bool making_grow(Making *m, Shared shared, Error *e);
 
 // Frees. Errors name the object and the place in the file. Returns done.
 bool making_end(Making *m, bool done, Error *e);

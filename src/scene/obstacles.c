@@ -1,18 +1,15 @@
 #include "scene/obstacles.h"
 
 #include "base/memory.h"
-#include "mesh/geometry_measure.h"
-#include "render/accel/nearest.h"
-#include "render/world.h"
-#include "scene/build.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 // How far a surface is searched beyond the distance to be kept, as a share of the obstacle's size.
 #define REACH_SHARE 0.05f
 
 typedef struct Obstacle {
-    Nearest *surface;
+    const Nearest *surface;        // borrowed
     float distance, within, reach; // m
 } Obstacle;
 
@@ -21,31 +18,22 @@ struct Obstacles {
     int count;
 };
 
-static bool build(Obstacle *obstacle, const Scene *scene, const ClearOf *of, const Run *run,
-                  Error *e)
+static bool prepare(Obstacle *obstacle, const Scene *scene, const ClearOf *of, Surfaces *surfaces,
+                    const Run *run, Error *e)
 {
-    Run quiet = *run; // the object's own turn reports its warnings
-    quiet.warn = NULL;
-    quiet.observer = NULL;
-    BuildStats stats = {0};
-    World *world = world_new(e);
-    bool done = world && scene_give_settings(scene, world, e) &&
-                scene_place_object(world, scene, scene_find_object(scene, of->object), NULL, &quiet,
-                                   &stats, e);
-    obstacle->surface = done ? nearest_new(&world->geometry, run, e) : NULL;
-    if (obstacle->surface) {
-        Aabb box = geometry_bounds(&world->geometry, 0);
-        float size = aabb_is_empty(box) ? 0.0f : vec3_distance(box.low, box.high);
-        float most = of->within > of->distance ? of->within : of->distance;
-        obstacle->distance = of->distance;
-        obstacle->within = of->within;
-        obstacle->reach = most + REACH_SHARE * size + 1e-6f;
+    float size, most = of->within > of->distance ? of->within : of->distance;
+    obstacle->surface = surfaces_of(surfaces, scene_find_object(scene, of->object), &size, run, e);
+    if (!obstacle->surface) {
+        return false;
     }
-    world_free(world);
-    return obstacle->surface;
+    obstacle->distance = of->distance;
+    obstacle->within = of->within;
+    obstacle->reach = most + REACH_SHARE * size + 1e-6f;
+    return true;
 }
 
-bool obstacles_new(const Scene *scene, int index, const Run *run, Obstacles **obstacles, Error *e)
+bool obstacles_new(const Scene *scene, int index, Surfaces *surfaces, const Run *run,
+                   Obstacles **obstacles, Error *e)
 {
     const SceneObject *object = &scene->objects[index];
     *obstacles = NULL;
@@ -56,7 +44,7 @@ bool obstacles_new(const Scene *scene, int index, const Run *run, Obstacles **ob
     bool done = made && (made->obstacle =
                              memory_alloc_zero(object->clear_of_count, sizeof *made->obstacle, e));
     for (int i = 0; done && i < object->clear_of_count; i++) {
-        done = build(&made->obstacle[i], scene, &object->clear_of[i], run, e);
+        done = prepare(&made->obstacle[i], scene, &object->clear_of[i], surfaces, run, e);
         made->count += done;
     }
     if (!done) {
@@ -70,9 +58,6 @@ bool obstacles_new(const Scene *scene, int index, const Run *run, Obstacles **ob
 void obstacles_free(Obstacles *obstacles)
 {
     if (obstacles) {
-        for (int i = 0; obstacles->obstacle && i < obstacles->count; i++) {
-            nearest_free(obstacles->obstacle[i].surface);
-        }
         free(obstacles->obstacle);
         free(obstacles);
     }

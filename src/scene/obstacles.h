@@ -2,13 +2,14 @@
 #ifndef RAMIFY_SCENE_OBSTACLES_H
 #define RAMIFY_SCENE_OBSTACLES_H
 
-#include "scene/scene.h"
+#include "scene/surfaces.h"
 
 typedef struct Obstacles Obstacles;
 
-// Builds the objects that object number index of the scene is clear of; *obstacles is NULL if there
-// are none. Free with obstacles_free.
-bool obstacles_new(const Scene *scene, int index, const Run *run, Obstacles **obstacles, Error *e);
+// Finds the objects that object number index of the scene is clear of; *obstacles is NULL if there
+// are none. Borrows their surfaces. Free with obstacles_free.
+bool obstacles_new(const Scene *scene, int index, Surfaces *surfaces, const Run *run,
+                   Obstacles **obstacles, Error *e);
 void obstacles_free(Obstacles *obstacles); // NULL is fine
 
 // Distance (m) from p, in the scene, to the space that the nearest of them takes, surface and

@@ -3,6 +3,7 @@
 #include "render/world.h"
 #include "scene/build.h"
 #include "scene/builder.h"
+#include "scene/surfaces.h"
 
 #include "scene_fixture.h"
 
@@ -264,6 +265,59 @@ static void test_builder_regrows_neighbours(void **state)
     scene_free(first);
 }
 
+// A surface is made once, from the parts of an object that is placed; only otherwise the object is
+// built. The square that stands for the rock's parts here is at height 7, the rock below 4.7.
+static void test_surfaces_are_shared(void **state)
+{
+    Scene *scene = fixture_read(*state, "objects:\n" TREE("oak", "0.9", CLEAR) ROCK);
+    Geometry placed = {0};
+    Mesh *square = mesh_new(4, 4, 1, 0, NULL);
+    for (uint32_t i = 0; i < 4; i++) {
+        square->position[i] = vec3(i == 1 || i == 2 ? 1.0f : -1.0f, 7.0f, i < 2 ? 1.0f : -1.0f);
+        square->index[i] = i;
+    }
+    assert_true(geometry_add(&placed, (Part){.mesh = square, .object = 1}, NULL));
+    Run run = run_default();
+    for (int i = 0; i < 2; i++) {
+        Surfaces *surfaces = surfaces_new(scene, i == 0 ? &placed : NULL, NULL);
+        float size;
+        Vec3 away;
+        const Nearest *rock = surfaces_of(surfaces, 1, &size, &run, NULL);
+        assert_non_null(rock);
+        assert_ptr_equal(rock, surfaces_of(surfaces, 1, &size, &run, NULL));
+        float distance = nearest_distance(rock, vec3(0, 8, 0), 9.0f, &away);
+        assert_true(fabsf(distance - (i == 0 ? 1.0f : 3.3f)) < 0.01f);
+        assert_true(fabsf(size - (i == 0 ? sqrtf(8.0f) : 2.4f * sqrtf(3.0f))) < 0.02f);
+        surfaces_free(surfaces);
+    }
+    geometry_clear(&placed);
+    scene_free(scene);
+}
+
+// Obstacles are placed first, and parts are in the order of the scene all the same.
+static void test_obstacles_are_placed_first(void **state)
+{
+    Scene *scene = fixture_read(
+        *state, "objects:\n" TREE("a", "-2", CONTEST("0.2")) TREE("b", "2", CONTEST("0.2") CLEAR)
+                    TREE("oak", "9", "    clear_of: [{object: a}]\n") ROCK);
+    int order[4], wanted[4] = {3, 0, 1, 2};
+    assert_true(surfaces_order(scene, order, NULL));
+    assert_memory_equal(order, wanted, sizeof order);
+    Run run = run_default();
+    World *world = scene_build(scene, &run, NULL, NULL);
+    assert_non_null(world);
+    int last = 0, changes = 0;
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        int object = world->geometry.part[i].object;
+        assert_true(object == last || object == last + 1);
+        changes += object != last;
+        last = object;
+    }
+    assert_int_equal(changes, 3);
+    world_free(world);
+    scene_free(scene);
+}
+
 static void test_failure_and_cancel_end_all(void **state)
 {
     Scene *scene = fixture_read(
@@ -333,6 +387,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_threads_and_neighbours_do_not_show, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_builder_regrows_neighbours, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_surfaces_are_shared, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_obstacles_are_placed_first, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_failure_and_cancel_end_all, fixture_set_up,
                                         fixture_tear_down),
