@@ -9,7 +9,9 @@ static const Key CLEAR_OF_KEYS[] = {
     {KEY_OF(ClearOf, distance, "distance", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "Distance between that surface and the axes of this object's branches."},
     {KEY_OF(ClearOf, within, "within", KEY_FLOAT), .high = 1000, .unit = "m",
-     .doc = "Grow only this near to that surface, as ivy does; 0 = anywhere."},
+     .doc =
+         "Grow only this near to that surface, as ivy does on a trunk and lichen on a terrain; 0 = "
+         "anywhere."},
     {0},
 };
 

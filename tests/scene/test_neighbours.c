@@ -170,6 +170,36 @@ static void test_growth_stays_within(void **state)
     scene_free(scene);
 }
 
+// A terrain is named as any other object: growth creeps over it, out of the hill that it starts in.
+static void test_growth_creeps_over_a_terrain(void **state)
+{
+    Scene *scene = fixture_read(
+        *state,
+        "objects:\n"
+        "  - {name: land, terrain: {size: 12, relief: 2.5, resolution: 64, rivers: {count: 100}}}\n"
+        "  - name: lichen\n"
+        "    outtree:\n"
+        "      envelope: [{shape: box, size: [1.5, 1.4, 1.5], position: [0, 1.4, 0]}]\n"
+        "      placed: {points: [{position: [0, 2, 0]}]}\n"
+        "      growth: {levels: [{attractors: 20000, influence: 3}]}\n"
+        "    clear_of: [{object: land, distance: 0.02, within: 0.2}]\n");
+    Run run = run_default();
+    OutTree *rivers = grow(scene, "land", 2), *tree = grow(scene, "lichen", 2);
+    HeightField *land = scene_heights(scene, 0, rivers, &run, NULL);
+    int64_t over = 0, near = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        Vec3 p = tree->position[i];
+        float height = p.y - height_field_at(land, p.x, p.z);
+        over += height > 0.0f;
+        near += height > 0.0f && height < 0.45f; // measured upward, on slopes
+    }
+    assert_true(tree->count > 300 && 50 * over > 49 * tree->count && 50 * near > 49 * tree->count);
+    height_field_free(land);
+    out_tree_free(rivers);
+    out_tree_free(tree);
+    scene_free(scene);
+}
+
 static void test_rivals_keep_apart(void **state)
 {
     Scene *alone = fixture_read(*state, "objects:\n" TREE("a", "-0.7", "") TREE("b", "0.7", ""));
@@ -382,6 +412,8 @@ int main(void)
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_frost_contends, fixture_set_up, fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_growth_stays_within, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_growth_creeps_over_a_terrain, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_rivals_keep_apart, fixture_set_up, fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_threads_and_neighbours_do_not_show, fixture_set_up,
