@@ -209,6 +209,79 @@ static void a_body_is_supplied_to_its_ends(void **state)
     out_tree_free(tree);
 }
 
+// Share of the envelope's lattice points in a box from which a vessel is nearer than `reach`, m.
+static double share_reached(const OutTree *tree, const Envelope *envelope, Vec3 low, Vec3 high,
+                            float reach)
+{
+    enum { SIDE = 12 };
+    SegmentGrid *grid = segment_grid_new(tree, NULL);
+    assert_non_null(grid);
+    int64_t inside = 0, reached = 0;
+    for (int i = 0; i < SIDE * SIDE * SIDE; i++) {
+        const int at[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
+        Vec3 share = vec3((float)at[0] + 0.5f, (float)at[1] + 0.5f, (float)at[2] + 0.5f);
+        Vec3 p = vec3_add(low, vec3_mul(vec3_scale(share, 1.0f / SIDE), vec3_sub(high, low)));
+        if (envelope_contains(envelope, p)) {
+            inside++;
+            reached += segment_grid_touches(grid, p, p, reach, 0.0f);
+        }
+    }
+    segment_grid_free(grid);
+    assert_true(inside > 50);
+    return (double)reached / (double)inside;
+}
+
+static void a_bodys_hands_and_feet_are_filled(void **state)
+{
+    (void)state;
+    Shape shape = {.kind = SHAPE_BODY, .size = vec3(1, 1, 1), .transform = transform_identity()};
+    VesselsParams params = organ(&shape, 300);
+    params.element.voxel = 0.004f;
+    OutTree *tree = grow(&params, 2, 1.0f);
+    Run run = run_default();
+    EnvelopeParams shapes = {&shape, 1, 0.004f};
+    Envelope *envelope = envelope_new(&shapes, &run, NULL);
+    assert_non_null(envelope);
+    for (int side = -1; side <= 1; side += 2) {
+        Vec3 hand[2] = {{side > 0 ? 0.20f : -0.28f, 0.39f, -0.03f},
+                        {side > 0 ? 0.28f : -0.20f, 0.50f, 0.05f}};
+        Vec3 foot[2] = {{side > 0 ? 0.04f : -0.11f, 0.0f, -0.05f},
+                        {side > 0 ? 0.11f : -0.04f, 0.05f, 0.10f}};
+        double hands = share_reached(tree, envelope, hand[0], hand[1], 0.01f);
+        double feet = share_reached(tree, envelope, foot[0], foot[1], 0.01f);
+        assert_true(hands > 0.9 && feet > 0.55);
+    }
+    envelope_free(envelope);
+    out_tree_free(tree);
+}
+
+// A thin wall about a cavity, with few coarse levels: shrunk, they would lie in the cavity.
+static void a_hollow_organ_is_filled(void **state)
+{
+    (void)state;
+    Shape wall[2] = {organ_shape(0.05f), organ_shape(0.046f)};
+    wall[1].op = SHAPE_DIFFERENCE;
+    GreatVessel great[4];
+    for (int i = 0; i < 4; i++) {
+        float z = i < 2 ? 0.006f : -0.006f, x = i % 2 == 0 ? 0.058f : -0.058f;
+        great[i] = (GreatVessel){.vein = i >= 2,
+                                 .from = {0, 0.0385f, z},
+                                 .to = {x, 0, z},
+                                 .by = {x, 0.0385f, z},
+                                 .bent = true};
+    }
+    VesselsParams params = organ(wall, 400);
+    params.element.shape_count = 2;
+    params.element.voxel = 0.001f;
+    params.root_radius = 0.0015f;
+    params.great = great;
+    params.great_count = 4;
+    OutTree *tree = grow(&params, 2, 1.0f);
+    assert_true(count_terminals(tree, VESSELS_ARTERIES) > 60);
+    assert_true(count_terminals(tree, VESSELS_VEINS) > 60);
+    out_tree_free(tree);
+}
+
 static void skins_and_curves_come_out_of_both(void **state)
 {
     (void)state;
@@ -355,6 +428,8 @@ int main(void)
         cmocka_unit_test(terminals_of_both_meet),
         cmocka_unit_test(size_threads_and_time_change_nothing_else),
         cmocka_unit_test(a_body_is_supplied_to_its_ends),
+        cmocka_unit_test(a_bodys_hands_and_feet_are_filled),
+        cmocka_unit_test(a_hollow_organ_is_filled),
         cmocka_unit_test(skins_and_curves_come_out_of_both),
         cmocka_unit_test(few_terminals_leave_both_trees),
         cmocka_unit_test(growth_starts_from_placed_vessels),

@@ -1,176 +1,7 @@
-// The great arteries and veins of a body: courses through its trunk and limbs, from which growth
-// starts.
+// The great arteries and veins of a body along their courses, from which growth starts.
 #include "base/random.h"
+#include "objects/vessels/courses.h"
 #include "objects/vessels/stem.h"
-
-// In a body of height 1 (see shape/body.h): the body's left is +x.
-typedef struct Course {
-    int from_course, from_point; // where it branches from another; -1 = the heart
-    bool both_sides;             // this is the left one; the right mirrors it
-    int count;
-    float point[12][3];
-} Course;
-
-static const Course ARTERIES[] = {
-    // aorta: heart, arch, down before the spine
-    {-1,
-     0,
-     false,
-     9,
-     {{0.008f, 0.705f, 0.016f},
-      {0.004f, 0.740f, 0.020f},
-      {0.004f, 0.766f, 0.012f},
-      {0.009f, 0.774f, -0.004f},
-      {0.013f, 0.762f, -0.022f},
-      {0.012f, 0.730f, -0.032f},
-      {0.008f, 0.680f, -0.032f},
-      {0.005f, 0.635f, -0.028f},
-      {0.003f, 0.588f, -0.022f}}},
-    // iliac, femoral, tibial
-    {0,
-     8,
-     true,
-     11,
-     {{0.014f, 0.565f, -0.010f},
-      {0.032f, 0.530f, 0.006f},
-      {0.048f, 0.492f, 0.022f},
-      {0.054f, 0.450f, 0.024f},
-      {0.052f, 0.390f, 0.014f},
-      {0.055f, 0.330f, -0.004f},
-      {0.059f, 0.285f, -0.014f},
-      {0.060f, 0.225f, -0.010f},
-      {0.062f, 0.140f, -0.008f},
-      {0.064f, 0.055f, 0.000f},
-      {0.069f, 0.026f, 0.040f}}},
-    // deep artery of the thigh
-    {1,
-     3,
-     true,
-     3,
-     {{0.066f, 0.425f, 0.008f}, {0.072f, 0.380f, -0.006f}, {0.070f, 0.335f, -0.014f}}},
-    // subclavian, brachial, radial
-    {0,
-     3,
-     true,
-     9,
-     {{0.030f, 0.800f, -0.008f},
-      {0.066f, 0.804f, -0.004f},
-      {0.102f, 0.785f, -0.002f},
-      {0.126f, 0.735f, 0.000f},
-      {0.150f, 0.680f, 0.004f},
-      {0.170f, 0.638f, 0.004f},
-      {0.192f, 0.585f, 0.006f},
-      {0.216f, 0.510f, 0.009f},
-      {0.231f, 0.466f, 0.011f}}},
-    // ulnar
-    {3,
-     5,
-     true,
-     3,
-     {{0.176f, 0.605f, -0.006f}, {0.200f, 0.540f, -0.002f}, {0.221f, 0.474f, 0.006f}}},
-    // carotid
-    {0,
-     2,
-     true,
-     5,
-     {{0.014f, 0.806f, 0.004f},
-      {0.018f, 0.850f, 0.006f},
-      {0.021f, 0.890f, 0.006f},
-      {0.020f, 0.925f, 0.000f},
-      {0.014f, 0.960f, 0.002f}}},
-    // renal, mesenteric
-    {0, 7, true, 2, {{0.026f, 0.636f, -0.024f}, {0.048f, 0.640f, -0.020f}}},
-    {0,
-     6,
-     false,
-     3,
-     {{0.006f, 0.660f, -0.006f}, {0.004f, 0.630f, 0.014f}, {0.000f, 0.590f, 0.022f}}},
-};
-
-static const Course VEINS[] = {
-    // upper and lower vena cava, from the right of the heart
-    {-1,
-     0,
-     false,
-     4,
-     {{-0.018f, 0.705f, 0.012f},
-      {-0.024f, 0.735f, 0.014f},
-      {-0.028f, 0.762f, 0.016f},
-      {-0.026f, 0.785f, 0.018f}}},
-    {0,
-     0,
-     false,
-     5,
-     {{-0.018f, 0.685f, -0.002f},
-      {-0.018f, 0.650f, -0.014f},
-      {-0.018f, 0.610f, -0.020f},
-      {-0.016f, 0.575f, -0.030f},
-      {-0.010f, 0.552f, -0.036f}}},
-    // iliac, femoral, popliteal: inside and behind the artery
-    {1,
-     4,
-     true,
-     11,
-     {{0.012f, 0.540f, -0.032f},
-      {0.030f, 0.510f, -0.010f},
-      {0.036f, 0.480f, 0.010f},
-      {0.041f, 0.445f, 0.010f},
-      {0.043f, 0.390f, 0.000f},
-      {0.049f, 0.330f, -0.016f},
-      {0.062f, 0.285f, -0.025f},
-      {0.066f, 0.225f, -0.024f},
-      {0.066f, 0.140f, -0.020f},
-      {0.060f, 0.055f, -0.014f},
-      {0.060f, 0.022f, 0.004f}}},
-    // the long vein of the leg, under the skin
-    {2,
-     3,
-     true,
-     5,
-     {{0.032f, 0.410f, 0.016f},
-      {0.034f, 0.340f, 0.012f},
-      {0.038f, 0.275f, 0.004f},
-      {0.040f, 0.180f, 0.000f},
-      {0.050f, 0.060f, 0.000f}}},
-    // brachiocephalic, subclavian, brachial
-    {0,
-     3,
-     true,
-     9,
-     {{0.030f, 0.792f, 0.022f},
-      {0.066f, 0.792f, 0.014f},
-      {0.098f, 0.768f, 0.010f},
-      {0.116f, 0.722f, 0.010f},
-      {0.138f, 0.672f, 0.012f},
-      {0.157f, 0.632f, 0.014f},
-      {0.178f, 0.585f, 0.016f},
-      {0.204f, 0.516f, 0.014f},
-      {0.220f, 0.474f, 0.016f}}},
-    // jugular
-    {4,
-     0,
-     true,
-     5,
-     {{0.031f, 0.815f, 0.012f},
-      {0.028f, 0.850f, -0.004f},
-      {0.030f, 0.890f, -0.010f},
-      {0.030f, 0.925f, -0.016f},
-      {0.024f, 0.958f, -0.022f}}},
-    // renal, portal
-    {1, 1, true, 2, {{0.010f, 0.648f, -0.014f}, {0.040f, 0.652f, -0.010f}}},
-    {1,
-     0,
-     false,
-     3,
-     {{-0.020f, 0.672f, 0.010f}, {-0.024f, 0.640f, 0.022f}, {-0.016f, 0.595f, 0.026f}}},
-};
-
-enum {
-    ARTERY_COUNT = sizeof ARTERIES / sizeof ARTERIES[0],
-    VEIN_COUNT = sizeof VEINS / sizeof VEINS[0],
-    MOST_COURSES = ARTERY_COUNT > VEIN_COUNT ? ARTERY_COUNT : VEIN_COUNT,
-    MOST_POINTS = 13
-};
 
 #define NODE_SPACING 0.006f // of the height
 
@@ -184,7 +15,8 @@ typedef struct Planting {
     OutTree *tree;
     const Shape *body;
     int32_t colony;
-    int64_t node[MOST_COURSES][2][MOST_POINTS]; // nodes of each course's points, left and right
+    // nodes of each course's points, left and right
+    int64_t node[MOST_COURSES][2][MOST_COURSE_POINTS + 1];
 } Planting;
 
 static Vec3 place(const Planting *p, Vec3 at)
@@ -234,7 +66,7 @@ static bool plant_course(Planting *p, const Course *courses, int number, bool ri
                          Error *e)
 {
     const Course *course = &courses[number];
-    Vec3 point[MOST_POINTS];
+    Vec3 point[MOST_COURSE_POINTS + 1];
     int count = 0;
     int64_t *node = p->node[number][right], parent;
     uint64_t id = random_key(random_key(seed, (uint64_t)number), right);
@@ -273,8 +105,8 @@ static bool plant_course(Planting *p, const Course *courses, int number, bool ri
 bool vessels_plant_great(OutTree *tree, const Shape *body, int32_t colony, uint64_t seed, Error *e)
 {
     Planting p = {.tree = tree, .body = body, .colony = colony};
-    const Course *courses = colony == VESSELS_VEINS ? VEINS : ARTERIES;
-    int count = colony == VESSELS_VEINS ? VEIN_COUNT : ARTERY_COUNT;
+    int count;
+    const Course *courses = vessels_courses(colony == VESSELS_VEINS, &count);
     uint64_t key = random_key(seed, (uint64_t)colony);
     for (int i = 0; i < count; i++) {
         for (int right = 0; right < (courses[i].both_sides ? 2 : 1); right++) {

@@ -121,26 +121,55 @@ static bool grow_toward(VesselBed *bed, VesselTree *tree, PointSet *points, cons
     return done;
 }
 
+// The level's attractors in the organ, shrunk by its scale.
+static PointSet *scatter_level(const VesselBed *bed, const VesselTree *tree, const GrowLevel *level,
+                               float scale, uint64_t seed, Error *e)
+{
+    const ElementParams *element = &bed->params->element;
+    ScatterParams scatter =
+        element_scatter_params(tree->tree, element, random_key(seed, STREAM_POINTS));
+    scatter.count = level->attractors;
+    scatter.scale = scale;
+    Density *density;
+    PointSet *points = element_density(element, &scatter, &density, bed->recipe->run, e)
+                           ? points_scatter(bed->envelope, &scatter, bed->recipe->run, e)
+                           : NULL;
+    density_free(density);
+    return points;
+}
+
+// The attractors that one tree can reach, and where it may grow. A coarse level shrinks the organ,
+// so that its vessels keep away from the surface; an organ with a cavity is shrunk out of itself,
+// so it keeps its size where fewer than half of the points remain.
+static PointSet *free_points(const VesselBed *bed, const VesselTree *tree,
+                             const SegmentGrid *others, const GrowLevel *level, uint64_t seed,
+                             VesselRoom *room, Error *e)
+{
+    for (float scale = level->scale;; scale = 1.0f) {
+        PointSet *points = scatter_level(bed, tree, level, scale, seed, e);
+        if (!points) {
+            return NULL;
+        }
+        float spacing = (float)points_spacing(points);
+        int64_t scattered = points->count;
+        *room = vessel_room(bed, tree, others, 0.05f * spacing);
+        keep_free_points(points, room, 0.2f * spacing);
+        if (scale == 1.0f || 2 * points->count >= scattered) {
+            return points;
+        }
+        points_free(points);
+    }
+}
+
 // Grows one level of one tree around the other tree.
 static bool grow_around(VesselBed *bed, VesselTree *tree, const SegmentGrid *others,
                         const GrowLevel *level, bool coarse, uint64_t seed, Error *e)
 {
-    ScatterParams scatter =
-        element_scatter_params(tree->tree, &bed->params->element, random_key(seed, STREAM_POINTS));
-    scatter.count = level->attractors;
-    scatter.scale = level->scale;
-    Density *density;
-    PointSet *points =
-        element_density(&bed->params->element, &scatter, &density, bed->recipe->run, e)
-            ? points_scatter(bed->envelope, &scatter, bed->recipe->run, e)
-            : NULL;
-    density_free(density);
+    VesselRoom room;
+    PointSet *points = free_points(bed, tree, others, level, seed, &room, e);
     if (!points) {
         return false;
     }
-    float spacing = (float)points_spacing(points);
-    VesselRoom room = vessel_room(bed, tree, others, 0.05f * spacing);
-    keep_free_points(points, &room, 0.2f * spacing);
     int64_t first = tree->tree->count;
     bool done = points->count == 0 ||
                 grow_toward(bed, tree, points, level, random_key(seed, STREAM_GROWTH), e);
