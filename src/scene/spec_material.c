@@ -1,10 +1,9 @@
 // Keys of materials.
+#include "objects/common/tables.h"
 #include "render/material/material.h"
 #include "render/material/thin_film.h"
 #include "scene/builtin.h"
 #include "scene/spec_check.h"
-
-#include <stdio.h>
 
 #define BIT(kind) (1u << (kind))
 #define ALL_BUT(kinds) (~(kinds))
@@ -29,19 +28,6 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"water", PATTERN_WATER},
                                     {"altitude", PATTERN_ALTITUDE},
                                     {0}};
-
-static const Key STOP_KEYS[] = {
-    {KEY_OF(ColorStop, at, "at", KEY_FLOAT), .flags = KEY_REQUIRED, .high = 1,
-     .doc = "Altitude, as a fraction of the land's relief."},
-    {KEY_OF(ColorStop, color, "color", KEY_COLOR), .flags = KEY_REQUIRED, .high = 1,
-     .doc = "Reflectance there."},
-    {0},
-};
-
-static const Table STOP_TABLE = {.name = "color_stop",
-                                 .doc = "A point of a scale of colours.",
-                                 .size = sizeof(ColorStop),
-                                 .keys = STOP_KEYS};
 
 static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, name, "name", KEY_NAME), .flags = KEY_REQUIRED, .count = 64,
@@ -93,7 +79,7 @@ static const Key MATERIAL_KEYS[] = {
             "floor; mountain: rock, scree, grass and snow; badlands: coloured strata; water: "
             "ripples; altitude: a map's scale of colours over a terrain; none: one colour."},
     {KEY_OF(Material, colors, "colors", KEY_LIST), .kinds = PATTERNED,
-     .count_offset = offsetof(Material, color_count), .count = 64, .table = &STOP_TABLE,
+     .count_offset = offsetof(Material, color_count), .count = 64, .table = &color_stop_table,
      .doc = "Pattern altitude: its colours by altitude, linear between these; none = from color to "
             "color2."},
     {KEY_OF(Material, pattern_scale, "pattern_scale", KEY_FLOAT), .kinds = BUMPED | FILM,
@@ -131,18 +117,7 @@ static void material_defaults(const Node *given, int kind, void *out)
 static bool check_material(const Mapping *mapping, void *params)
 {
     const Material *material = params;
-    for (int i = 1; i < material->color_count; i++) {
-        float at = material->colors[i].at, last = material->colors[i - 1].at;
-        if (at <= last) {
-            char key[32];
-            snprintf(key, sizeof key, "colors.%d", i);
-            return mapping_fail(mapping, key,
-                                " is at the altitude %g, the one before it at %g; altitudes must "
-                                "ascend",
-                                (double)at, (double)last);
-        }
-    }
-    return true;
+    return check_color_stops(mapping, material->colors, material->color_count);
 }
 
 const Table material_table = {

@@ -1,6 +1,7 @@
 // Land that a tree of ridges lifts, trees from files and pictures, and noise alone.
 #include "base/random.h"
 #include "image/image.h"
+#include "image/tone_curve.h"
 #include "land/height_measure.h"
 #include "making.h"
 #include "objects/terrain/lift.h"
@@ -300,18 +301,15 @@ static void grown_ridges_are_the_highest(void **state)
     Grown grown = grow_threads(&params, 2, &field);
     const OutTree *tree = grown.tree;
     assert_true(tree->count > 200);
-    int64_t covered = 0, crests = 0;
+    int64_t covered = 0, crests = 0, flanks = 0;
     for (int64_t i = 0; i < tree->count; i++) {
         Vec3 p = tree->position[i];
         float here = height_field_at(field, p.x, p.z);
         assert_true(here > p.y - 2.5f * field->cell.x * 0.7f);
         assert_true(tree->parent[i] >= 0 ? p.y <= tree->position[tree->parent[i]].y
                                          : fabsf(p.y - 100.0f) < 1e-3f);
-        if (here > p.y + 2.0f) { // on the flank of a higher ridge
-            covered++;
-            continue;
-        }
-        if (tree->parent[i] < 0 || p.y < 10.0f) {
+        covered += here > p.y + 2.0f; // on the flank of a higher ridge
+        if (here > p.y + 2.0f || tree->parent[i] < 0 || p.y < 10.0f) {
             continue;
         }
         Vec3 q = tree->position[tree->parent[i]];
@@ -319,11 +317,12 @@ static void grown_ridges_are_the_highest(void **state)
         float reach = 0.3f * tree->radius[i];
         float left = height_field_at(field, p.x + reach * side.x, p.z + reach * side.z);
         float right = height_field_at(field, p.x - reach * side.x, p.z - reach * side.z);
-        crests += left < here || right < here;
-        covered += !(left < here || right < here);
+        bool highest = left < here && right < here;
+        crests += highest;
+        flanks += !highest; // where another ridge leaves
     }
-    assert_true(crests > 50);
-    assert_true(covered < tree->count / 2);
+    assert_true(crests > 100 && crests > 4 * flanks);
+    assert_true(covered < tree->count / 3);
     float low, high;
     height_field_range(field, &low, &high);
     assert_true(low == 0.0f && high <= 100.0f && high > 95.0f);
@@ -466,6 +465,67 @@ static void pictures_without_lines_are_refused(void **state)
     }
 }
 
+// ---- a painted map
+
+// The lift that is painted: a cone and a ramp.
+static float painted_lift(float x, float z)
+{
+    float cone = 1.0f - hypotf(x - 100.0f, z + 50.0f) / 400.0f;
+    float ramp = 0.3f * (x + 512.0f) / 1024.0f;
+    return cone > ramp ? cone : ramp;
+}
+
+static Vec3 scale_color(float height)
+{
+    int i = 0;
+    while (i < TERRAIN_ALTITUDES - 2 && height > terrain_altitudes[i + 1].at) {
+        i++;
+    }
+    const ColorStop *a = &terrain_altitudes[i], *b = a + 1;
+    Vec3 low = {tone_srgb_from_linear(a->color.x), tone_srgb_from_linear(a->color.y),
+                tone_srgb_from_linear(a->color.z)};
+    Vec3 high = {tone_srgb_from_linear(b->color.x), tone_srgb_from_linear(b->color.y),
+                 tone_srgb_from_linear(b->color.z)};
+    return vec3_lerp(low, high, (height - a->at) / (b->at - a->at));
+}
+
+// The colours of the scale, or greys with a scale of black and white, are the heights painted.
+static void the_colours_of_a_map_are_heights(void **state)
+{
+    (void)state;
+    enum { SIDE = 256 };
+    ColorStop greys[] = {{0.0f, {0.0f, 0.0f, 0.0f}}, {1.0f, {1.0f, 1.0f, 1.0f}}};
+    for (int grey = 0; grey < 2; grey++) {
+        Error e = {0};
+        Image *image = image_new(SIDE, SIDE, 3, &e);
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            int row = i / SIDE;
+            float x = (((float)(i % SIDE) + 0.5f) / SIDE - 0.5f) * 1024.0f;
+            float z = (((float)row + 0.5f) / SIDE - 0.5f) * 1024.0f, lift = painted_lift(x, z);
+            Vec3 c = grey ? vec3_splat(lift) : scale_color(lift);
+            memcpy(image->pixel + (ptrdiff_t)3 * i, (float[]){c.x, c.y, c.z}, 3 * sizeof(float));
+        }
+        assert_true(image_write_display(image_file, image, NULL, &e));
+        image_free(image);
+        TerrainParams params = plain_terrain(TERRAIN_MAP);
+        params.map.image = image_file;
+        params.map.colors = grey ? greys : NULL;
+        params.map.color_count = grey ? 2 : 0;
+        HeightField *field = land_of(&params);
+        double squares = 0.0;
+        for (int64_t i = 0; i < height_field_count(field); i++) {
+            Vec2 p = place_of(field, i);
+            double off = (double)(field->height[i] - 100.0f * painted_lift(p.x, p.y));
+            squares += off * off;
+        }
+        double rms = sqrt(squares / (double)height_field_count(field));
+        if (!(rms < 0.4)) { // of 100 m, in 8 bits
+            fail_msg("the map's land is off by %g m", rms);
+        }
+        height_field_free(field);
+    }
+}
+
 // ---- noise
 
 // Without rivers and ridges all height is the octaves': none, or of the variance of their sum.
@@ -524,6 +584,33 @@ static void noise_keeps_off_the_plain(void **state)
     height_field_free(smooth);
 }
 
+// ---- size
+
+static void land_scales_with_its_size(void **state)
+{
+    (void)state;
+    for (int form = TERRAIN_RIDGES; form <= TERRAIN_NOISE; form++) {
+        TerrainParams params = plain_terrain((TerrainForm)form);
+        if (form == TERRAIN_MAP) {
+            continue; // its size is the picture's
+        }
+        params.relief = 0.0f;
+        params.noise.iterations = 4;
+        HeightField *small = land_of(&params);
+        params.size *= 16.0f;
+        HeightField *large = land_of(&params);
+        float low, high, most = 0.0f;
+        height_field_range(large, &low, &high);
+        for (int64_t i = 0; i < height_field_count(small); i++) {
+            float off = fabsf(16.0f * small->height[i] - large->height[i]);
+            most = off > most ? off : most;
+        }
+        assert_true(high > low && most < 1e-4f * (high - low));
+        height_field_free(small);
+        height_field_free(large);
+    }
+}
+
 // ---- threads
 
 static void the_same_bits_for_any_threads(void **state)
@@ -532,16 +619,17 @@ static void the_same_bits_for_any_threads(void **state)
     OutTree *tree = hand_tree(HAND, HAND_COUNT);
     write_swc(tree);
     write_image(tree, 1024.0f, 512, false);
-    enum { CASES = 5 };
+    enum { CASES = 6 };
     for (int k = 0; k < CASES; k++) {
         TerrainParams params = plain_terrain(k == 0   ? TERRAIN_NOISE
                                              : k == 4 ? TERRAIN_RIVERS
+                                             : k == 5 ? TERRAIN_MAP
                                                       : TERRAIN_RIDGES);
         params.noise.iterations = 5;
         params.erosion.streams = k == 1 ? 1.0f : 0.0f;
         params.ridges.source.file = k == 2 ? swc_file : NULL;
         params.ridges.source.image = k == 3 ? image_file : NULL;
-        params.rivers.source.image = image_file;
+        params.rivers.source.image = params.map.image = image_file;
         uint64_t land = 0, tree_hash = 0;
         for (int threads = 1; threads <= 3; threads++) {
             HeightField *field;
@@ -607,8 +695,10 @@ int main(void)
         cmocka_unit_test(rivers_come_from_files_and_pictures),
         cmocka_unit_test(roots_away_from_the_border_are_led_to_it),
         cmocka_unit_test(pictures_without_lines_are_refused),
+        cmocka_unit_test(the_colours_of_a_map_are_heights),
         cmocka_unit_test(noise_alone_is_the_sum_of_its_octaves),
         cmocka_unit_test(noise_keeps_off_the_plain),
+        cmocka_unit_test(land_scales_with_its_size),
         cmocka_unit_test(the_same_bits_for_any_threads),
         cmocka_unit_test(the_stages_are_drawn_flat),
     };

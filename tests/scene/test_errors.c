@@ -159,7 +159,10 @@ static const Case scenes[] = {
      ":1:108: objects.a.tree.crown.fields.0.nuclei.0.end equals position; a line needs two "
      "different ends, or use kind: point"},
     {"objects: [{name: a, terrain: {form: hills}}]\n",
-     ":1:37: objects.a.terrain.form is 'hills'; known: rivers, ridges, noise"},
+     ":1:37: objects.a.terrain.form is 'hills'; known: rivers, ridges, map, "
+     "noise"},
+    {"objects: [{name: a, terrain: {form: map}}]\n",
+     ":1:30: objects.a.terrain.map.image is missing; form: map needs an image"},
     {"objects: [{name: a, terrain: {ridges: {lift: [{distance: 0, height: 1}, {distance: 0, "
      "height: 0}]}}}]\n",
      ":1:73: objects.a.terrain.ridges.lift.1 is at the distance 0, the point before it at 0; "

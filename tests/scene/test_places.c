@@ -91,6 +91,7 @@ static const Place places[] = {
     // trees of rivers and ridges; in SWC files the line there
     {"terrain", "rivers: {image: junk.png}", 4, 31, "junk.png"},
     {"terrain", "form: ridges, ridges: {image: junk.png}", 4, 45, "junk.png"},
+    {"terrain", "form: map, map: {image: junk.png}", 4, 39, "junk.png"},
     {"terrain", "form: ridges, ridges: {file: word.swc}", 2, 0, "is no number"},
     {"terrain", "form: ridges, ridges: {file: junk.png}", 1, 0, "is no number"},
     {"terrain", "rivers: {file: short.swc}", 2, 0, "has only 4 numbers"},

@@ -101,6 +101,8 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"fracture: {envelope: [{shape: sphere, size: 1}], attractors: 60, resolution: 50}",
          0xedf82202aa939c1e},
         {"terrain: {resolution: 64, rivers: {count: 200}}", 0xfaa674fa934997ce},
+        {"terrain: {resolution: 64, form: ridges, ridges: {count: 200}}", 0x5986ae362203d199},
+        {"terrain: {resolution: 64, form: noise}", 0x3f387f552d79754c},
         {"shape: {envelope: [{shape: capsule, size: [0.3, 1, 0.3]}, "
          "{shape: box, size: 0.5, rotation: [10, 20, 30]}]}",
          0x02ae3c4879220b89},

@@ -4,10 +4,12 @@
 
 #include "config/load.h"
 #include "objects/common/element.h"
+#include "render/material/material.h"
 
 // Of an element's envelope, points, growth and guide fields.
 extern const Table shape_table, points_table, growth_table, guide_field_table;
 extern const EnumName field_profiles[];
+extern const Table color_stop_table; // of a scale of colours
 
 // The rows of an element (trunk, crown, roots): envelope, voxel, points, growth, fields.
 #define ELEMENT_ROWS(STRUCT)                                                                      \
@@ -42,6 +44,9 @@ bool check_string_element(const Mapping *mapping, const ElementParams *element);
 
 // Checks a mesh file's name, size and header. path: from the mapping's key `file`.
 bool check_mesh_file(const Mapping *mapping, const char *path);
+
+// The scale of colours under `colors` ascends.
+bool check_color_stops(const Mapping *mapping, const ColorStop *stops, int count);
 
 // No factor of the mapping's `scale` is 0.
 bool check_scale(const Mapping *mapping, Vec3 scale);

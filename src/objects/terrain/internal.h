@@ -27,6 +27,7 @@ typedef struct Terrain {
     const TerrainParams *params; // borrowed
     uint64_t seed;
     OutTree *tree;            // rivers or ridges, heights and radii filled in; owned by the Grown
+    HeightField *map;         // of TERRAIN_MAP: lifts, shares of the relief
     RidgeLift *lift;          // of TERRAIN_RIDGES; all that follows is of TERRAIN_RIVERS
     float *area;              // m^2, drainage area of each node
     float *uplift;            // factor on gradients at each node
@@ -74,10 +75,17 @@ bool terrain_grow_ridges(OutTree **tree, const TerrainParams *params, const Reci
 
 // ridges.c: heights of the crests, radii = half widths of their bands.
 bool terrain_raise_ridges(Terrain *terrain, Error *e);
-float terrain_ridge_relief(const TerrainParams *params);   // m
+// Of land lifted by ridges or a map: m, and the width (share of the size) over which it falls.
+float terrain_lift_relief(const TerrainParams *params);
+float terrain_lift_width(const TerrainParams *params);
 float terrain_lift_sign(const TerrainParams *params);      // -1 = the land is lowered
 LiftCurve terrain_lift_curve(const TerrainParams *params); // absolute heights
 RidgeLift *terrain_ridge_lift(const Terrain *terrain, float margin, const Run *run, Error *e);
+
+enum { TERRAIN_MOST_COLORS = 64 };
+
+// color_map.c: the lifts that the picture's colours tell. The caller frees the field.
+HeightField *terrain_read_map(const TerrainParams *params, const Run *run, Error *e);
 
 // uplift.c: fills terrain->uplift, at least 0.02 at each node. Reads the user's picture.
 bool terrain_uplift(Terrain *terrain, const Run *run, Error *e);

@@ -19,7 +19,8 @@ static int64_t attractors(const void *params)
     const TerrainParams *terrain = params;
     bool ridges = terrain->form == TERRAIN_RIDGES;
     const TreeSource *source = ridges ? &terrain->ridges.source : &terrain->rivers.source;
-    if (terrain->form == TERRAIN_NOISE || source->file || source->image) {
+    bool grows = ridges || terrain->form == TERRAIN_RIVERS;
+    if (!grows || source->file || source->image) {
         return 0;
     }
     int64_t count = ridges ? terrain->ridges.count : terrain->rivers.count;
@@ -48,11 +49,6 @@ static void settle(const void *params, void *settled)
     TerrainParams p = terrain_params_resolve(params);
     memcpy(settled, &p, sizeof p);
 }
-
-// From the plain to the summit.
-static ColorStop ALTITUDES[] = {{0.0f, {0.030f, 0.085f, 0.30f}}, {0.12f, {0.020f, 0.26f, 0.30f}},
-                                {0.35f, {0.10f, 0.42f, 0.07f}},  {0.6f, {0.72f, 0.55f, 0.05f}},
-                                {0.82f, {0.66f, 0.10f, 0.03f}},  {1.0f, {0.85f, 0.80f, 0.78f}}};
 
 static const Material BUILTIN[] = {
     {.name = "mountain",
@@ -94,8 +90,8 @@ static const Material BUILTIN[] = {
      .roughness = 0.6f,
      .ior = 1.5f,
      .pattern = PATTERN_ALTITUDE,
-     .colors = ALTITUDES,
-     .color_count = sizeof ALTITUDES / sizeof ALTITUDES[0]},
+     .colors = terrain_altitudes,
+     .color_count = TERRAIN_ALTITUDES},
     {.name = ""},
 };
 

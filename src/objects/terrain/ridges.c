@@ -80,10 +80,16 @@ static float largest_radius(const OutTree *tree)
     return largest;
 }
 
-float terrain_ridge_relief(const TerrainParams *params)
+float terrain_lift_width(const TerrainParams *params)
+{
+    return params->form == TERRAIN_MAP ? 0.15f : params->ridges.width;
+}
+
+float terrain_lift_relief(const TerrainParams *params)
 {
     const float natural = 0.65f; // tan(33 degrees): slopes of loose rock
-    return params->relief > 0.0f ? params->relief : natural * params->ridges.width * params->size;
+    return params->relief > 0.0f ? params->relief
+                                 : natural * terrain_lift_width(params) * params->size;
 }
 
 bool terrain_raise_ridges(Terrain *terrain, Error *e)
@@ -98,7 +104,7 @@ bool terrain_raise_ridges(Terrain *terrain, Error *e)
         largest = 1.0f;
     }
     LiftCurve curve = terrain_lift_curve(params);
-    float crest = lift_curve_at(&curve, 0.0f) * terrain_ridge_relief(params);
+    float crest = lift_curve_at(&curve, 0.0f) * terrain_lift_relief(params);
     for (int64_t i = 0; i < tree->count; i++) {
         float share = tree->radius[i] / largest;
         tree->radius[i] = share * params->ridges.width * params->size;
@@ -124,7 +130,7 @@ float terrain_lift_sign(const TerrainParams *params)
 {
     int count;
     const LiftStop *stop = terrain_lift_stops(params, &count);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count && params->form == TERRAIN_RIDGES; i++) {
         if (stop[i].height < 0.0f) {
             return -1.0f;
         }

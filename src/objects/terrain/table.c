@@ -222,6 +222,39 @@ static const Table RIDGE_TABLE = {
     .keys = RIDGE_KEYS,
     .check = check_ridges};
 
+// ---- map
+
+static const Key MAP_KEYS[] = {
+    {KEY_OF(MapParams, image, "image", KEY_FILE),
+     .doc = "Image laid over the terrain, north up. Each colour is the altitude of the nearest "
+            "colour of the scale; transparent parts are the plain. Required by form: map."},
+    {KEY_OF(MapParams, colors, "colors", KEY_LIST),
+     .count_offset = offsetof(MapParams, color_count), .count = 64, .table = &color_stop_table,
+     .doc = "Scale of colours, from the plain to the summit; none = that of the built-in material "
+            "altitude. Black and white make a grey image a map of heights."},
+    {0},
+};
+
+static bool check_map(const Mapping *mapping, void *params)
+{
+    const MapParams *map = params;
+    return check_color_stops(mapping, map->colors, map->color_count);
+}
+
+static const Table MAP_TABLE = {
+    .name = "terrain_map",
+    .doc = "Land lifted by the colours of a painted map (Tanaka et al., section 5.5).",
+    .example = "objects:\n"
+               "  - name: island\n"
+               "    terrain:\n"
+               "      form: map\n"
+               "      relief: 900\n"
+               "      map: {image: heights.png, colors: [{at: 0, color: [0, 0, 0]}, {at: 1, color: "
+               "[1, 1, 1]}]}\n",
+    .size = sizeof(MapParams),
+    .keys = MAP_KEYS,
+    .check = check_map};
+
 // ---- noise, erosion, forest
 
 static const Key NOISE_KEYS[] = {
@@ -297,16 +330,21 @@ static const Table FOREST_TABLE = {.name = "forest",
                                    .size = sizeof(TerrainForestParams),
                                    .keys = FOREST_KEYS};
 
-static const EnumName FORM_NAMES[] = {
-    {"rivers", TERRAIN_RIVERS}, {"ridges", TERRAIN_RIDGES}, {"noise", TERRAIN_NOISE}, {0}};
+static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS},
+                                      {"ridges", TERRAIN_RIDGES},
+                                      {"map", TERRAIN_MAP},
+                                      {"noise", TERRAIN_NOISE},
+                                      {0}};
 
 static const EnumName SHOW_NAMES[] = {
     {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
 
 static const Key TERRAIN_KEYS[] = {
     {KEY_OF(TerrainParams, form, "form", KEY_ENUM), .names = FORM_NAMES,
-     .doc = "Source of the heights. rivers: valleys along a tree of rivers; ridges: land lifted "
-            "along a tree of ridges; noise: noise alone, on a plane."},
+     .doc =
+         "Source of the heights. rivers: valleys along a tree of rivers; ridges: land lifted "
+         "along a tree of ridges; map: land lifted by the colours of an image; noise: noise alone, "
+         "on a plane."},
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
@@ -324,6 +362,8 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Rivers, which shape the land of form: rivers."},
     {KEY_OF(TerrainParams, ridges, "ridges", KEY_GROUP), .table = &RIDGE_TABLE,
      .doc = "Ridges, which lift the land of form: ridges."},
+    {KEY_OF(TerrainParams, map, "map", KEY_GROUP), .table = &MAP_TABLE,
+     .doc = "Painted map, which lifts the land of form: map."},
     {KEY_OF(TerrainParams, noise, "noise", KEY_GROUP), .table = &NOISE_TABLE,
      .doc = "Fine erosion by sparse convolution noise."},
     {KEY_OF(TerrainParams, erosion, "erosion", KEY_GROUP), .table = &EROSION_TABLE,
@@ -348,7 +388,11 @@ static void terrain_defaults(void *out)
 
 static bool check_terrain(const Mapping *mapping, void *params)
 {
-    int cells = ((const TerrainParams *)params)->resolution;
+    const TerrainParams *terrain = params;
+    int cells = terrain->resolution;
+    if (terrain->form == TERRAIN_MAP && !terrain->map.image) {
+        return mapping_fail(mapping, "map.image", " is missing; form: map needs an image");
+    }
     return (cells & (cells - 1)) == 0 ||
            mapping_fail(mapping, "resolution", " is %d; it must be a power of two, such as 1024",
                         cells);

@@ -48,6 +48,7 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         case TERRAIN_RIDGES: // spurs
             resolved.noise.wavelength = 3.0f / sqrtf((float)params->ridges.count);
             break;
+        case TERRAIN_MAP:
         case TERRAIN_NOISE:
             resolved.noise.wavelength = 0.125f;
         }
@@ -138,6 +139,7 @@ bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *
         return terrain_grow_rivers(&whole->tree, params, recipe, e);
     case TERRAIN_RIDGES:
         return terrain_grow_ridges(&whole->tree, params, recipe, e);
+    case TERRAIN_MAP:
     case TERRAIN_NOISE:
         whole->tree = out_tree_new(e);
     }
@@ -168,12 +170,14 @@ static bool fill_rivers(Terrain *terrain, const Run *run, Error *e)
 
 static void forget(Terrain *terrain)
 {
+    height_field_free(terrain->map);
     ridge_lift_free(terrain->lift);
     trough_envelope_free(terrain->land);
     trough_envelope_free(terrain->distance);
     out_tree_free(terrain->water);
     trough_envelope_free(terrain->shore);
     free(terrain->bank);
+    terrain->map = NULL;
     terrain->lift = NULL;
     terrain->land = terrain->distance = terrain->shore = NULL;
     terrain->water = NULL;
@@ -201,7 +205,7 @@ bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole
     grown->free_state = free_terrain;
     *terrain = (Terrain){.params = params, .seed = recipe->seed, .tree = grown->tree};
     if (terrain->params->form != TERRAIN_RIVERS) {
-        return terrain->params->form == TERRAIN_NOISE || terrain_raise_ridges(terrain, e);
+        return terrain->params->form != TERRAIN_RIDGES || terrain_raise_ridges(terrain, e);
     }
     terrain->area = memory_alloc(grown->tree->count, sizeof *terrain->area, e);
     terrain->uplift = memory_alloc(grown->tree->count, sizeof *terrain->uplift, e);
@@ -259,19 +263,26 @@ static float valleys_at(const Terrain *terrain, float x, float z, float *wetness
     return height;
 }
 
-// The height at a place of land that ridges lift. The noise is in proportion to the slopes and
-// fades toward the plain.
-static float ridges_at(const Terrain *terrain, float x, float z)
+// The lift at a place, 0..1.
+static float lift_at(const Terrain *terrain, float x, float z)
+{
+    return terrain->map ? clampf(height_field_smooth_at(terrain->map, x, z), 0.0f, 1.0f)
+                        : ridge_lift_at(terrain->lift, x, z);
+}
+
+// The height at a place of land that ridges or a map lift. The noise is in proportion to the slopes
+// and fades toward the plain.
+static float lifted_at(const Terrain *terrain, float x, float z)
 {
     const TerrainParams *params = terrain->params;
-    float relief = terrain_ridge_relief(params), sign = terrain_lift_sign(params);
+    float relief = terrain_lift_relief(params), sign = terrain_lift_sign(params);
     if (params->noise.iterations == 0) {
-        return sign * relief * ridge_lift_at(terrain->lift, x, z);
+        return sign * relief * lift_at(terrain, x, z);
     }
     float at_x = x, at_z = z;
     warp(terrain, 1.0f, &at_x, &at_z);
-    float lift = ridge_lift_at(terrain->lift, at_x, at_z);
-    float up = relief / (params->ridges.width * params->size);
+    float lift = lift_at(terrain, at_x, at_z);
+    float up = relief / (terrain_lift_width(params) * params->size);
     float noise = noise_at(terrain, x, z) * (up < 1.5f ? up : 1.5f);
     return sign * relief * lift + noise * smoothstepf(0.0f, 0.4f, lift);
 }
@@ -283,7 +294,8 @@ static float land_at(const Terrain *terrain, float x, float z, float *wetness)
     case TERRAIN_RIVERS:
         return valleys_at(terrain, x, z, wetness);
     case TERRAIN_RIDGES:
-        return ridges_at(terrain, x, z);
+    case TERRAIN_MAP:
+        return lifted_at(terrain, x, z);
     case TERRAIN_NOISE:
         break;
     }
@@ -390,6 +402,9 @@ static bool prepare_land(Terrain *terrain, const Run *run, Error *e)
     case TERRAIN_RIDGES:
         terrain->lift = terrain_ridge_lift(terrain, warp_reach(terrain->params), run, e);
         return terrain->lift;
+    case TERRAIN_MAP:
+        terrain->map = terrain_read_map(terrain->params, run, e);
+        return terrain->map;
     case TERRAIN_NOISE:
         break;
     }

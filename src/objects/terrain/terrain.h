@@ -11,6 +11,7 @@
 #include "objects/common/recipe.h"
 #include "objects/terrain/lift.h"
 #include "outtree/out_tree.h"
+#include "render/material/material.h"
 
 // One stroke of the user's brush: the land rises faster along a line. Places are shares of the
 // terrain's size, (0, 0) in its middle, so they do not depend on it.
@@ -37,7 +38,7 @@ typedef enum TerrainSide {
 } TerrainSide;
 
 // What the land's heights come from.
-typedef enum TerrainForm { TERRAIN_RIVERS, TERRAIN_RIDGES, TERRAIN_NOISE } TerrainForm;
+typedef enum TerrainForm { TERRAIN_RIVERS, TERRAIN_RIDGES, TERRAIN_MAP, TERRAIN_NOISE } TerrainForm;
 
 // What is drawn.
 typedef enum TerrainShow {
@@ -73,6 +74,13 @@ typedef struct RidgeParams {
     LiftStop *lift; // NULL = the kind's own; all heights have one sign
     int lift_count;
 } RidgeParams;
+
+// A painted map, whose colours are heights.
+typedef struct MapParams {
+    char *image;       // laid over the terrain, north up
+    ColorStop *colors; // NULL = terrain_altitudes
+    int color_count;
+} MapParams;
 
 typedef struct RiverParams {
     TreeSource source;
@@ -129,6 +137,7 @@ typedef struct TerrainParams {
     UpliftParams uplift;
     RiverParams rivers;
     RidgeParams ridges;
+    MapParams map;
     TerrainNoiseParams noise;
     TerrainErosionParams erosion;
     TerrainTerraceParams terraces;
@@ -145,9 +154,10 @@ TerrainParams terrain_params_resolve(const TerrainParams *params);
 const LiftStop *terrain_lift_stops(const TerrainParams *params, int *count);
 
 // The recipe (see recipe.h). Grows the tree in the plane y = 0, roots of rivers at their outlets;
-// none for TERRAIN_NOISE. After finish, y is the river's height before erosion and terraces, and
-// radii are half the width of the water; of ridges the crest's height before noise, and half the
-// width of the band. In the terrain's own space, position not added. The state is a Terrain.
+// none for TERRAIN_MAP and TERRAIN_NOISE. After finish, y is the river's height before erosion and
+// terraces, and radii are half the width of the water; of ridges the crest's height before noise,
+// and half the width of the band. In the terrain's own space, position not added. The state is a
+// Terrain.
 bool terrain_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
 bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
                     Error *e);
@@ -156,6 +166,10 @@ bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole
 // the rim drains, and beds of rivers wide enough for the grid are dug last. The same bits for any
 // number of threads.
 HeightField *terrain_heights(const void *params, const Grown *grown, const Run *run, Error *e);
+
+// The map's own scale of colours, also that of the material `altitude`.
+enum { TERRAIN_ALTITUDES = 6 };
+extern ColorStop terrain_altitudes[TERRAIN_ALTITUDES];
 
 // Height of the lake, in the field's own space.
 float terrain_water_height(const TerrainParams *params, const HeightField *field);
