@@ -38,7 +38,7 @@ LiftCurve lift_curve(const LiftStop *stop, int count)
     for (int i = 1; i < count - 1; i++) {
         c.slope[i] = inner_slope(&c, i);
     }
-    if (count > 1) { // as a parabola through the end and its neighbour's slope has it
+    if (count > 1) { // not curved at the ends
         float a = 1.5f * secant(&c, 0) - 0.5f * c.slope[1];
         float b = 1.5f * secant(&c, count - 2) - 0.5f * c.slope[count - 2];
         c.slope[0] = count > 2 ? a : secant(&c, 0);

@@ -16,7 +16,7 @@ typedef struct LiftStop {
 
 enum { LIFT_MOST_STOPS = 64 };
 
-// The curve through the stops: a monotone cubic between two stops (Fritsch and Carlson 1980), even
+// The curve through the stops: a monotone cubic between two stops (Fritsch and Butland 1984), even
 // before the first, 0 beyond the last.
 typedef struct LiftCurve {
     int count;
