@@ -202,6 +202,13 @@ static int keep_free(const Growth *growth, const Grower *grower, Child *child, i
     return kept;
 }
 
+static void prepare_grower(Growth *growth, int64_t i)
+{
+    if (!run_is_cancelled(growth->run)) { // a field may list many lines of nuclei
+        growth_prepare(growth, &growth->grower[i]);
+    }
+}
+
 static void make_children_of(Growth *growth, int64_t i)
 {
     const Grower *grower = &growth->grower[i];
@@ -215,12 +222,13 @@ static void make_children(Growth *growth)
     int64_t growers = growth->grower_count;
     bool shared = growers >= MIN_SHARED && growth->grid.active_count >= MIN_SHARED;
     int threads = shared ? growth->grid.slab_count : 1;
+    bool early = growth_sums_need_frames(growth); // else no thread waits for the frames
 #pragma omp parallel num_threads(threads) if (threads > 1)
     {
+        if (early) {
 #pragma omp for schedule(static)
-        for (int64_t i = 0; i < growers; i++) {
-            if (!run_is_cancelled(growth->run)) { // a field may list many lines of nuclei
-                growth_prepare(growth, &growth->grower[i]);
+            for (int64_t i = 0; i < growers; i++) {
+                prepare_grower(growth, i);
             }
         }
 #pragma omp for schedule(static, 1)
@@ -229,6 +237,9 @@ static void make_children(Growth *growth)
         }
 #pragma omp for schedule(dynamic, MIN_SHARED)
         for (int64_t i = 0; i < growers; i++) {
+            if (!early) {
+                prepare_grower(growth, i);
+            }
             if (!run_is_cancelled(growth->run)) {
                 growth_merge_pulls(growth, i, threads);
                 make_children_of(growth, i);

@@ -89,6 +89,9 @@ typedef struct Growth {
 void growth_sum_part(const Growth *growth, int part, int parts);
 void growth_merge_pulls(const Growth *growth, int64_t grower, int parts);
 
+// Whether the sums read growers, which then must be prepared before.
+bool growth_sums_need_frames(const Growth *growth);
+
 // Fills in a grower whose node is set.
 void growth_prepare(const Growth *growth, Grower *grower);
 

@@ -33,8 +33,6 @@ static void add_attractor(const Growth *growth, const AttractorBlock *a, int lan
     if (slot < 0) {
         return;
     }
-    // the grower itself is read only if the rule needs it: another thread has prepared it, so it is
-    // not in this one's cache
     const Grower *grower = &growth->grower[slot];
     Vec3 offset = vec3_sub(vec3(a->x[lane], a->y[lane], a->z[lane]), growth->tree->position[node]);
     Vec3 unit = vec3_scale(offset, nearness);
@@ -85,6 +83,11 @@ static void add_slice(const Growth *growth, const ActiveCells *active, Pull *pul
     }
 }
 
+bool growth_sums_need_frames(const Growth *growth)
+{
+    return growth->rule->bin || growth->rule->pull || growth->params->on_surface;
+}
+
 void growth_sum_part(const Growth *growth, int part, int parts)
 {
     const AttractorGrid *grid = &growth->grid;
@@ -117,7 +120,10 @@ void growth_merge_pulls(const Growth *growth, int64_t grower, int parts)
     int64_t bins = growth->bins, pulls = growth->grower_count * bins;
     for (int64_t i = grower * bins; i < (grower + 1) * bins; i++) {
         for (int part = 1; part < parts; part++) {
-            merge(&growth->pull[i], &growth->pull[part * pulls + i]);
+            const Pull *from = &growth->pull[part * pulls + i];
+            if (from->count > 0) {
+                merge(&growth->pull[i], from);
+            }
         }
     }
 }
