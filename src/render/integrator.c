@@ -15,19 +15,19 @@ void path_add_light(Path *path, Vec3 radiance)
     *sum = vec3_add(*sum, light);
 }
 
-// The probability of survival is the square root of the throughput: half way, in noise for time,
-// between keeping all paths and keeping them in proportion to what they carry.
-bool path_survives(Path *path, float u)
+// Paths that carry less than half of what the camera sent survive in proportion to it. Measured:
+// less noise for the time than the throughput itself or its square root.
+bool path_survives(Path *path)
 {
     if (path->depth < path->tracer->world->render.roulette_depth) {
         return true;
     }
     Vec3 t = path->throughput;
-    float chance = sqrtf(larger(t.x, larger(t.y, t.z)));
+    float chance = 2.0f * larger(t.x, larger(t.y, t.z));
     if (chance >= 1.0f) {
         return true;
     }
-    if (u >= chance) {
+    if (path->roulette >= chance) {
         return false;
     }
     path->throughput = vec3_scale(t, 1.0f / chance);
@@ -206,8 +206,9 @@ static bool bounce(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3
     path->ray = ray_from(path, point, sample.wi);
     path->depth++;
     path->footprint = point->footprint;
+    path->roulette = u[3];
     if (sample.transmitted && bsdf->traits & TRAIT_THIN) {
-        return path_survives(path, u[3]); // goes straight on, as shadow rays do
+        return true; // goes straight on, as shadow rays do
     }
     path->straight = false;
     path->start = path->ray.origin;
@@ -220,7 +221,7 @@ static bool bounce(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3
     if (sample.transmitted && bsdf->traits & TRAIT_BODY) {
         media_cross(&path->media, path->tracer, point->material, point->backface);
     }
-    return path_survives(path, u[3]);
+    return true;
 }
 
 // Follows the path to its end. met, hit: what its camera ray met.
@@ -278,7 +279,7 @@ static void trace_path(Path *path, bool met, Hit *hit, PathResult *result)
             path_add_light(path, vec3_scale(bsdf.emission, glow));
             return;
         }
-        if (path->depth >= world->render.max_depth) {
+        if (path->depth >= world->render.max_depth || !path_survives(path)) {
             return;
         }
         if (!(bsdf.traits & TRAIT_THIN)) {

@@ -41,6 +41,7 @@ typedef struct Path {
     float bsdf_pdf;  // of the ray's direction; 0 if light sampling cannot find it
     float spread;    // radians: how fast the footprint grows
     float footprint; // m, at the ray's origin
+    float roulette;  // uniform number, drawn with the ray's direction, that decides on arrival
     int depth;       // bounces so far
     int stretches;   // of rays through media so far
     int crossings;   // of index-matched interfaces
@@ -58,9 +59,9 @@ static inline float larger(float a, float b)
 // Adds throughput x radiance to the estimate.
 void path_add_light(Path *path, Vec3 radiance);
 
-// Russian roulette with the uniform number u: false if it ends the path; else the throughput is
-// scaled up.
-bool path_survives(Path *path, float u);
+// Russian roulette: false if it ends the path; else the throughput is scaled up. Rolled where a ray
+// arrives, not where it leaves: a ray that reaches light ends there, so it costs no more.
+bool path_survives(Path *path);
 
 // ---- path_media.c
 

@@ -180,7 +180,8 @@ static Travel scatter(Path *path, const MediumLine *line, float length, float pd
     float w[4];
     uint32_t set = (uint32_t)(SET_MEDIUM + SETS_PER_STRETCH * (path->stretches - 1));
     sampler_draw(&path->sampler, set, w);
-    return path_survives(path, w[3]) ? TRAVEL_SCATTERED : TRAVEL_ENDED;
+    path->roulette = w[3];
+    return path_survives(path) ? TRAVEL_SCATTERED : TRAVEL_ENDED;
 }
 
 Travel path_travel(Path *path, float far)

@@ -117,8 +117,8 @@ bool lights_sample_above(const Lights *lights, int index, Vec3 point, const floa
     sample->slack = 0.0f;
     sample->part = -1;
     if (index == lights->dome_index) {
-        sample->direction = dome_sample(lights->dome, u[0], u[1], &sample->pdf);
-        sample->radiance = dome_lookup(lights->dome, sample->direction);
+        sample->direction = dome_sample(lights->dome, u[0], u[1], &sample->radiance);
+        sample->pdf = dome_density(lights->dome, sample->radiance);
     } else {
         sample->direction = sun_sample(&lights->sun, u[0], u[1]);
         sample->radiance = sun_radiance(&lights->sun, sample->direction);
@@ -154,8 +154,9 @@ static Vec3 seen_above(const Lights *lights, Vec3 direction, float spread)
 static Vec3 light_above(const Lights *lights, Vec3 direction, float bsdf_pdf, float shrink,
                         float sun_share)
 {
-    float pdf = dome_density(lights->dome, direction) * lights->share[lights->dome_index] * shrink;
-    Vec3 sum = vec3_scale(dome_lookup(lights->dome, direction), lights_weight(bsdf_pdf, pdf));
+    Vec3 sky = dome_lookup(lights->dome, direction);
+    float pdf = dome_density(lights->dome, sky) * lights->share[lights->dome_index] * shrink;
+    Vec3 sum = vec3_scale(sky, lights_weight(bsdf_pdf, pdf));
     if (lights->sun_index >= 0 && sun_covers(&lights->sun, direction)) {
         pdf = lights->share[lights->sun_index] / lights->sun.solid_angle * shrink;
         sum = vec3_madd(sum, lights_weight(bsdf_pdf, pdf) * sun_share,

@@ -4,29 +4,40 @@
 
 #include <stdlib.h>
 
-Dome *dome_new(int columns, int rows, int block, bool horizon_spacing, float rotation, Error *e)
+enum { CELLS_PER_GUIDE = 4 }; // a search looks at half as many on average
+
+static int guides_of(int cells)
+{
+    return cells / CELLS_PER_GUIDE + 1;
+}
+
+// Sine of the elevation of the upper edge of a row of cells.
+static float edge_of(const Dome *dome, int row)
+{
+    float v = ((float)row - 0.5f) / (float)dome->rows;
+    return sinf(dome_elevation(dome->horizon_spacing, clampf(v, 0.0f, 1.0f)));
+}
+
+Dome *dome_new(int columns, int rows, bool horizon_spacing, float rotation, Error *e)
 {
     Dome *dome = memory_alloc_zero(1, sizeof *dome, e);
     if (!dome) {
         return NULL;
     }
-    *dome = (Dome){.columns = columns,
-                   .rows = rows,
-                   .block = block,
-                   .horizon_spacing = horizon_spacing,
-                   .rotation = rotation};
-    int down = rows / block;
-    int64_t cells = (int64_t)(columns / block) * down;
+    *dome = (Dome){
+        .columns = columns, .rows = rows, .horizon_spacing = horizon_spacing, .rotation = rotation};
+    int64_t down = rows + 1;
     if (!(dome->radiance = memory_alloc_zero((int64_t)columns * rows, sizeof(Vec3), e)) ||
-        !(dome->density = memory_alloc_zero(cells, sizeof(float), e)) ||
-        !(dome->cell_sum = memory_alloc_zero(cells + down, sizeof(float), e)) ||
+        !(dome->edge = memory_alloc_zero(down + 1, sizeof(float), e)) ||
         !(dome->row_sum = memory_alloc_zero(down + 1, sizeof(float), e)) ||
-        !(dome->edge = memory_alloc_zero(rows + 1, sizeof(float), e))) {
+        !(dome->cell_sum = memory_alloc_zero(down * (columns + 1), sizeof(float), e)) ||
+        !(dome->row_guide = memory_alloc_zero(guides_of(rows + 1), sizeof(int32_t), e)) ||
+        !(dome->cell_guide = memory_alloc_zero(down * guides_of(columns), sizeof(int32_t), e))) {
         dome_free(dome);
         return NULL;
     }
-    for (int i = 0; i <= rows; i++) {
-        dome->edge[i] = sinf(dome_elevation(horizon_spacing, (float)i / (float)rows));
+    for (int i = 0; i <= rows + 1; i++) {
+        dome->edge[i] = edge_of(dome, i);
     }
     return dome;
 }
@@ -35,10 +46,11 @@ void dome_free(Dome *dome)
 {
     if (dome) {
         free(dome->radiance);
-        free(dome->density);
-        free(dome->cell_sum);
-        free(dome->row_sum);
         free(dome->edge);
+        free(dome->row_sum);
+        free(dome->cell_sum);
+        free(dome->row_guide);
+        free(dome->cell_guide);
         free(dome);
     }
 }
@@ -49,161 +61,186 @@ float dome_elevation(bool horizon_spacing, float v)
     return 0.5f * PI_F * (horizon_spacing ? t * fabsf(t) : t);
 }
 
-static float row_coordinate(const Dome *dome, Vec3 direction)
+// ---- cells
+
+// The entries at the corners of a cell.
+typedef struct Corners {
+    const Vec3 *above, *below; // rows of entries
+    int left, right;
+} Corners;
+
+static inline Corners corners_of(const Dome *dome, int row, int column)
 {
-    float t = asinf(clampf(direction.y, -1.0f, 1.0f)) * (2.0f / PI_F);
-    if (dome->horizon_spacing) {
-        t = copysignf(sqrtf(fabsf(t)), t);
+    int above = row > 0 ? row - 1 : 0, below = row < dome->rows ? row : dome->rows - 1;
+    return (Corners){dome->radiance + (int64_t)above * dome->columns,
+                     dome->radiance + (int64_t)below * dome->columns, column,
+                     column + 1 < dome->columns ? column + 1 : 0};
+}
+
+static inline Vec3 radiance_in(const Corners *c, float x, float y)
+{
+    return vec3_lerp(vec3_lerp(c->above[c->left], c->above[c->right], x),
+                     vec3_lerp(c->below[c->left], c->below[c->right], x), y);
+}
+
+// ---- lookup
+
+// Within 7e-5 radians. Abramowitz and Stegun, 4.4.45.
+static inline float rough_asin(float x)
+{
+    float a = fabsf(x);
+    float p = 1.5707288f + a * (-0.2121144f + a * (0.0742610f - 0.0187293f * a));
+    float angle = 0.5f * PI_F - sqrtf(a < 1.0f ? 1.0f - a : 0.0f) * p;
+    return copysignf(angle, x);
+}
+
+// Within 3e-7 radians; libm's is a call that takes five times as long. Abramowitz and Stegun,
+// 4.4.49.
+static inline float fast_atan2(float y, float x)
+{
+    float ax = fabsf(x), ay = fabsf(y);
+    float high = ax > ay ? ax : ay, low = ax > ay ? ay : ax;
+    float t = high > 0.0f ? low / high : 0.0f, s = t * t;
+    float p = -0.0161657367f + 0.0028662257f * s;
+    p = -0.0752896400f + s * (0.0429096138f + s * p);
+    p = -0.1420889944f + s * (0.1065626393f + s * p);
+    p = 1.0f + s * (-0.3333314528f + s * (0.1999355085f + s * p));
+    float angle = p * t;
+    angle = ay > ax ? 0.5f * PI_F - angle : angle;
+    angle = x < 0.0f ? PI_F - angle : angle;
+    return copysignf(angle, y);
+}
+
+// The row of cells of a sine, and the place within it from its upper edge.
+static inline int row_at(const Dome *dome, float sine, float *y)
+{
+    float t = rough_asin(sine) * (2.0f / PI_F);
+    t = dome->horizon_spacing ? copysignf(sqrtf(fabsf(t)), t) : t;
+    int row = (int)((0.5f - 0.5f * t) * (float)dome->rows + 0.5f);
+    row = row < 0 ? 0 : (row > dome->rows ? dome->rows : row);
+    while (row > 0 && sine > dome->edge[row]) {
+        row--;
     }
-    return (0.5f - 0.5f * t) * (float)dome->rows;
+    while (row < dome->rows && sine < dome->edge[row + 1]) {
+        row++;
+    }
+    float height = dome->edge[row] - dome->edge[row + 1];
+    *y = height > 0.0f ? clampf((dome->edge[row] - sine) / height, 0.0f, 1.0f) : 0.0f;
+    return row;
 }
 
-// In [0, columns).
-static float column_coordinate(const Dome *dome, Vec3 direction)
+static inline int column_at(const Dome *dome, Vec3 direction, float *x)
 {
-    float turn = 0.5f - (atan2f(direction.x, direction.z) - dome->rotation) / (2.0f * PI_F);
-    turn -= floorf(turn);
-    return fminf(turn * (float)dome->columns, (float)dome->columns * 0.9999999f);
-}
-
-static int clamp_row(const Dome *dome, int row)
-{
-    return row < 0 ? 0 : (row >= dome->rows ? dome->rows - 1 : row);
+    float azimuth = fast_atan2(direction.x, direction.z) - dome->rotation;
+    float turn = 0.5f - azimuth / (2.0f * PI_F) - 0.5f / (float)dome->columns;
+    turn = (turn - floorf(turn)) * (float)dome->columns;
+    int column = (int)turn;
+    column = column < dome->columns ? column : dome->columns - 1;
+    *x = turn - (float)column;
+    return column;
 }
 
 Vec3 dome_lookup(const Dome *dome, Vec3 direction)
 {
-    float x = column_coordinate(dome, direction) - 0.5f, y = row_coordinate(dome, direction) - 0.5f;
-    int column = (int)floorf(x), row = (int)floorf(y);
-    float fx = x - (float)column, fy = y - (float)row;
-    int left = column < 0 ? dome->columns - 1 : column;
-    int right = column + 1 == dome->columns ? 0 : column + 1;
-    const Vec3 *above = dome->radiance + (int64_t)clamp_row(dome, row) * dome->columns;
-    const Vec3 *below = dome->radiance + (int64_t)clamp_row(dome, row + 1) * dome->columns;
-    return vec3_lerp(vec3_lerp(above[left], above[right], fx),
-                     vec3_lerp(below[left], below[right], fx), fy);
+    float x, y;
+    int row = row_at(dome, direction.y, &y), column = column_at(dome, direction, &x);
+    Corners corners = corners_of(dome, row, column);
+    return radiance_in(&corners, x, y);
 }
 
-// A 1-2-1 blur in both directions: an entry's weight must not vanish where bilinear lookup takes
-// light from its neighbours.
-static double entry_weight(const Dome *dome, int row, int column)
-{
-    double sum = 0.0;
-    for (int j = -1; j <= 1; j++) {
-        const Vec3 *line = dome->radiance + (int64_t)clamp_row(dome, row + j) * dome->columns;
-        for (int i = -1; i <= 1; i++) {
-            int k = (column + i + dome->columns) % dome->columns;
-            sum += (double)luminance(line[k]) * (2 - abs(i)) * (2 - abs(j));
-        }
-    }
-    return sum > 0.0 ? sum / 16.0 : 0.0;
-}
+// ---- sampling tables
 
-// Solid angle of an entry between the rows' edges `top` and `bottom`.
-static double solid_angle(const Dome *dome, int top, int bottom)
+// Cumulated shares of the weights that sum[1 .. count] hold; sum[0] = 0 and sum[count] = 1 after
+// it. Returns the weights' total.
+static double cumulate(float *sum, int count)
 {
-    return ((double)dome->edge[top] - (double)dome->edge[bottom]) * 2.0 * (double)PI_F /
-           dome->columns;
-}
-
-// Weight of a cell: of its entries, by their solid angles.
-static double cell_weight(const Dome *dome, int cell_row, int cell_column)
-{
-    double sum = 0.0;
-    for (int j = cell_row * dome->block; j < (cell_row + 1) * dome->block; j++) {
-        double angle = solid_angle(dome, j, j + 1);
-        for (int i = cell_column * dome->block; i < (cell_column + 1) * dome->block; i++) {
-            sum += angle * entry_weight(dome, j, i);
-        }
+    double total = 0.0, done = 0.0;
+    for (int i = 1; i <= count; i++) {
+        total += (double)sum[i];
     }
-    return sum;
-}
-
-static double prepare_row(Dome *dome, int row)
-{
-    int across = dome->columns / dome->block;
-    float *sums = dome->cell_sum + (int64_t)row * (across + 1);
-    float *weight = dome->density + (int64_t)row * across;
-    double total = 0.0, sum = 0.0;
-    for (int i = 0; i < across; i++) {
-        weight[i] = (float)cell_weight(dome, row, i);
-        total += (double)weight[i];
+    sum[0] = 0.0f;
+    for (int i = 1; i <= count; i++) {
+        done += (double)sum[i];
+        sum[i] = (float)(total > 0.0 ? done / total : (double)i / count);
     }
-    for (int i = 0; i < across; i++) {
-        sums[i] = (float)(total > 0.0 ? sum / total : (double)i / across);
-        sum += (double)weight[i];
-    }
-    sums[across] = 1.0f;
+    sum[count] = 1.0f;
     return total;
 }
 
-// Computes the densities from the rounded sums that sampling uses.
-static void fill_densities(Dome *dome)
+// Where the search of u begins: for each equal part of 0 .. 1, the interval of its lower end (Chen
+// and Asau, "On Generating Random Variates from an Empirical Distribution", 1974).
+static void fill_guide(const float *sum, int count, int32_t *guide)
 {
-    int across = dome->columns / dome->block, down = dome->rows / dome->block;
-    for (int j = 0; j < down; j++) {
-        const float *sums = dome->cell_sum + (int64_t)j * (across + 1);
-        double angle = solid_angle(dome, j * dome->block, (j + 1) * dome->block) * dome->block;
-        float row = (dome->row_sum[j + 1] - dome->row_sum[j]) / (float)angle;
-        for (int i = 0; i < across; i++) {
-            dome->density[(int64_t)j * across + i] = row * (sums[i + 1] - sums[i]);
+    int guides = guides_of(count), i = 0;
+    for (int k = 0; k < guides; k++) {
+        while (i + 1 < count && sum[i + 1] <= (float)k / (float)guides) {
+            i++;
         }
+        guide[k] = i;
     }
+}
+
+// A cell's luminance integrates to its solid angle times the mean of its corners.
+static double prepare_row(Dome *dome, int row)
+{
+    float *sum = dome->cell_sum + (int64_t)row * (dome->columns + 1);
+    for (int i = 0; i < dome->columns; i++) {
+        Corners corners = corners_of(dome, row, i);
+        sum[i + 1] = luminance(radiance_in(&corners, 0.5f, 0.5f));
+    }
+    double total = cumulate(sum, dome->columns);
+    fill_guide(sum, dome->columns, dome->cell_guide + (int64_t)row * guides_of(dome->columns));
+    double height = (double)dome->edge[row] - (double)dome->edge[row + 1];
+    return total * height * 2.0 * (double)PI_F / dome->columns;
 }
 
 void dome_prepare(Dome *dome)
 {
-    int down = dome->rows / dome->block;
-    double total = 0.0, sum = 0.0;
-    for (int j = 0; j < down; j++) {
-        double row = prepare_row(dome, j);
-        dome->row_sum[j] = (float)row;
-        total += row;
+    for (int row = 0; row <= dome->rows; row++) {
+        dome->row_sum[row + 1] = (float)prepare_row(dome, row);
     }
-    dome->power = (float)total;
-    for (int j = 0; j < down; j++) {
-        double row = (double)dome->row_sum[j];
-        dome->row_sum[j] = (float)(total > 0.0 ? sum / total : (double)j / down);
-        sum += row;
-    }
-    dome->row_sum[down] = 1.0f;
-    fill_densities(dome);
+    dome->power = (float)cumulate(dome->row_sum, dome->rows + 1);
+    fill_guide(dome->row_sum, dome->rows + 1, dome->row_guide);
 }
 
-// The last i of 0 .. count - 1 with sums[i] <= u; *rest becomes u's place within it, 0..1.
-static int find_interval(const float *sums, int count, float u, float *rest)
+// ---- sampling
+
+// The interval that holds u; *rest becomes u's place within it, 0..1.
+static inline int find_interval(const float *sum, const int32_t *guide, int count, float u,
+                                float *rest)
 {
-    int low = 0, high = count;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (sums[middle] <= u) {
-            low = middle;
-        } else {
-            high = middle;
-        }
+    int i = guide[(int)(u * (float)guides_of(count))];
+    while (i + 1 < count && sum[i + 1] <= u) {
+        i++;
     }
-    float width = sums[low + 1] - sums[low];
-    *rest = width > 0.0f ? clampf((u - sums[low]) / width, 0.0f, 1.0f) : 0.5f;
-    return low;
+    float width = sum[i + 1] - sum[i];
+    *rest = width > 0.0f ? clampf((u - sum[i]) / width, 0.0f, 1.0f) : 0.5f;
+    return i;
 }
 
-Vec3 dome_sample(const Dome *dome, float u, float v, float *density)
+// Draws from a density that leads straight from a at 0 to b at 1.
+static inline float draw_linear(float a, float b, float u)
+{
+    float divisor = a + sqrtf(lerpf(a * a, b * b, u));
+    return divisor > 0.0f ? clampf(u * (a + b) / divisor, 0.0f, 1.0f) : u;
+}
+
+Vec3 dome_sample(const Dome *dome, float u, float v, Vec3 *radiance)
 {
     float x, y;
-    int across = dome->columns / dome->block, down = dome->rows / dome->block;
-    int row = find_interval(dome->row_sum, down, v, &y);
-    int column = find_interval(dome->cell_sum + (int64_t)row * (across + 1), across, u, &x);
-    *density = dome->density[(int64_t)row * across + column];
-    float sine = lerpf(dome->edge[row * dome->block], dome->edge[(row + 1) * dome->block], y);
-    float turn = ((float)column + x) / (float)across;
+    int row = find_interval(dome->row_sum, dome->row_guide, dome->rows + 1, v, &y);
+    const float *sum = dome->cell_sum + (int64_t)row * (dome->columns + 1);
+    const int32_t *guide = dome->cell_guide + (int64_t)row * guides_of(dome->columns);
+    int column = find_interval(sum, guide, dome->columns, u, &x);
+    Corners c = corners_of(dome, row, column);
+    float a = luminance(c.above[c.left]), b = luminance(c.above[c.right]);
+    float d = luminance(c.below[c.left]), e = luminance(c.below[c.right]);
+    y = draw_linear(a + b, d + e, y);
+    x = draw_linear(lerpf(a, d, y), lerpf(b, e, y), x);
+    *radiance = radiance_in(&c, x, y);
+    float sine = lerpf(dome->edge[row], dome->edge[row + 1], y);
+    float turn = ((float)column + 0.5f + x) / (float)dome->columns;
     float azimuth = (0.5f - turn) * 2.0f * PI_F + dome->rotation;
     float cosine = sqrtf(fmaxf(0.0f, 1.0f - sine * sine));
     return vec3(cosine * sinf(azimuth), sine, cosine * cosf(azimuth));
-}
-
-float dome_density(const Dome *dome, Vec3 direction)
-{
-    int column = (int)column_coordinate(dome, direction) / dome->block;
-    int row = clamp_row(dome, (int)row_coordinate(dome, direction)) / dome->block;
-    return dome->density[(int64_t)row * (dome->columns / dome->block) + column];
 }

@@ -1,29 +1,35 @@
-// Radiance from all directions at infinity: a latitude-longitude table with bilinear lookup and
-// sampling in proportion to luminance. The sky and HDR environments are domes.
+// Radiance from all directions at infinity: a latitude-longitude table with bilinear lookup. The
+// sky and HDR environments are domes. Directions are drawn exactly in proportion to the luminance
+// that lookup interpolates.
 #ifndef RAMIFY_RENDER_SKY_DOME_H
 #define RAMIFY_RENDER_SKY_DOME_H
 
 #include "base/color.h"
 #include "base/error.h"
 
+#include <stdint.h>
+
 // Row 0 is at the zenith. Column 0 begins at azimuth +180 degrees (from +Z toward +X) and azimuth
 // decreases with the column, so that the picture is not mirrored from inside (as in OpenEXR).
+//
+// Lookup is bilinear in azimuth and the sine of the elevation between the centres of entries. Its
+// cells lie between these centres: cell (row, column) between the rows row - 1 and row, so there is
+// one row of cells more than of entries; the first and the last reach to the poles.
 typedef struct Dome {
     int columns, rows;
-    int block;            // a sampled cell is block * block entries; divides columns and rows
-    Vec3 *radiance;       // rows * columns, at the cells' centres; owned
+    Vec3 *radiance;       // rows * columns, at the entries' centres; owned
     bool horizon_spacing; // rows crowd toward the horizon (elevation ~ square) instead of even
     float rotation;       // radians about +Y
-    float *edge;          // rows + 1: sines of the elevations between rows; owned
-    float *row_sum;       // rows / block + 1: cumulated share of the rows of cells; owned
-    float *cell_sum;      // a row of columns / block + 1 each: cumulated share within it; owned
-    float *density;       // of each cell, per steradian; owned
+    float *edge;          // rows + 2: sines of the elevations between rows of cells; owned
+    float *row_sum;       // rows + 2: cumulated share of the rows of cells; owned
+    float *cell_sum;      // rows + 1 times columns + 1: cumulated share within each row; owned
+    int32_t *row_guide;   // where to begin the search of row_sum; owned
+    int32_t *cell_guide;  // the same for each row of cell_sum; owned
     float power;          // integral of luminance over all directions
 } Dome;
 
-// A black table; fill radiance, then call dome_prepare. block: 1 for pictures; smooth skies are
-// sampled by coarser cells, whose tables stay in the cache.
-Dome *dome_new(int columns, int rows, int block, bool horizon_spacing, float rotation, Error *e);
+// A black table; fill radiance, then call dome_prepare.
+Dome *dome_new(int columns, int rows, bool horizon_spacing, float rotation, Error *e);
 void dome_free(Dome *dome); // NULL is fine
 
 // Builds the sampling tables. A black dome is valid and never sampled.
@@ -34,8 +40,13 @@ float dome_elevation(bool horizon_spacing, float v);
 
 Vec3 dome_lookup(const Dome *dome, Vec3 direction);
 
-// Unit direction for two uniform numbers, and its density per steradian.
-Vec3 dome_sample(const Dome *dome, float u, float v, float *density);
-float dome_density(const Dome *dome, Vec3 direction);
+// Unit direction for two uniform numbers, and its radiance as of dome_lookup.
+Vec3 dome_sample(const Dome *dome, float u, float v, Vec3 *radiance);
+
+// Density per steradian with which dome_sample draws a direction of this radiance.
+static inline float dome_density(const Dome *dome, Vec3 radiance)
+{
+    return dome->power > 0.0f ? luminance(radiance) / dome->power : 0.0f;
+}
 
 #endif

@@ -37,7 +37,7 @@ Dome *environment_dome(const Sky *sky, const Run *run, Error *e)
     }
     Dome *dome = NULL;
     if (check_shape(image, sky->file, e)) {
-        dome = dome_new(image->width, image->height, 1, false, 0.0f, e);
+        dome = dome_new(image->width, image->height, false, 0.0f, e);
     }
     for (int64_t i = 0; dome && i < (int64_t)image->width * image->height; i++) {
         const float *p = image->pixel + i * image->channels;

@@ -8,7 +8,7 @@
 enum { STAR_SEED = 0x57a2 }; // the same stars in every scene
 enum { STREAM_U = 0, STREAM_V = 1, STREAM_MAGNITUDE = 2, STREAM_COLOR = 3 }; // of a star
 
-enum { COLUMNS = 384, ROWS = 256, BLOCK = 4, STAR_CELLS = 64, STARS_A_CELL = 2 };
+enum { COLUMNS = 384, ROWS = 256, STAR_CELLS = 64, STARS_A_CELL = 2 };
 
 // Irradiance of a star of magnitude 0, and the faintest magnitude.
 static const float STAR_LIGHT = 2.4e-5f, FAINTEST = 8.2f;
@@ -65,7 +65,7 @@ static Sun make_moon(const Sky *sky)
 Dome *night_dome(const Sky *sky, Sun *moon, Error *e)
 {
     *moon = make_moon(sky);
-    Dome *dome = dome_new(COLUMNS, ROWS, BLOCK, true, 0.0f, e);
+    Dome *dome = dome_new(COLUMNS, ROWS, true, 0.0f, e);
     if (!dome) {
         return NULL;
     }

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-enum { SKY_COLUMNS = 384, SKY_ROWS = 256, SKY_BLOCK = 4 };
+enum { SKY_COLUMNS = 384, SKY_ROWS = 256 };
 
 // The depression below the horizon, radians, over which haze blends into the ground.
 static const float HORIZON_SOFTNESS = 0.035f;
@@ -86,8 +86,7 @@ Dome *sky_dome(const Sky *sky, Sun *sun, const Run *run, Error *e)
         return NULL;
     }
     *sun = make_sun(sky, atmosphere);
-    Dome *dome =
-        dome_new(SKY_COLUMNS, SKY_ROWS, SKY_BLOCK, true, sky->sun_azimuth * RADIANS_PER_DEGREE, e);
+    Dome *dome = dome_new(SKY_COLUMNS, SKY_ROWS, true, sky->sun_azimuth * RADIANS_PER_DEGREE, e);
     if (dome) {
         bake_upper_half(dome, atmosphere, sun->direction.y, sky->strength / SKY_CANDELA_PER_UNIT,
                         run);
