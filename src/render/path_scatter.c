@@ -118,17 +118,8 @@ static Vec3 gather_once(Path *path, const Stretch *stretch, const float u[4], co
     return vec3_scale(f, phase * density * power_heuristic(light->pdf, phase) / pdf);
 }
 
-// Cranley-Patterson rotation: u + step modulo 1.
-static float turned(float u, float step)
-{
-    u += step;
-    return u - floorf(u);
-}
-
-// Most of the noise comes from the camera ray's stretch, so it is sampled at several points.
 static void gather_light(Path *path, const MediumLine *line)
 {
-    enum { EYE_POINTS = 4 };
     float u[4], v[4];
     uint32_t set = (uint32_t)(SET_MEDIUM + SETS_PER_STRETCH * path->stretches);
     sampler_draw(&path->sampler, set, u);
@@ -137,18 +128,9 @@ static void gather_light(Path *path, const MediumLine *line)
         line,
         {path->ray.origin, path->ray.direction, medium_line_near(line), medium_line_far(line)},
         channel_weights(path->throughput, path->media.now.scattering)};
-    int points = path->depth == 0 ? EYE_POINTS : 1;
-    Vec3 sum = vec3_splat(0.0f);
-    for (int i = 0; i < points; i++) { // rank-1 steps fill the interval evenly
-        float k = (float)i;
-        float place[4] = {turned(u[0], k * 0.25f), turned(u[1], k * 0.6180340f),
-                          turned(u[2], k * 0.4142136f), 0.0f};
-        float aim[4] = {turned(v[0], k * 0.7548777f), turned(v[1], k * 0.5698403f),
-                        turned(v[2], k * 0.7320508f), 0.0f};
-        sum = vec3_add(sum, gather_once(path, &stretch, place, aim));
-    }
+    Vec3 light = gather_once(path, &stretch, u, v);
     path->depth++; // the light is one bounce further
-    path_add_light(path, vec3_scale(sum, 1.0f / (float)points));
+    path_add_light(path, light);
     path->depth--;
 }
 

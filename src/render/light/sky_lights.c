@@ -117,8 +117,10 @@ bool lights_sample_above(const Lights *lights, int index, Vec3 point, const floa
     sample->slack = 0.0f;
     sample->part = -1;
     if (index == lights->dome_index) {
-        sample->direction = dome_sample(lights->dome, u[0], u[1], &sample->radiance);
-        sample->pdf = dome_density(lights->dome, sample->radiance);
+        DomeLight light;
+        sample->direction = dome_sample(lights->dome, u[0], u[1], &light);
+        sample->radiance = light.radiance;
+        sample->pdf = light.density;
     } else {
         sample->direction = sun_sample(&lights->sun, u[0], u[1]);
         sample->radiance = sun_radiance(&lights->sun, sample->direction);
@@ -154,9 +156,9 @@ static Vec3 seen_above(const Lights *lights, Vec3 direction, float spread)
 static Vec3 light_above(const Lights *lights, Vec3 direction, float bsdf_pdf, float shrink,
                         float sun_share)
 {
-    Vec3 sky = dome_lookup(lights->dome, direction);
-    float pdf = dome_density(lights->dome, sky) * lights->share[lights->dome_index] * shrink;
-    Vec3 sum = vec3_scale(sky, lights_weight(bsdf_pdf, pdf));
+    DomeLight sky = dome_at(lights->dome, direction);
+    float pdf = sky.density * lights->share[lights->dome_index] * shrink;
+    Vec3 sum = vec3_scale(sky.radiance, lights_weight(bsdf_pdf, pdf));
     if (lights->sun_index >= 0 && sun_covers(&lights->sun, direction)) {
         pdf = lights->share[lights->sun_index] / lights->sun.solid_angle * shrink;
         sum = vec3_madd(sum, lights_weight(bsdf_pdf, pdf) * sun_share,

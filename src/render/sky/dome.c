@@ -27,7 +27,7 @@ Dome *dome_new(int columns, int rows, bool horizon_spacing, float rotation, Erro
     *dome = (Dome){
         .columns = columns, .rows = rows, .horizon_spacing = horizon_spacing, .rotation = rotation};
     int64_t down = rows + 1;
-    if (!(dome->radiance = memory_alloc_zero((int64_t)columns * rows, sizeof(Vec3), e)) ||
+    if (!(dome->entry = memory_alloc_zero((int64_t)columns * rows, sizeof(DomeEntry), e)) ||
         !(dome->edge = memory_alloc_zero(down + 1, sizeof(float), e)) ||
         !(dome->row_sum = memory_alloc_zero(down + 1, sizeof(float), e)) ||
         !(dome->cell_sum = memory_alloc_zero(down * (columns + 1), sizeof(float), e)) ||
@@ -45,7 +45,7 @@ Dome *dome_new(int columns, int rows, bool horizon_spacing, float rotation, Erro
 void dome_free(Dome *dome)
 {
     if (dome) {
-        free(dome->radiance);
+        free(dome->entry);
         free(dome->edge);
         free(dome->row_sum);
         free(dome->cell_sum);
@@ -65,22 +65,29 @@ float dome_elevation(bool horizon_spacing, float v)
 
 // The entries at the corners of a cell.
 typedef struct Corners {
-    const Vec3 *above, *below; // rows of entries
+    const DomeEntry *above, *below; // rows
     int left, right;
 } Corners;
 
 static inline Corners corners_of(const Dome *dome, int row, int column)
 {
     int above = row > 0 ? row - 1 : 0, below = row < dome->rows ? row : dome->rows - 1;
-    return (Corners){dome->radiance + (int64_t)above * dome->columns,
-                     dome->radiance + (int64_t)below * dome->columns, column,
+    return (Corners){dome->entry + (int64_t)above * dome->columns,
+                     dome->entry + (int64_t)below * dome->columns, column,
                      column + 1 < dome->columns ? column + 1 : 0};
 }
 
 static inline Vec3 radiance_in(const Corners *c, float x, float y)
 {
-    return vec3_lerp(vec3_lerp(c->above[c->left], c->above[c->right], x),
-                     vec3_lerp(c->below[c->left], c->below[c->right], x), y);
+    Vec3 above = vec3_lerp(c->above[c->left].radiance, c->above[c->right].radiance, x);
+    Vec3 below = vec3_lerp(c->below[c->left].radiance, c->below[c->right].radiance, x);
+    return vec3_lerp(above, below, y);
+}
+
+static inline float weight_in(const Corners *c, float x, float y)
+{
+    return lerpf(lerpf(c->above[c->left].weight, c->above[c->right].weight, x),
+                 lerpf(c->below[c->left].weight, c->below[c->right].weight, x), y);
 }
 
 // ---- lookup
@@ -148,6 +155,20 @@ Vec3 dome_lookup(const Dome *dome, Vec3 direction)
     return radiance_in(&corners, x, y);
 }
 
+static inline DomeLight light_in(const Dome *dome, const Corners *c, float x, float y)
+{
+    return (DomeLight){radiance_in(c, x, y),
+                       dome->power > 0.0f ? weight_in(c, x, y) / dome->power : 0.0f};
+}
+
+DomeLight dome_at(const Dome *dome, Vec3 direction)
+{
+    float x, y;
+    int row = row_at(dome, direction.y, &y), column = column_at(dome, direction, &x);
+    Corners corners = corners_of(dome, row, column);
+    return light_in(dome, &corners, x, y);
+}
+
 // ---- sampling tables
 
 // Cumulated shares of the weights that sum[1 .. count] hold; sum[0] = 0 and sum[count] = 1 after
@@ -180,22 +201,48 @@ static void fill_guide(const float *sum, int count, int32_t *guide)
     }
 }
 
-// A cell's luminance integrates to its solid angle times the mean of its corners.
+static double cell_angle(const Dome *dome, int row)
+{
+    double height = (double)dome->edge[row] - (double)dome->edge[row + 1];
+    return height * 2.0 * (double)PI_F / dome->columns;
+}
+
+// A cell's weight integrates to its solid angle times the mean of its corners.
 static double prepare_row(Dome *dome, int row)
 {
     float *sum = dome->cell_sum + (int64_t)row * (dome->columns + 1);
     for (int i = 0; i < dome->columns; i++) {
         Corners corners = corners_of(dome, row, i);
-        sum[i + 1] = luminance(radiance_in(&corners, 0.5f, 0.5f));
+        sum[i + 1] = weight_in(&corners, 0.5f, 0.5f);
     }
     double total = cumulate(sum, dome->columns);
     fill_guide(sum, dome->columns, dome->cell_guide + (int64_t)row * guides_of(dome->columns));
-    double height = (double)dome->edge[row] - (double)dome->edge[row + 1];
-    return total * height * 2.0 * (double)PI_F / dome->columns;
+    return total * cell_angle(dome, row);
+}
+
+// Mean luminance over all directions.
+static double mean_luminance(const Dome *dome)
+{
+    double sum = 0.0;
+    for (int row = 0; row <= dome->rows; row++) {
+        double line = 0.0;
+        for (int i = 0; i < dome->columns; i++) {
+            Corners corners = corners_of(dome, row, i);
+            line += (double)luminance(radiance_in(&corners, 0.5f, 0.5f));
+        }
+        sum += line * cell_angle(dome, row);
+    }
+    return sum / (4.0 * (double)PI_F);
 }
 
 void dome_prepare(Dome *dome)
 {
+    // The rounding of a dome of one colour is no excess.
+    float even = (float)mean_luminance(dome) * 1.00001f;
+    for (int64_t i = 0; i < (int64_t)dome->rows * dome->columns; i++) {
+        float excess = luminance(dome->entry[i].radiance) - even;
+        dome->entry[i].weight = excess > 0.0f ? excess : 0.0f;
+    }
     for (int row = 0; row <= dome->rows; row++) {
         dome->row_sum[row + 1] = (float)prepare_row(dome, row);
     }
@@ -225,7 +272,7 @@ static inline float draw_linear(float a, float b, float u)
     return divisor > 0.0f ? clampf(u * (a + b) / divisor, 0.0f, 1.0f) : u;
 }
 
-Vec3 dome_sample(const Dome *dome, float u, float v, Vec3 *radiance)
+Vec3 dome_sample(const Dome *dome, float u, float v, DomeLight *light)
 {
     float x, y;
     int row = find_interval(dome->row_sum, dome->row_guide, dome->rows + 1, v, &y);
@@ -233,11 +280,11 @@ Vec3 dome_sample(const Dome *dome, float u, float v, Vec3 *radiance)
     const int32_t *guide = dome->cell_guide + (int64_t)row * guides_of(dome->columns);
     int column = find_interval(sum, guide, dome->columns, u, &x);
     Corners c = corners_of(dome, row, column);
-    float a = luminance(c.above[c.left]), b = luminance(c.above[c.right]);
-    float d = luminance(c.below[c.left]), e = luminance(c.below[c.right]);
+    float a = c.above[c.left].weight, b = c.above[c.right].weight;
+    float d = c.below[c.left].weight, e = c.below[c.right].weight;
     y = draw_linear(a + b, d + e, y);
     x = draw_linear(lerpf(a, d, y), lerpf(b, e, y), x);
-    *radiance = radiance_in(&c, x, y);
+    *light = light_in(dome, &c, x, y);
     float sine = lerpf(dome->edge[row], dome->edge[row + 1], y);
     float turn = ((float)column + 0.5f + x) / (float)dome->columns;
     float azimuth = (0.5f - turn) * 2.0f * PI_F + dome->rotation;

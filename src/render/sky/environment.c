@@ -41,7 +41,7 @@ Dome *environment_dome(const Sky *sky, const Run *run, Error *e)
     }
     for (int64_t i = 0; dome && i < (int64_t)image->width * image->height; i++) {
         const float *p = image->pixel + i * image->channels;
-        dome->radiance[i] =
+        dome->entry[i].radiance =
             vec3_scale(vec3(usable(p[0]), usable(p[1]), usable(p[2])), sky->strength);
     }
     image_free(image);

@@ -76,7 +76,8 @@ Dome *night_dome(const Sky *sky, Sun *moon, Error *e)
             Vec3 d = vec3(cosf(elevation) * sinf(azimuth), sinf(elevation),
                           cosf(elevation) * cosf(azimuth));
             float ground = elevation < 0.0f ? 0.25f + 0.75f * expf(elevation / 0.03f) : 1.0f;
-            dome->radiance[row * COLUMNS + i] = vec3_scale(glow_at(sky, d), sky->strength * ground);
+            dome->entry[row * COLUMNS + i].radiance =
+                vec3_scale(glow_at(sky, d), sky->strength * ground);
         }
     }
     dome_prepare(dome);

@@ -42,13 +42,14 @@ static void bake_upper_half(Dome *dome, const Atmosphere *atmosphere, float sine
 #pragma omp parallel for schedule(dynamic) num_threads(run->threads)
     for (int row = 0; row < SKY_ROWS / 2; row++) {
         float elevation = dome_elevation(true, ((float)row + 0.5f) / SKY_ROWS);
-        Vec3 *line = dome->radiance + row * SKY_COLUMNS;
+        DomeEntry *line = dome->entry + row * SKY_COLUMNS;
         for (int i = 0; i < SKY_COLUMNS / 2; i++) {
             float azimuth = (0.5f - ((float)i + 0.5f) / SKY_COLUMNS) * 2.0f * PI_F;
             Vec3 direction = vec3(cosf(elevation) * sinf(azimuth), sinf(elevation),
                                   cosf(elevation) * cosf(azimuth));
             Spectrum light = atmosphere_radiance(atmosphere, direction, sun);
-            line[i] = line[SKY_COLUMNS - 1 - i] = vec3_scale(spectrum_to_rgb(&light), scale);
+            line[i].radiance = vec3_scale(spectrum_to_rgb(&light), scale);
+            line[SKY_COLUMNS - 1 - i] = line[i];
         }
     }
 }
@@ -58,10 +59,12 @@ static Vec3 dome_irradiance(const Dome *dome)
 {
     Vec3 sum = vec3_splat(0.0f);
     for (int row = 0; row < dome->rows / 2; row++) {
-        float a = dome->edge[row], b = dome->edge[row + 1];
+        float rows = (float)dome->rows;
+        float a = sinf(dome_elevation(true, (float)row / rows));
+        float b = sinf(dome_elevation(true, (float)(row + 1) / rows));
         float weight = 0.5f * (a * a - b * b) * 2.0f * PI_F / (float)dome->columns;
         for (int i = 0; i < dome->columns; i++) {
-            sum = vec3_madd(sum, weight, dome->radiance[row * dome->columns + i]);
+            sum = vec3_madd(sum, weight, dome->entry[row * dome->columns + i].radiance);
         }
     }
     return sum;
@@ -69,12 +72,13 @@ static Vec3 dome_irradiance(const Dome *dome)
 
 static void bake_lower_half(Dome *dome, Vec3 ground)
 {
-    const Vec3 *horizon = dome->radiance + (SKY_ROWS / 2 - 1) * SKY_COLUMNS;
+    const DomeEntry *horizon = dome->entry + (SKY_ROWS / 2 - 1) * SKY_COLUMNS;
     for (int row = SKY_ROWS / 2; row < SKY_ROWS; row++) {
         float depression = -dome_elevation(true, ((float)row + 0.5f) / SKY_ROWS);
         float share = 1.0f - expf(-depression / HORIZON_SOFTNESS);
         for (int i = 0; i < SKY_COLUMNS; i++) {
-            dome->radiance[row * SKY_COLUMNS + i] = vec3_lerp(horizon[i], ground, share);
+            dome->entry[row * SKY_COLUMNS + i].radiance =
+                vec3_lerp(horizon[i].radiance, ground, share);
         }
     }
 }
