@@ -92,18 +92,35 @@ static void lights_are_seen(void **state)
     world_free(world);
 }
 
-// The integral of radiance |cos| over all directions at a point, once by sampling lights and
-// weighing, once by plain uniform directions against the same lights.
-static double sampled_irradiance(const Lights *lights, Vec3 point, Vec3 normal, int n)
+// Radiance |cos| over uniform directions, as found with the density bsdf_pdf (0: unweighted).
+static double summed_irradiance(const Lights *lights, Vec3 normal, float bsdf_pdf, int n)
 {
     double sum = 0.0;
+    for (int i = 0; i < n * n; i++) {
+        float z = 1.0f - 2.0f * ((float)(i / n) + 0.5f) / (float)n, r = sqrtf(1.0f - z * z);
+        float a = 2.0f * PI_F * ((float)(i % n) + 0.5f) / (float)n;
+        Vec3 d = vec3(r * sinf(a), z, r * cosf(a));
+        sum += (double)(luminance(lights_background(lights, vec3(0, 0, 0), d, bsdf_pdf, 1e-3f)) *
+                        fmaxf(0.0f, vec3_dot(normal, d))) *
+               4.0 * (double)PI_F / ((double)n * n);
+    }
+    return sum;
+}
+
+// The integral of radiance |cos| at a point by light sampling and uniform directions, weighted
+// against each other: domes are sampled where they exceed their mean alone.
+static double sampled_irradiance(const Lights *lights, Vec3 point, Vec3 normal, int n)
+{
+    const float even = 0.25f / PI_F;
+    double sum = summed_irradiance(lights, normal, even, 4 * n);
     for (int i = 0; i < n * n; i++) {
         float u[3] = {((float)(i % n) + 0.5f) / (float)n, ((float)(i / n) + 0.5f) / (float)n,
                       (float)((i * 7919) % (n * n)) / (float)(n * n)};
         LightSample s;
         if (lights_sample(lights, &(LightReceiver){.position = point}, u, &s)) {
             float cosine = fmaxf(0.0f, vec3_dot(normal, s.direction));
-            sum += (double)(luminance(s.radiance) * cosine / s.pdf) / (n * n);
+            float weight = power_heuristic(s.pdf, even);
+            sum += (double)(weight * luminance(s.radiance) * cosine / s.pdf) / (n * n);
         }
     }
     return sum;
@@ -111,16 +128,7 @@ static double sampled_irradiance(const Lights *lights, Vec3 point, Vec3 normal, 
 
 static double brute_irradiance(const Lights *lights, Vec3 normal, int n)
 {
-    double sum = 0.0;
-    for (int i = 0; i < n * n; i++) {
-        float z = 1.0f - 2.0f * ((float)(i / n) + 0.5f) / (float)n, r = sqrtf(1.0f - z * z);
-        float a = 2.0f * PI_F * ((float)(i % n) + 0.5f) / (float)n;
-        Vec3 d = vec3(r * sinf(a), z, r * cosf(a));
-        sum += (double)(luminance(lights_background(lights, vec3(0, 0, 0), d, 0.0f, 1e-3f)) *
-                        fmaxf(0.0f, vec3_dot(normal, d))) *
-               4.0 * (double)PI_F / ((double)n * n);
-    }
-    return sum;
+    return summed_irradiance(lights, normal, 0.0f, n);
 }
 
 // A picture with one very bright and some dim places.

@@ -115,22 +115,29 @@ static void sampling_agrees_with_brute_force(void **state)
     assert_non_null(lights);
     for (int k = 0; k < 3; k++) {
         LightReceiver at = {{(float)k * 1.7f, (float)k * 0.5f, 0.3f}, {0, 0, 0}};
-        double sampled = 0.0, brute = 0.0;
+        double sampled = 0.0, brute = 0.0; // sampled: by lights and by even directions, weighted
+        const float even = 0.5f / PI_F;
         enum { N = 300, M = 1200 };
         for (int i = 0; i < N * N; i++) {
             float u[3] = {((float)(i % N) + 0.5f) / N, ((float)(i / N) + 0.5f) / N,
                           (float)((i * 7919) % (N * N)) / (float)(N * N)};
             LightSample s;
             if (lights_sample(lights, &at, u, &s)) {
-                sampled += (double)(luminance(s.radiance) * s.direction.y / s.pdf) / (N * N);
+                float weight = power_heuristic(s.pdf, even);
+                sampled +=
+                    (double)(weight * luminance(s.radiance) * s.direction.y / s.pdf) / (N * N);
             }
         }
-        for (int i = 0; i < M * M; i++) { // weights of 1: the surface's density is far higher
+        for (int i = 0; i < M * M; i++) {
             float z = ((float)(i / M) + 0.5f) / M, r = sqrtf(1.0f - z * z);
             float a = 2.0f * PI_F * ((float)(i % M) + 0.5f) / M;
             Vec3 d = vec3(r * sinf(a), z, r * cosf(a));
-            Vec3 light = lights_background(lights, at.position, d, 1e15f, 1e-3f);
-            brute += (double)(luminance(light) * z) * 2.0 * (double)PI_F / ((double)M * M);
+            double share = (double)z * 2.0 * (double)PI_F / ((double)M * M);
+            // a weight of 1: the surface's density is far higher
+            brute +=
+                share * (double)luminance(lights_background(lights, at.position, d, 1e15f, 1e-3f));
+            sampled +=
+                share * (double)luminance(lights_background(lights, at.position, d, even, 1e-3f));
         }
         ASSERT_NEAR(sampled / brute, 1.0, 0.015);
     }
