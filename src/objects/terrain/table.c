@@ -249,7 +249,7 @@ static const Table MAP_TABLE = {
                "    terrain:\n"
                "      form: map\n"
                "      relief: 900\n"
-               "      map: {image: heights.png, colors: [{at: 0, color: [0, 0, 0]}, {at: 1, color: "
+               "      map: {image: meadow.png, colors: [{at: 0, color: [0, 0, 0]}, {at: 1, color: "
                "[1, 1, 1]}]}\n",
     .size = sizeof(MapParams),
     .keys = MAP_KEYS,
