@@ -82,8 +82,6 @@ still venation venation
 still figure-14 vessels-forks --size 1600x900
 still vessels-organ vessels-organ
 still vessels-body vessels-body
-still vessels-heart vessels-body --size 1600x1000 --samples 8 --set camera.position=[0.2,1.27,2.2] \
-    --set camera.target=[0,1.23,0] --set camera.fov=6.6
 if is_wanted figure-15; then
     for share in 0.15 0.6 0.8 1; do
         panel vessels-body --grow-to $share --size 400x720
