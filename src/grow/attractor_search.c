@@ -50,7 +50,7 @@ static void offer_to_cell(Slab *slab, int32_t c, Vec3 p, int32_t k)
     AttractorGrid *grid = slab->grid;
     AttractorBlock *block = grid->block + grid->cells[c].first_block;
     int blocks = (grid->cells[c].count + LANES - 1) / LANES;
-    FloatLanes furthest = (FloatLanes){} - 1.0f;
+    FloatLanes furthest = (FloatLanes){0} - 1.0f;
     unsigned any = 0;
     for (int b = 0; b < blocks; b++) {
         AttractorBlock *a = &block[b];
@@ -221,7 +221,7 @@ static int64_t settle_cell(const Slab *slab, int32_t cell)
     AttractorGrid *grid = slab->grid;
     AttractorBlock *block = grid->block + grid->cells[cell].first_block;
     int32_t before = grid->cells[cell].count, count = before;
-    FloatLanes furthest = (FloatLanes){} - 1.0f;
+    FloatLanes furthest = (FloatLanes){0} - 1.0f;
     for (int32_t begin = 0; begin < count; begin += LANES) {
         AttractorBlock *a = &block[begin / LANES];
         for (;;) {
