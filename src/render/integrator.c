@@ -36,7 +36,6 @@ bool path_survives(Path *path)
 
 static void start_path(Path *path, const Tracer *tracer, int x, int y, int sample)
 {
-    const World *world = tracer->world;
     *path = (Path){.tracer = tracer,
                    .throughput = {1.0f, 1.0f, 1.0f},
                    .media.now = tracer->outside,
@@ -44,14 +43,13 @@ static void start_path(Path *path, const Tracer *tracer, int x, int y, int sampl
                    .mirrored = true,
                    .straight = true,
                    .rays = 1};
-    path->sampler = sampler_at(&tracer->sobol, tracer->seed, (uint32_t)(y * world->film.width + x),
-                               (uint32_t)sample);
+    path->sampler = sampler_at(&tracer->plan, (uint32_t)x, (uint32_t)y, (uint32_t)sample);
     float u[4];
     sampler_draw(&path->sampler, SET_CAMERA, u);
     float film_x = (float)x + 0.5f + filter_sample(&tracer->filter, u[0]);
     float film_y = (float)y + 0.5f + filter_sample(&tracer->filter, u[1]);
     path->ray.far = INFINITY;
-    path->key = (uint32_t)random_key(path->sampler.key, (uint64_t)sample);
+    path->key = (uint32_t)random_key(path->sampler.key, path->sampler.reversed);
     path->ray.key = path->key++;
     camera_ray(&tracer->camera, film_x, film_y, u + 2, &path->ray.origin, &path->ray.direction);
     path->start = path->from.position = path->ray.origin;

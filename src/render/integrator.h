@@ -19,11 +19,10 @@ typedef struct Tracer {
     Filling outside; // the scene's medium
     Vec3 center;     // of the scene
     float medium_radius;
-    uint64_t seed;          // of all paths
     bool has_index_matched; // some part is an index-matched interface
     CameraFrame camera;
     Filter filter;
-    SobolTable sobol;
+    SamplePlan plan;
 } Tracer;
 
 // The estimate of one path. albedo and the fields below it describe the first surface.

@@ -117,9 +117,10 @@ static void fill_tracer(Tracer *tracer, const Renderer *renderer)
     tracer->lights = renderer->lights;
     tracer->materials = renderer->materials;
     tracer->camera = camera_frame(&world->camera, world->film.width, world->film.height);
-    tracer->seed = params->noise_seed ? random_key(params->seed, params->noise_seed) : params->seed;
+    uint64_t seed =
+        params->noise_seed ? random_key(params->seed, params->noise_seed) : params->seed;
+    sample_plan_fill(&tracer->plan, seed, params->samples);
     filter_fill(&tracer->filter, world->film.filter, world->film.filter_radius);
-    sobol_table_fill(&tracer->sobol);
     tracer_set_media(tracer, accel_bounds(renderer->accel));
 }
 

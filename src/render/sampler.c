@@ -5,6 +5,8 @@
 #include <string.h>
 
 enum { STREAM_PIXELS = 0x50b01 }; // of the seed
+enum { BLOCK_BITS = 4 };          // log2 of the width of a block of pixels
+enum { HIGHEST_LEVEL = 20 };
 
 typedef uint32_t Lanes __attribute__((vector_size(16)));
 typedef int32_t SignedLanes __attribute__((vector_size(16)));
@@ -54,7 +56,7 @@ static void direction_numbers(int dimension, uint32_t direction[32])
 
 // Indices arrive and points leave with their bits reversed, the order in which the hash scrambles
 // them.
-void sobol_table_fill(SobolTable *table)
+static void fill_table(SobolTable *table)
 {
     memset(table, 0, sizeof *table);
     for (int dimension = 0; dimension < 4; dimension++) {
@@ -104,13 +106,35 @@ static inline Lanes owen_lanes(Lanes x, Lanes seed)
     return x ^ (x * 0x53a22864u);
 }
 
-Sampler sampler_at(const SobolTable *table, uint64_t seed, uint32_t pixel, uint32_t sample)
+void sample_plan_fill(SamplePlan *plan, uint64_t seed, int samples)
 {
-    uint32_t reversed = reverse_bits(sample);
-    return (Sampler){.table = table,
-                     .key = (uint32_t)random_key(random_key(seed, STREAM_PIXELS), pixel),
+    fill_table(&plan->table);
+    plan->seed = random_key(seed, STREAM_PIXELS);
+    plan->level = 0;
+    while (plan->level < HIGHEST_LEVEL && (1 << plan->level) < samples) {
+        plan->level++;
+    }
+}
+
+// The place of a pixel on the Z-shaped curve through its block: bits of y and x in turn.
+static uint32_t morton(uint32_t x, uint32_t y)
+{
+    uint32_t sum = 0;
+    for (int bit = 0; bit < BLOCK_BITS; bit++) {
+        sum |= (x >> bit & 1u) << (2 * bit) | (y >> bit & 1u) << (2 * bit + 1);
+    }
+    return sum;
+}
+
+Sampler sampler_at(const SamplePlan *plan, uint32_t x, uint32_t y, uint32_t sample)
+{
+    uint64_t block = (uint64_t)(y >> BLOCK_BITS) << 32 | x >> BLOCK_BITS;
+    uint32_t round = sample >> plan->level, rest = sample & ((1u << plan->level) - 1u);
+    uint32_t index = morton(x, y) << plan->level | rest, reversed = reverse_bits(index);
+    return (Sampler){.table = &plan->table,
+                     .key = (uint32_t)random_key(random_key(plan->seed, block), round),
                      .reversed = reversed,
-                     .lowest = sample ? __builtin_ctz(reversed) / 4 : 8};
+                     .lowest = index ? __builtin_ctz(reversed) / 4 : 8};
 }
 
 void sampler_draw(const Sampler *sampler, uint32_t set, float u[4])

@@ -2,6 +2,12 @@
 // dimensions, seed). Every decision of a path draws its own set of four numbers. The four numbers
 // of a set are a scrambled 4-D Sobol sequence; sets are independent of each other (padding).
 // Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020.
+//
+// The pixels of a block share one sequence, which runs through them in Morton order: each pixel has
+// a stretch of it, and the stretches of neighbours complete each other at every scale. So the error
+// that is left differs between neighbours (blue noise), which eye and filters average out. Ahmed
+// and Wonka, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical
+// Ordering of Pixels", SIGGRAPH Asia 2020.
 #ifndef RAMIFY_RENDER_SAMPLER_H
 #define RAMIFY_RENDER_SAMPLER_H
 
@@ -12,18 +18,27 @@ typedef struct SobolTable {
     uint32_t word[8][16][4] __attribute__((aligned(16)));
 } SobolTable;
 
-void sobol_table_fill(SobolTable *table);
-
 typedef struct Sampler {
     const SobolTable *table;
-    uint32_t key;      // of the pixel and the seed
-    uint32_t reversed; // sample index, lowest bit first
+    uint32_t key;      // of the block of pixels and the seed
+    uint32_t reversed; // index in the block's sequence, lowest bit first
     int lowest;        // first group of four bits of it that is not zero
 } Sampler;
 
-Sampler sampler_at(const SobolTable *table, uint64_t seed, uint32_t pixel, uint32_t sample);
+// What the samples of a picture have in common.
+typedef struct SamplePlan {
+    SobolTable table;
+    uint64_t seed;
+    int level; // log2 of the length of a pixel's stretch; further samples begin a new sequence
+} SamplePlan;
 
-// Four numbers in [0, 1). The first two are a (0, 2)-sequence over the sample index.
+// samples: per pixel, at least 1. Fewer or more may be drawn; the noise is blue after all of them.
+void sample_plan_fill(SamplePlan *plan, uint64_t seed, int samples);
+
+Sampler sampler_at(const SamplePlan *plan, uint32_t x, uint32_t y, uint32_t sample);
+
+// Four numbers in [0, 1). The first two are a (0, 2)-sequence over the samples of a pixel, and over
+// those of squares of 2, 4, 8 and 16 pixels.
 void sampler_draw(const Sampler *sampler, uint32_t set, float u[4]);
 
 #endif

@@ -26,28 +26,43 @@ static void check_elementary_intervals(const Sampler *at, uint32_t set)
 static void fills_every_elementary_interval_once(void **state)
 {
     (void)state;
-    SobolTable table;
-    sobol_table_fill(&table);
+    SamplePlan plan;
+    sample_plan_fill(&plan, 42, COUNT);
     for (uint32_t pixel = 0; pixel < 5; pixel++) {
         for (uint32_t set = 0; set < 4; set++) {
             Sampler at[COUNT];
             for (uint32_t i = 0; i < COUNT; i++) {
-                at[i] = sampler_at(&table, 42, pixel, i + COUNT * pixel);
+                at[i] = sampler_at(&plan, 3 * pixel, 7, i + COUNT * pixel);
             }
             check_elementary_intervals(at, set);
         }
     }
 }
 
+// A square of 4 pixels with 16 samples each has one point in every elementary interval as well.
+static void neighbours_complete_each_other(void **state)
+{
+    (void)state;
+    SamplePlan plan;
+    sample_plan_fill(&plan, 42, 16);
+    for (uint32_t set = 0; set < 4; set++) {
+        Sampler at[COUNT];
+        for (uint32_t i = 0; i < COUNT; i++) {
+            at[i] = sampler_at(&plan, 20 + i % 4, 36 + i / 4 % 4, i / 16);
+        }
+        check_elementary_intervals(at, set);
+    }
+}
+
 static void stratifies_each_of_four_dimensions(void **state)
 {
     (void)state;
-    SobolTable table;
-    sobol_table_fill(&table);
+    SamplePlan plan;
+    sample_plan_fill(&plan, 3, COUNT);
     for (int dimension = 0; dimension < 4; dimension++) {
         bool taken[COUNT] = {false};
         for (uint32_t i = 0; i < COUNT; i++) {
-            Sampler at = sampler_at(&table, 3, 11, i);
+            Sampler at = sampler_at(&plan, 11, 0, i);
             float u[4];
             sampler_draw(&at, 9, u);
             int cell = (int)(u[dimension] * COUNT);
@@ -57,28 +72,76 @@ static void stratifies_each_of_four_dimensions(void **state)
     }
 }
 
-// Products of numbers from different sets must average as if the sets knew nothing of each other.
-static void sets_and_pixels_are_independent(void **state)
+// Products of numbers from different sets must average as if the sets knew nothing of each other;
+// so must those of pixels of different blocks, and of samples beyond the planned ones.
+static void sets_and_blocks_are_independent(void **state)
 {
     (void)state;
-    SobolTable table;
-    sobol_table_fill(&table);
-    double across_sets = 0.0, across_pixels = 0.0;
+    SamplePlan plan;
     enum { PIXELS = 2000, SAMPLES = 4 };
+    sample_plan_fill(&plan, 1, SAMPLES);
+    double across[3] = {0.0};
     for (uint32_t p = 0; p < PIXELS; p++) {
         for (uint32_t i = 0; i < SAMPLES; i++) {
-            float a[4], b[4], c[4];
-            Sampler here = sampler_at(&table, 1, p, i), next = sampler_at(&table, 1, p + 1, i);
-            sampler_draw(&here, 0, a);
-            sampler_draw(&here, 1, b);
-            sampler_draw(&next, 0, c);
-            across_sets += ((double)a[0] - 0.5) * ((double)b[0] - 0.5);
-            across_pixels += ((double)a[0] - 0.5) * ((double)c[0] - 0.5);
+            float here[4], other[3][4];
+            Sampler at = sampler_at(&plan, p, 5, i), block = sampler_at(&plan, p, 21, i);
+            Sampler later = sampler_at(&plan, p, 5, i + SAMPLES);
+            sampler_draw(&at, 0, here);
+            sampler_draw(&at, 1, other[0]);
+            sampler_draw(&block, 0, other[1]);
+            sampler_draw(&later, 0, other[2]);
+            for (int k = 0; k < 3; k++) {
+                across[k] += ((double)here[0] - 0.5) * ((double)other[k][0] - 0.5);
+            }
         }
     }
     double limit = 5.0 / 12.0 / sqrt((double)PIXELS * SAMPLES); // five standard deviations
-    assert_true(fabs(across_sets / (PIXELS * SAMPLES)) < limit);
-    assert_true(fabs(across_pixels / (PIXELS * SAMPLES)) < limit);
+    for (int k = 0; k < 3; k++) {
+        assert_true(fabs(across[k] / (PIXELS * SAMPLES)) < limit);
+    }
+}
+
+// The error of a pixel for a smooth integrand and one with an edge.
+static double pixel_error(const SamplePlan *plan, uint32_t x, uint32_t y, int samples, bool edge)
+{
+    double sum = 0.0;
+    for (int i = 0; i < samples; i++) {
+        float u[4];
+        Sampler at = sampler_at(plan, x, y, (uint32_t)i);
+        sampler_draw(&at, 2, u);
+        double value = edge ? (u[0] + 0.7f * u[1] < 0.6f) : (double)(u[0] * u[1] * u[1]);
+        sum += value / samples;
+    }
+    double mean = edge ? 0.6 * 0.6 / 1.4 : 1.0 / 6.0;
+    return sum - mean;
+}
+
+// Blue noise: the mean error of a square of pixels is far below that of as many independent ones,
+// whose variance would be a pixel's over their number.
+static void noise_is_blue_on_the_screen(void **state)
+{
+    (void)state;
+    enum { WIDTH = 128, SAMPLES = 4 };
+    SamplePlan plan;
+    sample_plan_fill(&plan, 9, SAMPLES);
+    for (int edge = 0; edge < 2; edge++) {
+        for (int square = 2; square <= 8; square *= 2) {
+            double pixels = 0.0, squares = 0.0;
+            for (int corner = 0; corner < WIDTH / square * (WIDTH / square); corner++) {
+                double mean = 0.0;
+                for (int k = 0; k < square * square; k++) {
+                    int x = corner % (WIDTH / square) * square + k % square;
+                    int y = corner / (WIDTH / square) * square + k / square;
+                    double error = pixel_error(&plan, (uint32_t)x, (uint32_t)y, SAMPLES, edge == 1);
+                    pixels += error * error / (WIDTH * WIDTH);
+                    mean += error / (square * square);
+                }
+                squares += mean * mean / (WIDTH / square * (WIDTH / square));
+            }
+            double independent = pixels / (square * square);
+            assert_true(squares < (square == 2 ? 0.7 : 0.5) * independent);
+        }
+    }
 }
 
 // Offsets drawn at even numbers make the filter's own profile: compared by its variance and by its
@@ -113,7 +176,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fills_every_elementary_interval_once),
         cmocka_unit_test(stratifies_each_of_four_dimensions),
-        cmocka_unit_test(sets_and_pixels_are_independent),
+        cmocka_unit_test(neighbours_complete_each_other),
+        cmocka_unit_test(sets_and_blocks_are_independent),
+        cmocka_unit_test(noise_is_blue_on_the_screen),
         cmocka_unit_test(filter_samples_follow_the_profile),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
