@@ -72,7 +72,7 @@ fi
 still outtree-frost outtree-frost
 still outtree-lightning outtree-lightning
 
-still sculpture sculpture
+still sculpture sculpture --size 1600x900
 still dla dla
 still fracture fracture
 still venation venation
@@ -116,7 +116,7 @@ if is_wanted figure-12; then
     for share in 0.2 0.45 0.7 1; do panel lightning-surface --grow-to $share --size 800x450 --samples 6; done
     sheet figure-12 2x2
 fi
-still lsystem-tree lsystem-tree
+still lsystem-tree lsystem-tree --size 1600x900
 if is_wanted coral-figure-2; then
     panel coral-figure-2 --size 800x600
     panel coral-figure-2-b --size 800x600

@@ -5,6 +5,7 @@
 #include "base/vec.h"
 #include "shape/import_check.h"
 #include "shape/import_files.h"
+#include "shape/ply_read.h"
 #include "shape/vdb_read.h"
 
 #include <assimp/cimport.h>
@@ -197,16 +198,25 @@ static bool write_mesh(const Mesh *mesh, ChildOutput *output, Error *e)
            child_write(output, mesh->uv, header.uvs * vertices, sizeof *mesh->uv, e);
 }
 
+static Mesh *read_mesh(const char *file, Error *e)
+{
+    if (file_name_ends(file, ".vdb")) {
+        return vdb_surface(file, e);
+    }
+    bool declined = true;
+    Mesh *mesh = file_name_ends(file, ".ply") ? ply_read(file, &declined, e) : NULL;
+    if (mesh || !declined) {
+        return mesh;
+    }
+    const struct aiScene *scene = read_scene(file, e);
+    return scene ? gather(scene, e) : NULL; // freed with the process: one by one is slow
+}
+
 bool import_read(const void *data, ChildOutput *output, Error *e)
 {
     const char *file = data;
-    if (!import_check(file, e)) {
-        return false;
-    }
-    bool grid = file_name_ends(file, ".vdb");
-    const struct aiScene *scene = grid ? NULL : read_scene(file, e);
-    Mesh *mesh = grid ? vdb_surface(file, e) : (scene ? gather(scene, e) : NULL);
+    Mesh *mesh = import_check(file, e) ? read_mesh(file, e) : NULL;
     bool done = mesh && write_mesh(mesh, output, e);
     mesh_free(mesh);
-    return done; // the scene is freed with the process: freeing its faces one by one is slow
+    return done;
 }
