@@ -51,7 +51,7 @@ BENCHES   := $(sort $(wildcard tests/bench/*.c))
 BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp) tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
-.PHONY: all demo cross-check docs test peers bench sanitize lint format format-check install uninstall clean help packages check-packages
+.PHONY: all demo cross-check docs test peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 
@@ -81,6 +81,10 @@ peers: ## install the outside programs that tests compare with: POV-Ray, Blender
 bench: all ## print the figures of speed, as ratios to yardsticks measured in the same run
 	@$(MAKE) --no-print-directory -j$$(nproc) $(BENCH_BIN)
 	@tests/bench/run $(OUT)
+
+bench-renderers: all ## compare with Cycles and Mitsuba 3 from PyPI: SCENES=s1,s2 SKY=FILE.hdr REPEATS=N SIZE=WxH JSON=FILE
+	@tests/bench/renderers/run $(OUT) $(if $(SCENES),--scenes $(SCENES)) $(if $(SKY),--sky "$(SKY)") \
+	    $(if $(REPEATS),--repeats $(REPEATS)) $(if $(SIZE),--size $(SIZE)) $(if $(JSON),--json "$(JSON)")
 
 sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory CONFIG=sanitize test
@@ -140,7 +144,7 @@ clean: ## remove build/
 	rm -rf build
 
 help: ## this list
-	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/\1|\2/p' Makefile | awk -F'|' '{printf "make %-12s %s\n", $$1, $$2}'
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/\1|\2/p' Makefile | awk -F'|' '{printf "make %-16s %s\n", $$1, $$2}'
 
 # $(call need,packages): install those that are missing.
 define need
