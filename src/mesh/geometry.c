@@ -133,3 +133,54 @@ Mesh *geometry_bake(const Part *part, const Run *run, Error *e)
     }
     return out;
 }
+
+static bool is_surface(const Part *part)
+{
+    return part->mesh && !part->instance;
+}
+
+// Appends triangles; the counts are those so far.
+static void append(Mesh *out, const Mesh *mesh)
+{
+    for (int64_t v = 0; v < mesh->vertex_count; v++) {
+        out->position[out->vertex_count + v] = mesh->position[v];
+    }
+    uint32_t base = (uint32_t)out->vertex_count;
+    for (int64_t f = 0; f < mesh->face_count; f++) {
+        const uint32_t *corner = mesh->index + f * mesh->face_size;
+        for (int k = 2; k < mesh->face_size; k++) {
+            uint32_t *to = out->index + 3 * out->face_count++;
+            to[0] = base + corner[0];
+            to[1] = base + corner[k - 1];
+            to[2] = base + corner[k];
+        }
+    }
+    out->vertex_count += mesh->vertex_count;
+}
+
+Mesh *geometry_surface(const Geometry *geometry, Error *e)
+{
+    int64_t vertices = 0, faces = 0;
+    for (int64_t i = 0; i < geometry->count; i++) {
+        const Part *part = &geometry->part[i];
+        if (is_surface(part)) {
+            vertices += part->mesh->vertex_count;
+            faces += part->mesh->face_count * (part->mesh->face_size - 2);
+        }
+    }
+    Mesh *out = mesh_new(3, vertices, faces, 0, e);
+    if (!out) {
+        return NULL;
+    }
+    out->vertex_count = out->face_count = 0;
+    for (int64_t i = 0; i < geometry->count; i++) {
+        if (is_surface(&geometry->part[i])) {
+            append(out, geometry->part[i].mesh);
+        }
+    }
+    if (!mesh_compute_normals(out, e)) {
+        mesh_free(out);
+        return NULL;
+    }
+    return out;
+}

@@ -47,6 +47,10 @@ void geometry_clear(Geometry *geometry); // frees the parts and empties the Geom
 // instances and can be instanced again. The caller frees it with mesh_free.
 Mesh *geometry_bake(const Part *part, const Run *run, Error *e);
 
+// The meshes of all parts that are not instanced as one mesh of triangles with normals, those of
+// its faces around each vertex; possibly without faces. The caller frees it with mesh_free.
+Mesh *geometry_surface(const Geometry *geometry, Error *e);
+
 typedef struct GeometryCounts {
     int64_t triangles; // counted once per part; a quad counts as two
     int64_t curve_segments;

@@ -64,6 +64,10 @@ typedef struct Kind {
     // scene.
     bool (*own_space)(OwnSpace *own, void *params, Error *e);
 
+    // Name of the object whose surface it grows over, as its key envelope.0.object gives it; NULL =
+    // none. It grows in scene space then. Recipe.surface is that surface.
+    const char *(*over)(const void *params);
+
     // The recipe: see objects/common/recipe.h. NULL = the kind has no such step. tip_radius: m, the
     // initial radius of nodes that thicken as they age; NULL = nodes appear at their final radius.
     bool (*grow)(const void *params, const Recipe *recipe, Grown *whole, Error *e);

@@ -209,6 +209,15 @@ static const Node *object_key(const Mapping *mapping, int object, const char *ke
     return node_get(given, key);
 }
 
+static bool waits_for(const Scene *scene, int object, int other, int depth);
+
+// Does growth that waits for object `next` wait for that of `other`?
+static bool leads_to(const Scene *scene, int next, int other, int depth)
+{
+    return next == other || scene_objects_contend(&scene->objects[next], &scene->objects[other]) ||
+           waits_for(scene, next, other, depth);
+}
+
 // Does the growth of `object` wait for that of `other`? Rivals wait for what any of them waits for.
 // depth: of the recursion; a way without repetition visits no more than all objects.
 static bool waits_for(const Scene *scene, int object, int other, int depth)
@@ -218,11 +227,9 @@ static bool waits_for(const Scene *scene, int object, int other, int depth)
         if (i != object && !scene_objects_contend(&scene->objects[object], mate)) {
             continue;
         }
-        for (int k = 0; k < mate->clear_of_count; k++) {
-            int next = scene_find_object(scene, mate->clear_of[k].object);
-            if (next == other ||
-                scene_objects_contend(&scene->objects[next], &scene->objects[other]) ||
-                waits_for(scene, next, other, depth + 1)) {
+        const char *name;
+        for (int k = 0; (name = scene_object_waits_for(mate, k)); k++) {
+            if (leads_to(scene, scene_find_object(scene, name), other, depth + 1)) {
                 return true;
             }
         }
@@ -245,6 +252,45 @@ static bool check_obstacles(const Mapping *mapping, const Scene *scene, int inde
             return load_fail(mapping->loader, node_get(given, "within"),
                              "%s.%d.within is %g m; it must be above distance, %g m, or 0", where,
                              i, (double)of->within, (double)of->distance);
+        }
+    }
+    return true;
+}
+
+// The name of the object that the object grows over (Kind.over), as the file gives it.
+static const Node *over_key(const Mapping *mapping, const Scene *scene, int index)
+{
+    const Node *kind = object_key(mapping, index, kind_name(scene->objects[index].kind));
+    return node_get(node_get(kind, "envelope")->first, "object");
+}
+
+static bool check_over(const Mapping *mapping, const Scene *scene, int index)
+{
+    const SceneObject *object = &scene->objects[index];
+    const char *over = scene_object_over(object);
+    char where[192];
+    snprintf(where, sizeof where, "objects.%s.%s.envelope", object->name, kind_name(object->kind));
+    return !over || scene_find_object(scene, over) >= 0 ||
+           no_object(mapping, scene, over_key(mapping, scene, index), where);
+}
+
+// Fails at a key by which the object waits for itself.
+static bool check_circle(const Mapping *mapping, const Scene *scene, int index)
+{
+    const SceneObject *object = &scene->objects[index];
+    const char *name;
+    for (int k = 0; (name = scene_object_waits_for(object, k)); k++) {
+        if (leads_to(scene, scene_find_object(scene, name), index, 0)) {
+            char key[64] = "clear_of";
+            const Node *place = object_key(mapping, index, key);
+            if (k == object->clear_of_count) {
+                snprintf(key, sizeof key, "%s.envelope", kind_name(object->kind));
+                place = over_key(mapping, scene, index);
+            }
+            return load_fail(mapping->loader, place,
+                             "objects.%s.%s leads back to '%s' itself; one of the objects must "
+                             "grow first",
+                             object->name, key, object->name);
         }
     }
     return true;
@@ -303,15 +349,10 @@ static bool check_neighbours(const Mapping *mapping, const Scene *scene)
     bool done = true;
     for (int i = 0; done && i < scene->object_count; i++) {
         done = check_keeps_room(mapping, scene, i) && check_obstacles(mapping, scene, i) &&
-               check_carried(mapping, scene, i);
+               check_over(mapping, scene, i) && check_carried(mapping, scene, i);
     }
     for (int i = 0; done && i < scene->object_count; i++) {
-        if (scene->objects[i].clear_of_count > 0 && waits_for(scene, i, i, 0)) {
-            return load_fail(mapping->loader, object_key(mapping, i, "clear_of"),
-                             "objects.%s.clear_of leads back to '%s' itself; one of the objects "
-                             "must grow first",
-                             scene->objects[i].name, scene->objects[i].name);
-        }
+        done = check_circle(mapping, scene, i);
     }
     return done;
 }

@@ -22,6 +22,9 @@ static bool collect(void *user, const char *part, const Envelope *envelope, cons
     Collecting *to = user;
     char element[64] = "", name[NAME];
     to->elements++;
+    if (!(envelope_volume(envelope) > 0.0)) {
+        return true; // the surface of another object
+    }
     if (part) {
         snprintf(element, sizeof element, "/%s", part);
     } else if (to->elements > 1) {

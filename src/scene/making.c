@@ -43,10 +43,22 @@ bool making_end(Making *m, bool done, Error *e)
 
 // ---- among neighbours
 
+// Finds the surface that the object grows over, if it does.
+static bool find_surface(Making *m, Surfaces *surfaces, Error *e)
+{
+    const char *over = scene_object_over(&m->scene->objects[m->index]);
+    if (!over) {
+        return true;
+    }
+    int index = scene_find_object(m->scene, over);
+    m->recipe.surface = surfaces_over(surfaces, index, m->recipe.run, e);
+    return m->recipe.surface || error_key(e, "envelope.0.object");
+}
+
 static bool enter(Making *m, Rival *rival, const Scene *scene, int index, Surfaces *surfaces,
                   const Run *run, Error *e)
 {
-    if (!making_begin(m, scene, index, run, e)) {
+    if (!making_begin(m, scene, index, run, e) || !find_surface(m, surfaces, e)) {
         return false;
     }
     const Contest *contest = scene->objects[index].contest;

@@ -129,10 +129,25 @@ void scene_free(Scene *scene); // NULL is fine
 // Index of an object by name; -1 = not found.
 int scene_find_object(const Scene *scene, const char *name);
 
+// Name of the object whose surface the object grows over; NULL = none.
+static inline const char *scene_object_over(const SceneObject *object)
+{
+    return object->kind->over ? object->kind->over(object->params) : NULL;
+}
+
+// Name of number i, from 0, of the objects that must be built before the object grows; NULL = there
+// are no more.
+static inline const char *scene_object_waits_for(const SceneObject *object, int i)
+{
+    return i < object->clear_of_count    ? object->clear_of[i].object
+           : i == object->clear_of_count ? scene_object_over(object)
+                                         : NULL;
+}
+
 // Does the object's growth depend on other objects?
 static inline bool scene_object_has_neighbours(const SceneObject *object)
 {
-    return object->clear_of_count > 0 || object->contest != NULL;
+    return object->contest || scene_object_waits_for(object, 0);
 }
 
 // Do both belong to one contest?

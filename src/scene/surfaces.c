@@ -4,12 +4,15 @@
 #include "mesh/geometry_measure.h"
 #include "render/world.h"
 #include "scene/build.h"
+#include "shape/mesh_close.h"
 
 #include <stdlib.h>
 
 typedef struct Surface {
     Nearest *nearest; // NULL = not made yet
     float size;
+    Mesh *mesh; // of `over`; NULL = not made yet
+    ShapeSurface over;
 } Surface;
 
 struct Surfaces {
@@ -38,21 +41,34 @@ void surfaces_free(Surfaces *surfaces)
     if (surfaces) {
         for (int i = 0; i < surfaces->scene->object_count; i++) {
             nearest_free(surfaces->of[i].nearest);
+            mesh_free(surfaces->of[i].mesh);
         }
         free(surfaces->of);
         free(surfaces);
     }
 }
 
-static bool make(Surface *surface, const Geometry *geometry, const Run *run, Error *e)
+static void find_nearest(const void *user, Vec3 *p, Vec3 *normal)
 {
-    Aabb box = geometry_bounds(geometry, 0);
-    surface->size = aabb_is_empty(box) ? 0.0f : vec3_distance(box.low, box.high);
-    surface->nearest = nearest_new(geometry, run, e);
-    return surface->nearest;
+    nearest_point(user, p, normal);
 }
 
-static bool build(Surfaces *surfaces, int index, const Run *run, Error *e)
+// Makes what is missing of the surface; the mesh only if it is wanted.
+static bool make(Surface *surface, const Geometry *geometry, bool mesh, const Run *run, Error *e)
+{
+    if (!surface->nearest) {
+        Aabb box = geometry_bounds(geometry, 0);
+        surface->size = aabb_is_empty(box) ? 0.0f : vec3_distance(box.low, box.high);
+        surface->nearest = nearest_new(geometry, run, e);
+    }
+    if (surface->nearest && mesh) {
+        surface->mesh = geometry_surface(geometry, e);
+        surface->over = (ShapeSurface){surface->mesh, find_nearest, surface->nearest};
+    }
+    return surface->nearest && (surface->mesh || !mesh);
+}
+
+static bool build(Surfaces *surfaces, int index, bool mesh, const Run *run, Error *e)
 {
     Run quiet = *run; // the object's own turn reports its warnings
     quiet.warn = NULL;
@@ -62,7 +78,7 @@ static bool build(Surfaces *surfaces, int index, const Run *run, Error *e)
     bool done = world && scene_give_settings(surfaces->scene, world, e) &&
                 scene_place_object(world, surfaces->scene, index, (Shared){.surfaces = surfaces},
                                    &quiet, &stats, e) &&
-                make(&surfaces->of[index], &world->geometry, run, e);
+                make(&surfaces->of[index], &world->geometry, mesh, run, e);
     world_free(world);
     return done;
 }
@@ -84,21 +100,44 @@ static bool find_placed(const Surfaces *surfaces, int index, Geometry *parts, Er
     return true;
 }
 
-const Nearest *surfaces_of(Surfaces *surfaces, int index, float *size, const Run *run, Error *e)
+// Makes the surface from the object's parts, or builds the object.
+static bool prepare(Surfaces *surfaces, int index, bool mesh, const Run *run, Error *e)
 {
     Surface *surface = &surfaces->of[index];
-    if (!surface->nearest) {
-        Geometry parts;
-        bool done =
-            find_placed(surfaces, index, &parts, e) &&
-            (parts.count > 0 ? make(surface, &parts, run, e) : build(surfaces, index, run, e));
-        free(parts.part);
-        if (!done) {
-            return NULL;
-        }
+    if (surface->nearest && (surface->mesh || !mesh)) {
+        return true;
     }
-    *size = surface->size;
-    return surface->nearest;
+    Geometry parts;
+    bool done = find_placed(surfaces, index, &parts, e) &&
+                (parts.count > 0 ? make(surface, &parts, mesh, run, e)
+                                 : build(surfaces, index, mesh, run, e));
+    free(parts.part);
+    return done;
+}
+
+const Nearest *surfaces_of(Surfaces *surfaces, int index, float *size, const Run *run, Error *e)
+{
+    if (!prepare(surfaces, index, false, run, e)) {
+        return NULL;
+    }
+    *size = surfaces->of[index].size;
+    return surfaces->of[index].nearest;
+}
+
+const ShapeSurface *surfaces_over(Surfaces *surfaces, int index, const Run *run, Error *e)
+{
+    if (!prepare(surfaces, index, true, run, e)) {
+        return NULL;
+    }
+    const Surface *surface = &surfaces->of[index];
+    if (!(mesh_area(surface->mesh) > 0.0)) {
+        error_set(e, ERROR_INPUT,
+                  "the object '%s' has no surface to grow over: its curves, leaves and other "
+                  "copies do not count; name an object with a skin, such as a terrain or a shape",
+                  surfaces->scene->objects[index].name);
+        return NULL;
+    }
+    return &surface->over;
 }
 
 // ---- order
@@ -109,7 +148,7 @@ typedef struct Order {
     int *order, count;
 } Order;
 
-// Lists what the object and its rivals, which grow with it, are clear of, then the object.
+// Lists what the object and its rivals, which grow with it, wait for, then the object.
 static void list_object(Order *o, int index)
 {
     if (index < 0 || o->listed[index]) { // a part of a scene may lack objects
@@ -119,8 +158,9 @@ static void list_object(Order *o, int index)
     for (int i = 0; i < o->scene->object_count; i++) {
         const SceneObject *mate = &o->scene->objects[i];
         if (i == index || scene_objects_contend(&o->scene->objects[index], mate)) {
-            for (int k = 0; k < mate->clear_of_count; k++) {
-                list_object(o, scene_find_object(o->scene, mate->clear_of[k].object));
+            const char *name;
+            for (int k = 0; (name = scene_object_waits_for(mate, k)); k++) {
+                list_object(o, scene_find_object(o->scene, name));
             }
         }
     }

@@ -1,10 +1,12 @@
-// The surfaces of a scene's objects, each made once for all objects that are clear of it.
+// The surfaces of a scene's objects, each made once for all objects that are clear of it or grow
+// over it.
 #ifndef RAMIFY_SCENE_SURFACES_H
 #define RAMIFY_SCENE_SURFACES_H
 
 #include "mesh/geometry.h"
 #include "render/accel/nearest.h"
 #include "scene/scene.h"
+#include "shape/envelope.h"
 
 typedef struct Surfaces Surfaces;
 
@@ -17,8 +19,12 @@ void surfaces_free(Surfaces *surfaces); // NULL is fine
 // its bounds. Owned by the surfaces. NULL and e on failure.
 const Nearest *surfaces_of(Surfaces *surfaces, int index, float *size, const Run *run, Error *e);
 
-// The objects in an order in which obstacles come before the objects that are clear of them, and
-// otherwise as in the scene. order: object_count numbers.
+// The same surface to be grown over: its meshes. Owned by the surfaces. NULL and e on failure:
+// ERROR_INPUT if the object has no meshes.
+const ShapeSurface *surfaces_over(Surfaces *surfaces, int index, const Run *run, Error *e);
+
+// The objects in an order in which obstacles and surfaces come before the objects that are clear of
+// them or grow over them, and otherwise as in the scene. order: object_count numbers.
 bool surfaces_order(const Scene *scene, int *order, Error *e);
 
 #endif

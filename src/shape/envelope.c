@@ -13,9 +13,10 @@
 enum { VOXELS_DEFAULT = 128, VOXELS_MIN = 8, VOXELS_MAX = 1024 }; // across the largest extent
 
 struct Envelope {
-    Primitive primitive; // used when level_set is NULL
+    Primitive primitive; // used when level_set and existing are NULL
     LevelSet *level_set;
-    Mesh *surface;
+    const ShapeSurface *existing; // NULL = made of shapes; borrowed
+    Mesh *surface;                // NULL if existing
     Aabb bounds;
     double volume, area;
 };
@@ -33,8 +34,8 @@ typedef struct Piece {
 
 static const char *kind_name(ShapeKind kind)
 {
-    static const char *const names[] = {"sphere",  "ellipsoid", "box",        "cone",
-                                        "capsule", "mesh",      "half space", "body"};
+    static const char *const names[] = {"sphere", "ellipsoid",  "box",  "cone",  "capsule",
+                                        "mesh",   "half space", "body", "object"};
     return names[kind];
 }
 
@@ -345,6 +346,17 @@ Envelope *envelope_new(const EnvelopeParams *params, const Run *run, Error *e)
     return envelope;
 }
 
+Envelope *envelope_of_surface(const ShapeSurface *surface, Error *e)
+{
+    Envelope *envelope = memory_alloc_zero(1, sizeof *envelope, e);
+    if (envelope) {
+        envelope->existing = surface;
+        envelope->bounds = mesh_bounds(surface->mesh);
+        envelope->area = mesh_area(surface->mesh);
+    }
+    return envelope;
+}
+
 void envelope_free(Envelope *envelope)
 {
     if (envelope) {
@@ -361,7 +373,7 @@ Aabb envelope_bounds(const Envelope *envelope)
 
 Transform envelope_frame(const Envelope *envelope)
 {
-    if (!envelope->level_set) {
+    if (!envelope->level_set && !envelope->existing) {
         return primitive_frame(&envelope->primitive);
     }
     Vec3 low = envelope->bounds.low, size = vec3_sub(envelope->bounds.high, low);
@@ -378,16 +390,36 @@ double envelope_area(const Envelope *envelope)
     return envelope->area;
 }
 
+static float existing_distance(const ShapeSurface *surface, Vec3 p)
+{
+    Vec3 nearest = p, normal;
+    surface->nearest(surface->user, &nearest, &normal);
+    Vec3 apart = vec3_sub(p, nearest);
+    return vec3_dot(apart, normal) < 0.0f ? -vec3_length(apart) : vec3_length(apart);
+}
+
 float envelope_distance(const Envelope *envelope, Vec3 p)
 {
     if (envelope->level_set) {
         return level_set_distance(envelope->level_set, p);
     }
-    return (float)primitive_distance(&envelope->primitive, p, NULL);
+    return envelope->existing ? existing_distance(envelope->existing, p)
+                              : (float)primitive_distance(&envelope->primitive, p, NULL);
+}
+
+bool envelope_nearest(const Envelope *envelope, Vec3 *p, Vec3 *normal)
+{
+    if (envelope->existing) {
+        envelope->existing->nearest(envelope->existing->user, p, normal);
+    }
+    return envelope->existing;
 }
 
 bool envelope_contains(const Envelope *envelope, Vec3 p)
 {
+    if (envelope->existing) {
+        return existing_distance(envelope->existing, p) < 0.0f;
+    }
     return envelope->level_set ? level_set_distance(envelope->level_set, p) < 0.0f
                                : primitive_contains(&envelope->primitive, p);
 }
@@ -399,7 +431,7 @@ float envelope_band(const Envelope *envelope)
 
 const Mesh *envelope_surface(const Envelope *envelope)
 {
-    return envelope->surface;
+    return envelope->existing ? envelope->existing->mesh : envelope->surface;
 }
 
 bool envelope_add_to(const Envelope *envelope, const char *name, GridFile *grids, const Run *run,

@@ -1,6 +1,7 @@
 // Envelopes: the region of space that growth may fill. Primitives and imported meshes under
 // transforms, combined by union, difference and intersection. A single primitive is evaluated
-// exactly; anything else becomes a narrow-band level set (OpenVDB).
+// exactly; other lists become a narrow-band level set (OpenVDB). An existing surface, which may be
+// open and then has no inside, can be grown over only.
 #ifndef RAMIFY_SHAPE_ENVELOPE_H
 #define RAMIFY_SHAPE_ENVELOPE_H
 
@@ -18,7 +19,8 @@ typedef enum ShapeKind {
     SHAPE_CAPSULE,    // about the segment from the origin to (0, size.y, 0), radius size.x
     SHAPE_MESH,       // imported surface
     SHAPE_HALF_SPACE, // y <= 0, before the transform; only for cutting
-    SHAPE_BODY        // a standing human, size.x tall: feet at the origin, facing +Z (shape/body.h)
+    SHAPE_BODY,       // a standing human, size.x tall: feet at the origin, facing +Z (shape/body.h)
+    SHAPE_OBJECT      // the surface of another object: a name for envelope_of_surface
 } ShapeKind;
 
 typedef enum ShapeOp {
@@ -35,6 +37,7 @@ typedef struct Shape {
     Transform transform;
     Vec3 position, rotation, scale; // what a scene makes the transform of (degrees); else unused
     const char *file;               // SHAPE_MESH: OBJ, PLY, STL, glTF, GLB; borrowed
+    const char *object;             // SHAPE_OBJECT: its name; borrowed
 } Shape;
 
 typedef struct EnvelopeParams {
@@ -43,11 +46,23 @@ typedef struct EnvelopeParams {
     float voxel;         // m, voxel size of level sets; 0 = largest extent / 128
 } EnvelopeParams;
 
+// A surface that exists already; borrowed.
+typedef struct ShapeSurface {
+    const Mesh *mesh; // triangles with normals
+    // Moves p to the nearest point of the surface and sets the unit normal there. Thread-safe.
+    void (*nearest)(const void *user, Vec3 *p, Vec3 *normal);
+    const void *user;
+} ShapeSurface;
+
 typedef struct Envelope Envelope;
 
-// Builds the envelope. An open mesh is a warning (run->warn); its holes are filled as well as
-// possible.
+// Builds the envelope of shapes that are no SHAPE_OBJECT. An open mesh is a warning (run->warn);
+// its holes are filled as well as possible.
 Envelope *envelope_new(const EnvelopeParams *params, const Run *run, Error *e);
+
+// An envelope of a surface alone, open or closed: to grow over, not in. Its volume is 0, and its
+// distance has the sign of the side on which p lies of the nearest face. Borrows the surface.
+Envelope *envelope_of_surface(const ShapeSurface *surface, Error *e);
 void envelope_free(Envelope *envelope); // NULL is fine
 
 Aabb envelope_bounds(const Envelope *envelope);
@@ -63,6 +78,10 @@ double envelope_area(const Envelope *envelope);   // m^2, of the surface
 // is used. Thread-safe.
 float envelope_distance(const Envelope *envelope, Vec3 p);
 
+// Moves p to the nearest point of an envelope_of_surface and sets the normal there; false without
+// effect for other envelopes. Thread-safe.
+bool envelope_nearest(const Envelope *envelope, Vec3 *p, Vec3 *normal);
+
 // Whether p is inside: the sign of envelope_distance, but faster.
 bool envelope_contains(const Envelope *envelope, Vec3 p);
 
@@ -70,7 +89,7 @@ bool envelope_contains(const Envelope *envelope, Vec3 p);
 float envelope_band(const Envelope *envelope);
 
 // Adds the envelope to the file's grids as a level set: its own, or for a single primitive one of
-// 128 voxels along the longest side.
+// 128 voxels along the longest side. Not for an envelope_of_surface, which has no inside.
 bool envelope_add_to(const Envelope *envelope, const char *name, GridFile *grids, const Run *run,
                      Error *e);
 

@@ -55,6 +55,11 @@ static void box_as_in_closed_form(void **state)
         float wanted = box_distance(p, h);
         float d = nearest_distance(nearest, p, 10.0f, &away);
         assert_float_equal(d, wanted, 1e-5f);
+        Vec3 on = p, normal;
+        nearest_point(nearest, &on, &normal);
+        assert_float_equal(vec3_distance(on, p), fabsf(wanted), 1e-5f);
+        assert_float_equal(box_distance(on, h), 0.0f, 1e-6f);
+        assert_float_equal(box_distance(vec3_madd(on, 0.1f, normal), h), 0.1f, 1e-5f);
         if (fabsf(wanted) > 0.01f) { // `away` is the way the distance grows
             float further = nearest_distance(nearest, vec3_madd(p, 0.005f, away), 10.0f, &away);
             assert_true(further > d + 0.003f || wanted < 0.0f);
@@ -94,6 +99,10 @@ static void curves_as_by_brute_force(void **state)
             }
         }
         assert_float_equal(nearest_distance(nearest, p, 10.0f, &away), least, 2e-3f);
+        Vec3 on = p, normal;
+        nearest_point(nearest, &on, &normal);
+        assert_float_equal(vec3_distance(on, p), fabsf(least), 2e-3f);
+        assert_float_equal(vec3_length(normal), 1.0f, 1e-5f);
     }
     nearest_free(nearest);
 }
@@ -107,6 +116,9 @@ static void instances_and_nothing_are_no_surface(void **state)
         .kind = PART_MESH, .mesh = box(vec3(1, 1, 1)), .instance = one, .instance_count = 1});
     Vec3 away;
     assert_float_equal(nearest_distance(nearest, vec3(0, 2, 0), 5.0f, &away), 5.0f, 0);
+    Vec3 p = vec3(0, 2, 0);
+    nearest_point(nearest, &p, &away);
+    assert_float_equal(p.y, 2.0f, 0);
     nearest_free(nearest);
 }
 

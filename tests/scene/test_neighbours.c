@@ -3,7 +3,9 @@
 #include "render/world.h"
 #include "scene/build.h"
 #include "scene/builder.h"
+#include "scene/export_grids.h"
 #include "scene/surfaces.h"
+#include "shape/mesh_nearest.h"
 
 #include "scene_fixture.h"
 
@@ -197,6 +199,114 @@ static void test_growth_creeps_over_a_terrain(void **state)
     height_field_free(land);
     out_tree_free(rivers);
     out_tree_free(tree);
+    scene_free(scene);
+}
+
+#define LAND(RELIEF)                                       \
+    "  - {name: land, terrain: {size: 12, relief: " RELIEF \
+    ", resolution: 64, rivers: {count: 100}}}\n"
+#define CREEPER(NAME, OVER, MORE)                                                                  \
+    "  - name: " NAME "\n    outtree:\n      envelope: [{shape: object, object: " OVER "}]\n"      \
+    "      points: {place: surface}\n      growth: {levels: [{attractors: 3000, influence: 3}]}\n" \
+    "      starts: {count: 5}\n" MORE
+
+static float distance_to(const World *world, int object, Vec3 p)
+{
+    float least = INFINITY;
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        Vec3 nearest = p, normal;
+        const Part *part = &world->geometry.part[i];
+        if (part->object == object && part->mesh && mesh_nearest(part->mesh, &nearest, &normal)) {
+            least = fminf(least, vec3_distance(p, nearest));
+        }
+    }
+    return least;
+}
+
+// An envelope that names another object is its surface, whether a sheet or a body: every node lies
+// on it, nodes are all over it, and the result does not depend on threads.
+static void test_growth_over_an_object(void **state)
+{
+    Scene *scene = fixture_read(*state, "objects:\n" CREEPER("frost", "land", "") LAND("2.5")
+                                            ROCK CREEPER("moss", "rock", ""));
+    Run run = run_default();
+    World *world = scene_build(scene, &run, NULL, NULL);
+    OutTree *frost = grow(scene, "frost", 1), *moss = grow(scene, "moss", 2);
+    assert_non_null(world);
+    Aabb box = aabb_empty();
+    for (int64_t i = 0; i < frost->count; i++) {
+        assert_true(distance_to(world, 1, frost->position[i]) < 1e-4f);
+        assert_true(frost->normal[i].y > 0.0f);
+        box = aabb_add(box, frost->position[i]);
+    }
+    assert_true(frost->count > 2000 && box.low.x < -5.7f && box.high.z > 5.7f);
+    box = aabb_empty();
+    for (int64_t i = 0; i < moss->count; i++) {
+        Vec3 p = vec3_sub(moss->position[i], vec3(0, 3.5f, 0));
+        assert_true(fabsf(vec3_length(p) - 1.2f) < 0.005f); // facets
+        box = aabb_add(box, p);
+    }
+    assert_true(moss->count > 2000 && box.low.y < -1.1f && box.high.y > 1.1f);
+    OutTree *again = grow(scene, "frost", 3);
+    assert_same(frost, again);
+    world_free(world);
+    out_tree_free(frost);
+    out_tree_free(again);
+    out_tree_free(moss);
+    scene_free(scene);
+}
+
+// What is grown over is built first, and a builder regrows what grows over a changed object.
+static void test_surface_is_placed_first(void **state)
+{
+    Scene *scene = fixture_read(*state, "objects:\n" CREEPER("moss", "frost", "")
+                                            CREEPER("frost", "land", "") LAND("2.5"));
+    int order[3], wanted[3] = {2, 1, 0};
+    assert_true(surfaces_order(scene, order, NULL));
+    assert_memory_equal(order, wanted, sizeof order);
+    scene_free(scene);
+    scene = fixture_read(*state, "objects:\n" CREEPER("frost", "land", "") LAND("2.5"));
+    Scene *higher = fixture_read(*state, "objects:\n" CREEPER("frost", "land", "") LAND("4"));
+    const Scene *const scenes[2] = {scene, higher};
+    Run run = run_default();
+    SceneBuilder *builder = scene_builder_new(true, NULL);
+    for (int i = 0; i < 2; i++) {
+        BuildStats stats = {0}, fresh;
+        assert_false(scene_builder_fits(builder, scenes[i]));
+        assert_non_null(scene_builder_build(builder, scenes[i], &run, &stats, NULL));
+        World *anew = scene_build(scenes[i], &run, &fresh, NULL);
+        assert_non_null(anew);
+        assert_int_equal(stats.nodes, fresh.nodes);
+        assert_int_equal(stats.geometry.triangles, fresh.geometry.triangles);
+        world_free(anew);
+    }
+    scene_builder_free(builder);
+    scene_free(scene);
+    scene_free(higher);
+}
+
+// The surface of an object is no region of space, which grids are written of.
+static void test_surface_is_no_grid(void **state)
+{
+    Scene *scene = fixture_read(*state, "objects:\n" ROCK CREEPER("moss", "rock", ""));
+    Run run = run_default();
+    Error e = {0};
+    assert_null(scene_grids(scene, &run, &e));
+    assert_non_null(strstr(e.message, "grows in an envelope"));
+    scene_free(scene);
+}
+
+static void test_object_without_a_surface(void **state)
+{
+    Scene *scene = fixture_read(
+        *state, "objects:\n  - {name: bolt, lightning: {}}\n" CREEPER("moss", "bolt", ""));
+    Run run = run_default();
+    Error e = {0};
+    assert_null(scene_grow_object(scene, 1, &run, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    assert_non_null(strstr(e.message, "object 'bolt' has no surface to grow over"));
+    assert_int_equal(e.line, 5);
+    assert_int_equal(e.column, 42);
     scene_free(scene);
 }
 
@@ -403,6 +513,50 @@ static void test_refusals(void **state)
                    "it must be above distance", 7);
 }
 
+#define OVER_ROCK "  - name: a\n    outtree:\n      envelope: [{shape: object, object: rock}]\n"
+#define ON_ROCK OVER_ROCK "      points: {place: surface}\n"
+
+static void test_surface_refusals(void **state)
+{
+    fixture_refuse(*state, "objects:\n" ROCK CREEPER("a", "rack", ""),
+                   "objects.a.outtree.envelope: there is no object 'rack'; did you mean 'rock'", 6);
+    fixture_refuse(*state, "objects:\n" CREEPER("a", "a", ""),
+                   "objects.a.outtree.envelope leads back to 'a' itself", 4);
+    fixture_refuse(*state,
+                   "objects:\n" ROCK CREEPER("a", "b", "    clear_of: [{object: rock}]\n")
+                       CREEPER("b", "a", ""),
+                   "objects.a.outtree.envelope leads back to 'a' itself", 6);
+    fixture_refuse(*state, "objects:\n" ROCK OVER_ROCK, "has no inside; it must be surface", 6);
+    fixture_refuse(*state, "objects:\n" ROCK ON_ROCK "      show: {band: 0.1}\n",
+                   "show.band needs an envelope with an inside", 8);
+    fixture_refuse(*state,
+                   "objects:\n" ROCK OVER_ROCK "      points: {place: surface, anchored: true}\n",
+                   "points.anchored needs an envelope with an inside", 7);
+    fixture_refuse(*state,
+                   "objects:\n" ROCK "  - name: a\n    outtree:\n      points: {place: surface}\n"
+                   "      envelope:\n        - {shape: object, object: rock}\n"
+                   "        - {shape: sphere, op: difference}\n",
+                   "it must be the only shape", 9);
+    fixture_refuse(*state,
+                   "objects:\n" ROCK "  - name: a\n    outtree:\n      points: {place: surface}\n"
+                   "      envelope:\n        - shape: object\n          object: rock\n"
+                   "          position: [0, 1, 0]\n",
+                   "position", 10);
+    fixture_refuse(*state,
+                   "objects:\n" ROCK "  - name: a\n    outtree:\n      points: {place: surface}\n"
+                   "      envelope:\n        - {shape: sphere}\n"
+                   "        - {shape: object, object: rock}\n",
+                   "only an outtree with points: {place: surface} takes it, as its only shape", 9);
+    fixture_refuse(*state,
+                   "objects:\n" ROCK
+                   "  - name: a\n    sculpture: {envelope: [{shape: object, object: rock}]}\n",
+                   "only an outtree with points: {place: surface} takes it", 5);
+    fixture_refuse(*state,
+                   "objects:\n" ROCK
+                   "  - name: a\n    coral: {base: [{shape: object, object: rock}]}\n",
+                   "base: the surface of an object has no inside; only an outtree", 5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -415,6 +569,14 @@ int main(void)
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_growth_creeps_over_a_terrain, fixture_set_up,
                                         fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_growth_over_an_object, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_surface_is_placed_first, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_surface_is_no_grid, fixture_set_up, fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_object_without_a_surface, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_surface_refusals, fixture_set_up, fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_rivals_keep_apart, fixture_set_up, fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_threads_and_neighbours_do_not_show, fixture_set_up,
                                         fixture_tear_down),

@@ -34,6 +34,7 @@ static const struct {
     [SHAPE_MESH] = {0},
     [SHAPE_HALF_SPACE] = {0},
     [SHAPE_BODY] = {1, "the height", "body"},
+    [SHAPE_OBJECT] = {0},
 };
 
 static bool check_size(const Mapping *mapping, const Shape *shape)
@@ -51,6 +52,10 @@ static bool check_size(const Mapping *mapping, const Shape *shape)
 bool check_shape(const Mapping *mapping, void *params)
 {
     Shape *shape = params;
+    if (shape->kind == SHAPE_OBJECT) { // lies where the object is
+        shape->transform = transform_identity();
+        return true;
+    }
     // A sphere is the unit sphere, scaled.
     float factor = shape->kind == SHAPE_SPHERE ? shape->size.x : 1.0f;
     shape->transform =
@@ -60,11 +65,17 @@ bool check_shape(const Mapping *mapping, void *params)
            check_scale(mapping, shape->scale);
 }
 
-bool check_shapes(const Mapping *mapping, const Shape *shapes, int count)
+bool check_shapes(const Mapping *mapping, const char *key, const Shape *shapes, int count)
 {
-    const Node *list = node_get(mapping->given, "envelope"), *given = list ? list->first : NULL;
+    const Node *list = node_get(mapping->given, key), *given = list ? list->first : NULL;
     for (int i = 0; given && i < count; i++, given = given->next) {
-        const char *name = mapping_path(mapping, "envelope");
+        const char *name = mapping_path(mapping, key);
+        if (shapes[i].kind == SHAPE_OBJECT) {
+            return load_fail(mapping->loader, node_get(given, "shape"),
+                             "%s: the surface of an object has no inside; only an outtree with "
+                             "points: {place: surface} takes it, as its only shape",
+                             name);
+        }
         if (i == 0 && shapes[i].op != SHAPE_UNION) {
             return load_fail(mapping->loader, given,
                              "%s begins with a %s; the first shape must be a union", name,
@@ -109,7 +120,7 @@ bool check_string_element(const Mapping *mapping, const ElementParams *element)
                             "anchored: false");
     }
     return check_sectors(mapping, element) &&
-           check_shapes(mapping, element->shapes, element->shape_count);
+           check_shapes(mapping, "envelope", element->shapes, element->shape_count);
 }
 
 bool check_level(const Mapping *mapping, void *params)
@@ -163,7 +174,7 @@ bool check_nucleus(const Mapping *mapping, void *params)
             mapping, "end",
             " equals position; a line needs two different ends, or use kind: point");
     }
-    return check_shapes(mapping, nucleus->shapes, nucleus->shape_count);
+    return check_shapes(mapping, "envelope", nucleus->shapes, nucleus->shape_count);
 }
 
 bool check_grammar(const Mapping *mapping, const char *axiom, const char *rules)

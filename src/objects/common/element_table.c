@@ -2,6 +2,7 @@
 #include "objects/common/tables.h"
 
 #define BIT(kind) (1u << (kind))
+#define ALL_BUT_OBJECT (BIT(SHAPE_OBJECT) - 1u) // which is the last
 
 static const EnumName SHAPES[] = {{"sphere", SHAPE_SPHERE},
                                   {"ellipsoid", SHAPE_ELLIPSOID},
@@ -11,6 +12,7 @@ static const EnumName SHAPES[] = {{"sphere", SHAPE_SPHERE},
                                   {"mesh", SHAPE_MESH},
                                   {"half_space", SHAPE_HALF_SPACE},
                                   {"body", SHAPE_BODY},
+                                  {"object", SHAPE_OBJECT},
                                   {0}};
 static const EnumName SHAPE_OPS[] = {{"union", SHAPE_UNION},
                                      {"difference", SHAPE_DIFFERENCE},
@@ -23,8 +25,10 @@ static const Key SHAPE_KEYS[] = {
          "sphere: centred at the origin; ellipsoid: centred at the origin, with three half-axes; "
          "box: centred at the origin; cone: base at the origin, optionally truncated; capsule: rod "
          "with round ends, from the origin up; mesh: from a file; half_space: everything below y = "
-         "0, for cutting; body: a standing human, feet at the origin, facing +Z."},
-    {KEY_OF(Shape, op, "op", KEY_ENUM), .names = SHAPE_OPS,
+         "0, for cutting; body: a standing human, feet at the origin, facing +Z; object: the "
+         "surface of another object of the scene, such as a terrain, where that lies. An outtree "
+         "grows over it with points: {place: surface}; it must be the only shape."},
+    {KEY_OF(Shape, op, "op", KEY_ENUM), .names = SHAPE_OPS, .kinds = ALL_BUT_OBJECT,
      .doc = "union: add the shape; difference: subtract it; intersection: keep only what also lies "
             "in it. The first shape of a list must be a union."},
     {KEY_OF(Shape, size, "size", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3, .high = 1e6,
@@ -36,11 +40,15 @@ static const Key SHAPE_KEYS[] = {
             "ends, unused; body: height, unused, unused."},
     {KEY_OF(Shape, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(SHAPE_MESH),
      .doc = "OBJ, PLY, STL, glTF, GLB or VDB file, relative to the scene's folder."},
-    {KEY_OF(Shape, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
-     .doc = "Position of the shape's origin."},
-    {KEY_OF(Shape, rotation, "rotation", KEY_VECTOR), .count = 3, .unit = "degrees",
-     .doc = "Rotation about x, then y, then z."},
-    {KEY_OF(Shape, scale, "scale", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3,
+    {KEY_OF(Shape, object, "object", KEY_TEXT), .flags = KEY_REQUIRED, .kinds = BIT(SHAPE_OBJECT),
+     .doc = "Name of the object. It is built first. Its curves, leaves and other copies do not "
+            "count."},
+    {KEY_OF(Shape, position, "position", KEY_VECTOR), .kinds = ALL_BUT_OBJECT, .count = 3,
+     .unit = "m", .doc = "Position of the shape's origin."},
+    {KEY_OF(Shape, rotation, "rotation", KEY_VECTOR), .kinds = ALL_BUT_OBJECT, .count = 3,
+     .unit = "degrees", .doc = "Rotation about x, then y, then z."},
+    {KEY_OF(Shape, scale, "scale", KEY_VECTOR), .flags = KEY_SPLAT, .kinds = ALL_BUT_OBJECT,
+     .count = 3,
      .doc = "Scale along x, y and z, applied before the rotation; negative values mirror."},
     {0},
 };

@@ -36,6 +36,9 @@ void surface_project(const void *surface, Vec3 *p, Vec3 *normal)
 {
     enum { ROUNDS = 6 };
     const OnSurface *on = surface;
+    if (envelope_nearest(on->envelope, p, normal)) {
+        return;
+    }
     for (int i = 0; i < ROUNDS; i++) {
         float d = envelope_distance(on->envelope, *p);
         Vec3 g = slope_at(on, *p);

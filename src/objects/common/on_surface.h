@@ -16,7 +16,8 @@ typedef struct OnSurface {
 OnSurface on_surface(const Envelope *envelope);
 
 // A SurfaceProject (outtree/jitter.h); surface: an OnSurface. Moves p down the gradient of the
-// distance to the surface; where that is 0 (beyond a level set's band), along the previous normal.
+// distance to the surface; where that is 0 (beyond a level set's band), along the previous normal;
+// onto an existing surface, to the nearest point.
 void surface_project(const void *surface, Vec3 *p, Vec3 *normal);
 
 // Drops the nodes with a parent that are not on the surface or are farther than `jump` m from their

@@ -33,8 +33,9 @@ typedef struct Recipe {
     uint64_t seed;     // the object's own
     const char *label; // names the object in warnings and errors: "object 'oak'"
     const Run *run;
-    const struct Room *room; // obstacles and rivals (grow/room.h); NULL = it grows alone
-    const Carrier *carrier;  // NULL = it stays at rest
+    const struct Room *room;            // obstacles and rivals (grow/room.h); NULL = it grows alone
+    const Carrier *carrier;             // NULL = it stays at rest
+    const struct ShapeSurface *surface; // that it grows over (Kind.over); NULL = none
 } Recipe;
 
 // The result of growth. Initialize to {0}.

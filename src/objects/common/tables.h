@@ -34,7 +34,7 @@ extern const Table color_stop_table; // of a scale of colours
 // ---- parts of Table.check
 
 // The list under `envelope`.
-bool check_shapes(const Mapping *mapping, const Shape *shapes, int count);
+bool check_shapes(const Mapping *mapping, const char *key, const Shape *shapes, int count);
 
 // Envelope, points and growth of a mapping with ELEMENT_ROWS.
 bool check_element(const Mapping *mapping, const ElementParams *element);

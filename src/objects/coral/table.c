@@ -100,7 +100,8 @@ static void coral_defaults(void *out)
 static bool check_coral(const Mapping *mapping, void *params)
 {
     const CoralParams *coral = params;
-    return !coral->rules || check_grammar(mapping, coral->axiom, coral->rules);
+    return check_shapes(mapping, "base", coral->base, coral->base_count) &&
+           (!coral->rules || check_grammar(mapping, coral->axiom, coral->rules));
 }
 
 const Table coral_table = {

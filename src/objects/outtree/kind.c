@@ -124,6 +124,7 @@ const Kind kind_outtree = {
     .materials = {"clay", NULL, "leaf", "lamp", "attractor", "node", "rime"},
     .builtin = BUILTIN,
     .own_space = own_space,
+    .over = outtree_over,
     .keeps_clear = true,
     .contends = true,
     .needs = needs,

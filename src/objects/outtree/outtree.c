@@ -86,15 +86,25 @@ static Shape own_shape(const OuttreeParams *params)
     return shape;
 }
 
-Envelope *outtree_envelope(const OuttreeParams *params, const Run *run, Error *e)
+const char *outtree_over(const void *given)
+{
+    const OuttreeParams *params = given;
+    const Shape *first = params->element.shape_count > 0 ? params->element.shapes : NULL;
+    return first && first->kind == SHAPE_OBJECT ? first->object : NULL;
+}
+
+Envelope *outtree_envelope(const OuttreeParams *params, const Recipe *recipe, Error *e)
 {
     ElementParams element = params->element;
     Shape own = own_shape(params);
+    if (recipe->surface) {
+        return envelope_of_surface(recipe->surface, e);
+    }
     if (element.shape_count == 0) {
         element.shapes = &own;
         element.shape_count = 1;
     }
-    return element_envelope(&element, run, e);
+    return element_envelope(&element, recipe->run, e);
 }
 
 // What all steps of one growth share.
@@ -292,7 +302,7 @@ static bool finish_growth(Growing *g, Error *e)
 bool outtree_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     Growing g = {.params = given, .recipe = recipe};
-    Envelope *envelope = outtree_envelope(given, recipe->run, e);
+    Envelope *envelope = outtree_envelope(given, recipe, e);
     g.envelope = envelope;
     g.on = envelope ? on_surface(envelope) : (OnSurface){0};
     g.tree = envelope ? out_tree_new(e) : NULL;

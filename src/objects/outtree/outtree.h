@@ -144,8 +144,12 @@ enum {
 
 OuttreeParams outtree_params_default(void); // in a ball of 1 m radius, from its lowest point
 
-// The envelope of the parameters' shapes, or the object's own. Free with envelope_free.
-Envelope *outtree_envelope(const OuttreeParams *params, const Run *run, Error *e);
+// Name of the object whose surface is the envelope; NULL = none. See Kind.over.
+const char *outtree_over(const void *params);
+
+// The envelope of the parameters' shapes, or the object's own, or recipe->surface, which it then
+// borrows. Free with envelope_free.
+Envelope *outtree_envelope(const OuttreeParams *params, const Recipe *recipe, Error *e);
 
 // Does the object scatter attractors, besides those placed?
 bool outtree_scatters(const OuttreeParams *params);

@@ -209,7 +209,7 @@ static bool add_band(const OuttreeParams *params, const Placing *placing, Error 
     if (params->show.band <= 0.0f) {
         return true;
     }
-    Envelope *envelope = outtree_envelope(params, placing->recipe->run, e);
+    Envelope *envelope = outtree_envelope(params, placing->recipe, e);
     if (!envelope) {
         return false;
     }

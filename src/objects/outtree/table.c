@@ -335,13 +335,45 @@ static bool check_placed(const Mapping *mapping, const OuttreeParams *params)
                         " places attractors on a surface but has no envelope; give it one");
 }
 
+// An object's surface is a shape that exists already, and possibly a sheet.
+static bool check_over(const Mapping *mapping, const OuttreeParams *outtree)
+{
+    if (outtree->element.shape_count > 1) {
+        return load_fail(mapping->loader, node_get(mapping->given, "envelope")->first->next,
+                         "%s: nothing can be joined to the surface of an object or cut from it; "
+                         "it must be the only shape",
+                         mapping_path(mapping, "envelope"));
+    }
+    if (outtree->element.points.place != SCATTER_SURFACE) {
+        return mapping_fail(mapping, "points.place",
+                            " is volume, but the surface of an object has no inside; it must be "
+                            "surface");
+    }
+    if (outtree->element.points.anchored) {
+        return mapping_fail(mapping, "points.anchored",
+                            " needs an envelope with an inside, which the surface of an object "
+                            "has not; leave it out");
+    }
+    return outtree->show.band <= 0.0f ||
+           mapping_fail(mapping, "show.band",
+                        " needs an envelope with an inside, which the surface of an object has "
+                        "not; leave it out");
+}
+
 static bool check_outtree(const Mapping *mapping, void *params)
 {
     const OuttreeParams *outtree = params;
+    ElementParams element = outtree->element;
+    if (outtree_over(outtree)) {
+        if (!check_over(mapping, outtree)) {
+            return false;
+        }
+        element.shape_count = 0;
+    }
     if (!(vec3_length(outtree->starts.direction) > 0.0f)) {
         return mapping_fail(mapping, "starts.direction", " is zero; it must have a direction");
     }
-    return check_string_element(mapping, &outtree->element) && check_placed(mapping, outtree);
+    return check_string_element(mapping, &element) && check_placed(mapping, outtree);
 }
 
 const Table outtree_table = {

@@ -20,7 +20,7 @@ static void solid_defaults(void *out)
 static bool check_solid(const Mapping *mapping, void *params)
 {
     const SolidParams *solid = params;
-    return check_shapes(mapping, solid->shapes, solid->shape_count);
+    return check_shapes(mapping, "envelope", solid->shapes, solid->shape_count);
 }
 
 const Table solid_table = {

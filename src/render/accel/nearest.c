@@ -64,13 +64,20 @@ static bool visit(struct RTCPointQueryFunctionArguments *args)
     return true;
 }
 
-float nearest_distance(const Nearest *nearest, Vec3 p, float reach, Vec3 *away)
+// The nearest piece within reach.
+static Query search(const Nearest *nearest, Vec3 p, float reach)
 {
     Query q = {.nearest = nearest, .p = p, .best = reach};
     struct RTCPointQuery query = {.x = p.x, .y = p.y, .z = p.z, .radius = reach};
     struct RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(nearest->scene, &query, &context, visit, &q);
+    return q;
+}
+
+float nearest_distance(const Nearest *nearest, Vec3 p, float reach, Vec3 *away)
+{
+    Query q = search(nearest, p, reach);
     bool inside = cover_hides(nearest->cover, p);
     *away = vec3(0, 0, 0);
     if (!q.found) {
@@ -80,6 +87,24 @@ float nearest_distance(const Nearest *nearest, Vec3 p, float reach, Vec3 *away)
     Vec3 outward = vec3_sub(p, q.point);
     *away = vec3_normalize(inside && !round ? vec3_scale(outward, -1.0f) : outward);
     return inside && !round ? -q.best : q.best;
+}
+
+void nearest_point(const Nearest *nearest, Vec3 *p, Vec3 *normal)
+{
+    Query q = search(nearest, *p, INFINITY);
+    if (!q.found) {
+        return;
+    }
+    const Piece *piece = &nearest->piece[q.primitive];
+    float radius = 0.0f;
+    Vec3 point = piece->round ? on_axis(piece, *p, &radius) : q.point;
+    Vec3 out = piece->round
+                   ? vec3_sub(*p, point)
+                   : vec3_cross(vec3_sub(piece->b, piece->a), vec3_sub(piece->c, piece->a));
+    if (vec3_length(out) > 0.0f) { // else a degenerate triangle, or p on the axis
+        *normal = vec3_normalize(out);
+    }
+    *p = vec3_madd(point, radius, *normal);
 }
 
 // ---- making

@@ -18,4 +18,9 @@ void nearest_free(Nearest *nearest); // NULL is fine
 // result does not depend on the machine. Thread-safe.
 float nearest_distance(const Nearest *nearest, Vec3 p, float reach, Vec3 *away);
 
+// Moves p to the nearest point of the surfaces, however far, and sets the unit normal of the
+// triangle or curve there; without surfaces it changes nothing. The result does not depend on the
+// machine. Thread-safe.
+void nearest_point(const Nearest *nearest, Vec3 *p, Vec3 *normal);
+
 #endif
