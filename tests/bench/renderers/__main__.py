@@ -1,6 +1,6 @@
 """Draws scenes with ramify, Cycles and Mitsuba 3, checks that they converge to the same image, and compares their efficiency.
 
-Exit status: 0; 1 when converged images differ or a renderer fails; 2 for wrong options.
+Exit status: 0; 1 when converged images differ, times or errors cannot be told or a renderer fails; 2 for wrong options.
 """
 
 import argparse
@@ -141,22 +141,25 @@ def main(arguments):
         print(f"the machine is busy (load {os.getloadavg()[0]:.1f}): times will be noisy; more --repeats help")
     picture, results, begin = prepare(options), {}, time.monotonic()
     for name in options.scenes:
-        results[name] = compare(name, picture, options)
-        print(report.proof_line(name, results[name]), flush=True)
-    print()
-    print(report.table(results))
+        try:
+            results[name] = compare(name, picture, options)
+            print(report.proof_line(name, results[name]), flush=True)
+        except Unmeasurable as reason:
+            print(f"bench-renderers: {name} is left out: {reason}", file=sys.stderr)
+    if results:
+        print("\n" + report.table(results))
     print(f"\n{options.size[0]} x {options.size[1]} pixels, {options.threads} threads, {time.monotonic() - begin:.0f} s in all")
-    if options.json:
+    if options.json and results:
         options.json.write_text(json.dumps(report.as_json(results), indent=1) + "\n")
     different = [name for name in results if disagreeing(results[name])]
     if different:
         print(f"bench-renderers: converged images differ: {', '.join(different)}", file=sys.stderr)
-    return 1 if different else 0
+    return 1 if different or len(results) < len(options.scenes) else 0
 
 
 if __name__ == "__main__":
     try:
         sys.exit(main(sys.argv[1:]))
-    except (RendererFailed, Unmeasurable) as failure:
+    except RendererFailed as failure:
         print(f"bench-renderers: {failure}", file=sys.stderr)
         sys.exit(1)
