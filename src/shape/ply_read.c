@@ -182,7 +182,7 @@ static bool read_vertices(FILE *stream, const PlyLayout *layout, Mesh *mesh, Err
 {
     unsigned char record[MOST_STRIDE];
     for (int64_t i = 0; i < layout->vertices; i++) {
-        if (fread_unlocked(record, (size_t)layout->stride, 1, stream) != 1) {
+        if (fread(record, (size_t)layout->stride, 1, stream) != 1) {
             return cut_off(e);
         }
         mesh->position[i] = vector_at(record, layout->field + FIELD_X);
@@ -278,7 +278,7 @@ static bool read_face(FILE *stream, const PlyLayout *layout, const uint32_t *fir
 {
     unsigned char record[MOST_STRIDE + MOST_CORNERS * sizeof(uint32_t)];
     uint32_t corner[MOST_CORNERS];
-    if (fread_unlocked(record, (size_t)layout->before + 1, 1, stream) != 1) {
+    if (fread(record, (size_t)layout->before + 1, 1, stream) != 1) {
         return cut_off(e);
     }
     unsigned count = record[layout->before];
@@ -286,7 +286,7 @@ static bool read_face(FILE *stream, const PlyLayout *layout, const uint32_t *fir
     if (*declined) {
         return false;
     }
-    if (fread_unlocked(record, count * sizeof *corner + (size_t)layout->after, 1, stream) != 1) {
+    if (fread(record, count * sizeof *corner + (size_t)layout->after, 1, stream) != 1) {
         return cut_off(e);
     }
     memcpy(corner, record, count * sizeof *corner);
