@@ -196,6 +196,13 @@ $(OUT)/ramify: $(CLI_OBJ) $(OUT)/libramify.a
 # Its allocations are counted, and one of them fails.
 $(OUT)/tests/api/test_memory: private LDFLAGS += -Wl,--wrap=memory_alloc,--wrap=memory_alloc_zero,--wrap=memory_reserve
 
+# A stand-in for Open Image Denoise's library, of either version.
+$(OUT)/tests/image/fake_oidn_%.so: tests/image/fake_oidn.c
+	@mkdir -p $(@D)
+	@echo "  TEST $@"
+	@$(CC) -std=c17 -shared -fPIC -Wall -Wextra -Werror -DVERSION=$* $< -o $@
+$(OUT)/tests/image/test_oidn: $(OUT)/tests/image/fake_oidn_1.so $(OUT)/tests/image/fake_oidn_2.so
+
 # The command writes its own manual.
 $(OUT)/man/ramify.1: $(OUT)/ramify
 	@mkdir -p $(@D)

@@ -480,6 +480,10 @@ RAMIFY_API bool ramify_write_image(const RamifyScene *scene, const float *rgba, 
 // extension, RAMIFY_IO if its folder is missing.
 RAMIFY_API bool ramify_image_check(const char *file, RamifyError *error);
 
+// Checks in advance that the scene's film can be denoised: RAMIFY_BAD_INPUT if film.denoiser is
+// oidn and the library of Open Image Denoise cannot be loaded. True if the scene does not denoise.
+RAMIFY_API bool ramify_denoiser_check(const RamifyScene *scene, RamifyError *error);
+
 // The same step by step, with previews and every layer of the film.
 
 typedef struct RamifyFilm RamifyFilm;
@@ -501,8 +505,9 @@ RAMIFY_API const float *ramify_film_layer(const RamifyFilm *film, const char *na
 RAMIFY_API void ramify_film_rgba(const RamifyFilm *film, float *rgba);
 
 // Develops the film of this scene: fills rgba with 4 * width * height display values, 0..1 in sRGB,
-// with straight alpha. denoise: remove the noise first, unless pixels of the scene's crop have
-// no sample, because the first pass was cancelled; run (may be NULL) applies to that.
+// with straight alpha. denoise: remove the noise first, by film.denoiser, unless pixels of the
+// scene's crop have no sample, because the first pass was cancelled; run (may be NULL) applies to
+// that.
 RAMIFY_API bool ramify_film_develop(const RamifyFilm *film, const RamifyScene *scene, bool denoise,
                                     float *rgba, const RamifyRun *run, RamifyError *error);
 

@@ -132,11 +132,17 @@ static bool check_size(const Shooting *s, const Scene *scene, int frame, Error *
 static bool find_shots(Shooting *s, Error *e)
 {
     uint64_t metered;
+    int oidn = 0;
+    if (s->scene->denoise && !picture_is_exr(s->pattern) &&
+        !picture_find_denoiser(s->scene, &oidn, s->run, e)) {
+        return false;
+    }
     s->shot = memory_alloc(s->end - s->start + 1, sizeof *s->shot, e);
     if (!s->shot || !hash_metered(s, &metered, e)) {
         return false;
     }
     uint64_t more = random_key(metered, frames_hash(s->scene, s->params->isa));
+    more = oidn ? random_key(more, (uint64_t)oidn) : more;
     for (int frame = s->start; frame <= s->end; frame++) {
         if (run_is_cancelled(s->run)) {
             return run_cancel_error(e);

@@ -143,7 +143,10 @@ static bool write_pictures(Job *job, const RamifyFilm *film, const RamifyRun *ru
     if (!done && !cut_short && *run->cancelled) { // cancelled while denoising: write without
         done = ramify_film_write(film, job->scene, job->outputs->display, false, &patient, e);
     }
-    done = done && ramify_film_write(film, job->scene, job->outputs->exr, false, &patient, e);
+    // the rendering itself is saved even if developing fails, e.g. in the denoiser's library
+    done =
+        ramify_film_write(film, job->scene, job->outputs->exr, false, &patient, done ? e : NULL) &&
+        done;
     job->write += clock_seconds() - start;
     return done;
 }
@@ -155,7 +158,7 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
     RamifyRun run = command_run(options, &progress);
     Job job = {.scene = scene, .outputs = outputs};
     ramify_scene_info(scene, &job.info);
-    RamifyWorld *world = ramify_build(scene, &run, e);
+    RamifyWorld *world = ramify_denoiser_check(scene, e) ? ramify_build(scene, &run, e) : NULL;
     RamifyFilm *film = world ? ramify_film_new(job.info.width, job.info.height, e) : NULL;
     bool done = film && trace(&job, world, options->isa, film, &progress, &run, e);
     progress_end(&progress);

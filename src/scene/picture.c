@@ -4,7 +4,9 @@
 #include "base/file_replace.h"
 #include "base/memory.h"
 #include "image/denoise.h"
+#include "image/oidn.h"
 #include "ramify.h"
+#include "scene/place.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -86,15 +88,43 @@ static char *make_metadata(const Scene *scene, const char *mark, Error *e)
     return metadata;
 }
 
-static Image *denoised_image(const Image *beauty, const Film *film, const Run *run, Error *e)
+bool picture_find_denoiser(const Scene *scene, int *oidn, const Run *run, Error *e)
 {
+    Error why = {0};
+    *oidn = scene->denoiser == DENOISER_OWN ? 0 : image_oidn_version(&why);
+    if (*oidn > 0 || scene->denoiser == DENOISER_OWN) {
+        return true;
+    }
+    if (scene->denoiser == DENOISER_AUTO) {
+        if (run && getenv(OIDN_VARIABLE)) { // the user expects a library
+            run_warn(run, "%s; ramify's own denoiser is used", why.message);
+        }
+        return true;
+    }
+    error_prefix(&why, "film.denoiser is oidn, but ");
+    error_key(&why, "film.denoiser");
+    scene_fail_at(scene, "", &why);
+    if (e) {
+        *e = why;
+    }
+    return false;
+}
+
+static Image *denoised_image(const Scene *scene, const Image *beauty, const Film *film,
+                             const Run *run, Error *e)
+{
+    int oidn;
+    if (!picture_find_denoiser(scene, &oidn, run, e)) {
+        return NULL;
+    }
     Image *guides[4] = {plane_image(film, film->albedo, 3, e),
                         plane_image(film, film->normal, 3, e), plane_image(film, film->depth, 1, e),
                         plane_image(film, film->variance, 1, e)};
     Image *clean = NULL;
     if (guides[0] && guides[1] && guides[2] && guides[3]) {
-        clean = image_denoise(beauty, guides[0], guides[1], guides[2], guides[3], DENOISE_STRENGTH,
-                              run, e);
+        clean = oidn ? image_denoise_oidn(beauty, guides[0], guides[1], run, e)
+                     : image_denoise(beauty, guides[0], guides[1], guides[2], guides[3],
+                                     DENOISE_STRENGTH, run, e);
     }
     for (int i = 0; i < 4; i++) {
         image_free(guides[i]);
@@ -106,7 +136,7 @@ Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const
 {
     Image *beauty = beauty_image(film, e);
     if (beauty && denoise && film_is_complete(film, scene->film.crop)) {
-        Image *clean = denoised_image(beauty, film, run, e);
+        Image *clean = denoised_image(scene, beauty, film, run, e);
         image_free(beauty);
         beauty = clean;
     }

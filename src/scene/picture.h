@@ -14,6 +14,11 @@ bool picture_is_exr(const char *file);
 // not end in .png, .jpg, .jpeg or .exr, ERROR_IO as from file_replace_check.
 bool picture_check(const char *file, Error *e);
 
+// Finds the denoiser of the scene's pictures (film.denoiser): *oidn becomes the version of Open
+// Image Denoise, or 0 for ours. ERROR_INPUT at the key when the scene wants Open Image Denoise and
+// its library cannot be loaded. run: for a warning; may be NULL.
+bool picture_find_denoiser(const Scene *scene, int *oidn, const Run *run, Error *e);
+
 // Display values of a film, as from tone_map; free them. denoise: denoise first, unless a pixel of
 // the crop has no sample, because a first pass was cancelled.
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run,

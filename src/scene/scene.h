@@ -73,6 +73,12 @@ typedef struct Light Light;
 typedef struct Material Material;
 typedef struct Medium Medium;
 
+typedef enum SceneDenoiser {
+    DENOISER_OWN,  // image/denoise.h
+    DENOISER_OIDN, // image/oidn.h
+    DENOISER_AUTO  // oidn if its library can be loaded, else own
+} SceneDenoiser;
+
 typedef struct Scene {
     Arena *arena;    // holds the scene itself and everything it points to
     char *file;      // the scene file, for messages
@@ -87,6 +93,7 @@ typedef struct Scene {
     FilmParams film;
     ToneParams tone;
     bool denoise;
+    SceneDenoiser denoiser;
     RenderParams render;
     Sky sky;
     Medium *medium; // NULL = clear air

@@ -43,6 +43,8 @@ static const EnumName FILTERS[] = {{"blackman_harris", FILTER_BLACKMAN_HARRIS},
                                    {"gaussian", FILTER_GAUSSIAN},
                                    {0}};
 static const EnumName CURVES[] = {{"filmic", TONE_FILMIC}, {"linear", TONE_LINEAR}, {0}};
+static const EnumName DENOISERS[] = {
+    {"own", DENOISER_OWN}, {"oidn", DENOISER_OIDN}, {"auto", DENOISER_AUTO}, {0}};
 
 static const Key FILM_KEYS[] = {
     {KEY_OF(Scene, film.width, "width", KEY_INT), .low = 1, .high = 65536, .unit = "pixels",
@@ -76,6 +78,10 @@ static const Key FILM_KEYS[] = {
      .doc = "Strength of the darkening toward the corners of the image."},
     {KEY_OF(Scene, denoise, "denoise", KEY_BOOL),
      .doc = "Denoise the developed image; EXR files are never denoised."},
+    {KEY_OF(Scene, denoiser, "denoiser", KEY_ENUM), .names = DENOISERS,
+     .doc = "Denoiser to use. own: ramify's, the same result on every machine; oidn: Open Image "
+            "Denoise, whose library must be installed (or named by the environment variable "
+            "RAMIFY_OIDN); auto: oidn if its library can be loaded, otherwise own."},
     {0},
 };
 

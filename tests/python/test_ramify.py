@@ -229,6 +229,15 @@ def test_a_wrong_file_is_refused_before_the_work(tmp_path):
         assert time.monotonic() - start < 60
 
 
+def test_a_missing_denoiser_is_told_before_the_work(tmp_path, monkeypatch):
+    monkeypatch.setenv("RAMIFY_OIDN", str(tmp_path / "none.so"))
+    scene = {**SLOW, "film": {"denoise": True, "denoiser": "oidn"}}
+    start = time.monotonic()
+    with pytest.raises(ramify.BadInput, match="film.denoiser is oidn, but Open Image Denoise cannot be loaded"):
+        ramify.render(scene, tmp_path / "x.png")
+    assert time.monotonic() - start < 60
+
+
 def test_an_argument_that_c_cannot_take_is_an_error_and_no_hang(scene, world):
     film = scene.render()
     with pytest.raises(ValueError):

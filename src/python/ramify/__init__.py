@@ -53,6 +53,8 @@ def render(
         scene = Scene(scene, overrides, folder) if isinstance(scene, dict) else Scene.load(scene, overrides)
     if file is not None:
         call("image_check", path(file))  # before the work, not after it
+        if not path(file).lower().endswith(b".exr"):
+            call("denoiser_check", scene._handle.pointer)
     film = scene.render(**how)
     if file is not None:
         film.save(file)
