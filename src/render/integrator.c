@@ -222,11 +222,64 @@ static bool bounce(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3
     return true;
 }
 
+// What a surface adds to the path, and the ray that leaves it. False when the path ends here.
+static bool scatter_at(Path *path, const Hit *hit, const SurfacePoint *point, PathResult *result)
+{
+    const Tracer *tracer = path->tracer;
+    Vec3 wo = vec3_neg(path->ray.direction);
+    Bsdf bsdf;
+    bsdf_fill(tracer->materials, point, wo, &bsdf);
+    if (path->straight) {
+        note_first_hit(result, point, &bsdf, path->travelled,
+                       fminf(luminance(path->throughput), 1.0f));
+    }
+    if (bsdf_is_emissive(&bsdf)) {
+        SurfacePlace place = accel_place(tracer->accel, hit);
+        float glow =
+            lights_glow(tracer->lights, &place, point->position, &path->from, path->bsdf_pdf);
+        path_add_light(path, vec3_scale(bsdf.emission, glow));
+        return false;
+    }
+    if (path->depth >= tracer->world->render.max_depth || !path_survives(path)) {
+        return false;
+    }
+    if (!(bsdf.traits & TRAIT_THIN)) {
+        bool opaque = bsdf.traits & TRAIT_OPAQUE;
+        path->from =
+            (LightReceiver){point->position, opaque ? point->geometric_normal : vec3_splat(0.0f)};
+        if (lights_can_sample(tracer->lights)) {
+            add_direct_light(path, point, &bsdf, wo);
+        }
+    }
+    return bounce(path, point, &bsdf, wo);
+}
+
+// The ray met a lamp or a surface. False when the path ends there.
+static bool arrive(Path *path, const Hit *hit, PathResult *result)
+{
+    const Tracer *tracer = path->tracer;
+    add_haze(path, hit->t);
+    int light = accel_light(tracer->accel, hit);
+    if (light >= 0) {
+        path_add_light(path, lights_emitted(tracer->lights, light, path->start, path->ray.direction,
+                                            path->travelled + hit->t, path->bsdf_pdf));
+        return false;
+    }
+    path->travelled += hit->t;
+    SurfacePoint point;
+    accel_surface(tracer->accel, &path->ray, hit, &point);
+    point.footprint = path->footprint + path->spread * hit->t;
+    if (tracer->has_index_matched &&
+        material_is_index_matched(&tracer->world->material[point.material])) {
+        return cross_index_matched(path, &point);
+    }
+    return scatter_at(path, hit, &point, result);
+}
+
 // Follows the path to its end. met, hit: what its camera ray met.
 static void trace_path(Path *path, bool met, Hit *hit, PathResult *result)
 {
     const Tracer *tracer = path->tracer;
-    const World *world = tracer->world;
     for (;; path->rays++, met = accel_intersect(tracer->accel, &path->ray, hit)) {
         if (path->media.now.present) {
             Travel travel = path_travel(path, met ? hit->t : INFINITY);
@@ -238,57 +291,13 @@ static void trace_path(Path *path, bool met, Hit *hit, PathResult *result)
             }
         }
         if (!met) {
-            if (world->medium.kind == MEDIUM_WATER && reflect_off_water(path)) {
+            if (tracer->world->medium.kind == MEDIUM_WATER && reflect_off_water(path)) {
                 continue;
             }
             add_background(path, result);
             return;
         }
-        add_haze(path, hit->t);
-        int light = accel_light(tracer->accel, hit);
-        if (light >= 0) {
-            path_add_light(path,
-                           lights_emitted(tracer->lights, light, path->start, path->ray.direction,
-                                          path->travelled + hit->t, path->bsdf_pdf));
-            return;
-        }
-        path->travelled += hit->t;
-        SurfacePoint point;
-        accel_surface(tracer->accel, &path->ray, hit, &point);
-        point.footprint = path->footprint + path->spread * hit->t;
-        if (tracer->has_index_matched &&
-            material_is_index_matched(&world->material[point.material])) {
-            if (!cross_index_matched(path, &point)) {
-                return;
-            }
-            continue;
-        }
-        Vec3 wo = vec3_neg(path->ray.direction);
-        Bsdf bsdf;
-        bsdf_fill(tracer->materials, &point, wo, &bsdf);
-        if (path->straight) {
-            note_first_hit(result, &point, &bsdf, path->travelled,
-                           fminf(luminance(path->throughput), 1.0f));
-        }
-        if (bsdf_is_emissive(&bsdf)) {
-            SurfacePlace place = accel_place(tracer->accel, hit);
-            float glow =
-                lights_glow(tracer->lights, &place, point.position, &path->from, path->bsdf_pdf);
-            path_add_light(path, vec3_scale(bsdf.emission, glow));
-            return;
-        }
-        if (path->depth >= world->render.max_depth || !path_survives(path)) {
-            return;
-        }
-        if (!(bsdf.traits & TRAIT_THIN)) {
-            bool opaque = bsdf.traits & TRAIT_OPAQUE;
-            path->from =
-                (LightReceiver){point.position, opaque ? point.geometric_normal : vec3_splat(0.0f)};
-            if (lights_can_sample(tracer->lights)) {
-                add_direct_light(path, &point, &bsdf, wo);
-            }
-        }
-        if (!bounce(path, &point, &bsdf, wo)) {
+        if (!arrive(path, hit, result)) {
             return;
         }
     }

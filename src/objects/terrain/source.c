@@ -125,7 +125,7 @@ OutTree *terrain_read_tree(const TerrainParams *params, const TreeSource *source
     if (tree && !lies_within(tree, params->size)) {
         error_set(e, ERROR_INPUT,
                   "'%s' has no node within the terrain's %g m about the origin; change its scale",
-                  source->file, (double)params->size);
+                  source->file ? source->file : source->image, (double)params->size);
         out_tree_free(tree);
         return NULL;
     }

@@ -56,15 +56,13 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
     return resolved;
 }
 
-// Displacement of places by the noise, m.
-static float warp_reach(const TerrainParams *params);
-
 // Wavelength of the noise's first octave, m.
 static float noise_wavelength(const TerrainParams *params)
 {
     return terrain_params_resolve(params).noise.wavelength * params->size;
 }
 
+// Displacement of places by the noise, m.
 static float warp_reach(const TerrainParams *params)
 {
     return params->noise.iterations > 0 ? params->noise.warp * noise_wavelength(params) : 0.0f;
