@@ -1,6 +1,7 @@
 #include "image/tone_curve.h"
 
 #include "base/color.h"
+#include "image/color_matrix.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,7 +18,8 @@ ToneCurveFit tone_curve_fit(float contrast)
     power = fmax(power, 1.01); // below, the curve has no toe and no solution
     double m = pow(middle, power), w = pow(white, power);
     double b = (w - m / middle) / (w - m);
-    return (ToneCurveFit){(float)power, (float)b, (float)(w * (1.0 - b))};
+    double c = m * (1.0 / middle - 1.0) * w / (w - m); // w (1 - b) without cancellation
+    return (ToneCurveFit){(float)power, (float)b, (float)c};
 }
 
 static float curve(const ToneCurveFit *fit, float x)
@@ -72,34 +74,8 @@ static void chromaticity(double t, double *x, double *y)
     *y = -3.0 * *x * *x + 2.870 * *x - 0.275;
 }
 
-typedef double Matrix[3][3];
-
-static void multiply(Matrix a, Matrix b, Matrix out)
-{
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            out[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
-        }
-    }
-}
-
-static void invert(Matrix m, Matrix out)
-{
-    double determinant = 0.0;
-    for (int i = 0; i < 3; i++) {
-        determinant += m[0][i] * (m[1][(i + 1) % 3] * m[2][(i + 2) % 3] -
-                                  m[1][(i + 2) % 3] * m[2][(i + 1) % 3]);
-    }
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            int a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
-            out[i][j] = (m[a][c] * m[b][d] - m[a][d] * m[b][c]) / determinant;
-        }
-    }
-}
-
 // Cone responses to a light of luminance 1.
-static void cones_of(Matrix cat, double kelvin, double cones[3])
+static void cones_of(ColorMatrix cat, double kelvin, double cones[3])
 {
     double x, y;
     chromaticity(kelvin, &x, &y);
@@ -111,13 +87,13 @@ static void cones_of(Matrix cat, double kelvin, double cones[3])
 
 void tone_white_balance(float kelvin, float matrix[3][3])
 {
-    Matrix xyz_of_rgb = {{0.4124564, 0.3575761, 0.1804375},
-                         {0.2126729, 0.7151522, 0.0721750},
-                         {0.0193339, 0.1191920, 0.9503041}};
-    Matrix cat = {{0.401288, 0.650173, -0.051461}, // Li 2017
-                  {-0.250268, 1.204414, 0.045854},
-                  {-0.002079, 0.048952, 0.953127}};
-    Matrix scale = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    ColorMatrix xyz_of_rgb = {{0.4124564, 0.3575761, 0.1804375},
+                              {0.2126729, 0.7151522, 0.0721750},
+                              {0.0193339, 0.1191920, 0.9503041}};
+    ColorMatrix cat = {{0.401288, 0.650173, -0.051461}, // Li 2017
+                       {-0.250268, 1.204414, 0.045854},
+                       {-0.002079, 0.048952, 0.953127}};
+    ColorMatrix scale = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     if (kelvin > 0.0f && fabsf(kelvin - 6500.0f) > 0.5f) {
         double from[3], to[3];
         cones_of(cat, fmin(fmax((double)kelvin, 1667.0), 25000.0), from);
@@ -126,11 +102,11 @@ void tone_white_balance(float kelvin, float matrix[3][3])
             scale[i][i] = to[i] / from[i];
         }
     }
-    Matrix forth, back, scaled, result;
-    multiply(cat, xyz_of_rgb, forth);
-    invert(forth, back);
-    multiply(scale, forth, scaled);
-    multiply(back, scaled, result);
+    ColorMatrix forth, back, scaled, result;
+    color_matrix_multiply(cat, xyz_of_rgb, forth);
+    color_matrix_invert(forth, back);
+    color_matrix_multiply(scale, forth, scaled);
+    color_matrix_multiply(back, scaled, result);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             matrix[i][j] = (float)result[i][j];

@@ -10,7 +10,8 @@
 
 ToneParams tone_params_default(void)
 {
-    return (ToneParams){.curve = TONE_FILMIC,
+    return (ToneParams){.view = VIEW_AGX,
+                        .look = AGX_MEDIUM_HIGH_CONTRAST,
                         .contrast = 1.0f,
                         .saturation = 1.0f,
                         .white_balance = 6500.0f,
@@ -58,21 +59,58 @@ static void prepare(Image *out, const Image *image, const ToneParams *params)
     }
 }
 
-static void develop_pixel(float *p, int channels, float shade, const ToneParams *params,
-                          const ToneCurveFit *fit)
+typedef struct View {
+    const ToneParams *params;
+    AgxFit agx;
+    ToneCurveFit film;
+} View;
+
+static View view_of(const ToneParams *params)
+{
+    return (View){.params = params,
+                  .agx = agx_fit(params->look, params->contrast),
+                  .film = tone_curve_fit(params->contrast)};
+}
+
+// Linear scene values become linear display values.
+static void apply_view(const View *view, float rgb[3])
+{
+    switch (view->params->view) {
+    case VIEW_AGX:
+        agx_apply(&view->agx, view->params->saturation, rgb);
+        return;
+    case VIEW_FILMIC:
+        tone_film(&view->film, view->params->saturation, rgb);
+        return;
+    case VIEW_STANDARD:
+        break;
+    }
+    tone_saturate(view->params->saturation, rgb);
+}
+
+static void develop_pixel(float *p, int channels, float shade, const View *view)
 {
     float alpha = channels == 4 ? p[3] : 1.0f;
     float scale = alpha > 0.0f ? shade / alpha : 0.0f;
     for (int c = 0; c < 3; c++) {
         p[c] *= scale;
     }
-    if (params->curve == TONE_FILMIC) {
-        tone_film(fit, params->saturation, p);
-    } else {
-        tone_saturate(params->saturation, p);
-    }
+    apply_view(view, p);
     for (int c = 0; c < 3; c++) {
         p[c] = tone_srgb_from_linear(p[c]);
+    }
+}
+
+static void develop(Image *image, const ToneParams *params)
+{
+    View view = view_of(params);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < image->height; y++) {
+        for (int x = 0; x < image->width; x++) {
+            float shade = lens_vignette(image, x, y, params->vignette);
+            int64_t i = (int64_t)y * image->width + x;
+            develop_pixel(image->pixel + i * image->channels, image->channels, shade, &view);
+        }
     }
 }
 
@@ -93,13 +131,6 @@ Image *tone_map(const Image *image, const ToneParams *params, Error *e)
         image_free(out);
         return NULL;
     }
-    ToneCurveFit fit = tone_curve_fit(params->contrast);
-    for (int y = 0; y < out->height; y++) {
-        for (int x = 0; x < out->width; x++) {
-            float shade = lens_vignette(out, x, y, params->vignette);
-            develop_pixel(out->pixel + ((int64_t)y * out->width + x) * out->channels, out->channels,
-                          shade, params, &fit);
-        }
-    }
+    develop(out, params);
     return out;
 }

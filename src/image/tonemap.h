@@ -3,15 +3,21 @@
 #define RAMIFY_IMAGE_TONEMAP_H
 
 #include "base/vec.h"
+#include "image/agx.h"
 #include "image/image.h"
 
-typedef enum ToneCurve { TONE_FILMIC, TONE_LINEAR } ToneCurve;
+typedef enum ViewTransform {
+    VIEW_AGX,     // image/agx.h
+    VIEW_FILMIC,  // tone_film
+    VIEW_STANDARD // none: values above 1 are clipped
+} ViewTransform;
 
 typedef struct ToneParams {
-    ToneCurve curve;
+    ViewTransform view;
+    AgxLook look;               // of VIEW_AGX
     float exposure;             // stops
     bool auto_exposure;         // maps the image's log-average luminance to 0.18 before `exposure`
-    float contrast, saturation; // 1 = unchanged
+    float contrast, saturation; // 1 = unchanged; contrast is not for VIEW_STANDARD
     float white_balance;        // K: the light that becomes neutral; 0 or 6500 = none
     float bloom;                // fraction of light spread by the lens, 0..0.2
     float vignette;             // darkening at the corners, 0..1

@@ -42,7 +42,13 @@ static const EnumName FILTERS[] = {{"blackman_harris", FILTER_BLACKMAN_HARRIS},
                                    {"box", FILTER_BOX},
                                    {"gaussian", FILTER_GAUSSIAN},
                                    {0}};
-static const EnumName CURVES[] = {{"filmic", TONE_FILMIC}, {"linear", TONE_LINEAR}, {0}};
+static const EnumName VIEWS[] = {
+    {"agx", VIEW_AGX}, {"filmic", VIEW_FILMIC}, {"standard", VIEW_STANDARD}, {0}};
+static const EnumName LOOKS[] = {{"medium_high_contrast", AGX_MEDIUM_HIGH_CONTRAST},
+                                 {"base_contrast", AGX_BASE_CONTRAST},
+                                 {"high_contrast", AGX_HIGH_CONTRAST},
+                                 {"punchy", AGX_PUNCHY},
+                                 {0}};
 static const EnumName DENOISERS[] = {
     {"own", DENOISER_OWN}, {"oidn", DENOISER_OIDN}, {"auto", DENOISER_AUTO}, {0}};
 
@@ -64,10 +70,17 @@ static const Key FILM_KEYS[] = {
     {KEY_OF(Scene, tone.auto_exposure, "auto_exposure", KEY_BOOL),
      .doc = "Set the exposure automatically, so that the log-average luminance becomes 0.18; "
             "`exposure` is added."},
-    {KEY_OF(Scene, tone.curve, "curve", KEY_ENUM), .names = CURVES,
-     .doc = "Tone curve. filmic: rolls off highlights smoothly, like film; linear: clips them."},
+    {KEY_OF(Scene, tone.view, "view", KEY_ENUM), .names = VIEWS,
+     .doc =
+         "View transform from radiance to the display. agx: rolls highlights off far, and bright "
+         "colours pale toward white in their own hue; filmic: a shorter roll-off, in which "
+         "bright colours turn toward yellow, cyan or magenta; standard: clips highlights."},
+    {KEY_OF(Scene, tone.look, "look", KEY_ENUM), .names = LOOKS,
+     .doc =
+         "Contrast and saturation of `view: agx`. base_contrast: flat, for grading; punchy: more "
+         "saturated."},
     {KEY_OF(Scene, tone.contrast, "contrast", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
-     .doc = "Slope of the filmic curve at middle grey; 1 = unchanged."},
+     .doc = "Factor on the slope of the agx or filmic curve at middle grey; 1 = unchanged."},
     {KEY_OF(Scene, tone.saturation, "saturation", KEY_FLOAT), .high = 10,
      .doc = "Colour saturation: 0 = grey, 1 = unchanged."},
     {KEY_OF(Scene, tone.white_balance, "white_balance", KEY_FLOAT), .high = 40000, .unit = "K",

@@ -106,7 +106,7 @@ static void tracks_change_any_value(void **state)
         "8]}]}\n"
         "    - {path: materials.paint.color, keys: [{at: 0, value: \"#ff0000\"}, {at: 0.5, value: "
         "\"#0000ff\"}]}\n"
-        "    - {path: film.curve, keys: [{at: 0, value: linear}, {at: 0.5, value: filmic}]}\n"
+        "    - {path: film.view, keys: [{at: 0, value: standard}, {at: 0.5, value: filmic}]}\n"
         "    - {path: render.samples, keys: [{at: 0, value: 4}, {at: 0.5, value: 7}]}\n"
         "    - {path: sky.visible, keys: [{at: 0, value: false}, {at: 0.5, value: true}]}\n",
         BALL);
@@ -118,13 +118,13 @@ static void tracks_change_any_value(void **state)
     ASSERT_CLOSE(now->camera.position.z, 6.0, 1e-6);
     ASSERT_CLOSE(now->materials[0].color.x, 0.5, 1e-6);
     ASSERT_CLOSE(now->materials[0].color.z, 0.5, 1e-6);
-    assert_int_equal(now->tone.curve, TONE_LINEAR);
+    assert_int_equal(now->tone.view, VIEW_STANDARD);
     assert_int_equal(now->render.samples, 6); // 5.5, and samples are whole
     assert_false(now->sky.visible);
     scene_free(now);
     now = frame_of(t, 3); // and half way back
     ASSERT_CLOSE(now->camera.position.z, 6.0, 1e-6);
-    assert_int_equal(now->tone.curve, TONE_FILMIC);
+    assert_int_equal(now->tone.view, VIEW_FILMIC);
     assert_true(now->sky.visible);
     scene_free(now);
     now = turntable_scene_at(t, 0.5, NULL);
@@ -144,7 +144,7 @@ static void tracks_that_ask_for_nonsense_name_their_line(void **state)
                  {"{path: camera.position, keys: [{at: 0, value: 2}]}", "a list of 3 numbers"},
                  {"{path: objects.tree.shape, keys: [{at: 0, value: 2}]}", "no entry named 'tree'"},
                  {"{path: camera..fov, keys: [{at: 0, value: 2}]}", "empty name"},
-                 {"{path: film.curve, keys: [{at: 0, value: soft}]}", "film.curve is 'soft'"}};
+                 {"{path: film.view, keys: [{at: 0, value: soft}]}", "film.view is 'soft'"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char middle[512];
         snprintf(middle, sizeof middle, "animation:\n  tracks:\n    - %s\n", cases[i].track);

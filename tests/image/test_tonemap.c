@@ -1,6 +1,7 @@
 // Tone mapping: the curve, exposure, white balance, lens, alpha.
 #include "image/tonemap.h"
 
+#include "image/agx.h"
 #include "image/lens.h"
 #include "image/tone_curve.h"
 
@@ -33,27 +34,38 @@ static void map_one(float r, float g, float b, const ToneParams *params, float o
     image_free(mapped);
 }
 
+static void check_curve(const ToneParams *params)
+{
+    float last = -1.0f, out[3];
+    for (int i = -140; i <= 60; i++) {
+        float x = exp2f((float)i * 0.1f);
+        map_one(x, x, x, params, out);
+        assert_true(out[0] >= last && out[0] <= 1.0f);
+        assert_float_equal(out[0], out[1], 1e-5f);
+        assert_float_equal(out[0], out[2], 1e-5f);
+        last = out[0];
+    }
+    assert_float_equal(last, 1.0f, 1e-4f);
+    map_one(0, 0, 0, params, out);
+    assert_float_equal(out[0], 0.0f, 0.0f);
+    map_one(0.18f, 0.18f, 0.18f, params, out);
+    assert_float_equal(out[0], tone_srgb_from_linear(0.18f), 1e-4f);
+}
+
+// Greys stay grey, brighter stays brighter, black, middle grey and white stay in their places.
 static void test_curve(void **state)
 {
     (void)state;
-    float last = -1.0f, out[3];
+    static const float contrast[] = {0.05f, 0.7f, 1.0f, 1.3f, 10.0f};
     ToneParams params = plain();
-    for (int contrast = 0; contrast < 3; contrast++) {
-        params.contrast = 0.7f + 0.3f * (float)contrast;
-        last = -1.0f;
-        for (int i = -120; i <= 60; i++) {
-            float x = exp2f((float)i * 0.1f);
-            map_one(x, x, x, &params, out);
-            assert_true(out[0] >= last && out[0] <= 1.0f);
-            assert_float_equal(out[0], out[1], 1e-5f);
-            assert_float_equal(out[0], out[2], 1e-5f);
-            last = out[0];
+    for (int i = 0; i < 5; i++) {
+        params.contrast = contrast[i];
+        params.view = VIEW_FILMIC;
+        check_curve(&params);
+        params.view = VIEW_AGX;
+        for (params.look = 0; params.look <= AGX_PUNCHY; params.look++) {
+            check_curve(&params);
         }
-        assert_float_equal(last, 1.0f, 1e-4f);
-        map_one(0, 0, 0, &params, out);
-        assert_float_equal(out[0], 0.0f, 0.0f);
-        map_one(0.18f, 0.18f, 0.18f, &params, out);
-        assert_float_equal(out[0], tone_srgb_from_linear(0.18f), 2e-3f);
     }
 }
 
@@ -73,6 +85,98 @@ static void test_shape(void **state)
     assert_true(mid2[0] - mid[0] > low2[0] - low[0]);
     assert_true(mid2[0] - mid[0] > high2[0] - high[0]);
     assert_true(high2[0] > high[0] + 0.01f);
+}
+
+// The ends of the log2 encoding, the slope and the inverse, in closed form.
+static void test_agx_curve(void **state)
+{
+    (void)state;
+    AgxFit base = agx_fit(AGX_BASE_CONTRAST, 1.0f), steep = agx_fit(AGX_HIGH_CONTRAST, 1.0f);
+    assert_float_equal(agx_curve(&base, 0.18f * exp2f(6.5f)), 1.0f, 1e-6f);
+    assert_true(agx_curve(&base, 0.18f * exp2f(6.3f)) < 1.0f);
+    assert_float_equal(agx_curve(&base, 0.18f * exp2f(-10.0f)), 0.0f, 1e-6f);
+    assert_true(agx_curve(&base, 0.18f * exp2f(-9.0f)) > 0.0f);
+    // the encoded value rises by `slope` over the 16.5 stops
+    float encoded[2] = {powf(agx_curve(&base, 0.18f * exp2f(-0.1f)), 1.0f / 2.2f),
+                        powf(agx_curve(&base, 0.18f * exp2f(0.1f)), 1.0f / 2.2f)};
+    assert_float_equal((encoded[1] - encoded[0]) / (0.2f / 16.5f), 2.4f, 0.01f);
+    for (float stops = -8.0f; stops < 6.0f; stops += 0.25f) {
+        float x = 0.18f * exp2f(stops), back = agx_curve_inverse(&steep, agx_curve(&steep, x));
+        assert_float_equal(log2f(back / x), 0.0f, stops < 4.0f ? 2e-3f : 0.05f);
+        assert_true(stops == 0.0f ||
+                    (agx_curve(&steep, x) > agx_curve(&base, x)) == (stops > 0.0f));
+    }
+    assert_float_equal(agx_curve_inverse(&steep, 1.0f), 0.18f * exp2f(6.5f), 1e-3f);
+}
+
+// Hue (degrees) and chroma in Oklab (Ottosson 2020) of display values.
+static float oklab_hue(const float display[3], float *chroma)
+{
+    float c[3];
+    for (int i = 0; i < 3; i++) {
+        c[i] = tone_linear_from_srgb(display[i]);
+    }
+    float l = cbrtf(0.4122214708f * c[0] + 0.5363325363f * c[1] + 0.0514459929f * c[2]);
+    float m = cbrtf(0.2119034982f * c[0] + 0.6806995451f * c[1] + 0.1073969566f * c[2]);
+    float s = cbrtf(0.0883024619f * c[0] + 0.2817188376f * c[1] + 0.6299787005f * c[2]);
+    float a = 1.9779984951f * l - 2.4285922050f * m + 0.4505937099f * s;
+    float b = 0.0259040371f * l + 0.7827717662f * m - 0.8086757660f * s;
+    *chroma = hypotf(a, b);
+    return atan2f(b, a) * 57.29578f;
+}
+
+// Hue of a colour that is `stops` brighter than middle grey, less its hue in the middle.
+static float hue_shift(const float rgb[3], float stops, const ToneParams *params, float *chroma)
+{
+    float hue[2], unused, y = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+    for (int i = 0; i < 2; i++) {
+        float out[3], k = 0.18f / y * (i ? exp2f(stops) : 1.0f);
+        map_one(k * rgb[0], k * rgb[1], k * rgb[2], params, out);
+        hue[i] = oklab_hue(out, i ? chroma : &unused);
+    }
+    return fabsf(remainderf(hue[1] - hue[0], 360.0f));
+}
+
+// Highlights keep their hue: the low sun's orange stays orange, the sky's blue does not turn cyan.
+static void test_hues_of_highlights(void **state)
+{
+    (void)state;
+    static const float color[][3] = {
+        {1.0f, 0.2f, 0.02f},  {1.0f, 0.35f, 0.04f}, {0.25f, 0.5f, 0.06f}, {0.05f, 0.8f, 1.0f},
+        {0.03f, 0.08f, 1.0f}, {0.25f, 0.5f, 1.0f},  {1.0f, 0.05f, 0.8f},  {0.7f, 0.4f, 0.28f}};
+    enum { COLORS = sizeof color / sizeof *color };
+    ToneParams agx = plain(), filmic = plain();
+    filmic.view = VIEW_FILMIC;
+    float sum = 0.0f, filmic_sum = 0.0f, chroma, filmic_chroma;
+    for (int i = 0; i < COLORS; i++) {
+        for (int stops = 2; stops <= 4; stops++) {
+            float shift = hue_shift(color[i], (float)stops, &agx, &chroma);
+            sum += shift;
+            filmic_sum += hue_shift(color[i], (float)stops, &filmic, &filmic_chroma);
+            assert_true(shift < 30.0f);
+            assert_true(chroma > 0.01f); // not burnt out
+        }
+    }
+    assert_true(sum < 0.65f * filmic_sum);
+}
+
+static void test_looks(void **state)
+{
+    (void)state;
+    ToneParams params = plain();
+    float dark[4], chroma[4];
+    for (int look = 0; look < 4; look++) {
+        float out[3];
+        params.look = (AgxLook)look;
+        map_one(0.02f, 0.02f, 0.02f, &params, out);
+        dark[look] = out[0];
+        map_one(0.3f, 0.15f, 0.1f, &params, out);
+        oklab_hue(out, &chroma[look]);
+    }
+    assert_true(dark[AGX_HIGH_CONTRAST] < dark[AGX_MEDIUM_HIGH_CONTRAST]);
+    assert_true(dark[AGX_MEDIUM_HIGH_CONTRAST] < dark[AGX_BASE_CONTRAST]);
+    assert_float_equal(dark[AGX_PUNCHY], dark[AGX_MEDIUM_HIGH_CONTRAST], 1e-6f);
+    assert_true(chroma[AGX_PUNCHY] > 1.15f * chroma[AGX_MEDIUM_HIGH_CONTRAST]);
 }
 
 // Bright colours pale, but keep the order of their channels.
@@ -96,7 +200,7 @@ static void test_linear_and_exposure(void **state)
 {
     (void)state;
     ToneParams params = plain();
-    params.curve = TONE_LINEAR;
+    params.view = VIEW_STANDARD;
     params.exposure = 1.0f;
     float out[3];
     map_one(0.1f, 0.2f, 0.6f, &params, out);
@@ -124,7 +228,7 @@ static void test_auto_exposure(void **state)
         image->pixel[i] = values[i / 3];
     }
     ToneParams params = plain();
-    params.curve = TONE_LINEAR;
+    params.view = VIEW_STANDARD;
     params.auto_exposure = true;
     Image *out = tone_map(image, &params, NULL);
     assert_float_equal(out->pixel[6], tone_srgb_from_linear(0.18f), 1e-4f);
@@ -242,10 +346,17 @@ static void test_alpha(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_curve),         cmocka_unit_test(test_shape),
-        cmocka_unit_test(test_colours),       cmocka_unit_test(test_linear_and_exposure),
-        cmocka_unit_test(test_auto_exposure), cmocka_unit_test(test_white_balance),
-        cmocka_unit_test(test_bloom),         cmocka_unit_test(test_vignette),
+        cmocka_unit_test(test_curve),
+        cmocka_unit_test(test_shape),
+        cmocka_unit_test(test_agx_curve),
+        cmocka_unit_test(test_hues_of_highlights),
+        cmocka_unit_test(test_looks),
+        cmocka_unit_test(test_colours),
+        cmocka_unit_test(test_linear_and_exposure),
+        cmocka_unit_test(test_auto_exposure),
+        cmocka_unit_test(test_white_balance),
+        cmocka_unit_test(test_bloom),
+        cmocka_unit_test(test_vignette),
         cmocka_unit_test(test_alpha),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
