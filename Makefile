@@ -28,7 +28,7 @@ COMMON   := -g $(OPT) -march=$(ARCH) -ffp-contract=off -fno-tree-slp-vectorize -
             -Wall -Wextra -Werror
 CFLAGS   := -std=c17 -D_GNU_SOURCE $(COMMON) -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 CXXFLAGS := -std=c++17 $(COMMON)
-LDLIBS   := -lembree3 -losdCPU -lopenvdb -lImath -lOpenImageIO -lOpenImageIO_Util -lassimp -lyaml -ltbb -lnlopt -lseccomp -lstdc++ -lm
+LDLIBS   := -lembree3 -losdCPU -lassimp -lyaml -lnlopt -lseccomp -lstdc++ -lm
 LDFLAGS  := -Wl,-z,relro,-z,now,-z,noexecstack -fopenmp $(if $(filter sanitize,$(CONFIG)),-fsanitize=address$(,)undefined)
 
 # The path tracer's small functions call each other across files: inlining them while linking makes it 1.1 x faster.
@@ -37,13 +37,28 @@ $(OBJ)/render/%.c.o: CFLAGS += $(LTO) -ftree-slp-vectorize
 $(OBJ)/base/fft.c.o: CFLAGS += -fno-tree-vectorize
 $(OUT)/ramify $(OUT)/libramify.so $(OUT)/tests/bench/%: private LDFLAGS += $(LTO)
 
+# What needs libraries that take long to load (OpenImageIO brings 240 others) lies in plug-ins, ramify-NAME.so, which are
+# loaded when first used (base/plugin.h). Their sources and libraries:
+PLUGINS      := oiio vdb
+PLUGIN_oiio  := image/decode.cpp image/encode.cpp render/material/texture_filter.cpp
+LDLIBS_oiio  := -lOpenImageIO -lOpenImageIO_Util -lstdc++ -lm
+PLUGIN_vdb   := shape/vdb_level_set.cpp shape/vdb_grid_file.cpp shape/vdb_read.cpp shape/spare_memory.cpp
+LDLIBS_vdb   := -lopenvdb -lImath -ltbb -lstdc++ -lm
+PLUGIN_FILES := $(PLUGINS:%=$(OUT)/ramify-%.so)
+# Where programs look for plug-ins: beside them in build/, or in lib/ramify/.
+RUNPATH         = -Wl,--enable-new-dtags,-rpath,'$(1)'
+RUNPATH_PROGRAM = $(call RUNPATH,$$ORIGIN:$$ORIGIN/../lib/ramify)
+RUNPATH_LIBRARY = $(call RUNPATH,$$ORIGIN:$$ORIGIN/ramify)
+RUNPATH_TEST    = $(call RUNPATH,$$ORIGIN/../..)
+
 SOURCES   := $(sort $(wildcard src/*.c $(foreach d,src/* src/*/*,$d/*.c $d/*.cpp)))
 COMMANDS  := render turntable grow measure fit export compare golden info schema completion help
 MANUAL    := $(OUT)/man/ramify.1 $(COMMANDS:%=$(OUT)/man/ramify-%.1) $(OUT)/completion/ramify $(OUT)/completion/_ramify
 # Text files that become arrays of the program: report.css is report_css[].
 EMBEDDED  := $(sort $(foreach e,css html js bash zsh,$(wildcard src/*/*.$e)))
 SOURCES   += $(EMBEDDED)
-LIB_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter-out src/cli/%,$(SOURCES)))
+LIB_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter-out src/cli/% $(foreach p,$(PLUGINS),$(PLUGIN_$p:%=src/%)),$(SOURCES)))
+PLUGIN_OBJ := $(foreach p,$(PLUGINS),$(PLUGIN_$p:%=$(OBJ)/%.o))
 CLI_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter src/cli/%,$(SOURCES)))
 TESTS     := $(sort $(wildcard tests/*/test_*.c))
 TEST_BIN  := $(patsubst tests/%.c,$(OUT)/tests/%,$(TESTS))
@@ -56,7 +71,7 @@ FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp)
 .DELETE_ON_ERROR:
 
 all: packages ## build build/ramify, build/libramify.a and build/libramify.so
-	@$(MAKE) --no-print-directory -j$$(nproc) $(OUT)/ramify $(OUT)/libramify.a $(OUT)/libramify.so $(MANUAL)
+	@$(MAKE) --no-print-directory -j$$(nproc) $(OUT)/ramify $(OUT)/libramify.a $(OUT)/libramify.so $(PLUGIN_FILES) $(MANUAL)
 
 demo: all ## render the oak of scenes/oak.yaml to build/oak.png (and .exr)
 	$(OUT)/ramify render scenes/oak.yaml -o $(OUT)/oak.png
@@ -108,6 +123,7 @@ PYTHON_SITE ?= lib/$(shell python3 -c 'import sys; print("python%d.%d" % sys.ver
 INSTALL := $(OUT)/ramify:bin/ramify:755 \
            $(OUT)/libramify.a:lib/libramify.a:644 \
            $(OUT)/libramify.so:lib/libramify.so.$(VERSION):755 \
+           $(foreach f,$(PLUGIN_FILES),$f:lib/ramify/$(notdir $f):755) \
            $(OUT)/ramify.pc:lib/pkgconfig/ramify.pc:644 \
            src/ramify.h:include/ramify.h:644 \
            $(foreach page,$(filter %.1,$(MANUAL)),$(page):share/man/man1/$(notdir $(page)):644) \
@@ -129,6 +145,7 @@ uninstall: ## take away what `make install` put there
 	    rest=$${entry#*:}; rm -f "$(DESTDIR)$(PREFIX)/$${rest%:*}"; \
 	done
 	@for link in $(LINKS); do rm -f "$(DESTDIR)$(PREFIX)/$$link"; done
+	@plugins="$(DESTDIR)$(PREFIX)/lib/ramify"; [ ! -d "$$plugins" ] || rmdir --ignore-fail-on-non-empty "$$plugins"
 	@module="$(DESTDIR)$(PREFIX)/$(PYTHON_SITE)/ramify"; \
 	rm -rf "$$module/__pycache__" && { [ ! -d "$$module" ] || rmdir --ignore-fail-on-non-empty "$$module"; } # else it can still be imported, empty
 	@[ -n "$(DESTDIR)" ] || [ "$$(id -u)" != 0 ] || ldconfig
@@ -138,7 +155,7 @@ ramify.pc:
 	@mkdir -p $(OUT)
 	@printf '%s\n' 'prefix=$(PREFIX)' 'libdir=$${prefix}/lib' 'includedir=$${prefix}/include' 'Name: ramify' \
 	    'Description: grows, skins and renders branching things' 'Version: $(VERSION)' 'Libs: -L"$${libdir}" -lramify' \
-	    'Libs.private: $(LDLIBS) -lgomp -lpthread' 'Cflags: -I"$${includedir}"' > $(OUT)/ramify.pc
+	    'Libs.private: -Wl,-rpath,"$${libdir}/ramify" $(LDLIBS) -lgomp -lpthread' 'Cflags: -I"$${includedir}"' > $(OUT)/ramify.pc
 
 clean: ## remove build/
 	rm -rf build
@@ -187,11 +204,20 @@ $(OUT)/libramify.a: $(LIB_OBJ)
 # Only ramify_* can be seen from outside.
 $(OUT)/libramify.so: $(LIB_OBJ) src/ramify.map
 	@echo "  LINK $@"
-	@$(CC) -shared -Wl,-soname,$(SONAME) $(LIB_OBJ) -Wl,--version-script=src/ramify.map $(LDFLAGS) $(LDLIBS) -o $@
+	@$(CC) -shared -Wl,-soname,$(SONAME) $(LIB_OBJ) -Wl,--version-script=src/ramify.map $(LDFLAGS) $(RUNPATH_LIBRARY) $(LDLIBS) -o $@
+
+# Only its tables can be seen from outside.
+define plugin_rule
+$(OUT)/ramify-$(1).so: $(PLUGIN_$(1):%=$(OBJ)/%.o) $(OUT)/libramify.a src/plugin.map
+	@echo "  LINK $$@"
+	@$$(CC) -shared -Wl,-soname,ramify-$(1).so $(PLUGIN_$(1):%=$(OBJ)/%.o) $(OUT)/libramify.a -Wl,--version-script=src/plugin.map \
+	    $(if $(filter sanitize,$(CONFIG)),,-Wl,-z,defs) $$(LDFLAGS) -fno-lto $(LDLIBS_$(1)) -o $$@
+endef
+$(foreach p,$(PLUGINS),$(eval $(call plugin_rule,$p)))
 
 $(OUT)/ramify: $(CLI_OBJ) $(OUT)/libramify.a
 	@echo "  LINK $@"
-	@$(CC) -pie $^ $(LDFLAGS) $(LDLIBS) -o $@
+	@$(CC) -pie $^ $(LDFLAGS) $(RUNPATH_PROGRAM) $(LDLIBS) -o $@
 
 # Its allocations are counted, and one of them fails.
 $(OUT)/tests/api/test_memory: private LDFLAGS += -Wl,--wrap=memory_alloc,--wrap=memory_alloc_zero,--wrap=memory_reserve
@@ -222,12 +248,12 @@ $(OUT)/completion/_ramify: $(OUT)/ramify
 	@mkdir -p $(@D)
 	@$< completion zsh > $@
 
-$(OUT)/tests/%: tests/%.c $(OUT)/libramify.a
+$(OUT)/tests/%: tests/%.c $(OUT)/libramify.a | $(PLUGIN_FILES)
 	@mkdir -p $(@D)
 	@echo "  TEST $<"
-	@$(CC) $(CFLAGS) -Itests $< $(OUT)/libramify.a $(LDFLAGS) -lcmocka $(LDLIBS) -o $@
+	@$(CC) $(CFLAGS) -Itests $< $(OUT)/libramify.a $(LDFLAGS) $(RUNPATH_TEST) -lcmocka $(LDLIBS) -o $@
 
 # So many programs, each of which would optimize the path tracer anew.
 $(TEST_BIN) $(OUT)/tests/cross/compare: private LDFLAGS += -fno-lto
 
--include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(addsuffix .d,$(TEST_BIN) $(BENCH_BIN))
+-include $(LIB_OBJ:.o=.d) $(PLUGIN_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(addsuffix .d,$(TEST_BIN) $(BENCH_BIN))

@@ -477,7 +477,7 @@ RAMIFY_API bool ramify_write_image(const RamifyScene *scene, const float *rgba, 
                                    RamifyError *error);
 
 // Checks in advance that a picture can be written to the file: RAMIFY_BAD_INPUT for an unknown
-// extension, RAMIFY_IO if its folder is missing.
+// extension, or if the plug-in that writes pictures is missing, RAMIFY_IO if its folder is missing.
 RAMIFY_API bool ramify_image_check(const char *file, RamifyError *error);
 
 // Checks in advance that the scene's film can be denoised: RAMIFY_BAD_INPUT if film.denoiser is

@@ -77,7 +77,7 @@ bool shoot_check_output(const char *output, Error *e)
 
 static bool plan_output(Shooting *s, Error *e)
 {
-    if (!shoot_check_output(s->params->output, e)) {
+    if (!shoot_check_output(s->params->output, e) || !image_files_check(e)) {
         return false;
     }
     if (!is_film(s->params->output)) {

@@ -17,10 +17,8 @@
 #include <unistd.h>
 
 enum {
-    TICK = 20,      // ms between checks of run->cancelled
-    SHORT_TICK = 2, // the same if the kernel has no pidfd, which signals the end
-    LARGEST_WRITE = 1 << 30,
-    LARGEST_READ = 1 << 26 // this much is in memory twice for a moment
+    TICK = 20,     // ms between checks of run->cancelled
+    SHORT_TICK = 2 // the same if the kernel has no pidfd, which signals the end
 };
 // s: longer ticks do not count, since the machine slept or the process was stopped
 #define LONGEST_TICK 1.0
@@ -32,66 +30,6 @@ typedef struct Child {
     bool reaped; // status is known
     bool gone;
 } Child;
-
-// ---- the child's result ----
-
-bool child_write(ChildOutput *output, const void *data, int64_t count, size_t size, Error *e)
-{
-    const char *at = data;
-    size_t left;
-    if (count < 0 || __builtin_mul_overflow((size_t)count, size, &left)) {
-        return error_set(e, ERROR_MEMORY, "too much to hand back");
-    }
-    while (left > 0) {
-        ssize_t put = write(output->file, at, left < LARGEST_WRITE ? left : LARGEST_WRITE);
-        if (put < 0 && errno != EINTR) {
-            return error_set(e, errno == EFBIG || errno == ENOMEM ? ERROR_MEMORY : ERROR_IO,
-                             "cannot hand back what was read: %s", strerror(errno));
-        }
-        at += put > 0 ? put : 0;
-        left -= put > 0 ? (size_t)put : 0;
-    }
-    return true;
-}
-
-// Frees the part of the file that has been read, so that it is not in memory twice.
-static void give_back(int file, ssize_t size)
-{
-    off_t end = lseek(file, 0, SEEK_CUR);
-    if (size > 0 && end >= size) {
-        fallocate(file, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, end - size, size);
-    }
-}
-
-bool child_read(ChildOutput *output, void *data, int64_t count, size_t size, Error *e)
-{
-    char *at = data;
-    size_t left;
-    if (count < 0 || __builtin_mul_overflow((size_t)count, size, &left) ||
-        left > (size_t)output->left) {
-        return error_set(e, ERROR_INPUT, "the reader broke off in its result");
-    }
-    output->left -= (int64_t)left;
-    while (left > 0) {
-        ssize_t got = read(output->file, at, left < LARGEST_READ ? left : LARGEST_READ);
-        if (got == 0 || (got < 0 && errno != EINTR)) {
-            return error_set(e, ERROR_IO, "cannot take over what was read: %s",
-                             got == 0 ? "it shrank" : strerror(errno));
-        }
-        give_back(output->file, got);
-        at += got > 0 ? got : 0;
-        left -= got > 0 ? (size_t)got : 0;
-    }
-    return true;
-}
-
-void child_output_close(ChildOutput *output)
-{
-    if (output->file >= 0) {
-        close(output->file);
-    }
-    output->file = -1;
-}
 
 // ---- waiting ----
 

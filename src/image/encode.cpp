@@ -14,7 +14,8 @@
 extern "C" {
 #include "base/file_replace.h"
 #include "base/memory.h"
-#include "image/image.h"
+#include "image/codec.h"
+#include "image/decode.h"
 #include "image/quantise.h"
 }
 
@@ -237,9 +238,7 @@ bool decode_png(OIIO::Filesystem::IOProxy *proxy, Image **image, Error *e)
                       input->geterror().c_str()));
 }
 
-} // namespace
-
-extern "C" Image *image_decode_png(const unsigned char *bytes, size_t size, Error *e)
+Image *decode_png_bytes(const unsigned char *bytes, size_t size, Error *e)
 {
     Image *image = nullptr;
     bool done = guarded("a PNG in memory cannot be read", e, [&] {
@@ -253,8 +252,8 @@ extern "C" Image *image_decode_png(const unsigned char *bytes, size_t size, Erro
     return image;
 }
 
-extern "C" bool image_encode_png(const Image *image, const char *metadata, unsigned char **bytes,
-                                 size_t *size, Error *e)
+bool encode_png(const Image *image, const char *metadata, unsigned char **bytes, size_t *size,
+                Error *e)
 {
     return guarded("a picture cannot be made a PNG", e, [&] {
         Bytes encoded;
@@ -267,23 +266,28 @@ extern "C" bool image_encode_png(const Image *image, const char *metadata, unsig
     });
 }
 
-extern "C" bool image_write_display(const char *file, const Image *image, const char *metadata,
-                                    Error *e)
+bool guarded_display(const char *file, const Image *image, const char *metadata, Error *e)
 {
     return guarded("'" + std::string(file) + "' cannot be written", e,
                    [&] { return write_display(file, image, metadata, e); });
 }
 
-extern "C" bool image_write_exr(const char *file, const ImageLayer *layers, int count,
-                                const char *metadata, Error *e)
+bool guarded_exr(const char *file, const ImageLayer *layers, int count, const char *metadata,
+                 Error *e)
 {
     return guarded("'" + std::string(file) + "' cannot be written", e,
                    [&] { return write_exr(file, layers, count, metadata, e); });
 }
 
-extern "C" bool image_write_grey16(const char *file, const Image *image, const char *metadata,
-                                   Error *e)
+bool guarded_grey16(const char *file, const Image *image, const char *metadata, Error *e)
 {
     return guarded("'" + std::string(file) + "' cannot be written", e,
                    [&] { return write_grey16(file, image, metadata, e); });
 }
+
+} // namespace
+
+extern "C" const ImageCodec image_codec_oiio;
+const ImageCodec image_codec_oiio = {sizeof(ImageCodec), decode_picture, guarded_display,
+                                     guarded_grey16,     guarded_exr,    encode_png,
+                                     decode_png_bytes};

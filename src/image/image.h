@@ -13,6 +13,10 @@
 
 // Reading stops with ERROR_CANCELLED when its run is cancelled; run NULL = it cannot be.
 
+// Loads OpenImageIO (base/plugin.h), which the first function that reads or writes would do:
+// whether it can is better known before an image is made than after. Errors: see plugin_table.
+bool image_files_check(Error *e);
+
 // width * height * channels floats, row by row from the top left.
 typedef struct Image {
     int width, height, channels;

@@ -2,6 +2,7 @@
 #include "image/decode.h"
 
 #include "base/memory.h"
+#include "image/codec.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -59,15 +60,19 @@ static bool fail(const DecodeJob *job, Error *e)
 static bool start(const DecodeJob *job, DecodeHeader *header, ChildOutput *output, const Run *run,
                   Error *e)
 {
-    const ChildJob child = {.task = decode_picture,
+    *output = (ChildOutput){.file = -1};
+    const ImageCodec *codec = check_file(job->file, e) ? image_codec(e) : NULL;
+    if (!codec) {
+        return fail(job, e);
+    }
+    const ChildJob child = {.task = codec->decode,
                             .data = job,
                             .file = job->file,
                             .wanted = WANTED,
                             .seconds = MAX_SECONDS,
                             .memory = MAX_MEMORY};
     const Run alone = run_default();
-    *output = (ChildOutput){.file = -1};
-    bool done = check_file(job->file, e) && child_run(&child, run ? run : &alone, output, e) &&
+    bool done = child_run(&child, run ? run : &alone, output, e) &&
                 child_read(output, header, 1, sizeof *header, e) &&
                 check_header(header, job, output->left, e);
     if (!done) {

@@ -32,7 +32,7 @@ static bool check_ending(const char *file, Error *e)
 
 bool picture_check(const char *file, Error *e)
 {
-    return check_ending(file, e) && file_replace_check(file, e);
+    return check_ending(file, e) && file_replace_check(file, e) && image_files_check(e);
 }
 
 // ---- films ----

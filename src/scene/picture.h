@@ -11,7 +11,8 @@
 bool picture_is_exr(const char *file);
 
 // Checks before rendering whether an image could be written there: ERROR_INPUT when its name does
-// not end in .png, .jpg, .jpeg or .exr, ERROR_IO as from file_replace_check.
+// not end in .png, .jpg, .jpeg or .exr, ERROR_IO as from file_replace_check, errors of
+// image_files_check.
 bool picture_check(const char *file, Error *e);
 
 // Finds the denoiser of the scene's pictures (film.denoiser): *oidn becomes the version of Open

@@ -3,7 +3,9 @@
 #include "base/child.h"
 #include "base/file_name.h"
 #include "base/memory.h"
+#include "base/plugin.h"
 #include "shape/import_read.h"
+#include "shape/vdb.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -152,10 +154,15 @@ static Mesh *take_mesh(ChildOutput *output, Error *e)
 
 Mesh *mesh_import_by(ChildTask *reader, const char *file, const Run *run, Error *e)
 {
-    ChildJob job = {.task = reader, .data = file, .file = file, .wanted = IMPORT_WANTED};
+    ImportJob work = {file, NULL};
+    ChildJob job = {.task = reader, .data = &work, .file = file, .wanted = IMPORT_WANTED};
     ChildOutput output;
     if (!file || !file[0]) {
         error_set(e, ERROR_INPUT, "no mesh file is named; give the path of one");
+        return NULL;
+    }
+    if (file_name_ends(file, ".vdb") &&
+        !(work.vdb = plugin_table(VDB_PLUGIN, VDB_READERS, sizeof *work.vdb, e))) {
         return NULL;
     }
     set_limits(file, &job);

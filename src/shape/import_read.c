@@ -6,7 +6,7 @@
 #include "shape/import_check.h"
 #include "shape/import_files.h"
 #include "shape/ply_read.h"
-#include "shape/vdb_read.h"
+#include "shape/vdb.h"
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
@@ -198,10 +198,11 @@ static bool write_mesh(const Mesh *mesh, ChildOutput *output, Error *e)
            child_write(output, mesh->uv, header.uvs * vertices, sizeof *mesh->uv, e);
 }
 
-static Mesh *read_mesh(const char *file, Error *e)
+static Mesh *read_mesh(const ImportJob *job, Error *e)
 {
-    if (file_name_ends(file, ".vdb")) {
-        return vdb_surface(file, e);
+    const char *file = job->file;
+    if (job->vdb) {
+        return job->vdb->surface(file, e);
     }
     bool declined = true;
     Mesh *mesh = file_name_ends(file, ".ply") ? ply_read(file, &declined, e) : NULL;
@@ -214,8 +215,8 @@ static Mesh *read_mesh(const char *file, Error *e)
 
 bool import_read(const void *data, ChildOutput *output, Error *e)
 {
-    const char *file = data;
-    Mesh *mesh = import_check(file, e) ? read_mesh(file, e) : NULL;
+    const ImportJob *job = data;
+    Mesh *mesh = import_check(job->file, e) ? read_mesh(job, e) : NULL;
     bool done = mesh && write_mesh(mesh, output, e);
     mesh_free(mesh);
     return done;

@@ -15,7 +15,12 @@ typedef struct ImportHeader {
 #define IMPORT_NO_TRIANGLES \
     "the file holds no triangles; a surface of triangles or polygons is needed"
 
-// A ChildTask; data: the file's name.
+typedef struct ImportJob {
+    const char *file;
+    const struct VdbReaders *vdb; // for a .vdb file; otherwise NULL
+} ImportJob;
+
+// A ChildTask; data: an ImportJob.
 ChildTask import_read;
 
 #endif

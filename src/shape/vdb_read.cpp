@@ -3,7 +3,7 @@
 #include <openvdb/tools/Dense.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
-#include "shape/grid_file_internal.h"
+#include "shape/vdb_internal.h"
 
 #include <algorithm>
 #include <new>
@@ -13,7 +13,6 @@ extern "C" {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers" // usual in C
 #include "base/memory.h"
-#include "shape/vdb_read.h"
 #pragma GCC diagnostic pop
 }
 
@@ -189,9 +188,7 @@ template <typename Grid> Volume *sample(const Grid &grid, int components, Error 
     return volume;
 }
 
-} // namespace
-
-extern "C" Mesh *vdb_surface(const char *file, Error *e)
+Mesh *surface_of(const char *file, Error *e)
 {
     Mesh *mesh = nullptr;
     guarded(e, [&] {
@@ -219,7 +216,7 @@ extern "C" Mesh *vdb_surface(const char *file, Error *e)
     return mesh;
 }
 
-extern "C" Volume *vdb_volume(const char *file, const char *name, Error *e)
+Volume *volume_of(const char *file, const char *name, Error *e)
 {
     Volume *volume = nullptr;
     guarded(e, [&] {
@@ -236,3 +233,8 @@ extern "C" Volume *vdb_volume(const char *file, const char *name, Error *e)
     });
     return volume;
 }
+
+} // namespace
+
+extern "C" const VdbReaders vdb_readers;
+const VdbReaders vdb_readers = {sizeof(VdbReaders), surface_of, volume_of};

@@ -64,14 +64,18 @@ if [ "$sanitized" = no ]; then
     scene small 'ground: {grass_tufts: 60000000}'
     check limit_of_address_space 2 sh -c "ulimit -v 2000000; exec '$RAMIFY' render small.yaml -o small.png -q"
     says limit_is_told err '2.0 GB are available'
-    # Libraries allocate before main(). The least limit under which the system's loader maps them all leaves them no memory
-    # to start with: an error, not an abort.
-    limit=250000 status=127
+    # Libraries allocate before main(), and those of plug-ins when they are loaded. The least limit under which the system's
+    # loader maps the first suffices to start, and leaves no room for the others: an error, not an abort.
+    limit=50000 status=127
     while [ "$status" -eq 127 ] && [ "$limit" -lt 1500000 ]; do
-        limit=$((limit + 10000))
+        limit=$((limit + 1000))
         sh -c "ulimit -v $limit; exec '$RAMIFY' --version" >/dev/null 2>&1
         status=$?
     done
-    check start_in_little_memory 1 sh -c "ulimit -v $limit; exec '$RAMIFY' --version"
-    says start_in_little_memory_says err 'more to start'
+    check start_in_little_memory 0 sh -c "ulimit -v $limit; exec '$RAMIFY' --version"
+    scene little 'shape: {envelope: [{shape: sphere}]}'
+    for limit in 200000 350000 400000 450000 500000; do
+        check "render_in_$limit" 1 sh -c "ulimit -v $limit; exec '$RAMIFY' render little.yaml -o little.png -q"
+        says "render_in_${limit}_says" err 'more to start'
+    done
 fi

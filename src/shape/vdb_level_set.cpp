@@ -6,8 +6,8 @@
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
-#include "shape/grid_file_internal.h"
 #include "shape/spare_memory.h"
+#include "shape/vdb_internal.h"
 
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -23,7 +23,6 @@ extern "C" {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers" // usual in C
 #include "base/memory.h"
-#include "shape/level_set.h"
 #pragma GCC diagnostic pop
 }
 
@@ -31,9 +30,11 @@ using openvdb::Coord;
 using openvdb::FloatGrid;
 using Leaf = openvdb::FloatTree::LeafNodeType;
 
-static_assert(Leaf::DIM == 8, "level_set_distance knows the layout of a leaf");
+static_assert(Leaf::DIM == 8, "distance_at knows the layout of a leaf");
 
-struct LevelSet {
+extern "C" const VdbLevelSets vdb_level_sets;
+
+struct VdbLevelSet final : LevelSet {
     LevelSetFrame frame{};
     float band = 0.0f; // m
     // OpenVDB rejects very small voxels. Its lengths are metres times this power of two, which is 1
@@ -47,10 +48,12 @@ struct LevelSet {
     std::vector<const float *> table;
     std::vector<float> inside, outside; // the values of blocks without a leaf
 
-    LevelSet() = default;
-    LevelSet(const LevelSet &) = delete;
-    LevelSet &operator=(const LevelSet &) = delete;
-    ~LevelSet()
+    VdbLevelSet() : LevelSet{&vdb_level_sets}
+    {
+    }
+    VdbLevelSet(const VdbLevelSet &) = delete;
+    VdbLevelSet &operator=(const VdbLevelSet &) = delete;
+    ~VdbLevelSet()
     {
         if (grid) {
             clear_without_allocating(*grid);
@@ -86,9 +89,9 @@ template <typename F> auto with_threads(int threads, const F &f)
     return arena.execute(f);
 }
 
-std::unique_ptr<LevelSet> make_empty(LevelSetFrame frame)
+std::unique_ptr<VdbLevelSet> make_empty(LevelSetFrame frame)
 {
-    auto made = std::make_unique<LevelSet>();
+    auto made = std::make_unique<VdbLevelSet>();
     made->frame = frame;
     made->band = LEVEL_SET_BAND * frame.voxel;
     if (frame.voxel < LEVEL_SET_FILE_VOXEL) {
@@ -151,6 +154,8 @@ struct Block {
     std::unique_ptr<Leaf> leaf; // where the surface is near
 };
 
+static_assert(sizeof(Block) == VDB_BLOCK_BYTES, "level_set_fits counts these bytes");
+
 Vec3 voxel_position(const LevelSetFrame &frame, double i, double j, double k)
 {
     double v = static_cast<double>(frame.voxel);
@@ -159,7 +164,7 @@ Vec3 voxel_position(const LevelSetFrame &frame, double i, double j, double k)
                 static_cast<float>(static_cast<double>(frame.origin.z) + v * k));
 }
 
-void fill_block(Block &block, LevelSetDistance distance, const void *shape, const LevelSet &set)
+void fill_block(Block &block, LevelSetDistance distance, const void *shape, const VdbLevelSet &set)
 {
     const double reach = static_cast<double>(set.frame.voxel) * 3.5 * 1.7320509; // center to corner
     const Coord &o = block.origin;
@@ -209,7 +214,7 @@ std::vector<Block> blocks_of(const Aabb &bounds, const LevelSetFrame &frame)
     return blocks;
 }
 
-void make_table(LevelSet &set)
+void make_table(VdbLevelSet &set)
 {
     openvdb::CoordBBox box;
     set.inside.assign(Leaf::SIZE, -set.band * set.unit);
@@ -237,7 +242,7 @@ void make_table(LevelSet &set)
     }
 }
 
-const float *block_at(const LevelSet &set, int x, int y, int z)
+const float *block_at(const VdbLevelSet &set, int x, int y, int z)
 {
     return set.table[(static_cast<size_t>(x) * static_cast<size_t>(set.blocks[1]) +
                       static_cast<size_t>(y)) *
@@ -245,14 +250,14 @@ const float *block_at(const LevelSet &set, int x, int y, int z)
                      static_cast<size_t>(z)];
 }
 
-float voxel_at(const LevelSet &set, int x, int y, int z)
+float voxel_at(const VdbLevelSet &set, int x, int y, int z)
 {
     const float *block = block_at(set, x >> 3, y >> 3, z >> 3);
     return block[((x & 7) << 6) + ((y & 7) << 3) + (z & 7)];
 }
 
 // Values at the eight corners of a cell, z fastest.
-void cell_corners(const LevelSet &set, const int c[3], float v[8])
+void cell_corners(const VdbLevelSet &set, const int c[3], float v[8])
 {
     if ((c[0] & 7) < 7 && (c[1] & 7) < 7 && (c[2] & 7) < 7) {
         const float *block = block_at(set, c[0] >> 3, c[1] >> 3, c[2] >> 3);
@@ -286,41 +291,19 @@ void add_triangle(Mesh *mesh, uint32_t a, uint32_t b, uint32_t c)
     corner[2] = c;
 }
 
-} // namespace
-
-extern "C" bool level_set_fits(Aabb bounds, LevelSetFrame frame, Error *e)
+VdbLevelSet &own(LevelSet *set)
 {
-    const double voxel = static_cast<double>(frame.voxel), least = 1e-30;
-    if (!(voxel >= least) || !std::isfinite(voxel)) {
-        return error_set(e, ERROR_INPUT, "a voxel of %g m; it must be at least %g m", voxel, least);
-    }
-    if (aabb_is_empty(bounds)) {
-        return true;
-    }
-    Vec3 size = vec3_sub(bounds.high, bounds.low);
-    const double across[3] = {static_cast<double>(size.x), static_cast<double>(size.y),
-                              static_cast<double>(size.z)};
-    double blocks = 1.0, most = std::max({across[0], across[1], across[2]});
-    for (double x : across) {
-        blocks *= x / voxel / 8.0 + 2.0;
-    }
-    if (!(most / voxel < 1e9)) {
-        return error_set(e, ERROR_INPUT,
-                         "details of %g m in a body of %g m; thicker parts or larger voxels are "
-                         "needed",
-                         voxel, most);
-    }
-    return memory_check(blocks * sizeof(Block), e, "details of %g m in a body of %g m", voxel,
-                        most);
+    return *static_cast<VdbLevelSet *>(set);
 }
 
-extern "C" LevelSet *level_set_from_mesh(const Mesh *mesh, LevelSetFrame frame, const Run *run,
-                                         Error *e)
+const VdbLevelSet &own(const LevelSet *set)
 {
-    if (!level_set_fits(mesh_bounds(mesh), frame, e)) {
-        return nullptr;
-    }
-    std::unique_ptr<LevelSet> made;
+    return *static_cast<const VdbLevelSet *>(set);
+}
+
+LevelSet *from_mesh(const Mesh *mesh, LevelSetFrame frame, const Run *run, Error *e)
+{
+    std::unique_ptr<VdbLevelSet> made;
     bool done = guarded(e, [&] {
         made = make_empty(frame);
         MeshAdapter adapter{mesh, frame};
@@ -334,14 +317,10 @@ extern "C" LevelSet *level_set_from_mesh(const Mesh *mesh, LevelSetFrame frame, 
     return done ? made.release() : nullptr;
 }
 
-extern "C" LevelSet *level_set_from_distance(LevelSetDistance distance, const void *shape,
-                                             Aabb bounds, LevelSetFrame frame, const Run *run,
-                                             Error *e)
+LevelSet *from_distance(LevelSetDistance distance, const void *shape, Aabb bounds,
+                        LevelSetFrame frame, const Run *run, Error *e)
 {
-    if (!level_set_fits(bounds, frame, e)) {
-        return nullptr;
-    }
-    std::unique_ptr<LevelSet> made;
+    std::unique_ptr<VdbLevelSet> made;
     bool done = guarded(e, [&] {
         made = make_empty(frame);
         std::vector<Block> blocks = blocks_of(bounds, frame);
@@ -365,19 +344,20 @@ extern "C" LevelSet *level_set_from_distance(LevelSetDistance distance, const vo
     return done ? made.release() : nullptr;
 }
 
-extern "C" bool level_set_combine(LevelSet *a, LevelSet *b, ShapeOp op, Error *e)
+bool combine(LevelSet *one, LevelSet *other, ShapeOp op, Error *e)
 {
+    VdbLevelSet &a = own(one), &b = own(other);
     return guarded(e, [&] {
         with_threads(1, [&] {
             switch (op) {
             case SHAPE_UNION:
-                openvdb::tools::csgUnion(*a->grid, *b->grid);
+                openvdb::tools::csgUnion(*a.grid, *b.grid);
                 break;
             case SHAPE_DIFFERENCE:
-                openvdb::tools::csgDifference(*a->grid, *b->grid);
+                openvdb::tools::csgDifference(*a.grid, *b.grid);
                 break;
             case SHAPE_INTERSECTION:
-                openvdb::tools::csgIntersection(*a->grid, *b->grid);
+                openvdb::tools::csgIntersection(*a.grid, *b.grid);
                 break;
             }
         });
@@ -386,13 +366,14 @@ extern "C" bool level_set_combine(LevelSet *a, LevelSet *b, ShapeOp op, Error *e
 }
 
 // Double-buffered: the result does not depend on the number of threads.
-extern "C" bool level_set_smooth(LevelSet *level_set, int steps, const Run *run, Error *e)
+bool smooth(LevelSet *level_set, int steps, const Run *run, Error *e)
 {
+    VdbLevelSet &set = own(level_set);
     return guarded(e, [&] {
         with_threads(run->threads, [&] {
             Interrupter interrupter{run};
-            openvdb::tools::LevelSetFilter<FloatGrid, FloatGrid, Interrupter> filter(
-                *level_set->grid, &interrupter);
+            openvdb::tools::LevelSetFilter<FloatGrid, FloatGrid, Interrupter> filter(*set.grid,
+                                                                                     &interrupter);
             filter.setSpatialScheme(openvdb::math::FIRST_BIAS); // the other schemes are five times
                                                                 // slower
             for (int i = 0; i < steps && !run_is_cancelled(run); i++) {
@@ -403,76 +384,81 @@ extern "C" bool level_set_smooth(LevelSet *level_set, int steps, const Run *run,
     });
 }
 
-extern "C" bool level_set_finish(LevelSet *level_set, Error *e)
+bool finish(LevelSet *level_set, Error *e)
 {
+    VdbLevelSet &set = own(level_set);
     return guarded(e, [&] {
         with_threads(1, [&] {
-            openvdb::tools::pruneLevelSet(level_set->grid->tree());
-            make_table(*level_set);
+            openvdb::tools::pruneLevelSet(set.grid->tree());
+            make_table(set);
         });
         return true;
     });
 }
 
-extern "C" void level_set_free(LevelSet *level_set)
+void free_set(LevelSet *level_set)
 {
-    delete level_set;
+    delete static_cast<VdbLevelSet *>(level_set);
 }
 
-extern "C" bool level_set_add_to(const LevelSet *set, const char *name, GridFile *grids, Error *e)
+bool add_to(const LevelSet *level_set, const char *name, GridFile *grids, Error *e)
 {
-    if (set->frame.voxel < LEVEL_SET_FILE_VOXEL) {
+    const VdbLevelSet &set = own(level_set);
+    if (set.frame.voxel < LEVEL_SET_FILE_VOXEL) {
         return error_set(
             e, ERROR_INPUT, "grid '%s' has voxels of %g m; OpenVDB's files hold none below %g m",
-            name, static_cast<double>(set->frame.voxel), static_cast<double>(LEVEL_SET_FILE_VOXEL));
+            name, static_cast<double>(set.frame.voxel), static_cast<double>(LEVEL_SET_FILE_VOXEL));
     }
     return guarded(e, [&] {
-        FloatGrid::Ptr copy = set->grid->deepCopy();
-        auto transform = openvdb::math::Transform::createLinearTransform(set->frame.voxel);
+        FloatGrid::Ptr copy = set.grid->deepCopy();
+        auto transform = openvdb::math::Transform::createLinearTransform(set.frame.voxel);
         transform->postTranslate(
-            openvdb::Vec3d(set->frame.origin.x, set->frame.origin.y, set->frame.origin.z));
+            openvdb::Vec3d(set.frame.origin.x, set.frame.origin.y, set.frame.origin.z));
         copy->setTransform(transform);
         copy->setName(name);
-        grids->grids.push_back(copy);
+        own(grids).grids.push_back(copy);
         return true;
     });
 }
 
-extern "C" float level_set_distance(const LevelSet *set, Vec3 p)
+float distance_at(const LevelSet *level_set, Vec3 p)
 {
-    const float x[3] = {p.x - set->frame.origin.x, p.y - set->frame.origin.y,
-                        p.z - set->frame.origin.z};
+    const VdbLevelSet &set = own(level_set);
+    const float x[3] = {p.x - set.frame.origin.x, p.y - set.frame.origin.y,
+                        p.z - set.frame.origin.z};
     int c[3];
     float t[3], v[8];
     for (int i = 0; i < 3; i++) {
-        float at = x[i] / set->frame.voxel - static_cast<float>(set->first[i]);
-        if (!(at >= 0.0f) || !(at < static_cast<float>(8 * set->blocks[i] - 1))) {
-            return set->band;
+        float at = x[i] / set.frame.voxel - static_cast<float>(set.first[i]);
+        if (!(at >= 0.0f) || !(at < static_cast<float>(8 * set.blocks[i] - 1))) {
+            return set.band;
         }
         c[i] = static_cast<int>(at);
         t[i] = at - static_cast<float>(c[i]);
     }
-    cell_corners(*set, c, v);
+    cell_corners(set, c, v);
     for (int i = 0; i < 4; i++) {
         v[i] = lerpf(v[i], v[i + 4], t[0]);
     }
-    return set->metres * lerpf(lerpf(v[0], v[2], t[1]), lerpf(v[1], v[3], t[1]), t[2]);
+    return set.metres * lerpf(lerpf(v[0], v[2], t[1]), lerpf(v[1], v[3], t[1]), t[2]);
 }
 
-extern "C" float level_set_band(const LevelSet *set)
+float band_of(const LevelSet *level_set)
 {
-    return set->band;
+    const VdbLevelSet &set = own(level_set);
+    return set.band;
 }
 
-extern "C" Aabb level_set_bounds(const LevelSet *set)
+Aabb bounds_of(const LevelSet *level_set)
 {
+    const VdbLevelSet &set = own(level_set);
     Coord low = Coord::max(), high = Coord::min();
-    for (int x = 0; x < set->blocks[0]; x++) {
-        for (int y = 0; y < set->blocks[1]; y++) {
-            for (int z = 0; z < set->blocks[2]; z++) {
-                const float *block = block_at(*set, x, y, z);
-                if (block != set->outside.data()) {
-                    add_inside(block, set->first.offsetBy(8 * x, 8 * y, 8 * z), low, high);
+    for (int x = 0; x < set.blocks[0]; x++) {
+        for (int y = 0; y < set.blocks[1]; y++) {
+            for (int z = 0; z < set.blocks[2]; z++) {
+                const float *block = block_at(set, x, y, z);
+                if (block != set.outside.data()) {
+                    add_inside(block, set.first.offsetBy(8 * x, 8 * y, 8 * z), low, high);
                 }
             }
         }
@@ -482,18 +468,19 @@ extern "C" Aabb level_set_bounds(const LevelSet *set)
     }
     low = low - Coord(1);
     high = high + Coord(1);
-    return Aabb{voxel_position(set->frame, low.x(), low.y(), low.z()),
-                voxel_position(set->frame, high.x(), high.y(), high.z())};
+    return Aabb{voxel_position(set.frame, low.x(), low.y(), low.z()),
+                voxel_position(set.frame, high.x(), high.y(), high.z())};
 }
 
-extern "C" Mesh *level_set_surface(const LevelSet *set, Error *e)
+Mesh *surface_of(const LevelSet *level_set, Error *e)
 {
+    const VdbLevelSet &set = own(level_set);
     std::vector<openvdb::Vec3s> points;
     std::vector<openvdb::Vec3I> triangles;
     std::vector<openvdb::Vec4I> quads;
     if (!guarded(e, [&] {
             with_threads(1, [&] {
-                openvdb::tools::volumeToMesh(*set->grid, points, triangles, quads, 0.0, 0.0, false);
+                openvdb::tools::volumeToMesh(*set.grid, points, triangles, quads, 0.0, 0.0, false);
             });
             return true;
         })) {
@@ -506,7 +493,7 @@ extern "C" Mesh *level_set_surface(const LevelSet *set, Error *e)
     }
     for (size_t i = 0; i < points.size(); i++) {
         Vec3 p = vec3(points[i].x(), points[i].y(), points[i].z());
-        mesh->position[i] = vec3_add(set->frame.origin, vec3_scale(p, set->metres));
+        mesh->position[i] = vec3_add(set.frame.origin, vec3_scale(p, set.metres));
     }
     mesh->face_count = 0; // OpenVDB's faces are clockwise
     for (const auto &t : triangles) {
@@ -522,3 +509,9 @@ extern "C" Mesh *level_set_surface(const LevelSet *set, Error *e)
     }
     return mesh;
 }
+
+} // namespace
+
+extern "C" const VdbLevelSets vdb_level_sets = {
+    sizeof(VdbLevelSets), from_mesh, from_distance, combine,   smooth, finish, free_set, add_to,
+    distance_at,          band_of,   bounds_of,     surface_of};

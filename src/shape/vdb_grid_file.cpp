@@ -1,12 +1,12 @@
-// OpenVDB is used in three files: level_set.cpp makes level sets, vdb_read.cpp reads files, this
-// one collects and writes grids of any kind. openvdb comes first, because its headers conflict with
-// macros of other headers
+// OpenVDB is used in three files: vdb_level_set.cpp makes level sets, vdb_read.cpp reads files,
+// this one collects and writes grids of any kind. openvdb comes first, because its headers conflict
+// with macros of other headers
 #include <openvdb/io/Archive.h>
 #include <openvdb/openvdb.h>
 
 #include "base/hash.h"
-#include "shape/grid_file_internal.h"
 #include "shape/spare_memory.h"
+#include "shape/vdb_internal.h"
 
 #include <cstring>
 #include <memory>
@@ -19,7 +19,6 @@ extern "C" {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers" // usual in C
 #include "base/file_replace.h"
-#include "shape/grid_file.h"
 #pragma GCC diagnostic pop
 }
 
@@ -82,32 +81,29 @@ struct Plane {
     std::vector<char> active;
 };
 
-} // namespace
-
-extern "C" GridFile *grid_file_new(Error *e)
+GridFile *make(Error *e)
 {
-    GridFile *made = nullptr;
+    VdbGridFile *made = nullptr;
     guarded(e, [&] {
         openvdb::initialize();
-        made = new GridFile;
+        made = new VdbGridFile;
         return true;
     });
     return made;
 }
 
-extern "C" void grid_file_free(GridFile *grids)
+void free_grids(GridFile *grids)
 {
-    delete grids;
+    delete static_cast<VdbGridFile *>(grids);
 }
 
-extern "C" int64_t grid_file_count(const GridFile *grids)
+int64_t count_grids(const GridFile *grids)
 {
-    return static_cast<int64_t>(grids->grids.size());
+    return static_cast<int64_t>(own(grids).grids.size());
 }
 
-extern "C" bool grid_file_add_vectors(GridFile *grids, const char *name, Aabb bounds, float voxel,
-                                      GridVectors vectors, const void *context, const Run *run,
-                                      Error *e)
+bool add_vectors(GridFile *grids, const char *name, Aabb bounds, float voxel, GridVectors vectors,
+                 const void *context, const Run *run, Error *e)
 {
     return guarded(e, [&] {
         auto grid = openvdb::Vec3SGrid::create();
@@ -140,12 +136,12 @@ extern "C" bool grid_file_add_vectors(GridFile *grids, const char *name, Aabb bo
                 }
             }
         }
-        grids->grids.push_back(grid);
+        own(grids).grids.push_back(grid);
         return !run_is_cancelled(run) || run_cancel_error(e);
     });
 }
 
-extern "C" bool grid_file_move(GridFile *grids, int64_t first, const Transform *motion, Error *e)
+bool move_grids(GridFile *grids, int64_t first, const Transform *motion, Error *e)
 {
     return guarded(e, [&] {
         const float(*m)[4] = motion->m;
@@ -154,12 +150,13 @@ extern "C" bool grid_file_move(GridFile *grids, int64_t first, const Transform *
                                 m[0][2], m[1][2], m[2][2], 0, 0,       0,       0,       1};
         const openvdb::math::Mat4d turn(rows);
         bool turns = turn != openvdb::math::Mat4d::identity();
-        for (auto i = static_cast<size_t>(first); i < grids->grids.size(); i++) {
+        for (auto i = static_cast<size_t>(first); i < own(grids).grids.size(); i++) {
             if (turns) { // a mere translation keeps the map a plain one
-                grids->grids[i]->transform().postMult(turn);
+                own(grids).grids[i]->transform().postMult(turn);
             }
-            grids->grids[i]->transform().postTranslate(openvdb::Vec3d(m[0][3], m[1][3], m[2][3]));
-            auto vectors = openvdb::gridPtrCast<openvdb::Vec3SGrid>(grids->grids[i]);
+            own(grids).grids[i]->transform().postTranslate(
+                openvdb::Vec3d(m[0][3], m[1][3], m[2][3]));
+            auto vectors = openvdb::gridPtrCast<openvdb::Vec3SGrid>(own(grids).grids[i]);
             if (!turns || !vectors) {
                 continue;
             }
@@ -173,11 +170,16 @@ extern "C" bool grid_file_move(GridFile *grids, int64_t first, const Transform *
     });
 }
 
-extern "C" bool grid_file_write(const GridFile *grids, const char *file, Error *e)
+bool write_grids(const GridFile *grids, const char *file, Error *e)
 {
     return guarded(e, [&] {
-        std::string bytes = Writer().bytes(grids->grids);
+        std::string bytes = Writer().bytes(own(grids).grids);
         name_after_contents(bytes);
         return file_replace(file, bytes.data(), bytes.size(), e);
     });
 }
+
+} // namespace
+
+extern "C" const VdbGridFiles vdb_grid_files = {
+    sizeof(VdbGridFiles), make, free_grids, count_grids, add_vectors, move_grids, write_grids};

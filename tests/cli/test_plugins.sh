@@ -1,0 +1,60 @@
+#!/bin/sh
+# Plug-ins are loaded when first used, and a missing one is an error that names it. RAMIFY names the binary, beside which
+# they lie. Prints "ok NAME" or "not ok NAME" for each case.
+. "$(dirname "$0")/checks.sh"
+RAMIFY=$(realpath "${RAMIFY:-build/ramify}")
+folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+cat >ball.yaml <<'END'
+film: {width: 32, height: 24}
+render: {samples: 1, max_depth: 2}
+sky: {kind: constant, color: 1}
+objects:
+  - {name: ball, shape: {envelope: [{shape: sphere}]}}
+END
+sed 's/{shape: sphere}/{shape: sphere}, {shape: sphere, position: [0.5, 0, 0]}/' ball.yaml >two.yaml
+
+# loads NAME PLUGINS COMMAND...: the command succeeds and has loaded just these plug-ins, in alphabetical order.
+loads() {
+    name=$1 plugins=$2
+    shift 2
+    if LD_DEBUG=files LD_DEBUG_OUTPUT="$folder/trace" "$@" >out 2>err; then
+        found=$(cat trace.* | sed -n 's|.*calling init: .*/ramify-\([a-z]*\)\.so$|\1|p' | sort -u | xargs)
+        large=$(cat trace.* | grep -c 'calling init: .*/lib\(OpenImageIO\|openvdb\|OpenColorIO\)\.so')
+        [ -n "$plugins" ] && large=0
+        if [ "$found" = "$plugins" ] && [ "$large" -eq 0 ]; then echo "ok $name"; else
+            echo "not ok $name: loaded '$found', not '$plugins', and $large large libraries"
+        fi
+    else
+        echo "not ok $name: the command failed"
+        cat err
+    fi
+    rm -f trace.*
+}
+loads version_loads_none '' "$RAMIFY" --version
+loads help_loads_none '' "$RAMIFY" help render
+loads schema_loads_none '' "$RAMIFY" schema
+loads info_loads_none '' "$RAMIFY" info ball.yaml
+loads mesh_of_a_ball_loads_none '' "$RAMIFY" export ball.yaml -q -o ball.stl
+loads union_of_balls_loads_openvdb vdb "$RAMIFY" export two.yaml -q -o two.stl
+loads picture_loads_openimageio oiio "$RAMIFY" render ball.yaml -q -o ball.png
+loads picture_of_a_union_loads_both 'oiio vdb' "$RAMIFY" render two.yaml -q -o two.png
+
+# A copy of the program alone finds none.
+cp "$RAMIFY" alone
+check alone_starts 0 ./alone --version
+check alone_exports 0 ./alone export ball.yaml -q -o alone.stl
+yes alone_exports_the_same cmp alone.stl ball.stl
+check alone_renders_nothing 2 ./alone render ball.yaml -q -o alone.png
+says alone_names_the_file err 'ramify-oiio.so must lie beside the program'
+yes alone_writes_nothing [ ! -e alone.png ]
+check alone_makes_no_union 2 ./alone export two.yaml -q -o alone2.stl
+says alone_names_the_object err "object 'ball'"
+says alone_names_the_other_file err 'ramify-vdb.so must lie beside the program'
+check alone_makes_no_film 2 ./alone turntable ball.yaml -q --frames 2 -o 'alone-%d.png'
+says alone_names_it_before_the_film err 'ramify-oiio.so'
+
+# Nor one whose plug-in comes from another build.
+printf 'const unsigned long image_codec_oiio = 1;\n' | "${CC:-cc}" -shared -fPIC -x c - -o ramify-oiio.so
+check other_build 2 ./alone render ball.yaml -q -o alone.png
+says other_build_says err 'ramify-oiio.so belongs to another build'
