@@ -1,9 +1,13 @@
 #include "base/plugin.h"
 
 #include <dlfcn.h>
+#include <limits.h>
+#include <link.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 // Two libraries allocate in constructors and then end the process by an exception that cannot be
 // caught: log4cplus (needed by OpenVDB) starts four threads, OpenImageIO fills a table of strings.
@@ -35,14 +39,52 @@ static bool memory_to_load(const char *file, Error *e)
                      file, bytes / 1000000);
 }
 
+// The folders where the loader looks for what this program or library needs, RUNPATH first; free()
+// them. dlopen would look there too, were it called from here: AddressSanitizer's stands between.
+static Dl_serinfo *search_path(void)
+{
+    static const char here = 0;
+    Dl_info info;
+    struct link_map *own = NULL;
+    Dl_serinfo size;
+    if (!dladdr1(&here, &info, (void **)&own, RTLD_DL_LINKMAP) || !own ||
+        dlinfo(own, RTLD_DI_SERINFOSIZE, &size) != 0) {
+        return NULL;
+    }
+    Dl_serinfo *path = malloc(size.dls_size);
+    if (path &&
+        (dlinfo(own, RTLD_DI_SERINFOSIZE, path) != 0 || dlinfo(own, RTLD_DI_SERINFO, path) != 0)) {
+        free(path);
+        return NULL;
+    }
+    return path;
+}
+
+static void *open_file(const char *file)
+{
+    char found[PATH_MAX];
+    snprintf(found, sizeof found, "%s", file);
+    Dl_serinfo *path = search_path();
+    for (unsigned i = 0; path && i < path->dls_cnt; i++) {
+        char name[PATH_MAX];
+        snprintf(name, sizeof name, "%s/%s", path->dls_serpath[i].dls_name, file);
+        if (access(name, R_OK) == 0) {
+            snprintf(found, sizeof found, "%s", name);
+            break;
+        }
+    }
+    free(path);
+    // It stays loaded after dlclose, because threads of its libraries may outlive their work.
+    return dlopen(found, RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
+}
+
 static void *load(const char *file, Error *e)
 {
     void *handle = dlopen(file, RTLD_LAZY | RTLD_LOCAL | RTLD_NOLOAD);
     if (handle || !memory_to_load(file, e)) {
         return handle;
     }
-    // It stays loaded after dlclose, because threads of its libraries may outlive their work.
-    handle = dlopen(file, RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
+    handle = open_file(file);
     if (!handle) {
         error_set(e, ERROR_INPUT,
                   "a part of ramify cannot be loaded (%s); %s must lie beside the program or in "

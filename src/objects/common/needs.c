@@ -9,7 +9,7 @@
 
 // Measured on x86-64 with Embree 3.12.
 #define COPY_FACE_BYTES 120.0 // of a face copied out, in the ray tracer
-#define INSTANCE_BYTES 400.0  // of an instance that is not
+#define INSTANCE_BYTES 400.0  // of an instance that is not, or of a group of them
 #define NODE_BYTES 700.0      // of a node while it grows, and of its curve
 #define NODES_AN_ATTRACTOR 0.8
 #define SKIN_TRIANGLE_BYTES 92.0
@@ -37,6 +37,11 @@ void needs_add_copies(Needs *needs, const char *key, double count, double faces)
     needs->copied_faces += copied * faces;
     needs_add(needs, key, 1.0,
               count * own + copied * faces * COPY_FACE_BYTES + (count - copied) * INSTANCE_BYTES);
+}
+
+void needs_add_groups(Needs *needs, const char *key, double count, int parts)
+{
+    needs_add(needs, key, count, parts * (double)sizeof(Transform) + INSTANCE_BYTES);
 }
 
 void needs_add_growth(Needs *needs, const char *key, double attractors)

@@ -23,6 +23,9 @@ void needs_add(Needs *needs, const char *key, double count, double each);
 // Adds count instances of a mesh with `faces` faces.
 void needs_add_copies(Needs *needs, const char *key, double count, double faces);
 
+// Adds count instances of `parts` large parts together.
+void needs_add_groups(Needs *needs, const char *key, double count, int parts);
+
 // Adds growth with so many attractors, drawn as curves.
 void needs_add_growth(Needs *needs, const char *key, double attractors);
 

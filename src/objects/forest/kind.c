@@ -45,7 +45,7 @@ static void needs(const void *params, Needs *needs)
     needs_add(needs, "leaves.max_count", leaves * forest->stands, LEAF_BYTES);
     double places =
         3.628 * radius * radius / (pitch * pitch) * (double)forest->density; // 2 pi / sqrt 3
-    needs_add_copies(needs, "radius", PARTS * places, 1e9);
+    needs_add_groups(needs, "radius", places, PARTS);
     needs_add_copies(needs, "ferns", 0.5 * (double)forest->ferns, 1e9);
 }
 

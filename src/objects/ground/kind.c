@@ -24,7 +24,7 @@ static void needs(const void *params, Needs *needs)
     needs_add_copies(needs, "fallen_leaves", (double)ground->fallen_leaves, LEAF_FACES);
     if (ground->trees.count > 0) {
         needs_add(needs, "trees.variants", ground->trees.variants, TREE_BYTES);
-        needs_add_copies(needs, "trees.count", PARTS * (double)ground->trees.count, 1e9);
+        needs_add_groups(needs, "trees.count", (double)ground->trees.count, PARTS);
     }
 }
 

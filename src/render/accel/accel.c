@@ -165,14 +165,21 @@ static bool attach(Accel *accel, RTCGeometry geometry, int32_t part, uint32_t in
     return check_failure(accel, e);
 }
 
-static bool attach_instances(Accel *accel, RTCGeometry geometry, int32_t number, Error *e)
+static bool same_instances(const Part *a, const Part *b)
 {
-    AccelPart *part = &accel->part[number];
-    part->scene = rtcNewScene(accel->device);
-    rtcSetSceneProgressMonitorFunction(part->scene, on_progress, accel);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(part->scene, geometry);
-    rtcReleaseGeometry(geometry);
+    return a->object == b->object && a->instance_count == b->instance_count &&
+           memcmp(a->instance, b->instance, (size_t)a->instance_count * sizeof *a->instance) == 0;
+}
+
+// Ends the group: instances its scene.
+static bool instance_group(Accel *accel, Error *e)
+{
+    int32_t number = accel->group;
+    if (number < 0) {
+        return true;
+    }
+    accel->group = -1;
+    const AccelPart *part = &accel->part[number];
     rtcCommitScene(part->scene);
     for (int64_t i = 0; i < part->part->instance_count; i++) {
         if (!run_goes_on(accel->run, i, e)) {
@@ -187,6 +194,29 @@ static bool attach_instances(Accel *accel, RTCGeometry geometry, int32_t number,
         }
     }
     return true;
+}
+
+// Parts with the same instances are a group: one scene, in which a part's geometry has the part's
+// distance from the first as its number. An instance of them all takes a third of the memory and
+// of the build of three, and a ray meets one box where three would overlap.
+static bool add_to_group(Accel *accel, RTCGeometry geometry, int32_t number, Error *e)
+{
+    AccelPart *part = &accel->part[number];
+    bool joins = accel->group >= 0 && same_instances(accel->part[accel->group].part, part->part);
+    if (!joins && !instance_group(accel, e)) {
+        rtcReleaseGeometry(geometry);
+        return false;
+    }
+    if (!joins) {
+        accel->group = number;
+        part->scene = rtcNewScene(accel->device);
+        rtcSetSceneProgressMonitorFunction(part->scene, on_progress, accel);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(accel->part[accel->group].scene, geometry,
+                          (unsigned)(number - accel->group));
+    rtcReleaseGeometry(geometry);
+    return check_failure(accel, e);
 }
 
 static bool worth_copying(const Accel *accel, const Part *part)
@@ -251,7 +281,7 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
                              own->copied ? part->instance_count : 1)
              : curve_geometry(accel, part->curves, &own->segment);
     set_filters(geometry, own);
-    return part->instance && !own->copied ? attach_instances(accel, geometry, number, e)
+    return part->instance && !own->copied ? add_to_group(accel, geometry, number, e)
                                           : attach(accel, geometry, number, 0, e);
 }
 
@@ -306,6 +336,9 @@ static bool build(Accel *accel, Error *e)
             return false;
         }
     }
+    if (!instance_group(accel, e)) {
+        return false;
+    }
     for (int i = 0; i < accel->world->light_count; i++) {
         if (!attach(accel, light_geometry(accel, &accel->world->light[i]), -1, (uint32_t)i, e)) {
             return false;
@@ -326,6 +359,7 @@ Accel *accel_new(const World *world, const MaterialSet *materials, const char *i
     accel->materials = materials;
     accel->run = run;
     accel->builder = pthread_self();
+    accel->group = -1;
     accel->bytes_limit = (int64_t)memory_allowed();
     pthread_mutex_init(&accel->lock, NULL);
     accel->device = open_device(accel, isa, run->threads, e);

@@ -1,6 +1,7 @@
 // Ray queries against the world's surfaces, with Embree. Single meshes and curve sets go straight
-// into the scene. Instances are one level deep; small meshes with many instances are copied out,
-// because Embree then traces them faster.
+// into the scene. Instances are one level deep; parts of an object with the same instances, as a
+// tree's bark and leaves in a forest, are instanced together. Small meshes with many instances are
+// copied out, because Embree then traces them faster.
 #ifndef RAMIFY_RENDER_ACCEL_ACCEL_H
 #define RAMIFY_RENDER_ACCEL_ACCEL_H
 
@@ -27,6 +28,7 @@ typedef struct Hit {
     float t, u, v;
     Vec3 normal; // Embree's, in the part's own space, not unit
     uint32_t geometry, primitive;
+    uint32_t member; // of an instance's parts; 0 without instance
 } Hit;
 
 // Is isa NULL or the name of an instruction set? Else ERROR_INPUT, which lists them.

@@ -14,7 +14,7 @@ enum AccelFilter { ACCEL_FILTER_ALPHA = 1, ACCEL_FILTER_THIN = 2, ACCEL_FILTER_G
 typedef struct AccelPart {
     const Accel *accel;
     const Part *part;
-    RTCScene scene;          // of an instanced part; NULL otherwise
+    RTCScene scene;          // of the first part of a group (see add_to_group); NULL otherwise
     const uint32_t *segment; // curves: first point of each segment; Embree's buffer
     float base_variation;    // of a part that is drawn once
     bool plain;              // a mesh without vertex attributes
@@ -24,7 +24,7 @@ typedef struct AccelPart {
 
 // The part or lamp of an Embree geometry in the top scene.
 typedef struct AccelEntry {
-    int32_t part;      // -1 = a light
+    int32_t part;      // of an instance the first of its group; -1 = a light
     uint32_t instance; // or the light's index
 } AccelEntry;
 
@@ -37,6 +37,8 @@ struct Accel {
     AccelEntry *entry;
     int64_t entry_count, entry_capacity;
     int64_t copied_faces; // of instances copied out so far
+    int32_t
+        group; // while building: first part of the group whose instances are to follow; -1 = none
     _Atomic int64_t bytes;
     int64_t bytes_limit;
     pthread_mutex_t lock; // of failure

@@ -134,7 +134,8 @@ bool accel_intersect(const Accel *accel, const Ray *ray, Hit *hit)
                  query.hit.v,
                  vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z),
                  instanced ? query.hit.instID[0] : query.hit.geomID,
-                 query.hit.primID};
+                 query.hit.primID,
+                 instanced ? query.hit.geomID : 0};
     return true;
 }
 
@@ -172,7 +173,8 @@ void accel_intersect_packet(const Accel *accel, const Ray *const ray[], int coun
                        query.hit.v[i],
                        vec3(query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]),
                        instanced ? query.hit.instID[0][i] : query.hit.geomID[i],
-                       query.hit.primID[i]};
+                       query.hit.primID[i],
+                       instanced ? query.hit.geomID[i] : 0};
     }
 }
 
@@ -194,8 +196,9 @@ int accel_light(const Accel *accel, const Hit *hit)
 SurfacePlace accel_place(const Accel *accel, const Hit *hit)
 {
     AccelEntry entry = accel->entry[hit->geometry];
-    const AccelPart *own = &accel->part[entry.part];
-    SurfacePlace place = {.part = entry.part,
+    int32_t number = entry.part + (int32_t)hit->member;
+    const AccelPart *own = &accel->part[number];
+    SurfacePlace place = {.part = number,
                           .instance = entry.instance,
                           .primitive = hit->primitive,
                           .u = hit->u,
@@ -351,7 +354,8 @@ static void curve_surface(const AccelPart *own, const Ray *ray, const Hit *hit, 
 void accel_surface(const Accel *accel, const Ray *ray, const Hit *hit, SurfacePoint *point)
 {
     AccelEntry entry = accel->entry[hit->geometry];
-    const AccelPart *own = &accel->part[entry.part];
+    int32_t number = entry.part + (int32_t)hit->member;
+    const AccelPart *own = &accel->part[number];
     const Part *part = own->part;
     uint32_t instance = entry.instance, face = hit->primitive;
     if (own->copied) {
@@ -362,7 +366,7 @@ void accel_surface(const Accel *accel, const Ray *ray, const Hit *hit, SurfacePo
                                                         : own->base_variation,
                             .material = part->material,
                             .object = part->object,
-                            .part = entry.part};
+                            .part = number};
     const Transform *t = part->instance ? &part->instance[instance] : NULL;
     if (own->plain) {
         plain_surface(ray, hit, t, point);
