@@ -137,5 +137,5 @@ bool pinned_render_noisy(Pinned *p, uint64_t series, int runs, const Run *run,
 
 Image *pinned_develop(const Scene *scene, const Image *linear, Error *e)
 {
-    return tone_map(linear, &scene->tone, e);
+    return tone_map(linear, NULL, &scene->tone, e);
 }

@@ -77,7 +77,17 @@ static void add_scaled(Image *sum, const Image *image, float scale)
     }
 }
 
-bool lens_bloom(Image *image, float share, Error *e)
+static void add_colors(Image *sum, const Image *image)
+{
+    int64_t count = (int64_t)sum->width * sum->height;
+    for (int64_t i = 0; i < count; i++) {
+        for (int c = 0; c < 3; c++) {
+            sum->pixel[i * sum->channels + c] += image->pixel[i * image->channels + c];
+        }
+    }
+}
+
+bool lens_bloom(Image *image, const Image *excess, float share, Error *e)
 {
     static const float width[3] = {0.003f, 0.012f, 0.05f}; // relative to the image's height
     static const float weight[3] = {0.5f, 0.3f, 0.2f};
@@ -88,6 +98,9 @@ bool lens_bloom(Image *image, float share, Error *e)
         size_t bytes =
             (size_t)image->width * (size_t)image->height * (size_t)image->channels * sizeof(float);
         memcpy(blurred->pixel, image->pixel, bytes);
+        if (excess) {
+            add_colors(blurred, excess);
+        }
         int64_t count = (int64_t)image->width * image->height;
         for (int64_t i = 0; i < count; i++) {
             for (int c = 0; c < 3; c++) {

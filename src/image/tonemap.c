@@ -2,6 +2,7 @@
 
 #include "base/color.h"
 #include "base/memory.h"
+#include "image/color_matrix.h"
 #include "image/lens.h"
 #include "image/tone_curve.h"
 
@@ -19,14 +20,14 @@ ToneParams tone_params_default(void)
                         .vignette = 0.15f};
 }
 
-float tone_auto_gain(const Image *image)
+static float gain_of(const Image *image, const Image *excess)
 {
     double sum = 0.0, weight = 0.0;
     int64_t count = (int64_t)image->width * image->height;
     for (int64_t i = 0; i < count; i++) {
         const float *p = image->pixel + i * image->channels;
         float cover = image->channels == 4 ? p[3] : 1.0f;
-        float y = luminance_rgb(p);
+        float y = luminance_rgb(p) + (excess ? luminance_rgb(excess->pixel + 3 * i) : 0.0f);
         if (cover > 0.0f && y > 1e-7f && isfinite(y)) {
             sum += (double)cover * log((double)(y / cover));
             weight += (double)cover;
@@ -35,12 +36,16 @@ float tone_auto_gain(const Image *image)
     return weight > 0.0 ? (float)(0.18 / exp(sum / weight)) : 1.0f;
 }
 
-// Converts to linear, straight (not premultiplied), finite, exposed and white-balanced values.
-static void prepare(Image *out, const Image *image, const ToneParams *params)
+float tone_auto_gain(const Image *image)
 {
-    float gain = exp2f(params->exposure) * (params->auto_exposure ? tone_auto_gain(image) : 1.0f);
+    return gain_of(image, NULL);
+}
+
+// Converts to linear, straight (not premultiplied), finite, exposed and white-balanced values.
+static void prepare(Image *out, const Image *image, float gain, float white_balance)
+{
     float balance[3][3];
-    tone_white_balance(params->white_balance, balance);
+    tone_white_balance(white_balance, balance);
     int64_t count = (int64_t)image->width * image->height;
     for (int64_t i = 0; i < count; i++) {
         const float *p = image->pixel + i * image->channels;
@@ -49,14 +54,29 @@ static void prepare(Image *out, const Image *image, const ToneParams *params)
         for (int c = 0; c < 3; c++) {
             value[c] = p[c] > 0.0f ? fminf(p[c] * gain, 1e6f) : 0.0f;
         }
+        color_matrix_apply(balance, value, q);
         for (int c = 0; c < 3; c++) {
-            q[c] = fmaxf(0.0f, balance[c][0] * value[0] + balance[c][1] * value[1] +
-                                   balance[c][2] * value[2]);
+            q[c] = fmaxf(0.0f, q[c]);
         }
         if (image->channels == 4) {
             q[3] = clampf(p[3], 0.0f, 1.0f);
         }
     }
+}
+
+static bool add_bloom(Image *image, const Image *excess, float gain, const ToneParams *params,
+                      Error *e)
+{
+    Image *light = excess ? image_new(excess->width, excess->height, 3, e) : NULL;
+    if (excess && !light) {
+        return false;
+    }
+    if (light) {
+        prepare(light, excess, gain, params->white_balance);
+    }
+    bool done = lens_bloom(image, light, fminf(params->bloom, 1.0f), e);
+    image_free(light);
+    return done;
 }
 
 typedef struct View {
@@ -114,7 +134,7 @@ static void develop(Image *image, const ToneParams *params)
     }
 }
 
-Image *tone_map(const Image *image, const ToneParams *params, Error *e)
+Image *tone_map(const Image *image, const Image *excess, const ToneParams *params, Error *e)
 {
     if (image->channels != 3 && image->channels != 4) {
         error_set(e, ERROR_INPUT,
@@ -126,8 +146,10 @@ Image *tone_map(const Image *image, const ToneParams *params, Error *e)
     if (!out) {
         return NULL;
     }
-    prepare(out, image, params);
-    if (params->bloom > 0.0f && !lens_bloom(out, fminf(params->bloom, 1.0f), e)) {
+    float metered = params->auto_exposure ? gain_of(image, excess) : 1.0f;
+    float gain = exp2f(params->exposure) * metered;
+    prepare(out, image, gain, params->white_balance);
+    if (params->bloom > 0.0f && !add_bloom(out, excess, gain, params, e)) {
         image_free(out);
         return NULL;
     }

@@ -30,8 +30,9 @@ ToneParams tone_params_default(void);
 float tone_auto_gain(const Image *image);
 
 // image: linear radiance, 3 or 4 channels; with alpha, radiance is premultiplied (as in films and
-// EXRs). The result has sRGB display values, straight (not premultiplied), with the same alpha, as
-// PNG requires. The caller frees it.
-Image *tone_map(const Image *image, const ToneParams *params, Error *e);
+// EXRs). excess: light that highlights_compress took from it, which counts in bloom and exposure;
+// or NULL. The result has sRGB display values, straight (not premultiplied), with the same alpha,
+// as PNG requires. The caller frees it.
+Image *tone_map(const Image *image, const Image *excess, const ToneParams *params, Error *e);
 
 #endif

@@ -12,9 +12,10 @@ static bool film_make_planes(Film *film, Error *e)
                       film->height)) {
         return false;
     }
-    Vec3 **vectors[] = {&film->color, &film->albedo, &film->normal, &film->position};
-    float **scalars[] = {&film->alpha, &film->depth,   &film->object,
-                         &film->hits,  &film->samples, &film->variance};
+    Vec3 **vectors[] = {&film->color,  &film->light,  &film->sky,
+                        &film->albedo, &film->normal, &film->position};
+    float **scalars[] = {&film->alpha,  &film->light_share, &film->sky_share, &film->depth,
+                         &film->object, &film->hits,        &film->samples,   &film->variance};
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
         if (!(*vectors[i] = memory_alloc_zero(count, sizeof(Vec3), e))) {
             return false;
@@ -55,6 +56,10 @@ void film_free(Film *film)
 {
     if (film) {
         free(film->color);
+        free(film->light);
+        free(film->sky);
+        free(film->light_share);
+        free(film->sky_share);
         free(film->alpha);
         free(film->albedo);
         free(film->normal);

@@ -10,10 +10,14 @@
 
 typedef struct Film {
     int width, height;
-    Vec3 *color;     // mean radiance
-    float *alpha;    // share of samples that met something (or the visible sky)
-    Vec3 *albedo;    // first-hit reflectance, 0..1; 1 for sky, lamps and veils of haze
-    Vec3 *normal;    // first-hit shading normal, world, mean (not unit)
+    Vec3 *color;        // mean radiance
+    Vec3 *light;        // the part of color by samples that saw a light (SEEN_LIGHT), in focus
+    Vec3 *sky;          // by samples that saw the sky, in focus
+    float *alpha;       // share of samples that met something (or the visible sky)
+    Vec3 *albedo;       // first-hit reflectance, 0..1; 1 for sky, lamps and veils of haze
+    Vec3 *normal;       // first-hit shading normal, world, mean (not unit)
+    float *light_share; // share of these samples
+    float *sky_share;
     float *depth;    // m along the ray, mean over samples that hit; INFINITY where none did
     Vec3 *position;  // m, first hit, mean over samples that hit; 0 where none
     float *object;   // object id + 1 of the first sample that hit; 0 = background
@@ -23,7 +27,7 @@ typedef struct Film {
 } Film;
 
 // Bytes of a pixel in all planes.
-#define FILM_PIXEL_BYTES (4.0 * sizeof(Vec3) + 6.0 * sizeof(float))
+#define FILM_PIXEL_BYTES (6.0 * sizeof(Vec3) + 8.0 * sizeof(float))
 
 // Returns NULL with ERROR_MEMORY, before it allocates, when memory is too small.
 Film *film_new(int width, int height, Error *e);

@@ -9,10 +9,20 @@ static void sum_vector(double sum[3], Vec3 v)
     sum[2] += (double)v.z;
 }
 
+static void sum_seen(PixelSum *sum, const PathResult *path)
+{
+    if (path->seen != SEEN_SURFACE) {
+        bool light = path->seen == SEEN_LIGHT;
+        sum_vector(light ? sum->light : sum->sky, vec3_scale(path->color, path->sharpness));
+        *(light ? &sum->light_share : &sum->sky_share) += (double)path->sharpness;
+    }
+}
+
 void pixel_sum_add(PixelSum *sum, const PathResult *path)
 {
     double l = (double)luminance(path->color);
     sum_vector(sum->color, path->color);
+    sum_seen(sum, path);
     sum->alpha += (double)path->alpha;
     sum->luminance += l;
     sum->luminance_squared += l * l;
@@ -55,6 +65,10 @@ void film_merge(Film *film, int64_t i, int samples_before, int samples_added, co
     double hits_before = samples_before > 0 ? (double)film->hits[i] : 0.0;
     film->variance[i] = merged_variance(film, i, n, s, m);
     film->color[i] = merged_vector(film->color[i], n, s->color, m);
+    film->light[i] = merged_vector(film->light[i], n, s->light, m);
+    film->sky[i] = merged_vector(film->sky[i], n, s->sky, m);
+    film->light_share[i] = merged(film->light_share[i], n, s->light_share, m);
+    film->sky_share[i] = merged(film->sky_share[i], n, s->sky_share, m);
     film->alpha[i] = merged(film->alpha[i], n, s->alpha, m);
     film->albedo[i] = merged_vector(film->albedo[i], n, s->albedo, m);
     film->normal[i] = merged_vector(film->normal[i], n, s->normal, m);

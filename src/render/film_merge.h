@@ -7,7 +7,8 @@
 #include "render/integrator.h"
 
 typedef struct PixelSum {
-    double color[3], alpha, albedo[3], normal[3], position[3], depth, luminance, luminance_squared;
+    double color[3], light[3], sky[3], light_share, sky_share;
+    double alpha, albedo[3], normal[3], position[3], depth, luminance, luminance_squared;
     int hits, object; // object + 1 of the first hit
     int64_t rays;
 } PixelSum;

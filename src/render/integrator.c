@@ -1,6 +1,7 @@
 #include "render/integrator.h"
 
 #include "base/random.h"
+#include "render/first_seen.h"
 #include "render/path.h"
 #include "render/world.h"
 
@@ -324,6 +325,7 @@ void integrator_paths(const Tracer *tracer, int x, int y, int sample, int count,
     accel_intersect_packet(tracer->accel, ray, count, hit, met);
     for (int i = 0; i < count; i++) {
         result[i] = (PathResult){.albedo = vec3_splat(1.0f), .alpha = 1.0f, .depth = INFINITY};
+        first_seen(tracer, ray[i], met[i], &hit[i], &result[i]);
         trace_path(&path[i], met[i], &hit[i], &result[i]);
         Vec3 color =
             vec3_add(path[i].direct, clamped(path[i].indirect, tracer->world->render.clamp));

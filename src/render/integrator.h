@@ -25,11 +25,20 @@ typedef struct Tracer {
     SamplePlan plan;
 } Tracer;
 
+// What a camera ray meets first.
+typedef enum SeenKind {
+    SEEN_SURFACE,
+    SEEN_SKY,
+    SEEN_LIGHT // a lamp, glowing geometry, the sun or the moon
+} SeenKind;
+
 // The estimate of one path. albedo and the fields below it describe the first surface.
 typedef struct PathResult {
     Vec3 color;
     float alpha;
     int64_t rays;
+    SeenKind seen;
+    float sharpness; // of sky and lights: 1, or less where the lens blurs by more than a pixel
     bool hit;
     Vec3 albedo, normal, position;
     float depth; // m along the ray

@@ -1,9 +1,11 @@
 #include "scene/picture.h"
 
+#include "base/color.h"
 #include "base/file_name.h"
 #include "base/file_replace.h"
 #include "base/memory.h"
 #include "image/denoise.h"
+#include "image/highlights.h"
 #include "image/oidn.h"
 #include "ramify.h"
 #include "scene/place.h"
@@ -110,6 +112,19 @@ bool picture_find_denoiser(const Scene *scene, int *oidn, const Run *run, Error 
     return false;
 }
 
+// Variance of the means after highlights were compressed: of the same relative size.
+static Image *variance_image(const Film *film, const Image *beauty, Error *e)
+{
+    Image *image = plane_image(film, film->variance, 1, e);
+    for (int64_t i = 0; image && i < (int64_t)film->width * film->height; i++) {
+        float before = luminance(film->color[i]), after = luminance_rgb(beauty->pixel + 4 * i);
+        if (after < before) {
+            image->pixel[i] *= after / before * (after / before);
+        }
+    }
+    return image;
+}
+
 static Image *denoised_image(const Scene *scene, const Image *beauty, const Film *film,
                              const Run *run, Error *e)
 {
@@ -119,7 +134,7 @@ static Image *denoised_image(const Scene *scene, const Image *beauty, const Film
     }
     Image *guides[4] = {plane_image(film, film->albedo, 3, e),
                         plane_image(film, film->normal, 3, e), plane_image(film, film->depth, 1, e),
-                        plane_image(film, film->variance, 1, e)};
+                        variance_image(film, beauty, e)};
     Image *clean = NULL;
     if (guides[0] && guides[1] && guides[2] && guides[3]) {
         clean = oidn ? image_denoise_oidn(beauty, guides[0], guides[1], run, e)
@@ -132,16 +147,32 @@ static Image *denoised_image(const Scene *scene, const Image *beauty, const Film
     return clean;
 }
 
+// The film's radiance with its highlights compressed, and what that took away.
+static Image *compressed_image(const Scene *scene, const Film *film, Image **excess, Error *e)
+{
+    *excess = image_new(film->width, film->height, 3, e);
+    Image *beauty = *excess ? beauty_image(film, e) : NULL;
+    if (beauty) {
+        const HighlightParts parts = {.light = film->light,
+                                      .sky = film->sky,
+                                      .light_share = film->light_share,
+                                      .sky_share = film->sky_share};
+        highlights_compress(beauty, *excess, &parts, &scene->tone);
+    }
+    return beauty;
+}
+
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run, Error *e)
 {
-    Image *beauty = beauty_image(film, e);
+    Image *excess, *beauty = compressed_image(scene, film, &excess, e);
     if (beauty && denoise && film_is_complete(film, scene->film.crop)) {
         Image *clean = denoised_image(scene, beauty, film, run, e);
         image_free(beauty);
         beauty = clean;
     }
-    Image *display = beauty ? tone_map(beauty, &scene->tone, e) : NULL;
+    Image *display = beauty ? tone_map(beauty, excess, &scene->tone, e) : NULL;
     image_free(beauty);
+    image_free(excess);
     return display;
 }
 
@@ -224,7 +255,7 @@ bool picture_write_rgba(const char *file, const Scene *scene, const float *rgba,
         ImageLayer layer = {"", "RGBA", image};
         done = image_write_exr(file, &layer, 1, NULL, e);
     } else {
-        Image *display = tone_map(image, &scene->tone, e);
+        Image *display = tone_map(image, NULL, &scene->tone, e);
         done = display && image_write_display(file, display, NULL, e);
         image_free(display);
     }

@@ -27,7 +27,7 @@ static void map_one(float r, float g, float b, const ToneParams *params, float o
     Image *image = image_new(1, 1, 3, NULL);
     float in[3] = {r, g, b};
     memcpy(image->pixel, in, sizeof in);
-    Image *mapped = tone_map(image, params, NULL);
+    Image *mapped = tone_map(image, NULL, params, NULL);
     assert_non_null(mapped);
     memcpy(out, mapped->pixel, sizeof in);
     image_free(image);
@@ -230,7 +230,7 @@ static void test_auto_exposure(void **state)
     ToneParams params = plain();
     params.view = VIEW_STANDARD;
     params.auto_exposure = true;
-    Image *out = tone_map(image, &params, NULL);
+    Image *out = tone_map(image, NULL, &params, NULL);
     assert_float_equal(out->pixel[6], tone_srgb_from_linear(0.18f), 1e-4f);
     image_free(out);
     image_free(image);
@@ -282,7 +282,7 @@ static void test_bloom(void **state)
     spot[0] = 1000.0f;
     spot[1] = 500.0f;
     image->pixel[0] = 100.0f; // in the corner: what leaves comes back
-    assert_true(lens_bloom(image, 0.1f, NULL));
+    assert_true(lens_bloom(image, NULL, 0.1f, NULL));
     assert_true(fabs(sum_of(image) / 1600.0 - 1.0) < 1e-4);
     assert_true(spot[0] > 900.0f && spot[0] < 950.0f);
     assert_float_equal(spot[1] / spot[0], 0.5f, 1e-3f);
@@ -295,14 +295,14 @@ static void test_bloom(void **state)
     for (int i = 0; i < 12; i++) {
         flat->pixel[i] = 0.5f;
     }
-    assert_true(lens_bloom(flat, 0.2f, NULL));
+    assert_true(lens_bloom(flat, NULL, 0.2f, NULL));
     assert_float_equal(flat->pixel[4], 0.5f, 1e-5f);
     assert_float_equal(flat->pixel[7], 0.5f, 0.0f);
     image_free(flat);
 
     Image *narrow = image_new(2, 400, 3, NULL); // several times narrower than the widest blur
     narrow->pixel[3 * (2 * 130 + 1)] = 1000.0f;
-    assert_true(lens_bloom(narrow, 0.1f, NULL));
+    assert_true(lens_bloom(narrow, NULL, 0.1f, NULL));
     assert_true(fabs(sum_of(narrow) / 1000.0 - 1.0) < 1e-4);
     assert_float_equal(narrow->pixel[3 * 2 * 134], narrow->pixel[3 * (2 * 134 + 1)], 1e-3f);
     image_free(narrow);
@@ -328,7 +328,7 @@ static void test_alpha(void **state)
     float pixels[12] = {0.4f, 0.2f, 0.1f, 1.0f, 0.2f, 0.1f, 0.05f, 0.5f, 0, 0, 0, 0};
     memcpy(image->pixel, pixels, sizeof pixels);
     ToneParams params = plain();
-    Image *out = tone_map(image, &params, NULL);
+    Image *out = tone_map(image, NULL, &params, NULL);
     for (int c = 0; c < 3; c++) {
         assert_float_equal(out->pixel[c], out->pixel[4 + c], 1e-5f);
         assert_float_equal(out->pixel[8 + c], 0.0f, 0.0f);
@@ -338,7 +338,7 @@ static void test_alpha(void **state)
     image_free(out);
     Error e = {0};
     Image *two = image_new(1, 1, 2, NULL);
-    assert_null(tone_map(two, &params, &e));
+    assert_null(tone_map(two, NULL, &params, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     image_free(two);
 }

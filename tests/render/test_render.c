@@ -95,6 +95,10 @@ static void assert_same_film(const Film *a, const Film *b)
 {
     size_t n = (size_t)(a->width * a->height);
     assert_memory_equal(a->color, b->color, n * sizeof(Vec3));
+    assert_memory_equal(a->light, b->light, n * sizeof(Vec3));
+    assert_memory_equal(a->sky, b->sky, n * sizeof(Vec3));
+    assert_memory_equal(a->light_share, b->light_share, n * sizeof(float));
+    assert_memory_equal(a->sky_share, b->sky_share, n * sizeof(float));
     assert_memory_equal(a->albedo, b->albedo, n * sizeof(Vec3));
     assert_memory_equal(a->normal, b->normal, n * sizeof(Vec3));
     assert_memory_equal(a->position, b->position, n * sizeof(Vec3));
