@@ -18,6 +18,12 @@ bool image_write_display(const char *file, const Image *image, const char *metad
     return codec && codec->write_display(file, image, metadata, e);
 }
 
+bool image_write_display16(const char *file, const Image *image, const char *metadata, Error *e)
+{
+    const ImageCodec *codec = image_codec(e);
+    return codec && codec->write_display16(file, image, metadata, e);
+}
+
 bool image_write_grey16(const char *file, const Image *image, const char *metadata, Error *e)
 {
     const ImageCodec *codec = image_codec(e);

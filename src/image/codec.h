@@ -13,6 +13,7 @@ typedef struct ImageCodec {
     size_t size;       // of this struct
     ChildTask *decode; // of a DecodeJob (image/decode.h)
     bool (*write_display)(const char *file, const Image *image, const char *metadata, Error *e);
+    bool (*write_display16)(const char *file, const Image *image, const char *metadata, Error *e);
     bool (*write_grey16)(const char *file, const Image *image, const char *metadata, Error *e);
     bool (*write_exr)(const char *file, const ImageLayer *layers, int count, const char *metadata,
                       Error *e);

@@ -106,6 +106,31 @@ Bytes quantise_image(const Image *image, bool without_alpha)
     return bytes;
 }
 
+std::vector<uint16_t> quantise_16(const float *value, size_t count)
+{
+    std::vector<uint16_t> shorts(count);
+    for (size_t i = 0; i < count; i++) {
+        float v = value[i] > 0.0f ? std::min(value[i], 1.0f) : 0.0f; // NaN becomes 0
+        shorts[i] = uint16_t(v * 65535.0f + 0.5f);
+    }
+    return shorts;
+}
+
+bool check_channels(const char *file, const Image *image, Error *e)
+{
+    return image->channels == 3 || image->channels == 4 ||
+           error_set(e, ERROR_INPUT, "'%s' cannot be written: %d channels; 3 or 4 would do", file,
+                     image->channels);
+}
+
+OIIO::ImageSpec display_spec(const Image *image, int channels, OIIO::TypeDesc type)
+{
+    OIIO::ImageSpec spec(image->width, image->height, channels, type);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    return spec;
+}
+
 // Encodes a PNG or JPEG, by the file name's extension.
 bool encode_display(const char *file, const Image *image, const char *metadata, Bytes &bytes,
                     Error *e)
@@ -116,15 +141,11 @@ bool encode_display(const char *file, const Image *image, const char *metadata, 
         return error_set(e, ERROR_INPUT,
                          "'%s' cannot be written: the name must end in .png, .jpg or .jpeg", file);
     }
-    if (image->channels != 3 && image->channels != 4) {
-        return error_set(e, ERROR_INPUT, "'%s' cannot be written: %d channels; 3 or 4 would do",
-                         file, image->channels);
+    if (!check_channels(file, image, e)) {
+        return false;
     }
     Bytes pixels = quantise_image(image, jpeg);
-    OIIO::ImageSpec spec(image->width, image->height, jpeg ? 3 : image->channels,
-                         OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("oiio:UnassociatedAlpha", 1);
+    OIIO::ImageSpec spec = display_spec(image, jpeg ? 3 : image->channels, OIIO::TypeDesc::UINT8);
     if (jpeg) {
         spec.attribute("CompressionQuality", 95);
         spec.attribute("jpeg:subsampling", "4:4:4");
@@ -141,6 +162,24 @@ bool write_display(const char *file, const Image *image, const char *metadata, E
            file_replace(file, bytes.data(), bytes.size(), e);
 }
 
+bool write_display16(const char *file, const Image *image, const char *metadata, Error *e)
+{
+    if (extension_of(file) != "png") {
+        return error_set(e, ERROR_INPUT,
+                         "'%s' cannot be written: a picture of 16 bits must be named .png", file);
+    }
+    if (!check_channels(file, image, e)) {
+        return false;
+    }
+    OIIO::ImageSpec spec = display_spec(image, image->channels, OIIO::TypeDesc::UINT16);
+    add_metadata(spec, metadata, false);
+    std::vector<uint16_t> pixels = quantise_16(
+        image->pixel, size_t(image->width) * size_t(image->height) * size_t(image->channels));
+    Bytes bytes;
+    return encode(file, "png", spec, OIIO::TypeDesc::UINT16, pixels.data(), bytes, e) &&
+           file_replace(file, bytes.data(), bytes.size(), e);
+}
+
 bool write_grey16(const char *file, const Image *image, const char *metadata, Error *e)
 {
     if (extension_of(file) != "png" || image->channels != 1) {
@@ -153,11 +192,8 @@ bool write_grey16(const char *file, const Image *image, const char *metadata, Er
     spec.attribute("oiio:ColorSpace", "Linear"); // prevents viewers from applying a curve to
                                                  // heights
     add_metadata(spec, metadata, false);
-    std::vector<uint16_t> pixels(size_t(image->width) * size_t(image->height));
-    for (size_t i = 0; i < pixels.size(); i++) {
-        float v = std::clamp(image->pixel[i], 0.0f, 1.0f);
-        pixels[i] = uint16_t(v * 65535.0f + 0.5f);
-    }
+    std::vector<uint16_t> pixels =
+        quantise_16(image->pixel, size_t(image->width) * size_t(image->height));
     Bytes bytes;
     return encode(file, "png", spec, OIIO::TypeDesc::UINT16, pixels.data(), bytes, e) &&
            file_replace(file, bytes.data(), bytes.size(), e);
@@ -272,6 +308,12 @@ bool guarded_display(const char *file, const Image *image, const char *metadata,
                    [&] { return write_display(file, image, metadata, e); });
 }
 
+bool guarded_display16(const char *file, const Image *image, const char *metadata, Error *e)
+{
+    return guarded("'" + std::string(file) + "' cannot be written", e,
+                   [&] { return write_display16(file, image, metadata, e); });
+}
+
 bool guarded_exr(const char *file, const ImageLayer *layers, int count, const char *metadata,
                  Error *e)
 {
@@ -288,6 +330,6 @@ bool guarded_grey16(const char *file, const Image *image, const char *metadata, 
 } // namespace
 
 extern "C" const ImageCodec image_codec_oiio;
-const ImageCodec image_codec_oiio = {sizeof(ImageCodec), decode_picture, guarded_display,
-                                     guarded_grey16,     guarded_exr,    encode_png,
-                                     decode_png_bytes};
+const ImageCodec image_codec_oiio = {sizeof(ImageCodec), decode_picture,  guarded_display,
+                                     guarded_display16,  guarded_grey16,  guarded_exr,
+                                     encode_png,         decode_png_bytes};

@@ -71,6 +71,9 @@ bool image_read_text(const char *file, const char *key, char *text, int size);
 // metadata: "key\0value\0...\0\0" pairs or NULL.
 bool image_write_display(const char *file, const Image *image, const char *metadata, Error *e);
 
+// The same as a PNG of 16 bits, rounded to the nearest; the name must end in .png.
+bool image_write_display16(const char *file, const Image *image, const char *metadata, Error *e);
+
 // The same PNG in memory: *bytes (free() it) of *size; and the inverse, as stored values.
 bool image_encode_png(const Image *image, const char *metadata, unsigned char **bytes, size_t *size,
                       Error *e);

@@ -44,7 +44,8 @@ bool check_camera(const Mapping *mapping, void *params)
 
 bool check_film(const Mapping *mapping, void *params)
 {
-    const FilmParams *film = &((const Scene *)params)->film;
+    const Scene *scene = params;
+    const FilmParams *film = &scene->film;
     const float *crop = film->crop;
     double pixels = (double)film->width * film->height;
     if (pixels > MOST_PIXELS) {
@@ -61,7 +62,8 @@ bool check_film(const Mapping *mapping, void *params)
         return mapping_fail(mapping, "crop",
                             " is less than half a pixel wide or high; make it larger");
     }
-    return true;
+    return scene->png_depth == 8 || scene->png_depth == 16 ||
+           mapping_fail(mapping, "png_depth", " is %d; it must be 8 or 16", scene->png_depth);
 }
 
 bool check_light(const Mapping *mapping, void *params)

@@ -176,12 +176,20 @@ Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const
     return display;
 }
 
+static bool write_developed(const char *file, const Scene *scene, const Image *display,
+                            const char *metadata, Error *e)
+{
+    return scene->png_depth == 16 && file_name_ends(file, ".png")
+               ? image_write_display16(file, display, metadata, e)
+               : image_write_display(file, display, metadata, e);
+}
+
 static bool write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
                           const char *mark, const Run *run, Error *e)
 {
     Image *display = check_ending(file, e) ? picture_develop(scene, film, denoise, run, e) : NULL;
     char *metadata = display ? make_metadata(scene, mark, e) : NULL;
-    bool done = metadata && image_write_display(file, display, metadata, e);
+    bool done = metadata && write_developed(file, scene, display, metadata, e);
     free(metadata);
     image_free(display);
     return done;
@@ -256,7 +264,7 @@ bool picture_write_rgba(const char *file, const Scene *scene, const float *rgba,
         done = image_write_exr(file, &layer, 1, NULL, e);
     } else {
         Image *display = tone_map(image, NULL, &scene->tone, e);
-        done = display && image_write_display(file, display, NULL, e);
+        done = display && write_developed(file, scene, display, NULL, e);
         image_free(display);
     }
     image_free(image);

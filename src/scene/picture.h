@@ -25,7 +25,7 @@ bool picture_find_denoiser(const Scene *scene, int *oidn, const Run *run, Error 
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run,
                        Error *e);
 
-// Develops and writes a .png or .jpg. denoise: as for picture_develop.
+// Develops and writes a .png (of film.png_depth bits) or .jpg. denoise: as for picture_develop.
 bool picture_write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
                            const Run *run, Error *e);
 

@@ -92,6 +92,7 @@ typedef struct Scene {
     Camera camera;
     FilmParams film;
     ToneParams tone;
+    int png_depth; // bits of a channel in PNGs: 8 or 16
     bool denoise;
     SceneDenoiser denoiser;
     RenderParams render;

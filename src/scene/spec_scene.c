@@ -89,6 +89,8 @@ static const Key FILM_KEYS[] = {
      .doc = "Fraction of the light that the lens scatters into a glow around bright areas."},
     {KEY_OF(Scene, tone.vignette, "vignette", KEY_FLOAT), .high = 1,
      .doc = "Strength of the darkening toward the corners of the image."},
+    {KEY_OF(Scene, png_depth, "png_depth", KEY_INT), .low = 8, .high = 16, .unit = "bits",
+     .doc = "Bits per channel of PNG files, 8 or 16. 8 bits are dithered against banding."},
     {KEY_OF(Scene, denoise, "denoise", KEY_BOOL),
      .doc = "Denoise the developed image; EXR files are never denoised."},
     {KEY_OF(Scene, denoiser, "denoiser", KEY_ENUM), .names = DENOISERS,
@@ -253,6 +255,7 @@ static void scene_defaults(void *out)
     scene->seed = 1;
     scene->grow_to = 1.0f;
     scene->tone = tone_params_default();
+    scene->png_depth = 8;
     scene->golden = scene_golden_default();
 }
 

@@ -130,6 +130,57 @@ static void test_dither(void **state)
     image_free(back);
 }
 
+// The means over squares of a slow gradient, as of a sky, follow it more closely than with white
+// noise.
+static void test_no_bands(void **state)
+{
+    (void)state;
+    enum { SIZE = 512 };
+    for (int square = 4; square <= 16; square *= 4) {
+        double worst = 0.0, squares = 0.0;
+        for (int i = 0; i < SIZE / square * (SIZE / square); i++) {
+            int left = i % (SIZE / square) * square, top = i / (SIZE / square) * square;
+            double error = 0.0;
+            for (int k = 0; k < square * square; k++) {
+                int x = left + k % square, y = top + k / square;
+                float value = (150.0f + 3.0f * ((float)x + 0.3f * (float)y) / SIZE) / 255.0f;
+                error += quantise_dithered(value, x, y, 2) - (double)(value * 255.0f);
+            }
+            error /= square * square;
+            worst = fmax(worst, fabs(error));
+            squares += error * error * square * square / (SIZE * SIZE);
+        }
+        double white = sqrt(1.0 / 6.0) / square; // f (1 - f) of a step, over all f
+        assert_true(sqrt(squares) < 0.55 * white && worst < 1.5 * white);
+    }
+}
+
+// As test_png_round_trip, with 257 times as many steps.
+static void test_png_of_16_bits(void **state)
+{
+    (void)state;
+    for (int channels = 3; channels <= 4; channels++) {
+        Image *image = image_new(61, 33, channels, NULL);
+        for (int i = 0; i < 61 * 33 * channels; i++) {
+            image->pixel[i] = (float)(i * 7 % 65536) / 65535.0f;
+        }
+        image->pixel[0] = -1.0f;
+        image->pixel[1] = 2.0f;
+        image->pixel[2] = NAN;
+        Error e = {0};
+        assert_true(image_write_display16(path_of("deep.png"), image, METADATA, &e));
+        Image *back = image_read(path_of("deep.png"), NULL, &e);
+        assert_non_null(back);
+        assert_int_equal(back->channels, channels);
+        for (int i = 3; i < 61 * 33 * channels; i++) {
+            assert_float_equal(back->pixel[i], image->pixel[i], 1e-6f);
+        }
+        assert_true(back->pixel[0] == 0.0f && back->pixel[1] == 1.0f && back->pixel[2] == 0.0f);
+        image_free(image);
+        image_free(back);
+    }
+}
+
 // Pictures and films: within a step of the value, black stays black, and all of a dark gradient's
 // levels are there on the mean.
 static void test_quantise(void **state)
@@ -293,6 +344,8 @@ static void test_refusals(void **state)
     (void)state;
     Image *image = gradient(8, 8, 3), *two = gradient(8, 8, 2);
     Error e = {0};
+    expect_error(image_write_display16(path_of("a.jpg"), image, NULL, &e), &e, ERROR_INPUT,
+                 "must be named .png");
     expect_error(image_write_display("/nowhere/at/all.png", image, NULL, &e), &e, ERROR_IO,
                  "'/nowhere/at/all.png' cannot be written: No such file or directory");
     expect_error(image_write_display(path_of("a.tiff"), image, NULL, &e), &e, ERROR_INPUT,
@@ -391,6 +444,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_png_round_trip),     cmocka_unit_test(test_dither),
+        cmocka_unit_test(test_no_bands),           cmocka_unit_test(test_png_of_16_bits),
         cmocka_unit_test(test_quantise),           cmocka_unit_test(test_jpeg),
         cmocka_unit_test(test_exr_round_trip),     cmocka_unit_test(test_same_bytes),
         cmocka_unit_test(test_refusals),           cmocka_unit_test(test_broken_file),

@@ -124,6 +124,7 @@ static const Case scenes[] = {
      ":2:18: camera.target is the camera's position; it must be another point"},
     {TREE "camera: {up: [0, 0, 1]}\n",
      ":2:14: camera.up is zero or parallel to the line of sight; it must have another direction"},
+    {TREE "film: {png_depth: 12}\n", ":2:19: film.png_depth is 12; it must be 8 or 16"},
     {TREE "film: {crop: [0.5, 0, 0.5, 1]}\n",
      ":2:14: film.crop is empty; it must be [x0, y0, x1, y1] with x0 < x1, y0 < y1"},
     {TREE "film: {width: 2, height: 2, crop: [0, 0, 1, 0.2]}\n",
