@@ -498,22 +498,29 @@ RAMIFY_API void ramify_film_free(RamifyFilm *film);
 //   albedo 3    of the first hit, 0..1             normal 3    of the first hit, mean, not unit
 //   depth 1     m; INFINITY where nothing was hit  position 3  m, of the first hit
 //   object 1    index of the object + 1, 0 = none  samples 1   taken
-//   variance 1  of the mean luminance
+//   variance 1  of the mean luminance              denoised 3  color as ramify_film_denoise left it
 RAMIFY_API const float *ramify_film_layer(const RamifyFilm *film, const char *name, int *channels);
 
 // Copies color and alpha into rgba, 4 * width * height floats as in ramify_render.
 RAMIFY_API void ramify_film_rgba(const RamifyFilm *film, float *rgba);
 
+// Removes the noise of the film of this scene by film.denoiser: makes the layer `denoised`, which
+// the functions below then use in place of a denoising of their own. The layer goes when the film
+// is rendered again. There is none if pixels of the scene's crop have no sample, because the first
+// pass was cancelled. run may be NULL.
+RAMIFY_API bool ramify_film_denoise(RamifyFilm *film, const RamifyScene *scene,
+                                    const RamifyRun *run, RamifyError *error);
+
 // Develops the film of this scene: fills rgba with 4 * width * height display values, 0..1 in sRGB,
-// with straight alpha. denoise: remove the noise first, by film.denoiser, unless pixels of the
-// scene's crop have no sample, because the first pass was cancelled; run (may be NULL) applies to
-// that.
+// with straight alpha. denoise: remove the noise first, on the condition of ramify_film_denoise;
+// run (may be NULL) applies to that.
 RAMIFY_API bool ramify_film_develop(const RamifyFilm *film, const RamifyScene *scene, bool denoise,
                                     float *rgba, const RamifyRun *run, RamifyError *error);
 
 // Writes the film of this scene. .png, .jpg: developed as by ramify_film_develop. .exr: linear
-// RGBA and the layers albedo, normal, depth, position, object and samples unchanged. The scene's
-// text and settings are stored as metadata. run (may be NULL) applies to the denoiser.
+// RGBA and the layers albedo, normal, depth, position, object and samples unchanged, and with
+// denoise the layer denoised.R, G, B. The scene's text and settings are stored as metadata. run
+// (may be NULL) applies to the denoiser.
 RAMIFY_API bool ramify_film_write(const RamifyFilm *film, const RamifyScene *scene,
                                   const char *file, bool denoise, const RamifyRun *run,
                                   RamifyError *error);

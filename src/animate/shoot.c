@@ -133,8 +133,7 @@ static bool find_shots(Shooting *s, Error *e)
 {
     uint64_t metered;
     int oidn = 0;
-    if (s->scene->denoise && !picture_is_exr(s->pattern) &&
-        !picture_find_denoiser(s->scene, &oidn, s->run, e)) {
+    if (s->scene->denoise && !picture_find_denoiser(s->scene, &oidn, s->run, e)) {
         return false;
     }
     s->shot = memory_alloc(s->end - s->start + 1, sizeof *s->shot, e);

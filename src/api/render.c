@@ -31,12 +31,13 @@ const float *ramify_film_layer(const RamifyFilm *film, const char *name, int *ch
         const char *name;
         const void *pixel;
         int channels;
-    } layers[] = {
-        {"color", own->color, 3},   {"alpha", own->alpha, 1},     {"albedo", own->albedo, 3},
-        {"normal", own->normal, 3}, {"depth", own->depth, 1},     {"position", own->position, 3},
-        {"object", own->object, 1}, {"samples", own->samples, 1}, {"variance", own->variance, 1}};
+    } layers[] = {{"color", own->color, 3},       {"alpha", own->alpha, 1},
+                  {"albedo", own->albedo, 3},     {"normal", own->normal, 3},
+                  {"depth", own->depth, 1},       {"position", own->position, 3},
+                  {"object", own->object, 1},     {"samples", own->samples, 1},
+                  {"variance", own->variance, 1}, {"denoised", own->denoised, 3}};
     for (size_t i = 0; i < sizeof layers / sizeof layers[0]; i++) {
-        if (strcmp(layers[i].name, name) == 0) {
+        if (layers[i].pixel && strcmp(layers[i].name, name) == 0) {
             if (channels) {
                 *channels = layers[i].channels;
             }
@@ -49,6 +50,14 @@ const float *ramify_film_layer(const RamifyFilm *film, const char *name, int *ch
 void ramify_film_rgba(const RamifyFilm *film, float *rgba)
 {
     picture_copy_rgba(film_of(film), rgba);
+}
+
+bool ramify_film_denoise(RamifyFilm *film, const RamifyScene *scene, const RamifyRun *run,
+                         RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    return picture_denoise(scene_of(scene), (Film *)(void *)film, &own, &e) || api_fail(error, &e);
 }
 
 bool ramify_film_develop(const RamifyFilm *film, const RamifyScene *scene, bool denoise,
@@ -71,9 +80,10 @@ bool ramify_film_write(const RamifyFilm *film, const RamifyScene *scene, const c
 {
     Error e = {0};
     Run own = api_run(run);
-    bool done = picture_is_exr(file) ? picture_write_exr(file, scene_of(scene), film_of(film), &e)
-                                     : picture_write_display(file, scene_of(scene), film_of(film),
-                                                             denoise, &own, &e);
+    bool done =
+        picture_is_exr(file)
+            ? picture_write_exr(file, scene_of(scene), film_of(film), denoise, &own, &e)
+            : picture_write_display(file, scene_of(scene), film_of(film), denoise, &own, &e);
     return done || api_fail(error, &e);
 }
 

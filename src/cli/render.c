@@ -56,7 +56,7 @@ static bool plan_outputs(const Options *options, Outputs *outputs, RamifyError *
 }
 
 // Writes a preview after the first pass, then at growing intervals: a picture is available soon,
-// and writing takes a small part of the time.
+// and writing takes a small part of the time. The first one is not denoised: it is there at once.
 static void preview_pass(void *user, const RamifyFilm *film, int samples)
 {
     Preview *p = user;
@@ -65,7 +65,11 @@ static void preview_pass(void *user, const RamifyFilm *film, int samples)
         return;
     }
     RamifyError e = {0};
-    if (!ramify_film_write(film, p->job->scene, p->job->outputs->display, false, p->run, &e)) {
+    RamifyRun quiet = *p->run; // what it warns of follows with the last picture
+    quiet.warn = NULL;
+    bool denoise = p->job->info.denoise && samples > 1;
+    if (!ramify_film_write(film, p->job->scene, p->job->outputs->display, denoise, &quiet, &e) &&
+        e.code != RAMIFY_CANCELLED) {
         char text[1200];
         ramify_error_format(&e, text, sizeof text);
         progress_warn(p->progress, text);
@@ -131,22 +135,21 @@ static void print_json(const Job *job)
            job->world.grow_seconds, job->world.mesh_seconds, job->build, job->trace, job->write);
 }
 
-static bool write_pictures(Job *job, const RamifyFilm *film, const RamifyRun *run, RamifyError *e)
+static bool write_pictures(Job *job, RamifyFilm *film, const RamifyRun *run, RamifyError *e)
 {
     double start = clock_seconds();
     RamifyRun patient = *run; // does not cancel: an interrupted picture is still written
     patient.cancelled = NULL;
     bool cut_short = *run->cancelled; // cancelled before writing started
-    bool denoise = job->info.denoise;
-    bool done = ramify_film_write(film, job->scene, job->outputs->display, denoise,
-                                  cut_short ? &patient : run, e);
-    if (!done && !cut_short && *run->cancelled) { // cancelled while denoising: write without
-        done = ramify_film_write(film, job->scene, job->outputs->display, false, &patient, e);
-    }
+    bool denoise =
+        job->info.denoise && ramify_film_denoise(film, job->scene, cut_short ? &patient : run, e);
+    // cancelled while denoising: write without
+    bool done = denoise || !job->info.denoise || (!cut_short && *run->cancelled);
+    done = done && ramify_film_write(film, job->scene, job->outputs->display, denoise, &patient, e);
     // the rendering itself is saved even if developing fails, e.g. in the denoiser's library
-    done =
-        ramify_film_write(film, job->scene, job->outputs->exr, false, &patient, done ? e : NULL) &&
-        done;
+    done = ramify_film_write(film, job->scene, job->outputs->exr, denoise, &patient,
+                             done ? e : NULL) &&
+           done;
     job->write += clock_seconds() - start;
     return done;
 }

@@ -52,6 +52,12 @@ Film *film_new(int width, int height, Error *e)
     return film;
 }
 
+void film_drop_denoised(Film *film)
+{
+    free(film->denoised);
+    film->denoised = NULL;
+}
+
 void film_free(Film *film)
 {
     if (film) {
@@ -69,6 +75,7 @@ void film_free(Film *film)
         free(film->hits);
         free(film->samples);
         free(film->variance);
+        free(film->denoised);
         free(film);
     }
 }

@@ -24,14 +24,18 @@ typedef struct Film {
     float *hits;     // samples that met a surface: what depth and position are means over
     float *samples;  // taken so far
     float *variance; // of the pixel's mean luminance, estimated; for adaptive stopping, denoising
+    Vec3 *denoised;  // radiance as a denoiser left it; NULL = not denoised since it was rendered
 } Film;
 
 // Bytes of a pixel in all planes.
-#define FILM_PIXEL_BYTES (6.0 * sizeof(Vec3) + 8.0 * sizeof(float))
+#define FILM_PIXEL_BYTES (7.0 * sizeof(Vec3) + 8.0 * sizeof(float))
 
 // Returns NULL with ERROR_MEMORY, before it allocates, when memory is too small.
 Film *film_new(int width, int height, Error *e);
 void film_free(Film *film); // NULL is fine
+
+// Drops the plane `denoised`, which further samples make obsolete.
+void film_drop_denoised(Film *film);
 
 // Pixels x0 <= x < x1, y0 <= y < y1.
 typedef struct PixelBox {

@@ -135,6 +135,7 @@ bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass 
         return false;
     }
     fill_tracer(tracer, renderer);
+    film_drop_denoised(film);
     bool done = tiles_render(tracer, film, run, pass, user, stats, e);
     stats->memory = accel_bytes(renderer->accel);
     free(tracer);

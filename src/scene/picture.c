@@ -162,15 +162,62 @@ static Image *compressed_image(const Scene *scene, const Film *film, Image **exc
     return beauty;
 }
 
+static bool can_denoise(const Scene *scene, const Film *film)
+{
+    return film->denoised || film_is_complete(film, scene->film.crop);
+}
+
+// The film's radiance without noise; free() it. Highlights are compressed while it is denoised,
+// because no denoiser keeps their edges; what that takes away is added again.
+static Vec3 *denoised_plane(const Scene *scene, const Film *film, const Run *run, Error *e)
+{
+    int64_t count = (int64_t)film->width * film->height;
+    Image *excess, *beauty = compressed_image(scene, film, &excess, e);
+    Image *clean = beauty ? denoised_image(scene, beauty, film, run, e) : NULL;
+    Vec3 *plane = clean ? memory_alloc(count, sizeof *plane, e) : NULL;
+    for (int64_t i = 0; plane && i < count; i++) {
+        const float *p = clean->pixel + 4 * i, *lost = excess->pixel + 3 * i;
+        plane[i] = vec3(p[0] + lost[0], p[1] + lost[1], p[2] + lost[2]);
+    }
+    image_free(beauty);
+    image_free(excess);
+    image_free(clean);
+    return plane;
+}
+
+bool picture_denoise(const Scene *scene, Film *film, const Run *run, Error *e)
+{
+    film_drop_denoised(film);
+    if (can_denoise(scene, film)) {
+        film->denoised = denoised_plane(scene, film, run, e);
+        return film->denoised;
+    }
+    return true;
+}
+
+// Replaces the radiance of an image with compressed highlights by the denoised one.
+static bool put_denoised(Image *beauty, const Image *excess, const Scene *scene, const Film *film,
+                         const Run *run, Error *e)
+{
+    Vec3 *own = film->denoised ? NULL : denoised_plane(scene, film, run, e);
+    const Vec3 *plane = film->denoised ? film->denoised : own;
+    for (int64_t i = 0; plane && i < (int64_t)film->width * film->height; i++) {
+        float *p = beauty->pixel + 4 * i;
+        const float *lost = excess->pixel + 3 * i;
+        p[0] = plane[i].x - lost[0];
+        p[1] = plane[i].y - lost[1];
+        p[2] = plane[i].z - lost[2];
+    }
+    free(own);
+    return plane;
+}
+
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run, Error *e)
 {
     Image *excess, *beauty = compressed_image(scene, film, &excess, e);
-    if (beauty && denoise && film_is_complete(film, scene->film.crop)) {
-        Image *clean = denoised_image(scene, beauty, film, run, e);
-        image_free(beauty);
-        beauty = clean;
-    }
-    Image *display = beauty ? tone_map(beauty, excess, &scene->tone, e) : NULL;
+    bool done = beauty && (!denoise || !can_denoise(scene, film) ||
+                           put_denoised(beauty, excess, scene, film, run, e));
+    Image *display = done ? tone_map(beauty, excess, &scene->tone, e) : NULL;
     image_free(beauty);
     image_free(excess);
     return display;
@@ -201,28 +248,40 @@ bool picture_write_display(const char *file, const Scene *scene, const Film *fil
     return write_display(file, scene, film, denoise, NULL, run, e);
 }
 
-static bool write_exr(const char *file, const Scene *scene, const Film *film, const char *mark,
-                      Error *e)
+static Image *denoised_layer(const Scene *scene, const Film *film, const Run *run, Error *e)
 {
-    Image *const images[] = {beauty_image(film, e),
+    Vec3 *own = film->denoised ? NULL : denoised_plane(scene, film, run, e);
+    const Vec3 *plane = film->denoised ? film->denoised : own;
+    Image *layer = plane ? plane_image(film, plane, 3, e) : NULL;
+    free(own);
+    return layer;
+}
+
+static bool write_exr(const char *file, const Scene *scene, const Film *film, bool denoise,
+                      const char *mark, const Run *run, Error *e)
+{
+    bool clean = denoise && can_denoise(scene, film);
+    Image *const images[] = {clean ? denoised_layer(scene, film, run, e) : NULL,
+                             beauty_image(film, e),
                              plane_image(film, film->albedo, 3, e),
                              plane_image(film, film->normal, 3, e),
                              plane_image(film, film->depth, 1, e),
                              plane_image(film, film->position, 3, e),
                              plane_image(film, film->object, 1, e),
                              plane_image(film, film->samples, 1, e)};
-    static const char *const names[][2] = {{"", "RGBA"},    {"albedo", "RGB"},   {"normal", "XYZ"},
-                                           {"depth", "Z"},  {"position", "XYZ"}, {"object", "V"},
-                                           {"samples", "V"}};
+    static const char *const names[][2] = {
+        {"denoised", "RGB"}, {"", "RGBA"},        {"albedo", "RGB"}, {"normal", "XYZ"},
+        {"depth", "Z"},      {"position", "XYZ"}, {"object", "V"},   {"samples", "V"}};
     enum { COUNT = sizeof images / sizeof images[0] };
     ImageLayer layers[COUNT];
     bool made = true;
-    for (int i = 0; i < COUNT; i++) {
-        layers[i] = (ImageLayer){names[i][0], names[i][1], images[i]};
+    int count = 0;
+    for (int i = clean ? 0 : 1; i < COUNT; i++) {
+        layers[count++] = (ImageLayer){names[i][0], names[i][1], images[i]};
         made = made && images[i];
     }
     char *metadata = made ? make_metadata(scene, mark, e) : NULL;
-    bool done = metadata && image_write_exr(file, layers, COUNT, metadata, e);
+    bool done = metadata && image_write_exr(file, layers, count, metadata, e);
     free(metadata);
     for (int i = 0; i < COUNT; i++) {
         image_free(images[i]);
@@ -230,15 +289,16 @@ static bool write_exr(const char *file, const Scene *scene, const Film *film, co
     return done;
 }
 
-bool picture_write_exr(const char *file, const Scene *scene, const Film *film, Error *e)
+bool picture_write_exr(const char *file, const Scene *scene, const Film *film, bool denoise,
+                       const Run *run, Error *e)
 {
-    return write_exr(file, scene, film, NULL, e);
+    return write_exr(file, scene, film, denoise, NULL, run, e);
 }
 
 bool picture_write_marked(const char *file, const Scene *scene, const Film *film, const char *mark,
                           const Run *run, Error *e)
 {
-    return picture_is_exr(file) ? write_exr(file, scene, film, mark, e)
+    return picture_is_exr(file) ? write_exr(file, scene, film, scene->denoise, mark, run, e)
                                 : write_display(file, scene, film, scene->denoise, mark, run, e);
 }
 

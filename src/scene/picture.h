@@ -20,8 +20,12 @@ bool picture_check(const char *file, Error *e);
 // its library cannot be loaded. run: for a warning; may be NULL.
 bool picture_find_denoiser(const Scene *scene, int *oidn, const Run *run, Error *e);
 
+// Sets film->denoised, which the functions below then use in place of a denoising of their own.
+// Leaves it NULL if a pixel of the crop has no sample, because a first pass was cancelled.
+bool picture_denoise(const Scene *scene, Film *film, const Run *run, Error *e);
+
 // Display values of a film, as from tone_map; free them. denoise: denoise first, unless a pixel of
-// the crop has no sample, because a first pass was cancelled.
+// the crop has no sample.
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run,
                        Error *e);
 
@@ -30,8 +34,9 @@ bool picture_write_display(const char *file, const Scene *scene, const Film *fil
                            const Run *run, Error *e);
 
 // Writes the linear EXR: RGBA, albedo, normal, depth, position, object id, samples; the scene's
-// text and every setting as metadata.
-bool picture_write_exr(const char *file, const Scene *scene, const Film *film, Error *e);
+// text and every setting as metadata. denoise: add a layer `denoised`, on the same condition.
+bool picture_write_exr(const char *file, const Scene *scene, const Film *film, bool denoise,
+                       const Run *run, Error *e);
 
 // Writes either format, selected by the file extension and denoised if the scene asks for it, with
 // `mark` as metadata under PICTURE_MARK: equal marks mean equal images.

@@ -92,7 +92,8 @@ static const Key FILM_KEYS[] = {
     {KEY_OF(Scene, png_depth, "png_depth", KEY_INT), .low = 8, .high = 16, .unit = "bits",
      .doc = "Bits per channel of PNG files, 8 or 16. 8 bits are dithered against banding."},
     {KEY_OF(Scene, denoise, "denoise", KEY_BOOL),
-     .doc = "Denoise the developed image; EXR files are never denoised."},
+     .doc = "Denoise the developed image. An EXR file keeps its raw layers and gets the layer "
+            "`denoised` beside them."},
     {KEY_OF(Scene, denoiser, "denoiser", KEY_ENUM), .names = DENOISERS,
      .doc = "Denoiser to use. own: ramify's, the same result on every machine; oidn: Open Image "
             "Denoise, whose library must be installed (or named by the environment variable "

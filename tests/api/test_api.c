@@ -1,5 +1,6 @@
 // The public C API: from a text to out-trees, measures, land, geometry, pictures and files, by
 // ramify.h alone.
+#include "image/image.h"
 #include "ramify.h"
 #include "testing.h"
 
@@ -443,6 +444,40 @@ static void note_pass(void *user, const RamifyFilm *film, int samples)
     passes->samples = samples;
 }
 
+// The denoised layer is made once, used by all that follows and written beside the raw picture.
+static void check_denoised(RamifyFilm *film, const RamifyScene *scene, const float *developed)
+{
+    RamifyError error = {0};
+    float again[4 * WIDTH * HEIGHT];
+    int channels = 0;
+    assert_true(ramify_film_denoise(film, scene, NULL, &error));
+    const float *clean = ramify_film_layer(film, "denoised", &channels);
+    assert_non_null(clean);
+    assert_int_equal(channels, 3);
+    assert_true(ramify_film_develop(film, scene, true, again, NULL, &error));
+    assert_memory_equal(again, developed, sizeof again);
+    const float *color = ramify_film_layer(film, "color", NULL);
+    assert_memory_not_equal(clean, color, 3 * sizeof(float) * WIDTH * HEIGHT);
+    const struct {
+        const char *layer;
+        const float *wanted;
+        bool denoise, there;
+    } cases[] = {{"", color, true, true},
+                 {"denoised", clean, true, true},
+                 {"", color, false, true},
+                 {"denoised", clean, false, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        assert_true(ramify_film_write(film, scene, "layers.exr", cases[i].denoise, NULL, &error));
+        Image *read = image_read_layer("layers.exr", cases[i].layer, "RGB", NULL, NULL);
+        assert_int_equal(read != NULL, cases[i].there);
+        if (read) {
+            assert_memory_equal(read->pixel, cases[i].wanted, 3 * sizeof(float) * WIDTH * HEIGHT);
+        }
+        image_free(read);
+    }
+    unlink("layers.exr");
+}
+
 static void a_film_has_layers(void **state)
 {
     (void)state;
@@ -469,10 +504,14 @@ static void a_film_has_layers(void **state)
         assert_int_equal(channels, layers[i].channels);
     }
     assert_null(ramify_film_layer(film, "colour", NULL));
+    assert_null(ramify_film_layer(film, "denoised", NULL));
     ramify_film_rgba(film, rgba);
     assert_true(ramify_render(scene, simple, NULL, NULL, &error)); // the same in one call
     assert_memory_equal(rgba, simple, sizeof rgba);
     assert_true(ramify_film_develop(film, scene, true, simple, NULL, &error));
+    check_denoised(film, scene, simple);
+    assert_true(ramify_renderer_render(renderer, film, NULL, NULL, NULL, NULL, &error));
+    assert_null(ramify_film_layer(film, "denoised", NULL)); // it was of fewer samples
     for (int i = 0; i < 4 * WIDTH * HEIGHT; i++) {
         assert_true(simple[i] >= 0.0f && simple[i] <= 1.0f);
     }

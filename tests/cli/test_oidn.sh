@@ -70,6 +70,34 @@ says auto_warns err "./none.so: cannot open shared object file"
 says auto_warns_what_it_does err "ramify's own denoiser is used"
 same auto_takes_own auto.png own.png
 
+# What was traced stays in the EXR, with the denoised layer beside it; only when denoising is asked for.
+same traced_layer_is_raw raw.exr two.exr
+yes denoised_layer_is_beside grep -qaF denoised.R two.exr
+check no_denoised_layer 1 grep -qaF denoised.R raw.exr
+check only_an_exr 0 render three.exr ./fake2.so
+yes same_exr cmp two.exr three.exr
+
+# The first preview is what was traced, the next are denoised, and so is what Ctrl-C leaves.
+sed 's/samples: 2/samples: 1000000/' scene.yaml >long.yaml
+RAMIFY_OIDN=./fake2.so "$RAMIFY" render long.yaml -q -o long.png 2>/dev/null &
+process=$!
+wait_for() { # wait_for SECONDS COMMAND...
+    left=$((10 * $1))
+    shift
+    while [ $left -gt 0 ] && ! "$@" >/dev/null 2>&1; do sleep 0.1; left=$((left - 1)); done
+}
+wait_for 30 test -s long.png
+cp long.png first.png
+wait_for 60 sh -c '! cmp -s long.png first.png'
+cp long.png second.png
+kill -INT $process
+wait $process
+check first_preview_is_raw 0 "$RAMIFY" compare raw.png first.png --max-rmse 0.03
+check next_preview_is_denoised 0 "$RAMIFY" compare two.png second.png --max-rmse 0.03
+check denoised_differs_more 1 "$RAMIFY" compare raw.png second.png --max-rmse 0.03
+check interrupted_is_denoised 0 "$RAMIFY" compare two.png long.png --max-rmse 0.03
+yes interrupted_has_the_layer grep -qaF denoised.R long.exr
+
 # The rendering is not lost: the EXR is there, and the picture is the last preview.
 rm two.exr
 check library_fails 1 env FAKE_OIDN=execute RAMIFY_OIDN=./fake2.so "$RAMIFY" render scene.yaml -q -o two.png

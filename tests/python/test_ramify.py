@@ -215,6 +215,12 @@ def test_pictures_are_arrays_and_files(scene, tmp_path):
     assert (tmp_path / "bush.png").read_bytes()[:4] == b"\x89PNG"
     film.save(tmp_path / "bush.exr")
     assert (tmp_path / "bush.exr").stat().st_size > 1000
+    with pytest.raises(KeyError):
+        film.denoised
+    film.denoise()
+    assert film.denoised.shape == (16, 24, 3) and not np.array_equal(film.denoised, film.color)
+    film.save(tmp_path / "both.exr", denoise=True)
+    assert b"denoised.R" in (tmp_path / "both.exr").read_bytes()
     with pytest.raises(ramify.Error):
         film.save(tmp_path / "nowhere" / "bush.png")
     with pytest.raises(AttributeError):

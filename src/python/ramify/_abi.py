@@ -281,6 +281,7 @@ FUNCTIONS = {
     "film_new": (_handle, [_int, _int, _error]),
     "film_free": (None, [_handle]),
     "film_layer": (c.c_void_p, [_handle, _text, c.POINTER(_int)]),
+    "film_denoise": (c.c_bool, [_handle, _handle, _run, _error]),
     "film_write": (c.c_bool, [_handle, _handle, _text, c.c_bool, _run, _error]),
     "image_check": (c.c_bool, [_text, _error]),
     "denoiser_check": (c.c_bool, [_handle, _error]),

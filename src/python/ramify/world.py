@@ -152,15 +152,24 @@ class Film:
     object = property(lambda self: self.layer("object"), doc="number of the scene's object + 1; 0 = none")
     samples = property(lambda self: self.layer("samples"), doc="taken")
     variance = property(lambda self: self.layer("variance"), doc="of the mean luminance")
+    denoised = property(lambda self: self.layer("denoised"), doc="x 3: color as denoise() left it")
 
     @property
     def rgba(self) -> np.ndarray:
         """A copy of color and alpha, height x width x 4."""
         return np.dstack([self.layer("color"), self.layer("alpha")])
 
+    def denoise(self, threads: int = 0) -> None:
+        """Removes the noise by the scene's film.denoiser: makes the layer denoised, which save then uses. The layer goes
+        when the film is rendered again. There is none if the first pass was cancelled."""
+        run(
+            lambda how, _, error: lib.ramify_film_denoise(self.handle.pointer, self._scene.pointer, how, error),
+            threads,
+        )
+
     def save(self, file: File, denoise: Optional[bool] = None, threads: int = 0) -> None:
-        """Writes .png or .jpg, developed by the scene's film, or .exr, linear with all layers. denoise: None = the
-        scene's setting."""
+        """Writes .png or .jpg, developed by the scene's film, or .exr, linear with all layers, denoised among them if
+        denoise. denoise: None = the scene's setting."""
         if denoise is None:
             info = _abi.SceneInfo()
             lib.ramify_scene_info(self._scene.pointer, c.byref(info))
