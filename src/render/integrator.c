@@ -7,7 +7,20 @@
 
 #include <stddef.h>
 
-enum { MOST_CROSSINGS = 256 }; // of index-matched interfaces by one path
+// Paths that advance together, one ray at a time. Each stage runs over all of them before the next
+// begins: rays are traced in packets, and the processor overlaps the waits of independent paths for
+// memory and for results.
+typedef struct Wave {
+    const Tracer *tracer;
+    int count; // paths on their way
+    Path *path[WAVE_SIZE];
+    Vertex vertex[WAVE_SIZE];
+    ShadowQueue shadows;
+    SamplerLanes lanes;
+} Wave;
+
+_Static_assert((int)WAVE_SIZE <= (int)SAMPLER_LANES && (int)WAVE_SIZE <= (int)BACKGROUND_LIMIT,
+               "a wave fits");
 
 void path_add_light(Path *path, Vec3 radiance)
 {
@@ -35,52 +48,96 @@ bool path_survives(Path *path)
     return true;
 }
 
-static void start_path(Path *path, const Tracer *tracer, int x, int y, int sample)
+void path_cast_shadow(Path *path, const Ray *ray, Vec3 light)
 {
-    *path = (Path){.tracer = tracer,
-                   .throughput = {1.0f, 1.0f, 1.0f},
-                   .media.now = tracer->outside,
-                   .spread = tracer->camera.pixel_angle,
-                   .mirrored = true,
-                   .straight = true,
-                   .rays = 1};
-    path->sampler = sampler_at(&tracer->plan, (uint32_t)x, (uint32_t)y, (uint32_t)sample);
-    float u[4];
-    sampler_draw(&path->sampler, SET_CAMERA, u);
-    float film_x = (float)x + 0.5f + filter_sample(&tracer->filter, u[0]);
-    float film_y = (float)y + 0.5f + filter_sample(&tracer->filter, u[1]);
-    path->ray.far = INFINITY;
-    path->key = (uint32_t)random_key(path->sampler.key, path->sampler.reversed);
-    path->ray.key = path->key++;
-    camera_ray(&tracer->camera, film_x, film_y, u + 2, &path->ray.origin, &path->ray.direction);
-    path->start = path->from.position = path->ray.origin;
+    path->rays++;
+    ShadowQueue *queue = path->shadows;
+    Vec3 *sum = path->depth < 1 ? &path->direct : &path->indirect; // one bounce further
+    queue->ray[queue->count] = *ray;
+    queue->light[queue->count] = (ShadowLight){vec3_mul(path->throughput, light), sum};
+    queue->count++;
 }
 
-// A ray from the point in this direction, offset to the side of the surface that it leaves on.
-static Ray ray_from(Path *path, const SurfacePoint *point, Vec3 direction)
+static void trace_shadows(const Accel *accel, ShadowQueue *queue)
 {
-    bool outside = vec3_dot(direction, point->geometric_normal) > 0.0f;
-    Vec3 start = outside ? point->lifted : point->position;
-    float step = outside ? point->epsilon : -point->epsilon;
-    return (Ray){.origin = vec3_madd(start, step, point->facet_normal),
-                 .direction = direction,
-                 .far = INFINITY,
-                 .key = path->key++};
+    bool blocked[SHADOWS_LIMIT];
+    accel_occluded_many(accel, queue->ray, queue->count, blocked);
+    for (int i = 0; i < queue->count; i++) {
+        ShadowLight *shadow = &queue->light[i];
+        *shadow->sum = blocked[i] ? *shadow->sum : vec3_add(*shadow->sum, shadow->light);
+    }
+    queue->count = 0;
 }
 
-// The ray left the scene.
-static void add_background(Path *path, PathResult *result)
+// Draws set `set` of their bounce for the paths of the vertices.
+static void draw_for(SamplerLanes *lanes, Vertex *const vertex[], int count, uint32_t set)
 {
-    const Sky *sky = &path->tracer->world->sky;
-    if (path->depth == 0) {
-        bool seen = sky->visible && sky->kind != SKY_NONE;
-        result->alpha = seen ? 1.0f : 0.0f;
-        if (!seen) {
-            return;
+    sampler_lanes_clear(lanes);
+    for (int i = 0; i < count; i++) {
+        const Path *path = vertex[i]->path;
+        sampler_lanes_put(lanes, i, &path->sampler, set + SETS_PER_BOUNCE * (uint32_t)path->depth);
+    }
+    if (count > 0) {
+        sampler_lanes_draw(vertex[0]->path->sampler.table, lanes);
+    }
+}
+
+// Fills path, result and the wave.
+static void start_paths(const Tracer *tracer, int x, int y, int sample, int count, Path path[],
+                        PathResult result[], Wave *wave)
+{
+    wave->tracer = tracer;
+    wave->count = count;
+    wave->shadows.count = 0;
+    sampler_lanes_clear(&wave->lanes);
+    for (int i = 0; i < count; i++) {
+        path[i] = (Path){
+            .tracer = tracer,
+            .result = &result[i],
+            .shadows = &wave->shadows,
+            .sampler = sampler_at(&tracer->plan, (uint32_t)x, (uint32_t)y, (uint32_t)(sample + i)),
+            .throughput = {1.0f, 1.0f, 1.0f},
+            .media.now = tracer->outside,
+            .spread = tracer->camera.pixel_angle,
+            .mirrored = true,
+            .straight = true,
+            .ray.far = INFINITY};
+        result[i] = (PathResult){.albedo = vec3_splat(1.0f), .alpha = 1.0f, .depth = INFINITY};
+        sampler_lanes_put(&wave->lanes, i, &path[i].sampler, SET_CAMERA);
+        wave->path[i] = &path[i];
+    }
+    sampler_lanes_draw(&tracer->plan.table, &wave->lanes);
+    for (int i = 0; i < count; i++) {
+        Path *p = &path[i];
+        float u[4];
+        sampler_lanes_get(&wave->lanes, i, u);
+        float film_x = (float)x + 0.5f + filter_sample(&tracer->filter, u[0]);
+        float film_y = (float)y + 0.5f + filter_sample(&tracer->filter, u[1]);
+        camera_ray(&tracer->camera, film_x, film_y, u + 2, &p->ray.origin, &p->ray.direction);
+        p->key = (uint32_t)random_key(p->sampler.key, p->sampler.reversed);
+        p->ray.key = p->key++;
+        p->start = p->from.position = p->ray.origin;
+    }
+}
+
+// The light of the sky for the paths that left the scene.
+static void add_backgrounds(const Tracer *tracer, Path *const path[], int count)
+{
+    const Sky *sky = &tracer->world->sky;
+    BackgroundRay ray[WAVE_SIZE];
+    Vec3 radiance[WAVE_SIZE];
+    for (int i = 0; i < count; i++) {
+        const Path *p = path[i];
+        ray[i] = (BackgroundRay){p->from.position, p->ray.direction, p->bsdf_pdf, p->spread};
+    }
+    lights_background_many(tracer->lights, ray, count, radiance);
+    for (int i = 0; i < count; i++) {
+        if (path[i]->depth == 0 && !(sky->visible && sky->kind != SKY_NONE)) {
+            path[i]->result->alpha = 0.0f;
+        } else {
+            path_add_light(path[i], radiance[i]);
         }
     }
-    path_add_light(path, lights_background(path->tracer->lights, path->from.position,
-                                           path->ray.direction, path->bsdf_pdf, path->spread));
 }
 
 // Total reflection at the water's surface, seen from below. False where the ray leaves the water,
@@ -114,192 +171,90 @@ static bool reflect_off_water(Path *path)
     return true;
 }
 
-// Distance fades surfaces into the horizon's colour. Only for camera rays and mirror reflections of
-// them: in diffuse light the difference does not show.
-static void add_haze(Path *path, float distance)
-{
-    float length = path->tracer->world->sky.haze_distance;
-    if (length > 0.0f && path->mirrored) {
-        float clear = expf(-distance / length);
-        Vec3 veil = lights_horizon(path->tracer->lights, path->ray.direction);
-        path_add_light(path, vec3_scale(veil, 1.0f - clear));
-        path->throughput = vec3_scale(path->throughput, clear);
-    }
-}
+// Where a ray has led its path.
+typedef enum Whereabouts { IN_MEDIUM, AT_SURFACE, OUTSIDE, NOWHERE } Whereabouts;
 
-// Straight on through an index-matched interface. False after too many of them.
-static bool cross_index_matched(Path *path, const SurfacePoint *point)
+static Whereabouts travel(Path *path, const Hit *hit, bool met)
 {
-    media_cross(&path->media, path->tracer, point->material, point->backface);
-    path->throughput =
-        vec3_mul(path->throughput, path->tracer->world->material[point->material].color);
-    path->ray = ray_from(path, point, path->ray.direction);
-    path->footprint = point->footprint;
-    return ++path->crossings < MOST_CROSSINGS;
-}
-
-// The AOVs of the first surface. transmittance: of the haze and films before it; what they add is a
-// veil, whose albedo is white, as that of lamps and the sky.
-static void note_first_hit(PathResult *result, const SurfacePoint *point, const Bsdf *bsdf,
-                           float distance, float transmittance)
-{
-    float seen = bsdf_is_emissive(bsdf) ? 0.0f : transmittance;
-    result->hit = true;
-    result->albedo = vec3_add(vec3_scale(bsdf->albedo, seen), vec3_splat(1.0f - seen));
-    result->normal = bsdf->normal;
-    result->position = point->position;
-    result->depth = distance;
-    result->object = point->object;
-}
-
-// Next-event estimation: samples a light and adds what of it reaches the point.
-static void add_direct_light(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3 wo)
-{
-    const Tracer *tracer = path->tracer;
-    float u[4], pdf;
-    sampler_draw(&path->sampler, (uint32_t)(SET_LIGHT + SETS_PER_BOUNCE * path->depth), u);
-    LightSample light;
-    if (!lights_sample(tracer->lights, &path->from, u, &light)) {
-        return;
-    }
-    Vec3 f = bsdf_eval(bsdf, wo, light.direction, &pdf);
-    if (!(f.x + f.y + f.z > 0.0f)) {
-        return;
-    }
-    Ray shadow = ray_from(path, point, light.direction);
-    path_aim(&shadow, &light);
-    Vec3 radiance =
-        vec3_scale(vec3_mul(f, light.radiance), power_heuristic(light.pdf, pdf) / light.pdf);
-    if (tracer->has_index_matched || path->media.now.present || tracer->outside.present) {
-        Vec3 share;
-        Media media = path->media;
-        if (bsdf->traits & TRAIT_BODY &&
-            vec3_dot(light.direction, point->geometric_normal) < 0.0f) {
-            media_cross(&media, tracer, point->material, point->backface);
-        }
-        if (!path_lets_through(path, &shadow, &light, &media, &share)) {
-            return;
-        }
-        radiance = vec3_mul(radiance, share);
-    } else {
-        path->rays++;
-        if (accel_occluded(tracer->accel, &shadow)) {
-            return;
+    if (path->media.now.present) {
+        Travel travel = path_travel(path, met ? hit->t : INFINITY);
+        if (travel != TRAVEL_ARRIVED) {
+            return travel == TRAVEL_SCATTERED ? IN_MEDIUM : NOWHERE;
         }
     }
-    path->depth++; // the light is one bounce further
-    path_add_light(path, radiance);
-    path->depth--;
+    if (met) {
+        return AT_SURFACE;
+    }
+    bool water = path->tracer->world->medium.kind == MEDIUM_WATER;
+    return water && reflect_off_water(path) ? IN_MEDIUM : OUTSIDE;
 }
 
-// Samples the BSDF for the next ray. False when the path ends here.
-static bool bounce(Path *path, const SurfacePoint *point, const Bsdf *bsdf, Vec3 wo)
+// Traces the rays. The paths that met surfaces become vertices, whose number is returned; those
+// that go on within a medium stay in the wave. camera: these are camera rays, which lead alike.
+static int trace_rays(Wave *wave, bool camera)
 {
+    Ray ray[WAVE_SIZE];
+    Hit hit[WAVE_SIZE];
+    bool met[WAVE_SIZE];
+    Path *outside[WAVE_SIZE];
+    for (int i = 0; i < wave->count; i++) {
+        ray[i] = wave->path[i]->ray;
+        wave->path[i]->rays++;
+    }
+    accel_intersect_many(wave->tracer->accel, ray, wave->count, camera, hit, met);
+    for (int i = 0; i < wave->count && camera; i++) {
+        first_seen(wave->tracer, &ray[i], met[i], &hit[i], wave->path[i]->result);
+    }
+    int going = 0, vertices = 0, escaped = 0;
+    for (int i = 0; i < wave->count; i++) {
+        Path *path = wave->path[i];
+        switch (travel(path, &hit[i], met[i])) {
+        case IN_MEDIUM:
+            wave->path[going++] = path;
+            break;
+        case AT_SURFACE:
+            wave->vertex[vertices].path = path;
+            wave->vertex[vertices++].hit = hit[i];
+            break;
+        case OUTSIDE:
+            outside[escaped++] = path;
+            break;
+        case NOWHERE:
+            break;
+        }
+    }
+    wave->count = going;
+    add_backgrounds(wave->tracer, outside, escaped);
+    return vertices;
+}
+
+// The stages at surfaces. Paths that go on join the wave.
+static void scatter_at_surfaces(Wave *wave, int vertices)
+{
+    Vertex *vertex[WAVE_SIZE];
+    int scattering = 0;
+    for (int i = 0; i < vertices; i++) {
+        Vertex *v = &wave->vertex[i];
+        Arrival arrival = path_arrive(v);
+        if (arrival == ARRIVAL_CROSSED) {
+            wave->path[wave->count++] = v->path;
+        } else if (arrival == ARRIVAL_SCATTERS) {
+            vertex[scattering++] = v;
+        }
+    }
     float u[4];
-    sampler_draw(&path->sampler, (uint32_t)(SET_BSDF + SETS_PER_BOUNCE * path->depth), u);
-    BsdfSample sample;
-    if (!bsdf_sample(bsdf, wo, u, &sample)) {
-        return false;
-    }
-    path->throughput = vec3_mul(path->throughput, sample.weight);
-    path->ray = ray_from(path, point, sample.wi);
-    path->depth++;
-    path->footprint = point->footprint;
-    path->roulette = u[3];
-    if (sample.transmitted && bsdf->traits & TRAIT_THIN) {
-        return true; // goes straight on, as shadow rays do
-    }
-    path->straight = false;
-    path->start = path->ray.origin;
-    path->travelled = 0.0f;
-    path->bsdf_pdf = sample.delta ? 0.0f : sample.pdf;
-    if (!sample.delta) {
-        path->mirrored = false;
-        path->spread = larger(path->spread, 0.25f / (1.0f + sample.pdf));
-    }
-    if (sample.transmitted && bsdf->traits & TRAIT_BODY) {
-        media_cross(&path->media, path->tracer, point->material, point->backface);
-    }
-    return true;
-}
-
-// What a surface adds to the path, and the ray that leaves it. False when the path ends here.
-static bool scatter_at(Path *path, const Hit *hit, const SurfacePoint *point, PathResult *result)
-{
-    const Tracer *tracer = path->tracer;
-    Vec3 wo = vec3_neg(path->ray.direction);
-    Bsdf bsdf;
-    bsdf_fill(tracer->materials, point, wo, &bsdf);
-    if (path->straight) {
-        note_first_hit(result, point, &bsdf, path->travelled,
-                       fminf(luminance(path->throughput), 1.0f));
-    }
-    if (bsdf_is_emissive(&bsdf)) {
-        SurfacePlace place = accel_place(tracer->accel, hit);
-        float glow =
-            lights_glow(tracer->lights, &place, point->position, &path->from, path->bsdf_pdf);
-        path_add_light(path, vec3_scale(bsdf.emission, glow));
-        return false;
-    }
-    if (path->depth >= tracer->world->render.max_depth || !path_survives(path)) {
-        return false;
-    }
-    if (!(bsdf.traits & TRAIT_THIN)) {
-        bool opaque = bsdf.traits & TRAIT_OPAQUE;
-        path->from =
-            (LightReceiver){point->position, opaque ? point->geometric_normal : vec3_splat(0.0f)};
-        if (lights_can_sample(tracer->lights)) {
-            add_direct_light(path, point, &bsdf, wo);
+    if (lights_can_sample(wave->tracer->lights)) {
+        draw_for(&wave->lanes, vertex, scattering, SET_LIGHT);
+        for (int i = 0; i < scattering; i++) {
+            sampler_lanes_get(&wave->lanes, i, u);
+            path_sample_light(vertex[i], u);
         }
     }
-    return bounce(path, point, &bsdf, wo);
-}
-
-// The ray met a lamp or a surface. False when the path ends there.
-static bool arrive(Path *path, const Hit *hit, PathResult *result)
-{
-    const Tracer *tracer = path->tracer;
-    add_haze(path, hit->t);
-    int light = accel_light(tracer->accel, hit);
-    if (light >= 0) {
-        path_add_light(path, lights_emitted(tracer->lights, light, path->start, path->ray.direction,
-                                            path->travelled + hit->t, path->bsdf_pdf));
-        return false;
-    }
-    path->travelled += hit->t;
-    SurfacePoint point;
-    accel_surface(tracer->accel, &path->ray, hit, &point);
-    point.footprint = path->footprint + path->spread * hit->t;
-    if (tracer->has_index_matched &&
-        material_is_index_matched(&tracer->world->material[point.material])) {
-        return cross_index_matched(path, &point);
-    }
-    return scatter_at(path, hit, &point, result);
-}
-
-// Follows the path to its end. met, hit: what its camera ray met.
-static void trace_path(Path *path, bool met, Hit *hit, PathResult *result)
-{
-    const Tracer *tracer = path->tracer;
-    for (;; path->rays++, met = accel_intersect(tracer->accel, &path->ray, hit)) {
-        if (path->media.now.present) {
-            Travel travel = path_travel(path, met ? hit->t : INFINITY);
-            if (travel == TRAVEL_ENDED) {
-                return;
-            }
-            if (travel == TRAVEL_SCATTERED) {
-                continue;
-            }
-        }
-        if (!met) {
-            if (tracer->world->medium.kind == MEDIUM_WATER && reflect_off_water(path)) {
-                continue;
-            }
-            add_background(path, result);
-            return;
-        }
-        if (!arrive(path, hit, result)) {
-            return;
+    draw_for(&wave->lanes, vertex, scattering, SET_BSDF);
+    for (int i = 0; i < scattering; i++) {
+        sampler_lanes_get(&wave->lanes, i, u);
+        if (path_bounce(vertex[i], u)) {
+            wave->path[wave->count++] = vertex[i]->path;
         }
     }
 }
@@ -314,19 +269,15 @@ static Vec3 clamped(Vec3 light, float limit)
 void integrator_paths(const Tracer *tracer, int x, int y, int sample, int count,
                       PathResult result[])
 {
-    Path path[PACKET_SIZE];
-    const Ray *ray[PACKET_SIZE] = {NULL};
-    Hit hit[PACKET_SIZE];
-    bool met[PACKET_SIZE];
-    for (int i = 0; i < count; i++) {
-        start_path(&path[i], tracer, x, y, sample + i);
-        ray[i] = &path[i].ray;
+    Path path[WAVE_SIZE];
+    Wave wave; // not cleared, because that takes as long as a stage
+    start_paths(tracer, x, y, sample, count, path, result, &wave);
+    for (bool camera = true; wave.count > 0; camera = false) {
+        int vertices = trace_rays(&wave, camera);
+        scatter_at_surfaces(&wave, vertices);
+        trace_shadows(tracer->accel, &wave.shadows);
     }
-    accel_intersect_packet(tracer->accel, ray, count, hit, met);
     for (int i = 0; i < count; i++) {
-        result[i] = (PathResult){.albedo = vec3_splat(1.0f), .alpha = 1.0f, .depth = INFINITY};
-        first_seen(tracer, ray[i], met[i], &hit[i], &result[i]);
-        trace_path(&path[i], met[i], &hit[i], &result[i]);
         Vec3 color =
             vec3_add(path[i].direct, clamped(path[i].indirect, tracer->world->render.clamp));
         result[i].color = vec3_finite(color) ? color : vec3_splat(0.0f);

@@ -48,8 +48,8 @@ typedef struct PathResult {
 // Fills outside, center, medium_radius and has_index_matched. bounds: of the scene.
 void tracer_set_media(Tracer *tracer, Aabb bounds);
 
-// Traces samples sample .. sample + count - 1 of pixel (x, y), count <= PACKET_SIZE; their camera
-// rays are traced as one packet.
+// Traces samples sample .. sample + count - 1 of pixel (x, y) together, count <= WAVE_SIZE.
+enum { WAVE_SIZE = 16 };
 void integrator_paths(const Tracer *tracer, int x, int y, int sample, int count,
                       PathResult result[]);
 

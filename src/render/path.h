@@ -1,4 +1,4 @@
-// The state of a path, shared by integrator.c, path_media.c and path_scatter.c. Private to them.
+// The state of a path, shared by integrator.c and path_*.c. Private to them.
 #ifndef RAMIFY_RENDER_PATH_H
 #define RAMIFY_RENDER_PATH_H
 
@@ -29,6 +29,8 @@ typedef struct Media {
 // A path between two surfaces.
 typedef struct Path {
     const Tracer *tracer;
+    PathResult *result;
+    struct ShadowQueue *shadows;
     Sampler sampler;
     Ray ray;
     uint32_t key; // of the next ray
@@ -50,6 +52,30 @@ typedef struct Path {
     int64_t rays;
 } Path;
 
+// A path where its ray met a surface.
+typedef struct Vertex {
+    Path *path;
+    Hit hit;
+    SurfacePoint point;
+    Vec3 wo; // against the ray
+    Bsdf bsdf;
+} Vertex;
+
+// Shadow rays that wait to be traced together. A path casts up to two while its ray travels: from a
+// medium and from the surface.
+enum { SHADOWS_LIMIT = 2 * WAVE_SIZE };
+
+typedef struct ShadowLight {
+    Vec3 light; // what arrives unless the ray is blocked
+    Vec3 *sum;  // of a path, that it is added to
+} ShadowLight;
+
+typedef struct ShadowQueue {
+    int count;
+    Ray ray[SHADOWS_LIMIT];
+    ShadowLight light[SHADOWS_LIMIT];
+} ShadowQueue;
+
 // fmaxf compiles to a library call because of NaN.
 static inline float larger(float a, float b)
 {
@@ -58,6 +84,10 @@ static inline float larger(float a, float b)
 
 // Adds throughput x radiance to the estimate.
 void path_add_light(Path *path, Vec3 radiance);
+
+// Queues a shadow ray. light: what arrives at the end of the path unless it is blocked; seen from
+// there it is one bounce further than the path.
+void path_cast_shadow(Path *path, const Ray *ray, Vec3 light);
 
 // Russian roulette: false if it ends the path; else the throughput is scaled up. Rolled where a ray
 // arrives, not where it leaves: a ray that reaches light ends there, so it costs no more.
@@ -75,9 +105,24 @@ bool media_line(const Media *media, const Tracer *tracer, const Ray *ray, float 
 // Redirects a shadow ray from its origin to the end point of the light sample.
 void path_aim(Ray *ray, const LightSample *light);
 
-// Transmittance of a shadow ray that starts inside media; false if it is occluded.
-bool path_lets_through(Path *path, const Ray *ray, const LightSample *light, const Media *media,
-                       Vec3 *share);
+// The same as path_cast_shadow for a ray that starts inside media, which dim the light. Where there
+// are index-matched interfaces, the ray is traced at once.
+void path_cast_shadow_through(Path *path, const Ray *ray, const LightSample *light,
+                              const Media *media, Vec3 radiance);
+
+// ---- path_surface.c
+
+typedef enum Arrival { ARRIVAL_SCATTERS, ARRIVAL_CROSSED, ARRIVAL_ENDED } Arrival;
+
+// Fills point, wo and bsdf of the vertex and adds what it emits. ARRIVAL_CROSSED: the ray goes on
+// through an index-matched interface.
+Arrival path_arrive(Vertex *vertex);
+
+// Next-event estimation: samples a light and queues its shadow ray. u: of SET_LIGHT.
+void path_sample_light(Vertex *vertex, const float u[4]);
+
+// Samples the BSDF for the next ray. False when the path ends here. u: of SET_BSDF.
+bool path_bounce(Vertex *vertex, const float u[4]);
 
 // ---- path_scatter.c
 

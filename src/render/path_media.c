@@ -125,18 +125,16 @@ static bool passes_bodies(Path *path, Ray ray, const LightSample *light, Media m
     return false;
 }
 
-bool path_lets_through(Path *path, const Ray *ray, const LightSample *light, const Media *media,
-                       Vec3 *share)
+void path_cast_shadow_through(Path *path, const Ray *ray, const LightSample *light,
+                              const Media *media, Vec3 radiance)
 {
-    const Tracer *tracer = path->tracer;
-    *share = vec3_splat(1.0f);
-    if (tracer->has_index_matched) {
-        return passes_bodies(path, *ray, light, *media, share);
+    Vec3 share = vec3_splat(1.0f);
+    if (!path->tracer->has_index_matched) {
+        lose(media, path->tracer, ray, ray->far, &share);
+        path_cast_shadow(path, ray, vec3_mul(radiance, share));
+    } else if (passes_bodies(path, *ray, light, *media, &share)) {
+        path->depth++; // the light is one bounce further
+        path_add_light(path, vec3_mul(radiance, share));
+        path->depth--;
     }
-    path->rays++;
-    if (accel_occluded(tracer->accel, ray)) {
-        return false;
-    }
-    lose(media, tracer, ray, ray->far, share);
-    return true;
 }

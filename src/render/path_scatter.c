@@ -91,14 +91,14 @@ static bool draw_gathering(const Path *path, const Stretch *s, const float u[4],
     return *pdf > 0.0f;
 }
 
-// In-scattered light at one point of the stretch.
-static Vec3 gather_once(Path *path, const Stretch *stretch, const float u[4], const float v[4])
+// Gathers in-scattered light at one point of the stretch.
+static void gather_once(Path *path, const Stretch *stretch, const float u[4], const float v[4])
 {
     const Filling *filling = &path->media.now;
     SegmentLight on = {.pivot_pdf = 0.0f};
     float pdf, t;
     if (!draw_gathering(path, stretch, u, v, &t, &on, &pdf)) {
-        return vec3_splat(0.0f);
+        return;
     }
     const LightSample *light = &on.light;
     Ray shadow = {.origin = vec3_madd(path->ray.origin, t, path->ray.direction),
@@ -106,16 +106,13 @@ static Vec3 gather_once(Path *path, const Stretch *stretch, const float u[4], co
                   .far = INFINITY,
                   .key = path->key++};
     path_aim(&shadow, light);
-    Vec3 share;
-    if (!path_lets_through(path, &shadow, light, &path->media, &share)) {
-        return vec3_splat(0.0f);
-    }
     float phase =
         phase_density(filling->anisotropy, vec3_dot(path->ray.direction, light->direction));
     Vec3 f = medium_transmittance(filling->extinction, medium_line_length(stretch->line, t));
-    f = vec3_mul(vec3_mul(f, filling->scattering), vec3_mul(light->radiance, share));
+    f = vec3_mul(vec3_mul(f, filling->scattering), light->radiance);
     float density = medium_line_density(stretch->line, t);
-    return vec3_scale(f, phase * density * power_heuristic(light->pdf, phase) / pdf);
+    float weight = phase * density * power_heuristic(light->pdf, phase) / pdf;
+    path_cast_shadow_through(path, &shadow, light, &path->media, vec3_scale(f, weight));
 }
 
 static void gather_light(Path *path, const MediumLine *line)
@@ -128,10 +125,7 @@ static void gather_light(Path *path, const MediumLine *line)
         line,
         {path->ray.origin, path->ray.direction, medium_line_near(line), medium_line_far(line)},
         channel_weights(path->throughput, path->media.now.scattering)};
-    Vec3 light = gather_once(path, &stretch, u, v);
-    path->depth++; // the light is one bounce further
-    path_add_light(path, light);
-    path->depth--;
+    gather_once(path, &stretch, u, v);
 }
 
 // ---- where the path itself goes

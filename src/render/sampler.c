@@ -8,22 +8,17 @@ enum { STREAM_PIXELS = 0x50b01 }; // of the seed
 enum { BLOCK_BITS = 4 };          // log2 of the width of a block of pixels
 enum { HIGHEST_LEVEL = 20 };
 
+// Four dimensions of one sample, or one dimension of many.
 typedef uint32_t Lanes __attribute__((vector_size(16)));
 typedef int32_t SignedLanes __attribute__((vector_size(16)));
 typedef float FloatLanes __attribute__((vector_size(16)));
+typedef uint32_t Wide __attribute__((vector_size(4 * SAMPLER_LANES)));
+typedef int32_t SignedWide __attribute__((vector_size(4 * SAMPLER_LANES)));
+typedef float FloatWide __attribute__((vector_size(4 * SAMPLER_LANES)));
 
 static uint32_t reverse_bits(uint32_t x)
 {
     x = __builtin_bswap32(x);
-    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
-    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
-    return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
-}
-
-static inline Lanes reverse_lanes(Lanes x)
-{
-    x = (x >> 16) | (x << 16);
-    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
     x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
     return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
@@ -62,6 +57,9 @@ static void fill_table(SobolTable *table)
     for (int dimension = 0; dimension < 4; dimension++) {
         uint32_t direction[32];
         direction_numbers(dimension, direction);
+        for (int bit = 0; bit < 32; bit++) {
+            table->bit[bit][dimension] = reverse_bits(direction[31 - bit]);
+        }
         for (int nibble = 0; nibble < 8; nibble++) {
             for (int value = 0; value < 16; value++) {
                 uint32_t word = 0;
@@ -76,35 +74,37 @@ static void fill_table(SobolTable *table)
     }
 }
 
-static inline uint32_t mix(uint32_t x)
-{
-    x ^= x >> 16;
-    x *= 0x21f0aaadu;
-    x ^= x >> 15;
-    x *= 0xd35a2d97u;
-    return x ^ (x >> 15);
-}
+// The following are macros because they work on single words and on vectors of them.
+
+#define MIX(x)              \
+    do {                    \
+        (x) ^= (x) >> 16;   \
+        (x) *= 0x21f0aaadu; \
+        (x) ^= (x) >> 15;   \
+        (x) *= 0xd35a2d97u; \
+        (x) ^= (x) >> 15;   \
+    } while (0)
+
+#define REVERSE(x)                                                   \
+    do {                                                             \
+        (x) = ((x) >> 16) | ((x) << 16);                             \
+        (x) = (((x) >> 8) & 0x00ff00ffu) | (((x)&0x00ff00ffu) << 8); \
+        (x) = (((x) >> 4) & 0x0f0f0f0fu) | (((x)&0x0f0f0f0fu) << 4); \
+        (x) = (((x) >> 2) & 0x33333333u) | (((x)&0x33333333u) << 2); \
+        (x) = (((x) >> 1) & 0x55555555u) | (((x)&0x55555555u) << 1); \
+    } while (0)
 
 // Owen scrambling of a number whose bits are reversed: every operation lets a bit depend on lower
 // bits only, so it is a nested permutation of elementary intervals. Laine and Karras 2011 with the
 // constants of Vegdahl 2021.
-static inline uint32_t owen(uint32_t x, uint32_t seed)
-{
-    x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1u;
-    x ^= x * 0x05526c56u;
-    return x ^ (x * 0x53a22864u);
-}
-
-static inline Lanes owen_lanes(Lanes x, Lanes seed)
-{
-    x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1u;
-    x ^= x * 0x05526c56u;
-    return x ^ (x * 0x53a22864u);
-}
+#define OWEN(x, seed)               \
+    do {                            \
+        (x) ^= (x)*0x3d20adeau;     \
+        (x) += (seed);              \
+        (x) *= ((seed) >> 16) | 1u; \
+        (x) ^= (x)*0x05526c56u;     \
+        (x) ^= (x)*0x53a22864u;     \
+    } while (0)
 
 void sample_plan_fill(SamplePlan *plan, uint64_t seed, int samples)
 {
@@ -134,25 +134,77 @@ Sampler sampler_at(const SamplePlan *plan, uint32_t x, uint32_t y, uint32_t samp
     return (Sampler){.table = &plan->table,
                      .key = (uint32_t)random_key(random_key(plan->seed, block), round),
                      .reversed = reversed,
-                     .lowest = index ? __builtin_ctz(reversed) / 4 : 8};
+                     .lowest = index ? __builtin_ctz(reversed) : 32};
 }
+
+// What tells the scrambling of the four dimensions apart.
+static const uint32_t salt[4] = {0x6a09e667u, 0xbb67ae85u, 0x3c6ef372u, 0xa54ff53au};
+
+// The seed of a dimension from the key of a set.
+#define SALTED(seed)            \
+    do {                        \
+        (seed) *= 0x21f0aaadu;  \
+        (seed) ^= (seed) >> 15; \
+        (seed) *= 0xd35a2d97u;  \
+        (seed) ^= (seed) >> 16; \
+    } while (0)
 
 void sampler_draw(const Sampler *sampler, uint32_t set, float u[4])
 {
-    uint32_t key = mix(sampler->key + 0x9e3779b9u * (set + 1u));
+    uint32_t key = sampler->key + 0x9e3779b9u * (set + 1u);
+    MIX(key);
     // The point of index 0 is subtracted: this shifts all points alike, which the random scrambling
-    // hides, and leaves no bit set above the index's highest, so few words need to be looked up.
-    uint32_t index = owen(sampler->reversed, key) ^ owen(0, key);
+    // hides, and leaves no bit set below the lowest, so few words need to be looked up.
+    uint32_t index = sampler->reversed, zero = 0;
+    OWEN(index, key);
+    OWEN(zero, key);
+    index ^= zero;
     Lanes x = {0, 0, 0, 0};
-    for (int nibble = sampler->lowest; nibble < 8; nibble++) {
+    for (int nibble = sampler->lowest / 4; nibble < 8; nibble++) {
         const uint32_t *word = sampler->table->word[nibble][index >> (4 * nibble) & 15u];
         x ^= *(const Lanes *)__builtin_assume_aligned(word, 16);
     }
     Lanes seed = {key, key, key, key};
-    seed = (seed ^ (Lanes){0x6a09e667u, 0xbb67ae85u, 0x3c6ef372u, 0xa54ff53au}) * 0x21f0aaadu;
-    seed = (seed ^ (seed >> 15)) * 0xd35a2d97u;
-    seed ^= seed >> 16;
-    x = reverse_lanes(owen_lanes(x, seed)) >> 8;
-    FloatLanes unit = __builtin_convertvector((SignedLanes)x, FloatLanes) * (1.0f / 16777216.0f);
+    seed ^= (Lanes){salt[0], salt[1], salt[2], salt[3]};
+    SALTED(seed);
+    OWEN(x, seed);
+    REVERSE(x);
+    FloatLanes unit =
+        __builtin_convertvector((SignedLanes)(x >> 8), FloatLanes) * (1.0f / 16777216.0f);
     memcpy(u, &unit, sizeof unit);
+}
+
+void sampler_lanes_clear(SamplerLanes *lanes)
+{
+    memset(lanes, 0, sizeof *lanes);
+    lanes->lowest = 32;
+}
+
+void sampler_lanes_draw(const SobolTable *table, SamplerLanes *lanes)
+{
+    Wide key, index, set, x[4], zero = {0};
+    memcpy(&key, lanes->key, sizeof key);
+    memcpy(&index, lanes->reversed, sizeof index);
+    memcpy(&set, lanes->set, sizeof set);
+    key += 0x9e3779b9u * (set + 1u);
+    MIX(key);
+    x[0] = x[1] = x[2] = x[3] = zero;
+    OWEN(index, key);
+    OWEN(zero, key);
+    index ^= zero;
+    for (int bit = lanes->lowest; bit < 32; bit++) {
+        Wide chosen = (Wide)((SignedWide)(index << (31 - bit)) < 0); // all bits or none
+        for (int k = 0; k < 4; k++) {
+            x[k] ^= chosen & table->bit[bit][k];
+        }
+    }
+    for (int k = 0; k < 4; k++) {
+        Wide seed = key ^ salt[k];
+        SALTED(seed);
+        OWEN(x[k], seed);
+        REVERSE(x[k]);
+        FloatWide unit =
+            __builtin_convertvector((SignedWide)(x[k] >> 8), FloatWide) * (1.0f / 16777216.0f);
+        memcpy(lanes->u[k], &unit, sizeof unit);
+    }
 }

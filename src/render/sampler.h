@@ -13,16 +13,18 @@
 
 #include <stdint.h>
 
-// The generator matrices, folded so that four bits of the index are looked up at a time.
+// The generator matrices: the words of each bit of the index in four dimensions, and folded so that
+// four bits are looked up at a time.
 typedef struct SobolTable {
     uint32_t word[8][16][4] __attribute__((aligned(16)));
+    uint32_t bit[32][4];
 } SobolTable;
 
 typedef struct Sampler {
     const SobolTable *table;
     uint32_t key;      // of the block of pixels and the seed
     uint32_t reversed; // index in the block's sequence, lowest bit first
-    int lowest;        // first group of four bits of it that is not zero
+    int lowest;        // first bit of it that is not zero; 32 = none
 } Sampler;
 
 // What the samples of a picture have in common.
@@ -40,5 +42,33 @@ Sampler sampler_at(const SamplePlan *plan, uint32_t x, uint32_t y, uint32_t samp
 // Four numbers in [0, 1). The first two are a (0, 2)-sequence over the samples of a pixel, and over
 // those of squares of 2, 4, 8 and 16 pixels.
 void sampler_draw(const Sampler *sampler, uint32_t set, float u[4]);
+
+// The same for SAMPLER_LANES samplers of one plan at once: u[k][i] is number k of sampler i.
+enum { SAMPLER_LANES = 16 };
+typedef struct SamplerLanes {
+    uint32_t key[SAMPLER_LANES], reversed[SAMPLER_LANES], set[SAMPLER_LANES];
+    int lowest; // least of all
+    float u[4][SAMPLER_LANES];
+} SamplerLanes;
+
+void sampler_lanes_clear(SamplerLanes *lanes);
+
+static inline void sampler_lanes_put(SamplerLanes *lanes, int i, const Sampler *sampler,
+                                     uint32_t set)
+{
+    lanes->key[i] = sampler->key;
+    lanes->reversed[i] = sampler->reversed;
+    lanes->set[i] = set;
+    lanes->lowest = sampler->lowest < lanes->lowest ? sampler->lowest : lanes->lowest;
+}
+
+void sampler_lanes_draw(const SobolTable *table, SamplerLanes *lanes);
+
+static inline void sampler_lanes_get(const SamplerLanes *lanes, int i, float u[4])
+{
+    for (int k = 0; k < 4; k++) {
+        u[k] = lanes->u[k][i];
+    }
+}
 
 #endif

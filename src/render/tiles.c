@@ -30,6 +30,22 @@ typedef struct Job {
     _Atomic int64_t settled; // paths traced, or skipped by adaptive stopping
 } Job;
 
+// Adds samples begin .. end - 1 of the pixel to its sum. Which rays share a packet may decide what
+// a ray meets that grazes an edge, so a wave holds samples of one pixel whose numbers alone tell
+// that they belong together.
+static void trace_pixel(const Tracer *tracer, int x, int y, int begin, int end, PixelSum *sum)
+{
+    PathResult result[WAVE_SIZE];
+    for (int k = begin, count; k < end; k += count) {
+        count = WAVE_SIZE - k % WAVE_SIZE;
+        count = count < end - k ? count : end - k;
+        integrator_paths(tracer, x, y, k, count, result);
+        for (int i = 0; i < count; i++) {
+            pixel_sum_add(sum, &result[i]);
+        }
+    }
+}
+
 // Renders the tile up to `end` samples per pixel. When cancelled, the remaining pixels and the
 // tile's count stay as they were; no further pass follows.
 static void render_tile(Job *job, Tile *tile, int end)
@@ -38,14 +54,7 @@ static void render_tile(Job *job, Tile *tile, int end)
     for (int y = tile->y0; y < tile->y1; y++) {
         for (int x = tile->x0; x < tile->x1 && !run_is_cancelled(job->run); x++) {
             PixelSum sum = {.object = 0};
-            for (int k = tile->samples, count; k < end; k += count) {
-                PathResult path[PACKET_SIZE];
-                count = end - k < PACKET_SIZE ? end - k : PACKET_SIZE;
-                integrator_paths(job->tracer, x, y, k, count, path);
-                for (int i = 0; i < count; i++) {
-                    pixel_sum_add(&sum, &path[i]);
-                }
-            }
+            trace_pixel(job->tracer, x, y, tile->samples, end, &sum);
             film_merge(job->film, (int64_t)y * job->film->width + x, tile->samples,
                        end - tile->samples, &sum);
             rays += sum.rays;

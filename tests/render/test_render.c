@@ -1,7 +1,9 @@
 // The whole renderer: energy, determinism, instances, curves, film planes, interruption.
 #include "tiny_world.h"
 
+#include "base/random.h"
 #include "image/image.h"
+#include "render/accel/accel.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -93,7 +95,7 @@ static void roulette_is_unbiased(void **state)
 
 static void assert_same_film(const Film *a, const Film *b)
 {
-    size_t n = (size_t)(a->width * a->height);
+    size_t n = (size_t)a->width * (size_t)a->height;
     assert_memory_equal(a->color, b->color, n * sizeof(Vec3));
     assert_memory_equal(a->light, b->light, n * sizeof(Vec3));
     assert_memory_equal(a->sky, b->sky, n * sizeof(Vec3));
@@ -162,6 +164,56 @@ static void crop_gives_the_same_pixels(void **state)
     assert_int_equal(covered, 25 * 26);
     film_free(whole);
     film_free(crop);
+    world_free(world);
+}
+
+static bool same_hit(const Hit *a, const Hit *b)
+{
+    return a->geometry == b->geometry && a->primitive == b->primitive &&
+           fabsf(a->t - b->t) < 4e-6f * b->t && fabsf(a->u - b->u) < 1e-4f &&
+           fabsf(a->v - b->v) < 1e-4f;
+}
+
+// Rays in packets meet what they meet alone. Some may differ that graze an edge.
+static void packets_meet_what_rays_meet(void **state)
+{
+    (void)state;
+    enum { RAYS = 37, ROUNDS = 400 };
+    World *world = varied_world();
+    Run run = run_default();
+    Error e = {0};
+    MaterialSet *materials =
+        material_set_new(world->material, NULL, world->material_count, NULL, &e);
+    Accel *accel = accel_new(world, materials, NULL, &run, &e);
+    assert_non_null(accel);
+    int hits = 0, blocks = 0, different = 0;
+    for (int round = 0; round < ROUNDS; round++) {
+        Ray ray[RAYS];
+        Hit hit[RAYS], alone;
+        bool met[RAYS], blocked[RAYS];
+        int count = 1 + round % RAYS;
+        for (int i = 0; i < count; i++) {
+            uint64_t key = random_key((uint64_t)round, (uint64_t)i);
+            Vec3 to = vec3(2.0f * random_unit(random_key(key, 0)) - 1.0f,
+                           2.0f * random_unit(random_key(key, 1)) - 1.0f,
+                           -4.0f * random_unit(random_key(key, 2)));
+            ray[i] = (Ray){.origin = {0, 0, 5}, .direction = vec3_normalize(to), .far = INFINITY};
+        }
+        accel_intersect_many(accel, ray, count, round % 2 == 0, hit, met);
+        accel_occluded_many(accel, ray, count, blocked);
+        for (int i = 0; i < count; i++) {
+            bool same = accel_intersect(accel, &ray[i], &alone) == met[i] &&
+                        (!met[i] || same_hit(&hit[i], &alone)) &&
+                        accel_occluded(accel, &ray[i]) == blocked[i];
+            different += !same;
+            hits += met[i];
+            blocks += blocked[i];
+        }
+    }
+    assert_true(hits > ROUNDS && blocks > ROUNDS);
+    assert_true(different < 5);
+    accel_free(accel);
+    material_set_free(materials);
     world_free(world);
 }
 
@@ -703,6 +755,7 @@ int main(void)
         cmocka_unit_test(roulette_is_unbiased),
         cmocka_unit_test(same_bits_for_any_thread_count),
         cmocka_unit_test(crop_gives_the_same_pixels),
+        cmocka_unit_test(packets_meet_what_rays_meet),
         cmocka_unit_test(seed_changes_noise_only),
         cmocka_unit_test(small_instances_equal_baked_meshes),
         cmocka_unit_test(large_instances_equal_baked_meshes),

@@ -56,13 +56,15 @@ void accel_thread_end(unsigned state);
 
 bool accel_intersect(const Accel *accel, const Ray *ray, Hit *hit);
 
-// Traces 1 .. PACKET_SIZE coherent rays as one packet, which is faster; slack is ignored. met[i]:
-// whether ray i hits.
-enum { PACKET_SIZE = 8 };
-void accel_intersect_packet(const Accel *accel, const Ray *const ray[], int count, Hit hit[],
-                            bool met[]);
-
 bool accel_occluded(const Accel *accel, const Ray *ray);
+
+// The same for `count` rays, in packets where that is faster; met[i], blocked[i]: whether ray i
+// hits. The last bits of a hit, and what a ray meets that grazes an edge, depend on the rays that
+// it is traced with; so callers must always put the same rays together. coherent: they start and
+// lead alike.
+void accel_intersect_many(const Accel *accel, const Ray ray[], int count, bool coherent, Hit hit[],
+                          bool met[]);
+void accel_occluded_many(const Accel *accel, const Ray ray[], int count, bool blocked[]);
 
 // Index of the lamp that was hit; -1 for a part.
 int accel_light(const Accel *accel, const Hit *hit);

@@ -6,6 +6,9 @@
 #include <string.h>
 #include <xmmintrin.h>
 
+// Rays of one of Embree's packets; fewer than the least are faster one by one.
+enum { PACKET_SIZE = 16, LEAST_PACKET = 3 };
+
 unsigned accel_thread_begin(void)
 {
     unsigned state = _mm_getcsr();
@@ -139,32 +142,47 @@ bool accel_intersect(const Accel *accel, const Ray *ray, Hit *hit)
     return true;
 }
 
-static void set_packet_ray(struct RTCRayHit8 *query, int i, const Ray *ray)
+bool accel_occluded(const Accel *accel, const Ray *ray)
 {
-    query->ray.org_x[i] = ray->origin.x;
-    query->ray.org_y[i] = ray->origin.y;
-    query->ray.org_z[i] = ray->origin.z;
-    query->ray.dir_x[i] = ray->direction.x;
-    query->ray.dir_y[i] = ray->direction.y;
-    query->ray.dir_z[i] = ray->direction.z;
-    query->ray.tfar[i] = ray->far;
-    query->ray.mask[i] = ~0u;
-    query->ray.id[i] = ray->key;
-    query->hit.geomID[i] = query->hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    AccelContext context = context_of(ray);
+    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    struct RTCRay query = embree_ray(ray);
+    rtcOccluded1(accel->scene, &context.embree, &query);
+    return query.tfar < 0.0f;
 }
 
-void accel_intersect_packet(const Accel *accel, const Ray *const ray[], int count, Hit hit[],
-                            bool met[])
+// ---- packets
+
+static void set_packet_ray(struct RTCRay16 *packet, int i, const Ray *ray)
 {
-    AccelContext context = context_of(ray[0]);
-    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    struct RTCRayHit8 query = {.ray.tnear = {0.0f}};
-    int valid[PACKET_SIZE] __attribute__((aligned(32))) = {0};
-    for (int i = 0; i < count; i++) {
-        set_packet_ray(&query, i, ray[i]);
-        valid[i] = -1;
+    packet->org_x[i] = ray->origin.x;
+    packet->org_y[i] = ray->origin.y;
+    packet->org_z[i] = ray->origin.z;
+    packet->dir_x[i] = ray->direction.x;
+    packet->dir_y[i] = ray->direction.y;
+    packet->dir_z[i] = ray->direction.z;
+    packet->tnear[i] = 0.0f;
+    packet->tfar[i] = ray->far;
+    packet->time[i] = 0.0f;
+    packet->mask[i] = ~0u;
+    packet->id[i] = ray->key;
+    packet->flags[i] = 0;
+}
+
+static void intersect_packet(const Accel *accel, const Ray ray[], int count, bool coherent,
+                             Hit hit[], bool met[])
+{
+    AccelContext context = context_of(&ray[0]);
+    context.embree.flags =
+        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    struct RTCRayHit16 query;
+    int valid[PACKET_SIZE] __attribute__((aligned(64)));
+    for (int i = 0; i < PACKET_SIZE; i++) {
+        set_packet_ray(&query.ray, i, &ray[i < count ? i : 0]);
+        query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        valid[i] = i < count ? -1 : 0;
     }
-    rtcIntersect8(valid, accel->scene, &context.embree, &query);
+    rtcIntersect16(valid, accel->scene, &context.embree, &query);
     for (int i = 0; i < count; i++) {
         met[i] = query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
         bool instanced = query.hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID;
@@ -178,13 +196,58 @@ void accel_intersect_packet(const Accel *accel, const Ray *const ray[], int coun
     }
 }
 
-bool accel_occluded(const Accel *accel, const Ray *ray)
+void accel_intersect_many(const Accel *accel, const Ray ray[], int count, bool coherent, Hit hit[],
+                          bool met[])
 {
-    AccelContext context = context_of(ray);
+    int done = 0;
+    for (; count - done >= LEAST_PACKET; done += PACKET_SIZE) {
+        int n = count - done < PACKET_SIZE ? count - done : PACKET_SIZE;
+        intersect_packet(accel, ray + done, n, coherent, hit + done, met + done);
+    }
+    for (; done < count; done++) {
+        met[done] = accel_intersect(accel, &ray[done], &hit[done]);
+    }
+}
+
+// The glow filter has one limit for a whole packet, so rays with slack cannot share one.
+static bool has_slack(const Ray ray[], int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (ray[i].slack > 0.0f) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void occluded_packet(const Accel *accel, const Ray ray[], int count, bool blocked[])
+{
+    AccelContext context = context_of(&ray[0]);
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    struct RTCRay query = embree_ray(ray);
-    rtcOccluded1(accel->scene, &context.embree, &query);
-    return query.tfar < 0.0f;
+    struct RTCRay16 packet;
+    int valid[PACKET_SIZE] __attribute__((aligned(64)));
+    for (int i = 0; i < PACKET_SIZE; i++) {
+        set_packet_ray(&packet, i, &ray[i < count ? i : 0]);
+        valid[i] = i < count ? -1 : 0;
+    }
+    rtcOccluded16(valid, accel->scene, &context.embree, &packet);
+    for (int i = 0; i < count; i++) {
+        blocked[i] = packet.tfar[i] < 0.0f;
+    }
+}
+
+void accel_occluded_many(const Accel *accel, const Ray ray[], int count, bool blocked[])
+{
+    for (int done = 0; done < count; done += PACKET_SIZE) {
+        int n = count - done < PACKET_SIZE ? count - done : PACKET_SIZE;
+        if (n >= LEAST_PACKET && !has_slack(ray + done, n)) {
+            occluded_packet(accel, ray + done, n, blocked + done);
+        } else {
+            for (int i = done; i < done + n; i++) {
+                blocked[i] = accel_occluded(accel, &ray[i]);
+            }
+        }
+    }
 }
 
 int accel_light(const Accel *accel, const Hit *hit)

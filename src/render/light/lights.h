@@ -70,12 +70,30 @@ bool lights_sample_chosen(const Lights *lights, const LightChoice *choice,
 
 // ----
 
-// Radiance of sky and sun along direction. bsdf_pdf > 0: the density with which the direction was
-// drawn; the result is weighted against light sampling by the power heuristic (Veach 1997).
-// bsdf_pdf <= 0: unweighted. from: where the direction was drawn, since water above it refracts.
-// spread: radians over which stars are smoothed.
-Vec3 lights_background(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf,
-                       float spread);
+// A ray that leaves the scene.
+typedef struct BackgroundRay {
+    Vec3 from; // where the direction was drawn, since water above it refracts
+    Vec3 direction;
+    float bsdf_pdf; // > 0: the density with which the direction was drawn; the radiance is weighted
+                    // against light sampling by the power heuristic (Veach 1997); else unweighted
+    float spread;   // radians over which stars are smoothed
+} BackgroundRay;
+
+// Radiance of sky and sun along each of 1 .. BACKGROUND_LIMIT rays. Together they wait for memory
+// once instead of one after the other.
+enum { BACKGROUND_LIMIT = 16 };
+void lights_background_many(const Lights *lights, const BackgroundRay ray[], int count,
+                            Vec3 radiance[]);
+
+// The same for one ray.
+static inline Vec3 lights_background(const Lights *lights, Vec3 from, Vec3 direction,
+                                     float bsdf_pdf, float spread)
+{
+    BackgroundRay ray = {from, direction, bsdf_pdf, spread};
+    Vec3 radiance;
+    lights_background_many(lights, &ray, 1, &radiance);
+    return radiance;
+}
 
 // The water above the scene; NULL if there is none.
 const Water *lights_water(const Lights *lights);

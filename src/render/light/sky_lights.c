@@ -136,11 +136,11 @@ const Water *lights_water(const Lights *lights)
 }
 
 // Seen by the camera and in mirrors only: clouds, stars, the face of the moon.
-static Vec3 seen_above(const Lights *lights, Vec3 direction, float spread)
+static Vec3 seen_above(const Lights *lights, Vec3 direction, const DomePlace *place, float spread)
 {
     const Sky *sky = &lights->world->sky;
     Vec3 above = into_sky(lights, direction);
-    Vec3 sum = clouds_before(&lights->clouds, above, dome_lookup(lights->dome, direction));
+    Vec3 sum = clouds_before(&lights->clouds, above, dome_radiance(lights->dome, place));
     bool covered = lights->sun_index >= 0 && sun_covers(&lights->sun, direction);
     if (sky->kind == SKY_NIGHT && !covered) {
         sum = vec3_add(sum, night_stars(sky, above, spread));
@@ -153,10 +153,10 @@ static Vec3 seen_above(const Lights *lights, Vec3 direction, float spread)
 }
 
 // Its light, weighted; shrink: see WaterPassage.
-static Vec3 light_above(const Lights *lights, Vec3 direction, float bsdf_pdf, float shrink,
-                        float sun_share)
+static Vec3 light_above(const Lights *lights, Vec3 direction, const DomePlace *place,
+                        float bsdf_pdf, float shrink, float sun_share)
 {
-    DomeLight sky = dome_at(lights->dome, direction);
+    DomeLight sky = dome_at(lights->dome, place);
     float pdf = sky.density * lights->share[lights->dome_index] * shrink;
     Vec3 sum = vec3_scale(sky.radiance, lights_weight(bsdf_pdf, pdf));
     if (lights->sun_index >= 0 && sun_covers(&lights->sun, direction)) {
@@ -178,11 +178,11 @@ static Vec3 glitter(const Lights *lights, Vec3 direction)
     return vec3_scale(lights->sun.radiance, share * lights->sun.solid_angle / solid_angle);
 }
 
-static Vec3 background_from_water(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf,
-                                  float spread)
+static Vec3 background_from_water(const Lights *lights, const BackgroundRay *ray)
 {
+    Vec3 from = ray->from, direction = ray->direction;
     WaterPassage passage;
-    bool eye = bsdf_pdf <= 0.0f;
+    bool eye = ray->bsdf_pdf <= 0.0f;
     Vec3 normal = vec3(0.0f, 1.0f, 0.0f);
     if (eye && direction.y > 0.0f) {
         float t = (lights->world->medium.height - from.y) / direction.y;
@@ -192,30 +192,41 @@ static Vec3 background_from_water(const Lights *lights, Vec3 from, Vec3 directio
         return vec3_splat(0.0f);
     }
     Vec3 above = lights->constant;
-    if (lights->dome && eye && lights->world->sky.kind == SKY_SUN_SKY) {
-        above = clouds_before(&lights->clouds, into_sky(lights, passage.direction),
-                              dome_lookup(lights->dome, passage.direction));
-        above = vec3_add(above, glitter(lights, passage.direction));
-    } else if (lights->dome && eye) {
-        above = seen_above(lights, passage.direction, spread);
-    } else if (lights->dome) {
-        above = light_above(lights, passage.direction, bsdf_pdf, passage.shrink,
-                            water_caustic(lights->water, from));
+    if (lights->dome) {
+        DomePlace place = dome_find(lights->dome, passage.direction);
+        if (eye && lights->world->sky.kind == SKY_SUN_SKY) {
+            above = clouds_before(&lights->clouds, into_sky(lights, passage.direction),
+                                  dome_radiance(lights->dome, &place));
+            above = vec3_add(above, glitter(lights, passage.direction));
+        } else if (eye) {
+            above = seen_above(lights, passage.direction, &place, ray->spread);
+        } else {
+            above = light_above(lights, passage.direction, &place, ray->bsdf_pdf, passage.shrink,
+                                water_caustic(lights->water, from));
+        }
     }
     return vec3_scale(above, WATER_INDEX * WATER_INDEX * passage.share);
 }
 
-Vec3 lights_background(const Lights *lights, Vec3 from, Vec3 direction, float bsdf_pdf,
-                       float spread)
+void lights_background_many(const Lights *lights, const BackgroundRay ray[], int count,
+                            Vec3 radiance[])
 {
-    if (water_covers(lights->water, from)) {
-        return background_from_water(lights, from, direction, bsdf_pdf, spread);
+    DomePlace place[BACKGROUND_LIMIT];
+    for (int i = 0; i < count && lights->dome; i++) {
+        place[i] = dome_find(lights->dome, ray[i].direction);
     }
-    if (!lights->dome) {
-        return lights->constant;
+    for (int i = 0; i < count; i++) {
+        const BackgroundRay *r = &ray[i];
+        if (water_covers(lights->water, r->from)) {
+            radiance[i] = background_from_water(lights, r);
+        } else if (!lights->dome) {
+            radiance[i] = lights->constant;
+        } else if (r->bsdf_pdf > 0.0f) {
+            radiance[i] = light_above(lights, r->direction, &place[i], r->bsdf_pdf, 1.0f, 1.0f);
+        } else {
+            radiance[i] = seen_above(lights, r->direction, &place[i], r->spread);
+        }
     }
-    return bsdf_pdf > 0.0f ? light_above(lights, direction, bsdf_pdf, 1.0f, 1.0f)
-                           : seen_above(lights, direction, spread);
 }
 
 const Sun *lights_sun(const Lights *lights)

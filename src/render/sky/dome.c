@@ -147,12 +147,21 @@ static inline int column_at(const Dome *dome, Vec3 direction, float *x)
     return column;
 }
 
-Vec3 dome_lookup(const Dome *dome, Vec3 direction)
+DomePlace dome_find(const Dome *dome, Vec3 direction)
 {
-    float x, y;
-    int row = row_at(dome, direction.y, &y), column = column_at(dome, direction, &x);
-    Corners corners = corners_of(dome, row, column);
-    return radiance_in(&corners, x, y);
+    DomePlace place;
+    place.row = row_at(dome, direction.y, &place.y);
+    place.column = column_at(dome, direction, &place.x);
+    Corners corners = corners_of(dome, place.row, place.column);
+    __builtin_prefetch(corners.above + place.column);
+    __builtin_prefetch(corners.below + place.column);
+    return place;
+}
+
+Vec3 dome_radiance(const Dome *dome, const DomePlace *place)
+{
+    Corners corners = corners_of(dome, place->row, place->column);
+    return radiance_in(&corners, place->x, place->y);
 }
 
 static inline DomeLight light_in(const Dome *dome, const Corners *c, float x, float y)
@@ -161,12 +170,10 @@ static inline DomeLight light_in(const Dome *dome, const Corners *c, float x, fl
                        dome->power > 0.0f ? weight_in(c, x, y) / dome->power : 0.0f};
 }
 
-DomeLight dome_at(const Dome *dome, Vec3 direction)
+DomeLight dome_at(const Dome *dome, const DomePlace *place)
 {
-    float x, y;
-    int row = row_at(dome, direction.y, &y), column = column_at(dome, direction, &x);
-    Corners corners = corners_of(dome, row, column);
-    return light_in(dome, &corners, x, y);
+    Corners corners = corners_of(dome, place->row, place->column);
+    return light_in(dome, &corners, place->x, place->y);
 }
 
 // ---- sampling tables

@@ -47,14 +47,29 @@ void dome_prepare(Dome *dome);
 // Elevation, radians, of the row coordinate v: 0 at the top edge, 1 at the bottom one.
 float dome_elevation(bool horizon_spacing, float v);
 
-Vec3 dome_lookup(const Dome *dome, Vec3 direction);
+// Where a direction meets the table: a cell, and the place in it from its upper left corner, 0..1.
+typedef struct DomePlace {
+    int row, column;
+    float x, y;
+} DomePlace;
+
+// Also begins to fetch the entries there from memory.
+DomePlace dome_find(const Dome *dome, Vec3 direction);
+
+Vec3 dome_radiance(const Dome *dome, const DomePlace *place);
+
+static inline Vec3 dome_lookup(const Dome *dome, Vec3 direction)
+{
+    DomePlace place = dome_find(dome, direction);
+    return dome_radiance(dome, &place);
+}
 
 typedef struct DomeLight {
     Vec3 radiance;
     float density; // per steradian, with which dome_sample draws the direction
 } DomeLight;
 
-DomeLight dome_at(const Dome *dome, Vec3 direction);
+DomeLight dome_at(const Dome *dome, const DomePlace *place);
 
 // Unit direction for two uniform numbers, and what dome_at says of it. Needs power > 0.
 Vec3 dome_sample(const Dome *dome, float u, float v, DomeLight *light);

@@ -1,0 +1,173 @@
+// A path at a surface: what the surface adds to it, and the ray that leaves it.
+#include "render/path.h"
+
+#include <stddef.h>
+
+enum { MOST_CROSSINGS = 256 }; // of index-matched interfaces by one path
+
+// A ray from the point in this direction, offset to the side of the surface that it leaves on.
+static Ray ray_from(Path *path, const SurfacePoint *point, Vec3 direction)
+{
+    bool outside = vec3_dot(direction, point->geometric_normal) > 0.0f;
+    Vec3 start = outside ? point->lifted : point->position;
+    float step = outside ? point->epsilon : -point->epsilon;
+    return (Ray){.origin = vec3_madd(start, step, point->facet_normal),
+                 .direction = direction,
+                 .far = INFINITY,
+                 .key = path->key++};
+}
+
+// Distance fades surfaces into the horizon's colour. Only for camera rays and mirror reflections of
+// them: in diffuse light the difference does not show.
+static void add_haze(Path *path, float distance)
+{
+    float length = path->tracer->world->sky.haze_distance;
+    if (length > 0.0f && path->mirrored) {
+        float clear = expf(-distance / length);
+        Vec3 veil = lights_horizon(path->tracer->lights, path->ray.direction);
+        path_add_light(path, vec3_scale(veil, 1.0f - clear));
+        path->throughput = vec3_scale(path->throughput, clear);
+    }
+}
+
+// Straight on through an index-matched interface. False after too many of them.
+static bool cross_index_matched(Path *path, const SurfacePoint *point)
+{
+    media_cross(&path->media, path->tracer, point->material, point->backface);
+    path->throughput =
+        vec3_mul(path->throughput, path->tracer->world->material[point->material].color);
+    path->ray = ray_from(path, point, path->ray.direction);
+    path->footprint = point->footprint;
+    return ++path->crossings < MOST_CROSSINGS;
+}
+
+// The AOVs of the first surface. The haze and films before it add a veil, whose albedo is white, as
+// that of lamps and the sky.
+static void note_first_hit(const Path *path, const SurfacePoint *point, const Bsdf *bsdf)
+{
+    PathResult *result = path->result;
+    float transmittance = fminf(luminance(path->throughput), 1.0f);
+    float seen = bsdf_is_emissive(bsdf) ? 0.0f : transmittance;
+    result->hit = true;
+    result->albedo = vec3_add(vec3_scale(bsdf->albedo, seen), vec3_splat(1.0f - seen));
+    result->normal = bsdf->normal;
+    result->position = point->position;
+    result->depth = path->travelled;
+    result->object = point->object;
+}
+
+// Fills the vertex's BSDF. False where the path ends: on what glows, at its greatest depth, by
+// roulette.
+static bool shade(Vertex *vertex)
+{
+    Path *path = vertex->path;
+    const Tracer *tracer = path->tracer;
+    const SurfacePoint *point = &vertex->point;
+    Bsdf *bsdf = &vertex->bsdf;
+    vertex->wo = vec3_neg(path->ray.direction);
+    bsdf_fill(tracer->materials, point, vertex->wo, bsdf);
+    if (path->straight) {
+        note_first_hit(path, point, bsdf);
+    }
+    if (bsdf_is_emissive(bsdf)) {
+        SurfacePlace place = accel_place(tracer->accel, &vertex->hit);
+        float glow =
+            lights_glow(tracer->lights, &place, point->position, &path->from, path->bsdf_pdf);
+        path_add_light(path, vec3_scale(bsdf->emission, glow));
+        return false;
+    }
+    if (path->depth >= tracer->world->render.max_depth || !path_survives(path)) {
+        return false;
+    }
+    if (!(bsdf->traits & TRAIT_THIN)) {
+        bool opaque = bsdf->traits & TRAIT_OPAQUE;
+        path->from =
+            (LightReceiver){point->position, opaque ? point->geometric_normal : vec3_splat(0.0f)};
+    }
+    return true;
+}
+
+Arrival path_arrive(Vertex *vertex)
+{
+    Path *path = vertex->path;
+    const Tracer *tracer = path->tracer;
+    const Hit *hit = &vertex->hit;
+    add_haze(path, hit->t);
+    int light = accel_light(tracer->accel, hit);
+    if (light >= 0) {
+        path_add_light(path, lights_emitted(tracer->lights, light, path->start, path->ray.direction,
+                                            path->travelled + hit->t, path->bsdf_pdf));
+        return ARRIVAL_ENDED;
+    }
+    path->travelled += hit->t;
+    SurfacePoint *point = &vertex->point;
+    accel_surface(tracer->accel, &path->ray, hit, point);
+    point->footprint = path->footprint + path->spread * hit->t;
+    if (tracer->has_index_matched &&
+        material_is_index_matched(&tracer->world->material[point->material])) {
+        return cross_index_matched(path, point) ? ARRIVAL_CROSSED : ARRIVAL_ENDED;
+    }
+    return shade(vertex) ? ARRIVAL_SCATTERS : ARRIVAL_ENDED;
+}
+
+void path_sample_light(Vertex *vertex, const float u[4])
+{
+    Path *path = vertex->path;
+    const Tracer *tracer = path->tracer;
+    const SurfacePoint *point = &vertex->point;
+    const Bsdf *bsdf = &vertex->bsdf;
+    LightSample light;
+    if (bsdf->traits & TRAIT_THIN || !lights_sample(tracer->lights, &path->from, u, &light)) {
+        return;
+    }
+    float pdf;
+    Vec3 f = bsdf_eval(bsdf, vertex->wo, light.direction, &pdf);
+    if (!(f.x + f.y + f.z > 0.0f)) {
+        return;
+    }
+    Ray shadow = ray_from(path, point, light.direction);
+    path_aim(&shadow, &light);
+    Vec3 radiance =
+        vec3_scale(vec3_mul(f, light.radiance), power_heuristic(light.pdf, pdf) / light.pdf);
+    if (tracer->has_index_matched || path->media.now.present || tracer->outside.present) {
+        Media media = path->media;
+        if (bsdf->traits & TRAIT_BODY &&
+            vec3_dot(light.direction, point->geometric_normal) < 0.0f) {
+            media_cross(&media, tracer, point->material, point->backface);
+        }
+        path_cast_shadow_through(path, &shadow, &light, &media, radiance);
+    } else {
+        path_cast_shadow(path, &shadow, radiance);
+    }
+}
+
+bool path_bounce(Vertex *vertex, const float u[4])
+{
+    Path *path = vertex->path;
+    const SurfacePoint *point = &vertex->point;
+    const Bsdf *bsdf = &vertex->bsdf;
+    BsdfSample sample;
+    if (!bsdf_sample(bsdf, vertex->wo, u, &sample)) {
+        return false;
+    }
+    path->throughput = vec3_mul(path->throughput, sample.weight);
+    path->ray = ray_from(path, point, sample.wi);
+    path->depth++;
+    path->footprint = point->footprint;
+    path->roulette = u[3];
+    if (sample.transmitted && bsdf->traits & TRAIT_THIN) {
+        return true; // goes straight on, as shadow rays do
+    }
+    path->straight = false;
+    path->start = path->ray.origin;
+    path->travelled = 0.0f;
+    path->bsdf_pdf = sample.delta ? 0.0f : sample.pdf;
+    if (!sample.delta) {
+        path->mirrored = false;
+        path->spread = larger(path->spread, 0.25f / (1.0f + sample.pdf));
+    }
+    if (sample.transmitted && bsdf->traits & TRAIT_BODY) {
+        media_cross(&path->media, path->tracer, point->material, point->backface);
+    }
+    return true;
+}
