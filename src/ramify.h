@@ -480,9 +480,10 @@ RAMIFY_API bool ramify_write_image(const RamifyScene *scene, const float *rgba, 
 // extension, or if the plug-in that writes pictures is missing, RAMIFY_IO if its folder is missing.
 RAMIFY_API bool ramify_image_check(const char *file, RamifyError *error);
 
-// Checks in advance that the scene's film can be denoised: RAMIFY_BAD_INPUT if film.denoiser is
-// oidn and the library of Open Image Denoise cannot be loaded. True if the scene does not denoise.
-RAMIFY_API bool ramify_denoiser_check(const RamifyScene *scene, RamifyError *error);
+// Checks in advance that the scene's film can be developed: RAMIFY_BAD_INPUT if it is denoised,
+// film.denoiser is oidn and the library of Open Image Denoise cannot be loaded, or if film.color is
+// no view of its OpenColorIO configuration.
+RAMIFY_API bool ramify_develop_check(const RamifyScene *scene, RamifyError *error);
 
 // The same step by step, with previews and every layer of the film.
 

@@ -133,6 +133,9 @@ static bool find_shots(Shooting *s, Error *e)
 {
     uint64_t metered;
     int oidn = 0;
+    if (!picture_is_exr(s->pattern) && !picture_check_color(s->scene, e)) {
+        return false;
+    }
     if (s->scene->denoise && !picture_find_denoiser(s->scene, &oidn, s->run, e)) {
         return false;
     }

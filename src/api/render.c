@@ -100,12 +100,14 @@ bool ramify_image_check(const char *file, RamifyError *error)
     return picture_check(file, &e) || api_fail(error, &e);
 }
 
-bool ramify_denoiser_check(const RamifyScene *scene, RamifyError *error)
+bool ramify_develop_check(const RamifyScene *scene, RamifyError *error)
 {
     Error e = {0};
     const Scene *own = scene_of(scene);
     int oidn;
-    return !own->denoise || picture_find_denoiser(own, &oidn, NULL, &e) || api_fail(error, &e);
+    bool sound = (!own->denoise || picture_find_denoiser(own, &oidn, NULL, &e)) &&
+                 picture_check_color(own, &e);
+    return sound || api_fail(error, &e);
 }
 
 // ---- rendering ----

@@ -161,7 +161,7 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
     RamifyRun run = command_run(options, &progress);
     Job job = {.scene = scene, .outputs = outputs};
     ramify_scene_info(scene, &job.info);
-    bool sound = ramify_image_check(outputs->display, e) && ramify_denoiser_check(scene, e);
+    bool sound = ramify_image_check(outputs->display, e) && ramify_develop_check(scene, e);
     RamifyWorld *world = sound ? ramify_build(scene, &run, e) : NULL;
     RamifyFilm *film = world ? ramify_film_new(job.info.width, job.info.height, e) : NULL;
     bool done = film && trace(&job, world, options->isa, film, &progress, &run, e);

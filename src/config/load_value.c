@@ -225,6 +225,9 @@ static bool load_file(const Value *v, char **member)
 {
     Loader *loader = v->loader;
     const char *text = v->given->text;
+    if (v->row->flags & KEY_OR_URI && strstr(text, "://")) {
+        return keep_text(v, text, member);
+    }
     bool whole = *text == '/' || !*loader->folder;
     char *path = whole ? arena_text(loader->arena, text, strlen(text), loader->e)
                        : arena_format(loader->arena, loader->e, "%s/%s", loader->folder, text);

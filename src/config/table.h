@@ -31,11 +31,12 @@ typedef enum KeyType {
 
 enum {
     KEY_REQUIRED = 1,
-    KEY_ABOVE = 2,      // low itself is not allowed
-    KEY_BELOW = 4,      // high itself is not allowed
-    KEY_INSTEAD = 8,    // alternative to another key: stored in its member, converted by a check
-    KEY_SPLAT = 16,     // vectors: one number sets all components
-    KEY_NO_DEFAULT = 32 // zero, or set by a check, when the file does not have the key
+    KEY_ABOVE = 2,       // low itself is not allowed
+    KEY_BELOW = 4,       // high itself is not allowed
+    KEY_INSTEAD = 8,     // alternative to another key: stored in its member, converted by a check
+    KEY_SPLAT = 16,      // vectors: one number sets all components
+    KEY_NO_DEFAULT = 32, // zero, or set by a check, when the file does not have the key
+    KEY_OR_URI = 64      // files: "scheme://..." is no file, but the name of something else
 };
 
 // A value of a C enum and its name in the file. Lists end with {0}.

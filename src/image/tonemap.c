@@ -108,30 +108,61 @@ static void apply_view(const View *view, float rgb[3])
     tone_saturate(view->params->saturation, rgb);
 }
 
-static void develop_pixel(float *p, int channels, float shade, const View *view)
+// Radiance as the view takes it: darkened toward the corners, not premultiplied.
+static void straighten(Image *image, float vignette)
 {
-    float alpha = channels == 4 ? p[3] : 1.0f;
-    float scale = alpha > 0.0f ? shade / alpha : 0.0f;
-    for (int c = 0; c < 3; c++) {
-        p[c] *= scale;
-    }
-    apply_view(view, p);
-    for (int c = 0; c < 3; c++) {
-        p[c] = tone_srgb_from_linear(p[c]);
-    }
-}
-
-static void develop(Image *image, const ToneParams *params)
-{
-    View view = view_of(params);
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < image->height; y++) {
         for (int x = 0; x < image->width; x++) {
-            float shade = lens_vignette(image, x, y, params->vignette);
-            int64_t i = (int64_t)y * image->width + x;
-            develop_pixel(image->pixel + i * image->channels, image->channels, shade, &view);
+            float *p = image->pixel + ((int64_t)y * image->width + x) * image->channels;
+            float alpha = image->channels == 4 ? p[3] : 1.0f;
+            float scale = alpha > 0.0f ? lens_vignette(image, x, y, vignette) / alpha : 0.0f;
+            for (int c = 0; c < 3; c++) {
+                p[c] *= scale;
+            }
         }
     }
+}
+
+static void show(Image *image, const ToneParams *params)
+{
+    View view = view_of(params);
+    int64_t count = (int64_t)image->width * image->height;
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < count; i++) {
+        float *p = image->pixel + i * image->channels;
+        apply_view(&view, p);
+        for (int c = 0; c < 3; c++) {
+            p[c] = tone_srgb_from_linear(p[c]);
+        }
+    }
+}
+
+static bool show_by_ocio(Image *image, const ToneParams *params, Error *e)
+{
+    int64_t count = (int64_t)image->width * image->height;
+    for (int64_t i = 0; i < count; i++) {
+        tone_saturate(params->saturation, image->pixel + i * image->channels);
+    }
+    return ocio_apply(params->color, image, e);
+}
+
+// Exposure, lens and view.
+static bool develop(Image *out, const Image *image, const Image *excess, const ToneParams *params,
+                    Error *e)
+{
+    float metered = params->auto_exposure ? gain_of(image, excess) : 1.0f;
+    float gain = exp2f(params->exposure) * metered;
+    prepare(out, image, gain, params->white_balance);
+    if (params->bloom > 0.0f && !add_bloom(out, excess, gain, params, e)) {
+        return false;
+    }
+    straighten(out, params->vignette);
+    if (params->color) {
+        return show_by_ocio(out, params, e);
+    }
+    show(out, params);
+    return true;
 }
 
 Image *tone_map(const Image *image, const Image *excess, const ToneParams *params, Error *e)
@@ -143,16 +174,9 @@ Image *tone_map(const Image *image, const Image *excess, const ToneParams *param
         return NULL;
     }
     Image *out = image_new(image->width, image->height, image->channels, e);
-    if (!out) {
-        return NULL;
-    }
-    float metered = params->auto_exposure ? gain_of(image, excess) : 1.0f;
-    float gain = exp2f(params->exposure) * metered;
-    prepare(out, image, gain, params->white_balance);
-    if (params->bloom > 0.0f && !add_bloom(out, excess, gain, params, e)) {
+    if (out && !develop(out, image, excess, params, e)) {
         image_free(out);
         return NULL;
     }
-    develop(out, params);
     return out;
 }

@@ -5,6 +5,7 @@
 #include "base/vec.h"
 #include "image/agx.h"
 #include "image/image.h"
+#include "image/ocio.h"
 
 typedef enum ViewTransform {
     VIEW_AGX,     // image/agx.h
@@ -15,6 +16,7 @@ typedef enum ViewTransform {
 typedef struct ToneParams {
     ViewTransform view;
     AgxLook look;               // of VIEW_AGX
+    const OcioParams *color;    // borrowed; takes the place of view, look and contrast; NULL = none
     float exposure;             // stops
     bool auto_exposure;         // maps the image's log-average luminance to 0.18 before `exposure`
     float contrast, saturation; // 1 = unchanged; contrast is not for VIEW_STANDARD
@@ -32,7 +34,8 @@ float tone_auto_gain(const Image *image);
 // image: linear radiance, 3 or 4 channels; with alpha, radiance is premultiplied (as in films and
 // EXRs). excess: light that highlights_compress took from it, which counts in bloom and exposure;
 // or NULL. The result has sRGB display values, straight (not premultiplied), with the same alpha,
-// as PNG requires. The caller frees it.
+// as PNG requires; with params->color, the display values of that view. Errors as of ocio_apply and
+// image_new. The caller frees it.
 Image *tone_map(const Image *image, const Image *excess, const ToneParams *params, Error *e);
 
 #endif

@@ -47,6 +47,12 @@ void picture_copy_rgba(const Film *film, float *rgba)
     }
 }
 
+bool picture_check_color(const Scene *scene, Error *e)
+{
+    return !scene->tone.color || ocio_check(scene->tone.color, e) ||
+           scene_fail_at(scene, "film.color", e);
+}
+
 static Image *beauty_image(const Film *film, Error *e)
 {
     Image *image = image_new(film->width, film->height, 4, e);

@@ -24,6 +24,10 @@ bool picture_find_denoiser(const Scene *scene, int *oidn, const Run *run, Error 
 // Leaves it NULL if a pixel of the crop has no sample, because a first pass was cancelled.
 bool picture_denoise(const Scene *scene, Film *film, const Run *run, Error *e);
 
+// Is the view of film.color one of its configuration? Errors as from ocio_check, at the key. True
+// without film.color.
+bool picture_check_color(const Scene *scene, Error *e);
+
 // Display values of a film, as from tone_map; free them. denoise: denoise first, unless a pixel of
 // the crop has no sample.
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run,

@@ -52,6 +52,36 @@ static const EnumName LOOKS[] = {{"medium_high_contrast", AGX_MEDIUM_HIGH_CONTRA
 static const EnumName DENOISERS[] = {
     {"own", DENOISER_OWN}, {"oidn", DENOISER_OIDN}, {"auto", DENOISER_AUTO}, {0}};
 
+static const Key COLOR_KEYS[] = {
+    {KEY_OF(OcioParams, config, "config", KEY_FILE), .flags = KEY_REQUIRED | KEY_OR_URI,
+     .doc = "File of the configuration, or `ocio://NAME` for one that is built into OpenColorIO "
+            "(version 2.2 or newer)."},
+    {KEY_OF(OcioParams, display, "display", KEY_TEXT),
+     .doc = "Display of the configuration; its default if omitted."},
+    {KEY_OF(OcioParams, view, "view", KEY_TEXT),
+     .doc = "View of the display; its default if omitted."},
+    {KEY_OF(OcioParams, look, "look", KEY_TEXT),
+     .doc = "Looks in place of the view's own, as in `grade, -warm`; the view's own if omitted."},
+    {KEY_OF(OcioParams, space, "space", KEY_TEXT),
+     .doc =
+         "Colour space of the configuration that is linear Rec. 709. If omitted, it is found by "
+         "its usual names, or through the role aces_interchange; without either, scene_linear is "
+         "taken."},
+    {0},
+};
+
+static const Table COLOR_TABLE = {
+    .name = "color",
+    .doc = "A view of an OpenColorIO configuration, in place of `view`, `look` and `contrast` of "
+           "film. Exposure, white balance, saturation, bloom and vignette come before it.",
+    .example = "film:\n"
+               "  color:\n"
+               "    config: ocio://studio-config-v1.0.0_aces-v1.3_ocio-v2.1\n"
+               "    display: sRGB - Display\n"
+               "    view: ACES 1.0 - SDR Video\n",
+    .size = sizeof(OcioParams),
+    .keys = COLOR_KEYS};
+
 static const Key FILM_KEYS[] = {
     {KEY_OF(Scene, film.width, "width", KEY_INT), .low = 1, .high = 65536, .unit = "pixels",
      .doc = "Width of the image."},
@@ -79,6 +109,8 @@ static const Key FILM_KEYS[] = {
      .doc =
          "Contrast and saturation of `view: agx`. base_contrast: flat, for grading; punchy: more "
          "saturated."},
+    {KEY_OF(Scene, tone.color, "color", KEY_POINTER), .table = &COLOR_TABLE,
+     .doc = "A view of an OpenColorIO configuration; if omitted, `view` applies."},
     {KEY_OF(Scene, tone.contrast, "contrast", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
      .doc = "Factor on the slope of the agx or filmic curve at middle grey; 1 = unchanged."},
     {KEY_OF(Scene, tone.saturation, "saturation", KEY_FLOAT), .high = 10,

@@ -418,7 +418,7 @@ static void a_missing_denoiser_is_known_before(void **state)
         RamifyScene *scene =
             ramify_scene_load_text(yaml, strlen(yaml), "film", "", NULL, 0, &error);
         assert_non_null(scene);
-        assert_int_equal(ramify_denoiser_check(scene, &error), cases[i].good);
+        assert_int_equal(ramify_develop_check(scene, &error), cases[i].good);
         if (!cases[i].good) {
             assert_int_equal(error.code, RAMIFY_BAD_INPUT);
             assert_int_equal(error.line, 1);

@@ -40,6 +40,16 @@ loads union_of_balls_loads_openvdb vdb "$RAMIFY" export two.yaml -q -o two.stl
 loads picture_loads_openimageio oiio "$RAMIFY" render ball.yaml -q -o ball.png
 loads picture_of_a_union_loads_both 'oiio vdb' "$RAMIFY" render two.yaml -q -o two.png
 
+cat >views.ocio <<'END'
+ocio_profile_version: 2
+environment: {}
+roles: {default: linear, scene_linear: linear}
+displays: {Screen: [!<View> {name: Plain, colorspace: linear}]}
+colorspaces: [!<ColorSpace> {name: linear}]
+END
+loads view_of_a_configuration_loads_opencolorio 'ocio oiio' "$RAMIFY" render ball.yaml -q -o view.png \
+    --set film.color.config=views.ocio
+
 # A copy of the program alone finds none.
 cp "$RAMIFY" alone
 check alone_starts 0 ./alone --version

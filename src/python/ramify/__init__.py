@@ -54,7 +54,7 @@ def render(
     if file is not None:
         call("image_check", path(file))  # before the work, not after it
         if not path(file).lower().endswith(b".exr"):
-            call("denoiser_check", scene._handle.pointer)
+            call("develop_check", scene._handle.pointer)
     film = scene.render(**how)
     if file is not None:
         film.save(file)

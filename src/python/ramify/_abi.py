@@ -284,7 +284,7 @@ FUNCTIONS = {
     "film_denoise": (c.c_bool, [_handle, _handle, _run, _error]),
     "film_write": (c.c_bool, [_handle, _handle, _text, c.c_bool, _run, _error]),
     "image_check": (c.c_bool, [_text, _error]),
-    "denoiser_check": (c.c_bool, [_handle, _error]),
+    "develop_check": (c.c_bool, [_handle, _error]),
     "renderer_new": (_handle, [_handle, _text, _run, _error]),
     "renderer_free": (None, [_handle]),
     "renderer_render": (
