@@ -400,16 +400,17 @@ static void where_a_picture_cannot_go_is_known_before(void **state)
     assert_int_equal(rmdir(file) | rmdir(folder), 0);
 }
 
-static void a_missing_denoiser_is_known_before(void **state)
+static void a_missing_denoiser_or_configuration_is_known_before(void **state)
 {
     (void)state;
     static const struct {
-        const char *film;
-        bool good;
-    } cases[] = {{"{denoise: true, denoiser: oidn}", false},
-                 {"{denoise: true, denoiser: auto}", true},
-                 {"{denoise: true}", true},
-                 {"{denoise: false, denoiser: oidn}", true}};
+        const char *film, *wrong; // NULL: nothing is
+        int column;
+    } cases[] = {{"{denoise: true, denoiser: oidn}", "/nope/oidn.so", 33},
+                 {"{denoise: true, denoiser: auto}", NULL, 0},
+                 {"{denoise: true}", NULL, 0},
+                 {"{denoise: false, denoiser: oidn}", NULL, 0},
+                 {"{color: {config: 'ocio://nope'}}", "'ocio://nope'", 24}};
     assert_int_equal(setenv("RAMIFY_OIDN", "/nope/oidn.so", 1), 0);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         RamifyError error = {0};
@@ -418,12 +419,12 @@ static void a_missing_denoiser_is_known_before(void **state)
         RamifyScene *scene =
             ramify_scene_load_text(yaml, strlen(yaml), "film", "", NULL, 0, &error);
         assert_non_null(scene);
-        assert_int_equal(ramify_develop_check(scene, &error), cases[i].good);
-        if (!cases[i].good) {
+        assert_int_equal(ramify_develop_check(scene, &error), !cases[i].wrong);
+        if (cases[i].wrong) {
             assert_int_equal(error.code, RAMIFY_BAD_INPUT);
             assert_int_equal(error.line, 1);
-            assert_int_equal(error.column, 33);
-            assert_non_null(strstr(error.message, "/nope/oidn.so"));
+            assert_int_equal(error.column, cases[i].column);
+            assert_non_null(strstr(error.message, cases[i].wrong));
         }
         ramify_scene_free(scene);
     }
@@ -569,7 +570,7 @@ int main(void)
         cmocka_unit_test(export_knows_its_formats),
         cmocka_unit_test(a_picture_is_traced_and_written),
         cmocka_unit_test(where_a_picture_cannot_go_is_known_before),
-        cmocka_unit_test(a_missing_denoiser_is_known_before),
+        cmocka_unit_test(a_missing_denoiser_or_configuration_is_known_before),
         cmocka_unit_test(a_film_has_layers),
         cmocka_unit_test(cancelling_ends_early),
         cmocka_unit_test(the_schema_is_handed_out),
