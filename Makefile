@@ -99,9 +99,10 @@ bench: all ## print the figures of speed, as ratios to yardsticks measured in th
 	@$(MAKE) --no-print-directory -j$$(nproc) $(BENCH_BIN)
 	@tests/bench/run $(OUT)
 
-bench-renderers: all ## compare with Cycles and Mitsuba 3 from PyPI: SCENES=s1,s2 SKY=FILE.hdr REPEATS=N SIZE=WxH JSON=FILE
+bench-renderers: all ## compare with Cycles and Mitsuba 3 from PyPI: SCENES=s1,s2 SKY=FILE.hdr REPEATS=N SIZE=WxH JSON=FILE PICTURES=FILE
 	@tests/bench/renderers/run $(OUT) $(if $(SCENES),--scenes $(SCENES)) $(if $(SKY),--sky "$(SKY)") \
-	    $(if $(REPEATS),--repeats $(REPEATS)) $(if $(SIZE),--size $(SIZE)) $(if $(JSON),--json "$(JSON)")
+	    $(if $(REPEATS),--repeats $(REPEATS)) $(if $(SIZE),--size $(SIZE)) $(if $(JSON),--json "$(JSON)") \
+	    $(if $(PICTURES),--pictures "$(PICTURES)")
 
 sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory CONFIG=sanitize test

@@ -7,7 +7,7 @@ import pytest
 
 sys.path.insert(0, "tests/bench")
 
-from renderers import geometry, llvm, measures, report, results, scenes, sky  # noqa: E402
+from renderers import geometry, llvm, measures, pictures, report, results, scenes, sky  # noqa: E402
 
 
 def noisy(seed, samples, value=2.0, size=(60, 80)):
@@ -185,3 +185,21 @@ def test_llvm_is_found_by_its_version():
     assert llvm.find_in(old + "\tlibLLVM.so.19.1 (libc6,x86-64) => /lib/libLLVM.so.19.1\n") == "/lib/libLLVM.so.19.1"
     assert llvm.find_in(old + "\tlibLLVM-19.so.1 (libc6,x86-64) => /lib/libLLVM-19.so.1\n") == "/lib/libLLVM-19.so.1"
     assert llvm.find_in(old) is None
+
+
+def test_pictures_take_equal_time():
+    assert pictures.equal_time_samples({"ramify": 0.5, "cycles": 1.0, "mitsuba": 0.1}, "ramify") == {
+        "ramify": pictures.BASE_SAMPLES,
+        "cycles": pictures.BASE_SAMPLES // 2,
+        "mitsuba": 5 * pictures.BASE_SAMPLES,
+    }
+    assert pictures.equal_time_samples({"ramify": 1e-3, "cycles": 9.0}, "ramify")["cycles"] == 1
+
+
+def test_pictures_of_a_row_share_one_exposure():
+    reference = np.full((4, 6, 3), 2.0)
+    line = pictures.row([0.5 * reference, 0.0 * reference], reference)
+    assert line.shape == (4, 3 * 6 + 2 * pictures.GAP, 3)
+    assert (line[:, -6:] == 255).all() and (line[:, :6] == 188).all()  # sRGB of 1 and 0.5
+    assert (line[:, 6 + pictures.GAP : 12 + pictures.GAP] == 0).all()
+    assert pictures.sheet([line, line]).shape == (8 + pictures.GAP, line.shape[1], 3)

@@ -11,7 +11,7 @@ import sys
 import time
 from pathlib import Path
 
-from . import geometry, llvm, report, sky
+from . import geometry, llvm, pictures, report, sky
 from .ramify import Ramify
 from .measures import Unmeasurable, mean_and_error, reference_of
 from .results import Drawings, all_figures, disagreeing
@@ -63,6 +63,7 @@ def parse(arguments):
     parser.add_argument("--repeats", type=repeats, default=3, help="of each image, 3 by default; the least time counts")
     parser.add_argument("--reference", type=reference_samples, default=REFERENCE_SAMPLES, help="samples of its images")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)), help="of each renderer; all by default")
+    parser.add_argument("--pictures", type=Path, help="draw each scene in equal time, side by side: .png or .jpg")
     parser.add_argument("--json", type=Path, help="write the numbers to this file too")
     options = parser.parse_args(arguments)
     if options.sky and not options.sky.is_file():
@@ -120,7 +121,7 @@ def refine(renderer, drawings, reference):
 
 
 def compare(name, picture, options):
-    """Figures by renderer, of one scene."""
+    """Figures by renderer, of one scene, and a row of pictures (None unless asked for)."""
     width, height = options.size
     job = Job(SCENES[name], str(options.work.resolve()), str(picture), width, height, options.threads)
     samples = [count for count in SAMPLES if count < options.reference]
@@ -129,7 +130,12 @@ def compare(name, picture, options):
         found = draw_rounds(renderers, samples, options.reference, options.repeats)
         for renderer in renderers:
             refine(renderer, found[renderer.name], options.reference)
-    return all_figures(found, samples, options.reference)
+        figures, line = all_figures(found, samples, options.reference), None
+        if options.pictures:
+            converged = reference_of(found[renderers[0].name].images[options.reference]).image
+            line, counts = pictures.draw_row(renderers, figures, converged)
+            print(f"{name}: samples in equal time: " + ", ".join(f"{who} {n}" for who, n in counts.items()), flush=True)
+    return figures, line
 
 
 def main(arguments):
@@ -139,16 +145,19 @@ def main(arguments):
         return 2
     if os.getloadavg()[0] > 0.5 * options.threads:
         print(f"the machine is busy (load {os.getloadavg()[0]:.1f}): times will be noisy; more --repeats help")
-    picture, results, begin = prepare(options), {}, time.monotonic()
+    picture, results, rows, begin = prepare(options), {}, [], time.monotonic()
     for name in options.scenes:
         try:
-            results[name] = compare(name, picture, options)
+            results[name], line = compare(name, picture, options)
+            rows.append(line)
             print(report.proof_line(name, results[name]), flush=True)
         except Unmeasurable as reason:
             print(f"bench-renderers: {name} is left out: {reason}", file=sys.stderr)
     if results:
         print("\n" + report.table(results))
     print(f"\n{options.size[0]} x {options.size[1]} pixels, {options.threads} threads, {time.monotonic() - begin:.0f} s in all")
+    if options.pictures and rows:
+        pictures.write(options.pictures, rows)
     if options.json and results:
         options.json.write_text(json.dumps(report.as_json(results), indent=1) + "\n")
     different = [name for name in results if disagreeing(results[name])]
