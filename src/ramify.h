@@ -545,7 +545,7 @@ typedef struct RamifyRenderInfo {
     int32_t samples; // per pixel, the least over all pixels; 0 = some have none
 } RamifyRenderInfo;
 
-// Called after every pass over the picture (1, 2, 4, ... samples) with the film so far.
+// Called after every pass over the picture (1, 4, 16, 32, 64, ... samples) with the film so far.
 typedef void (*RamifyPass)(void *user, const RamifyFilm *film, int samples);
 
 // Renders into a film of the scene's size, replacing its contents except for pixels outside the

@@ -35,7 +35,7 @@ typedef struct RenderStats {
     int samples;    // per pixel, the least of all pixels; 0 = some have none
 } RenderStats;
 
-// Called after every pass with the film so far. Passes double (1, 2, 4, ... samples), so a first
+// Called after every pass with the film so far. They end at 1, 4, 16, 32, 64, ... samples: a first
 // picture appears at once. May be NULL.
 typedef void RenderPass(void *user, const Film *film, int samples);
 

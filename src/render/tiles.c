@@ -169,12 +169,21 @@ static bool all_quiet(const Job *job)
     return true;
 }
 
+// Passes end at 1, 4, 16, 32, 64, 128 ... samples, so that few of them go in waves that are not
+// full.
+static int pass_end(int done, int samples)
+{
+    int more = done < WAVE_SIZE ? 3 * done : done;
+    more = done < 1 ? 1 : (more < PASS_LIMIT ? more : PASS_LIMIT);
+    return done + more < samples ? done + more : samples;
+}
+
 static void render_passes(Job *job, RenderPass *pass, void *user)
 {
     int samples = job->tracer->world->render.samples, done = 0;
     while (done < samples && !(done > 0 && must_stop(job)) && !all_quiet(job)) {
-        int before = done, more = done < 1 ? 1 : (done < PASS_LIMIT ? done : PASS_LIMIT);
-        done = done + more < samples ? done + more : samples;
+        int before = done;
+        done = pass_end(done, samples);
         render_pass(job, before, done);
         bool doubled = (done & (done - 1)) == 0;
         if (pass && (doubled || done == samples) && !run_is_cancelled(job->run)) {
