@@ -16,10 +16,11 @@ enum {
 // Per-pixel features, in planes of floats with a border.
 enum {
     PLANE_COLOR,        // 3: radiance over albedo
-    PLANE_VARIANCE = 3, // 3: variance of each
+    PLANE_VARIANCE = 3, // of each
+    PLANE_TOLERANCE,    // k^2 times the variance
     PLANE_ALBEDO,       // 3
-    PLANE_NORMAL = 7,   // 3
-    PLANE_DEPTH = 10,   // logarithm of m; 0 is 1 m
+    PLANE_NORMAL = 8,   // 3
+    PLANE_DEPTH = 11,   // logarithm of m; 0 is 1 m
     PLANE_SLACK,        // square of the depth difference allowed between neighbouring pixels
     PLANE_COUNT
 };
@@ -85,11 +86,15 @@ static float log_depth(const Image *depth, int x, int y)
     return isfinite(z) ? logf(fmaxf(z, 1e-3f)) : 20.0f; // beyond any surface: the sky
 }
 
-typedef struct Guides {
-    const Image *color, *albedo, *normal, *depth, *variance;
-} Guides;
+// Square of the factor k by which differences are weighed against the noise (Rousselle 2012, eq.
+// 2). A variance estimated from n samples is itself uncertain, by about 1 / sqrt(n): too small
+// where no sample met what is rare, so that a narrow k would leave each pixel that did as it is.
+static float tolerance(float samples, float strength)
+{
+    return strength * strength * (0.5f + 12.0f / fmaxf(samples, 12.0f));
+}
 
-static void fill_pixel(const Planes *p, const Guides *g, int x, int y)
+static void fill_pixel(const Planes *p, const DenoiseInput *g, float strength, int x, int y)
 {
     int i = mirror(x, p->width), j = mirror(y, p->height);
     int64_t from = (int64_t)j * p->width + i, to = (int64_t)y * p->stride + x;
@@ -103,7 +108,10 @@ static void fill_pixel(const Planes *p, const Guides *g, int x, int y)
         p->plane[PLANE_NORMAL + c][to] = finite_or_zero(g->normal->pixel[3 * from + c]);
     }
     float scale = luminance_rgb(divisor);
-    p->plane[PLANE_VARIANCE][to] = smoothed_variance(g->variance, i, j) / (scale * scale);
+    float variance = smoothed_variance(g->variance, i, j) / (scale * scale);
+    float samples = g->samples ? g->samples->pixel[from] : INFINITY;
+    p->plane[PLANE_VARIANCE][to] = variance;
+    p->plane[PLANE_TOLERANCE][to] = tolerance(samples, strength) * variance;
     float z = log_depth(g->depth, i, j);
     float dx =
         fminf(fabsf(log_depth(g->depth, i + 1, j) - z), fabsf(log_depth(g->depth, i - 1, j) - z));
@@ -137,17 +145,18 @@ static bool band_new(Band *band, const Planes *p)
 
 // Squared colour differences beyond what the variances explain, relative to those variances
 // (Rousselle 2012, eq. 2), for one row; offset: to the other pixel.
-static void color_distances(const Planes *p, int y, int64_t offset, float k2, float *restrict out)
+static void color_distances(const Planes *p, int y, int64_t offset, float *restrict out)
 {
     const float *restrict a = p->plane[PLANE_COLOR] + y * p->stride;
     const float *restrict b = p->plane[PLANE_COLOR + 1] + y * p->stride;
     const float *restrict c = p->plane[PLANE_COLOR + 2] + y * p->stride;
     const float *restrict v = p->plane[PLANE_VARIANCE] + y * p->stride;
+    const float *restrict t = p->plane[PLANE_TOLERANCE] + y * p->stride;
     for (int x = -1; x <= p->width; x++) {
         float da = a[x] - a[x + offset], db = b[x] - b[x + offset], dc = c[x] - c[x + offset];
         float v0 = v[x], v1 = v[x + offset], least = v0 < v1 ? v0 : v1;
         float square = (da * da + db * db + dc * dc) * (1.0f / 3.0f);
-        out[x] = (square - (v0 + least)) / (1e-10f + k2 * (v0 + v1));
+        out[x] = (square - (v0 + least)) / (1e-10f + (t[x] + t[x + offset]));
     }
 }
 
@@ -181,7 +190,8 @@ static void feature_distances(const Planes *p, int y, int64_t offset, float *res
 }
 
 // Adds the other pixel with weight e^-distance (as (1 - d/8)^8, which has finite support).
-static void gather_row(const Planes *p, const Band *band, int row, int y, int64_t offset)
+static void gather_row(const Planes *p, const Band *band, int row, int y, int64_t offset,
+                       float away)
 {
     const float *restrict above = band->across + (int64_t)row * p->stride;
     const float *restrict middle = above + p->stride, *restrict below = middle + p->stride;
@@ -190,7 +200,7 @@ static void gather_row(const Planes *p, const Band *band, int row, int y, int64_
     float *restrict weight = band->weight + own;
     for (int x = 0; x < p->width; x++) {
         float patch = (above[x] + middle[x] + below[x]) * (1.0f / 9.0f);
-        float d = 1.0f - ((patch > 0.0f ? patch : 0.0f) + feature[x]) * 0.125f;
+        float d = 1.0f - ((patch > 0.0f ? patch : 0.0f) + feature[x] + away) * 0.125f;
         d = d > 0.0f ? d : 0.0f;
         d *= d;
         d *= d;
@@ -202,21 +212,22 @@ static void gather_row(const Planes *p, const Band *band, int row, int y, int64_
     }
 }
 
-static void gather_offset(const Planes *p, const Band *band, int y0, int rows, int64_t offset,
-                          float k2)
+static void gather_offset(const Planes *p, const Band *band, int y0, int rows, int dx, int dy)
 {
+    int64_t offset = dy * p->stride + dx;
+    float away = (float)(dx * dx + dy * dy) / (WINDOW * WINDOW); // an outlier leaves no square
     for (int row = -1; row <= rows; row++) {
         float *line = band->distance + (int64_t)(row + 1) * p->stride + BORDER;
-        color_distances(p, y0 + row, offset, k2, line);
+        color_distances(p, y0 + row, offset, line);
         sum_across(p, line, band->across + (int64_t)(row + 1) * p->stride);
     }
     for (int row = 0; row < rows; row++) {
         feature_distances(p, y0 + row, offset, band->distance + BORDER);
-        gather_row(p, band, row, y0 + row, offset);
+        gather_row(p, band, row, y0 + row, offset, away);
     }
 }
 
-static void finish_band(const Planes *p, const Band *band, const Guides *g, int y0, int rows,
+static void finish_band(const Planes *p, const Band *band, const DenoiseInput *g, int y0, int rows,
                         Image *out)
 {
     for (int row = 0; row < rows; row++) {
@@ -232,20 +243,20 @@ static void finish_band(const Planes *p, const Band *band, const Guides *g, int 
     }
 }
 
-static void filter_band(const Planes *p, const Band *band, const Guides *g, int y0, float k2,
+static void filter_band(const Planes *p, const Band *band, const DenoiseInput *g, int y0,
                         Image *out)
 {
     int rows = p->height - y0 < BAND ? p->height - y0 : BAND;
     memset(band->weight, 0, (size_t)p->stride * BAND * 4 * sizeof(float));
     for (int dy = -WINDOW; dy <= WINDOW; dy++) {
         for (int dx = -WINDOW; dx <= WINDOW; dx++) {
-            gather_offset(p, band, y0, rows, dy * p->stride + dx, k2);
+            gather_offset(p, band, y0, rows, dx, dy);
         }
     }
     finish_band(p, band, g, y0, rows, out);
 }
 
-static bool filter(const Planes *p, const Guides *g, float k2, const Run *run, Image *out, Error *e)
+static bool filter(const Planes *p, const DenoiseInput *g, const Run *run, Image *out, Error *e)
 {
     bool short_of_memory = false;
 #pragma omp parallel num_threads(run->threads)
@@ -258,7 +269,7 @@ static bool filter(const Planes *p, const Guides *g, float k2, const Run *run, I
 #pragma omp for schedule(dynamic, 1)
         for (int y = 0; y < p->height; y += BAND) {
             if (band.distance && !run_is_cancelled(run)) {
-                filter_band(p, &band, g, y, k2, out);
+                filter_band(p, &band, g, y, out);
             }
         }
         free(band.distance);
@@ -275,24 +286,22 @@ static bool fits(const Image *color, const Image *guide, int channels)
            guide->channels == channels;
 }
 
-static bool check_guides(const Guides *g, Error *e)
+static bool check_input(const DenoiseInput *g, Error *e)
 {
     bool good = g->color->channels == 3 || g->color->channels == 4;
     good = good && fits(g->color, g->albedo, 3) && fits(g->color, g->normal, 3);
     good = good && fits(g->color, g->depth, 1) && fits(g->color, g->variance, 1);
+    good = good && (!g->samples || fits(g->color, g->samples, 1));
     return good || error_set(e, ERROR_INPUT,
-                             "cannot denoise: color, albedo, normal, depth and variance must be of "
-                             "one size and have 3 or 4, 3, 3, 1 and 1 channels");
+                             "cannot denoise: color, albedo, normal, depth, variance and samples "
+                             "must be of one size and have 3 or 4, 3, 3, 1, 1 and 1 channels");
 }
 
-Image *image_denoise(const Image *color, const Image *albedo, const Image *normal,
-                     const Image *depth, const Image *variance, float strength, const Run *run,
-                     Error *e)
+Image *image_denoise(const DenoiseInput *input, float strength, const Run *run, Error *e)
 {
-    Guides guides = {color, albedo, normal, depth, variance};
-    Image *out = check_guides(&guides, e)
-                     ? image_new(color->width, color->height, color->channels, e)
-                     : NULL;
+    const Image *color = input->color;
+    Image *out =
+        check_input(input, e) ? image_new(color->width, color->height, color->channels, e) : NULL;
     if (!out) {
         return NULL;
     }
@@ -307,10 +316,10 @@ Image *image_denoise(const Image *color, const Image *albedo, const Image *norma
 #pragma omp parallel for num_threads(run->threads) schedule(static)
         for (int y = -BORDER; y < planes.height + BORDER; y++) {
             for (int x = -BORDER; x < planes.width + BORDER; x++) {
-                fill_pixel(&planes, &guides, x, y);
+                fill_pixel(&planes, input, strength, x, y);
             }
         }
-        done = filter(&planes, &guides, 0.5f * strength * strength, run, out, e);
+        done = filter(&planes, input, run, out, e);
         free(planes.data);
     }
     if (!done) {

@@ -138,16 +138,21 @@ static Image *denoised_image(const Scene *scene, const Image *beauty, const Film
     if (!picture_find_denoiser(scene, &oidn, run, e)) {
         return NULL;
     }
-    Image *guides[4] = {plane_image(film, film->albedo, 3, e),
-                        plane_image(film, film->normal, 3, e), plane_image(film, film->depth, 1, e),
-                        variance_image(film, beauty, e)};
-    Image *clean = NULL;
-    if (guides[0] && guides[1] && guides[2] && guides[3]) {
-        clean = oidn ? image_denoise_oidn(beauty, guides[0], guides[1], run, e)
-                     : image_denoise(beauty, guides[0], guides[1], guides[2], guides[3],
-                                     DENOISE_STRENGTH, run, e);
+    Image *guides[] = {plane_image(film, film->albedo, 3, e), plane_image(film, film->normal, 3, e),
+                       plane_image(film, film->depth, 1, e), variance_image(film, beauty, e),
+                       plane_image(film, film->samples, 1, e)};
+    enum { GUIDES = sizeof guides / sizeof guides[0] };
+    bool made = true;
+    for (int i = 0; i < GUIDES; i++) {
+        made = made && guides[i];
     }
-    for (int i = 0; i < 4; i++) {
+    const DenoiseInput input = {beauty, guides[0], guides[1], guides[2], guides[3], guides[4]};
+    Image *clean = NULL;
+    if (made) {
+        clean = oidn ? image_denoise_oidn(beauty, guides[0], guides[1], run, e)
+                     : image_denoise(&input, DENOISE_STRENGTH, run, e);
+    }
+    for (int i = 0; i < GUIDES; i++) {
         image_free(guides[i]);
     }
     return clean;
