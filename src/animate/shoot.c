@@ -37,6 +37,8 @@ typedef struct Shooting {
     int hold;       // lock on the folder; -1 = none
     char *pattern;  // pattern of the frames' names
     Stage *stage;   // NULL until the first frame
+    Vec3 *eye;      // the camera's position in each frame of the turntable
+    Views views;    // of them
     Film *film[2];  // one is traced while the other is written
     Finisher *finisher;
     Shot *shot;
@@ -126,6 +128,38 @@ static bool check_size(const Shooting *s, const Scene *scene, int frame, Error *
            error_set(e, ERROR_INPUT,
                      "frame %d has %d x %d pixels, the scene %d x %d; all frames have one size",
                      frame, now->width, now->height, first->width, first->height);
+}
+
+static void note_view(Shooting *s, const Scene *scene)
+{
+    Views *views = &s->views;
+    float angle = camera_frame(&scene->camera, scene->film.width, scene->film.height).pixel_angle;
+    views->pixel_angle = views->count == 0 ? angle : fminf(views->pixel_angle, angle);
+    s->eye[views->count++] = scene->camera.position;
+}
+
+// Reads the scenes of all frames, also of those that are not rendered now: a frame must not depend
+// on the range in which it is rendered. An invalid frame outside of the range is no error.
+static bool find_views(Shooting *s, Error *e)
+{
+    int frames = turntable_frames(s->turntable);
+    s->eye = memory_alloc(frames, sizeof *s->eye, e);
+    for (int frame = 0; s->eye && frame < frames; frame++) {
+        if (run_is_cancelled(s->run)) {
+            return run_cancel_error(e);
+        }
+        bool wanted = frame >= s->start && frame <= s->end;
+        Scene *scene = turntable_scene(s->turntable, frame, wanted ? e : NULL);
+        if (scene) {
+            note_view(s, scene);
+        }
+        scene_free(scene);
+        if (!scene && wanted) {
+            return false;
+        }
+    }
+    s->views.eye = s->eye;
+    return s->eye;
 }
 
 // Reads every frame's scene, so that an invalid frame is detected before hours of rendering.
@@ -307,7 +341,11 @@ static bool shoot_frames(Shooting *s, Error *e)
     bool cropped = has_track(s, "film.crop"); // an existing film keeps the pixels outside the crop
     double start = run_seconds();
     s->stage = stage_new(&s->scene->camera, s->params->isa, grows, e);
-    if (!s->stage || !lock_exposure(s, e)) {
+    if (!s->stage || !find_views(s, e)) {
+        return false;
+    }
+    stage_see_from(s->stage, &s->views);
+    if (!lock_exposure(s, e)) {
         return false;
     }
     s->stats->prepare_seconds += run_seconds() - start;
@@ -396,6 +434,7 @@ static void clear(Shooting *s)
     film_free(s->film[1]);
     turntable_free(s->turntable);
     free(s->shot);
+    free(s->eye);
     free(s->pattern);
     free(s->folder);
     free(s->video);

@@ -10,6 +10,7 @@
 
 struct Stage {
     Camera camera; // see stage_new
+    Views views;   // see stage_see_from
     const char *isa;
     SceneBuilder *builder;
     Scene *scene; // the current scene; owned, because the world borrows from it; NULL at first
@@ -41,6 +42,11 @@ void stage_free(Stage *stage)
         scene_free(stage->scene);
         free(stage);
     }
+}
+
+void stage_see_from(Stage *stage, const Views *views)
+{
+    stage->views = *views;
 }
 
 // Is the value of a key of the scene the same?
@@ -79,6 +85,9 @@ static bool set_up(Stage *stage, Scene *scene, bool fits, const Run *run, Error 
     stage->world = scene_builder_build(stage->builder, scene, run, &stage->stats.build, e);
     double start = run_seconds();
     bool done = stage->world;
+    if (done) {
+        stage->world->views = stage->views;
+    }
     if (done && stage->renderer) {
         done = renderer_update(stage->renderer, changed, run, e) || scene_fail_at(scene, "", e);
         stage->stats.structures += (changed & RENDERER_LAMPS) != 0;

@@ -20,6 +20,10 @@ typedef struct Stage Stage;
 Stage *stage_new(const Camera *camera, const char *isa, bool remember, Error *e);
 void stage_free(Stage *stage); // NULL is fine
 
+// views: of all frames, so that the detail of leaves, grass and twigs suits each of them and stays
+// the same; borrowed. Without this call, detail suits the first scene that is set up.
+void stage_see_from(Stage *stage, const Views *views);
+
 // Sets up a scene. Takes ownership of it, even on failure, after which the stage can only be freed.
 bool stage_set(Stage *stage, Scene *scene, const Run *run, Error *e);
 

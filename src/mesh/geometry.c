@@ -4,9 +4,19 @@
 
 #include <stdlib.h>
 
-static void part_clear(Part *part)
+void part_free_meshes(Part *part)
 {
     mesh_free(part->mesh);
+    part->mesh = NULL;
+    for (int i = 0; i < PART_COARSE_MOST; i++) {
+        mesh_free(part->coarse[i].mesh);
+        part->coarse[i].mesh = NULL;
+    }
+}
+
+static void part_clear(Part *part)
+{
+    part_free_meshes(part);
     curves_free(part->curves);
     free(part->instance);
     free(part->variation);

@@ -10,6 +10,15 @@
 
 typedef enum PartKind { PART_MESH, PART_CURVES } PartKind;
 
+// A simpler form of an instanced mesh. The ray tracer draws it instead where it is so small on the
+// screen that the difference cannot be seen; nothing else uses it.
+typedef struct CoarseMesh {
+    Mesh *mesh;  // owned; NULL = none
+    float error; // m in the mesh's space: size of what is left out
+} CoarseMesh;
+
+enum { PART_COARSE_MOST = 2 };
+
 // One mesh or curve set, drawn once (instance_count 0, in world space) or at every instance.
 typedef struct Part {
     PartKind kind;
@@ -21,6 +30,7 @@ typedef struct Part {
     float *variation;    // owned; 0..1 per instance, for colour variation; NULL = hashed from the
                          // instance's index
     int64_t instance_count;
+    CoarseMesh coarse[PART_COARSE_MOST]; // of an instanced mesh: from fine to coarse
 } Part;
 
 typedef struct Geometry {
@@ -35,7 +45,10 @@ static inline float part_variation(const Part *part, int64_t instance)
                            : random_unit(random_key((uint64_t)part->object, (uint64_t)instance));
 }
 
-// Appends a part. Takes ownership of mesh, curves, instance and variation, even on failure.
+// Frees the part's mesh and its coarse forms and sets them to NULL.
+void part_free_meshes(Part *part);
+
+// Appends a part. Takes ownership of all that it owns, even on failure.
 bool geometry_add(Geometry *geometry, Part part, Error *e);
 
 // Puts the parts into the order of their objects, 0 .. objects - 1, and those of one object into

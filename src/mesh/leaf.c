@@ -2,11 +2,12 @@
 
 #include "base/exact_math.h"
 #include "base/random.h"
+#include "base/triangle.h"
 
 #include <stddef.h>
 
 // A leaf is a grid of rows along the midrib and columns across, with a three-sided stalk below it.
-enum { STALK_SIDES = 3, BLADE_ROWS = 4 };
+enum { STALK_SIDES = 3, BLADE_ROWS = 4, BLADE_ROWS_COARSE = 3 };
 
 enum { STREAM_LOBE_PHASE = 1, STREAM_LOBE_SHIFT = 2 }; // of a leaf
 
@@ -145,36 +146,140 @@ Mesh *leaf_mesh_new(const LeafParams *params, uint64_t seed, Error *e)
     return mesh;
 }
 
-// One blade: BLADE_ROWS pairs of vertices along an arc that leaves the ground at angle `lean` and
-// bends over.
-static void add_grass_blade(Mesh *mesh, const GrassParams *params, int blade, uint64_t key)
+// ---- simpler leaves ----
+
+static double mesh_area(const Mesh *mesh, int64_t faces)
 {
+    double area = 0.0;
+    for (int64_t f = 0; f < faces; f++) {
+        const uint32_t *corner = mesh->index + 4 * f;
+        Vec3 a = mesh->position[corner[0]], b = mesh->position[corner[1]];
+        Vec3 c = mesh->position[corner[2]], d = mesh->position[corner[3]];
+        Vec3 abc = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
+        Vec3 acd = vec3_cross(vec3_sub(c, a), vec3_sub(d, a));
+        area += 0.5 * (double)(vec3_length(abc) + vec3_length(acd));
+    }
+    return area;
+}
+
+// Largest distance of the first `vertices` of fine from the faces of coarse.
+static float mesh_distance(const Mesh *fine, int64_t vertices, const Mesh *coarse)
+{
+    float largest = 0.0f;
+    for (int64_t v = 0; v < vertices; v++) {
+        float nearest = INFINITY;
+        for (int64_t f = 0; f < coarse->face_count; f++) {
+            for (int k = 0; k < 2; k++) {
+                const uint32_t *corner = coarse->index + 4 * f;
+                Vec3 on =
+                    triangle_nearest(coarse->position[corner[0]], coarse->position[corner[k + 1]],
+                                     coarse->position[corner[k + 2]], fine->position[v]);
+                nearest = fminf(nearest, vec3_distance(on, fine->position[v]));
+            }
+        }
+        largest = fmaxf(largest, nearest);
+    }
+    return largest;
+}
+
+// One quad: left, base, right and tip, since Embree folds a quad along the line from its second
+// corner to its fourth.
+static void add_kite(Mesh *mesh, const LeafParams *params)
+{
+    const float widest = 0.55f, half = 0.5f * params->width;
+    const float along[4] = {widest, 0.0f, widest, 1.0f}, side[4] = {-1.0f, 0.0f, 1.0f, 0.0f};
+    for (uint32_t i = 0; i < 4; i++) {
+        mesh->position[i] = blade_point(params, side[i] * half, along[i], 0.0f);
+        mesh->uv[i] = (Vec2){0.5f + 0.5f * side[i], along[i]};
+        mesh->index[i] = i;
+    }
+}
+
+// Scales x, across the leaf.
+static void widen(Mesh *mesh, float factor)
+{
+    for (int64_t v = 0; v < mesh->vertex_count; v++) {
+        mesh->position[v].x *= factor;
+    }
+}
+
+Mesh *leaf_mesh_coarse(const LeafParams *params, uint64_t seed, int level, float *error, Error *e)
+{
+    LeafGrid grid = leaf_grid(params);
+    Mesh *fine = leaf_mesh_new(params, seed, e);
+    bool kite = level > 0;
+    LeafGrid plain = {5, 3};
+    Mesh *mesh = !fine  ? NULL
+                 : kite ? mesh_new(4, 4, 1, MESH_NORMAL | MESH_UV, e)
+                        : mesh_new(4, (int64_t)plain.rows * plain.columns,
+                                   (int64_t)(plain.rows - 1) * (plain.columns - 1),
+                                   MESH_NORMAL | MESH_UV, e);
+    if (mesh && kite) {
+        add_kite(mesh, params);
+    } else if (mesh) {
+        LeafParams smooth = *params;
+        smooth.lobes = 0;
+        add_blade(mesh, &smooth, plain, seed);
+    }
+    if (mesh) {
+        double area = mesh_area(fine, (int64_t)(grid.rows - 1) * (grid.columns - 1));
+        widen(mesh, (float)(area / mesh_area(mesh, mesh->face_count)));
+        *error = mesh_distance(fine, (int64_t)grid.rows * grid.columns, mesh);
+    }
+    mesh_free(fine);
+    if (mesh && !mesh_compute_normals(mesh, e)) {
+        mesh_free(mesh);
+        return NULL;
+    }
+    return mesh;
+}
+
+// ---- grass ----
+
+typedef struct Blade {
+    Vec3 out, side, base;
+    float height, width; // m
+    float lean, bend;    // degrees
+} Blade;
+
+static Blade blade_of(const GrassParams *params, uint64_t key)
+{
+    Blade blade;
     float sine, cosine;
     exact_sincos(random_range(random_key(key, STREAM_AZIMUTH), 0.0f, 2.0f * PI_F), &sine, &cosine);
-    Vec3 out = vec3(cosine, 0, sine), side = vec3(-sine, 0, cosine);
+    blade.out = vec3(cosine, 0, sine);
+    blade.side = vec3(-sine, 0, cosine);
     float place = params->spread * sqrtf(random_unit(random_key(key, STREAM_DISTANCE)));
     float turn = random_range(random_key(key, STREAM_TURN), 0.0f, 2.0f * PI_F);
     exact_sincos(turn, &sine, &cosine);
-    Vec3 p = vec3(place * cosine, 0, place * sine);
-    float height = params->height * random_range(random_key(key, STREAM_HEIGHT), 0.45f, 1.0f);
-    float width = params->width * random_range(random_key(key, STREAM_WIDTH), 0.6f, 1.0f);
-    float lean = params->lean * random_unit(random_key(key, STREAM_LEAN));
-    float bend = params->bend * random_unit(random_key(key, STREAM_BEND));
-    int64_t first = (int64_t)blade * BLADE_ROWS * 2;
-    for (int r = 0; r < BLADE_ROWS; r++) {
-        float t = (float)r / (BLADE_ROWS - 1);
-        float half = 0.5f * width * (1.0f - 0.92f * t * t);
-        mesh->position[first + 2 * r] = vec3_madd(p, -half, side);
-        mesh->position[first + 2 * r + 1] = vec3_madd(p, half, side);
+    blade.base = vec3(place * cosine, 0, place * sine);
+    blade.height = params->height * random_range(random_key(key, STREAM_HEIGHT), 0.45f, 1.0f);
+    blade.width = params->width * random_range(random_key(key, STREAM_WIDTH), 0.6f, 1.0f);
+    blade.lean = params->lean * random_unit(random_key(key, STREAM_LEAN));
+    blade.bend = params->bend * random_unit(random_key(key, STREAM_BEND));
+    return blade;
+}
+
+// Blade number `number` of the mesh: `rows` pairs of vertices along an arc that leaves the ground
+// at angle `lean` and bends over.
+static void add_grass_blade(Mesh *mesh, const Blade *blade, int rows, int64_t number)
+{
+    Vec3 p = blade->base;
+    int64_t first = number * rows * 2;
+    for (int r = 0; r < rows; r++) {
+        float t = (float)r / (float)(rows - 1), sine, cosine;
+        float half = 0.5f * blade->width * (1.0f - 0.92f * t * t);
+        mesh->position[first + 2 * r] = vec3_madd(p, -half, blade->side);
+        mesh->position[first + 2 * r + 1] = vec3_madd(p, half, blade->side);
         mesh->uv[first + 2 * r] = (Vec2){0, t};
         mesh->uv[first + 2 * r + 1] = (Vec2){1, t};
-        exact_sincos((lean + bend * t * t) * RADIANS_PER_DEGREE, &sine, &cosine);
-        Vec3 d = vec3_madd(vec3(0, cosine, 0), sine, out);
-        p = vec3_madd(p, height / (BLADE_ROWS - 1), d);
+        exact_sincos((blade->lean + blade->bend * t * t) * RADIANS_PER_DEGREE, &sine, &cosine);
+        Vec3 d = vec3_madd(vec3(0, cosine, 0), sine, blade->out);
+        p = vec3_madd(p, blade->height / (float)(rows - 1), d);
     }
-    for (int r = 0; r + 1 < BLADE_ROWS; r++) {
-        uint32_t v = (uint32_t)(first + 2 * r);
-        uint32_t *face = mesh->index + ((int64_t)blade * (BLADE_ROWS - 1) + r) * 4;
+    for (int r = 0; r + 1 < rows; r++) {
+        uint32_t v = (uint32_t)(first + (int64_t)2 * r);
+        uint32_t *face = mesh->index + (number * (rows - 1) + r) * 4;
         face[0] = v;
         face[1] = v + 1;
         face[2] = v + 3;
@@ -182,20 +287,40 @@ static void add_grass_blade(Mesh *mesh, const GrassParams *params, int blade, ui
     }
 }
 
-Mesh *grass_tuft_new(const GrassParams *params, uint64_t seed, Error *e)
+// One blade of every `stride`, as wide as to have the area of all of them. *width: their mean
+// width.
+static Mesh *tuft_new(const GrassParams *params, uint64_t seed, int rows, int stride, float *width,
+                      Error *e)
 {
-    int64_t blades = params->blades;
-    Mesh *mesh =
-        mesh_new(4, blades * BLADE_ROWS * 2, blades * (BLADE_ROWS - 1), MESH_NORMAL | MESH_UV, e);
-    if (!mesh) {
-        return NULL;
+    int64_t blades = (params->blades + stride - 1) / stride;
+    Mesh *mesh = mesh_new(4, blades * rows * 2, blades * (rows - 1), MESH_NORMAL | MESH_UV, e);
+    float widths = 0.0f;
+    for (int i = 0; mesh && i < blades; i++) {
+        Blade blade = blade_of(params, random_key(seed, (uint64_t)i * (uint64_t)stride));
+        float area = blade.width * blade.height;
+        for (int k = i * stride + 1; k < (i + 1) * stride && k < params->blades; k++) {
+            Blade other = blade_of(params, random_key(seed, (uint64_t)k));
+            area += other.width * other.height;
+        }
+        blade.width = stride > 1 ? area / blade.height : blade.width;
+        widths += blade.width;
+        add_grass_blade(mesh, &blade, rows, i);
     }
-    for (int i = 0; i < params->blades; i++) {
-        add_grass_blade(mesh, params, i, random_key(seed, (uint64_t)i));
-    }
-    if (!mesh_compute_normals(mesh, e)) {
+    *width = widths / (float)blades;
+    if (mesh && !mesh_compute_normals(mesh, e)) {
         mesh_free(mesh);
         return NULL;
     }
     return mesh;
+}
+
+Mesh *grass_tuft_new(const GrassParams *params, uint64_t seed, Error *e)
+{
+    float width;
+    return tuft_new(params, seed, BLADE_ROWS, 1, &width, e);
+}
+
+Mesh *grass_tuft_coarse(const GrassParams *params, uint64_t seed, int level, float *error, Error *e)
+{
+    return tuft_new(params, seed, BLADE_ROWS_COARSE, level > 0 ? 4 : 2, error, e);
 }

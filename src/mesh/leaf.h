@@ -21,6 +21,12 @@ typedef struct LeafParams {
 // outline slightly. The caller frees the mesh with mesh_free.
 Mesh *leaf_mesh_new(const LeafParams *params, uint64_t seed, Error *e);
 
+// A simpler leaf of the same area, without stalk and lobes, for leaves of a few pixels. level: 0 =
+// a smooth outline of 8 quads, 1 = one quad folded along the midrib. *error (m): how far the leaf's
+// vertices are from it. The caller frees the mesh with mesh_free.
+enum { LEAF_COARSE_LEVELS = 2 };
+Mesh *leaf_mesh_coarse(const LeafParams *params, uint64_t seed, int level, float *error, Error *e);
+
 // A tuft of bent blades about the origin, growing along +Y.
 typedef struct GrassParams {
     int blades;
@@ -32,5 +38,12 @@ typedef struct GrassParams {
 
 // uv: u 0..1 across, v 0..1 from the root to the tip. The caller frees the mesh with mesh_free.
 Mesh *grass_tuft_new(const GrassParams *params, uint64_t seed, Error *e);
+
+// A simpler tuft of the same area (Cook et al., "Stochastic Simplification of Aggregate Detail",
+// 2007): level 0 has one blade for every two, level 1 for every four, wider in proportion and of
+// two quads. *error (m): mean width of the blades. The caller frees the mesh with mesh_free.
+enum { GRASS_COARSE_LEVELS = 2 };
+Mesh *grass_tuft_coarse(const GrassParams *params, uint64_t seed, int level, float *error,
+                        Error *e);
 
 #endif

@@ -21,6 +21,13 @@ typedef struct CameraFrame {
     float pixel_angle;   // rad, of a pixel in the middle
 } CameraFrame;
 
+// Where things are seen from: detail follows their size on the screen, from the nearest of these.
+typedef struct Views {
+    const Vec3 *eye;   // borrowed
+    int count;         // 0 = none: full detail
+    float pixel_angle; // rad
+} Views;
+
 CameraFrame camera_frame(const Camera *camera, int width, int height);
 
 // The ray through the film at (x, y) pixels from the top left corner and the lens at two uniform

@@ -23,6 +23,7 @@ typedef struct World {
     Material *material; // owned
     int material_count;
     Geometry geometry;
+    Views views; // of all pictures that a renderer makes of it; count 0 = the camera's
 } World;
 
 // Defaults: a 40-degree pinhole camera 10 m in front of the origin at eye height, 1280 x 720

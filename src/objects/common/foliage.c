@@ -40,7 +40,8 @@ typedef struct Foliage {
     const Run *run;
 } Foliage;
 
-Mesh *foliage_leaf_mesh(const LeavesParams *leaves, int variant, uint64_t seed, Error *e)
+void foliage_leaf_meshes(const LeavesParams *leaves, int variant, uint64_t seed, Part *part,
+                         Error *e)
 {
     uint64_t key = random_key(seed, (uint64_t)variant);
     LeafParams params = {
@@ -54,7 +55,14 @@ Mesh *foliage_leaf_mesh(const LeavesParams *leaves, int variant, uint64_t seed, 
         .lobe_depth = 0.42f,
         .detail = leaves->detail,
     };
-    return leaf_mesh_new(&params, key, e);
+    part->mesh = leaf_mesh_new(&params, key, e);
+    for (int i = 0; part->mesh && i < LEAF_COARSE_LEVELS; i++) {
+        CoarseMesh *coarse = &part->coarse[i];
+        coarse->mesh = leaf_mesh_coarse(&params, key, i, &coarse->error, e);
+        if (!coarse->mesh) {
+            part_free_meshes(part);
+        }
+    }
 }
 
 // Distance to the next leaf, number counted from the twig's tip: leaves are denser at the end.
@@ -165,12 +173,12 @@ static bool add_parts(Foliage *foliage, const Placing *placing, int role, Error 
         if (batch->count == 0) {
             continue;
         }
-        Part part = {.mesh = foliage_leaf_mesh(foliage->leaves, v, foliage->seed, e),
-                     .instance = batch->instance,
+        Part part = {.instance = batch->instance,
                      .variation = batch->variation,
                      .instance_count = batch->count};
         batch->instance = NULL;
         batch->variation = NULL;
+        foliage_leaf_meshes(foliage->leaves, v, foliage->seed, &part, e);
         if (!placing_add(placing, part, role, e)) {
             return false;
         }

@@ -12,7 +12,8 @@
 bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves, Vec3 center,
                  uint64_t seed, const Placing *placing, int role, Error *e);
 
-// The mesh of leaf variant number `variant`.
-Mesh *foliage_leaf_mesh(const LeavesParams *leaves, int variant, uint64_t seed, Error *e);
+// Sets the mesh of leaf variant number `variant` and its coarse forms; after a failure none.
+void foliage_leaf_meshes(const LeavesParams *leaves, int variant, uint64_t seed, Part *part,
+                         Error *e);
 
 #endif

@@ -191,6 +191,19 @@ static int64_t place_tufts(const GroundParams *params, uint64_t ground_seed, uin
     return count;
 }
 
+// Sets the tuft's mesh and its coarse forms; after a failure none.
+static void tuft_meshes(const GrassParams *tuft, uint64_t seed, Part *part, Error *e)
+{
+    part->mesh = grass_tuft_new(tuft, seed, e);
+    for (int i = 0; part->mesh && i < GRASS_COARSE_LEVELS; i++) {
+        CoarseMesh *coarse = &part->coarse[i];
+        coarse->mesh = grass_tuft_coarse(tuft, seed, i, &coarse->error, e);
+        if (!coarse->mesh) {
+            part_free_meshes(part);
+        }
+    }
+}
+
 static bool add_grass_variant(const GroundParams *params, int variant, const Placing *placing,
                               Error *e)
 {
@@ -203,16 +216,16 @@ static bool add_grass_variant(const GroundParams *params, int variant, const Pla
                         .lean = 32.0f,
                         .bend = 85.0f};
     int64_t wanted = grove_share(params->grass_tufts, params->grass_variants, variant);
-    Part part = {.mesh = grass_tuft_new(&tuft, key, e),
-                 .instance = memory_alloc(wanted, sizeof(Transform), e),
+    Part part = {.instance = memory_alloc(wanted, sizeof(Transform), e),
                  .variation = memory_alloc(wanted, sizeof(float), e)};
+    tuft_meshes(&tuft, key, &part, e);
     int64_t count = part.mesh && part.instance && part.variation
                         ? place_tufts(params, recipe->seed, random_key(key, STREAM_TUFT_PLACES),
                                       placing->around.flood, wanted, part.instance, part.variation,
                                       recipe->run, e)
                         : -1;
     if (count <= 0) { // an instance count of 0 would draw the tuft once, at the origin
-        mesh_free(part.mesh);
+        part_free_meshes(&part);
         free(part.instance);
         free(part.variation);
         return count == 0;
@@ -250,20 +263,20 @@ static bool add_fallen_leaves(const GroundParams *params, const Placing *placing
         }
         uint64_t key = random_key(random_key(seed, STREAM_GROUND_LEAVES), (uint64_t)v);
         leaves.curl = 60.0f; // dry leaves roll up
-        Mesh *mesh = foliage_leaf_mesh(&leaves, v, key, e);
-        Transform *instance = memory_alloc(each, sizeof *instance, e);
-        bool done = mesh && instance;
+        Part part = {.instance = memory_alloc(each, sizeof *part.instance, e),
+                     .instance_count = each};
+        foliage_leaf_meshes(&leaves, v, key, &part, e);
+        bool done = part.mesh && part.instance;
         for (int64_t i = 0; done && i < each; i++) {
             done = run_goes_on(placing->recipe->run, i, e);
-            instance[i] =
+            part.instance[i] =
                 lying_leaf(params, seed, random_key(key, STREAM_LEAF_PLACES + (uint64_t)i));
         }
         if (!done) {
-            mesh_free(mesh);
-            free(instance);
+            part_free_meshes(&part);
+            free(part.instance);
             return false;
         }
-        Part part = {.mesh = mesh, .instance = instance, .instance_count = each};
         if (!placing_add(placing, part, GROUND_FALLEN, e)) {
             return false;
         }

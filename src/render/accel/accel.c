@@ -1,11 +1,15 @@
 #include "render/accel/accel_internal.h"
 
 #include "base/memory.h"
-#include "base/random.h"
+#include "mesh/curve_tubes.h"
+#include "render/accel/accel_detail.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+// Tubes of thin curves: of some hundred bytes a point.
+enum { TUBE_POINTS_LIMIT = 1000000 };
 
 // ---- Embree's callbacks
 
@@ -55,177 +59,15 @@ static bool check_failure(const Accel *accel, Error *e)
     return accel->failure.code == ERROR_NONE;
 }
 
-// ---- geometries
+// ---- pieces
 
-static RTCGeometry mesh_geometry(Accel *accel, const Mesh *mesh, const Transform *copies,
-                                 int64_t count)
+static bool worth_copying(const Accel *accel, const AccelPiece *piece)
 {
-    bool quads = mesh->face_size == 4;
-    RTCGeometry geometry =
-        rtcNewGeometry(accel->device, quads ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
-    int64_t vertices = mesh->vertex_count, corners = mesh->face_count * mesh->face_size;
-    Vec3 *position = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                             sizeof(Vec3), (size_t)(vertices * count));
-    uint32_t *index = NULL;
-    if (!copies) {
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-                                   quads ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3, mesh->index, 0,
-                                   (size_t)mesh->face_size * 4, (size_t)mesh->face_count);
-        if (position) {
-            memcpy(position, mesh->position, (size_t)vertices * sizeof(Vec3));
-        }
-        return geometry;
-    }
-    index = rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, quads ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3,
-        (size_t)mesh->face_size * 4, (size_t)(mesh->face_count * count));
-    for (int64_t k = 0; k < count && position && index; k++) {
-        for (int64_t i = 0; i < vertices; i++) {
-            *position++ = transform_point(&copies[k], mesh->position[i]);
-        }
-        for (int64_t i = 0; i < corners; i++) {
-            *index++ = mesh->index[i] + (uint32_t)(k * vertices);
-        }
-    }
-    return geometry;
-}
-
-static RTCGeometry curve_geometry(Accel *accel, const CurveSet *curves, const uint32_t **segment)
-{
-    RTCGeometry geometry = rtcNewGeometry(accel->device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
-    size_t points = (size_t)curves->point_count;
-    size_t segments = points - (size_t)curves->curve_count;
-    float *vertex =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, points);
-    uint32_t *index =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, 4, segments);
-    uint8_t *flags =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_FLAGS, 0, RTC_FORMAT_UCHAR, 1, segments);
-    *segment = index;
-    if (!vertex || !index || !flags) {
-        return geometry;
-    }
-    for (size_t i = 0; i < points; i++) {
-        Vec3 p = curves->position[i];
-        memcpy(vertex + 4 * i, (float[4]){p.x, p.y, p.z, curves->radius[i]}, 16);
-    }
-    for (int64_t k = 0; k < curves->curve_count; k++) {
-        int64_t first = curves->first[k], last = curves->first[k + 1] - 1;
-        for (int64_t i = first; i < last; i++) {
-            *index++ = (uint32_t)i;
-            *flags++ = (uint8_t)((i > first ? RTC_CURVE_FLAG_NEIGHBOR_LEFT : 0) |
-                                 (i + 1 < last ? RTC_CURVE_FLAG_NEIGHBOR_RIGHT : 0));
-        }
-    }
-    return geometry;
-}
-
-static RTCGeometry light_geometry(Accel *accel, const Light *light)
-{
-    bool quad = light->kind == LIGHT_QUAD;
-    RTCGeometry geometry = rtcNewGeometry(accel->device, quad ? RTC_GEOMETRY_TYPE_QUAD
-                                                              : RTC_GEOMETRY_TYPE_SPHERE_POINT);
-    if (quad) {
-        Vec3 far = vec3_add(light->corner, vec3_add(light->edge_u, light->edge_v));
-        Vec3 corner[4] = {light->corner, vec3_add(light->corner, light->edge_u), far,
-                          vec3_add(light->corner, light->edge_v)};
-        void *vertex = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                               RTC_FORMAT_FLOAT3, sizeof(Vec3), 4);
-        void *index =
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 16, 1);
-        if (vertex && index) {
-            memcpy(vertex, corner, sizeof corner);
-            memcpy(index, (uint32_t[4]){0, 1, 2, 3}, 16);
-        }
-    } else {
-        void *vertex =
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, 1);
-        if (vertex) {
-            Vec3 c = light->center;
-            memcpy(vertex, (float[4]){c.x, c.y, c.z, light->radius}, 16);
-        }
-    }
-    return geometry;
-}
-
-// ---- putting them into the scene
-
-// Attaches the geometry to the top scene and takes its reference; entry index = Embree's geomID.
-static bool attach(Accel *accel, RTCGeometry geometry, int32_t part, uint32_t instance, Error *e)
-{
-    if (!memory_reserve(&accel->entry, &accel->entry_capacity, accel->entry_count + 1,
-                        sizeof *accel->entry, e)) {
-        rtcReleaseGeometry(geometry);
-        return false;
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(accel->scene, geometry, (unsigned)accel->entry_count);
-    rtcReleaseGeometry(geometry);
-    accel->entry[accel->entry_count++] = (AccelEntry){part, instance};
-    return check_failure(accel, e);
-}
-
-static bool same_instances(const Part *a, const Part *b)
-{
-    return a->object == b->object && a->instance_count == b->instance_count &&
-           memcmp(a->instance, b->instance, (size_t)a->instance_count * sizeof *a->instance) == 0;
-}
-
-// Ends the group: instances its scene.
-static bool instance_group(Accel *accel, Error *e)
-{
-    int32_t number = accel->group;
-    if (number < 0) {
-        return true;
-    }
-    accel->group = -1;
-    const AccelPart *part = &accel->part[number];
-    rtcCommitScene(part->scene);
-    for (int64_t i = 0; i < part->part->instance_count; i++) {
-        if (!run_goes_on(accel->run, i, e)) {
-            return false;
-        }
-        RTCGeometry instance = rtcNewGeometry(accel->device, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(instance, part->scene);
-        rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
-                                &part->part->instance[i]);
-        if (!attach(accel, instance, number, (uint32_t)i, e)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-// Parts with the same instances are a group: one scene, in which a part's geometry has the part's
-// distance from the first as its number. An instance of them all takes a third of the memory and
-// of the build of three, and a ray meets one box where three would overlap.
-static bool add_to_group(Accel *accel, RTCGeometry geometry, int32_t number, Error *e)
-{
-    AccelPart *part = &accel->part[number];
-    bool joins = accel->group >= 0 && same_instances(accel->part[accel->group].part, part->part);
-    if (!joins && !instance_group(accel, e)) {
-        rtcReleaseGeometry(geometry);
-        return false;
-    }
-    if (!joins) {
-        accel->group = number;
-        part->scene = rtcNewScene(accel->device);
-        rtcSetSceneProgressMonitorFunction(part->scene, on_progress, accel);
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(accel->part[accel->group].scene, geometry,
-                          (unsigned)(number - accel->group));
-    rtcReleaseGeometry(geometry);
-    return check_failure(accel, e);
-}
-
-static bool worth_copying(const Accel *accel, const Part *part)
-{
-    return part->kind == PART_MESH && part->instance && part->mesh->face_count > 0 &&
-           part->mesh->face_count <= ACCEL_COPY_MESH_LIMIT &&
-           part->instance_count <=
-               (ACCEL_COPY_FACES_LIMIT - accel->copied_faces) / part->mesh->face_count &&
-           part->instance_count < (int64_t)UINT32_MAX / (part->mesh->vertex_count + 1);
+    const Mesh *mesh = piece->mesh;
+    return mesh && piece->part->instance && mesh->face_count > 0 &&
+           mesh->face_count <= ACCEL_COPY_MESH_LIMIT &&
+           piece->count <= (ACCEL_COPY_FACES_LIMIT - accel->copied_faces) / mesh->face_count &&
+           piece->count < (int64_t)UINT32_MAX / (mesh->vertex_count + 1);
 }
 
 // The filters that rays need at this part: bits of AccelFilter.
@@ -239,7 +81,7 @@ static unsigned filters_of(const Accel *accel, const Part *part)
            (material_has(m, TRAIT_THIN) ? ACCEL_FILTER_THIN : 0u);
 }
 
-static void set_filters(RTCGeometry geometry, AccelPart *own)
+static void set_filters(RTCGeometry geometry, AccelPiece *own)
 {
     rtcSetGeometryUserData(geometry, own);
     if (own->filters & ACCEL_FILTER_ALPHA) {
@@ -255,34 +97,219 @@ static void set_filters(RTCGeometry geometry, AccelPart *own)
     }
 }
 
+static bool is_empty(const Part *part)
+{
+    return (part->kind == PART_MESH ? part->mesh->face_count : part->curves->curve_count) < 1 ||
+           (part->instance && part->instance_count < 1);
+}
+
+// Thin opaque curves become tubes: Embree keeps curves in a tree of their own, through which every
+// ray goes, and meets them several times more slowly than the few quads of a tube.
+static bool worth_tubes(const Accel *accel, const Part *part)
+{
+    const CurveSet *curves = part->curves;
+    return curves->point_count <= TUBE_POINTS_LIMIT && curves->birth && curves->along &&
+           material_has(&accel->world->material[part->material], TRAIT_OPAQUE) &&
+           !material_has(&accel->world->material[part->material], TRAIT_EMISSIVE) &&
+           detail_is_thin(part, &accel->views);
+}
+
+// Emitters and the filters of alpha know the faces of the part's own mesh only.
+static bool has_coarse(const Accel *accel, const Part *part)
+{
+    const Material *m = &accel->world->material[part->material];
+    return part->kind == PART_MESH && part->instance && part->coarse[0].mesh &&
+           accel->views.count > 0 && !material_has(m, TRAIT_EMISSIVE) && !m->alpha_texture;
+}
+
+// Widens inscribed tubes to the width of round curves: the perimeter is that of the circle, and so
+// is the mean width from all sides.
+static void widen_tubes(Mesh *tubes)
+{
+    float more = PI_F / ((float)CURVE_TUBE_SIDES * sinf(PI_F / CURVE_TUBE_SIDES)) - 1.0f;
+    for (int64_t v = 0; v < tubes->vertex_count; v++) {
+        tubes->position[v] =
+            vec3_madd(tubes->position[v], more * tubes->radius[v], tubes->normal[v]);
+    }
+}
+
+static bool add_piece(Accel *accel, AccelPiece piece, Error *e)
+{
+    AccelPiece *own = &accel->piece[accel->piece_count++];
+    *own = piece; // its arrays are owned from here on
+    const Part *part = piece.part;
+    if (part->kind == PART_CURVES && worth_tubes(accel, part)) {
+        own->tubes = curve_tubes(part->curves, 0, part->curves->curve_count, CURVE_TUBE_SIDES, e);
+        if (!own->tubes) {
+            return false;
+        }
+        widen_tubes(own->tubes);
+        own->mesh = own->tubes;
+    }
+    own->copied = worth_copying(accel, own);
+    if (own->copied) {
+        accel->copied_faces += own->count * own->mesh->face_count;
+    } else if (own->mesh && accel->has_quads && !own->filters) {
+        return pairs_new(&own->pairs, own->mesh, e);
+    }
+    const Mesh *mesh = own->mesh;
+    own->plain = mesh && !own->copied && !mesh->normal && !mesh->uv && !mesh->radius &&
+                 !mesh->birth && !mesh->site;
+    return true;
+}
+
+// One piece for each form of the mesh that some instances are drawn in.
+static bool add_levels(Accel *accel, AccelPiece piece, Error *e)
+{
+    const Part *part = piece.part;
+    int64_t count[PART_COARSE_MOST + 1] = {0};
+    uint8_t *level = memory_alloc(part->instance_count, 1, e);
+    float reach = detail_reach(part->mesh);
+    for (int64_t i = 0; level && i < part->instance_count; i++) {
+        level[i] = (uint8_t)detail_level(part, i, reach, &accel->views);
+        count[level[i]]++;
+    }
+    bool done = level;
+    for (int k = 0; done && k <= PART_COARSE_MOST; k++) {
+        if (count[k] == 0) {
+            continue;
+        }
+        piece.mesh = k > 0 ? part->coarse[k - 1].mesh : part->mesh;
+        piece.which = memory_alloc(count[k], sizeof *piece.which, e);
+        piece.count = 0;
+        for (int64_t i = 0; piece.which && i < part->instance_count; i++) {
+            if (level[i] == k) {
+                piece.which[piece.count++] = (uint32_t)i;
+            }
+        }
+        done = piece.which && add_piece(accel, piece, e);
+    }
+    free(level);
+    return done;
+}
+
 static bool add_part(Accel *accel, int32_t number, Error *e)
 {
     const Part *part = &accel->world->geometry.part[number];
-    AccelPart *own = &accel->part[number];
-    *own = (AccelPart){.accel = accel, .part = part, .base_variation = 0.5f};
     if (part->material < 0 || part->material >= accel->world->material_count) {
         return error_set(e, ERROR_INTERNAL, "part %d has material %d of %d", number, part->material,
                          accel->world->material_count);
     }
-    bool mesh = part->kind == PART_MESH;
-    own->filters = filters_of(accel, part);
-    if ((mesh ? part->mesh->face_count : part->curves->curve_count) < 1 ||
-        (part->instance && part->instance_count < 1)) {
+    AccelPiece piece = {.accel = accel,
+                        .part = part,
+                        .number = number,
+                        .mesh = part->kind == PART_MESH ? part->mesh : NULL,
+                        .count = part->instance ? part->instance_count : 0,
+                        .base_variation = 0.5f,
+                        .filters = filters_of(accel, part)};
+    if (is_empty(part)) {
         return true;
     }
-    own->copied = worth_copying(accel, part);
-    if (own->copied) {
-        accel->copied_faces += part->instance_count * part->mesh->face_count;
+    return has_coarse(accel, part) ? add_levels(accel, piece, e) : add_piece(accel, piece, e);
+}
+
+static bool add_parts(Accel *accel, Error *e)
+{
+    const Geometry *geometry = &accel->world->geometry;
+    accel->piece =
+        memory_alloc_zero(geometry->count * (PART_COARSE_MOST + 1), sizeof *accel->piece, e);
+    for (int64_t i = 0; i < geometry->count; i++) {
+        const Part *part = &geometry->part[i];
+        accel->has_quads =
+            accel->has_quads || (part->kind == PART_MESH && part->mesh->face_size == 4);
     }
-    own->plain = mesh && !own->copied && !part->mesh->normal && !part->mesh->uv &&
-                 !part->mesh->radius && !part->mesh->birth && !part->mesh->site;
-    RTCGeometry geometry =
-        mesh ? mesh_geometry(accel, part->mesh, own->copied ? part->instance : NULL,
-                             own->copied ? part->instance_count : 1)
-             : curve_geometry(accel, part->curves, &own->segment);
-    set_filters(geometry, own);
-    return part->instance && !own->copied ? add_to_group(accel, geometry, number, e)
-                                          : attach(accel, geometry, number, 0, e);
+    bool done = accel->piece;
+    for (int32_t i = 0; done && i < (int32_t)geometry->count; i++) {
+        done = add_part(accel, i, e);
+    }
+    return done;
+}
+
+// ---- putting them into the scene
+
+// Attaches the geometry to the top scene and takes its reference; entry index = Embree's geomID.
+static bool attach(Accel *accel, RTCGeometry geometry, int32_t piece, uint32_t instance, Error *e)
+{
+    if (!memory_reserve(&accel->entry, &accel->entry_capacity, accel->entry_count + 1,
+                        sizeof *accel->entry, e)) {
+        rtcReleaseGeometry(geometry);
+        return false;
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(accel->scene, geometry, (unsigned)accel->entry_count);
+    rtcReleaseGeometry(geometry);
+    accel->entry[accel->entry_count++] = (AccelEntry){piece, instance};
+    return check_failure(accel, e);
+}
+
+static RTCGeometry new_geometry(AccelPiece *piece)
+{
+    RTCGeometry geometry = accel_piece_geometry(piece);
+    set_filters(geometry, piece);
+    return geometry;
+}
+
+// Number of pieces from the first on that have the same instances, such as bark, twigs and leaves of
+// a tree. They are a group: one scene, in which a piece's geometry has the piece's distance from the
+// first as its number. An instance of them all takes a third of the memory and of the build of
+// three, and a ray meets one box where three would overlap.
+static int32_t group_size(const Accel *accel, int32_t first)
+{
+    const AccelPiece *a = &accel->piece[first];
+    int32_t size = 1;
+    for (; first + size < accel->piece_count; size++) {
+        const AccelPiece *b = a + size;
+        if (!b->part->instance || a->copied || b->copied || a->which || b->which ||
+            a->count != b->count || a->part->object != b->part->object ||
+            memcmp(a->part->instance, b->part->instance,
+                   (size_t)a->count * sizeof *a->part->instance) != 0) {
+            break;
+        }
+    }
+    return size;
+}
+
+static bool attach_instances(Accel *accel, int32_t first, int32_t size, Error *e)
+{
+    AccelPiece *piece = &accel->piece[first];
+    piece->scene = rtcNewScene(accel->device);
+    rtcSetSceneProgressMonitorFunction(piece->scene, on_progress, accel);
+    for (int32_t i = 0; i < size; i++) {
+        RTCGeometry geometry = new_geometry(piece + i);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(piece->scene, geometry, (unsigned)i);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(piece->scene);
+    for (int64_t i = 0; i < piece->count; i++) {
+        if (!run_goes_on(accel->run, i, e)) {
+            return false;
+        }
+        uint32_t number = accel_instance(piece, i);
+        RTCGeometry instance = rtcNewGeometry(accel->device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(instance, piece->scene);
+        rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
+                                &piece->part->instance[number]);
+        if (!attach(accel, instance, first, number, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool attach_pieces(Accel *accel, Error *e)
+{
+    int32_t size = 1;
+    for (int32_t i = 0; i < accel->piece_count; i += size) {
+        AccelPiece *piece = &accel->piece[i];
+        bool instanced = piece->part->instance && !piece->copied;
+        size = instanced ? group_size(accel, i) : 1;
+        if (instanced ? !attach_instances(accel, i, size, e)
+                      : !attach(accel, new_geometry(piece), i, 0, e)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 // ---- life
@@ -331,16 +358,12 @@ static bool build(Accel *accel, Error *e)
         return false;
     }
     rtcSetSceneProgressMonitorFunction(accel->scene, on_progress, accel);
-    for (int32_t i = 0; i < (int32_t)accel->world->geometry.count; i++) {
-        if (!add_part(accel, i, e)) {
-            return false;
-        }
-    }
-    if (!instance_group(accel, e)) {
+    if (!add_parts(accel, e) || !attach_pieces(accel, e)) {
         return false;
     }
     for (int i = 0; i < accel->world->light_count; i++) {
-        if (!attach(accel, light_geometry(accel, &accel->world->light[i]), -1, (uint32_t)i, e)) {
+        if (!attach(accel, accel_light_geometry(accel, &accel->world->light[i]), -1, (uint32_t)i,
+                    e)) {
             return false;
         }
     }
@@ -359,16 +382,20 @@ Accel *accel_new(const World *world, const MaterialSet *materials, const char *i
     accel->materials = materials;
     accel->run = run;
     accel->builder = pthread_self();
-    accel->group = -1;
     accel->bytes_limit = (int64_t)memory_allowed();
     pthread_mutex_init(&accel->lock, NULL);
     accel->device = open_device(accel, isa, run->threads, e);
-    accel->part = memory_alloc_zero(world->geometry.count, sizeof *accel->part, e);
-    if (!accel->device || !accel->part || !build(accel, e)) {
+    accel->views = world->views;
+    CameraFrame camera = camera_frame(&world->camera, world->film.width, world->film.height);
+    if (accel->views.count == 0) {
+        accel->views = (Views){&camera.position, 1, camera.pixel_angle};
+    }
+    if (!accel->device || !build(accel, e)) {
         accel_free(accel);
         return NULL;
     }
     accel->run = NULL;
+    accel->views = (Views){0};
     return accel;
 }
 
@@ -380,16 +407,21 @@ void accel_free(Accel *accel)
     if (accel->scene) {
         rtcReleaseScene(accel->scene);
     }
-    for (int64_t i = 0; accel->part && i < accel->world->geometry.count; i++) {
-        if (accel->part[i].scene) {
-            rtcReleaseScene(accel->part[i].scene);
+    for (int32_t i = 0; i < accel->piece_count; i++) {
+        if (accel->piece[i].scene) {
+            rtcReleaseScene(accel->piece[i].scene);
         }
     }
     if (accel->device) {
         rtcReleaseDevice(accel->device);
     }
+    for (int32_t i = 0; i < accel->piece_count; i++) { // Embree no longer reads them
+        mesh_free(accel->piece[i].tubes);
+        free(accel->piece[i].which);
+        pairs_clear(&accel->piece[i].pairs);
+    }
     pthread_mutex_destroy(&accel->lock);
-    free(accel->part);
+    free(accel->piece);
     free(accel->entry);
     free(accel);
 }
@@ -401,8 +433,9 @@ void accel_use_materials(Accel *accel, const MaterialSet *materials)
 
 bool accel_fits_materials(const Accel *accel)
 {
-    for (int64_t i = 0; i < accel->world->geometry.count; i++) {
-        if (accel->part[i].filters != filters_of(accel, &accel->world->geometry.part[i])) {
+    for (int32_t i = 0; i < accel->piece_count; i++) {
+        const AccelPiece *piece = &accel->piece[i];
+        if (piece->filters != filters_of(accel, piece->part)) {
             return false;
         }
     }

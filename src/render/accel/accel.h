@@ -14,7 +14,7 @@ typedef struct Accel Accel;
 
 // Small meshes (leaves, grass) trace 1.3 times as fast copied out as instanced, but cost about 130
 // bytes a face, so the total of all copies is bounded. Large meshes trace as fast instanced.
-enum { ACCEL_COPY_FACES_LIMIT = 4000000, ACCEL_COPY_MESH_LIMIT = 256 };
+enum { ACCEL_COPY_FACES_LIMIT = 6000000, ACCEL_COPY_MESH_LIMIT = 256 };
 
 typedef struct Ray {
     Vec3 origin, direction; // unit direction
@@ -34,6 +34,7 @@ typedef struct Hit {
 // Is isa NULL or the name of an instruction set? Else ERROR_INPUT, which lists them.
 bool accel_check_isa(const char *isa, Error *e);
 
+// Leaves, grass and thin curves are drawn as coarsely as world->views (or the camera) cannot tell.
 // world and materials are borrowed; isa as for renderer_new. Fails with ERROR_MEMORY when Embree
 // runs out.
 Accel *accel_new(const World *world, const MaterialSet *materials, const char *isa, const Run *run,

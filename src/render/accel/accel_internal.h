@@ -1,8 +1,9 @@
-// Shared by accel.c (building) and accel_trace.c (tracing).
+// Shared by accel.c and accel_geometry.c (building) and accel_trace.c (tracing).
 #ifndef RAMIFY_RENDER_ACCEL_ACCEL_INTERNAL_H
 #define RAMIFY_RENDER_ACCEL_ACCEL_INTERNAL_H
 
 #include "render/accel/accel.h"
+#include "render/accel/accel_pairs.h"
 #include "render/world.h"
 
 #include <embree3/rtcore.h>
@@ -11,20 +12,33 @@
 
 enum AccelFilter { ACCEL_FILTER_ALPHA = 1, ACCEL_FILTER_THIN = 2, ACCEL_FILTER_GLOW = 4 };
 
-typedef struct AccelPart {
+// What one Embree geometry draws: a part, or those instances of it that have the same form.
+typedef struct AccelPiece {
     const Accel *accel;
     const Part *part;
-    RTCScene scene;          // of the first part of a group (see add_to_group); NULL otherwise
+    int32_t number;          // of the part in the world
+    const Mesh *mesh;        // that is drawn; NULL = round curves
+    Mesh *tubes;             // owned: `mesh`, of thin curves; else NULL
+    int64_t count;           // instances; 0 = drawn once
+    uint32_t *which;         // owned: their numbers; NULL = all
+    Pairs pairs;             // triangles that are drawn as quads
+    RTCScene scene;          // of the first of a group of instanced pieces; NULL otherwise
     const uint32_t *segment; // curves: first point of each segment; Embree's buffer
     float base_variation;    // of a part that is drawn once
     bool plain;              // a mesh without vertex attributes
     unsigned filters;        // that Embree calls: bits of AccelFilter
     bool copied;             // instances were copied out: primitive = instance * faces + face
-} AccelPart;
+} AccelPiece;
 
-// The part or lamp of an Embree geometry in the top scene.
+// Number in the part of the piece's i-th instance.
+static inline uint32_t accel_instance(const AccelPiece *piece, int64_t i)
+{
+    return piece->which ? piece->which[i] : (uint32_t)i;
+}
+
+// The piece (of a group: the first) or lamp of an Embree geometry in the top scene.
 typedef struct AccelEntry {
-    int32_t part;      // of an instance the first of its group; -1 = a light
+    int32_t piece;     // -1 = a light
     uint32_t instance; // or the light's index
 } AccelEntry;
 
@@ -33,7 +47,10 @@ struct Accel {
     const MaterialSet *materials;
     RTCDevice device;
     RTCScene scene;
-    AccelPart *part; // one for each of the world's parts
+    AccelPiece *piece;
+    int32_t piece_count;
+    bool has_quads; // in some mesh
+    Views views;    // only while building
     AccelEntry *entry;
     int64_t entry_count, entry_capacity;
     int64_t copied_faces; // of instances copied out so far
@@ -75,6 +92,10 @@ static inline Vec2 accel_uv(const Mesh *mesh, const Corners *c)
     }
     return uv;
 }
+
+// Embree's geometry of the piece, not committed; sets piece->segment.
+RTCGeometry accel_piece_geometry(AccelPiece *piece);
+RTCGeometry accel_light_geometry(const Accel *accel, const Light *light);
 
 // Embree filter: accepts or rejects hits at random by the alpha texture.
 void accel_alpha_filter(const struct RTCFilterFunctionNArguments *arguments);
