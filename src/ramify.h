@@ -548,6 +548,11 @@ typedef struct RamifyRenderInfo {
 // Called after every pass over the picture (1, 4, 16, 32, 64, ... samples) with the film so far.
 typedef void (*RamifyPass)(void *user, const RamifyFilm *film, int samples);
 
+// A first look: one path for each 4 x 4 pixels, whose result all of them get, in a sixteenth of the
+// time of one sample per pixel. ramify_renderer_render then starts anew. run may be NULL.
+RAMIFY_API bool ramify_renderer_look(RamifyRenderer *renderer, RamifyFilm *film,
+                                     const RamifyRun *run, RamifyError *error);
+
 // Renders into a film of the scene's size, replacing its contents except for pixels outside the
 // crop. pass may be NULL and is called with user. When the time limit is reached, it leaves a
 // complete picture of fewer samples and returns true; see info->samples. If cancelled, it does so

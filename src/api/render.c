@@ -147,6 +147,15 @@ static void call_pass(void *user, const Film *film, int samples)
     call->pass(call->user, (const RamifyFilm *)(const void *)film, samples);
 }
 
+bool ramify_renderer_look(RamifyRenderer *renderer, RamifyFilm *film, const RamifyRun *run,
+                          RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    return renderer_look((Renderer *)(void *)renderer, (Film *)(void *)film, &own, &e) ||
+           api_fail(error, &e);
+}
+
 bool ramify_renderer_render(RamifyRenderer *renderer, RamifyFilm *film, RamifyPass pass, void *user,
                             const RamifyRun *run, RamifyRenderInfo *info, RamifyError *error)
 {

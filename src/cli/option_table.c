@@ -193,6 +193,12 @@ const Option option_table[] = {
      .type = OPTION_NO,
      .commands = RENDERS,
      .doc = "keep the noise in the .png"},
+    {.name = "no-preview",
+     .offset = AT(no_preview),
+     .type = OPTION_YES,
+     .commands = BIT(COMMAND_RENDER),
+     .doc = "write the picture only when it is finished; by default a coarse one is written at "
+            "once, a denoised one after two samples, and then more at growing intervals"},
     {.name = "isa",
      .value = "NAME",
      .offset = AT(isa),

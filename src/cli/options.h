@@ -39,7 +39,7 @@ typedef struct Options {
     int key_count;
     uint64_t given; // bit i: option_table[i] is present
     int threads;    // 0 = all processors
-    bool quiet, json, resolved, help, version;
+    bool quiet, json, resolved, help, version, no_preview;
     bool markdown, paths;                    // output format of schema and info
     bool man;                                // help: print the man page
     bool spin, vary_noise;                   // turntable

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FIRST_PREVIEW_WAIT 5.0 // s from the first preview to the second
+enum { ROUGH_SAMPLES = 16 }; // previews of fewer samples are denoised
 
 // Output files; both owned.
 typedef struct Outputs {
@@ -55,19 +55,12 @@ static bool plan_outputs(const Options *options, Outputs *outputs, RamifyError *
            output_check(outputs->exr, e);
 }
 
-// Writes a preview after the first pass, then at growing intervals: a picture is available soon,
-// and writing takes a small part of the time. The first one is not denoised: it is there at once.
-static void preview_pass(void *user, const RamifyFilm *film, int samples)
+static void write_preview(Preview *p, const RamifyFilm *film, bool denoise)
 {
-    Preview *p = user;
-    double now = clock_seconds();
-    if (p->failed || now < p->next || samples >= p->job->info.samples) {
-        return;
-    }
+    double start = clock_seconds();
     RamifyError e = {0};
     RamifyRun quiet = *p->run; // what it warns of follows with the last picture
     quiet.warn = NULL;
-    bool denoise = p->job->info.denoise && samples > 1;
     if (!ramify_film_write(film, p->job->scene, p->job->outputs->display, denoise, &quiet, &e) &&
         e.code != RAMIFY_CANCELLED) {
         char text[1200];
@@ -75,23 +68,47 @@ static void preview_pass(void *user, const RamifyFilm *film, int samples)
         progress_warn(p->progress, text);
         p->failed = true;
     }
-    double written = clock_seconds();
-    p->spent += written - now;
-    p->next = written + (samples > 1 ? written - p->start : FIRST_PREVIEW_WAIT);
+    p->spent += clock_seconds() - start;
 }
 
-static bool trace(Job *job, const RamifyWorld *world, const char *isa, RamifyFilm *film,
+// Writes a denoised preview after two samples, then one at growing intervals: a picture is
+// available soon, and writing takes a small part of the time.
+static void preview_pass(void *user, const RamifyFilm *film, int samples)
+{
+    Preview *p = user;
+    const RamifySceneInfo *info = &p->job->info;
+    if (p->failed || samples < 2 || clock_seconds() < p->next || samples >= info->samples) {
+        return;
+    }
+    write_preview(p, film, info->denoise || samples < ROUGH_SAMPLES);
+    double written = clock_seconds();
+    p->next = written + (written - p->start);
+}
+
+// Writes a coarse picture before the first pass.
+static bool first_look(Preview *p, RamifyRenderer *renderer, RamifyFilm *film, RamifyError *e)
+{
+    bool done = ramify_renderer_look(renderer, film, p->run, e);
+    if (done) {
+        write_preview(p, film, false);
+    }
+    return done;
+}
+
+static bool trace(Job *job, const RamifyWorld *world, const Options *options, RamifyFilm *film,
                   Progress *progress, const RamifyRun *run, RamifyError *e)
 {
     double start = clock_seconds();
-    RamifyRenderer *renderer = ramify_renderer_new(world, isa, run, e);
+    RamifyRenderer *renderer = ramify_renderer_new(world, options->isa, run, e);
     double built = clock_seconds();
+    bool previews = !options->no_preview && job->info.samples > 1;
     Preview preview = {.job = job, .run = run, .progress = progress, .start = built};
     const float *crop = job->info.crop;
     progress->work = (double)job->info.width * job->info.height * (double)(crop[2] - crop[0]) *
                      (double)(crop[3] - crop[1]) * job->info.samples;
-    bool done = renderer && ramify_renderer_render(renderer, film, preview_pass, &preview, run,
-                                                   &job->render, e);
+    bool done = renderer && (!previews || first_look(&preview, renderer, film, e)) &&
+                ramify_renderer_render(renderer, film, previews ? preview_pass : NULL, &preview,
+                                       run, &job->render, e);
     job->build = built - start;
     job->trace = clock_seconds() - built - preview.spent;
     job->write += preview.spent;
@@ -164,7 +181,7 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
     bool sound = ramify_image_check(outputs->display, e) && ramify_develop_check(scene, e);
     RamifyWorld *world = sound ? ramify_build(scene, &run, e) : NULL;
     RamifyFilm *film = world ? ramify_film_new(job.info.width, job.info.height, e) : NULL;
-    bool done = film && trace(&job, world, options->isa, film, &progress, &run, e);
+    bool done = film && trace(&job, world, options, film, &progress, &run, e);
     progress_end(&progress);
     done = done && write_pictures(&job, film, &run, e);
     if (done) {

@@ -124,17 +124,32 @@ static void fill_tracer(Tracer *tracer, const Renderer *renderer)
     tracer_set_media(tracer, accel_bounds(renderer->accel));
 }
 
+static Tracer *make_tracer(const Renderer *renderer, const Film *film, Error *e)
+{
+    Tracer *tracer =
+        check_sizes(renderer->world, film, e) ? memory_alloc_zero(1, sizeof *tracer, e) : NULL;
+    if (tracer) {
+        fill_tracer(tracer, renderer);
+    }
+    return tracer;
+}
+
+bool renderer_look(Renderer *renderer, Film *film, const Run *run, Error *e)
+{
+    Tracer *tracer = make_tracer(renderer, film, e);
+    film_drop_denoised(film);
+    bool done = tracer && tiles_look(tracer, film, run, e);
+    free(tracer);
+    return done;
+}
+
 bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass *pass, void *user,
                      RenderStats *stats, Error *e)
 {
-    if (!check_sizes(renderer->world, film, e)) {
-        return false;
-    }
-    Tracer *tracer = memory_alloc_zero(1, sizeof *tracer, e);
+    Tracer *tracer = make_tracer(renderer, film, e);
     if (!tracer) {
         return false;
     }
-    fill_tracer(tracer, renderer);
     film_drop_denoised(film);
     bool done = tiles_render(tracer, film, run, pass, user, stats, e);
     stats->memory = accel_bytes(renderer->accel);

@@ -39,6 +39,11 @@ typedef struct RenderStats {
 // picture appears at once. May be NULL.
 typedef void RenderPass(void *user, const Film *film, int samples);
 
+// A first look: one path for each 4 x 4 pixels, whose result all of them get, in a sixteenth of the
+// time of one sample per pixel. renderer_render then starts anew. Fails with ERROR_CANCELLED when
+// run->cancelled is set.
+bool renderer_look(Renderer *renderer, Film *film, const Run *run, Error *e);
+
 // Renders into film, which film_new made with the world's size; pixels outside the crop keep their
 // values. Progress stage "trace". When max_seconds is over it leaves a complete image of
 // stats->samples samples and returns true. When run->cancelled is set it does the same within

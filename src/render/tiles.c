@@ -9,7 +9,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-enum { TILE_SIZE = 16, PASS_LIMIT = 64, LEAST_ADAPTIVE_SAMPLES = 16 };
+enum { TILE_SIZE = 16, PASS_LIMIT = 64, LEAST_ADAPTIVE_SAMPLES = 16, LOOK_STEP = 4 };
 
 typedef struct Tile {
     int x0, y0, x1, y1;
@@ -248,4 +248,43 @@ bool tiles_render(const Tracer *tracer, Film *film, const Run *run, RenderPass *
     }
     free(job.tile);
     return done;
+}
+
+// Traces one path for each block of LOOK_STEP x LOOK_STEP pixels and gives its result to all of
+// them.
+static void look_at_tile(const Job *job, const Tile *tile)
+{
+    for (int y = tile->y0; y < tile->y1; y += LOOK_STEP) {
+        for (int x = tile->x0; x < tile->x1 && !run_is_cancelled(job->run); x += LOOK_STEP) {
+            PathResult path;
+            PixelSum sum = {.object = 0};
+            integrator_paths(job->tracer, x, y, 0, 1, &path);
+            pixel_sum_add(&sum, &path);
+            for (int j = y; j < y + LOOK_STEP && j < tile->y1; j++) {
+                for (int i = x; i < x + LOOK_STEP && i < tile->x1; i++) {
+                    film_merge(job->film, (int64_t)j * job->film->width + i, 0, 1, &sum);
+                }
+            }
+        }
+    }
+}
+
+bool tiles_look(const Tracer *tracer, Film *film, const Run *run, Error *e)
+{
+    Job job = {.tracer = tracer, .film = film, .run = run};
+    job.tile = make_tiles(&tracer->world->film, &job.tile_count, &job.pixels, e);
+    if (!job.tile) {
+        return false;
+    }
+    _Atomic int next = 0;
+#pragma omp parallel num_threads(run->threads)
+    {
+        unsigned state = accel_thread_begin();
+        for (int i = next++; i < job.tile_count; i = next++) {
+            look_at_tile(&job, &job.tile[i]);
+        }
+        accel_thread_end(state);
+    }
+    free(job.tile);
+    return !run_is_cancelled(run) || run_cancel_error(e);
 }

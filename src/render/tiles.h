@@ -10,4 +10,7 @@
 bool tiles_render(const Tracer *tracer, Film *film, const Run *run, RenderPass *pass, void *user,
                   RenderStats *stats, Error *e);
 
+// renderer_look with a filled tracer.
+bool tiles_look(const Tracer *tracer, Film *film, const Run *run, Error *e);
+
 #endif

@@ -168,7 +168,6 @@ static double difference(World *world)
     Image *full = picture(world);
     Image *map = image_flip(full, chosen, FLIP_PIXELS_PER_DEGREE, NULL);
     double flip = image_mean(map);
-    print_message("FLIP %.4f\n", flip);
     assert_true(memcmp(full->pixel, chosen->pixel, sizeof(float) * 3 * WIDTH * HEIGHT) != 0);
     image_free(map);
     image_free(full);

@@ -249,9 +249,9 @@ static RTCGeometry new_geometry(AccelPiece *piece)
     return geometry;
 }
 
-// Number of pieces from the first on that have the same instances, such as bark, twigs and leaves of
-// a tree. They are a group: one scene, in which a piece's geometry has the piece's distance from the
-// first as its number. An instance of them all takes a third of the memory and of the build of
+// Number of pieces from the first on that have the same instances, such as bark, twigs and leaves
+// of a tree. They are a group: one scene, in which a piece's geometry has the piece's distance from
+// the first as its number. An instance of them all takes a third of the memory and of the build of
 // three, and a ray meets one box where three would overlap.
 static int32_t group_size(const Accel *accel, int32_t first)
 {

@@ -54,8 +54,6 @@ struct Accel {
     AccelEntry *entry;
     int64_t entry_count, entry_capacity;
     int64_t copied_faces; // of instances copied out so far
-    int32_t
-        group; // while building: first part of the group whose instances are to follow; -1 = none
     _Atomic int64_t bytes;
     int64_t bytes_limit;
     pthread_mutex_t lock; // of failure
