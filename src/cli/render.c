@@ -71,7 +71,7 @@ static void write_preview(Preview *p, const RamifyFilm *film, bool denoise)
     p->spent += clock_seconds() - start;
 }
 
-// Writes a denoised preview after two samples, then one at growing intervals: a picture is
+// Writes a denoised preview after four samples, then one at growing intervals: a picture is
 // available soon, and writing takes a small part of the time.
 static void preview_pass(void *user, const RamifyFilm *film, int samples)
 {

@@ -249,48 +249,56 @@ static RTCGeometry new_geometry(AccelPiece *piece)
     return geometry;
 }
 
-// Number of pieces from the first on that have the same instances, such as bark, twigs and leaves
-// of a tree. They are a group: one scene, in which a piece's geometry has the piece's distance from
-// the first as its number. An instance of them all takes a third of the memory and of the build of
-// three, and a ray meets one box where three would overlap.
-static int32_t group_size(const Accel *accel, int32_t first)
+static bool is_instanced(const AccelPiece *piece)
 {
-    const AccelPiece *a = &accel->piece[first];
-    int32_t size = 1;
-    for (; first + size < accel->piece_count; size++) {
-        const AccelPiece *b = a + size;
-        if (!b->part->instance || a->copied || b->copied || a->which || b->which ||
-            a->count != b->count || a->part->object != b->part->object ||
-            memcmp(a->part->instance, b->part->instance,
-                   (size_t)a->count * sizeof *a->part->instance) != 0) {
-            break;
-        }
-    }
-    return size;
+    return piece->part->instance && !piece->copied;
 }
 
-static bool attach_instances(Accel *accel, int32_t first, int32_t size, Error *e)
+static bool same_instances(const AccelPiece *a, const AccelPiece *b)
 {
-    AccelPiece *piece = &accel->piece[first];
-    piece->scene = rtcNewScene(accel->device);
-    rtcSetSceneProgressMonitorFunction(piece->scene, on_progress, accel);
-    for (int32_t i = 0; i < size; i++) {
-        RTCGeometry geometry = new_geometry(piece + i);
+    return a == b ||
+           (!a->which && !b->which && a->count == b->count && a->part->object == b->part->object &&
+            memcmp(a->part->instance, b->part->instance,
+                   (size_t)a->count * sizeof *a->part->instance) == 0);
+}
+
+// The scene of a group: pieces with the same instances as the first, such as bark, twigs and leaves
+// of a tree. In it a piece's geometry has the piece's distance from the first as its number. An
+// instance of them all takes a third of the memory and of the build of three, and a ray meets one
+// box where three would overlap.
+static void build_group(Accel *accel, AccelPiece *first)
+{
+    first->scene = rtcNewScene(accel->device);
+    rtcSetSceneProgressMonitorFunction(first->scene, on_progress, accel);
+    for (AccelPiece *piece = first; piece < accel->piece + accel->piece_count; piece++) {
+        if (!is_instanced(piece)) {
+            continue;
+        }
+        if (!same_instances(first, piece)) {
+            break;
+        }
+        RTCGeometry geometry = new_geometry(piece);
         rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(piece->scene, geometry, (unsigned)i);
+        rtcAttachGeometryByID(first->scene, geometry, (unsigned)(piece - first));
         rtcReleaseGeometry(geometry);
+        piece->grouped = true;
     }
-    rtcCommitScene(piece->scene);
-    for (int64_t i = 0; i < piece->count; i++) {
+    rtcCommitScene(first->scene);
+}
+
+static bool attach_group(Accel *accel, AccelPiece *first, Error *e)
+{
+    build_group(accel, first);
+    for (int64_t i = 0; i < first->count; i++) {
         if (!run_goes_on(accel->run, i, e)) {
             return false;
         }
-        uint32_t number = accel_instance(piece, i);
+        uint32_t number = accel_instance(first, i);
         RTCGeometry instance = rtcNewGeometry(accel->device, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(instance, piece->scene);
+        rtcSetGeometryInstancedScene(instance, first->scene);
         rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
-                                &piece->part->instance[number]);
-        if (!attach(accel, instance, first, number, e)) {
+                                &first->part->instance[number]);
+        if (!attach(accel, instance, (int32_t)(first - accel->piece), number, e)) {
             return false;
         }
     }
@@ -299,17 +307,15 @@ static bool attach_instances(Accel *accel, int32_t first, int32_t size, Error *e
 
 static bool attach_pieces(Accel *accel, Error *e)
 {
-    int32_t size = 1;
-    for (int32_t i = 0; i < accel->piece_count; i += size) {
+    bool done = true;
+    for (int32_t i = 0; done && i < accel->piece_count; i++) {
         AccelPiece *piece = &accel->piece[i];
-        bool instanced = piece->part->instance && !piece->copied;
-        size = instanced ? group_size(accel, i) : 1;
-        if (instanced ? !attach_instances(accel, i, size, e)
-                      : !attach(accel, new_geometry(piece), i, 0, e)) {
-            return false;
+        if (!piece->grouped) {
+            done = is_instanced(piece) ? attach_group(accel, piece, e)
+                                       : attach(accel, new_geometry(piece), i, 0, e);
         }
     }
-    return true;
+    return done;
 }
 
 // ---- life

@@ -22,7 +22,8 @@ typedef struct AccelPiece {
     int64_t count;           // instances; 0 = drawn once
     uint32_t *which;         // owned: their numbers; NULL = all
     Pairs pairs;             // triangles that are drawn as quads
-    RTCScene scene;          // of the first of a group of instanced pieces; NULL otherwise
+    RTCScene scene;          // of the first of a group (see build_group); NULL otherwise
+    bool grouped;            // is in one
     const uint32_t *segment; // curves: first point of each segment; Embree's buffer
     float base_variation;    // of a part that is drawn once
     bool plain;              // a mesh without vertex attributes
