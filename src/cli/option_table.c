@@ -198,7 +198,7 @@ const Option option_table[] = {
      .type = OPTION_YES,
      .commands = BIT(COMMAND_RENDER),
      .doc = "write the picture only when it is finished; by default a coarse one is written at "
-            "once, a denoised one after four samples, and then more at growing intervals"},
+            "once, a denoised one after the first sample, and then more at growing intervals"},
     {.name = "isa",
      .value = "NAME",
      .offset = AT(isa),

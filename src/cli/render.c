@@ -71,13 +71,13 @@ static void write_preview(Preview *p, const RamifyFilm *film, bool denoise)
     p->spent += clock_seconds() - start;
 }
 
-// Writes a denoised preview after four samples, then one at growing intervals: a picture is
+// Writes a denoised preview after the first pass, then one at growing intervals: a picture is
 // available soon, and writing takes a small part of the time.
 static void preview_pass(void *user, const RamifyFilm *film, int samples)
 {
     Preview *p = user;
     const RamifySceneInfo *info = &p->job->info;
-    if (p->failed || samples < 2 || clock_seconds() < p->next || samples >= info->samples) {
+    if (p->failed || clock_seconds() < p->next || samples >= info->samples) {
         return;
     }
     write_preview(p, film, info->denoise || samples < ROUGH_SAMPLES);
