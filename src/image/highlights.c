@@ -31,12 +31,16 @@ static int pixel_parts(const HighlightParts *parts, int64_t i, const float rgba[
 static float shown_mean(const AgxFit *curve, float gain, const float share[PARTS],
                         const float radiance[PARTS])
 {
-    float shown = 0.0f, total = 0.0f;
+    float shown = 0.0f, total = 0.0f, mean = 0.0f;
     for (int k = 0; k < PARTS; k++) {
         if (share[k] > LEAST_SHARE) {
             shown += share[k] * agx_curve(curve, gain * radiance[k] / share[k]);
             total += share[k];
+            mean += radiance[k];
         }
+    }
+    if (!(shown > 0.0f)) { // black in this view; others may show it
+        return mean;
     }
     return total * agx_curve_inverse(curve, shown / total) / gain;
 }

@@ -144,7 +144,16 @@ static bool show_by_ocio(Image *image, const ToneParams *params, Error *e)
     for (int64_t i = 0; i < count; i++) {
         tone_saturate(params->saturation, image->pixel + i * image->channels);
     }
-    return ocio_apply(params->color, image, e);
+    if (!ocio_apply(params->color, image, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < count; i++) { // a view may leave the display's range
+        float *p = image->pixel + i * image->channels;
+        for (int c = 0; c < 3; c++) {
+            p[c] = p[c] > 0.0f ? fminf(p[c], 1.0f) : 0.0f;
+        }
+    }
+    return true;
 }
 
 // Exposure, lens and view.

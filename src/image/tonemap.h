@@ -34,8 +34,8 @@ float tone_auto_gain(const Image *image);
 // image: linear radiance, 3 or 4 channels; with alpha, radiance is premultiplied (as in films and
 // EXRs). excess: light that highlights_compress took from it, which counts in bloom and exposure;
 // or NULL. The result has sRGB display values, straight (not premultiplied), with the same alpha,
-// as PNG requires; with params->color, the display values of that view. Errors as of ocio_apply and
-// image_new. The caller frees it.
+// as PNG requires; with params->color, the display values of that view, within 0..1. Errors as of
+// ocio_apply and image_new. The caller frees it.
 Image *tone_map(const Image *image, const Image *excess, const ToneParams *params, Error *e);
 
 #endif

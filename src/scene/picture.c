@@ -188,7 +188,8 @@ static Vec3 *denoised_plane(const Scene *scene, const Film *film, const Run *run
     Vec3 *plane = clean ? memory_alloc(count, sizeof *plane, e) : NULL;
     for (int64_t i = 0; plane && i < count; i++) {
         const float *p = clean->pixel + 4 * i, *lost = excess->pixel + 3 * i;
-        plane[i] = vec3(p[0] + lost[0], p[1] + lost[1], p[2] + lost[2]);
+        plane[i] = vec3(fmaxf(0.0f, p[0] + lost[0]), fmaxf(0.0f, p[1] + lost[1]),
+                        fmaxf(0.0f, p[2] + lost[2]));
     }
     image_free(beauty);
     image_free(excess);

@@ -135,7 +135,8 @@ static void test_in_tone_map(void **state)
     Image *shown = tone_map(image, NULL, &tone, NULL);
     assert_non_null(shown);
     for (int c = 0; c < 3; c++) {
-        assert_float_equal(shown->pixel[c], gamma22(IN[c] * 2.0f / 0.5f), 2e-5f);
+        // a view may leave the display's range, a developed picture does not
+        assert_float_equal(shown->pixel[c], fminf(gamma22(IN[c] * 2.0f / 0.5f), 1.0f), 2e-5f);
     }
     image_free(shown);
     p.view = "Gone";

@@ -164,6 +164,27 @@ static void test_only_mixed_pixels_change(void **state)
     world_free(world);
 }
 
+// Edges between things too dark to be shown stay as dark as they are.
+static void test_black_edges_stay_black(void **state)
+{
+    (void)state;
+    const ToneParams params = plain();
+    const Vec3 light = {0}, sky = vec3_splat(1e-7f);
+    const float light_share = 0.0f, sky_share = 0.5f;
+    const HighlightParts parts = {&light, &sky, &light_share, &sky_share};
+    Image *image = image_new(1, 1, 4, NULL), *excess = image_new(1, 1, 3, NULL);
+    assert_true(image && excess);
+    image->pixel[0] = image->pixel[1] = image->pixel[2] = 1e-7f;
+    image->pixel[3] = 1.0f;
+    highlights_compress(image, excess, &parts, &params);
+    for (int c = 0; c < 3; c++) {
+        assert_float_equal(image->pixel[c], 1e-7f, 1e-12f);
+        assert_float_equal(excess->pixel[c], 0.0f, 1e-12f);
+    }
+    image_free(image);
+    image_free(excess);
+}
+
 // Where the lens blurs, light mixes before it is shown: a lamp out of focus stays a bright disc.
 static void test_blurred_lights_stay_linear(void **state)
 {
@@ -212,6 +233,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_edges_are_means_of_what_is_shown),
         cmocka_unit_test(test_only_mixed_pixels_change),
+        cmocka_unit_test(test_black_edges_stay_black),
         cmocka_unit_test(test_blurred_lights_stay_linear),
         cmocka_unit_test(test_transparent_background),
     };
