@@ -205,7 +205,7 @@ $(OUT)/libramify.a: $(LIB_OBJ)
 	@rm -f $@ && ar rcs $@ $^
 
 # Only ramify_* can be seen from outside.
-$(OUT)/libramify.so: $(LIB_OBJ) src/ramify.map
+$(OUT)/libramify.so: $(LIB_OBJ) src/ramify.map | $(PLUGIN_FILES)
 	@echo "  LINK $@"
 	@$(CC) -shared -Wl,-soname,$(SONAME) $(LIB_OBJ) -Wl,--version-script=src/ramify.map $(LDFLAGS) $(RUNPATH_LIBRARY) $(LDLIBS) -o $@
 
@@ -218,7 +218,8 @@ $(OUT)/ramify-$(1).so: $(PLUGIN_$(1):%=$(OBJ)/%.o) $(OUT)/libramify.a src/plugin
 endef
 $(foreach p,$(PLUGINS),$(eval $(call plugin_rule,$p)))
 
-$(OUT)/ramify: $(CLI_OBJ) $(OUT)/libramify.a
+# A program and its plug-ins must be of one build.
+$(OUT)/ramify: $(CLI_OBJ) $(OUT)/libramify.a | $(PLUGIN_FILES)
 	@echo "  LINK $@"
 	@$(CC) -pie $^ $(LDFLAGS) $(RUNPATH_PROGRAM) $(LDLIBS) -o $@
 
