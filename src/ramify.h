@@ -512,9 +512,9 @@ RAMIFY_API void ramify_film_rgba(const RamifyFilm *film, float *rgba);
 RAMIFY_API bool ramify_film_denoise(RamifyFilm *film, const RamifyScene *scene,
                                     const RamifyRun *run, RamifyError *error);
 
-// Develops the film of this scene: fills rgba with 4 * width * height display values, 0..1 in sRGB,
-// with straight alpha. denoise: remove the noise first, on the condition of ramify_film_denoise;
-// run (may be NULL) applies to that.
+// Develops the film of this scene: fills rgba with 4 * width * height display values, 0..1, in sRGB
+// or as the view of film.color has them, with straight alpha. denoise: remove the noise first, on
+// the condition of ramify_film_denoise; run (may be NULL) applies to that.
 RAMIFY_API bool ramify_film_develop(const RamifyFilm *film, const RamifyScene *scene, bool denoise,
                                     float *rgba, const RamifyRun *run, RamifyError *error);
 

@@ -39,8 +39,9 @@ static bool memory_to_load(const char *file, Error *e)
                      file, bytes / 1000000);
 }
 
-// The folders where the loader looks for what this program or library needs, RUNPATH first; free()
-// them. dlopen would look there too, were it called from here: AddressSanitizer's stands between.
+// The folders where the loader looks for what this program or library needs, its RUNPATH among
+// them; free() them. dlopen searches the RUNPATH of its caller, which is AddressSanitizer in a
+// sanitized build, so open_file searches them itself.
 static Dl_serinfo *search_path(void)
 {
     static const char here = 0;
