@@ -25,6 +25,9 @@ static SeenKind kind_of_hit(const Tracer *tracer, const Hit *hit)
 static float sharpness(const CameraFrame *camera, float near)
 {
     float aperture = 2.0f * vec3_length(camera->lens_x);
+    if (aperture <= 0.0f) {
+        return 1.0f;
+    }
     float blur = aperture * fabsf(near - 1.0f / camera->focus) / camera->pixel_angle;
     return clampf(2.0f - blur, 0.0f, 1.0f);
 }

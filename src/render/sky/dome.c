@@ -1,6 +1,7 @@
 #include "render/sky/dome.h"
 
 #include "base/memory.h"
+#include "render/warp.h"
 
 #include <stdlib.h>
 
@@ -294,7 +295,9 @@ Vec3 dome_sample(const Dome *dome, float u, float v, DomeLight *light)
     *light = light_in(dome, &c, x, y);
     float sine = lerpf(dome->edge[row], dome->edge[row + 1], y);
     float turn = ((float)column + 0.5f + x) / (float)dome->columns;
-    float azimuth = (0.5f - turn) * 2.0f * PI_F + dome->rotation;
-    float cosine = sqrtf(fmaxf(0.0f, 1.0f - sine * sine));
-    return vec3(cosine * sinf(azimuth), sine, cosine * cosf(azimuth));
+    float around = 0.5f - turn + dome->rotation / (2.0f * PI_F), east, south;
+    sincos_turn(around - floorf(around), &east, &south);
+    float square = 1.0f - sine * sine;
+    float cosine = sqrtf(square > 0.0f ? square : 0.0f);
+    return vec3(cosine * east, sine, cosine * south);
 }

@@ -58,7 +58,7 @@ class Ramify:
         target = os.path.join(self.job.folder, "ramify.png")
         done = subprocess.run(
             [self.binary, "render", self.scene, "-o", target, "--samples", str(samples)]
-            + ["--threads", str(self.job.threads), "--set", f"render.noise_seed={seed}", "--no-denoise", "--json", "-q"],
+            + ["--threads", str(self.job.threads), "--set", f"render.noise_seed={seed}", "--no-denoise", "--no-preview", "--json", "-q"],
             capture_output=True,
             text=True,
         )
