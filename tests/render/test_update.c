@@ -106,6 +106,70 @@ static void an_update_is_as_good_as_a_new_renderer(void **state)
     world_free(world);
 }
 
+static void glow(World *world) // emitters know the full mesh alone
+{
+    world->material[0] = material_default(MATERIAL_EMISSION);
+}
+
+static void make_glass(World *world) // curves of glass are round, opaque ones are tubes
+{
+    world->material[0] = material_default(MATERIAL_DIELECTRIC);
+}
+
+static void make_diffuse(World *world)
+{
+    world->material[0] = material_default(MATERIAL_DIFFUSE);
+}
+
+// Balls whose coarse form differs much, and a thin rod.
+static World *world_of_forms(void)
+{
+    World *world = scene(SKY_SUN_SKY);
+    Part balls = {.kind = PART_MESH,
+                  .mesh = sphere_mesh(vec3(0, 0, 0), 0.5f, 16, true),
+                  .coarse[0] = {sphere_mesh(vec3(0, 0, 0), 0.4f, 6, true), 1e-6f},
+                  .instance = memory_alloc(2, sizeof(Transform), NULL),
+                  .instance_count = 2};
+    assert_non_null(balls.instance);
+    for (int i = 0; i < 2; i++) {
+        balls.instance[i] =
+            transform_compose(vec3(i ? 2.0f : -2.0f, 0, 1), vec3(0, 0, 0), vec3_splat(1));
+    }
+    add_part(world, balls);
+    CurveSet *rod = curves_new(2, 1, NULL);
+    assert_non_null(rod);
+    rod->position[0] = vec3(-3, 1.5f, 0);
+    rod->position[1] = vec3(3, 1.6f, 0);
+    rod->radius[0] = rod->radius[1] = 0.1f;
+    rod->first[0] = 0;
+    rod->first[1] = 2;
+    add_part(world, (Part){.kind = PART_CURVES, .curves = rod});
+    return world;
+}
+
+static void materials_decide_what_form_is_drawn(void **state)
+{
+    (void)state;
+    Edit *const edits[] = {glow, make_diffuse, make_glass, make_diffuse};
+    World *world = world_of_forms();
+    Run run = run_default();
+    Renderer *renderer = renderer_new(world, NULL, &run, NULL);
+    assert_non_null(renderer);
+    Film *film = film_new(24, 16, NULL);
+    for (size_t i = 0; i < sizeof edits / sizeof edits[0]; i++) {
+        edits[i](world);
+        RenderStats stats;
+        assert_true(renderer_update(renderer, RENDERER_MATERIALS, &run, NULL));
+        assert_true(renderer_render(renderer, film, &run, NULL, NULL, &stats, NULL));
+        Film *fresh = trace(world, 1, NULL);
+        assert_memory_equal(film->color, fresh->color, sizeof(Vec3) * 24 * 16);
+        film_free(fresh);
+    }
+    film_free(film);
+    renderer_free(renderer);
+    world_free(world);
+}
+
 static Vec3 about_y(Vec3 p, float degrees)
 {
     float c = cosf(degrees * RADIANS_PER_DEGREE), s = sinf(degrees * RADIANS_PER_DEGREE);
@@ -152,6 +216,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_update_is_as_good_as_a_new_renderer),
+        cmocka_unit_test(materials_decide_what_form_is_drawn),
         cmocka_unit_test(sky_and_camera_turn_together),
         cmocka_unit_test(noise_seed_changes_noise_alone),
     };

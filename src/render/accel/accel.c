@@ -81,6 +81,18 @@ static unsigned filters_of(const Accel *accel, const Part *part)
            (material_has(m, TRAIT_THIN) ? ACCEL_FILTER_THIN : 0u);
 }
 
+// The traits of the material that decide what is drawn of a part with several forms: round curves
+// or tubes, a full or a coarse mesh.
+static unsigned form_traits(const Accel *accel, const Part *part)
+{
+    const Material *m = &accel->world->material[part->material];
+    if (part->kind == PART_MESH && !part->coarse[0].mesh) {
+        return 0;
+    }
+    return (material_has(m, TRAIT_OPAQUE) ? TRAIT_OPAQUE : 0u) |
+           (material_has(m, TRAIT_EMISSIVE) ? TRAIT_EMISSIVE : 0u);
+}
+
 static void set_filters(RTCGeometry geometry, AccelPiece *own)
 {
     rtcSetGeometryUserData(geometry, own);
@@ -201,7 +213,8 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
                         .mesh = part->kind == PART_MESH ? part->mesh : NULL,
                         .count = part->instance ? part->instance_count : 0,
                         .base_variation = 0.5f,
-                        .filters = filters_of(accel, part)};
+                        .filters = filters_of(accel, part),
+                        .traits = form_traits(accel, part)};
     if (is_empty(part)) {
         return true;
     }
@@ -441,7 +454,8 @@ bool accel_fits_materials(const Accel *accel)
 {
     for (int32_t i = 0; i < accel->piece_count; i++) {
         const AccelPiece *piece = &accel->piece[i];
-        if (piece->filters != filters_of(accel, piece->part)) {
+        if (piece->filters != filters_of(accel, piece->part) ||
+            piece->traits != form_traits(accel, piece->part)) {
             return false;
         }
     }

@@ -44,7 +44,7 @@ void accel_free(Accel *accel); // NULL is fine
 // Replaces the materials after a change of their values; their number must stay.
 void accel_use_materials(Accel *accel, const MaterialSet *materials);
 
-// False if a part now needs other filters: accel must be rebuilt.
+// False if a part now needs other filters or another form: accel must be rebuilt.
 bool accel_fits_materials(const Accel *accel);
 
 int64_t accel_bytes(const Accel *accel); // held by Embree

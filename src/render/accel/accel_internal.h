@@ -28,6 +28,7 @@ typedef struct AccelPiece {
     float base_variation;    // of a part that is drawn once
     bool plain;              // a mesh without vertex attributes
     unsigned filters;        // that Embree calls: bits of AccelFilter
+    unsigned traits;         // of its material; see form_traits
     bool copied;             // instances were copied out: primitive = instance * faces + face
 } AccelPiece;
 
