@@ -92,12 +92,20 @@ static bool draw_gathering(const Path *path, const Stretch *s, const float u[4],
 }
 
 // Gathers in-scattered light at one point of the stretch.
-static void gather_once(Path *path, const Stretch *stretch, const float u[4], const float v[4])
+static void gather_light(Path *path, const MediumLine *line)
 {
     const Filling *filling = &path->media.now;
+    float u[4], v[4];
+    uint32_t set = (uint32_t)(SET_MEDIUM + SETS_PER_STRETCH * path->stretches);
+    sampler_draw(&path->sampler, set, u);
+    sampler_draw(&path->sampler, set + 1, v);
+    Stretch stretch = {
+        line,
+        {path->ray.origin, path->ray.direction, medium_line_near(line), medium_line_far(line)},
+        channel_weights(path->throughput, filling->scattering)};
     SegmentLight on = {.pivot_pdf = 0.0f};
     float pdf, t;
-    if (!draw_gathering(path, stretch, u, v, &t, &on, &pdf)) {
+    if (!draw_gathering(path, &stretch, u, v, &t, &on, &pdf)) {
         return;
     }
     const LightSample *light = &on.light;
@@ -108,24 +116,11 @@ static void gather_once(Path *path, const Stretch *stretch, const float u[4], co
     path_aim(&shadow, light);
     float phase =
         phase_density(filling->anisotropy, vec3_dot(path->ray.direction, light->direction));
-    Vec3 f = medium_transmittance(filling->extinction, medium_line_length(stretch->line, t));
+    Vec3 f = medium_transmittance(filling->extinction, medium_line_length(line, t));
     f = vec3_mul(vec3_mul(f, filling->scattering), light->radiance);
-    float density = medium_line_density(stretch->line, t);
+    float density = medium_line_density(line, t);
     float weight = phase * density * power_heuristic(light->pdf, phase) / pdf;
     path_cast_shadow_through(path, &shadow, light, &path->media, vec3_scale(f, weight));
-}
-
-static void gather_light(Path *path, const MediumLine *line)
-{
-    float u[4], v[4];
-    uint32_t set = (uint32_t)(SET_MEDIUM + SETS_PER_STRETCH * path->stretches);
-    sampler_draw(&path->sampler, set, u);
-    sampler_draw(&path->sampler, set + 1, v);
-    Stretch stretch = {
-        line,
-        {path->ray.origin, path->ray.direction, medium_line_near(line), medium_line_far(line)},
-        channel_weights(path->throughput, path->media.now.scattering)};
-    gather_once(path, &stretch, u, v);
 }
 
 // ---- where the path itself goes

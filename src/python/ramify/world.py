@@ -91,7 +91,7 @@ class World:
         each_pass: Optional[Callable[[Film, int], object]] = None,
     ) -> Film:
         """Path traces the world. isa: "sse4.2" and others pin the instruction set, for the same bits on every machine.
-        each_pass(film, samples) is called after 1, 2, 4, ... samples with the Film so far. Returns a Film."""
+        each_pass(film, samples) is called after 1, 4, 16, 32, 64, ... samples with the Film so far. Returns a Film."""
         size = _abi.SceneInfo()
         lib.ramify_scene_info(self._scene.pointer, c.byref(size))
         name = None if isa is None else isa.encode()
