@@ -174,7 +174,8 @@ typedef struct RamifyTree RamifyTree; // an out-tree
 RAMIFY_API RamifyTree *ramify_grow(const RamifyScene *scene, int index, const RamifyRun *run,
                                    RamifyError *error);
 
-// Reads an SWC file, coordinates in metres, in a child process with limits on time and memory, so
+// Reads an SWC file or, if it ends in .qsm, .txt or .csv, TreeQSM's table of cylinders (see
+// docs/formats.md), coordinates in metres, in a child process with limits on time and memory, so
 // that untrusted files are safe. RAMIFY_BAD_INPUT with file and line if it is invalid. run may be
 // NULL.
 RAMIFY_API RamifyTree *ramify_tree_read(const char *file, const RamifyRun *run, RamifyError *error);

@@ -24,7 +24,7 @@ RamifyTree *ramify_tree_read(const char *file, const RamifyRun *run, RamifyError
 {
     Error e = {0};
     Run own = api_run(run);
-    return hand_tree(out_tree_import_swc(file, &own, &e), &e, error);
+    return hand_tree(out_tree_import(file, &own, &e), &e, error);
 }
 
 bool ramify_tree_write(const RamifyTree *tree, const char *file, RamifyError *error)

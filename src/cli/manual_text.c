@@ -85,9 +85,9 @@ static const ManualText TEXTS[] = {
           "branches, orders after Horton and Strahler, fractal dimension, how well forks keep "
           "Murray's law, drainage and slopes, each where applicable.",
           "If the scene has targets, each is compared with its measure; the exit status is 1 if "
-          "one is missed. A file in SWC format is measured as an out-tree, an ESRI ASCII grid "
-          "(.asc) as surveyed heights, so that grown and real data are compared by the same "
-          "measures."},
+          "one is missed. A file in SWC format is measured as an out-tree, a table of cylinders "
+          "that TreeQSM fitted to a laser scan (.qsm, .txt, .csv) also, an ESRI ASCII grid (.asc) "
+          "as surveyed heights, so that grown and real data are compared by the same measures."},
      .failure = "a target of the scene is missed",
      .examples = {{"a table", "ramify measure pine.yaml"},
                   {"the same of a tree in a file",

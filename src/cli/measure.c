@@ -284,13 +284,13 @@ static bool print_file(const Options *options, const char *kind, RamifyMeasures 
     return measures != NULL;
 }
 
-static bool measure_swc(const Options *options, RamifyError *e)
+static bool measure_tree(const Options *options, const char *kind, RamifyError *e)
 {
     Progress progress;
     RamifyRun run = command_run(options, &progress);
     RamifyTree *tree = ramify_tree_read(options->operand, &run, e);
     progress_end(&progress);
-    bool done = tree && print_file(options, "swc", ramify_tree_measure(tree, e));
+    bool done = tree && print_file(options, kind, ramify_tree_measure(tree, e));
     ramify_tree_free(tree);
     return done;
 }
@@ -305,9 +305,13 @@ static bool measure_asc(const Options *options, RamifyError *e)
 
 bool command_measure(const Options *options, RamifyError *e)
 {
-    if (output_has_ending(options->operand, ".asc")) {
-        return measure_asc(options, e);
+    static const char *const endings[][2] = {
+        {".swc", "swc"}, {".qsm", "qsm"}, {".txt", "qsm"}, {".csv", "qsm"}};
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++) {
+        if (output_has_ending(options->operand, endings[i][0])) {
+            return measure_tree(options, endings[i][1], e);
+        }
     }
-    return output_has_ending(options->operand, ".swc") ? measure_swc(options, e)
+    return output_has_ending(options->operand, ".asc") ? measure_asc(options, e)
                                                        : measure_scene(options, e);
 }

@@ -419,9 +419,12 @@ const Command command_table[COMMAND_COUNT] = {
                       "-o writes the out-trees; if there are several, the objects' names precede "
                       "the extension.\n",
                       command_grow},
-    [COMMAND_MEASURE] = {"measure", "SCENE|FILE.swc|FILE.asc",
-                         "measure what a scene grows, or an out-tree in a file",
-                         "Exit status 1 if a target of the scene is missed.\n", command_measure},
+    [COMMAND_MEASURE] =
+        {"measure", "SCENE|FILE.swc|FILE.qsm|FILE.txt|FILE.csv|FILE.asc",
+         "measure what a scene grows, or an out-tree in a file",
+         "Out-trees: .swc, or TreeQSM's cylinder table as .qsm, .txt or .csv; heights: "
+         ".asc.\nExit status 1 if a target of the scene is missed.\n",
+         command_measure},
     [COMMAND_FIT] =
         {"fit", "SCENE", "find parameters with which a scene meets its targets",
          "Varies the numbers named by --vary and grows, but renders nothing. Exit status "

@@ -27,8 +27,20 @@ bool out_tree_write_swc(const OutTree *tree, const char *file, Error *e);
 // generated. ERROR_INPUT with file and line; the caller frees the tree. (swc_read.c)
 OutTree *out_tree_read_swc(const char *file, Error *e);
 
-// The same in a child process with limits (base/child.h), for untrusted files. (swc_import.c)
+// Reads a quantitative structure model: the table of cylinders that TreeQSM (Raumonen 2013) writes
+// as text, in metres with z up. A row is a line of 14, 15 (2.3) or 17 numbers (2.4), separated by
+// blanks or commas: radius, length, start x y z, unit axis x y z, parent and extension (rows from
+// 1, 0 = none), and others, which are ignored. Comments (#), blank lines and a first line of names
+// that begins with "radius" are skipped. See qsm.h for the tree. ERROR_INPUT with file, line and
+// column; the caller frees the tree. (qsm_read.c)
+OutTree *out_tree_read_qsm(const char *file, Error *e);
+
+// The same as out_tree_read_swc in a child process with limits (base/child.h), for untrusted files.
+// (import.c)
 OutTree *out_tree_import_swc(const char *file, const Run *run, Error *e);
+
+// Reads .qsm, .txt and .csv as a QSM, any other file as SWC, also in a child process.
+OutTree *out_tree_import(const char *file, const Run *run, Error *e);
 
 // Writes GraphML (Brandes 2002): a directed graph named name[i] for each of `count` trees that is
 // not NULL, with an edge from each node to its children. Nodes have x, y, z, radius (m), birth,

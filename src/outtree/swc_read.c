@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "outtree/out_tree_io.h"
+#include "outtree/text_table.h"
 
 #include <errno.h>
 #include <float.h>
@@ -10,10 +11,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
-enum { MAX_LINE = 4096, COLUMNS = 7, MAX_NODES = 1 << 30 };
+enum { COLUMNS = 7, MAX_NODES = 1 << 30 };
 #define SEED 0x737763ull // of the node ids
+
+static const TableFormat SWC = {"SWC", "an SWC file", "seven numbers"};
 
 typedef struct Row {
     int64_t number, parent;
@@ -108,40 +110,15 @@ static bool read_row(const char *text, Row *row, Error *e)
     return true;
 }
 
-// Reads one line into text, without its end; fails when it is not text. *more: whether there was a
-// line.
-static bool read_line(FILE *stream, char text[MAX_LINE], bool *more, Error *e)
-{
-    int c, length = 0;
-    while ((c = getc(stream)) != EOF && c != '\n') {
-        if (c == 0) {
-            return error_set(e, ERROR_INPUT, "not a text file: it holds a NUL; SWC is text");
-        }
-        if (length < MAX_LINE - 1) {
-            text[length++] = (char)c;
-        } else if (text[0] != '#') {
-            return error_set(e, ERROR_INPUT, "longer than %d characters; SWC has seven numbers",
-                             MAX_LINE - 1);
-        }
-    }
-    *more = c != EOF || length > 0;
-    length -= length > 0 && text[length - 1] == '\r';
-    text[length] = 0;
-    return true;
-}
-
 static bool read_rows(SwcFile *swc, FILE *stream, Error *e)
 {
-    char text[MAX_LINE];
+    char text[TABLE_MAX_LINE];
     bool more = true;
     for (int64_t line = 1; more; line++) {
-        if (!read_line(stream, text, &more, e)) {
+        if (!table_read_line(stream, &SWC, text, &more, e)) {
             return fail_at(swc, line, e);
         }
-        // byte order mark, written by some editors
-        bool marked = line == 1 && strncmp(text, "\xef\xbb\xbf", 3) == 0;
-        const char *start = text + (marked ? 3 : 0);
-        start += strspn(start, " \t");
+        const char *start = table_line_start(text, line);
         if (!*start || *start == '#') {
             continue;
         }
@@ -270,27 +247,9 @@ static OutTree *make_tree(SwcFile *swc, Error *e)
     return tree;
 }
 
-static FILE *open_file(const char *file, Error *e)
-{
-    struct stat status;
-    if (stat(file, &status) != 0) {
-        error_set(e, ERROR_INPUT, "cannot read it: %s; name an SWC file", strerror(errno));
-    } else if (!S_ISREG(status.st_mode)) {
-        error_set(e, ERROR_INPUT, "not a regular file; name an SWC file");
-    } else {
-        FILE *stream = fopen(file, "re");
-        if (stream) {
-            return stream;
-        }
-        error_set(e, ERROR_INPUT, "cannot read it: %s; name an SWC file", strerror(errno));
-    }
-    error_locate(e, file, 0, 0);
-    return NULL;
-}
-
 OutTree *out_tree_read_swc(const char *file, Error *e)
 {
-    FILE *stream = open_file(file, e);
+    FILE *stream = table_open(file, &SWC, e);
     if (!stream) {
         return NULL;
     }

@@ -41,7 +41,7 @@ class Tree:
 
     @classmethod
     def read(cls, file: File) -> Tree:
-        """Reads an SWC file, coordinates in metres, in a child process with limits."""
+        """Reads an SWC file or a QSM (.qsm, .txt, .csv), in metres, in a child process with limits."""
         name = path(file)
         return cls(run(lambda how, _, error: lib.ramify_tree_read(name, how, error), discard=lib.ramify_tree_free))
 

@@ -1,5 +1,6 @@
-// Reads untrusted SWC files in a child process.
+// Reads untrusted files of trees in a child process.
 #include "base/child.h"
+#include "base/file_name.h"
 #include "outtree/out_tree_io.h"
 
 #include <sys/stat.h>
@@ -22,9 +23,24 @@ static bool write_tree(const OutTree *tree, ChildOutput *output, Error *e)
            child_write(output, tree->id, n, sizeof *tree->id, e);
 }
 
-static bool read_in_child(const void *file, ChildOutput *output, Error *e)
+typedef struct Reader {
+    OutTree *(*read)(const char *file, Error *e);
+    const char *wanted;
+    bool typed; // the trees are (see OutTree)
+} Reader;
+
+static const Reader SWC = {out_tree_read_swc, "a whole SWC file", true};
+static const Reader QSM = {out_tree_read_qsm, "a whole QSM file", false};
+
+typedef struct Import {
+    const Reader *reader;
+    const char *file;
+} Import;
+
+static bool read_in_child(const void *data, ChildOutput *output, Error *e)
 {
-    OutTree *tree = out_tree_read_swc(file, e);
+    const Import *import = data;
+    OutTree *tree = import->reader->read(import->file, e);
     bool done = tree && write_tree(tree, output, e);
     out_tree_free(tree);
     return done;
@@ -56,19 +72,19 @@ static bool take_tree(OutTree *tree, ChildOutput *output, Error *e)
                 child_read(output, tree->normal, n, sizeof *tree->normal, e) &&
                 child_read(output, tree->id, n, sizeof *tree->id, e);
     tree->count = done ? n : 0;
-    tree->typed = true;
     return done && out_tree_check(tree, e) && check_births(tree, e);
 }
 
-OutTree *out_tree_import_swc(const char *file, const Run *run, Error *e)
+static OutTree *import_tree(const Reader *reader, const char *file, const Run *run, Error *e)
 {
+    Import import = {reader, file};
     struct stat status;
     int64_t size = stat(file, &status) == 0 && S_ISREG(status.st_mode) ? status.st_size : 0;
     size = size < INT64_MAX / 1000 ? size : INT64_MAX / 1000;
     ChildJob job = {.task = read_in_child,
-                    .data = file,
+                    .data = &import,
                     .file = file,
-                    .wanted = "a whole SWC file",
+                    .wanted = reader->wanted,
                     .seconds = MIN_SECONDS + SECONDS_PER_BYTE * (double)size,
                     .memory = MIN_MEMORY + MEMORY_PER_BYTE * size};
     ChildOutput output;
@@ -83,5 +99,18 @@ OutTree *out_tree_import_swc(const char *file, const Run *run, Error *e)
         out_tree_free(tree);
         return NULL;
     }
+    tree->typed = reader->typed;
     return tree;
+}
+
+OutTree *out_tree_import_swc(const char *file, const Run *run, Error *e)
+{
+    return import_tree(&SWC, file, run, e);
+}
+
+OutTree *out_tree_import(const char *file, const Run *run, Error *e)
+{
+    bool qsm = file_name_ends(file, ".qsm") || file_name_ends(file, ".txt") ||
+               file_name_ends(file, ".csv");
+    return import_tree(qsm ? &QSM : &SWC, file, run, e);
 }

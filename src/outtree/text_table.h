@@ -1,0 +1,31 @@
+// Lines of text files that hold a tree as a table, one row a line (SWC, QSM).
+#ifndef RAMIFY_OUTTREE_TEXT_TABLE_H
+#define RAMIFY_OUTTREE_TEXT_TABLE_H
+
+#include "base/error.h"
+
+#include <stdio.h>
+
+enum { TABLE_MAX_LINE = 4096 };
+
+// How messages speak of a format.
+typedef struct TableFormat {
+    const char *name; // "SWC"
+    const char *file; // "an SWC file"
+    const char *row;  // "seven numbers"
+} TableFormat;
+
+// Opens a regular file for reading; NULL and ERROR_INPUT with the file's name. The caller closes
+// it.
+FILE *table_open(const char *file, const TableFormat *format, Error *e);
+
+// Reads one line into text, without its end (LF or CRLF); a comment (#) that is too long is cut.
+// ERROR_INPUT for a NUL or a line that is too long. *more: whether there was a line.
+bool table_read_line(FILE *stream, const TableFormat *format, char text[TABLE_MAX_LINE], bool *more,
+                     Error *e);
+
+// The line's first character that is neither blank nor, in line 1, of a byte order mark, which some
+// editors write; "" and comments (#) are no rows.
+const char *table_line_start(const char *text, long long line);
+
+#endif
