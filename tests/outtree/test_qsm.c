@@ -138,11 +138,13 @@ static void measures_have_their_closed_form(void **state)
 static void every_version_and_notation_gives_the_same_tree(void **state)
 {
     (void)state;
-    static const char *const same[] = {
+    static const char named[] =
+        HEADER "0.3\t1\t0\t0\t0\t0\t0\t1\t0\t0\t1\t0\t1\tNaN\t0.9\t0\t0.31\n";
+    const char *const same[] = {
         ROOT,
         "# of a scan\r\n\r\n 0.3,1, 0,0 ,0,0,0,1,0,0,1,0,1,0 \r\n",
         "0.3 1 0 0 0 0 0 1 0 0 1 0 1 0 0.31",
-        HEADER "0.3\t1\t0\t0\t0\t0\t0\t1\t0\t0\t1\t0\t1\tNaN\t0.9\t0\t0.31\n",
+        named,
         "\xef\xbb\xbf\"radius\",\"length\"\n3e-1 +1 7 -8 9 0 0 0.9999 0 0 1 0 1 0\n",
     };
     for (size_t i = 0; i < sizeof same / sizeof same[0]; i++) {
