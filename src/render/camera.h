@@ -26,6 +26,7 @@ typedef struct Views {
     const Vec3 *eye;   // borrowed
     int count;         // 0 = none: full detail
     float pixel_angle; // rad
+    float detail;      // see RenderParams
 } Views;
 
 CameraFrame camera_frame(const Camera *camera, int width, int height);

@@ -190,7 +190,7 @@ static Whereabouts travel(Path *path, const Hit *hit, bool met)
 }
 
 // Traces the rays. The paths that met surfaces become vertices, whose number is returned; those
-// that go on within a medium stay in the wave. camera: these are camera rays, which lead alike.
+// that go on within a medium stay in the wave. camera: these are camera rays.
 static int trace_rays(Wave *wave, bool camera)
 {
     Ray ray[WAVE_SIZE];
@@ -201,7 +201,7 @@ static int trace_rays(Wave *wave, bool camera)
         ray[i] = wave->path[i]->ray;
         wave->path[i]->rays++;
     }
-    accel_intersect_many(wave->tracer->accel, ray, wave->count, camera, hit, met);
+    accel_intersect_many(wave->tracer->accel, ray, wave->count, hit, met);
     for (int i = 0; i < wave->count && camera; i++) {
         first_seen(wave->tracer, &ray[i], met[i], &hit[i], wave->path[i]->result);
     }
@@ -231,7 +231,7 @@ static int trace_rays(Wave *wave, bool camera)
 // The stages at surfaces. Paths that go on join the wave.
 static void scatter_at_surfaces(Wave *wave, int vertices)
 {
-    Vertex *vertex[WAVE_SIZE];
+    Vertex *vertex[WAVE_SIZE] = {NULL};
     int scattering = 0;
     for (int i = 0; i < vertices; i++) {
         Vertex *v = &wave->vertex[i];

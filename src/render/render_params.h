@@ -14,6 +14,8 @@ typedef struct RenderParams {
     float clamp;         // upper bound on a sample's indirect luminance; 0 = none (unbiased)
     float max_noise; // adaptive: a tile stops when its estimated relative error is below this; 0 =
                      // off
+    float detail;    // pixels: how far off the coarse forms of leaves, blades and twigs may be; 0 =
+                     // full detail everywhere
     double max_seconds; // 0 = no limit
 } RenderParams;
 

@@ -185,8 +185,8 @@ static void render_passes(Job *job, RenderPass *pass, void *user)
         int before = done;
         done = pass_end(done, samples);
         render_pass(job, before, done);
-        bool doubled = (done & (done - 1)) == 0;
-        if (pass && (doubled || done == samples) && !run_is_cancelled(job->run)) {
+        bool power_of_two = (done & (done - 1)) == 0;
+        if (pass && (power_of_two || done == samples) && !run_is_cancelled(job->run)) {
             pass(user, job->film, done);
         }
     }

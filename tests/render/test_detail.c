@@ -81,7 +81,7 @@ static void the_nearest_view_decides(void **state)
     part.instance_count = 1;
     Vec3 eye[] = {{0, 0, 1000}, {0, 0, 1}};
     float reach = detail_reach(part.mesh);
-    Views far = {eye, 1, 1e-3f}, both = {eye, 2, 1e-3f}, none = {0};
+    Views far = {eye, 1, 1e-3f, 0.3f}, both = {eye, 2, 1e-3f, 0.3f}, none = {0};
     assert_int_equal(detail_level(&part, 0, reach, &far), 2);
     assert_int_equal(detail_level(&part, 0, reach, &both), 0);
     assert_int_equal(detail_level(&part, 0, reach, &none), 0);
@@ -157,14 +157,14 @@ static Image *picture(const World *world)
     return image;
 }
 
-// FLIP of the world as its camera sees it and as a camera would that is near everything.
+// FLIP of the world in the detail that its camera sees and in full.
 static double difference(World *world)
 {
     world->sky.kind = SKY_CONSTANT;
     world->sky.color = vec3(0.5f, 0.6f, 0.8f);
     world->material[0].color = vec3(0.1f, 0.2f, 0.05f);
     Image *chosen = picture(world);
-    world->views = (Views){&world->camera.position, 1, 1e-9f};
+    world->render.detail = 0.0f;
     Image *full = picture(world);
     Image *map = image_flip(full, chosen, FLIP_PIXELS_PER_DEGREE, NULL);
     double flip = image_mean(map);
@@ -181,6 +181,7 @@ static World *distant_world(void)
     World *world = tiny_world(WIDTH, HEIGHT, SAMPLES, 0.2f);
     world->camera.position = vec3(0, 0, 28);
     world->camera.fov = 9.16f; // a pixel of 1 mrad
+    world->render.detail = 0.3f;
     return world;
 }
 

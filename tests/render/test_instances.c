@@ -105,7 +105,7 @@ static void rays_find_part_and_instance(void **state)
         for (int k = 0; k < PARTS; k++) {
             ray[k] = ray_at(&place, k);
         }
-        accel_intersect_many(accel, ray, PARTS, true, packet_hit, met);
+        accel_intersect_many(accel, ray, PARTS, packet_hit, met);
         for (int k = 0; k < PARTS; k++) {
             assert_true(accel_intersect(accel, &ray[k], &hit[k]));
             assert_true(met[k]);

@@ -199,7 +199,7 @@ static void packets_meet_what_rays_meet(void **state)
                            -4.0f * random_unit(random_key(key, 2)));
             ray[i] = (Ray){.origin = {0, 0, 5}, .direction = vec3_normalize(to), .far = INFINITY};
         }
-        accel_intersect_many(accel, ray, count, round % 2 == 0, hit, met);
+        accel_intersect_many(accel, ray, count, hit, met);
         accel_occluded_many(accel, ray, count, blocked);
         for (int i = 0; i < count; i++) {
             bool same = accel_intersect(accel, &ray[i], &alone) == met[i] &&

@@ -404,11 +404,10 @@ Accel *accel_new(const World *world, const MaterialSet *materials, const char *i
     accel->bytes_limit = (int64_t)memory_allowed();
     pthread_mutex_init(&accel->lock, NULL);
     accel->device = open_device(accel, isa, run->threads, e);
-    accel->views = world->views;
     CameraFrame camera = camera_frame(&world->camera, world->film.width, world->film.height);
-    if (accel->views.count == 0) {
-        accel->views = (Views){&camera.position, 1, camera.pixel_angle};
-    }
+    accel->views = world->views.count > 0 ? world->views
+                                          : (Views){&camera.position, 1, camera.pixel_angle, 0.0f};
+    accel->views.detail = world->render.detail;
     if (!accel->device || !build(accel, e)) {
         accel_free(accel);
         return NULL;

@@ -61,10 +61,8 @@ bool accel_occluded(const Accel *accel, const Ray *ray);
 
 // The same for `count` rays, in packets where that is faster; met[i], blocked[i]: whether ray i
 // hits. The last bits of a hit, and what a ray meets that grazes an edge, depend on the rays that
-// it is traced with; so callers must always put the same rays together. coherent: they start and
-// lead alike.
-void accel_intersect_many(const Accel *accel, const Ray ray[], int count, bool coherent, Hit hit[],
-                          bool met[]);
+// it is traced with; so callers must always put the same rays together.
+void accel_intersect_many(const Accel *accel, const Ray ray[], int count, Hit hit[], bool met[]);
 void accel_occluded_many(const Accel *accel, const Ray ray[], int count, bool blocked[]);
 
 // Index of the lamp that was hit; -1 for a part.

@@ -1,10 +1,8 @@
 #include "render/accel/accel_detail.h"
 
-// Measured on scenes/oak.yaml: from 0.5 pixels on, coarse leaves show where the crown fills the
-// picture (FLIP 0.09 to full detail); at 0.25 the difference is that of noise at 768 samples.
-#define ERROR_PIXELS 0.3f
-// The outline of a tube of CURVE_TUBE_SIDES is then off by less than a quarter of a pixel.
-#define THIN_PIXELS 1.5f
+// Thinner curves become tubes: in units of the detail. The outline of a tube of CURVE_TUBE_SIDES is
+// then off by less than the detail.
+#define THIN 5.0f
 
 static float nearest_view(const Views *views, Vec3 p)
 {
@@ -43,13 +41,13 @@ float detail_reach(const Mesh *mesh)
 
 int detail_level(const Part *part, int64_t instance, float reach, const Views *views)
 {
-    if (views->count == 0) {
+    if (views->count == 0 || views->detail <= 0.0f) {
         return 0;
     }
     const Transform *t = &part->instance[instance];
     float scale = largest_scale(t);
     float distance = nearest_view(views, column(t, 3)) - scale * reach;
-    float most = ERROR_PIXELS * views->pixel_angle * distance;
+    float most = views->detail * views->pixel_angle * distance;
     int level = 0;
     while (level < PART_COARSE_MOST && part->coarse[level].mesh &&
            part->coarse[level].error * scale < most) {
@@ -60,7 +58,7 @@ int detail_level(const Part *part, int64_t instance, float reach, const Views *v
 
 static bool all_thin(const CurveSet *curves, const Views *views)
 {
-    float pixels = THIN_PIXELS * views->pixel_angle;
+    float pixels = THIN * views->detail * views->pixel_angle;
     for (int64_t i = 0; i < curves->point_count; i++) {
         if (curves->radius[i] > pixels * nearest_view(views, curves->position[i])) {
             return false;
@@ -72,8 +70,11 @@ static bool all_thin(const CurveSet *curves, const Views *views)
 bool detail_is_thin(const Part *part, const Views *views)
 {
     const CurveSet *curves = part->curves;
-    if (views->count == 0 || !part->instance) {
-        return views->count > 0 && all_thin(curves, views);
+    if (views->count == 0 || views->detail <= 0.0f) {
+        return false;
+    }
+    if (!part->instance) {
+        return all_thin(curves, views);
     }
     float reach = 0.0f, thickest = 0.0f;
     for (int64_t i = 0; i < curves->point_count; i++) {
@@ -84,7 +85,7 @@ bool detail_is_thin(const Part *part, const Views *views)
         const Transform *t = &part->instance[i];
         float scale = largest_scale(t);
         float distance = nearest_view(views, column(t, 3)) - scale * reach;
-        if (thickest * scale > THIN_PIXELS * views->pixel_angle * distance) {
+        if (thickest * scale > THIN * views->detail * views->pixel_angle * distance) {
             return false;
         }
     }
