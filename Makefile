@@ -41,7 +41,7 @@ $(OUT)/ramify $(OUT)/libramify.so $(OUT)/tests/bench/%: private LDFLAGS += $(LTO
 # loaded when first used (base/plugin.h). Their sources and libraries:
 PLUGINS      := oiio vdb ocio
 PLUGIN_oiio  := image/decode.cpp image/encode.cpp render/material/texture_filter.cpp
-LDLIBS_oiio  := -lOpenImageIO -lOpenImageIO_Util -lstdc++ -lm
+LDLIBS_oiio  := -lOpenImageIO -lOpenImageIO_Util -lOpenEXR -lstdc++ -lm
 PLUGIN_vdb   := shape/vdb_level_set.cpp shape/vdb_grid_file.cpp shape/vdb_read.cpp shape/spare_memory.cpp
 LDLIBS_vdb   := -lopenvdb -lImath -ltbb -lstdc++ -lm
 PLUGIN_ocio  := image/ocio_view.cpp

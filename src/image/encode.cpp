@@ -3,12 +3,16 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <OpenEXR/ImfThreading.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 extern "C" {
@@ -67,10 +71,32 @@ void add_metadata(OIIO::ImageSpec &spec, const char *metadata, bool as_one_text)
     spec.attribute("Software", "ramify");
 }
 
+// OpenEXR's threads exist while a picture is written and never beside a child process that reads
+// one (base/child.h): threads are not forked, and the child would wait for them for ever.
+class ExrThreads
+{
+  public:
+    ExrThreads()
+    {
+        Imf::setGlobalThreadCount(int(std::thread::hardware_concurrency()));
+    }
+    ~ExrThreads()
+    {
+        Imf::setGlobalThreadCount(0);
+    }
+    ExrThreads(const ExrThreads &) = delete;
+    ExrThreads &operator=(const ExrThreads &) = delete;
+};
+
 bool encode(const char *file, const char *format, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
             const void *pixels, Bytes &bytes, Error *e)
 {
     OIIO::Filesystem::IOVecOutput proxy(bytes);
+    OIIO::attribute("threads", 1); // nor are OpenImageIO's own, see ExrThreads
+    std::optional<ExrThreads> threads;
+    if (std::strcmp(format, "openexr") == 0) {
+        threads.emplace();
+    }
     auto output = OIIO::ImageOutput::create(format);
     if (!output || !output->supports("ioproxy")) {
         return error_set(e, ERROR_INTERNAL, "'%s' cannot be written: OpenImageIO has no %s writer",
