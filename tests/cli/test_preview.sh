@@ -57,4 +57,4 @@ process=$!
 sleep 2
 yes no_preview [ ! -e none.png ]
 kill -KILL $process
-wait $process 2>/dev/null
+wait $process 2>/dev/null || true # it was killed
