@@ -260,7 +260,10 @@ static void long_chains_are_read(void **state)
     (void)state;
     enum { CYLINDERS = 100000 };
     char *text = malloc((size_t)CYLINDERS * 64), *at = text;
-    assert_non_null(text);
+    if (!text) { // what assert_non_null says, so that the compiler knows it too
+        fail();
+        return;
+    }
     for (int i = 1; i < CYLINDERS; i++) {
         at += sprintf(at, "1 1 0 0 %d 0 0 1 %d %d 1 0 1 0\n", CYLINDERS - i, i + 1, i - 1);
     }
