@@ -61,6 +61,8 @@ EMBEDDED  := $(sort $(foreach e,css html js bash zsh,$(wildcard src/*/*.$e)))
 SOURCES   += $(EMBEDDED)
 LIB_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter-out src/cli/% $(foreach p,$(PLUGINS),$(PLUGIN_$p:%=src/%)),$(SOURCES)))
 PLUGIN_OBJ := $(foreach p,$(PLUGINS),$(PLUGIN_$p:%=$(OBJ)/%.o))
+SPECIES   := $(sort $(wildcard scenes/species/*.yaml))
+LIB_OBJ   += $(OBJ)/species_library.o
 CLI_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter src/cli/%,$(SOURCES)))
 TESTS     := $(sort $(wildcard tests/*/test_*.c))
 TEST_BIN  := $(patsubst tests/%.c,$(OUT)/tests/%,$(TESTS))
@@ -199,6 +201,14 @@ $(patsubst src/%,$(OBJ)/%.o,$(EMBEDDED)): $(OBJ)/%.o: src/%
 	@echo "  TEXT $<"
 	@printf '%s\n' '.section .rodata' '.globl $(name)' '$(name): .incbin "$<"' '.byte 0' \
 	    '.section .note.GNU-stack,"",@progbits' | $(CC) -x assembler -c - -o $@
+
+# The library of species, as src/scene/species_file.c reads it.
+$(OBJ)/species_library.o: $(SPECIES)
+	@mkdir -p $(@D)
+	@echo "  TEXT scenes/species"
+	@{ printf '%s\n' '.section .rodata' '.globl species_library' 'species_library:'; \
+	   for f in $(SPECIES); do printf '.asciz "%s"\n.incbin "%s"\n.byte 0\n' "$$(basename $$f .yaml)" "$$f"; done; \
+	   printf '%s\n' '.byte 0' '.section .note.GNU-stack,"",@progbits'; } | $(CC) -x assembler -c - -o $@
 
 $(OUT)/libramify.a: $(LIB_OBJ)
 	@echo "  AR   $@"

@@ -28,7 +28,7 @@ static bool fail_at(const Loader *loader, const Node *at, int line, int column, 
     if (at && at->source) {
         error_locate(loader->e, at->source, 0, 0);
     } else {
-        error_locate(loader->e, loader->file, line, column);
+        error_locate(loader->e, at && at->file ? at->file : loader->file, line, column);
     }
     return false;
 }

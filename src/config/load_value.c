@@ -221,6 +221,18 @@ static bool check_file(const Value *v, const char *path)
     return true;
 }
 
+// The path from the folder of the file that has the value.
+static char *join_path(const Value *v)
+{
+    const Loader *loader = v->loader;
+    const char *text = v->given->text, *folder = loader->folder;
+    const char *slash = v->given->file ? strrchr(v->given->file, '/') : NULL;
+    int length = slash ? (int)(slash - v->given->file) : (int)strlen(folder);
+    return *text == '/' || length == 0 ? arena_text(loader->arena, text, strlen(text), loader->e)
+                                       : arena_format(loader->arena, loader->e, "%.*s/%s", length,
+                                                      slash ? v->given->file : folder, text);
+}
+
 static bool load_file(const Value *v, char **member)
 {
     Loader *loader = v->loader;
@@ -228,14 +240,15 @@ static bool load_file(const Value *v, char **member)
     if (v->row->flags & KEY_OR_URI && strstr(text, "://")) {
         return keep_text(v, text, member);
     }
-    bool whole = *text == '/' || !*loader->folder;
-    char *path = whole ? arena_text(loader->arena, text, strlen(text), loader->e)
-                       : arena_format(loader->arena, loader->e, "%s/%s", loader->folder, text);
+    char *path = join_path(v);
+    size_t length = strlen(loader->folder);
+    bool below = path && *text != '/' && length > 0 && strncmp(path, loader->folder, length) == 0 &&
+                 path[length] == '/';
     FileName *file = arena_alloc(loader->arena, sizeof *file, loader->e);
     if (!path || !file || !check_file(v, path)) {
         return false;
     }
-    *file = (FileName){loader->files, path, whole ? path : path + strlen(loader->folder) + 1};
+    *file = (FileName){loader->files, path, below ? path + length + 1 : path};
     loader->files = file;
     *member = path;
     return true;

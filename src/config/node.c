@@ -210,6 +210,24 @@ Node *node_copy(Arena *arena, const Node *node, int *budget, Error *e)
     return copy;
 }
 
+bool node_merge(Arena *arena, Node *map, const Node *from, int *budget, Error *e)
+{
+    bool done = true;
+    for (const Node *entry = from->first; done && entry; entry = entry->next) {
+        Node *own = node_get(map, entry->key);
+        if (own && own->kind == NODE_MAP && entry->kind == NODE_MAP) {
+            done = node_merge(arena, own, entry, budget, e);
+        } else if (!own) {
+            Node *copy = node_copy(arena, entry, budget, e);
+            done = copy;
+            if (copy) {
+                node_append(map, copy, entry->key);
+            }
+        }
+    }
+    return done;
+}
+
 void node_remove(Node *parent, const Node *child)
 {
     Node *before = NULL;

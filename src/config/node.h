@@ -29,7 +29,8 @@ typedef struct Node {
     bool animated;      // interpolated number: rounded for keys of whole numbers
     bool quoted;        // scalar in quotes, so never a number, a bool or null
     int line, column;   // 1-based; 0 for a node that is in no file (a default)
-    const char *source; // origin, "override path=value"; NULL = the scene file
+    const char *source; // origin, "override path=value"; NULL = a file
+    const char *file;   // the file it is in; NULL = the scene file
     const char *text;   // scalar
     const char *key;    // when the parent is a map
     int key_line, key_column;
@@ -68,6 +69,10 @@ static inline const Node *node_place(const Node *map, const char *key)
 // Copies the whole tree below node. *budget: the number of nodes still allowed; a long text counts
 // as several. ERROR_INPUT when it is exhausted.
 Node *node_copy(Arena *arena, const Node *node, int *budget, Error *e);
+
+// Adds copies of the entries of a map that the map does not have, and goes on below the maps that
+// both have: values of `map` stay. *budget: as for node_copy.
+bool node_merge(Arena *arena, Node *map, const Node *from, int *budget, Error *e);
 
 // Removes child from parent.
 void node_remove(Node *parent, const Node *child);

@@ -64,6 +64,9 @@ typedef struct Kind {
     // scene.
     bool (*own_space)(OwnSpace *own, void *params, Error *e);
 
+    // Seed that its parameters give, in place of one derived from the name; 0 = none. NULL = never.
+    uint64_t (*seed)(const void *params);
+
     // Name of the object whose surface it grows over, as its key envelope.0.object gives it; NULL =
     // none. It grows in scene space then. Recipe.surface is that surface.
     const char *(*over)(const void *params);

@@ -79,7 +79,9 @@ uint64_t scene_object_seed(const Scene *scene, int index)
 {
     const SceneObject *object = &scene->objects[index];
     uint64_t name = hash_bytes(HASH_START, object->name, strlen(object->name));
-    return object->seed ? object->seed : random_key(name, scene->seed);
+    uint64_t own = object->kind->seed ? object->kind->seed(object->params) : 0;
+    own = own ? own : object->seed;
+    return own ? own : random_key(name, scene->seed);
 }
 
 OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error *e)

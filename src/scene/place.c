@@ -1,23 +1,32 @@
 #include "scene/place.h"
 
-#include "config/yaml.h"
-#include "scene/overrides.h"
+#include "scene/document.h"
 
 #include <stdio.h>
 #include <string.h>
 
 enum { LONGEST_PATH = 512 };
 
-// Parses the document again; NULL when out of memory. This is needed only for errors, so that
+// Reads the document again; NULL when out of memory. This is needed only for errors, so that
 // scenes need not keep their documents.
 static const Node *read_again(Arena *arena, const Scene *scene)
 {
-    Node *root = yaml_parse(arena, scene->text, strlen(scene->text), scene->file, NULL, NULL);
-    const char *at = scene->overrides;
-    while (root && *at && override_apply(arena, root, at, NULL)) {
-        at += strlen(at) + 1;
+    int count = 0;
+    for (const char *at = scene->overrides; *at; at += strlen(at) + 1) {
+        count++;
     }
-    return *at ? NULL : root;
+    const char **overrides = arena_alloc(arena, sizeof *overrides * (size_t)(count + 1), NULL);
+    const char *at = scene->overrides;
+    for (int i = 0; overrides && i < count; i++, at += strlen(at) + 1) {
+        overrides[i] = at;
+    }
+    SceneSource source = {.text = scene->text,
+                          .length = strlen(scene->text),
+                          .name = scene->file,
+                          .folder = scene->folder,
+                          .overrides = overrides,
+                          .override_count = count};
+    return overrides ? document_read(arena, &source, NULL) : NULL;
 }
 
 static void locate(const Node *node, const Scene *scene, Error *e)
@@ -26,7 +35,7 @@ static void locate(const Node *node, const Scene *scene, Error *e)
     if (node->source) {
         error_locate(e, node->source, 0, 0);
     } else {
-        error_locate(e, scene->file, by_key ? node->key_line : node->line,
+        error_locate(e, node->file ? node->file : scene->file, by_key ? node->key_line : node->line,
                      by_key ? node->key_column : node->column);
     }
 }

@@ -2,62 +2,15 @@
 
 #include "base/c_locale.h"
 #include "base/memory.h"
+#include "config/file_text.h"
 #include "config/load.h"
-#include "config/yaml.h"
 #include "scene/builtin.h"
-#include "scene/overrides.h"
+#include "scene/document.h"
 #include "scene/settle.h"
 #include "scene/spec.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#define LARGEST_FILE (16 << 20) // bytes
-
-// The source of a scene.
-typedef struct SceneSource {
-    const char *text;
-    size_t length;
-    const char *name, *folder;
-    const char *const *overrides;
-    int override_count;
-    const SceneChange *changes;
-    int change_count;
-} SceneSource;
-
-// The parsed document with overrides applied; NULL and e on failure.
-static Node *read_document(Arena *arena, const SceneSource *source, Error *e)
-{
-    const char *zero = memchr(source->text, 0, source->length);
-    if (zero) {
-        error_set(e, ERROR_INPUT,
-                  "not a text file: a NUL at byte %td; a scene is YAML text in UTF-8",
-                  zero - source->text);
-        error_locate(e, source->name, 0, 0);
-        return NULL;
-    }
-    Node *root = yaml_parse(arena, source->text, source->length, source->name, NULL, e);
-    if (root && root->kind != NODE_MAP && !node_is_null(root)) { // has no keys to override
-        return root;
-    }
-    for (int i = 0; root && i < source->override_count; i++) {
-        if (!override_apply(arena, root, source->overrides[i], e)) {
-            return NULL;
-        }
-    }
-    for (int i = 0; root && i < source->change_count; i++) {
-        const SceneChange *change = &source->changes[i];
-        if (!override_change(arena, root, change, e)) {
-            error_locate(e, source->name, change->line, change->column);
-            return NULL;
-        }
-    }
-    return root;
-}
 
 // "path=value\0 ... \0"
 static char *keep_overrides(Arena *arena, const SceneSource *source, Error *e)
@@ -110,7 +63,7 @@ static Scene *read_source(const SceneSource *source, Error *e)
     Scene *scene = NULL;
     CLocale locale;
     if (kept && c_locale_enter(&locale, e)) {
-        const Node *document = read_document(nodes, source, e);
+        const Node *document = document_read(nodes, source, e);
         scene = document ? load_scene(kept, document, source, e) : NULL;
         c_locale_leave(&locale);
     }
@@ -160,47 +113,11 @@ Scene *scene_changed(const Scene *scene, const SceneChange *changes, int count, 
     return changed;
 }
 
-// Reads the whole file as heap text.
-static char *read_file(const char *file, size_t *length, Error *e)
-{
-    struct stat status;
-    int descriptor = open(file, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0 || fstat(descriptor, &status) != 0) {
-        error_set(e, ERROR_INPUT, "cannot read it: %s; name a scene file", strerror(errno));
-    } else if (!S_ISREG(status.st_mode)) {
-        error_set(e, ERROR_INPUT, "a %s; name a scene file",
-                  S_ISDIR(status.st_mode) ? "folder" : "device or pipe");
-    } else if (status.st_size > LARGEST_FILE) {
-        error_set(e, ERROR_INPUT, "%.1f MB long; a scene has at most %d MB",
-                  (double)status.st_size / 1048576.0, LARGEST_FILE >> 20);
-    } else {
-        char *text = memory_alloc((int64_t)status.st_size + 1, 1, e);
-        ssize_t count = 0;
-        *length = 0;
-        while (text &&
-               (count = read(descriptor, text + *length, (size_t)status.st_size - *length)) > 0) {
-            *length += (size_t)count;
-        }
-        if (text && count < 0) {
-            error_set(e, ERROR_IO, "cannot read it: %s", strerror(errno));
-            free(text);
-            text = NULL;
-        }
-        close(descriptor);
-        return text;
-    }
-    if (descriptor >= 0) {
-        close(descriptor);
-    }
-    return NULL;
-}
-
 Scene *scene_read(const char *file, const char *const *overrides, int override_count, Error *e)
 {
     size_t length;
-    char *text = read_file(file, &length, e);
+    char *text = file_text_read(file, "scene", &length, e);
     if (!text) {
-        error_locate(e, file, 0, 0);
         return NULL;
     }
     const char *slash = strrchr(file, '/');

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Every scene of scenes/ that states targets is grown and measured and must meet them, and the command that says so
-# does say so. A scene whose growth takes long names lighter keys in a line "# small: path=value path=value".
+# does say so. A scene or a species whose growth takes long names lighter keys in a line "# small: path=value path=value".
 RAMIFY=${RAMIFY:-build/ramify}
 case $RAMIFY in /*) ;; *) RAMIFY=$PWD/$RAMIFY ;; esac
 folder=$(mktemp -d) && trap 'rm -rf "$folder"' EXIT
@@ -32,6 +32,16 @@ for scene in scenes/*.yaml; do
     for change in $(sed -n 's/^# small: //p' "$scene"); do set -- "$@" --set "$change"; done
     name=$(basename "$scene" .yaml)
     measures "targets_of_$name" 0 "$scene" --quiet "$@"
+done
+
+# So does every species of the library, as it stands alone.
+for species in scenes/species/*.yaml; do
+    name=$(basename "$species" .yaml)
+    set --
+    for change in $(sed -n 's/^# small: //p' "$species"); do set -- "$@" --set "objects.plant.$change"; done
+    kind=$(sed -n 's/^# kind: //p' "$species")
+    echo "objects: [{name: plant, ${kind:-tree}: {species: $name}}]" >"$folder/species.yaml"
+    measures "targets_of_species_$name" 0 "$folder/species.yaml" --quiet "$@"
 done
 
 cat >"$folder/bush.yaml" <<'END'

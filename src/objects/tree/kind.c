@@ -21,6 +21,12 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
            own_space_take_element(own, &tree->roots.element, e);
 }
 
+static uint64_t own_seed(const void *params)
+{
+    const TreeParams *tree = params;
+    return tree->seed;
+}
+
 static void describe(const void *params, char *text, size_t size)
 {
     const TreeParams *tree = params;
@@ -124,6 +130,7 @@ const Kind kind_tree = {
     .carried = true,
     .materials = {"bark", "twig", "leaf"},
     .own_space = own_space,
+    .seed = own_seed,
     .keeps_clear = true,
     .contends = true,
     .needs = needs,

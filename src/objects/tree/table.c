@@ -96,10 +96,18 @@ static const Table ROOTS_TABLE = {.name = "roots",
                                   .check = check_roots};
 
 static const Key TREE_KEYS[] = {
+    {KEY_OF(TreeParams, species, "species", KEY_TEXT),
+     .doc =
+         "Name of a species of the library, or path of a species file relative to this file: all "
+         "keys, materials and targets of that file apply, as far as the scene gives no other. "
+         "If it gives another height, lengths of trunk, crown and roots follow. A file "
+         "species/NAME.yaml beside the scene comes before the library's."},
     {KEY_OF(TreeParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Position of the trunk's base."},
     {KEY_OF(TreeParams, height, "height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000, .unit = "m",
      .doc = "Height of the whole tree; other sizes that are omitted or 0 follow it."},
+    {KEY_OF(TreeParams, seed, "seed", KEY_UINT64), .high = 18446744073709551615.0,
+     .doc = "Seed of this tree; 0 = the object's."},
     {KEY_OF(TreeParams, trunk, "trunk", KEY_GROUP), .table = &TRUNK_TABLE,
      .doc = "The trunk. It grows straight up unless lean, a tropism of its growth or a field bends "
             "it."},

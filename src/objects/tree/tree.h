@@ -42,6 +42,8 @@ typedef struct RootParams {
 } RootParams;
 
 typedef struct TreeParams {
+    char *species; // NULL: what it names is applied before the file is loaded (scene/species.h)
+    uint64_t seed; // 0 = the object's
     Vec3 position; // m, of the trunk's base
     float height;  // m
     TrunkParams trunk;

@@ -1,0 +1,77 @@
+#include "scene/species_size.h"
+
+#include "config/scalar.h"
+
+#include <string.h>
+
+enum { NUMBER_SIZE = 32 };
+
+// What is as large as the tree; leaves, bark and the tips of twigs are not.
+static const char *const GROUPS[] = {"trunk", "crown", "roots"};
+
+static bool number_of(const Node *node, double *value)
+{
+    return node && node->kind == NODE_SCALAR && !node->quoted && scalar_number(node->text, value);
+}
+
+static bool scale_number(Node *node, double factor, Arena *arena, Error *e)
+{
+    double value;
+    char text[NUMBER_SIZE];
+    if (!number_of(node, &value)) { // an error that loading reports
+        return true;
+    }
+    scalar_from_double(value * factor, text);
+    node->text = arena_text(arena, text, strlen(text), e);
+    return node->text;
+}
+
+static bool scale_value(Node *value, double factor, Arena *arena, Error *e)
+{
+    bool done = value->kind != NODE_SCALAR || scale_number(value, factor, arena, e);
+    for (Node *item = value->first; done && item; item = item->next) {
+        done = scale_number(item, factor, arena, e);
+    }
+    return done;
+}
+
+static bool scale_map(const Table *table, Node *map, double factor, Arena *arena, Error *e);
+
+static bool scale_key(const Key *row, Node *value, double factor, Arena *arena, Error *e)
+{
+    if (row->table && value->kind == NODE_MAP) {
+        return scale_map(row->table, value, factor, arena, e);
+    }
+    bool done = true;
+    for (Node *entry = value->first; row->table && done && entry; entry = entry->next) {
+        done = entry->kind != NODE_MAP || scale_map(row->table, entry, factor, arena, e);
+    }
+    bool is_length = row->unit && strcmp(row->unit, "m") == 0;
+    return done && (!is_length || row->table || scale_value(value, factor, arena, e));
+}
+
+static bool scale_map(const Table *table, Node *map, double factor, Arena *arena, Error *e)
+{
+    bool done = true;
+    for (Node *value = map->first; done && value; value = value->next) {
+        const Key *row = table_find(table, value->key);
+        done = !row || scale_key(row, value, factor, arena, e);
+    }
+    return done;
+}
+
+bool species_fit_size(const Table *table, const Node *given, Node *species, Arena *arena, Error *e)
+{
+    double wanted, own;
+    if (!number_of(node_get(given, "height"), &wanted) ||
+        !number_of(node_get(species, "height"), &own) || wanted == own || !(own > 0.0)) {
+        return true;
+    }
+    bool done = true;
+    for (size_t i = 0; done && i < sizeof GROUPS / sizeof *GROUPS; i++) {
+        Node *group = node_get(species, GROUPS[i]);
+        const Key *row = table_find(table, GROUPS[i]);
+        done = !group || !row || scale_key(row, group, wanted / own, arena, e);
+    }
+    return done;
+}
