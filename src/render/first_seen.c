@@ -12,6 +12,9 @@ static SeenKind kind_of_miss(const Tracer *tracer, Vec3 direction)
 
 static SeenKind kind_of_hit(const Tracer *tracer, const Hit *hit)
 {
+    if (!tracer->has_glow) {
+        return SEEN_SURFACE;
+    }
     if (accel_light(tracer->accel, hit) >= 0) {
         return SEEN_LIGHT;
     }

@@ -90,20 +90,21 @@ static void start_paths(const Tracer *tracer, int x, int y, int sample, int coun
     wave->count = count;
     wave->shadows.count = 0;
     sampler_lanes_clear(&wave->lanes);
+    Sampler sampler[WAVE_SIZE];
+    samplers_at(&tracer->plan, (uint32_t)x, (uint32_t)y, (uint32_t)sample, count, sampler);
     for (int i = 0; i < count; i++) {
-        path[i] = (Path){
-            .tracer = tracer,
-            .result = &result[i],
-            .shadows = &wave->shadows,
-            .sampler = sampler_at(&tracer->plan, (uint32_t)x, (uint32_t)y, (uint32_t)(sample + i)),
-            .throughput = {1.0f, 1.0f, 1.0f},
-            .media.now = tracer->outside,
-            .spread = tracer->camera.pixel_angle,
-            .mirrored = true,
-            .straight = true,
-            .ray.far = INFINITY};
+        path[i] = (Path){.tracer = tracer,
+                         .result = &result[i],
+                         .shadows = &wave->shadows,
+                         .sampler = sampler[i],
+                         .throughput = {1.0f, 1.0f, 1.0f},
+                         .media.now = tracer->outside,
+                         .spread = tracer->camera.pixel_angle,
+                         .mirrored = true,
+                         .straight = true,
+                         .ray.far = INFINITY};
         result[i] = (PathResult){.albedo = vec3_splat(1.0f), .alpha = 1.0f, .depth = INFINITY};
-        sampler_lanes_put(&wave->lanes, i, &path[i].sampler, SET_CAMERA);
+        sampler_lanes_put(&wave->lanes, i, &sampler[i], SET_CAMERA);
         wave->path[i] = &path[i];
     }
     sampler_lanes_draw(&tracer->plan.table, &wave->lanes);

@@ -20,6 +20,7 @@ typedef struct Tracer {
     Vec3 center;     // of the scene
     float medium_radius;
     bool has_index_matched; // some part is an index-matched interface
+    bool has_glow;          // lamps, or parts that glow
     CameraFrame camera;
     Filter filter;
     SamplePlan plan;
@@ -45,7 +46,7 @@ typedef struct PathResult {
     int object;
 } PathResult;
 
-// Fills outside, center, medium_radius and has_index_matched. bounds: of the scene.
+// Fills outside, center, medium_radius, has_index_matched and has_glow. bounds: of the scene.
 void tracer_set_media(Tracer *tracer, Aabb bounds);
 
 // Traces samples sample .. sample + count - 1 of pixel (x, y) together, count <= WAVE_SIZE.

@@ -14,8 +14,10 @@ void tracer_set_media(Tracer *tracer, Aabb bounds)
     tracer->center = vec3_scale(vec3_add(bounds.low, bounds.high), 0.5f);
     float radius = 0.5f * vec3_distance(bounds.low, bounds.high);
     tracer->medium_radius = m->extent > 0.0f ? m->extent : 3.0f * radius;
+    tracer->has_glow = world->light_count > 0;
     for (int64_t i = 0; i < world->geometry.count; i++) {
         const Material *surface = &world->material[world->geometry.part[i].material];
+        tracer->has_glow = tracer->has_glow || material_has(surface, TRAIT_EMISSIVE);
         tracer->has_index_matched = tracer->has_index_matched || material_is_index_matched(surface);
     }
 }

@@ -126,15 +126,30 @@ static uint32_t morton(uint32_t x, uint32_t y)
     return sum;
 }
 
-Sampler sampler_at(const SamplePlan *plan, uint32_t x, uint32_t y, uint32_t sample)
+void samplers_at(const SamplePlan *plan, uint32_t x, uint32_t y, uint32_t first, int count,
+                 Sampler sampler[])
 {
     uint64_t block = (uint64_t)(y >> BLOCK_BITS) << 32 | x >> BLOCK_BITS;
-    uint32_t round = sample >> plan->level, rest = sample & ((1u << plan->level) - 1u);
-    uint32_t index = morton(x, y) << plan->level | rest, reversed = reverse_bits(index);
-    return (Sampler){.table = &plan->table,
-                     .key = (uint32_t)random_key(random_key(plan->seed, block), round),
-                     .reversed = reversed,
-                     .lowest = index ? __builtin_ctz(reversed) : 32};
+    uint64_t block_key = random_key(plan->seed, block);
+    uint32_t stretch = morton(x, y) << plan->level, key = 0;
+    for (int i = 0; i < count; i++) {
+        uint32_t sample = first + (uint32_t)i, rest = sample & ((1u << plan->level) - 1u);
+        if (i == 0 || rest == 0) {
+            key = (uint32_t)random_key(block_key, sample >> plan->level);
+        }
+        uint32_t index = stretch | rest, reversed = reverse_bits(index);
+        sampler[i] = (Sampler){.table = &plan->table,
+                               .key = key,
+                               .reversed = reversed,
+                               .lowest = index ? __builtin_ctz(reversed) : 32};
+    }
+}
+
+Sampler sampler_at(const SamplePlan *plan, uint32_t x, uint32_t y, uint32_t sample)
+{
+    Sampler sampler;
+    samplers_at(plan, x, y, sample, 1, &sampler);
+    return sampler;
 }
 
 // What tells the scrambling of the four dimensions apart.

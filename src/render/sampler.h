@@ -39,6 +39,10 @@ void sample_plan_fill(SamplePlan *plan, uint64_t seed, int samples);
 
 Sampler sampler_at(const SamplePlan *plan, uint32_t x, uint32_t y, uint32_t sample);
 
+// Fills those of samples `first` and after: what they share is hashed once.
+void samplers_at(const SamplePlan *plan, uint32_t x, uint32_t y, uint32_t first, int count,
+                 Sampler sampler[]);
+
 // Four numbers in [0, 1). The first two are a (0, 2)-sequence over the samples of a pixel, and over
 // those of squares of 2, 4, 8 and 16 pixels.
 void sampler_draw(const Sampler *sampler, uint32_t set, float u[4]);

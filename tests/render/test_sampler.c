@@ -101,6 +101,23 @@ static void sets_and_blocks_are_independent(void **state)
     }
 }
 
+// Across the end of a pixel's stretch, where a new sequence begins.
+static void samplers_of_a_pixel_are_those_of_its_samples(void **state)
+{
+    (void)state;
+    SamplePlan plan;
+    sample_plan_fill(&plan, 9, 8);
+    Sampler together[20];
+    samplers_at(&plan, 35, 17, 5, 20, together);
+    for (uint32_t i = 0; i < 20; i++) {
+        Sampler alone = sampler_at(&plan, 35, 17, 5 + i);
+        assert_int_equal(together[i].key, alone.key);
+        assert_int_equal(together[i].reversed, alone.reversed);
+        assert_int_equal(together[i].lowest, alone.lowest);
+    }
+    assert_int_not_equal(together[2].key, together[3].key); // samples 7 and 8
+}
+
 // The error of a pixel for a smooth integrand and one with an edge.
 static double pixel_error(const SamplePlan *plan, uint32_t x, uint32_t y, int samples, bool edge)
 {
@@ -231,6 +248,7 @@ int main(void)
         cmocka_unit_test(stratifies_each_of_four_dimensions),
         cmocka_unit_test(neighbours_complete_each_other),
         cmocka_unit_test(sets_and_blocks_are_independent),
+        cmocka_unit_test(samplers_of_a_pixel_are_those_of_its_samples),
         cmocka_unit_test(noise_is_blue_on_the_screen),
         cmocka_unit_test(error_falls_faster_than_random),
         cmocka_unit_test(lanes_draw_as_one),

@@ -153,20 +153,25 @@ bool accel_occluded(const Accel *accel, const Ray *ray)
 
 // ---- packets
 
-static void set_packet_ray(struct RTCRay16 *packet, int i, const Ray *ray)
+// Lanes beyond count repeat the first ray; valid is 0 there.
+static void fill_packet(struct RTCRay16 *packet, const Ray ray[], int count, int valid[])
 {
-    packet->org_x[i] = ray->origin.x;
-    packet->org_y[i] = ray->origin.y;
-    packet->org_z[i] = ray->origin.z;
-    packet->dir_x[i] = ray->direction.x;
-    packet->dir_y[i] = ray->direction.y;
-    packet->dir_z[i] = ray->direction.z;
-    packet->tnear[i] = 0.0f;
-    packet->tfar[i] = ray->far;
-    packet->time[i] = 0.0f;
-    packet->mask[i] = ~0u;
-    packet->id[i] = ray->key;
-    packet->flags[i] = 0;
+    for (int i = 0; i < PACKET_SIZE; i++) {
+        const Ray *r = &ray[i < count ? i : 0];
+        packet->org_x[i] = r->origin.x;
+        packet->org_y[i] = r->origin.y;
+        packet->org_z[i] = r->origin.z;
+        packet->dir_x[i] = r->direction.x;
+        packet->dir_y[i] = r->direction.y;
+        packet->dir_z[i] = r->direction.z;
+        packet->tfar[i] = r->far;
+        packet->id[i] = r->key;
+        valid[i] = i < count ? -1 : 0;
+    }
+    memset(packet->tnear, 0, sizeof packet->tnear);
+    memset(packet->time, 0, sizeof packet->time);
+    memset(packet->mask, 0xff, sizeof packet->mask);
+    memset(packet->flags, 0, sizeof packet->flags);
 }
 
 static void intersect_packet(const Accel *accel, const Ray ray[], int count, Hit hit[], bool met[])
@@ -177,10 +182,9 @@ static void intersect_packet(const Accel *accel, const Ray ray[], int count, Hit
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     struct RTCRayHit16 query;
     int valid[PACKET_SIZE] __attribute__((aligned(64)));
+    fill_packet(&query.ray, ray, count, valid);
     for (int i = 0; i < PACKET_SIZE; i++) {
-        set_packet_ray(&query.ray, i, &ray[i < count ? i : 0]);
         query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-        valid[i] = i < count ? -1 : 0;
     }
     rtcIntersect16(valid, accel->scene, &context.embree, &query);
     for (int i = 0; i < count; i++) {
@@ -225,10 +229,7 @@ static void occluded_packet(const Accel *accel, const Ray ray[], int count, bool
     context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     struct RTCRay16 packet;
     int valid[PACKET_SIZE] __attribute__((aligned(64)));
-    for (int i = 0; i < PACKET_SIZE; i++) {
-        set_packet_ray(&packet, i, &ray[i < count ? i : 0]);
-        valid[i] = i < count ? -1 : 0;
-    }
+    fill_packet(&packet, ray, count, valid);
     rtcOccluded16(valid, accel->scene, &context.embree, &packet);
     for (int i = 0; i < count; i++) {
         blocked[i] = packet.tfar[i] < 0.0f;
