@@ -29,6 +29,11 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"altitude", PATTERN_ALTITUDE},
                                     {0}};
 
+static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
+                                 {"birch", BARK_BIRCH},       {"smooth", BARK_SMOOTH},
+                                 {"fibrous", BARK_FIBROUS},   {"flakes", BARK_FLAKES},
+                                 {"bands", BARK_BANDS},       {0}};
+
 static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, name, "name", KEY_NAME), .flags = KEY_REQUIRED, .count = 64,
      .doc = "Name that objects refer to. With the name of a built-in material, the entry changes "
@@ -78,6 +83,14 @@ static const Key MATERIAL_KEYS[] = {
             "cups of a coral; youth: color2 where a branch still grows; sand: ripples of a sea "
             "floor; mountain: rock, scree, grass and snow; badlands: coloured strata; water: "
             "ripples; altitude: a map's scale of colours over a terrain; none: one colour."},
+    {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
+     .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "
+            "and ash; plates: thick scaly plates, on thinner stems thin flakes of color2, as of "
+            "pine; birch: white, with dark lenticels across, peeling, and black (color2) diamonds; "
+            "smooth: a skin with faint wrinkles and scars, as of beech; fibrous: long strips, as "
+            "of cypress; flakes: patches of several ages from color, the freshest, to color2, as "
+            "of plane and eucalyptus; bands: glossy with corky bands (color2) across, as of "
+            "cherry."},
     {KEY_OF(Material, colors, "colors", KEY_LIST), .kinds = PATTERNED,
      .count_offset = offsetof(Material, color_count), .count = 64, .table = &color_stop_table,
      .doc = "Pattern altitude: its colours by altitude, linear between these; none = from color to "

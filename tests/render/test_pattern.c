@@ -121,10 +121,10 @@ static PatternShade shade_of(const Material *m, const SurfacePoint *p)
 
 // A grown mesh's u runs both ways round and meets itself twice: neither colour nor bump may show
 // it.
-static void test_bark_has_no_seam(void **state)
+static void has_no_seam(BarkKind kind)
 {
-    (void)state;
     Material m = bark();
+    m.bark = kind;
     for (int i = 0; i < 400; i++) {
         float along = 0.013f * (float)i;
         for (int seam = 0; seam < 2; seam++) {
@@ -137,20 +137,30 @@ static void test_bark_has_no_seam(void **state)
     }
 }
 
+static void test_bark_has_no_seam(void **state)
+{
+    (void)state;
+    for (int kind = BARK_FURROWED; kind <= BARK_BANDS; kind++) {
+        has_no_seam((BarkKind)kind);
+    }
+}
+
 typedef struct Spread {
     double mean, deviation, tilt;
     double around, along; // mean change of brightness over 1 cm
 } Spread;
 
-static Spread measure_bark(float radius, float footprint)
+static Spread measure_kind(BarkKind kind, float radius, float footprint)
 {
     Material m = bark();
+    m.bark = kind;
     Spread s = {0};
     const int count = 4000;
     double squares = 0.0;
     for (int i = 0; i < count; i++) {
         float angle = random_range(random_key(1, (uint64_t)i), -3.0f, 3.0f);
-        float along = random_range(random_key(2, (uint64_t)i), 0.0f, 5.0f);
+        float foot = kind == BARK_FURROWED ? 0.0f : 12.0f; // above what lies at the foot
+        float along = foot + random_range(random_key(2, (uint64_t)i), 0.0f, 5.0f);
         SurfacePoint p = trunk_point(angle, along, radius);
         SurfacePoint q = trunk_point(angle + 0.01f / radius, along, radius);
         SurfacePoint r = trunk_point(angle, along + 0.01f, radius);
@@ -165,6 +175,11 @@ static Spread measure_bark(float radius, float footprint)
     }
     s.deviation = sqrt(fmax(0.0, squares - s.mean * s.mean));
     return s;
+}
+
+static Spread measure_bark(float radius, float footprint)
+{
+    return measure_kind(BARK_FURROWED, radius, footprint);
 }
 
 // Furrows run along the stem, are deep and dark, fade with distance, and leave twigs smooth.
@@ -191,16 +206,46 @@ static void test_bark_scale(void **state)
     assert_true(fabs(thin.along / thick.along - 1.0) < 0.15);
 }
 
-// Imported meshes know no branch.
-static void test_bark_without_branch(void **state)
+// Marks run along the stem or across it as in nature, in metres, and fade with distance.
+static void test_bark_kinds(void **state)
 {
     (void)state;
+    static const struct {
+        BarkKind kind;
+        double least, most; // change around over change along
+    } kinds[] = {{BARK_PLATES, 1.05, 3.0},  {BARK_BIRCH, 0.3, 0.9},   {BARK_SMOOTH, 0.1, 0.95},
+                 {BARK_FIBROUS, 3.0, 50.0}, {BARK_FLAKES, 1.02, 2.0}, {BARK_BANDS, 0.1, 0.7}};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        Spread trunk = measure_kind(kinds[i].kind, 0.25f, 5e-4f);
+        Spread thick = measure_kind(kinds[i].kind, 0.5f, 5e-4f);
+        Spread distant = measure_kind(kinds[i].kind, 0.25f, 0.5f);
+        double direction = trunk.around / trunk.along;
+        assert_true(direction > kinds[i].least && direction < kinds[i].most);
+        assert_true(trunk.tilt > 1e-4 && distant.tilt < 1e-6);
+        assert_true(fabs(distant.mean / trunk.mean - 1.0) < 0.15);
+        assert_true(fabs(thick.around / trunk.around - 1.0) < 0.25);
+        assert_true(fabs(thick.along / trunk.along - 1.0) < 0.25);
+    }
+}
+
+static void without_branch(BarkKind kind)
+{
     Material m = bark();
+    m.bark = kind;
     SurfacePoint p = {.normal = vec3(0, 1, 0), .geometric_normal = vec3(0, 1, 0)};
     shade_of(&m, &p);
     p.normal = p.geometric_normal = vec3(0.6f, 0, 0.8f);
     p.object_position = vec3(100, 200, -300);
     shade_of(&m, &p);
+}
+
+// Imported meshes know no branch.
+static void test_bark_without_branch(void **state)
+{
+    (void)state;
+    for (int kind = BARK_FURROWED; kind <= BARK_BANDS; kind++) {
+        without_branch((BarkKind)kind);
+    }
 }
 
 static void test_ground(void **state)
@@ -330,6 +375,7 @@ int main(void)
         cmocka_unit_test(test_bark_has_no_seam),
         cmocka_unit_test(test_bark_relief),
         cmocka_unit_test(test_bark_scale),
+        cmocka_unit_test(test_bark_kinds),
         cmocka_unit_test(test_bark_without_branch),
         cmocka_unit_test(test_ground),
         cmocka_unit_test(test_leaf_veins),

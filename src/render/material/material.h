@@ -49,6 +49,16 @@ typedef enum PatternKind {
     PATTERN_ALTITUDE   // the colours of a map, by the altitude of the land
 } PatternKind;
 
+typedef enum BarkKind {
+    BARK_FURROWED, // long ridges and deep furrows: oak, lime, ash
+    BARK_PLATES,   // thick scaly plates; thin orange flakes (color2) on thinner stems: pine
+    BARK_BIRCH,    // white, dark lenticels across, peeling, black (color2) diamonds and foot
+    BARK_SMOOTH,   // a grey skin with faint wrinkles and scars (color2): beech
+    BARK_FIBROUS,  // long stringy strips: cypress, juniper
+    BARK_FLAKES,   // patches of several ages, from color to color2: plane, eucalyptus
+    BARK_BANDS     // glossy, corky bands (color2) across: cherry
+} BarkKind;
+
 // A point of a map's scale of colours.
 typedef struct ColorStop {
     float at;   // altitude, 0..1 of the land's relief
@@ -73,6 +83,7 @@ typedef struct Material {
     float film_drainage;  // 0..1: how much thinner it is where it faces up, thicker where down
     float film_swirl;     // 0..1: how far the thickness varies in streaks, pattern_scale wide
     PatternKind pattern;
+    BarkKind bark;       // PATTERN_BARK
     float pattern_scale; // m: wavelength of the pattern's largest feature; 0 = the kind's own
     float pattern_depth; // m: bump height; 0 = none
     float snow_line, grass_line; // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above

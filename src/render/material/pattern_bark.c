@@ -1,44 +1,9 @@
 // Furrowed bark like that of oaks and limes: long ridges that fork and join, deep dark furrows
 // between them, shallow cracks across. Laid out in metres around and along the branch. Ridges have
-// one size on all stems thicker than a hand; branches have finer ones, twigs a smooth skin.
-#include "render/material/pattern.h"
+// one size on all stems thicker than a hand; branches have finer ones, twigs a smooth skin. Other
+// kinds of bark: pattern_bark_*.c.
 #include "render/material/pattern_noise.h"
-
-#include <stddef.h>
-
-typedef struct BarkPlace {
-    Vec3 p;       // m: where noise is looked up, on a straight stem along z
-    Vec3 along_u; // the direction there that u goes; v goes along z
-    Vec3 u, v;    // world: unit directions around and along the stem
-} BarkPlace;
-
-// Unbends the stem: a point on a cylinder of the stem's radius, found from the direction of the
-// normal, so that no seam shows where u closes or is uneven. side_u: along a line of equal v,
-// either way.
-static BarkPlace stem_place(const SurfacePoint *point, Vec3 side_u)
-{
-    Vec3 n = point->geometric_normal;
-    Vec3 axis = vec3_cross(n, side_u);
-    axis = vec3_normalize(vec3_dot(axis, point->tangent_v) < 0.0f ? vec3_neg(axis) : axis);
-    const Vec3 reference = {0.83f, -0.21f, 0.52f}; // few branches grow just that way
-    Vec3 x = vec3_normalize(vec3_madd(reference, -vec3_dot(reference, axis), axis));
-    Vec3 y = vec3_cross(axis, x);
-    float c = vec3_dot(n, x), s = vec3_dot(n, y);
-    return (BarkPlace){vec3(point->radius * c, point->radius * s, point->uv.y), vec3(-s, c, 0.0f),
-                       vec3_cross(axis, n), axis};
-}
-
-// On meshes without branches (imported ones) bark runs along the object's y axis.
-static BarkPlace bark_place(const SurfacePoint *point)
-{
-    float u = vec3_length(point->tangent_u);
-    if (point->radius > 0.0f && u > 0.0f) {
-        return stem_place(point, vec3_scale(point->tangent_u, 1.0f / u));
-    }
-    Vec3 p = point->object_position, n = point->geometric_normal;
-    Vec3 side = vec3_normalize(vec3(n.z, 0.0f, -n.x + 1e-6f));
-    return (BarkPlace){vec3(p.x, p.z, p.y), vec3(side.x, side.z, 0.0f), side, vec3(0, 1, 0)};
-}
+#include "render/material/pattern_stem.h"
 
 // Height 0..1, its slope per metre around and along the stem, and inputs to the colour.
 typedef struct BarkRelief {
@@ -50,8 +15,10 @@ typedef struct BarkRelief {
 
 enum { LENGTHENING = 6 }; // of ridges along the branch
 
+#define BARK_WIDTH 0.045f // m: of the ridges, by default
+
 // The position in units of ridge widths, distorted so that ridges wind and have ragged edges.
-static Vec3 ridge_lookup(const BarkPlace *place, float width, Vec3 wind)
+static Vec3 ridge_lookup(const StemPlace *place, float width, Vec3 wind)
 {
     Vec3 torn, p = vec3_scale(place->p, 1.0f / width);
     noise_solid(vec3(3.1f * p.x, 3.1f * p.y, 1.3f * p.z), 15, &torn);
@@ -60,7 +27,7 @@ static Vec3 ridge_lookup(const BarkPlace *place, float width, Vec3 wind)
     return vec3_madd(q, 0.055f, torn);
 }
 
-static BarkRelief ridges(const BarkPlace *place, float width, Vec3 wind, uint32_t seed)
+static BarkRelief ridges(const StemPlace *place, float width, Vec3 wind, uint32_t seed)
 {
     CellPoint cell = noise_cells(ridge_lookup(place, width, wind), seed);
     // Converts to true distances on the surface, in ridge widths: distances are compressed along
@@ -87,7 +54,7 @@ static BarkRelief ridges(const BarkPlace *place, float width, Vec3 wind, uint32_
 }
 
 // Adds `height` of a noise with this slope at the place.
-static void add_relief(BarkRelief *r, const BarkPlace *place, float height, Vec3 slope)
+static void add_relief(BarkRelief *r, const StemPlace *place, float height, Vec3 slope)
 {
     r->height += height;
     r->slope_u += vec3_dot(slope, place->along_u);
@@ -95,7 +62,7 @@ static void add_relief(BarkRelief *r, const BarkPlace *place, float height, Vec3
 }
 
 // A lookup stretched along the branch, different for every ridge.
-static Vec3 grain_lookup(const BarkRelief *r, const BarkPlace *place, float wavelength,
+static Vec3 grain_lookup(const BarkRelief *r, const StemPlace *place, float wavelength,
                          float lengthening)
 {
     Vec3 p = vec3_scale(place->p, 1.0f / wavelength);
@@ -103,7 +70,7 @@ static Vec3 grain_lookup(const BarkRelief *r, const BarkPlace *place, float wave
 }
 
 // Thin cracks along the grain, where a stretched noise passes through zero.
-static void add_fissures(BarkRelief *r, const BarkPlace *place, float wavelength, float height)
+static void add_fissures(BarkRelief *r, const StemPlace *place, float wavelength, float height)
 {
     const float lengthening = 5.0f, width = 0.2f;
     Vec3 g;
@@ -120,7 +87,7 @@ static void add_fissures(BarkRelief *r, const BarkPlace *place, float wavelength
 }
 
 // Flakes: dents that are sharper than bulges.
-static void add_flakes(BarkRelief *r, const BarkPlace *place, float wavelength, float height)
+static void add_flakes(BarkRelief *r, const StemPlace *place, float wavelength, float height)
 {
     const float lengthening = 1.8f;
     Vec3 g;
@@ -139,7 +106,7 @@ static BarkRelief mix_relief(BarkRelief a, BarkRelief b, float t)
 }
 
 // The relief for the stem's size: coarse ridges, fine ones, or a blend between.
-static BarkRelief relief_at(const SurfacePoint *point, const BarkPlace *place, float width,
+static BarkRelief relief_at(const SurfacePoint *point, const StemPlace *place, float width,
                             Vec3 wind)
 {
     float thick = point->radius > 0.0f ? smoothstepf(0.05f, 0.12f, point->radius) : 1.0f;
@@ -192,9 +159,39 @@ static Vec3 twig_color(Vec3 color, Vec3 wind)
     return vec3_scale(young, 1.0f + 0.15f * wind.z);
 }
 
-void pattern_bark(const Material *m, const SurfacePoint *point, PatternShade *shade)
+static BarkLook look_at(const Material *m, const StemPlace *place, float scale, float footprint)
 {
-    float width = m->pattern_scale > 0.0f ? m->pattern_scale : 0.045f;
+    switch (m->bark) {
+    case BARK_PLATES:
+        return bark_plates(m, place, scale, footprint);
+    case BARK_BIRCH:
+        return bark_birch(m, place, scale, footprint);
+    case BARK_SMOOTH:
+        return bark_smooth(m, place, scale, footprint);
+    case BARK_FIBROUS:
+        return bark_fibrous(m, place, scale, footprint);
+    case BARK_FLAKES:
+        return bark_flakes(m, place, scale, footprint);
+    default:
+        return bark_bands(m, place, scale, footprint);
+    }
+}
+
+// pattern_scale of these is the size of features relative to nature's.
+static void other_bark(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    StemPlace place = stem_place(point);
+    float scale = m->pattern_scale > 0.0f ? m->pattern_scale / BARK_WIDTH : 1.0f;
+    BarkLook look = look_at(m, &place, scale, point->footprint);
+    shade->color = vec3_max(look.color, vec3_splat(0.0f));
+    Vec3 slope = vec3_madd(vec3_scale(place.u, look.slope_u), look.slope_v, place.v);
+    float depth = m->pattern_depth * pattern_detail(1.6f * BARK_WIDTH * scale, point->footprint);
+    shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, depth));
+}
+
+static void furrowed_bark(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float width = m->pattern_scale > 0.0f ? m->pattern_scale : BARK_WIDTH;
     Vec3 wind; // three smooth random numbers of the place
     Vec3 p = vec3_scale(point->object_position, 0.22f / width);
     noise_solid(vec3(1.3f * p.x, 0.9f * p.y, 1.3f * p.z), 10, &wind);
@@ -206,11 +203,20 @@ void pattern_bark(const Material *m, const SurfacePoint *point, PatternShade *sh
     Vec3 mean = add_growth(vec3_lerp(shade->color, m->color2, 0.44f), point, &flat, wind);
     Vec3 color = mean;
     if (seen > 0.0f) {
-        BarkPlace place = bark_place(point);
+        StemPlace place = stem_place(point);
         BarkRelief relief = relief_at(point, &place, width, wind);
         color = vec3_lerp(mean, bark_color(m, point, &relief, wind, shade->color), seen);
         Vec3 slope = vec3_madd(vec3_scale(place.u, relief.slope_u), relief.slope_v, place.v);
         shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, seen * m->pattern_depth));
     }
     shade->color = vec3_lerp(twig_color(shade->color, wind), color, old);
+}
+
+void pattern_bark(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    if (m->bark == BARK_FURROWED) {
+        furrowed_bark(m, point, shade);
+    } else {
+        other_bark(m, point, shade);
+    }
 }

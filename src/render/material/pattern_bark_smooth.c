@@ -1,0 +1,96 @@
+// Barks without furrows: the smooth skin of beeches, the patches of planes and eucalypts, the
+// strips of cypresses.
+#include "render/material/pattern_noise.h"
+#include "render/material/pattern_stem.h"
+
+#include <math.h>
+#include <stddef.h>
+
+BarkLook bark_smooth(const Material *m, const StemPlace *place, float scale, float footprint)
+{
+    BarkLook look = {0};
+    Vec3 g, h;
+    float seen = pattern_detail(0.012f * scale, footprint);
+    float tone = noise_fractal(stem_lookup(place, 0.5f * scale, 0.35f * scale), 2, 51);
+    // Lichens: pale round blots; algae: a breath of green where rain runs down.
+    float blot = smoothstepf(
+        0.12f, 0.32f, noise_fractal(stem_lookup(place, 0.13f * scale, 0.10f * scale), 2, 52));
+    float run = smoothstepf(0.0f, 0.6f,
+                            noise_solid(stem_lookup(place, 0.12f * scale, 1.6f * scale), 53, NULL));
+    look.color = vec3_scale(m->color, 1.0f + 0.22f * tone);
+    look.color = vec3_lerp(look.color, vec3_scale(m->color, 1.28f), 0.55f * blot);
+    look.color =
+        vec3_mul(look.color, vec3(1.0f - 0.16f * run, 1.0f - 0.07f * run, 1.0f - 0.24f * run));
+    float wrinkle = noise_solid(stem_lookup(place, 0.06f * scale, 0.007f * scale), 54, &g);
+    stem_add_slope(&look, place, 0.10f * seen, 0.06f * scale, 0.007f * scale, g);
+    look.color = vec3_scale(look.color, 1.0f + 0.06f * seen * wrinkle);
+    // Scars: dark, wider than high, few.
+    const float around = 0.11f * scale, along = 0.035f * scale;
+    float n = noise_solid(stem_lookup(place, around, along), 55, &h);
+    float scar = smoothstepf(0.52f, 0.60f, n) * smoothstepf(0.03f, 0.08f, place->radius);
+    stem_add_slope(&look, place, -0.5f * scar, around, along, h);
+    look.color = vec3_lerp(look.color, m->color2, 0.75f * scar);
+    return look;
+}
+
+// The age of the patch at the place and how near its edge is (1 = at it), with the slope there.
+static float patch_age(BarkLook *look, const StemPlace *place, float around, float along,
+                       float height, Vec3 wind, uint32_t seed, float *edge)
+{
+    Vec3 q = vec3_madd(stem_lookup(place, around, along), 0.38f, wind);
+    CellPoint cell = noise_cells(q, seed);
+    float t = clampf(cell.border / 0.05f, 0.0f, 1.0f), age = noise_unit(cell.cell, 8);
+    *edge = 1.0f - t;
+    float slope = t < 1.0f ? height * (1.0f - t) * (age - 0.45f) / 0.05f : 0.0f;
+    stem_add_slope(look, place, slope, around, along, cell.normal);
+    return age;
+}
+
+// Fresh patches are pale; they green and then brown with age. Old trunks keep old bark at the foot.
+static Vec3 patch_color(const Material *m, float age)
+{
+    Vec3 olive = vec3_mul(vec3_lerp(m->color, m->color2, 0.55f), vec3(0.95f, 1.02f, 0.84f));
+    return age < 0.5f ? vec3_lerp(m->color, olive, smoothstepf(0.15f, 0.45f, age))
+                      : vec3_lerp(olive, m->color2, smoothstepf(0.5f, 0.75f, age));
+}
+
+BarkLook bark_flakes(const Material *m, const StemPlace *place, float scale, float footprint)
+{
+    BarkLook look = {0};
+    Vec3 wind;
+    float edge, edge2, seen = pattern_detail(0.03f * scale, footprint);
+    noise_solid(stem_lookup(place, 0.10f * scale, 0.13f * scale), 61, &wind);
+    float size = scale * (0.5f + 0.5f * smoothstepf(0.02f, 0.12f, place->radius));
+    float large = patch_age(&look, place, 0.16f * size, 0.24f * size, 0.5f, wind, 62, &edge);
+    float small = patch_age(&look, place, 0.055f * size, 0.085f * size, 0.4f, wind, 63, &edge2);
+    float foot = smoothstepf(0.15f, 0.4f, place->radius) *
+                 expf(-fmaxf(place->height, 0.0f) / (6.0f * place->radius + 0.05f));
+    float age = clampf(0.62f * large + 0.38f * small + 0.5f * foot, 0.0f, 1.0f);
+    float grain = noise_solid(stem_lookup(place, 0.02f * scale, 0.02f * scale), 64, NULL);
+    look.color = vec3_scale(patch_color(m, age), 1.0f + 0.07f * seen * grain);
+    look.color = vec3_scale(look.color, 1.0f - 0.22f * seen * fmaxf(edge, 0.6f * edge2) * age);
+    float twig = smoothstepf(0.02f, 0.008f, place->radius);
+    look.color = vec3_lerp(look.color, vec3_lerp(m->color, m->color2, 0.8f), twig);
+    return look;
+}
+
+BarkLook bark_fibrous(const Material *m, const StemPlace *place, float scale, float footprint)
+{
+    BarkLook look = {0};
+    Vec3 bend, g, h;
+    noise_solid(stem_lookup(place, 0.10f * scale, 0.5f * scale), 71, &bend);
+    float seen = pattern_detail(0.012f * scale, footprint);
+    const float around = 0.030f * scale, along = 0.42f * scale;
+    Vec3 q = vec3_madd(stem_lookup(place, around, along), 0.35f, bend);
+    float n = noise_solid(q, 72, &g), ridge = 1.0f - 1.4f * fabsf(n);
+    stem_add_slope(&look, place, n < 0.0f ? 0.9f : -0.9f, around, along, g);
+    float fibre = noise_solid(stem_lookup(place, 0.0065f * scale, 0.16f * scale), 73, &h);
+    stem_add_slope(&look, place, 0.16f * seen, 0.0065f * scale, 0.16f * scale, h);
+    // Strips whose ends come off: brighter and redder where they are fresh.
+    float strip = noise_solid(stem_lookup(place, 0.05f * scale, 0.22f * scale), 74, NULL);
+    Vec3 red = vec3_lerp(m->color, m->color2, 0.5f);
+    Vec3 color = vec3_lerp(m->color, red, smoothstepf(0.1f, 0.5f, strip));
+    color = vec3_lerp(vec3_scale(m->color2, 0.35f), color, smoothstepf(0.25f, 0.9f, ridge));
+    look.color = vec3_scale(color, 1.0f + 0.22f * seen * fibre);
+    return look;
+}
