@@ -4,7 +4,8 @@
 #include "render/accel/accel_pairs.h"
 
 #include "image/flip.h"
-#include "mesh/leaf.h"
+#include "mesh/grass.h"
+#include "mesh/leaf/leaf.h"
 #include "render/tiny_world.h"
 
 static const LeafParams LEAF = {.length = 0.11f,

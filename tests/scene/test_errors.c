@@ -43,6 +43,8 @@ static const Case scenes[] = {
     {TREE "camera: {heigth: 3}\n",
      ":2:10: unknown key 'heigth' in camera; known: position, target, up, fov, focal_length, "
      "aperture, focus_distance, shift"},
+    {"objects: [{name: oak, tree: {leaves: {shape: palmate, lobes: 17}}}]\n",
+     ":1:62: objects.oak.tree.leaves.lobes is 17; a palmate leaf has at most 15 lobes"},
     {"objects: [{name: oak, tree: {leaves: {max_cuont: 5}}}]\n",
      ":1:39: unknown key 'max_cuont' in objects.oak.tree.leaves; did you mean 'max_count'?"},
     {"objects: [{name: oak, tree: {transform: 5}}]\n",

@@ -42,6 +42,16 @@ static bool add_leaves(const OutTree *tree, const TwigParams *params, const Curv
     return done;
 }
 
+// Leaves of a rosette stand on the ends of trunks too, which no curves show.
+static bool add_rosettes(const OutTree *tree, const TwigParams *params, const SkinParams *skin,
+                         const Placing *placing, Error *e)
+{
+    CurveSet *curves = skin_curves(tree, params->leaves->twig_radius, skin, e);
+    bool done = curves && add_leaves(tree, params, curves, placing, e);
+    curves_free(curves);
+    return done;
+}
+
 bool branches_add_twigs(const OutTree *tree, const TwigParams *params, const Placing *placing,
                         Error *e)
 {
@@ -51,6 +61,15 @@ bool branches_add_twigs(const OutTree *tree, const TwigParams *params, const Pla
         return true;
     }
     SkinParams skin = branches_skin(params->skin);
+    if (leafy && params->leaves->arrangement == ARRANGE_ROSETTE) {
+        if (!add_rosettes(tree, params, &skin, placing, e)) {
+            return false;
+        }
+        leafy = false;
+        if (!drawn) {
+            return true;
+        }
+    }
     float radius = drawn ? params->skin->curve_radius : params->leaves->twig_radius;
     CurveSet *twigs = skin_curves(tree, radius, &skin, e);
     if (!twigs) {

@@ -1,8 +1,9 @@
-// What branches of an out-tree look like: parameters of radii, leaves and skin that several kinds
-// have, their tables, and the parts that show them.
+// What branches of an out-tree look like: parameters of radii and skin that several kinds have,
+// their tables, and the parts that show branches and their leaves.
 #ifndef RAMIFY_OBJECTS_COMMON_BRANCHES_H
 #define RAMIFY_OBJECTS_COMMON_BRANCHES_H
 
+#include "objects/common/leaves.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
 #include "skin/skin.h"
@@ -17,30 +18,13 @@ typedef struct RadiiParams {
     float flare_height; // m; 0 = 2.5 trunk radii
 } RadiiParams;
 
-typedef struct LeavesParams {
-    int64_t max_count;    // 0 = bare
-    float spacing;        // m between leaves along a twig
-    float twig_radius;    // m: only branches thinner than this bear leaves
-    float length, width;  // m
-    float size_variation; // 0..1
-    float petiole;        // m
-    float fold;           // degrees that the halves fold up about the midrib
-    float curl;           // degrees that the blade bends along its length
-    int lobes;            // a side; 0 = a plain oval
-    float angle;          // degrees between a leaf and its twig
-    float droop;          // 0..1, from the twig's frame to hanging and facing the light
-    float phyllotaxis;    // degrees about the twig between successive leaves; 137.5 in nature
-    int variants;         // different leaf meshes
-    int detail;           // of a leaf's mesh: 1 for whole trees, 2 for close-ups
-} LeavesParams;
-
 typedef struct SkinningParams {
     float curve_radius; // m: thinner twigs are curves; 0 = all is mesh
     int levels;         // subdivision, 0..4
     float ring_spacing; // in radii
 } SkinningParams;
 
-extern const struct Table radii_table, leaves_table, skin_table;
+extern const struct Table radii_table, skin_table;
 
 // The skin's parameters as skin/skin.h has them.
 SkinParams branches_skin(const SkinningParams *skin);

@@ -1,24 +1,15 @@
 #include "objects/common/foliage.h"
 
-#include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "mesh/leaf.h"
+#include "objects/common/leaf_place.h"
 
 #include <stdlib.h>
 
 enum { STREAM_LENGTH = 1, STREAM_WIDTH = 2, STREAM_FOLD = 3, STREAM_CURL = 4 }; // of a leaf mesh
-// Of a twig; LEAVES + i: leaf i.
+// Of a twig; LEAVES + i: node i.
 enum { STREAM_OFFSET = 1, STREAM_REFERENCE = 2, STREAM_LEAVES = 100 };
-// Of a leaf.
-enum {
-    STREAM_ANGLE = 1,
-    STREAM_LIGHT = 2,
-    STREAM_SIZE = 3,
-    STREAM_TURN = 8,
-    STREAM_VARIANT = 9,
-    STREAM_VARIATION = 10
-};
+enum { STREAM_VARIANT = 9, STREAM_VARIATION = 10 }; // of a leaf
 
 // Instances of one leaf variant, collected for a part.
 typedef struct LeafBatch {
@@ -40,58 +31,32 @@ typedef struct Foliage {
     const Run *run;
 } Foliage;
 
-void foliage_leaf_meshes(const LeavesParams *leaves, int variant, uint64_t seed, Part *part,
-                         Error *e)
+void foliage_leaf_meshes(const LeavesParams *leaves, float piece, int variant, uint64_t seed,
+                         Part *part, Error *e)
 {
     uint64_t key = random_key(seed, (uint64_t)variant);
-    LeafParams params = {
-        .length = leaves->length * random_range(random_key(key, STREAM_LENGTH), 0.9f, 1.1f),
-        .width = leaves->width * random_range(random_key(key, STREAM_WIDTH), 0.9f, 1.1f),
-        .petiole = leaves->petiole,
-        .fold = leaves->fold * random_range(random_key(key, STREAM_FOLD), 0.4f, 1.3f),
-        .curl = leaves->curl * random_range(random_key(key, STREAM_CURL), -0.4f, 1.5f),
-        .wave = 0.05f,
-        .lobes = leaves->lobes,
-        .lobe_depth = 0.42f,
-        .detail = leaves->detail,
-    };
-    part->mesh = leaf_mesh_new(&params, key, e);
+    LeafParams form = leaves_form(leaves, piece);
+    form.length *= random_range(random_key(key, STREAM_LENGTH), 0.9f, 1.1f);
+    form.width *= random_range(random_key(key, STREAM_WIDTH), 0.9f, 1.1f);
+    form.fold *= random_range(random_key(key, STREAM_FOLD), 0.4f, 1.3f);
+    form.curl *= random_range(random_key(key, STREAM_CURL), -0.4f, 1.5f);
+    part->mesh = leaf_mesh_new(&form, key, e);
     for (int i = 0; part->mesh && i < LEAF_COARSE_LEVELS; i++) {
         CoarseMesh *coarse = &part->coarse[i];
-        coarse->mesh = leaf_mesh_coarse(&params, key, i, &coarse->error, e);
+        coarse->mesh = leaf_mesh_coarse(&form, key, i, &coarse->error, e);
         if (!coarse->mesh) {
             part_free_meshes(part);
         }
     }
 }
 
-// Distance to the next leaf, number counted from the twig's tip: leaves are denser at the end.
-static float leaf_gap(const Foliage *foliage, int64_t number)
+// Distance to the next node, number counted from the twig's tip: they are denser at the end.
+static float node_gap(const Foliage *foliage, int64_t number)
 {
-    float crowding = number < 5 ? 0.25f + 0.15f * (float)number : 1.0f;
-    return foliage->spacing * crowding;
-}
-
-// A leaf at p on the side `out` of a twig that runs along `along`.
-static Transform leaf_frame(const Foliage *foliage, Vec3 p, Vec3 along, Vec3 out, uint64_t key)
-{
-    const LeavesParams *leaves = foliage->leaves;
-    float angle = leaves->angle * random_range(random_key(key, STREAM_ANGLE), 0.7f, 1.3f), sine,
-          cosine;
-    exact_sincos(angle * RADIANS_PER_DEGREE, &sine, &cosine);
-    Vec3 y = vec3_madd(vec3_scale(along, cosine), sine, out);
-    Vec3 z = vec3_madd(vec3_scale(along, sine), -cosine, out);
-    // Blades sag under their weight and turn the upper side to the light, with random deviations.
-    y = vec3_normalize(vec3_madd(y, leaves->droop * 0.6f, vec3(0, -1, 0)));
-    Vec3 light = vec3_normalize(vec3_sub(p, foliage->center));
-    light = vec3_add(vec3(0, 1.2f, 0), vec3_scale(light, 0.7f));
-    light = vec3_madd(light, 0.55f, random_direction(random_key(key, STREAM_LIGHT)));
-    z = vec3_add(vec3_scale(z, 1.0f - leaves->droop), vec3_scale(light, leaves->droop));
-    z = vec3_madd(z, -vec3_dot(z, y), y);
-    z = vec3_dot(z, z) > 1e-6f ? vec3_normalize(z) : vec3_perpendicular(y);
-    float size = 1.0f - leaves->size_variation * random_unit(random_key(key, STREAM_SIZE));
-    return transform_from_axes(vec3_scale(vec3_cross(y, z), size), vec3_scale(y, size),
-                               vec3_scale(z, size), p);
+    enum { CROWDED = 5 };
+    float least = 1.0f - foliage->leaves->crowding;
+    float step = foliage->leaves->crowding / CROWDED;
+    return foliage->spacing * (number < CROWDED ? least + step * (float)number : 1.0f);
 }
 
 static bool batch_add(LeafBatch *batch, Transform instance, float variation, Error *e)
@@ -107,46 +72,89 @@ static bool batch_add(LeafBatch *batch, Transform instance, float variation, Err
     return true;
 }
 
-// Walks one twig from its tip toward its start and adds a leaf at every gap while the twig is thin
-// enough. If not `place`, only counts them and cannot fail.
+static bool add_leaf(Foliage *foliage, Transform place, uint64_t key, Error *e)
+{
+    int variant =
+        (int)(random_unit(random_key(key, STREAM_VARIANT)) * (float)foliage->leaves->variants);
+    return batch_add(&foliage->batch[variant], place,
+                     random_unit(random_key(key, STREAM_VARIATION)), e);
+}
+
+// Point of the twig `distance` (m) before p, toward its start; p is on the segment below point i.
+static Vec3 before_on_twig(const CurveSet *twigs, int64_t first, int64_t i, Vec3 p, float distance)
+{
+    for (; i > first; i--) {
+        Vec3 next = twigs->position[i - 1];
+        float length = vec3_distance(p, next);
+        if (length >= distance && length > 0.0f) {
+            return vec3_lerp(p, next, distance / length);
+        }
+        distance -= length;
+        p = next;
+    }
+    return p;
+}
+
+// Adds the leaves of a node, on the segment below point i of the twig.
+static bool add_node(Foliage *foliage, const CurveSet *twigs, int64_t first, int64_t i,
+                     const LeafNode *node, Error *e)
+{
+    const LeavesParams *leaves = foliage->leaves;
+    if (leaves->shape == LEAF_NEEDLES) {
+        Vec3 start = before_on_twig(twigs, first, i, node->position, foliage->spacing);
+        float length = vec3_distance(start, node->position);
+        return length < 0.1f * foliage->spacing ||
+               add_leaf(
+                   foliage,
+                   leaf_place_piece(leaves, start, node->position, foliage->spacing, node->key),
+                   node->key, e);
+    }
+    bool done = true;
+    for (int k = 0; done && k < leaves_per_node(leaves); k++) {
+        done =
+            add_leaf(foliage, leaf_place(leaves, node, k, foliage->center), leaf_key(node, k), e);
+    }
+    return done;
+}
+
+// Walks one twig from its tip toward its start and adds a node of leaves at every gap while the
+// twig is thin enough. If not `place`, only counts them and cannot fail.
 static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curve, bool place,
                            bool *failed, Error *e)
 {
     const LeavesParams *leaves = foliage->leaves;
+    bool pieces = leaves->shape == LEAF_NEEDLES, tip_only = leaves->arrangement == ARRANGE_ROSETTE;
     uint64_t twig_key = random_key(foliage->seed, twigs->id[curve]);
     int64_t first = twigs->first[curve], last = twigs->first[curve + 1] - 1, number = 0;
-    float until = 0.2f * foliage->spacing * random_unit(random_key(twig_key, STREAM_OFFSET));
+    float until = pieces || tip_only
+                      ? 0.0f
+                      : 0.2f * foliage->spacing * random_unit(random_key(twig_key, STREAM_OFFSET));
     Vec3 reference = random_direction(random_key(twig_key, STREAM_REFERENCE));
     for (int64_t i = last; i > first && twigs->radius[i] < leaves->twig_radius; i--) {
         Vec3 a = twigs->position[i], b = twigs->position[i - 1];
         float length = vec3_distance(a, b);
         Vec3 along = vec3_normalize(vec3_sub(a, b));
-        reference = vec3_madd(reference, -vec3_dot(reference, along), along);
-        reference = vec3_dot(reference, reference) > 1e-6f ? vec3_normalize(reference)
-                                                           : vec3_perpendicular(along);
+        reference = leaf_reference(leaves, reference, along);
         while (until < length) {
-            if (place) {
-                uint64_t key = random_key(twig_key, STREAM_LEAVES + (uint64_t)number);
-                float turn = (float)number * leaves->phyllotaxis +
-                             8.0f * (random_unit(random_key(key, STREAM_TURN)) - 0.5f);
-                float sine, cosine;
-                exact_sincos(turn * RADIANS_PER_DEGREE, &sine, &cosine);
-                Vec3 out = vec3_rotate(reference, along, cosine, sine);
-                Vec3 p = vec3_lerp(a, b, until / length);
-                p = vec3_madd(p, 0.8f * twigs->radius[i], out);
-                int variant =
-                    (int)(random_unit(random_key(key, STREAM_VARIANT)) * (float)leaves->variants);
-                if (!batch_add(&foliage->batch[variant], leaf_frame(foliage, p, along, out, key),
-                               random_unit(random_key(key, STREAM_VARIATION)), e)) {
-                    *failed = true;
-                    return number;
-                }
+            LeafNode node = {.position = vec3_lerp(a, b, until / length),
+                             .along = along,
+                             .reference = reference,
+                             .radius = twigs->radius[i],
+                             .number = number,
+                             .key = random_key(twig_key, STREAM_LEAVES + (uint64_t)number)};
+            if (place && !add_node(foliage, twigs, first, i, &node, e)) {
+                *failed = true;
+                return number;
             }
-            until += leaf_gap(foliage, number++);
+            if (tip_only) {
+                return leaves_per_node(leaves);
+            }
+            until += pieces ? foliage->spacing : node_gap(foliage, number);
+            number++;
         }
         until -= length;
     }
-    return number;
+    return number * (pieces ? 1 : leaves_per_node(leaves));
 }
 
 static int64_t all_leaves(Foliage *foliage, const CurveSet *twigs, bool place, bool *failed,
@@ -178,7 +186,7 @@ static bool add_parts(Foliage *foliage, const Placing *placing, int role, Error 
                      .instance_count = batch->count};
         batch->instance = NULL;
         batch->variation = NULL;
-        foliage_leaf_meshes(foliage->leaves, v, foliage->seed, &part, e);
+        foliage_leaf_meshes(foliage->leaves, foliage->spacing, v, foliage->seed, &part, e);
         if (!placing_add(placing, part, role, e)) {
             return false;
         }

@@ -12,8 +12,9 @@
 bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves, Vec3 center,
                  uint64_t seed, const Placing *placing, int role, Error *e);
 
-// Sets the mesh of leaf variant number `variant` and its coarse forms; after a failure none.
-void foliage_leaf_meshes(const LeavesParams *leaves, int variant, uint64_t seed, Part *part,
-                         Error *e);
+// Sets the mesh of leaf variant number `variant` and its coarse forms; after a failure none. piece:
+// m, length of twig that a piece with needles covers.
+void foliage_leaf_meshes(const LeavesParams *leaves, float piece, int variant, uint64_t seed,
+                         Part *part, Error *e);
 
 #endif

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "mesh/geometry.h"
-#include "mesh/leaf.h"
+#include "mesh/leaf/leaf.h"
 
 #include <stdlib.h>
 

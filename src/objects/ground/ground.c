@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "base/noise.h"
 #include "base/random.h"
-#include "mesh/leaf.h"
+#include "mesh/grass.h"
 #include "objects/common/foliage.h"
 #include "objects/ground/grove.h"
 #include "objects/tree/tree.h"
@@ -265,7 +265,7 @@ static bool add_fallen_leaves(const GroundParams *params, const Placing *placing
         leaves.curl = 60.0f; // dry leaves roll up
         Part part = {.instance = memory_alloc(each, sizeof *part.instance, e),
                      .instance_count = each};
-        foliage_leaf_meshes(&leaves, v, key, &part, e);
+        foliage_leaf_meshes(&leaves, leaves.spacing, v, key, &part, e);
         bool done = part.mesh && part.instance;
         for (int64_t i = 0; done && i < each; i++) {
             done = run_goes_on(placing->recipe->run, i, e);

@@ -1,0 +1,173 @@
+#include "mesh/leaf/leaf.h"
+
+#include "base/exact_math.h"
+#include "base/triangle.h"
+#include "mesh/leaf/blade.h"
+#include "mesh/leaf/compound.h"
+#include "mesh/leaf/needles.h"
+#include "mesh/leaf/wear.h"
+
+#include <stddef.h>
+
+enum { STALK_SIDES = 3 };
+
+static void add_stalk(Quads *quads, const LeafParams *params)
+{
+    // The stalk continues below the blade's base, where the midrib begins.
+    float overlap = params->compound == COMPOUND_NONE ? 0.04f : 0.0f;
+    float thickness = 0.006f * params->length;
+    uint32_t first = (uint32_t)quads->vertex_count;
+    for (int end = 0; end < 2; end++) {
+        for (int k = 0; k < STALK_SIDES; k++) {
+            float sine, cosine;
+            exact_sincos(2.0f * PI_F * (float)k / STALK_SIDES, &sine, &cosine);
+            float y = end ? params->petiole + overlap * params->length : 0.0f;
+            quads_vertex(quads, vec3(thickness * cosine, y, thickness * (sine - 0.8f)),
+                         (Vec2){0.5f, 0.0f});
+        }
+    }
+    for (uint32_t k = 0; k < STALK_SIDES; k++) {
+        uint32_t a = first + k, b = first + (k + 1) % STALK_SIDES;
+        quads_face(quads, a, a + STALK_SIDES, b + STALK_SIDES, b);
+    }
+}
+
+// Adds what bears the leaf's area: all but stalk and rachis.
+static void add_blades(Quads *quads, const LeafParams *params, uint64_t seed)
+{
+    BladeDetail detail = params->detail > 1 ? BLADE_FINE : BLADE_PLAIN;
+    if (leaf_has_needles(params)) {
+        needles_add(quads, params, 1, 1.0f, params->detail > 1, seed);
+    } else if (params->compound != COMPOUND_NONE) {
+        compound_add(quads, params, detail, 1.0f, seed);
+    } else {
+        blade_add(quads, params, detail, seed);
+    }
+    if (params->wear > 0.0f && params->detail > 1) {
+        wear_cut(quads, 0, params->wear, params->length, seed);
+    }
+}
+
+Mesh *leaf_mesh_new(const LeafParams *params, uint64_t seed, Error *e)
+{
+    Quads quads = {.e = e};
+    add_blades(&quads, params, seed);
+    if (params->petiole > 0.0f && !leaf_has_needles(params)) {
+        add_stalk(&quads, params);
+    }
+    if (params->compound != COMPOUND_NONE && !leaf_has_needles(params)) {
+        compound_add_rachis(&quads, params);
+    }
+    return quads_mesh(&quads);
+}
+
+// ---- simpler leaves ----
+
+static double mesh_area(const Mesh *mesh)
+{
+    double area = 0.0;
+    for (int64_t f = 0; f < mesh->face_count; f++) {
+        const uint32_t *corner = mesh->index + 4 * f;
+        Vec3 a = mesh->position[corner[0]], b = mesh->position[corner[1]];
+        Vec3 c = mesh->position[corner[2]], d = mesh->position[corner[3]];
+        Vec3 abc = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
+        Vec3 acd = vec3_cross(vec3_sub(c, a), vec3_sub(d, a));
+        area += 0.5 * (double)(vec3_length(abc) + vec3_length(acd));
+    }
+    return area;
+}
+
+// Largest distance of the vertices of fine from the faces of coarse. Of many vertices only some are
+// asked.
+static float mesh_distance(const Mesh *fine, const Mesh *coarse)
+{
+    enum { MOST_PAIRS = 200000 };
+    int64_t step = fine->vertex_count * coarse->face_count / MOST_PAIRS + 1;
+    float largest = 0.0f;
+    for (int64_t v = 0; v < fine->vertex_count; v += step) {
+        float nearest = INFINITY;
+        for (int64_t f = 0; f < coarse->face_count; f++) {
+            for (int k = 0; k < 2; k++) {
+                const uint32_t *corner = coarse->index + 4 * f;
+                Vec3 on =
+                    triangle_nearest(coarse->position[corner[0]], coarse->position[corner[k + 1]],
+                                     coarse->position[corner[k + 2]], fine->position[v]);
+                nearest = fminf(nearest, vec3_distance(on, fine->position[v]));
+            }
+        }
+        largest = fmaxf(largest, nearest);
+    }
+    return largest;
+}
+
+// Scales x, across the leaf.
+static void widen(Mesh *mesh, float factor)
+{
+    for (int64_t v = 0; v < mesh->vertex_count; v++) {
+        mesh->position[v].x *= factor;
+    }
+}
+
+static Mesh *coarse_blade(const LeafParams *params, uint64_t seed, int level, double area, Error *e)
+{
+    Quads quads = {.e = e};
+    blade_add(&quads, params, level > 0 ? BLADE_KITE : BLADE_SMOOTH, seed);
+    Mesh *mesh = quads_mesh(&quads);
+    if (mesh) {
+        widen(mesh, (float)(area / mesh_area(mesh)));
+    }
+    return mesh;
+}
+
+static Mesh *coarse_parts_once(const LeafParams *params, uint64_t seed, int level, float factor,
+                               Error *e)
+{
+    Quads quads = {.e = e};
+    if (leaf_has_needles(params)) {
+        needles_add(&quads, params, level > 0 ? 16 : 4, factor, false, seed);
+    } else if (level > 0 && params->compound != COMPOUND_PALMATE) {
+        LeafParams whole = *params;
+        whole.width *= factor;
+        blade_add(&quads, &whole, BLADE_KITE, seed);
+    } else {
+        LeafParams fewer = *params;
+        fewer.leaflets = level > 0 && fewer.leaflets > 3 ? 3 : fewer.leaflets;
+        compound_add(&quads, &fewer, BLADE_KITE, factor, seed);
+    }
+    return quads_mesh(&quads);
+}
+
+// Leaflets and needles are widened each for itself, until the area fits: it grows about in
+// proportion.
+static Mesh *coarse_parts(const LeafParams *params, uint64_t seed, int level, double area, Error *e)
+{
+    enum { ROUNDS = 3 };
+    float factor = 1.0f;
+    Mesh *mesh = coarse_parts_once(params, seed, level, factor, e);
+    for (int i = 0; mesh && i < ROUNDS; i++) {
+        factor *= (float)(area / mesh_area(mesh));
+        mesh_free(mesh);
+        mesh = coarse_parts_once(params, seed, level, factor, e);
+    }
+    return mesh;
+}
+
+Mesh *leaf_mesh_coarse(const LeafParams *params, uint64_t seed, int level, float *error, Error *e)
+{
+    Quads quads = {.e = e};
+    add_blades(&quads, params, seed);
+    Mesh *fine = quads_mesh(&quads);
+    bool parts = leaf_has_needles(params) || params->compound != COMPOUND_NONE;
+    Mesh *mesh = !fine   ? NULL
+                 : parts ? coarse_parts(params, seed, level, mesh_area(fine), e)
+                         : coarse_blade(params, seed, level, mesh_area(fine), e);
+    if (mesh) {
+        *error = mesh_distance(fine, mesh);
+    }
+    mesh_free(fine);
+    if (mesh && !mesh_compute_normals(mesh, e)) {
+        mesh_free(mesh);
+        return NULL;
+    }
+    return mesh;
+}

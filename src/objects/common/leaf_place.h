@@ -1,0 +1,33 @@
+// Where one leaf stands on its twig and how it is turned.
+#ifndef RAMIFY_OBJECTS_COMMON_LEAF_PLACE_H
+#define RAMIFY_OBJECTS_COMMON_LEAF_PLACE_H
+
+#include "objects/common/leaves.h"
+
+// A place on a twig that bears leaves.
+typedef struct LeafNode {
+    Vec3 position;  // m, on the twig's axis
+    Vec3 along;     // unit, toward the twig's tip
+    Vec3 reference; // unit, across it: where azimuths about the twig begin
+    float radius;   // m, of the twig
+    int64_t number; // counted from the twig's tip
+    uint64_t key;
+} LeafNode;
+
+// The direction that azimuths about a twig begin from: `reference` made perpendicular to it, or
+// level for leaves in two rows.
+Vec3 leaf_reference(const LeavesParams *leaves, Vec3 reference, Vec3 along);
+
+// Key of leaf number k of the node.
+uint64_t leaf_key(const LeafNode *node, int k);
+
+// Placement of leaf number k of the node. center: m, of the crown; leaves turn away from it, to the
+// light.
+Transform leaf_place(const LeavesParams *leaves, const LeafNode *node, int k, Vec3 center);
+
+// Placement of a piece of twig with needles from `start` to `end` (m), toward the tip. reach: m,
+// length of the mesh.
+Transform leaf_place_piece(const LeavesParams *leaves, Vec3 start, Vec3 end, float reach,
+                           uint64_t key);
+
+#endif

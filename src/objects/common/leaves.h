@@ -1,0 +1,72 @@
+// Leaves of several kinds of objects: their form, their places on the twigs, the season.
+#ifndef RAMIFY_OBJECTS_COMMON_LEAVES_H
+#define RAMIFY_OBJECTS_COMMON_LEAVES_H
+
+#include "mesh/leaf/leaf.h"
+
+#include <stdint.h>
+
+// Where leaves stand on a twig.
+typedef enum LeafArrangement {
+    ARRANGE_SPIRAL,     // one a node, turned by the phyllotaxis
+    ARRANGE_ALTERNATE,  // one a node, five in two turns
+    ARRANGE_DISTICHOUS, // one a node, in two rows left and right
+    ARRANGE_OPPOSITE,   // two a node, each pair across the last
+    ARRANGE_WHORLED,    // several a node, each whorl between those of the last
+    ARRANGE_SPURS,      // in clusters on short shoots along the twig
+    ARRANGE_ROSETTE     // around the ends of twigs or trunks alone
+} LeafArrangement;
+
+typedef struct LeavesParams {
+    // Number and place.
+    int64_t max_count; // 0 = bare
+    float spacing;     // m between nodes along a twig
+    float twig_radius; // m: only branches thinner than this bear leaves
+    LeafArrangement arrangement;
+    int per_node;      // leaves of a whorl, a short shoot or a rosette; 0 = the arrangement's own
+    float phyllotaxis; // degrees about the twig between successive nodes; 137.5 in nature
+    float crowding;    // 0..1: how much closer the last five nodes of a twig are
+    float angle;       // degrees between a leaf and its twig; of a rosette that of its lowest
+    float droop;       // 0..1, from the twig's frame to hanging and facing the light
+    float hang;        // 0..1: how far blades hang straight down
+    float plane;       // 0..1: how far leaves turn into the flat spray of their twig
+
+    // Form: see LeafParams.
+    LeafShape shape;
+    float length, width;  // m
+    float size_variation; // 0..1
+    float petiole;        // m
+    float fold;           // degrees that the halves fold up about the midrib
+    float curl;           // degrees that the blade bends along its length
+    float wave;
+    float widest, tip;
+    float sickle; // degrees
+    int lobes;    // oak: a side, 0 = a plain oval; palmate: of the leaf
+    float lobe_depth;
+    int teeth;
+    float tooth_depth;
+    bool double_teeth;
+    float wear;
+    LeafCompound compound;
+    int leaflets, leaflets_of_part;
+    float leaflet_width; // m
+    float taper;
+    float needles; // shape needles: per cm of shoot; tuft, scales: of each; 0 = the shape's own
+    int bundle;
+    float shoot;        // m; 0 = the shape's own
+    float needle_angle; // degrees; 0 = the shape's own
+    float comb;
+    int variants; // different leaf meshes
+    int detail;   // of a leaf's mesh: 1 for whole trees, 2 for close-ups
+} LeavesParams;
+
+extern const struct Table leaves_table;
+
+// Form of the leaf mesh, with the shape's own numbers in place of 0. piece: m, length of the twig
+// that a piece with needles covers.
+LeafParams leaves_form(const LeavesParams *leaves, float piece);
+
+// Leaves of a node.
+int leaves_per_node(const LeavesParams *leaves);
+
+#endif

@@ -1,0 +1,198 @@
+// Leaves on one straight twig: where each arrangement puts them and how they are turned.
+#include "objects/common/branches.h"
+#include "objects/common/foliage.h"
+#include "objects/tree/tree.h"
+#include "testing.h"
+
+enum { POINTS = 11 };
+static const float TWIG_LENGTH = 0.5f;
+
+// Level along +X, or upright.
+static CurveSet *twig(Vec3 along)
+{
+    CurveSet *curves = curves_new(POINTS, 1, NULL);
+    for (int i = 0; i < POINTS; i++) {
+        curves->position[i] = vec3_scale(along, TWIG_LENGTH * (float)i / (POINTS - 1));
+        curves->radius[i] = 0.002f;
+        curves->birth[i] = curves->along[i] = 0.0f;
+    }
+    curves->first[0] = 0;
+    curves->first[1] = POINTS;
+    curves->id[0] = 5;
+    return curves;
+}
+
+static LeavesParams plain_leaves(LeafArrangement arrangement)
+{
+    LeavesParams leaves = tree_params_default().leaves;
+    leaves.arrangement = arrangement;
+    leaves.spacing = 0.05f;
+    leaves.droop = 0.0f;
+    leaves.crowding = 0.0f;
+    leaves.size_variation = 0.0f;
+    leaves.variants = 1;
+    return leaves;
+}
+
+// The leaves' part, the only one. Free with geometry_clear.
+static Geometry grow_on(const LeavesParams *leaves, Vec3 along)
+{
+    Geometry geometry = {0};
+    Run run = run_default();
+    Recipe recipe = {.seed = 1, .label = "twig", .run = &run};
+    static const int material[3] = {0};
+    Placing placing = {.recipe = &recipe, .geometry = &geometry, .material = material};
+    CurveSet *curves = twig(along);
+    Error e = {0};
+    assert_true(foliage_add(curves, NULL, leaves, vec3(0, -5, 0), 3, &placing, 0, &e));
+    curves_free(curves);
+    assert_int_equal(geometry.count, 1);
+    return geometry;
+}
+
+static Vec3 axis(const Transform *t, int column)
+{
+    return vec3_normalize(vec3(t->m[0][column], t->m[1][column], t->m[2][column]));
+}
+
+// Direction of a leaf's stalk across the twig.
+static Vec3 outward(const Transform *t, Vec3 along)
+{
+    Vec3 y = axis(t, 1);
+    return vec3_normalize(vec3_madd(y, -vec3_dot(y, along), along));
+}
+
+static float degrees_between(Vec3 a, Vec3 b)
+{
+    return acosf(clampf(vec3_dot(a, b), -1.0f, 1.0f)) / RADIANS_PER_DEGREE;
+}
+
+static void successive_leaves_are_turned_by_the_arrangement(void **state)
+{
+    (void)state;
+    static const struct {
+        LeafArrangement arrangement;
+        int step;    // from leaf to leaf that is compared
+        float angle; // between them
+    } cases[] = {{ARRANGE_SPIRAL, 1, 137.5f},  {ARRANGE_ALTERNATE, 1, 144.0f},
+                 {ARRANGE_DISTICHOUS, 1, 180}, {ARRANGE_OPPOSITE, 1, 180.0f},
+                 {ARRANGE_OPPOSITE, 2, 90.0f}, {ARRANGE_WHORLED, 1, 120.0f},
+                 {ARRANGE_WHORLED, 3, 60.0f}};
+    Vec3 along = vec3(1, 0, 0);
+    for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+        LeavesParams leaves = plain_leaves(cases[c].arrangement);
+        int each = leaves_per_node(&leaves);
+        Geometry geometry = grow_on(&leaves, along);
+        const Part *part = &geometry.part[0];
+        assert_in_range(part->instance_count, 9 * each, 11 * each);
+        for (int64_t i = 0; i + cases[c].step < part->instance_count; i += each) {
+            float turn = degrees_between(outward(&part->instance[i], along),
+                                         outward(&part->instance[i + cases[c].step], along));
+            if (!(fabsf(turn - cases[c].angle) < 8.01f)) { // 4 degrees of noise each
+                fail_msg("case %zu, leaf %lld: %g degrees", c, (long long)i, (double)turn);
+            }
+        }
+        geometry_clear(&geometry);
+    }
+}
+
+static void two_rows_lie_left_and_right(void **state)
+{
+    (void)state;
+    LeavesParams leaves = plain_leaves(ARRANGE_DISTICHOUS);
+    leaves.plane = 1.0f;
+    Geometry geometry = grow_on(&leaves, vec3(1, 0, 0));
+    const Part *part = &geometry.part[0];
+    for (int64_t i = 0; i < part->instance_count; i++) {
+        assert_true(fabsf(axis(&part->instance[i], 1).y) < 1e-4f);
+        assert_true(axis(&part->instance[i], 2).y > 0.999f); // the upper side up
+    }
+    geometry_clear(&geometry);
+}
+
+static void hanging_leaves_hang(void **state)
+{
+    (void)state;
+    LeavesParams leaves = plain_leaves(ARRANGE_SPIRAL);
+    leaves.hang = 1.0f;
+    Geometry geometry = grow_on(&leaves, vec3(1, 0, 0));
+    for (int64_t i = 0; i < geometry.part[0].instance_count; i++) {
+        assert_true(axis(&geometry.part[0].instance[i], 1).y < -0.9f);
+    }
+    geometry_clear(&geometry);
+}
+
+static void a_rosette_is_at_the_end(void **state)
+{
+    (void)state;
+    LeavesParams leaves = plain_leaves(ARRANGE_ROSETTE);
+    leaves.per_node = 30;
+    leaves.angle = 100.0f;
+    Vec3 up = vec3(0, 1, 0);
+    Geometry geometry = grow_on(&leaves, up);
+    const Part *part = &geometry.part[0];
+    assert_int_equal(part->instance_count, 30);
+    for (int64_t i = 0; i < 30; i++) {
+        assert_true(part->instance[i].m[1][3] > TWIG_LENGTH - 0.01f);
+    }
+    // From nearly upright to beyond level.
+    assert_true(degrees_between(axis(&part->instance[0], 1), up) < 20.0f);
+    assert_true(degrees_between(axis(&part->instance[29], 1), up) > 65.0f);
+    geometry_clear(&geometry);
+}
+
+static void short_shoots_bear_clusters(void **state)
+{
+    (void)state;
+    LeavesParams leaves = plain_leaves(ARRANGE_SPURS);
+    leaves.per_node = 4;
+    Geometry geometry = grow_on(&leaves, vec3(1, 0, 0));
+    const Part *part = &geometry.part[0];
+    assert_int_equal(part->instance_count % 4, 0);
+    for (int64_t i = 0; i < part->instance_count; i += 4) {
+        for (int64_t k = 1; k < 4; k++) {
+            for (int row = 0; row < 3; row++) {
+                assert_float_equal(part->instance[i + k].m[row][3], part->instance[i].m[row][3],
+                                   1e-6f);
+            }
+        }
+    }
+    geometry_clear(&geometry);
+}
+
+// Pieces with needles follow each other without a gap from the twig's end to its start.
+static void needles_cover_the_twig(void **state)
+{
+    (void)state;
+    LeavesParams leaves = plain_leaves(ARRANGE_SPIRAL);
+    leaves.shape = LEAF_NEEDLES;
+    leaves.length = 0.015f;
+    leaves.width = 0.001f;
+    Vec3 along = vec3(1, 0, 0);
+    Geometry geometry = grow_on(&leaves, along);
+    const Part *part = &geometry.part[0];
+    float covered = 0.0f;
+    for (int64_t i = 0; i < part->instance_count; i++) {
+        const Transform *t = &part->instance[i];
+        assert_true(degrees_between(axis(t, 1), along) < 0.1f);
+        Vec3 start = vec3(t->m[0][3], t->m[1][3], t->m[2][3]);
+        Vec3 end = transform_point(t, vec3(0, leaves.spacing, 0));
+        covered += vec3_distance(start, end);
+        assert_true(end.x <= TWIG_LENGTH + 1e-5f && start.x >= -1e-5f);
+    }
+    assert_float_equal(covered, TWIG_LENGTH, 1e-4f);
+    geometry_clear(&geometry);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(successive_leaves_are_turned_by_the_arrangement),
+        cmocka_unit_test(two_rows_lie_left_and_right),
+        cmocka_unit_test(hanging_leaves_hang),
+        cmocka_unit_test(a_rosette_is_at_the_end),
+        cmocka_unit_test(short_shoots_bear_clusters),
+        cmocka_unit_test(needles_cover_the_twig),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
