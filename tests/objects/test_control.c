@@ -16,6 +16,7 @@ static GrowLevel small_levels[] = {{30, 0.10f, 0.4f, 4.0f, 0.70f, 0.3f, 0.0f, 0.
 static TreeParams small_tree(void)
 {
     TreeParams params = tree_params_default();
+    params.height = 14.0f;
     params.crown.element.levels = small_levels;
     params.crown.element.level_count = 3;
     params.crown.lobes = 0; // saves a level set each time

@@ -16,6 +16,7 @@ static GrowLevel small_levels[] = {{30, 0.10f, 0.4f, 4.0f, 0.70f, 0.3f, 0.0f, 0.
 static TreeParams small_tree(void)
 {
     TreeParams params = tree_params_default();
+    params.height = 14.0f;
     params.crown.element.levels = small_levels;
     params.crown.element.level_count = 2;
     params.crown.lobes = 0; // saves a level set each time
@@ -250,6 +251,7 @@ static void crowded_branches_have_names_of_their_own(void **state)
 {
     (void)state;
     TreeParams params = tree_params_default();
+    params.height = 14.0f;
     GrowLevel level = {20, 0.3f, 0.9f, 2.2f, 1.0f, 0.3f, 0.0f, 0.5f};
     params.crown.lobes = 0;
     params.crown.branches = 200;

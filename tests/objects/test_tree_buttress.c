@@ -24,6 +24,7 @@ static OutTree *grow(const TreeParams *params)
 static TreeParams stout_tree(void)
 {
     TreeParams params = tree_params_default();
+    params.height = 14.0f;
     params.crown.element.levels = crown_level;
     params.crown.element.level_count = 1;
     params.crown.lobes = 0;

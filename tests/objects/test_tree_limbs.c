@@ -13,6 +13,7 @@ static GrowLevel crown_level[] = {{30, 0.10f, 0.4f, 4.0f, 0.70f, 0.3f, 0.0f, 0.5
 static OutTree *grow(uint64_t seed)
 {
     TreeParams params = tree_params_default();
+    params.height = 14.0f;
     params.crown.element.levels = crown_level;
     params.crown.element.level_count = 3;
     params.crown.lobes = 0;

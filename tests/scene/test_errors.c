@@ -105,8 +105,8 @@ static const Case scenes[] = {
                                           "number, at least 0 and below 2^64"},
     {"objects: [{name: a, tree: {radii: {tip: -0.1}}}]\n",
      ":1:41: objects.a.tree.radii.tip is -0.1; it must be greater than 0 and at most 10 m"},
-    {"objects: [{name: a, tree: {height: 0}}]\n",
-     ":1:36: objects.a.tree.height is 0; it must be greater than 0 and at most 1000 m"},
+    {"objects: [{name: a, tree: {height: -1}}]\n",
+     ":1:36: objects.a.tree.height is -1; it must be at least 0 and at most 1000 m"},
     {"objects: [{name: a, tree: {leaves: {spacing: 1.0e-30}}}]\n",
      ":1:46: objects.a.tree.leaves.spacing is 1.0e-30; it must be at least 0.0001 and at most 100 "
      "m"},

@@ -34,7 +34,7 @@ typedef struct TwigParams {
     const SkinningParams *skin;
     const LeavesParams *leaves; // NULL = none
     Vec3 center;                // m: leaves turn away from it, to the light
-    int32_t bare_colony;        // branches of this colony bear no leaves; -1 = all do
+    int32_t bare_from;          // colonies from this number on bear no leaves; -1 = all do
     uint64_t seed;              // of the leaves
     int twig_role, leaf_role;   // of the kind's materials
 } TwigParams;

@@ -46,6 +46,7 @@ static bool add_stand(const OutTree *all, const ForestParams *params, int stand,
     TreeParams tree = tree_params_default();
     tree.height = params->height;
     tree.roots.count = 0; // here colonies are trees, not parts of one
+    tree.grown_by = GROWN_BY_ATTRACTORS;
     tree.radii = params->radii;
     tree.leaves = params->leaves;
     tree.skin = params->skin;

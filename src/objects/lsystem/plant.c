@@ -122,6 +122,7 @@ bool lsystem_plant_geometry(const void *given, const Grown *grown, const Placing
     Aabb box = out_tree_bounds(grown->tree);
     as_tree.position = params->position;
     as_tree.roots.count = 0;
+    as_tree.grown_by = GROWN_BY_ATTRACTORS;
     as_tree.height = box.high.y - box.low.y;
     as_tree.leaves = params->leaves;
     as_tree.skin = params->skin;

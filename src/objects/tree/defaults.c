@@ -5,10 +5,18 @@
 
 enum { STREAM_LOBE_SIZE = 1, STREAM_LOBE_TURN = 2 }; // of a lobe
 
+// Radius / height of the default trunk of a grown-up tree.
+#define GIRTH_BY_LIGHT 0.021f
+#define GIRTH_BY_ATTRACTORS 0.03f
+
+#define SLOWING 2.5f     // of growth in height, over the years until a tree is mature
+#define LEAST_SEASONS 3  // of the youngest tree
+#define OLD_SEASONS 0.5f // that the oldest trees grow beyond maturity, share of those until then
+
 TreeParams tree_params_default(void)
 {
     return (TreeParams){
-        .height = 14.0f,
+        .light = {light_params_default(), .mature_height = 14.0f, .mature_age = 120.0f},
         .trunk = {.element.growth = {.max_children = 1,
                                      .noise = 0.2f,
                                      .tropism = {0, 0.4f, 0},
@@ -77,12 +85,55 @@ static void fill_levels(ElementParams *element, GrowLevel *levels, int count)
     }
 }
 
+// Height of a tree of this age, share of its mature height: growth slows down from year to year.
+static float height_at(float age)
+{
+    return (float)((1.0 - exact_exp(-(double)(SLOWING * age))) /
+                   (1.0 - exact_exp(-(double)SLOWING)));
+}
+
+// The age, share of the mature age, at which a tree has this share of its mature height; at most 1.
+static float age_at(float height)
+{
+    double left = 1.0 - (double)height * (1.0 - exact_exp(-(double)SLOWING));
+    return height < 1.0f ? (float)(-exact_log(left) / (double)SLOWING) : 1.0f;
+}
+
+// Height, age and seasons follow from each other.
+static void plan_age(TreePlan *plan)
+{
+    TreeParams *tree = &plan->params;
+    const TreeLight *light = &tree->light;
+    if (tree->height == 0.0f) {
+        float age = tree->age > 0.0f ? tree->age / light->mature_age : 1.0f;
+        tree->height = light->mature_height * height_at(age);
+    }
+    fill(&tree->age, light->mature_age * age_at(tree->height / light->mature_height));
+    float age = tree->age / light->mature_age;
+    float share = age <= 1.0f ? height_at(age) : 1.0f + OLD_SEASONS * (1.0f - 1.0f / age);
+    int seasons = (int)(share * (float)light->growth.seasons + 0.5f);
+    plan->seasons = seasons > LEAST_SEASONS ? seasons : LEAST_SEASONS;
+}
+
+// Thickness of the trunk: by elastic similarity, a tree grows thicker faster than taller, and goes
+// on doing so when it grows no more.
+static void plan_girth(TreePlan *plan)
+{
+    TreeParams *tree = &plan->params;
+    bool light = plan->grown_by != GROWN_BY_ATTRACTORS;
+    float girth = light ? GIRTH_BY_LIGHT : GIRTH_BY_ATTRACTORS;
+    girth = tree->trunk.slenderness > 0.0f ? 0.5f / tree->trunk.slenderness : girth;
+    float radius = girth * tree->height * sqrtf(tree->height / tree->light.mature_height);
+    float age = tree->age / tree->light.mature_age;
+    fill(&tree->trunk.radius, light && age > 1.0f ? radius * sqrtf(age) : radius);
+    fill(&tree->trunk.slenderness, 0.5f / girth);
+}
+
 static void plan_trunk(TreePlan *plan)
 {
     TreeParams *tree = &plan->params;
     TrunkParams *trunk = &tree->trunk;
     fill(&trunk->height, 0.32f * tree->height);
-    fill(&trunk->radius, 0.03f * tree->height * sqrtf(tree->height / 14.0f));
     fill(&trunk->stem_circle, trunk->radius);
     // A capsule about the leaning axis; stems that share it need room for their circle.
     float radius = 0.7f * trunk->radius + (trunk->stems > 1 ? trunk->stem_circle : 0.0f);
@@ -190,6 +241,16 @@ static void plan_roots(TreePlan *plan)
 void tree_plan_make(TreePlan *plan, const TreeParams *params, uint64_t seed)
 {
     plan->params = *params;
+    plan->grown_by = params->grown_by;
+    if (params->grown_by == GROWN_BY_AUTO) {
+        plan->grown_by =
+            params->crown.element.level_count > 0 ? GROWN_BY_ATTRACTORS : GROWN_BY_LIGHT;
+    }
+    plan->bounded = plan->grown_by == GROWN_BY_BOTH || params->crown.width > 0.0f ||
+                    params->crown.element.shape_count > 0;
+    plan->bole = params->crown.base;
+    plan_age(plan);
+    plan_girth(plan);
     plan_trunk(plan);
     plan_crown(plan, random_key(seed, STREAM_TREE_LOBES));
     plan_roots(plan);

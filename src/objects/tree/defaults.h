@@ -13,6 +13,10 @@
 // struct, so it must not be moved or copied.
 typedef struct TreePlan {
     TreeParams params;
+    GrownBy grown_by; // never GROWN_BY_AUTO
+    int seasons;      // of growth by light
+    bool bounded;     // the crown's envelope bounds growth by light
+    float bole;       // m: height that the crown's base was given; 0 = none
     Shape trunk_shape, crown_shape[1 + TREE_MOST_LOBES], root_shape;
     GrowLevel trunk_level[1], crown_level[TREE_DEFAULT_LEVELS], root_level[2];
 } TreePlan;

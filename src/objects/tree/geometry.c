@@ -18,12 +18,15 @@ static bool add_bark(const OutTree *tree, const TreeParams *params, const SkinPa
 
 bool tree_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
-    const TreeParams *params = given;
+    TreePlan plan;
+    tree_plan_make(&plan, given, placing->recipe->seed);
+    const TreeParams *params = &plan.params;
+    int32_t leafless = plan.grown_by == GROWN_BY_ATTRACTORS ? -1 : TREE_SNAGS;
     SkinParams skin = branches_skin(&params->skin);
     TwigParams twigs = {.skin = &params->skin,
                         .leaves = &params->leaves,
                         .center = vec3_add(params->position, vec3(0, 0.5f * params->height, 0)),
-                        .bare_colony = params->roots.count > 0 ? TREE_ROOTS : -1,
+                        .bare_from = params->roots.count > 0 ? TREE_ROOTS : leafless,
                         .seed = random_key(placing->recipe->seed, STREAM_TREE_LEAVES),
                         .twig_role = TREE_TWIG,
                         .leaf_role = TREE_LEAF};

@@ -29,8 +29,9 @@ static uint64_t own_seed(const void *params)
 
 static void describe(const void *params, char *text, size_t size)
 {
-    const TreeParams *tree = params;
-    snprintf(text, size, ", %g m", (double)tree->height);
+    TreePlan plan;
+    tree_plan_make(&plan, params, 0); // the seed does not affect the height
+    snprintf(text, size, ", %g m", (double)plan.params.height);
 }
 
 static void settle(const void *params, void *settled)
@@ -50,9 +51,20 @@ static TreeAttractors count_attractors(const void *params)
     TreePlan plan;
     tree_plan_make(&plan, params, 0); // the seed does not affect their number
     const TreeParams *p = &plan.params;
-    return (TreeAttractors){element_attractors(&p->trunk.element),
-                            element_attractors(&p->crown.element),
+    bool none = plan.grown_by == GROWN_BY_LIGHT;
+    return (TreeAttractors){none ? 0 : element_attractors(&p->trunk.element),
+                            none ? 0 : element_attractors(&p->crown.element),
                             p->roots.count > 0 ? element_attractors(&p->roots.element) : 0};
+}
+
+// Metamers of a tree that grows by light: a measured average.
+static double count_metamers(const void *params)
+{
+    enum { A_SQUARED_SEASON = 40 };
+    TreePlan plan;
+    tree_plan_make(&plan, params, 0);
+    double seasons = plan.grown_by == GROWN_BY_ATTRACTORS ? 0.0 : (double)plan.seasons;
+    return A_SQUARED_SEASON * seasons * seasons;
 }
 
 static int64_t attractors(const void *params)
@@ -114,8 +126,10 @@ static void needs(const void *params, Needs *needs)
     needs_add_skinned_growth(needs, "trunk.growth.levels", (double)each.trunk, levels, twig);
     needs_add_skinned_growth(needs, "crown.growth.levels", (double)each.crown, levels, twig);
     needs_add_skinned_growth(needs, "roots.growth.levels", (double)each.roots, levels, twig);
-    needs_add_copies(needs, "leaves.max_count", fmin(leaves, LEAVES_AN_ATTRACTOR * count),
-                     LEAF_FACES);
+    double metamers = count_metamers(params);
+    needs_add_skinned_growth(needs, "light.seasons", metamers, levels, twig);
+    needs_add_copies(needs, "leaves.max_count",
+                     fmin(leaves, LEAVES_AN_ATTRACTOR * (count + metamers)), LEAF_FACES);
 }
 
 static const Key MATERIALS[] = {

@@ -7,8 +7,12 @@ static const Key TRUNK_KEYS[] = {
      .doc =
          "Height of the trunk's last node above the ground; 0 = a fraction of the tree's height."},
     {KEY_OF(TrunkParams, radius, "radius", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "Radius above the root flare; 0 = computed from the tree's height, by elastic "
-            "similarity."},
+     .doc = "Radius above the root flare; 0 = computed from the tree's height and slenderness, by "
+            "elastic similarity."},
+    {KEY_OF(TrunkParams, slenderness, "slenderness", KEY_FLOAT), .high = 1000,
+     .doc = "Height of the tree / diameter of its trunk, when it is grown up (see light); younger "
+            "trees are more slender. About 25 for an old oak in a field, 50 for a poplar, 80 for a "
+            "birch in a wood. 0 = 24 for trees grown by light, 17 for others."},
     {KEY_OF(TrunkParams, lean, "lean", KEY_FLOAT), .high = 89, .unit = "degrees",
      .doc = "Angle between the trunk and the vertical."},
     {KEY_OF(TrunkParams, lean_azimuth, "lean_azimuth", KEY_FLOAT), .low = -360, .high = 360,
@@ -95,6 +99,94 @@ static const Table ROOTS_TABLE = {.name = "roots",
                                   .keys = ROOTS_KEYS,
                                   .check = check_roots};
 
+#define LIGHT_KEY(MEMBER, KEY, TYPE) KEY_OF(TreeLight, MEMBER, KEY, TYPE)
+
+static const Key LIGHT_KEYS[] = {
+    {LIGHT_KEY(mature_height, "mature_height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
+     .unit = "m", .doc = "Height at which the species is grown up."},
+    {LIGHT_KEY(mature_age, "mature_age", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10000,
+     .unit = "years", .doc = "Age at which it is."},
+    {LIGHT_KEY(growth.seasons, "seasons", KEY_INT), .low = 1, .high = 1000,
+     .doc = "Number of simulated seasons in which it grows up; more = finer twigs and more of "
+            "them. A younger tree grows fewer."},
+    {LIGHT_KEY(growth.apical_control, "apical_control", KEY_VECTOR), .count = 2, .high = 1,
+     .doc = "How far an axis prevails over its side branches, when young and when old: above 0.55 "
+            "a leader runs to the top, below 0.48 the crown spreads from a short trunk. Steps of "
+            "0.01 matter."},
+    {LIGHT_KEY(growth.maturing, "maturing", KEY_VECTOR), .count = 2, .high = 10,
+     .doc = "When apical_control turns from young to old: begin and end, as fractions of the "
+            "seasons."},
+    {LIGHT_KEY(growth.vigor, "vigor", KEY_FLOAT), .high = 100,
+     .doc = "How much growth light makes: nodes for the light of one node in the open."},
+    {LIGHT_KEY(growth.shoot, "shoot", KEY_INT), .low = 1, .high = 100,
+     .doc = "Most nodes of a season's shoot."},
+    {LIGHT_KEY(growth.shade, "shade", KEY_FLOAT), .high = 100,
+     .doc = "How much shade a node's leaves cast: their area across the light, in internodes "
+            "squared. 0.2 = a light crown like a birch's, 1 = a dense one like a beech's."},
+    {LIGHT_KEY(growth.leaf_seasons, "leaf_seasons", KEY_INT), .low = 1, .high = 100,
+     .doc = "Number of simulated seasons in which a shoot bears leaves and its side buds live."},
+    {LIGHT_KEY(growth.light_need, "light_need", KEY_FLOAT), .high = 1,
+     .doc = "A branch dies when its leaves get less than this fraction of the light in the open: "
+            "0.1 for trees that bear shade, 0.3 for those that need light."},
+    {LIGHT_KEY(growth.branch_angle, "branch_angle", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3,
+     .high = 150, .unit = "degrees",
+     .doc = "Angle between a branch and its axis at the base: of limbs on the trunk, of branches "
+            "on limbs, of twigs."},
+    {LIGHT_KEY(growth.angle_spread, "angle_spread", KEY_FLOAT), .high = 90, .unit = "degrees",
+     .doc = "Standard deviation of these angles."},
+    {LIGHT_KEY(growth.phyllotaxis, "phyllotaxis", KEY_FLOAT), .low = -360, .high = 360,
+     .unit = "degrees",
+     .doc = "Divergence angle about the axis from one node's buds to the next: 137.5 spiral, 180 "
+            "two-ranked, 90 crosswise pairs (with buds: 2)."},
+    {LIGHT_KEY(growth.buds, "buds", KEY_INT), .low = 1, .high = 8,
+     .doc = "Side buds at a node: 1 alternate, 2 opposite, more whorled."},
+    {LIGHT_KEY(growth.whorl, "whorl", KEY_INT), .high = 16,
+     .doc = "Branches stand in whorls at the end of each season's shoot, as in spruce and pine, "
+            "at most so many on the trunk; 0 = side buds at every node."},
+    {LIGHT_KEY(growth.tropism, "tropism", KEY_VECTOR), .count = 3, .low = -10, .high = 10,
+     .doc = "Turn of each new node along crown.growth.tropism, which points up: of the trunk, of "
+            "limbs, of the branches on them. Negative: they hang."},
+    {LIGHT_KEY(growth.phototropism, "phototropism", KEY_FLOAT), .low = -10, .high = 10,
+     .doc = "Turn of each new node toward the brightest part of the sky."},
+    {LIGHT_KEY(growth.zigzag, "zigzag", KEY_FLOAT), .high = 90, .unit = "degrees",
+     .doc = "Angle by which a season's shoot turns aside from the last, as a side bud takes the "
+            "lead; half of it on the trunk."},
+    {LIGHT_KEY(growth.noise, "noise", KEY_FLOAT), .high = 10,
+     .doc = "Gaussian noise added to each component of the direction of a season's shoot."},
+    {LIGHT_KEY(growth.plagiotropy, "plagiotropy", KEY_FLOAT), .high = 1,
+     .doc = "How far branches spread in a level plane, with two-ranked twigs: 0 = all around, 1 = "
+            "flat sprays, as of spruce and beech."},
+    {LIGHT_KEY(growth.bole, "bole", KEY_FLOAT), .high = 1,
+     .doc = "Height below which the trunk loses its branches, as a fraction of the tree's height; "
+            "crown.base, if given, replaces it."},
+    {LIGHT_KEY(growth.snags, "snags", KEY_FLOAT), .high = 1,
+     .doc = "Length of the dead stub that a shed branch leaves, as a fraction of the branch's "
+            "length; thick branches leave short stubs. 0 = none."},
+    {0},
+};
+
+static const Table LIGHT_TABLE = {
+    .name = "light",
+    .doc = "How a tree grows by light (Palubicki et al. 2009). In each season the sky's light on "
+           "the leaves is found on a voxel grid, with the shade of the tree, of obstacles and of "
+           "rivals; branches that get too little die; the light is summed down to the base and "
+           "comes back as growth, shared at every fork by apical control; buds that get enough "
+           "make shoots. Lengths follow from the tree's height. The defaults make an oak.",
+    .example = "objects:\n"
+               "  - name: spruce\n"
+               "    tree:\n"
+               "      height: 20\n"
+               "      light: {apical_control: [0.62, 0.6], whorl: 5, branch_angle: [85, 50, 45], "
+               "plagiotropy: 0.9}\n",
+    .size = sizeof(TreeLight),
+    .keys = LIGHT_KEYS};
+
+static const EnumName GROWN_BY_NAMES[] = {{"auto", GROWN_BY_AUTO},
+                                          {"light", GROWN_BY_LIGHT},
+                                          {"attractors", GROWN_BY_ATTRACTORS},
+                                          {"both", GROWN_BY_BOTH},
+                                          {0}};
+
 static const Key TREE_KEYS[] = {
     {KEY_OF(TreeParams, species, "species", KEY_TEXT),
      .doc =
@@ -104,8 +196,20 @@ static const Key TREE_KEYS[] = {
          "species/NAME.yaml beside the scene comes before the library's."},
     {KEY_OF(TreeParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Position of the trunk's base."},
-    {KEY_OF(TreeParams, height, "height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000, .unit = "m",
-     .doc = "Height of the whole tree; other sizes that are omitted or 0 follow it."},
+    {KEY_OF(TreeParams, height, "height", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "Height of the whole tree; other sizes that are omitted or 0 follow it. 0 = as its age "
+            "implies, or light.mature_height."},
+    {KEY_OF(TreeParams, age, "age", KEY_FLOAT), .high = 10000, .unit = "years",
+     .doc = "Age of a tree that is grown by light: from a sapling through light.mature_age to a "
+            "veteran, whose trunk goes on growing thicker. 0 = as its height implies: a tree below "
+            "light.mature_height is young. With both, a tree of that age in that height."},
+    {KEY_OF(TreeParams, grown_by, "grown_by", KEY_ENUM), .names = GROWN_BY_NAMES,
+     .doc = "light: season by season, by the light that its buds get; attractors: trunk, then "
+            "crown toward attractors in their envelopes; both: attractors lay trunk and limbs, "
+            "which light fills within the crown's envelope; auto: attractors if "
+            "crown.growth.levels are given, otherwise light."},
+    {KEY_OF(TreeParams, light, "light", KEY_GROUP), .table = &LIGHT_TABLE,
+     .doc = "Growth by light: what makes a species' habit."},
     {KEY_OF(TreeParams, seed, "seed", KEY_UINT64), .high = 18446744073709551615.0,
      .doc = "Seed of this tree; 0 = the object's."},
     {KEY_OF(TreeParams, trunk, "trunk", KEY_GROUP), .table = &TRUNK_TABLE,
@@ -135,7 +239,9 @@ static void tree_defaults(void *out)
 
 static bool check_tree(const Mapping *mapping, void *params)
 {
-    const TreeParams *tree = params;
+    TreePlan plan;
+    tree_plan_make(&plan, params, 0);
+    const TreeParams *tree = &plan.params;
     if (tree->crown.base >= tree->height) {
         return mapping_fail(mapping, "crown.base", BELOW_HEIGHT, (double)tree->crown.base,
                             (double)tree->height);

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "objects/tree/bole.h"
+#include "objects/tree/by_light.h"
 #include "objects/tree/defaults.h"
 #include "objects/tree/limbs.h"
 #include "outtree/radii.h"
@@ -46,8 +47,7 @@ static void transport_normals(OutTree *tree)
     }
 }
 
-// Plants a node below the ground and one on it for each stem, so that the trunk's end is hidden.
-static bool plant_stems(OutTree *tree, const TreeParams *params, uint64_t seed, Error *e)
+bool tree_plant_stems(OutTree *tree, const TreeParams *params, uint64_t seed, Error *e)
 {
     int stems = params->trunk.stems > 1 ? params->trunk.stems : 1;
     for (int i = 0; i < stems; i++) {
@@ -144,7 +144,7 @@ static bool start_branches(OutTree *tree, const TreeParams *params, float height
 static bool grow_trunk(OutTree *tree, const TreeParams *params, uint64_t seed, const Recipe *recipe,
                        Error *e)
 {
-    if (!plant_stems(tree, params, seed, e) ||
+    if (!tree_plant_stems(tree, params, seed, e) ||
         !element_grow(tree, &params->trunk.element, seed, recipe, "trunk", e)) {
         error_key(e, "trunk");
         return false;
@@ -285,16 +285,17 @@ static bool grow_roots(OutTree *tree, const TreeParams *params, uint64_t seed, c
     return done;
 }
 
-static void compute_radii(OutTree *tree, const TreeParams *params)
+// by_light: growth by light has set the radii of the pipe model.
+static void compute_radii(OutTree *tree, const TreeParams *params, bool by_light)
 {
     const RadiiParams *radii = &params->radii;
     if (radii->model == RADIUS_BIRTH) {
         out_tree_birth_radii(tree, radii->tip, params->trunk.radius);
-    } else {
+    } else if (!by_light) {
         out_tree_pipe_radii(tree, radii->exponent, radii->tip, params->trunk.radius);
     }
     // Stems that wind about each other keep a least radius even if few branches grew from them.
-    float least = params->trunk.stems > 1 ? 0.75f * params->trunk.radius : 0.0f;
+    float least = params->trunk.stems > 1 && !by_light ? 0.75f * params->trunk.radius : 0.0f;
     for (int64_t i = 0; i < tree->count; i++) {
         if (tree->colony[i] == TREE_TRUNK && tree->radius[i] < least) {
             tree->radius[i] = least;
@@ -304,19 +305,28 @@ static void compute_radii(OutTree *tree, const TreeParams *params)
     out_tree_root_flare(tree, radii->flare, params->trunk.radius, radii->flare_height);
 }
 
+static bool grow_by_attractors(OutTree *tree, const TreeParams *params, const Recipe *recipe,
+                               Error *e)
+{
+    uint64_t seed = recipe->seed;
+    return grow_trunk(tree, params, random_key(seed, STREAM_TREE_TRUNK), recipe, e) &&
+           grow_crown(tree, params, random_key(seed, STREAM_TREE_CROWN), recipe, e);
+}
+
 bool tree_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e)
 {
     TreePlan plan;
     uint64_t seed = recipe->seed;
     tree_plan_make(&plan, params, seed);
     const TreeParams *tree = &plan.params;
+    bool by_light = plan.grown_by != GROWN_BY_ATTRACTORS;
     whole->tree = out_tree_new(e);
     if (!whole->tree ||
-        !grow_trunk(whole->tree, tree, random_key(seed, STREAM_TREE_TRUNK), recipe, e) ||
-        !grow_crown(whole->tree, tree, random_key(seed, STREAM_TREE_CROWN), recipe, e)) {
+        (plan.grown_by != GROWN_BY_LIGHT && !grow_by_attractors(whole->tree, tree, recipe, e)) ||
+        (by_light && !tree_grow_by_light(&whole->tree, &plan, recipe, e))) {
         return false;
     }
-    compute_radii(whole->tree, tree);
+    compute_radii(whole->tree, tree, by_light);
     return tree->roots.count <= 0 ||
            grow_roots(whole->tree, tree, random_key(seed, STREAM_TREE_ROOTS), recipe, e);
 }

@@ -5,6 +5,7 @@
 #define RAMIFY_OBJECTS_TREE_TREE_H
 
 #include "base/run.h"
+#include "grow/light/light.h"
 #include "mesh/geometry.h"
 #include "objects/common/branches.h"
 #include "objects/common/element.h"
@@ -13,10 +14,11 @@
 
 typedef struct TrunkParams {
     ElementParams element;
-    float height; // m, from the ground to the trunk's last node; 0 = 0.32 of the tree's height
-    float radius; // m, above the root flare; 0 = from the height: 0.03 height^1.5 / 14^0.5
-                  // (elastic similarity)
-    float lean;   // degrees from the vertical, toward `lean_azimuth`
+    float height;      // m, from the ground to the trunk's last node; 0 = 0.32 of the tree's height
+    float radius;      // m, above the root flare; 0 = from the tree's height and slenderness
+    float slenderness; // height / diameter of a grown-up tree, h; a tree of height H has
+                       // h sqrt(mature height / H) (elastic similarity). 0 = default
+    float lean;        // degrees from the vertical, toward `lean_azimuth`
     float lean_azimuth; // degrees from +Z toward +X
     int stems;          // stems that start on a circle about the base; 1 = a plain trunk
     float stem_circle;  // m, radius of that circle; 0 = the trunk's radius
@@ -41,11 +43,28 @@ typedef struct RootParams {
     float radius; // of a main root at the trunk, as a share of the trunk's radius
 } RootParams;
 
+// What trunk and crown grow by.
+typedef enum GrownBy {
+    GROWN_BY_AUTO, // attractors if the crown has levels of its own, otherwise light
+    GROWN_BY_LIGHT,
+    GROWN_BY_ATTRACTORS,
+    GROWN_BY_BOTH // attractors lay trunk and limbs, which light fills
+} GrownBy;
+
+typedef struct TreeLight {
+    LightParams growth;
+    float mature_height; // m, of a grown-up tree
+    float mature_age;    // years
+} TreeLight;
+
 typedef struct TreeParams {
     char *species; // NULL: what it names is applied before the file is loaded (scene/species.h)
     uint64_t seed; // 0 = the object's
     Vec3 position; // m, of the trunk's base
-    float height;  // m
+    float height;  // m; 0 = from the age
+    float age;     // years; 0 = from the height
+    GrownBy grown_by;
+    TreeLight light;
     TrunkParams trunk;
     CrownParams crown;
     RootParams roots;
@@ -57,8 +76,8 @@ typedef struct TreeParams {
 // Nodes of a main root's start, from inside the trunk's flare to where growth begins.
 enum { TREE_ROOT_PIECES = 6 };
 
-// Colonies of the out-trees that tree_grow makes.
-enum { TREE_TRUNK, TREE_CROWN, TREE_ROOTS };
+// Colonies of the out-trees that tree_grow makes. The last two bear no leaves.
+enum { TREE_TRUNK, TREE_CROWN, TREE_ROOTS, TREE_SNAGS };
 
 // Roles of materials.
 enum { TREE_BARK, TREE_TWIG, TREE_LEAF };

@@ -1,0 +1,35 @@
+// What is around a plant that grows by light: obstacles, which light does not pass, and the leaves
+// of rivals.
+#ifndef RAMIFY_GROW_LIGHT_AROUND_H
+#define RAMIFY_GROW_LIGHT_AROUND_H
+
+#include "grow/light/plant.h"
+#include "grow/light/shade_grid.h"
+
+typedef struct Leaf {
+    Vec3 position; // internodes
+    int32_t season;
+} Leaf;
+
+typedef struct Around {
+    const LightSite *site;
+    OutTree *shown; // the plant's metamers as rivals see them
+    int64_t told;   // of shown: the rivals know these
+    Leaf *leaf;     // of rivals
+    int64_t leaf_count, leaf_capacity;
+} Around;
+
+bool around_init(Around *around, const LightSite *site, Error *e);
+void around_clear(Around *around);
+
+// Shows the rivals the plant's new metamers, waits for its turn and notes their new leaves. Those
+// of more than leaf_seasons seasons are dropped once there are younger ones.
+bool around_meet(Around *around, const Plant *plant, int season, int leaf_seasons, Error *e);
+
+// How far the grid must reach beyond the plant, internodes: 0 if it grows alone.
+float around_margin(const Around *around, Aabb plant);
+
+// Adds the shade of obstacles and rivals to a grid.
+void around_shade(const Around *around, float leaf_area, ShadeGrid *grid, int threads);
+
+#endif

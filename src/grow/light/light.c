@@ -1,0 +1,144 @@
+#include "grow/light/light.h"
+
+#include "grow/light/around.h"
+#include "grow/light/share.h"
+#include "grow/light/shed.h"
+#include "grow/light/shoots.h"
+
+#define CELL 1.5f   // internodes, of the voxels
+#define BORDER 2.5f // cells about the plant
+enum { MOST_CELLS = 400000, MOST_METAMERS = 8000000 };
+
+LightParams light_params_default(void)
+{
+    return (LightParams){.seasons = 34,
+                         .apical_control = {0.53f, 0.475f},
+                         .maturing = {0.2f, 0.5f},
+                         .vigor = 2.2f,
+                         .shoot = 6,
+                         .shade = 0.6f,
+                         .leaf_seasons = 2,
+                         .light_need = 0.2f,
+                         .branch_angle = {62.0f, 58.0f, 52.0f},
+                         .angle_spread = 8.0f,
+                         .phyllotaxis = 137.5f,
+                         .buds = 1,
+                         .tropism = {0.04f, 0.0f, 0.0f},
+                         .phototropism = 0.12f,
+                         .zigzag = 16.0f,
+                         .noise = 0.12f,
+                         .bole = 0.12f,
+                         .snags = 0.25f};
+}
+
+// Low corners lie on a lattice about the foot, so that a plant's growth shifts no cell borders.
+static Vec3 snapped(Vec3 p, float cell)
+{
+    return vec3(cell * floorf(p.x / cell), cell * floorf(p.y / cell), cell * floorf(p.z / cell));
+}
+
+static ShadeGrid *make_grid(const Plant *plant, const LightParams *params, const LightSite *site,
+                            const Around *around, int season, const Run *run, Error *e)
+{
+    Aabb box = plant_bounds(plant);
+    float margin = around_margin(around, box);
+    Vec3 border = vec3_splat(BORDER * CELL);
+    border.x += margin;
+    border.z += margin;
+    box.low = snapped(vec3_sub(box.low, border), CELL);
+    box.high = vec3_add(box.high, border);
+    ShadeGrid *grid = shade_grid_new(box, CELL, site->cells > 0 ? site->cells : MOST_CELLS, e);
+    if (!grid) {
+        return NULL;
+    }
+    around_shade(around, params->shade, grid, run->threads);
+    for (int64_t i = 0; i < plant->count; i++) {
+        const Metamer *m = &plant->metamer[i];
+        if (metamer_has_leaves(m, season, params->leaf_seasons)) {
+            shade_grid_add_leaves(grid, m->position, params->shade);
+        }
+    }
+    if (!shade_grid_solve(grid, run->threads, e)) {
+        shade_grid_free(grid);
+        return NULL;
+    }
+    return grid;
+}
+
+static void catch_light(Plant *plant, const ShadeGrid *grid, const LightParams *params, int season,
+                        int threads)
+{
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (int64_t i = 0; i < plant->count; i++) {
+        Metamer *m = &plant->metamer[i];
+        bool leaves = metamer_has_leaves(m, season, params->leaf_seasons);
+        m->light = leaves ? shade_grid_light(grid, m->position) : 0.0f;
+    }
+}
+
+// Apical control in a season: it falls from the young tree's to the old one's.
+static float control_at(const LightParams *params, int season)
+{
+    float share = (float)season / (float)params->seasons;
+    float old =
+        params->maturing.y > params->maturing.x
+            ? clampf((share - params->maturing.x) / (params->maturing.y - params->maturing.x), 0.0f,
+                     1.0f)
+            : (share >= params->maturing.x ? 1.0f : 0.0f);
+    return lerpf(params->apical_control.x, params->apical_control.y, old);
+}
+
+static bool grow_season(Plant *plant, const LightParams *params, const LightSite *site,
+                        Around *around, int season, const Run *run, Error *e)
+{
+    if (!around_meet(around, plant, season, params->leaf_seasons, e)) {
+        return false;
+    }
+    ShadeGrid *grid = make_grid(plant, params, site, around, season, run, e);
+    if (!grid) {
+        return false;
+    }
+    float control = control_at(params, season);
+    float bole = params->bole * plant_bounds(plant).high.y;
+    catch_light(plant, grid, params, season, run->threads);
+    plant_sum_light(plant, season, params->leaf_seasons);
+    if (plant_shed(plant, params, season, bole) > 0) {
+        plant_sum_light(plant, season, params->leaf_seasons);
+    }
+    plant_share_growth(plant, params->vigor, control);
+    bool done = plant_make_shoots(plant, params, site, grid, season, control, e);
+    shade_grid_free(grid);
+    return done;
+}
+
+static bool grow_seasons(Plant *plant, const LightParams *params, const LightSite *site,
+                         const Run *run, Error *e)
+{
+    Around around;
+    int64_t most = site->metamers > 0 ? site->metamers : MOST_METAMERS;
+    bool done = around_init(&around, site, e);
+    for (int season = 0; done && season < site->seasons && plant->count < most; season++) {
+        run_progress(run, "growing by light", (double)season / (double)site->seasons);
+        done = (!run_is_cancelled(run) || run_cancel_error(e)) &&
+               grow_season(plant, params, site, &around, season, run, e);
+    }
+    around_clear(&around);
+    return done;
+}
+
+OutTree *light_grow(const OutTree *start, const LightParams *params, const LightSite *site,
+                    const Run *run, Error *e)
+{
+    Plant plant;
+    if (start->count < 1 || !(site->internode > 0.0f)) {
+        error_set(e, ERROR_INPUT, "growth by light needs a start and an internode above 0");
+        return NULL;
+    }
+    if (!plant_init(&plant, start, params, site, e)) {
+        return NULL;
+    }
+    OutTree *tree =
+        grow_seasons(&plant, params, site, run, e) ? plant_out_tree(&plant, params, site, e) : NULL;
+    plant_clear(&plant);
+    return tree;
+}

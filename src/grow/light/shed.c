@@ -1,0 +1,33 @@
+#include "grow/light/shed.h"
+
+static bool is_starving(const Metamer *m, float light_need)
+{
+    return m->leafy == 0 || m->income < light_need * (float)m->leafy;
+}
+
+int64_t plant_shed(Plant *plant, const LightParams *params, int season, float bole)
+{
+    int64_t shed = 0;
+    for (int64_t i = 0; i < plant->count; i++) {
+        Metamer *m = &plant->metamer[i];
+        if (m->died != PLANT_ALIVE || m->parent < 0) {
+            continue;
+        }
+        const Metamer *base = &plant->metamer[m->parent];
+        if (base->died != PLANT_ALIVE) {
+            m->died = base->died;
+            continue;
+        }
+        bool low = base->order == 0 && base->position.y < bole;
+        bool branch = base->next != i; // not what continues the axis
+        if (branch && (low || is_starving(m, params->light_need))) {
+            m->died = season;
+            shed++;
+        }
+        if ((m->order == 0 && m->position.y < bole) ||
+            !metamer_has_leaves(m, season, params->leaf_seasons)) {
+            m->buds = 0;
+        }
+    }
+    return shed;
+}

@@ -1,0 +1,158 @@
+#include "objects/tree/by_light.h"
+
+#include "base/exact_math.h"
+#include "base/random.h"
+
+enum { STREAM_LIGHT = 5 };         // of the object's seed
+enum { TRIAL_CELLS = 30000 };      // voxels of the grid of a trial
+enum { LEAST_TRIAL_SEASONS = 30 }; // for limbs that attractors laid
+#define CELLS_AMONG_RIVALS 150000
+
+// The tree's stems, each leaning.
+static OutTree *plant(const TreeParams *params, uint64_t seed, Error *e)
+{
+    OutTree *start = out_tree_new(e);
+    if (!start || !tree_plant_stems(start, params, seed, e)) {
+        out_tree_free(start);
+        return NULL;
+    }
+    const TrunkParams *trunk = &params->trunk;
+    float sine, cosine, lean_sine, lean_cosine;
+    exact_sincos(trunk->lean_azimuth * RADIANS_PER_DEGREE, &sine, &cosine);
+    exact_sincos(trunk->lean * RADIANS_PER_DEGREE, &lean_sine, &lean_cosine);
+    Vec3 up = vec3(lean_sine * sine, lean_cosine, lean_sine * cosine);
+    for (int64_t i = 0; i < start->count; i++) {
+        if (start->parent[i] < 0) { // below the foot, which follows it
+            start->position[i] = vec3_madd(start->position[i + 1], -trunk->radius, up);
+        }
+    }
+    return start;
+}
+
+static LightSite plan_site(const TreePlan *plan, uint64_t seed)
+{
+    const TreeParams *tree = &plan->params;
+    const ColonizeParams *growth = &tree->crown.element.growth;
+    return (LightSite){.foot = tree->position,
+                       .internode = 1.0f,
+                       .seasons = plan->seasons,
+                       .up = growth->tropism,
+                       .field_weight = growth->field_weight,
+                       .metamers = growth->max_nodes,
+                       .tip = tree->radii.tip,
+                       .girth = tree->trunk.radius,
+                       .exponent = tree->radii.exponent,
+                       .colony = {TREE_TRUNK, TREE_CROWN, TREE_SNAGS},
+                       .seed = random_key(seed, STREAM_LIGHT)};
+}
+
+static LightParams plan_growth(const TreePlan *plan)
+{
+    LightParams growth = plan->params.light.growth;
+    growth.bole = plan->bole > 0.0f ? plan->bole / plan->params.height : growth.bole;
+    return growth;
+}
+
+static float top_of(const OutTree *tree)
+{
+    return out_tree_bounds(tree).high.y;
+}
+
+// A tree that grows freely is the same in every size.
+static void scale_about(OutTree *tree, Vec3 foot, float factor)
+{
+    for (int64_t i = 0; i < tree->count; i++) {
+        tree->position[i] = vec3_madd(foot, factor, vec3_sub(tree->position[i], foot));
+    }
+}
+
+static OutTree *grow_free(const TreePlan *plan, LightSite *site, const Recipe *recipe, Error *e)
+{
+    const TreeParams *params = &plan->params;
+    LightParams growth = plan_growth(plan);
+    OutTree *start = plant(params, site->seed, e);
+    if (start) { // in internodes
+        scale_about(start, params->position, (float)plan->seasons / params->height);
+    }
+    OutTree *tree = start ? light_grow(start, &growth, site, recipe->run, e) : NULL;
+    out_tree_free(start);
+    return tree;
+}
+
+// Sets the internode to that of a tree which grows freely to the plan's height.
+static bool find_internode(const TreePlan *plan, LightSite *site, const Recipe *recipe, Error *e)
+{
+    LightSite trial = *site;
+    trial.cells = TRIAL_CELLS;
+    if (plan->grown_by == GROWN_BY_BOTH && trial.seasons < LEAST_TRIAL_SEASONS) {
+        trial.seasons = LEAST_TRIAL_SEASONS;
+    }
+    OutTree *tree = grow_free(plan, &trial, recipe, e);
+    if (!tree) {
+        return false;
+    }
+    float height = top_of(tree) - plan->params.position.y;
+    site->internode = plan->params.height / height;
+    out_tree_free(tree);
+    return true;
+}
+
+// Grows from a start in the bounds, the field and the room that the tree has.
+static OutTree *grow_bounded(const TreePlan *plan, const OutTree *start, LightSite *site,
+                             const Recipe *recipe, Error *e)
+{
+    const ElementParams *crown = &plan->params.crown.element;
+    LightParams growth = plan_growth(plan);
+    Envelope *envelope = NULL;
+    GuideField *field = NULL;
+    OutTree *tree = NULL;
+    bool shaped = plan->bounded || crown->field_count > 0;
+    bool good = !shaped || (envelope = element_envelope(crown, recipe->run, e));
+    good = good && element_guide_field(start, start->count, crown, envelope,
+                                       random_key(site->seed, STREAM_ELEMENT_FIELD), recipe->run,
+                                       &field, e);
+    if (good && (!shaped || growth_observe(recipe, "crown", envelope, field, e))) {
+        site->envelope = plan->bounded ? envelope : NULL;
+        site->field = field;
+        site->room = recipe->room;
+        site->cells = recipe->room && recipe->room->meet ? (int64_t)CELLS_AMONG_RIVALS : 0;
+        tree = light_grow(start, &growth, site, recipe->run, e);
+    }
+    guide_field_free(field);
+    envelope_free(envelope);
+    return tree;
+}
+
+// Grows freely, then scales to the height.
+static OutTree *grow_to_height(const TreePlan *plan, LightSite *site, const Recipe *recipe,
+                               Error *e)
+{
+    const TreeParams *params = &plan->params;
+    OutTree *tree = grow_free(plan, site, recipe, e);
+    if (tree) {
+        float height = top_of(tree) - params->position.y;
+        scale_about(tree, params->position, params->height / height);
+    }
+    return tree;
+}
+
+bool tree_grow_by_light(OutTree **tree, const TreePlan *plan, const Recipe *recipe, Error *e)
+{
+    const TreeParams *params = &plan->params;
+    LightSite site = plan_site(plan, recipe->seed);
+    OutTree *grown = NULL;
+    bool limbs = (*tree)->count > 0;
+    if (!limbs && !plan->bounded && !recipe->room && params->crown.element.field_count == 0) {
+        grown = grow_to_height(plan, &site, recipe, e);
+    } else if (find_internode(plan, &site, recipe, e)) {
+        OutTree *start = limbs ? NULL : plant(params, site.seed, e);
+        grown = limbs || start ? grow_bounded(plan, limbs ? *tree : start, &site, recipe, e) : NULL;
+        out_tree_free(start);
+    }
+    if (!grown) {
+        return recipe_fail(recipe, "crown", e) || error_key(e, "crown");
+    }
+    out_tree_free(*tree);
+    *tree = grown;
+    return true;
+}

@@ -1,0 +1,15 @@
+// A tree grown by light (grow/light/light.h): from its stems' feet, or from trunk and limbs that
+// attractors laid.
+#ifndef RAMIFY_OBJECTS_TREE_BY_LIGHT_H
+#define RAMIFY_OBJECTS_TREE_BY_LIGHT_H
+
+#include "objects/tree/defaults.h"
+
+// Plants a node below the ground and one on it for each stem, so that the trunk's end is hidden.
+bool tree_plant_stems(OutTree *tree, const TreeParams *params, uint64_t seed, Error *e);
+
+// Replaces *tree, which has trunk and limbs or no node, by the grown tree with radii by the pipe
+// model.
+bool tree_grow_by_light(OutTree **tree, const TreePlan *plan, const Recipe *recipe, Error *e);
+
+#endif
