@@ -71,7 +71,7 @@ static void write_vertices(ObjWriter *obj, const ExportPiece *piece)
     int64_t all = mesh->vertex_count;
     for (int64_t first = 0; first < all && !run_is_cancelled(obj->run); first += EXPORT_BLOCK) {
         int64_t count = all - first < EXPORT_BLOCK ? all - first : EXPORT_BLOCK;
-        export_surface_vertices(piece->surface, piece->place, piece->variation, first, count,
+        export_surface_vertices(piece->surface, piece->place, piece->look, first, count,
                                 obj->run->threads, obj->block);
         for (int64_t i = 0; i < count; i++) {
             const ExportVertex *v = &obj->block[i];

@@ -91,10 +91,10 @@ static bool visit_mesh(const PartWalk *walk, const Mesh *mesh, const float *glow
     surface.glow = glow;
     bool done = true;
     for (int64_t i = 0; done && i < part_copies(part, walk->placed); i++) {
-        ExportPiece piece = {.part = walk->index, .surface = &surface, .variation = 0.5f};
+        ExportPiece piece = {.part = walk->index, .surface = &surface, .look = {0.5f, 0.0f}};
         if (part->instance) {
             piece.place = walk->placed ? &part->instance[i] : NULL;
-            piece.variation = walk->placed ? part_variation(part, i) : -1.0f;
+            piece.look = walk->placed ? part_look(part, i) : (InstanceLook){-1.0f, 0.0f};
         }
         done = walk->visit(walk->user, &piece, e);
         if (run_is_cancelled(walk->run)) { // it may be incomplete

@@ -10,7 +10,7 @@ typedef struct ExportPiece {
     int64_t part; // index into the geometry
     const ExportSurface *surface;
     const Transform *place; // NULL = as it is
-    float variation;        // as for export_surface_vertices
+    InstanceLook look;      // as for export_surface_vertices
 } ExportPiece;
 
 Aabb export_piece_bounds(const ExportPiece *piece);

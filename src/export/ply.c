@@ -47,7 +47,7 @@ static bool write_vertices(void *user, const ExportPiece *piece, Error *e)
     int64_t all = piece->surface->mesh->vertex_count;
     for (int64_t first = 0; first < all && !run_is_cancelled(ply->run); first += EXPORT_BLOCK) {
         int64_t count = all - first < EXPORT_BLOCK ? all - first : EXPORT_BLOCK;
-        export_surface_vertices(piece->surface, piece->place, piece->variation, first, count,
+        export_surface_vertices(piece->surface, piece->place, piece->look, first, count,
                                 ply->run->threads, ply->block);
         for (int64_t i = 0; i < count; i++) {
             write_vertex(ply, &ply->block[i]);

@@ -102,13 +102,14 @@ static SurfacePoint pattern_point(const ExportSurface *surface, const Transform 
     return point;
 }
 
-static Vec3 pattern_color(const ExportSurface *surface, const Transform *place, float variation,
+static Vec3 pattern_color(const ExportSurface *surface, const Transform *place, InstanceLook look,
                           const ExportVertex *vertex, int64_t v)
 {
     Material material = *surface->material;
     SurfacePoint point = pattern_point(surface, place, vertex, v);
-    point.variation = variation < 0.0f ? 0.5f : variation;
-    material.variation = variation < 0.0f ? 0.0f : material.variation;
+    point.variation = look.variation < 0.0f ? 0.5f : look.variation;
+    point.season = look.season;
+    material.variation = look.variation < 0.0f ? 0.0f : material.variation;
     material.pattern_depth = 0.0f; // only the colour is used
     PatternShade shade = {material.color, material.transmittance, point.normal};
     pattern_apply(&material, &point, &shade);
@@ -133,8 +134,9 @@ static Vec3 vertex_normal(const ExportSurface *surface, const Transform *inverse
     return vec3_dot(n, n) > 0.5f ? n : vec3(0, 1, 0); // faces without area have none
 }
 
-void export_surface_vertices(const ExportSurface *surface, const Transform *place, float variation,
-                             int64_t first, int64_t count, int threads, ExportVertex *out)
+void export_surface_vertices(const ExportSurface *surface, const Transform *place,
+                             InstanceLook look, int64_t first, int64_t count, int threads,
+                             ExportVertex *out)
 {
     const Mesh *mesh = surface->mesh;
     Transform inverse;
@@ -152,7 +154,7 @@ void export_surface_vertices(const ExportSurface *surface, const Transform *plac
         vertex->birth = mesh->birth ? mesh->birth[v] : 0.0f;
         vertex->glow = surface->glow ? surface->glow[v] : 1.0f;
         vertex->growth = clamp_color(vec3(vertex->birth, vertex->radius * per_radius, 0.0f));
-        vertex->color = clamp_color(patterned ? pattern_color(surface, place, variation, vertex, v)
+        vertex->color = clamp_color(patterned ? pattern_color(surface, place, look, vertex, v)
                                               : surface->material->color);
     }
 }

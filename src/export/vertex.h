@@ -5,6 +5,7 @@
 
 #include "base/mesh.h"
 #include "export/export.h"
+#include "mesh/geometry.h"
 #include "render/material/material.h"
 
 typedef struct ExportVertex {
@@ -35,10 +36,11 @@ bool export_surface_prepare(ExportSurface *surface, const Mesh *mesh, const Mate
                             unsigned wants, Error *e);
 void export_surface_clear(ExportSurface *surface);
 
-// Writes vertices first .. first + count - 1 to out. place: NULL = identity. variation: of the
-// instance, 0..1; negative = none, for a mesh that all instances share.
-void export_surface_vertices(const ExportSurface *surface, const Transform *place, float variation,
-                             int64_t first, int64_t count, int threads, ExportVertex *out);
+// Writes vertices first .. first + count - 1 to out. place: NULL = identity. look: of the instance;
+// a negative variation = none, for a mesh that all instances share.
+void export_surface_vertices(const ExportSurface *surface, const Transform *place,
+                             InstanceLook look, int64_t first, int64_t count, int threads,
+                             ExportVertex *out);
 
 // dP/du and dP/dv of the triangle of these vertices; two of its edges if it has no uv.
 void export_tangents(const Mesh *mesh, const uint32_t corner[3], Vec3 *u, Vec3 *v);

@@ -50,8 +50,8 @@ static bool color_mesh(const Material *material, const Part *part, const Run *ru
                                                  EXPORT_WANTS_NORMALS | EXPORT_WANTS_COLORS, e);
     for (int64_t i = 0; done && i < count && !run_is_cancelled(run); i += BLOCK) {
         int64_t most = count - i < BLOCK ? count - i : BLOCK;
-        export_surface_vertices(&surface, NULL, part->instance ? -1.0f : 0.5f, i, most,
-                                run->threads, vertex);
+        export_surface_vertices(&surface, NULL, (InstanceLook){part->instance ? -1.0f : 0.5f, 0.0f},
+                                i, most, run->threads, vertex);
         for (int64_t k = 0; k < most; k++) {
             color[i + k] = vertex[k].color;
         }

@@ -20,6 +20,7 @@ static void part_clear(Part *part)
     curves_free(part->curves);
     free(part->instance);
     free(part->variation);
+    free(part->season);
 }
 
 bool geometry_add(Geometry *geometry, Part part, Error *e)

@@ -29,6 +29,7 @@ typedef struct Part {
     Transform *instance; // owned; instance_count transforms; NULL = drawn once, untransformed
     float *variation;    // owned; 0..1 per instance, for colour variation; NULL = hashed from the
                          // instance's index
+    float *season;       // owned; of leaves, per instance: see InstanceLook; NULL = 0
     int64_t instance_count;
     CoarseMesh coarse[PART_COARSE_MOST]; // of an instanced mesh: from fine to coarse
 } Part;
@@ -38,11 +39,23 @@ typedef struct Geometry {
     int64_t count, capacity;
 } Geometry;
 
-// Colour variation of one of the part's instances.
+// By what one instance differs in colour from another.
+typedef struct InstanceLook {
+    float variation; // 0..1
+    float season;    // of a leaf: from -1, just out of the bud, over 0, full-grown, to 1, turned to
+                     // its autumn colour
+} InstanceLook;
+
 static inline float part_variation(const Part *part, int64_t instance)
 {
     return part->variation ? part->variation[instance]
                            : random_unit(random_key((uint64_t)part->object, (uint64_t)instance));
+}
+
+static inline InstanceLook part_look(const Part *part, int64_t instance)
+{
+    return (InstanceLook){part_variation(part, instance),
+                          part->season ? part->season[instance] : 0.0f};
 }
 
 // Frees the part's mesh and its coarse forms and sets them to NULL.

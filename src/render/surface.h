@@ -23,6 +23,7 @@ typedef struct SurfacePoint {
     float birth;
     Vec2 site;       // of land: altitude and wetness, 0..1 each
     float variation; // 0..1 per instance
+    float season;    // of a leaf, -1..1: see InstanceLook
     bool backface;   // the ray met the side away from the mesh's own orientation
     float
         epsilon; // m: how far along facet_normal a ray starts so as not to meet this surface again

@@ -200,26 +200,35 @@ typedef struct GroundObject {
     const Kind *kind;
     const void *params;
     uint64_t seed;
+    const OwnSpace *own; // of the object that stands on it
 } GroundObject;
 
+// Height of the land, in the own space of the object that stands on it.
 static float ground_height_of(const void *user, float x, float z)
 {
     const GroundObject *ground = user;
-    return ground->kind->ground(ground->params, ground->seed, x, z);
+    Vec3 p = vec3(x, 0, z);
+    if (ground->own->moved) {
+        p = transform_point(&ground->own->to_scene, p);
+    }
+    float height = ground->kind ? ground->kind->ground(ground->params, ground->seed, p.x, p.z) : 0;
+    return height - p.y;
 }
 
-// The first ground of the scene; level land at height 0 without one.
-static Land find_land(const Scene *scene, GroundObject *ground)
+// The first ground of the scene; level land at height 0 without one. own: of the object on it.
+static Land find_land(const Scene *scene, const OwnSpace *own, GroundObject *ground)
 {
+    *ground = (GroundObject){.own = own};
     scene = scene->whole ? scene->whole : scene;
     for (int i = 0; i < scene->object_count; i++) {
         const SceneObject *object = &scene->objects[i];
         if (object->kind->ground) {
-            *ground = (GroundObject){object->kind, object->params, scene_object_seed(scene, i)};
-            return (Land){ground_height_of, ground};
+            *ground =
+                (GroundObject){object->kind, object->params, scene_object_seed(scene, i), own};
+            break;
         }
     }
-    return (Land){0};
+    return (Land){ground_height_of, ground};
 }
 
 static bool add_geometry(World *world, const Making *m, Error *e)
@@ -238,7 +247,7 @@ static bool add_geometry(World *world, const Making *m, Error *e)
                        .around = {.eye = &world->camera.position,
                                   .material = world->material,
                                   .flood = m->kind->reads_water ? &water.flood : NULL,
-                                  .land = find_land(m->scene, &ground)}};
+                                  .land = find_land(m->scene, &m->own, &ground)}};
     bool done = m->kind->geometry(m->params, &m->grown, &placing, e);
     scene_flood_clear(&water);
     return done;

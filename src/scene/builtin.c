@@ -28,6 +28,7 @@ static const Material SHARED[] = {
      .color = {0.087f, 0.149f, 0.046f},
      .color2 = {0.110f, 0.175f, 0.060f},
      .transmittance = {0.060f, 0.110f, 0.012f},
+     .autumn_color = {0.330f, 0.175f, 0.035f},
      .roughness = 0.58f,
      .specular = 0.28f,
      .ior = 1.5f,

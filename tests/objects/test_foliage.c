@@ -184,6 +184,95 @@ static void needles_cover_the_twig(void **state)
     geometry_clear(&geometry);
 }
 
+// Number of leaves with a season in (low, high].
+static int64_t in_season(const Geometry *geometry, float low, float high)
+{
+    int64_t count = 0;
+    const Part *part = &geometry->part[0];
+    for (int64_t i = 0; i < part->instance_count; i++) {
+        count += part->season[i] > low && part->season[i] <= high;
+    }
+    return count;
+}
+
+static void leaves_turn_from_the_top(void **state)
+{
+    (void)state;
+    LeavesParams leaves = plain_leaves(ARRANGE_SPIRAL);
+    leaves.spacing = 0.0005f;
+    for (leaves.autumn = 0.0f; leaves.autumn <= 1.0f; leaves.autumn += 0.25f) {
+        Geometry geometry = grow_on(&leaves, vec3(0, 1, 0));
+        const Part *part = &geometry.part[0];
+        double share = (double)in_season(&geometry, 0.5f, 1.0f) / (double)part->instance_count;
+        double wanted = 1.3 * (double)leaves.autumn - 0.15; // half turned
+        wanted = wanted < 0.0 ? 0.0 : wanted > 1.0 ? 1.0 : wanted;
+        assert_true(fabs(share - wanted) < 0.003);
+        if (leaves.autumn == 0.5f) {
+            double height[2] = {0}, count[2] = {0};
+            for (int64_t i = 0; i < part->instance_count; i++) {
+                bool turned = part->season[i] > 0.5f;
+                height[turned] += (double)part->instance[i].m[1][3];
+                count[turned] += 1.0;
+            }
+            assert_true(height[1] / count[1] > height[0] / count[0] + 0.05);
+        }
+        assert_int_equal(in_season(&geometry, 0.0f, 1.0f) > 0, leaves.autumn > 0.0f);
+        geometry_clear(&geometry);
+    }
+}
+
+static void as_many_leaves_are_shed_as_asked_for(void **state)
+{
+    (void)state;
+    LeavesParams leaves = plain_leaves(ARRANGE_SPIRAL);
+    leaves.spacing = 0.001f;
+    Geometry whole = grow_on(&leaves, vec3(0, 1, 0));
+    int64_t all = whole.part[0].instance_count;
+    geometry_clear(&whole);
+    leaves.fall = 0.6f;
+    int64_t shed = (int64_t)(0.6 * (double)all + 0.5);
+    for (leaves.litter = 0.0f; leaves.litter <= 1.0f; leaves.litter += 0.5f) {
+        Geometry geometry = grow_on(&leaves, vec3(0, 1, 0));
+        const Part *part = &geometry.part[0];
+        int64_t lying = part->instance_count - (all - shed);
+        double share = (double)lying / (double)shed;
+        assert_true(fabs(share - (double)leaves.litter) < 0.06);
+        int64_t low = 0; // on the ground, which is at height 0, with their upper or under side up
+        for (int64_t i = 0; i < part->instance_count; i++) {
+            const Transform *t = &part->instance[i];
+            bool lies = t->m[1][3] > 0.0f && t->m[1][3] < 0.031f && part->season[i] == 1.0f &&
+                        fabsf(axis(t, 2).y) > 0.7f;
+            low += lies;
+        }
+        assert_true(low >= lying);
+        geometry_clear(&geometry);
+    }
+}
+
+static void young_leaves_are_small_and_folded(void **state)
+{
+    (void)state;
+    LeavesParams leaves = plain_leaves(ARRANGE_SPIRAL);
+    float before = 0.0f, width_before = 0.0f;
+    for (leaves.emergence = 0.25f; leaves.emergence <= 1.0f; leaves.emergence += 0.25f) {
+        Geometry geometry = grow_on(&leaves, vec3(1, 0, 0));
+        const Part *part = &geometry.part[0];
+        float size = 0.0f;
+        for (int64_t i = 0; i < part->instance_count; i++) {
+            const Transform *t = &part->instance[i];
+            size += vec3_length(vec3(t->m[0][1], t->m[1][1], t->m[2][1]));
+            assert_true(part->season[i] <= 0.0f && part->season[i] >= -1.0f);
+        }
+        size /= (float)part->instance_count;
+        Aabb box = mesh_bounds(part->mesh);
+        assert_true(size > before && box.high.x - box.low.x > width_before);
+        before = size;
+        width_before = box.high.x - box.low.x;
+        geometry_clear(&geometry);
+    }
+    assert_float_equal(before, 1.0f, 1e-6f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -193,6 +282,9 @@ int main(void)
         cmocka_unit_test(a_rosette_is_at_the_end),
         cmocka_unit_test(short_shoots_bear_clusters),
         cmocka_unit_test(needles_cover_the_twig),
+        cmocka_unit_test(leaves_turn_from_the_top),
+        cmocka_unit_test(as_many_leaves_are_shed_as_asked_for),
+        cmocka_unit_test(young_leaves_are_small_and_folded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -76,7 +76,7 @@ static bool write_vertices(void *user, const ExportPiece *piece, Error *e)
     for (int64_t first = 0; first < all && !run_is_cancelled(writer->glb->run);
          first += EXPORT_BLOCK) {
         int64_t count = all - first < EXPORT_BLOCK ? all - first : EXPORT_BLOCK;
-        export_surface_vertices(piece->surface, piece->place, piece->variation, first, count,
+        export_surface_vertices(piece->surface, piece->place, piece->look, first, count,
                                 writer->glb->run->threads, writer->block);
         for (int64_t i = 0; i < count; i++) {
             write_vertex(writer, &writer->block[i]);

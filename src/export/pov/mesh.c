@@ -247,8 +247,9 @@ static bool shade_vertices(Pov *pov, const Part *part, PovShades *shades, Palett
 {
     const Material *m = &pov->world->material[part->material];
     const Mesh *mesh = part->mesh;
-    if (!pov_shade_mesh(m, mesh, part->instance, part->instance ? part_variation(part, 0) : 0.5f,
-                        pov->run, shades, pov->e)) {
+    if (!pov_shade_mesh(m, mesh, part->instance,
+                        part->instance ? part_look(part, 0) : (InstanceLook){0.5f, 0.0f}, pov->run,
+                        shades, pov->e)) {
         return false;
     }
     *shade = memory_alloc(mesh->vertex_count, 1, pov->e);

@@ -47,7 +47,7 @@ static PatternShade shade_at(const Material *m, const SurfacePoint *point)
 // A vertex as a corner of the face. The footprint is the size of the face: finer details fade into
 // their mean.
 static SurfacePoint vertex_point(const Mesh *mesh, uint32_t vertex, int64_t face,
-                                 const Transform *place, float variation)
+                                 const Transform *place, InstanceLook look)
 {
     const uint32_t *corner = mesh->index + face * mesh->face_size;
     Vec3 a = mesh->position[corner[0]];
@@ -59,7 +59,8 @@ static SurfacePoint vertex_point(const Mesh *mesh, uint32_t vertex, int64_t face
                           .radius = mesh->radius ? mesh->radius[vertex] : 0.0f,
                           .birth = mesh->birth ? mesh->birth[vertex] : 0.0f,
                           .site = mesh->site ? mesh->site[vertex] : (Vec2){0, 0},
-                          .variation = variation,
+                          .variation = look.variation,
+                          .season = look.season,
                           .footprint = sqrtf(vec3_length(across))};
     export_tangents(mesh, corner, &point.tangent_u, &point.tangent_v);
     point.position = place ? transform_point(place, point.object_position) : point.object_position;
@@ -81,7 +82,7 @@ static int64_t *faces_of(const Mesh *mesh, Error *e)
     return face;
 }
 
-bool pov_shade_mesh(const Material *m, const Mesh *mesh, const Transform *place, float variation,
+bool pov_shade_mesh(const Material *m, const Mesh *mesh, const Transform *place, InstanceLook look,
                     const Run *run, PovShades *shades, Error *e)
 {
     bool bumped = m->pattern_depth > 0.0f && mesh->normal;
@@ -94,7 +95,7 @@ bool pov_shade_mesh(const Material *m, const Mesh *mesh, const Transform *place,
     for (int64_t v = 0; v < mesh->vertex_count; v++) {
         PatternShade shade = {m->color, m->transmittance, vec3(0.0f, 1.0f, 0.0f)};
         if (face[v] >= 0) {
-            SurfacePoint point = vertex_point(mesh, (uint32_t)v, face[v], place, variation);
+            SurfacePoint point = vertex_point(mesh, (uint32_t)v, face[v], place, look);
             shade = shade_at(m, &point);
         }
         shades->color[v] = shade.color;
@@ -168,9 +169,9 @@ enum { MEAN_FACES = 32 };
 // Interpolates inside of a triangle, because vertices lie on veins and edges more often than the
 // surface does.
 static SurfacePoint inner_point(const Mesh *mesh, int64_t face, const uint32_t corner[3],
-                                const float weight[3], const Transform *place, float variation)
+                                const float weight[3], const Transform *place, InstanceLook look)
 {
-    SurfacePoint point = vertex_point(mesh, corner[0], face, place, variation);
+    SurfacePoint point = vertex_point(mesh, corner[0], face, place, look);
     Vec3 p = {0, 0, 0}, normal = {0, 0, 0};
     point.uv = point.site = (Vec2){0, 0};
     point.radius = point.birth = 0.0f;
@@ -199,7 +200,8 @@ static void mean_shade(const Material *m, const Part *part, int64_t instance, Po
                                        {1.0f / 6, 1.0f / 6, 2.0f / 3}};
     const Mesh *mesh = part->mesh;
     Vec3 color = {0, 0, 0}, transmittance = {0, 0, 0};
-    float sum = 0.0f, variation = part_variation(part, instance);
+    float sum = 0.0f;
+    InstanceLook look = part_look(part, instance);
     for (int64_t f = 0; f < mesh->face_count; f += mesh->face_count / MEAN_FACES + 1) {
         uint32_t corner[6];
         for (int t = 3 * export_face_triangles(mesh, f, false, corner) - 3; t >= 0; t -= 3) {
@@ -207,8 +209,8 @@ static void mean_shade(const Material *m, const Part *part, int64_t instance, Po
             float area = vec3_length(vec3_cross(vec3_sub(mesh->position[corner[t + 1]], a),
                                                 vec3_sub(mesh->position[corner[t + 2]], a)));
             for (int k = 0; k < 3; k++) {
-                SurfacePoint point = inner_point(mesh, f, corner + t, inside[k],
-                                                 &part->instance[instance], variation);
+                SurfacePoint point =
+                    inner_point(mesh, f, corner + t, inside[k], &part->instance[instance], look);
                 PatternShade shade = shade_at(m, &point);
                 color = vec3_madd(color, area, shade.color);
                 transmittance = vec3_madd(transmittance, area, shade.transmittance);

@@ -18,7 +18,7 @@ void pov_shades_clear(PovShades *shades);
 
 // Shades each vertex. place: transform of the instance that stands for all; NULL = none.
 bool pov_shade_mesh(const Material *material, const Mesh *mesh, const Transform *place,
-                    float variation, const Run *run, PovShades *shades, Error *e);
+                    InstanceLook look, const Run *run, PovShades *shades, Error *e);
 
 // Shades each segment, in the order of the points; radiance times glow if the material emits.
 bool pov_shade_curves(const Material *material, const CurveSet *curves, PovShades *shades,

@@ -56,7 +56,8 @@ bool branches_add_twigs(const OutTree *tree, const TwigParams *params, const Pla
                         Error *e)
 {
     bool drawn = params->skin->curve_radius > 0.0f;
-    bool leafy = params->leaves && params->leaves->max_count > 0;
+    bool leafy =
+        params->leaves && params->leaves->max_count > 0 && params->leaves->emergence > 0.0f;
     if (!drawn && !leafy) {
         return true;
     }

@@ -2,7 +2,9 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "objects/common/leaf_batch.h"
 #include "objects/common/leaf_place.h"
+#include "objects/common/leaf_season.h"
 
 #include <stdlib.h>
 
@@ -11,15 +13,8 @@ enum { STREAM_LENGTH = 1, STREAM_WIDTH = 2, STREAM_FOLD = 3, STREAM_CURL = 4 }; 
 enum { STREAM_OFFSET = 1, STREAM_REFERENCE = 2, STREAM_LEAVES = 100 };
 enum { STREAM_VARIANT = 9, STREAM_VARIATION = 10 }; // of a leaf
 
-// Instances of one leaf variant, collected for a part.
-typedef struct LeafBatch {
-    Transform *instance;
-    float *variation;
-    int64_t count, capacity, variation_capacity;
-} LeafBatch;
-
 // Of a leaf: here, and at least in the ray tracer.
-#define LEAF_BYTES (1.5 * (sizeof(Transform) + sizeof(float)) + 100.0)
+#define LEAF_BYTES (1.5 * (sizeof(Transform) + 2 * sizeof(float)) + 100.0)
 
 typedef struct Foliage {
     const LeavesParams *leaves;
@@ -59,25 +54,13 @@ static float node_gap(const Foliage *foliage, int64_t number)
     return foliage->spacing * (number < CROWDED ? least + step * (float)number : 1.0f);
 }
 
-static bool batch_add(LeafBatch *batch, Transform instance, float variation, Error *e)
-{
-    if (!memory_reserve(&batch->instance, &batch->capacity, batch->count + 1,
-                        sizeof *batch->instance, e) ||
-        !memory_reserve(&batch->variation, &batch->variation_capacity, batch->count + 1,
-                        sizeof *batch->variation, e)) {
-        return false;
-    }
-    batch->instance[batch->count] = instance;
-    batch->variation[batch->count++] = variation;
-    return true;
-}
-
 static bool add_leaf(Foliage *foliage, Transform place, uint64_t key, Error *e)
 {
     int variant =
         (int)(random_unit(random_key(key, STREAM_VARIANT)) * (float)foliage->leaves->variants);
-    return batch_add(&foliage->batch[variant], place,
-                     random_unit(random_key(key, STREAM_VARIATION)), e);
+    return leaf_batch_add(&foliage->batch[variant], place,
+                          random_unit(random_key(key, STREAM_VARIATION)),
+                          leaves_emergence(foliage->leaves, key) - 1.0f, e);
 }
 
 // Point of the twig `distance` (m) before p, toward its start; p is on the segment below point i.
@@ -183,9 +166,11 @@ static bool add_parts(Foliage *foliage, const Placing *placing, int role, Error 
         }
         Part part = {.instance = batch->instance,
                      .variation = batch->variation,
+                     .season = batch->season,
                      .instance_count = batch->count};
         batch->instance = NULL;
         batch->variation = NULL;
+        batch->season = NULL;
         foliage_leaf_meshes(foliage->leaves, foliage->spacing, v, foliage->seed, &part, e);
         if (!placing_add(placing, part, role, e)) {
             return false;
@@ -224,10 +209,12 @@ bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *le
     }
     bool failed = !limit_leaves(&foliage, twigs, e);
     all_leaves(&foliage, twigs, true, &failed, e);
-    bool done = !failed && add_parts(&foliage, placing, role, e);
+    bool done = !failed &&
+                leaf_season_apply(leaves, foliage.batch, leaves->variants, &placing->around.land,
+                                  seed, e) &&
+                add_parts(&foliage, placing, role, e);
     for (int v = 0; v < leaves->variants; v++) {
-        free(foliage.batch[v].instance);
-        free(foliage.batch[v].variation);
+        leaf_batch_clear(&foliage.batch[v]);
     }
     free(foliage.batch);
     return done;

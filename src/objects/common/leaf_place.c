@@ -76,7 +76,9 @@ static void flatten(const LeavesParams *leaves, Vec3 along, Vec3 *y, Vec3 *z)
 static Transform leaf_frame(const LeavesParams *leaves, Vec3 p, Vec3 along, Vec3 out, float open,
                             Vec3 center, uint64_t key)
 {
+    float grown = leaves_emergence(leaves, key); // young leaves are small and stand closer
     float angle = open * random_range(random_key(key, STREAM_ANGLE), 0.7f, 1.3f), sine, cosine;
+    angle *= 0.4f + 0.6f * grown;
     exact_sincos(angle * RADIANS_PER_DEGREE, &sine, &cosine);
     Vec3 y = vec3_madd(vec3_scale(along, cosine), sine, out);
     Vec3 z = vec3_madd(vec3_scale(along, sine), -cosine, out);
@@ -96,6 +98,7 @@ static Transform leaf_frame(const LeavesParams *leaves, Vec3 p, Vec3 along, Vec3
     z = vec3_madd(z, -vec3_dot(z, y), y);
     z = vec3_dot(z, z) > 1e-6f ? vec3_normalize(z) : vec3_perpendicular(y);
     float size = 1.0f - leaves->size_variation * random_unit(random_key(key, STREAM_SIZE));
+    size *= 0.12f + 0.88f * grown;
     return transform_from_axes(vec3_scale(vec3_cross(y, z), size), vec3_scale(y, size),
                                vec3_scale(z, size), p);
 }

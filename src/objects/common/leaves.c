@@ -1,5 +1,9 @@
 #include "objects/common/leaves.h"
 
+#include "base/random.h"
+
+enum { STREAM_EMERGENCE = 20 }; // of a leaf
+
 static float own(float value, float default_value)
 {
     return value > 0.0f ? value : default_value;
@@ -47,6 +51,12 @@ LeafParams leaves_form(const LeavesParams *leaves, float piece)
                        .leaflet_width = leaves->leaflet_width,
                        .taper = leaves->taper,
                        .comb = leaves->comb};
+    // Young leaves are folded and straight.
+    if (leaves->emergence < 1.0f) {
+        float young = 1.0f - leaves->emergence;
+        form.fold = clampf(form.fold + 62.0f * young, -90.0f, 84.0f);
+        form.curl *= leaves->emergence;
+    }
     if (form.shape == LEAF_PALMATE) {
         form.lobes |= 1; // with one in the middle
     }
@@ -74,4 +84,14 @@ int leaves_per_node(const LeavesParams *leaves)
     default:
         return 1;
     }
+}
+
+float leaves_emergence(const LeavesParams *leaves, uint64_t key)
+{
+    const float spread = 0.25f;
+    if (leaves->emergence >= 1.0f) {
+        return 1.0f;
+    }
+    float ahead = random_unit(random_key(key, STREAM_EMERGENCE));
+    return clampf(leaves->emergence * (1.0f + spread) - spread * ahead, 0.0f, 1.0f);
 }

@@ -58,6 +58,12 @@ typedef struct LeavesParams {
     float comb;
     int variants; // different leaf meshes
     int detail;   // of a leaf's mesh: 1 for whole trees, 2 for close-ups
+
+    // Season.
+    float emergence; // 0..1: from closed buds to full-grown leaves
+    float autumn;    // 0..1: share of the leaves that have turned
+    float fall;      // 0..1: share of the leaves that are shed
+    float litter;    // 0..1: share of the shed leaves that lie on the ground
 } LeavesParams;
 
 extern const struct Table leaves_table;
@@ -68,5 +74,8 @@ LeafParams leaves_form(const LeavesParams *leaves, float piece);
 
 // Leaves of a node.
 int leaves_per_node(const LeavesParams *leaves);
+
+// How far the leaf with this key has grown, 0..1: some are ahead of others.
+float leaves_emergence(const LeavesParams *leaves, uint64_t key);
 
 #endif

@@ -132,6 +132,16 @@ static const Key LEAVES_KEYS[] = {
      .doc = "Angle between needles or twiglets and their shoot; 0 = the shape's own."},
     {KEY_OF(LeavesParams, comb, "comb", KEY_FLOAT), .high = 1,
      .doc = "How far needles or twiglets are parted to two sides, as a fir's: 0 = all round."},
+    {KEY_OF(LeavesParams, emergence, "emergence", KEY_FLOAT), .high = 1,
+     .doc = "Spring: 0 = closed buds, without leaves; between, small, folded and pale leaves; 1 = "
+            "full-grown."},
+    {KEY_OF(LeavesParams, autumn, "autumn", KEY_FLOAT), .high = 1,
+     .doc = "Share of the leaves that have turned to their material's autumn_color, one by one "
+            "from the crown's top and outside inward."},
+    {KEY_OF(LeavesParams, fall, "fall", KEY_FLOAT), .high = 1,
+     .doc = "Share of the leaves that are shed, in the same order."},
+    {KEY_OF(LeavesParams, litter, "litter", KEY_FLOAT), .high = 1,
+     .doc = "Share of the shed leaves that lie on the ground around the tree."},
     {KEY_OF(LeavesParams, detail, "detail", KEY_INT), .low = 1, .high = 2,
      .doc = "Detail of a leaf's mesh: 1 for whole trees, 2 with teeth for close-ups."},
     {KEY_OF(LeavesParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,

@@ -18,6 +18,7 @@ bool placing_add(const Placing *placing, Part part, int role, Error *e)
     if (!part.mesh && !part.curves) {
         free(part.instance);
         free(part.variation);
+        free(part.season);
         return false;
     }
     part.kind = part.curves ? PART_CURVES : PART_MESH;

@@ -12,7 +12,7 @@ typedef struct Flood {
     const void *user;                            // borrowed
 } Flood;
 
-// The ground that objects stand on.
+// The ground that objects stand on, in the own space of the object that asks.
 typedef struct Land {
     float (*height)(const void *user, float x, float z); // m; NULL = level land at height 0
     const void *user;                                    // borrowed

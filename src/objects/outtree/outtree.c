@@ -34,6 +34,7 @@ OuttreeParams outtree_params_default(void)
                                        .wave = 0.05f,
                                        .lobe_depth = 0.42f,
                                        .crowding = 0.75f,
+                                       .emergence = 1.0f,
                                        .angle = 55.0f,
                                        .droop = 0.3f,
                                        .phyllotaxis = 137.5f,

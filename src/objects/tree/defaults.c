@@ -53,6 +53,7 @@ TreeParams tree_params_default(void)
                    .lobes = 4,
                    .lobe_depth = 0.42f,
                    .crowding = 0.75f,
+                   .emergence = 1.0f,
                    .angle = 55.0f,
                    .droop = 0.45f,
                    .phyllotaxis = 137.5f,

@@ -189,6 +189,7 @@ void accel_surface(const Accel *accel, const Ray *ray, const Hit *hit, SurfacePo
     const Part *part = own->part;
     *point = (SurfacePoint){.variation = part->instance ? part_variation(part, at.instance)
                                                         : own->base_variation,
+                            .season = part->season ? part->season[at.instance] : 0.0f,
                             .material = part->material,
                             .object = part->object,
                             .part = own->number};

@@ -56,7 +56,7 @@ void bsdf_fill(const MaterialSet *set, const SurfacePoint *point, Vec3 wo, Bsdf 
                 .roughness = m->roughness,
                 .alpha = entry->alpha,
                 .table = entry->table};
-    if (m->pattern != PATTERN_NONE || m->variation > 0.0f) {
+    if (m->pattern != PATTERN_NONE || m->variation > 0.0f || point->season != 0.0f) {
         PatternShade shade = {m->color, m->transmittance, point->normal};
         pattern_apply(m, point, &shade);
         if (b->traits & TRAIT_PATTERNED) {

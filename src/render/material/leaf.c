@@ -35,6 +35,7 @@ static void defaults(Material *m)
 {
     m->color = vec3(0.087f, 0.149f, 0.046f);
     m->transmittance = vec3(0.060f, 0.110f, 0.012f);
+    m->autumn_color = vec3(0.330f, 0.175f, 0.035f);
 }
 
 const MaterialOps leaf_ops = {.traits = TRAIT_PATTERNED,

@@ -71,6 +71,7 @@ typedef struct Material {
     Vec3 color;           // reflectance (leaf: of the upper side; dielectric: tint of what passes)
     Vec3 color2;          // the pattern's second colour (bark: of the furrows)
     Vec3 transmittance;   // MATERIAL_LEAF: diffuse transmittance
+    Vec3 autumn_color;    // MATERIAL_LEAF: reflectance of a leaf that has turned
     Vec3 absorption;      // MATERIAL_DIELECTRIC: per metre, Beer-Lambert
     Vec3 scattering;      // MATERIAL_DIELECTRIC: per metre: clouded, milky, flesh
     float anisotropy;     // of that scattering: mean cosine, -1..1
@@ -114,7 +115,7 @@ static inline bool material_has_pattern(const Material *m)
 
 static inline bool material_varies(const Material *m)
 {
-    return m->variation > 0.0f && material_has(m, TRAIT_PATTERNED);
+    return (m->variation > 0.0f || m->kind == MATERIAL_LEAF) && material_has(m, TRAIT_PATTERNED);
 }
 
 // Share of a shadow ray's light that the surface holds back at this cosine: 1 unless TRAIT_THIN.

@@ -38,6 +38,9 @@ static void noise_pattern(const Material *m, const SurfacePoint *point, PatternS
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
+    if (m->kind == MATERIAL_LEAF && point->season != 0.0f) {
+        pattern_season(m, point, shade);
+    }
     switch (m->pattern) {
     case PATTERN_NONE:
         break;

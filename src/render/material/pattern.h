@@ -23,6 +23,8 @@ void pattern_badlands(const Material *material, const SurfacePoint *point, Patte
 void pattern_altitude(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_water(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_leaf(const Material *material, const SurfacePoint *point, PatternShade *shade);
+// The leaf's colours at its season: turned from the edge inward, or young.
+void pattern_season(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_corallite(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_youth(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_sand(const Material *material, const SurfacePoint *point, PatternShade *shade);
