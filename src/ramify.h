@@ -497,7 +497,8 @@ RAMIFY_API void ramify_film_free(RamifyFilm *film);
 // A layer of the film, row by row from the top left, *channels (may be NULL) floats a pixel;
 // borrowed. NULL if there is no layer with that name:
 //   color 3     mean radiance, premultiplied       alpha 1     share covered by surfaces
-//   albedo 3    of the first hit, 0..1             normal 3    of the first hit, mean, not unit
+//   albedo 3    0..1                               normal 3    mean, not unit
+//               (both of the first surface that scatters: in a mirror, of what the mirror shows)
 //   depth 1     m; INFINITY where nothing was hit  position 3  m, of the first hit
 //   object 1    index of the object + 1, 0 = none  samples 1   taken
 //   variance 1  of the mean luminance              denoised 3  color as ramify_film_denoise left it

@@ -14,8 +14,9 @@ typedef struct Film {
     Vec3 *light;        // the part of color by samples that saw a light (SEEN_LIGHT), in focus
     Vec3 *sky;          // by samples that saw the sky, in focus
     float *alpha;       // share of samples that met something (or the visible sky)
-    Vec3 *albedo;       // first-hit reflectance, 0..1; 1 for sky, lamps and veils of haze
-    Vec3 *normal;       // first-hit shading normal, world, mean (not unit)
+    Vec3 *albedo;       // 0..1, of the first surface that is no mirror nor clear glass; 1 for sky,
+                        // lamps and veils of haze
+    Vec3 *normal;       // its shading normal, world, mean (not unit)
     float *light_share; // share of these samples
     float *sky_share;
     float *depth;    // m along the ray, mean over samples that hit; INFINITY where none did

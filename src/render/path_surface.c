@@ -41,6 +41,11 @@ static bool cross_index_matched(Path *path, const SurfacePoint *point)
     return ++path->crossings < MOST_CROSSINGS;
 }
 
+static Vec3 at_most_one(Vec3 v)
+{
+    return vec3(fminf(v.x, 1.0f), fminf(v.y, 1.0f), fminf(v.z, 1.0f));
+}
+
 // The AOVs of the first surface. The haze and films before it add a veil, whose albedo is white, as
 // that of lamps and the sky.
 static void note_first_hit(const Path *path, const SurfacePoint *point, const Bsdf *bsdf)
@@ -56,6 +61,14 @@ static void note_first_hit(const Path *path, const SurfacePoint *point, const Bs
     result->object = point->object;
 }
 
+// Albedo and normal of what a mirror or glass shows, instead of its own.
+static void note_mirrored(const Path *path, const Bsdf *bsdf)
+{
+    Vec3 albedo = bsdf_is_emissive(bsdf) ? vec3_splat(1.0f) : bsdf->albedo;
+    path->result->albedo = vec3_mul(at_most_one(path->throughput), albedo);
+    path->result->normal = bsdf->normal;
+}
+
 // Fills the vertex's BSDF. False where the path ends: on what glows, at its greatest depth, by
 // roulette.
 static bool shade(Vertex *vertex)
@@ -68,6 +81,8 @@ static bool shade(Vertex *vertex)
     bsdf_fill(tracer->materials, point, vertex->wo, bsdf);
     if (path->straight) {
         note_first_hit(path, point, bsdf);
+    } else if (path->mirrored) {
+        note_mirrored(path, bsdf);
     }
     if (bsdf_is_emissive(bsdf)) {
         SurfacePlace place = accel_place(tracer->accel, &vertex->hit);

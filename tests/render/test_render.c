@@ -510,6 +510,53 @@ static void depth_and_position_of_a_plane(void **state)
     world_free(world);
 }
 
+// A mirror shows a wall beside it: albedo and normal are the wall's, place and depth the mirror's.
+static void albedo_and_normal_follow_mirrors(void **state)
+{
+    (void)state;
+    World *world = tiny_world(16, 16, 4, 0.3f);
+    world->camera.fov = 4.0f;
+    world->material_count = 2;
+    world->material[1] = material_default(MATERIAL_CONDUCTOR);
+    world->material[1].color = vec3(1.0f, 1.0f, 1.0f);
+    world->material[1].roughness = 0.0f;
+    add_mesh(world, quad_mesh(vec3(-1, -1, -1), vec3(2, 0, -2), vec3(0, 2, 0)), 1, 1);
+    add_mesh(world, quad_mesh(vec3(4, -9, -20), vec3(0, 0, 40), vec3(0, 18, 0)), 0, 0);
+    Film *film = trace(world, 2, NULL);
+    int middle = 8 * 16 + 8;
+    ASSERT_NEAR(film->albedo[middle].x, 0.3, 1e-4);
+    ASSERT_NEAR(film->normal[middle].x, -1.0, 1e-4);
+    ASSERT_NEAR(film->depth[middle], 7.0, 0.05);
+    ASSERT_NEAR(film->object[middle], 2.0, 0.0);
+    film_free(film);
+    world_free(world);
+}
+
+// A pane of glass before a wall: what passes both faces has the wall's albedo, what they reflect is
+// white as the sky.
+static void albedo_follows_glass(void **state)
+{
+    (void)state;
+    World *world = tiny_world(16, 16, 256, 0.3f);
+    world->camera.fov = 4.0f;
+    world->material_count = 2;
+    world->material[1] = material_default(MATERIAL_DIELECTRIC);
+    world->material[1].ior = 1.5f;
+    world->material[1].roughness = 0.0f;
+    add_mesh(world, quad_mesh(vec3(-1, -1, 1.0f), vec3(2, 0, 0), vec3(0, 2, 0)), 1, 1);
+    add_mesh(world, quad_mesh(vec3(1, -1, 0.9f), vec3(-2, 0, 0), vec3(0, 2, 0)), 1, 1);
+    add_mesh(world, quad_mesh(vec3(-9, -9, -1), vec3(18, 0, 0), vec3(0, 18, 0)), 0, 0);
+    Film *film = trace(world, 2, NULL);
+    double albedo = 0.0;
+    for (int i = 0; i < 16 * 16; i++) {
+        albedo += (double)film->albedo[i].x / (16 * 16);
+    }
+    double reflected = 2.0 * 0.04 / 1.04; // by two faces of 0.04, all orders
+    ASSERT_NEAR(albedo, 0.3 * (1.0 - reflected) + reflected, 0.005);
+    film_free(film);
+    world_free(world);
+}
+
 // Width of the blur of a vertical edge, pixels: how many are neither covered nor free.
 static int blurred_columns(float aperture, float edge_depth)
 {
@@ -766,6 +813,8 @@ int main(void)
         cmocka_unit_test(empty_world_is_transparent_black),
         cmocka_unit_test(alpha_is_coverage),
         cmocka_unit_test(depth_and_position_of_a_plane),
+        cmocka_unit_test(albedo_and_normal_follow_mirrors),
+        cmocka_unit_test(albedo_follows_glass),
         cmocka_unit_test(thin_lens_focus),
         cmocka_unit_test(lens_shift),
         cmocka_unit_test(haze_fades_with_distance),
