@@ -16,9 +16,8 @@ SkinParams branches_skin(const SkinningParams *given)
     return skin;
 }
 
-// Marks the curves of the colonies from `first` on. A curve has the id of its first node, and
-// curves are in the order of those nodes.
-static bool *find_bare(const OutTree *tree, const CurveSet *curves, int32_t first, Error *e)
+// A curve has the id of its first node, and curves are in the order of those nodes.
+bool *branches_bare(const OutTree *tree, const CurveSet *curves, int32_t first, Error *e)
 {
     bool *bare = memory_alloc(curves->curve_count, sizeof *bare, e);
     int64_t node = 0;
@@ -35,7 +34,7 @@ static bool add_leaves(const OutTree *tree, const TwigParams *params, const Curv
                        const Placing *placing, Error *e)
 {
     bool some = params->bare_from >= 0;
-    bool *bare = some ? find_bare(tree, twigs, params->bare_from, e) : NULL;
+    bool *bare = some ? branches_bare(tree, twigs, params->bare_from, e) : NULL;
     bool done = (bare || !some) && foliage_add(twigs, bare, params->leaves, params->center,
                                                params->seed, placing, params->leaf_role, e);
     free(bare);

@@ -39,6 +39,9 @@ typedef struct TwigParams {
     int twig_role, leaf_role;   // of the kind's materials
 } TwigParams;
 
+// Marks the curves of the colonies from `first` on; the caller frees the list of one entry a curve.
+bool *branches_bare(const OutTree *tree, const CurveSet *curves, int32_t first, Error *e);
+
 // Adds the branches thinner than skin->curve_radius as curves, and the leaves on thin branches.
 // Leaves are placed on the curves drawn as twigs, so that none floats. If every twig is mesh, the
 // curves are made for the leaves alone.

@@ -1,4 +1,4 @@
-// From a grown tree to geometry: bark mesh, twigs as curves, leaves as instances.
+// From a grown tree to geometry: bark mesh, twigs as curves, leaves and organs as instances.
 #include "objects/tree/buttress.h"
 #include "objects/tree/defaults.h"
 #include "objects/tree/tree.h"
@@ -30,6 +30,17 @@ bool tree_geometry(const void *given, const Grown *grown, const Placing *placing
                         .seed = random_key(placing->recipe->seed, STREAM_TREE_LEAVES),
                         .twig_role = TREE_TWIG,
                         .leaf_role = TREE_LEAF};
+    OrgansParams organs = {.group = params->organs,
+                           .count = params->organ_count,
+                           .skin = &params->skin,
+                           .bare_from = twigs.bare_from,
+                           .seed = random_key(placing->recipe->seed, STREAM_TREE_ORGANS),
+                           .role = {[TISSUE_PETAL] = TREE_BLOSSOM,
+                                    [TISSUE_FLESH] = TREE_FRUIT,
+                                    [TISSUE_WOOD] = TREE_CONE,
+                                    [TISSUE_GREEN] = TREE_STALK,
+                                    [TISSUE_WING] = TREE_LEAF}};
     return add_bark(grown->tree, params, &skin, placing, e) &&
-           branches_add_twigs(grown->tree, &twigs, placing, e);
+           branches_add_twigs(grown->tree, &twigs, placing, e) &&
+           organs_add(grown->tree, &organs, placing, e);
 }

@@ -4,6 +4,7 @@
 #include "objects/common/swept.h"
 #include "objects/tree/defaults.h"
 #include "objects/tree/tree.h"
+#include "render/material/material.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -76,7 +77,11 @@ static int64_t attractors(const void *params)
 static int64_t copies(const void *params)
 {
     const TreeParams *tree = params;
-    return tree->leaves.max_count;
+    int64_t count = tree->leaves.max_count;
+    for (int i = 0; i < tree->organ_count; i++) {
+        count += tree->organs[i].max_count;
+    }
+    return count;
 }
 
 static SweptAxis trunk_axis(const void *context, const OutTree *tree, int64_t base)
@@ -132,17 +137,68 @@ static void needs(const void *params, Needs *needs)
                      fmin(leaves, LEAVES_AN_ATTRACTOR * (count + metamers)), LEAF_FACES);
 }
 
+// Petals: white with a touch of pink, thin. Fruit: a ripe apple. Cones: dry wood.
+static const Material BUILTIN[] = {
+    {.name = "blossom",
+     .kind = MATERIAL_LEAF,
+     .color = {0.62f, 0.50f, 0.53f},
+     .color2 = {0.62f, 0.36f, 0.42f},
+     .transmittance = {0.28f, 0.21f, 0.23f},
+     .autumn_color = {0.45f, 0.36f, 0.30f},
+     .roughness = 0.7f,
+     .specular = 0.15f,
+     .ior = 1.5f,
+     .variation = 0.2f},
+    {.name = "fruit",
+     .kind = MATERIAL_PRINCIPLED,
+     .color = {0.38f, 0.045f, 0.022f},
+     .color2 = {0.42f, 0.26f, 0.05f},
+     .roughness = 0.35f,
+     .specular = 0.5f,
+     .ior = 1.5f,
+     .pattern = PATTERN_NOISE,
+     .pattern_scale = 0.06f,
+     .variation = 0.35f},
+    {.name = "cone",
+     .kind = MATERIAL_PRINCIPLED,
+     .color = {0.165f, 0.095f, 0.050f},
+     .color2 = {0.085f, 0.048f, 0.026f},
+     .roughness = 0.75f,
+     .specular = 0.3f,
+     .ior = 1.5f,
+     .pattern = PATTERN_NOISE,
+     .pattern_scale = 0.012f,
+     .variation = 0.3f},
+    {.name = "stalk",
+     .kind = MATERIAL_PRINCIPLED,
+     .color = {0.150f, 0.185f, 0.055f},
+     .color2 = {0.150f, 0.105f, 0.055f},
+     .roughness = 0.6f,
+     .specular = 0.4f,
+     .ior = 1.5f,
+     .variation = 0.25f},
+    {.name = ""},
+};
+
 static const Key MATERIALS[] = {
     OWN_MATERIAL_ROW(0),
     TWIG_MATERIAL_ROW(1),
     LEAF_MATERIAL_ROW(2),
+    MATERIAL_ROW(TREE_BLOSSOM, "blossom_material", "Material of petals; default: blossom."),
+    MATERIAL_ROW(TREE_FRUIT, "fruit_material",
+                 "Material of fruit, nuts and husks; default: fruit."),
+    MATERIAL_ROW(TREE_CONE, "cone_material",
+                 "Material of cones, catkins, acorns' cups, buds and spines; default: cone."),
+    MATERIAL_ROW(TREE_STALK, "stalk_material",
+                 "Material of stalks, sepals and stamens; default: stalk."),
     {0},
 };
 
 const Kind kind_tree = {
     .variant = {KIND_ROW("tree", &tree_table, "A tree; the defaults make an oak."), MATERIALS},
     .carried = true,
-    .materials = {"bark", "twig", "leaf"},
+    .materials = {"bark", "twig", "leaf", "blossom", "fruit", "cone", "stalk"},
+    .builtin = BUILTIN,
     .own_space = own_space,
     .seed = own_seed,
     .keeps_clear = true,

@@ -224,6 +224,9 @@ static const Key TREE_KEYS[] = {
      .doc = "Thickness of trunk, branches and roots."},
     {KEY_OF(TreeParams, leaves, "leaves", KEY_GROUP), .table = &leaves_table,
      .doc = "Leaves, or needles (narrow leaves): copies of a few blades along the thin twigs."},
+    {KEY_OF(TreeParams, organs, "organs", KEY_LIST),
+     .count_offset = offsetof(TreeParams, organ_count), .count = 20, .table = &organ_table,
+     .doc = "Blossom, fruit, cones, buds and other organs on the branches."},
     {KEY_OF(TreeParams, skin, "skin", KEY_GROUP), .table = &skin_table,
      .doc =
          "Surface of the branches: a mesh where they are thick, round curves where they are thin."},

@@ -9,6 +9,7 @@
 #include "mesh/geometry.h"
 #include "objects/common/branches.h"
 #include "objects/common/element.h"
+#include "objects/common/organs.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
 
@@ -70,6 +71,8 @@ typedef struct TreeParams {
     RootParams roots;
     RadiiParams radii;
     LeavesParams leaves;
+    OrganGroup *organs;
+    int organ_count;
     SkinningParams skin;
 } TreeParams;
 
@@ -80,7 +83,7 @@ enum { TREE_ROOT_PIECES = 6 };
 enum { TREE_TRUNK, TREE_CROWN, TREE_ROOTS, TREE_SNAGS };
 
 // Roles of materials.
-enum { TREE_BARK, TREE_TWIG, TREE_LEAF };
+enum { TREE_BARK, TREE_TWIG, TREE_LEAF, TREE_BLOSSOM, TREE_FRUIT, TREE_CONE, TREE_STALK };
 
 // Streams of the object's seed. The lobes of the default crown share the trunk's number.
 enum {
@@ -88,7 +91,8 @@ enum {
     STREAM_TREE_TRUNK = 1,
     STREAM_TREE_CROWN = 2,
     STREAM_TREE_ROOTS = 3,
-    STREAM_TREE_LEAVES = 4
+    STREAM_TREE_LEAVES = 4,
+    STREAM_TREE_ORGANS = 5
 };
 
 // The documented defaults: an oak of 14 m.

@@ -1,0 +1,141 @@
+#include "mesh/organ/organ.h"
+
+#include "base/exact_math.h"
+#include "base/random.h"
+#include "mesh/organ/organ_parts.h"
+
+#include <stddef.h>
+
+enum { STREAM_ONES = 10 }; // of an organ; ONES + i: number i of the cluster
+enum { STREAM_OPEN = 1, STREAM_TURN = 2, STREAM_STALK = 3, STREAM_SIZE = 4, STREAM_FORM = 5 };
+
+void organ_set_place(OrganBuild *build, const Transform *place)
+{
+    for (int t = 0; t < TISSUES; t++) {
+        build->tissue[t].place = place;
+    }
+}
+
+Transform organ_frame(Vec3 p, float open, float turn)
+{
+    float sine, cosine, x, z;
+    exact_sincos(open * RADIANS_PER_DEGREE, &sine, &cosine);
+    exact_sincos(turn * RADIANS_PER_DEGREE, &z, &x);
+    Vec3 out = vec3(x, 0, z), up = vec3(0, 1, 0);
+    Vec3 y = vec3_madd(vec3_scale(up, cosine), sine, out);
+    Vec3 inward = vec3_madd(vec3_scale(up, sine), -cosine, out); // the sheet's upper side
+    return transform_from_axes(vec3_cross(y, inward), y, inward, p);
+}
+
+void organ_stalk(OrganBuild *build, Vec3 p, float radius)
+{
+    enum { POINTS = 5 };
+    if (!(vec3_dot(p, p) > 0.0f)) {
+        return;
+    }
+    Vec3 axis[POINTS], knee = vec3(0, 0.45f * vec3_length(p), 0);
+    float thick[POINTS];
+    for (int i = 0; i < POINTS; i++) {
+        float t = (float)i / (POINTS - 1);
+        Vec3 first = vec3_scale(knee, t), second = vec3_lerp(knee, p, t);
+        axis[i] = vec3_lerp(first, second, t);
+        thick[i] = radius * (1.0f - 0.3f * t);
+    }
+    quads_tube(&build->tissue[TISSUE_GREEN], axis, thick, POINTS, 3, (Vec2){0.5f, 0.0f});
+}
+
+void organ_sheet(Quads *quads, const float *length, const float *half, const float *lift, int rows,
+                 float cup)
+{
+    enum { COLUMNS = 5 };
+    uint32_t first = (uint32_t)quads->vertex_count;
+    for (int r = 0; r < rows; r++) {
+        for (int c = 0; c < COLUMNS; c++) {
+            float across = (float)c / (COLUMNS - 1) * 2.0f - 1.0f;
+            float edge = across * across;
+            quads_vertex(quads, vec3(half[r] * across, length[r], lift[r] + cup * half[r] * edge),
+                         (Vec2){0.5f + 0.5f * across, (float)r / (float)(rows - 1)});
+        }
+    }
+    quads_grid(quads, first, rows, COLUMNS);
+}
+
+static void add_one(OrganBuild *build, uint64_t seed)
+{
+    static void (*const add[])(OrganBuild *, uint64_t) = {
+        [ORGAN_BLOSSOM] = organ_blossom, [ORGAN_CATKIN] = organ_catkin,
+        [ORGAN_FRUIT] = organ_fruit,     [ORGAN_CONE] = organ_cone,
+        [ORGAN_ACORN] = organ_acorn,     [ORGAN_HUSK] = organ_husk,
+        [ORGAN_BUD] = organ_bud,         [ORGAN_SAMARA] = organ_samara,
+        [ORGAN_THORN] = organ_thorn};
+    add[build->params->kind](build, seed);
+}
+
+// Where number i of the cluster starts, and how far its stalk leans (degrees).
+static Vec3 start_of(const OrganParams *p, int i, float *lean)
+{
+    float rank = ((float)i + 0.5f) / (float)p->per_cluster;
+    if (p->cluster == CLUSTER_RACEME) {
+        *lean = p->spread * (1.0f - 0.5f * rank);
+        return vec3(0, p->axis * (0.12f + 0.88f * rank), 0);
+    }
+    *lean = p->per_cluster > 1 ? p->spread * sqrtf(rank) : 0.0f;
+    return vec3(0, 0, 0);
+}
+
+static void add_cluster(OrganBuild *build, uint64_t seed)
+{
+    const OrganParams *p = build->params;
+    float thick = fmaxf(0.03f * p->width, 0.0004f);
+    if (p->cluster == CLUSTER_RACEME) {
+        organ_stalk(build, vec3(0, p->axis, 0), 1.3f * thick);
+    }
+    for (int i = 0; i < p->per_cluster; i++) {
+        uint64_t key = random_key(seed, STREAM_ONES + (uint64_t)i);
+        float lean, size = random_range(random_key(key, STREAM_SIZE), 0.88f, 1.08f);
+        Vec3 start = start_of(p, i, &lean);
+        lean *= random_range(random_key(key, STREAM_OPEN), 0.8f, 1.2f);
+        float turn =
+            (float)i * ORGAN_DIVERGENCE + random_range(random_key(key, STREAM_TURN), -20.0f, 20.0f);
+        Transform frame = organ_frame(start, lean, turn);
+        float stalk = p->stalk * random_range(random_key(key, STREAM_STALK), 0.8f, 1.15f);
+        Vec3 end = transform_point(&frame, vec3(0, stalk, 0));
+        organ_set_place(build, NULL);
+        if (stalk > 0.0f) {
+            Transform at = transform_from_axes(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), start);
+            organ_set_place(build, &at);
+            organ_stalk(build, vec3_sub(end, start), thick);
+        }
+        Transform own = organ_frame(end, lean, turn);
+        for (int row = 0; row < 3; row++) {
+            for (int column = 0; column < 3; column++) {
+                own.m[row][column] *= size;
+            }
+        }
+        organ_set_place(build, &own);
+        add_one(build, random_key(key, STREAM_FORM));
+        organ_set_place(build, NULL);
+    }
+}
+
+bool organ_meshes(const OrganParams *params, uint64_t seed, Mesh *mesh[TISSUES], Error *e)
+{
+    OrganBuild build = {.params = params};
+    for (int t = 0; t < TISSUES; t++) {
+        build.tissue[t].e = e;
+        mesh[t] = NULL;
+    }
+    add_cluster(&build, seed);
+    bool done = true;
+    for (int t = 0; t < TISSUES; t++) {
+        bool some = build.tissue[t].failed || build.tissue[t].face_count > 0;
+        mesh[t] = some && done ? quads_mesh(&build.tissue[t]) : NULL;
+        done = done && (mesh[t] || !some);
+        quads_clear(&build.tissue[t]);
+    }
+    for (int t = 0; t < TISSUES && !done; t++) {
+        mesh_free(mesh[t]);
+        mesh[t] = NULL;
+    }
+    return done;
+}

@@ -1,0 +1,57 @@
+// Organs of plants beside leaves as small quad meshes, to be instanced: blossom, catkins, fruit,
+// cones, buds, winged nuts, spines.
+#ifndef RAMIFY_MESH_ORGAN_ORGAN_H
+#define RAMIFY_MESH_ORGAN_ORGAN_H
+
+#include "base/mesh.h"
+
+#include <stdint.h>
+
+typedef enum OrganKind {
+    ORGAN_BLOSSOM, // flowers of separate petals
+    ORGAN_CATKIN,  // a cylinder of small scales
+    ORGAN_FRUIT,   // round or long, with or without a dimple: apple, cherry, olive, date
+    ORGAN_CONE,    // woody scales in spirals
+    ORGAN_ACORN,   // a nut in a cup
+    ORGAN_HUSK,    // a ball with spikes: horse chestnut
+    ORGAN_BUD,     // pointed, with overlapping scales
+    ORGAN_SAMARA,  // two winged nuts: maple
+    ORGAN_THORN    // straight spines
+} OrganKind;
+
+// How those of one place stand together.
+typedef enum OrganCluster {
+    CLUSTER_UMBEL, // from one point
+    CLUSTER_RACEME // along an axis
+} OrganCluster;
+
+// What a part of an organ is made of: each has a material of its own.
+typedef enum OrganTissue {
+    TISSUE_PETAL,
+    TISSUE_FLESH, // of fruit and nuts
+    TISSUE_WOOD,  // scales of cones, catkins and buds, cups, spines
+    TISSUE_GREEN, // stalks, sepals, stamens
+    TISSUE_WING,  // thin: of winged nuts
+    TISSUES
+} OrganTissue;
+
+// An organ or cluster whose stalk starts at the origin and runs along +Y. Lengths in metres.
+typedef struct OrganParams {
+    OrganKind kind;
+    float length, width; // of one; of blossom the length and width of a petal
+    float stalk;         // length of each one's stalk
+    OrganCluster cluster;
+    int per_cluster; // at least 1
+    float axis;      // length of a raceme's axis
+    float spread;    // degrees between the outermost stalks and +Y
+    float open;      // 0..1: from closed to open petals, scales or wings
+    int petals;      // more than 5 in several whorls
+    float dimple;    // 0..1: of fruit, at both ends
+    int detail;      // 1 or 2
+} OrganParams;
+
+// mesh[t]: of tissue t; NULL where the organ has none. The caller frees each with mesh_free. uv: u
+// across, v along each petal, scale or body. False and e when memory is short; then all are NULL.
+bool organ_meshes(const OrganParams *params, uint64_t seed, Mesh *mesh[TISSUES], Error *e);
+
+#endif

@@ -1,0 +1,171 @@
+// Organs: each has the tissues and the size it should have, no quad is without area, clusters have
+// as many as asked for, fruit and cones the form they should.
+#include "mesh/organ/organ.h"
+#include "testing.h"
+
+static OrganParams plain(OrganKind kind)
+{
+    return (OrganParams){.kind = kind,
+                         .length = 0.05f,
+                         .width = 0.03f,
+                         .stalk = 0.02f,
+                         .per_cluster = 1,
+                         .axis = 0.2f,
+                         .spread = 50.0f,
+                         .open = 0.7f,
+                         .petals = 5,
+                         .detail = 2};
+}
+
+static void make(const OrganParams *params, Mesh *mesh[TISSUES])
+{
+    Error e = {0};
+    if (!organ_meshes(params, 4, mesh, &e)) {
+        fail_msg("%s", e.message);
+    }
+}
+
+static void clear(Mesh *mesh[TISSUES])
+{
+    for (int t = 0; t < TISSUES; t++) {
+        mesh_free(mesh[t]);
+    }
+}
+
+static double quad_area(const Mesh *mesh, int64_t f)
+{
+    Vec3 p[4];
+    for (int k = 0; k < 4; k++) {
+        p[k] = mesh->position[mesh->index[4 * f + k]];
+    }
+    Vec3 a = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
+    Vec3 b = vec3_cross(vec3_sub(p[2], p[0]), vec3_sub(p[3], p[0]));
+    return 0.5 * (double)(vec3_length(a) + vec3_length(b));
+}
+
+static void organs_have_their_tissues_and_size(void **state)
+{
+    (void)state;
+    static const unsigned tissues[] = {
+        [ORGAN_BLOSSOM] = 1u << TISSUE_PETAL | 1u << TISSUE_GREEN,
+        [ORGAN_CATKIN] = 1u << TISSUE_WOOD | 1u << TISSUE_GREEN,
+        [ORGAN_FRUIT] = 1u << TISSUE_FLESH | 1u << TISSUE_GREEN,
+        [ORGAN_CONE] = 1u << TISSUE_WOOD | 1u << TISSUE_GREEN,
+        [ORGAN_ACORN] = 1u << TISSUE_FLESH | 1u << TISSUE_WOOD | 1u << TISSUE_GREEN,
+        [ORGAN_HUSK] = 1u << TISSUE_FLESH | 1u << TISSUE_GREEN,
+        [ORGAN_BUD] = 1u << TISSUE_WOOD | 1u << TISSUE_GREEN,
+        [ORGAN_SAMARA] = 1u << TISSUE_FLESH | 1u << TISSUE_WING | 1u << TISSUE_GREEN,
+        [ORGAN_THORN] = 1u << TISSUE_WOOD | 1u << TISSUE_GREEN};
+    for (int kind = ORGAN_BLOSSOM; kind <= ORGAN_THORN; kind++) {
+        OrganParams params = plain((OrganKind)kind);
+        for (params.detail = 1; params.detail <= 2; params.detail++) {
+            Mesh *mesh[TISSUES];
+            make(&params, mesh);
+            Aabb box = aabb_empty();
+            for (int t = 0; t < TISSUES; t++) {
+                assert_int_equal(mesh[t] != NULL, tissues[kind] >> t & 1u);
+                for (int64_t f = 0; mesh[t] && f < mesh[t]->face_count; f++) {
+                    assert_true(quad_area(mesh[t], f) > 1e-11);
+                }
+                for (int64_t v = 0; mesh[t] && v < mesh[t]->vertex_count; v++) {
+                    assert_true(vec3_finite(mesh[t]->normal[v]));
+                    box = aabb_add(box, mesh[t]->position[v]);
+                }
+            }
+            // From the stalk's start to about the organ's end.
+            float high = params.stalk + params.length;
+            assert_true(box.low.y > -0.005f && box.low.y < 0.001f);
+            assert_true(kind == ORGAN_BLOSSOM || kind == ORGAN_SAMARA ||
+                        (box.high.y > 0.8f * high && box.high.y < 1.25f * high));
+            clear(mesh);
+        }
+    }
+}
+
+static void clusters_have_as_many_as_asked_for(void **state)
+{
+    (void)state;
+    OrganParams params = plain(ORGAN_FRUIT);
+    for (params.per_cluster = 1; params.per_cluster < 40; params.per_cluster += 13) {
+        for (params.cluster = CLUSTER_UMBEL; params.cluster <= CLUSTER_RACEME; params.cluster++) {
+            Mesh *mesh[TISSUES];
+            MeshTopology topology;
+            make(&params, mesh);
+            assert_true(mesh_topology(mesh[TISSUE_FLESH], &topology, NULL));
+            assert_int_equal(topology.component_count, params.per_cluster);
+            assert_true(mesh_topology(mesh[TISSUE_GREEN], &topology, NULL));
+            assert_int_equal(topology.component_count,
+                             params.per_cluster + (params.cluster == CLUSTER_RACEME));
+            clear(mesh);
+        }
+    }
+}
+
+static void a_blossom_has_its_petals(void **state)
+{
+    (void)state;
+    OrganParams params = plain(ORGAN_BLOSSOM);
+    for (params.petals = 4; params.petals < 25; params.petals += 5) {
+        Mesh *mesh[TISSUES];
+        MeshTopology topology;
+        make(&params, mesh);
+        assert_true(mesh_topology(mesh[TISSUE_PETAL], &topology, NULL));
+        assert_int_equal(topology.component_count, params.petals);
+        clear(mesh);
+    }
+}
+
+// A fruit without a dimple is an ellipsoid: its volume by the divergence theorem.
+static void a_fruit_is_an_ellipsoid(void **state)
+{
+    (void)state;
+    OrganParams params = plain(ORGAN_FRUIT);
+    Mesh *mesh[TISSUES];
+    make(&params, mesh);
+    double volume = 0.0;
+    const Mesh *body = mesh[TISSUE_FLESH];
+    for (int64_t f = 0; f < body->face_count; f++) {
+        Vec3 p[4];
+        for (int k = 0; k < 4; k++) {
+            p[k] = body->position[body->index[4 * f + k]];
+        }
+        volume += (double)vec3_dot(p[0], vec3_cross(p[1], p[2])) / 6.0 +
+                  (double)vec3_dot(p[0], vec3_cross(p[2], p[3])) / 6.0;
+    }
+    // Sizes of the cluster's members vary by 0.88 to 1.08.
+    Aabb box = mesh_bounds(body);
+    double length = (double)(box.high.y - box.low.y), width = (double)(box.high.x - box.low.x);
+    double wanted = 3.14159265 / 6.0 * length * width * width;
+    assert_true(volume > 0.93 * wanted && volume < 1.03 * wanted);
+    assert_true(length > 0.87 * 0.05 && length < 1.09 * 0.05);
+    clear(mesh);
+}
+
+// The opening decides how far scales stand off.
+static void cones_open(void **state)
+{
+    (void)state;
+    float before = 0.0f;
+    for (int i = 0; i <= 2; i++) {
+        OrganParams params = plain(ORGAN_CONE);
+        params.open = 0.5f * (float)i;
+        Mesh *mesh[TISSUES];
+        make(&params, mesh);
+        Aabb box = mesh_bounds(mesh[TISSUE_WOOD]);
+        assert_true(box.high.x - box.low.x > before);
+        before = box.high.x - box.low.x;
+        clear(mesh);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(organs_have_their_tissues_and_size),
+        cmocka_unit_test(clusters_have_as_many_as_asked_for),
+        cmocka_unit_test(a_blossom_has_its_petals),
+        cmocka_unit_test(a_fruit_is_an_ellipsoid),
+        cmocka_unit_test(cones_open),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
