@@ -60,11 +60,18 @@ static bool scale_map(const Table *table, Node *map, double factor, Arena *arena
     return done;
 }
 
+// A tree that grows by light has its height there.
+static const Node *height_of(const Node *species)
+{
+    const Node *height = node_get(species, "height");
+    return height ? height : node_get(node_get(species, "light"), "mature_height");
+}
+
 bool species_fit_size(const Table *table, const Node *given, Node *species, Arena *arena, Error *e)
 {
     double wanted, own;
-    if (!number_of(node_get(given, "height"), &wanted) ||
-        !number_of(node_get(species, "height"), &own) || wanted == own || !(own > 0.0)) {
+    if (!number_of(node_get(given, "height"), &wanted) || !number_of(height_of(species), &own) ||
+        wanted == own || !(own > 0.0)) {
         return true;
     }
     bool done = true;

@@ -174,6 +174,49 @@ static void a_tree_has_a_seed_of_its_own(void **state)
     scene_free(scene);
 }
 
+static LeavesParams leaves_in(Fixture *fixture, const char *season)
+{
+    char text[256];
+    snprintf(text, sizeof text,
+             "objects: [{name: a, tree: {%s, phenology: {leafing: [4, 5], turning: [10, 11], "
+             "falling: [10.5, 11.5]}}}]\n",
+             season);
+    Scene *scene = fixture_read(fixture, text);
+    LeavesParams leaves = tree_of(scene, 0)->leaves;
+    scene_free(scene);
+    return leaves;
+}
+
+static void the_season_sets_the_leaves(void **state)
+{
+    Fixture *fixture = *state;
+    LeavesParams none = leaves_in(fixture, "leaves: {autumn: 0.3}");
+    assert_float_equal(none.autumn, 0.3f, 0.0); // no season: as the leaves have it
+    LeavesParams winter = leaves_in(fixture, "season: 2.5"),
+                 spring = leaves_in(fixture, "season: 4.25");
+    LeavesParams summer = leaves_in(fixture, "season: 7, leaves: {autumn: 0.3}");
+    LeavesParams autumn = leaves_in(fixture, "season: 10.75");
+    assert_float_equal(winter.fall, 1.0, 0.0);
+    assert_float_equal(winter.litter, 0.5, 1e-6);
+    assert_float_equal(spring.emergence, 0.25, 1e-6);
+    assert_float_equal(spring.fall, 0.0, 0.0);
+    assert_float_equal(summer.emergence, 1.0, 0.0);
+    assert_float_equal(summer.autumn, 0.0, 0.0);
+    assert_float_equal(autumn.autumn, 0.75, 1e-6);
+    assert_float_equal(autumn.fall, 0.25, 1e-6);
+    assert_float_equal(autumn.litter, 1.0, 0.0);
+    // later in the north, earlier in its autumn; half a year apart in the south
+    assert_true(leaves_in(fixture, "season: 4.25, latitude: 51").emergence < 0.25f);
+    assert_true(leaves_in(fixture, "season: 10.75, latitude: 52").autumn > 0.75f);
+    assert_float_equal(leaves_in(fixture, "season: 10.25, latitude: -50").emergence, 0.25, 1e-5);
+    fixture_refuse(fixture, "objects: [{name: a, tree: {season: 0.5}}]\n",
+                   "season is 0.5; months begin at 1", 1);
+    fixture_refuse(fixture, "objects: [{name: a, tree: {phenology: {leafing: [5, 4]}}}]\n",
+                   "leafing must begin before it ends", 1);
+    fixture_refuse(fixture, "objects: [{name: a, tree: {phenology: {turning: [3, 4]}}}]\n",
+                   "turning begins too early", 1);
+}
+
 // Species files that are wrong, and the exact words and places.
 static void errors_name_the_species_file(void **state)
 {
@@ -276,6 +319,7 @@ int main(void)
         TEST(a_folder_beside_the_scene_comes_first),
         TEST(resolved_text_gives_the_same_bits),
         TEST(a_tree_has_a_seed_of_its_own),
+        TEST(the_season_sets_the_leaves),
         TEST(errors_name_the_species_file),
         TEST(errors_name_the_scene),
         TEST(the_library_loads),

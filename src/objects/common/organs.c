@@ -1,5 +1,7 @@
 #include "objects/common/organs.h"
 
+#include "objects/common/phenology.h"
+
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -258,7 +260,9 @@ bool organs_add(const OutTree *tree, const OrgansParams *params, const Placing *
 {
     bool done = true;
     for (int i = 0; done && i < params->count; i++) {
-        done = params->group[i].max_count == 0 || add_group(tree, params, i, placing, e);
+        const OrganGroup *group = &params->group[i];
+        bool there = group->max_count > 0 && phenology_is_within(group->season, params->time);
+        done = !there || add_group(tree, params, i, placing, e);
     }
     return done;
 }

@@ -16,6 +16,7 @@ typedef enum OrganSites {
 typedef struct OrganGroup {
     OrganKind kind;
     OrganSites where;
+    float season[2];   // months in which they are there (see Phenology); 0 = always
     int64_t max_count; // of clusters
     float share;       // 0..1 of the places that bear one
     float spacing;     // m between places along a branch
@@ -43,6 +44,7 @@ extern const struct Table organ_table; // of an OrganGroup
 typedef struct OrgansParams {
     const OrganGroup *group;
     int count;
+    float time; // of the year, months (phenology_time); 0 = every group is there
     const SkinningParams *skin;
     int32_t bare_from; // branches of this colony and later ones bear none; -1 = all do
     uint64_t seed;

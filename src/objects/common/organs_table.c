@@ -20,6 +20,9 @@ static const Key ORGAN_KEYS[] = {
     {KEY_OF(OrganGroup, where, "where", KEY_ENUM), .names = SITES,
      .doc = "ends: at the ends of twigs; along: along twigs, in a spiral; stem: in lines along "
             "stems and branches, as a cactus' spines."},
+    {KEY_OF(OrganGroup, season, "season", KEY_VECTOR), .count = 2, .high = 13, .unit = "months",
+     .doc = "When they are there, if the tree gives a season: first and last month with fractions, "
+            "at 50 degrees north; [11, 3] goes over the new year. 0 = always."},
     {KEY_OF(OrganGroup, max_count, "max_count", KEY_INT64), .high = 1e9,
      .doc = "Maximum number of clusters; if there would be more, fewer places bear one. 0 = none."},
     {KEY_OF(OrganGroup, share, "share", KEY_FLOAT), .high = 1,

@@ -60,6 +60,8 @@ TreeParams tree_params_default(void)
                    .variants = 4,
                    .detail = 1},
         .skin = {.curve_radius = 0.014f, .levels = 2, .ring_spacing = 1.0f},
+        .latitude = 50.0f,
+        .phenology = phenology_default(),
     };
 }
 

@@ -32,6 +32,7 @@ bool tree_geometry(const void *given, const Grown *grown, const Placing *placing
                         .leaf_role = TREE_LEAF};
     OrgansParams organs = {.group = params->organs,
                            .count = params->organ_count,
+                           .time = phenology_time(params->season, params->latitude),
                            .skin = &params->skin,
                            .bare_from = twigs.bare_from,
                            .seed = random_key(placing->recipe->seed, STREAM_TREE_ORGANS),

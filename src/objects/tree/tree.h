@@ -10,6 +10,7 @@
 #include "objects/common/branches.h"
 #include "objects/common/element.h"
 #include "objects/common/organs.h"
+#include "objects/common/phenology.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
 
@@ -74,6 +75,9 @@ typedef struct TreeParams {
     OrganGroup *organs;
     int organ_count;
     SkinningParams skin;
+    float season;   // month and its fraction, 1..13; 0 = as leaves has it
+    float latitude; // degrees
+    Phenology phenology;
 } TreeParams;
 
 // Nodes of a main root's start, from inside the trunk's flare to where growth begins.
