@@ -33,6 +33,7 @@ static const Material SHARED[] = {
      .specular = 0.28f,
      .ior = 1.5f,
      .pattern = PATTERN_LEAF,
+     .veins = 7.0f,
      .variation = 0.35f},
     {.name = "grass",
      .kind = MATERIAL_LEAF,

@@ -103,6 +103,9 @@ static const Key MATERIAL_KEYS[] = {
      .doc = "Wavelength of the pattern's largest features; 0 = the pattern's default."},
     {KEY_OF(Material, pattern_depth, "pattern_depth", KEY_FLOAT), .kinds = BUMPED, .high = 1e3,
      .unit = "m", .doc = "Height of the pattern's bumps; 0 = none."},
+    {KEY_OF(Material, veins, "veins", KEY_FLOAT), .kinds = PATTERNED, .high = 60,
+     .doc = "Pattern leaf: side veins on each half of a blade, lobe or leaflet; 0 = veins that run "
+            "along it, as of grasses, palms, ginkgo."},
     {KEY_OF(Material, snow_line, "snow_line", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern mountain: altitude above which snow lies, as a fraction of the relief; 0 = no "
             "snow."},

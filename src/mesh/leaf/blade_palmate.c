@@ -50,7 +50,8 @@ static void palm_init(Palm *palm, const LeafParams *params, uint64_t seed)
 }
 
 // A point of a lobe in its own frame: `along` its midrib and `out` from it, relative to the blade's
-// length; edge: 0 on the midrib, 1 on the margin.
+// length; edge: 0 on the midrib, 1 on the margin. The line to the bay (v = 0) does not ripple,
+// because the next lobe shares it.
 static void add_point(Quads *quads, const Palm *palm, int lobe, Vec2 p, float edge, Vec2 uv)
 {
     const LeafParams *params = palm->params;
@@ -59,8 +60,8 @@ static void add_point(Quads *quads, const Palm *palm, int lobe, Vec2 p, float ed
     exact_sincos(params->fold * RADIANS_PER_DEGREE, &fold, &fold_cosine);
     exact_sincos(2.0f * PI_F * (2.0f * p.y + palm->phase + 0.37f * (float)lobe), &wave, &unused);
     float x = p.x * cosine + p.y * sine, y = p.y * cosine - p.x * sine;
-    float lift =
-        fabsf(p.x) * fold * params->length + params->wave * params->width * wave * edge * edge;
+    float lift = fabsf(p.x) * fold * params->length +
+                 params->wave * params->width * wave * edge * edge * uv.y;
     LeafParams flat = *params;
     flat.fold = 0.0f;
     quads_vertex(quads, blade_point(&flat, x * params->length * palm->stretch, y, lift), uv);

@@ -14,8 +14,10 @@ enum { STALK_SIDES = 3 };
 static void add_stalk(Quads *quads, const LeafParams *params)
 {
     // The stalk continues below the blade's base, where the midrib begins.
-    float overlap = params->compound == COMPOUND_NONE ? 0.04f : 0.0f;
-    float thickness = 0.006f * params->length;
+    float overlap = params->compound == COMPOUND_NONE && params->nod == 0.0f ? 0.04f : 0.0f;
+    float thickness = (params->shape == LEAF_OAK ? 0.006f : 0.009f) * params->length;
+    // A frond's stalk is no thicker than its rachis needs.
+    thickness = params->compound == COMPOUND_NONE ? thickness : 0.5f * thickness;
     uint32_t first = (uint32_t)quads->vertex_count;
     for (int end = 0; end < 2; end++) {
         for (int k = 0; k < STALK_SIDES; k++) {
@@ -30,6 +32,16 @@ static void add_stalk(Quads *quads, const LeafParams *params)
         uint32_t a = first + k, b = first + (k + 1) % STALK_SIDES;
         quads_face(quads, a, a + STALK_SIDES, b + STALK_SIDES, b);
     }
+}
+
+// Rotation of the blade about the end of its stalk.
+static Transform nodding(const LeafParams *params)
+{
+    float sine, cosine;
+    exact_sincos(params->nod * RADIANS_PER_DEGREE, &sine, &cosine);
+    float y = params->petiole;
+    return transform_from_axes(vec3(1, 0, 0), vec3(0, cosine, -sine), vec3(0, sine, cosine),
+                               vec3(0, y - y * cosine, y * sine));
 }
 
 // Adds what bears the leaf's area: all but stalk and rachis.
@@ -48,17 +60,28 @@ static void add_blades(Quads *quads, const LeafParams *params, uint64_t seed)
     }
 }
 
-Mesh *leaf_mesh_new(const LeafParams *params, uint64_t seed, Error *e)
+// Without the stalk if `bare`.
+static Mesh *leaf_mesh(const LeafParams *params, bool bare, uint64_t seed, Error *e)
 {
-    Quads quads = {.e = e};
+    Transform nod = nodding(params);
+    Quads quads = {.e = e, .place = params->nod > 0.0f ? &nod : NULL};
     add_blades(&quads, params, seed);
-    if (params->petiole > 0.0f && !leaf_has_needles(params)) {
-        add_stalk(&quads, params);
+    if (bare) {
+        return quads_mesh(&quads);
     }
     if (params->compound != COMPOUND_NONE && !leaf_has_needles(params)) {
         compound_add_rachis(&quads, params);
     }
+    quads.place = NULL;
+    if (params->petiole > 0.0f && !leaf_has_needles(params)) {
+        add_stalk(&quads, params);
+    }
     return quads_mesh(&quads);
+}
+
+Mesh *leaf_mesh_new(const LeafParams *params, uint64_t seed, Error *e)
+{
+    return leaf_mesh(params, false, seed, e);
 }
 
 // ---- simpler leaves ----
@@ -110,7 +133,8 @@ static void widen(Mesh *mesh, float factor)
 
 static Mesh *coarse_blade(const LeafParams *params, uint64_t seed, int level, double area, Error *e)
 {
-    Quads quads = {.e = e};
+    Transform nod = nodding(params);
+    Quads quads = {.e = e, .place = params->nod > 0.0f ? &nod : NULL};
     blade_add(&quads, params, level > 0 ? BLADE_KITE : BLADE_SMOOTH, seed);
     Mesh *mesh = quads_mesh(&quads);
     if (mesh) {
@@ -122,7 +146,8 @@ static Mesh *coarse_blade(const LeafParams *params, uint64_t seed, int level, do
 static Mesh *coarse_parts_once(const LeafParams *params, uint64_t seed, int level, float factor,
                                Error *e)
 {
-    Quads quads = {.e = e};
+    Transform nod = nodding(params);
+    Quads quads = {.e = e, .place = params->nod > 0.0f ? &nod : NULL};
     if (leaf_has_needles(params)) {
         needles_add(&quads, params, level > 0 ? 16 : 4, factor, false, seed);
     } else if (level > 0 && params->compound != COMPOUND_PALMATE) {
@@ -154,9 +179,7 @@ static Mesh *coarse_parts(const LeafParams *params, uint64_t seed, int level, do
 
 Mesh *leaf_mesh_coarse(const LeafParams *params, uint64_t seed, int level, float *error, Error *e)
 {
-    Quads quads = {.e = e};
-    add_blades(&quads, params, seed);
-    Mesh *fine = quads_mesh(&quads);
+    Mesh *fine = leaf_mesh(params, true, seed, e);
     bool parts = leaf_has_needles(params) || params->compound != COMPOUND_NONE;
     Mesh *mesh = !fine   ? NULL
                  : parts ? coarse_parts(params, seed, level, mesh_area(fine), e)

@@ -45,6 +45,7 @@ typedef struct LeafParams {
                          // tooth and needle, for close-ups
 
     LeafShape shape;
+    float nod;         // degrees between the stalk's direction and the blade, down from it
     float widest;      // 0..1 along the blade: where it is widest
     float sickle;      // degrees by which the midrib of an undivided blade bends sideways
     float tip;         // 0..1: from a blunt tip over a point (0.5) to a long drawn-out one

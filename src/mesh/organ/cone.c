@@ -95,7 +95,15 @@ void organ_catkin(OrganBuild *build, uint64_t seed)
     add_scales(build, &scales, seed);
 }
 
-// Overlapping scales as steps of a pointed body of revolution.
+// Half width of a bud at t in 0..1 from its base, relative to the largest: broad below, pointed.
+static float bud_half(float t)
+{
+    const float widest = 0.35f;
+    float x = (t - widest) / (1.0f - widest);
+    return t < widest ? 0.7f + 0.3f * t / widest : 1.0f - x * x;
+}
+
+// Overlapping scales as steps of a body of revolution.
 void organ_bud(OrganBuild *build, uint64_t seed)
 {
     (void)seed;
@@ -103,12 +111,10 @@ void organ_bud(OrganBuild *build, uint64_t seed)
     const OrganParams *p = build->params;
     Vec2 profile[2 * STEPS + 1];
     for (int i = 0; i < STEPS; i++) {
-        float low = (float)i / STEPS, high = ((float)i + 0.85f) / STEPS;
-        float half = 0.5f * p->width;
-        float from = half * body_half(0.16f + 0.84f * low, 0.55f) * (1.0f - 0.25f * low);
-        float to = half * body_half(0.16f + 0.84f * high, 0.55f) * (1.0f - 0.25f * high);
-        profile[2 * i] = (Vec2){(i > 0 ? 0.88f : 0.8f) * from, low * p->length};
-        profile[2 * i + 1] = (Vec2){fmaxf(to, 0.03f * p->width) * 1.06f, high * p->length};
+        // Each scale's rim stands off the next one.
+        float low = (float)i / STEPS, high = ((float)i + 0.8f) / STEPS;
+        profile[2 * i] = (Vec2){0.44f * p->width * bud_half(low), low * p->length};
+        profile[2 * i + 1] = (Vec2){0.52f * p->width * bud_half(high), high * p->length};
     }
     profile[2 * STEPS] = (Vec2){0.01f * p->width, p->length};
     quads_revolve(&build->tissue[TISSUE_WOOD], profile, 2 * STEPS + 1, p->detail > 1 ? 10 : 6);

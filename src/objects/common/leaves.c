@@ -33,6 +33,7 @@ LeafParams leaves_form(const LeavesParams *leaves, float piece)
     LeafParams form = {.length = leaves->length,
                        .width = leaves->width,
                        .petiole = leaves->petiole,
+                       .nod = leaves->nod,
                        .fold = leaves->fold,
                        .curl = leaves->curl,
                        .wave = leaves->wave,

@@ -36,6 +36,7 @@ typedef struct LeavesParams {
     float length, width;  // m
     float size_variation; // 0..1
     float petiole;        // m
+    float nod;            // degrees from the stalk to the blade, downward
     float fold;           // degrees that the halves fold up about the midrib
     float curl;           // degrees that the blade bends along its length
     float wave;

@@ -76,6 +76,9 @@ static const Key LEAVES_KEYS[] = {
      .doc = "Variation of size between leaves: 0 = all equal."},
     {KEY_OF(LeavesParams, petiole, "petiole", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Length of the stalk."},
+    {KEY_OF(LeavesParams, nod, "nod", KEY_FLOAT), .high = 150, .unit = "degrees",
+     .doc = "Angle by which the blade bends down from the direction of its stalk, as maples' and "
+            "horse chestnut's."},
     {KEY_OF(LeavesParams, fold, "fold", KEY_FLOAT), .low = -90, .high = 90, .unit = "degrees",
      .doc = "Angle by which each half is folded up about the midrib."},
     {KEY_OF(LeavesParams, curl, "curl", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",

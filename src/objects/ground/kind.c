@@ -46,6 +46,7 @@ static const Material BUILTIN[] = {
      .specular = 0.35f,
      .ior = 1.5f,
      .pattern = PATTERN_LEAF,
+     .veins = 7.0f,
      .variation = 0.7f},
     {.name = ""},
 };

@@ -20,7 +20,8 @@ Material material_default(MaterialKind kind)
                   .color2 = vec3_splat(0.1f),
                   .roughness = 0.5f,
                   .specular = 0.5f,
-                  .ior = 1.5f};
+                  .ior = 1.5f,
+                  .veins = 7.0f};
     if (OPS[kind]->defaults) {
         OPS[kind]->defaults(&m);
     }

@@ -87,6 +87,7 @@ typedef struct Material {
     BarkKind bark;       // PATTERN_BARK
     float pattern_scale; // m: wavelength of the pattern's largest feature; 0 = the kind's own
     float pattern_depth; // m: bump height; 0 = none
+    float veins;         // PATTERN_LEAF: side veins on each half; 0 = veins along the blade
     float snow_line, grass_line; // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above
                                  // and below which they lie; 0 = none
     ColorStop *colors;           // PATTERN_ALTITUDE: borrowed, `at` ascends; NULL = from color to

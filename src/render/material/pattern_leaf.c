@@ -5,8 +5,6 @@
 
 #include <stddef.h>
 
-enum { SIDE_VEINS = 7 }; // on each half
-
 static const float blotch_share = 0.35f;  // weight of the second colour in the strongest blotch
 static const float blotch_mean = 0.0127f; // of a blotch's strength over a blade
 
@@ -17,17 +15,48 @@ static float line(float distance, float width, float blur)
     return width / shown * (1.0f - smoothstepf(0.3f * shown, shown, distance));
 }
 
-// Coverage of uv by a vein. height: its relief, with the slope in u and v.
-static float veins(Vec2 uv, float blur)
+// Veins along the blade, as of grasses: fine, every fourth stronger.
+static float veins_along(Vec2 uv, float blur)
 {
+    enum { VEINS = 24 };
+    float run = uv.x * VEINS, number = floorf(run);
+    float across = fabsf(run - number - 0.5f) / VEINS;
+    float strong = number - 4.0f * floorf(0.25f * number) < 0.5f ? 1.0f : 0.5f;
+    float midrib = line(fabsf(uv.x - 0.5f), lerpf(0.018f, 0.004f, uv.y), blur);
+    return fmaxf(0.6f * strong * line(across, 0.006f, blur), 0.5f * midrib);
+}
+
+// Veinlets across from side vein to side vein, seen from near: run counts side veins along the
+// blade, side is the distance from the midrib.
+static float veinlets(float run, float side, float count, float blur)
+{
+    float seen = 1.0f - smoothstepf(0.004f, 0.012f, blur);
+    if (seen <= 0.0f) {
+        return 0.0f;
+    }
+    // They bend and part, by noise; a second family crosses them.
+    float bend = noise_fractal(vec3(3.0f * run, 9.0f * side, 0.0f), 2, 47);
+    float ladder = side * 3.4f * count + 0.8f * bend, rung = ladder - floorf(ladder);
+    float net = run * 5.0f + 1.1f * bend, mesh = net - floorf(net);
+    float first = line(fabsf(rung - 0.5f) / (3.4f * count), 0.0035f, blur);
+    float second = line(fabsf(mesh - 0.5f) / (5.0f * count), 0.0025f, blur);
+    return seen * fmaxf(0.4f * first, 0.3f * second);
+}
+
+// Coverage of uv by a vein; count: side veins on each half.
+static float veins(Vec2 uv, float count, float blur)
+{
+    if (count <= 0.0f) {
+        return veins_along(uv, blur);
+    }
     float side = fabsf(uv.x - 0.5f), left = uv.x < 0.5f ? 0.5f : 0.0f;
     float midrib = line(side, lerpf(0.022f, 0.006f, uv.y), blur);
     // Side veins leave the midrib alternately and curve toward the tip.
-    float run = ((uv.y - 0.9f * side + 0.5f * side * side) * SIDE_VEINS) + left;
+    float run = ((uv.y - 0.9f * side + 0.5f * side * side) * count) + left;
     float phase = run - floorf(run);
-    float across = fabsf(phase - 0.5f) / SIDE_VEINS;
+    float across = fabsf(phase - 0.5f) / count;
     float vein = line(across, lerpf(0.011f, 0.003f, clampf(2.2f * side, 0.0f, 1.0f)), blur);
-    return fmaxf(midrib, 0.75f * vein);
+    return fmaxf(fmaxf(midrib, 0.75f * vein), veinlets(run, side, count, blur));
 }
 
 // Per channel: the factor of a blotch of this strength (0..1) on transmitted light, with mean about
@@ -45,7 +74,7 @@ void pattern_leaf(const Material *m, const SurfacePoint *point, PatternShade *sh
     float seed = 31.0f * point->variation;
     Vec3 p = vec3(5.0f * point->uv.x, 7.0f * point->uv.y, seed);
     float blotch = noise_fractal(p, blur < 0.05f ? 3 : 1, 41);
-    float vein = blur < 0.2f ? veins(point->uv, blur) : 0.0f;
+    float vein = blur < 0.2f ? veins(point->uv, m->veins, blur) : 0.0f;
     Vec3 own = shade->color;
     // Blotches shift toward the second colour if the material has a distinct one.
     float spot = smoothstepf(0.25f, 0.75f, blotch);
@@ -62,8 +91,8 @@ void pattern_leaf(const Material *m, const SurfacePoint *point, PatternShade *sh
     shade->transmittance = vec3_mul(shade->transmittance, vec3_scale(filter, clear));
     if (m->pattern_depth > 0.0f && blur < 0.05f && length > 0.0f) {
         const float h = 0.004f;
-        float du = veins((Vec2){point->uv.x + h, point->uv.y}, blur) - vein;
-        float dv = veins((Vec2){point->uv.x, point->uv.y + h}, blur) - vein;
+        float du = veins((Vec2){point->uv.x + h, point->uv.y}, m->veins, blur) - vein;
+        float dv = veins((Vec2){point->uv.x, point->uv.y + h}, m->veins, blur) - vein;
         float width = vec3_length(point->tangent_u);
         Vec3 u = vec3_scale(point->tangent_u, width > 0.0f ? 1.0f / (width * width) : 0.0f);
         Vec3 v = vec3_scale(point->tangent_v, 1.0f / (length * length));
