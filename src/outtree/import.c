@@ -26,11 +26,11 @@ static bool write_tree(const OutTree *tree, ChildOutput *output, Error *e)
 typedef struct Reader {
     OutTree *(*read)(const char *file, Error *e);
     const char *wanted;
-    bool typed; // the trees are (see OutTree)
+    bool typed, scanned; // the trees are (see OutTree)
 } Reader;
 
-static const Reader SWC = {out_tree_read_swc, "a whole SWC file", true};
-static const Reader QSM = {out_tree_read_qsm, "a whole QSM file", false};
+static const Reader SWC = {out_tree_read_swc, "a whole SWC file", true, false};
+static const Reader QSM = {out_tree_read_qsm, "a whole QSM file", false, true};
 
 typedef struct Import {
     const Reader *reader;
@@ -100,6 +100,7 @@ static OutTree *import_tree(const Reader *reader, const char *file, const Run *r
         return NULL;
     }
     tree->typed = reader->typed;
+    tree->scanned = reader->scanned;
     return tree;
 }
 

@@ -3,6 +3,7 @@
 #include "base/exact_math.h"
 #include "outtree/box_dimension.h"
 #include "outtree/measure_forks.h"
+#include "outtree/measure_wood.h"
 #include "outtree/strahler.h"
 
 #include <math.h>
@@ -150,7 +151,8 @@ bool out_tree_measure(const OutTree *tree, MeasureList *list, Error *e)
     }
     bool done = add_counts(tree, &branching, list, e) && add_lengths(tree, &branching, list, e) &&
                 add_radii(tree, &branching, list, e) && add_forks(tree, &branching, list, e) &&
-                add_orders(tree, list, e);
+                add_orders(tree, list, e) &&
+                (!tree->scanned || out_tree_measure_wood(tree, 0.0f, list, e));
     branching_free(&branching);
     return done;
 }

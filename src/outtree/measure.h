@@ -24,6 +24,7 @@
 //                             child and b below the others: 0 = even, 1 = a fishbone
 //   strahler_order, horton_number, horton_length, horton_diameter  (RB, RL, RD; see strahler.h)
 //   box_dimension             of the branches, taken as lines
+// and of a scanned tree the measures of its wood (measure_wood.h).
 bool out_tree_measure(const OutTree *tree, MeasureList *list, Error *e);
 
 #endif

@@ -71,6 +71,7 @@ OutTree *out_tree_copy(const OutTree *tree, Error *e)
     }
     copy->count = tree->count;
     copy->typed = tree->typed;
+    copy->scanned = tree->scanned;
     return copy;
 }
 

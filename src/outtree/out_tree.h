@@ -21,6 +21,7 @@ typedef struct OutTree {
     Vec3 *normal;
     uint64_t *id; // stable: hash of the parent's id and the index among its siblings
     bool typed;   // colonies are SWC types (SwcType), which writers keep
+    bool scanned; // the wood of a tree that was scanned, standing on the ground at height 0
 } OutTree;
 
 OutTree *out_tree_new(Error *e);

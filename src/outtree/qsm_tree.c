@@ -179,6 +179,9 @@ OutTree *qsm_make_tree(const Cylinder *cylinder, int64_t count, const char *file
     a.base = a.queue ? memory_alloc(count, sizeof *a.base, e) : NULL;
     bool *added = a.base ? memory_alloc_zero(count, sizeof *added, e) : NULL;
     a.tree = added ? out_tree_new(e) : NULL;
+    if (a.tree) {
+        a.tree->scanned = true;
+    }
     if (a.tree && !assemble(&a, added, file, e)) {
         out_tree_free(a.tree);
         a.tree = NULL;

@@ -22,6 +22,8 @@ matches length out '^  length  *3 m$'
 matches terminals out '^  terminals  *2$'
 matches root_radius out '^  root_radius  *0.3 m$'
 matches branch_angle out '^  branch_angle  *90 degrees$'
+matches tips out '^  tips  *2$'
+matches diameter out '^  diameter  *0.48 m$'
 cp cyl_data_oak.txt oak.qsm && tr '\t' ',' <oak.qsm >oak.csv
 sed 1d out >table
 for file in oak.qsm oak.csv; do

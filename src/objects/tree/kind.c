@@ -5,6 +5,7 @@
 #include "objects/tree/defaults.h"
 #include "objects/tree/tree.h"
 #include "render/material/material.h"
+#include "outtree/measure_wood.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -109,6 +110,21 @@ static bool measure_swept(const TreeParams *params, const OutTree *tree, Measure
 }
 
 // Natural ranges: radii after Eloy (2011); the others are typical of broad-leaved trees.
+// Measures of the wood above the ground: the roots are left out.
+static bool measure_wood(const TreeParams *params, const OutTree *tree, MeasureList *list, Error *e)
+{
+    OutTree *above = out_tree_copy(tree, e);
+    bool *keep = above ? memory_alloc(tree->count, sizeof *keep, e) : NULL;
+    for (int64_t i = 0; keep && i < tree->count; i++) {
+        keep[i] = tree->colony[i] != TREE_ROOTS;
+    }
+    bool done = keep && out_tree_keep_nodes(above, keep, e) &&
+                out_tree_measure_wood(above, params->position.y, list, e);
+    free(keep);
+    out_tree_free(above);
+    return done;
+}
+
 static bool measure(const void *given, const Grown *grown, const Recipe *recipe, MeasureList *list,
                     Error *e)
 {
@@ -117,7 +133,7 @@ static bool measure(const void *given, const Grown *grown, const Recipe *recipe,
     measures_set_range(list, "branch_angle", 30.0, 70.0);
     measures_set_range(list, "horton_number", 3.0, 5.0);
     measures_set_range(list, "tip_radius", 0.0005, 0.002);
-    return measure_swept(given, grown->tree, list, e);
+    return measure_wood(given, grown->tree, list, e) && measure_swept(given, grown->tree, list, e);
 }
 
 static void needs(const void *params, Needs *needs)
