@@ -12,6 +12,10 @@ typedef struct Room {
     // which it grows; zero if unknown. Called by many threads, between two calls of `meet`.
     float (*clearance)(const void *user, Vec3 p, Vec3 *away);
 
+    // The same to the obstacles alone, which cast shade; NULL = there are none. Called by many
+    // threads.
+    float (*obstacle)(const void *user, Vec3 p);
+
     // Is p an attractor's place: free, and near enough to what it must be near?
     bool (*allows)(const void *user, Vec3 p);
 

@@ -91,6 +91,13 @@ static float clearance(const void *user, Vec3 p, Vec3 *away)
     return least;
 }
 
+static float obstacle(const void *user, Vec3 p)
+{
+    Vec3 away;
+    const Rival *rival = ((const Player *)user)->rival;
+    return obstacles_clearance(rival->obstacles, into_scene(rival, p), &away);
+}
+
 static bool allows(const void *user, Vec3 p)
 {
     const Rival *rival = ((const Player *)user)->rival;
@@ -214,7 +221,11 @@ static bool join_contest(Contested *all, int index, Rival *rival, Error *e)
 {
     Player *me = &all->player[index];
     *me = (Player){.rival = rival, .all = all, .index = index};
-    me->room = (Room){.clearance = clearance, .allows = allows, .meet = meet, .user = me};
+    me->room = (Room){.clearance = clearance,
+                      .obstacle = rival->obstacles ? obstacle : NULL,
+                      .allows = allows,
+                      .meet = meet,
+                      .user = me};
     rival->recipe.room = &me->room;
     me->points = point_hash_new(2.0f * rival->gap, e);
     me->told = memory_alloc_zero(all->count, sizeof *me->told, e);
@@ -262,7 +273,7 @@ static bool contend(Contested *all, Error *e)
 static bool grow_alone(Rival *rival)
 {
     Player me = {.rival = rival};
-    Room room = {.clearance = clearance, .allows = allows, .user = &me};
+    Room room = {.clearance = clearance, .obstacle = obstacle, .allows = allows, .user = &me};
     rival->recipe.room = rival->obstacles ? &room : NULL;
     bool done = rival->kind->grow(rival->params, &rival->recipe, &rival->whole, &rival->error);
     rival->recipe.room = NULL;

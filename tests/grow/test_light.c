@@ -278,16 +278,23 @@ static float wall(const void *user, Vec3 p, Vec3 *away)
     return WALL - p.x;
 }
 
+static float wall_alone(const void *user, Vec3 p)
+{
+    Vec3 away;
+    return wall(user, p, &away);
+}
+
 // Nothing grows into the wall, and its shade makes the crown grow away from it, with less wood than
 // in the open.
 static void a_wall_takes_room_and_light(void **state)
 {
     (void)state;
     LightParams params = light_params_default();
-    Room room = {.clearance = wall};
+    Room room = {.clearance = wall, .obstacle = wall_alone};
     LightSite site = open_site(20);
     OutTree *open = grow(&params, &site, 2);
     site.room = &room;
+    site.reach = (Aabb){vec3(-20, 0, -20), vec3(20, 40, 20)};
     OutTree *tree = grow(&params, &site, 2);
     float mean = 0.0f;
     for (int64_t i = 0; i < tree->count; i++) {

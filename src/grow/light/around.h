@@ -11,15 +11,24 @@ typedef struct Leaf {
     int32_t season;
 } Leaf;
 
+// Cells that obstacles take, found once.
+typedef struct TakenMap {
+    int size[3];
+    Vec3 low;    // internodes
+    float cell;  // internodes
+    bool *taken; // NULL = there are no obstacles
+} TakenMap;
+
 typedef struct Around {
     const LightSite *site;
+    TakenMap map;
     OutTree *shown; // the plant's metamers as rivals see them
     int64_t told;   // of shown: the rivals know these
     Leaf *leaf;     // of rivals
     int64_t leaf_count, leaf_capacity;
 } Around;
 
-bool around_init(Around *around, const LightSite *site, Error *e);
+bool around_init(Around *around, const LightSite *site, int threads, Error *e);
 void around_clear(Around *around);
 
 // Shows the rivals the plant's new metamers, waits for its turn and notes their new leaves. Those
@@ -30,6 +39,6 @@ bool around_meet(Around *around, const Plant *plant, int season, int leaf_season
 float around_margin(const Around *around, Aabb plant);
 
 // Adds the shade of obstacles and rivals to a grid.
-void around_shade(const Around *around, float leaf_area, ShadeGrid *grid, int threads);
+void around_shade(const Around *around, float leaf_area, ShadeGrid *grid);
 
 #endif

@@ -5,29 +5,31 @@
 #include "grow/light/shed.h"
 #include "grow/light/shoots.h"
 
-#define CELL 1.5f   // internodes, of the voxels
-#define BORDER 2.5f // cells about the plant
+#define CELL 1.5f         // internodes, of the voxels
+#define BORDER 2.5f       // cells about the plant
+#define GROUND 1.0f       // internodes: branches do not sink below
+#define LOW_BRANCHES 0.6f // of the bole: nor below this
 enum { MOST_CELLS = 400000, MOST_METAMERS = 8000000 };
 
 LightParams light_params_default(void)
 {
-    return (LightParams){.seasons = 34,
-                         .apical_control = {0.53f, 0.475f},
-                         .maturing = {0.2f, 0.5f},
-                         .vigor = 2.2f,
+    return (LightParams){.seasons = 50,
+                         .apical_control = {0.56f, 0.45f},
+                         .maturing = {0.12f, 0.35f},
+                         .vigor = 2.75f,
                          .shoot = 6,
-                         .shade = 0.6f,
+                         .shade = 0.5f,
                          .leaf_seasons = 2,
-                         .light_need = 0.2f,
-                         .branch_angle = {62.0f, 58.0f, 52.0f},
+                         .light_need = 0.3f,
+                         .branch_angle = {66.0f, 58.0f, 52.0f},
                          .angle_spread = 8.0f,
                          .phyllotaxis = 137.5f,
                          .buds = 1,
                          .tropism = {0.04f, 0.0f, 0.0f},
-                         .phototropism = 0.12f,
-                         .zigzag = 16.0f,
-                         .noise = 0.12f,
-                         .bole = 0.12f,
+                         .phototropism = 0.05f,
+                         .zigzag = 26.0f,
+                         .noise = 0.2f,
+                         .bole = 0.14f,
                          .snags = 0.25f};
 }
 
@@ -51,7 +53,7 @@ static ShadeGrid *make_grid(const Plant *plant, const LightParams *params, const
     if (!grid) {
         return NULL;
     }
-    around_shade(around, params->shade, grid, run->threads);
+    around_shade(around, params->shade, grid);
     for (int64_t i = 0; i < plant->count; i++) {
         const Metamer *m = &plant->metamer[i];
         if (metamer_has_leaves(m, season, params->leaf_seasons)) {
@@ -106,7 +108,8 @@ static bool grow_season(Plant *plant, const LightParams *params, const LightSite
         plant_sum_light(plant, season, params->leaf_seasons);
     }
     plant_share_growth(plant, params->vigor, control);
-    bool done = plant_make_shoots(plant, params, site, grid, season, control, e);
+    float low = LOW_BRANCHES * bole > GROUND ? LOW_BRANCHES * bole : GROUND;
+    bool done = plant_make_shoots(plant, params, site, grid, season, control, low, e);
     shade_grid_free(grid);
     return done;
 }
@@ -116,7 +119,7 @@ static bool grow_seasons(Plant *plant, const LightParams *params, const LightSit
 {
     Around around;
     int64_t most = site->metamers > 0 ? site->metamers : MOST_METAMERS;
-    bool done = around_init(&around, site, e);
+    bool done = around_init(&around, site, run->threads, e);
     for (int season = 0; done && season < site->seasons && plant->count < most; season++) {
         run_progress(run, "growing by light", (double)season / (double)site->seasons);
         done = (!run_is_cancelled(run) || run_cancel_error(e)) &&

@@ -51,6 +51,7 @@ typedef struct LightSite {
     const GuideField *field;  // turns shoots; NULL = none
     float field_weight;
     const Room *room; // obstacles and rivals; NULL = it grows alone
+    Aabb reach;       // internodes from the foot: where it may grow in a room
     int64_t cells;    // most voxels of the grid; 0 = 400,000
     int64_t metamers; // most; growth ends there; 0 = 8 million
     float tip,

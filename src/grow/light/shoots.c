@@ -16,6 +16,7 @@ typedef struct Shooting {
     const LightSite *site;
     const ShadeGrid *grid;
     int season;
+    float low; // internodes: branches do not sink below
 } Shooting;
 
 static float of_order(Vec3 v, int order)
@@ -103,8 +104,12 @@ static Vec3 turned(const Shooting *s, Vec3 at, Vec3 d, int order)
 }
 
 // Moves the end of a step out of taken space; false if there is no room.
-static bool find_room(const LightSite *site, Vec3 from, Vec3 *to, int order)
+static bool find_room(const Shooting *s, Vec3 from, Vec3 *to, int order)
 {
+    const LightSite *site = s->site;
+    if (order > 0 && to->y < s->low && to->y < from.y) {
+        return false;
+    }
     if (!site->room && !site->envelope) {
         return true;
     }
@@ -145,7 +150,7 @@ static bool make_shoot(const Shooting *s, int32_t base, int bud, float growth, E
     for (int i = 0; i < metamers; i++) {
         d = turned(s, at, d, order);
         Vec3 to = vec3_madd(at, length, d);
-        if (!find_room(s->site, at, &to, order)) {
+        if (!find_room(s, at, &to, order)) {
             break;
         }
         d = vec3_normalize(vec3_sub(to, at));
@@ -163,9 +168,9 @@ static bool make_shoot(const Shooting *s, int32_t base, int bud, float growth, E
 }
 
 bool plant_make_shoots(Plant *plant, const LightParams *params, const LightSite *site,
-                       const ShadeGrid *grid, int season, float control, Error *e)
+                       const ShadeGrid *grid, int season, float control, float low, Error *e)
 {
-    Shooting s = {plant, params, site, grid, season};
+    Shooting s = {plant, params, site, grid, season, low};
     int64_t old = plant->count;
     for (int32_t i = 0; i < old; i++) {
         const Metamer *m = &plant->metamer[i];

@@ -6,9 +6,9 @@
 #include "grow/light/shade_grid.h"
 
 // Makes shoots of all buds that get enough growth: a side bud at least 1 metamer, a terminal bud
-// half of one. Needs plant_share_growth with this control. Shoots end at taken space and at the
-// envelope.
+// half of one. Needs plant_share_growth with this control. Shoots end at taken space, at the
+// envelope, and where branches would sink below `low` internodes above the ground.
 bool plant_make_shoots(Plant *plant, const LightParams *params, const LightSite *site,
-                       const ShadeGrid *grid, int season, float control, Error *e);
+                       const ShadeGrid *grid, int season, float control, float low, Error *e);
 
 #endif

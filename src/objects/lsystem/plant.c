@@ -20,6 +20,8 @@ static const char TREE_RULES[] =
 LSystemPlantParams lsystem_plant_params_default(void)
 {
     TreeParams tree = tree_params_default();
+    tree.radii.tip = 0.0024f;
+    tree.leaves.twig_radius = 0.011f;
     return (LSystemPlantParams){.height = 12.0f,
                                 .generations = 7,
                                 .angle = 30.0f,

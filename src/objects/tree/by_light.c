@@ -91,8 +91,10 @@ static bool find_internode(const TreePlan *plan, LightSite *site, const Recipe *
     if (!tree) {
         return false;
     }
-    float height = top_of(tree) - plan->params.position.y;
-    site->internode = plan->params.height / height;
+    site->reach = out_tree_bounds(tree);
+    site->reach.low = vec3_sub(site->reach.low, site->foot);
+    site->reach.high = vec3_sub(site->reach.high, site->foot);
+    site->internode = plan->params.height / site->reach.high.y;
     out_tree_free(tree);
     return true;
 }

@@ -6,7 +6,7 @@
 enum { STREAM_LOBE_SIZE = 1, STREAM_LOBE_TURN = 2 }; // of a lobe
 
 // Radius / height of the default trunk of a grown-up tree.
-#define GIRTH_BY_LIGHT 0.021f
+#define GIRTH_BY_LIGHT 0.0205f
 #define GIRTH_BY_ATTRACTORS 0.03f
 
 #define SLOWING 2.5f     // of growth in height, over the years until a tree is mature
@@ -39,10 +39,10 @@ TreeParams tree_params_default(void)
                                      .field_weight = 1.0f},
                   .count = 6,
                   .radius = 0.42f},
-        .radii = {.model = RADIUS_PIPE, .exponent = 2.3f, .tip = 0.0024f, .flare = 0.55f},
+        .radii = {.model = RADIUS_PIPE, .exponent = 2.3f, .tip = 0.0019f, .flare = 0.55f},
         .leaves = {.max_count = 250000,
                    .spacing = 0.018f,
-                   .twig_radius = 0.011f,
+                   .twig_radius = 0.0045f,
                    .length = 0.105f,
                    .width = 0.062f,
                    .size_variation = 0.35f,

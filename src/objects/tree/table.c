@@ -12,7 +12,7 @@ static const Key TRUNK_KEYS[] = {
     {KEY_OF(TrunkParams, slenderness, "slenderness", KEY_FLOAT), .high = 1000,
      .doc = "Height of the tree / diameter of its trunk, when it is grown up (see light); younger "
             "trees are more slender. About 25 for an old oak in a field, 50 for a poplar, 80 for a "
-            "birch in a wood. 0 = 24 for trees grown by light, 17 for others."},
+            "birch in a wood. 0 = 25 for trees grown by light, 17 for others."},
     {KEY_OF(TrunkParams, lean, "lean", KEY_FLOAT), .high = 89, .unit = "degrees",
      .doc = "Angle between the trunk and the vertical."},
     {KEY_OF(TrunkParams, lean_azimuth, "lean_azimuth", KEY_FLOAT), .low = -360, .high = 360,

@@ -1,0 +1,184 @@
+// Trees of the kind that grow by light: the default oak's measures, heights and ages.
+#include "objects/kind.h"
+#include "objects/tree/tree.h"
+
+#include "making.h"
+#include "testing.h"
+
+#include <math.h>
+
+static TreeParams bare_tree(void)
+{
+    TreeParams params = tree_params_default();
+    params.leaves.max_count = 0;
+    params.roots.count = 0;
+    return params;
+}
+
+static OutTree *grow(const TreeParams *params, uint64_t seed)
+{
+    Error e = {0};
+    Run run = run_default();
+    run.threads = 2;
+    OutTree *tree = grow_kind(&kind_tree, params,
+                              &(Recipe){.seed = seed, .label = "oak", .run = &run}, 1.0f, &e);
+    if (!tree) {
+        fail_msg("%s", e.message);
+    }
+    return tree;
+}
+
+static float top_of(const OutTree *tree)
+{
+    return out_tree_bounds(tree).high.y;
+}
+
+static double measured(const TreeParams *params, OutTree *tree, const char *name)
+{
+    MeasureList list = {0};
+    Grown grown = {.tree = tree};
+    assert_true(kind_tree.measure(params, &grown, NULL, &list, NULL));
+    double value = measures_find(&list, name)->value;
+    measures_clear(&list);
+    return value;
+}
+
+// Ranges of an open-grown broad-leaved tree among scanned ones.
+static void five_default_oaks_are_open_grown_trees(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *measure;
+        double low, high;
+    } range[] = {{"height_per_diameter", 20, 35},
+                 {"branch_per_height", 40, 80},
+                 {"tips", 500, 1500},
+                 {"stem_share", 0.25, 0.45}};
+    TreeParams params = bare_tree();
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+        OutTree *tree = grow(&params, seed);
+        for (size_t i = 0; i < sizeof range / sizeof range[0]; i++) {
+            double value = measured(&params, tree, range[i].measure);
+            if (!(value >= range[i].low && value <= range[i].high)) {
+                fail_msg("seed %d: %s %g", (int)seed, range[i].measure, value);
+            }
+        }
+        out_tree_free(tree);
+    }
+}
+
+static void trees_have_the_height_that_was_asked(void **state)
+{
+    (void)state;
+    static const float height[] = {1.0f, 4.0f, 11.0f, 25.0f};
+    for (int i = 0; i < 4; i++) {
+        TreeParams params = bare_tree();
+        params.light.growth.seasons = 24;
+        params.height = height[i];
+        OutTree *tree = grow(&params, 3);
+        assert_true(fabsf(top_of(tree) / height[i] - 1.0f) < 1e-3f);
+        out_tree_free(tree);
+    }
+}
+
+// From a sapling to a veteran: taller, with more branches, stouter.
+static void trees_age(void **state)
+{
+    (void)state;
+    static const float age[] = {8.0f, 30.0f, 120.0f, 400.0f};
+    float top = 0.0f;
+    int64_t nodes = 0;
+    float slenderness = INFINITY;
+    for (int i = 0; i < 4; i++) {
+        TreeParams params = bare_tree();
+        params.light.growth.seasons = 24;
+        params.age = age[i];
+        OutTree *tree = grow(&params, 3);
+        float now = top_of(tree) / tree->radius[0];
+        assert_true(top_of(tree) > top && tree->count > nodes && now < slenderness);
+        top = top_of(tree);
+        nodes = tree->count;
+        slenderness = now;
+        out_tree_free(tree);
+    }
+    assert_true(top > 14.0f && top < 16.0f);
+}
+
+// The height implies the age, and the age the height.
+static void height_and_age_imply_each_other(void **state)
+{
+    (void)state;
+    TreeParams params = bare_tree(), settled;
+    params.height = 7.0f;
+    kind_tree.settle(&params, &settled);
+    assert_true(settled.age > 15.0f && settled.age < 60.0f);
+    params.age = settled.age;
+    params.height = 0.0f;
+    kind_tree.settle(&params, &settled);
+    assert_float_equal(settled.height, 7.0f, 1e-3f);
+    params.age = 0.0f;
+    kind_tree.settle(&params, &settled);
+    assert_float_equal(settled.height, params.light.mature_height, 1e-3f);
+    assert_float_equal(settled.age, params.light.mature_age, 1e-2f);
+}
+
+static GrowLevel limb_level = {40, 0.10f, 0.4f, 4.0f, 0.8f, 0.3f, 0.0f, 0.5f};
+
+// Attractors lay the limbs; light adds twigs on all of them, within the crown's envelope.
+static void light_fills_limbs_that_attractors_laid(void **state)
+{
+    (void)state;
+    TreeParams params = bare_tree();
+    params.height = 10.0f;
+    params.trunk.radius = 0.2f;
+    params.crown.lobes = 0;
+    params.crown.element.levels = &limb_level;
+    params.crown.element.level_count = 1;
+    OutTree *limbs = grow(&params, 5);
+    params.grown_by = GROWN_BY_BOTH;
+    params.light.growth.seasons = 12;
+    OutTree *tree = grow(&params, 5);
+    assert_true(tree->count > 4 * limbs->count);
+    assert_true(top_of(tree) < 10.3f && top_of(tree) > 8.0f);
+    int64_t kept = 0;
+    for (int64_t i = 0; i < limbs->count; i++) { // the limbs are still there
+        int64_t k = 0;
+        while (k < tree->count && tree->id[k] != limbs->id[i]) {
+            k++;
+        }
+        kept += k < tree->count && vec3_distance(tree->position[k], limbs->position[i]) < 1e-3f;
+    }
+    assert_true(kept > limbs->count / 2);
+    out_tree_free(limbs);
+    out_tree_free(tree);
+}
+
+static void stems_grow_beside_each_other(void **state)
+{
+    (void)state;
+    TreeParams params = bare_tree();
+    params.height = 5.0f;
+    params.light.growth.seasons = 20;
+    params.trunk.stems = 4;
+    params.trunk.stem_circle = 0.2f;
+    OutTree *tree = grow(&params, 5);
+    int roots = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        roots += tree->parent[i] < 0;
+    }
+    assert_int_equal(roots, 4);
+    out_tree_free(tree);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(five_default_oaks_are_open_grown_trees),
+        cmocka_unit_test(trees_have_the_height_that_was_asked),
+        cmocka_unit_test(trees_age),
+        cmocka_unit_test(height_and_age_imply_each_other),
+        cmocka_unit_test(light_fills_limbs_that_attractors_laid),
+        cmocka_unit_test(stems_grow_beside_each_other),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
