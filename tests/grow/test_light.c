@@ -88,7 +88,7 @@ static Plant forked_plant(void)
         assert_true(at >= 0);
     }
     at = plant_add(&plant, 3, 0, vec3(1, 2, 0), out, NULL);
-    at = plant_add(&plant, (int32_t)at, -1, vec3(2, 2, 0), out, NULL);
+    assert_true(plant_add(&plant, (int32_t)at, -1, vec3(2, 2, 0), out, NULL) >= 0);
     for (int64_t i = 2; i < plant.count; i++) {
         Metamer *m = &plant.metamer[i];
         m->buds = i == 3 ? 0u : 1u;
@@ -134,7 +134,8 @@ static void more_light_gives_no_bud_less_growth(void **state)
     for (int64_t i = 0; i < bright.count; i++) {
         bright.metamer[i].light *= 1.25f;
     }
-    for (float control = 0.3f; control < 0.9f; control += 0.1f) {
+    for (int tenths = 3; tenths < 9; tenths++) {
+        float control = 0.1f * (float)tenths;
         plant_sum_light(&dim, 0, 1);
         plant_sum_light(&bright, 0, 1);
         plant_share_growth(&dim, 2.0f, control);
@@ -155,7 +156,8 @@ static void apical_control_favours_the_axis(void **state)
     Plant plant = forked_plant();
     float before = 0.0f;
     plant_sum_light(&plant, 0, 1);
-    for (float control = 0.2f; control < 0.95f; control += 0.1f) {
+    for (int tenths = 2; tenths < 10; tenths++) {
+        float control = 0.1f * (float)tenths;
         plant_share_growth(&plant, 2.0f, control);
         float top = plant.metamer[5].growth;
         assert_true(top > before);

@@ -17,7 +17,7 @@ LightParams light_params_default(void)
                          .apical_control = {0.56f, 0.45f},
                          .maturing = {0.12f, 0.35f},
                          .vigor = 2.75f,
-                         .shoot = 6,
+                         .shoot = {6.0f, 6.0f, 6.0f},
                          .shade = 0.5f,
                          .leaf_seasons = 2,
                          .light_need = 0.3f,

@@ -20,7 +20,7 @@ typedef struct LightParams {
                          // light: of a young and of an old tree
     Vec2 maturing;       // shares of the seasons between which it goes from young to old
     float vigor;         // metamers that the light of one free metamer makes in a season
-    int shoot;           // metamers of the longest shoot of a season
+    Vec3 shoot;          // metamers of the longest shoot of a season
     float shade;         // area of a metamer's leaves across the light, internodes squared
     int leaf_seasons;    // in which a metamer bears leaves
     float light_need;    // mean light (0..1) of a branch's leaves below which it dies

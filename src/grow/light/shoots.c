@@ -130,7 +130,7 @@ static void finish_metamer(const Shooting *s, Metamer *m, int place, bool last)
     const LightParams *p = s->params;
     bool bears = p->whorl <= 0 || last;
     m->season = s->season + 1;
-    m->birth = 1 + s->season * p->shoot + place;
+    m->birth = 1 + s->season * (int)vec3_largest(p->shoot) + place;
     m->terminal = last;
     m->buds = bears ? (1u << (unsigned)bud_count(p, m->order)) - 1u : 0u;
     m->side = across(rotated(m->side, m->direction, p->phyllotaxis), m->direction);
@@ -139,13 +139,14 @@ static void finish_metamer(const Shooting *s, Metamer *m, int place, bool last)
 // Makes one shoot of bud number `bud` (-1 = terminal) of a metamer.
 static bool make_shoot(const Shooting *s, int32_t base, int bud, float growth, Error *e)
 {
-    int most = s->params->shoot, metamers = growth < (float)most ? (int)growth : most;
+    int order = s->plant->metamer[base].order + (bud >= 0);
+    float most = of_order(s->params->shoot, order);
+    int metamers = (int)(growth < most ? growth : most);
     metamers = metamers > 0 ? metamers : 1;
     float length = growth / (float)metamers;
     length = length < LONGEST ? length : LONGEST;
     Vec3 at = s->plant->metamer[base].position;
     Vec3 d = first_direction(s, &s->plant->metamer[base], bud);
-    int order = s->plant->metamer[base].order + (bud >= 0);
     int64_t made = base;
     for (int i = 0; i < metamers; i++) {
         d = turned(s, at, d, order);

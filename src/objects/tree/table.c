@@ -118,8 +118,10 @@ static const Key LIGHT_KEYS[] = {
             "seasons."},
     {LIGHT_KEY(growth.vigor, "vigor", KEY_FLOAT), .high = 100,
      .doc = "How much growth light makes: nodes for the light of one node in the open."},
-    {LIGHT_KEY(growth.shoot, "shoot", KEY_INT), .low = 1, .high = 100,
-     .doc = "Most nodes of a season's shoot."},
+    {LIGHT_KEY(growth.shoot, "shoot", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3, .low = 1,
+     .high = 100,
+     .doc = "Most nodes of a season's shoot: of the trunk, of limbs, of the branches on them. "
+            "Shorter on the limbs than on the trunk makes a narrow crown, as of conifers."},
     {LIGHT_KEY(growth.shade, "shade", KEY_FLOAT), .high = 100,
      .doc = "How much shade a node's leaves cast: their area across the light, in internodes "
             "squared. 0.2 = a light crown like a birch's, 1 = a dense one like a beech's."},
