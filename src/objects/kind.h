@@ -67,9 +67,10 @@ typedef struct Kind {
     // Seed that its parameters give, in place of one derived from the name; 0 = none. NULL = never.
     uint64_t (*seed)(const void *params);
 
-    // Name of the object whose surface it grows over, as its key envelope.0.object gives it; NULL =
-    // none. It grows in scene space then. Recipe.surface is that surface.
+    // Name of the object whose surface it grows over; NULL = none. It grows in scene space then.
+    // Recipe.surface is that surface. over_key: the key that names it.
     const char *(*over)(const void *params);
+    const char *over_key;
 
     // The recipe: see objects/common/recipe.h. NULL = the kind has no such step. tip_radius: m, the
     // initial radius of nodes that thicken as they age; NULL = nodes appear at their final radius.

@@ -21,7 +21,8 @@
     X(venation)  \
     X(fracture)  \
     X(skeleton)  \
-    X(outtree)
+    X(outtree)   \
+    X(climber)
 
 #define DECLARE_KIND(NAME) extern const Kind kind_##NAME;
 KINDS(DECLARE_KIND)

@@ -262,8 +262,9 @@ static bool check_obstacles(const Mapping *mapping, const Scene *scene, int inde
 // The name of the object that the object grows over (Kind.over), as the file gives it.
 static const Node *over_key(const Mapping *mapping, const Scene *scene, int index)
 {
-    const Node *kind = object_key(mapping, index, kind_name(scene->objects[index].kind));
-    return node_get(node_get(kind, "envelope")->first, "object");
+    const Kind *kind = scene->objects[index].kind;
+    const char *rest;
+    return node_follow(object_key(mapping, index, kind_name(kind)), kind->over_key, &rest);
 }
 
 static bool check_over(const Mapping *mapping, const Scene *scene, int index)
@@ -271,7 +272,8 @@ static bool check_over(const Mapping *mapping, const Scene *scene, int index)
     const SceneObject *object = &scene->objects[index];
     const char *over = scene_object_over(object);
     char where[192];
-    snprintf(where, sizeof where, "objects.%s.%s.envelope", object->name, kind_name(object->kind));
+    snprintf(where, sizeof where, "objects.%s.%s.%s", object->name, kind_name(object->kind),
+             over ? object->kind->over_key : "");
     return !over || scene_find_object(scene, over) >= 0 ||
            no_object(mapping, scene, over_key(mapping, scene, index), where);
 }
@@ -286,7 +288,7 @@ static bool check_circle(const Mapping *mapping, const Scene *scene, int index)
             char key[64] = "clear_of";
             const Node *place = object_key(mapping, index, key);
             if (k == object->clear_of_count) {
-                snprintf(key, sizeof key, "%s.envelope", kind_name(object->kind));
+                snprintf(key, sizeof key, "%s.%s", kind_name(object->kind), object->kind->over_key);
                 place = over_key(mapping, scene, index);
             }
             return load_fail(mapping->loader, place,

@@ -52,7 +52,7 @@ static bool find_surface(Making *m, Surfaces *surfaces, Error *e)
     }
     int index = scene_find_object(m->scene, over);
     m->recipe.surface = surfaces_over(surfaces, index, m->recipe.run, e);
-    return m->recipe.surface || error_key(e, "envelope.0.object");
+    return m->recipe.surface || error_key(e, "%s", m->scene->objects[m->index].kind->over_key);
 }
 
 static bool enter(Making *m, Rival *rival, const Scene *scene, int index, Surfaces *surfaces,

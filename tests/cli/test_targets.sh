@@ -39,8 +39,13 @@ for species in scenes/species/*.yaml; do
     name=$(basename "$species" .yaml)
     set --
     for change in $(sed -n 's/^# small: //p' "$species"); do set -- "$@" --set "objects.plant.$change"; done
-    kind=$(sed -n 's/^# kind: //p' "$species")
-    echo "objects: [{name: plant, ${kind:-tree}: {species: $name}}]" >"$folder/species.yaml"
+    if grep -q '^climber:' "$species"; then
+        plant="climber: {species: $name, climbs: wall, starts: [{position: [0, 0, 0.2]}]}}"
+        plant="$plant, {name: wall, shape: {voxel: 0.1, envelope: [{shape: box, size: [5, 5, 0.2], position: [0, 5, 0]}]}"
+    else
+        plant="tree: {species: $name}"
+    fi
+    echo "objects: [{name: plant, $plant}]" >"$folder/species.yaml"
     measures "targets_of_species_$name" 0 "$folder/species.yaml" --quiet "$@"
 done
 

@@ -518,14 +518,15 @@ static void test_refusals(void **state)
 
 static void test_surface_refusals(void **state)
 {
-    fixture_refuse(*state, "objects:\n" ROCK CREEPER("a", "rack", ""),
-                   "objects.a.outtree.envelope: there is no object 'rack'; did you mean 'rock'", 6);
+    fixture_refuse(
+        *state, "objects:\n" ROCK CREEPER("a", "rack", ""),
+        "objects.a.outtree.envelope.0.object: there is no object 'rack'; did you mean 'rock'", 6);
     fixture_refuse(*state, "objects:\n" CREEPER("a", "a", ""),
-                   "objects.a.outtree.envelope leads back to 'a' itself", 4);
+                   "objects.a.outtree.envelope.0.object leads back to 'a' itself", 4);
     fixture_refuse(*state,
                    "objects:\n" ROCK CREEPER("a", "b", "    clear_of: [{object: rock}]\n")
                        CREEPER("b", "a", ""),
-                   "objects.a.outtree.envelope leads back to 'a' itself", 6);
+                   "objects.a.outtree.envelope.0.object leads back to 'a' itself", 6);
     fixture_refuse(*state, "objects:\n" ROCK OVER_ROCK, "has no inside; it must be surface", 6);
     fixture_refuse(*state, "objects:\n" ROCK ON_ROCK "      show: {band: 0.1}\n",
                    "show.band needs an envelope with an inside", 8);

@@ -297,8 +297,13 @@ static void the_library_loads(void **state)
     const char *name;
     int count = 0;
     for (; (name = species_builtin(count, NULL)); count++) {
-        char text[128];
-        snprintf(text, sizeof text, "objects: [{name: a, tree: {species: %s}}]\n", name);
+        char text[256];
+        bool climbs = strcmp(name, "ivy") == 0;
+        snprintf(text, sizeof text,
+                 climbs ? "objects: [{name: a, climber: {species: %s, climbs: b, starts: "
+                          "[{position: [0, 0, 0]}]}}, {name: b, ground: {}}]\n"
+                        : "objects: [{name: a, tree: {species: %s}}]\n",
+                 name);
         Scene *scene = fixture_read(fixture, text);
         assert_true(scene->target_count > 0);
         assert_true(scene->material_count > 0);

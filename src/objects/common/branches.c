@@ -35,7 +35,7 @@ static bool add_leaves(const OutTree *tree, const TwigParams *params, const Curv
 {
     bool some = params->bare_from >= 0;
     bool *bare = some ? branches_bare(tree, twigs, params->bare_from, e) : NULL;
-    bool done = (bare || !some) && foliage_add(twigs, bare, params->leaves, params->center,
+    bool done = (bare || !some) && foliage_add(twigs, bare, params->leaves, &params->light,
                                                params->seed, placing, params->leaf_role, e);
     free(bare);
     return done;

@@ -3,7 +3,7 @@
 #ifndef RAMIFY_OBJECTS_COMMON_BRANCHES_H
 #define RAMIFY_OBJECTS_COMMON_BRANCHES_H
 
-#include "objects/common/leaves.h"
+#include "objects/common/leaf_place.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
 #include "skin/skin.h"
@@ -33,7 +33,7 @@ SkinParams branches_skin(const SkinningParams *skin);
 typedef struct TwigParams {
     const SkinningParams *skin;
     const LeavesParams *leaves; // NULL = none
-    Vec3 center;                // m: leaves turn away from it, to the light
+    LeafLight light;            // that they turn to
     int32_t bare_from;          // colonies from this number on bear no leaves; -1 = all do
     uint64_t seed;              // of the leaves
     int twig_role, leaf_role;   // of the kind's materials

@@ -20,7 +20,7 @@ typedef struct Foliage {
     const LeavesParams *leaves;
     const bool *bare; // per curve; NULL = none
     LeafBatch *batch; // leaves->variants of them
-    Vec3 center;
+    const LeafLight *light;
     float spacing; // m, the scene's, widened if there are too many leaves
     uint64_t seed;
     const Run *run;
@@ -94,8 +94,7 @@ static bool add_node(Foliage *foliage, const CurveSet *twigs, int64_t first, int
     }
     bool done = true;
     for (int k = 0; done && k < leaves_per_node(leaves); k++) {
-        done =
-            add_leaf(foliage, leaf_place(leaves, node, k, foliage->center), leaf_key(node, k), e);
+        done = add_leaf(foliage, leaf_place(leaves, node, k, foliage->light), leaf_key(node, k), e);
     }
     return done;
 }
@@ -198,11 +197,11 @@ static bool limit_leaves(Foliage *foliage, const CurveSet *twigs, Error *e)
                                    (long long)count);
 }
 
-bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves, Vec3 center,
-                 uint64_t seed, const Placing *placing, int role, Error *e)
+bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves,
+                 const LeafLight *light, uint64_t seed, const Placing *placing, int role, Error *e)
 {
     const Run *run = placing->recipe->run;
-    Foliage foliage = {leaves, bare, NULL, center, leaves->spacing, seed, run};
+    Foliage foliage = {leaves, bare, NULL, light, leaves->spacing, seed, run};
     foliage.batch = memory_alloc_zero(leaves->variants, sizeof *foliage.batch, e);
     if (!foliage.batch) {
         return false;

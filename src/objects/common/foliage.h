@@ -4,13 +4,14 @@
 
 #include "mesh/geometry.h"
 #include "objects/common/branches.h"
+#include "objects/common/leaf_place.h"
 
 // Adds one part per leaf variant, with an instance for every leaf on the thin ends of the curves.
 // bare: one entry per curve, true = without leaves; NULL = all bear leaves. The spacing is widened
 // if there would be more than leaves->max_count. center: of the crown; leaves turn away from it, to
 // the light. role: of their material.
-bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves, Vec3 center,
-                 uint64_t seed, const Placing *placing, int role, Error *e);
+bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves,
+                 const LeafLight *light, uint64_t seed, const Placing *placing, int role, Error *e);
 
 // Sets the mesh of leaf variant number `variant` and its coarse forms; after a failure none. piece:
 // m, length of twig that a piece with needles covers.

@@ -72,9 +72,19 @@ static void flatten(const LeavesParams *leaves, Vec3 along, Vec3 *y, Vec3 *z)
     *z = vec3_add(vec3_scale(*z, 1.0f - leaves->plane), vec3_scale(up, leaves->plane));
 }
 
+// Where the leaves at p turn to: up and away from the crown's middle, or off the surface.
+static Vec3 light_at(const LeafLight *light, Vec3 p)
+{
+    if (light->facing) {
+        return vec3_madd(vec3(0, 0.5f, 0), 1.2f, light->facing(light->user, p));
+    }
+    Vec3 away = vec3_normalize(vec3_sub(p, light->center));
+    return vec3_add(vec3(0, 1.2f, 0), vec3_scale(away, 0.7f));
+}
+
 // A leaf at p on the side `out` of a twig that runs along `along`.
 static Transform leaf_frame(const LeavesParams *leaves, Vec3 p, Vec3 along, Vec3 out, float open,
-                            Vec3 center, uint64_t key)
+                            const LeafLight *light, uint64_t key)
 {
     float grown = leaves_emergence(leaves, key); // young leaves are small and stand closer
     float angle = open * random_range(random_key(key, STREAM_ANGLE), 0.7f, 1.3f), sine, cosine;
@@ -91,10 +101,9 @@ static Transform leaf_frame(const LeavesParams *leaves, Vec3 p, Vec3 along, Vec3
         Vec3 down = vec3_madd(vec3(0, -1, 0), 0.25f, y);
         y = vec3_normalize(vec3_lerp(y, down, leaves->hang));
     }
-    Vec3 light = vec3_normalize(vec3_sub(p, center));
-    light = vec3_add(vec3(0, 1.2f, 0), vec3_scale(light, 0.7f));
-    light = vec3_madd(light, 0.55f, random_direction(random_key(key, STREAM_LIGHT)));
-    z = vec3_add(vec3_scale(z, 1.0f - leaves->droop), vec3_scale(light, leaves->droop));
+    Vec3 upper = light_at(light, p);
+    upper = vec3_madd(upper, 0.55f, random_direction(random_key(key, STREAM_LIGHT)));
+    z = vec3_add(vec3_scale(z, 1.0f - leaves->droop), vec3_scale(upper, leaves->droop));
     z = vec3_madd(z, -vec3_dot(z, y), y);
     z = vec3_dot(z, z) > 1e-6f ? vec3_normalize(z) : vec3_perpendicular(y);
     float size = 1.0f - leaves->size_variation * random_unit(random_key(key, STREAM_SIZE));
@@ -111,8 +120,8 @@ static Vec3 side_at(const LeafNode *node, float degrees)
 }
 
 // A leaf of a short shoot, which leaves the twig at right angles.
-static Transform place_on_spur(const LeavesParams *leaves, const LeafNode *node, int k, Vec3 center,
-                               uint64_t key)
+static Transform place_on_spur(const LeavesParams *leaves, const LeafNode *node, int k,
+                               const LeafLight *light, uint64_t key)
 {
     const float spur_length = 0.008f;
     Vec3 spur = side_at(node, azimuth(leaves, node, 0, node->key));
@@ -120,33 +129,45 @@ static Transform place_on_spur(const LeavesParams *leaves, const LeafNode *node,
     Vec3 tip = vec3_madd(node->position, node->radius + spur_length, spur);
     LeafNode end = {.along = spur, .reference = vec3_perpendicular(spur)};
     Vec3 out = side_at(&end, 137.507764f * (float)k);
-    return leaf_frame(leaves, tip, spur, out, leaves->angle, center, key);
+    return leaf_frame(leaves, tip, spur, out, leaves->angle, light, key);
 }
 
 // A leaf of a rosette: the innermost nearly upright, the outermost at the full angle and lower.
 static Transform place_in_rosette(const LeavesParams *leaves, const LeafNode *node, int k,
-                                  Vec3 center, uint64_t key)
+                                  const LeafLight *light, uint64_t key)
 {
     float rank = ((float)k + 0.5f) / (float)leaves_per_node(leaves);
     Vec3 out = side_at(node, azimuth(leaves, node, k, key));
     Vec3 p = vec3_madd(node->position, -3.0f * node->radius * rank, node->along);
     p = vec3_madd(p, 0.85f * node->radius * sqrtf(rank), out);
-    return leaf_frame(leaves, p, node->along, out, leaves->angle * (0.1f + 0.9f * rank), center,
+    return leaf_frame(leaves, p, node->along, out, leaves->angle * (0.1f + 0.9f * rank), light,
                       key);
 }
 
-Transform leaf_place(const LeavesParams *leaves, const LeafNode *node, int k, Vec3 center)
+// No leaf leads into the surface that its twig clings to.
+static Vec3 off_surface(Vec3 out, Vec3 normal)
+{
+    const float least = 0.45f;
+    float rise = vec3_dot(out, normal);
+    return rise < least ? vec3_normalize(vec3_madd(out, least - rise, normal)) : out;
+}
+
+Transform leaf_place(const LeavesParams *leaves, const LeafNode *node, int k,
+                     const LeafLight *light)
 {
     uint64_t key = leaf_key(node, k);
     if (leaves->arrangement == ARRANGE_SPURS) {
-        return place_on_spur(leaves, node, k, center, key);
+        return place_on_spur(leaves, node, k, light, key);
     }
     if (leaves->arrangement == ARRANGE_ROSETTE) {
-        return place_in_rosette(leaves, node, k, center, key);
+        return place_in_rosette(leaves, node, k, light, key);
     }
     Vec3 out = side_at(node, azimuth(leaves, node, k, key));
+    if (light->facing) {
+        out = off_surface(out, light->facing(light->user, node->position));
+    }
     Vec3 p = vec3_madd(node->position, 0.8f * node->radius, out);
-    return leaf_frame(leaves, p, node->along, out, leaves->angle, center, key);
+    return leaf_frame(leaves, p, node->along, out, leaves->angle, light, key);
 }
 
 Transform leaf_place_piece(const LeavesParams *leaves, Vec3 start, Vec3 end, float reach,

@@ -4,6 +4,14 @@
 
 #include "objects/common/leaves.h"
 
+// Where leaves turn their upper sides to.
+typedef struct LeafLight {
+    Vec3 center; // m: up, and away from this point, the middle of a crown
+    // Unit direction at p, for plants on a surface; NULL = center is used.
+    Vec3 (*facing)(const void *user, Vec3 p);
+    const void *user;
+} LeafLight;
+
 // A place on a twig that bears leaves.
 typedef struct LeafNode {
     Vec3 position;  // m, on the twig's axis
@@ -21,9 +29,9 @@ Vec3 leaf_reference(const LeavesParams *leaves, Vec3 reference, Vec3 along);
 // Key of leaf number k of the node.
 uint64_t leaf_key(const LeafNode *node, int k);
 
-// Placement of leaf number k of the node. center: m, of the crown; leaves turn away from it, to the
-// light.
-Transform leaf_place(const LeavesParams *leaves, const LeafNode *node, int k, Vec3 center);
+// Placement of leaf number k of the node.
+Transform leaf_place(const LeavesParams *leaves, const LeafNode *node, int k,
+                     const LeafLight *light);
 
 // Placement of a piece of twig with needles from `start` to `end` (m), toward the tip. reach: m,
 // length of the mesh.

@@ -31,7 +31,7 @@ static bool add_branches(const OuttreeParams *params, const OutTree *tree, const
     Aabb box = out_tree_bounds(tree);
     TwigParams twigs = {.skin = &params->skin,
                         .leaves = &params->leaves,
-                        .center = vec3_lerp(box.low, box.high, 0.5f),
+                        .light.center = vec3_lerp(box.low, box.high, 0.5f),
                         .bare_from = -1,
                         .seed = random_key(placing->recipe->seed, STREAM_OUTTREE_LEAVES),
                         .twig_role = OUTTREE_TWIG,

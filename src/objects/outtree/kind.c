@@ -125,6 +125,7 @@ const Kind kind_outtree = {
     .builtin = BUILTIN,
     .own_space = own_space,
     .over = outtree_over,
+    .over_key = "envelope.0.object",
     .keeps_clear = true,
     .contends = true,
     .needs = needs,

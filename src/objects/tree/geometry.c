@@ -25,7 +25,8 @@ bool tree_geometry(const void *given, const Grown *grown, const Placing *placing
     SkinParams skin = branches_skin(&params->skin);
     TwigParams twigs = {.skin = &params->skin,
                         .leaves = &params->leaves,
-                        .center = vec3_add(params->position, vec3(0, 0.5f * params->height, 0)),
+                        .light.center =
+                            vec3_add(params->position, vec3(0, 0.5f * params->height, 0)),
                         .bare_from = params->roots.count > 0 ? TREE_ROOTS : leafless,
                         .seed = random_key(placing->recipe->seed, STREAM_TREE_LEAVES),
                         .twig_role = TREE_TWIG,

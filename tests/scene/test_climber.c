@@ -1,0 +1,149 @@
+// Climbers on a wall: a box, whose distance is known in closed form.
+#include "render/world.h"
+#include "scene/build.h"
+#include "scene_fixture.h"
+
+#include <math.h>
+
+#define WALL                                                                            \
+    "objects:\n  - name: wall\n    shape: {voxel: 0.02, envelope: [{shape: box, size: " \
+    "[1.5, 1.2, 0.2], position: [0, 1.2, 0]}]}\n"
+#define IVY(MORE)                                                                                 \
+    "  - name: ivy\n    climber: {climbs: wall, starts: [{position: [-0.5, 0, 0.3]}, {position: " \
+    "[0.6, 0, 0.3]}], height: 1.6, spread: 0.8, spacing: 0.1" MORE "}\n"
+
+// Distance to the wall, negative inside.
+static float to_wall(Vec3 p)
+{
+    Vec3 d = vec3(fabsf(p.x) - 1.5f, fabsf(p.y - 1.2f) - 1.2f, fabsf(p.z) - 0.2f);
+    Vec3 out = vec3(fmaxf(d.x, 0.0f), fmaxf(d.y, 0.0f), fmaxf(d.z, 0.0f));
+    return vec3_length(out) + fminf(fmaxf(d.x, fmaxf(d.y, d.z)), 0.0f);
+}
+
+static OutTree *grow(const Scene *scene, int threads)
+{
+    Run run = run_default();
+    run.threads = threads;
+    Error e = {0};
+    OutTree *tree = scene_grow_object(scene, scene_find_object(scene, "ivy"), &run, &e);
+    if (!tree) {
+        fail_msg("%s", e.message);
+    }
+    assert_true(out_tree_check(tree, &e));
+    return tree;
+}
+
+// Stems lie on the wall by their radius and the gap, within a voxel of its level set.
+static void test_stems_cling(void **state)
+{
+    Scene *scene = fixture_read(*state, WALL IVY(", offset: 0.01, hanging: {count: 0}"));
+    OutTree *tree = grow(scene, 2);
+    float highest = 0.0f, widest = 0.0f;
+    assert_true(tree->count > 200);
+    for (int64_t i = 0; i < tree->count; i++) {
+        Vec3 p = tree->position[i];
+        float gap = to_wall(p) - tree->radius[i];
+        if (fabsf(p.z) > 0.2f && fabsf(p.x) < 1.45f && p.y < 2.35f) { // not about its edges
+            assert_true(gap > 0.002f && gap < 0.018f);
+        }
+        assert_true(gap > -0.03f);
+        highest = fmaxf(highest, p.y);
+        widest = fmaxf(widest, fabsf(p.x));
+    }
+    assert_true(highest > 1.1f && highest < 2.4f);
+    assert_true(widest > 1.0f);
+    out_tree_free(tree);
+    scene_free(scene);
+}
+
+// Hanging shoots leave the wall, none enters it, and nothing else changes.
+static void test_shoots_hang_free(void **state)
+{
+    Scene *bare = fixture_read(*state, WALL IVY(", hanging: {count: 0}"));
+    Scene *scene =
+        fixture_read(*state, WALL IVY(", hanging: {count: 40, length: 0.6, droop: 0.8}"));
+    OutTree *clinging = grow(bare, 2), *tree = grow(scene, 2);
+    assert_true(tree->count > clinging->count + 100);
+    float farthest = 0.0f, fall = 0.0f;
+    for (int64_t i = clinging->count; i < tree->count; i++) {
+        float off = to_wall(tree->position[i]);
+        assert_true(off > 0.0f);
+        farthest = fmaxf(farthest, off);
+        fall += tree->position[i].y - tree->position[tree->parent[i]].y;
+    }
+    assert_memory_equal(tree->parent, clinging->parent,
+                        (size_t)clinging->count * sizeof *tree->parent);
+    assert_true(farthest > 0.1f && farthest < 0.6f);
+    assert_true(fall < 0.0f);
+    out_tree_free(tree);
+    out_tree_free(clinging);
+    scene_free(scene);
+    scene_free(bare);
+}
+
+// The upper sides of the leaves look away from the wall.
+static void test_leaves_face_outward(void **state)
+{
+    Scene *scene = fixture_read(*state, WALL IVY(", hanging: {count: 0}"));
+    Run run = run_default();
+    World *world = scene_build(scene, &run, NULL, NULL);
+    assert_non_null(world);
+    int64_t leaves = 0, outward = 0, inside = 0;
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        const Part *part = &world->geometry.part[i];
+        for (int64_t k = 0; k < part->instance_count; k++) {
+            Vec3 foot = transform_point(&part->instance[k], vec3(0, 0, 0));
+            Vec3 upper = transform_vector(&part->instance[k], vec3(0, 0, 1));
+            if (foot.z > 0.2f && fabsf(foot.x) < 1.4f && foot.y < 2.3f) {
+                leaves++;
+                outward += upper.z > 0.0f;
+            }
+            inside += to_wall(foot) < -0.005f;
+        }
+    }
+    assert_true(leaves > 500);
+    assert_true((double)outward > 0.95 * (double)leaves);
+    assert_true((double)inside < 0.02 * (double)leaves);
+    world_free(world);
+    scene_free(scene);
+}
+
+static void test_same_bits_for_any_thread_count(void **state)
+{
+    Scene *scene = fixture_read(*state, WALL IVY(""));
+    OutTree *one = grow(scene, 1);
+    for (int threads = 2; threads <= 3; threads++) {
+        OutTree *other = grow(scene, threads);
+        assert_true(out_tree_hash(one) == out_tree_hash(other));
+        out_tree_free(other);
+    }
+    out_tree_free(one);
+    scene_free(scene);
+}
+
+static void test_refusals(void **state)
+{
+    fixture_refuse(*state,
+                   WALL "  - name: ivy\n    climber: {climbs: well, starts: [{position: [0, "
+                        "0, 0]}]}\n",
+                   "objects.ivy.climber.climbs: there is no object 'well'; did you mean 'wall'", 5);
+    fixture_refuse(*state,
+                   WALL "  - name: ivy\n    climber: {climbs: ivy, starts: [{position: [0, "
+                        "0, 0]}]}\n",
+                   "objects.ivy.climber.climbs leads back to 'ivy' itself", 5);
+    fixture_refuse(*state, WALL "  - name: ivy\n    climber: {climbs: wall}\n", "starts", 5);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_stems_cling, fixture_set_up, fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_shoots_hang_free, fixture_set_up, fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_leaves_face_outward, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_same_bits_for_any_thread_count, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_refusals, fixture_set_up, fixture_tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
