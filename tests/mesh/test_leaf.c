@@ -60,6 +60,11 @@ static int all_forms(LeafParams *form)
         form[n].shoot = shape == LEAF_TUFT ? 0.004f : 0.04f;
         form[n++].needle_angle = 55.0f;
     }
+    form[n] = form[n - 3];
+    form[n].shoot = 0.3f;
+    form[n].needles = 400;
+    form[n].curl = 20.0f;
+    form[n++].side_shoots = 12;
     return n;
 }
 

@@ -16,7 +16,7 @@ typedef enum LeafShape {
     LEAF_RHOMBIC,    // with corners at the sides: birch, poplar
     LEAF_PALMATE,    // lobes that spread from the stalk: maple, plane, ivy
     LEAF_FAN,        // ginkgo
-    LEAF_NEEDLES,    // a piece of a shoot with needles all round: spruce, fir, pine
+    LEAF_NEEDLES,    // a piece of a shoot with needles, or a branchlet of such: spruce, pine
     LEAF_TUFT,       // a rosette of needles on a short shoot: larch, cedar
     LEAF_SCALES      // a spray of twiglets covered with scales: cypress
 } LeafShape;
@@ -63,6 +63,7 @@ typedef struct LeafParams {
 
     int needles;        // of the piece or rosette
     int bundle;         // needles that stand together: pines have 2, 3 or 5
+    int side_shoots;    // of a branchlet with needles; 0 = a plain piece of shoot
     float shoot;        // m, length of the piece of shoot or of the spray
     float needle_angle; // degrees to the shoot
     float comb;         // 0..1: from all round to two sides

@@ -3,7 +3,8 @@
 #include "base/exact_math.h"
 #include "base/random.h"
 
-enum { STREAM_NEEDLES = 10 }; // of a piece; NEEDLES + i: needle i
+// Of a piece; NEEDLES + i: needle i, SHOOTS + i: side shoot i.
+enum { STREAM_NEEDLES = 10, STREAM_SHOOTS = 1000000 };
 enum { STREAM_TURN = 1, STREAM_OPEN = 2, STREAM_LENGTH = 3, STREAM_ROLL = 4, STREAM_PLACE = 5 };
 
 #define GOLDEN_ANGLE 137.507764f
@@ -113,7 +114,41 @@ static void add_shoot(Quads *quads, const LeafParams *params, int stride, float 
             .side = vec3_dot(side, side) > 1e-6f ? vec3_normalize(side) : vec3_perpendicular(along),
             .length = params->length * random_range(random_key(key, STREAM_LENGTH), 0.8f, 1.05f),
             .width = params->width * widen};
-        add_needle(quads, &needle, prisms, stride > 1);
+        add_needle(quads, &needle, prisms, stride > 1 || params->side_shoots > 0);
+    }
+    if (stride == 1 && params->side_shoots > 0) {
+        const Vec3 axis[2] = {vec3(0, 0, 0), vec3(0, params->shoot, 0)};
+        const float radius[2] = {1.1f * params->width, 0.4f * params->width};
+        quads_tube(quads, axis, radius, 2, 3, (Vec2){0.5f, 0.0f});
+    }
+}
+
+// A branchlet: a shoot with side shoots to its left and right, or all round if not combed, shorter
+// toward its tip and bent down by `curl`. Every shoot has as many needles for its length.
+static void add_branchlet(Quads *quads, const LeafParams *params, int stride, float widen,
+                          bool prisms, uint64_t seed)
+{
+    add_shoot(quads, params, stride, widen, prisms, seed);
+    const Transform *outer = quads->place;
+    for (int i = 0; i < params->side_shoots; i++) {
+        uint64_t key = random_key(seed, STREAM_SHOOTS + (uint64_t)i);
+        int pair = i / 2;
+        float t = ((float)i + 0.6f) / ((float)params->side_shoots + 0.6f);
+        float turn = (float)(i % 2) * 180.0f + (1.0f - params->comb) * (float)pair * 77.0f +
+                     random_range(random_key(key, STREAM_TURN), -12.0f, 12.0f);
+        float open = 52.0f * random_range(random_key(key, STREAM_OPEN), 0.8f, 1.15f);
+        Vec3 y = opened(open, turn, 0.0f), sag = vec3(0, 0, -params->curl * RADIANS_PER_DEGREE);
+        y = vec3_normalize(vec3_add(y, sag));
+        Vec3 z = vec3_normalize(vec3_madd(vec3(0, 0, 1), -y.z, y));
+        Transform own = transform_from_axes(vec3_cross(y, z), y, z, vec3(0, t * params->shoot, 0));
+        Transform place = outer ? transform_multiply(outer, &own) : own;
+        LeafParams side = *params;
+        side.shoot *=
+            0.5f * (1.0f - 0.72f * t) * random_range(random_key(key, STREAM_LENGTH), 0.8f, 1.2f);
+        side.needles = (int)((float)params->needles * side.shoot / params->shoot);
+        quads->place = &place;
+        add_shoot(quads, &side, stride, widen, prisms, key);
+        quads->place = outer;
     }
 }
 
@@ -213,6 +248,8 @@ void needles_add(Quads *quads, const LeafParams *params, int stride, float widen
         add_tuft(quads, params, stride, widen, prisms, seed);
     } else if (params->shape == LEAF_SCALES) {
         add_scales(quads, params, stride, widen, prisms, seed);
+    } else if (params->side_shoots > 0) {
+        add_branchlet(quads, params, stride, widen, prisms, seed);
     } else {
         add_shoot(quads, params, stride, widen, prisms, seed);
     }

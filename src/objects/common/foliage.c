@@ -83,7 +83,7 @@ static bool add_node(Foliage *foliage, const CurveSet *twigs, int64_t first, int
                      const LeafNode *node, Error *e)
 {
     const LeavesParams *leaves = foliage->leaves;
-    if (leaves->shape == LEAF_NEEDLES) {
+    if (leaves_are_pieces(leaves)) {
         Vec3 start = before_on_twig(twigs, first, i, node->position, foliage->spacing);
         float length = vec3_distance(start, node->position);
         return length < 0.1f * foliage->spacing ||
@@ -105,7 +105,7 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
                            bool *failed, Error *e)
 {
     const LeavesParams *leaves = foliage->leaves;
-    bool pieces = leaves->shape == LEAF_NEEDLES, tip_only = leaves->arrangement == ARRANGE_ROSETTE;
+    bool pieces = leaves_are_pieces(leaves), tip_only = leaves->arrangement == ARRANGE_ROSETTE;
     uint64_t twig_key = random_key(foliage->seed, twigs->id[curve]);
     int64_t first = twigs->first[curve], last = twigs->first[curve + 1] - 1, number = 0;
     float until = pieces || tip_only

@@ -20,7 +20,8 @@ static void give_needles(LeafParams *form, const LeavesParams *leaves, float pie
         form->needle_angle = own(leaves->needle_angle, tuft ? 60.0f : 40.0f);
         return;
     }
-    form->shoot = own(leaves->shoot, piece);
+    form->side_shoots = leaves->side_shoots;
+    form->shoot = own(leaves->shoot, form->side_shoots > 0 ? 0.3f : piece);
     float count = own(leaves->needles, 16.0f) * 100.0f * form->shoot;
     const float most = 20000.0f;
     form->needles = (int)(count < most ? count : most);

@@ -53,7 +53,7 @@ typedef struct LeavesParams {
     float leaflet_width; // m
     float taper;
     float needles; // shape needles: per cm of shoot; tuft, scales: of each; 0 = the shape's own
-    int bundle;
+    int bundle, side_shoots;
     float shoot;        // m; 0 = the shape's own
     float needle_angle; // degrees; 0 = the shape's own
     float comb;
@@ -72,6 +72,12 @@ extern const struct Table leaves_table;
 // Form of the leaf mesh, with the shape's own numbers in place of 0. piece: m, length of the twig
 // that a piece with needles covers.
 LeafParams leaves_form(const LeavesParams *leaves, float piece);
+
+// Do leaves cover their twig piece by piece, as needles do?
+static inline bool leaves_are_pieces(const LeavesParams *leaves)
+{
+    return leaves->shape == LEAF_NEEDLES && leaves->side_shoots == 0;
+}
 
 // Leaves of a node.
 int leaves_per_node(const LeavesParams *leaves);

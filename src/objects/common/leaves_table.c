@@ -128,9 +128,13 @@ static const Key LEAVES_KEYS[] = {
             "a spray. 0 = 16, 30, 16."},
     {KEY_OF(LeavesParams, bundle, "bundle", KEY_INT), .high = 10,
      .doc = "Needles that stand together: 2 of Scots pine, 3 or 5 of other pines; 0 = single."},
+    {KEY_OF(LeavesParams, side_shoots, "side_shoots", KEY_INT), .high = 200,
+     .doc = "Shape needles: side shoots of a branchlet, which is one instance with all its needles "
+            "and stands on the twig as a leaf does; 0 = needles on the twig itself."},
     {KEY_OF(LeavesParams, shoot, "shoot", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc = "Shape needles: length of the piece with needles; tuft: of the short shoot; scales: of "
-            "the spray. 0 = the spacing, 0.005, 3 twiglets' lengths."},
+     .doc =
+         "Shape needles: length of the piece with needles, or of a branchlet; tuft: of the short "
+         "shoot; scales: of the spray. 0 = the spacing or 0.3, 0.005, 3 twiglets' lengths."},
     {KEY_OF(LeavesParams, needle_angle, "needle_angle", KEY_FLOAT), .high = 150, .unit = "degrees",
      .doc = "Angle between needles or twiglets and their shoot; 0 = the shape's own."},
     {KEY_OF(LeavesParams, comb, "comb", KEY_FLOAT), .high = 1,
