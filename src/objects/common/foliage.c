@@ -34,7 +34,10 @@ void foliage_leaf_meshes(const LeavesParams *leaves, float piece, int variant, u
     form.length *= random_range(random_key(key, STREAM_LENGTH), 0.9f, 1.1f);
     form.width *= random_range(random_key(key, STREAM_WIDTH), 0.9f, 1.1f);
     form.fold *= random_range(random_key(key, STREAM_FOLD), 0.4f, 1.3f);
-    form.curl *= random_range(random_key(key, STREAM_CURL), -0.4f, 1.5f);
+    // Some blades bend up; a rachis bends down under its leaflets.
+    bool blade = form.compound == COMPOUND_NONE;
+    form.curl *=
+        random_range(random_key(key, STREAM_CURL), blade ? -0.4f : 0.65f, blade ? 1.5f : 1.3f);
     part->mesh = leaf_mesh_new(&form, key, e);
     for (int i = 0; part->mesh && i < LEAF_COARSE_LEVELS; i++) {
         CoarseMesh *coarse = &part->coarse[i];

@@ -138,7 +138,7 @@ static Transform place_in_rosette(const LeavesParams *leaves, const LeafNode *no
 {
     float rank = ((float)k + 0.5f) / (float)leaves_per_node(leaves);
     Vec3 out = side_at(node, azimuth(leaves, node, k, key));
-    Vec3 p = vec3_madd(node->position, -3.0f * node->radius * rank, node->along);
+    Vec3 p = vec3_madd(node->position, -1.8f * node->radius * rank, node->along);
     p = vec3_madd(p, 0.85f * node->radius * sqrtf(rank), out);
     return leaf_frame(leaves, p, node->along, out, leaves->angle * (0.1f + 0.9f * rank), light,
                       key);
