@@ -44,7 +44,8 @@ static Geometry grow_on(const LeavesParams *leaves, Vec3 along)
     Placing placing = {.recipe = &recipe, .geometry = &geometry, .material = material};
     CurveSet *curves = twig(along);
     Error e = {0};
-    assert_true(foliage_add(curves, NULL, leaves, vec3(0, -5, 0), 3, &placing, 0, &e));
+    LeafLight light = {.center = {0, -5, 0}};
+    assert_true(foliage_add(curves, NULL, leaves, &light, 3, &placing, 0, &e));
     curves_free(curves);
     assert_int_equal(geometry.count, 1);
     return geometry;

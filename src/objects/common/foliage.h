@@ -8,8 +8,8 @@
 
 // Adds one part per leaf variant, with an instance for every leaf on the thin ends of the curves.
 // bare: one entry per curve, true = without leaves; NULL = all bear leaves. The spacing is widened
-// if there would be more than leaves->max_count. center: of the crown; leaves turn away from it, to
-// the light. role: of their material.
+// if there would be more than leaves->max_count. light: where they turn to. role: of their
+// material.
 bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *leaves,
                  const LeafLight *light, uint64_t seed, const Placing *placing, int role, Error *e);
 
