@@ -18,7 +18,8 @@ static bool is_early(const char *path, const char *value)
     }
     size_t length = (size_t)(end - last);
     bool is_input = (length == 7 && strncmp(last, "species", length) == 0) ||
-                    (length == 6 && strncmp(last, "height", length) == 0);
+                    (length == 6 && strncmp(last, "height", length) == 0) ||
+                    (length == 8 && strncmp(last, "position", length) == 0);
     return strncmp(path, "objects", 7) == 0 &&
            (dots == 3 ? is_input : dots < 3 && strstr(value, "species"));
 }

@@ -16,8 +16,8 @@ typedef struct SceneSource {
 } SceneSource;
 
 // Parses the text and applies to it, in this order: overrides and changes that species depend on
-// (a species, a height, whole mappings with a species), the species, the other overrides and
-// changes, which can thus refer to what a species gives. NULL and e on failure.
+// (a species, a height, a position, whole mappings with a species), the species, the other
+// overrides and changes, which can thus refer to what a species gives. NULL and e on failure.
 Node *document_read(Arena *arena, const SceneSource *source, Error *e);
 
 #endif

@@ -275,6 +275,7 @@ static bool apply_species(Applier *a, const Subject *of, Node *named)
     Node *body = read_species(a, &file, named, of, 0);
     Node *root = body ? file.root : NULL;
     if (!body || !species_fit_size(of->table, of->params, body, a->arena, a->e) ||
+        !species_fit_place(of->params, body, a->arena, a->e) ||
         !rename_materials(a, root, file.stem) || !add_materials(a, &file, named) ||
         !add_targets(a, &file, of->object)) {
         return false;

@@ -7,7 +7,8 @@
 
 // Replaces each `species` of the document's objects by what its file (species_file.h) gives.
 // - All keys of the file but latin, materials and targets are keys of the object; values of the
-//   scene stay. Lengths fit the height that the scene gives (species_size.h).
+//   scene stay. Lengths fit the height that the scene gives, envelopes its position
+//   (species_size.h).
 // - Its materials become materials of the scene, NAME of the species SPECIES as SPECIES_NAME, also
 //   where the file refers to them; keys of the scene's own material of that name stay.
 // - Its targets become targets of the object, except for measures that the scene has a target for.

@@ -82,3 +82,83 @@ bool species_fit_size(const Table *table, const Node *given, Node *species, Aren
     }
     return done;
 }
+
+// ---- place
+
+// A list of three numbers.
+static bool vector_of(const Node *node, double value[3])
+{
+    bool done = node && node->kind == NODE_LIST && node->count == 3;
+    const Node *item = done ? node->first : NULL;
+    for (int i = 0; done && i < 3; i++, item = item->next) {
+        done = number_of(item, &value[i]);
+    }
+    return done;
+}
+
+static bool set_vector(Node *node, const double value[3], Arena *arena, Error *e)
+{
+    Node *item = node->first;
+    for (int i = 0; i < 3; i++, item = item->next) {
+        char text[NUMBER_SIZE];
+        scalar_from_double(value[i], text);
+        item->text = arena_text(arena, text, strlen(text), e);
+        if (!item->text) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// A position [0, 0, 0] for an entry that has none.
+static Node *add_position(Node *entry, Arena *arena, Error *e)
+{
+    Node *list = node_new(arena, NODE_LIST, e);
+    for (int i = 0; list && i < 3; i++) {
+        Node *zero = node_scalar(arena, "0", e);
+        if (!zero) {
+            return NULL;
+        }
+        node_append(list, zero, NULL);
+    }
+    if (list) {
+        node_append(entry, list, "position");
+    }
+    return list;
+}
+
+static bool move_entry(Node *entry, const double by[3], Arena *arena, Error *e)
+{
+    double own[3];
+    Node *position = node_get(entry, "position");
+    if (entry->kind != NODE_MAP || (position && !vector_of(position, own))) {
+        return true; // an error that loading reports
+    }
+    position = position ? position : add_position(entry, arena, e);
+    if (!position || !vector_of(position, own)) {
+        return false;
+    }
+    for (int i = 0; i < 3; i++) {
+        own[i] += by[i];
+    }
+    return set_vector(position, own, arena, e);
+}
+
+bool species_fit_place(const Node *given, Node *species, Arena *arena, Error *e)
+{
+    static const char *const LISTS[] = {"envelope", "fields"};
+    double by[3];
+    bool done = true;
+    if (!vector_of(node_get(given, "position"), by)) {
+        return true;
+    }
+    for (size_t i = 0; i < sizeof GROUPS / sizeof *GROUPS; i++) {
+        for (size_t k = 0; k < sizeof LISTS / sizeof *LISTS; k++) {
+            Node *list = node_get(node_get(species, GROUPS[i]), LISTS[k]);
+            for (Node *entry = list ? list->first : NULL; done && entry; entry = entry->next) {
+                done = move_entry(entry, by, arena, e);
+            }
+        }
+    }
+    return done;
+}

@@ -78,6 +78,23 @@ static void lengths_follow_the_height(void **state)
     scene_free(scene);
 }
 
+static void envelopes_follow_the_position(void **state)
+{
+    Fixture *fixture = *state;
+    write_file(fixture, "birch.yaml", BIRCH);
+    const char *text = "objects: [{name: a, tree: {species: birch.yaml, height: 5}}]\n";
+    const char *path = fixture_write(fixture, "scene.yaml", text, strlen(text));
+    const char *set = "objects.a.tree.position=[3, 1, -2.5]";
+    Error e = {0};
+    Scene *scene = scene_read(path, &set, 1, &e);
+    assert_non_null(scene);
+    const Vec3 at = tree_of(scene, 0)->crown.element.shapes[0].position;
+    assert_float_equal(at.x, 3.0, 0.0);
+    assert_float_equal(at.y, 1.0, 0.0);
+    assert_float_equal(at.z, -2.5, 0.0);
+    scene_free(scene);
+}
+
 static void the_scene_changes_materials_by_key(void **state)
 {
     Fixture *fixture = *state;
@@ -319,6 +336,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(a_file_gives_keys_materials_and_targets),
         TEST(lengths_follow_the_height),
+        TEST(envelopes_follow_the_position),
         TEST(the_scene_changes_materials_by_key),
         TEST(a_species_begins_with_another),
         TEST(a_folder_beside_the_scene_comes_first),
