@@ -4,13 +4,15 @@
 
 #include "base/vec.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 typedef struct SurfacePoint {
     Vec3 position; // world
     Vec3 lifted;   // position raised from the facet to the smooth surface that the vertex normals
                    // tell of: where rays start that leave on normal's side (no shadow terminator)
-    Vec3 object_position;  // in the part's own space: where 3D patterns are looked up
+    Vec3 object_position;       // in the part's own space: where 3D patterns are looked up
+    const Transform *transform; // from that space to the world; NULL = identity
     Vec3 facet_normal;     // unit, world, on the side of the ray's origin: of the flat face itself
     Vec3 geometric_normal; // unit, world, same side: of the surface before bumps, which is the
                            // smooth one where vertex normals tell of one; parts reflection from
@@ -19,6 +21,7 @@ typedef struct SurfacePoint {
     Vec3 tangent_u,
         tangent_v; // world: dP/du, dP/dv of the uv parametrisation; some frame where there is no uv
     Vec2 uv;
+    bool has_uv;  // both coordinates; of curves only v is set
     float radius; // m, of the branch; 0 when unknown
     float birth;
     Vec2 site;       // of land: altitude and wetness, 0..1 each

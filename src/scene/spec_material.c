@@ -34,6 +34,9 @@ static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PL
                                  {"fibrous", BARK_FIBROUS},   {"flakes", BARK_FLAKES},
                                  {"bands", BARK_BANDS},       {0}};
 
+static const EnumName MAPPINGS[] = {
+    {"auto", MAPPING_AUTO}, {"uv", MAPPING_UV}, {"triplanar", MAPPING_TRIPLANAR}, {0}};
+
 static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, name, "name", KEY_NAME), .flags = KEY_REQUIRED, .count = 64,
      .doc = "Name that objects refer to. With the name of a built-in material, the entry changes "
@@ -115,9 +118,26 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, variation, "variation", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Variation of hue and brightness between instances."},
     {KEY_OF(Material, texture, "texture", KEY_FILE), .kinds = PATTERNED,
-     .doc = "Image that multiplies color (and a leaf's transmittance), mapped by the mesh's UVs."},
+     .doc = "Image that multiplies color (and a leaf's transmittance)."},
     {KEY_OF(Material, alpha_texture, "alpha_texture", KEY_FILE), .kinds = COLOURED & ~FILM,
      .doc = "Image used as an opacity mask (cut-out), mapped by the mesh's UVs."},
+    {KEY_OF(Material, normal_texture, "normal_texture", KEY_FILE), .kinds = BUMPED,
+     .doc = "Image of tangent-space normals: red along u, green along v (up), blue out of the "
+            "surface."},
+    {KEY_OF(Material, roughness_texture, "roughness_texture", KEY_FILE),
+     .kinds = BIT(MATERIAL_PRINCIPLED) | BIT(MATERIAL_LEAF) | BIT(MATERIAL_CONDUCTOR),
+     .doc = "Image whose first channel multiplies roughness; not of a metal of roughness 0."},
+    {KEY_OF(Material, transmittance_texture, "transmittance_texture", KEY_FILE),
+     .kinds = BIT(MATERIAL_LEAF), .doc = "Image that multiplies a leaf's transmittance."},
+    {KEY_OF(Material, texture_mapping, "texture_mapping", KEY_ENUM), .kinds = BUMPED,
+     .names = MAPPINGS,
+     .doc = "How images, but alpha_texture, are laid on the surface. uv: by its UVs; triplanar: "
+            "along the three axes of the object's own space, mixed where it is slanted; auto: by "
+            "UVs where it has them, else triplanar."},
+    {KEY_OF(Material, texture_scale, "texture_scale", KEY_FLOAT), .kinds = BUMPED, .high = 1e6,
+     .unit = "m",
+     .doc = "Size of the images on the surface: by UVs in their units (metres on branches, the "
+            "whole on most imported meshes), else in metres; 0 = 1."},
     {0},
 };
 

@@ -56,7 +56,8 @@ static SurfacePoint point_at(float u, float v)
                           .geometric_normal = vec3(0, 0, 1),
                           .tangent_u = vec3(1, 0, 0),
                           .tangent_v = vec3(0, 1, 0),
-                          .uv = {u, v}};
+                          .uv = {u, v},
+                          .has_uv = true};
 }
 
 static void test_texture(void **state)

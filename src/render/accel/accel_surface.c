@@ -126,6 +126,7 @@ static void mesh_surface(const PieceHit *at, const Transform *t, Vec3 direction,
     point->geometric_normal = point->normal;
     if (mesh->uv) {
         point->uv = accel_uv(mesh, &c);
+        point->has_uv = true;
     }
     if (!mesh->uv || !uv_tangents(mesh, &c, e1, e2, point)) {
         point->tangent_u = e1;
@@ -194,6 +195,7 @@ void accel_surface(const Accel *accel, const Ray *ray, const Hit *hit, SurfacePo
                             .object = part->object,
                             .part = own->number};
     const Transform *t = part->instance ? &part->instance[at.instance] : NULL;
+    point->transform = t;
     if (own->plain) {
         plain_surface(ray, hit, t, point);
         Vec3 n = point->normal; // any two directions in the plane

@@ -1,5 +1,6 @@
 #include "render/material/bsdf.h"
 
+#include "render/material/maps.h"
 #include "render/material/material_ops.h"
 #include "render/material/pattern.h"
 #include "render/warp.h"
@@ -10,14 +11,6 @@ static Vec3 normal_toward(Vec3 n, Vec3 wo)
     const float least = 1e-3f;
     float cosine = vec3_dot(n, wo);
     return cosine >= least ? n : vec3_normalize(vec3_madd(n, 2.0f * least - cosine, wo));
-}
-
-// The texture's factor on the colours.
-static Vec3 texture_at(const Texture *texture, const SurfacePoint *point)
-{
-    float u = vec3_length(point->tangent_u), v = vec3_length(point->tangent_v);
-    return texture_color(texture, point->uv, u > 0.0f ? point->footprint / u : 0.0f,
-                         v > 0.0f ? point->footprint / v : 0.0f);
 }
 
 // The most common case, a surface of one colour whose kind has no prepare. The members that prepare
@@ -65,11 +58,8 @@ void bsdf_fill(const MaterialSet *set, const SurfacePoint *point, Vec3 wo, Bsdf 
         }
         b->normal = shade.normal;
     }
-    if (entry->color) {
-        Vec3 texel = texture_at(entry->color, point);
-        b->color = vec3_mul(b->color, texel);
-        b->transmittance =
-            vec3_mul(b->transmittance, texel); // pigment absorbs transmitted light too
+    if (entry->mapped) {
+        maps_apply(entry, point, b);
     }
     b->normal = normal_toward(b->normal, wo);
     b->color = vec3_max(vec3_min(b->color, vec3_splat(1.0f)), vec3_splat(0.0f));

@@ -59,6 +59,13 @@ typedef enum BarkKind {
     BARK_BANDS     // glossy, corky bands (color2) across: cherry
 } BarkKind;
 
+// How pictures are laid on a surface.
+typedef enum TextureMapping {
+    MAPPING_AUTO, // by UVs where the surface has them, else along the axes
+    MAPPING_UV,
+    MAPPING_TRIPLANAR // along the three axes of the object's own space
+} TextureMapping;
+
 // A point of a map's scale of colours.
 typedef struct ColorStop {
     float at;   // altitude, 0..1 of the land's relief
@@ -88,13 +95,18 @@ typedef struct Material {
     float pattern_scale; // m: wavelength of the pattern's largest feature; 0 = the kind's own
     float pattern_depth; // m: bump height; 0 = none
     float veins;         // PATTERN_LEAF: side veins on each half; 0 = veins along the blade
-    float snow_line, grass_line; // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above
-                                 // and below which they lie; 0 = none
-    ColorStop *colors;           // PATTERN_ALTITUDE: borrowed, `at` ascends; NULL = from color to
-    int color_count;             // color2
-    float variation;             // 0..1: how far hue and value differ from instance to instance
-    const char *texture;         // file that multiplies color, by uv; NULL = none; borrowed
-    const char *alpha_texture;   // NULL = opaque; borrowed
+    float snow_line, grass_line;   // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above
+                                   // and below which they lie; 0 = none
+    ColorStop *colors;             // PATTERN_ALTITUDE: borrowed, `at` ascends; NULL = from color to
+    int color_count;               // color2
+    float variation;               // 0..1: how far hue and value differ from instance to instance
+    const char *texture;           // file that multiplies color, by uv; NULL = none; borrowed
+    const char *alpha_texture;     // NULL = opaque; borrowed
+    const char *normal_texture;    // tangent-space normals, green along v; NULL = none; borrowed
+    const char *roughness_texture; // red multiplies roughness; NULL = none; borrowed
+    const char *transmittance_texture; // multiplies transmittance; NULL = none; borrowed
+    TextureMapping texture_mapping;
+    float texture_scale; // m, or units of uv, that the pictures cover; 0 = 1
 } Material;
 
 Material material_default(MaterialKind kind);

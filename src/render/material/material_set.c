@@ -1,12 +1,10 @@
 #include "render/material/material_set.h"
 
 #include "base/memory.h"
+#include "render/material/maps.h"
 #include "render/material/material_ops.h"
 
 #include <stdlib.h>
-
-// A narrower lobe is a mirror, or this wide where it is mixed with other lobes.
-static const float LEAST_ALPHA = 1e-3f;
 
 static float alpha_of(const MaterialEntry *entry)
 {
@@ -43,6 +41,32 @@ static bool open_texture(MaterialSet *set, const Material *m, const char *key, c
     return *texture != NULL;
 }
 
+static bool open_textures(MaterialSet *set, MaterialEntry *entry, const Run *run, Error *e)
+{
+    const Material *m = &entry->material;
+    return open_texture(set, m, "texture", m->texture, &entry->color, run, e) &&
+           open_texture(set, m, "alpha_texture", m->alpha_texture, &entry->opacity, run, e) &&
+           open_texture(set, m, "normal_texture", m->normal_texture, &entry->normal, run, e) &&
+           open_texture(set, m, "roughness_texture", m->roughness_texture, &entry->roughness, run,
+                        e) &&
+           open_texture(set, m, "transmittance_texture", m->transmittance_texture,
+                        &entry->transmittance, run, e);
+}
+
+// The tables of a surface whose roughness differs from place to place.
+static bool tabulate_roughness(MaterialEntry *entry, Error *e)
+{
+    if (!entry->roughness || !entry->table) {
+        return true;
+    }
+    entry->rough_tables = memory_alloc_zero(ROUGH_TABLES, sizeof *entry->rough_tables, e);
+    for (int i = 0; entry->rough_tables && i < ROUGH_TABLES; i++) {
+        float roughness = (float)i / (float)(ROUGH_TABLES - 1);
+        ggx_table_reflection(&entry->rough_tables[i], fmaxf(roughness * roughness, LEAST_ALPHA));
+    }
+    return entry->rough_tables;
+}
+
 static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material *material,
                           bool used, const Run *run, Error *e)
 {
@@ -54,11 +78,11 @@ static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material
     }
     m->color = vec3_max(vec3_min(m->color, vec3_splat(1.0f)), vec3_splat(0.0f));
     entry->ops = material_ops(m->kind);
+    entry->mapped = maps_are_given(m);
     entry->plain = !entry->ops->prepare && m->pattern == PATTERN_NONE && m->variation <= 0.0f &&
-                   !(m->texture && m->texture[0]);
+                   !entry->mapped;
     return (!used || !entry->ops->tabulate || entry->ops->tabulate(entry, set, e)) &&
-           open_texture(set, m, "texture", m->texture, &entry->color, run, e) &&
-           open_texture(set, m, "alpha_texture", m->alpha_texture, &entry->opacity, run, e);
+           open_textures(set, entry, run, e) && tabulate_roughness(entry, e);
 }
 
 MaterialSet *material_set_new(const Material *materials, const bool *used, int count,
@@ -88,6 +112,7 @@ void material_set_free(MaterialSet *set)
     }
     for (int i = 0; i < set->count; i++) {
         free(set->entry[i].table);
+        free(set->entry[i].rough_tables);
     }
     free(set->entry);
     texture_cache_free(set->textures);

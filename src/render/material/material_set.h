@@ -7,6 +7,12 @@
 #include "render/material/texture.h"
 #include "render/material/thin_film.h"
 
+// Tables of a material whose roughness a picture changes.
+enum { ROUGH_TABLES = 16 };
+
+// A narrower lobe is a mirror, or this wide where it is mixed with other lobes.
+#define LEAST_ALPHA 1e-3f
+
 typedef struct MaterialEntry {
     Material material;
     const struct MaterialOps *ops;
@@ -15,8 +21,11 @@ typedef struct MaterialEntry {
     float alpha;                // GGX; 0 = mirror
     GgxTable *table;            // owned; NULL if the kind needs none or no part has the material
     const ThinFilmTable *films; // borrowed from the set; NULL likewise
-    Texture *color;             // borrowed from the cache; NULL = none
-    Texture *opacity;           // likewise
+    GgxTable *rough_tables;     // owned, ROUGH_TABLES of them from roughness 0 to 1; NULL = `table`
+                                // is for all of the surface
+    bool mapped;                // one of the pictures but opacity is given
+    // Borrowed from the cache; NULL = none.
+    Texture *color, *opacity, *normal, *roughness, *transmittance;
 } MaterialEntry;
 
 struct MaterialSet {

@@ -136,6 +136,13 @@ Vec3 texture_color(const Texture *texture, Vec2 uv, float du, float dv)
     return vec3(value[0], value[1], value[2]);
 }
 
+Vec3 texture_data(const Texture *texture, Vec2 uv, float du, float dv)
+{
+    float value[4];
+    return lookup(texture, uv, du, dv, value) ? vec3(value[0], value[1], value[2])
+                                              : vec3(0.5f, 0.5f, 1.0f); // an even surface
+}
+
 float texture_opacity(const Texture *texture, Vec2 uv)
 {
     float value[4];

@@ -21,6 +21,9 @@ Texture *texture_open(TextureCache *cache, const char *file, const Run *run, Err
 // May be called from many threads.
 Vec3 texture_color(const Texture *texture, Vec2 uv, float du, float dv);
 
+// The same without a conversion from sRGB: numbers that are no colours, such as normals.
+Vec3 texture_data(const Texture *texture, Vec2 uv, float du, float dv);
+
 // Alpha if the file has it, else its first channel, unfiltered; 0..1.
 float texture_opacity(const Texture *texture, Vec2 uv);
 

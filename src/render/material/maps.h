@@ -1,0 +1,15 @@
+// Pictures that change a material over its surface: colour, transmittance, roughness, normals. By
+// the surface's UVs, or projected along the three axes of its own space.
+#ifndef RAMIFY_RENDER_MATERIAL_MAPS_H
+#define RAMIFY_RENDER_MATERIAL_MAPS_H
+
+#include "render/material/material_set.h"
+
+// Does the material have pictures, other than of its opacity?
+bool maps_are_given(const Material *material);
+
+// Multiplies colour, transmittance and roughness of the Bsdf by the entry's pictures at the point,
+// tilts its normal, and sets alpha and table to those of the roughness.
+void maps_apply(const MaterialEntry *entry, const SurfacePoint *point, Bsdf *bsdf);
+
+#endif
