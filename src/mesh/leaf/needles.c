@@ -9,6 +9,9 @@ enum { STREAM_TURN = 1, STREAM_OPEN = 2, STREAM_LENGTH = 3, STREAM_ROLL = 4, STR
 
 #define GOLDEN_ANGLE 137.507764f
 
+// Of round needles and twiglets: beside the veins that a leaf's pattern draws.
+#define BODY_UV ((Vec2){0.25f, 0.5f})
+
 typedef struct Needle {
     Vec3 base, along, side; // side: unit, across
     float length, width;    // m
@@ -51,7 +54,7 @@ static void add_prism(Quads *quads, const Needle *needle)
         axis[i] = vec3_madd(needle->base, share[i] * needle->length, needle->along);
         radius[i] = half[i] * needle->width;
     }
-    quads_tube(quads, axis, radius, 4, 3, (Vec2){0.5f, 0.5f});
+    quads_tube(quads, axis, radius, 4, 3, BODY_UV);
 }
 
 static void add_needle(Quads *quads, const Needle *needle, bool prism, bool kite)
@@ -193,7 +196,7 @@ static void add_twiglet(Quads *quads, Vec3 base, Vec3 along, float length, float
         axis[i] = vec3_madd(base, t * length, along);
         radius[i] = 0.5f * width * (1.0f - 0.75f * t * t) * (notch ? 0.72f : 1.0f);
     }
-    quads_tube(quads, axis, radius, rings, rings > 3 ? 4 : 3, (Vec2){0.5f, 0.5f});
+    quads_tube(quads, axis, radius, rings, rings > 3 ? 4 : 3, BODY_UV);
 }
 
 // A twiglet with alternating side twiglets, in the plane of its direction and `side`.
