@@ -4,8 +4,8 @@
 #include "objects/common/swept.h"
 #include "objects/tree/defaults.h"
 #include "objects/tree/tree.h"
-#include "render/material/material.h"
 #include "outtree/measure_wood.h"
+#include "render/material/material.h"
 
 #include <math.h>
 #include <stdio.h>
