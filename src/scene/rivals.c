@@ -14,6 +14,7 @@ typedef struct Player {
     struct Contested *all;
     int index;
     PointHash *points; // its axis, in the scene, at intervals of half a gap
+    Aabb box;          // of these
     Vec3 *node;        // its nodes, in the scene
     int64_t node_count, node_capacity;
     int64_t *told; // per other player: how many of its nodes this one knows
@@ -57,13 +58,21 @@ static Vec3 out_of_scene(const Rival *rival, Vec3 p)
 
 // ---- the room
 
+static bool is_beyond(Aabb box, Vec3 p, float distance)
+{
+    Vec3 out = vec3_max(vec3_sub(box.low, p), vec3_sub(p, box.high));
+    return out.x > distance || out.y > distance || out.z > distance;
+}
+
 // Distance to the rivals' nodes beyond the gap, at most a gap.
 static float rivals_clearance(const Player *me, Vec3 p, Vec3 *away)
 {
     float gap = me->rival->gap, least = 2.0f * gap;
     for (int i = 0; i < me->all->count; i++) {
         Vec3 nearest;
-        if (i != me->index && point_hash_nearest(me->all->player[i].points, p, &least, &nearest)) {
+        const Player *other = &me->all->player[i];
+        if (i != me->index && !is_beyond(other->box, p, least) &&
+            point_hash_nearest(other->points, p, &least, &nearest)) {
             *away = vec3_normalize(vec3_sub(p, nearest));
         }
     }
@@ -131,6 +140,7 @@ static bool publish(Player *me, const OutTree *tree, int64_t first, Error *e)
 {
     if (first == 0) { // a growth begins: nodes may have moved since the last one
         point_hash_clear(me->points);
+        me->box = aabb_empty();
         me->node_count = 0;
         for (int i = 0; i < me->all->count; i++) {
             me->all->player[i].told[me->index] = 0;
@@ -146,7 +156,9 @@ static bool publish(Player *me, const OutTree *tree, int64_t first, Error *e)
         Vec3 from = tree->parent[i] >= 0 ? me->node[tree->parent[i]] : here;
         int64_t steps = 1 + (int64_t)fminf(vec3_distance(from, here) / interval, 1e6f);
         for (int64_t k = 1; k <= steps; k++) {
-            if (!point_hash_add(me->points, vec3_lerp(from, here, (float)k / (float)steps), e)) {
+            Vec3 p = vec3_lerp(from, here, (float)k / (float)steps);
+            me->box = aabb_add(me->box, p);
+            if (!point_hash_add(me->points, p, e)) {
                 return false;
             }
         }
@@ -220,7 +232,7 @@ static void *play(void *user)
 static bool join_contest(Contested *all, int index, Rival *rival, Error *e)
 {
     Player *me = &all->player[index];
-    *me = (Player){.rival = rival, .all = all, .index = index};
+    *me = (Player){.rival = rival, .all = all, .index = index, .box = aabb_empty()};
     me->room = (Room){.clearance = clearance,
                       .obstacle = rival->obstacles ? obstacle : NULL,
                       .allows = allows,

@@ -57,7 +57,7 @@ refuses tufts grass_tufts 'ground: {grass_tufts: 1000000000}'
 refuses fallen fallen_leaves 'ground: {fallen_leaves: 1000000000}'
 refuses many_sides sides 'frost: {sides: 2147483647}'
 refuses many_terminals attractors 'coral: {attractors: 100000000}'
-refuses trunk trunk.growth.levels 'tree: {trunk: {growth: {levels: [{attractors: 2147483647}]}}}'
+refuses trunk trunk.growth.levels 'tree: {grown_by: attractors, trunk: {growth: {levels: [{attractors: 2147483647}]}}}'
 refuses wide radius 'forest: {radius: 100000, spacing: 0.01}'
 refuses aggregate particles 'dla: {particles: 2147483647}'
 if [ "$sanitized" = no ]; then
