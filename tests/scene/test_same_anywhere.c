@@ -345,6 +345,11 @@ static const struct {
      "ferns: 0, leaves: {max_count: 0}, radii: {tip: @l(0.01)}, skin: {curve_radius: @l(0.1), "
      "levels: 0}, growth: {levels: [{attractors: 300}]}}",
      SCALE},
+    // Grows in the scene's space, because the wall is there: no motion gives the same bits.
+    {"climber: {climbs: wall, starts: [{position: [0, 0, 0.2]}], height: 1, spread: 0.5, spacing: "
+     "0.15, leaves: {max_count: 100}}\n  - name: wall\n    shape: {voxel: 0.05, envelope: [{shape: "
+     "box, size: [1, 1, 0.2], position: [0, 1, 0]}]}",
+     0},
     {"terrain: {resolution: 64, size: @l(30000), rivers: {count: 200}}", SCALE},
     {"ground: {}", 0}, // it stands about the origin, and its bumps are as large as nature's
 };
