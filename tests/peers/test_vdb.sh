@@ -18,6 +18,7 @@ objects:
   - name: oak
     tree:
       height: 3
+      grown_by: attractors
       crown: {fields: [{kind: vortex, vector: [0, 1, 0]}], growth: {field_weight: 0.4}}
       leaves: {max_count: 0}
   - {name: rock, shape: {envelope: [{shape: sphere, size: 1}]}}
