@@ -211,24 +211,23 @@ static float ground_height_of(const void *user, float x, float z)
     if (ground->own->moved) {
         p = transform_point(&ground->own->to_scene, p);
     }
-    float height = ground->kind ? ground->kind->ground(ground->params, ground->seed, p.x, p.z) : 0;
-    return height - p.y;
+    return ground->kind->ground(ground->params, ground->seed, p.x, p.z) - p.y;
 }
 
-// The first ground of the scene; level land at height 0 without one. own: of the object on it.
+// The first ground of the scene; without one level land at the object's own place. own: of the
+// object on it.
 static Land find_land(const Scene *scene, const OwnSpace *own, GroundObject *ground)
 {
-    *ground = (GroundObject){.own = own};
     scene = scene->whole ? scene->whole : scene;
     for (int i = 0; i < scene->object_count; i++) {
         const SceneObject *object = &scene->objects[i];
         if (object->kind->ground) {
             *ground =
                 (GroundObject){object->kind, object->params, scene_object_seed(scene, i), own};
-            break;
+            return (Land){ground_height_of, ground};
         }
     }
-    return (Land){ground_height_of, ground};
+    return (Land){0};
 }
 
 static bool add_geometry(World *world, const Making *m, Error *e)
