@@ -116,6 +116,9 @@ if is_wanted figure-12; then
     for share in 0.2 0.45 0.7 1; do panel lightning-surface --grow-to $share --size 800x450 --samples 6; done
     sheet figure-12 2x2
 fi
+still species species
+still species-winter species-winter
+still ivy-wall ivy-wall
 still lsystem-tree lsystem-tree --size 1600x900
 if is_wanted coral-figure-2; then
     panel coral-figure-2 --size 800x600
