@@ -10,6 +10,11 @@
 #define ROUNDING 1e-6     // of a radius
 #define PI 3.14159265358979
 
+typedef struct Limb {
+    double straightness; // chord / length
+    double length;       // m
+} Limb;
+
 typedef struct Wood {
     const OutTree *tree;
     bool *counts;   // per node: wood from its parent to it counts
@@ -17,8 +22,8 @@ typedef struct Wood {
     double *way;    // m, per node: along the branches from the base
     int32_t *next;  // per node: the child that continues its axis; -1 = none
     int32_t *order; // per node: 0 on the stem
-    double *ratio;  // chord / length of the branches that leave the stem
-    int64_t ratios;
+    Limb *limb;     // the branches that leave the stem
+    int64_t limbs;
 } Wood;
 
 static void wood_free(Wood *wood)
@@ -28,7 +33,7 @@ static void wood_free(Wood *wood)
     free(wood->way);
     free(wood->next);
     free(wood->order);
-    free(wood->ratio);
+    free(wood->limb);
 }
 
 static double segment_length(const OutTree *tree, int64_t i)
@@ -68,8 +73,8 @@ static void find_axes(Wood *wood)
     }
 }
 
-// Chord / length of the branch that begins with node i.
-static double straightness(const Wood *wood, int64_t i)
+// The branch that begins with node i.
+static Limb limb_at(const Wood *wood, int64_t i)
 {
     int32_t base = wood->tree->parent[i], end = (int32_t)i;
     while (wood->next[end] >= 0) {
@@ -77,29 +82,49 @@ static double straightness(const Wood *wood, int64_t i)
     }
     double chord = (double)vec3_distance(wood->tree->position[base], wood->tree->position[end]);
     double length = wood->way[end] - wood->way[base];
-    return length > 0.0 ? chord / length : 1.0;
+    return (Limb){length > 0.0 ? chord / length : 1.0, length};
 }
 
 static int compare(const void *a, const void *b)
 {
-    double p = *(const double *)a, q = *(const double *)b;
+    double p = ((const Limb *)a)->straightness, q = ((const Limb *)b)->straightness;
     return (p > q) - (p < q);
 }
 
-static double median_straightness(Wood *wood)
+// The branches that leave the stem, in order of their straightness.
+static void find_limbs(Wood *wood)
 {
     const OutTree *tree = wood->tree;
     for (int64_t i = 0; i < tree->count; i++) {
         int32_t parent = tree->parent[i];
         if (wood->counts[i] && wood->order[i] == 1 && wood->order[parent] == 0) {
-            wood->ratio[wood->ratios++] = straightness(wood, i);
+            wood->limb[wood->limbs++] = limb_at(wood, i);
         }
     }
-    if (wood->ratios == 0) {
-        return (double)NAN;
+    qsort(wood->limb, (size_t)wood->limbs, sizeof *wood->limb, compare);
+}
+
+static double median_straightness(const Wood *wood)
+{
+    int64_t n = wood->limbs;
+    return n > 0 ? 0.5 * (wood->limb[(n - 1) / 2].straightness + wood->limb[n / 2].straightness)
+                 : (double)NAN;
+}
+
+// Half of the limbs' length is in limbs of at most this straightness: stubs hardly count.
+static double limb_straightness(const Wood *wood)
+{
+    double all = 0.0, sum = 0.0;
+    for (int64_t i = 0; i < wood->limbs; i++) {
+        all += wood->limb[i].length;
     }
-    qsort(wood->ratio, (size_t)wood->ratios, sizeof *wood->ratio, compare);
-    return 0.5 * (wood->ratio[(wood->ratios - 1) / 2] + wood->ratio[wood->ratios / 2]);
+    for (int64_t i = 0; i < wood->limbs; i++) {
+        sum += wood->limb[i].length;
+        if (sum >= 0.5 * all) {
+            return wood->limb[i].straightness;
+        }
+    }
+    return (double)NAN;
 }
 
 // Diameter of the stem where it crosses breast height.
@@ -160,6 +185,7 @@ static bool add_measures(Wood *wood, float ground, MeasureList *list, Error *e)
     double height = any ? (double)(sums.box.high.y - ground) : (double)NAN;
     double width = any ? 0.5 * (double)(size.x + size.z) : (double)NAN;
     double d = stem_diameter(wood, ground);
+    find_limbs(wood);
     const struct {
         const char *name;
         double value;
@@ -171,6 +197,7 @@ static bool add_measures(Wood *wood, float ground, MeasureList *list, Error *e)
                  {"tips", sums.tips, ""},
                  {"path_fraction", sums.ways / sums.tips / sums.longest, ""},
                  {"straightness", median_straightness(wood), ""},
+                 {"limb_straightness", limb_straightness(wood), ""},
                  {"stem_share", sums.stem / sums.volume, ""},
                  {"form_factor", sums.volume / (PI / 4.0 * d * d * height), ""}};
     bool done = true;
@@ -190,8 +217,8 @@ bool out_tree_measure_wood(const OutTree *tree, float ground, MeasureList *list,
                  .way = memory_alloc(n, sizeof(double), e),
                  .next = memory_alloc(n, sizeof(int32_t), e),
                  .order = memory_alloc(n, sizeof(int32_t), e),
-                 .ratio = memory_alloc(n, sizeof(double), e)};
-    bool done = wood.counts && wood.beyond && wood.way && wood.next && wood.order && wood.ratio;
+                 .limb = memory_alloc(n, sizeof(Limb), e)};
+    bool done = wood.counts && wood.beyond && wood.way && wood.next && wood.order && wood.limb;
     if (done) {
         find_axes(&wood);
         done = add_measures(&wood, ground, list, e);

@@ -15,6 +15,8 @@
 //   tips                  ends of that wood
 //   path_fraction         mean way along the branches from the base to a tip over the longest
 //   straightness          chord / length, median over the branches that leave the stem
+//   limb_straightness     the same median over their length: half of it is in branches of at most
+//                         this straightness, so stubs hardly count
 //   stem_share            of the wood's volume
 //   form_factor           volume over that of a cylinder of this diameter and height
 bool out_tree_measure_wood(const OutTree *tree, float ground, MeasureList *list, Error *e);

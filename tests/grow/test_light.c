@@ -94,6 +94,7 @@ static Plant forked_plant(void)
         m->buds = i == 3 ? 0u : 1u;
         m->terminal = m->next < 0;
         m->light = random_range(random_key(5, (uint64_t)i), 0.2f, 1.0f);
+        m->vigor = random_range(random_key(6, (uint64_t)i), 0.5f, 2.0f);
     }
     return plant;
 }
@@ -212,6 +213,75 @@ static void without_noise_a_tree_is_symmetric(void **state)
         Vec3 p = tree->position[i];
         assert_true(has_node_near(tree, vec3(-p.x, p.y, -p.z), 0.01f * INTERNODE));
     }
+    out_tree_free(tree);
+}
+
+// Chord / length of the stem's axis.
+static double stem_straightness(const OutTree *tree)
+{
+    double length = 0.0;
+    int64_t end = 0;
+    for (int64_t i = 1; i < tree->count; i++) {
+        if (tree->colony[i] == 0) {
+            assert_int_equal(tree->parent[i], end);
+            length += (double)vec3_distance(tree->position[i], tree->position[end]);
+            end = i;
+        }
+    }
+    assert_true(length > 0.0);
+    return (double)vec3_distance(tree->position[0], tree->position[end]) / length;
+}
+
+static void lost_leaders_make_an_axis_crooked(void **state)
+{
+    (void)state;
+    LightParams params = light_params_default();
+    params.noise = params.zigzag = params.angle_spread = params.phototropism = 0.0f;
+    params.tropism = vec3(0, 0, 0);
+    LightSite site = open_site(10);
+    OutTree *straight = grow(&params, &site, 2);
+    params.leader_loss = vec3(0.4f, 0, 0);
+    OutTree *crooked = grow(&params, &site, 2);
+    assert_true(stem_straightness(straight) > 0.999);
+    assert_true(stem_straightness(crooked) < 0.95);
+    out_tree_free(straight);
+    out_tree_free(crooked);
+}
+
+// The branch whose buds were given more vigor than its neighbour's gets the larger share.
+static void a_vigorous_branch_gets_more(void **state)
+{
+    (void)state;
+    Plant plant = forked_plant();
+    plant_sum_light(&plant, 0, 1);
+    Metamer *branch = &plant.metamer[plant.metamer[3].lateral];
+    branch->vigor = 1.0f;
+    plant_share_growth(&plant, 2.0f, 0.5f);
+    float plain = branch->growth;
+    branch->vigor = 1.5f;
+    plant_share_growth(&plant, 2.0f, 0.5f);
+    assert_true(branch->growth > 1.1f * plain);
+    plant_clear(&plant);
+}
+
+// The tree that covers itself does so no more.
+static void uneven_vigor_makes_uneven_crowns(void **state)
+{
+    (void)state;
+    LightParams params = light_params_default();
+    params.buds = 2;
+    params.phyllotaxis = 90.0f;
+    params.noise = params.zigzag = params.angle_spread = 0.0f;
+    params.vigor = 5.0f;
+    params.unevenness = 0.2f;
+    LightSite site = open_site(8);
+    OutTree *tree = grow(&params, &site, 2);
+    int alone = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        Vec3 p = tree->position[i];
+        alone += !has_node_near(tree, vec3(-p.x, p.y, -p.z), 0.01f * INTERNODE);
+    }
+    assert_true(alone > tree->count / 10);
     out_tree_free(tree);
 }
 
@@ -375,6 +445,9 @@ int main(void)
         cmocka_unit_test(apical_control_favours_the_axis),
         cmocka_unit_test(a_shaded_branch_dies_and_the_stem_does_not),
         cmocka_unit_test(without_noise_a_tree_is_symmetric),
+        cmocka_unit_test(lost_leaders_make_an_axis_crooked),
+        cmocka_unit_test(a_vigorous_branch_gets_more),
+        cmocka_unit_test(uneven_vigor_makes_uneven_crowns),
         cmocka_unit_test(a_lone_tree_does_not_lean),
         cmocka_unit_test(the_stem_is_bare_below_the_bole),
         cmocka_unit_test(snags_are_stubs_without_living_wood),

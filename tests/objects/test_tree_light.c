@@ -164,9 +164,38 @@ static void stems_grow_beside_each_other(void **state)
     OutTree *tree = grow(&params, 5);
     int roots = 0;
     for (int64_t i = 0; i < tree->count; i++) {
-        roots += tree->parent[i] < 0;
+        if (tree->parent[i] < 0) {
+            Vec3 foot = tree->position[i + 1];
+            assert_float_equal(sqrtf(foot.x * foot.x + foot.z * foot.z), 0.2f, 1e-4f);
+            assert_float_equal(foot.y, 0.0f, 1e-4f);
+            roots++;
+        }
     }
     assert_int_equal(roots, 4);
+    out_tree_free(tree);
+}
+
+// A thicket's stems stand all over the circle, none outside.
+static void stems_scatter_inside_their_circle(void **state)
+{
+    (void)state;
+    TreeParams params = bare_tree();
+    params.height = 5.0f;
+    params.light.growth.seasons = 6;
+    params.trunk.stems = 40;
+    params.trunk.stem_circle = 1.0f;
+    params.trunk.stem_scatter = 1.0f;
+    OutTree *tree = grow(&params, 5);
+    int inner = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->parent[i] < 0) {
+            Vec3 foot = tree->position[i + 1];
+            float away2 = foot.x * foot.x + foot.z * foot.z;
+            assert_true(away2 < 1.0f);
+            inner += away2 < 0.5f;
+        }
+    }
+    assert_in_range(inner, 12, 28); // half of the area
     out_tree_free(tree);
 }
 
@@ -179,6 +208,7 @@ int main(void)
         cmocka_unit_test(height_and_age_imply_each_other),
         cmocka_unit_test(light_fills_limbs_that_attractors_laid),
         cmocka_unit_test(stems_grow_beside_each_other),
+        cmocka_unit_test(stems_scatter_inside_their_circle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

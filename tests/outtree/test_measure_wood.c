@@ -67,6 +67,7 @@ static void a_post_with_two_branches_is_measured_in_closed_form(void **state)
     assert_near(value(&list, "tips"), 3.0, 0);
     assert_near(value(&list, "path_fraction"), (10.0 + 11.0 + 9.0) / 3.0 / 11.0, 1e-6);
     assert_near(value(&list, "straightness"), 0.5 * (5.0 / 7.0 + 1.0), 1e-6);
+    assert_near(value(&list, "limb_straightness"), 5.0 / 7.0, 1e-6); // 7 m of 8 m
     assert_near(value(&list, "stem_share"), stem / (stem + branches), 1e-6);
     assert_near(value(&list, "form_factor"), (stem + branches) / (PI_D / 4.0 * 0.16 * 10.0), 1e-5);
     measures_clear(&list);

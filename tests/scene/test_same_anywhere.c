@@ -147,9 +147,9 @@ static double unit_scale(const char *unit, double scale)
 static bool is_of_wood(const char *name)
 {
     static const char *const names[] = {
-        "diameter",   "height_per_diameter", "crown_width_per_height", "branch_per_height",
-        "tips",       "path_fraction",       "straightness",           "stem_share",
-        "form_factor"};
+        "diameter",    "height_per_diameter", "crown_width_per_height", "branch_per_height",
+        "tips",        "path_fraction",       "straightness",           "stem_share",
+        "form_factor", "limb_straightness",   "height_above_ground"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         if (strcmp(name, names[i]) == 0) {
             return true;

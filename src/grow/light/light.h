@@ -33,6 +33,9 @@ typedef struct LightParams {
     Vec3 tropism;        // pull along LightSite.up on the direction of each new metamer
     float phototropism;  // pull toward the brightest part of the sky
     float zigzag;        // degrees by which a season's shoot turns aside from the last
+    Vec3 leader_loss;    // chance that an axis loses its end bud in a season; the side bud below
+                         // leads on, at LightParams.branch_angle
+    float unevenness;    // of branches' vigor: standard deviation of its natural logarithm
     float noise;         // Gaussian, per component, on the direction of a season's shoot
     float plagiotropy;   // 0..1: how far side shoots spread in a level plane
     float bole;          // height below which the stem loses its branches, share of the tree's

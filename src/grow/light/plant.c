@@ -36,6 +36,7 @@ int64_t plant_add(Plant *plant, int32_t parent, int side, Vec3 position, Vec3 di
                                      .lateral = -1,
                                      .sibling = -1,
                                      .died = PLANT_ALIVE,
+                                     .vigor = 1.0f,
                                      .order = base->order + (side >= 0)};
     if (side < 0) {
         base->next = made;
@@ -101,6 +102,7 @@ bool plant_init(Plant *plant, const OutTree *start, const LightParams *params,
                                       .lateral = -1,
                                       .sibling = -1,
                                       .birth = start->birth[i],
+                                      .vigor = 1.0f,
                                       .died = PLANT_ALIVE};
     }
     if (!find_axes(plant, start, e)) {

@@ -22,6 +22,7 @@ typedef struct Metamer {
     int32_t order; // 0 = stem
     uint32_t buds; // one bit for each living side bud
     bool terminal; // it has the axis's bud
+    float vigor;   // of the side branch that begins here: weight of its light at the fork
     float light;   // 0..1 on its leaves; 0 without leaves
     float income;  // light of it and all above it
     float growth;  // metamers that it and all above it may make; shared out downward up

@@ -50,7 +50,8 @@ static void share_fork(const Plant *plant, const Metamer *m, float control, floa
     float ahead = m->next >= 0 ? plant->metamer[m->next].income : metamer_terminal_light(m);
     float beside = (float)count_bits(m->buds) * metamer_bud_light(m);
     for (int32_t k = m->lateral; k >= 0; k = plant->metamer[k].sibling) {
-        beside += plant->metamer[k].died == PLANT_ALIVE ? plant->metamer[k].income : 0.0f;
+        const Metamer *side = &plant->metamer[k];
+        beside += side->died == PLANT_ALIVE ? side->vigor * side->income : 0.0f;
     }
     float all = control * ahead + (1.0f - control) * beside;
     *axis = all > 0.0f ? m->growth * control * ahead / all : 0.0f;
@@ -73,7 +74,8 @@ void plant_share_growth(Plant *plant, float vigor, float control)
             plant->metamer[m->next].growth = axis;
         }
         for (int32_t k = m->lateral; k >= 0; k = plant->metamer[k].sibling) {
-            plant->metamer[k].growth = per_light * plant->metamer[k].income;
+            Metamer *side = &plant->metamer[k];
+            side->growth = per_light * side->vigor * side->income;
         }
     }
 }

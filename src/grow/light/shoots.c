@@ -7,8 +7,12 @@
 #define LEAST_TERMINAL 0.5f // metamers: less growth makes no shoot
 #define LEAST_SIDE 1.0f
 #define LONGEST 1.3f // internodes, of a metamer
+// Of the branch's angle: a side bud that leads on after the end bud's loss soon stands more
+// upright.
+#define RELAY_ANGLE 0.8f
 
-enum { STREAM_ANGLE = 1, STREAM_NOISE = 2 }; // of a metamer's id and the site's seed; NOISE .. + 2
+// Of a metamer's id, the bud's number and the site's seed; NOISE .. + 2.
+enum { STREAM_ANGLE = 1, STREAM_NOISE = 2, STREAM_LOSS = 5, STREAM_VIGOR = 6 };
 
 typedef struct Shooting {
     Plant *plant;
@@ -61,19 +65,31 @@ static int bud_count(const LightParams *params, int order)
     return params->whorl < most ? params->whorl : most;
 }
 
+// The direction of a side bud; share: of the angle to the axis.
+static Vec3 side_direction(const Shooting *s, const Metamer *base, int bud, float share,
+                           uint64_t key)
+{
+    const LightParams *p = s->params;
+    Vec3 side = bud_side(s, base, bud, bud_count(p, base->order));
+    float angle = of_order(p->branch_angle, base->order) +
+                  p->angle_spread * random_normal(random_key(key, STREAM_ANGLE));
+    float sine, cosine;
+    exact_sincos(share * clampf(angle, 0.0f, 150.0f) * RADIANS_PER_DEGREE, &sine, &cosine);
+    return vec3_madd(vec3_scale(base->direction, cosine), sine, side);
+}
+
 // The direction in which a shoot starts.
 static Vec3 first_direction(const Shooting *s, const Metamer *base, int bud)
 {
     const LightParams *p = s->params;
     uint64_t key = random_key(random_key(s->site->seed, base->id), (uint64_t)bud + 1u);
     Vec3 d = base->direction;
+    float loss = of_order(p->leader_loss, base->order);
     if (bud >= 0) {
-        Vec3 side = bud_side(s, base, bud, bud_count(p, base->order));
-        float angle = of_order(p->branch_angle, base->order) +
-                      p->angle_spread * random_normal(random_key(key, STREAM_ANGLE));
-        float sine, cosine;
-        exact_sincos(clampf(angle, 0.0f, 150.0f) * RADIANS_PER_DEGREE, &sine, &cosine);
-        d = vec3_madd(vec3_scale(d, cosine), sine, side);
+        d = side_direction(s, base, bud, 1.0f, key);
+    } else if (base->parent >= 0 && base->season > 0 && loss > 0.0f &&
+               random_unit(random_key(key, STREAM_LOSS)) < loss) {
+        d = side_direction(s, base, 0, RELAY_ANGLE, key);
     } else if (base->parent >= 0 && base->season > 0) {
         float degrees = base->order == 0 ? 0.5f * p->zigzag : p->zigzag;
         d = rotated(d, vec3_cross(d, base->side), degrees);
@@ -125,6 +141,16 @@ static bool find_room(const Shooting *s, Vec3 from, Vec3 *to, int order)
            (order == 0 && !envelope_contains(site->envelope, start)); // the bole leads into it
 }
 
+// Gives the side branch that begins at a metamer a vigor of its own.
+static void set_vigor(const Shooting *s, Metamer *m)
+{
+    float spread = s->params->unevenness;
+    if (spread > 0.0f) {
+        uint64_t key = random_key(random_key(s->site->seed, m->id), STREAM_VIGOR);
+        m->vigor = (float)exact_exp((double)(spread * random_normal(key)));
+    }
+}
+
 static void finish_metamer(const Shooting *s, Metamer *m, int place, bool last)
 {
     const LightParams *p = s->params;
@@ -160,6 +186,9 @@ static bool make_shoot(const Shooting *s, int32_t base, int bud, float growth, E
             return false;
         }
         finish_metamer(s, &s->plant->metamer[made], i, i == metamers - 1);
+        if (i == 0 && bud >= 0) {
+            set_vigor(s, &s->plant->metamer[made]);
+        }
         at = to;
     }
     if (made != base) {

@@ -1,7 +1,10 @@
 #include "objects/tree/by_light.h"
 
 #include "base/exact_math.h"
+#include "base/memory.h"
 #include "base/random.h"
+
+#include <stdlib.h>
 
 enum { STREAM_LIGHT = 5 };         // of the object's seed
 enum { TRIAL_CELLS = 30000 };      // voxels of the grid of a trial
@@ -125,6 +128,27 @@ static OutTree *grow_bounded(const TreePlan *plan, const OutTree *start, LightSi
     return tree;
 }
 
+// Growth in internodes does not keep the distances between stems: moves each to its foot.
+static bool place_stems(OutTree *tree, const TreeParams *params, uint64_t seed, Error *e)
+{
+    if (params->trunk.stems <= 1) {
+        return true;
+    }
+    int64_t stem = 0;
+    Vec3 *shift = memory_alloc(tree->count, sizeof *shift, e);
+    for (int64_t i = 0; shift && i < tree->count; i++) {
+        if (tree->parent[i] >= 0) {
+            shift[i] = shift[tree->parent[i]];
+        } else {
+            Vec3 foot = tree_stem_foot(params, (int)stem++, seed); // that of the node above
+            shift[i] = vec3_sub(foot, tree->position[i + 1]);
+        }
+        tree->position[i] = vec3_add(tree->position[i], shift[i]);
+    }
+    free(shift);
+    return shift;
+}
+
 // Grows freely, then scales to the height.
 static OutTree *grow_to_height(const TreePlan *plan, LightSite *site, const Recipe *recipe,
                                Error *e)
@@ -134,6 +158,10 @@ static OutTree *grow_to_height(const TreePlan *plan, LightSite *site, const Reci
     if (tree) {
         float height = top_of(tree) - params->position.y;
         scale_about(tree, params->position, params->height / height);
+        if (!place_stems(tree, params, site->seed, e)) {
+            out_tree_free(tree);
+            tree = NULL;
+        }
     }
     return tree;
 }

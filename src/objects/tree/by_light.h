@@ -5,6 +5,9 @@
 
 #include "objects/tree/defaults.h"
 
+// Where a stem starts on the ground: on the circle of stems or inside it.
+Vec3 tree_stem_foot(const TreeParams *params, int stem, uint64_t seed);
+
 // Plants a node below the ground and one on it for each stem, so that the trunk's end is hidden.
 bool tree_plant_stems(OutTree *tree, const TreeParams *params, uint64_t seed, Error *e);
 

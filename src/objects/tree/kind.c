@@ -109,7 +109,17 @@ static bool measure_swept(const TreeParams *params, const OutTree *tree, Measure
     return done;
 }
 
-// Natural ranges: radii after Eloy (2011); the others are typical of broad-leaved trees.
+static bool measure_height(const TreeParams *params, const OutTree *tree, MeasureList *list,
+                           Error *e)
+{
+    float top = params->position.y;
+    for (int64_t i = 0; i < tree->count; i++) {
+        top = fmaxf(top, tree->position[i].y);
+    }
+    return measures_add(list, "height_above_ground", (double)(top - params->position.y), "m",
+                        (double)NAN, (double)NAN, e);
+}
+
 // Measures of the wood above the ground: the roots are left out.
 static bool measure_wood(const TreeParams *params, const OutTree *tree, MeasureList *list, Error *e)
 {
@@ -125,6 +135,7 @@ static bool measure_wood(const TreeParams *params, const OutTree *tree, MeasureL
     return done;
 }
 
+// Natural ranges: radii after Eloy (2011); the others are typical of broad-leaved trees.
 static bool measure(const void *given, const Grown *grown, const Recipe *recipe, MeasureList *list,
                     Error *e)
 {
@@ -133,7 +144,8 @@ static bool measure(const void *given, const Grown *grown, const Recipe *recipe,
     measures_set_range(list, "branch_angle", 30.0, 70.0);
     measures_set_range(list, "horton_number", 3.0, 5.0);
     measures_set_range(list, "tip_radius", 0.0005, 0.002);
-    return measure_wood(given, grown->tree, list, e) && measure_swept(given, grown->tree, list, e);
+    return measure_height(given, grown->tree, list, e) &&
+           measure_wood(given, grown->tree, list, e) && measure_swept(given, grown->tree, list, e);
 }
 
 static void needs(const void *params, Needs *needs)

@@ -21,6 +21,8 @@ static const Key TRUNK_KEYS[] = {
      .doc = "Number of stems, which start on a circle about the base; 1 = a single trunk."},
     {KEY_OF(TrunkParams, stem_circle, "stem_circle", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "Radius of the circle of stems; 0 = the trunk's radius."},
+    {KEY_OF(TrunkParams, stem_scatter, "stem_scatter", KEY_FLOAT), .high = 1,
+     .doc = "How far stems leave the circle for its inside: 0 = a ring, 1 = a thicket."},
     ELEMENT_ROWS(TrunkParams),
     {0},
 };
@@ -153,6 +155,16 @@ static const Key LIGHT_KEYS[] = {
     {LIGHT_KEY(growth.zigzag, "zigzag", KEY_FLOAT), .high = 90, .unit = "degrees",
      .doc = "Angle by which a season's shoot turns aside from the last, as a side bud takes the "
             "lead; half of it on the trunk."},
+    {LIGHT_KEY(growth.leader_loss, "leader_loss", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3,
+     .high = 1,
+     .doc =
+         "Chance that an axis loses its end bud in a season, so that a side bud leads on and the "
+         "axis makes an elbow: of the trunk, of limbs, of the branches on them. 0 = straight "
+         "limbs as of poplar and spruce, 0.3 = crooked ones as of oak and olive."},
+    {LIGHT_KEY(growth.unevenness, "unevenness", KEY_FLOAT), .high = 1,
+     .doc = "How much the vigor of branches differs, as the standard deviation of its logarithm: 0 "
+            "= an even outline; 0.1 to 0.2 = some limbs outgrow others, with gaps between clumps, "
+            "and every seed has a form of its own."},
     {LIGHT_KEY(growth.noise, "noise", KEY_FLOAT), .high = 10,
      .doc = "Gaussian noise added to each component of the direction of a season's shoot."},
     {LIGHT_KEY(growth.plagiotropy, "plagiotropy", KEY_FLOAT), .high = 1,

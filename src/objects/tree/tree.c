@@ -17,6 +17,7 @@
 enum { STREAM_STARTS = 1 };
 enum { STREAM_OFFSET = 1, STREAM_ROOTS = 10 }; // of the roots' starts; ROOTS + i: root i
 enum { STREAM_ROOT_ID = 2 };                   // of a root
+enum { STREAM_FOOT = 1 };                      // of a stem
 
 #define GOLDEN_ANGLE_DEGREES 137.50776f
 
@@ -47,15 +48,24 @@ static void transport_normals(OutTree *tree)
     }
 }
 
+Vec3 tree_stem_foot(const TreeParams *params, int stem, uint64_t seed)
+{
+    const TrunkParams *trunk = &params->trunk;
+    if (trunk->stems <= 1) {
+        return params->position;
+    }
+    float sine, cosine,
+        share = random_unit(random_key(random_key(seed, (uint64_t)stem), STREAM_FOOT));
+    exact_sincos(2.0f * PI_F * (float)stem / (float)trunk->stems, &sine, &cosine);
+    float away = trunk->stem_circle * lerpf(1.0f, sqrtf(share), trunk->stem_scatter);
+    return vec3_madd(params->position, away, vec3(sine, 0, cosine));
+}
+
 bool tree_plant_stems(OutTree *tree, const TreeParams *params, uint64_t seed, Error *e)
 {
     int stems = params->trunk.stems > 1 ? params->trunk.stems : 1;
     for (int i = 0; i < stems; i++) {
-        float sine = 0.0f, cosine = 0.0f;
-        if (stems > 1) {
-            exact_sincos(2.0f * PI_F * (float)i / (float)stems, &sine, &cosine);
-        }
-        Vec3 foot = vec3_madd(params->position, params->trunk.stem_circle, vec3(sine, 0, cosine));
+        Vec3 foot = tree_stem_foot(params, i, seed);
         Vec3 below = vec3_add(foot, vec3(0, -params->trunk.radius, 0));
         uint64_t id = random_key(seed, (uint64_t)i);
         int64_t root = out_tree_add_node(tree, below, -1, 0, TREE_TRUNK, id, e);

@@ -24,6 +24,7 @@ typedef struct TrunkParams {
     float lean_azimuth; // degrees from +Z toward +X
     int stems;          // stems that start on a circle about the base; 1 = a plain trunk
     float stem_circle;  // m, radius of that circle; 0 = the trunk's radius
+    float stem_scatter; // 0..1: from on the circle to all over its inside
 } TrunkParams;
 
 typedef struct CrownParams {
