@@ -11,7 +11,7 @@
 #include "objects/common/recipe.h"
 #include "outtree/flow.h"
 
-enum { OBJECT_MOST_MATERIALS = 7 };
+enum { OBJECT_MOST_MATERIALS = 8 };
 
 // Another object, whose surface a growth keeps clear of.
 typedef struct ClearOf {
@@ -146,6 +146,9 @@ typedef struct Kind {
                  "fallen.")
 #define GRASS_MATERIAL_ROW(INDEX) \
     MATERIAL_ROW(INDEX, "grass_material", "Material of the ground's grass; default: grass.")
+
+#define SNOW_MATERIAL_ROW(INDEX) \
+    MATERIAL_ROW(INDEX, "snow_material", "Material of settled snow; default: snow.")
 
 #define RIME_MATERIAL_ROW(INDEX)         \
     MATERIAL_ROW(INDEX, "rime_material", \

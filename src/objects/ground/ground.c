@@ -79,19 +79,35 @@ static int64_t ground_rings(const GroundParams *params, float *radius, int64_t m
     return count;
 }
 
+// Height of the snow's surface above the land at (x, z), m; below 0 where the land is bare.
+static float snow_height(const GroundParams *params, uint64_t seed, float x, float z)
+{
+    uint64_t key = random_key(seed, STREAM_GROUND_DRIFTS);
+    float drifts = noise_plane_fractal(x * 0.22f, z * 0.22f, 3, key);
+    return params->snow + (0.04f + 0.25f * params->snow) * drifts;
+}
+
 static Vec3 ground_point(const GroundParams *params, uint64_t seed, float x, float z)
 {
     return vec3(x, ground_height(params, seed, x, z), z);
 }
 
-static void ground_vertices(Mesh *mesh, const GroundParams *params, uint64_t seed,
+// The land's surface or that of the snow on it.
+static Vec3 surface_point(const GroundParams *params, uint64_t seed, bool snow, float x, float z)
+{
+    Vec3 p = ground_point(params, seed, x, z);
+    p.y += snow ? snow_height(params, seed, x, z) : 0.0f;
+    return p;
+}
+
+static void ground_vertices(Mesh *mesh, const GroundParams *params, uint64_t seed, bool snow,
                             const float *radius, int64_t rings)
 {
     for (int64_t ring = 0; ring < rings; ring++) {
         for (int s = 0; s < GROUND_SECTORS; s++) {
             float sine, cosine;
             exact_sincos(2.0f * PI_F * (float)s / GROUND_SECTORS, &sine, &cosine);
-            Vec3 p = ground_point(params, seed, radius[ring] * sine, radius[ring] * cosine);
+            Vec3 p = surface_point(params, seed, snow, radius[ring] * sine, radius[ring] * cosine);
             mesh->position[ring * GROUND_SECTORS + s] = p;
             mesh->uv[ring * GROUND_SECTORS + s] = (Vec2){p.x, p.z};
         }
@@ -121,7 +137,7 @@ static void ground_faces(Mesh *mesh, int64_t rings)
     }
 }
 
-static Mesh *ground_mesh(const GroundParams *params, uint64_t seed, Error *e)
+static Mesh *ground_mesh(const GroundParams *params, uint64_t seed, bool snow, Error *e)
 {
     enum { MOST_RINGS = 1024 };
     float radius[MOST_RINGS];
@@ -132,8 +148,8 @@ static Mesh *ground_mesh(const GroundParams *params, uint64_t seed, Error *e)
     if (!mesh) {
         return NULL;
     }
-    ground_vertices(mesh, params, seed, radius, rings);
-    mesh->position[rings * GROUND_SECTORS] = ground_point(params, seed, 0.0f, 0.0f);
+    ground_vertices(mesh, params, seed, snow, radius, rings);
+    mesh->position[rings * GROUND_SECTORS] = surface_point(params, seed, snow, 0.0f, 0.0f);
     ground_faces(mesh, rings);
     if (!mesh_compute_normals(mesh, e)) {
         mesh_free(mesh);
@@ -288,8 +304,13 @@ bool ground_geometry(const void *given, const Grown *grown, const Placing *placi
 {
     (void)grown;
     const GroundParams *params = given;
-    Part land = {.mesh = ground_mesh(params, placing->recipe->seed, e)};
+    uint64_t seed = placing->recipe->seed;
+    Part land = {.mesh = ground_mesh(params, seed, false, e)};
     bool done = placing_add(placing, land, GROUND_LAND, e);
+    if (done && params->snow > 0.0f) {
+        done = placing_add(placing, (Part){.mesh = ground_mesh(params, seed, true, e)}, GROUND_SNOW,
+                           e);
+    }
     for (int v = 0; done && params->grass_tufts > 0 && v < params->grass_variants; v++) {
         done = add_grass_variant(params, v, placing, e);
     }

@@ -28,10 +28,11 @@ typedef struct GroundParams {
     int64_t fallen_leaves; // leaves lying about the origin; 0 = none
     float fallen_radius;   // m
     GroveParams trees;
+    float snow; // m, mean depth of the snow on the land; 0 = none
 } GroundParams;
 
-// Roles of materials; the last two are of the distant trees.
-enum { GROUND_LAND, GROUND_FALLEN, GROUND_GRASS, GROUND_BARK, GROUND_FOLIAGE };
+// Roles of materials; bark and foliage are of the distant trees.
+enum { GROUND_LAND, GROUND_FALLEN, GROUND_GRASS, GROUND_BARK, GROUND_FOLIAGE, GROUND_SNOW };
 
 // Streams of the object's seed.
 enum {
@@ -41,7 +42,8 @@ enum {
     STREAM_GROUND_GRASS = 4,
     STREAM_GROUND_LEAVES = 5,
     STREAM_GROUND_TREES = 6,
-    STREAM_GROUND_WOODS = 7
+    STREAM_GROUND_WOODS = 7,
+    STREAM_GROUND_DRIFTS = 8
 };
 
 GroundParams ground_params_default(void); // 2 km of meadow, 60,000 tufts

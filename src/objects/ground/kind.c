@@ -55,13 +55,14 @@ static const Key MATERIALS[] = {
     OWN_MATERIAL_ROW(0),
     LEAF_MATERIAL_ROW(1),
     GRASS_MATERIAL_ROW(2),
+    SNOW_MATERIAL_ROW(GROUND_SNOW),
     {0},
 };
 
 const Kind kind_ground = {
     .variant = {KIND_ROW("ground", &ground_table, "Rolling ground with grass."), MATERIALS},
     .reads_water = true,
-    .materials = {"ground", "fallen", "grass", "bark", "leaf"},
+    .materials = {"ground", "fallen", "grass", "bark", "leaf", "snow"},
     .builtin = BUILTIN,
     .needs = needs,
     .ground = height,

@@ -60,6 +60,10 @@ static const Key GROUND_KEYS[] = {
      .doc = "Number of fallen leaves about the origin; 0 = none."},
     {KEY_OF(GroundParams, fallen_radius, "fallen_radius", KEY_FLOAT), .flags = KEY_ABOVE,
      .high = 1e5, .unit = "m", .doc = "Radius of the fallen leaves about the origin."},
+    {KEY_OF(GroundParams, snow, "snow", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc =
+         "Mean depth of the snow on the land: in drifts, and bare in places where it is shallow; "
+         "grass that is taller stands out. 0 = none. Snow on trees: their key snow."},
     {KEY_OF(GroundParams, trees, "trees", KEY_GROUP), .table = &GROVE_TABLE,
      .doc = "Distant woods: copies of a few trees."},
     {0},

@@ -62,6 +62,7 @@ TreeParams tree_params_default(void)
         .skin = {.curve_radius = 0.014f, .levels = 2, .ring_spacing = 1.0f},
         .latitude = 50.0f,
         .phenology = phenology_default(),
+        .snow = snow_params_default(),
     };
 }
 

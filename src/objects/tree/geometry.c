@@ -42,7 +42,10 @@ bool tree_geometry(const void *given, const Grown *grown, const Placing *placing
                                     [TISSUE_WOOD] = TREE_CONE,
                                     [TISSUE_GREEN] = TREE_STALK,
                                     [TISSUE_WING] = TREE_LEAF}};
+    int64_t first = placing->geometry->count;
     return add_bark(grown->tree, params, &skin, placing, e) &&
            branches_add_twigs(grown->tree, &twigs, placing, e) &&
-           organs_add(grown->tree, &organs, placing, e);
+           organs_add(grown->tree, &organs, placing, e) &&
+           snow_add(grown->tree, &params->skin, &params->snow,
+                    params->roots.count > 0 ? TREE_ROOTS : -1, first, placing, TREE_SNOW, e);
 }

@@ -151,7 +151,7 @@ static bool measure(const void *given, const Grown *grown, const Recipe *recipe,
 static void needs(const void *params, Needs *needs)
 {
     const TreeParams *tree = params;
-    enum { LEAF_FACES = 25, LEAVES_AN_ATTRACTOR = 6 };
+    enum { LEAF_FACES = 25, LEAVES_AN_ATTRACTOR = 6, SNOW_BYTES = 7000 };
     TreeAttractors each = count_attractors(params);
     double count = (double)attractors(params), leaves = (double)tree->leaves.max_count;
     int levels = tree->skin.levels;
@@ -163,10 +163,23 @@ static void needs(const void *params, Needs *needs)
     needs_add_skinned_growth(needs, "light.seasons", metamers, levels, twig);
     needs_add_copies(needs, "leaves.max_count",
                      fmin(leaves, LEAVES_AN_ATTRACTOR * (count + metamers)), LEAF_FACES);
+    if (tree->snow.depth > 0.0f) {
+        needs_add(needs, "snow.depth", count + metamers, SNOW_BYTES);
+    }
 }
 
-// Petals: white with a touch of pink, thin. Fruit: a ripe apple. Cones: dry wood.
+// Snow: nearly white, with grains. Petals: white with a touch of pink, thin. Fruit: a ripe apple.
+// Cones: dry wood.
 static const Material BUILTIN[] = {
+    {.name = "snow",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.90f, 0.925f, 0.95f},
+     .color2 = {0.84f, 0.88f, 0.93f},
+     .roughness = 0.5f,
+     .ior = 1.31f,
+     .pattern = PATTERN_NOISE,
+     .pattern_scale = 0.03f,
+     .pattern_depth = 0.003f},
     {.name = "blossom",
      .kind = MATERIAL_LEAF,
      .color = {0.62f, 0.50f, 0.53f},
@@ -219,13 +232,14 @@ static const Key MATERIALS[] = {
                  "Material of cones, catkins, acorns' cups, buds and spines; default: cone."),
     MATERIAL_ROW(TREE_STALK, "stalk_material",
                  "Material of stalks, sepals and stamens; default: stalk."),
+    SNOW_MATERIAL_ROW(TREE_SNOW),
     {0},
 };
 
 const Kind kind_tree = {
     .variant = {KIND_ROW("tree", &tree_table, "A tree; the defaults make an oak."), MATERIALS},
     .carried = true,
-    .materials = {"bark", "twig", "leaf", "blossom", "fruit", "cone", "stalk"},
+    .materials = {"bark", "twig", "leaf", "blossom", "fruit", "cone", "stalk", "snow"},
     .builtin = BUILTIN,
     .own_space = own_space,
     .seed = own_seed,

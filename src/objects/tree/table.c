@@ -236,6 +236,8 @@ static const Key TREE_KEYS[] = {
             "2 days earlier; south of the equator (negative) the year is turned by six months."},
     {KEY_OF(TreeParams, phenology, "phenology", KEY_GROUP), .table = &phenology_table,
      .doc = "The year of the leaves."},
+    {KEY_OF(TreeParams, snow, "snow", KEY_GROUP), .table = &snow_table,
+     .doc = "Snow that has settled on the branches."},
     {KEY_OF(TreeParams, trunk, "trunk", KEY_GROUP), .table = &TRUNK_TABLE,
      .doc = "The trunk. It grows straight up unless lean, a tropism of its growth or a field bends "
             "it."},

@@ -12,6 +12,7 @@
 #include "objects/common/organs.h"
 #include "objects/common/phenology.h"
 #include "objects/common/recipe.h"
+#include "objects/common/snow.h"
 #include "outtree/out_tree.h"
 
 typedef struct TrunkParams {
@@ -79,6 +80,7 @@ typedef struct TreeParams {
     float season;   // month and its fraction, 1..13; 0 = as leaves has it
     float latitude; // degrees
     Phenology phenology;
+    SnowParams snow;
 } TreeParams;
 
 // Nodes of a main root's start, from inside the trunk's flare to where growth begins.
@@ -88,7 +90,16 @@ enum { TREE_ROOT_PIECES = 6 };
 enum { TREE_TRUNK, TREE_CROWN, TREE_ROOTS, TREE_SNAGS };
 
 // Roles of materials.
-enum { TREE_BARK, TREE_TWIG, TREE_LEAF, TREE_BLOSSOM, TREE_FRUIT, TREE_CONE, TREE_STALK };
+enum {
+    TREE_BARK,
+    TREE_TWIG,
+    TREE_LEAF,
+    TREE_BLOSSOM,
+    TREE_FRUIT,
+    TREE_CONE,
+    TREE_STALK,
+    TREE_SNOW
+};
 
 // Streams of the object's seed. The lobes of the default crown share the trunk's number.
 enum {

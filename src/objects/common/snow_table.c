@@ -1,0 +1,36 @@
+// The table of settled snow.
+#include "config/table.h"
+#include "objects/common/snow.h"
+
+static const Key SNOW_KEYS[] = {
+    {KEY_OF(SnowParams, depth, "depth", KEY_FLOAT), .high = 10, .unit = "m",
+     .doc =
+         "Depth of the snow on a level place under the open sky; thin twigs bear less, and so do "
+         "branches under others. 0 = no snow."},
+    {KEY_OF(SnowParams, steepest, "steepest", KEY_FLOAT), .flags = KEY_ABOVE, .high = 85,
+     .unit = "degrees",
+     .doc = "Slope from which it slides off: 35 for powder, 65 for wet snow that clings."},
+    {KEY_OF(SnowParams, gaps, "gaps", KEY_FLOAT), .high = 1,
+     .doc = "Share of the branches that have lost theirs to wind and sun."},
+    {0},
+};
+
+SnowParams snow_params_default(void)
+{
+    return (SnowParams){.steepest = 58.0f, .gaps = 0.25f};
+}
+
+static void snow_defaults(void *out)
+{
+    *(SnowParams *)out = snow_params_default();
+}
+
+const Table snow_table = {.name = "snow",
+                          .doc = "Snow that has settled on the branches.",
+                          .example = "objects:\n"
+                                     "  - name: spruce\n"
+                                     "    tree: {species: norway_spruce, height: 18, snow: {depth: "
+                                     "0.08}}\n",
+                          .size = sizeof(SnowParams),
+                          .keys = SNOW_KEYS,
+                          .defaults = snow_defaults};
