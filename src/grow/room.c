@@ -1,5 +1,7 @@
 #include "grow/room.h"
 
+#include "base/memory.h"
+
 enum { MOST_TURNS = 4 };   // of a step toward free space
 enum { MOST_PROBES = 16 }; // of a step's way
 
@@ -76,4 +78,25 @@ PointSet *room_allowed_points(const Room *room, const PointSet *points, const Ru
         allowed->dimension = points->dimension;
     }
     return allowed;
+}
+
+const Aabb *room_find_trial(const Room *room, uint64_t key)
+{
+    for (int64_t i = 0; i < room->trials->count; i++) {
+        if (room->trials->trial[i].key == key) {
+            return &room->trials->trial[i].reach;
+        }
+    }
+    return NULL;
+}
+
+bool room_keep_trial(const Room *room, uint64_t key, Aabb reach, Error *e)
+{
+    RoomTrials *trials = room->trials;
+    if (!memory_reserve(&trials->trial, &trials->capacity, trials->count + 1, sizeof *trials->trial,
+                        e)) {
+        return false;
+    }
+    trials->trial[trials->count++] = (RoomTrial){key, reach};
+    return true;
 }

@@ -6,6 +6,17 @@
 #include "outtree/out_tree.h"
 #include "shape/points.h"
 
+// How far plants of one habit grow freely, found once for all rivals.
+typedef struct RoomTrial {
+    uint64_t key; // of what it depends on
+    Aabb reach;
+} RoomTrial;
+
+typedef struct RoomTrials {
+    RoomTrial *trial;
+    int64_t count, capacity;
+} RoomTrials;
+
 // Positions are in the growth's own space.
 typedef struct Room {
     // Distance (m) from p to the space that is taken: negative inside. *away: unit direction in
@@ -25,8 +36,24 @@ typedef struct Room {
     // if the growth must stop. NULL = no rivals.
     bool (*meet)(void *user, const OutTree *tree, int64_t first, const Vec3 **rival, int64_t *count,
                  Error *e);
+
+    // Light that all who grow by it share; all four NULL = none. give_leaves is called before each
+    // meet: places of the leaves, m, area of each across the light, m2, and the edge of the voxels
+    // that they need, m. After meet, carry_light makes the light of all leaves that were given when
+    // this round of turns began: light is its share (0..1) on leaves at p, brightest the mean
+    // direction to it, not unit. These two are called by many threads, until the next call of meet.
+    bool (*give_leaves)(void *user, const Vec3 *leaf, int64_t count, float area, float cell,
+                        Error *e);
+    bool (*carry_light)(void *user, int threads, Error *e);
+    float (*light)(const void *user, Vec3 p);
+    Vec3 (*brightest)(const void *user, Vec3 p);
     void *user;
+    RoomTrials *trials; // of all rivals; NULL = none
 } Room;
+
+// The trial of that key; NULL if there is none yet.
+const Aabb *room_find_trial(const Room *room, uint64_t key);
+bool room_keep_trial(const Room *room, uint64_t key, Aabb reach, Error *e);
 
 // The points that the room allows, as a new set with the same mean spacing.
 PointSet *room_allowed_points(const Room *room, const PointSet *points, const Run *run, Error *e);

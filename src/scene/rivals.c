@@ -1,6 +1,7 @@
 #include "scene/rivals.h"
 
 #include "base/memory.h"
+#include "grow/light/stand.h"
 #include "grow/room.h"
 #include "scene/point_hash.h"
 
@@ -20,6 +21,10 @@ typedef struct Player {
     int64_t *told; // per other player: how many of its nodes this one knows
     Vec3 *news;    // the others' new nodes, in its own space
     int64_t news_capacity;
+    bool gives; // leaves to the shared light
+    Vec3 *leaf; // these, in the scene
+    int64_t leaf_capacity;
+    int64_t older[2]; // nodes that it had when light was last carried, and the time before
     bool done;
     Room room;
     pthread_t thread;
@@ -30,7 +35,11 @@ typedef struct Player {
 typedef struct Contested {
     Player *player;
     int count, turn;
-    bool stop; // one failed
+    int64_t round; // how often turns have gone around
+    int64_t lit;   // round in which light was carried
+    RoomTrials trials;
+    LightStand *stand; // light that all share who grow by it
+    bool stop;         // one failed
     pthread_mutex_t lock;
     pthread_cond_t moved;
 } Contested;
@@ -120,6 +129,7 @@ static void pass_turn(Contested *all)
     for (int i = 1; i <= all->count; i++) {
         int next = (all->turn + i) % all->count;
         if (!all->player[next].done) {
+            all->round += next <= all->turn;
             all->turn = next;
             break;
         }
@@ -208,6 +218,70 @@ static bool meet(void *user, const OutTree *tree, int64_t first, const Vec3 **ri
     return true;
 }
 
+// ---- shared light
+
+static bool give_leaves(void *user, const Vec3 *leaf, int64_t count, float area, float cell,
+                        Error *e)
+{
+    Player *me = user;
+    if (!memory_reserve(&me->leaf, &me->leaf_capacity, count, sizeof *me->leaf, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < count; i++) {
+        me->leaf[i] = into_scene(me->rival, leaf[i]);
+    }
+    me->gives = true;
+    return light_stand_give(me->all->stand, me->index, me->leaf, count, area, cell, e);
+}
+
+// Nodes of a rival that gives no leaves shade as leaves do, each in the rounds after its birth.
+static bool give_nodes(Player *other, const Player *me, Error *e)
+{
+    const int64_t *older = other->older;
+    int64_t from = older[1] < other->node_count ? older[1] : other->node_count;
+    float area, cell;
+    light_stand_leaf(me->all->stand, me->index, &area, &cell);
+    if (!light_stand_give(me->all->stand, other->index, other->node + from,
+                          other->node_count - from, area, cell, e)) {
+        return false;
+    }
+    if (!other->done) {
+        other->older[1] = older[0];
+        other->older[0] = other->node_count;
+    }
+    return true;
+}
+
+// The first of a round carries the light, before any has grown; all of the round read it.
+static bool carry_light(void *user, int threads, Error *e)
+{
+    Player *me = user;
+    Contested *all = me->all;
+    if (all->lit == all->round) {
+        return true;
+    }
+    for (int i = 0; i < all->count; i++) {
+        Player *other = &all->player[i];
+        if (!other->gives && !give_nodes(other, me, e)) {
+            return false;
+        }
+    }
+    all->lit = all->round;
+    return light_stand_solve(all->stand, threads, e);
+}
+
+static float light(const void *user, Vec3 p)
+{
+    const Player *me = user;
+    return light_stand_light(me->all->stand, into_scene(me->rival, p));
+}
+
+static Vec3 brightest(const void *user, Vec3 p)
+{
+    const Player *me = user;
+    return turned_back(me->rival, light_stand_brightest(me->all->stand, into_scene(me->rival, p)));
+}
+
 static void *play(void *user)
 {
     Player *me = user;
@@ -237,7 +311,14 @@ static bool join_contest(Contested *all, int index, Rival *rival, Error *e)
                       .obstacle = rival->obstacles ? obstacle : NULL,
                       .allows = allows,
                       .meet = meet,
-                      .user = me};
+                      .user = me,
+                      .trials = &all->trials};
+    if (!rival->obstacles) { // these shade it alone
+        me->room.give_leaves = give_leaves;
+        me->room.carry_light = carry_light;
+        me->room.light = light;
+        me->room.brightest = brightest;
+    }
     rival->recipe.room = &me->room;
     me->points = point_hash_new(2.0f * rival->gap, e);
     me->told = memory_alloc_zero(all->count, sizeof *me->told, e);
@@ -251,6 +332,7 @@ static void leave_contest(Player *me)
     free(me->node);
     free(me->told);
     free(me->news);
+    free(me->leaf);
 }
 
 // Starts the threads; a player whose thread does not start is done.
@@ -310,10 +392,11 @@ bool rivals_grow(Rival *rival, int count, int *failed)
         return grow_alone(rival);
     }
     Error *e = &rival[0].error;
-    Contested all = {.count = count, .lock = PTHREAD_MUTEX_INITIALIZER};
+    Contested all = {.count = count, .lit = -1, .lock = PTHREAD_MUTEX_INITIALIZER};
     pthread_cond_init(&all.moved, NULL);
     all.player = memory_alloc_zero(count, sizeof *all.player, e);
-    bool done = all.player;
+    all.stand = all.player ? light_stand_new(count, e) : NULL;
+    bool done = all.stand;
     int joined = 0;
     for (; done && joined < count; joined++) {
         done = join_contest(&all, joined, &rival[joined], e);
@@ -323,6 +406,8 @@ bool rivals_grow(Rival *rival, int count, int *failed)
         leave_contest(&all.player[i]);
     }
     free(all.player);
+    free(all.trials.trial);
+    light_stand_free(all.stand);
     pthread_cond_destroy(&all.moved);
     *failed = find_failed(rival, count);
     return done && !all.stop;

@@ -3,6 +3,7 @@
 
 #include "scene_fixture.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #define TREE(NAME, PLACE, MORE)                                                     \
@@ -90,6 +91,28 @@ static void rivals_grow_the_same_bits_on_any_threads(void **state)
     scene_free(row);
 }
 
+// Trees whose wood does not meet, but whose leaves shade each other: whoever comes first in the
+// file, the same bits.
+static void the_order_of_trees_does_not_matter(void **state)
+{
+    static const char FIRST[] = TREE("a", "-4, 0, 0", CONTEST),
+                      SECOND[] = TREE("b", "3, 0, 2", CONTEST);
+    char text[2][1024];
+    snprintf(text[0], sizeof text[0], "objects:\n%s%s", FIRST, SECOND);
+    snprintf(text[1], sizeof text[1], "objects:\n%s%s", SECOND, FIRST);
+    Scene *one = fixture_read(*state, text[0]), *other = fixture_read(*state, text[1]);
+    Scene *alone = fixture_read(*state, "objects:\n" TREE("a", "-4, 0, 0", ""));
+    OutTree *tree = grow(one, "a", 2), *same = grow(other, "a", 1), *unshaded = grow(alone, "a", 2);
+    assert_true(out_tree_hash(tree) == out_tree_hash(same));
+    assert_true(out_tree_hash(tree) != out_tree_hash(unshaded));
+    out_tree_free(tree);
+    out_tree_free(same);
+    out_tree_free(unshaded);
+    scene_free(one);
+    scene_free(other);
+    scene_free(alone);
+}
+
 #define WALL                                                                                \
     "  - name: wall\n    shape: {envelope: [{shape: box, size: [0.5, 6, 8], position: [2, " \
     "6, 0]}]}\n"
@@ -113,6 +136,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_stand_has_bare_stems_inside_and_leans_outward,
                                         fixture_set_up, fixture_tear_down),
         cmocka_unit_test_setup_teardown(rivals_grow_the_same_bits_on_any_threads, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(the_order_of_trees_does_not_matter, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(a_wall_is_kept_clear, fixture_set_up, fixture_tear_down),
     };

@@ -94,6 +94,7 @@ void around_clear(Around *around)
 {
     out_tree_free(around->shown);
     free(around->leaf);
+    free(around->own_leaf);
     free(around->map.taken);
 }
 
@@ -141,6 +142,9 @@ bool around_meet(Around *around, const Plant *plant, int season, int leaf_season
         return false;
     }
     around->told = around->shown->count;
+    if (around_shares_light(around)) {
+        return true; // they give their leaves themselves
+    }
     if (count > 0) {
         drop_old(around, season - leaf_seasons);
     }
@@ -154,6 +158,31 @@ bool around_meet(Around *around, const Plant *plant, int season, int leaf_season
             (Leaf){vec3_scale(at, 1.0f / around->site->internode), season};
     }
     return true;
+}
+
+bool around_shares_light(const Around *around)
+{
+    return around->site->room && around->site->room->give_leaves;
+}
+
+bool around_give_leaves(Around *around, const Plant *plant, const LightParams *params, float cell,
+                        int season, Error *e)
+{
+    const LightSite *site = around->site;
+    int64_t count = 0;
+    if (!memory_reserve(&around->own_leaf, &around->own_capacity, plant->living_count,
+                        sizeof *around->own_leaf, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < plant->living_count; i++) {
+        const Metamer *m = &plant->metamer[plant->living[i]];
+        if (metamer_has_leaves(m, season, params->leaf_seasons)) {
+            around->own_leaf[count++] = vec3_madd(site->foot, site->internode, m->position);
+        }
+    }
+    float area = params->shade * site->internode * site->internode;
+    return site->room->give_leaves(site->room->user, around->own_leaf, count, area,
+                                   cell * site->internode, e);
 }
 
 float around_margin(const Around *around, Aabb plant)

@@ -24,8 +24,10 @@ typedef struct Around {
     TakenMap map;
     OutTree *shown; // the plant's metamers as rivals see them
     int64_t told;   // of shown: the rivals know these
-    Leaf *leaf;     // of rivals
+    Leaf *leaf;     // of rivals, if it does not share its light with them
     int64_t leaf_count, leaf_capacity;
+    Vec3 *own_leaf; // m: given to the shared grid
+    int64_t own_capacity;
 } Around;
 
 bool around_init(Around *around, const LightSite *site, int threads, Error *e);
@@ -34,6 +36,13 @@ void around_clear(Around *around);
 // Shows the rivals the plant's new metamers, waits for its turn and notes their new leaves. Those
 // of more than leaf_seasons seasons are dropped once there are younger ones.
 bool around_meet(Around *around, const Plant *plant, int season, int leaf_seasons, Error *e);
+
+// Does the plant read its light from the grid that it shares with its rivals?
+bool around_shares_light(const Around *around);
+
+// Gives that grid the plant's leaves. cell: internodes, edge of the voxels.
+bool around_give_leaves(Around *around, const Plant *plant, const LightParams *params, float cell,
+                        int season, Error *e);
 
 // How far the grid must reach beyond the plant, internodes: 0 if it grows alone.
 float around_margin(const Around *around, Aabb plant);

@@ -1,15 +1,13 @@
 #include "grow/light/light.h"
 
-#include "grow/light/around.h"
+#include "grow/light/season_light.h"
 #include "grow/light/share.h"
 #include "grow/light/shed.h"
 #include "grow/light/shoots.h"
 
-#define CELL 1.5f         // internodes, of the voxels
-#define BORDER 2.5f       // cells about the plant
 #define GROUND 1.0f       // internodes: branches do not sink below
 #define LOW_BRANCHES 0.6f // of the bole: nor below this
-enum { MOST_CELLS = 400000, MOST_METAMERS = 8000000 };
+enum { MOST_METAMERS = 8000000 };
 
 LightParams light_params_default(void)
 {
@@ -33,48 +31,15 @@ LightParams light_params_default(void)
                          .snags = 0.25f};
 }
 
-// Low corners lie on a lattice about the foot, so that a plant's growth shifts no cell borders.
-static Vec3 snapped(Vec3 p, float cell)
+static void catch_light(Plant *plant, const SeasonLight *light, const LightParams *params,
+                        int season, int threads)
 {
-    return vec3(cell * floorf(p.x / cell), cell * floorf(p.y / cell), cell * floorf(p.z / cell));
-}
-
-static ShadeGrid *make_grid(const Plant *plant, const LightParams *params, const LightSite *site,
-                            const Around *around, int season, const Run *run, Error *e)
-{
-    Aabb box = plant_bounds(plant);
-    float margin = around_margin(around, box);
-    Vec3 border = vec3_splat(BORDER * CELL);
-    border.x += margin;
-    border.z += margin;
-    box.low = snapped(vec3_sub(box.low, border), CELL);
-    box.high = vec3_add(box.high, border);
-    ShadeGrid *grid = shade_grid_new(box, CELL, site->cells > 0 ? site->cells : MOST_CELLS, e);
-    if (!grid) {
-        return NULL;
-    }
-    around_shade(around, params->shade, grid);
-    for (int64_t i = 0; i < plant->count; i++) {
-        const Metamer *m = &plant->metamer[i];
-        if (metamer_has_leaves(m, season, params->leaf_seasons)) {
-            shade_grid_add_leaves(grid, m->position, params->shade);
-        }
-    }
-    if (!shade_grid_solve(grid, run->threads, e)) {
-        shade_grid_free(grid);
-        return NULL;
-    }
-    return grid;
-}
-
-static void catch_light(Plant *plant, const ShadeGrid *grid, const LightParams *params, int season,
-                        int threads)
-{
+    threads = plant->living_count < 4000 ? 1 : threads; // a team would cost more than it saves
 #pragma omp parallel for num_threads(threads) schedule(static)
-    for (int64_t i = 0; i < plant->count; i++) {
-        Metamer *m = &plant->metamer[i];
+    for (int64_t i = 0; i < plant->living_count; i++) {
+        Metamer *m = &plant->metamer[plant->living[i]];
         bool leaves = metamer_has_leaves(m, season, params->leaf_seasons);
-        m->light = leaves ? shade_grid_light(grid, m->position) : 0.0f;
+        m->light = leaves ? season_light_at(light, m->position) : 0.0f;
     }
 }
 
@@ -93,24 +58,21 @@ static float control_at(const LightParams *params, int season)
 static bool grow_season(Plant *plant, const LightParams *params, const LightSite *site,
                         Around *around, int season, const Run *run, Error *e)
 {
-    if (!around_meet(around, plant, season, params->leaf_seasons, e)) {
-        return false;
-    }
-    ShadeGrid *grid = make_grid(plant, params, site, around, season, run, e);
-    if (!grid) {
+    SeasonLight light;
+    if (!season_light_init(&light, plant, params, around, season, run, e)) {
         return false;
     }
     float control = control_at(params, season);
     float bole = params->bole * plant_bounds(plant).high.y;
-    catch_light(plant, grid, params, season, run->threads);
+    catch_light(plant, &light, params, season, run->threads);
     plant_sum_light(plant, season, params->leaf_seasons);
     if (plant_shed(plant, params, season, bole) > 0) {
         plant_sum_light(plant, season, params->leaf_seasons);
     }
     plant_share_growth(plant, params->vigor, control);
     float low = LOW_BRANCHES * bole > GROUND ? LOW_BRANCHES * bole : GROUND;
-    bool done = plant_make_shoots(plant, params, site, grid, season, control, low, e);
-    shade_grid_free(grid);
+    bool done = plant_make_shoots(plant, params, site, &light, season, control, low, e);
+    season_light_clear(&light);
     return done;
 }
 

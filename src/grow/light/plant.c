@@ -7,6 +7,7 @@
 void plant_clear(Plant *plant)
 {
     free(plant->metamer);
+    free(plant->living);
     *plant = (Plant){0};
 }
 
@@ -22,11 +23,14 @@ static void link_lateral(Plant *plant, int32_t parent, int32_t child)
 int64_t plant_add(Plant *plant, int32_t parent, int side, Vec3 position, Vec3 direction, Error *e)
 {
     if (!memory_reserve(&plant->metamer, &plant->capacity, plant->count + 1, sizeof *plant->metamer,
-                        e)) {
+                        e) ||
+        !memory_reserve(&plant->living, &plant->living_capacity, plant->living_count + 1,
+                        sizeof *plant->living, e)) {
         return -1;
     }
     Metamer *base = &plant->metamer[parent];
     int32_t made = (int32_t)plant->count++;
+    plant->living[plant->living_count++] = made;
     plant->metamer[made] = (Metamer){.position = position,
                                      .direction = direction,
                                      .side = base->side,
@@ -83,12 +87,16 @@ bool plant_init(Plant *plant, const OutTree *start, const LightParams *params,
 {
     *plant = (Plant){0};
     if (!memory_reserve(&plant->metamer, &plant->capacity, start->count, sizeof *plant->metamer,
-                        e)) {
+                        e) ||
+        !memory_reserve(&plant->living, &plant->living_capacity, start->count,
+                        sizeof *plant->living, e)) {
+        plant_clear(plant);
         return false;
     }
-    plant->count = start->count;
+    plant->count = plant->living_count = start->count;
     for (int64_t i = 0; i < start->count; i++) {
         int32_t parent = start->parent[i];
+        plant->living[i] = (int32_t)i;
         Vec3 at = vec3_scale(vec3_sub(start->position[i], site->foot), 1.0f / site->internode);
         Vec3 from = parent >= 0 ? plant->metamer[parent].position : at;
         Vec3 d = vec3_normalize(vec3_sub(at, from));
@@ -118,13 +126,22 @@ bool plant_init(Plant *plant, const OutTree *start, const LightParams *params,
     return true;
 }
 
+void plant_bury(Plant *plant)
+{
+    int64_t kept = 0;
+    for (int64_t i = 0; i < plant->living_count; i++) {
+        if (plant->metamer[plant->living[i]].died == PLANT_ALIVE) {
+            plant->living[kept++] = plant->living[i];
+        }
+    }
+    plant->living_count = kept;
+}
+
 Aabb plant_bounds(const Plant *plant)
 {
     Aabb box = aabb_empty();
-    for (int64_t i = 0; i < plant->count; i++) {
-        if (plant->metamer[i].died == PLANT_ALIVE) {
-            box = aabb_add(box, plant->metamer[i].position);
-        }
+    for (int64_t i = 0; i < plant->living_count; i++) {
+        box = aabb_add(box, plant->metamer[plant->living[i]].position);
     }
     return box;
 }

@@ -32,6 +32,8 @@ typedef struct Metamer {
 typedef struct Plant {
     Metamer *metamer;
     int64_t count, capacity;
+    int32_t *living; // indices of the living metamers, ascending: each season visits these alone
+    int64_t living_count, living_capacity;
 } Plant;
 
 // The metamers of a start tree. Ends get a terminal bud; nodes between, above the roots and `bole`
@@ -50,6 +52,9 @@ static inline bool metamer_has_leaves(const Metamer *m, int season, int leaf_sea
     return m->died == PLANT_ALIVE && m->parent >= 0 &&
            (m->terminal || season - m->season < leaf_seasons);
 }
+
+// Drops those that died from the list of the living.
+void plant_bury(Plant *plant);
 
 // The box of the living metamers.
 Aabb plant_bounds(const Plant *plant);

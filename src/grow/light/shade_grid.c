@@ -104,6 +104,28 @@ void shade_grid_add_leaves(ShadeGrid *grid, Vec3 p, float area)
     }
 }
 
+// Units of counted leaves in the area of a cell's face.
+#define COUNT_UNITS 16777216.0f
+
+void shade_grid_count_leaves(const ShadeGrid *grid, Vec3 p, float area, int64_t *sum)
+{
+    Corners corners = find_corners(grid, p);
+    float units = COUNT_UNITS * area / (grid->cell * grid->cell);
+    for (int i = 0; i < 8; i++) {
+        int64_t some = (int64_t)(corners.weight[i] * units + 0.5f);
+#pragma omp atomic
+        sum[corners.cell[i]] += some;
+    }
+}
+
+void shade_grid_set_leaves(ShadeGrid *grid, const int64_t *sum)
+{
+    float unit = grid->cell * grid->cell / COUNT_UNITS;
+    for (int64_t i = 0; i < grid->count; i++) {
+        grid->leaf[i] = unit * (float)sum[i];
+    }
+}
+
 static float interpolate(const float *value, const Corners *corners)
 {
     float sum = 0.0f;

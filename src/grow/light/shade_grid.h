@@ -28,6 +28,11 @@ void shade_grid_free(ShadeGrid *grid); // NULL is fine
 // Adds leaves of this area (across the light) at p, shared among the eight nearest cells.
 void shade_grid_add_leaves(ShadeGrid *grid, Vec3 p, float area);
 
+// The same for many threads and in any order: the leaves are counted in `sum`, one integer a cell,
+// 0 at first, which shade_grid_set_leaves then makes the grid's leaves.
+void shade_grid_count_leaves(const ShadeGrid *grid, Vec3 p, float area, int64_t *sum);
+void shade_grid_set_leaves(ShadeGrid *grid, const int64_t *sum);
+
 // Computes light and bright. The same bits for any number of threads.
 bool shade_grid_solve(ShadeGrid *grid, int threads, Error *e);
 

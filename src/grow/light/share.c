@@ -28,15 +28,15 @@ float metamer_bud_light(const Metamer *m)
 
 void plant_sum_light(Plant *plant, int season, int leaf_seasons)
 {
-    for (int64_t i = 0; i < plant->count; i++) {
-        Metamer *m = &plant->metamer[i];
+    for (int64_t i = 0; i < plant->living_count; i++) {
+        Metamer *m = &plant->metamer[plant->living[i]];
         bool leaves = metamer_has_leaves(m, season, leaf_seasons);
         m->leafy = leaves;
         m->income = leaves ? m->light : 0.0f;
     }
-    for (int64_t i = plant->count - 1; i >= 0; i--) {
-        const Metamer *m = &plant->metamer[i];
-        if (m->parent >= 0 && m->died == PLANT_ALIVE) {
+    for (int64_t i = plant->living_count - 1; i >= 0; i--) {
+        const Metamer *m = &plant->metamer[plant->living[i]];
+        if (m->parent >= 0) {
             plant->metamer[m->parent].income += m->income;
             plant->metamer[m->parent].leafy += m->leafy;
         }
@@ -60,11 +60,8 @@ static void share_fork(const Plant *plant, const Metamer *m, float control, floa
 
 void plant_share_growth(Plant *plant, float vigor, float control)
 {
-    for (int64_t i = 0; i < plant->count; i++) {
-        Metamer *m = &plant->metamer[i];
-        if (m->died != PLANT_ALIVE) {
-            continue;
-        }
+    for (int64_t i = 0; i < plant->living_count; i++) {
+        Metamer *m = &plant->metamer[plant->living[i]];
         if (m->parent < 0) {
             m->growth = vigor * m->income;
         }

@@ -8,9 +8,10 @@ static bool is_starving(const Metamer *m, float light_need)
 int64_t plant_shed(Plant *plant, const LightParams *params, int season, float bole)
 {
     int64_t shed = 0;
-    for (int64_t i = 0; i < plant->count; i++) {
+    for (int64_t k = 0; k < plant->living_count; k++) {
+        int32_t i = plant->living[k];
         Metamer *m = &plant->metamer[i];
-        if (m->died != PLANT_ALIVE || m->parent < 0) {
+        if (m->parent < 0) {
             continue;
         }
         const Metamer *base = &plant->metamer[m->parent];
@@ -28,6 +29,9 @@ int64_t plant_shed(Plant *plant, const LightParams *params, int season, float bo
             !metamer_has_leaves(m, season, params->leaf_seasons)) {
             m->buds = 0;
         }
+    }
+    if (shed > 0) {
+        plant_bury(plant);
     }
     return shed;
 }

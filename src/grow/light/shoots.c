@@ -18,7 +18,7 @@ typedef struct Shooting {
     Plant *plant;
     const LightParams *params;
     const LightSite *site;
-    const ShadeGrid *grid;
+    const SeasonLight *light;
     int season;
     float low; // internodes: branches do not sink below
 } Shooting;
@@ -107,7 +107,7 @@ static Vec3 first_direction(const Shooting *s, const Metamer *base, int bud)
 static Vec3 turned(const Shooting *s, Vec3 at, Vec3 d, int order)
 {
     const LightParams *p = s->params;
-    Vec3 light = vec3_normalize(shade_grid_brightest(s->grid, at));
+    Vec3 light = vec3_normalize(season_light_brightest(s->light, at));
     light.y *= order > 0 ? 1.0f - p->plagiotropy : 1.0f;
     Vec3 turn =
         vec3_madd(vec3_scale(light, p->phototropism), of_order(p->tropism, order), s->site->up);
@@ -198,13 +198,14 @@ static bool make_shoot(const Shooting *s, int32_t base, int bud, float growth, E
 }
 
 bool plant_make_shoots(Plant *plant, const LightParams *params, const LightSite *site,
-                       const ShadeGrid *grid, int season, float control, float low, Error *e)
+                       const SeasonLight *light, int season, float control, float low, Error *e)
 {
-    Shooting s = {plant, params, site, grid, season, low};
-    int64_t old = plant->count;
-    for (int32_t i = 0; i < old; i++) {
+    Shooting s = {plant, params, site, light, season, low};
+    int64_t old = plant->living_count;
+    for (int64_t k = 0; k < old; k++) {
+        int32_t i = plant->living[k];
         const Metamer *m = &plant->metamer[i];
-        if (m->died != PLANT_ALIVE || (!m->terminal && !m->buds)) {
+        if (!m->terminal && !m->buds) {
             continue;
         }
         float each_bud, ahead = metamer_bud_growth(plant, m, control, &each_bud);

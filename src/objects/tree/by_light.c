@@ -3,10 +3,13 @@
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "grow/room.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { STREAM_LIGHT = 5 };         // of the object's seed
+enum { STREAM_TRIAL = 1 };         // of what forms a tree
 enum { TRIAL_CELLS = 30000 };      // voxels of the grid of a trial
 enum { LEAST_TRIAL_SEASONS = 30 }; // for limbs that attractors laid
 #define CELLS_AMONG_RIVALS 150000
@@ -82,23 +85,80 @@ static OutTree *grow_free(const TreePlan *plan, LightSite *site, const Recipe *r
     return tree;
 }
 
-// Sets the internode to that of a tree which grows freely to the plan's height.
-static bool find_internode(const TreePlan *plan, LightSite *site, const Recipe *recipe, Error *e)
+// Reach of a tree that grows freely, internodes from the foot.
+static bool try_free(const TreePlan *plan, const LightSite *site, const Recipe *recipe, Aabb *reach,
+                     Error *e)
 {
     LightSite trial = *site;
     trial.cells = TRIAL_CELLS;
-    if (plan->grown_by == GROWN_BY_BOTH && trial.seasons < LEAST_TRIAL_SEASONS) {
-        trial.seasons = LEAST_TRIAL_SEASONS;
-    }
     OutTree *tree = grow_free(plan, &trial, recipe, e);
     if (!tree) {
         return false;
     }
-    site->reach = out_tree_bounds(tree);
-    site->reach.low = vec3_sub(site->reach.low, site->foot);
-    site->reach.high = vec3_sub(site->reach.high, site->foot);
-    site->internode = plan->params.height / site->reach.high.y;
+    *reach = out_tree_bounds(tree);
+    reach->low = vec3_sub(reach->low, site->foot);
+    reach->high = vec3_sub(reach->high, site->foot);
     out_tree_free(tree);
+    return true;
+}
+
+static uint64_t key_of_words(uint64_t key, const void *words, size_t size)
+{
+    for (size_t i = 0; i + 4 <= size; i += 4) {
+        uint32_t word;
+        memcpy(&word, (const char *)words + i, sizeof word);
+        key = random_key(key, word);
+    }
+    return key;
+}
+
+// Rivals of one habit share a trial: its key and, with it, its seed are of all that forms it.
+static uint64_t trial_key(const TreePlan *plan, const LightSite *site)
+{
+    const TrunkParams *trunk = &plan->params.trunk;
+    float height = plan->params.height;
+    LightParams growth = plan_growth(plan);
+    const float more[] = {(float)site->seasons,
+                          site->up.x,
+                          site->up.y,
+                          site->up.z,
+                          trunk->lean,
+                          trunk->lean_azimuth,
+                          (float)trunk->stems,
+                          trunk->radius / height,
+                          trunk->stem_circle / height,
+                          trunk->stem_scatter};
+    return key_of_words(key_of_words(STREAM_TRIAL, &growth, sizeof growth), more, sizeof more);
+}
+
+static bool find_reach(const TreePlan *plan, LightSite trial, const Recipe *recipe, Aabb *reach,
+                       Error *e)
+{
+    const Room *room = recipe->room;
+    if (!room || !room->trials) {
+        return try_free(plan, &trial, recipe, reach, e);
+    }
+    uint64_t key = trial_key(plan, &trial);
+    const Aabb *found = room_find_trial(room, key);
+    if (found) {
+        *reach = *found;
+        return true;
+    }
+    trial.seed = key;
+    return try_free(plan, &trial, recipe, reach, e) && room_keep_trial(room, key, *reach, e);
+}
+
+// Sets the internode to that of a tree which grows freely to the plan's height.
+static bool find_internode(const TreePlan *plan, LightSite *site, const Recipe *recipe, Error *e)
+{
+    LightSite trial = *site;
+    if (plan->grown_by == GROWN_BY_BOTH && trial.seasons < LEAST_TRIAL_SEASONS) {
+        trial.seasons = LEAST_TRIAL_SEASONS;
+    }
+    if (!find_reach(plan, trial, recipe, &site->reach, e)) {
+        return false;
+    }
+    site->internode = plan->params.height / site->reach.high.y;
     return true;
 }
 
