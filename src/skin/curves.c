@@ -134,7 +134,8 @@ static void relax_curve(CurveBuilder *builder)
     }
 }
 
-// Tapers radii to a third at the tip, whatever the tree's radii, mostly near the tip.
+// Unless params.blunt, tapers radii to a third at the tip, whatever the tree's radii, mostly near
+// the tip.
 static void dress_curve(CurveBuilder *builder)
 {
     const SkinPlan *plan = builder->plan;
@@ -151,7 +152,7 @@ static void dress_curve(CurveBuilder *builder)
             i > 0 ? raw[i - 1].along + vec3_distance(raw[i - 1].position, raw[i].position) : 0.0f;
     }
     float length = raw[count - 1].along;
-    for (int64_t i = 0; i < count && length > 0.0f; i++) {
+    for (int64_t i = 0; i < count && length > 0.0f && !plan->params.blunt; i++) {
         float t = raw[i].along / length;
         raw[i].radius *= 1.0f - 0.67f * t * t;
     }

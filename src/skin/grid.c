@@ -23,7 +23,9 @@ float skin_grid_sides(float radius, float thinnest, float thickest)
 
 static float wanted_sides(const SkinPlan *plan, float radius)
 {
-    return skin_grid_sides(radius, plan->thinnest, plan->thickest);
+    float sides = skin_grid_sides(radius, plan->thinnest, plan->thickest);
+    float least = (float)plan->params.sides;
+    return clampf(sides > least ? sides : least, 4.0f, (float)SKIN_MAX_SIDES);
 }
 
 // Four sides are too few for children to leave from; a tube without children needs no more.

@@ -56,7 +56,9 @@ static Transform frame_of(const OrganGroup *group, const Site *site)
     Vec3 x = vec3_cross(y, random_direction(random_key(site->key, STREAM_ROLL)));
     x = vec3_dot(x, x) > 1e-6f ? vec3_normalize(x) : vec3_perpendicular(y);
     float size = 1.0f - group->size_variation * random_unit(random_key(site->key, STREAM_SIZE));
-    float inside = group->where == SITES_ENDS ? 0.0f : 0.85f * site->radius;
+    static const float inside_of[] = {
+        [SITES_ENDS] = 0.0f, [SITES_ALONG] = 0.85f, [SITES_STEM] = 0.96f};
+    float inside = inside_of[group->where] * site->radius;
     return transform_from_axes(vec3_scale(x, size), vec3_scale(y, size),
                                vec3_scale(vec3_cross(x, y), size),
                                vec3_madd(site->position, inside, site->out));
@@ -102,6 +104,15 @@ static bool add_place(Organs *organs, Site *site, Vec3 reference, int64_t number
     return true;
 }
 
+// Unit direction of a curve's last piece.
+static Vec3 curve_end(const CurveSet *curves, int64_t curve)
+{
+    int64_t last = curves->first[curve + 1] - 1, first = curves->first[curve];
+    return last > first
+               ? vec3_normalize(vec3_sub(curves->position[last], curves->position[last - 1]))
+               : vec3(0, 1, 0);
+}
+
 // Walks a branch from its tip toward its start while it is thin enough.
 static bool add_twig(Organs *organs, int64_t curve, Error *e)
 {
@@ -111,7 +122,9 @@ static bool add_twig(Organs *organs, int64_t curve, Error *e)
     int64_t first = curves->first[curve], last = curves->first[curve + 1] - 1, number = 0;
     bool ends = group->where == SITES_ENDS;
     float until = ends ? 0.0f : group->spacing * random_unit(random_key(key, STREAM_OFFSET));
-    Vec3 reference = random_direction(random_key(key, STREAM_REFERENCE));
+    Vec3 reference = group->where == SITES_STEM // lines start where the skin's ribs do
+                         ? vec3_perpendicular(curve_end(curves, curve))
+                         : random_direction(random_key(key, STREAM_REFERENCE));
     for (int64_t i = last; i > first && curves->radius[i] < group->twig_radius; i--) {
         Vec3 a = curves->position[i], b = curves->position[i - 1];
         float length = vec3_distance(a, b);
@@ -238,6 +251,7 @@ static bool add_group(const OutTree *tree, const OrgansParams *params, int index
 {
     const OrganGroup *group = &params->group[index];
     SkinParams skin = branches_skin(params->skin);
+    skin.blunt = group->where == SITES_STEM; // lines lie on the bark
     CurveSet *curves = skin_curves(tree, fmaxf(group->twig_radius, skin.min_radius), &skin, e);
     bool some = params->bare_from >= 0;
     bool *bare = some && curves ? branches_bare(tree, curves, params->bare_from, e) : NULL;

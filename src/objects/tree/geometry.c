@@ -1,15 +1,18 @@
 // From a grown tree to geometry: bark mesh, twigs as curves, leaves and organs as instances.
 #include "objects/tree/buttress.h"
 #include "objects/tree/defaults.h"
+#include "objects/tree/ribs.h"
 #include "objects/tree/tree.h"
 
 #include "base/random.h"
+
+enum { RIBBED_SIDES = 32 }; // of the cage
 
 static bool add_bark(const OutTree *tree, const TreeParams *params, const SkinParams *skin,
                      const Placing *placing, Error *e)
 {
     Mesh *mesh = skin_tree(tree, skin, placing->recipe->run, e);
-    if (mesh && !tree_buttress(mesh, tree, params, e)) {
+    if (mesh && (!tree_buttress(mesh, tree, params, e) || !tree_ribs(mesh, params, e))) {
         mesh_free(mesh);
         return false;
     }
@@ -23,6 +26,7 @@ bool tree_geometry(const void *given, const Grown *grown, const Placing *placing
     const TreeParams *params = &plan.params;
     int32_t leafless = plan.grown_by == GROWN_BY_ATTRACTORS ? -1 : TREE_SNAGS;
     SkinParams skin = branches_skin(&params->skin);
+    skin.sides = params->trunk.ribs > 0 ? RIBBED_SIDES : 0;
     TwigParams twigs = {.skin = &params->skin,
                         .leaves = &params->leaves,
                         .light.center =

@@ -9,6 +9,7 @@
 #include "objects/tree/by_light.h"
 #include "objects/tree/defaults.h"
 #include "objects/tree/limbs.h"
+#include "objects/tree/ribs.h"
 #include "outtree/radii.h"
 
 #include <stdlib.h>
@@ -337,6 +338,9 @@ bool tree_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e)
         return false;
     }
     compute_radii(whole->tree, tree, by_light);
+    if (!tree_round_ends(whole->tree, tree, e)) {
+        return false;
+    }
     return tree->roots.count <= 0 ||
            grow_roots(whole->tree, tree, random_key(seed, STREAM_TREE_ROOTS), recipe, e);
 }
