@@ -11,7 +11,8 @@ typedef struct SurfacePoint {
     Vec3 position; // world
     Vec3 lifted;   // position raised from the facet to the smooth surface that the vertex normals
                    // tell of: where rays start that leave on normal's side (no shadow terminator)
-    Vec3 object_position;       // in the part's own space: where 3D patterns are looked up
+    Vec3 object_position;       // in the part's own space, before displacement: where 3D patterns
+                                // are looked up
     const Transform *transform; // from that space to the world; NULL = identity
     Vec3 facet_normal;     // unit, world, on the side of the ray's origin: of the flat face itself
     Vec3 geometric_normal; // unit, world, same side: of the surface before bumps, which is the
@@ -24,6 +25,10 @@ typedef struct SurfacePoint {
     bool has_uv;  // both coordinates; of curves only v is set
     float radius; // m, of the branch; 0 when unknown
     float birth;
+    float displaced;    // share of the relief that is in the geometry, 0..1; bumps make the rest
+    Vec3 smooth_normal; // of diced meshes: unit, world, on the side of normal, of the surface
+                        // before displacement; else 0
+    Vec3 along;      // of diced meshes: unit, world, the way in which v grows; else 0
     Vec2 site;       // of land: altitude and wetness, 0..1 each
     float variation; // 0..1 per instance
     float season;    // of a leaf, -1..1: see InstanceLook
@@ -33,5 +38,12 @@ typedef struct SurfacePoint {
     float footprint; // m: rough width of the pixel here, for fading fine patterns; 0 = unknown
     int material, object, part;
 } SurfacePoint;
+
+// Of the surface before bumps and displacement.
+static inline Vec3 surface_smooth_normal(const SurfacePoint *point)
+{
+    bool diced = vec3_dot(point->smooth_normal, point->smooth_normal) > 0.5f;
+    return diced ? point->smooth_normal : point->geometric_normal;
+}
 
 #endif

@@ -34,6 +34,9 @@ static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PL
                                  {"fibrous", BARK_FIBROUS},   {"flakes", BARK_FLAKES},
                                  {"bands", BARK_BANDS},       {0}};
 
+static const EnumName DISPLACEMENTS[] = {
+    {"auto", DISPLACEMENT_AUTO}, {"off", DISPLACEMENT_OFF}, {"on", DISPLACEMENT_ON}, {0}};
+
 static const EnumName MAPPINGS[] = {
     {"auto", MAPPING_AUTO}, {"uv", MAPPING_UV}, {"triplanar", MAPPING_TRIPLANAR}, {0}};
 
@@ -106,6 +109,27 @@ static const Key MATERIAL_KEYS[] = {
      .doc = "Wavelength of the pattern's largest features; 0 = the pattern's default."},
     {KEY_OF(Material, pattern_depth, "pattern_depth", KEY_FLOAT), .kinds = BUMPED, .high = 1e3,
      .unit = "m", .doc = "Height of the pattern's bumps; 0 = none."},
+    {KEY_OF(Material, displacement, "displacement", KEY_ENUM), .kinds = PATTERNED,
+     .names = DISPLACEMENTS,
+     .doc = "Is the relief true geometry near the camera? auto: of barks and of "
+            "displacement_texture; on: of pattern noise, too; off: bumps everywhere. Meshes that "
+            "are drawn once are diced to about 1.5 pixels (5 x render.detail) where the camera "
+            "sees the relief; copies of an object keep bumps."},
+    {KEY_OF(Material, moss, "moss", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
+     .doc = "Pattern bark: how much moss grows on it: at the foot, on sides that face up or north "
+            "(-z), in furrows first."},
+    {KEY_OF(Material, lichen, "lichen", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
+     .doc = "Pattern bark: how much lichen grows on it."},
+    {KEY_OF(Material, scars, "scars", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
+     .doc = "Pattern bark: how many knots and scars of shed limbs it has."},
+    {KEY_OF(Material, ribs, "ribs", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
+     .doc = "Pattern bark: depth of ribs along a thick stem, 1 = half of its radius; only where it "
+            "is displaced."},
+    {KEY_OF(Material, hollows, "hollows", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
+     .doc = "Pattern bark: how many holes rot has left in a thick stem; deep only where it is "
+            "displaced."},
+    {KEY_OF(Material, twist, "twist", KEY_FLOAT), .kinds = PATTERNED, .low = -3600, .high = 3600,
+     .unit = "degrees/m", .doc = "Pattern bark: turn of the grain about the stem."},
     {KEY_OF(Material, veins, "veins", KEY_FLOAT), .kinds = PATTERNED, .high = 60,
      .doc = "Pattern leaf: side veins on each half of a blade, lobe or leaflet; 0 = veins that run "
             "along it, as of grasses, palms, ginkgo."},
@@ -129,6 +153,11 @@ static const Key MATERIAL_KEYS[] = {
      .doc = "Image whose first channel multiplies roughness; not of a metal of roughness 0."},
     {KEY_OF(Material, transmittance_texture, "transmittance_texture", KEY_FILE),
      .kinds = BIT(MATERIAL_LEAF), .doc = "Image that multiplies a leaf's transmittance."},
+    {KEY_OF(Material, displacement_texture, "displacement_texture", KEY_FILE), .kinds = PATTERNED,
+     .doc = "Image whose first channel is the height of the surface: grey 0.5 leaves it where it "
+            "is. True geometry near the camera (displacement), bumps elsewhere."},
+    {KEY_OF(Material, displacement_depth, "displacement_depth", KEY_FLOAT), .kinds = PATTERNED,
+     .high = 1e3, .unit = "m", .doc = "Height of white over black in displacement_texture."},
     {KEY_OF(Material, texture_mapping, "texture_mapping", KEY_ENUM), .kinds = BUMPED,
      .names = MAPPINGS,
      .doc = "How images, but alpha_texture, are laid on the surface. uv: by its UVs; triplanar: "

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "mesh/curve_tubes.h"
 #include "render/accel/accel_detail.h"
+#include "render/material/relief.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -93,6 +94,12 @@ static unsigned form_traits(const Accel *accel, const Part *part)
            (material_has(m, TRAIT_EMISSIVE) ? TRAIT_EMISSIVE : 0u);
 }
 
+static uint64_t relief_of(const Accel *accel, const Part *part)
+{
+    bool can = part->kind == PART_MESH && !part->instance;
+    return can ? relief_key(&accel->world->material[part->material]) : 0;
+}
+
 static void set_filters(RTCGeometry geometry, AccelPiece *own)
 {
     rtcSetGeometryUserData(geometry, own);
@@ -145,11 +152,30 @@ static void widen_tubes(Mesh *tubes)
     }
 }
 
+static bool displace(const Accel *accel, AccelPiece *own, Error *e)
+{
+    const World *world = accel->world;
+    ReliefView view = {.views = &accel->views,
+                       .frame = world->views.count > 0 ? NULL : &accel->camera,
+                       .width = world->film.width,
+                       .height = world->film.height,
+                       .material = world->material,
+                       .set = accel->materials};
+    if (!accel_relief_dice(&view, own->part, accel->run, &own->diced, e)) {
+        return false;
+    }
+    own->mesh = own->diced.mesh ? own->diced.mesh : own->mesh;
+    return true;
+}
+
 static bool add_piece(Accel *accel, AccelPiece piece, Error *e)
 {
     AccelPiece *own = &accel->piece[accel->piece_count++];
     *own = piece; // its arrays are owned from here on
     const Part *part = piece.part;
+    if (!displace(accel, own, e)) {
+        return false;
+    }
     if (part->kind == PART_CURVES && worth_tubes(accel, part)) {
         own->tubes = curve_tubes(part->curves, 0, part->curves->curve_count, CURVE_TUBE_SIDES, e);
         if (!own->tubes) {
@@ -214,7 +240,8 @@ static bool add_part(Accel *accel, int32_t number, Error *e)
                         .count = part->instance ? part->instance_count : 0,
                         .base_variation = 0.5f,
                         .filters = filters_of(accel, part),
-                        .traits = form_traits(accel, part)};
+                        .traits = form_traits(accel, part),
+                        .relief = relief_of(accel, part)};
     if (is_empty(part)) {
         return true;
     }
@@ -404,9 +431,10 @@ Accel *accel_new(const World *world, const MaterialSet *materials, const char *i
     accel->bytes_limit = (int64_t)memory_allowed();
     pthread_mutex_init(&accel->lock, NULL);
     accel->device = open_device(accel, isa, run->threads, e);
-    CameraFrame camera = camera_frame(&world->camera, world->film.width, world->film.height);
-    accel->views = world->views.count > 0 ? world->views
-                                          : (Views){&camera.position, 1, camera.pixel_angle, 0.0f};
+    accel->camera = camera_frame(&world->camera, world->film.width, world->film.height);
+    accel->views = world->views.count > 0
+                       ? world->views
+                       : (Views){&accel->camera.position, 1, accel->camera.pixel_angle, 0.0f};
     accel->views.detail = world->render.detail;
     if (!accel->device || !build(accel, e)) {
         accel_free(accel);
@@ -435,6 +463,7 @@ void accel_free(Accel *accel)
     }
     for (int32_t i = 0; i < accel->piece_count; i++) { // Embree no longer reads them
         mesh_free(accel->piece[i].tubes);
+        diced_mesh_clear(&accel->piece[i].diced);
         free(accel->piece[i].which);
         pairs_clear(&accel->piece[i].pairs);
     }
@@ -454,7 +483,8 @@ bool accel_fits_materials(const Accel *accel)
     for (int32_t i = 0; i < accel->piece_count; i++) {
         const AccelPiece *piece = &accel->piece[i];
         if (piece->filters != filters_of(accel, piece->part) ||
-            piece->traits != form_traits(accel, piece->part)) {
+            piece->traits != form_traits(accel, piece->part) ||
+            piece->relief != relief_of(accel, piece->part)) {
             return false;
         }
     }

@@ -15,7 +15,8 @@ static RTCGeometry single_mesh(const AccelPiece *piece)
         joined ? piece->pairs.corner : mesh->index, 0, (size_t)(quads ? 4 : 3) * 4,
         (size_t)(joined ? piece->pairs.count : mesh->face_count));
     if (position) {
-        memcpy(position, mesh->position, (size_t)mesh->vertex_count * sizeof(Vec3));
+        const Vec3 *drawn = piece->diced.mesh ? piece->diced.displaced : mesh->position;
+        memcpy(position, drawn, (size_t)mesh->vertex_count * sizeof(Vec3));
     }
     return geometry;
 }

@@ -4,6 +4,7 @@
 
 #include "render/accel/accel.h"
 #include "render/accel/accel_pairs.h"
+#include "render/accel/accel_relief.h"
 #include "render/world.h"
 
 #include <embree3/rtcore.h>
@@ -19,6 +20,8 @@ typedef struct AccelPiece {
     int32_t number;          // of the part in the world
     const Mesh *mesh;        // that is drawn; NULL = round curves
     Mesh *tubes;             // owned: `mesh`, of thin curves; else NULL
+    DicedMesh diced;         // its mesh is `mesh` if that is displaced
+    uint64_t relief;         // of its material: see relief_key
     int64_t count;           // instances; 0 = drawn once
     uint32_t *which;         // owned: their numbers; NULL = all
     Pairs pairs;             // triangles that are drawn as quads
@@ -51,8 +54,9 @@ struct Accel {
     RTCScene scene;
     AccelPiece *piece;
     int32_t piece_count;
-    bool has_quads; // in some mesh
-    Views views;    // only while building
+    bool has_quads;     // in some mesh
+    Views views;        // these two only while building
+    CameraFrame camera; // the only view, unless world->views has others
     AccelEntry *entry;
     int64_t entry_count, entry_capacity;
     int64_t copied_faces; // of instances copied out so far

@@ -58,12 +58,12 @@ static Vec3 normal_to_world(const Transform *t, Vec3 n)
 
 // The point lifted to the tangent planes of the vertices: Hanika, "Hacking the Shadow Terminator",
 // Ray Tracing Gems II, 2021. All in the part's space; normals on the ray's side.
-static Vec3 lift(const Mesh *mesh, const Corners *c, Vec3 p, float side)
+static Vec3 lift(const Vec3 *position, const Vec3 *normal, const Corners *c, Vec3 p, float side)
 {
     Vec3 lifted = p;
     for (int i = 0; i < 3; i++) {
-        Vec3 n = vec3_scale(mesh->normal[c->vertex[i]], side);
-        float depth = vec3_dot(vec3_sub(p, mesh->position[c->vertex[i]]), n);
+        Vec3 n = vec3_scale(normal[c->vertex[i]], side);
+        float depth = vec3_dot(vec3_sub(p, position[c->vertex[i]]), n);
         if (depth < 0.0f) {
             lifted = vec3_madd(lifted, -depth * c->weight[i], n);
         }
@@ -96,14 +96,36 @@ static Vec3 smooth_normal(Vec3 n, Vec3 facet, Vec3 direction)
     return cosine >= least ? n : vec3_normalize(vec3_madd(n, cosine - 2.0f * least, direction));
 }
 
+static Vec3 weighted(const Vec3 *value, const Corners *c)
+{
+    Vec3 sum = vec3_scale(value[c->vertex[0]], c->weight[0]);
+    sum = vec3_madd(sum, c->weight[1], value[c->vertex[1]]);
+    return vec3_madd(sum, c->weight[2], value[c->vertex[2]]);
+}
+
+// What patterns need of the surface before displacement: they are looked up there, and their places
+// follow `along` and the smooth normal from vertex to vertex. Diced meshes have no transform.
+static void undisplaced(const DicedMesh *diced, const Corners *c, float side, SurfacePoint *point)
+{
+    point->object_position = weighted(diced->mesh->position, c);
+    point->smooth_normal = vec3_scale(vec3_normalize(weighted(diced->mesh->normal, c)), side);
+    point->along = vec3_normalize(weighted(diced->along, c));
+    for (int i = 0; i < 3; i++) {
+        point->displaced += c->weight[i] * diced->share[c->vertex[i]];
+    }
+}
+
 static void mesh_surface(const PieceHit *at, const Transform *t, Vec3 direction,
                          SurfacePoint *point)
 {
     const Mesh *mesh = at->own->mesh;
+    const DicedMesh *diced = at->own->diced.mesh ? &at->own->diced : NULL;
+    const Vec3 *position = diced ? diced->displaced : mesh->position;
+    const Vec3 *normal = diced ? diced->normal : mesh->normal;
     Corners c = accel_corners(mesh, at->primitive, at->u, at->v);
-    Vec3 a = mesh->position[c.vertex[0]];
-    Vec3 e1 = vec3_sub(mesh->position[c.vertex[1]], a);
-    Vec3 e2 = vec3_sub(mesh->position[c.vertex[2]], a);
+    Vec3 a = position[c.vertex[0]];
+    Vec3 e1 = vec3_sub(position[c.vertex[1]], a);
+    Vec3 e2 = vec3_sub(position[c.vertex[2]], a);
     Vec3 p = vec3_madd(vec3_madd(a, c.weight[1], e1), c.weight[2], e2);
     Vec3 facet = vec3_cross(e1, e2);
     Vec3 geometric = vec3_normalize(t ? normal_to_world(t, facet) : facet);
@@ -112,18 +134,19 @@ static void mesh_surface(const PieceHit *at, const Transform *t, Vec3 direction,
     point->object_position = p;
     point->position = point->lifted = t ? transform_point(t, p) : p;
     point->facet_normal = point->normal = vec3_scale(geometric, side);
-    if (mesh->normal) {
-        Vec3 n = vec3_scale(mesh->normal[c.vertex[0]], c.weight[0]);
-        n = vec3_madd(n, c.weight[1], mesh->normal[c.vertex[1]]);
-        n = vec3_madd(n, c.weight[2], mesh->normal[c.vertex[2]]);
+    if (normal) {
+        Vec3 n = weighted(normal, &c);
         n = vec3_normalize(t ? normal_to_world(t, n) : n);
         if (vec3_dot(n, n) > 0.0f) {
             point->normal = smooth_normal(n, point->facet_normal, direction);
-            Vec3 lifted = lift(mesh, &c, p, side);
+            Vec3 lifted = lift(position, normal, &c, p, side);
             point->lifted = t ? transform_point(t, lifted) : lifted;
         }
     }
     point->geometric_normal = point->normal;
+    if (diced) {
+        undisplaced(diced, &c, side, point);
+    }
     if (mesh->uv) {
         point->uv = accel_uv(mesh, &c);
         point->has_uv = true;

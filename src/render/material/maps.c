@@ -16,7 +16,7 @@ enum { MOST_PROJECTIONS = 3 };
 bool maps_are_given(const Material *m)
 {
     const char *const files[] = {m->texture, m->normal_texture, m->roughness_texture,
-                                 m->transmittance_texture};
+                                 m->transmittance_texture, m->displacement_texture};
     bool given = false;
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         given = given || (files[i] && files[i][0]);
@@ -60,7 +60,7 @@ static int along_axes(const Material *m, const SurfacePoint *point,
     float weight[3], sum = 0.0f;
     for (int i = 0; i < 3; i++) {
         axis[i] = axis_of(point->transform, i);
-        float n = vec3_dot(axis[i], point->geometric_normal);
+        float n = vec3_dot(axis[i], surface_smooth_normal(point));
         weight[i] = n * n * n * n;
         sum += weight[i];
     }
@@ -122,18 +122,53 @@ static void set_roughness(const MaterialEntry *entry, float factor, Bsdf *b)
     }
 }
 
+static int projections(const Material *m, const SurfacePoint *point, Projection p[MOST_PROJECTIONS])
+{
+    bool axes = m->texture_mapping == MAPPING_TRIPLANAR ||
+                (m->texture_mapping == MAPPING_AUTO && !point->has_uv);
+    if (axes) {
+        return along_axes(m, point, p);
+    }
+    p[0] = by_uv(m, point);
+    return 1;
+}
+
+float maps_height(const MaterialEntry *entry, const SurfacePoint *point)
+{
+    if (!entry->displacement) {
+        return 0.0f;
+    }
+    Projection p[MOST_PROJECTIONS];
+    int count = projections(&entry->material, point, p);
+    float value = mean_of(texture_data, entry->displacement, p, count).x;
+    return entry->material.displacement_depth * (value - 0.5f);
+}
+
+// The slope of the heights that displacement_texture gives, by differences over a pixel.
+static Vec3 slope_of_heights(const MaterialEntry *entry, const SurfacePoint *point,
+                             const Projection p[], int count)
+{
+    Vec3 slope = vec3_splat(0.0f);
+    for (int i = 0; i < count && point->footprint > 0.0f; i++) {
+        float share = entry->material.displacement_depth * p[i].weight / point->footprint;
+        for (int k = 0; k < 2; k++) {
+            float step = 0.5f * (k == 0 ? p[i].du : p[i].dv);
+            Vec2 back = p[i].uv, ahead = p[i].uv;
+            *(k == 0 ? &back.x : &back.y) -= step;
+            *(k == 0 ? &ahead.x : &ahead.y) += step;
+            float rise = texture_data(entry->displacement, ahead, p[i].du, p[i].dv).x -
+                         texture_data(entry->displacement, back, p[i].du, p[i].dv).x;
+            slope = vec3_madd(slope, share * rise, k == 0 ? p[i].along_u : p[i].along_v);
+        }
+    }
+    return slope;
+}
+
 void maps_apply(const MaterialEntry *entry, const SurfacePoint *point, Bsdf *b)
 {
     const Material *m = &entry->material;
     Projection p[MOST_PROJECTIONS];
-    bool axes = m->texture_mapping == MAPPING_TRIPLANAR ||
-                (m->texture_mapping == MAPPING_AUTO && !point->has_uv);
-    int count = 1;
-    if (axes) {
-        count = along_axes(m, point, p);
-    } else {
-        p[0] = by_uv(m, point);
-    }
+    int count = projections(m, point, p);
     if (entry->color) {
         Vec3 texel = mean_of(texture_color, entry->color, p, count);
         b->color = vec3_mul(b->color, texel);
@@ -151,5 +186,10 @@ void maps_apply(const MaterialEntry *entry, const SurfacePoint *point, Bsdf *b)
         float side = point->backface ? -1.0f : 1.0f;
         Vec3 slope = vec3_scale(slope_of(entry->normal, p, count), side);
         b->normal = pattern_tilt(b->normal, slope);
+    }
+    if (entry->displacement && point->displaced < 1.0f) {
+        float side = point->backface ? -1.0f : 1.0f;
+        Vec3 slope = slope_of_heights(entry, point, p, count);
+        b->normal = pattern_tilt(b->normal, vec3_scale(slope, side * (1.0f - point->displaced)));
     }
 }

@@ -49,6 +49,13 @@ typedef enum PatternKind {
     PATTERN_ALTITUDE   // the colours of a map, by the altitude of the land
 } PatternKind;
 
+// Is relief displaced near the camera?
+typedef enum Displacement {
+    DISPLACEMENT_AUTO, // of barks and of displacement_texture
+    DISPLACEMENT_OFF,  // bumps everywhere
+    DISPLACEMENT_ON    // of patterns that can be: bark, noise
+} Displacement;
+
 typedef enum BarkKind {
     BARK_FURROWED, // long ridges and deep furrows: oak, lime, ash
     BARK_PLATES,   // thick scaly plates; thin orange flakes (color2) on thinner stems: pine
@@ -94,17 +101,26 @@ typedef struct Material {
     BarkKind bark;       // PATTERN_BARK
     float pattern_scale; // m: wavelength of the pattern's largest feature; 0 = the kind's own
     float pattern_depth; // m: bump height; 0 = none
-    float veins;         // PATTERN_LEAF: side veins on each half; 0 = veins along the blade
-    float snow_line, grass_line;   // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above
-                                   // and below which they lie; 0 = none
-    ColorStop *colors;             // PATTERN_ALTITUDE: borrowed, `at` ascends; NULL = from color to
-    int color_count;               // color2
-    float variation;               // 0..1: how far hue and value differ from instance to instance
-    const char *texture;           // file that multiplies color, by uv; NULL = none; borrowed
-    const char *alpha_texture;     // NULL = opaque; borrowed
-    const char *normal_texture;    // tangent-space normals, green along v; NULL = none; borrowed
-    const char *roughness_texture; // red multiplies roughness; NULL = none; borrowed
+    Displacement displacement;
+    // PATTERN_BARK, 0..1 each:
+    float moss, lichen;          // how much of it grows there
+    float scars;                 // how many shed limbs have left theirs
+    float ribs;                  // depth of the stem's ribs: 1 = half of its radius
+    float hollows;               // how many holes rot has left
+    float twist;                 // degrees per metre, of the grain about the stem
+    float veins;                 // PATTERN_LEAF: side veins on each half; 0 = veins along the blade
+    float snow_line, grass_line; // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above
+                                 // and below which they lie; 0 = none
+    ColorStop *colors;           // PATTERN_ALTITUDE: borrowed, `at` ascends; NULL = from color to
+    int color_count;             // color2
+    float variation;             // 0..1: how far hue and value differ from instance to instance
+    const char *texture;         // file that multiplies color, by uv; NULL = none; borrowed
+    const char *alpha_texture;   // NULL = opaque; borrowed
+    const char *normal_texture;  // tangent-space normals, green along v; NULL = none; borrowed
+    const char *roughness_texture;     // red multiplies roughness; NULL = none; borrowed
     const char *transmittance_texture; // multiplies transmittance; NULL = none; borrowed
+    const char *displacement_texture;  // red is the height; NULL = none; borrowed
+    float displacement_depth;          // m, of white over black there
     TextureMapping texture_mapping;
     float texture_scale; // m, or units of uv, that the pictures cover; 0 = 1
 } Material;

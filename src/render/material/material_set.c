@@ -50,7 +50,9 @@ static bool open_textures(MaterialSet *set, MaterialEntry *entry, const Run *run
            open_texture(set, m, "roughness_texture", m->roughness_texture, &entry->roughness, run,
                         e) &&
            open_texture(set, m, "transmittance_texture", m->transmittance_texture,
-                        &entry->transmittance, run, e);
+                        &entry->transmittance, run, e) &&
+           open_texture(set, m, "displacement_texture", m->displacement_texture,
+                        &entry->displacement, run, e);
 }
 
 // The tables of a surface whose roughness differs from place to place.

@@ -25,7 +25,7 @@ typedef struct MaterialEntry {
                                 // is for all of the surface
     bool mapped;                // one of the pictures but opacity is given
     // Borrowed from the cache; NULL = none.
-    Texture *color, *opacity, *normal, *roughness, *transmittance;
+    Texture *color, *opacity, *normal, *roughness, *transmittance, *displacement;
 } MaterialEntry;
 
 struct MaterialSet {

@@ -2,6 +2,8 @@
 
 #include "render/material/pattern_noise.h"
 
+#include <stddef.h>
+
 Vec3 pattern_tilt(Vec3 n, Vec3 slope)
 {
     slope = vec3_madd(slope, -vec3_dot(slope, n), n);
@@ -33,7 +35,22 @@ static void noise_pattern(const Material *m, const SurfacePoint *point, PatternS
     float t = clampf(0.5f + 0.5f * large + 0.4f * small, 0.0f, 1.0f);
     shade->color = vec3_lerp(shade->color, m->color2, t);
     float depth = m->pattern_depth * pattern_detail(scale, point->footprint);
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(gradient, 0.5f * depth / scale));
+    float bump = 0.5f * depth / scale * (1.0f - point->displaced);
+    shade->normal = pattern_tilt(shade->normal, vec3_scale(gradient, bump));
+}
+
+static float noise_height(const Material *m, const SurfacePoint *point)
+{
+    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 0.1f;
+    float n = noise_solid(vec3_scale(point->object_position, 1.0f / scale), 1, NULL);
+    return 0.5f * m->pattern_depth * pattern_detail(scale, point->footprint) * n;
+}
+
+float pattern_height(const Material *m, const SurfacePoint *point)
+{
+    return m->pattern == PATTERN_BARK    ? pattern_bark_height(m, point)
+           : m->pattern == PATTERN_NOISE ? noise_height(m, point)
+                                         : 0.0f;
 }
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)

@@ -15,8 +15,13 @@ typedef struct PatternShade {
 // material's colours and the point's normal.
 void pattern_apply(const Material *material, const SurfacePoint *point, PatternShade *shade);
 
+// Height of the pattern's relief, m along the normal, about its mean; 0 if the pattern cannot be
+// displaced.
+float pattern_height(const Material *material, const SurfacePoint *point);
+
 // The kinds, one file each.
 void pattern_bark(const Material *material, const SurfacePoint *point, PatternShade *shade);
+float pattern_bark_height(const Material *material, const SurfacePoint *point); // m
 void pattern_ground(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_mountain(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_badlands(const Material *material, const SurfacePoint *point, PatternShade *shade);

@@ -130,7 +130,7 @@ static BarkRelief relief_at(const SurfacePoint *point, const StemPlace *place, f
 // that face up and away from the sun (-z here).
 static Vec3 add_growth(Vec3 color, const SurfacePoint *point, const BarkRelief *r, Vec3 wind)
 {
-    Vec3 n = point->geometric_normal;
+    Vec3 n = surface_smooth_normal(point);
     float patch = 0.5f * wind.z + 0.5f * wind.x;
     float lichen = smoothstepf(0.12f, 0.45f, patch) * (1.0f - r->furrow);
     float grey = 0.35f * (color.x + color.y + color.z) + 0.02f;
@@ -178,18 +178,19 @@ static BarkLook look_at(const Material *m, const StemPlace *place, float scale, 
 }
 
 // pattern_scale of these is the size of features relative to nature's.
-static void other_bark(const Material *m, const SurfacePoint *point, PatternShade *shade)
+static BarkSurface other_bark(const Material *m, const SurfacePoint *point, const StemPlace *place)
 {
-    StemPlace place = stem_place(point);
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale / BARK_WIDTH : 1.0f;
-    BarkLook look = look_at(m, &place, scale, point->footprint);
-    shade->color = vec3_max(look.color, vec3_splat(0.0f));
-    Vec3 slope = vec3_madd(vec3_scale(place.u, look.slope_u), look.slope_v, place.v);
+    BarkLook look = look_at(m, place, scale, point->footprint);
     float depth = m->pattern_depth * pattern_detail(1.6f * BARK_WIDTH * scale, point->footprint);
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, depth));
+    return (BarkSurface){.color = vec3_max(look.color, vec3_splat(0.0f)),
+                         .height = depth * (look.height - bark_mean_height(m->bark)),
+                         .slope_u = depth * look.slope_u,
+                         .slope_v = depth * look.slope_v};
 }
 
-static void furrowed_bark(const Material *m, const SurfacePoint *point, PatternShade *shade)
+static BarkSurface furrowed_bark(const Material *m, const SurfacePoint *point,
+                                 const StemPlace *place, Vec3 own)
 {
     float width = m->pattern_scale > 0.0f ? m->pattern_scale : BARK_WIDTH;
     Vec3 wind; // three smooth random numbers of the place
@@ -200,23 +201,48 @@ static void furrowed_bark(const Material *m, const SurfacePoint *point, PatternS
     float seen = old * pattern_detail(1.6f * width, point->footprint);
     const BarkRelief flat = {.height = 0.7f,
                              .furrow = 0.3f}; // the mean of the relief, seen from afar
-    Vec3 mean = add_growth(vec3_lerp(shade->color, m->color2, 0.44f), point, &flat, wind);
-    Vec3 color = mean;
+    Vec3 mean = add_growth(vec3_lerp(own, m->color2, 0.44f), point, &flat, wind);
+    BarkSurface bark = {.color = mean};
     if (seen > 0.0f) {
-        StemPlace place = stem_place(point);
-        BarkRelief relief = relief_at(point, &place, width, wind);
-        color = vec3_lerp(mean, bark_color(m, point, &relief, wind, shade->color), seen);
-        Vec3 slope = vec3_madd(vec3_scale(place.u, relief.slope_u), relief.slope_v, place.v);
-        shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, seen * m->pattern_depth));
+        BarkRelief relief = relief_at(point, place, width, wind);
+        float depth = seen * m->pattern_depth;
+        bark =
+            (BarkSurface){.color = vec3_lerp(mean, bark_color(m, point, &relief, wind, own), seen),
+                          .height = depth * (relief.height - bark_mean_height(BARK_FURROWED)),
+                          .slope_u = depth * relief.slope_u,
+                          .slope_v = depth * relief.slope_v};
     }
-    shade->color = vec3_lerp(twig_color(shade->color, wind), color, old);
+    bark.color = vec3_lerp(twig_color(own, wind), bark.color, old);
+    return bark;
+}
+
+static BarkSurface bark_at(const Material *m, const SurfacePoint *point, const StemPlace *place,
+                           Vec3 own)
+{
+    BarkSurface bark = m->bark == BARK_FURROWED ? furrowed_bark(m, point, place, own)
+                                                : other_bark(m, point, place);
+    // The lookup turns with the stem's twist: a step along it is one around it, too.
+    bark.slope_v += place->twist * place->radius * bark.slope_u;
+    bark_scars(m, point, place, &bark);
+    bark_moss(m, point, place, &bark);
+    return bark;
 }
 
 void pattern_bark(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    if (m->bark == BARK_FURROWED) {
-        furrowed_bark(m, point, shade);
-    } else {
-        other_bark(m, point, shade);
-    }
+    StemPlace place = stem_place(point, m->twist);
+    BarkSurface bark = bark_at(m, point, &place, shade->color);
+    Vec3 slope = vec3_madd(vec3_scale(place.u, bark.slope_u), bark.slope_v, place.v);
+    shade->color = bark.color;
+    shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, 1.0f - point->displaced));
+}
+
+float pattern_bark_height(const Material *m, const SurfacePoint *point)
+{
+    StemPlace place = stem_place(point, m->twist);
+    // On thin branches bumps stand for the rest.
+    float most = 0.25f * place.radius;
+    BarkSurface bark = bark_at(m, point, &place, m->color);
+    float share = m->pattern_depth > most ? most / m->pattern_depth : 1.0f;
+    return share * bark.height + bark.form;
 }

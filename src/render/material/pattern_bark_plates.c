@@ -17,8 +17,9 @@ static float add_cells(BarkLook *look, const StemPlace *place, float around, flo
     *cell = noise_cells(q, seed);
     float t = clampf(cell->border / wall, 0.0f, 1.0f);
     float slope = t < 1.0f ? 2.0f * (1.0f - t) / wall : 0.0f;
-    stem_add_slope(look, place, height * slope, around, along, cell->normal);
-    return t * (2.0f - t);
+    float rise = t * (2.0f - t);
+    stem_add_relief(look, place, height * rise, height * slope, around, along, cell->normal);
+    return rise;
 }
 
 // Scales that lie in layers: steps of a noise.
@@ -29,7 +30,8 @@ static float add_scales(BarkLook *look, const StemPlace *place, float around, fl
     float n = 3.0f * noise_solid(vec3(q.x, q.y, q.z + 10.0f * shift), seed, &g);
     float step = n - floorf(n);
     float edge = clampf(1.0f - step / 0.16f, 0.0f, 1.0f);
-    stem_add_slope(look, place, height * edge * 3.0f, around, along, g);
+    float rise = 0.08f * (floorf(n) + 1.0f - edge * edge); // the integral of edge over n
+    stem_add_relief(look, place, height * rise, height * edge * 3.0f, around, along, g);
     return edge;
 }
 
@@ -77,9 +79,9 @@ BarkLook bark_plates(const Material *m, const StemPlace *place, float scale, flo
     BarkLook look = {0};
     BarkLook plates = old > 0.0f ? old_plates(m, place, scale, seen, wind) : look;
     BarkLook flakes = old < 1.0f ? young_flakes(m, place, scale, seen, wind) : look;
-    look = (BarkLook){vec3_lerp(flakes.color, plates.color, old),
-                      lerpf(flakes.slope_u, plates.slope_u, old),
-                      lerpf(flakes.slope_v, plates.slope_v, old)};
+    look = (BarkLook){
+        vec3_lerp(flakes.color, plates.color, old), lerpf(flakes.height, plates.height, old),
+        lerpf(flakes.slope_u, plates.slope_u, old), lerpf(flakes.slope_v, plates.slope_v, old)};
     float twig = smoothstepf(0.012f, 0.006f, place->radius);
     look.color = vec3_lerp(look.color, vec3(0.16f, 0.12f, 0.075f), twig);
     return look;

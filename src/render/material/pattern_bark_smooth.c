@@ -22,13 +22,16 @@ BarkLook bark_smooth(const Material *m, const StemPlace *place, float scale, flo
     look.color =
         vec3_mul(look.color, vec3(1.0f - 0.16f * run, 1.0f - 0.07f * run, 1.0f - 0.24f * run));
     float wrinkle = noise_solid(stem_lookup(place, 0.06f * scale, 0.007f * scale), 54, &g);
-    stem_add_slope(&look, place, 0.10f * seen, 0.06f * scale, 0.007f * scale, g);
+    stem_add_relief(&look, place, 0.10f * seen * wrinkle, 0.10f * seen, 0.06f * scale,
+                    0.007f * scale, g);
     look.color = vec3_scale(look.color, 1.0f + 0.06f * seen * wrinkle);
     // Scars: dark, wider than high, few.
     const float around = 0.11f * scale, along = 0.035f * scale;
     float n = noise_solid(stem_lookup(place, around, along), 55, &h);
-    float scar = smoothstepf(0.52f, 0.60f, n) * smoothstepf(0.03f, 0.08f, place->radius);
-    stem_add_slope(&look, place, -0.5f * scar, around, along, h);
+    float thick = smoothstepf(0.03f, 0.08f, place->radius);
+    float scar = smoothstepf(0.52f, 0.60f, n) * thick;
+    float dent = stem_smooth_ramp(0.08f, n - 0.52f) * thick;
+    stem_add_relief(&look, place, -0.5f * dent, -0.5f * scar, around, along, h);
     look.color = vec3_lerp(look.color, m->color2, 0.75f * scar);
     return look;
 }
@@ -41,8 +44,8 @@ static float patch_age(BarkLook *look, const StemPlace *place, float around, flo
     CellPoint cell = noise_cells(q, seed);
     float t = clampf(cell.border / 0.05f, 0.0f, 1.0f), age = noise_unit(cell.cell, 8);
     *edge = 1.0f - t;
-    float slope = t < 1.0f ? height * (1.0f - t) * (age - 0.45f) / 0.05f : 0.0f;
-    stem_add_slope(look, place, slope, around, along, cell.normal);
+    float rise = height * (age - 0.45f), slope = t < 1.0f ? rise * (1.0f - t) / 0.05f : 0.0f;
+    stem_add_relief(look, place, rise * (t - 0.5f * t * t), slope, around, along, cell.normal);
     return age;
 }
 
@@ -83,9 +86,10 @@ BarkLook bark_fibrous(const Material *m, const StemPlace *place, float scale, fl
     const float around = 0.030f * scale, along = 0.42f * scale;
     Vec3 q = vec3_madd(stem_lookup(place, around, along), 0.35f, bend);
     float n = noise_solid(q, 72, &g), ridge = 1.0f - 1.4f * fabsf(n);
-    stem_add_slope(&look, place, n < 0.0f ? 0.9f : -0.9f, around, along, g);
+    stem_add_relief(&look, place, -0.9f * fabsf(n), n < 0.0f ? 0.9f : -0.9f, around, along, g);
     float fibre = noise_solid(stem_lookup(place, 0.0065f * scale, 0.16f * scale), 73, &h);
-    stem_add_slope(&look, place, 0.16f * seen, 0.0065f * scale, 0.16f * scale, h);
+    stem_add_relief(&look, place, 0.16f * seen * fibre, 0.16f * seen, 0.0065f * scale,
+                    0.16f * scale, h);
     // Strips whose ends come off: brighter and redder where they are fresh.
     float strip = noise_solid(stem_lookup(place, 0.05f * scale, 0.22f * scale), 74, NULL);
     Vec3 red = vec3_lerp(m->color, m->color2, 0.5f);

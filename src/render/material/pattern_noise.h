@@ -17,6 +17,7 @@ typedef struct CellPoint {
     float border;  // distance to the border toward the nearest neighbour
     Vec3 normal;   // unit, from that neighbour to this cell: the gradient of border
     uint32_t cell; // hash of the cell
+    Vec3 point;    // of the cell, relative to the position
 } CellPoint;
 
 CellPoint noise_cells(Vec3 p, uint32_t seed);

@@ -10,13 +10,17 @@ typedef struct StemPlace {
     Vec3 u, v;    // world: unit directions around and along the stem
     float radius; // m; that of a thick trunk if unknown
     float height; // m above the object's origin
+    float twist;  // rad per metre along the stem, that p turns
 } StemPlace;
 
-StemPlace stem_place(const SurfacePoint *point);
+// twist: degrees per metre.
+StemPlace stem_place(const SurfacePoint *point, float twist);
 
-// Colour, and the slope of the relief around and along the stem: of heights 0..1, per metre.
+// Colour, and the relief: its height, about 0..1, and its slope around and along the stem, per
+// metre.
 typedef struct BarkLook {
     Vec3 color;
+    float height;
     float slope_u, slope_v;
 } BarkLook;
 
@@ -26,9 +30,40 @@ static inline Vec3 stem_lookup(const StemPlace *place, float around, float along
     return vec3(place->p.x / around, place->p.y / around, place->p.z / along);
 }
 
-// Adds to the slope that of `height` times a function with this gradient at such a lookup.
-void stem_add_slope(BarkLook *look, const StemPlace *place, float height, float around, float along,
-                    Vec3 gradient);
+// Adds to the relief `height`; to its slope that of `scale` times a function with this gradient at
+// such a lookup.
+void stem_add_relief(BarkLook *look, const StemPlace *place, float height, float scale,
+                     float around, float along, Vec3 gradient);
+
+// The integral of smoothstepf(0, width, x) from 0 to x.
+static inline float stem_smooth_ramp(float width, float x)
+{
+    float t = clampf(x / width, 0.0f, 1.0f);
+    return width * (t * t * t - 0.5f * t * t * t * t) + fmaxf(x - width, 0.0f);
+}
+
+// What a bark is at a place.
+typedef struct BarkSurface {
+    Vec3 color;
+    float height;           // m, of the relief, about its mean
+    float slope_u, slope_v; // of it
+    float form; // m, of what is no bump but the stem's own form: scars, ribs, hollows, moss
+} BarkSurface;
+
+// Height of the kind's relief where it is neither in furrows nor on ridges.
+static inline float bark_mean_height(BarkKind bark)
+{
+    return bark == BARK_FURROWED || bark == BARK_PLATES ? 0.65f : 0.0f;
+}
+
+// Add what the material asks for: scars of shed limbs, ribs and hollows; moss and lichen.
+void bark_scars(const Material *m, const SurfacePoint *point, const StemPlace *place,
+                BarkSurface *bark);
+void bark_moss(const Material *m, const SurfacePoint *point, const StemPlace *place,
+               BarkSurface *bark);
+
+// m: the size of all that on a stem of this radius, for choosing where it is displaced.
+float bark_form_size(const Material *m, float radius);
 
 // The kinds of bark (Material.bark) but the furrowed one. scale: of their lengths, 1 = natural.
 BarkLook bark_plates(const Material *m, const StemPlace *place, float scale, float footprint);

@@ -1,0 +1,126 @@
+// What a stem's life leaves on it: scars of shed limbs, ribs, holes of rot. They change its form
+// where it is displaced, and its colour everywhere.
+#include "render/material/pattern_noise.h"
+#include "render/material/pattern_stem.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static float bell(float t, float at, float width)
+{
+    float x = (t - at) / width;
+    return expf(-x * x);
+}
+
+// A spot about the point of a cell: the distance from its middle over its radius, INFINITY where
+// there is none. p: the place in units of the spots' spacing. share: of cells that have one.
+typedef struct Spot {
+    float t;
+    float size;  // radius in those units
+    float guard; // 0 at the border to another cell, which may have a spot of another size
+    uint32_t hash;
+} Spot;
+
+static Spot spot_at(Vec3 p, float share, float least, float most, uint32_t seed)
+{
+    CellPoint cell = noise_cells(p, seed);
+    Spot spot = {.t = INFINITY, .hash = cell.cell};
+    if (noise_unit(cell.cell, 1) < share) {
+        spot.size = lerpf(least, most, noise_unit(cell.cell, 2));
+        spot.t = vec3_length(cell.point) / spot.size;
+        spot.guard = clampf(cell.border / 0.06f, 0.0f, 1.0f);
+    }
+    return spot;
+}
+
+// Weakens the bark's own relief.
+static void flatten(BarkSurface *bark, float by)
+{
+    bark->height *= 1.0f - by;
+    bark->slope_u *= 1.0f - by;
+    bark->slope_v *= 1.0f - by;
+}
+
+// A limb's scar: wood in the middle, closed by a ring of callus.
+static void add_scar(const Material *m, const StemPlace *place, BarkSurface *bark)
+{
+    const float spacing = 0.34f; // m
+    float thick = smoothstepf(0.04f, 0.10f, place->radius);
+    Spot spot =
+        spot_at(stem_lookup(place, spacing, 1.15f * spacing), 0.55f * m->scars, 0.10f, 0.26f, 81);
+    if (spot.t > 1.6f || thick <= 0.0f) {
+        return;
+    }
+    float wave = noise_fractal(vec3_scale(place->p, 40.0f), 2, 83);
+    float t = spot.t + 0.08f * wave, guard = spot.guard * thick;
+    float callus = bell(t, 0.78f, 0.24f), dent = 1.0f - smoothstepf(0.1f, 0.55f, t);
+    bark->form += spot.size * spacing * guard * (0.32f * callus - 0.38f * dent);
+    flatten(bark, guard * 0.75f * (1.0f - smoothstepf(0.7f, 1.2f, t)));
+    // Rings of yearly callus, dark wood within.
+    float rings = 0.5f + 0.5f * cosf(26.0f * t + 3.0f * wave);
+    bark->color = vec3_scale(bark->color, 1.0f - guard * 0.25f * callus * rings);
+    Vec3 wood = vec3_scale(vec3(0.085f, 0.066f, 0.050f), 1.0f + 0.4f * wave);
+    bark->color = vec3_lerp(bark->color, wood, guard * 0.85f * dent);
+}
+
+// Ribs run up from the roots; furrows lie between them, where the wood has died back.
+static void add_ribs(const Material *m, const StemPlace *place, BarkSurface *bark)
+{
+    float thick = smoothstepf(0.04f, 0.14f, place->radius);
+    if (thick <= 0.0f) {
+        return;
+    }
+    float unit = 1.0f / fmaxf(place->radius, 1e-3f), length = 0.9f;
+    Vec3 q = vec3(1.35f * unit * place->p.x, 1.35f * unit * place->p.y, place->p.z / length);
+    float broad = noise_solid(q, 84, NULL);
+    float fine = noise_solid(vec3(2.1f * q.x, 2.1f * q.y, 1.3f * q.z), 85, NULL);
+    float valley = 1.0f - clampf(2.4f * fabsf(broad), 0.0f, 1.0f);
+    float groove = 1.0f - clampf(2.8f * fabsf(fine), 0.0f, 1.0f);
+    float in = 0.75f * valley * valley + 0.25f * groove * groove;
+    bark->form += 0.5f * m->ribs * thick * place->radius * (0.3f - in);
+    bark->color = vec3_scale(bark->color, 1.0f - 0.35f * thick * m->ribs * in);
+}
+
+// Holes with a rolled lip; dry, brown wood within.
+static void add_hollow(const Material *m, const StemPlace *place, BarkSurface *bark)
+{
+    float thick = smoothstepf(0.10f, 0.20f, place->radius);
+    if (thick <= 0.0f) {
+        return;
+    }
+    const float spacing = 0.62f; // m
+    Vec3 torn, q = stem_lookup(place, spacing, 1.7f * spacing);
+    noise_solid(stem_lookup(place, 0.11f, 0.2f), 86, &torn);
+    Spot spot = spot_at(vec3_madd(q, 0.035f, torn), 0.6f * m->hollows, 0.16f, 0.34f, 87);
+    if (spot.t > 1.6f) {
+        return;
+    }
+    float within = 1.0f - smoothstepf(0.35f, 0.92f, spot.t), guard = spot.guard * thick;
+    float fibre = noise_solid(stem_lookup(place, 0.012f, 0.16f), 88, NULL);
+    bark->form += guard * place->radius * (0.09f * bell(spot.t, 1.08f, 0.2f) - 0.6f * within) +
+                  0.004f * guard * within * fibre;
+    flatten(bark, guard * smoothstepf(1.15f, 0.85f, spot.t));
+    Vec3 wood = vec3_scale(vec3(0.135f, 0.092f, 0.058f), 1.0f + 0.35f * fibre - 0.45f * within);
+    bark->color = vec3_lerp(bark->color, wood, guard * smoothstepf(1.0f, 0.8f, spot.t));
+}
+
+void bark_scars(const Material *m, const SurfacePoint *point, const StemPlace *place,
+                BarkSurface *bark)
+{
+    (void)point;
+    if (m->ribs > 0.0f) {
+        add_ribs(m, place, bark);
+    }
+    if (m->scars > 0.0f) {
+        add_scar(m, place, bark);
+    }
+    if (m->hollows > 0.0f) {
+        add_hollow(m, place, bark);
+    }
+}
+
+float bark_form_size(const Material *m, float radius)
+{
+    return (m->ribs > 0.0f ? 0.35f * m->ribs * radius : 0.0f) + (m->scars > 0.0f ? 0.02f : 0.0f) +
+           (m->hollows > 0.0f ? 0.6f * radius : 0.0f) + (m->moss > 0.0f ? 0.01f : 0.0f);
+}

@@ -1,0 +1,73 @@
+#include "render/material/relief.h"
+
+#include "base/hash.h"
+#include "render/material/maps.h"
+#include "render/material/pattern_stem.h"
+
+#include <string.h>
+
+static bool displaces_pattern(const Material *m)
+{
+    return m->pattern == PATTERN_BARK ||
+           (m->pattern == PATTERN_NOISE && m->displacement == DISPLACEMENT_ON);
+}
+
+static bool has_map(const Material *m)
+{
+    return m->displacement_texture && m->displacement_texture[0];
+}
+
+// Cut-outs, films and bodies know the faces of the mesh itself only.
+static bool can_be_displaced(const Material *m)
+{
+    return m->displacement != DISPLACEMENT_OFF && material_has(m, TRAIT_OPAQUE) &&
+           !material_has(m, TRAIT_EMISSIVE) && !(m->alpha_texture && m->alpha_texture[0]);
+}
+
+float relief_size(const Material *m, float radius)
+{
+    if (!can_be_displaced(m)) {
+        return 0.0f;
+    }
+    float map = has_map(m) ? m->displacement_depth : 0.0f;
+    float form = m->pattern == PATTERN_BARK ? bark_form_size(m, radius) : 0.0f;
+    return map + (displaces_pattern(m) ? m->pattern_depth + form : 0.0f);
+}
+
+float relief_height(const MaterialSet *set, const SurfacePoint *point)
+{
+    const MaterialEntry *entry = &set->entry[point->material];
+    const Material *m = &entry->material;
+    return maps_height(entry, point) + (displaces_pattern(m) ? pattern_height(m, point) : 0.0f);
+}
+
+uint64_t relief_key(const Material *m)
+{
+    if (relief_size(m, 1.0f) <= 0.0f) {
+        return 0;
+    }
+    const float values[] = {m->pattern_scale,
+                            m->pattern_depth,
+                            m->moss,
+                            m->lichen,
+                            m->scars,
+                            m->ribs,
+                            m->hollows,
+                            m->twist,
+                            m->displacement_depth,
+                            m->texture_scale,
+                            (float)m->displacement,
+                            (float)m->pattern,
+                            (float)m->bark,
+                            (float)m->texture_mapping};
+    uint64_t key = HASH_START;
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
+        uint32_t bits;
+        memcpy(&bits, &values[i], sizeof bits);
+        for (int shift = 0; shift < 32; shift += 8) {
+            key = hash_byte(key, (unsigned char)(bits >> shift));
+        }
+    }
+    return has_map(m) ? hash_bytes(key, m->displacement_texture, strlen(m->displacement_texture))
+                      : key;
+}

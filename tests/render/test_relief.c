@@ -1,0 +1,203 @@
+// Relief as geometry near the camera: what rays meet, against the height that the material tells.
+#include "render/accel/accel.h"
+#include "render/material/relief.h"
+#include "render/tiny_world.h"
+
+#include <math.h>
+
+enum { SIDES = 48, RINGS = 40 };
+
+#define RADIUS 0.3f
+
+// A stem about y from -1 to 1, as grown ones are: u and v in metres.
+static Mesh *stem_mesh(void)
+{
+    Mesh *mesh = mesh_new(4, (int64_t)SIDES * (RINGS + 1), (int64_t)SIDES * RINGS,
+                          MESH_NORMAL | MESH_UV | MESH_RADIUS, NULL);
+    assert_non_null(mesh);
+    uint32_t *index = mesh->index;
+    for (int j = 0; j <= RINGS; j++) {
+        for (int i = 0; i < SIDES; i++) {
+            float angle = 2.0f * PI_F * (float)i / SIDES, y = 2.0f * (float)j / RINGS - 1.0f;
+            int k = j * SIDES + i;
+            mesh->normal[k] = vec3(sinf(angle), 0, cosf(angle));
+            mesh->position[k] = vec3_add(vec3_scale(mesh->normal[k], RADIUS), vec3(0, y, 0));
+            mesh->uv[k] = (Vec2){angle * RADIUS, y};
+            mesh->radius[k] = RADIUS;
+            if (j < RINGS) {
+                uint32_t a = (uint32_t)k, b = (uint32_t)(j * SIDES + (i + 1) % SIDES);
+                memcpy(index, (uint32_t[4]){a, b, b + SIDES, a + SIDES}, 16);
+                index += 4;
+            }
+        }
+    }
+    return mesh;
+}
+
+static World *stem_world(BarkKind bark, float distance)
+{
+    World *world = tiny_world(320, 240, 1, 0.3f);
+    world->camera.position = vec3(0, 0, distance);
+    world->camera.fov = 50;
+    Material *m = &world->material[0];
+    m->pattern = PATTERN_BARK;
+    m->bark = bark;
+    m->pattern_depth = 0.02f;
+    m->color2 = vec3_splat(0.1f);
+    add_mesh(world, stem_mesh(), 0, 0);
+    return world;
+}
+
+typedef struct Scan {
+    Accel *accel;
+    MaterialSet *set;
+} Scan;
+
+static Scan scan_begin(const World *world)
+{
+    Run run = run_default();
+    Error e = {0};
+    Scan scan = {.set = material_set_new(world->material, NULL, world->material_count, &run, &e)};
+    scan.accel = scan.set ? accel_new(world, scan.set, NULL, &run, &e) : NULL;
+    if (!scan.accel) {
+        fail_msg("%s", e.message);
+    }
+    return scan;
+}
+
+static void scan_end(Scan *scan)
+{
+    accel_free(scan->accel);
+    material_set_free(scan->set);
+}
+
+// What a horizontal ray toward the axis meets at this angle and height.
+static SurfacePoint look(const Scan *scan, float angle, float y)
+{
+    Vec3 out = vec3(sinf(angle), 0, cosf(angle));
+    Ray ray = {.origin = vec3_add(vec3_scale(out, 2.0f), vec3(0, y, 0)),
+               .direction = vec3_neg(out),
+               .far = INFINITY};
+    Hit hit;
+    assert_true(accel_intersect(scan->accel, &ray, &hit));
+    SurfacePoint point;
+    accel_surface(scan->accel, &ray, &hit, &point);
+    return point;
+}
+
+static float from_axis(Vec3 p)
+{
+    return hypotf(p.x, p.z);
+}
+
+static void rays_meet_the_height_of_the_pattern(void **state)
+{
+    (void)state;
+    for (int bark = BARK_FURROWED; bark <= BARK_BANDS; bark++) {
+        World *world = stem_world((BarkKind)bark, 0.9f);
+        Scan scan = scan_begin(world);
+        float pixel = 2.0f * tanf(25.0f * PI_F / 180.0f) / 240.0f;
+        double error = 0.0, low = 1.0, high = -1.0;
+        int count = 0;
+        for (int i = 0; i < 60; i++) {
+            for (int j = 0; j < 20; j++) {
+                float angle = 0.02f * (float)(i - 30), y = 0.0117f * (float)(j - 10);
+                SurfacePoint point = look(&scan, angle, y);
+                assert_float_equal(from_axis(point.object_position), RADIUS, 2e-4f);
+                assert_true(point.displaced > 0.999f);
+                point.footprint =
+                    pixel * vec3_distance(point.object_position, world->camera.position);
+                float height = relief_height(scan.set, &point);
+                float met = from_axis(point.position) - RADIUS;
+                error += (double)fabsf(met - height);
+                low = fmin(low, (double)met);
+                high = fmax(high, (double)met);
+                count++;
+            }
+        }
+        // Between vertices 1.5 pixels (3 mm) apart the facets cut off steep walls.
+        assert_true(error / count < 8e-4);
+        assert_true(high - low > (bark == BARK_FURROWED || bark == BARK_PLATES ? 0.012 : 0.0005));
+        scan_end(&scan);
+        world_free(world);
+    }
+}
+
+// The outline: bumps leave it a straight line, displacement does not.
+static void only_displacement_changes_the_outline(void **state)
+{
+    (void)state;
+    double spread[2];
+    for (int off = 0; off < 2; off++) {
+        World *world = stem_world(BARK_FURROWED, 0.9f);
+        world->material[0].displacement = off ? DISPLACEMENT_OFF : DISPLACEMENT_AUTO;
+        Scan scan = scan_begin(world);
+        double sum = 0.0, squares = 0.0;
+        const int rows = 60;
+        for (int j = 0; j < rows; j++) {
+            float x = 0.34f;
+            Hit hit;
+            bool met = false;
+            for (; !met && x > 0.25f; x -= 0.0005f) {
+                Ray ray = {.origin = {x, 0.005f * (float)(j - rows / 2), 2},
+                           .direction = {0, 0, -1},
+                           .far = INFINITY};
+                met = accel_intersect(scan.accel, &ray, &hit);
+            }
+            sum += (double)x;
+            squares += (double)(x * x);
+        }
+        spread[off] = sqrt(fmax(squares / rows - sum * sum / rows / rows, 0.0));
+        scan_end(&scan);
+        world_free(world);
+    }
+    assert_true(spread[0] > 0.0006);
+    assert_true(spread[1] < 0.0001);
+}
+
+// Far away, and for copies, the mesh stays as it is; so does its share of bumps.
+static void far_stems_and_copies_keep_bumps(void **state)
+{
+    (void)state;
+    for (int copy = 0; copy < 2; copy++) {
+        World *world = stem_world(BARK_FURROWED, copy ? 0.9f : 40.0f);
+        Part *part = &world->geometry.part[0];
+        if (copy) {
+            part->instance = memory_alloc(1, sizeof *part->instance, NULL);
+            assert_non_null(part->instance);
+            *part->instance = transform_identity();
+            part->instance_count = 1;
+        }
+        Scan scan = scan_begin(world);
+        SurfacePoint point = look(&scan, 0.3f, 0.1f);
+        assert_true(point.displaced <= 0.0f);
+        assert_true(from_axis(point.position) <= RADIUS);
+        scan_end(&scan);
+        world_free(world);
+    }
+}
+
+// A change of the relief rebuilds; one of the colour does not.
+static void structures_fit_the_relief(void **state)
+{
+    (void)state;
+    World *world = stem_world(BARK_FURROWED, 0.9f);
+    Scan scan = scan_begin(world);
+    world->material[0].color = vec3(0.1f, 0.5f, 0.2f);
+    assert_true(accel_fits_materials(scan.accel));
+    world->material[0].pattern_depth = 0.01f;
+    assert_false(accel_fits_materials(scan.accel));
+    scan_end(&scan);
+    world_free(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rays_meet_the_height_of_the_pattern),
+        cmocka_unit_test(only_displacement_changes_the_outline),
+        cmocka_unit_test(far_stems_and_copies_keep_bumps),
+        cmocka_unit_test(structures_fit_the_relief),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
