@@ -147,6 +147,15 @@ typedef struct Kind {
 #define GRASS_MATERIAL_ROW(INDEX) \
     MATERIAL_ROW(INDEX, "grass_material", "Material of the ground's grass; default: grass.")
 
+#define ORGAN_MATERIAL_ROWS(BLOSSOM, FRUIT, CONE, STALK)                                           \
+    MATERIAL_ROW(BLOSSOM, "blossom_material", "Material of petals; default: blossom."),            \
+        MATERIAL_ROW(FRUIT, "fruit_material",                                                      \
+                     "Material of fruit, nuts and husks; default: fruit."),                        \
+        MATERIAL_ROW(CONE, "cone_material",                                                        \
+                     "Material of cones, catkins, acorns' cups, buds and spines; default: cone."), \
+        MATERIAL_ROW(STALK, "stalk_material",                                                      \
+                     "Material of stalks, sepals and stamens; default: stalk.")
+
 #define SNOW_MATERIAL_ROW(INDEX) \
     MATERIAL_ROW(INDEX, "snow_material", "Material of settled snow; default: snow.")
 

@@ -248,6 +248,25 @@ static void lost_leaders_make_an_axis_crooked(void **state)
     out_tree_free(crooked);
 }
 
+// Stems that bow over end where they meet the ground.
+static void no_cane_grows_into_the_ground(void **state)
+{
+    (void)state;
+    LightParams params = light_params_default();
+    params.apical_control = (Vec2){0.85f, 0.85f};
+    params.tropism = vec3(-0.2f, -0.1f, 0.0f);
+    params.noise = 0.3f;
+    LightSite site = open_site(20);
+    OutTree *tree = grow(&params, &site, 2);
+    float low = INFINITY, high = 0.0f;
+    for (int64_t i = 2; i < tree->count; i++) { // after the foot
+        low = fminf(low, tree->position[i].y);
+        high = fmaxf(high, tree->position[i].y);
+    }
+    assert_true(low >= 0.0f && high > 5.0f * INTERNODE);
+    out_tree_free(tree);
+}
+
 // The branch whose buds were given more vigor than its neighbour's gets the larger share.
 static void a_vigorous_branch_gets_more(void **state)
 {
@@ -446,6 +465,7 @@ int main(void)
         cmocka_unit_test(a_shaded_branch_dies_and_the_stem_does_not),
         cmocka_unit_test(without_noise_a_tree_is_symmetric),
         cmocka_unit_test(lost_leaders_make_an_axis_crooked),
+        cmocka_unit_test(no_cane_grows_into_the_ground),
         cmocka_unit_test(a_vigorous_branch_gets_more),
         cmocka_unit_test(uneven_vigor_makes_uneven_crowns),
         cmocka_unit_test(a_lone_tree_does_not_lean),

@@ -108,6 +108,47 @@ static void test_leaves_face_outward(void **state)
     scene_free(scene);
 }
 
+#define RACEMES                                                                                 \
+    ", hanging: {count: 0}, leaves: {max_count: 0}, organs: [{kind: blossom, cluster: raceme, " \
+    "hang: 1, stalk: 0.02, season: [4.8, 5.8]}]"
+
+static int64_t count_instances(const World *world)
+{
+    int64_t count = 0;
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        count += world->geometry.part[i].instance_count;
+    }
+    return count;
+}
+
+// Racemes hang before the wall, in their season alone.
+static void test_organs_hang_before_the_wall(void **state)
+{
+    Scene *scene = fixture_read(*state, WALL IVY(RACEMES ", season: 5.2"));
+    Scene *summer = fixture_read(*state, WALL IVY(RACEMES ", season: 7"));
+    Run run = run_default();
+    World *world = scene_build(scene, &run, NULL, NULL), *none;
+    none = scene_build(summer, &run, NULL, NULL);
+    assert_non_null(world);
+    assert_non_null(none);
+    assert_int_equal(count_instances(none), 0);
+    assert_true(count_instances(world) > 100);
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        const Part *part = &world->geometry.part[i];
+        for (int64_t k = 0; k < part->instance_count; k++) {
+            Vec3 foot = transform_point(&part->instance[k], vec3(0, 0, 0));
+            Vec3 along = vec3_normalize(transform_vector(&part->instance[k], vec3(0, 1, 0)));
+            bool about_edge = foot.z < 0.2f || fabsf(foot.x) > 1.4f || foot.y > 2.3f;
+            assert_true(to_wall(foot) > (about_edge ? -0.02f : 0.01f));
+            assert_true(along.y < -0.9f);
+        }
+    }
+    world_free(world);
+    world_free(none);
+    scene_free(scene);
+    scene_free(summer);
+}
+
 static void test_same_bits_for_any_thread_count(void **state)
 {
     Scene *scene = fixture_read(*state, WALL IVY(""));
@@ -132,6 +173,7 @@ static void test_refusals(void **state)
                         "0, 0]}]}\n",
                    "objects.ivy.climber.climbs leads back to 'ivy' itself", 5);
     fixture_refuse(*state, WALL "  - name: ivy\n    climber: {climbs: wall}\n", "starts", 5);
+    fixture_refuse(*state, WALL IVY(", season: 0.5"), "months begin at 1", 5);
 }
 
 int main(void)
@@ -140,6 +182,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_stems_cling, fixture_set_up, fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_shoots_hang_free, fixture_set_up, fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_leaves_face_outward, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_organs_hang_before_the_wall, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_same_bits_for_any_thread_count, fixture_set_up,
                                         fixture_tear_down),

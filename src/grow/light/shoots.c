@@ -123,7 +123,8 @@ static Vec3 turned(const Shooting *s, Vec3 at, Vec3 d, int order)
 static bool find_room(const Shooting *s, Vec3 from, Vec3 *to, int order)
 {
     const LightSite *site = s->site;
-    if (order > 0 && to->y < s->low && to->y < from.y) {
+    float low = order > 0 ? s->low : 0.0f; // canes that bow over root where they meet the ground
+    if (to->y < low && to->y < from.y) {
         return false;
     }
     if (!site->room && !site->envelope) {

@@ -10,6 +10,13 @@
 
 #include <stdlib.h>
 
+static Phenology evergreen(void)
+{
+    Phenology year = phenology_default();
+    year.evergreen = true;
+    return year;
+}
+
 ClimberParams climber_params_default(void)
 {
     return (ClimberParams){.height = 3.0f,
@@ -44,7 +51,9 @@ ClimberParams climber_params_default(void)
                                       .variants = 5,
                                       .detail = 1,
                                       .emergence = 1.0f},
-                           .skin = {.curve_radius = 0.004f, .levels = 1, .ring_spacing = 1.0f}};
+                           .skin = {.curve_radius = 0.004f, .levels = 1, .ring_spacing = 1.0f},
+                           .latitude = 50.0f,
+                           .phenology = evergreen()};
 }
 
 // What the stages of one growth share.

@@ -5,6 +5,8 @@
 #define RAMIFY_OBJECTS_CLIMBER_CLIMBER_H
 
 #include "objects/common/branches.h"
+#include "objects/common/organs.h"
+#include "objects/common/phenology.h"
 #include "objects/common/recipe.h"
 
 typedef struct ClimberStart {
@@ -33,11 +35,24 @@ typedef struct ClimberParams {
     RadiiParams radii;
     float root_radius; // m, at the starts
     LeavesParams leaves;
+    OrganGroup *organs;
+    int organ_count;
     SkinningParams skin;
+    float season;   // month and its fraction, 1..13; 0 = as leaves has it
+    float latitude; // degrees
+    Phenology phenology;
 } ClimberParams;
 
 // Roles of materials.
-enum { CLIMBER_BARK, CLIMBER_TWIG, CLIMBER_LEAF };
+enum {
+    CLIMBER_BARK,
+    CLIMBER_TWIG,
+    CLIMBER_LEAF,
+    CLIMBER_BLOSSOM,
+    CLIMBER_FRUIT,
+    CLIMBER_CONE,
+    CLIMBER_STALK
+};
 
 // Streams of the object's seed.
 enum {
@@ -46,7 +61,8 @@ enum {
     STREAM_CLIMBER_PATCHES = 3,
     STREAM_CLIMBER_GROWTH = 4,
     STREAM_CLIMBER_HANGING = 5,
-    STREAM_CLIMBER_LEAVES = 6
+    STREAM_CLIMBER_LEAVES = 6,
+    STREAM_CLIMBER_ORGANS = 7
 };
 
 ClimberParams climber_params_default(void); // ivy on a wall

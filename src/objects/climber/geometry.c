@@ -44,7 +44,20 @@ bool climber_geometry(const void *given, const Grown *grown, const Placing *plac
                         .seed = random_key(placing->recipe->seed, STREAM_CLIMBER_LEAVES),
                         .twig_role = CLIMBER_TWIG,
                         .leaf_role = CLIMBER_LEAF};
-    bool done = branches_add_twigs(grown->tree, &twigs, placing, e);
+    OrgansParams organs = {.group = params->organs,
+                           .count = params->organ_count,
+                           .time = phenology_time(params->season, params->latitude),
+                           .skin = &params->skin,
+                           .bare_from = -1,
+                           .light = twigs.light,
+                           .seed = random_key(placing->recipe->seed, STREAM_CLIMBER_ORGANS),
+                           .role = {[TISSUE_PETAL] = CLIMBER_BLOSSOM,
+                                    [TISSUE_FLESH] = CLIMBER_FRUIT,
+                                    [TISSUE_WOOD] = CLIMBER_CONE,
+                                    [TISSUE_GREEN] = CLIMBER_STALK,
+                                    [TISSUE_WING] = CLIMBER_LEAF}};
+    bool done = branches_add_twigs(grown->tree, &twigs, placing, e) &&
+                organs_add(grown->tree, &organs, placing, e);
     point_tree_free(&stems.nodes);
     return done;
 }

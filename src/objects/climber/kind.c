@@ -29,7 +29,11 @@ static int64_t attractors(const void *params)
 static int64_t copies(const void *params)
 {
     const ClimberParams *climber = params;
-    return climber->leaves.max_count;
+    int64_t count = climber->leaves.max_count;
+    for (int i = 0; i < climber->organ_count; i++) {
+        count += climber->organs[i].max_count;
+    }
+    return count;
 }
 
 static void needs(const void *params, Needs *needs)
@@ -45,6 +49,7 @@ static const Key MATERIALS[] = {
     OWN_MATERIAL_ROW(CLIMBER_BARK),
     TWIG_MATERIAL_ROW(CLIMBER_TWIG),
     LEAF_MATERIAL_ROW(CLIMBER_LEAF),
+    ORGAN_MATERIAL_ROWS(CLIMBER_BLOSSOM, CLIMBER_FRUIT, CLIMBER_CONE, CLIMBER_STALK),
     {0},
 };
 
@@ -52,7 +57,7 @@ const Kind kind_climber = {
     .variant = {KIND_ROW("climber", &climber_table,
                          "A climbing plant on another object, such as ivy on a wall."),
                 MATERIALS},
-    .materials = {"bark", "twig", "leaf"},
+    .materials = {"bark", "twig", "leaf", "blossom", "fruit", "cone", "stalk"},
     .over = over,
     .over_key = "climbs",
     .keeps_clear = true,

@@ -60,6 +60,10 @@ static const Key CLIMBER_KEYS[] = {
      .doc = "Thickness of the stems: tip and exponent."},
     {KEY_OF(ClimberParams, leaves, "leaves", KEY_GROUP), .table = &leaves_table,
      .doc = "Leaves; they face away from the surface."},
+    {KEY_OF(ClimberParams, organs, "organs", KEY_LIST),
+     .count_offset = offsetof(ClimberParams, organ_count), .count = 20, .table = &organ_table,
+     .doc = "Blossom, berries and other organs on the stems, on the side away from the surface."},
+    PHENOLOGY_ROWS(ClimberParams),
     {KEY_OF(ClimberParams, skin, "skin", KEY_GROUP), .table = &skin_table,
      .doc = "Surface of the stems: a mesh where they are thick, round curves where they are thin."},
     {0},
@@ -70,11 +74,18 @@ static void climber_defaults(void *out)
     *(ClimberParams *)out = climber_params_default();
 }
 
+static bool check_climber(const Mapping *mapping, void *params)
+{
+    ClimberParams *given = params;
+    return phenology_check(mapping, &given->phenology, given->season, given->latitude,
+                           &given->leaves);
+}
+
 const Table climber_table = {
     .name = "climber",
     .doc = "A climbing plant on another object, such as ivy on a wall: stems spread over its "
            "surface, shoots hang where they find nothing to hold, leaves face outward. The "
-           "defaults make ivy. Materials: bark, twig, leaf.",
+           "defaults make ivy. Materials: bark, twig, leaf, and of organs as a tree's.",
     .example =
         "objects:\n"
         "  - name: wall\n"
@@ -83,4 +94,5 @@ const Table climber_table = {
         "    climber: {climbs: wall, starts: [{position: [-1, 0, 0.2]}], height: 3, spread: 2}\n",
     .size = sizeof(ClimberParams),
     .keys = CLIMBER_KEYS,
-    .defaults = climber_defaults};
+    .defaults = climber_defaults,
+    .check = check_climber};

@@ -34,6 +34,7 @@ typedef struct Organs {
     float lowest;     // m: none below
     float share;      // the group's, less if there are too many
     uint64_t seed;
+    const LeafLight *light;
     LeafBatch *batch; // group->variants of them; NULL = they are only counted
     int64_t count;
 } Organs;
@@ -81,6 +82,16 @@ static bool add_site(Organs *organs, const Site *site, Error *e)
                           random_unit(random_key(site->key, STREAM_VARIATION)), 0.0f, e);
 }
 
+// On a surface, organs keep to its outer side and as far from it as they are wide.
+static void hold_off(const Organs *organs, Site *site)
+{
+    const OrganGroup *group = organs->group;
+    Vec3 away = organs->light->facing(organs->light->user, site->position);
+    site->out = vec3_normalize(vec3_madd(site->out, 1.2f, away));
+    float reach = group->hang * (group->stalk + 0.5f * group->width);
+    site->position = vec3_madd(site->position, reach, away);
+}
+
 // The sites of one place along a branch: one, or a row's each.
 static bool add_place(Organs *organs, Site *site, Vec3 reference, int64_t number, uint64_t twig_key,
                       Error *e)
@@ -96,8 +107,12 @@ static bool add_place(Organs *organs, Site *site, Vec3 reference, int64_t number
                                random_range(random_key(site->key, STREAM_TURN), -15.0f, 15.0f);
         float sine, cosine;
         exact_sincos(turn * RADIANS_PER_DEGREE, &sine, &cosine);
-        site->out = vec3_rotate(reference, site->along, cosine, sine);
-        if (!add_site(organs, site, e)) {
+        Site one = *site;
+        one.out = vec3_rotate(reference, site->along, cosine, sine);
+        if (organs->light->facing) {
+            hold_off(organs, &one);
+        }
+        if (!add_site(organs, &one, e)) {
             return false;
         }
     }
@@ -260,6 +275,7 @@ static bool add_group(const OutTree *tree, const OrgansParams *params, int index
         Organs organs = {.group = group,
                          .curves = curves,
                          .bare = bare,
+                         .light = &params->light,
                          .lowest = lowest_of(group, curves, bare),
                          .share = group->share,
                          .seed = random_key(params->seed, STREAM_GROUPS + (uint64_t)index)};

@@ -48,6 +48,7 @@ typedef struct OrgansParams {
     const SkinningParams *skin;
     int32_t bare_from; // branches of this colony and later ones bear none; -1 = all do
     uint64_t seed;
+    LeafLight light;   // facing, if not NULL: where plants on a surface hold their organs to
     int role[TISSUES]; // of the kind's materials
 } OrgansParams;
 

@@ -112,3 +112,17 @@ void phenology_apply(const Phenology *phenology, float season, float latitude, L
         leaves->litter = 1.0f - share(time, 1.0f, leafing[0]);
     }
 }
+
+bool phenology_check(const Mapping *mapping, const Phenology *phenology, float season,
+                     float latitude, LeavesParams *leaves)
+{
+    if (season > 0.0f && season < 1.0f) {
+        return mapping_fail(mapping, "season",
+                            " is %g; months begin at 1, and 0 means that leaves tell the season",
+                            (double)season);
+    }
+    if (season > 0.0f) {
+        phenology_apply(phenology, season, latitude, leaves);
+    }
+    return true;
+}

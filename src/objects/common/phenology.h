@@ -2,6 +2,7 @@
 #ifndef RAMIFY_OBJECTS_COMMON_PHENOLOGY_H
 #define RAMIFY_OBJECTS_COMMON_PHENOLOGY_H
 
+#include "config/table.h"
 #include "objects/common/leaves.h"
 
 // Times are months and fractions of a month, 1 = begin of January, 4.5 = middle of April, at 50
@@ -28,6 +29,28 @@ bool phenology_is_within(const float span[2], float time);
 void phenology_apply(const Phenology *phenology, float season, float latitude,
                      LeavesParams *leaves);
 
-extern const struct Table phenology_table;
+// The check of a plant's key `season`: applies it unless it is 0. False if it is before January.
+bool phenology_check(const Mapping *mapping, const Phenology *phenology, float season,
+                     float latitude, LeavesParams *leaves);
+
+extern const Table phenology_table;
+
+// Rows of the keys season, latitude and phenology of a STRUCT.
+#define PHENOLOGY_ROWS(STRUCT)                                                                     \
+    {KEY_OF(STRUCT, season, "season", KEY_FLOAT), .high = 13, .unit = "months",                    \
+     .doc =                                                                                        \
+         "Time of the year as a month and its fraction: 1 = begin of January, 10.5 = middle of "   \
+         "October. It sets emergence, autumn, fall and litter of leaves by the phenology; 0 = "    \
+         "as leaves has them."},                                                                   \
+        {KEY_OF(STRUCT, latitude, "latitude", KEY_FLOAT), .low = -90, .high = 90,                  \
+         .unit = "degrees",                                                                        \
+         .doc =                                                                                    \
+             "Latitude for the season: spring comes 4 days later per degree to the north and "     \
+             "autumn "                                                                             \
+             "2 days earlier; south of the equator (negative) the year is turned by six months."}, \
+    {                                                                                              \
+        KEY_OF(STRUCT, phenology, "phenology", KEY_GROUP), .table = &phenology_table,              \
+                                                           .doc = "The year of the leaves."        \
+    }
 
 #endif

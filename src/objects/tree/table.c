@@ -231,15 +231,7 @@ static const Key TREE_KEYS[] = {
      .doc = "Growth by light: what makes a species' habit."},
     {KEY_OF(TreeParams, seed, "seed", KEY_UINT64), .high = 18446744073709551615.0,
      .doc = "Seed of this tree; 0 = the object's."},
-    {KEY_OF(TreeParams, season, "season", KEY_FLOAT), .high = 13, .unit = "months",
-     .doc = "Time of the year as a month and its fraction: 1 = begin of January, 10.5 = middle of "
-            "October. It sets emergence, autumn, fall and litter of leaves by the phenology; 0 = "
-            "as leaves has them."},
-    {KEY_OF(TreeParams, latitude, "latitude", KEY_FLOAT), .low = -90, .high = 90, .unit = "degrees",
-     .doc = "Latitude for the season: spring comes 4 days later per degree to the north and autumn "
-            "2 days earlier; south of the equator (negative) the year is turned by six months."},
-    {KEY_OF(TreeParams, phenology, "phenology", KEY_GROUP), .table = &phenology_table,
-     .doc = "The year of the leaves."},
+    PHENOLOGY_ROWS(TreeParams),
     {KEY_OF(TreeParams, snow, "snow", KEY_GROUP), .table = &snow_table,
      .doc = "Snow that has settled on the branches."},
     {KEY_OF(TreeParams, trunk, "trunk", KEY_GROUP), .table = &TRUNK_TABLE,
@@ -273,13 +265,9 @@ static void tree_defaults(void *out)
 static bool check_tree(const Mapping *mapping, void *params)
 {
     TreeParams *given = params;
-    if (given->season > 0.0f && given->season < 1.0f) {
-        return mapping_fail(mapping, "season",
-                            " is %g; months begin at 1, and 0 means that leaves tell the season",
-                            (double)given->season);
-    }
-    if (given->season > 0.0f) {
-        phenology_apply(&given->phenology, given->season, given->latitude, &given->leaves);
+    if (!phenology_check(mapping, &given->phenology, given->season, given->latitude,
+                         &given->leaves)) {
+        return false;
     }
     TreePlan plan;
     tree_plan_make(&plan, params, 0);
