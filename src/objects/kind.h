@@ -53,6 +53,10 @@ typedef struct Kind {
     // Built-in materials that only this kind defaults to, ended by one without a name; NULL = none.
     const struct Material *builtin;
 
+    // Name of material number index that its parameters name beside SceneObject.material; NULL past
+    // the last one. NULL = there are none.
+    const char *(*further_material)(const void *params, int index);
+
     bool reads_scene; // its geometry depends on materials' values or on other objects
     bool reads_water; // it avoids the scene's water
     bool keeps_clear; // its growth keeps out of the obstacles of Recipe.room

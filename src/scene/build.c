@@ -196,6 +196,25 @@ static void find_materials(const World *world, const Making *m, int material[OBJ
     }
 }
 
+// Materials that the parameters name: *material is NULL if there are none. The caller frees it.
+static bool find_further(const World *world, const Making *m, int **material, Error *e)
+{
+    int count = 0;
+    *material = NULL;
+    while (m->kind->further_material && m->kind->further_material(m->params, count)) {
+        count++;
+    }
+    if (count == 0) {
+        return true;
+    }
+    *material = memory_alloc(count, sizeof **material, e);
+    for (int i = 0; *material && i < count; i++) {
+        int found = find_material(world, m->kind->further_material(m->params, i));
+        (*material)[i] = found >= 0 ? found : 0;
+    }
+    return *material;
+}
+
 typedef struct GroundObject {
     const Kind *kind;
     const void *params;
@@ -236,12 +255,16 @@ static bool add_geometry(World *world, const Making *m, Error *e)
     find_materials(world, m, material);
     GroundObject ground;
     SceneFlood water = {0};
-    if (m->kind->reads_water && !scene_flood_init(&water, m->scene, m->recipe.run, e)) {
+    int *further = NULL;
+    if (!find_further(world, m, &further, e) ||
+        (m->kind->reads_water && !scene_flood_init(&water, m->scene, m->recipe.run, e))) {
+        free(further);
         return false;
     }
     Placing placing = {.recipe = &m->recipe,
                        .geometry = &world->geometry,
                        .material = material,
+                       .further = further,
                        .object = m->index,
                        .around = {.eye = &world->camera.position,
                                   .material = world->material,
@@ -249,6 +272,7 @@ static bool add_geometry(World *world, const Making *m, Error *e)
                                   .land = find_land(m->scene, &m->own, &ground)}};
     bool done = m->kind->geometry(m->params, &m->grown, &placing, e);
     scene_flood_clear(&water);
+    free(further);
     return done;
 }
 

@@ -141,6 +141,22 @@ static bool check_names(const Mapping *scene, const char *key, const char *what)
 
 enum { MOST_HINTED = 4096 }; // maximum number of names searched for a hint
 
+// The first scalar below node with this text under a key that ends with "material"; NULL = none.
+static const Node *find_reference(const Node *node, const char *text)
+{
+    for (const Node *child = node->first; child; child = child->next) {
+        const char *end = child->key ? strstr(child->key, "material") : NULL;
+        if (end && child->kind == NODE_SCALAR && strcmp(child->text, text) == 0) {
+            return child;
+        }
+        const Node *below = find_reference(child, text);
+        if (below) {
+            return below;
+        }
+    }
+    return NULL;
+}
+
 static bool no_material(const Mapping *mapping, const Scene *scene, const SceneObject *object,
                         const Node *named)
 {
@@ -167,6 +183,15 @@ static bool check_materials(const Mapping *mapping, const Scene *scene)
             const char *name = pointer_at((const char *)object + row->offset);
             if (name && !scene_material(scene, name)) {
                 return no_material(mapping, scene, object, node_get(given, row->key));
+            }
+        }
+        const char *name;
+        for (int k = 0; object->kind->further_material &&
+                        (name = object->kind->further_material(object->params, k));
+             k++) {
+            const Node *named = scene_material(scene, name) ? NULL : find_reference(given, name);
+            if (named) {
+                return no_material(mapping, scene, object, named);
             }
         }
     }

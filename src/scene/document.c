@@ -21,7 +21,7 @@ static bool is_early(const char *path, const char *value)
                     (length == 6 && strncmp(last, "height", length) == 0) ||
                     (length == 8 && strncmp(last, "position", length) == 0);
     return strncmp(path, "objects", 7) == 0 &&
-           (dots == 3 ? is_input : dots < 3 && strstr(value, "species"));
+           (dots == 3 && is_input ? true : strstr(value, "species") != NULL);
 }
 
 static bool apply_changes(Arena *arena, Node *root, const SceneSource *source, bool early, Error *e)

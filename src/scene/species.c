@@ -1,5 +1,6 @@
 #include "scene/species.h"
 
+#include "config/yaml.h"
 #include "objects/kind.h"
 #include "scene/species_file.h"
 #include "scene/species_size.h"
@@ -290,6 +291,24 @@ static bool apply_species(Applier *a, const Subject *of, Node *named)
     return node_merge(a->arena, of->object, root, &a->budget, a->e);
 }
 
+// Distant woods without species are of these.
+static bool add_default_mix(Applier *a, const Node *object)
+{
+    static const char MIX[] = "[{share: 4, tree: {species: pedunculate_oak}}, "
+                              "{share: 3, tree: {species: lime}}, "
+                              "{share: 3, tree: {species: silver_birch}}]";
+    Node *woods = node_get(node_get(object, "ground"), "trees");
+    const char *count = node_get_text(woods, "count");
+    if (!count || strcmp(count, "0") == 0 || node_get(woods, "species")) {
+        return true;
+    }
+    Node *mix = yaml_parse(a->arena, MIX, sizeof MIX - 1, "species of distant woods", NULL, a->e);
+    if (mix) {
+        node_append(woods, mix, "species");
+    }
+    return mix;
+}
+
 static bool apply_to_object(Applier *a, Node *object)
 {
     for (int i = 0; kind_at(i); i++) {
@@ -303,13 +322,32 @@ static bool apply_to_object(Applier *a, Node *object)
     return true;
 }
 
+// Trees of a mix, at any depth of an object: mappings with the key `tree`, which can have a
+// species.
+static bool apply_to_mixes(Applier *a, Node *node)
+{
+    static const char KIND[] = "tree";
+    bool done = true;
+    for (Node *child = node->first; done && child; child = child->next) {
+        Subject of = {child, node_get(child, KIND), NULL};
+        Node *named = of.params ? node_get(of.params, "species") : NULL;
+        for (int i = 0; named && !of.table; i++) {
+            const Key *row = &kind_at(i)->variant.row;
+            of.table = strcmp(row->key, KIND) == 0 ? row->table : NULL;
+        }
+        done = (!named || apply_species(a, &of, named)) && apply_to_mixes(a, child);
+    }
+    return done;
+}
+
 bool species_apply(Node *root, const char *file, const char *folder, Arena *arena, Error *e)
 {
     Applier a = {root, file, folder, arena, MOST_VALUES, NULL, e};
     const Node *objects = node_get(root, "objects");
     bool done = true;
     for (Node *object = objects ? objects->first : NULL; done && object; object = object->next) {
-        done = apply_to_object(&a, object);
+        done = add_default_mix(&a, object) && apply_to_object(&a, object) &&
+               apply_to_mixes(&a, object);
     }
     return done;
 }

@@ -72,4 +72,19 @@ typedef struct LightSite {
 OutTree *light_grow(const OutTree *start, const LightParams *params, const LightSite *site,
                     const Run *run, Error *e);
 
+// One of several plants that grow side by side.
+typedef struct StandPlant {
+    const OutTree *start;
+    LightParams params;
+    LightSite site; // all in one space; room and reach are not used
+    OutTree *grown; // the result, owned by the caller
+} StandPlant;
+
+// Grows plants that shade each other, each as light_grow does. Those with fewer seasons begin
+// later. copy: m, offsets at which the leaves of all cast their shade once more, as those of a
+// larger stand. The result does not depend on the order of the plants or on run->threads. On
+// failure no plant has a tree; errors as for light_grow.
+bool light_grow_stand(StandPlant *plant, int count, const Vec3 *copy, int copies, const Run *run,
+                      Error *e);
+
 #endif

@@ -1,6 +1,7 @@
 #include "grow/light/season_light.h"
 
-#define CELL 1.5f   // internodes, of the voxels
+#include "grow/light/stand.h"
+
 #define BORDER 2.5f // cells about the plant
 enum { MOST_CELLS = 400000 };
 
@@ -15,12 +16,13 @@ static ShadeGrid *make_grid(const Plant *plant, const LightParams *params, const
 {
     Aabb box = plant_bounds(plant);
     float margin = around_margin(around, box);
-    Vec3 border = vec3_splat(BORDER * CELL);
+    Vec3 border = vec3_splat(BORDER * SEASON_LIGHT_CELL);
     border.x += margin;
     border.z += margin;
-    box.low = snapped(vec3_sub(box.low, border), CELL);
+    box.low = snapped(vec3_sub(box.low, border), SEASON_LIGHT_CELL);
     box.high = vec3_add(box.high, border);
-    ShadeGrid *grid = shade_grid_new(box, CELL, site->cells > 0 ? site->cells : MOST_CELLS, e);
+    ShadeGrid *grid =
+        shade_grid_new(box, SEASON_LIGHT_CELL, site->cells > 0 ? site->cells : MOST_CELLS, e);
     if (!grid) {
         return NULL;
     }
@@ -44,7 +46,7 @@ bool season_light_init(SeasonLight *light, const Plant *plant, const LightParams
     const LightSite *site = around->site;
     *light = (SeasonLight){.site = site};
     if (around_shares_light(around)) {
-        return around_give_leaves(around, plant, params, CELL, season, e) &&
+        return around_give_leaves(around, plant, params, SEASON_LIGHT_CELL, season, e) &&
                around_meet(around, plant, season, params->leaf_seasons, e) &&
                site->room->carry_light(site->room->user, run->threads, e);
     }
@@ -68,13 +70,19 @@ static Vec3 place(const SeasonLight *light, Vec3 p)
 float season_light_at(const SeasonLight *light, Vec3 p)
 {
     const Room *room = light->site->room;
-    return light->grid ? shade_grid_light(light->grid, p)
-                       : room->light(room->user, place(light, p));
+    if (light->grid) {
+        return shade_grid_light(light->grid, p);
+    }
+    p = place(light, p);
+    return light->stand ? light_stand_light(light->stand, p) : room->light(room->user, p);
 }
 
 Vec3 season_light_brightest(const SeasonLight *light, Vec3 p)
 {
     const Room *room = light->site->room;
-    return light->grid ? shade_grid_brightest(light->grid, p)
-                       : room->brightest(room->user, place(light, p));
+    if (light->grid) {
+        return shade_grid_brightest(light->grid, p);
+    }
+    p = place(light, p);
+    return light->stand ? light_stand_brightest(light->stand, p) : room->brightest(room->user, p);
 }

@@ -5,9 +5,12 @@
 
 #include "grow/light/around.h"
 
+#define SEASON_LIGHT_CELL 1.5f // internodes, of the voxels
+
 typedef struct SeasonLight {
     const LightSite *site;
-    ShadeGrid *grid; // NULL = it is shared
+    ShadeGrid *grid;                // NULL = it is shared
+    const struct LightStand *stand; // where; NULL = by the site's room
 } SeasonLight;
 
 // Lets the plant meet its rivals and carries light through all leaves. Free with

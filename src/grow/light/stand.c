@@ -18,6 +18,8 @@ typedef struct Leaves {
 struct LightStand {
     Leaves *plant;
     int plants;
+    const Vec3 *offset; // of copies of all leaves; borrowed
+    int offsets;
     bool anchored;
     Vec3 anchor;     // a corner of cells of every season's grid
     ShadeGrid *grid; // NULL = not solved yet
@@ -62,6 +64,12 @@ bool light_stand_give(LightStand *stand, int plant, const Vec3 *leaf, int64_t co
     return true;
 }
 
+void light_stand_repeat(LightStand *stand, const Vec3 *offset, int count)
+{
+    stand->offset = offset;
+    stand->offsets = count;
+}
+
 void light_stand_leaf(const LightStand *stand, int plant, float *area, float *cell)
 {
     *area = stand->plant[plant].area;
@@ -84,9 +92,14 @@ static Aabb find_extent(const LightStand *stand, float *cell)
     }
     if (!(*cell < INFINITY)) { // nobody has leaves: one cell without shade
         *cell = 1.0f;
-        box = aabb_add(box, vec3(0, 0, 0));
+        return aabb_add(box, vec3(0, 0, 0));
     }
-    return box;
+    Aabb all = box;
+    for (int i = 0; i < stand->offsets; i++) {
+        all = aabb_add(all, vec3_add(box.low, stand->offset[i]));
+        all = aabb_add(all, vec3_add(box.high, stand->offset[i]));
+    }
+    return all;
 }
 
 static float snapped(float x, float anchor, float cell)
@@ -119,6 +132,10 @@ static bool place_leaves(const LightStand *stand, ShadeGrid *grid, int threads, 
 #pragma omp parallel for num_threads(threads) schedule(static)
         for (int64_t k = 0; k < own->count; k++) {
             shade_grid_count_leaves(grid, own->place[k], own->area, sum);
+            for (int j = 0; j < stand->offsets; j++) {
+                Vec3 p = vec3_add(own->place[k], stand->offset[j]);
+                shade_grid_count_leaves(grid, p, own->area, sum);
+            }
         }
     }
     if (sum) {

@@ -20,6 +20,9 @@ void light_stand_free(LightStand *stand); // NULL is fine
 bool light_stand_give(LightStand *stand, int plant, const Vec3 *leaf, int64_t count, float area,
                       float cell, Error *e);
 
+// Offsets, m, at which all leaves cast their shade once more. Borrows the list.
+void light_stand_repeat(LightStand *stand, const Vec3 *offset, int count);
+
 // Area and voxel that the plant's leaves were given with.
 void light_stand_leaf(const LightStand *stand, int plant, float *area, float *cell);
 

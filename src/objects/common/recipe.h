@@ -52,6 +52,7 @@ typedef struct Placing {
     const Recipe *recipe;
     Geometry *geometry;
     const int *material; // indices into the world's list, by the kind's roles
+    const int *further;  // the same of Kind.further_material; NULL = it has none
     int object;          // index in the scene
     Surroundings around;
 } Placing;

@@ -50,7 +50,7 @@ GroundParams ground_params_default(void)
                                     .outer = 900.0f,
                                     .height = 16.0f,
                                     .clumping = 0.9f,
-                                    .variants = 3}};
+                                    .variants = 5}};
 }
 
 float ground_height(const GroundParams *params, uint64_t seed, float x, float z)

@@ -3,6 +3,7 @@
 #define RAMIFY_OBJECTS_GROUND_GROUND_H
 
 #include "objects/common/recipe.h"
+#include "objects/tree/mix.h"
 
 // Woods in the distance: a few trees, grown once and instanced.
 typedef struct GroveParams {
@@ -12,6 +13,9 @@ typedef struct GroveParams {
     float clumping;     // 0 = even .. 1 = in woods with open land between
     int variants;       // different trees
     bool bare;          // without leaves
+    float season;       // month, as TreeParams.season; 0 = as the trees have it
+    TreeShare *species;
+    int species_count;
 } GroveParams;
 
 typedef struct GroundParams {

@@ -4,12 +4,14 @@
 #include "base/memory.h"
 #include "base/noise.h"
 #include "base/random.h"
+#include "objects/tree/instanced.h"
 #include "objects/tree/tree.h"
 
 #include <stdlib.h>
 
-enum { STREAM_HEIGHT = 1, STREAM_CROWN_WIDTH = 2, STREAM_CROWN_BASE = 3 }; // of a variant's tree
-enum { STREAM_PLACES = 1, STREAM_VARIANT_TREE = 2 };                       // of a variant
+enum { STREAM_HEIGHT = 1 };                                              // of a variant's tree
+enum { STREAM_PLACES = 1, STREAM_VARIANT_TREE = 2, STREAM_SPECIES = 3 }; // of a variant
+enum { DISTANT_SEASONS = 26, DISTANT_LEAVES = 40000 };
 // Of a tree's place.
 enum {
     STREAM_RADIUS = 1,
@@ -19,32 +21,31 @@ enum {
     STREAM_TURN = 5
 };
 
-// A tree of about a hundred pixels: fewer levels, few and large leaves, no roots.
-static TreeParams distant_tree(const GroveParams *grove, GrowLevel levels[3], uint64_t seed)
+// A tree of about a hundred pixels grows in fewer seasons, so with fewer branches, and without
+// roots.
+static TreeParams distant_tree(const GroveParams *grove, const TreeParams *own, uint64_t seed)
 {
-    levels[0] = (GrowLevel){25, 0.10f, 0.4f, 4.0f, 0.70f, 0.3f, 0.0f, 0.5f};
-    levels[1] = (GrowLevel){250, 0.20f, 0.7f, 2.5f, 0.92f, 0.3f, 0.0f, 0.5f};
-    levels[2] = (GrowLevel){1600, 0.35f, 0.9f, 2.2f, 1.0f, 0.3f, 0.1f, 0.5f};
-    TreeParams tree = tree_params_default();
-    tree.height = grove->height * random_range(random_key(seed, STREAM_HEIGHT), 0.65f, 1.0f);
-    tree.crown.width = tree.height * random_range(random_key(seed, STREAM_CROWN_WIDTH), 0.6f, 1.1f);
-    tree.crown.base = tree.height * random_range(random_key(seed, STREAM_CROWN_BASE), 0.06f, 0.16f);
-    tree.crown.element.levels = levels;
-    tree.crown.element.level_count = 3;
-    tree.crown.element.voxel = tree.height / 32.0f;
-    tree.crown.element.points.shell = 0.0f; // its depth field would cost more than the growth
+    TreeParams tree = own ? *own : tree_params_default();
+    float size = random_range(random_key(seed, STREAM_HEIGHT), 0.7f, 1.0f);
+    tree.height = size * (tree.height > 0.0f ? tree.height : grove->height);
+    tree.age = 0.0f;
+    // a tree of this height is grown up here, unless it is much smaller than the species
+    tree.light.mature_height = tree.height;
+    int *seasons = &tree.light.growth.seasons;
+    *seasons = *seasons < DISTANT_SEASONS ? *seasons : DISTANT_SEASONS;
+    tree.grown_by = GROWN_BY_LIGHT;
+    tree.crown.element = tree_params_default().crown.element;
+    tree.crown.width = tree.crown.base = 0.0f;
     tree.roots.count = 0;
-    tree.radii.tip = 0.004f;
-    tree.skin.curve_radius = 0.03f;
+    tree.position = vec3(0, 0, 0);
+    tree.radii.tip = tree.radii.tip > 0.003f ? tree.radii.tip : 0.003f;
+    tree.leaves.twig_radius *= 2.0f; // as its twigs are thicker
+    tree.skin.curve_radius = 0.04f;
     tree.skin.levels = 0;
-    tree.leaves.twig_radius = 0.03f;
-    tree.leaves.max_count = grove->bare ? 0 : 7000;
-    tree.leaves.spacing = 0.05f;
-    tree.leaves.length = 0.034f * tree.height;
-    tree.leaves.width = 0.024f * tree.height;
-    tree.leaves.petiole = 0.0f;
-    tree.leaves.lobes = 0;
     tree.leaves.variants = 1;
+    if (grove->bare) {
+        tree.leaves.max_count = 0;
+    }
     return tree;
 }
 
@@ -108,45 +109,79 @@ bool grove_add_part(Geometry *geometry, Part *part, const Transform *place, int6
     return geometry_add(geometry, copy, e);
 }
 
-static bool add_variant(const GroveParams *grove, const Transform *place, int64_t count,
-                        uint64_t seed, const Placing *placing, Error *e)
+static bool add_variant(const GroveParams *grove, int species, const Transform *place,
+                        int64_t count, uint64_t seed, const Placing *placing, Error *e)
 {
-    GrowLevel levels[3];
-    TreeParams params = distant_tree(grove, levels, seed);
-    const int material[] = {placing->material[GROUND_BARK], placing->material[GROUND_BARK],
-                            placing->material[GROUND_FOLIAGE]};
-    const Run *run = placing->recipe->run;
-    Recipe recipe = {.seed = seed, .label = "distant tree", .run = run};
-    Geometry single = {0};
-    Placing own = {&recipe, &single, material, placing->object, {0}};
+    const TreeParams *own = species >= 0 ? grove->species[species].tree : NULL;
+    TreeParams params = distant_tree(grove, own, seed);
+    int plain[TREE_ROLES];
+    for (int i = 0; i < TREE_ROLES; i++) {
+        plain[i] = placing->material[i == TREE_LEAF ? GROUND_FOLIAGE : GROUND_BARK];
+    }
+    Recipe recipe = {.seed = seed, .label = "distant tree", .run = placing->recipe->run};
+    InstancedTree how = {.place = place,
+                         .count = count,
+                         .material = species >= 0 ? placing->further + species * TREE_ROLES : plain,
+                         .most_leaves = DISTANT_LEAVES,
+                         .distant = true,
+                         .seed = seed};
     Grown tree = {0};
     bool done = tree_grow(&params, &recipe, &tree, e) &&
                 tree_finish(&params, &recipe, &tree, &tree, e) &&
-                tree_geometry(&params, &tree, &own, e);
+                tree_add_instanced(&params, &tree, &how, placing, e);
     grown_clear(&tree);
-    for (int64_t i = 0; done && i < single.count; i++) {
-        done = grove_add_part(placing->geometry, &single.part[i], place, count, run, e);
-    }
-    geometry_clear(&single);
     return done;
+}
+
+// The species of a variant: the first ones in turn, then by their shares. -1 = none is given.
+static int species_of(const GroveParams *grove, int variant, uint64_t seed)
+{
+    if (grove->species_count == 0 || variant < grove->species_count) {
+        return grove->species_count == 0 ? -1 : variant;
+    }
+    return tree_mix_choose(grove->species, grove->species_count, random_unit(seed));
+}
+
+// How many of the trees are of variant v: its species' share, divided among its variants.
+static int64_t trees_of(const GroveParams *grove, const int *species, int variants, int v)
+{
+    double all = 0.0, same = 0.0;
+    if (species[v] < 0) {
+        return grove_share(grove->count, variants, v);
+    }
+    for (int i = 0; i < grove->species_count; i++) {
+        all += (double)grove->species[i].share;
+    }
+    for (int i = 0; i < variants; i++) {
+        same += species[i] == species[v];
+    }
+    double share = (double)grove->species[species[v]].share / all / same;
+    return (int64_t)(share * (double)grove->count + 0.5);
 }
 
 bool grove_add(const GroundParams *ground, const Placing *placing, Error *e)
 {
     const GroveParams *grove = &ground->trees;
     const Recipe *recipe = placing->recipe;
-    Transform *place =
-        memory_alloc(grove_share(grove->count, grove->variants, 0), sizeof *place, e);
-    bool done = place != NULL;
-    for (int v = 0; done && v < grove->variants; v++) {
-        uint64_t key = random_key(random_key(recipe->seed, STREAM_GROUND_TREES), (uint64_t)v);
-        int64_t wanted = grove_share(grove->count, grove->variants, v);
+    int variants = grove->variants > grove->species_count ? grove->variants : grove->species_count;
+    Transform *place = memory_alloc((int64_t)grove->count + 1, sizeof *place, e);
+    int *species = place ? memory_alloc(variants, sizeof *species, e) : NULL;
+    uint64_t seed = random_key(recipe->seed, STREAM_GROUND_TREES);
+    for (int v = 0; species && v < variants; v++) {
+        uint64_t key = random_key(random_key(seed, (uint64_t)v), STREAM_SPECIES);
+        species[v] = species_of(grove, v, key);
+    }
+    bool done = species;
+    for (int v = 0; done && v < variants; v++) {
+        uint64_t key = random_key(seed, (uint64_t)v);
+        int64_t wanted = trees_of(grove, species, variants, v);
         int64_t count = place_trees(ground, recipe->seed, random_key(key, STREAM_PLACES), wanted,
                                     placing->around.flood, place, recipe->run, e);
         done = count == 0 ||
-               (count > 0 &&
-                add_variant(grove, place, count, random_key(key, STREAM_VARIANT_TREE), placing, e));
+               (count > 0 && add_variant(grove, species[v], place, count,
+                                         random_key(key, STREAM_VARIANT_TREE), placing, e));
     }
+    free(species);
     free(place);
     return done;
 }

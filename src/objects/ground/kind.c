@@ -14,9 +14,15 @@ static int64_t copies(const void *params)
     return ground->grass_tufts + ground->fallen_leaves + ground->trees.count;
 }
 
+static const char *further_material(const void *params, int index)
+{
+    const GroveParams *trees = &((const GroundParams *)params)->trees;
+    return tree_mix_material(trees->species, trees->species_count, index);
+}
+
 static void needs(const void *params, Needs *needs)
 {
-    enum { TUFT_FACES = 88, LEAF_FACES = 25, TREE_BYTES = 15000000, PARTS = 3 };
+    enum { TUFT_FACES = 88, LEAF_FACES = 25, TREE_BYTES = 40000000, PARTS = 10 };
     const GroundParams *ground = params;
     needs_add(needs, "grass_tufts", (double)ground->grass_tufts, // about half are rejected
               0.5 * (sizeof(Transform) + sizeof(float)));
@@ -64,6 +70,7 @@ const Kind kind_ground = {
     .reads_water = true,
     .materials = {"ground", "fallen", "grass", "bark", "leaf", "snow"},
     .builtin = BUILTIN,
+    .further_material = further_material,
     .needs = needs,
     .ground = height,
     .copies = copies,

@@ -14,15 +14,23 @@ static const Key GROVE_KEYS[] = {
     {KEY_OF(GroveParams, clumping, "clumping", KEY_FLOAT), .high = 1,
      .doc = "Distribution: 0 = uniform, 1 = woods with open land between."},
     {KEY_OF(GroveParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
-     .doc = "Number of different trees that are grown; all others are copies."},
+     .doc = "Number of different trees that are grown, at least one of each species; all others "
+            "are copies."},
     {KEY_OF(GroveParams, bare, "bare", KEY_BOOL),
      .doc = "Grow trees without leaves, as in winter."},
+    {KEY_OF(GroveParams, season, "season", KEY_FLOAT), .high = 13, .unit = "months",
+     .doc = "Time of the year of all these trees, as tree.season; 0 = as each has it."},
+    {KEY_OF(GroveParams, species, "species", KEY_LIST),
+     .count_offset = offsetof(GroveParams, species_count), .count = 100, .table = &tree_share_table,
+     .doc = "The trees and their shares. A tree without a height of its own has that of these "
+            "woods. Default: oaks, limes and birches of the library."},
     {0},
 };
 
 static bool check_grove(const Mapping *mapping, void *params)
 {
-    const GroveParams *grove = params;
+    GroveParams *grove = params;
+    tree_mix_set_season(grove->species, grove->species_count, grove->season);
     return grove->inner < grove->outer ||
            mapping_fail(mapping, "inner", " is %g m; it must be less than outer, %g m",
                         (double)grove->inner, (double)grove->outer);
