@@ -2,6 +2,7 @@
 #include "tiny_world.h"
 
 #include "image/image.h"
+#include "render/accel/accel.h"
 
 #include <math.h>
 #include <unistd.h>
@@ -82,6 +83,37 @@ static void normals_tilt_along_the_picture(void **state)
             assert_true(back ? n.y < -0.3f && n.z < -0.8f : n.y > 0.3f && n.z > 0.8f);
             film_free(film);
         }
+    }
+    unlink(file.name);
+}
+
+// Grey 0.5 leaves the surface where it is; black lies half of the depth behind it, white before it.
+static void heights_move_the_surface(void **state)
+{
+    (void)state;
+    Picture file = picture(vec3_splat(0.0f), vec3_splat(1.0f));
+    for (int off = 0; off < 2; off++) {
+        World *world = world_with(square(true));
+        assert_true(mesh_compute_normals(world->geometry.part[0].mesh, NULL));
+        world->film.width = world->film.height = 200;
+        world->material[0].displacement_texture = file.name;
+        world->material[0].displacement_depth = 0.2f;
+        world->material[0].displacement = off ? DISPLACEMENT_OFF : DISPLACEMENT_AUTO;
+        Run run = run_default();
+        MaterialSet *set = material_set_new(world->material, NULL, 1, &run, NULL);
+        assert_non_null(set);
+        Accel *accel = accel_new(world, set, NULL, &run, NULL);
+        assert_non_null(accel);
+        for (int side = -1; side <= 1; side += 2) {
+            Ray ray = {
+                .origin = {0.5f * (float)side, 0.31f, 5}, .direction = {0, 0, -1}, .far = INFINITY};
+            Hit hit;
+            assert_true(accel_intersect(accel, &ray, &hit));
+            ASSERT_NEAR(5.0f - hit.t, off ? 0.0 : 0.1 * side, 1e-4);
+        }
+        accel_free(accel);
+        material_set_free(set);
+        world_free(world);
     }
     unlink(file.name);
 }
@@ -206,6 +238,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(normals_tilt_along_the_picture),
+        cmocka_unit_test(heights_move_the_surface),
         cmocka_unit_test(scale_repeats_the_picture),
         cmocka_unit_test(triplanar_moves_with_the_object),
         cmocka_unit_test(triplanar_mixes_where_it_slants),

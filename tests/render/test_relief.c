@@ -1,5 +1,6 @@
 // Relief as geometry near the camera: what rays meet, against the height that the material tells.
 #include "render/accel/accel.h"
+#include "render/material/pattern.h"
 #include "render/material/relief.h"
 #include "render/tiny_world.h"
 
@@ -139,7 +140,7 @@ static void only_displacement_changes_the_outline(void **state)
             Hit hit;
             bool met = false;
             for (; !met && x > 0.25f; x -= 0.0005f) {
-                Ray ray = {.origin = {x, 0.005f * (float)(j - rows / 2), 2},
+                Ray ray = {.origin = {x, 0.005f * ((float)j - 0.5f * (float)rows), 2},
                            .direction = {0, 0, -1},
                            .far = INFINITY};
                 met = accel_intersect(scan.accel, &ray, &hit);
@@ -177,6 +178,44 @@ static void far_stems_and_copies_keep_bumps(void **state)
     }
 }
 
+// Moss is on the north side (-z) and near the foot; scars make dents and rings.
+static void moss_and_scars_grow_where_they_are_asked_for(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_BARK;
+    m.bark = BARK_SMOOTH;
+    m.moss = 0.45f;
+    double green[2][2] = {{0, 0}, {0, 0}};
+    float deepest = 0.0f, highest = 0.0f;
+    for (int i = 0; i < 4000; i++) {
+        float angle = 0.1f * (float)(i % 20 - 10), y = 0.001f * (float)i;
+        int north = i % 2, high = y > 2.0f;
+        Vec3 n = vec3(sinf(angle), 0, north ? -cosf(angle) : cosf(angle));
+        SurfacePoint point = {.object_position = vec3_madd(vec3(0, y, 0), RADIUS, n),
+                              .geometric_normal = n,
+                              .normal = n,
+                              .tangent_u = vec3(n.z, 0, -n.x),
+                              .tangent_v = vec3(0, 1, 0),
+                              .uv = {angle * RADIUS, y},
+                              .radius = RADIUS,
+                              .footprint = 1e-4f};
+        PatternShade shade = {.color = m.color, .normal = n};
+        pattern_apply(&m, &point, &shade);
+        green[north][high] += (double)(shade.color.y - shade.color.x);
+        Material scarred = m;
+        scarred.moss = 0.0f;
+        scarred.scars = 1.0f;
+        float height = pattern_height(&scarred, &point);
+        deepest = fminf(deepest, height);
+        highest = fmaxf(highest, height);
+    }
+    assert_true(green[1][1] > green[0][1] + 1.0);
+    assert_true(green[0][0] + green[1][0] > green[0][1] + green[1][1] + 1.0);
+    assert_true(deepest < -0.01f && highest > 0.008f);
+    assert_true(highest - deepest < relief_size(&m, RADIUS) + 0.06f);
+}
+
 // A change of the relief rebuilds; one of the colour does not.
 static void structures_fit_the_relief(void **state)
 {
@@ -197,6 +236,7 @@ int main(void)
         cmocka_unit_test(rays_meet_the_height_of_the_pattern),
         cmocka_unit_test(only_displacement_changes_the_outline),
         cmocka_unit_test(far_stems_and_copies_keep_bumps),
+        cmocka_unit_test(moss_and_scars_grow_where_they_are_asked_for),
         cmocka_unit_test(structures_fit_the_relief),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -39,10 +39,17 @@ static void noise_pattern(const Material *m, const SurfacePoint *point, PatternS
     shade->normal = pattern_tilt(shade->normal, vec3_scale(gradient, bump));
 }
 
+// With smaller octaves, of sharp crests, which bumps leave out.
 static float noise_height(const Material *m, const SurfacePoint *point)
 {
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 0.1f;
-    float n = noise_solid(vec3_scale(point->object_position, 1.0f / scale), 1, NULL);
+    Vec3 p = vec3_scale(point->object_position, 1.0f / scale);
+    float n = noise_solid(p, 1, NULL), height = 0.9f;
+    for (uint32_t octave = 0; octave < 6; octave++) {
+        p = vec3_scale(p, 2.03f);
+        n += height * (0.3f - fabsf(noise_solid(p, 5 + octave, NULL)));
+        height *= 0.48f;
+    }
     return 0.5f * m->pattern_depth * pattern_detail(scale, point->footprint) * n;
 }
 

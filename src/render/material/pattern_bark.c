@@ -116,7 +116,8 @@ static BarkRelief relief_at(const SurfacePoint *point, const StemPlace *place, f
         coarse = ridges(place, width, wind, 11);
         add_fissures(&coarse, place, 0.55f * width, 0.3f);
         if (detail > 0.0f) {
-            add_flakes(&coarse, place, 0.17f * width, 0.13f * detail);
+            add_flakes(&coarse, place, 0.17f * width, 0.09f * detail);
+            add_fissures(&coarse, place, 0.21f * width, 0.13f * detail);
         }
     }
     if (thick < 1.0f) {

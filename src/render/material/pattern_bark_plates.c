@@ -23,13 +23,17 @@ static float add_cells(BarkLook *look, const StemPlace *place, float around, flo
 }
 
 // Scales that lie in layers: steps of a noise.
+// Returns how near the place is to a step, 0..1. *tone: 0..1, random per layer.
 static float add_scales(BarkLook *look, const StemPlace *place, float around, float along,
-                        float height, float shift, uint32_t seed)
+                        float height, float shift, uint32_t seed, float *tone)
 {
-    Vec3 g, q = stem_lookup(place, around, along);
+    Vec3 g, torn, q = stem_lookup(place, around, along);
+    noise_solid(vec3_scale(q, 4.7f), seed + 50, &torn); // ragged edges
+    q = vec3_madd(q, 0.045f, torn);
     float n = 3.0f * noise_solid(vec3(q.x, q.y, q.z + 10.0f * shift), seed, &g);
     float step = n - floorf(n);
     float edge = clampf(1.0f - step / 0.16f, 0.0f, 1.0f);
+    *tone = noise_unit((uint32_t)(int)floorf(n), (uint32_t)(1024.0f * shift));
     float rise = 0.08f * (floorf(n) + 1.0f - edge * edge); // the integral of edge over n
     stem_add_relief(look, place, height * rise, height * edge * 3.0f, around, along, g);
     return edge;
@@ -44,9 +48,11 @@ static BarkLook old_plates(const Material *m, const StemPlace *place, float scal
     float plate =
         add_cells(&look, place, around, along, 0.10f + 0.06f * wind.x, 1.0f, wind, 41, &cell);
     float own = noise_unit(cell.cell, 5);
-    float edge = add_scales(&look, place, 0.030f * scale, 0.055f * scale, 0.30f * seen, own, 42);
+    float tone, edge = add_scales(&look, place, 0.030f * scale, 0.055f * scale, 0.75f * seen, own,
+                                  42, &tone);
     float stain = noise_fractal(stem_lookup(place, 0.05f * scale, 0.08f * scale), 3, 47);
-    Vec3 grey = vec3_scale(m->color, 0.80f + 0.35f * own + 0.45f * stain - 0.42f * edge * seen);
+    Vec3 grey = vec3_scale(m->color, 0.80f + 0.35f * own + 0.45f * stain +
+                                         (0.26f * (tone - 0.5f) - 0.18f * edge) * seen);
     Vec3 flesh = vec3_lerp(grey, m->color2,
                            clampf(0.22f * noise_unit(cell.cell, 6) + 0.2f * stain, 0.0f, 1.0f));
     Vec3 furrow = vec3_scale(vec3_lerp(m->color, m->color2, 0.35f), 0.26f);
@@ -62,9 +68,10 @@ static BarkLook young_flakes(const Material *m, const StemPlace *place, float sc
     const float around = 0.028f * scale, along = 0.045f * scale;
     float flake = add_cells(&look, place, around, along, 0.06f, 0.12f * seen, wind, 44, &cell);
     float own = noise_unit(cell.cell, 5);
-    float edge = add_scales(&look, place, 0.05f * scale, 0.06f * scale, 0.06f * seen, own, 45);
-    Vec3 color = vec3_scale(m->color2, 0.8f + 0.45f * own);
-    color = vec3_lerp(color, vec3_mul(color, vec3(1.2f, 1.35f, 1.5f)), 0.5f * edge * seen);
+    float tone,
+        edge = add_scales(&look, place, 0.05f * scale, 0.06f * scale, 0.15f * seen, own, 45, &tone);
+    Vec3 color = vec3_scale(m->color2, 0.8f + 0.3f * own + 0.3f * seen * (tone - 0.5f));
+    color = vec3_lerp(color, vec3_mul(color, vec3(1.2f, 1.35f, 1.5f)), 0.35f * edge * seen);
     look.color = vec3_scale(color, 1.0f - 0.35f * seen * (1.0f - flake));
     return look;
 }

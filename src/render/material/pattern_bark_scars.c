@@ -88,17 +88,17 @@ static void add_hollow(const Material *m, const StemPlace *place, BarkSurface *b
     if (thick <= 0.0f) {
         return;
     }
-    const float spacing = 0.62f; // m
+    const float spacing = 0.46f; // m
     Vec3 torn, q = stem_lookup(place, spacing, 1.7f * spacing);
     noise_solid(stem_lookup(place, 0.11f, 0.2f), 86, &torn);
-    Spot spot = spot_at(vec3_madd(q, 0.035f, torn), 0.6f * m->hollows, 0.16f, 0.34f, 87);
+    Spot spot = spot_at(vec3_madd(q, 0.035f, torn), 0.9f * m->hollows, 0.18f, 0.38f, 87);
     if (spot.t > 1.6f) {
         return;
     }
     float within = 1.0f - smoothstepf(0.35f, 0.92f, spot.t), guard = spot.guard * thick;
     float fibre = noise_solid(stem_lookup(place, 0.012f, 0.16f), 88, NULL);
     bark->form += guard * place->radius * (0.09f * bell(spot.t, 1.08f, 0.2f) - 0.6f * within) +
-                  0.004f * guard * within * fibre;
+                  guard * within * (0.009f * fibre + 0.012f * torn.x);
     flatten(bark, guard * smoothstepf(1.15f, 0.85f, spot.t));
     Vec3 wood = vec3_scale(vec3(0.135f, 0.092f, 0.058f), 1.0f + 0.35f * fibre - 0.45f * within);
     bark->color = vec3_lerp(bark->color, wood, guard * smoothstepf(1.0f, 0.8f, spot.t));

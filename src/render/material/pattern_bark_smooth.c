@@ -36,16 +36,20 @@ BarkLook bark_smooth(const Material *m, const StemPlace *place, float scale, flo
     return look;
 }
 
-// The age of the patch at the place and how near its edge is (1 = at it), with the slope there.
+// The age of the patch at the place, and the step to the next one: old patches are thick. *edge:
+// how near a thicker one is, 0..1.
 static float patch_age(BarkLook *look, const StemPlace *place, float around, float along,
                        float height, Vec3 wind, uint32_t seed, float *edge)
 {
     Vec3 q = vec3_madd(stem_lookup(place, around, along), 0.38f, wind);
     CellPoint cell = noise_cells(q, seed);
-    float t = clampf(cell.border / 0.05f, 0.0f, 1.0f), age = noise_unit(cell.cell, 8);
-    *edge = 1.0f - t;
-    float rise = height * (age - 0.45f), slope = t < 1.0f ? rise * (1.0f - t) / 0.05f : 0.0f;
-    stem_add_relief(look, place, rise * (t - 0.5f * t * t), slope, around, along, cell.normal);
+    const float width = 0.022f;
+    float t = clampf(cell.border / width, 0.0f, 1.0f), age = noise_unit(cell.cell, 8);
+    float step = 0.5f * (age - noise_unit(cell.next, 8)); // from the middle of the step
+    *edge = step < 0.0f ? clampf(1.0f - cell.border / 0.05f, 0.0f, 1.0f) : 0.0f;
+    float rise = height * (age - step * (1.0f - t) * (1.0f - t) - 0.5f);
+    float slope = height * step * 2.0f * (1.0f - t) / width;
+    stem_add_relief(look, place, rise, slope, around, along, cell.normal);
     return age;
 }
 
@@ -64,14 +68,14 @@ BarkLook bark_flakes(const Material *m, const StemPlace *place, float scale, flo
     float edge, edge2, seen = pattern_detail(0.03f * scale, footprint);
     noise_solid(stem_lookup(place, 0.10f * scale, 0.13f * scale), 61, &wind);
     float size = scale * (0.5f + 0.5f * smoothstepf(0.02f, 0.12f, place->radius));
-    float large = patch_age(&look, place, 0.16f * size, 0.24f * size, 0.5f, wind, 62, &edge);
-    float small = patch_age(&look, place, 0.055f * size, 0.085f * size, 0.4f, wind, 63, &edge2);
+    float large = patch_age(&look, place, 0.16f * size, 0.24f * size, 1.0f, wind, 62, &edge);
+    float small = patch_age(&look, place, 0.055f * size, 0.085f * size, 0.5f, wind, 63, &edge2);
     float foot = smoothstepf(0.15f, 0.4f, place->radius) *
                  expf(-fmaxf(place->height, 0.0f) / (6.0f * place->radius + 0.05f));
     float age = clampf(0.62f * large + 0.38f * small + 0.5f * foot, 0.0f, 1.0f);
     float grain = noise_solid(stem_lookup(place, 0.02f * scale, 0.02f * scale), 64, NULL);
     look.color = vec3_scale(patch_color(m, age), 1.0f + 0.07f * seen * grain);
-    look.color = vec3_scale(look.color, 1.0f - 0.22f * seen * fmaxf(edge, 0.6f * edge2) * age);
+    look.color = vec3_scale(look.color, 1.0f - 0.30f * seen * fmaxf(edge, 0.6f * edge2));
     float twig = smoothstepf(0.02f, 0.008f, place->radius);
     look.color = vec3_lerp(look.color, vec3_lerp(m->color, m->color2, 0.8f), twig);
     return look;

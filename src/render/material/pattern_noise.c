@@ -150,5 +150,6 @@ CellPoint noise_cells(Vec3 p, uint32_t seed)
     Vec3 apart = vec3_sub(cell_point(&points, a), cell_point(&points, b));
     float length = fmaxf(vec3_length(apart), 1e-6f);
     return (CellPoint){0.5f * (second - nearest) / length, vec3_scale(apart, 1.0f / length),
-                       points.hash[a / 8][a % 8], cell_point(&points, a)};
+                       points.hash[a / 8][a % 8], cell_point(&points, a),
+                       points.hash[b / 8][b % 8]};
 }

@@ -18,6 +18,7 @@ typedef struct CellPoint {
     Vec3 normal;   // unit, from that neighbour to this cell: the gradient of border
     uint32_t cell; // hash of the cell
     Vec3 point;    // of the cell, relative to the position
+    uint32_t next; // hash of that neighbour
 } CellPoint;
 
 CellPoint noise_cells(Vec3 p, uint32_t seed);
