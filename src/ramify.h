@@ -81,7 +81,8 @@ RAMIFY_API void ramify_suggest(const char *word, const char *const *known, int c
 
 typedef struct RamifyScene RamifyScene;
 
-// Reads and checks a scene file. overrides: override_count texts "path=value" such as
+// Reads and checks a scene file, or the scene of a picture (.exr, .png) that ramify has rendered;
+// files that it names are then relative to the picture's folder. overrides: override_count texts "path=value" such as
 // "camera.fov=35" or "objects.oak.tree.height=9"; may be NULL if there are none. Files named in the
 // scene are relative to its folder and must exist.
 RAMIFY_API RamifyScene *ramify_scene_load(const char *file, const char *const *overrides,
@@ -111,6 +112,7 @@ typedef struct RamifySceneInfo {
     int32_t object_count, material_count, light_count, target_count;
     int64_t memory; // bytes needed for rendering, estimated from counts: about within a factor of
                     // 3, without level sets of envelopes
+    int32_t planned_samples; // for which the pattern of noise is laid out
 } RamifySceneInfo;
 
 // Describes the scene without growing anything.
@@ -494,6 +496,19 @@ typedef struct RamifyFilm RamifyFilm;
 RAMIFY_API RamifyFilm *ramify_film_new(int width, int height, RamifyError *error);
 RAMIFY_API void ramify_film_free(RamifyFilm *film);
 
+// Reads the film of an .exr of this scene, to go on rendering it (ramify_renderer_resume).
+// RAMIFY_BAD_INPUT when the file cannot be read, or when it is no picture of this scene: only the
+// numbers of samples and seconds may differ. run may be NULL.
+RAMIFY_API RamifyFilm *ramify_film_read(const char *file, const RamifyScene *scene,
+                                        const RamifyRun *run, RamifyError *error);
+
+// Joins pictures of parts of a scene's picture (film.crop) in a new film: pixels that have samples in
+// one of the files. files: count names of .exr. RAMIFY_BAD_INPUT as for ramify_film_read, and when
+// two of them have samples in the same pixel. *missing (may be NULL): pixels without samples in any.
+RAMIFY_API RamifyFilm *ramify_film_join(const char *const *files, int count,
+                                        const RamifyScene *scene, int64_t *missing,
+                                        const RamifyRun *run, RamifyError *error);
+
 // A layer of the film, row by row from the top left, *channels (may be NULL) floats a pixel;
 // borrowed. NULL if there is no layer with that name:
 //   color 3     mean radiance, premultiplied       alpha 1     share covered by surfaces
@@ -551,7 +566,7 @@ typedef struct RamifyRenderInfo {
 typedef void (*RamifyPass)(void *user, const RamifyFilm *film, int samples);
 
 // A first look: one path for each 4 x 4 pixels, whose result all of them get, in a sixteenth of the
-// time of one sample per pixel. ramify_renderer_render then starts anew. run may be NULL.
+// time of one sample per pixel. It counts as no sample: a rendering starts anew. run may be NULL.
 RAMIFY_API bool ramify_renderer_look(RamifyRenderer *renderer, RamifyFilm *film,
                                      const RamifyRun *run, RamifyError *error);
 
@@ -563,6 +578,14 @@ RAMIFY_API bool ramify_renderer_look(RamifyRenderer *renderer, RamifyFilm *film,
 RAMIFY_API bool ramify_renderer_render(RamifyRenderer *renderer, RamifyFilm *film, RamifyPass pass,
                                        void *user, const RamifyRun *run, RamifyRenderInfo *info,
                                        RamifyError *error);
+
+// Goes on with the samples that the film holds (ramify_film_read, or a rendering that was cut
+// short): the film becomes what ramify_renderer_render would have made of it, to the bit. pass is
+// also called after every `every` seconds within a pass (0 = not), with the least samples of a
+// pixel, to save the film; no thread then writes to it.
+RAMIFY_API bool ramify_renderer_resume(RamifyRenderer *renderer, RamifyFilm *film, RamifyPass pass,
+                                       double every, void *user, const RamifyRun *run,
+                                       RamifyRenderInfo *info, RamifyError *error);
 
 // ---- golden images ----
 

@@ -3,6 +3,7 @@
 #include "image/image.h"
 #include "render/accel/accel.h"
 #include "scene/picture.h"
+#include "scene/picture_read.h"
 #include "scene/place.h"
 
 #include <string.h>
@@ -22,6 +23,34 @@ RamifyFilm *ramify_film_new(int width, int height, RamifyError *error)
 void ramify_film_free(RamifyFilm *film)
 {
     film_free((Film *)(void *)film);
+}
+
+RamifyFilm *ramify_film_read(const char *file, const RamifyScene *scene, const RamifyRun *run,
+                             RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    Film *film = picture_read_film(file, scene_of(scene), false, &own, &e);
+    if (!film) {
+        api_fail(error, &e);
+    }
+    return (RamifyFilm *)(void *)film;
+}
+
+RamifyFilm *ramify_film_join(const char *const *files, int count, const RamifyScene *scene,
+                             int64_t *missing, const RamifyRun *run, RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    int64_t left = 0;
+    Film *film = picture_join(files, count, scene_of(scene), &left, &own, &e);
+    if (!film) {
+        api_fail(error, &e);
+    }
+    if (missing) {
+        *missing = left;
+    }
+    return (RamifyFilm *)(void *)film;
 }
 
 const float *ramify_film_layer(const RamifyFilm *film, const char *name, int *channels)
@@ -156,6 +185,31 @@ bool ramify_renderer_look(RamifyRenderer *renderer, RamifyFilm *film, const Rami
            api_fail(error, &e);
 }
 
+static void fill_info(RamifyRenderInfo *info, const RenderStats *stats)
+{
+    if (info) {
+        *info = (RamifyRenderInfo){.paths = stats->paths,
+                                   .rays = stats->rays,
+                                   .bytes = stats->memory,
+                                   .seconds = stats->seconds,
+                                   .samples = stats->samples};
+    }
+}
+
+bool ramify_renderer_resume(RamifyRenderer *renderer, RamifyFilm *film, RamifyPass pass,
+                            double every, void *user, const RamifyRun *run, RamifyRenderInfo *info,
+                            RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    RenderStats stats = {0};
+    PassCall call = {pass, user};
+    bool done = renderer_resume((Renderer *)(void *)renderer, (Film *)(void *)film, &own,
+                                pass ? call_pass : NULL, every, &call, &stats, &e);
+    fill_info(info, &stats);
+    return done || api_fail(error, &e);
+}
+
 bool ramify_renderer_render(RamifyRenderer *renderer, RamifyFilm *film, RamifyPass pass, void *user,
                             const RamifyRun *run, RamifyRenderInfo *info, RamifyError *error)
 {
@@ -165,13 +219,7 @@ bool ramify_renderer_render(RamifyRenderer *renderer, RamifyFilm *film, RamifyPa
     PassCall call = {pass, user};
     bool done = renderer_render((Renderer *)(void *)renderer, (Film *)(void *)film, &own,
                                 pass ? call_pass : NULL, &call, &stats, &e);
-    if (info) {
-        *info = (RamifyRenderInfo){.paths = stats.paths,
-                                   .rays = stats.rays,
-                                   .bytes = stats.memory,
-                                   .seconds = stats.seconds,
-                                   .samples = stats.samples};
-    }
+    fill_info(info, &stats);
     return done || api_fail(error, &e);
 }
 

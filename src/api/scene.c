@@ -66,6 +66,9 @@ void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *info)
                               .width = own->film.width,
                               .height = own->film.height,
                               .samples = own->render.samples,
+                              .planned_samples = own->render.planned_samples > 0
+                                                     ? own->render.planned_samples
+                                                     : own->render.samples,
                               .denoise = own->denoise,
                               .max_seconds = own->render.max_seconds,
                               .max_noise = own->render.max_noise,

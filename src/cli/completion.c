@@ -195,9 +195,9 @@ static void zsh_command(CommandId command)
         }
     }
     const char *operand = c->operand;
-    bool two = strcmp(operand, "A B") == 0;
+    bool several = strcmp(operand, "A B") == 0 || strcmp(operand, "PARTS") == 0;
     if (*operand) {
-        printf("            '%s", two ? "*:" : "1:");
+        printf("            '%s", several ? "*:" : "1:");
         zsh_text(operand);
         printf(": _ramify_offer %s'\n", offer_of_operand(operand).text);
     } else {

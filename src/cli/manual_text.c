@@ -33,12 +33,18 @@ static const ManualText TEXTS[] = {
           "The first picture is on disk after the first pass, one path per pixel, and is updated "
           "after further passes. Rendering stops when the number of samples, the time or the "
           "noise limit is reached, whichever comes first; Ctrl-C writes the picture so far.",
+          "The .exr holds all that a rendering needs to go on. It is written every minute "
+          "(--checkpoint) and at the end; after an interruption of any kind, kill -9 and power "
+          "cuts included, the same command with --resume makes the same bits as one without it. "
+          "--add-samples takes more samples for a finished picture. SCENE may itself be a picture "
+          "that ramify has rendered: its metadata hold the scene with every setting.",
           "The options for samples, size, seconds, noise, crop, exposure, denoising and growth "
           "set keys of the scene and override the file."},
      .examples =
          {{"a quick look", "ramify render pine.yaml --size 320x180 --samples 16"},
           {"a final picture, as long as it takes to be clean, an hour at most",
            "ramify render pine.yaml --samples 4096 --noise 0.02 --seconds 3600 -o final.png"},
+          {"go on after an interruption", "ramify render pine.yaml -o night.png --resume"},
           {"the upper left quarter only",
            "ramify render pine.yaml --crop 0,0,0.5,0.5 -o quarter.png"},
           {"another hour of the day and a longer lens",
@@ -124,6 +130,22 @@ static const ManualText TEXTS[] = {
                    "ramify export pine.yaml --instances flat -o pine.glb"},
                   {"one object, without its colours",
                    "ramify export pine.yaml --object pine --colors none -o pine.obj"}}},
+    {.command = "merge",
+     .paragraphs =
+         {"Joins the .exr files of renderings of one scene with different crops (--crop) into one "
+          "picture and its .exr. The settings in the files prove that they belong together: only "
+          "the crop and the limits of samples and time may differ. Every pixel must be in exactly "
+          "one part.",
+          "A pixel's value does not depend on the crop, so the result has the bits of the picture "
+          "rendered at once. With --noise, regions are judged in tiles of 16 x 16 pixels, counted "
+          "from the upper left of the whole picture: crops that end at multiples of 16 pixels keep "
+          "the same bits then too.",
+          "Machines whose processors differ may round differently; --isa sse4.2 makes them agree."},
+     .failure = "pixels are missing",
+     .examples = {{"two halves, rendered on two machines",
+                   "ramify render pine.yaml --crop 0,0,1,0.5 -o top.exr; "
+                   "ramify render pine.yaml --crop 0,0.5,1,1 -o low.exr; "
+                   "ramify merge top.exr low.exr -o pine.exr"}}},
     {.command = "compare",
      .paragraphs =
          {"Compares two pictures of one kind and prints their differences: root mean square, "

@@ -14,7 +14,7 @@ typedef struct ManualText {
     const char *command; // name of the command; "" = the program itself
     const char *paragraphs[6];
     const char *failure; // further conditions for exit status 1; NULL = only errors
-    ManualExample examples[6];
+    ManualExample examples[8];
 } ManualText;
 
 // The texts of a command, or of the program (""); NULL if there are none.

@@ -10,8 +10,9 @@
      BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT))
 #define SCENES (GROWS | BIT(COMMAND_INFO))
 #define COMPARES (BIT(COMMAND_COMPARE) | BIT(COMMAND_GOLDEN))
-#define EVERY \
-    (SCENES | COMPARES | BIT(COMMAND_SCHEMA) | BIT(COMMAND_COMPLETION) | BIT(COMMAND_HELP))
+#define EVERY                                                                                 \
+    (SCENES | COMPARES | BIT(COMMAND_MERGE) | BIT(COMMAND_SCHEMA) | BIT(COMMAND_COMPLETION) | \
+     BIT(COMMAND_HELP))
 #define RENDERS (BIT(COMMAND_RENDER) | BIT(COMMAND_TURNTABLE))
 #define TURNS BIT(COMMAND_TURNTABLE)
 #define AT(member) offsetof(Options, member)
@@ -21,10 +22,14 @@ const Option option_table[] = {
      .value = "FILE",
      .offset = AT(output),
      .type = OPTION_TEXT,
-     .commands = RENDERS | BIT(COMMAND_GROW) | BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT),
+     .commands =
+         RENDERS | BIT(COMMAND_GROW) | BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT) | BIT(COMMAND_MERGE),
      .letter = 'o',
      .doc =
-         "what to write; render: .png or .jpg with the .exr beside it; turntable: .mp4, or .png, "
+         "what to write; render: .png or .jpg with the .exr beside it; merge: .png or .jpg with "
+         "the "
+         ".exr beside it; turntable: .mp4, "
+         "or .png, "
          ".jpg or .exr with the frame's number in the name, as in oak-%04d.png; grow: .swc, .json, "
          ".graphml or, of a leaf's veins or a terrain's heights, .png or .exr (heights also .asc); "
          "fit: .yaml, the scene with the best values; export: the format by its ending"},
@@ -199,6 +204,29 @@ const Option option_table[] = {
      .commands = BIT(COMMAND_RENDER),
      .doc = "write the picture only when it is finished; by default a coarse one is written at "
             "once, a denoised one after the first sample, and then more at growing intervals"},
+    {.name = "resume",
+     .offset = AT(resume),
+     .type = OPTION_YES,
+     .commands = BIT(COMMAND_RENDER),
+     .doc = "go on with the samples in the .exr that an interrupted rendering has left, with the "
+            "same bits as without the interruption; starts anew if there is none"},
+    {.name = "checkpoint",
+     .value = "T",
+     .offset = AT(checkpoint),
+     .low = 0,
+     .high = 1e6,
+     .type = OPTION_REAL,
+     .commands = BIT(COMMAND_RENDER),
+     .doc =
+         "write the .exr so far every T seconds, for --resume; 60 by default, 0 = only at the end"},
+    {.name = "add-samples",
+     .value = "N",
+     .offset = AT(add_samples),
+     .low = 1,
+     .high = 1 << 24,
+     .type = OPTION_INT,
+     .commands = BIT(COMMAND_RENDER),
+     .doc = "take N further samples per pixel for a finished picture: SCENE is its .exr"},
     {.name = "isa",
      .value = "NAME",
      .offset = AT(isa),
@@ -380,17 +408,17 @@ const Option option_table[] = {
      .low = 1,
      .high = 1024,
      .type = OPTION_INT,
-     .commands = SCENES | BIT(COMMAND_GOLDEN),
+     .commands = SCENES | BIT(COMMAND_GOLDEN) | BIT(COMMAND_MERGE),
      .doc = "use N threads; the result does not depend on it"},
     {.name = "json",
      .offset = AT(json),
      .type = OPTION_YES,
-     .commands = SCENES | COMPARES,
+     .commands = SCENES | COMPARES | BIT(COMMAND_MERGE),
      .doc = "print the numbers as JSON to stdout"},
     {.name = "quiet",
      .offset = AT(quiet),
      .type = OPTION_YES,
-     .commands = SCENES | BIT(COMMAND_GOLDEN),
+     .commands = SCENES | BIT(COMMAND_GOLDEN) | BIT(COMMAND_MERGE),
      .letter = 'q',
      .doc = "print only errors"},
     {.name = "help",
@@ -408,7 +436,8 @@ const Command command_table[COMMAND_COUNT] = {
     [COMMAND_RENDER] = {"render", "SCENE", "render a picture of a scene file",
                         "Writes SCENE's name with .png to the current folder by default, and "
                         "beside it the .exr with\nlinear colours, albedo, normal, depth, "
-                        "position, object and samples. Ctrl-C writes the picture so far.\n",
+                        "position, object and samples. Ctrl-C writes the picture so far.\n"
+                        "SCENE may also be a picture (.exr, .png) that ramify has rendered.\n",
                         command_render},
     [COMMAND_TURNTABLE] = {"turntable", "SCENE", "render an animation of a scene file",
                            "Grows, skins and builds static parts once. Writes SCENE's name with "
@@ -433,6 +462,12 @@ const Command command_table[COMMAND_COUNT] = {
     [COMMAND_EXPORT] = {"export", "SCENE", "write a scene as another program's file",
                         "The extension of -o FILE selects the format; see docs/formats.md.\n",
                         command_export},
+    [COMMAND_MERGE] =
+        {"merge", "PARTS", "join pictures of parts of one picture",
+         "PARTS are the .exr files of one scene rendered with different --crop. The "
+         "result has the same bits\nas the picture rendered at once. Exit status 1 if "
+         "pixels are missing.\n",
+         command_merge},
     [COMMAND_COMPARE] = {"compare", "A B", "compare two pictures",
                          "Pictures are alike if they are bitwise equal, or within --max-rmse and "
                          "--max-failing if given.\nExit status 1 if they are not alike.\n",

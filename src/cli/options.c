@@ -84,8 +84,10 @@ static bool parse_option(Options *options, char **argv, int *i, RamifyError *e)
 static bool parse_words(Options *options, int argc, char **argv, RamifyError *e)
 {
     const Command *command = &command_table[options->command];
-    const char *wanted = command->operand, *operand[2] = {NULL, NULL};
-    int count = 0, most = *wanted ? (strchr(wanted, ' ') ? 2 : 1) : 0;
+    const char *wanted = command->operand;
+    bool many = strcmp(wanted, "PARTS") == 0;
+    int count = 0, most = many ? argc : (*wanted ? (strchr(wanted, ' ') ? 2 : 1) : 0);
+    char **operand = argv + 2; // operands move to the front; options have been read by then
     bool valid = true, only_operands = false;
     for (int i = 2; valid && i < argc; i++) {
         if (!only_operands && strcmp(argv[i], "--") == 0) {
@@ -99,12 +101,16 @@ static bool parse_words(Options *options, int argc, char **argv, RamifyError *e)
                          argv[i], command->name, wanted);
         }
     }
-    options->operand = operand[0];
-    options->second = operand[1];
+    options->operand = count > 0 ? operand[0] : NULL;
+    options->second = count > 1 ? operand[1] : NULL;
+    options->operands = (const char *const *)operand;
+    options->operand_count = count;
     bool needed = *wanted >= 'A' && *wanted <= 'Z' && !options->help;
-    if (valid && needed && count < most) {
+    if (valid && needed && count < (many ? 1 : most)) {
         valid = fail(e, RAMIFY_BAD_INPUT, "no %s is named; usage: ramify %s %s",
-                     most == 2 ? "pair of pictures" : (*wanted == 'F' ? "folder" : "scene file"),
+                     many        ? "part"
+                     : most == 2 ? "pair of pictures"
+                                 : (*wanted == 'F' ? "folder" : "scene file"),
                      command->name, *wanted == 'S' ? "SCENE" : wanted);
     }
     return valid;

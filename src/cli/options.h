@@ -17,6 +17,7 @@ typedef enum CommandId {
     COMMAND_MEASURE,
     COMMAND_FIT,
     COMMAND_EXPORT,
+    COMMAND_MERGE,
     COMMAND_COMPARE,
     COMMAND_GOLDEN,
     COMMAND_INFO,
@@ -30,8 +31,10 @@ typedef enum CommandId {
 // option_given tells whether they are present.
 typedef struct Options {
     CommandId command;
-    const char *operand;                  // SCENE, or the command to explain; NULL = none
-    const char *second;                   // second operand of compare; NULL = none
+    const char *operand;         // SCENE, or the command to explain; NULL = none
+    const char *second;          // second operand of compare; NULL = none
+    const char *const *operands; // all of them: the parts to merge
+    int operand_count;
     const char *output;                   // NULL = the command's default
     const char *overrides[MAX_OVERRIDES]; // of --set
     int override_count;
@@ -57,6 +60,9 @@ typedef struct Options {
     const char *instances, *colors; // NULL = the format's own
     int tube_sides;                 // 0 = the default
     int end;                        // the last frame to render
+    bool resume;                    // render
+    int add_samples;                // render
+    double checkpoint;              // s; render
     int frame;                      // the single frame to render
     double time;                    // likewise, by time
     double turns;

@@ -1,17 +1,17 @@
 // ramify render: renders a scene to a picture.
 #include "base/json.h"
 #include "cli/command.h"
+#include "cli/outputs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { ROUGH_SAMPLES = 16 }; // previews of fewer samples are denoised
 
-// Output files; both owned.
-typedef struct Outputs {
-    char *display, *exr;
-} Outputs;
+#define CHECKPOINT_SECONDS 60.0 // between checkpoints, unless --checkpoint says otherwise
+#define CHECKPOINT_SHARE 0.03   // of the time, at most, is spent on writing checkpoints
 
 // A rendering and its statistics.
 typedef struct Job {
@@ -21,47 +21,28 @@ typedef struct Job {
     RamifyWorldInfo world;
     RamifyRenderInfo render;
     double build, trace, write; // s
+    bool resumed;               // from a film on disk
 } Job;
 
-// State of the preview callback.
+// State of the callback that writes previews and checkpoints.
 typedef struct Preview {
     const Job *job;
     const RamifyRun *run;
     Progress *progress;
-    double start, next; // clock_seconds
-    double spent;       // s, spent on writing previews
+    bool shows;         // previews are wanted
+    double start, next; // clock_seconds, of previews
+    double every, save; // s between checkpoints; clock_seconds of the next
+    double spent;       // s, spent on writing
     bool failed;
 } Preview;
 
-static void clear_outputs(Outputs *outputs)
-{
-    free(outputs->display);
-    free(outputs->exr);
-    *outputs = (Outputs){0};
-}
-
-static bool plan_outputs(const Options *options, Outputs *outputs, RamifyError *e)
-{
-    const char *named = options->output ? options->output : file_name(options->operand);
-    bool exr = output_has_ending(named, ".exr"),
-         jpeg = output_has_ending(named, ".jpg") || output_has_ending(named, ".jpeg");
-    bool valid =
-        !options->output || exr || jpeg || output_has_ending(named, ".png") ||
-        fail(e, RAMIFY_BAD_INPUT, "--output %s; its ending must be .png, .jpg or .exr", named);
-    bool as_named = options->output && !exr;
-    outputs->display = as_named ? copy_text(named, e) : output_with_ending(named, ".png", e);
-    outputs->exr = exr ? copy_text(named, e) : output_with_ending(named, ".exr", e);
-    return valid && outputs->display && outputs->exr && output_check(outputs->display, e) &&
-           output_check(outputs->exr, e);
-}
-
-static void write_preview(Preview *p, const RamifyFilm *film, bool denoise)
+static void write_early(Preview *p, const char *file, const RamifyFilm *film, bool denoise)
 {
     double start = clock_seconds();
     RamifyError e = {0};
     RamifyRun quiet = *p->run; // what it warns of follows with the last picture
     quiet.warn = NULL;
-    if (!ramify_film_write(film, p->job->scene, p->job->outputs->display, denoise, &quiet, &e) &&
+    if (!ramify_film_write(film, p->job->scene, file, denoise, &quiet, &e) &&
         e.code != RAMIFY_CANCELLED) {
         char text[1200];
         ramify_error_format(&e, text, sizeof text);
@@ -71,18 +52,32 @@ static void write_preview(Preview *p, const RamifyFilm *film, bool denoise)
     p->spent += clock_seconds() - start;
 }
 
+// The film as it is, from which --resume goes on.
+static void write_checkpoint(Preview *p, const RamifyFilm *film)
+{
+    double start = clock_seconds();
+    write_early(p, p->job->outputs->exr, film, false);
+    double written = clock_seconds(), rest = (written - start) / CHECKPOINT_SHARE;
+    p->save = written + (rest > p->every ? rest : p->every);
+}
+
 // Writes a denoised preview after the first pass, then one at growing intervals: a picture is
 // available soon, and writing takes a small part of the time.
 static void preview_pass(void *user, const RamifyFilm *film, int samples)
 {
     Preview *p = user;
     const RamifySceneInfo *info = &p->job->info;
-    if (p->failed || clock_seconds() < p->next || samples >= info->samples) {
+    if (p->failed || samples >= info->samples) {
         return;
     }
-    write_preview(p, film, info->denoise || samples < ROUGH_SAMPLES);
-    double written = clock_seconds();
-    p->next = written + (written - p->start);
+    if (p->shows && samples > 0 && clock_seconds() >= p->next) {
+        write_early(p, p->job->outputs->display, film, info->denoise || samples < ROUGH_SAMPLES);
+        double written = clock_seconds();
+        p->next = written + (written - p->start);
+    }
+    if (p->every > 0.0 && clock_seconds() >= p->save) {
+        write_checkpoint(p, film);
+    }
 }
 
 // Writes a coarse picture before the first pass.
@@ -90,7 +85,7 @@ static bool first_look(Preview *p, RamifyRenderer *renderer, RamifyFilm *film, R
 {
     bool done = ramify_renderer_look(renderer, film, p->run, e);
     if (done) {
-        write_preview(p, film, false);
+        write_early(p, p->job->outputs->display, film, false);
     }
     return done;
 }
@@ -101,14 +96,21 @@ static bool trace(Job *job, const RamifyWorld *world, const Options *options, Ra
     double start = clock_seconds();
     RamifyRenderer *renderer = ramify_renderer_new(world, options->isa, run, e);
     double built = clock_seconds();
-    bool previews = !options->no_preview && job->info.samples > 1;
-    Preview preview = {.job = job, .run = run, .progress = progress, .start = built};
+    Preview preview = {.job = job,
+                       .run = run,
+                       .progress = progress,
+                       .shows = !options->no_preview && job->info.samples > 1,
+                       .start = built,
+                       .every = option_given(options, "checkpoint") ? options->checkpoint
+                                                                    : CHECKPOINT_SECONDS};
+    preview.save = built + preview.every;
     const float *crop = job->info.crop;
     progress->work = (double)job->info.width * job->info.height * (double)(crop[2] - crop[0]) *
                      (double)(crop[3] - crop[1]) * job->info.samples;
-    bool done = renderer && (!previews || first_look(&preview, renderer, film, e)) &&
-                ramify_renderer_render(renderer, film, previews ? preview_pass : NULL, &preview,
-                                       run, &job->render, e);
+    bool look = preview.shows && !job->resumed;
+    bool done = renderer && (!look || first_look(&preview, renderer, film, e)) &&
+                ramify_renderer_resume(renderer, film, preview_pass, preview.every, &preview, run,
+                                       &job->render, e);
     job->build = built - start;
     job->trace = clock_seconds() - built - preview.spent;
     job->write += preview.spent;
@@ -152,23 +154,15 @@ static void print_json(const Job *job)
            job->world.grow_seconds, job->world.mesh_seconds, job->build, job->trace, job->write);
 }
 
-static bool write_pictures(Job *job, RamifyFilm *film, const RamifyRun *run, RamifyError *e)
+// The film to render into: that of --add-samples or, if it exists, of --resume, else an empty one.
+static RamifyFilm *start_film(const Options *options, Job *job, const RamifyRun *run,
+                              RamifyError *e)
 {
-    double start = clock_seconds();
-    RamifyRun patient = *run; // does not cancel: an interrupted picture is still written
-    patient.cancelled = NULL;
-    bool cut_short = *run->cancelled; // cancelled before writing started
-    bool denoise =
-        job->info.denoise && ramify_film_denoise(film, job->scene, cut_short ? &patient : run, e);
-    // cancelled while denoising: write without
-    bool done = denoise || !job->info.denoise || (!cut_short && *run->cancelled);
-    done = done && ramify_film_write(film, job->scene, job->outputs->display, denoise, &patient, e);
-    // the rendering itself is saved even if developing fails, e.g. in the denoiser's library
-    done = ramify_film_write(film, job->scene, job->outputs->exr, denoise, &patient,
-                             done ? e : NULL) &&
-           done;
-    job->write += clock_seconds() - start;
-    return done;
+    bool added = option_given(options, "add-samples");
+    const char *file = added ? options->operand : job->outputs->exr;
+    job->resumed = added || (options->resume && access(file, F_OK) == 0);
+    return job->resumed ? ramify_film_read(file, job->scene, run, e)
+                        : ramify_film_new(job->info.width, job->info.height, e);
 }
 
 static bool render_scene(const Options *options, const RamifyScene *scene, const Outputs *outputs,
@@ -179,11 +173,13 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
     Job job = {.scene = scene, .outputs = outputs};
     ramify_scene_info(scene, &job.info);
     bool sound = ramify_image_check(outputs->display, e) && ramify_develop_check(scene, e);
-    RamifyWorld *world = sound ? ramify_build(scene, &run, e) : NULL;
-    RamifyFilm *film = world ? ramify_film_new(job.info.width, job.info.height, e) : NULL;
-    bool done = film && trace(&job, world, options, film, &progress, &run, e);
+    RamifyFilm *film = sound ? start_film(options, &job, &run, e) : NULL;
+    RamifyWorld *world = film ? ramify_build(scene, &run, e) : NULL;
+    bool done = world && trace(&job, world, options, film, &progress, &run, e);
     progress_end(&progress);
-    done = done && write_pictures(&job, film, &run, e);
+    double start = clock_seconds();
+    done = done && outputs_write(outputs, film, scene, &run, e);
+    job.write += clock_seconds() - start;
     if (done) {
         ramify_world_info(world, &job.world);
     }
@@ -197,20 +193,52 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
     ramify_world_free(world);
     if (done && *run.cancelled) {
         done = job.render.samples > 0
-                   ? fail(e, RAMIFY_CANCELLED, "interrupted; %s has %d samples per pixel",
+                   ? fail(e, RAMIFY_CANCELLED,
+                          "interrupted; %s has %d samples per pixel; --resume goes on",
                           outputs->display, job.render.samples)
-                   : fail(e, RAMIFY_CANCELLED, "interrupted in the first pass; %s is incomplete",
+                   : fail(e, RAMIFY_CANCELLED,
+                          "interrupted in the first pass; %s is incomplete; --resume goes on",
                           outputs->display);
     }
     return done;
+}
+
+// The scene of a picture with more samples. The pattern of its noise stays laid out as it was.
+static RamifyScene *scene_with_samples(const Options *options, RamifyScene *scene, RamifyError *e)
+{
+    RamifySceneInfo info;
+    Options more = *options;
+    ramify_scene_info(scene, &info);
+    snprintf(more.keys[more.key_count++], MAX_KEY_TEXT, "render.samples=%d",
+             info.samples + options->add_samples);
+    snprintf(more.keys[more.key_count++], MAX_KEY_TEXT, "render.planned_samples=%d",
+             info.planned_samples);
+    return command_scene(&more, e);
+}
+
+static bool check_continuation(const Options *options, RamifyError *e)
+{
+    bool adds = option_given(options, "add-samples");
+    bool picture = options->operand && output_has_ending(options->operand, ".exr");
+    return !adds || ((picture || fail(e, RAMIFY_BAD_INPUT,
+                                      "--add-samples needs a picture: ramify render PICTURE.exr "
+                                      "--add-samples N")) &&
+                     (!option_given(options, "samples") ||
+                      fail(e, RAMIFY_BAD_INPUT, "both --samples and --add-samples; give one")));
 }
 
 bool command_render(const Options *options, RamifyError *e)
 {
     bool frame = option_given(options, "frame"), time = option_given(options, "time");
     Outputs outputs = {0};
-    bool valid = ramify_check_isa(options->isa, e) && plan_outputs(options, &outputs, e);
+    bool valid = check_continuation(options, e) && ramify_check_isa(options->isa, e) &&
+                 outputs_plan(options, &outputs, e);
     RamifyScene *scene = valid ? command_scene(options, e) : NULL;
+    if (scene && option_given(options, "add-samples")) {
+        RamifyScene *given = scene;
+        scene = scene_with_samples(options, given, e);
+        ramify_scene_free(given);
+    }
     if (scene && (frame || time)) { // one moment of its animation
         RamifyScene *whole = scene;
         scene = NULL;
@@ -224,6 +252,6 @@ bool command_render(const Options *options, RamifyError *e)
     }
     bool done = scene && render_scene(options, scene, &outputs, e);
     ramify_scene_free(scene);
-    clear_outputs(&outputs);
+    outputs_clear(&outputs);
     return done;
 }

@@ -50,11 +50,25 @@ bool layer_channels(const OIIO::ImageSpec &spec, const DecodeJob *job, Channels 
     return true;
 }
 
+bool named_channels(const OIIO::ImageSpec &spec, const DecodeJob *job, Channels &channels, Error *e)
+{
+    for (int i = 0; i < job->count; i++) {
+        channels.push_back(spec.channelindex(job->names[i]));
+        if (channels.back() < 0) {
+            return error_set(e, ERROR_INPUT, "it has no channel '%s'", job->names[i]);
+        }
+    }
+    return true;
+}
+
 bool choose_channels(const OIIO::ImageSpec &spec, const DecodeJob *job, Channels &channels,
                      Error *e)
 {
     if (job->kind == DECODE_LAYER) {
         return layer_channels(spec, job, channels, e);
+    }
+    if (job->kind == DECODE_NAMED) {
+        return named_channels(spec, job, channels, e);
     }
     if (job->kind == DECODE_COLOR) {
         channels = color_channels(spec);
@@ -227,6 +241,18 @@ bool hand_back(OIIO::ImageInput *input, const OIIO::ImageSpec &spec, const Decod
     return true;
 }
 
+bool hand_metadata(const OIIO::ImageSpec &spec, const DecodeJob *job, DecodeHeader *header,
+                   ChildOutput *output, Error *e)
+{
+    std::string text = find_text(spec, job->key);
+    if (text.empty() || text.size() > DECODE_METADATA_SIZE) {
+        return error_set(e, ERROR_INPUT, "it has no text '%s'", job->key);
+    }
+    header->metadata = (int32_t)text.size();
+    return child_write(output, header, 1, sizeof *header, e) &&
+           child_write(output, text.data(), header->metadata, 1, e);
+}
+
 bool decode(const DecodeJob *job, ChildOutput *output, Error *e)
 {
     // the threads of the forking process do not exist here
@@ -247,6 +273,9 @@ bool decode(const DecodeJob *job, ChildOutput *output, Error *e)
         return false;
     }
     DecodeHeader header = header_of(spec, job, (int)channels.size());
+    if (job->kind == DECODE_METADATA) {
+        return hand_metadata(spec, job, &header, output, e);
+    }
     return (job->kind == DECODE_TEXT || check_bytes(&header, e)) &&
            child_write(output, &header, 1, sizeof header, e) &&
            hand_back(input.get(), spec, job, channels, (TexelType)header.type, output, e);

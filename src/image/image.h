@@ -40,6 +40,14 @@ Image *image_read_color(const char *file, bool *linear, const Run *run, Error *e
 Image *image_read_layer(const char *file, const char *layer, const char *channels, const Run *run,
                         Error *e);
 
+// Reads these channels, in this order, by their full names ("variance.V").
+Image *image_read_channels(const char *file, const char *const *names, int count, const Run *run,
+                           Error *e);
+
+// The metadata text under key, up to 64 MB, without decoding a pixel; the caller frees it.
+// ERROR_INPUT when there is none.
+char *image_read_metadata(const char *file, const char *key, const Run *run, Error *e);
+
 // A picture in its stored type, for random access.
 typedef enum TexelType { TEXEL_BYTE, TEXEL_SHORT, TEXEL_HALF, TEXEL_FLOAT } TexelType;
 

@@ -37,10 +37,12 @@ static bool check_header(const DecodeHeader *h, const DecodeJob *job, int64_t le
                 h->type >= TEXEL_BYTE && h->type <= TEXEL_FLOAT &&
                 (job->kind == DECODE_TEXTURE || h->type == TEXEL_FLOAT) && h->window[4] >= 1 &&
                 h->window[5] >= 1 && h->text[DECODE_TEXT_SIZE - 1] == '\0' &&
-                (int64_t)h->width * h->height <= DECODE_MAX_PIXELS;
+                (int64_t)h->width * h->height <= DECODE_MAX_PIXELS && h->metadata >= 0 &&
+                h->metadata <= DECODE_METADATA_SIZE;
     int64_t bytes =
         sane ? (int64_t)h->width * h->height * h->channels * texel_bytes((TexelType)h->type) : 0;
-    return (sane && left == (job->kind == DECODE_TEXT ? 0 : bytes)) ||
+    bool pixels = job->kind != DECODE_TEXT && job->kind != DECODE_METADATA;
+    return (sane && left == (pixels ? bytes : h->metadata)) ||
            error_set(e, ERROR_INPUT, "the reader's result makes no sense; " WANTED " is needed");
 }
 
@@ -119,6 +121,33 @@ Image *image_read_layer(const char *file, const char *layer, const char *channel
     return read_floats(
         &(DecodeJob){.file = file, .kind = DECODE_LAYER, .layer = layer, .channels = channels},
         &linear, run, e);
+}
+
+Image *image_read_channels(const char *file, const char *const *names, int count, const Run *run,
+                           Error *e)
+{
+    bool linear;
+    return read_floats(
+        &(DecodeJob){.file = file, .kind = DECODE_NAMED, .names = names, .count = count}, &linear,
+        run, e);
+}
+
+char *image_read_metadata(const char *file, const char *key, const Run *run, Error *e)
+{
+    const DecodeJob job = {.file = file, .kind = DECODE_METADATA, .key = key};
+    ChildOutput output;
+    DecodeHeader h;
+    if (!start(&job, &h, &output, run, e)) {
+        return NULL;
+    }
+    char *text = memory_alloc_zero((int64_t)h.metadata + 1, 1, e);
+    if (text && !child_read(&output, text, h.metadata, 1, e)) {
+        free(text);
+        text = NULL;
+        fail(&job, e);
+    }
+    child_output_close(&output);
+    return text;
 }
 
 bool image_read_text(const char *file, const char *key, char *text, int size)

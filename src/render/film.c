@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static bool film_make_planes(Film *film, Error *e)
 {
@@ -104,4 +105,35 @@ bool film_is_complete(const Film *film, const float crop[4])
         }
     }
     return true;
+}
+
+void film_forget(Film *film, const float crop[4])
+{
+    PixelBox box = film_crop_pixels(film->width, film->height, crop);
+    for (int y = box.y0; y < box.y1; y++) {
+        for (int x = box.x0; x < box.x1; x++) {
+            film->samples[(int64_t)y * film->width + x] = 0.0f;
+        }
+    }
+}
+
+void film_planes(const Film *film, FilmPlane plane[FILM_PLANES])
+{
+    const FilmPlane all[FILM_PLANES] = {
+        {&film->color->x, 3, {"R", "G", "B"}},
+        {film->alpha, 1, {"A"}},
+        {&film->albedo->x, 3, {"albedo.R", "albedo.G", "albedo.B"}},
+        {&film->normal->x, 3, {"normal.X", "normal.Y", "normal.Z"}},
+        {film->depth, 1, {"depth.Z"}},
+        {&film->position->x, 3, {"position.X", "position.Y", "position.Z"}},
+        {film->object, 1, {"object.V"}},
+        {film->samples, 1, {"samples.V"}},
+        {film->hits, 1, {"hits.V"}},
+        {film->variance, 1, {"variance.V"}},
+        {&film->light->x, 3, {"light.R", "light.G", "light.B"}},
+        {&film->sky->x, 3, {"sky.R", "sky.G", "sky.B"}},
+        {film->light_share, 1, {"light_share.V"}},
+        {film->sky_share, 1, {"sky_share.V"}},
+    };
+    memcpy(plane, all, sizeof all);
 }

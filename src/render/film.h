@@ -38,6 +38,20 @@ void film_free(Film *film); // NULL is fine
 // Drops the plane `denoised`, which further samples make obsolete.
 void film_drop_denoised(Film *film);
 
+// Forgets the samples of the crop's pixels: a rendering starts anew there.
+void film_forget(Film *film, const float crop[4]);
+
+// A plane and its channels in files: "R", "albedo.R", "depth.Z".
+typedef struct FilmPlane {
+    float *value; // row by row, `channels` floats a pixel; borrowed
+    int channels;
+    const char *name[3];
+} FilmPlane;
+
+// All planes but `denoised`: what a rendering can be resumed from.
+enum { FILM_PLANES = 14 };
+void film_planes(const Film *film, FilmPlane plane[FILM_PLANES]);
+
 // Pixels x0 <= x < x1, y0 <= y < y1.
 typedef struct PixelBox {
     int x0, y0, x1, y1;

@@ -6,9 +6,10 @@
 #include <stdint.h>
 
 typedef struct RenderParams {
-    int samples;        // per pixel
-    int max_depth;      // bounces
-    int roulette_depth; // bounces before Russian roulette may end a path; max_depth = never
+    int samples;         // per pixel
+    int planned_samples; // for which the noise is laid out; 0 = samples
+    int max_depth;       // bounces
+    int roulette_depth;  // bounces before Russian roulette may end a path; max_depth = never
     uint64_t seed;
     uint64_t noise_seed; // changes the pattern of noise and nothing else
     float clamp;         // upper bound on a sample's indirect luminance; 0 = none (unbiased)

@@ -119,7 +119,8 @@ static void fill_tracer(Tracer *tracer, const Renderer *renderer)
     tracer->camera = camera_frame(&world->camera, world->film.width, world->film.height);
     uint64_t seed =
         params->noise_seed ? random_key(params->seed, params->noise_seed) : params->seed;
-    sample_plan_fill(&tracer->plan, seed, params->samples);
+    sample_plan_fill(&tracer->plan, seed,
+                     params->planned_samples > 0 ? params->planned_samples : params->samples);
     filter_fill(&tracer->filter, world->film.filter, world->film.filter_radius);
     tracer_set_media(tracer, accel_bounds(renderer->accel));
 }
@@ -143,16 +144,26 @@ bool renderer_look(Renderer *renderer, Film *film, const Run *run, Error *e)
     return done;
 }
 
-bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass *pass, void *user,
-                     RenderStats *stats, Error *e)
+bool renderer_resume(Renderer *renderer, Film *film, const Run *run, RenderPass *pass, double every,
+                     void *user, RenderStats *stats, Error *e)
 {
     Tracer *tracer = make_tracer(renderer, film, e);
     if (!tracer) {
         return false;
     }
     film_drop_denoised(film);
-    bool done = tiles_render(tracer, film, run, pass, user, stats, e);
+    bool done = tiles_render(tracer, film, run, pass, every, user, stats, e);
     stats->memory = accel_bytes(renderer->accel);
     free(tracer);
     return done;
+}
+
+bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass *pass, void *user,
+                     RenderStats *stats, Error *e)
+{
+    if (!check_sizes(renderer->world, film, e)) {
+        return false;
+    }
+    film_forget(film, renderer->world->film.crop);
+    return renderer_resume(renderer, film, run, pass, 0.0, user, stats, e);
 }

@@ -40,8 +40,8 @@ typedef struct RenderStats {
 typedef void RenderPass(void *user, const Film *film, int samples);
 
 // A first look: one path for each 4 x 4 pixels, whose result all of them get, in a sixteenth of the
-// time of one sample per pixel. renderer_render then starts anew. Fails with ERROR_CANCELLED when
-// run->cancelled is set.
+// time of one sample per pixel. It counts as no sample, so that a rendering starts anew. Fails with
+// ERROR_CANCELLED when run->cancelled is set.
 bool renderer_look(Renderer *renderer, Film *film, const Run *run, Error *e);
 
 // Renders into film, which film_new made with the world's size; pixels outside the crop keep their
@@ -51,5 +51,12 @@ bool renderer_look(Renderer *renderer, Film *film, const Run *run, Error *e);
 // stats->samples is 0; if no pixel was rendered it fails with ERROR_CANCELLED.
 bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass *pass, void *user,
                      RenderStats *stats, Error *e);
+
+// Goes on with the samples that the film holds, such as those of a film that was cut short
+// anywhere: the film becomes what renderer_render would have made of it, to the bit. pass is also
+// called within a pass after every `every` seconds of tracing (0 = not), with the film's least
+// samples; no thread then writes to the film.
+bool renderer_resume(Renderer *renderer, Film *film, const Run *run, RenderPass *pass, double every,
+                     void *user, RenderStats *stats, Error *e);
 
 #endif

@@ -5,6 +5,8 @@
 #include "render/film_merge.h"
 #include "render/world.h"
 
+#include <limits.h>
+#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -13,7 +15,7 @@ enum { TILE_SIZE = 16, PASS_LIMIT = 64, LEAST_ADAPTIVE_SAMPLES = 16, LOOK_STEP =
 
 typedef struct Tile {
     int x0, y0, x1, y1;
-    int samples; // taken so far
+    int samples; // taken so far, of its pixel with the fewest
     bool quiet;  // its noise is below max_noise
 } Tile;
 
@@ -25,6 +27,7 @@ typedef struct Job {
     int tile_count;
     int64_t pixels;
     double start;
+    double call;      // run_seconds at which the pass is interrupted for a call; INFINITY = not
     pthread_t caller; // the thread that reports progress
     _Atomic int64_t rays, paths;
     _Atomic int64_t settled; // paths traced, or skipped by adaptive stopping
@@ -46,26 +49,51 @@ static void trace_pixel(const Tracer *tracer, int x, int y, int begin, int end, 
     }
 }
 
-// Renders the tile up to `end` samples per pixel. When cancelled, the remaining pixels and the
-// tile's count stay as they were; no further pass follows.
+static int samples_of(const Film *film, int x, int y)
+{
+    return (int)film->samples[(int64_t)y * film->width + x];
+}
+
+// Renders the pixels of the tile that have fewer than `end` samples. When cancelled, the remaining
+// ones and the tile's count stay as they were; no further pass follows.
 static void render_tile(Job *job, Tile *tile, int end)
 {
-    int64_t rays = 0, pixels = 0;
+    int64_t rays = 0, paths = 0;
+    bool whole = true;
     for (int y = tile->y0; y < tile->y1; y++) {
-        for (int x = tile->x0; x < tile->x1 && !run_is_cancelled(job->run); x++) {
+        for (int x = tile->x0; x < tile->x1; x++) {
+            int begin = samples_of(job->film, x, y);
+            if (begin >= end) {
+                continue; // of a film that was resumed
+            }
+            if (run_is_cancelled(job->run)) {
+                whole = false;
+                break;
+            }
             PixelSum sum = {.object = 0};
-            trace_pixel(job->tracer, x, y, tile->samples, end, &sum);
-            film_merge(job->film, (int64_t)y * job->film->width + x, tile->samples,
-                       end - tile->samples, &sum);
+            trace_pixel(job->tracer, x, y, begin, end, &sum);
+            film_merge(job->film, (int64_t)y * job->film->width + x, begin, end - begin, &sum);
             rays += sum.rays;
-            pixels++;
+            paths += end - begin;
         }
     }
     job->rays += rays;
-    job->paths += pixels * (end - tile->samples);
-    if (pixels == (int64_t)(tile->x1 - tile->x0) * (tile->y1 - tile->y0)) {
+    job->paths += paths;
+    if (whole && tile->samples < end) {
         tile->samples = end;
     }
+}
+
+static int most_samples(const Film *film, const Tile *tile)
+{
+    int most = 0;
+    for (int y = tile->y0; y < tile->y1; y++) {
+        for (int x = tile->x0; x < tile->x1; x++) {
+            int own = samples_of(film, x, y);
+            most = own > most ? own : most;
+        }
+    }
+    return most;
 }
 
 // Mean over the tile of each pixel's relative standard error. The floor keeps black pixels from
@@ -98,33 +126,43 @@ static void tell_progress(const Job *job)
     run_progress(job->run, "trace", fmin(done, 1.0));
 }
 
-// Renders every tile from `before` to `end` samples. When time is over it finishes the tiles in
-// work, and all of the first pass, so that the picture is complete; when cancelled it stops at
-// once.
-static void render_pass(Job *job, int before, int end)
+// Is the tile, after a pass to `end` samples, smooth enough? A tile that has taken more in an
+// earlier run was not.
+static bool is_quiet(const Job *job, const Tile *tile, int end)
 {
-    const RenderParams *params = &job->tracer->world->render;
-    _Atomic int next = 0;
+    float limit = job->tracer->world->render.max_noise;
+    return limit > 0.0f && end >= LEAST_ADAPTIVE_SAMPLES && most_samples(job->film, tile) <= end &&
+           tile_noise(job->film, tile) < limit;
+}
+
+// Renders the tiles from number *first on from `before` to `end` samples. When time is over it
+// finishes the tiles in work, and all of the first pass, so that the picture is complete; when
+// cancelled it stops at once; when a call is due it returns with *first at the next tile.
+static void render_pass(Job *job, int before, int end, int *first)
+{
+    _Atomic int next = *first;
     _Atomic bool stop = false;
 #pragma omp parallel num_threads(job->run->threads)
     {
         unsigned state = accel_thread_begin();
-        for (int i = next++; i < job->tile_count && !stop; i = next++) {
+        // a tile that is taken is rendered, so that the pass can go on after the last one
+        for (int i; !stop && (i = next++) < job->tile_count;) {
             Tile *tile = &job->tile[i];
             int64_t area = (int64_t)(tile->x1 - tile->x0) * (tile->y1 - tile->y0);
             job->settled += area * (end - before);
             if (!tile->quiet) {
                 render_tile(job, tile, end);
-                tile->quiet = params->max_noise > 0.0f && end >= LEAST_ADAPTIVE_SAMPLES &&
-                              tile_noise(job->film, tile) < params->max_noise;
+                tile->quiet = is_quiet(job, tile, end);
             }
-            stop = stop || run_is_cancelled(job->run) || (end > 1 && must_stop(job));
+            stop = stop || run_is_cancelled(job->run) || (end > 1 && must_stop(job)) ||
+                   run_seconds() > job->call;
             if (pthread_equal(pthread_self(), job->caller)) {
                 tell_progress(job);
             }
         }
         accel_thread_end(state);
     }
+    *first = next < job->tile_count ? next : job->tile_count;
 }
 
 static Tile *make_tiles(const FilmParams *film, int *count, int64_t *pixels, Error *e)
@@ -135,20 +173,28 @@ static Tile *make_tiles(const FilmParams *film, int *count, int64_t *pixels, Err
         error_set(e, ERROR_INPUT, "the crop leaves no pixel; x0 < x1 and y0 < y1 are needed");
         return NULL;
     }
-    int columns = (x1 - x0 + TILE_SIZE - 1) / TILE_SIZE,
-        rows = (y1 - y0 + TILE_SIZE - 1) / TILE_SIZE;
+    int left = x0 - x0 % TILE_SIZE, top = y0 - y0 % TILE_SIZE; // as in the whole picture
+    int columns = (x1 - left + TILE_SIZE - 1) / TILE_SIZE,
+        rows = (y1 - top + TILE_SIZE - 1) / TILE_SIZE;
     *pixels = (int64_t)(x1 - x0) * (y1 - y0);
     *count = columns * rows;
     Tile *tile = memory_alloc_zero(*count, sizeof *tile, e);
     for (int i = 0; tile && i < *count; i++) {
-        int x = x0 + i % columns * TILE_SIZE, y = y0 + i / columns * TILE_SIZE;
-        tile[i] = (Tile){.x0 = x,
-                         .y0 = y,
+        int x = left + i % columns * TILE_SIZE, y = top + i / columns * TILE_SIZE;
+        tile[i] = (Tile){.x0 = x > x0 ? x : x0,
+                         .y0 = y > y0 ? y : y0,
                          .x1 = x + TILE_SIZE < x1 ? x + TILE_SIZE : x1,
                          .y1 = y + TILE_SIZE < y1 ? y + TILE_SIZE : y1};
     }
     return tile;
 }
+
+// When the caller is told of a rendering.
+typedef struct Calls {
+    RenderPass *pass; // NULL = never
+    double every;     // s, within passes; 0 = only after them
+    void *user;
+} Calls;
 
 static int least_samples(const Job *job)
 {
@@ -178,28 +224,48 @@ static int pass_end(int done, int samples)
     return done + more < samples ? done + more : samples;
 }
 
-static void render_passes(Job *job, RenderPass *pass, void *user)
+// A pass, interrupted for calls.
+static void render_whole_pass(Job *job, const Calls *calls, int before, int end)
 {
-    int samples = job->tracer->world->render.samples, done = 0;
-    while (done < samples && !(done > 0 && must_stop(job)) && !all_quiet(job)) {
-        int before = done;
-        done = pass_end(done, samples);
-        render_pass(job, before, done);
-        bool power_of_two = (done & (done - 1)) == 0;
-        if (pass && (power_of_two || done == samples) && !run_is_cancelled(job->run)) {
-            pass(user, job->film, done);
+    int first = 0;
+    while (first < job->tile_count) {
+        job->call = calls->every > 0.0 ? run_seconds() + calls->every : (double)INFINITY;
+        render_pass(job, before, end, &first);
+        if (run_is_cancelled(job->run) || (end > 1 && must_stop(job))) {
+            return;
+        }
+        if (first < job->tile_count) {
+            calls->pass(calls->user, job->film, least_samples(job));
         }
     }
 }
 
-// Forgets the samples of an earlier picture in the pixels of this one.
-static void mark_unseen(const Job *job)
+static void render_passes(Job *job, const Calls *calls)
+{
+    int samples = job->tracer->world->render.samples, done = 0;
+    while (done < samples && !(done > 0 && must_stop(job)) && !all_quiet(job)) {
+        int before = done;
+        int64_t paths = job->paths;
+        done = pass_end(done, samples);
+        render_whole_pass(job, calls, before, done);
+        bool power_of_two = (done & (done - 1)) == 0;
+        if (calls->pass && job->paths > paths && (power_of_two || done == samples) &&
+            !run_is_cancelled(job->run)) {
+            calls->pass(calls->user, job->film, done);
+        }
+    }
+}
+
+// What the tiles have of a film that is resumed.
+static void count_samples(const Job *job)
 {
     for (int i = 0; i < job->tile_count; i++) {
-        const Tile *tile = &job->tile[i];
+        Tile *tile = &job->tile[i];
+        tile->samples = INT_MAX;
         for (int y = tile->y0; y < tile->y1; y++) {
             for (int x = tile->x0; x < tile->x1; x++) {
-                job->film->samples[(int64_t)y * job->film->width + x] = 0.0f;
+                int own = samples_of(job->film, x, y);
+                tile->samples = own < tile->samples ? own : tile->samples;
             }
         }
     }
@@ -223,8 +289,8 @@ static void clear_unseen(const Job *job)
     }
 }
 
-bool tiles_render(const Tracer *tracer, Film *film, const Run *run, RenderPass *pass, void *user,
-                  RenderStats *stats, Error *e)
+bool tiles_render(const Tracer *tracer, Film *film, const Run *run, RenderPass *pass, double every,
+                  void *user, RenderStats *stats, Error *e)
 {
     Job job = {.tracer = tracer,
                .film = film,
@@ -235,8 +301,9 @@ bool tiles_render(const Tracer *tracer, Film *film, const Run *run, RenderPass *
     if (!job.tile) {
         return false;
     }
-    mark_unseen(&job);
-    render_passes(&job, pass, user);
+    count_samples(&job);
+    const Calls calls = {pass, pass ? every : 0.0, user};
+    render_passes(&job, &calls);
     *stats = (RenderStats){.paths = job.paths,
                            .rays = job.rays,
                            .seconds = run_seconds() - job.start,
@@ -244,7 +311,8 @@ bool tiles_render(const Tracer *tracer, Film *film, const Run *run, RenderPass *
     bool done = true;
     if (run_is_cancelled(run)) {
         clear_unseen(&job);
-        done = job.paths > 0 || run_cancel_error(e); // not a single path was traced
+        // not a single path was traced, now or before
+        done = job.paths > 0 || least_samples(&job) > 0 || run_cancel_error(e);
     }
     free(job.tile);
     return done;
@@ -286,5 +354,6 @@ bool tiles_look(const Tracer *tracer, Film *film, const Run *run, Error *e)
         accel_thread_end(state);
     }
     free(job.tile);
+    film_forget(film, tracer->world->film.crop);
     return !run_is_cancelled(run) || run_cancel_error(e);
 }

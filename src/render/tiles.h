@@ -6,9 +6,9 @@
 #include "render/integrator.h"
 #include "render/renderer.h"
 
-// renderer_render with a filled tracer; does not set stats->memory.
-bool tiles_render(const Tracer *tracer, Film *film, const Run *run, RenderPass *pass, void *user,
-                  RenderStats *stats, Error *e);
+// renderer_resume with a filled tracer; does not set stats->memory.
+bool tiles_render(const Tracer *tracer, Film *film, const Run *run, RenderPass *pass, double every,
+                  void *user, RenderStats *stats, Error *e);
 
 // renderer_look with a filled tracer.
 bool tiles_look(const Tracer *tracer, Film *film, const Run *run, Error *e);

@@ -8,6 +8,7 @@
 typedef struct SceneSource {
     const char *text;
     size_t length;
+    const char *origin;        // see Scene.origin; NULL = the text
     const char *name, *folder; // for messages; base of relative paths
     const char *const *overrides;
     int override_count;

@@ -77,9 +77,8 @@ static Image *plane_image(const Film *film, const void *plane, int channels, Err
 // JPEG.
 static char *make_metadata(const Scene *scene, const char *mark, Error *e)
 {
-    static const char program[] = "ramify " RAMIFY_VERSION;
-    const char *const pairs[] = {PICTURE_MARK,   mark,        "Software",        program,
-                                 "ramify:scene", scene->text, "ramify:settings", scene->resolved};
+    const char *const pairs[] = {PICTURE_MARK,  mark,          PICTURE_VERSION,  RAMIFY_VERSION,
+                                 PICTURE_SCENE, scene->origin, PICTURE_SETTINGS, scene->resolved};
     enum { COUNT = sizeof pairs / sizeof pairs[0] };
     int first = mark ? 0 : 2;
     int64_t length = 1;
@@ -280,10 +279,18 @@ static bool write_exr(const char *file, const Scene *scene, const Film *film, bo
                              plane_image(film, film->depth, 1, e),
                              plane_image(film, film->position, 3, e),
                              plane_image(film, film->object, 1, e),
-                             plane_image(film, film->samples, 1, e)};
+                             plane_image(film, film->samples, 1, e),
+                             plane_image(film, film->hits, 1, e),
+                             plane_image(film, film->variance, 1, e),
+                             plane_image(film, film->light, 3, e),
+                             plane_image(film, film->sky, 3, e),
+                             plane_image(film, film->light_share, 1, e),
+                             plane_image(film, film->sky_share, 1, e)};
     static const char *const names[][2] = {
-        {"denoised", "RGB"}, {"", "RGBA"},        {"albedo", "RGB"}, {"normal", "XYZ"},
-        {"depth", "Z"},      {"position", "XYZ"}, {"object", "V"},   {"samples", "V"}};
+        {"denoised", "RGB"},  {"", "RGBA"},        {"albedo", "RGB"}, {"normal", "XYZ"},
+        {"depth", "Z"},       {"position", "XYZ"}, {"object", "V"},   {"samples", "V"},
+        {"hits", "V"},        {"variance", "V"},   {"light", "RGB"},  {"sky", "RGB"},
+        {"light_share", "V"}, {"sky_share", "V"}};
     enum { COUNT = sizeof images / sizeof images[0] };
     ImageLayer layers[COUNT];
     bool made = true;

@@ -6,6 +6,7 @@
 #include "config/load.h"
 #include "scene/builtin.h"
 #include "scene/document.h"
+#include "scene/picture_read.h"
 #include "scene/settle.h"
 #include "scene/spec.h"
 
@@ -33,8 +34,10 @@ static bool keep_source(Scene *scene, const SceneSource *source, Error *e)
     scene->file = arena_text(arena, source->name, strlen(source->name), e);
     scene->folder = arena_text(arena, source->folder, strlen(source->folder), e);
     scene->text = arena_text(arena, source->text, source->length, e);
+    scene->origin =
+        source->origin ? arena_text(arena, source->origin, strlen(source->origin), e) : scene->text;
     scene->overrides = keep_overrides(arena, source, e);
-    return scene->file && scene->folder && scene->text && scene->overrides;
+    return scene->file && scene->folder && scene->text && scene->origin && scene->overrides;
 }
 
 // Creates the scene of a document. It takes over the arena.
@@ -102,6 +105,7 @@ Scene *scene_changed(const Scene *scene, const SceneChange *changes, int count, 
     }
     Scene *changed = read_source(&(SceneSource){.text = scene->text,
                                                 .length = strlen(scene->text),
+                                                .origin = scene->origin,
                                                 .name = scene->file,
                                                 .folder = scene->folder,
                                                 .overrides = overrides,
@@ -113,11 +117,28 @@ Scene *scene_changed(const Scene *scene, const SceneChange *changes, int count, 
     return changed;
 }
 
+// The texts of a scene file, or of a picture of it; free() both.
+typedef struct SceneTexts {
+    char *text, *origin; // see SceneSource
+    size_t length;
+} SceneTexts;
+
+static bool read_texts(const char *file, SceneTexts *texts, Error *e)
+{
+    *texts = (SceneTexts){0};
+    if (!picture_holds_scene(file)) {
+        texts->text = file_text_read(file, "scene", &texts->length, e);
+        return texts->text;
+    }
+    texts->text = picture_read_settings(file, &texts->origin, e);
+    texts->length = texts->text ? strlen(texts->text) : 0;
+    return texts->text;
+}
+
 Scene *scene_read(const char *file, const char *const *overrides, int override_count, Error *e)
 {
-    size_t length;
-    char *text = file_text_read(file, "scene", &length, e);
-    if (!text) {
+    SceneTexts texts;
+    if (!read_texts(file, &texts, e)) {
         return NULL;
     }
     const char *slash = strrchr(file, '/');
@@ -127,10 +148,18 @@ Scene *scene_read(const char *file, const char *const *overrides, int override_c
         if (slash) {
             folder[slash == file ? 1 : slash - file] = 0;
         }
-        scene = scene_read_text(text, length, file, folder, overrides, override_count, e);
+        scene = read_source(&(SceneSource){.text = texts.text,
+                                           .length = texts.length,
+                                           .origin = texts.origin,
+                                           .name = file,
+                                           .folder = folder,
+                                           .overrides = overrides,
+                                           .override_count = override_count},
+                            e);
     }
     free(folder);
-    free(text);
+    free(texts.text);
+    free(texts.origin);
     return scene;
 }
 

@@ -82,7 +82,8 @@ typedef enum SceneDenoiser {
 typedef struct Scene {
     Arena *arena;    // holds the scene itself and everything it points to
     char *file;      // the scene file, for messages
-    char *text;      // the file's text, stored in images as metadata
+    char *text;      // the file's text
+    char *origin;    // text to store in pictures: of the scene file from which all began
     char *resolved;  // the scene as YAML with all defaults and overrides
     char *folder;    // base of relative paths in the text; "" = the current folder
     char *overrides; // overrides it was read with: "path=value\0 ... \0"
@@ -111,7 +112,8 @@ typedef struct Scene {
     const struct Scene *whole; // full scene this subset came from; NULL if complete
 } Scene;
 
-// Reads and checks a scene. overrides: "path=value" strings (objects.0.tree.height=9, or
+// Reads and checks a scene, or the scene of a picture (.exr, .png) that was rendered of one.
+// overrides: "path=value" strings (objects.0.tree.height=9, or
 // objects.oak.tree.height=9 by name). Files named in the scene are found relative to it.
 // ERROR_INPUT carries file, line and column.
 Scene *scene_read(const char *file, const char *const *overrides, int override_count, Error *e);

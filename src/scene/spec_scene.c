@@ -145,6 +145,10 @@ static const Table FILM_TABLE = {.name = "film",
 static const Key RENDER_KEYS[] = {
     {KEY_OF(RenderParams, samples, "samples", KEY_INT), .low = 1, .high = 1 << 24,
      .doc = "Paths per pixel. Twice as many take twice the time and reduce the noise to 0.7."},
+    {KEY_OF(RenderParams, planned_samples, "planned_samples", KEY_INT), .high = 1 << 24,
+     .doc =
+         "Number of samples per pixel for which the pattern of the noise is laid out; 0 = samples. "
+         "Pictures to which samples are added keep theirs."},
     {KEY_OF(RenderParams, max_depth, "max_depth", KEY_INT), .low = 1, .high = 10000,
      .doc = "Maximum number of bounces of a path; 1 = direct light only. Glass and leaves need "
             "more than opaque surfaces."},
