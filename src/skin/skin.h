@@ -19,8 +19,9 @@ typedef struct SkinParams {
     // spacing of the cage's rings on four-sided branches, in radii; typically 1. Thicker branches
     // have up to 32 sides and proportionally closer rings.
     float ring_spacing;
-    int sides;  // least number of sides of trunks' cages, for forms that need them; 0 = by radius
-    bool blunt; // curves keep the tree's radii instead of tapering to their tips
+    int sides;    // least number of sides of trunks' cages, for forms that need them; 0 = by radius
+    bool blunt;   // curves keep the tree's radii instead of tapering to their tips
+    float collar; // how much thicker a branch is where it leaves its parent, as a share; 0 = none
     int smoothing; // relaxation passes over the chains before resampling; typically 2
 } SkinParams;
 

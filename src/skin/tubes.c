@@ -47,6 +47,15 @@ static bool reserve_rings(TubeBuilder *builder, const TubeJob *job, int64_t *cor
            memory_reserve(&builder->name, &builder->name_capacity, *corners, sizeof(uint32_t), e);
 }
 
+// A branch is thicker where it leaves its parent: within about one radius of that place.
+static float collar_at(const SkinPlan *plan, int32_t chain, float along, float radius)
+{
+    const SkinChain *own = &plan->chain[chain];
+    float way = own->parent >= 0 ? (along - own->exit) / radius : 0.0f;
+    float fall = way > 0.0f ? 1.0f + 0.6f * way * way : 1.0f;
+    return own->parent >= 0 ? plan->params.collar / (fall * fall) : 0.0f;
+}
+
 static void set_ring(const SkinPlan *plan, int32_t chain, float along, float phase, SkinRing *ring)
 {
     SkinPoint at = skin_axis_at(plan, chain, along);
@@ -55,7 +64,7 @@ static void set_ring(const SkinPlan *plan, int32_t chain, float along, float pha
     ring->centre = at.position;
     ring->normal = at.tangent;
     ring->side = vec3_rotate(at.side, at.tangent, cosine, sine);
-    ring->radius = at.radius;
+    ring->radius = at.radius * (1.0f + collar_at(plan, chain, along, at.radius));
     ring->along = along;
     ring->birth = at.birth;
     skin_ring_set_corners(ring);

@@ -71,6 +71,7 @@ static void random_trees_have_closed_skins_that_look_outwards(void **state)
     (void)state;
     SkinParams params = skin_params_default();
     for (int i = 0; i < 100; i++) {
+        params.collar = i % 2 == 1 ? 0.4f : 0.0f;
         OutTree *tree = sample_walk((uint64_t)i, 5 + 4 * i, 0.02f * (float)(i % 10),
                                     0.1f * (float)(i % 12), i % 3 != 0);
         Mesh *cage = cage_of(tree, &params);
@@ -95,6 +96,39 @@ static void nasty_trees_have_closed_skins_that_look_outwards(void **state)
         mesh_free(cage);
         out_tree_free(tree);
     }
+}
+
+// A limb of radius 0.1 on a trunk of 0.4: with a collar it is thicker near the trunk, and the same
+// two radii further out; the skin stays closed.
+static void collars_thicken_where_branches_leave(void **state)
+{
+    (void)state;
+    float near[2], far[2];
+    for (int with = 0; with < 2; with++) {
+        OutTree *tree = out_tree_new(NULL);
+        sample_line(tree, -1, vec3(0, 0, 0), vec3(0, 0.2f, 0), 20, 0.4f);
+        sample_line(tree, 10, vec3(0, 2, 0), vec3(0.1f, 0, 0), 20, 0.1f);
+        SkinParams params = skin_params_default();
+        params.collar = with ? 0.4f : 0.0f;
+        Run run = run_default();
+        Mesh *mesh = skin_tree(tree, &params, &run, NULL);
+        assert_non_null(mesh);
+        assert_closed(mesh, 1);
+        near[with] = far[with] = 0.0f;
+        for (int64_t i = 0; i < mesh->vertex_count; i++) {
+            Vec3 p = mesh->position[i];
+            float out = hypotf(p.y - 2.0f, p.z);
+            if (p.x > 0.50f && p.x < 0.56f) {
+                near[with] = fmaxf(near[with], out);
+            } else if (p.x > 1.0f) {
+                far[with] = fmaxf(far[with], out);
+            }
+        }
+        mesh_free(mesh);
+        out_tree_free(tree);
+    }
+    assert_true(near[1] > 1.1f * near[0]);
+    assert_float_equal(far[1], far[0], 0.002f);
 }
 
 static void finished_skins_are_closed_and_look_outwards(void **state)
@@ -307,6 +341,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_trees_have_closed_skins_that_look_outwards),
         cmocka_unit_test(nasty_trees_have_closed_skins_that_look_outwards),
+        cmocka_unit_test(collars_thicken_where_branches_leave),
         cmocka_unit_test(finished_skins_are_closed_and_look_outwards),
         cmocka_unit_test(straight_tubes_have_the_asked_radius),
         cmocka_unit_test(tapering_tubes_stay_round),

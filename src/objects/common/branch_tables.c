@@ -35,6 +35,10 @@ static const Key SKIN_KEYS[] = {
      .doc = "Number of subdivision levels of the surface; each has four times as many faces."},
     {KEY_OF(SkinningParams, ring_spacing, "ring_spacing", KEY_FLOAT), .low = 0.1, .high = 100,
      .unit = "radii", .doc = "Distance between the rings of the control cage that is subdivided."},
+    {KEY_OF(SkinningParams, collar, "collar", KEY_FLOAT), .high = 1,
+     .doc =
+         "Branch collars: how much thicker a branch is where it leaves its parent, as a share of "
+         "its radius."},
     {0},
 };
 

@@ -10,6 +10,7 @@ SkinParams branches_skin(const SkinningParams *given)
     SkinParams skin = skin_params_default();
     skin.min_radius = given->curve_radius;
     skin.levels = given->levels;
+    skin.collar = given->collar;
     if (given->ring_spacing > 0.0f) {
         skin.ring_spacing = given->ring_spacing;
     }

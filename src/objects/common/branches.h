@@ -22,6 +22,7 @@ typedef struct SkinningParams {
     float curve_radius; // m: thinner twigs are curves; 0 = all is mesh
     int levels;         // subdivision, 0..4
     float ring_spacing; // in radii
+    float collar;       // share by which a branch is thicker where it leaves its parent
 } SkinningParams;
 
 extern const struct Table radii_table, skin_table;
