@@ -587,6 +587,24 @@ RAMIFY_API bool ramify_renderer_resume(RamifyRenderer *renderer, RamifyFilm *fil
                                        double every, void *user, const RamifyRun *run,
                                        RamifyRenderInfo *info, RamifyError *error);
 
+// One ray of a path, for debugging a pixel. Vectors are x, y, z in m; colours are linear.
+typedef struct RamifyPathStep {
+    const char *end; // what ends the ray: "surface", "lamp", "medium" (it scattered), "outside"
+    const char *material;         // name, of a surface; else NULL; borrowed from the world
+    int32_t object;               // of a surface; else -1
+    float origin[3], position[3]; // where it begins and ends; outside: position = origin
+    float direction[3], normal[3]; // unit; normal only of a surface
+    float throughput[3];           // of the path before the ray
+    float light[3]; // added to the path's estimate at its end, what shadow rays bring included
+} RamifyPathStep;
+
+// Traces sample number `sample` of pixel (x, y), both counted from 0, of the world's picture again
+// and fills the first `most` rays of its path; returns their number, -1 on failure. color: what the
+// path adds to the picture, after clamping. RAMIFY_BAD_INPUT when there is no such pixel or sample.
+RAMIFY_API int ramify_renderer_replay(RamifyRenderer *renderer, const RamifyWorld *world, int x,
+                                      int y, int sample, RamifyPathStep *step, int most,
+                                      float color[3], RamifyError *error);
+
 // ---- golden images ----
 
 // Limits within which two pictures are alike; negative = no limit.

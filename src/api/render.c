@@ -1,11 +1,14 @@
 #include "api/handles.h"
 
+#include "base/memory.h"
 #include "image/image.h"
 #include "render/accel/accel.h"
+#include "render/integrator.h"
 #include "scene/picture.h"
 #include "scene/picture_read.h"
 #include "scene/place.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 // ---- films ----
@@ -221,6 +224,50 @@ bool ramify_renderer_render(RamifyRenderer *renderer, RamifyFilm *film, RamifyPa
                                 pass ? call_pass : NULL, &call, &stats, &e);
     fill_info(info, &stats);
     return done || api_fail(error, &e);
+}
+
+static void copy_vector(float to[3], Vec3 from)
+{
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
+}
+
+static void fill_step(RamifyPathStep *to, const PathStep *from, const World *world)
+{
+    static const char *const ends[] = {[STEP_SURFACE] = "surface",
+                                       [STEP_LAMP] = "lamp",
+                                       [STEP_MEDIUM] = "medium",
+                                       [STEP_OUTSIDE] = "outside"};
+    to->end = ends[from->end];
+    to->material = from->material >= 0 ? world->material[from->material].name : NULL;
+    to->object = from->object;
+    copy_vector(to->origin, from->origin);
+    copy_vector(to->position, from->position);
+    copy_vector(to->direction, from->direction);
+    copy_vector(to->normal, from->normal);
+    copy_vector(to->throughput, from->throughput);
+    copy_vector(to->light, from->light);
+}
+
+int ramify_renderer_replay(RamifyRenderer *renderer, const RamifyWorld *world, int x, int y,
+                           int sample, RamifyPathStep *step, int most, float color[3],
+                           RamifyError *error)
+{
+    Error e = {0};
+    Vec3 sum = vec3_splat(0.0f);
+    PathStep *own = memory_alloc(most, sizeof *own, &e);
+    int steps =
+        own ? renderer_replay((Renderer *)(void *)renderer, x, y, sample, own, most, &sum, &e) : -1;
+    if (steps < 0) {
+        api_fail(error, &e);
+    }
+    for (int i = 0; i < steps; i++) {
+        fill_step(&step[i], &own[i], world->world);
+    }
+    copy_vector(color, sum);
+    free(own);
+    return steps;
 }
 
 bool ramify_render(const RamifyScene *scene, float *rgba, int *samples, const RamifyRun *run,

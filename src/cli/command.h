@@ -14,6 +14,7 @@ bool command_measure(const Options *options, RamifyError *e);    // measure.c
 bool command_fit(const Options *options, RamifyError *e);        // fit.c
 bool command_export(const Options *options, RamifyError *e);     // export.c
 bool command_merge(const Options *options, RamifyError *e);      // merge.c
+bool command_replay(const Options *options, RamifyError *e);     // replay.c
 bool command_compare(const Options *options, RamifyError *e);    // compare.c
 bool command_golden(const Options *options, RamifyError *e);     // golden.c
 bool command_info(const Options *options, RamifyError *e);       // info.c

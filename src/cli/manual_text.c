@@ -146,6 +146,15 @@ static const ManualText TEXTS[] = {
                    "ramify render pine.yaml --crop 0,0,1,0.5 -o top.exr; "
                    "ramify render pine.yaml --crop 0,0.5,1,1 -o low.exr; "
                    "ramify merge top.exr low.exr -o pine.exr"}}},
+    {.command = "replay",
+     .paragraphs =
+         {"Traces one sample of one pixel again and prints every ray of its path: where it begins "
+          "and ends, the object and the material that it meets, the path's throughput, and the "
+          "light that the end adds to the sample, what shadow rays bring included. With the .exr "
+          "in place of the scene it is the path of that very picture. For finding out why a pixel "
+          "is too bright."},
+     .examples = {{"a bright dot in a picture",
+                   "ramify replay pine.yaml --pixel 31,20 --sample 1"}}},
     {.command = "compare",
      .paragraphs =
          {"Compares two pictures of one kind and prints their differences: root mean square, "

@@ -8,7 +8,7 @@
 #define GROWS                                                                                  \
     (BIT(COMMAND_RENDER) | BIT(COMMAND_TURNTABLE) | BIT(COMMAND_GROW) | BIT(COMMAND_MEASURE) | \
      BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT))
-#define SCENES (GROWS | BIT(COMMAND_INFO))
+#define SCENES (GROWS | BIT(COMMAND_INFO) | BIT(COMMAND_REPLAY))
 #define COMPARES (BIT(COMMAND_COMPARE) | BIT(COMMAND_GOLDEN))
 #define EVERY                                                                                 \
     (SCENES | COMPARES | BIT(COMMAND_MERGE) | BIT(COMMAND_SCHEMA) | BIT(COMMAND_COMPLETION) | \
@@ -227,12 +227,26 @@ const Option option_table[] = {
      .type = OPTION_INT,
      .commands = BIT(COMMAND_RENDER),
      .doc = "take N further samples per pixel for a finished picture: SCENE is its .exr"},
+    {.name = "pixel",
+     .value = "X,Y",
+     .offset = AT(pixel),
+     .type = OPTION_TEXT,
+     .commands = BIT(COMMAND_REPLAY),
+     .doc = "the pixel, counted from 0 from the upper left"},
+    {.name = "sample",
+     .value = "I",
+     .offset = AT(sample),
+     .low = 0,
+     .high = 1 << 24,
+     .type = OPTION_INT,
+     .commands = BIT(COMMAND_REPLAY),
+     .doc = "the sample of the pixel, counted from 0; 0 by default"},
     {.name = "isa",
      .value = "NAME",
      .offset = AT(isa),
      .choices = "sse2 sse4.2 avx avx2 avx512",
      .type = OPTION_TEXT,
-     .commands = RENDERS,
+     .commands = RENDERS | BIT(COMMAND_REPLAY),
      .doc =
          "instruction set of the ray tracer, such as sse4.2, for the same bits on every machine"},
     {.name = "isa",
@@ -468,6 +482,10 @@ const Command command_table[COMMAND_COUNT] = {
          "result has the same bits\nas the picture rendered at once. Exit status 1 if "
          "pixels are missing.\n",
          command_merge},
+    [COMMAND_REPLAY] = {"replay", "SCENE", "trace one path of a picture again",
+                        "SCENE may be the picture itself (.exr, .png). Prints every ray of one "
+                        "sample: where it ends, on what,\nand which light that brings.\n",
+                        command_replay},
     [COMMAND_COMPARE] = {"compare", "A B", "compare two pictures",
                          "Pictures are alike if they are bitwise equal, or within --max-rmse and "
                          "--max-failing if given.\nExit status 1 if they are not alike.\n",

@@ -18,6 +18,7 @@ typedef enum CommandId {
     COMMAND_FIT,
     COMMAND_EXPORT,
     COMMAND_MERGE,
+    COMMAND_REPLAY,
     COMMAND_COMPARE,
     COMMAND_GOLDEN,
     COMMAND_INFO,
@@ -63,6 +64,8 @@ typedef struct Options {
     bool resume;                    // render
     int add_samples;                // render
     double checkpoint;              // s; render
+    const char *pixel;              // replay; NULL = none
+    int sample;                     // replay
     int frame;                      // the single frame to render
     double time;                    // likewise, by time
     double turns;

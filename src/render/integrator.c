@@ -267,6 +267,13 @@ static Vec3 clamped(Vec3 light, float limit)
     return limit > 0.0f && l > limit ? vec3_scale(light, limit / l) : light;
 }
 
+static void finish(const Path *path, PathResult *result)
+{
+    Vec3 color = vec3_add(path->direct, clamped(path->indirect, path->tracer->world->render.clamp));
+    result->color = vec3_finite(color) ? color : vec3_splat(0.0f);
+    result->rays = path->rays;
+}
+
 void integrator_paths(const Tracer *tracer, int x, int y, int sample, int count,
                       PathResult result[])
 {
@@ -279,9 +286,97 @@ void integrator_paths(const Tracer *tracer, int x, int y, int sample, int count,
         trace_shadows(tracer->accel, &wave.shadows);
     }
     for (int i = 0; i < count; i++) {
-        Vec3 color =
-            vec3_add(path[i].direct, clamped(path[i].indirect, tracer->world->render.clamp));
-        result[i].color = vec3_finite(color) ? color : vec3_splat(0.0f);
-        result[i].rays = path[i].rays;
+        finish(&path[i], &result[i]);
     }
+}
+
+int integrator_pass_end(int done, int samples)
+{
+    enum { PASS_LIMIT = 64 };
+    int more = done < WAVE_SIZE ? 3 * done : done;
+    more = done < 1 ? 1 : (more < PASS_LIMIT ? more : PASS_LIMIT);
+    return done + more < samples ? done + more : samples;
+}
+
+// ---- replay ----
+
+static bool is_on_its_way(const Wave *wave, const Path *path)
+{
+    for (int i = 0; i < wave->count; i++) {
+        if (wave->path[i] == path) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static Vec3 gathered(const Path *path)
+{
+    return vec3_add(path->direct, path->indirect);
+}
+
+// Fills the end of the step from the vertex at which the path's ray arrived; NULL = at none.
+static void note_end(PathStep *step, const Tracer *tracer, const Path *path, const Vertex *vertex,
+                     bool goes_on)
+{
+    step->object = step->material = -1;
+    if (!vertex) {
+        step->end = goes_on ? STEP_MEDIUM : STEP_OUTSIDE;
+        step->position = goes_on ? path->ray.origin : step->origin;
+        return;
+    }
+    bool lamp = accel_light(tracer->accel, &vertex->hit) >= 0;
+    step->end = lamp ? STEP_LAMP : STEP_SURFACE;
+    step->position = vec3_madd(step->origin, vertex->hit.t, step->direction);
+    if (!lamp) {
+        step->normal = vertex->point.geometric_normal;
+        step->object = vertex->point.object;
+        step->material = vertex->point.material;
+    }
+}
+
+// Advances the wave by one ray and describes that of one of its paths.
+static void follow(Wave *wave, bool camera, const Path *path, PathStep *step)
+{
+    *step = (PathStep){.origin = path->ray.origin,
+                       .direction = path->ray.direction,
+                       .throughput = path->throughput};
+    Vec3 before = gathered(path);
+    int vertices = trace_rays(wave, camera);
+    const Vertex *vertex = NULL;
+    for (int i = 0; i < vertices; i++) {
+        vertex = wave->vertex[i].path == path ? &wave->vertex[i] : vertex;
+    }
+    scatter_at_surfaces(wave, vertices);
+    trace_shadows(wave->tracer->accel, &wave->shadows);
+    note_end(step, wave->tracer, path, vertex, is_on_its_way(wave, path));
+    step->light = vec3_sub(gathered(path), before);
+}
+
+int integrator_replay(const Tracer *tracer, int x, int y, int sample, PathStep step[], int most,
+                      PathResult *result)
+{
+    int samples = tracer->world->render.samples, begin = 0, end = 0;
+    while (end <= sample) { // the pass
+        begin = end;
+        end = integrator_pass_end(end, samples);
+    }
+    while (begin + WAVE_SIZE - begin % WAVE_SIZE <= sample) { // the wave in it
+        begin += WAVE_SIZE - begin % WAVE_SIZE;
+    }
+    int count = WAVE_SIZE - begin % WAVE_SIZE, steps = 0;
+    count = count < end - begin ? count : end - begin;
+    Path path[WAVE_SIZE];
+    PathResult results[WAVE_SIZE];
+    Wave wave;
+    start_paths(tracer, x, y, begin, count, path, results, &wave);
+    const Path *wanted = &path[sample - begin];
+    for (bool camera = true; is_on_its_way(&wave, wanted); camera = false) {
+        PathStep own;
+        follow(&wave, camera, wanted, steps < most ? &step[steps] : &own);
+        steps += steps < most;
+    }
+    finish(wanted, &results[sample - begin]);
+    *result = results[sample - begin];
+    return steps;
 }

@@ -54,4 +54,30 @@ enum { WAVE_SIZE = 16 };
 void integrator_paths(const Tracer *tracer, int x, int y, int sample, int count,
                       PathResult result[]);
 
+// One ray of a path, for a person to read.
+typedef enum StepEnd {
+    STEP_SURFACE, // it met a surface
+    STEP_LAMP,    // it met a lamp
+    STEP_MEDIUM,  // the path was scattered within a medium, or reflected under water
+    STEP_OUTSIDE  // it left the scene, or its path ended within a medium
+} StepEnd;
+
+typedef struct PathStep {
+    Vec3 origin, direction; // of the ray
+    StepEnd end;
+    Vec3 position, normal; // of the end; the normal (shading) of a surface alone
+    int object, material;  // of a surface, else -1
+    Vec3 throughput;       // of the path before the ray
+    Vec3 light; // added to the path's estimate at the end, what shadow rays bring included
+} PathStep;
+
+// Traces the sample together with the wave of which it was a part in a picture of so many samples,
+// fills the first `most` of its steps and result; returns their number.
+int integrator_replay(const Tracer *tracer, int x, int y, int sample, PathStep step[], int most,
+                      PathResult *result);
+
+// Samples begin .. end - 1 of a pixel are one pass: they end at 1, 4, 16, 32, 64, 128 ... samples,
+// so that few of them go in waves that are not full.
+int integrator_pass_end(int done, int samples);
+
 #endif

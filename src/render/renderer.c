@@ -167,3 +167,30 @@ bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass 
     film_forget(film, renderer->world->film.crop);
     return renderer_resume(renderer, film, run, pass, 0.0, user, stats, e);
 }
+
+int renderer_replay(const Renderer *renderer, int x, int y, int sample, PathStep *step, int most,
+                    Vec3 *color, Error *e)
+{
+    const FilmParams *film = &renderer->world->film;
+    int samples = renderer->world->render.samples;
+    if (x < 0 || y < 0 || x >= film->width || y >= film->height || sample < 0 ||
+        sample >= samples) {
+        error_set(e, ERROR_INPUT,
+                  "no sample %d of pixel %d, %d; the picture has %d x %d pixels of %d samples, "
+                  "counted from 0",
+                  sample, x, y, film->width, film->height, samples);
+        return -1;
+    }
+    Tracer *tracer = memory_alloc_zero(1, sizeof *tracer, e);
+    if (!tracer) {
+        return -1;
+    }
+    fill_tracer(tracer, renderer);
+    PathResult result;
+    unsigned state = accel_thread_begin();
+    int steps = integrator_replay(tracer, x, y, sample, step, most, &result);
+    accel_thread_end(state);
+    free(tracer);
+    *color = result.color;
+    return steps;
+}

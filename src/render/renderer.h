@@ -59,4 +59,11 @@ bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass 
 bool renderer_resume(Renderer *renderer, Film *film, const Run *run, RenderPass *pass, double every,
                      void *user, RenderStats *stats, Error *e);
 
+// Traces one sample of a pixel again and fills the first `most` of its rays (render/integrator.h)
+// and what it adds to the picture; returns their number. -1 with ERROR_INPUT when the picture has
+// no such pixel or sample.
+struct PathStep;
+int renderer_replay(const Renderer *renderer, int x, int y, int sample, struct PathStep *step,
+                    int most, Vec3 *color, Error *e);
+
 #endif

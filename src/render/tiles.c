@@ -11,7 +11,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-enum { TILE_SIZE = 16, PASS_LIMIT = 64, LEAST_ADAPTIVE_SAMPLES = 16, LOOK_STEP = 4 };
+enum { TILE_SIZE = 16, LEAST_ADAPTIVE_SAMPLES = 16, LOOK_STEP = 4 };
 
 typedef struct Tile {
     int x0, y0, x1, y1;
@@ -215,15 +215,6 @@ static bool all_quiet(const Job *job)
     return true;
 }
 
-// Passes end at 1, 4, 16, 32, 64, 128 ... samples, so that few of them go in waves that are not
-// full.
-static int pass_end(int done, int samples)
-{
-    int more = done < WAVE_SIZE ? 3 * done : done;
-    more = done < 1 ? 1 : (more < PASS_LIMIT ? more : PASS_LIMIT);
-    return done + more < samples ? done + more : samples;
-}
-
 // A pass, interrupted for calls.
 static void render_whole_pass(Job *job, const Calls *calls, int before, int end)
 {
@@ -246,7 +237,7 @@ static void render_passes(Job *job, const Calls *calls)
     while (done < samples && !(done > 0 && must_stop(job)) && !all_quiet(job)) {
         int before = done;
         int64_t paths = job->paths;
-        done = pass_end(done, samples);
+        done = integrator_pass_end(done, samples);
         render_whole_pass(job, calls, before, done);
         bool power_of_two = (done & (done - 1)) == 0;
         if (calls->pass && job->paths > paths && (power_of_two || done == samples) &&

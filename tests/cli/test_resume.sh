@@ -64,6 +64,13 @@ check info_of_a_picture 0 "$RAMIFY" info whole.exr
 says info_of_a_picture_says out 'object 1  ball'
 yes pictures_keep_the_comment grep -qaF 'a comment that pictures keep' again.exr
 
+check replay 0 "$RAMIFY" replay whole.exr --pixel 60,56 --sample 3
+says replay_says out 'ray 0: surface of ball, clay'
+check replay_json 0 "$RAMIFY" replay scene.yaml --pixel 0,0 --json
+says replay_json_says out '"end": "outside"'
+check replay_no_pixel 2 "$RAMIFY" replay whole.exr --pixel 120,45
+check replay_bad_pixel 2 "$RAMIFY" replay whole.exr --pixel 7
+check replay_without_pixel 2 "$RAMIFY" replay whole.exr
 check plain 0 "$RAMIFY" render scene.yaml --noise 0 -o plain.png -q
 check add 0 "$RAMIFY" render plain.exr --add-samples 32 -o more.png
 says add_says err '128 samples'

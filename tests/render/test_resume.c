@@ -1,6 +1,7 @@
 // A rendering that is cut short anywhere and goes on later makes the bits of one without a break,
 // with any number of threads, with and without a limit of noise; calls within a pass change
 // nothing.
+#include "render/integrator.h"
 #include "tiny_world.h"
 
 #include <math.h>
@@ -159,12 +160,56 @@ static void added_samples_go_on(void **state)
     world_free(world);
 }
 
+// Replayed samples are those of the picture, and a path's rays bring together what it adds.
+static void replayed_paths_make_the_picture(void **state)
+{
+    (void)state;
+    enum { MOST = 64, PIXEL_X = 24, PIXEL_Y = 20 };
+    World *world = scene(0.0f);
+    Run run = run_default();
+    Renderer *renderer = renderer_new(world, "sse4.2", &run, NULL);
+    assert_non_null(renderer);
+    Film *film = render_at_once(renderer);
+    double sum[3] = {0};
+    for (int k = 0; k < SAMPLES; k++) {
+        PathStep step[MOST];
+        Vec3 color, light = vec3_splat(0.0f);
+        int steps = renderer_replay(renderer, PIXEL_X, PIXEL_Y, k, step, MOST, &color, NULL);
+        assert_true(steps >= 1 && steps < MOST);
+        assert_int_equal(step[0].end, STEP_SURFACE);
+        assert_int_equal(step[0].object, 0); // the ball, in the middle
+        for (int i = 0; i < steps; i++) {
+            light = vec3_add(light, step[i].light);
+            if (i + 1 < steps) { // one ray begins where the last has ended
+                assert_true(vec3_distance(step[i].position, step[i + 1].origin) < 0.05f);
+            }
+        }
+        assert_true(vec3_distance(light, color) <= 1e-4f * (1.0f + vec3_length(color)));
+        sum[0] += (double)color.x;
+        sum[1] += (double)color.y;
+        sum[2] += (double)color.z;
+    }
+    Vec3 mean = film->color[PIXEL_Y * WIDTH + PIXEL_X];
+    assert_true(fabs(sum[0] / SAMPLES - (double)mean.x) < 1e-6 * (1.0 + (double)mean.x));
+    assert_true(fabs(sum[1] / SAMPLES - (double)mean.y) < 1e-6 * (1.0 + (double)mean.y));
+    assert_true(fabs(sum[2] / SAMPLES - (double)mean.z) < 1e-6 * (1.0 + (double)mean.z));
+    Vec3 color;
+    Error e = {0};
+    assert_int_equal(renderer_replay(renderer, WIDTH, 0, 0, NULL, 0, &color, &e), -1);
+    assert_int_equal(e.code, ERROR_INPUT);
+    assert_int_equal(renderer_replay(renderer, 0, 0, SAMPLES, NULL, 0, &color, NULL), -1);
+    film_free(film);
+    renderer_free(renderer);
+    world_free(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(breaks_change_no_bit),
         cmocka_unit_test(calls_within_passes_change_no_bit),
         cmocka_unit_test(added_samples_go_on),
+        cmocka_unit_test(replayed_paths_make_the_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
