@@ -80,19 +80,18 @@ PointSet *room_allowed_points(const Room *room, const PointSet *points, const Ru
     return allowed;
 }
 
-const Aabb *room_find_trial(const Room *room, uint64_t key)
+const Aabb *room_find_trial(const RoomTrials *trials, uint64_t key)
 {
-    for (int64_t i = 0; i < room->trials->count; i++) {
-        if (room->trials->trial[i].key == key) {
-            return &room->trials->trial[i].reach;
+    for (int64_t i = 0; i < trials->count; i++) {
+        if (trials->trial[i].key == key) {
+            return &trials->trial[i].reach;
         }
     }
     return NULL;
 }
 
-bool room_keep_trial(const Room *room, uint64_t key, Aabb reach, Error *e)
+bool room_keep_trial(RoomTrials *trials, uint64_t key, Aabb reach, Error *e)
 {
-    RoomTrials *trials = room->trials;
     if (!memory_reserve(&trials->trial, &trials->capacity, trials->count + 1, sizeof *trials->trial,
                         e)) {
         return false;

@@ -52,8 +52,8 @@ typedef struct Room {
 } Room;
 
 // The trial of that key; NULL if there is none yet.
-const Aabb *room_find_trial(const Room *room, uint64_t key);
-bool room_keep_trial(const Room *room, uint64_t key, Aabb reach, Error *e);
+const Aabb *room_find_trial(const RoomTrials *trials, uint64_t key);
+bool room_keep_trial(RoomTrials *trials, uint64_t key, Aabb reach, Error *e);
 
 // The points that the room allows, as a new set with the same mean spacing.
 PointSet *room_allowed_points(const Room *room, const PointSet *points, const Run *run, Error *e);

@@ -315,7 +315,8 @@ static bool apply_to_object(Applier *a, Node *object)
         const Key *row = &kind_at(i)->variant.row;
         Subject of = {object, node_get(object, row->key), row->table};
         Node *named = of.params ? node_get(of.params, "species") : NULL;
-        if (named && table_find(row->table, "species") && !apply_species(a, &of, named)) {
+        const Key *key = named ? table_find(row->table, "species") : NULL;
+        if (key && key->type == KEY_TEXT && !apply_species(a, &of, named)) {
             return false;
         }
     }

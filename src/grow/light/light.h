@@ -74,7 +74,7 @@ OutTree *light_grow(const OutTree *start, const LightParams *params, const Light
 
 // One of several plants that grow side by side.
 typedef struct StandPlant {
-    const OutTree *start;
+    OutTree *start; // borrowed
     LightParams params;
     LightSite site; // all in one space; room and reach are not used
     OutTree *grown; // the result, owned by the caller

@@ -3,6 +3,7 @@
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "objects/forest/individuals.h"
 #include "objects/forest/stand_places.h"
 #include "outtree/radii.h"
 
@@ -193,11 +194,23 @@ static bool grow_stand(OutTree *all, const ForestParams *params, int stand, uint
     return done;
 }
 
+static bool grow_species(const ForestParams *params, const Recipe *recipe, OutTree *into, Error *e)
+{
+    Individuals all;
+    bool done =
+        individuals_init(&all, params, recipe->seed, e) && individuals_grow(&all, recipe, into, e);
+    individuals_free(&all);
+    return done;
+}
+
 bool forest_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     const ForestParams *params = given;
     whole->tree = out_tree_new(e);
     bool done = whole->tree;
+    if (done && params->species_count > 0) {
+        return grow_species(params, recipe, whole->tree, e);
+    }
     for (int i = 0; done && i < params->stands; i++) {
         done = grow_stand(whole->tree, params, i, random_key(recipe->seed, (uint64_t)i), recipe, e);
     }

@@ -7,7 +7,7 @@
 
 #include "mesh/geometry.h"
 #include "objects/common/recipe.h"
-#include "objects/tree/tree.h"
+#include "objects/tree/mix.h"
 
 typedef struct ForestParams {
     float height;    // m, of the tallest trees
@@ -29,6 +29,9 @@ typedef struct ForestParams {
     RadiiParams radii;
     LeavesParams leaves; // max_count of one stand
     SkinningParams skin;
+    float season;       // month, as TreeParams.season; 0 = as the species have it
+    TreeShare *species; // grown by light; none: plain trees grown by attractors
+    int species_count;
 } ForestParams;
 
 enum { FOREST_BARK, FOREST_TWIG, FOREST_LEAF, FOREST_FERN }; // roles; the first as a tree's

@@ -4,9 +4,12 @@
 #include "base/noise.h"
 #include "base/random.h"
 #include "objects/forest/forest.h"
+#include "objects/forest/individuals.h"
 #include "objects/forest/stand_places.h"
+#include "objects/forest/tree_places.h"
 #include "objects/ground/fern.h"
 #include "objects/ground/grove.h"
+#include "objects/tree/instanced.h"
 
 #include <stdlib.h>
 
@@ -23,7 +26,7 @@ enum {
     STREAM_TURN = 5
 };
 
-enum { FERN_VARIANTS = 3 };
+enum { FERN_VARIANTS = 3, INDIVIDUAL_FACES = 400000 };
 #define FERN_PATCH 7.0f // m, from patch to patch
 
 // The places of one stand; *count may be 0. The caller frees the array.
@@ -130,11 +133,61 @@ static bool add_ferns(const ForestParams *params, uint64_t seed, const Placing *
     return true;
 }
 
+// The individuals at their places, with a list of transforms for each in turn.
+static bool add_individuals(const ForestParams *params, const Individuals *all,
+                            const TreePlaces *places, const OutTree *grown, const Placing *placing,
+                            Error *e)
+{
+    Transform *place = memory_alloc(places->count + 1, sizeof *place, e);
+    bool done = place;
+    for (int i = 0; done && i < all->count; i++) {
+        const Individual *one = &all->one[i];
+        int64_t count = 0;
+        for (int64_t k = 0; k < places->count; k++) {
+            if (places->individual[k] == i) {
+                place[count++] = places->place[k];
+            }
+        }
+        InstancedTree how = {.place = place,
+                             .count = count,
+                             .material = placing->further + (int64_t)one->species * TREE_ROLES,
+                             .most_leaves = params->leaves.max_count,
+                             .most_faces = INDIVIDUAL_FACES,
+                             .seed = one->seed};
+        Grown single = {.tree = count > 0 ? individuals_tree(all, grown, i, e) : NULL};
+        done = count == 0 || (single.tree && tree_finish(NULL, NULL, NULL, &single, e) &&
+                              tree_add_instanced(&one->params, &single, &how, placing, e));
+        grown_clear(&single);
+    }
+    free(place);
+    return done;
+}
+
+static bool add_species(const ForestParams *params, const OutTree *grown, const Placing *placing,
+                        Error *e)
+{
+    uint64_t seed = placing->recipe->seed;
+    Individuals all;
+    TreePlaces places = {0};
+    bool done = individuals_init(&all, params, seed, e) &&
+                tree_places_init(&places, params, &all, random_key(seed, STREAM_PLACES),
+                                 &placing->around, placing->recipe->run, e) &&
+                add_individuals(params, &all, &places, grown, placing, e);
+    tree_places_free(&places);
+    individuals_free(&all);
+    return done;
+}
+
 bool forest_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
     const ForestParams *params = given;
     uint64_t seed = placing->recipe->seed;
     StandPlaces places;
+    if (params->species_count > 0) {
+        return add_species(params, grown->tree, placing, e) &&
+               (params->ferns == 0 ||
+                add_ferns(params, random_key(seed, STREAM_FERNS), placing, e));
+    }
     if (!stand_places_init(&places, params, random_key(seed, STREAM_PLACES), &placing->around,
                            placing->recipe->run, e)) {
         return false;

@@ -33,6 +33,16 @@ static const Key FOREST_KEYS[] = {
      .unit = "m", .doc = "Height of the tallest ferns."},
     {KEY_OF(ForestParams, fern_radius, "fern_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e5,
      .unit = "m", .doc = "Radius of the ferns about glade_center."},
+    {KEY_OF(ForestParams, season, "season", KEY_FLOAT), .high = 13, .unit = "months",
+     .doc = "Time of the year of all trees, as tree.season; 0 = as each has it."},
+    {KEY_OF(ForestParams, species, "species", KEY_LIST),
+     .count_offset = offsetof(ForestParams, species_count), .count = 100,
+     .table = &tree_share_table,
+     .doc = "The trees and their shares, grown by light: `stands` stands of `stand_trees` each "
+            "inside the wood, others at its edge and in the open; then set tree by tree over the "
+            "land, each where it belongs. A tree without a height has that of the forest; "
+            "leaves.max_count is then that of a tree. crown, radii, skin, envelope, points, growth "
+            "and fields are not used. Empty = plain trees, grown together by attractors."},
     {KEY_OF(ForestParams, radii, "radii", KEY_GROUP), .table = &radii_table,
      .doc = "Thickness of trunks and branches."},
     {KEY_OF(ForestParams, leaves, "leaves", KEY_GROUP), .table = &leaves_table,
@@ -50,6 +60,8 @@ static void forest_defaults(void *out)
 
 static bool check_forest(const Mapping *mapping, void *params)
 {
+    ForestParams *forest = params;
+    tree_mix_set_season(forest->species, forest->species_count, forest->season);
     return check_element(mapping, &((const ForestParams *)params)->element);
 }
 

@@ -11,7 +11,7 @@
 
 enum { STREAM_HEIGHT = 1 };                                              // of a variant's tree
 enum { STREAM_PLACES = 1, STREAM_VARIANT_TREE = 2, STREAM_SPECIES = 3 }; // of a variant
-enum { DISTANT_SEASONS = 26, DISTANT_LEAVES = 40000 };
+enum { DISTANT_SEASONS = 26, DISTANT_LEAVES = 40000, DISTANT_FACES = 200000 };
 // Of a tree's place.
 enum {
     STREAM_RADIUS = 1,
@@ -123,6 +123,7 @@ static bool add_variant(const GroveParams *grove, int species, const Transform *
                          .count = count,
                          .material = species >= 0 ? placing->further + species * TREE_ROLES : plain,
                          .most_leaves = DISTANT_LEAVES,
+                         .most_faces = DISTANT_FACES,
                          .distant = true,
                          .seed = seed};
     Grown tree = {0};

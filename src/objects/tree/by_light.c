@@ -131,21 +131,21 @@ static uint64_t trial_key(const TreePlan *plan, const LightSite *site)
     return key_of_words(key_of_words(STREAM_TRIAL, &growth, sizeof growth), more, sizeof more);
 }
 
-static bool find_reach(const TreePlan *plan, LightSite trial, const Recipe *recipe, Aabb *reach,
-                       Error *e)
+// trials: of all rivals; NULL = it has a trial of its own.
+static bool find_reach(const TreePlan *plan, LightSite trial, RoomTrials *trials,
+                       const Recipe *recipe, Aabb *reach, Error *e)
 {
-    const Room *room = recipe->room;
-    if (!room || !room->trials) {
+    if (!trials) {
         return try_free(plan, &trial, recipe, reach, e);
     }
     uint64_t key = trial_key(plan, &trial);
-    const Aabb *found = room_find_trial(room, key);
+    const Aabb *found = room_find_trial(trials, key);
     if (found) {
         *reach = *found;
         return true;
     }
     trial.seed = key;
-    return try_free(plan, &trial, recipe, reach, e) && room_keep_trial(room, key, *reach, e);
+    return try_free(plan, &trial, recipe, reach, e) && room_keep_trial(trials, key, *reach, e);
 }
 
 // Sets the internode to that of a tree which grows freely to the plan's height.
@@ -155,7 +155,8 @@ static bool find_internode(const TreePlan *plan, LightSite *site, const Recipe *
     if (plan->grown_by == GROWN_BY_BOTH && trial.seasons < LEAST_TRIAL_SEASONS) {
         trial.seasons = LEAST_TRIAL_SEASONS;
     }
-    if (!find_reach(plan, trial, recipe, &site->reach, e)) {
+    RoomTrials *trials = recipe->room ? recipe->room->trials : NULL;
+    if (!find_reach(plan, trial, trials, recipe, &site->reach, e)) {
         return false;
     }
     site->internode = plan->params.height / site->reach.high.y;
@@ -245,4 +246,48 @@ bool tree_grow_by_light(OutTree **tree, const TreePlan *plan, const Recipe *reci
     out_tree_free(*tree);
     *tree = grown;
     return true;
+}
+
+static bool plan_stand(StandTree *tree, int count, TreePlan *plan, StandPlant *plant_of,
+                       const Recipe *recipe, Error *e)
+{
+    RoomTrials trials = {0};
+    bool done = true;
+    for (int i = 0; done && i < count; i++) {
+        TreeParams params = *tree[i].params;
+        params.position = tree[i].foot;
+        params.roots.count = 0;
+        params.grown_by = GROWN_BY_LIGHT;
+        tree_plan_make(&plan[i], &params, tree[i].seed);
+        StandPlant *one = &plant_of[i];
+        one->params = plan_growth(&plan[i]);
+        one->site = plan_site(&plan[i], tree[i].seed);
+        done = find_reach(&plan[i], one->site, &trials, recipe, &one->site.reach, e);
+        if (done) {
+            one->site.internode = plan[i].params.height / one->site.reach.high.y;
+            one->start = plant(&plan[i].params, one->site.seed, e);
+            done = one->start;
+        }
+    }
+    free(trials.trial);
+    return done;
+}
+
+bool tree_grow_stand(StandTree *tree, int count, const Vec3 *copy, int copies, const Recipe *recipe,
+                     Error *e)
+{
+    TreePlan *plan = memory_alloc(count, sizeof *plan, e);
+    StandPlant *plant_of = plan ? memory_alloc_zero(count, sizeof *plant_of, e) : NULL;
+    bool done = plant_of && plan_stand(tree, count, plan, plant_of, recipe, e) &&
+                light_grow_stand(plant_of, count, copy, copies, recipe->run, e);
+    for (int i = 0; plant_of && i < count; i++) {
+        out_tree_free(plant_of[i].start);
+        tree[i].grown = plant_of[i].grown;
+        if (tree[i].grown) {
+            tree_compute_radii(tree[i].grown, &plan[i].params, true);
+        }
+    }
+    free(plant_of);
+    free(plan);
+    return done || recipe_fail(recipe, NULL, e);
 }

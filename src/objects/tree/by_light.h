@@ -15,4 +15,17 @@ bool tree_plant_stems(OutTree *tree, const TreeParams *params, uint64_t seed, Er
 // model.
 bool tree_grow_by_light(OutTree **tree, const TreePlan *plan, const Recipe *recipe, Error *e);
 
+// One of several trees that grow side by side.
+typedef struct StandTree {
+    const TreeParams *params; // grown by light; envelopes, fields, roots and position are not used
+    Vec3 foot;                // m
+    uint64_t seed;
+    OutTree *grown; // the result with radii, owned by the caller
+} StandTree;
+
+// Grows trees that shade each other, and their leaves' shade once more at the offsets `copy`, m:
+// see light_grow_stand. On failure no tree is left.
+bool tree_grow_stand(StandTree *tree, int count, const Vec3 *copy, int copies, const Recipe *recipe,
+                     Error *e);
+
 #endif

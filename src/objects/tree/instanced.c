@@ -161,10 +161,26 @@ static bool add_wood(Part *part, const InstancedTree *how, const Placing *placin
     return add_at_places(wood, 0.0f, 0.5f, how, placing, e);
 }
 
+// Faces of all foliage in the forms that a tree with so many leaves takes.
+static int64_t count_faces(const Geometry *tree, int64_t faces_each)
+{
+    int64_t faces = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        const Part *part = &tree->part[i];
+        faces +=
+            is_foliage(part) ? part->instance_count * form_of(part, faces_each)->face_count : 0;
+    }
+    return faces;
+}
+
 static bool add_parts(Geometry *tree, const InstancedTree *how, const Placing *placing, Error *e)
 {
     int64_t leaves = count_leaves(tree);
-    float share = leaves > how->most_leaves ? (float)how->most_leaves / (float)leaves : 1.0f;
+    int64_t left = leaves < how->most_leaves ? leaves : how->most_leaves;
+    int64_t faces_each = how->distant || left == 0 ? 1 : how->most_faces / left;
+    float share = leaves > 0 ? (float)left / (float)leaves : 1.0f;
+    float faces = share * (float)count_faces(tree, faces_each), most = (float)how->most_faces;
+    share = faces > most ? share * most / faces : share;
     bool done = true;
     for (int64_t i = 0; done && i < tree->count; i++) {
         Part *part = &tree->part[i];
@@ -175,9 +191,7 @@ static bool add_parts(Geometry *tree, const InstancedTree *how, const Placing *p
         if (share < 1.0f) {
             thin_out(part, share, random_key(how->seed, (uint64_t)i));
         }
-        int64_t left = leaves < how->most_leaves ? leaves : how->most_leaves;
-        int64_t faces = how->distant ? 1 : how->most_faces / (left > 0 ? left : 1);
-        done = part->instance_count == 0 || add_foliage(part, faces, how, placing, e);
+        done = part->instance_count == 0 || add_foliage(part, faces_each, how, placing, e);
     }
     return done;
 }

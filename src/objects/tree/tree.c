@@ -296,8 +296,7 @@ static bool grow_roots(OutTree *tree, const TreeParams *params, uint64_t seed, c
     return done;
 }
 
-// by_light: growth by light has set the radii of the pipe model.
-static void compute_radii(OutTree *tree, const TreeParams *params, bool by_light)
+void tree_compute_radii(OutTree *tree, const TreeParams *params, bool by_light)
 {
     const RadiiParams *radii = &params->radii;
     if (radii->model == RADIUS_BIRTH) {
@@ -337,7 +336,7 @@ bool tree_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e)
         (by_light && !tree_grow_by_light(&whole->tree, &plan, recipe, e))) {
         return false;
     }
-    compute_radii(whole->tree, tree, by_light);
+    tree_compute_radii(whole->tree, tree, by_light);
     if (!tree_round_ends(whole->tree, tree, e)) {
         return false;
     }

@@ -124,6 +124,10 @@ bool tree_finish(const void *params, const Recipe *recipe, const Grown *whole, G
 float tree_tip_radius(const void *params, const OutTree *whole); // m
 bool tree_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
+// Sets the radii of a grown tree above the roots. params: resolved (defaults.h); by_light: growth
+// by light has set those of the pipe model.
+void tree_compute_radii(OutTree *tree, const TreeParams *params, bool by_light);
+
 extern const struct Table tree_table; // of its parameters
 
 #endif
