@@ -119,6 +119,8 @@ fi
 still species species
 still species-winter species-winter
 still ivy-wall ivy-wall
+still olive-trunk olive-trunk
+still pine-rock pine-rock
 still lsystem-tree lsystem-tree --size 1600x900
 if is_wanted coral-figure-2; then
     panel coral-figure-2 --size 800x600

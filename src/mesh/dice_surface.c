@@ -4,7 +4,7 @@
 #include <math.h>
 
 // The tangent at the end of an edge: the edge laid into the plane of the normal, of the length that
-// makes the cubic of an arc of a circle meet the circle in its middle.
+// makes the cubic of an arc of a circle meet the circle in its middle (after Vlachos 2001).
 static Vec3 end_tangent(Vec3 edge, Vec3 normal)
 {
     Vec3 flat = vec3_madd(edge, -vec3_dot(edge, normal), normal);
