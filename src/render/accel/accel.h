@@ -35,9 +35,9 @@ typedef struct Hit {
 bool accel_check_isa(const char *isa, Error *e);
 
 // Leaves, grass and thin curves are drawn as coarsely as world->views (or the camera) cannot tell,
-// and relief that they see becomes geometry. Without views, later cameras get the first one's detail.
-// world and materials are borrowed; isa as for renderer_new. Fails with ERROR_MEMORY when Embree
-// runs out.
+// and relief that they see becomes geometry. Without views, later cameras get the first one's
+// detail. world and materials are borrowed; isa as for renderer_new. Fails with ERROR_MEMORY when
+// Embree runs out.
 Accel *accel_new(const World *world, const MaterialSet *materials, const char *isa, const Run *run,
                  Error *e);
 void accel_free(Accel *accel); // NULL is fine
