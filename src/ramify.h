@@ -167,6 +167,10 @@ RAMIFY_API char *ramify_schema(RamifyError *error);
 RAMIFY_API char *ramify_schema_markdown(RamifyError *error);
 RAMIFY_API char *ramify_schema_paths(RamifyError *error);
 
+// The built-in library of species, a line each: name, Latin name, form, height in metres, and the
+// months in which leaves and organs are there. Free with ramify_free.
+RAMIFY_API char *ramify_species(RamifyError *error);
+
 // ---- growth ----
 
 typedef struct RamifyTree RamifyTree; // an out-tree

@@ -3,6 +3,7 @@
 
 #include "render/material/material.h"
 #include "scene/needs.h"
+#include "scene/species_list.h"
 
 #include <math.h>
 #include <string.h>
@@ -176,5 +177,12 @@ char *ramify_schema_paths(RamifyError *error)
 {
     Error e = {0};
     char *text = scene_schema_paths(&e);
+    return hand_text(text, &e, error);
+}
+
+char *ramify_species(RamifyError *error)
+{
+    Error e = {0};
+    char *text = species_list(&e);
     return hand_text(text, &e, error);
 }

@@ -18,6 +18,7 @@ bool command_replay(const Options *options, RamifyError *e);     // replay.c
 bool command_compare(const Options *options, RamifyError *e);    // compare.c
 bool command_golden(const Options *options, RamifyError *e);     // golden.c
 bool command_info(const Options *options, RamifyError *e);       // info.c
+bool command_species(const Options *options, RamifyError *e);    // species.c
 bool command_schema(const Options *options, RamifyError *e);     // schema.c
 bool command_completion(const Options *options, RamifyError *e); // completion.c
 bool command_help(const Options *options, RamifyError *e);       // help.c

@@ -189,6 +189,11 @@ static const ManualText TEXTS[] = {
                   {"every key with its value, also those that the file leaves out",
                    "ramify info pine.yaml --resolved"},
                   {"the keys that --set can change in it", "ramify info pine.yaml --paths"}}},
+    {.command = "species",
+     .paragraphs = {"Lists the species of the library: the name that a scene gives to a tree's or "
+                    "climber's species, the Latin name, the form, the range of height that its "
+                    "targets state, and the months in which leaves and organs are there."},
+     .examples = {{"which of them flower", "ramify species | grep blossom"}}},
     {.command = "schema",
      .paragraphs = {"Prints the JSON Schema of scene files, which editors use to complete and "
                     "explain keys and to mark errors; or the same as a reference for readers."},

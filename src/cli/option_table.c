@@ -10,9 +10,9 @@
      BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT))
 #define SCENES (GROWS | BIT(COMMAND_INFO) | BIT(COMMAND_REPLAY))
 #define COMPARES (BIT(COMMAND_COMPARE) | BIT(COMMAND_GOLDEN))
-#define EVERY                                                                                 \
-    (SCENES | COMPARES | BIT(COMMAND_MERGE) | BIT(COMMAND_SCHEMA) | BIT(COMMAND_COMPLETION) | \
-     BIT(COMMAND_HELP))
+#define EVERY                                                                              \
+    (SCENES | COMPARES | BIT(COMMAND_MERGE) | BIT(COMMAND_SPECIES) | BIT(COMMAND_SCHEMA) | \
+     BIT(COMMAND_COMPLETION) | BIT(COMMAND_HELP))
 #define RENDERS (BIT(COMMAND_RENDER) | BIT(COMMAND_TURNTABLE))
 #define TURNS BIT(COMMAND_TURNTABLE)
 #define AT(member) offsetof(Options, member)
@@ -496,6 +496,12 @@ const Command command_table[COMMAND_COUNT] = {
                         "alike. See docs/golden.md.\n",
                         command_golden},
     [COMMAND_INFO] = {"info", "SCENE", "print the contents of a scene file", "", command_info},
+    [COMMAND_SPECIES] =
+        {"species", "", "list the library of species",
+         "Name, Latin name, form, height, and the months of leaves and organs (1 = "
+         "begin of January).\nA scene grows one by tree: {species: NAME}, a climber "
+         "by climber: {species: NAME, ...}.\n",
+         command_species},
     [COMMAND_SCHEMA] = {"schema", "", "print the JSON Schema of scene files", "", command_schema},
     [COMMAND_COMPLETION] = {"completion", "bash|zsh", "print a shell completion script",
                             "bash: eval \"$(ramify completion bash)\". zsh: put the output into a "

@@ -104,6 +104,14 @@ static bool way_paths(const RamifyScene *scene, RamifyError *error)
     return paths != NULL;
 }
 
+static bool way_species(const RamifyScene *scene, RamifyError *error)
+{
+    (void)scene;
+    char *species = ramify_species(error);
+    ramify_free(species);
+    return species != NULL;
+}
+
 static bool way_measure(const RamifyScene *scene, RamifyError *error)
 {
     RamifyRun run = {.threads = 1};
@@ -190,6 +198,7 @@ static void printing_the_schema(void **state)
     let_each_fail(way_schema, 50);
     let_each_fail(way_reference, 50);
     let_each_fail(way_paths, 50);
+    let_each_fail(way_species, 50);
 }
 
 static void growing_and_measuring(void **state)

@@ -52,6 +52,11 @@ says absent_scene_message err "nope.yaml: cannot read it: No such file or direct
 check wrong_scene 2 "$RAMIFY" info scene.yaml --set camera.fvo=3
 says wrong_scene_message err "override camera.fvo=3: unknown key 'fvo' in camera; did you mean 'fov'?"
 
+check species 0 "$RAMIFY" species
+says species_have_names out "silver_birch"
+says species_have_latin_names out "Carnegiea gigantea"
+yes every_species_has_its_line [ "$(wc -l <out)" -ge 32 ]
+check species_takes_no_scene 2 "$RAMIFY" species scene.yaml
 check schema 0 "$RAMIFY" schema
 says schema_title out '"title": "ramify scene"'
 if command -v python3 >/dev/null; then
