@@ -123,6 +123,7 @@ still olive-trunk olive-trunk
 still pine-rock pine-rock
 still leaves-sun leaves-sun
 still willow-lake willow-lake
+still cherry-blossom cherry-blossom
 still lsystem-tree lsystem-tree --size 1600x900
 if is_wanted coral-figure-2; then
     panel coral-figure-2 --size 800x600
