@@ -16,7 +16,10 @@ still() {
     name=$1 scene=$2
     shift 2
     "$ramify" render "scenes/$scene.yaml" -o "$parts/still.png" "$@"
-    oiiotool "$parts/still.png" --ch R,G,B --compression jpeg:90 -o "renders/$name.jpg"
+    for quality in 90 84 78; do # at most 900 KB
+        oiiotool "$parts/still.png" --ch R,G,B --compression "jpeg:$quality" -o "renders/$name.jpg"
+        [ "$(wc -c <"renders/$name.jpg")" -gt 900000 ] || break
+    done
     rm -f "$parts"/*
 }
 
