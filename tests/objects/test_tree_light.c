@@ -53,7 +53,8 @@ static void five_default_oaks_are_open_grown_trees(void **state)
     } range[] = {{"height_per_diameter", 20, 35},
                  {"branch_per_height", 40, 80},
                  {"tips", 500, 1500},
-                 {"stem_share", 0.25, 0.45}};
+                 {"stem_share", 0.25, 0.45},
+                 {"limb_straightness", 0.7, 0.87}};
     TreeParams params = bare_tree();
     for (uint64_t seed = 1; seed <= 5; seed++) {
         OutTree *tree = grow(&params, seed);
