@@ -112,11 +112,13 @@ typedef struct RamifySceneInfo {
     int32_t object_count, material_count, light_count, target_count;
     int64_t memory; // bytes needed for rendering, estimated from counts: about within a factor of
                     // 3, without level sets of envelopes
-    int32_t planned_samples; // for which the pattern of noise is laid out
 } RamifySceneInfo;
 
 // Describes the scene without growing anything.
 RAMIFY_API void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *info);
+
+// Samples per pixel for which the pattern of the noise is laid out.
+RAMIFY_API int ramify_scene_planned_samples(const RamifyScene *scene);
 
 // The scene's original text, without overrides; borrowed.
 RAMIFY_API const char *ramify_scene_text(const RamifyScene *scene);

@@ -67,9 +67,6 @@ void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *info)
                               .width = own->film.width,
                               .height = own->film.height,
                               .samples = own->render.samples,
-                              .planned_samples = own->render.planned_samples > 0
-                                                     ? own->render.planned_samples
-                                                     : own->render.samples,
                               .denoise = own->denoise,
                               .max_seconds = own->render.max_seconds,
                               .max_noise = own->render.max_noise,
@@ -80,6 +77,12 @@ void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *info)
                               .target_count = own->target_count,
                               .memory = (int64_t)scene_memory(own)};
     memcpy(info->crop, own->film.crop, sizeof info->crop);
+}
+
+int ramify_scene_planned_samples(const RamifyScene *scene)
+{
+    const RenderParams *render = &scene_of(scene)->render;
+    return render->planned_samples > 0 ? render->planned_samples : render->samples;
 }
 
 const char *ramify_scene_text(const RamifyScene *scene)

@@ -212,7 +212,7 @@ static RamifyScene *scene_with_samples(const Options *options, RamifyScene *scen
     snprintf(more.keys[more.key_count++], MAX_KEY_TEXT, "render.samples=%d",
              info.samples + options->add_samples);
     snprintf(more.keys[more.key_count++], MAX_KEY_TEXT, "render.planned_samples=%d",
-             info.planned_samples);
+             ramify_scene_planned_samples(scene));
     return command_scene(&more, e);
 }
 
