@@ -427,15 +427,16 @@ static void distant_trees_stand_on_the_ground(void **state)
     Placing placing = placing_in(&geometry, &recipe);
     assert_true(ground_geometry(&params, NULL, &placing, &e));
     const Mesh *land = geometry.part[0].mesh;
-    int64_t trunks = 0, crowns = 0;
+    int trunks = 0, crowns = 0; // parts: a crown's leaves are of several tones
     for (int64_t p = 1; p < geometry.count; p++) {
         const Part *part = &geometry.part[p];
         if (part->kind != PART_MESH) {
             continue;
         }
         Aabb box = mesh_bounds(part->mesh);
-        trunks += part->material == GROUND_BARK ? part->instance_count : 0;
-        crowns += part->material == GROUND_FOLIAGE ? part->instance_count : 0;
+        trunks += part->material == GROUND_BARK;
+        crowns += part->material == GROUND_FOLIAGE;
+        assert_int_equal(part->instance_count, params.trees.count);
         for (int64_t i = 0; i < part->instance_count; i++) {
             const Transform *t = &part->instance[i];
             float x = t->m[0][3], z = t->m[2][3], land_y = drawn_height(land, x, z);
@@ -450,8 +451,8 @@ static void distant_trees_stand_on_the_ground(void **state)
             assert_true(t->m[1][3] + size * box.high.y - land_y < 1.05f * params.trees.height);
         }
     }
-    assert_int_equal(trunks, params.trees.count);
-    assert_int_equal(crowns, params.trees.count);
+    assert_int_equal(trunks, 1);
+    assert_true(crowns >= 1);
     geometry_clear(&geometry);
 }
 

@@ -49,7 +49,8 @@ static const Case scenes[] = {
      ":1:39: unknown key 'max_cuont' in objects.oak.tree.leaves; did you mean 'max_count'?"},
     {"objects: [{name: oak, tree: {transform: 5}}]\n",
      ":1:30: unknown key 'transform' in objects.oak.tree; known: species, position, height, age, "
-     "grown_by, light, seed, season, latitude, phenology, trunk, crown, roots, radii, leaves, "
+     "grown_by, light, seed, season, latitude, phenology, snow, trunk, crown, roots, radii, "
+     "leaves, "
      "organs, skin"},
     {"{}", ":1:1: the scene has no 'objects'; this key is required: Objects of the scene."},
     {"objects: [{tree: }]",
@@ -147,7 +148,7 @@ static const Case scenes[] = {
      ":1:39: objects.a.material: there is no material 'barc'; did you mean 'bark'?"},
     {"objects: [{name: a, tree: , leaf_material: gold}]\n",
      ":1:44: objects.a.leaf_material: there is no material 'gold'; known: bark, twig, leaf, "
-     "grass, clay, blossom..."},
+     "grass, clay, snow..."},
     {"objects: [{name: a, tree: , grass_material: grass}]\n",
      ":1:45: objects.a: a tree has no grass_material; remove this key"},
     {"objects: [{name: a, tree: {height: 5, crown: {base: 5}}}]\n",
