@@ -128,6 +128,8 @@ still leaves-sun leaves-sun
 still willow-lake willow-lake
 still cherry-blossom cherry-blossom
 still beech-wood beech-wood --samples 8
+still birch-grove birch-grove
+still spruce-snow spruce-snow
 still lsystem-tree lsystem-tree --size 1600x900
 if is_wanted coral-figure-2; then
     panel coral-figure-2 --size 800x600
