@@ -153,7 +153,7 @@ static const ManualText TEXTS[] = {
           "light that the end adds to the sample, what shadow rays bring included. With the .exr "
           "in place of the scene it is the path of that very picture. For finding out why a pixel "
           "is too bright."},
-     .examples = {{"a bright dot in a picture", "ramify replay pine.yaml --pixel 31,20"}}},
+     .examples = {{"a bright dot in a picture", "ramify replay pine.yaml --pixel 20,15"}}},
     {.command = "compare",
      .paragraphs =
          {"Compares two pictures of one kind and prints their differences: root mean square, "
