@@ -5,6 +5,8 @@
 #include "mesh/leaf/leaf.h"
 #include "testing.h"
 
+#include <math.h>
+
 static double area(const Mesh *mesh, double *least)
 {
     double sum = 0.0;
@@ -268,6 +270,44 @@ static void wear_takes_area_away(void **state)
     assert_true(worn < 0.985 * whole && worn > 0.6 * whole);
 }
 
+// Largest turn of the right margin from one row to the next, degrees; not at the blade's two ends.
+static double sharpest_turn(const Mesh *mesh, int columns)
+{
+    int rows = (int)(mesh->vertex_count / columns);
+    double sharpest = 0.0;
+    for (int r = 3; r + 4 < rows; r++) {
+        Vec3 p[3];
+        for (int k = 0; k < 3; k++) {
+            p[k] = mesh->position[(r + k) * columns - 1];
+        }
+        Vec3 a = vec3_normalize(vec3_sub(p[1], p[0])), b = vec3_normalize(vec3_sub(p[2], p[1]));
+        double turn =
+            (double)acosf(clampf(vec3_dot(a, b), -1.0f, 1.0f)) / (double)RADIANS_PER_DEGREE;
+        sharpest = turn > sharpest ? turn : sharpest;
+    }
+    return sharpest;
+}
+
+static void close_margins_have_no_corners(void **state)
+{
+    (void)state;
+    enum { CLOSE_COLUMNS = 15, FINE_COLUMNS = 7 };
+    LeafParams form = flat(LEAF_OVATE, 0.1f, 0.06f);
+    double least;
+    form.detail = 3;
+    Mesh *close = leaf_mesh_new(&form, 5, NULL);
+    form.detail = 2;
+    Mesh *fine = leaf_mesh_new(&form, 5, NULL);
+    assert_non_null(close);
+    assert_non_null(fine);
+    double turn = sharpest_turn(close, CLOSE_COLUMNS);
+    assert_true(turn < 4.5);
+    assert_true(sharpest_turn(fine, FINE_COLUMNS) > 2.0 * turn);
+    assert_true(fabs(area(close, &least) / area(fine, &least) - 1.0) < 0.03);
+    mesh_free(close);
+    mesh_free(fine);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -280,6 +320,7 @@ int main(void)
         cmocka_unit_test(a_pinnate_leaf_has_its_leaflets),
         cmocka_unit_test(needles_stand_on_their_shoot),
         cmocka_unit_test(wear_takes_area_away),
+        cmocka_unit_test(close_margins_have_no_corners),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -90,8 +90,10 @@ int blade_rows(const LeafParams *params, int plain_rows, float *s, int most)
     static const float at_one[2] = {0.0f, 0.72f};
     static const float at_three[6] = {0.0f, 0.24f, 0.333333f, 0.573333f, 0.72f, 0.906667f};
     if (params->teeth == 0 || rows > most) {
+        bool close = params->detail > 2; // rows lie closer at the ends, where the outline bends
         for (int r = 0; r < plain_rows; r++) {
-            s[r] = (float)r / (float)(plain_rows - 1);
+            float t = (float)r / (float)(plain_rows - 1);
+            s[r] = close ? t * t * (3.0f - 2.0f * t) : t;
         }
         return plain_rows;
     }
@@ -106,7 +108,7 @@ int blade_rows(const LeafParams *params, int plain_rows, float *s, int most)
 
 void blade_plain_add(Quads *quads, const LeafParams *params, BladeDetail detail, uint64_t seed)
 {
-    bool fine = detail == BLADE_FINE;
+    bool fine = detail == BLADE_FINE, close = fine && params->detail > 2;
     Outline outline = outline_of(params);
     LeafParams toothed = *params;
     toothed.teeth = fine ? params->teeth : 0;
@@ -114,11 +116,12 @@ void blade_plain_add(Quads *quads, const LeafParams *params, BladeDetail detail,
     bool heart = outline.heart > 0.0f;
     int rows = blade_rows(&toothed,
                           detail == BLADE_SMOOTH ? 5
+                          : close                ? 61
                           : fine                 ? 15
                           : heart                ? 9
                                                  : 7,
                           s, MOST_ROWS);
-    int columns = fine ? 7 : 3;
+    int columns = close ? 15 : fine ? 7 : 3;
     float phase = random_range(random_key(seed, STREAM_WAVE_PHASE), -0.5f, 0.5f);
     float side = random_range(random_key(seed, STREAM_SIDE), -0.04f, 0.04f); // one half is wider
     const float lean = 0.3f;                                                 // of the ribs

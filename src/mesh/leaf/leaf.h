@@ -42,7 +42,8 @@ typedef struct LeafParams {
     float lobe_depth;    // depth of the bays between lobes: oak: relative to the half width;
                          // palmate: to the length
     int detail;          // 1 = about 25 quads, for whole trees; 2 = about 110 or one for every
-                         // tooth and needle, for close-ups
+                         // tooth and needle, for close-ups; 3 = blades without lobes and teeth
+                         // in 840, for their margins from near
 
     LeafShape shape;
     float nod;         // degrees between the stalk's direction and the blade, down from it

@@ -58,7 +58,7 @@ typedef struct LeavesParams {
     float needle_angle; // degrees; 0 = the shape's own
     float comb;
     int variants; // different leaf meshes
-    int detail;   // of a leaf's mesh: 1 for whole trees, 2 for close-ups
+    int detail;   // of a leaf's mesh: 1 for whole trees, 2 for close-ups, 3 from centimetres
 
     // Season.
     float emergence; // 0..1: from closed buds to full-grown leaves

@@ -149,8 +149,9 @@ static const Key LEAVES_KEYS[] = {
      .doc = "Share of the leaves that are shed, in the same order."},
     {KEY_OF(LeavesParams, litter, "litter", KEY_FLOAT), .high = 1,
      .doc = "Share of the shed leaves that lie on the ground around the tree."},
-    {KEY_OF(LeavesParams, detail, "detail", KEY_INT), .low = 1, .high = 2,
-     .doc = "Detail of a leaf's mesh: 1 for whole trees, 2 with teeth for close-ups."},
+    {KEY_OF(LeavesParams, detail, "detail", KEY_INT), .low = 1, .high = 3,
+     .doc = "Detail of a leaf's mesh: 1 for whole trees, 2 with teeth for close-ups, 3 with smooth "
+            "margins of undivided blades from a few centimetres."},
     {KEY_OF(LeavesParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
      .doc = "Number of different blades."},
     {0},
