@@ -120,20 +120,20 @@ void film_forget(Film *film, const float crop[4])
 void film_planes(const Film *film, FilmPlane plane[FILM_PLANES])
 {
     const FilmPlane all[FILM_PLANES] = {
-        {&film->color->x, 3, {"R", "G", "B"}},
-        {film->alpha, 1, {"A"}},
-        {&film->albedo->x, 3, {"albedo.R", "albedo.G", "albedo.B"}},
-        {&film->normal->x, 3, {"normal.X", "normal.Y", "normal.Z"}},
-        {film->depth, 1, {"depth.Z"}},
-        {&film->position->x, 3, {"position.X", "position.Y", "position.Z"}},
-        {film->object, 1, {"object.V"}},
-        {film->samples, 1, {"samples.V"}},
-        {film->hits, 1, {"hits.V"}},
-        {film->variance, 1, {"variance.V"}},
-        {&film->light->x, 3, {"light.R", "light.G", "light.B"}},
-        {&film->sky->x, 3, {"sky.R", "sky.G", "sky.B"}},
-        {film->light_share, 1, {"light_share.V"}},
-        {film->sky_share, 1, {"sky_share.V"}},
+        {&film->color->x, "", "RGB"},
+        {film->alpha, "", "A"},
+        {&film->albedo->x, "albedo", "RGB"},
+        {&film->normal->x, "normal", "XYZ"},
+        {film->depth, "depth", "Z"},
+        {&film->position->x, "position", "XYZ"},
+        {film->object, "object", "V"},
+        {film->samples, "samples", "V"},
+        {film->hits, "hits", "V"},
+        {film->variance, "variance", "V"},
+        {&film->light->x, "light", "RGB"},
+        {&film->sky->x, "sky", "RGB"},
+        {film->light_share, "light_share", "V"},
+        {film->sky_share, "sky_share", "V"},
     };
     memcpy(plane, all, sizeof all);
 }

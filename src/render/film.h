@@ -41,11 +41,10 @@ void film_drop_denoised(Film *film);
 // Forgets the samples of the crop's pixels: a rendering starts anew there.
 void film_forget(Film *film, const float crop[4]);
 
-// A plane and its channels in files: "R", "albedo.R", "depth.Z".
+// A plane and its place in files.
 typedef struct FilmPlane {
-    float *value; // row by row, `channels` floats a pixel; borrowed
-    int channels;
-    const char *name[3];
+    float *value;                 // row by row, a float for each channel of a pixel; borrowed
+    const char *layer, *channels; // "albedo" and "RGB"; layer "" = the picture itself
 } FilmPlane;
 
 // All planes but `denoised`: what a rendering can be resumed from.

@@ -259,52 +259,44 @@ bool picture_write_display(const char *file, const Scene *scene, const Film *fil
     return write_display(file, scene, film, denoise, NULL, run, e);
 }
 
-static Image *denoised_layer(const Scene *scene, const Film *film, const Run *run, Error *e)
+// A plane as an image, which borrows its values.
+static Image view_of(const Film *film, const float *value, int channels)
 {
-    Vec3 *own = film->denoised ? NULL : denoised_plane(scene, film, run, e);
-    const Vec3 *plane = film->denoised ? film->denoised : own;
-    Image *layer = plane ? plane_image(film, plane, 3, e) : NULL;
-    free(own);
-    return layer;
+    return (Image){film->width, film->height, channels, (float *)(uintptr_t)value};
+}
+
+static bool write_layers(const char *file, const Scene *scene, const Film *film,
+                         const Vec3 *denoised, const char *mark, Error *e)
+{
+    FilmPlane plane[FILM_PLANES];
+    Image image[FILM_PLANES + 1];
+    ImageLayer layers[FILM_PLANES + 1];
+    int count = 0;
+    film_planes(film, plane);
+    for (int i = 0; i < FILM_PLANES; i++, count++) {
+        image[count] = view_of(film, plane[i].value, (int)strlen(plane[i].channels));
+        layers[count] = (ImageLayer){plane[i].layer, plane[i].channels, &image[count]};
+    }
+    if (denoised) {
+        image[count] = view_of(film, &denoised->x, 3);
+        layers[count] = (ImageLayer){"denoised", "RGB", &image[count]};
+        count++;
+    }
+    char *metadata = make_metadata(scene, mark, e);
+    bool done = metadata && image_write_exr(file, layers, count, metadata, e);
+    free(metadata);
+    return done;
 }
 
 static bool write_exr(const char *file, const Scene *scene, const Film *film, bool denoise,
                       const char *mark, const Run *run, Error *e)
 {
     bool clean = denoise && can_denoise(scene, film);
-    Image *const images[] = {clean ? denoised_layer(scene, film, run, e) : NULL,
-                             beauty_image(film, e),
-                             plane_image(film, film->albedo, 3, e),
-                             plane_image(film, film->normal, 3, e),
-                             plane_image(film, film->depth, 1, e),
-                             plane_image(film, film->position, 3, e),
-                             plane_image(film, film->object, 1, e),
-                             plane_image(film, film->samples, 1, e),
-                             plane_image(film, film->hits, 1, e),
-                             plane_image(film, film->variance, 1, e),
-                             plane_image(film, film->light, 3, e),
-                             plane_image(film, film->sky, 3, e),
-                             plane_image(film, film->light_share, 1, e),
-                             plane_image(film, film->sky_share, 1, e)};
-    static const char *const names[][2] = {
-        {"denoised", "RGB"},  {"", "RGBA"},        {"albedo", "RGB"}, {"normal", "XYZ"},
-        {"depth", "Z"},       {"position", "XYZ"}, {"object", "V"},   {"samples", "V"},
-        {"hits", "V"},        {"variance", "V"},   {"light", "RGB"},  {"sky", "RGB"},
-        {"light_share", "V"}, {"sky_share", "V"}};
-    enum { COUNT = sizeof images / sizeof images[0] };
-    ImageLayer layers[COUNT];
-    bool made = true;
-    int count = 0;
-    for (int i = clean ? 0 : 1; i < COUNT; i++) {
-        layers[count++] = (ImageLayer){names[i][0], names[i][1], images[i]};
-        made = made && images[i];
-    }
-    char *metadata = made ? make_metadata(scene, mark, e) : NULL;
-    bool done = metadata && image_write_exr(file, layers, count, metadata, e);
-    free(metadata);
-    for (int i = 0; i < COUNT; i++) {
-        image_free(images[i]);
-    }
+    Vec3 *own = clean && !film->denoised ? denoised_plane(scene, film, run, e) : NULL;
+    const Vec3 *denoised = own ? own : film->denoised;
+    bool done =
+        (!clean || denoised) && write_layers(file, scene, film, clean ? denoised : NULL, mark, e);
+    free(own);
     return done;
 }
 

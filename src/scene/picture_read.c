@@ -7,6 +7,7 @@
 #include "scene/picture.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -109,27 +110,43 @@ static bool check_picture(const char *file, const Scene *scene, bool any_crop, E
 
 // ---- its film ----
 
-static int channel_names(const FilmPlane plane[FILM_PLANES], const char **name)
+enum { MOST_CHANNELS = 3 * FILM_PLANES, NAME_SIZE = 24 };
+
+// Full names of the channels of all planes: "R", "albedo.R", "depth.Z". Returns their number.
+static int channel_names(const FilmPlane plane[FILM_PLANES], char name[MOST_CHANNELS][NAME_SIZE])
 {
     int count = 0;
     for (int i = 0; i < FILM_PLANES; i++) {
-        for (int c = 0; c < plane[i].channels; c++) {
-            name[count++] = plane[i].name[c];
+        for (const char *c = plane[i].channels; *c; c++) {
+            snprintf(name[count++], NAME_SIZE, "%s%s%c", plane[i].layer,
+                     plane[i].layer[0] ? "." : "", *c);
         }
     }
     return count;
 }
 
+static Image *read_planes(const char *file, const FilmPlane plane[FILM_PLANES], const Run *run,
+                          Error *e)
+{
+    char text[MOST_CHANNELS][NAME_SIZE];
+    const char *name[MOST_CHANNELS];
+    int count = channel_names(plane, text);
+    for (int i = 0; i < count; i++) {
+        name[i] = text[i];
+    }
+    return image_read_channels(file, name, count, run, e);
+}
+
 static void copy_planes(const Image *image, const FilmPlane plane[FILM_PLANES])
 {
-    int first = 0;
+    size_t first = 0;
     for (int i = 0; i < FILM_PLANES; i++) {
-        size_t channels = (size_t)plane[i].channels, bytes = channels * sizeof(float);
-        for (int64_t p = 0; p < (int64_t)image->width * image->height; p++) {
-            memcpy(plane[i].value + p * plane[i].channels,
-                   image->pixel + p * image->channels + first, bytes);
+        size_t channels = strlen(plane[i].channels);
+        for (size_t p = 0; p < (size_t)image->width * (size_t)image->height; p++) {
+            memcpy(plane[i].value + p * channels,
+                   image->pixel + p * (size_t)image->channels + first, channels * sizeof(float));
         }
-        first += plane[i].channels;
+        first += channels;
     }
 }
 
@@ -156,13 +173,12 @@ Film *picture_read_film(const char *file, const Scene *scene, bool any_crop, con
         return NULL;
     }
     FilmPlane plane[FILM_PLANES];
-    const char *name[3 * FILM_PLANES];
     Film *film = film_new(scene->film.width, scene->film.height, e);
     if (!film) {
         return NULL;
     }
     film_planes(film, plane);
-    Image *image = image_read_channels(file, name, channel_names(plane, name), run, e);
+    Image *image = read_planes(file, plane, run, e);
     bool done =
         image && ((image->width == film->width && image->height == film->height) ||
                   error_set(e, ERROR_INPUT, "'%s' has %d x %d pixels, its settings say %d x %d",
@@ -201,8 +217,9 @@ static bool take_pixels(Film *whole, const Film *part, const char *const *files,
         }
         source[i] = number + 1;
         for (int k = 0; k < FILM_PLANES; k++) {
-            memcpy(to[k].value + i * to[k].channels, from[k].value + i * to[k].channels,
-                   (size_t)to[k].channels * sizeof(float));
+            int64_t channels = (int64_t)strlen(to[k].channels);
+            memcpy(to[k].value + i * channels, from[k].value + i * channels,
+                   (size_t)channels * sizeof(float));
         }
     }
     return true;

@@ -131,7 +131,7 @@ static void cushions_end_inside_the_branch(void **state)
     mesh_free(whole);
 }
 
-// A sheet of squares in the plane z = 0, of which every third row is missing.
+// A sheet of squares in the plane z = 0.
 static Mesh *sheet(int across, int along, float size)
 {
     Mesh *mesh = mesh_new(4, (int64_t)(across + 1) * (along + 1), (int64_t)across * along, 0, NULL);

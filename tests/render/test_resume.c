@@ -37,9 +37,9 @@ static void assert_same_planes(const Film *a, const Film *b)
     film_planes(a, of_a);
     film_planes(b, of_b);
     for (int i = 0; i < FILM_PLANES; i++) {
-        size_t bytes = sizeof(float) * (size_t)of_a[i].channels * WIDTH * HEIGHT;
+        size_t bytes = sizeof(float) * strlen(of_a[i].channels) * WIDTH * HEIGHT;
         if (memcmp(of_a[i].value, of_b[i].value, bytes) != 0) {
-            fail_msg("plane %s differs", of_a[i].name[0]);
+            fail_msg("plane %s differs", of_a[i].layer);
         }
     }
 }

@@ -13,30 +13,38 @@ enum { SPRAY_CELLS = 9, SPRAY_CELLS_COARSE = 4 };
 #define SPRAY_LEAST 0.08f // m: snow does not settle on smaller leaves
 #define SPRAY_SHARE 0.12f // depth on a spray at most, of its length
 
-static bool is_spray(const Part *part, float *length)
+// An instanced mesh that snow settles on.
+typedef struct Spray {
+    const Part *part;
+    Vec3 size, middle; // m, of the mesh's bounds
+    float length;      // m, the largest of its sizes
+} Spray;
+
+static bool spray_of(const Part *part, Spray *spray)
 {
     if (part->kind != PART_MESH || part->instance_count == 0 || part->mesh->vertex_count == 0) {
         return false;
     }
     Aabb box = mesh_bounds(part->mesh);
-    *length = vec3_largest(vec3_sub(box.high, box.low));
-    return *length >= SPRAY_LEAST;
+    *spray = (Spray){.part = part,
+                     .size = vec3_sub(box.high, box.low),
+                     .middle = vec3_scale(vec3_add(box.low, box.high), 0.5f)};
+    spray->length = vec3_largest(spray->size);
+    return spray->length >= SPRAY_LEAST;
 }
 
-static Vec3 spray_middle(const Part *part, int64_t i)
+static Vec3 middle_of(const Spray *spray, int64_t instance)
 {
-    Aabb box = mesh_bounds(part->mesh);
-    return transform_point(&part->instance[i], vec3_scale(vec3_add(box.low, box.high), 0.5f));
+    return transform_point(&spray->part->instance[instance], spray->middle);
 }
 
 // ---- how much snow comes through ----
 
-static void add_instances(SnowFall *fall, const Part *part, float length)
+static void add_instances(SnowFall *fall, const Spray *spray)
 {
-    Aabb box = mesh_bounds(part->mesh);
-    float area = 0.5f * length * (box.high.x - box.low.x);
-    for (int64_t i = 0; i < part->instance_count; i++) {
-        snow_fall_add(fall, spray_middle(part, i), area);
+    float area = 0.5f * spray->length * spray->size.x;
+    for (int64_t i = 0; i < spray->part->instance_count; i++) {
+        snow_fall_add(fall, middle_of(spray, i), area);
     }
 }
 
@@ -52,7 +60,7 @@ static bool fall_init(SnowFall *fall, const CurveSet *curves, int64_t first,
                       const Geometry *geometry, Error *e)
 {
     Aabb bounds = aabb_empty();
-    float length;
+    Spray spray;
     for (int64_t i = 0; i < curves->point_count; i++) {
         bounds = aabb_add(bounds, curves->position[i]);
     }
@@ -64,8 +72,8 @@ static bool fall_init(SnowFall *fall, const CurveSet *curves, int64_t first,
     }
     add_curves(fall, curves);
     for (int64_t i = first; i < geometry->count; i++) {
-        if (is_spray(&geometry->part[i], &length)) {
-            add_instances(fall, &geometry->part[i], length);
+        if (spray_of(&geometry->part[i], &spray)) {
+            add_instances(fall, &spray);
         }
     }
     snow_fall_finish(fall);
@@ -89,8 +97,8 @@ typedef struct SprayPlaces {
 typedef struct SpraySnow {
     const SnowParams *params;
     const SnowFall *fall;
-    const Part *part; // the sprays
-    bool round;       // needles all around: the upper side is wherever up is
+    Spray spray;
+    bool round; // needles all around: the upper side is wherever up is
     uint64_t seed;
     SprayPlaces places[SPRAY_SIDES][SPRAY_DEPTHS];
 } SpraySnow;
@@ -112,11 +120,11 @@ static Transform turned_up(const Transform *t)
 static bool place_on_spray(SpraySnow *snow, int64_t i, Error *e)
 {
     uint64_t key = random_key(snow->seed, (uint64_t)i);
-    const Transform *given = &snow->part->instance[i];
+    const Transform *given = &snow->spray.part->instance[i];
     Transform place = snow->round ? turned_up(given) : *given;
     Vec3 z = vec3_normalize(transform_vector(&place, vec3(0, 0, 1)));
     float amount = snow_stays(snow->params, fabsf(z.y)) *
-                   snow_fall_share(snow->fall, spray_middle(snow->part, i)) *
+                   snow_fall_share(snow->fall, middle_of(&snow->spray, i)) *
                    random_range(random_key(key, STREAM_DEPTH), 0.6f, 1.2f);
     if (random_unit(random_key(key, STREAM_KEPT)) < snow->params->gaps || amount < 0.2f) {
         return true;
@@ -151,22 +159,21 @@ static bool add_cushions(const Mesh *spray, float depth, bool turned, SprayPlace
     return placing_add(placing, part, role, e);
 }
 
-static bool add_on_sprays(SpraySnow *snow, float length, const Placing *placing, int role, Error *e)
+static bool add_on_sprays(SpraySnow *snow, const Placing *placing, int role, Error *e)
 {
-    Aabb box = mesh_bounds(snow->part->mesh);
-    const Mesh *spray = snow->part->mesh;
-    float depth = fminf(snow->params->depth, SPRAY_SHARE * length);
+    const Spray *spray = &snow->spray;
+    float depth = fminf(snow->params->depth, SPRAY_SHARE * spray->length);
     bool done = true;
-    snow->round = box.high.z - box.low.z > 0.6f * (box.high.x - box.low.x);
-    for (int64_t i = 0; done && i < snow->part->instance_count; i++) {
+    snow->round = spray->size.z > 0.6f * spray->size.x;
+    for (int64_t i = 0; done && i < spray->part->instance_count; i++) {
         done = run_goes_on(placing->recipe->run, i, e) && place_on_spray(snow, i, e);
     }
     for (int k = 0; k < SPRAY_SIDES * SPRAY_DEPTHS; k++) {
         SprayPlaces *places = &snow->places[k / SPRAY_DEPTHS][k % SPRAY_DEPTHS];
         float share = k % SPRAY_DEPTHS == SPRAY_FULL ? 1.0f : 0.5f;
         if (done && places->count > 0) {
-            done =
-                add_cushions(spray, share * depth, k / SPRAY_DEPTHS > 0, places, placing, role, e);
+            done = add_cushions(spray->part->mesh, share * depth, k / SPRAY_DEPTHS > 0, places,
+                                placing, role, e);
         }
         free(places->place);
     }
@@ -177,15 +184,13 @@ static bool add_on_all_sprays(const SnowParams *params, const SnowFall *fall, in
                               const Placing *placing, int role, Error *e)
 {
     int64_t end = placing->geometry->count;
-    float length;
     bool done = true;
     for (int64_t i = first; done && i < end; i++) {
         Part part = placing->geometry->part[i]; // the list moves as parts are added
         SpraySnow snow = {.params = params,
                           .fall = fall,
-                          .part = &part,
                           .seed = random_key(placing->recipe->seed, (uint64_t)(i - first))};
-        done = !is_spray(&part, &length) || add_on_sprays(&snow, length, placing, role, e);
+        done = !spray_of(&part, &snow.spray) || add_on_sprays(&snow, placing, role, e);
     }
     return done;
 }
