@@ -334,17 +334,6 @@ bool scene_place_objects(World *world, const Scene *scene, const bool *placed, G
     return done && geometry_order(&world->geometry, scene->object_count, e);
 }
 
-static bool place_all(World *world, const Scene *scene, const Run *run, BuildStats *stats, Error *e)
-{
-    Grown *growths = memory_alloc_zero(scene->object_count, sizeof *growths, e);
-    bool done = growths && scene_place_objects(world, scene, NULL, growths, false, run, stats, e);
-    for (int i = 0; growths && i < scene->object_count; i++) {
-        grown_clear(&growths[i]);
-    }
-    free(growths);
-    return done;
-}
-
 World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error *e)
 {
     BuildStats own = {0};
@@ -354,7 +343,8 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
     if (!world) {
         return NULL;
     }
-    bool done = scene_give_settings(scene, world, e) && place_all(world, scene, run, stats, e);
+    bool done = scene_give_settings(scene, world, e) &&
+                scene_place_objects(world, scene, NULL, NULL, false, run, stats, e);
     if (!done) {
         world_free(world);
         return NULL;

@@ -14,7 +14,7 @@ typedef struct World World;
 // What is made once for several objects of a scene; borrowed.
 typedef struct Shared {
     Grown *growths; // whole growths, an entry per object ({0} at first), in which those of an
-                    // object and its rivals are found and kept; NULL = none
+                    // object and its rivals are found and kept; NULL = contests are the scene's
     struct Surfaces *surfaces; // of obstacles; NULL = the object makes its own
 } Shared;
 
@@ -52,8 +52,8 @@ bool scene_place_object(World *world, const Scene *scene, int index, Shared shar
                         BuildStats *stats, Error *e);
 
 // Places the objects for which `placed` is false (NULL = all) in an order in which obstacles come
-// first, then puts the world's parts into the order of the scene's objects. growths: see Shared;
-// an entry per object. keep: keep the growths also of objects that do not contend.
+// first, then puts the world's parts into the order of the scene's objects. growths: see Shared.
+// keep: keep the growths also of objects that do not contend.
 bool scene_place_objects(World *world, const Scene *scene, const bool *placed, Grown *growths,
                          bool keep, const Run *run, BuildStats *stats, Error *e);
 

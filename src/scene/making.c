@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "scene/carry.h"
+#include "scene/growths.h"
 #include "scene/place.h"
 #include "scene/rivals.h"
 
@@ -75,11 +76,15 @@ static bool grow_rivals(const Scene *scene, int index, Shared shared, const Run 
 {
     Making *m = memory_alloc_zero(scene->object_count, sizeof *m, e);
     Rival *rival = memory_alloc_zero(scene->object_count, sizeof *rival, e);
+    Run quiet = *run; // an observer watches one object, in whose turn the others are silent
+    quiet.warn = run->observer ? NULL : run->warn;
+    quiet.observer = NULL;
     int count = 0, failed = 0;
     bool done = m && rival;
     for (int i = 0; done && i < scene->object_count; i++) {
         if (i == index || scene_objects_contend(&scene->objects[index], &scene->objects[i])) {
-            done = enter(&m[count], &rival[count], scene, i, shared.surfaces, run, e);
+            const Run *of = i == index ? run : &quiet;
+            done = enter(&m[count], &rival[count], scene, i, shared.surfaces, of, e);
             failed = count++;
         }
     }
@@ -104,39 +109,71 @@ static bool grow_rivals(const Scene *scene, int index, Shared shared, const Run 
     return done;
 }
 
-// The same for the object's entry alone. Neighbours are found in the whole scene.
-static bool grow_alone(Making *m, Surfaces *surfaces, Grown *growth, Error *e)
+// Grows object number index of a complete scene with its rivals, unless its entry has a growth.
+// borrowed: surfaces of that scene; NULL = it makes its own.
+static bool grow_among(const Scene *scene, int index, Grown *growths, Surfaces *borrowed,
+                       const Run *run, Error *e)
+{
+    if (growths[index].tree) {
+        return true;
+    }
+    Surfaces *own = borrowed ? NULL : surfaces_new(scene, NULL, e);
+    Shared shared = {growths, borrowed ? borrowed : own};
+    bool done = shared.surfaces && grow_rivals(scene, index, shared, run, e);
+    surfaces_free(own);
+    return done;
+}
+
+// Takes the object's growth from the scene's contests, which the first who asks grows.
+static bool grow_in_scene(Making *m, const Scene *scene, int index, Surfaces *surfaces,
+                          Grown **memory, Error *e)
+{
+    Grown *growths = growths_open(scene->growths);
+    bool done = grow_among(scene, index, growths, surfaces, m->recipe.run, e);
+    growths_close(scene->growths);
+    *memory = &growths[index];
+    return done;
+}
+
+// Grows the object and its rivals for this time alone.
+static bool grow_once(Making *m, const Scene *scene, int index, Surfaces *surfaces, Grown *own,
+                      Error *e)
+{
+    Grown *growths = memory_alloc_zero(scene->object_count, sizeof *growths, e);
+    bool done = growths && grow_among(scene, index, growths, surfaces, m->recipe.run, e);
+    if (done) {
+        *own = growths[index];
+        growths[index] = (Grown){0};
+    }
+    for (int i = 0; growths && i < scene->object_count; i++) {
+        grown_clear(&growths[i]);
+    }
+    free(growths);
+    return done;
+}
+
+// Grows an object with neighbours, which are those of the whole scene, unless *memory has its
+// growth. *memory is then its growth, in own if nobody keeps it.
+static bool grow_with_neighbours(Making *m, Shared shared, Grown **memory, Grown *own, Error *e)
 {
     const Scene *scene = m->scene->whole ? m->scene->whole : m->scene;
     int index = scene_find_object(scene, m->scene->objects[m->index].name);
-    bool borrows = surfaces && scene == m->scene;
-    Surfaces *own = borrows ? NULL : surfaces_new(scene, NULL, e);
-    Shared shared = {.growths = memory_alloc_zero(scene->object_count, sizeof *growth, e),
-                     .surfaces = borrows ? surfaces : own};
-    bool done =
-        shared.growths && shared.surfaces && grow_rivals(scene, index, shared, m->recipe.run, e);
-    if (done) {
-        *growth = shared.growths[index];
-        shared.growths[index] = (Grown){0};
+    Surfaces *surfaces = scene == m->scene ? shared.surfaces : NULL;
+    if (*memory && scene == m->scene) {
+        return grow_among(scene, index, shared.growths, surfaces, m->recipe.run, e);
     }
-    for (int i = 0; shared.growths && i < scene->object_count; i++) {
-        grown_clear(&shared.growths[i]);
+    if (scene->objects[index].contest && !m->recipe.run->observer) { // it watches each growth
+        return grow_in_scene(m, scene, index, surfaces, memory, e);
     }
-    free(shared.growths);
-    surfaces_free(own);
-    return done;
+    *memory = own;
+    return grow_once(m, scene, index, surfaces, own, e);
 }
 
 bool making_grow(Making *m, Shared shared, Error *e)
 {
     Grown own = {0}, *memory = shared.growths ? &shared.growths[m->index] : NULL;
-    bool done = true;
-    if (scene_object_has_neighbours(&m->scene->objects[m->index])) {
-        bool together = shared.growths && shared.surfaces && !m->scene->whole;
-        memory = memory ? memory : &own;
-        done = memory->tree || (together ? grow_rivals(m->scene, m->index, shared, m->recipe.run, e)
-                                         : grow_alone(m, shared.surfaces, memory, e));
-    }
+    bool done = !scene_object_has_neighbours(&m->scene->objects[m->index]) ||
+                grow_with_neighbours(m, shared, &memory, &own, e);
     done =
         done && kind_grow(m->kind, m->params, &m->recipe, m->scene->grow_to, memory, &m->grown, e);
     grown_clear(&own);

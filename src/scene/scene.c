@@ -6,6 +6,7 @@
 #include "config/load.h"
 #include "scene/builtin.h"
 #include "scene/document.h"
+#include "scene/growths.h"
 #include "scene/picture_read.h"
 #include "scene/settle.h"
 #include "scene/spec.h"
@@ -52,7 +53,9 @@ static Scene *load_scene(Arena *arena, const Node *document, const SceneSource *
     scene->files = loader.hash;
     scene->render.seed = scene->seed;
     scene->resolved = settle_write(scene, loader.files, e);
-    return scene->resolved && keep_source(scene, source, e) ? scene : NULL;
+    bool kept = scene->resolved && keep_source(scene, source, e);
+    scene->growths = kept ? growths_new(scene->object_count, e) : NULL;
+    return scene->growths ? scene : NULL;
 }
 
 static Scene *read_source(const SceneSource *source, Error *e)
@@ -186,6 +189,7 @@ const Material *scene_material(const Scene *scene, const char *name)
 void scene_free(Scene *scene)
 {
     if (scene) {
+        growths_free(scene->growths);
         arena_free(scene->arena);
     }
 }

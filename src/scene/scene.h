@@ -80,7 +80,7 @@ typedef enum SceneDenoiser {
 } SceneDenoiser;
 
 typedef struct Scene {
-    Arena *arena;    // holds the scene itself and everything it points to
+    Arena *arena;    // holds the scene itself and everything it points to but growths
     char *file;      // the scene file, for messages
     char *text;      // the file's text
     char *origin;    // text to store in pictures: of the scene file from which all began
@@ -110,6 +110,7 @@ typedef struct Scene {
     SceneAnimation *animation; // NULL = a still
     SceneGolden golden;
     const struct Scene *whole; // full scene this subset came from; NULL if complete
+    struct Growths *growths;   // of contests (scene/growths.h); filled as they are needed
 } Scene;
 
 // Reads and checks a scene, or the scene of a picture (.exr, .png) that was rendered of one.

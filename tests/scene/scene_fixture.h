@@ -2,7 +2,7 @@
 #ifndef RAMIFY_TESTS_SCENE_FIXTURE_H
 #define RAMIFY_TESTS_SCENE_FIXTURE_H
 
-#include "scene/scene.h"
+#include "scene/build.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -55,6 +55,19 @@ static inline Scene *fixture_read(Fixture *fixture, const char *text)
         fail_msg("%s", e.message);
     }
     return scene;
+}
+
+// Grows the object of this name, which must be possible.
+static inline OutTree *fixture_grow(const Scene *scene, const char *name, int threads)
+{
+    Run run = run_default();
+    run.threads = threads;
+    Error e = {0};
+    OutTree *tree = scene_grow_object(scene, scene_find_object(scene, name), &run, &e);
+    if (!tree) {
+        fail_msg("%s", e.message);
+    }
+    return tree;
 }
 
 // Reads a scene from text that must be refused, in these words and in this line.

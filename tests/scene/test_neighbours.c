@@ -20,18 +20,6 @@
 #define CONTEST(GAP) "    contest: {group: grove, gap: " GAP "}\n"
 #define CLEAR "    clear_of: [{object: rock, distance: 0.1}]\n"
 
-static OutTree *grow(const Scene *scene, const char *name, int threads)
-{
-    Run run = run_default();
-    run.threads = threads;
-    Error e = {0};
-    OutTree *tree = scene_grow_object(scene, scene_find_object(scene, name), &run, &e);
-    if (!tree) {
-        fail_msg("%s", e.message);
-    }
-    return tree;
-}
-
 static void assert_same(const OutTree *a, const OutTree *b)
 {
     assert_int_equal(a->count, b->count);
@@ -67,7 +55,7 @@ static void test_obstacle_is_kept_clear(void **state)
 {
     Scene *free_scene = fixture_read(*state, "objects:\n" ROCK TREE("oak", "0.9", ""));
     Scene *scene = fixture_read(*state, "objects:\n" TREE("oak", "0.9", CLEAR) ROCK);
-    OutTree *alone = grow(free_scene, "oak", 2), *tree = grow(scene, "oak", 2);
+    OutTree *alone = fixture_grow(free_scene, "oak", 2), *tree = fixture_grow(scene, "oak", 2);
     Vec3 rock = vec3(0, 3.5f, 0);
     assert_true(least_to(alone, rock) < 1.0f); // it would grow through the rock
     // a level's nodes move toward their parents when it is done: a chord instead of an arc
@@ -116,8 +104,8 @@ static void test_frost_and_vessels_keep_clear(void **state)
         snprintf(text[1], sizeof text[1], "objects:\n%s%s%s", one[i].object, one[i].clear,
                  one[i].obstacle);
         Scene *free_scene = fixture_read(*state, text[0]), *scene = fixture_read(*state, text[1]);
-        OutTree *alone = grow(free_scene, "a", 2), *tree = grow(scene, "a", 1);
-        OutTree *again = grow(scene, "a", 2);
+        OutTree *alone = fixture_grow(free_scene, "a", 2), *tree = fixture_grow(scene, "a", 1);
+        OutTree *again = fixture_grow(scene, "a", 2);
         assert_same(tree, again);
         assert_true(least_to(alone, one[i].center) < 0.8f * one[i].radius);
         float kept = least_to(tree, one[i].center);
@@ -143,7 +131,7 @@ static void test_frost_contends(void **state)
                                FROST("b", "    contest: {group: pane, gap: 0.004}\n")};
     for (int i = 0; i < 2; i++) {
         Scene *scene = fixture_read(*state, text[i]);
-        OutTree *a = grow(scene, "a", 2), *b = grow(scene, "b", 1);
+        OutTree *a = fixture_grow(scene, "a", 2), *b = fixture_grow(scene, "b", 1);
         float least = least_between(a, b);
         assert_true(i == 0 ? least < 1e-4f : least > 0.002f);
         assert_true(a->count > 100 && b->count > 100);
@@ -158,7 +146,7 @@ static void test_growth_stays_within(void **state)
     const char *text = "objects:\n" ROCK TREE(
         "ivy", "0.2", "    clear_of: [{object: rock, distance: 0.02, within: 0.3}]\n");
     Scene *scene = fixture_read(*state, text);
-    OutTree *tree = grow(scene, "ivy", 1);
+    OutTree *tree = fixture_grow(scene, "ivy", 1);
     int64_t near = 0, tips = 0;
     for (int64_t i = 0; i < tree->count; i++) {
         if (tree->birth[i] > 0 && tree->position[i].y > 3.0f) {
@@ -186,7 +174,7 @@ static void test_growth_creeps_over_a_terrain(void **state)
         "      growth: {levels: [{attractors: 20000, influence: 3}]}\n"
         "    clear_of: [{object: land, distance: 0.02, within: 0.2}]\n");
     Run run = run_default();
-    OutTree *rivers = grow(scene, "land", 2), *tree = grow(scene, "lichen", 2);
+    OutTree *rivers = fixture_grow(scene, "land", 2), *tree = fixture_grow(scene, "lichen", 2);
     HeightField *land = scene_heights(scene, 0, rivers, &run, NULL);
     int64_t over = 0, near = 0;
     for (int64_t i = 0; i < tree->count; i++) {
@@ -231,7 +219,7 @@ static void test_growth_over_an_object(void **state)
                                             ROCK CREEPER("moss", "rock", ""));
     Run run = run_default();
     World *world = scene_build(scene, &run, NULL, NULL);
-    OutTree *frost = grow(scene, "frost", 1), *moss = grow(scene, "moss", 2);
+    OutTree *frost = fixture_grow(scene, "frost", 1), *moss = fixture_grow(scene, "moss", 2);
     assert_non_null(world);
     Aabb box = aabb_empty();
     for (int64_t i = 0; i < frost->count; i++) {
@@ -247,7 +235,7 @@ static void test_growth_over_an_object(void **state)
         box = aabb_add(box, p);
     }
     assert_true(moss->count > 2000 && box.low.y < -1.1f && box.high.y > 1.1f);
-    OutTree *again = grow(scene, "frost", 3);
+    OutTree *again = fixture_grow(scene, "frost", 3);
     assert_same(frost, again);
     world_free(world);
     out_tree_free(frost);
@@ -296,6 +284,22 @@ static void test_surface_is_no_grid(void **state)
     scene_free(scene);
 }
 
+// Each object's grids are its own: trunk, crown and their fields, not those of its rivals.
+static void test_rivals_have_grids_of_their_own(void **state)
+{
+    Scene *alone = fixture_read(*state, "objects:\n" TREE("a", "-0.7", ""));
+    Scene *pair = fixture_read(*state, "objects:\n" TREE("a", "-0.7", CONTEST("0.15"))
+                                           TREE("b", "0.7", CONTEST("0.15")));
+    Run run = run_default();
+    GridFile *one = scene_grids(alone, &run, NULL), *two = scene_grids(pair, &run, NULL);
+    assert_true(one && two && grid_file_count(one) > 0);
+    assert_int_equal(grid_file_count(two), 2 * grid_file_count(one));
+    grid_file_free(one);
+    grid_file_free(two);
+    scene_free(alone);
+    scene_free(pair);
+}
+
 static void test_object_without_a_surface(void **state)
 {
     Scene *scene = fixture_read(
@@ -315,8 +319,8 @@ static void test_rivals_keep_apart(void **state)
     Scene *alone = fixture_read(*state, "objects:\n" TREE("a", "-0.7", "") TREE("b", "0.7", ""));
     Scene *scene = fixture_read(*state, "objects:\n" TREE("a", "-0.7", CONTEST("0.15"))
                                             TREE("b", "0.7", CONTEST("0.15")));
-    OutTree *a0 = grow(alone, "a", 2), *b0 = grow(alone, "b", 2);
-    OutTree *a = grow(scene, "a", 2), *b = grow(scene, "b", 2);
+    OutTree *a0 = fixture_grow(alone, "a", 2), *b0 = fixture_grow(alone, "b", 2);
+    OutTree *a = fixture_grow(scene, "a", 2), *b = fixture_grow(scene, "b", 2);
     assert_true(least_between(a0, b0) < 0.02f); // they interpenetrate without the contest
     assert_true(least_between(a, b) > 0.12f);   // less than the gap: relaxed levels, see above
     // crowns interlock: neither is pushed back to its own half
@@ -344,18 +348,19 @@ static void test_rivals_keep_apart(void **state)
 
 static void test_threads_and_neighbours_do_not_show(void **state)
 {
-    Scene *scene = fixture_read(*state, BATTLE);
-    OutTree *one = grow(scene, "b", 1), *three = grow(scene, "b", 3);
+    Scene *scene = fixture_read(*state, BATTLE), *other = fixture_read(*state, BATTLE);
+    OutTree *one = fixture_grow(scene, "b", 1), *three = fixture_grow(other, "b", 3);
     assert_same(one, three);
     // an object outside the contest grows as it does alone
     Scene *alone = fixture_read(*state, "objects:\n" TREE("c", "5", ""));
-    OutTree *c = grow(scene, "c", 1), *lone = grow(alone, "c", 1);
+    OutTree *c = fixture_grow(scene, "c", 1), *lone = fixture_grow(alone, "c", 1);
     assert_same(c, lone);
     out_tree_free(one);
     out_tree_free(three);
     out_tree_free(c);
     out_tree_free(lone);
     scene_free(scene);
+    scene_free(other);
     scene_free(alone);
 }
 
@@ -575,6 +580,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_surface_is_placed_first, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_surface_is_no_grid, fixture_set_up, fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_rivals_have_grids_of_their_own, fixture_set_up,
+                                        fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_object_without_a_surface, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_surface_refusals, fixture_set_up, fixture_tear_down),
