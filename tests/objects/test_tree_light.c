@@ -154,6 +154,33 @@ static void light_fills_limbs_that_attractors_laid(void **state)
     out_tree_free(tree);
 }
 
+// The envelope of the attractors gives the crown its side and keeps it there, but does not cut it.
+static void attractors_form_a_crown_that_light_fills(void **state)
+{
+    (void)state;
+    Shape side = {.kind = SHAPE_ELLIPSOID,
+                  .size = {3.0f, 2.5f, 3.0f},
+                  .transform =
+                      transform_compose(vec3(2.2f, 6.0f, 0), vec3(0, 0, 0), vec3_splat(1))};
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        TreeParams params = bare_tree();
+        params.height = 9.0f;
+        params.trunk.lean = 0.0f;
+        params.light.growth.seasons = 24;
+        OutTree *plain = grow(&params, seed);
+        params.light.attractors.count = 4000;
+        params.light.attractors.element.shapes = &side;
+        params.light.attractors.element.shape_count = 1;
+        OutTree *formed = grow(&params, seed);
+        Aabb open = out_tree_bounds(plain), box = out_tree_bounds(formed);
+        assert_true(box.low.x > 0.6f * open.low.x);
+        assert_true(box.high.x > -1.3f * box.low.x && box.high.x < 6.5f);
+        assert_true(formed->count > plain->count / 4);
+        out_tree_free(plain);
+        out_tree_free(formed);
+    }
+}
+
 static void stems_grow_beside_each_other(void **state)
 {
     (void)state;
@@ -208,6 +235,7 @@ int main(void)
         cmocka_unit_test(trees_age),
         cmocka_unit_test(height_and_age_imply_each_other),
         cmocka_unit_test(light_fills_limbs_that_attractors_laid),
+        cmocka_unit_test(attractors_form_a_crown_that_light_fills),
         cmocka_unit_test(stems_grow_beside_each_other),
         cmocka_unit_test(stems_scatter_inside_their_circle),
     };

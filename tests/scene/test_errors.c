@@ -156,6 +156,10 @@ static const Case scenes[] = {
     {"objects: [{name: a, tree: {crown: {growth: {levels: [{attractors: 5, kill: 3}]}}}}]\n",
      ":1:76: objects.a.tree.crown.growth.levels.0.kill is 3; it must be less than influence, 2.2, "
      "or attractors are removed before they pull"},
+    {"objects: [{name: a, tree: {light: {attractors: {reach: 2, occupied: 3}}}}]\n",
+     ":1:69: objects.a.tree.light.attractors.occupied is 3; it must be at most reach, 2 "
+     "internodes, "
+     "or attractors are taken before they draw a bud"},
     {"objects: [{name: a, tree: {crown: {envelope: [{shape: box, op: difference}]}}}]\n",
      ":1:47: objects.a.tree.crown.envelope begins with a difference; the first shape must be a "
      "union"},

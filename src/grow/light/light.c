@@ -1,5 +1,6 @@
 #include "grow/light/light.h"
 
+#include "grow/light/attractors.h"
 #include "grow/light/season.h"
 
 enum { MOST_METAMERS = 8000000 };
@@ -27,12 +28,15 @@ LightParams light_params_default(void)
 }
 
 static bool grow_season(Plant *plant, const LightParams *params, const LightSite *site,
-                        Around *around, int season, const Run *run, Error *e)
+                        Around *around, Attractors *attractors, int season, const Run *run,
+                        Error *e)
 {
     SeasonLight light;
-    if (!season_light_init(&light, plant, params, around, season, run, e)) {
+    if (!attractors_draw(attractors, plant, season, params->leaf_seasons, run->threads, e) ||
+        !season_light_init(&light, plant, params, around, season, run, e)) {
         return false;
     }
+    light.attractors = attractors;
     bool done = plant_grow_season(plant, params, site, &light, season, run->threads, e);
     season_light_clear(&light);
     return done;
@@ -41,15 +45,18 @@ static bool grow_season(Plant *plant, const LightParams *params, const LightSite
 static bool grow_seasons(Plant *plant, const LightParams *params, const LightSite *site,
                          const Run *run, Error *e)
 {
-    Around around;
+    Around around = {0};
+    Attractors attractors;
     int64_t most = site->metamers > 0 ? site->metamers : MOST_METAMERS;
-    bool done = around_init(&around, site, run->threads, e);
+    bool done =
+        attractors_init(&attractors, site, e) && around_init(&around, site, run->threads, e);
     for (int season = 0; done && season < site->seasons && plant->count < most; season++) {
         run_progress(run, "growing by light", (double)season / (double)site->seasons);
         done = (!run_is_cancelled(run) || run_cancel_error(e)) &&
-               grow_season(plant, params, site, &around, season, run, e);
+               grow_season(plant, params, site, &around, &attractors, season, run, e);
     }
     around_clear(&around);
+    attractors_clear(&attractors);
     return done;
 }
 

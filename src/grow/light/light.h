@@ -44,6 +44,16 @@ typedef struct LightParams {
 
 LightParams light_params_default(void); // an oak in the open
 
+// Points that buds reach for beside light; borrowed. Lengths in internodes but for the positions.
+typedef struct LightAttractors {
+    const Vec3 *position; // m
+    int64_t count;
+    float weight;   // 0..1: share of its light that does not count if none draws a metamer
+    float pull;     // on the direction of each new metamer, toward those that draw its shoot
+    float reach;    // to the metamer that each draws
+    float occupied; // one nearer to a metamer than this is taken; at most the reach
+} LightAttractors;
+
 // Where and for how long it grows. Lengths in m.
 typedef struct LightSite {
     Vec3 foot;                // of the stem
@@ -53,10 +63,11 @@ typedef struct LightSite {
     const Envelope *envelope; // nothing grows beyond; NULL = everywhere
     const GuideField *field;  // turns shoots; NULL = none
     float field_weight;
-    const Room *room; // obstacles and rivals; NULL = it grows alone
-    Aabb reach;       // internodes from the foot: where it may grow in a room
-    int64_t cells;    // most voxels of the grid; 0 = 400,000
-    int64_t metamers; // most; growth ends there; 0 = 8 million
+    const LightAttractors *attractors; // NULL = none; not used in a stand
+    const Room *room;                  // obstacles and rivals; NULL = it grows alone
+    Aabb reach;                        // internodes from the foot: where it may grow in a room
+    int64_t cells;                     // most voxels of the grid; 0 = 400,000
+    int64_t metamers;                  // most; growth ends there; 0 = 8 million
     float tip,
         girth;      // m: radius of a tip and of the thickest stem's base (see out_tree_pipe_radii)
     float exponent; // of the pipe model if girth is 0

@@ -41,6 +41,7 @@ int64_t plant_add(Plant *plant, int32_t parent, int side, Vec3 position, Vec3 di
                                      .sibling = -1,
                                      .died = PLANT_ALIVE,
                                      .vigor = 1.0f,
+                                     .claim = 1.0f,
                                      .order = base->order + (side >= 0)};
     if (side < 0) {
         base->next = made;
@@ -111,6 +112,7 @@ bool plant_init(Plant *plant, const OutTree *start, const LightParams *params,
                                       .sibling = -1,
                                       .birth = start->birth[i],
                                       .vigor = 1.0f,
+                                      .claim = 1.0f,
                                       .died = PLANT_ALIVE};
     }
     if (!find_axes(plant, start, e)) {

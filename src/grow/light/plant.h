@@ -24,7 +24,9 @@ typedef struct Metamer {
     bool terminal; // it has the axis's bud
     float vigor;   // of the side branch that begins here: weight of its light at the fork
     float light;   // 0..1 on its leaves; 0 without leaves
+    float claim;   // 0..1: share of its light that growth is made of
     float income;  // light of it and all above it
+    float claims;  // the same of the light that counts
     float growth;  // metamers that it and all above it may make; shared out downward up
     int32_t leafy; // metamers with leaves, of it and all above it
 } Metamer;

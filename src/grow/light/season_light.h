@@ -9,8 +9,9 @@
 
 typedef struct SeasonLight {
     const LightSite *site;
-    ShadeGrid *grid;                // NULL = it is shared
-    const struct LightStand *stand; // where; NULL = by the site's room
+    ShadeGrid *grid;                     // NULL = it is shared
+    const struct LightStand *stand;      // where; NULL = by the site's room
+    const struct Attractors *attractors; // that draw the plant's buds; NULL = none
 } SeasonLight;
 
 // Lets the plant meet its rivals and carries light through all leaves. Free with

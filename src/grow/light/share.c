@@ -18,12 +18,12 @@ static float bud_weights(const Metamer *m)
 
 float metamer_terminal_light(const Metamer *m)
 {
-    return m->terminal ? m->light / bud_weights(m) : 0.0f;
+    return m->terminal ? m->claim * m->light / bud_weights(m) : 0.0f;
 }
 
 float metamer_bud_light(const Metamer *m)
 {
-    return m->buds ? SIDE_BUD * m->light / bud_weights(m) : 0.0f;
+    return m->buds ? SIDE_BUD * m->claim * m->light / bud_weights(m) : 0.0f;
 }
 
 void plant_sum_light(Plant *plant, int season, int leaf_seasons)
@@ -33,11 +33,13 @@ void plant_sum_light(Plant *plant, int season, int leaf_seasons)
         bool leaves = metamer_has_leaves(m, season, leaf_seasons);
         m->leafy = leaves;
         m->income = leaves ? m->light : 0.0f;
+        m->claims = m->claim * m->income;
     }
     for (int64_t i = plant->living_count - 1; i >= 0; i--) {
         const Metamer *m = &plant->metamer[plant->living[i]];
         if (m->parent >= 0) {
             plant->metamer[m->parent].income += m->income;
+            plant->metamer[m->parent].claims += m->claims;
             plant->metamer[m->parent].leafy += m->leafy;
         }
     }
@@ -47,11 +49,11 @@ void plant_sum_light(Plant *plant, int season, int leaf_seasons)
 static void share_fork(const Plant *plant, const Metamer *m, float control, float *axis,
                        float *per_light)
 {
-    float ahead = m->next >= 0 ? plant->metamer[m->next].income : metamer_terminal_light(m);
+    float ahead = m->next >= 0 ? plant->metamer[m->next].claims : metamer_terminal_light(m);
     float beside = (float)count_bits(m->buds) * metamer_bud_light(m);
     for (int32_t k = m->lateral; k >= 0; k = plant->metamer[k].sibling) {
         const Metamer *side = &plant->metamer[k];
-        beside += side->died == PLANT_ALIVE ? side->vigor * side->income : 0.0f;
+        beside += side->died == PLANT_ALIVE ? side->vigor * side->claims : 0.0f;
     }
     float all = control * ahead + (1.0f - control) * beside;
     *axis = all > 0.0f ? m->growth * control * ahead / all : 0.0f;
@@ -63,7 +65,7 @@ void plant_share_growth(Plant *plant, float vigor, float control)
     for (int64_t i = 0; i < plant->living_count; i++) {
         Metamer *m = &plant->metamer[plant->living[i]];
         if (m->parent < 0) {
-            m->growth = vigor * m->income;
+            m->growth = vigor * m->claims;
         }
         float axis, per_light;
         share_fork(plant, m, control, &axis, &per_light);
@@ -72,7 +74,7 @@ void plant_share_growth(Plant *plant, float vigor, float control)
         }
         for (int32_t k = m->lateral; k >= 0; k = plant->metamer[k].sibling) {
             Metamer *side = &plant->metamer[k];
-            side->growth = per_light * side->vigor * side->income;
+            side->growth = per_light * side->vigor * side->claims;
         }
     }
 }

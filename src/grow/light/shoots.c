@@ -2,6 +2,7 @@
 
 #include "base/exact_math.h"
 #include "base/random.h"
+#include "grow/light/attractors.h"
 #include "grow/light/share.h"
 
 #define LEAST_TERMINAL 0.5f // metamers: less growth makes no shoot
@@ -103,8 +104,9 @@ static Vec3 first_direction(const Shooting *s, const Metamer *base, int bud)
         vec3_madd(d, base->order == 0 && bud < 0 ? 0.5f * p->noise : p->noise, noise));
 }
 
-// The direction of the next metamer after one of direction d at `at`.
-static Vec3 turned(const Shooting *s, Vec3 at, Vec3 d, int order)
+// The direction of the next metamer after one of direction d at `at`, on a shoot from metamer
+// `base`.
+static Vec3 turned(const Shooting *s, int64_t base, Vec3 at, Vec3 d, int order)
 {
     const LightParams *p = s->params;
     Vec3 light = vec3_normalize(season_light_brightest(s->light, at));
@@ -115,6 +117,9 @@ static Vec3 turned(const Shooting *s, Vec3 at, Vec3 d, int order)
         Vec3 here = vec3_madd(s->site->foot, s->site->internode, at);
         turn = vec3_madd(turn, s->site->field_weight,
                          guide_field_at(s->site->field, here, vec3(0, 1, 0)));
+    }
+    if (s->light->attractors) {
+        turn = vec3_add(turn, attractors_pull(s->light->attractors, base, at));
     }
     return vec3_normalize(vec3_add(d, turn));
 }
@@ -176,7 +181,7 @@ static bool make_shoot(const Shooting *s, int32_t base, int bud, float growth, E
     Vec3 d = first_direction(s, &s->plant->metamer[base], bud);
     int64_t made = base;
     for (int i = 0; i < metamers; i++) {
-        d = turned(s, at, d, order);
+        d = turned(s, base, at, d, order);
         Vec3 to = vec3_madd(at, length, d);
         if (!find_room(s, at, &to, order)) {
             break;

@@ -163,29 +163,96 @@ static bool find_internode(const TreePlan *plan, LightSite *site, const Recipe *
     return true;
 }
 
-// Grows from a start in the bounds, the field and the room that the tree has.
+// Scatters the attractors that buds reach for; *points is NULL if there are none. crown: the
+// crown's envelope; NULL if it is not made.
+static bool scatter_attractors(const TreePlan *plan, const LightSite *site, const Envelope *crown,
+                               const Recipe *recipe, PointSet **points, Error *e)
+{
+    const ReachParams *reach = &plan->params.light.attractors;
+    *points = NULL;
+    if (reach->count == 0) {
+        return true;
+    }
+    const Run *run = recipe->run;
+    Envelope *own =
+        reach->element.shape_count > 0 ? element_envelope(&reach->element, run, e) : NULL;
+    const Envelope *envelope = reach->element.shape_count > 0 ? own : crown;
+    ScatterParams scatter = reach->element.points;
+    scatter.count = reach->count;
+    scatter.scale = 1.0f;
+    scatter.anchor = site->foot;
+    scatter.seed = random_key(site->seed, STREAM_ELEMENT_POINTS);
+    Density *density = NULL;
+    if (envelope && element_density(&reach->element, &scatter, &density, run, e) &&
+        (!own || growth_observe(recipe, "attractors", own, NULL, e))) {
+        *points = points_scatter(envelope, &scatter, run, e);
+    }
+    density_free(density);
+    envelope_free(own);
+    return *points || error_key(e, "light.attractors");
+}
+
+// What forms the growth.
+typedef struct Form {
+    Envelope *envelope; // of the crown; NULL = not needed
+    GuideField *field;  // NULL = none
+    PointSet *points;   // NULL = none
+    LightAttractors attractors;
+} Form;
+
+static void form_clear(Form *form)
+{
+    guide_field_free(form->field);
+    envelope_free(form->envelope);
+    points_free(form->points);
+}
+
+static bool form_init(Form *form, const TreePlan *plan, const OutTree *start, const LightSite *site,
+                      const Recipe *recipe, Error *e)
+{
+    const ElementParams *crown = &plan->params.crown.element;
+    const ReachParams *reach = &plan->params.light.attractors;
+    *form = (Form){0};
+    bool inside = reach->count > 0 && reach->element.shape_count == 0;
+    bool shaped = plan->bounded || crown->field_count > 0 || inside;
+    bool good = !shaped || (form->envelope = element_envelope(crown, recipe->run, e));
+    good = good &&
+           element_guide_field(start, start->count, crown, form->envelope,
+                               random_key(site->seed, STREAM_ELEMENT_FIELD), recipe->run,
+                               &form->field, e) &&
+           (!shaped || growth_observe(recipe, "crown", form->envelope, form->field, e));
+    good = (good || error_key(e, "crown")) &&
+           scatter_attractors(plan, site, form->envelope, recipe, &form->points, e);
+    if (good && form->points) {
+        form->attractors = (LightAttractors){.position = form->points->position,
+                                             .count = form->points->count,
+                                             .weight = reach->weight,
+                                             .pull = reach->pull,
+                                             .reach = reach->reach,
+                                             .occupied = reach->occupied};
+    }
+    if (!good) {
+        form_clear(form);
+    }
+    return good;
+}
+
+// Grows from a start in the form and the room that the tree has.
 static OutTree *grow_bounded(const TreePlan *plan, const OutTree *start, LightSite *site,
                              const Recipe *recipe, Error *e)
 {
-    const ElementParams *crown = &plan->params.crown.element;
     LightParams growth = plan_growth(plan);
-    Envelope *envelope = NULL;
-    GuideField *field = NULL;
-    OutTree *tree = NULL;
-    bool shaped = plan->bounded || crown->field_count > 0;
-    bool good = !shaped || (envelope = element_envelope(crown, recipe->run, e));
-    good = good && element_guide_field(start, start->count, crown, envelope,
-                                       random_key(site->seed, STREAM_ELEMENT_FIELD), recipe->run,
-                                       &field, e);
-    if (good && (!shaped || growth_observe(recipe, "crown", envelope, field, e))) {
-        site->envelope = plan->bounded ? envelope : NULL;
-        site->field = field;
-        site->room = recipe->room;
-        site->cells = recipe->room && recipe->room->meet ? (int64_t)CELLS_AMONG_RIVALS : 0;
-        tree = light_grow(start, &growth, site, recipe->run, e);
+    Form form;
+    if (!form_init(&form, plan, start, site, recipe, e)) {
+        return NULL;
     }
-    guide_field_free(field);
-    envelope_free(envelope);
+    site->envelope = plan->bounded ? form.envelope : NULL;
+    site->field = form.field;
+    site->attractors = form.points ? &form.attractors : NULL;
+    site->room = recipe->room;
+    site->cells = recipe->room && recipe->room->meet ? (int64_t)CELLS_AMONG_RIVALS : 0;
+    OutTree *tree = light_grow(start, &growth, site, recipe->run, e);
+    form_clear(&form);
     return tree;
 }
 
@@ -233,7 +300,9 @@ bool tree_grow_by_light(OutTree **tree, const TreePlan *plan, const Recipe *reci
     LightSite site = plan_site(plan, recipe->seed);
     OutTree *grown = NULL;
     bool limbs = (*tree)->count > 0;
-    if (!limbs && !plan->bounded && !recipe->room && params->crown.element.field_count == 0) {
+    bool formed = plan->bounded || params->crown.element.field_count > 0 ||
+                  params->light.attractors.count > 0;
+    if (!limbs && !formed && !recipe->room) {
         grown = grow_to_height(plan, &site, recipe, e);
     } else if (find_internode(plan, &site, recipe, e)) {
         OutTree *start = limbs ? NULL : plant(params, site.seed, e);
@@ -241,7 +310,7 @@ bool tree_grow_by_light(OutTree **tree, const TreePlan *plan, const Recipe *reci
         out_tree_free(start);
     }
     if (!grown) {
-        return recipe_fail(recipe, "crown", e) || error_key(e, "crown");
+        return recipe_fail(recipe, "crown", e);
     }
     out_tree_free(*tree);
     *tree = grown;

@@ -16,7 +16,9 @@ enum { STREAM_LOBE_SIZE = 1, STREAM_LOBE_TURN = 2 }; // of a lobe
 TreeParams tree_params_default(void)
 {
     return (TreeParams){
-        .light = {light_params_default(), .mature_height = 14.0f, .mature_age = 120.0f},
+        .light = {light_params_default(),
+                  .attractors = {.weight = 0.5f, .pull = 0.15f, .reach = 6.0f, .occupied = 1.0f},
+                  .mature_height = 14.0f, .mature_age = 120.0f},
         .trunk = {.element.growth = {.max_children = 1,
                                      .noise = 0.2f,
                                      .tropism = {0, 0.4f, 0},

@@ -20,6 +20,7 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
     tree->position = vec3(0, 0, 0);
     return own_space_take_element(own, &tree->trunk.element, e) &&
            own_space_take_element(own, &tree->crown.element, e) &&
+           own_space_take_element(own, &tree->light.attractors.element, e) &&
            own_space_take_element(own, &tree->roots.element, e);
 }
 
@@ -44,7 +45,7 @@ static void settle(const void *params, void *settled)
 }
 
 typedef struct TreeAttractors {
-    int64_t trunk, crown, roots;
+    int64_t trunk, crown, roots, reached;
 } TreeAttractors;
 
 // Includes the default levels.
@@ -56,7 +57,8 @@ static TreeAttractors count_attractors(const void *params)
     bool none = plan.grown_by == GROWN_BY_LIGHT;
     return (TreeAttractors){none ? 0 : element_attractors(&p->trunk.element),
                             none ? 0 : element_attractors(&p->crown.element),
-                            p->roots.count > 0 ? element_attractors(&p->roots.element) : 0};
+                            p->roots.count > 0 ? element_attractors(&p->roots.element) : 0,
+                            plan.grown_by == GROWN_BY_ATTRACTORS ? 0 : p->light.attractors.count};
 }
 
 // Metamers of a tree that grows by light: a measured average.
@@ -72,7 +74,7 @@ static double count_metamers(const void *params)
 static int64_t attractors(const void *params)
 {
     TreeAttractors count = count_attractors(params);
-    return count.trunk + count.crown + count.roots;
+    return count.trunk + count.crown + count.roots + count.reached;
 }
 
 static int64_t copies(const void *params)

@@ -105,6 +105,62 @@ static const Table ROOTS_TABLE = {.name = "roots",
                                   .keys = ROOTS_KEYS,
                                   .check = check_roots};
 
+#define REACH_KEY(MEMBER, KEY, TYPE) KEY_OF(ReachParams, MEMBER, KEY, TYPE)
+
+static const Key REACH_KEYS[] = {
+    {REACH_KEY(count, "count", KEY_INT64), .high = 2147483647,
+     .doc = "Number of attractors; 0 = none."},
+    {REACH_KEY(element.shapes, "envelope", KEY_LIST),
+     .count_offset = offsetof(ReachParams, element.shape_count), .count = 1000,
+     .table = &shape_table,
+     .doc = "Region that they lie in: shapes, combined in this order. It does not bound growth. "
+            "Default: the crown's envelope, which does if it is given."},
+    {REACH_KEY(element.voxel, "voxel", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "Voxel size of that envelope's level set; 0 = 1/128 of its largest extent."},
+    {REACH_KEY(element, "points", KEY_GROUP), .table = &points_table,
+     .doc = "How they are scattered in it."},
+    {REACH_KEY(weight, "weight", KEY_FLOAT), .high = 0.99,
+     .doc = "Share of its light that a bud loses where growth is made of it, if no attractor draws "
+            "it: 0 = light alone decides, 0.5 = the crown tends to where attractors are, 0.9 = it "
+            "keeps to them. Before the first bud is drawn, light alone decides."},
+    {REACH_KEY(pull, "pull", KEY_FLOAT), .high = 10,
+     .doc = "Turn of each new node of a shoot toward the attractors that draw its bud."},
+    {REACH_KEY(reach, "reach", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100, .unit = "internodes",
+     .doc = "Each attractor draws the nearest bud within this distance."},
+    {REACH_KEY(occupied, "occupied", KEY_FLOAT), .high = 100, .unit = "internodes",
+     .doc = "An attractor is taken when wood comes nearer to it than this."},
+    {0},
+};
+
+static bool check_reach(const Mapping *mapping, void *params)
+{
+    const ReachParams *given = params;
+    if (given->occupied > given->reach) {
+        return mapping_fail(mapping, "occupied",
+                            " is %g; it must be at most reach, %g internodes, or attractors are "
+                            "taken before they draw a bud",
+                            (double)given->occupied, (double)given->reach);
+    }
+    return check_element(mapping, &given->element);
+}
+
+static const Table REACH_TABLE = {
+    .name = "light_attractors",
+    .doc = "Attractors that buds reach for beside light: the artist gives the form, light fills "
+           "it. Each draws the nearest bud, and the light of buds that none draws counts less. "
+           "With grown_by: both, limbs that attractors laid "
+           "are filled in the same way.",
+    .example = "objects:\n"
+               "  - name: windswept\n"
+               "    tree:\n"
+               "      light:\n"
+               "        attractors:\n"
+               "          count: 3000\n"
+               "          envelope: [{shape: ellipsoid, size: [5, 3, 4], position: [3, 8, 0]}]\n",
+    .size = sizeof(ReachParams),
+    .keys = REACH_KEYS,
+    .check = check_reach};
+
 #define LIGHT_KEY(MEMBER, KEY, TYPE) KEY_OF(TreeLight, MEMBER, KEY, TYPE)
 
 static const Key LIGHT_KEYS[] = {
@@ -112,6 +168,8 @@ static const Key LIGHT_KEYS[] = {
      .unit = "m", .doc = "Height at which the species is grown up."},
     {LIGHT_KEY(mature_age, "mature_age", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10000,
      .unit = "years", .doc = "Age at which it is."},
+    {LIGHT_KEY(attractors, "attractors", KEY_GROUP), .table = &REACH_TABLE,
+     .doc = "Attractors that buds reach for beside light."},
     {LIGHT_KEY(growth.seasons, "seasons", KEY_INT), .low = 1, .high = 1000,
      .doc = "Number of simulated seasons in which it grows up; more = finer twigs and more of "
             "them. A younger tree grows fewer."},

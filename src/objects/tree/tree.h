@@ -57,8 +57,16 @@ typedef enum GrownBy {
     GROWN_BY_BOTH // attractors lay trunk and limbs, which light fills
 } GrownBy;
 
+typedef struct ReachParams { // attractors that the buds of growth by light reach for
+    ElementParams element;   // its envelope and points alone; no shapes = the crown's
+    int64_t count;           // 0 = none
+    float weight, pull;      // see LightAttractors
+    float reach, occupied;   // internodes
+} ReachParams;
+
 typedef struct TreeLight {
     LightParams growth;
+    ReachParams attractors;
     float mature_height; // m, of a grown-up tree
     float mature_age;    // years
 } TreeLight;
