@@ -22,7 +22,9 @@
     X(fracture)  \
     X(skeleton)  \
     X(outtree)   \
-    X(climber)
+    X(climber)   \
+    X(stone)     \
+    X(scatter)
 
 #define DECLARE_KIND(NAME) extern const Kind kind_##NAME;
 KINDS(DECLARE_KIND)

@@ -39,27 +39,41 @@ bool making_end(Making *m, bool done, Error *e)
     grown_clear(&m->grown);
     own_space_leave(&m->own);
     deformation_free(m->deformation);
+    surfaces_free(m->surfaces);
     return done || scene_fail_object(m->scene, m->index, e);
 }
 
 // ---- among neighbours
 
-// Finds the surface that the object grows over, if it does.
-static bool find_surface(Making *m, Surfaces *surfaces, Error *e)
+// Finds the surface that the object grows over or stands on, if it does. surfaces: of `scene`.
+static bool find_surface(Making *m, const Scene *scene, Surfaces *surfaces, Error *e)
 {
     const char *over = scene_object_over(&m->scene->objects[m->index]);
     if (!over) {
         return true;
     }
-    int index = scene_find_object(m->scene, over);
+    int index = scene_find_object(scene, over);
     m->recipe.surface = surfaces_over(surfaces, index, m->recipe.run, e);
     return m->recipe.surface || error_key(e, "%s", m->scene->objects[m->index].kind->over_key);
+}
+
+// The surface of an object that does not grow, in the whole scene.
+static bool find_floor(Making *m, Surfaces *surfaces, Error *e)
+{
+    const Scene *scene = m->scene->whole ? m->scene->whole : m->scene;
+    if (!scene_object_over(&m->scene->objects[m->index])) {
+        return true;
+    }
+    if (!surfaces || scene != m->scene) {
+        surfaces = m->surfaces = surfaces_new(scene, NULL, e);
+    }
+    return surfaces && find_surface(m, scene, surfaces, e);
 }
 
 static bool enter(Making *m, Rival *rival, const Scene *scene, int index, Surfaces *surfaces,
                   const Run *run, Error *e)
 {
-    if (!making_begin(m, scene, index, run, e) || !find_surface(m, surfaces, e)) {
+    if (!making_begin(m, scene, index, run, e) || !find_surface(m, scene, surfaces, e)) {
         return false;
     }
     const Contest *contest = scene->objects[index].contest;
@@ -172,8 +186,21 @@ static bool grow_with_neighbours(Making *m, Shared shared, Grown **memory, Grown
 bool making_grow(Making *m, Shared shared, Error *e)
 {
     Grown own = {0}, *memory = shared.growths ? &shared.growths[m->index] : NULL;
+<<<<<<< HEAD
     bool done = !scene_object_has_neighbours(&m->scene->objects[m->index]) ||
                 grow_with_neighbours(m, shared, &memory, &own, e);
+=======
+    bool done = true;
+    if (!m->kind->grow) {
+        return find_floor(m, shared.surfaces, e);
+    }
+    if (scene_object_has_neighbours(&m->scene->objects[m->index])) {
+        bool together = shared.growths && shared.surfaces && !m->scene->whole;
+        memory = memory ? memory : &own;
+        done = memory->tree || (together ? grow_rivals(m->scene, m->index, shared, m->recipe.run, e)
+                                         : grow_alone(m, shared.surfaces, memory, e));
+    }
+>>>>>>> b60333c (Scatter any object over land or surfaces; stones; herbs of the meadow)
     done =
         done && kind_grow(m->kind, m->params, &m->recipe, m->scene->grow_to, memory, &m->grown, e);
     grown_clear(&own);

@@ -15,6 +15,7 @@ typedef struct Making {
     Recipe recipe;
     Deformation *deformation; // NULL = none
     Carrier carrier;
+    struct Surfaces *surfaces; // own ones; NULL = none, or the caller's are used
     Grown grown;
 } Making;
 

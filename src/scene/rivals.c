@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "grow/light/stand.h"
 #include "grow/room.h"
-#include "scene/point_hash.h"
+#include "shape/point_hash.h"
 
 #include <math.h>
 #include <pthread.h>

@@ -87,6 +87,10 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"forest: {stands: 2, stand_trees: 2, height: 8, ferns: 10, leaves: {max_count: 50}}",
          0x1926e882d6db2c18},
         {"ground: {grass_tufts: 200}", 0x75671227db500027},
+        {"stone: {resolution: 8}", 0xda5f7a6a48381f4f},
+        {"scatter: {count: 40, spacing: 0.3, things: [{stone: {resolution: 4}}, {tree: {species: "
+         "oxeye_daisy}}]}",
+         0x93cdeb3e350b295a},
         {"lightning: {height: 10, bolts: 2}", 0xa6955bc433e5bd28},
         {"lightning: {points: {place: surface}, envelope: [{shape: sphere, size: 1}]}",
          0x82e1227cfba8a34c},

@@ -16,7 +16,8 @@ typedef enum OrganKind {
     ORGAN_HUSK,    // a ball with spikes: horse chestnut
     ORGAN_BUD,     // pointed, with overlapping scales
     ORGAN_SAMARA,  // two winged nuts: maple
-    ORGAN_THORN    // straight spines
+    ORGAN_THORN,   // straight spines
+    ORGAN_DAISY    // flower heads of rays about a disc
 } OrganKind;
 
 // How those of one place stand together.
@@ -28,7 +29,7 @@ typedef enum OrganCluster {
 // What a part of an organ is made of: each has a material of its own.
 typedef enum OrganTissue {
     TISSUE_PETAL,
-    TISSUE_FLESH, // of fruit and nuts
+    TISSUE_FLESH, // of fruit and nuts, the disc of a daisy
     TISSUE_WOOD,  // scales of cones, catkins and buds, cups, spines
     TISSUE_GREEN, // stalks, sepals, stamens
     TISSUE_WING,  // thin: of winged nuts
@@ -46,7 +47,7 @@ typedef struct OrganParams {
     float spread;    // degrees between the outermost stalks and +Y
     float open;      // 0..1: from closed to open petals, scales or wings
     int petals;      // more than 5 in several whorls
-    float dimple;    // 0..1: of fruit, at both ends
+    float dimple;    // 0..1: of fruit, at both ends; of a daisy the disc's radius, in petal lengths
     int detail;      // 1 or 2
 } OrganParams;
 

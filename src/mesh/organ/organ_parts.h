@@ -30,6 +30,7 @@ void organ_sheet(Quads *quads, const float *length, const float *half, const flo
 
 // The kinds: each adds one organ at the origin along +Y, without its stalk.
 void organ_blossom(OrganBuild *build, uint64_t seed);
+void organ_daisy(OrganBuild *build, uint64_t seed);
 void organ_catkin(OrganBuild *build, uint64_t seed);
 void organ_cone(OrganBuild *build, uint64_t seed);
 void organ_fruit(OrganBuild *build, uint64_t seed);

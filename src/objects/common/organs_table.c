@@ -2,21 +2,29 @@
 #include "config/table.h"
 #include "objects/common/organs.h"
 
-static const EnumName KINDS[] = {{"blossom", ORGAN_BLOSSOM}, {"catkin", ORGAN_CATKIN},
-                                 {"fruit", ORGAN_FRUIT},     {"cone", ORGAN_CONE},
-                                 {"acorn", ORGAN_ACORN},     {"husk", ORGAN_HUSK},
-                                 {"bud", ORGAN_BUD},         {"samara", ORGAN_SAMARA},
-                                 {"thorn", ORGAN_THORN},     {0}};
+static const EnumName KINDS[] = {{"blossom", ORGAN_BLOSSOM},
+                                 {"catkin", ORGAN_CATKIN},
+                                 {"fruit", ORGAN_FRUIT},
+                                 {"cone", ORGAN_CONE},
+                                 {"acorn", ORGAN_ACORN},
+                                 {"husk", ORGAN_HUSK},
+                                 {"bud", ORGAN_BUD},
+                                 {"samara", ORGAN_SAMARA},
+                                 {"thorn", ORGAN_THORN},
+                                 {"daisy", ORGAN_DAISY},
+                                 {0}};
 static const EnumName SITES[] = {
     {"ends", SITES_ENDS}, {"along", SITES_ALONG}, {"stem", SITES_STEM}, {0}};
 static const EnumName CLUSTERS[] = {{"umbel", CLUSTER_UMBEL}, {"raceme", CLUSTER_RACEME}, {0}};
 
 static const Key ORGAN_KEYS[] = {
     {KEY_OF(OrganGroup, kind, "kind", KEY_ENUM), .names = KINDS, .flags = KEY_REQUIRED,
-     .doc = "blossom: flowers of separate petals; catkin: a cylinder of small scales (birch, "
-            "hazel); fruit: round or long (apple, cherry, olive, date); cone: woody scales; acorn; "
-            "husk: a ball with spikes (horse chestnut); bud: of winter twigs; samara: paired "
-            "winged nuts (maple); thorn: straight spines."},
+     .doc =
+         "blossom: flowers of separate petals; catkin: a cylinder of small scales (birch, "
+         "hazel); fruit: round or long (apple, cherry, olive, date); cone: woody scales; acorn; "
+         "husk: a ball with spikes (horse chestnut); bud: of winter twigs; samara: paired "
+         "winged nuts (maple); thorn: straight spines; daisy: rays about a disc, which is of the "
+         "fruit's material."},
     {KEY_OF(OrganGroup, where, "where", KEY_ENUM), .names = SITES,
      .doc = "ends: at the ends of twigs; along: along twigs, in a spiral; stem: in lines along "
             "stems and branches, as a cactus' spines."},
@@ -59,9 +67,10 @@ static const Key ORGAN_KEYS[] = {
      .doc = "From closed (0) to wide open (1): petals, the scales of cones and catkins, the wings "
             "of a samara."},
     {KEY_OF(OrganGroup, petals, "petals", KEY_INT), .low = 3, .high = 60,
-     .doc = "Petals of a blossom; more than 5 stand in several whorls."},
+     .doc = "Petals of a blossom, where more than 5 stand in several whorls, or rays of a daisy."},
     {KEY_OF(OrganGroup, dimple, "dimple", KEY_FLOAT), .high = 1,
-     .doc = "How far the ends of a fruit are drawn in: 0 = an olive, 1 = an apple."},
+     .doc = "How far the ends of a fruit are drawn in: 0 = an olive, 1 = an apple; of a daisy the "
+            "disc's radius, relative to a ray's length."},
     {KEY_OF(OrganGroup, size_variation, "size_variation", KEY_FLOAT), .high = 1,
      .doc = "Variation of size between clusters: 0 = all equal."},
     {KEY_OF(OrganGroup, variants, "variants", KEY_INT), .low = 1, .high = 1000,
@@ -163,6 +172,15 @@ static const OrganGroup OWN_DEFAULTS[] = {
                      .spread = 70.0f,
                      .length = 0.007f,
                      .width = 0.002f},
+    [ORGAN_DAISY] = {.where = SITES_ENDS,
+                     .share = 0.8f,
+                     .spacing = 0.1f,
+                     .angle = 60.0f,
+                     .per_cluster = 1,
+                     .length = 0.016f,
+                     .width = 0.0055f,
+                     .open = 0.95f,
+                     .dimple = 0.5f},
 };
 
 static void organ_defaults(const Node *given, int kind, void *out)

@@ -148,12 +148,12 @@ static bool add_individuals(const ForestParams *params, const Individuals *all,
                 place[count++] = places->place[k];
             }
         }
-        InstancedTree how = {.place = place,
-                             .count = count,
-                             .material = placing->further + (int64_t)one->species * TREE_ROLES,
-                             .most_leaves = params->leaves.max_count,
-                             .most_faces = INDIVIDUAL_FACES,
-                             .seed = one->seed};
+        InstancedTree how = {.at = {.place = place,
+                                    .count = count,
+                                    .most_leaves = params->leaves.max_count,
+                                    .most_faces = INDIVIDUAL_FACES,
+                                    .seed = one->seed},
+                             .material = placing->further + (int64_t)one->species * TREE_ROLES};
         Grown single = {.tree = count > 0 ? individuals_tree(all, grown, i, e) : NULL};
         done = count == 0 || (single.tree && tree_finish(NULL, NULL, NULL, &single, e) &&
                               tree_add_instanced(&one->params, &single, &how, placing, e));

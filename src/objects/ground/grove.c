@@ -119,13 +119,14 @@ static bool add_variant(const GroveParams *grove, int species, const Transform *
         plain[i] = placing->material[i == TREE_LEAF ? GROUND_FOLIAGE : GROUND_BARK];
     }
     Recipe recipe = {.seed = seed, .label = "distant tree", .run = placing->recipe->run};
-    InstancedTree how = {.place = place,
-                         .count = count,
-                         .material = species >= 0 ? placing->further + species * TREE_ROLES : plain,
-                         .most_leaves = DISTANT_LEAVES,
-                         .most_faces = DISTANT_FACES,
-                         .distant = true,
-                         .seed = seed};
+    InstancedTree how = {.at = {.place = place,
+                                .count = count,
+                                .most_leaves = DISTANT_LEAVES,
+                                .most_faces = DISTANT_FACES,
+                                .distant = true,
+                                .seed = seed},
+                         .material =
+                             species >= 0 ? placing->further + species * TREE_ROLES : plain};
     Grown tree = {0};
     bool done = tree_grow(&params, &recipe, &tree, e) &&
                 tree_finish(&params, &recipe, &tree, &tree, e) &&

@@ -1,6 +1,6 @@
 // A growing set of points in cells, for the nearest point within a fixed reach.
-#ifndef RAMIFY_SCENE_POINT_HASH_H
-#define RAMIFY_SCENE_POINT_HASH_H
+#ifndef RAMIFY_SHAPE_POINT_HASH_H
+#define RAMIFY_SHAPE_POINT_HASH_H
 
 #include "base/error.h"
 #include "base/vec.h"

@@ -1,4 +1,4 @@
-#include "scene/point_hash.h"
+#include "shape/point_hash.h"
 
 #include "base/memory.h"
 #include "base/random.h"

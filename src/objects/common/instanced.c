@@ -1,0 +1,201 @@
+#include "objects/common/instanced.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+
+#include <stdlib.h>
+
+enum { STREAM_KEPT = 1, STREAM_TONE = 2, STREAM_PLACE_TONE = 3, STREAM_PLACE_SEASON = 4 };
+
+enum { SEASONS = 4, TONES = 2, GROUPS = SEASONS * TONES };
+#define PLACE_TONE 0.25f   // how far copies differ in colour variation, 0..1
+#define PLACE_SEASON 0.15f // and in the state of their autumn
+
+// Leaves of one season and tone.
+typedef struct Bin {
+    Part part; // borrows the mesh
+    float season;
+    float tone;
+} Bin;
+
+static bool is_foliage(const Part *part)
+{
+    return part->instance_count > 0;
+}
+
+static int64_t count_leaves(const Geometry *model)
+{
+    int64_t count = 0;
+    for (int64_t i = 0; i < model->count; i++) {
+        count += is_foliage(&model->part[i]) ? model->part[i].instance_count : 0;
+    }
+    return count;
+}
+
+static void scale_linear(Transform *t, float factor)
+{
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++) {
+            t->m[row][column] *= factor;
+        }
+    }
+}
+
+// Keeps a share of the instances and enlarges them to the area of all.
+static void thin_out(Part *part, float share, uint64_t seed)
+{
+    int64_t kept = 0;
+    float factor = 1.0f / sqrtf(share);
+    for (int64_t i = 0; i < part->instance_count; i++) {
+        if (random_unit(random_key(random_key(seed, STREAM_KEPT), (uint64_t)i)) >= share) {
+            continue;
+        }
+        part->instance[kept] = part->instance[i];
+        scale_linear(&part->instance[kept], factor);
+        if (part->season) {
+            part->season[kept] = part->season[i];
+        }
+        kept++;
+    }
+    part->instance_count = kept;
+}
+
+// The finest form of the part's mesh with at most so many faces, or the coarsest.
+static Mesh *form_of(const Part *part, int64_t most_faces)
+{
+    Mesh *form = part->mesh;
+    for (int i = 0; i < PART_COARSE_MOST; i++) {
+        if (form->face_count > most_faces && part->coarse[i].mesh) {
+            form = part->coarse[i].mesh;
+        }
+    }
+    return form;
+}
+
+static int bin_of(const Part *part, int64_t i, uint64_t seed)
+{
+    float season = part->season ? clampf(part->season[i], -1.0f, 1.0f) : 0.0f;
+    int state = season < -0.05f ? 0 : (season < 0.05f ? 1 : (season < 0.6f ? 2 : 3));
+    return state * TONES +
+           (random_unit(random_key(random_key(seed, STREAM_TONE), (uint64_t)i)) < 0.5f ? 0 : 1);
+}
+
+// Sorts the part's instances into bins, which share one list of transforms.
+static void fill_bins(const Part *part, uint64_t seed, Transform *sorted, Bin bin[GROUPS])
+{
+    int64_t next = 0;
+    for (int b = 0; b < GROUPS; b++) {
+        double season = 0.0;
+        bin[b] = (Bin){.part = *part, .tone = (float)(b % TONES) + 0.5f};
+        bin[b].tone /= (float)TONES;
+        bin[b].part.instance = sorted + next;
+        bin[b].part.instance_count = 0;
+        for (int64_t i = 0; i < part->instance_count; i++) {
+            if (bin_of(part, i, seed) == b) {
+                bin[b].part.instance[bin[b].part.instance_count++] = part->instance[i];
+                season += part->season ? (double)part->season[i] : 0.0;
+                next++;
+            }
+        }
+        int64_t count = bin[b].part.instance_count;
+        bin[b].season = count > 0 ? (float)(season / (double)count) : 0.0f;
+    }
+}
+
+// Adds a mesh or curves at every place; takes them over, also on failure.
+static bool add_at_places(Part part, float season, float tone, const Instanced *how,
+                          const Placing *placing, Error *e)
+{
+    part.object = placing->object;
+    part.instance = memory_alloc(how->count, sizeof *part.instance, e);
+    part.variation = part.instance ? memory_alloc(how->count, sizeof *part.variation, e) : NULL;
+    part.season = part.variation ? memory_alloc(how->count, sizeof *part.season, e) : NULL;
+    for (int64_t i = 0; part.season && i < how->count; i++) {
+        uint64_t key = random_key(how->seed, (uint64_t)i);
+        float aside = random_range(random_key(key, STREAM_PLACE_TONE), -PLACE_TONE, PLACE_TONE);
+        float ahead =
+            random_range(random_key(key, STREAM_PLACE_SEASON), -PLACE_SEASON, PLACE_SEASON);
+        part.instance[i] = how->place[i];
+        part.variation[i] = clampf(tone + aside, 0.0f, 1.0f);
+        part.season[i] = season > 0.05f ? clampf(season + ahead, 0.0f, 1.0f) : season;
+        part.instance_count = i + 1;
+    }
+    if (!part.season) {
+        part.instance_count = 0;
+        mesh_free(part.mesh);
+        curves_free(part.curves);
+        free(part.instance);
+        free(part.variation);
+        return false;
+    }
+    return geometry_add(placing->geometry, part, e);
+}
+
+static bool add_foliage(Part *part, int64_t faces_each, const Instanced *how,
+                        const Placing *placing, Error *e)
+{
+    Bin bin[GROUPS];
+    Transform *sorted = memory_alloc(part->instance_count, sizeof *sorted, e);
+    bool done = sorted;
+    if (sorted) {
+        fill_bins(part, how->seed, sorted, bin);
+    }
+    for (int b = 0; done && b < GROUPS; b++) {
+        Part *leaves = &bin[b].part;
+        leaves->mesh = form_of(part, faces_each);
+        if (leaves->instance_count > 0) {
+            Part baked = {.material = part->material,
+                          .mesh = geometry_bake(leaves, placing->recipe->run, e)};
+            done = baked.mesh && add_at_places(baked, bin[b].season, bin[b].tone, how, placing, e);
+        }
+    }
+    free(sorted);
+    return done;
+}
+
+static bool add_wood(Part *part, const Instanced *how, const Placing *placing, Error *e)
+{
+    Part wood = {
+        .kind = part->kind, .material = part->material, .mesh = part->mesh, .curves = part->curves};
+    part->mesh = NULL;
+    part->curves = NULL;
+    return add_at_places(wood, 0.0f, 0.5f, how, placing, e);
+}
+
+// Faces of all foliage in the forms that a model with so many leaves takes.
+static int64_t count_faces(const Geometry *model, int64_t faces_each)
+{
+    int64_t faces = 0;
+    for (int64_t i = 0; i < model->count; i++) {
+        const Part *part = &model->part[i];
+        faces +=
+            is_foliage(part) ? part->instance_count * form_of(part, faces_each)->face_count : 0;
+    }
+    return faces;
+}
+
+bool instanced_add(Geometry *model, const Instanced *how, const Placing *placing, Error *e)
+{
+    if (how->count == 0) {
+        return true;
+    }
+    int64_t leaves = count_leaves(model);
+    int64_t left = leaves < how->most_leaves ? leaves : how->most_leaves;
+    int64_t faces_each = how->distant || left == 0 ? 1 : how->most_faces / left;
+    float share = leaves > 0 ? (float)left / (float)leaves : 1.0f;
+    float faces = share * (float)count_faces(model, faces_each), most = (float)how->most_faces;
+    share = faces > most ? share * most / faces : share;
+    bool done = true;
+    for (int64_t i = 0; done && i < model->count; i++) {
+        Part *part = &model->part[i];
+        if (!is_foliage(part)) {
+            done = add_wood(part, how, placing, e);
+            continue;
+        }
+        if (share < 1.0f) {
+            thin_out(part, share, random_key(how->seed, (uint64_t)i));
+        }
+        done = part->instance_count == 0 || add_foliage(part, faces_each, how, placing, e);
+    }
+    return done;
+}

@@ -1,0 +1,233 @@
+// Where copies stand: random places, of which those are kept that the parameters allow.
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/noise.h"
+#include "base/random.h"
+#include "objects/scatter/scatter.h"
+#include "shape/point_hash.h"
+
+#include <stdlib.h>
+
+// Of the object's seed; PATCHES + i: of thing i.
+enum { STREAM_PLACES = 1, STREAM_PATCHES = 10 };
+// Of a place.
+enum {
+    STREAM_RADIUS = 1,
+    STREAM_AZIMUTH = 2,
+    STREAM_FACE = 3,
+    STREAM_ACROSS = 4,
+    STREAM_ALONG = 5,
+    STREAM_THING = 6,
+    STREAM_VARIANT = 7,
+    STREAM_PATCH = 8,
+    STREAM_SIZE = 9,
+    STREAM_TURN = 10
+};
+
+enum { TRIES = 40 }; // for each copy, at most
+#define STEP 0.05f   // m, of the land's slope
+
+typedef struct Search {
+    const ScatteringParams *params;
+    const Surroundings *around;
+    const ShapeSurface *surface; // NULL = the land
+    double *area;                // m^2, of the surface's faces 0 .. i; NULL with the land
+    PointHash *taken;            // NULL = places may be as near as they like
+    float shares;                // of all things
+    uint64_t seed;
+} Search;
+
+typedef struct Spot {
+    Vec3 p, normal;
+    uint64_t key;
+} Spot;
+
+// ---- candidates
+
+static Spot spot_on_land(const Search *s, uint64_t key)
+{
+    const ScatteringParams *params = s->params;
+    float u = random_unit(random_key(key, STREAM_RADIUS)), sine, cosine;
+    float r = sqrtf(lerpf(params->inner * params->inner, params->radius * params->radius, u));
+    exact_sincos(random_range(random_key(key, STREAM_AZIMUTH), 0.0f, 2.0f * PI_F), &sine, &cosine);
+    float x = params->center.x + r * sine, z = params->center.z + r * cosine;
+    const Land *land = &s->around->land;
+    float height = land_height(land, x, z);
+    Vec3 normal = vec3(height - land_height(land, x + STEP, z), STEP,
+                       height - land_height(land, x, z + STEP));
+    return (Spot){vec3(x, height, z), vec3_normalize(normal), key};
+}
+
+static Vec3 corner(const Mesh *mesh, int64_t face, int number)
+{
+    return mesh->position[mesh->index[face * mesh->face_size + number]];
+}
+
+// Sums of the areas of the surface's faces.
+static double *sum_areas(const Mesh *mesh, Error *e)
+{
+    double *area = memory_alloc(mesh->face_count, sizeof *area, e), sum = 0.0;
+    for (int64_t i = 0; area && i < mesh->face_count; i++) {
+        Vec3 a = corner(mesh, i, 0);
+        Vec3 across = vec3_cross(vec3_sub(corner(mesh, i, 1), a), vec3_sub(corner(mesh, i, 2), a));
+        sum += 0.5 * (double)vec3_length(across);
+        area[i] = sum;
+    }
+    return area;
+}
+
+static int64_t find_face(const double *area, int64_t count, double wanted)
+{
+    int64_t low = 0, high = count - 1;
+    while (low < high) {
+        int64_t middle = low + (high - low) / 2;
+        if (area[middle] > wanted) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+static Spot spot_on_surface(const Search *s, uint64_t key)
+{
+    const Mesh *mesh = s->surface->mesh;
+    double all = s->area[mesh->face_count - 1];
+    double wanted = all * (double)random_unit(random_key(key, STREAM_FACE));
+    int64_t face = find_face(s->area, mesh->face_count, wanted);
+    float across = sqrtf(random_unit(random_key(key, STREAM_ACROSS)));
+    float along = random_unit(random_key(key, STREAM_ALONG));
+    Vec3 a = corner(mesh, face, 0), b = corner(mesh, face, 1), c = corner(mesh, face, 2);
+    Vec3 p = vec3_add(vec3_scale(a, 1.0f - across),
+                      vec3_lerp(vec3_scale(b, across), vec3_scale(c, across), along));
+    Vec3 normal = vec3_normalize(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
+    return (Spot){p, normal, key};
+}
+
+// ---- which are kept
+
+static bool within(float value, const float range[2])
+{
+    return value >= range[0] && value <= range[1];
+}
+
+static bool is_allowed(const Search *s, const Spot *spot)
+{
+    const ScatteringParams *params = s->params;
+    float distance = vec3_distance(spot->p, params->center);
+    float slope = exact_acos(clampf(spot->normal.y, -1.0f, 1.0f)) / RADIANS_PER_DEGREE;
+    bool near = !s->surface || (distance >= params->inner &&
+                                (params->radius == 0.0f || distance <= params->radius));
+    return near && within(slope, params->slope) && within(spot->p.y, params->altitude) &&
+           !flood_covers(s->around->flood, spot->p);
+}
+
+static int choose_thing(const Search *s, uint64_t key)
+{
+    float at = s->shares * random_unit(random_key(key, STREAM_THING));
+    int last = s->params->thing_count - 1;
+    for (int i = 0; i < last; i++) {
+        at -= s->params->things[i].share;
+        if (at < 0.0f) {
+            return i;
+        }
+    }
+    return last;
+}
+
+// Each thing has patches of its own.
+static bool is_in_patch(const Search *s, const Spot *spot, int thing)
+{
+    uint64_t key = random_key(s->seed, STREAM_PATCHES + (uint64_t)thing);
+    float scale = 1.0f / s->params->clump_size;
+    float patch = noise_plane_fractal(spot->p.x * scale, spot->p.z * scale, 3, key);
+    float keep = 1.0f - s->params->clumping * smoothstepf(0.25f, -0.05f, patch);
+    return random_unit(random_key(spot->key, STREAM_PATCH)) < keep;
+}
+
+// Takes the place if no other is too near.
+static bool take(const Search *s, const Spot *spot, bool *taken, Error *e)
+{
+    float least = s->params->spacing;
+    Vec3 nearest;
+    *taken = !s->taken || !point_hash_nearest(s->taken, spot->p, &least, &nearest);
+    return !s->taken || !*taken || point_hash_add(s->taken, spot->p, e);
+}
+
+static Transform stand(const ScatteringParams *params, const Spot *spot)
+{
+    float size =
+        random_range(random_key(spot->key, STREAM_SIZE), params->scale[0], params->scale[1]);
+    float sine, cosine;
+    exact_sincos(random_range(random_key(spot->key, STREAM_TURN), 0.0f, 2.0f * PI_F), &sine,
+                 &cosine);
+    Vec3 up = vec3_lerp(vec3(0, 1, 0), spot->normal, params->align);
+    up = vec3_dot(up, up) > 1e-6f ? vec3_normalize(up) : spot->normal;
+    Vec3 x = vec3_cross(up, vec3(sine, 0.0f, cosine));
+    x = vec3_dot(x, x) > 1e-6f ? vec3_normalize(x) : vec3_perpendicular(up);
+    return transform_from_axes(vec3_scale(x, size), vec3_scale(up, size),
+                               vec3_scale(vec3_cross(x, up), size),
+                               vec3_madd(spot->p, -size * params->sink, up));
+}
+
+// ---- all of them
+
+static bool search_begin(Search *s, Error *e)
+{
+    for (int i = 0; i < s->params->thing_count; i++) {
+        s->shares += s->params->things[i].share;
+    }
+    s->area = s->surface ? sum_areas(s->surface->mesh, e) : NULL;
+    bool spaced = s->params->spacing > 0.0f;
+    s->taken = spaced ? point_hash_new(s->params->spacing, e) : NULL;
+    return (s->area || !s->surface) && (s->taken || !spaced);
+}
+
+static bool search(const Search *s, ScatterPlaces *places, const Run *run, Error *e)
+{
+    const ScatteringParams *params = s->params;
+    uint64_t seed = random_key(s->seed, STREAM_PLACES);
+    for (int64_t i = 0; i < TRIES * params->count && places->count < params->count; i++) {
+        if (!run_goes_on(run, i, e)) {
+            return false;
+        }
+        uint64_t key = random_key(seed, (uint64_t)i);
+        Spot spot = s->surface ? spot_on_surface(s, key) : spot_on_land(s, key);
+        int thing = choose_thing(s, key);
+        bool taken = false;
+        if (!is_allowed(s, &spot) || !is_in_patch(s, &spot, thing)) {
+            continue;
+        }
+        if (!take(s, &spot, &taken, e)) {
+            return false;
+        }
+        if (taken) {
+            float u = random_unit(random_key(key, STREAM_VARIANT));
+            places->thing[places->count] =
+                thing * params->variants + (int)(u * (float)params->variants);
+            places->place[places->count++] = stand(params, &spot);
+        }
+    }
+    return true;
+}
+
+bool scatter_places_init(ScatterPlaces *places, const ScatteringParams *params,
+                         const Recipe *recipe, const Surroundings *around, Error *e)
+{
+    *places = (ScatterPlaces){0};
+    Search s = {
+        .params = params, .around = around, .surface = recipe->surface, .seed = recipe->seed};
+    places->place = memory_alloc(params->count, sizeof *places->place, e);
+    places->thing = places->place ? memory_alloc(params->count, sizeof *places->thing, e) : NULL;
+    bool done = places->thing && search_begin(&s, e) && search(&s, places, recipe->run, e);
+    point_hash_free(s.taken);
+    free(s.area);
+    return done;
+}
+
+void scatter_places_free(ScatterPlaces *places)
+{
+    free(places->place);
+    free(places->thing);
+}

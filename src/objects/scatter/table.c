@@ -1,0 +1,142 @@
+// The keys of scattering.
+#include "objects/common/tables.h"
+#include "objects/scatter/scatter.h"
+
+#include <string.h>
+
+ScatteringParams scattering_params_default(void)
+{
+    return (ScatteringParams){.count = 1000,
+                              .radius = 20.0f,
+                              .clumping = 0.5f,
+                              .clump_size = 4.0f,
+                              .scale = {0.7f, 1.2f},
+                              .slope = {0.0f, 90.0f},
+                              .altitude = {-1e6f, 1e6f},
+                              .variants = 3};
+}
+
+// What stands alone can be copied: not land, nor what depends on other objects.
+static bool can_be_copied(const Kind *kind)
+{
+    return !kind->ground && !kind->heights && !kind->over && !kind->further_material &&
+           !kind->reads_scene;
+}
+
+static const Variant *thing_variant(int index)
+{
+    for (int i = 0; kind_at(i); i++) {
+        if (can_be_copied(kind_at(i)) && index-- == 0) {
+            return &kind_at(i)->variant;
+        }
+    }
+    return NULL;
+}
+
+static const Key THING_KEYS[] = {
+    {KEY_OF(Thing, share, "share", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6,
+     .doc = "Share of the copies, relative to the other things'."},
+    {0},
+};
+
+static void thing_defaults(void *out)
+{
+    *(Thing *)out = (Thing){.share = 1.0f};
+}
+
+static const Table THING_TABLE = {
+    .name = "thing",
+    .doc = "What is scattered: exactly one of the kinds below, as an object of the scene but "
+           "without a name, and the names of its materials. It stands on each place as it would "
+           "stand on the origin.",
+    .example = "objects:\n"
+               "  - name: stones\n"
+               "    scatter:\n"
+               "      count: 300\n"
+               "      things:\n"
+               "        - {share: 3, stone: {size: 0.12}}\n"
+               "        - {share: 1, tree: {species: hazel, height: 2}}\n",
+    .size = sizeof(Thing),
+    .keys = THING_KEYS,
+    .variant = thing_variant,
+    .variant_offset = offsetof(SceneObject, kind),
+    .defaults = thing_defaults};
+
+static const Key SCATTER_KEYS[] = {
+    {KEY_OF(ScatteringParams, things, "things", KEY_LIST), .flags = KEY_REQUIRED, .low = 1,
+     .count_offset = offsetof(ScatteringParams, thing_count), .count = 100, .table = &THING_TABLE,
+     .doc = "What is copied."},
+    {KEY_OF(ScatteringParams, on, "on", KEY_TEXT),
+     .doc = "Name of the object on whose meshes the copies stand: a terrain, a shape, an imported "
+            "mesh. Default: the ground of the scene, or level land at height 0."},
+    {KEY_OF(ScatteringParams, count, "count", KEY_INT64), .low = 1, .high = 1e8,
+     .doc = "Number of copies; fewer, with a warning, if there is no room for all."},
+    {KEY_OF(ScatteringParams, center, "center", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Centre of the disc, or on an object of the ball, in which they stand."},
+    {KEY_OF(ScatteringParams, radius, "radius", KEY_FLOAT), .high = 1e6, .unit = "m",
+     .doc = "Maximum distance from the centre; on an object 0 = all of it."},
+    {KEY_OF(ScatteringParams, inner, "inner", KEY_FLOAT), .high = 1e6, .unit = "m",
+     .doc = "Minimum distance from the centre."},
+    {KEY_OF(ScatteringParams, clumping, "clumping", KEY_FLOAT), .high = 1,
+     .doc = "Distribution: 0 = uniform, 1 = each thing in patches of its own."},
+    {KEY_OF(ScatteringParams, clump_size, "clump_size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6,
+     .unit = "m", .doc = "Distance from patch to patch."},
+    {KEY_OF(ScatteringParams, spacing, "spacing", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc = "Minimum distance between two copies; 0 = none."},
+    {KEY_OF(ScatteringParams, scale, "scale", KEY_VECTOR), .flags = KEY_ABOVE, .count = 2,
+     .high = 1000, .doc = "Smallest and largest size of a copy, relative to the thing's."},
+    {KEY_OF(ScatteringParams, slope, "slope", KEY_VECTOR), .count = 2, .high = 180,
+     .unit = "degrees", .doc = "Least and greatest slope of the places: 0 = level, 90 = a wall."},
+    {KEY_OF(ScatteringParams, altitude, "altitude", KEY_VECTOR), .count = 2, .low = -1e6,
+     .high = 1e6, .unit = "m", .doc = "Lowest and highest place."},
+    {KEY_OF(ScatteringParams, align, "align", KEY_FLOAT), .high = 1,
+     .doc = "How far copies turn from upright (0) to the surface's normal (1)."},
+    {KEY_OF(ScatteringParams, sink, "sink", KEY_FLOAT), .low = -1000, .high = 1000, .unit = "m",
+     .doc = "Depth of the origin below the surface, for a copy of scale 1."},
+    {KEY_OF(ScatteringParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
+     .doc = "Number of different individuals of each thing; all others are copies of them."},
+    {0},
+};
+
+static bool check_range(const Mapping *mapping, const char *key, const float range[2])
+{
+    return range[0] <= range[1] ||
+           mapping_fail(mapping, key, " is [%g, %g]; the first must not exceed the second",
+                        (double)range[0], (double)range[1]);
+}
+
+static bool check_scatter(const Mapping *mapping, void *params)
+{
+    const ScatteringParams *scatter = params;
+    if (!check_range(mapping, "scale", scatter->scale) ||
+        !check_range(mapping, "slope", scatter->slope) ||
+        !check_range(mapping, "altitude", scatter->altitude)) {
+        return false;
+    }
+    if (!scatter->on && !(scatter->radius > 0.0f)) {
+        return mapping_fail(mapping, "radius", " is 0 m; on the land it must be greater");
+    }
+    return scatter->inner < scatter->radius || scatter->radius == 0.0f ||
+           mapping_fail(mapping, "inner", " is %g m; it must be less than radius, %g m",
+                        (double)scatter->inner, (double)scatter->radius);
+}
+
+static void scatter_defaults(void *out)
+{
+    *(ScatteringParams *)out = scattering_params_default();
+}
+
+const Table scatter_table = {
+    .name = "scatter",
+    .doc = "Copies of any objects over the land or over the surface of another object: flowers, "
+           "stones, shrubs, trees, imported meshes. They do not stand in water.",
+    .example = "objects:\n"
+               "  - name: meadow\n"
+               "    ground: {grass_tufts: 20000}\n"
+               "  - name: flowers\n"
+               "    scatter: {count: 400, radius: 12, clumping: 0.8, things: [{tree: {species: "
+               "oxeye_daisy}}]}\n",
+    .size = sizeof(ScatteringParams),
+    .keys = SCATTER_KEYS,
+    .defaults = scatter_defaults,
+    .check = check_scatter};

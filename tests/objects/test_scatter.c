@@ -1,0 +1,197 @@
+// Scattering: places keep to what the parameters allow, and every copy is an instance.
+#include "mesh/ball.h"
+#include "objects/kinds.h"
+#include "objects/scatter/scatter.h"
+#include "objects/stone/stone.h"
+#include "testing.h"
+
+static float slope_height(const void *user, float x, float z)
+{
+    (void)z;
+    return *(const float *)user * x;
+}
+
+static ScatteringParams of_things(Thing *things, int count)
+{
+    ScatteringParams scatter = scattering_params_default();
+    scatter.things = things;
+    scatter.thing_count = count;
+    scatter.clumping = 0.0f;
+    scatter.variants = 1;
+    return scatter;
+}
+
+static ScatterPlaces places_of(const ScatteringParams *scatter, const Recipe *recipe,
+                               const Surroundings *around)
+{
+    ScatterPlaces places;
+    Error e = {0};
+    assert_true(scatter_places_init(&places, scatter, recipe, around, &e));
+    return places;
+}
+
+static Vec3 foot(const Transform *t)
+{
+    return transform_point(t, vec3(0, 0, 0));
+}
+
+static void keeps_distance_on_the_land(void **state)
+{
+    (void)state;
+    float slope = 0.3f;
+    Thing thing = {.share = 1.0f};
+    ScatteringParams scatter = of_things(&thing, 1);
+    scatter.count = 300;
+    scatter.center = vec3(5, 0, -2);
+    scatter.inner = 2.0f;
+    scatter.radius = 10.0f;
+    scatter.spacing = 0.5f;
+    scatter.scale[0] = 0.5f;
+    scatter.scale[1] = 2.0f;
+    Run run = run_default();
+    Recipe recipe = {.seed = 11, .run = &run};
+    Surroundings around = {.land = {slope_height, &slope}};
+    ScatterPlaces places = places_of(&scatter, &recipe, &around);
+    assert_int_equal(places.count, 300);
+    for (int64_t i = 0; i < places.count; i++) {
+        Vec3 p = foot(&places.place[i]);
+        float distance = hypotf(p.x - 5.0f, p.z + 2.0f);
+        assert_true(distance >= 1.999f && distance <= 10.001f);
+        assert_true(fabsf(p.y - slope * p.x) < 1e-4f);
+        Vec3 up = transform_vector(&places.place[i], vec3(0, 1, 0));
+        assert_true(vec3_length(up) >= 0.499f && vec3_length(up) <= 2.001f);
+        assert_true(fabsf(up.x) < 1e-5f && fabsf(up.z) < 1e-5f); // upright
+        for (int64_t k = 0; k < i; k++) {
+            assert_true(vec3_distance(p, foot(&places.place[k])) >= 0.4999f);
+        }
+    }
+    scatter_places_free(&places);
+}
+
+static void stops_where_there_is_no_room(void **state)
+{
+    (void)state;
+    Thing thing = {.share = 1.0f};
+    ScatteringParams scatter = of_things(&thing, 1);
+    scatter.count = 1000;
+    scatter.radius = 2.0f;
+    scatter.spacing = 1.0f;
+    Run run = run_default();
+    Recipe recipe = {.seed = 1, .run = &run};
+    ScatterPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    // Discs of half the spacing about the places fit into one of 2.5 m: 25 at most, and about half
+    // of that when they fall at random (jamming at a density of 0.547).
+    assert_in_range(places.count, 10, 25);
+    scatter_places_free(&places);
+}
+
+static void keeps_to_slopes_and_shares(void **state)
+{
+    (void)state;
+    Error e = {0};
+    Mesh *ball = ball_mesh(40, &e);
+    assert_non_null(ball);
+    ShapeSurface surface = {.mesh = ball};
+    Thing things[2] = {{.share = 3.0f}, {.share = 1.0f}};
+    ScatteringParams scatter = of_things(things, 2);
+    scatter.count = 2000;
+    scatter.radius = 0.0f;
+    scatter.slope[1] = 60.0f;
+    scatter.align = 1.0f;
+    Run run = run_default();
+    Recipe recipe = {.seed = 5, .run = &run, .surface = &surface};
+    ScatterPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    int64_t first = 0, upper = 0;
+    for (int64_t i = 0; i < places.count; i++) {
+        Vec3 p = foot(&places.place[i]);
+        float radius = vec3_length(p);
+        assert_true(radius > 0.99f && radius < 1.001f);
+        assert_true(p.y > 0.45f); // 60 degrees from level: cos 60 = 0.5, less a facet
+        Vec3 up = vec3_normalize(transform_vector(&places.place[i], vec3(0, 1, 0)));
+        assert_true(vec3_dot(up, vec3_scale(p, 1.0f / radius)) > 0.99f);
+        first += places.thing[i] == 0;
+        upper += p.y > 0.75f;
+    }
+    assert_int_equal(places.count, 2000);
+    double share = (double)first / 2000.0, above = (double)upper / 2000.0;
+    assert_true(fabs(share - 0.75) < 0.04); // 4 standard errors
+    assert_true(fabs(above - 0.5) < 0.05);  // areas of a sphere go by height (Archimedes)
+    scatter_places_free(&places);
+    mesh_free(ball);
+}
+
+// Mean number of neighbours within half a metre.
+static double crowd(const ScatterPlaces *places)
+{
+    int64_t near = 0;
+    for (int64_t i = 0; i < places->count; i++) {
+        for (int64_t k = 0; k < i; k++) {
+            near += vec3_distance(foot(&places->place[i]), foot(&places->place[k])) < 0.5f;
+        }
+    }
+    return 2.0 * (double)near / (double)places->count;
+}
+
+static void clumps(void **state)
+{
+    (void)state;
+    Thing thing = {.share = 1.0f};
+    ScatteringParams scatter = of_things(&thing, 1);
+    scatter.count = 1500;
+    scatter.radius = 15.0f;
+    Run run = run_default();
+    Recipe recipe = {.seed = 2, .run = &run};
+    ScatterPlaces even = places_of(&scatter, &recipe, &(Surroundings){0});
+    scatter.clumping = 1.0f;
+    ScatterPlaces clumped = places_of(&scatter, &recipe, &(Surroundings){0});
+    double expected = 1500.0 * 0.25 / (15.0 * 15.0); // of uniform places
+    assert_true(fabs(crowd(&even) / expected - 1.0) < 0.15);
+    assert_true(crowd(&clumped) > 1.4 * crowd(&even));
+    scatter_places_free(&even);
+    scatter_places_free(&clumped);
+}
+
+static void copies_every_thing(void **state)
+{
+    (void)state;
+    StoneParams small = stone_params_default(), large = small;
+    small.resolution = large.resolution = 6;
+    large.size = 3.0f;
+    Thing things[2] = {{.object = {.kind = &kind_stone, .params = &small}, .share = 1.0f},
+                       {.object = {.kind = &kind_stone, .params = &large}, .share = 1.0f}};
+    ScatteringParams scatter = of_things(things, 2);
+    scatter.count = 100;
+    scatter.variants = 2;
+    Run run = run_default();
+    Recipe recipe = {.seed = 9, .run = &run, .label = "object 'stones'"};
+    Geometry geometry = {0};
+    const int further[2 * OBJECT_MOST_MATERIALS] = {[0] = 4, [OBJECT_MOST_MATERIALS] = 5};
+    Placing placing = {.recipe = &recipe, .geometry = &geometry, .further = further, .object = 3};
+    Error e = {0};
+    assert_true(scatter_geometry(&scatter, NULL, &placing, &e));
+    assert_int_equal(geometry.count, 4);
+    int64_t copies = 0;
+    for (int64_t i = 0; i < geometry.count; i++) {
+        const Part *part = &geometry.part[i];
+        Aabb box = mesh_bounds(part->mesh);
+        float wanted = i < 2 ? 0.5f : 3.0f;
+        assert_true(fabsf(box.high.x - box.low.x - wanted) < 1e-3f);
+        assert_int_equal(part->material, i < 2 ? 4 : 5);
+        assert_int_equal(part->object, 3);
+        copies += part->instance_count;
+    }
+    assert_int_equal(copies, 100);
+    geometry_clear(&geometry);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(keeps_distance_on_the_land),
+        cmocka_unit_test(stops_where_there_is_no_room),
+        cmocka_unit_test(keeps_to_slopes_and_shares),
+        cmocka_unit_test(clumps),
+        cmocka_unit_test(copies_every_thing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
