@@ -82,9 +82,9 @@ RAMIFY_API void ramify_suggest(const char *word, const char *const *known, int c
 typedef struct RamifyScene RamifyScene;
 
 // Reads and checks a scene file, or the scene of a picture (.exr, .png) that ramify has rendered;
-// files that it names are then relative to the picture's folder. overrides: override_count texts "path=value" such as
-// "camera.fov=35" or "objects.oak.tree.height=9"; may be NULL if there are none. Files named in the
-// scene are relative to its folder and must exist.
+// files that it names are then relative to the picture's folder. overrides: override_count texts
+// "path=value" such as "camera.fov=35" or "objects.oak.tree.height=9"; may be NULL if there are
+// none. Files named in the scene are relative to its folder and must exist.
 RAMIFY_API RamifyScene *ramify_scene_load(const char *file, const char *const *overrides,
                                           int override_count, RamifyError *error);
 
@@ -119,6 +119,9 @@ RAMIFY_API void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *inf
 
 // Samples per pixel for which the pattern of the noise is laid out.
 RAMIFY_API int ramify_scene_planned_samples(const RamifyScene *scene);
+
+// Frames of the scene's animation; 0 = it has none.
+RAMIFY_API int ramify_scene_frames(const RamifyScene *scene);
 
 // The scene's original text, without overrides; borrowed.
 RAMIFY_API const char *ramify_scene_text(const RamifyScene *scene);
@@ -387,6 +390,11 @@ typedef struct RamifyWorldInfo {
 // Size of the world, and the time it took to build.
 RAMIFY_API void ramify_world_info(const RamifyWorld *world, RamifyWorldInfo *info);
 
+// Chooses the part of the picture that renderers of the world trace from now on, as film.crop does:
+// x0, y0, x1, y1 in 0..1 from the top left. RAMIFY_BAD_INPUT when it holds no pixel. No renderer
+// may be rendering meanwhile.
+RAMIFY_API bool ramify_world_crop(RamifyWorld *world, const float crop[4], RamifyError *error);
+
 // One mesh or one set of round curves. All pointers are borrowed from the world; absent arrays are
 // NULL.
 typedef struct RamifyPart {
@@ -508,9 +516,10 @@ RAMIFY_API void ramify_film_free(RamifyFilm *film);
 RAMIFY_API RamifyFilm *ramify_film_read(const char *file, const RamifyScene *scene,
                                         const RamifyRun *run, RamifyError *error);
 
-// Joins pictures of parts of a scene's picture (film.crop) in a new film: pixels that have samples in
-// one of the files. files: count names of .exr. RAMIFY_BAD_INPUT as for ramify_film_read, and when
-// two of them have samples in the same pixel. *missing (may be NULL): pixels without samples in any.
+// Joins pictures of parts of a scene's picture (film.crop) in a new film: pixels that have samples
+// in one of the files. files: count names of .exr. RAMIFY_BAD_INPUT as for ramify_film_read, and
+// when two of them have samples in the same pixel. *missing (may be NULL): pixels without samples
+// in any.
 RAMIFY_API RamifyFilm *ramify_film_join(const char *const *files, int count,
                                         const RamifyScene *scene, int64_t *missing,
                                         const RamifyRun *run, RamifyError *error);
@@ -596,9 +605,9 @@ RAMIFY_API bool ramify_renderer_resume(RamifyRenderer *renderer, RamifyFilm *fil
 // One ray of a path, for debugging a pixel. Vectors are x, y, z in m; colours are linear.
 typedef struct RamifyPathStep {
     const char *end; // what ends the ray: "surface", "lamp", "medium" (it scattered), "outside"
-    const char *material;         // name, of a surface; else NULL; borrowed from the world
-    int32_t object;               // of a surface; else -1
-    float origin[3], position[3]; // where it begins and ends; outside: position = origin
+    const char *material;          // name, of a surface; else NULL; borrowed from the world
+    int32_t object;                // of a surface; else -1
+    float origin[3], position[3];  // where it begins and ends; outside: position = origin
     float direction[3], normal[3]; // unit; normal only of a surface
     float throughput[3];           // of the path before the ray
     float light[3]; // added to the path's estimate at its end, what shadow rays bring included

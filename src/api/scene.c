@@ -79,6 +79,12 @@ void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *info)
     memcpy(info->crop, own->film.crop, sizeof info->crop);
 }
 
+int ramify_scene_frames(const RamifyScene *scene)
+{
+    const SceneAnimation *animation = scene_of(scene)->animation;
+    return animation ? animation->frames : 0;
+}
+
 int ramify_scene_planned_samples(const RamifyScene *scene)
 {
     const RenderParams *render = &scene_of(scene)->render;

@@ -1,9 +1,11 @@
 #include "api/handles.h"
 
 #include "base/memory.h"
+#include "render/film.h"
 #include "render/world.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 RamifyWorld *ramify_build(const RamifyScene *scene, const RamifyRun *run, RamifyError *error)
 {
@@ -40,6 +42,22 @@ void ramify_world_info(const RamifyWorld *world, RamifyWorldInfo *info)
                               .bytes = stats->geometry.bytes,
                               .grow_seconds = stats->grow_seconds,
                               .mesh_seconds = stats->mesh_seconds};
+}
+
+bool ramify_world_crop(RamifyWorld *world, const float crop[4], RamifyError *error)
+{
+    Error e = {0};
+    FilmParams *film = &world->world->film;
+    PixelBox box = film_crop_pixels(film->width, film->height, crop);
+    bool valid = crop[0] < crop[2] && crop[1] < crop[3]; // not with NAN
+    if (!valid || box.x0 >= box.x1 || box.y0 >= box.y1) {
+        error_set(&e, ERROR_INPUT,
+                  "a crop of %g, %g, %g, %g holds no pixel; x0 < x1 and y0 < y1 are needed",
+                  (double)crop[0], (double)crop[1], (double)crop[2], (double)crop[3]);
+        return api_fail(error, &e);
+    }
+    memcpy(film->crop, crop, sizeof film->crop);
+    return true;
 }
 
 int64_t ramify_world_part_count(const RamifyWorld *world)

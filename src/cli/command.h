@@ -14,6 +14,7 @@ bool command_measure(const Options *options, RamifyError *e);    // measure.c
 bool command_fit(const Options *options, RamifyError *e);        // fit.c
 bool command_export(const Options *options, RamifyError *e);     // export.c
 bool command_merge(const Options *options, RamifyError *e);      // merge.c
+bool command_batch(const Options *options, RamifyError *e);      // batch/batch.c
 bool command_replay(const Options *options, RamifyError *e);     // replay.c
 bool command_compare(const Options *options, RamifyError *e);    // compare.c
 bool command_golden(const Options *options, RamifyError *e);     // golden.c
@@ -28,6 +29,12 @@ RamifyRun command_run(const Options *options, Progress *progress);
 
 // Loads the scene with the overrides of --set and the render options applied.
 RamifyScene *command_scene(const Options *options, RamifyError *e);
+
+// The turntable of the options; ramify_turntable's number of frames and range are as given there.
+bool command_turn(const Options *options, RamifyTurntable *turntable, RamifyError *e);
+
+// Joins the operands, pictures of parts of this scene's picture, and writes it to --output.
+bool command_join(const Options *options, const RamifyScene *scene, RamifyError *e);
 
 // Limits for comparing pictures; negative if not given.
 RamifyLimits command_limits(const Options *options);

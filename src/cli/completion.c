@@ -74,7 +74,7 @@ static Offer offer_of_operand(const char *operand)
     Offer offer = {""};
     if (strstr(operand, "COMMAND")) {
         offer_words(&offer, "command");
-    } else if (strstr(operand, "FOLDER")) {
+    } else if (strcmp(operand, "FOLDER") == 0) {
         offer_words(&offer, "folder");
     } else if (islower((unsigned char)*operand)) {
         offer_words(&offer, "words");
@@ -165,7 +165,8 @@ static void zsh_text(const char *text)
 static void zsh_option(const Option *o, CommandId command)
 {
     char doc[512], names[96] = "";
-    bool repeats = o->type == OPTION_SET || o->type == OPTION_VARY || o->type == OPTION_OBJECT;
+    bool repeats = o->type == OPTION_SET || o->type == OPTION_VARY || o->type == OPTION_OBJECT ||
+                   o->type == OPTION_DIRECTIVE;
     option_doc(o, command, doc, sizeof doc);
     if (o->letter) {
         snprintf(names, sizeof names, "'(-%c --%s)'{-%c,--%s%s}'", o->letter, o->name, o->letter,
@@ -195,7 +196,7 @@ static void zsh_command(CommandId command)
         }
     }
     const char *operand = c->operand;
-    bool several = strcmp(operand, "A B") == 0 || strcmp(operand, "PARTS") == 0;
+    bool several = strchr(operand, ' ') || strcmp(operand, "PARTS") == 0;
     if (*operand) {
         printf("            '%s", several ? "*:" : "1:");
         zsh_text(operand);

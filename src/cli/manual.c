@@ -63,20 +63,29 @@ static void put_header(const char *page, const char *doc)
     printf(".Sh NAME\n.Nm %s\n.Nd %s\n", page, doc);
 }
 
-// ".Ar SCENE | FILE.swc", ".Op Ar COMMAND"
-static void put_operand(const char *operand)
+// ".Ar SCENE | FILE.swc"; several words are all needed unless | stands between them.
+static void put_words(const char *before, const char *words, int length)
 {
-    char text[128];
-    bool optional = *operand == '[';
-    snprintf(text, sizeof text, "%s", operand + optional);
-    text[strcspn(text, "]")] = 0;
-    const char *before = optional ? ".Op Ar" : ".Ar";
-    char *rest = NULL;
+    char text[128], *rest = NULL;
+    snprintf(text, sizeof text, "%.*s", length, words);
+    bool either = strchr(text, '|');
     for (const char *word = strtok_r(text, " |", &rest); word; word = strtok_r(NULL, " |", &rest)) {
         printf("%s %s", before, word);
-        before = strchr(operand, '|') ? " | Ar" : " Ar";
+        before = either ? " | Ar" : " Ar";
     }
-    printf("%s", *operand ? "\n" : "");
+    printf("%s", *words ? "\n" : "");
+}
+
+// ".Op Ar COMMAND", or what stands in brackets and then the rest.
+static void put_operand(const char *operand)
+{
+    if (*operand == '[') {
+        int length = (int)strcspn(operand, "]");
+        put_words(".Op Ar", operand + 1, length - 1);
+        operand += length + 1;
+        operand += *operand == ' ';
+    }
+    put_words(".Ar", operand, (int)strlen(operand));
 }
 
 static void put_synopsis(CommandId command)

@@ -146,6 +146,35 @@ static const ManualText TEXTS[] = {
                    "ramify render pine.yaml --crop 0,0,1,0.5 -o top.exr; "
                    "ramify render pine.yaml --crop 0,0.5,1,1 -o low.exr; "
                    "ramify merge top.exr low.exr -o pine.exr"}}},
+    {.command = "batch",
+     .paragraphs =
+         {"Renders the tiles of a picture (--tiles) or the frames of an animation (--frames) as "
+          "tasks that need not know of each other, on one machine or on the many of a cluster, and "
+          "joins them. The result has the same bits as the picture rendered at once. "
+          "docs/clusters.md tells more.",
+          "The batch is a folder, by default NAME.batch beside the output, that all machines must "
+          "see under the same name: plan (the command), scene.yaml (the scene's text), parts "
+          "(finished tiles or frames), logs, and the engine's files. A part gets its name when it "
+          "is complete. What is done is which parts are there: a task may be killed, repeated, or "
+          "run twice at any time. A tile is saved every minute (--checkpoint), so that its next "
+          "task goes on with it.",
+          "Run again, the same command renders what is missing; so does submit FOLDER. status "
+          "FOLDER prints what is done and missing. run FOLDER --parts A-B renders some parts in "
+          "this process: it is what all engines call. merge FOLDER makes the output.",
+          "--engine local runs the tasks here, --jobs of them at once. slurm submits an array of "
+          "tasks, with memory and time as estimated, and a merge that follows however they end and "
+          "names what is missing; a task that reaches the end of its time saves what it has begun "
+          "and is queued again. openjd writes template.yaml, an Open Job Description, into the "
+          "folder, for the schedulers of other farms.",
+          "Machines whose processors differ may round differently; --isa sse4.2 makes them agree."},
+     .failure = "tiles or frames are missing",
+     .examples = {{"two tiles, both at once", "ramify batch pine.yaml --tiles 2x1 --jobs 2"},
+                  {"what is done", "ramify batch status pine.batch"},
+                  {"a film's frames on a cluster, on nodes with 16 processors",
+                   "ramify batch pine.yaml --frames 0-719 -o pine-%04d.png --folder turn.batch "
+                   "--engine slurm --threads 16 --partition render --sbatch=--mail-type=END"},
+                  {"a template for other farms",
+                   "ramify batch pine.yaml --tiles 2x1 -o farm.png --engine openjd"}}},
     {.command = "replay",
      .paragraphs =
          {"Traces one sample of one pixel again and prints every ray of its path: where it begins "

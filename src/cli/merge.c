@@ -65,13 +65,19 @@ static bool merge(const Options *options, const RamifyScene *scene, const Output
     return done;
 }
 
-bool command_merge(const Options *options, RamifyError *e)
+bool command_join(const Options *options, const RamifyScene *scene, RamifyError *e)
 {
     Outputs outputs = {0};
-    bool valid = check_parts(options, e) && outputs_plan(options, &outputs, e);
-    RamifyScene *scene = valid ? whole_scene(options, e) : NULL;
-    bool done = scene && ramify_develop_check(scene, e) && merge(options, scene, &outputs, e);
-    ramify_scene_free(scene);
+    bool done = outputs_plan(options, &outputs, e) && ramify_develop_check(scene, e) &&
+                merge(options, scene, &outputs, e);
     outputs_clear(&outputs);
+    return done;
+}
+
+bool command_merge(const Options *options, RamifyError *e)
+{
+    RamifyScene *scene = check_parts(options, e) ? whole_scene(options, e) : NULL;
+    bool done = scene && command_join(options, scene, e);
+    ramify_scene_free(scene);
     return done;
 }

@@ -10,11 +10,14 @@
      BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT))
 #define SCENES (GROWS | BIT(COMMAND_INFO) | BIT(COMMAND_REPLAY))
 #define COMPARES (BIT(COMMAND_COMPARE) | BIT(COMMAND_GOLDEN))
-#define EVERY                                                                              \
-    (SCENES | COMPARES | BIT(COMMAND_MERGE) | BIT(COMMAND_SPECIES) | BIT(COMMAND_SCHEMA) | \
+#define EVERY                                                                                      \
+    (SCENES | COMPARES | BIT(COMMAND_MERGE) | BATCH | BIT(COMMAND_SPECIES) | BIT(COMMAND_SCHEMA) | \
      BIT(COMMAND_COMPLETION) | BIT(COMMAND_HELP))
 #define RENDERS (BIT(COMMAND_RENDER) | BIT(COMMAND_TURNTABLE))
+#define BATCH BIT(COMMAND_BATCH)
+#define PICTURES (RENDERS | BATCH)
 #define TURNS BIT(COMMAND_TURNTABLE)
+#define FILMS (TURNS | BATCH)
 #define AT(member) offsetof(Options, member)
 
 const Option option_table[] = {
@@ -23,16 +26,16 @@ const Option option_table[] = {
      .offset = AT(output),
      .type = OPTION_TEXT,
      .commands =
-         RENDERS | BIT(COMMAND_GROW) | BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT) | BIT(COMMAND_MERGE),
+         PICTURES | BIT(COMMAND_GROW) | BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT) | BIT(COMMAND_MERGE),
      .letter = 'o',
      .doc =
          "what to write; render: .png or .jpg with the .exr beside it; merge: .png or .jpg with "
-         "the "
-         ".exr beside it; turntable: .mp4, "
-         "or .png, "
-         ".jpg or .exr with the frame's number in the name, as in oak-%04d.png; grow: .swc, .json, "
-         ".graphml or, of a leaf's veins or a terrain's heights, .png or .exr (heights also .asc); "
-         "fit: .yaml, the scene with the best values; export: the format by its ending"},
+         "the .exr beside it; turntable: .mp4, or .png, .jpg or .exr with the frame's number in "
+         "the name, as in oak-%04d.png; batch: with --tiles .png or .jpg with the .exr beside it, "
+         "with --frames .mp4, or .png, .jpg or .exr with the frame's number in the name; "
+         "grow: .swc, .json, .graphml or, of a leaf's veins or a terrain's heights, .png or .exr "
+         "(heights also .asc); fit: .yaml, the scene with the best values; export: the format by "
+         "its ending"},
     {.name = "frames",
      .value = "N",
      .offset = AT(turntable.frames),
@@ -41,13 +44,82 @@ const Option option_table[] = {
      .type = OPTION_INT,
      .commands = TURNS,
      .doc = "number of frames; by default that of the scene's animation, else 72"},
+    {.name = "tiles",
+     .value = "CxR",
+     .offset = AT(tiles),
+     .type = OPTION_TEXT,
+     .commands = BATCH,
+     .doc = "divide the picture into C columns and R rows of tiles"},
+    {.name = "frames",
+     .value = "A-B",
+     .offset = AT(range),
+     .type = OPTION_TEXT,
+     .commands = BATCH,
+     .doc = "render the animation's frames A to B, counted from 0; A-B/N of N frames, by default "
+            "those of the scene's animation, else B + 1"},
+    {.name = "engine",
+     .value = "NAME",
+     .offset = AT(engine),
+     .choices = "local slurm openjd",
+     .type = OPTION_TEXT,
+     .commands = BATCH,
+     .doc =
+         "what runs the tasks; local (this machine, the default), slurm (submits an array to the "
+         "cluster), or openjd (writes an Open Job Description template for other farms)"},
+    {.name = "folder",
+     .value = "DIR",
+     .offset = AT(folder),
+     .type = OPTION_TEXT,
+     .commands = BATCH,
+     .doc = "where the batch is kept; by default NAME.batch beside the output"},
+    {.name = "pack",
+     .value = "N",
+     .offset = AT(pack),
+     .low = 1,
+     .high = 1000000,
+     .type = OPTION_INT,
+     .commands = BATCH,
+     .doc = "tiles or frames of one task; by default as many as take some minutes"},
+    {.name = "jobs",
+     .value = "N",
+     .offset = AT(jobs),
+     .low = 1,
+     .high = 1024,
+     .type = OPTION_INT,
+     .commands = BATCH,
+     .doc = "tasks that run at once with --engine local; 1 by default"},
+    {.name = "partition",
+     .value = "NAME",
+     .offset = AT(partition),
+     .type = OPTION_TEXT,
+     .commands = BATCH,
+     .doc = "Slurm's partition"},
+    {.name = "account",
+     .value = "NAME",
+     .offset = AT(account),
+     .type = OPTION_TEXT,
+     .commands = BATCH,
+     .doc = "Slurm's account"},
+    {.name = "sbatch",
+     .value = "OPTION",
+     .offset = AT(directives),
+     .type = OPTION_DIRECTIVE,
+     .commands = BATCH,
+     .doc = "a further option of sbatch for the tasks, as in --sbatch=--time=60; overrides ours; "
+            "may be repeated"},
+    {.name = "parts",
+     .value = "A-B",
+     .offset = AT(parts),
+     .type = OPTION_TEXT,
+     .commands = BATCH,
+     .doc = "the tiles or frames that run renders, by number"},
     {.name = "fps",
      .value = "F",
      .offset = AT(turntable.fps),
      .low = 0.001,
      .high = 1000,
      .type = OPTION_REAL,
-     .commands = TURNS,
+     .commands = FILMS,
      .doc = "frames per second; by default that of the scene's animation, else 24"},
     {.name = "start",
      .value = "I",
@@ -71,13 +143,13 @@ const Option option_table[] = {
      .low = -1000,
      .high = 1000,
      .type = OPTION_REAL,
-     .commands = TURNS,
+     .commands = FILMS,
      .doc = "orbits of the camera around its target, negative in the other direction; 1 by "
             "default, 0 if the scene has an animation"},
     {.name = "spin",
      .offset = AT(spin),
      .type = OPTION_YES,
-     .commands = TURNS,
+     .commands = FILMS,
      .doc = "rotate the objects instead of camera, sky and lamps"},
     {.name = "elevation",
      .value = "A:B:...",
@@ -85,7 +157,7 @@ const Option option_table[] = {
      .low = -89,
      .high = 89,
      .type = OPTION_KEYS,
-     .commands = TURNS,
+     .commands = FILMS,
      .doc = "elevation of the camera above its target over time in degrees, as in 10:30:10"},
     {.name = "dolly",
      .value = "A:B:...",
@@ -93,7 +165,7 @@ const Option option_table[] = {
      .low = 0.001,
      .high = 1000,
      .type = OPTION_KEYS,
-     .commands = TURNS,
+     .commands = FILMS,
      .doc = "factor on the camera's distance over time, as in 1:0.7"},
     {.name = "grow",
      .value = "A:B:...",
@@ -101,7 +173,7 @@ const Option option_table[] = {
      .low = 0,
      .high = 1,
      .type = OPTION_KEYS,
-     .commands = TURNS,
+     .commands = FILMS,
      .doc = "share of the growth that is shown over time, as in 0:1"},
     {.name = "sun",
      .value = "A:B:...",
@@ -109,20 +181,20 @@ const Option option_table[] = {
      .low = 0,
      .high = 24,
      .type = OPTION_KEYS,
-     .commands = TURNS,
+     .commands = FILMS,
      .doc = "time of day of the sun over time in hours, as in 5:19"},
     {.name = "ease",
      .value = "HOW",
      .offset = AT(ease),
      .choices = "linear smooth",
      .type = OPTION_TEXT,
-     .commands = TURNS,
+     .commands = FILMS,
      .doc = "interpolation of these values; by default smooth for elevation and dolly, linear for "
             "the rest"},
     {.name = "vary-noise",
      .offset = AT(vary_noise),
      .type = OPTION_YES,
-     .commands = TURNS,
+     .commands = FILMS,
      .doc = "use a different noise pattern in every frame, like film grain"},
     {.name = "frame",
      .value = "I",
@@ -146,7 +218,7 @@ const Option option_table[] = {
      .low = 1,
      .high = 1 << 24,
      .type = OPTION_INT,
-     .commands = RENDERS,
+     .commands = PICTURES,
      .doc = "paths per pixel"},
     {.name = "size",
      .value = "WxH",
@@ -154,7 +226,7 @@ const Option option_table[] = {
      .low = 1,
      .high = 65536,
      .type = OPTION_SIZE,
-     .commands = RENDERS,
+     .commands = PICTURES,
      .doc = "width and height in pixels"},
     {.name = "seconds",
      .value = "T",
@@ -170,7 +242,7 @@ const Option option_table[] = {
      .low = 0,
      .high = 1,
      .type = OPTION_REAL,
-     .commands = RENDERS,
+     .commands = PICTURES,
      .doc = "stop sampling a region when its relative error is below E; 0 = off"},
     {.name = "crop",
      .value = "x0,y0,x1,y1",
@@ -186,17 +258,17 @@ const Option option_table[] = {
      .low = -50,
      .high = 50,
      .type = OPTION_REAL,
-     .commands = RENDERS,
+     .commands = PICTURES,
      .doc = "brightness of the picture in stops; each stop doubles it"},
     {.name = "denoise",
      .scene_key = "film.denoise",
      .type = OPTION_YES,
-     .commands = RENDERS,
+     .commands = PICTURES,
      .doc = "remove the remaining noise from the .png"},
     {.name = "no-denoise",
      .scene_key = "film.denoise",
      .type = OPTION_NO,
-     .commands = RENDERS,
+     .commands = PICTURES,
      .doc = "keep the noise in the .png"},
     {.name = "no-preview",
      .offset = AT(no_preview),
@@ -216,7 +288,7 @@ const Option option_table[] = {
      .low = 0,
      .high = 1e6,
      .type = OPTION_REAL,
-     .commands = BIT(COMMAND_RENDER),
+     .commands = BIT(COMMAND_RENDER) | BATCH,
      .doc =
          "write the .exr so far every T seconds, for --resume; 60 by default, 0 = only at the end"},
     {.name = "add-samples",
@@ -246,7 +318,7 @@ const Option option_table[] = {
      .offset = AT(isa),
      .choices = "sse2 sse4.2 avx avx2 avx512",
      .type = OPTION_TEXT,
-     .commands = RENDERS | BIT(COMMAND_REPLAY),
+     .commands = PICTURES | BIT(COMMAND_REPLAY),
      .doc =
          "instruction set of the ray tracer, such as sse4.2, for the same bits on every machine"},
     {.name = "isa",
@@ -263,13 +335,13 @@ const Option option_table[] = {
      .low = 0,
      .high = 1,
      .type = OPTION_REAL,
-     .commands = GROWS,
+     .commands = GROWS | BATCH,
      .doc = "show the growth at this share of its time, 0..1"},
     {.name = "set",
      .value = "PATH=VALUE",
      .offset = AT(overrides),
      .type = OPTION_SET,
-     .commands = SCENES,
+     .commands = SCENES | BATCH,
      .doc = "change the scene: --set camera.fov=35 --set objects.oak.tree.height=9"},
     {.name = "vary",
      .value = "PATH=LOW:HIGH",
@@ -422,17 +494,17 @@ const Option option_table[] = {
      .low = 1,
      .high = 1024,
      .type = OPTION_INT,
-     .commands = SCENES | BIT(COMMAND_GOLDEN) | BIT(COMMAND_MERGE),
-     .doc = "use N threads; the result does not depend on it"},
+     .commands = SCENES | BIT(COMMAND_GOLDEN) | BIT(COMMAND_MERGE) | BATCH,
+     .doc = "use N threads; the result does not depend on it; batch: those of one task"},
     {.name = "json",
      .offset = AT(json),
      .type = OPTION_YES,
-     .commands = SCENES | COMPARES | BIT(COMMAND_MERGE),
+     .commands = SCENES | COMPARES | BIT(COMMAND_MERGE) | BATCH,
      .doc = "print the numbers as JSON to stdout"},
     {.name = "quiet",
      .offset = AT(quiet),
      .type = OPTION_YES,
-     .commands = SCENES | BIT(COMMAND_GOLDEN) | BIT(COMMAND_MERGE),
+     .commands = SCENES | BIT(COMMAND_GOLDEN) | BIT(COMMAND_MERGE) | BATCH,
      .letter = 'q',
      .doc = "print only errors"},
     {.name = "help",
@@ -444,7 +516,7 @@ const Option option_table[] = {
     {.name = NULL}};
 
 _Static_assert(sizeof option_table / sizeof option_table[0] <= MAX_OPTIONS,
-               "Options.given has a bit for each");
+               "Options.given has an entry for each");
 
 const Command command_table[COMMAND_COUNT] = {
     [COMMAND_RENDER] = {"render", "SCENE", "render a picture of a scene file",
@@ -482,6 +554,13 @@ const Command command_table[COMMAND_COUNT] = {
          "result has the same bits\nas the picture rendered at once. Exit status 1 if "
          "pixels are missing.\n",
          command_merge},
+    [COMMAND_BATCH] = {"batch", "[status|run|merge|submit] SCENE|FOLDER",
+                       "render a picture or an animation as tasks of a cluster",
+                       "Plans the tasks in a folder and gives them to the engine; what is done is "
+                       "what is in the folder's parts/.\nThe same command again, or submit FOLDER, "
+                       "runs what is missing. status prints it, run renders some\nparts, merge "
+                       "makes the output of all. See docs/clusters.md.\n",
+                       command_batch},
     [COMMAND_REPLAY] = {"replay", "SCENE", "trace one path of a picture again",
                         "SCENE may be the picture itself (.exr, .png). Prints every ray of one "
                         "sample: where it ends, on what,\nand which light that brings.\n",

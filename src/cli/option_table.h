@@ -8,17 +8,18 @@
 #include <stddef.h>
 
 typedef enum OptionType {
-    OPTION_YES,   // bool
-    OPTION_NO,    // bool, only with a scene_key
-    OPTION_INT,   // int
-    OPTION_REAL,  // double
-    OPTION_TEXT,  // const char *
-    OPTION_SIZE,  // WxH: width and height of the scene_key
-    OPTION_CROP,  // x0,y0,x1,y1, only with a scene_key
-    OPTION_KEYS,  // RamifyKeys, a:b:c
-    OPTION_SET,   // path=value, repeatable
-    OPTION_VARY,  // path=low:high, repeatable
-    OPTION_OBJECT // name, repeatable
+    OPTION_YES,      // bool
+    OPTION_NO,       // bool, only with a scene_key
+    OPTION_INT,      // int
+    OPTION_REAL,     // double
+    OPTION_TEXT,     // const char *
+    OPTION_SIZE,     // WxH: width and height of the scene_key
+    OPTION_CROP,     // x0,y0,x1,y1, only with a scene_key
+    OPTION_KEYS,     // RamifyKeys, a:b:c
+    OPTION_SET,      // path=value, repeatable
+    OPTION_VARY,     // path=low:high, repeatable
+    OPTION_OBJECT,   // name, repeatable
+    OPTION_DIRECTIVE // text, repeatable
 } OptionType;
 
 typedef struct Option {

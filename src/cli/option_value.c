@@ -92,6 +92,10 @@ static bool bad_value(const Option *option, const char *text, RamifyError *e)
         snprintf(message, sizeof message,
                  " is given more than %d times; without it, all objects are written", MAX_OBJECTS);
         break;
+    case OPTION_DIRECTIVE:
+        snprintf(message, sizeof message, " is given more than %d times; give fewer",
+                 MAX_DIRECTIVES);
+        break;
     default:
         snprintf(message, sizeof message, " %.60s; it must be a %s of %.9g to %.9g", text,
                  option->type == OPTION_INT ? "whole number" : "number", option->low, option->high);
@@ -161,6 +165,9 @@ bool option_take(Options *options, const Option *option, const char *text, Ramif
         break;
     case OPTION_OBJECT:
         valid = append(options->objects, &options->object_count, MAX_OBJECTS, text);
+        break;
+    case OPTION_DIRECTIVE:
+        valid = append(options->directives, &options->directive_count, MAX_DIRECTIVES, text);
         break;
     default:
         valid = take_numbers(options, option, text);

@@ -51,7 +51,7 @@ bool option_given(const Options *options, const char *name)
 {
     bool given = false;
     for (int i = 0; option_table[i].name; i++) {
-        given = given || ((options->given >> i & 1) && strcmp(option_table[i].name, name) == 0);
+        given = given || (options->given[i] && strcmp(option_table[i].name, name) == 0);
     }
     return given;
 }
@@ -70,7 +70,7 @@ static bool parse_option(Options *options, char **argv, int *i, RamifyError *e)
         return unknown_option(options->command, word, (int)length, e);
     }
     const char *value = equals ? equals + 1 : (option->value ? argv[++*i] : NULL);
-    options->given |= 1ull << (option - option_table);
+    options->given[option - option_table] = true;
     if (value && !option->value) {
         return fail(e, RAMIFY_BAD_INPUT, "--%s takes no value", option->name);
     }

@@ -7,8 +7,9 @@
 #define MAX_OVERRIDES 256
 #define MAX_OBJECTS 64
 #define MAX_VARIED 32
+#define MAX_DIRECTIVES 32
 
-enum { MAX_KEYS = 16, MAX_KEY_TEXT = 160, MAX_OPTIONS = 64 };
+enum { MAX_KEYS = 16, MAX_KEY_TEXT = 160, MAX_OPTIONS = 96 };
 
 typedef enum CommandId {
     COMMAND_RENDER,
@@ -18,6 +19,7 @@ typedef enum CommandId {
     COMMAND_FIT,
     COMMAND_EXPORT,
     COMMAND_MERGE,
+    COMMAND_BATCH,
     COMMAND_REPLAY,
     COMMAND_COMPARE,
     COMMAND_GOLDEN,
@@ -42,8 +44,8 @@ typedef struct Options {
     int override_count;
     char keys[MAX_KEYS][MAX_KEY_TEXT]; // overrides by other options; applied last
     int key_count;
-    uint64_t given; // bit i: option_table[i] is present
-    int threads;    // 0 = all processors
+    bool given[MAX_OPTIONS]; // [i]: option_table[i] is present
+    int threads;             // 0 = all processors
     bool quiet, json, resolved, help, version, no_preview;
     bool markdown, paths;                    // output format of schema and info
     bool man;                                // help: print the man page
@@ -69,6 +71,13 @@ typedef struct Options {
     int sample;                     // replay
     int frame;                      // the single frame to render
     double time;                    // likewise, by time
+    const char *tiles, *range, *engine,
+        *folder;                            // batch; NULL = none, none, local, beside the output
+    const char *parts;                      // batch run: the parts of one task
+    const char *partition, *account;        // batch, Slurm's; NULL = its default
+    const char *directives[MAX_DIRECTIVES]; // batch, Slurm's
+    int directive_count;
+    int jobs, pack; // batch; 0 = the default
     double turns;
     const char *ease;          // NULL = default
     RamifyTurntable turntable; // remaining turntable options

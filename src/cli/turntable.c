@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool fill_turntable(const Options *options, RamifyTurntable *turntable, RamifyError *e)
+bool command_turn(const Options *options, RamifyTurntable *turntable, RamifyError *e)
 {
     *turntable = options->turntable;
     turntable->isa = options->isa;
@@ -86,7 +86,7 @@ bool command_turntable(const Options *options, RamifyError *e)
     char *output = options->output ? copy_text(options->output, e)
                                    : output_with_ending(file_name(options->operand), ".mp4", e);
     bool sound = output && ramify_check_isa(options->isa, e) &&
-                 fill_turntable(options, &turntable, e) && ramify_turntable_check(output, e);
+                 command_turn(options, &turntable, e) && ramify_turntable_check(output, e);
     RamifyScene *scene = sound ? command_scene(options, e) : NULL;
     bool done = scene && shoot(options, scene, output, &turntable, e);
     ramify_scene_free(scene);

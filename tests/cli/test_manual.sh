@@ -109,7 +109,8 @@ turntable) exec "$RAMIFY" "\$@" --size 32x20 --samples 1 --frames 3 --quiet ;;
 *) exec "$RAMIFY" "\$@" ;;
 esac
 END
-chmod +x bin/ramify
+printf '#!/bin/sh\necho 1\n' >bin/sbatch # examples for a cluster
+chmod +x bin/ramify bin/sbatch
 mkdir -p golden && cp pine.yaml golden/
 "$RAMIFY" render pine.yaml -o a.png --quiet && cp a.png b.png && cp a.exr b.exr
 count=0
@@ -189,6 +190,8 @@ for shell in bash zsh; do
     offers $shell object "ramify export pine.yaml --object " pine
     offers $shell key "ramify render pine.yaml --set camera.fo" camera.fov= camera.focal_length= '!film.'
     offers $shell varied "ramify fit pine.yaml --vary objects.pine.tree.h" objects.pine.tree.height=
+    offers $shell engine "ramify batch pine.yaml --engine s" slurm '!local'
+    offers $shell batch "ramify batch status s" sub
     offers $shell until "ramify fit pine.yaml --until t" targets '!evaluations'
     offers $shell object_key "ramify render pine.yaml --set objects.pine.tree.h" objects.pine.tree.height=
     offers $shell value "ramify render pine.yaml --set sky.kind=" '!pine.yaml'
