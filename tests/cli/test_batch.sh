@@ -85,7 +85,10 @@ sleep 1
 kill -TERM $process
 wait $process
 status=$?
-yes stopped_status [ $status -eq 130 ] || [ $status -eq 0 ] # a fast machine is done
+case $status in
+130 | 0 | 143) echo "ok stopped_status" ;; # a fast machine is done, a loaded one does not listen yet
+*) echo "not ok stopped_status: $status" ;;
+esac
 if [ $status -eq 130 ]; then
     says stopped_says err 'run it again to go on'
     check begun 0 "$RAMIFY" batch status slow.batch
