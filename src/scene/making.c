@@ -186,21 +186,11 @@ static bool grow_with_neighbours(Making *m, Shared shared, Grown **memory, Grown
 bool making_grow(Making *m, Shared shared, Error *e)
 {
     Grown own = {0}, *memory = shared.growths ? &shared.growths[m->index] : NULL;
-<<<<<<< HEAD
-    bool done = !scene_object_has_neighbours(&m->scene->objects[m->index]) ||
-                grow_with_neighbours(m, shared, &memory, &own, e);
-=======
-    bool done = true;
     if (!m->kind->grow) {
         return find_floor(m, shared.surfaces, e);
     }
-    if (scene_object_has_neighbours(&m->scene->objects[m->index])) {
-        bool together = shared.growths && shared.surfaces && !m->scene->whole;
-        memory = memory ? memory : &own;
-        done = memory->tree || (together ? grow_rivals(m->scene, m->index, shared, m->recipe.run, e)
-                                         : grow_alone(m, shared.surfaces, memory, e));
-    }
->>>>>>> b60333c (Scatter any object over land or surfaces; stones; herbs of the meadow)
+    bool done = !scene_object_has_neighbours(&m->scene->objects[m->index]) ||
+                grow_with_neighbours(m, shared, &memory, &own, e);
     done =
         done && kind_grow(m->kind, m->params, &m->recipe, m->scene->grow_to, memory, &m->grown, e);
     grown_clear(&own);
