@@ -570,6 +570,31 @@ RAMIFY_API RamifyRenderer *ramify_renderer_new(const RamifyWorld *world, const c
                                                const RamifyRun *run, RamifyError *error);
 RAMIFY_API void ramify_renderer_free(RamifyRenderer *renderer);
 
+// What rendering a scene will take. Times are processor seconds of all threads and child processes
+// of this machine.
+typedef struct RamifyEstimate {
+    int64_t memory;         // bytes resident at most, with what the process holds by now
+    int64_t paths;          // without adaptive stopping
+    double grow_seconds;    // growing and meshing
+    double build_seconds;   // the ray tracer's structures
+    double trace_seconds;   // all paths
+    double preview_seconds; // previews as `ramify render` writes them
+    double write_seconds;   // denoising, developing and writing a .png and an .exr
+} RamifyEstimate;
+
+// Estimates by doing a part of the work: grows and builds the scene, traces some thousand of its
+// paths and develops a small picture. memory: bytes that are allowed, as for ramify_check_memory;
+// 0 = no limit. isa: as for ramify_renderer_new. run may be NULL.
+RAMIFY_API bool ramify_estimate(const RamifyScene *scene, const char *isa, int64_t memory,
+                                const RamifyRun *run, RamifyEstimate *estimate, RamifyError *error);
+
+// RAMIFY_BAD_INPUT if rendering the scene takes more than `memory` bytes, with the place of the key
+// that takes most and the value that would do. built: 0 = judges by counts in the scene, before any
+// work, and refuses only what certainly needs more; 1 = judges by what this process holds, once it
+// has a renderer of the scene, and by the picture to come.
+RAMIFY_API bool ramify_check_memory(const RamifyScene *scene, int64_t memory, int32_t built,
+                                    RamifyError *error);
+
 typedef struct RamifyRenderInfo {
     int64_t paths, rays;
     int64_t bytes;   // held by the renderer

@@ -33,6 +33,11 @@ RamifyScene *command_scene(const Options *options, RamifyError *e)
     return ramify_scene_load(options->operand, overrides, count, e);
 }
 
+bool command_check_memory(const Options *options, const RamifyScene *scene, RamifyError *e)
+{
+    return ramify_check_memory(scene, (int64_t)options->memory, 0, e);
+}
+
 RamifyLimits command_limits(const Options *options)
 {
     return (RamifyLimits){

@@ -36,6 +36,9 @@ bool command_turn(const Options *options, RamifyTurntable *turntable, RamifyErro
 // Joins the operands, pictures of parts of this scene's picture, and writes it to --output.
 bool command_join(const Options *options, const RamifyScene *scene, RamifyError *e);
 
+// Refuses a scene that certainly needs more than --memory, before any work.
+bool command_check_memory(const Options *options, const RamifyScene *scene, RamifyError *e);
+
 // Limits for comparing pictures; negative if not given.
 RamifyLimits command_limits(const Options *options);
 

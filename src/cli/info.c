@@ -1,11 +1,12 @@
-// ramify info: prints the contents of a scene file without growing or rendering it.
+// ramify info: prints the contents of a scene file, and what rendering it takes.
 #include "base/json.h"
 #include "cli/command.h"
 
 #include <stdio.h>
 #include <string.h>
 
-static void print_text(const RamifyScene *scene)
+// estimate: NULL = none.
+static void print_text(const RamifyScene *scene, const RamifyEstimate *estimate)
 {
     RamifySceneInfo info;
     ramify_scene_info(scene, &info);
@@ -29,11 +30,30 @@ static void print_text(const RamifyScene *scene)
         printf("material  %s\n", ramify_scene_material_name(scene, i));
     }
     printf("lights    %d\n", info.light_count);
-    printf("memory    about %.0f MB by its counts and files; level sets of envelopes add to that\n",
-           (double)info.memory * 1e-6);
+    if (!estimate) {
+        printf("memory    about %.0f MB by its counts and files; --estimate tells more precisely\n",
+               (double)info.memory * 1e-6);
+        return;
+    }
+    double write = estimate->preview_seconds + estimate->write_seconds;
+    printf("memory    %.0f MB at most\n", (double)estimate->memory * 1e-6);
+    printf("time      %.1f s of a processor: grow and mesh %.1f, build %.1f, trace %.1f (%.1f M "
+           "paths), develop and write %.1f\n",
+           estimate->grow_seconds + estimate->build_seconds + estimate->trace_seconds + write,
+           estimate->grow_seconds, estimate->build_seconds, estimate->trace_seconds,
+           (double)estimate->paths * 1e-6, write);
 }
 
-static void print_json(const RamifyScene *scene)
+static void print_estimate_json(const RamifyEstimate *estimate)
+{
+    printf(", \"estimate\": {\"memory\": %lld, \"paths\": %lld, \"seconds\": {\"grow\": %.3f, "
+           "\"build\": %.3f, \"trace\": %.3f, \"preview\": %.3f, \"write\": %.3f}}",
+           (long long)estimate->memory, (long long)estimate->paths, estimate->grow_seconds,
+           estimate->build_seconds, estimate->trace_seconds, estimate->preview_seconds,
+           estimate->write_seconds);
+}
+
+static void print_json(const RamifyScene *scene, const RamifyEstimate *estimate)
 {
     RamifySceneInfo info;
     ramify_scene_info(scene, &info);
@@ -54,7 +74,11 @@ static void print_json(const RamifyScene *scene)
         printf("%s", i ? ", " : "");
         json_put_string(stdout, ramify_scene_material_name(scene, i));
     }
-    printf("], \"lights\": %d, \"memory\": %lld}\n", info.light_count, (long long)info.memory);
+    printf("], \"lights\": %d, \"memory\": %lld", info.light_count, (long long)info.memory);
+    if (estimate) {
+        print_estimate_json(estimate);
+    }
+    printf("}\n");
 }
 
 // path is "objects.NAME.KIND.KEY": printed for every object of that kind, or for all without a
@@ -103,21 +127,37 @@ static bool print_paths(const RamifyScene *scene, RamifyError *e)
     return paths;
 }
 
+static bool estimate_scene(const Options *options, const RamifyScene *scene,
+                           RamifyEstimate *estimate, RamifyError *e)
+{
+    Progress progress;
+    RamifyRun run = command_run(options, &progress);
+    bool done = ramify_estimate(scene, NULL, (int64_t)options->memory, &run, estimate, e);
+    progress_end(&progress);
+    return done;
+}
+
 bool command_info(const Options *options, RamifyError *e)
 {
     RamifyScene *scene = command_scene(options, e);
     if (!scene) {
         return false;
     }
-    bool done = true;
+    RamifyEstimate found = {0}, *estimate = options->estimate ? &found : NULL;
+    bool done = estimate ? estimate_scene(options, scene, estimate, e)
+                         : command_check_memory(options, scene, e);
+    if (!done) {
+        ramify_scene_free(scene);
+        return false;
+    }
     if (options->paths) {
         done = print_paths(scene, e);
     } else if (options->resolved) {
         fputs(ramify_scene_resolved(scene), stdout);
     } else if (options->json) {
-        print_json(scene);
+        print_json(scene, estimate);
     } else {
-        print_text(scene);
+        print_text(scene, estimate);
     }
     ramify_scene_free(scene);
     return done;

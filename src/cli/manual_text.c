@@ -211,9 +211,15 @@ static const ManualText TEXTS[] = {
                    "ramify golden golden --report golden.html --junit golden.xml"},
                   {"some of them, to the bit", "ramify golden golden --filter 'pine*' --exact"}}},
     {.command = "info",
-     .paragraphs = {"Reads and checks a scene and prints its contents, its memory requirement and "
-                    "optionally all its values, without growing or rendering anything."},
+     .paragraphs = {"Reads and checks a scene and prints its contents, its memory requirement by "
+                    "counts and optionally all its values, without growing or rendering anything.",
+                    "--estimate does a part of the rendering: it grows and builds the scene, "
+                    "traces some thousand paths and develops a small picture. From that it tells "
+                    "peak memory and processor time of `ramify render`. On an idle machine, "
+                    "tracing takes the time divided by the number of processors."},
      .examples = {{"what is in it", "ramify info pine.yaml"},
+                  {"what a large picture will take, on a machine with 16 GB",
+                   "ramify info pine.yaml --estimate --size 7680x4320 --memory 16G"},
                   {"every key with its value, also those that the file leaves out",
                    "ramify info pine.yaml --resolved"},
                   {"the keys that --set can change in it", "ramify info pine.yaml --paths"}}},

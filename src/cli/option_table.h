@@ -12,6 +12,7 @@ typedef enum OptionType {
     OPTION_NO,       // bool, only with a scene_key
     OPTION_INT,      // int
     OPTION_REAL,     // double
+    OPTION_BYTES,    // double, with K, M, G or T behind it
     OPTION_TEXT,     // const char *
     OPTION_SIZE,     // WxH: width and height of the scene_key
     OPTION_CROP,     // x0,y0,x1,y1, only with a scene_key

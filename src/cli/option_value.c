@@ -80,6 +80,10 @@ static bool bad_value(const Option *option, const char *text, RamifyError *e)
                  "between",
                  text, (int)RAMIFY_MOST_KEYS, option->low, option->high);
         break;
+    case OPTION_BYTES:
+        snprintf(message, sizeof message,
+                 " %.60s; it must be a number of bytes, as in 512M or 8G, from 1 to 1000T", text);
+        break;
     case OPTION_SET:
         snprintf(message, sizeof message,
                  " is given more than %d times; set some keys in the scene file", MAX_OVERRIDES);
@@ -101,6 +105,21 @@ static bool bad_value(const Option *option, const char *text, RamifyError *e)
                  option->type == OPTION_INT ? "whole number" : "number", option->low, option->high);
     }
     return fail(e, RAMIFY_BAD_INPUT, "--%s%s", option->name, message);
+}
+
+// Reads a number of bytes; 0 if it is none.
+static double read_bytes(const char *text, const Option *option)
+{
+    static const char units[] = "KMGT";
+    char *end;
+    double value = strtod(text, &end);
+    const char *unit = end != text && *end ? strchr(units, toupper((unsigned char)*end)) : NULL;
+    if (unit) {
+        value *= pow(1000.0, (double)(unit - units + 1));
+        end++;
+    }
+    bool valid = end != text && !*end && value >= option->low && value <= option->high;
+    return valid ? value : 0.0;
 }
 
 // Takes the value of an option that has one or more numbers; returns whether it is valid.
@@ -160,6 +179,12 @@ bool option_take(Options *options, const Option *option, const char *text, Ramif
     case OPTION_SET:
         valid = append(options->overrides, &options->override_count, MAX_OVERRIDES, text);
         break;
+    case OPTION_BYTES: {
+        double bytes = read_bytes(text, option);
+        valid = bytes > 0.0;
+        memcpy(at, &bytes, sizeof bytes);
+        break;
+    }
     case OPTION_VARY:
         valid = append(options->varied, &options->vary_count, MAX_VARIED, text);
         break;

@@ -48,6 +48,7 @@ typedef struct Options {
     int threads;             // 0 = all processors
     bool quiet, json, resolved, help, version, no_preview;
     bool markdown, paths;                    // output format of schema and info
+    bool estimate;                           // info
     bool man;                                // help: print the man page
     bool spin, vary_noise;                   // turntable
     const char *isa;                         // NULL = the best available; golden: its own
@@ -67,6 +68,7 @@ typedef struct Options {
     bool resume;                    // render
     int add_samples;                // render
     double checkpoint;              // s; render
+    double memory;                  // bytes; 0 = no limit
     const char *pixel;              // replay; NULL = none
     int sample;                     // replay
     int frame;                      // the single frame to render

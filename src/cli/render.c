@@ -108,7 +108,8 @@ static bool trace(Job *job, const RamifyWorld *world, const Options *options, Ra
     progress->work = (double)job->info.width * job->info.height * (double)(crop[2] - crop[0]) *
                      (double)(crop[3] - crop[1]) * job->info.samples;
     bool look = preview.shows && !job->resumed;
-    bool done = renderer && (!look || first_look(&preview, renderer, film, e)) &&
+    bool done = renderer && ramify_check_memory(job->scene, (int64_t)options->memory, 1, e) &&
+                (!look || first_look(&preview, renderer, film, e)) &&
                 ramify_renderer_resume(renderer, film, preview_pass, preview.every, &preview, run,
                                        &job->render, e);
     job->build = built - start;
@@ -250,7 +251,8 @@ bool command_render(const Options *options, RamifyError *e)
         }
         ramify_scene_free(whole);
     }
-    bool done = scene && render_scene(options, scene, &outputs, e);
+    bool done = scene && command_check_memory(options, scene, e) &&
+                render_scene(options, scene, &outputs, e);
     ramify_scene_free(scene);
     outputs_clear(&outputs);
     return done;

@@ -88,7 +88,8 @@ bool command_turntable(const Options *options, RamifyError *e)
     bool sound = output && ramify_check_isa(options->isa, e) &&
                  command_turn(options, &turntable, e) && ramify_turntable_check(output, e);
     RamifyScene *scene = sound ? command_scene(options, e) : NULL;
-    bool done = scene && shoot(options, scene, output, &turntable, e);
+    bool done = scene && command_check_memory(options, scene, e) &&
+                shoot(options, scene, output, &turntable, e);
     ramify_scene_free(scene);
     free(output);
     return done;

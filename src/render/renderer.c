@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "render/probe.h"
 #include "render/tiles.h"
 #include "render/world.h"
 
@@ -166,6 +167,18 @@ bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass 
     }
     film_forget(film, renderer->world->film.crop);
     return renderer_resume(renderer, film, run, pass, 0.0, user, stats, e);
+}
+
+bool renderer_probe(const Renderer *renderer, const Run *run, PathCosts *costs, Error *e)
+{
+    Tracer *tracer = memory_alloc_zero(1, sizeof *tracer, e);
+    if (!tracer) {
+        return false;
+    }
+    fill_tracer(tracer, renderer);
+    bool done = probe_paths(tracer, run, costs, e);
+    free(tracer);
+    return done;
 }
 
 int renderer_replay(const Renderer *renderer, int x, int y, int sample, PathStep *step, int most,

@@ -59,6 +59,10 @@ bool renderer_render(Renderer *renderer, Film *film, const Run *run, RenderPass 
 bool renderer_resume(Renderer *renderer, Film *film, const Run *run, RenderPass *pass, double every,
                      void *user, RenderStats *stats, Error *e);
 
+// Measures what paths of this picture cost (render/probe.h), in about a second of processor time.
+struct PathCosts;
+bool renderer_probe(const Renderer *renderer, const Run *run, struct PathCosts *costs, Error *e);
+
 // Traces one sample of a pixel again and fills the first `most` of its rays (render/integrator.h)
 // and what it adds to the picture; returns their number. -1 with ERROR_INPUT when the picture has
 // no such pixel or sample.

@@ -31,6 +31,7 @@ static void structs_lie_as_before(void **state)
         STRUCT(RamifyExportOptions, tube_sides, 24, 20),
         STRUCT(RamifyExportReport, bytes, 48, 40),
         STRUCT(RamifyRenderInfo, samples, 40, 32),
+        STRUCT(RamifyEstimate, write_seconds, 56, 48),
         STRUCT(RamifyPathStep, light, 96, 80),
         STRUCT(RamifyLimits, max_failing, 24, 16),
         STRUCT(RamifyDifference, message, 376, 120),

@@ -39,7 +39,7 @@ check unknown_command 2 "$RAMIFY" rendre scene.yaml
 says unknown_command_hint err "unknown command 'rendre'; did you mean 'render'?"
 check unknown_option 2 "$RAMIFY" render scene.yaml --sampels 4
 says unknown_option_hint err "unknown option '--sampels' of render; did you mean '--samples'?"
-check option_of_another_command 2 "$RAMIFY" info scene.yaml --samples 4
+check option_of_another_command 2 "$RAMIFY" info scene.yaml --resume
 check bad_number 2 "$RAMIFY" render scene.yaml --samples 0
 says bad_number_range err "--samples 0; it must be a whole number of 1 to 16777216"
 check bad_size 2 "$RAMIFY" render scene.yaml --size 64

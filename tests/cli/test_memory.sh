@@ -28,6 +28,30 @@ tells() { # tells NAME OBJECT [PERCENT]: `info` is right within a factor of 3, o
     yes "$1_told_${told}_took_$taken" [ "$((100 * told))" -lt $((percent * taken)) -a "$((100 * taken))" -lt $((percent * told)) ]
 }
 
+estimates() { # estimates NAME OBJECT [OPTION...]: `info --estimate` is right within 1.3, in memory and number of paths
+    file=$1
+    scene "$file" "$2"
+    shift 2
+    check "${file}_estimate" 0 "$RAMIFY" info "$file.yaml" --estimate -q --json "$@"
+    told=$(sed -n 's/.*"estimate": {"memory": \([0-9]*\).*/\1/p' out) paths=$(grep -o '"paths": [0-9]*' out)
+    check "${file}_picture" 0 "$RAMIFY" render "$file.yaml" -o "$file.png" -q --json "$@"
+    taken=$(bytes)
+    yes "${file}_estimate_${told}_took_$taken" [ "$((100 * told))" -lt $((130 * taken)) -a "$((100 * taken))" -lt $((130 * told)) ]
+    says "${file}_paths" out "$paths"
+}
+
+limits() { # limits NAME KEY LIMIT OBJECT: refuses before anything is made; the value that it names will do
+    scene "$1" "$4"
+    echo old >"$1.png"
+    check "$1_limit" 2 timeout 60 "$RAMIFY" render "$1.yaml" -o "$1.png" -q --memory "$3"
+    matches "$1_limit_place" err "^$1.yaml:6:.* GB of memory are needed, but .* allowed; $2 of object 'a' takes"
+    value=$(sed -n 's/.*set it to \([0-9.]*\).*/\1/p' err)
+    yes "$1_limit_keeps_files" [ "$(cat "$1.png")" = old -a ! -e "$1.exr" ]
+    check "$1_fits" 0 "$RAMIFY" info "$1.yaml" --memory "$3" --set "objects.a.${4%%:*}.$2=$value"
+    check "$1_turntable" 2 timeout 60 "$RAMIFY" turntable "$1.yaml" -o "$1-%03d.png" -q --memory "$3"
+    yes "$1_turntable_makes_nothing" [ ! -e "$1-000.png" ]
+}
+
 refuses() { # refuses NAME KEY OBJECT: before anything is made, by name and line
     scene "$1" "$3"
     check "$1" 2 timeout 60 "$RAMIFY" render "$1.yaml" -o "$1.png" -q
@@ -52,7 +76,28 @@ if [ "$sanitized" = no ]; then
     tells surface 'shape: {voxel: 0.007, envelope: [{shape: sphere}, {shape: sphere, position: [0.7, 0, 0]}]}' 160
     check surface_export 0 "$RAMIFY" export surface.yaml -o surface.stl -q
     tells mesh 'mesh: {file: surface.stl}' 160
+    estimates many 'ground: {grass_tufts: 150000}'
+    estimates large 'shape: {envelope: [{shape: sphere}]}' --size 1600x1000 --samples 2
+    estimates quarter 'tree: {leaves: {max_count: 50000}}' --size 640x400 --crop 0,0,0.5,0.5 --samples 24
+    # What counts do not rule out is refused once it is built, before the first path.
+    scene built 'ground: {grass_tufts: 150000}'
+    check built_limit 2 "$RAMIFY" render built.yaml -o built.png -q --memory 250M
+    matches built_limit_key err "^built.yaml:6:.*grass_tufts of object 'a'"
+    yes built_limit_makes_nothing [ ! -e built.png -a ! -e built.exr ]
+    check built_estimate 2 "$RAMIFY" info built.yaml --estimate -q --memory 250M
 fi
+limits stalks grass_tufts 2G 'ground: {grass_tufts: 100000000}'
+limits edges sides 1.5G 'frost: {sides: 20000000}'
+limits crowd leaves.max_count 550M 'tree: {leaves: {max_count: 100000000}, grown_by: attractors, crown: {growth: {levels: [{attractors: 300000}]}}, radii: {tip: 0.004}, skin: {curve_radius: 0.05}}'
+scene poster 'ground: {}'
+check picture_limit 2 "$RAMIFY" info poster.yaml --size 10000x9000 --memory 3G
+says picture_limit_size err 'set film.width and film.height to'
+check picture_limit_tiny 2 "$RAMIFY" info poster.yaml --size 10000x9000 --memory 10M
+says picture_limit_least err 'no scene takes less than'
+for size in 0 8X G -1 2e16 '8 GB'; do
+    check "bad_size_$size" 2 "$RAMIFY" info poster.yaml --memory "$size"
+    says "bad_size_${size}_says" err "--memory $size; it must be a number of bytes, as in 512M or 8G"
+done
 refuses tufts grass_tufts 'ground: {grass_tufts: 1000000000}'
 refuses fallen fallen_leaves 'ground: {fallen_leaves: 1000000000}'
 refuses many_sides sides 'frost: {sides: 2147483647}'

@@ -18,15 +18,20 @@
 #define TWIG_EXPONENT \
     2.3 // by which the share of nodes thicker than a radius falls: the pipe model's
 
-void needs_add(Needs *needs, const char *key, double count, double each)
+static void add(Needs *needs, const char *key, double count, double bytes)
 {
-    double bytes = count > 0.0 ? count * each : 0.0;
     needs->bytes += bytes;
     if (bytes > needs->largest) {
         needs->largest = bytes;
+        needs->largest_count = count;
         needs->largest_object = needs->object;
         snprintf(needs->largest_key, sizeof needs->largest_key, "%s", key);
     }
+}
+
+void needs_add(Needs *needs, const char *key, double count, double each)
+{
+    add(needs, key, count, count > 0.0 ? count * each : 0.0);
 }
 
 void needs_add_copies(Needs *needs, const char *key, double count, double faces)
@@ -35,8 +40,8 @@ void needs_add_copies(Needs *needs, const char *key, double count, double faces)
     double copied = faces > ACCEL_COPY_MESH_LIMIT ? 0.0 : fmax(0.0, fmin(count, room));
     double own = sizeof(Transform) + sizeof(float);
     needs->copied_faces += copied * faces;
-    needs_add(needs, key, 1.0,
-              count * own + copied * faces * COPY_FACE_BYTES + (count - copied) * INSTANCE_BYTES);
+    add(needs, key, count,
+        count * own + copied * faces * COPY_FACE_BYTES + (count - copied) * INSTANCE_BYTES);
 }
 
 void needs_add_groups(Needs *needs, const char *key, double count, int parts)

@@ -9,11 +9,12 @@
 
 // Sum of the needs of several objects, added by Kind.needs.
 typedef struct Needs {
-    double bytes;        // sum
-    double copied_faces; // instanced faces that the ray tracer copies; see COPY_FACES_LIMIT
-    int object;          // now adding
-    int largest_object;  // of the largest single need; -1 = none
-    double largest;      // bytes of it
+    double bytes;         // sum
+    double copied_faces;  // instanced faces that the ray tracer copies; see COPY_FACES_LIMIT
+    int object;           // now adding
+    int largest_object;   // of the largest single need; -1 = none
+    double largest;       // bytes of it
+    double largest_count; // items of it
     char largest_key[64];
 } Needs;
 

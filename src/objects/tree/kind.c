@@ -65,10 +65,13 @@ static TreeAttractors count_attractors(const void *params)
 static double count_metamers(const void *params)
 {
     enum { A_SQUARED_SEASON = 40 };
+    const TreeParams *tree = params;
     TreePlan plan;
     tree_plan_make(&plan, params, 0);
     double seasons = plan.grown_by == GROWN_BY_ATTRACTORS ? 0.0 : (double)plan.seasons;
-    return A_SQUARED_SEASON * seasons * seasons;
+    Vec2 control = tree->light.growth.apical_control;
+    bool forks = control.x < 1.0f || control.y < 1.0f; // a palm's axis gets all growth
+    return A_SQUARED_SEASON * seasons * (forks ? seasons : 1.0);
 }
 
 static int64_t attractors(const void *params)

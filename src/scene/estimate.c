@@ -1,0 +1,151 @@
+#include "scene/estimate.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "image/image.h"
+#include "render/film.h"
+#include "render/integrator.h"
+#include "render/probe.h"
+#include "render/renderer.h"
+#include "render/world.h"
+#include "scene/build.h"
+#include "scene/needs.h"
+#include "scene/picture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+// Writing the two files of a picture, in units of the time in which it is developed without
+// denoising.
+#define ENCODING 3.0
+
+static double seconds_of(int who)
+{
+    struct rusage usage;
+    if (getrusage(who, &usage) != 0) {
+        return 0.0;
+    }
+    return (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+           1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+// Processor seconds that this process and its children have taken.
+static double processor_seconds(void)
+{
+    return seconds_of(RUSAGE_SELF) + seconds_of(RUSAGE_CHILDREN);
+}
+
+// Bytes that are resident now; 0 if the system does not tell.
+static double resident_bytes(void)
+{
+    FILE *stream = fopen("/proc/self/statm", "r");
+    double pages = 0.0;
+    if (stream) {
+        if (fscanf(stream, "%*s %lf", &pages) != 1) {
+            pages = 0.0;
+        }
+        fclose(stream);
+    }
+    return pages * (double)sysconf(_SC_PAGESIZE);
+}
+
+double scene_memory_built(const Scene *scene)
+{
+    return fmax((double)memory_peak(), resident_bytes() + scene_film_memory(scene));
+}
+
+// A small noisy picture of a grey surface.
+static Film *make_sample(Error *e)
+{
+    enum { WIDTH = 256, HEIGHT = 160 };
+    Film *film = film_new(WIDTH, HEIGHT, e);
+    for (int i = 0; film && i < WIDTH * HEIGHT; i++) {
+        film->color[i] = vec3_splat(0.2f + 0.1f * random_unit(random_key(1, (uint64_t)i)));
+        film->albedo[i] = vec3_splat(0.5f);
+        film->normal[i] = vec3(0, 0, 1);
+        film->alpha[i] = film->depth[i] = film->hits[i] = 1.0f;
+        film->variance[i] = 0.001f;
+        film->samples[i] = 16.0f;
+    }
+    return film;
+}
+
+// Processor seconds in which a pixel is developed.
+static bool develop(const Scene *scene, bool denoise, const Run *run, double *seconds, Error *e)
+{
+    Film *film = make_sample(e);
+    double start = processor_seconds();
+    Image *image = film ? picture_develop(scene, film, denoise, run, e) : NULL;
+    *seconds = image ? (processor_seconds() - start) / ((double)image->width * image->height) : 0.0;
+    film_free(film);
+    image_free(image);
+    return image;
+}
+
+// Adds what tracing takes and the previews that are written meanwhile. first, preview: seconds for
+// the first look and for a preview. most: processor seconds that tracing may take.
+static void add_passes(Estimate *estimate, int samples, const PathCosts *costs, double pixels,
+                       double look, double preview, double most)
+{
+    double now = look, due = 0.0;
+    estimate->preview = look;
+    for (int done = 0, end; done < samples && estimate->trace < most; done = end) {
+        end = integrator_pass_end(done, samples);
+        double pass = pixels * probe_pass_seconds(costs, done, end);
+        estimate->trace += pass;
+        now += pass;
+        if ((end & (end - 1)) == 0 && end < samples && now >= due) {
+            estimate->preview += preview;
+            now += preview;
+            due = 2.0 * now;
+        }
+    }
+    estimate->trace = fmin(estimate->trace, most);
+}
+
+static bool estimate_picture(const Scene *scene, const Renderer *renderer, const Run *run,
+                             Estimate *estimate, Error *e)
+{
+    PathCosts costs;
+    double plain, clean;
+    if (!renderer_probe(renderer, run, &costs, e) || !develop(scene, false, run, &plain, e) ||
+        !develop(scene, scene->denoise, run, &clean, e)) {
+        return false;
+    }
+    const FilmParams *film = &scene->film;
+    PixelBox crop = film_crop_pixels(film->width, film->height, film->crop);
+    double traced = (double)(crop.x1 - crop.x0) * (crop.y1 - crop.y0),
+           all = (double)film->width * film->height;
+    estimate->paths = (int64_t)traced * scene->render.samples;
+    estimate->write = all * (clean + ENCODING * plain);
+    double look = traced / 16.0 * probe_pass_seconds(&costs, 0, 1) + all * plain;
+    const RenderParams *render = &scene->render;
+    double most = render->max_seconds > 0.0 ? run->threads * render->max_seconds : (double)INFINITY;
+    add_passes(estimate, render->samples, &costs, traced, look, all * clean, most);
+    estimate->memory = scene_memory_built(scene);
+    return true;
+}
+
+bool scene_estimate(const Scene *scene, const char *isa, double limit, const Run *run,
+                    Estimate *estimate, Error *e)
+{
+    *estimate = (Estimate){0};
+    double begin = processor_seconds();
+    bool sound = scene_limit_memory(scene, limit, 0.0, e) &&
+                 image_files_check(e); // loads what will write the picture
+    double start = processor_seconds();
+    World *world = sound ? scene_build(scene, run, NULL, e) : NULL;
+    double grown = processor_seconds();
+    Renderer *renderer = world ? renderer_new(world, isa, run, e) : NULL;
+    estimate->grow = grown - start;
+    estimate->build = processor_seconds() - grown;
+    bool done = renderer && estimate_picture(scene, renderer, run, estimate, e) &&
+                scene_limit_memory(scene, limit, estimate->memory, e);
+    estimate->write += start - begin;
+    renderer_free(renderer);
+    world_free(world);
+    return done;
+}
