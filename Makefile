@@ -1,13 +1,14 @@
 # ramify: `make help` lists the targets. Every target installs the Debian packages it needs when they are missing.
 
 # The one list of Debian packages. BUILD: to compile and run. CHECK: only for lint, format, sanitize and bench. PEERS: other
-# programs that tests hold our files against, as COMMAND:PACKAGE.
+# programs that tests hold our files against, as COMMAND:PACKAGE. CLUSTER: only for test-cluster.
 BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libboost-dev libopenimageio-dev \
                  libopenexr-dev libopencolorio-dev libassimp-dev libyaml-dev libtbb-dev libnlopt-dev libseccomp-dev \
                  libcmocka-dev ffmpeg
 CHECK_PACKAGES = clang-format clang-tidy cppcheck
 PEER_COMMANDS  = povray:povray povray:povray-includes blender:blender node:nodejs npm:npm chromium:chromium mandoc:mandoc \
                  oiiotool:openimageio-tools assimp:assimp-utils zsh:zsh
+CLUSTER_PACKAGES = slurm-wlm munge
 
 , := ,
 VERSION := $(shell sed -n 's/^\#define RAMIFY_VERSION "\(.*\)"/\1/p' src/ramify.h)
@@ -70,7 +71,7 @@ BENCHES   := $(sort $(wildcard tests/bench/*.c))
 BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp) tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
-.PHONY: all demo cross-check docs test peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages
+.PHONY: all demo cross-check docs test test-cluster peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 
@@ -83,6 +84,10 @@ demo: all ## render the oak of scenes/oak.yaml to build/oak.png (and .exr)
 test: all $(if $(filter true,$(CI)),peers) ## build and run every test; the last line counts them
 	@$(MAKE) --no-print-directory -j$$(nproc) $(TEST_BIN) $(OUT)/tests/cross/compare
 	@RAMIFY=$(OUT)/ramify tests/run $(TEST_BIN)
+
+test-cluster: all ## run ramify batch on a real Slurm with two nodes on this machine, which die; as root
+	$(call need,$(CLUSTER_PACKAGES))
+	@RAMIFY=$(OUT)/ramify tests/cluster/run
 
 cross-check: all ## render the scenes of tests/cross in POV-Ray too and compare: build/cross-check/index.html
 	@$(MAKE) --no-print-directory $(OUT)/tests/cross/compare
