@@ -348,6 +348,72 @@ static void test_variation(void **state)
     assert_true(low < 0.9f && low > 0.8f && high > 1.1f && high < 1.2f);
 }
 
+static SurfacePoint on_stone(Vec3 p, float footprint)
+{
+    return (SurfacePoint){.position = p,
+                          .object_position = p,
+                          .normal = vec3(0, 1, 0),
+                          .geometric_normal = vec3(0, 1, 0),
+                          .footprint = footprint};
+}
+
+// The relief is about as deep as asked, bounded, and made of the larger features alone where pixels
+// are coarse; colours stay between those of its minerals.
+static void test_stone(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_STONE;
+    m.color = vec3_splat(0.3f);
+    m.color2 = vec3_splat(0.1f);
+    m.pattern_scale = 0.5f;
+    m.pattern_depth = 0.02f;
+    double squares = 0.0, coarse_squares = 0.0, sum = 0.0;
+    const int count = 4000;
+    for (uint64_t i = 0; i < (uint64_t)count; i++) {
+        Vec3 p = random_point(i, 10.0f);
+        SurfacePoint near = on_stone(p, 0.0005f), far = on_stone(p, 1.0f);
+        float height = pattern_height(&m, &near);
+        assert_true(fabsf(height) < 0.025f);
+        sum += (double)height;
+        squares += (double)(height * height);
+        coarse_squares += (double)powf(pattern_height(&m, &far), 2.0f);
+        PatternShade shade = {.color = m.color, .normal = vec3(0, 1, 0)};
+        pattern_apply(&m, &near, &shade);
+        assert_true(shade.color.x >= 0.1f * 0.35f && shade.color.x <= 0.3f * 1.2f + 1e-5f);
+        assert_true(fabsf(vec3_length(shade.normal) - 1.0f) < 1e-4f && shade.normal.y > 0.0f);
+    }
+    double deviation = sqrt(squares / count);
+    assert_true(deviation > 0.1 * 0.02 && deviation < 0.4 * 0.02);
+    assert_true(fabs(sum / count) < 0.1 * 0.02); // about its mean, less the joints
+    assert_true(coarse_squares == 0.0);
+}
+
+// Moss covers level places, not overhangs, and more of it where more is asked for.
+static void test_stone_moss(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_STONE;
+    m.color = m.color2 = vec3_splat(0.2f);
+    m.pattern_depth = 0.02f;
+    double greener[3] = {0};
+    for (int k = 0; k < 3; k++) {
+        m.moss = k == 0 ? 0.3f : 0.7f;
+        for (uint64_t i = 0; i < 2000; i++) {
+            SurfacePoint point = on_stone(random_point(i, 10.0f), 0.001f);
+            if (k == 2) {
+                point.normal = point.geometric_normal = vec3(0, -1, 0);
+            }
+            PatternShade shade = {.color = m.color, .normal = point.normal};
+            pattern_apply(&m, &point, &shade);
+            greener[k] += (double)(shade.color.y > 1.2f * shade.color.x) / 2000.0;
+        }
+    }
+    assert_true(greener[1] > greener[0] + 0.1);
+    assert_true(greener[2] < 0.2 * greener[1]);
+}
+
 static void test_noise_pattern(void **state)
 {
     (void)state;
@@ -381,6 +447,8 @@ int main(void)
         cmocka_unit_test(test_leaf_veins),
         cmocka_unit_test(test_leaf_blotches_tint_light_that_passes),
         cmocka_unit_test(test_variation),
+        cmocka_unit_test(test_stone),
+        cmocka_unit_test(test_stone_moss),
         cmocka_unit_test(test_noise_pattern),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -27,9 +27,9 @@ static const Material BUILTIN[] = {
      .roughness = 0.85f,
      .specular = 0.25f,
      .ior = 1.5f,
-     .pattern = PATTERN_NOISE,
-     .pattern_scale = 0.35f,
-     .pattern_depth = 0.012f,
+     .pattern = PATTERN_STONE,
+     .pattern_scale = 0.5f,
+     .pattern_depth = 0.03f,
      .variation = 0.2f},
     {.name = ""},
 };

@@ -56,6 +56,7 @@ static float noise_height(const Material *m, const SurfacePoint *point)
 float pattern_height(const Material *m, const SurfacePoint *point)
 {
     return m->pattern == PATTERN_BARK    ? pattern_bark_height(m, point)
+           : m->pattern == PATTERN_STONE ? pattern_stone_height(m, point)
            : m->pattern == PATTERN_NOISE ? noise_height(m, point)
                                          : 0.0f;
 }
@@ -70,6 +71,9 @@ void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *s
         break;
     case PATTERN_BARK:
         pattern_bark(m, point, shade);
+        break;
+    case PATTERN_STONE:
+        pattern_stone(m, point, shade);
         break;
     case PATTERN_GROUND:
         pattern_ground(m, point, shade);

@@ -22,6 +22,8 @@ float pattern_height(const Material *material, const SurfacePoint *point);
 // The kinds, one file each.
 void pattern_bark(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_bark_height(const Material *material, const SurfacePoint *point); // m
+void pattern_stone(const Material *material, const SurfacePoint *point, PatternShade *shade);
+float pattern_stone_height(const Material *material, const SurfacePoint *point); // m
 void pattern_ground(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_mountain(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_badlands(const Material *material, const SurfacePoint *point, PatternShade *shade);

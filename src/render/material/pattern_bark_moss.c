@@ -1,70 +1,35 @@
 // Moss and lichen on bark. Moss grows where it is damp and shaded: at the foot, on sides that face
-// up or away from the sun (-z here), in furrows first. Lichen grows where there is light.
-#include "render/material/pattern_noise.h"
+// up or away from the sun (-z here), in furrows first. Lichen grows where there is light, not on
+// twigs.
+#include "render/material/overgrowth.h"
 #include "render/material/pattern_stem.h"
 
 #include <math.h>
-#include <stddef.h>
-
-static void cover(BarkSurface *bark, float by)
-{
-    bark->height *= 1.0f - by;
-    bark->slope_u *= 1.0f - by;
-    bark->slope_v *= 1.0f - by;
-}
 
 static void add_moss(const Material *m, const SurfacePoint *point, const StemPlace *place,
                      BarkSurface *bark)
 {
-    Vec3 n = surface_smooth_normal(point), p = point->object_position;
+    Vec3 n = surface_smooth_normal(point);
     float foot = expf(-fmaxf(place->height, 0.0f) / 0.5f);
     float damp = clampf(0.30f + 0.45f * n.y - 0.40f * n.z, 0.0f, 1.0f) + 0.55f * foot;
     float low = m->pattern_depth > 0.0f ? -bark->height / m->pattern_depth : 0.0f;
-    float patch = noise_fractal(vec3_scale(p, 1.0f / 0.16f), 4, 101);
-    float grown = 1.7f * m->moss * damp + 0.45f * patch + 0.30f * low - 0.62f;
-    float share = smoothstepf(0.0f, 0.22f, grown);
-    if (share <= 0.0f) {
-        return;
-    }
-    float seen = pattern_detail(0.012f, point->footprint);
-    float puff = noise_solid(vec3_scale(p, 1.0f / 0.022f), 105, NULL);
-    float tuft = seen * noise_fractal(vec3_scale(p, 1.0f / 0.0055f), 2, 106);
-    float thickness = fminf(0.009f, 0.2f * place->radius);
-    bark->form += share * thickness *
-                  (0.35f + 0.35f * puff + 0.30f * tuft + 0.5f * clampf(grown, 0.0f, 1.0f));
-    cover(bark, 0.7f * share);
-    Vec3 dark = vec3(0.030f, 0.047f, 0.010f), tip = vec3(0.120f, 0.150f, 0.030f);
-    Vec3 green = vec3_lerp(dark, tip, clampf(0.42f + 0.35f * puff + 0.5f * tuft, 0.0f, 1.0f));
-    bark->color = vec3_lerp(bark->color, green, share);
-}
-
-// Crusts and rosettes: grey-green, some yellow.
-static void add_lichen(const Material *m, const SurfacePoint *point, const StemPlace *place,
-                       BarkSurface *bark)
-{
-    const float spacing = 0.075f; // m
-    Vec3 p = point->object_position;
-    float wave = noise_fractal(vec3_scale(p, 1.0f / 0.016f), 3, 111);
-    float where = 0.5f + 0.9f * noise_solid(vec3_scale(p, 1.0f / 0.35f), 114, NULL);
-    CellPoint cell = noise_cells(vec3_scale(p, 1.0f / spacing), 115);
-    float seen = pattern_detail(0.5f * spacing, point->footprint);
-    float size = lerpf(0.12f, 0.46f, noise_unit(cell.cell, 2));
-    float t = vec3_length(cell.point) / size + 0.35f * wave;
-    bool grows = noise_unit(cell.cell, 1) < m->lichen * where && place->radius > 0.012f;
-    float share = grows ? seen * (1.0f - smoothstepf(0.85f, 1.0f, t)) : 0.0f;
-    float rim = smoothstepf(0.5f, 0.9f, t);
-    bool yellow = noise_unit(cell.cell, 3) > 0.88f;
-    Vec3 color = yellow ? vec3(0.40f, 0.29f, 0.05f) : vec3(0.30f, 0.33f, 0.26f);
-    color = vec3_scale(color, 0.72f + 0.4f * rim + 0.25f * wave);
-    bark->form += 0.0012f * share;
-    bark->color = vec3_lerp(bark->color, color, 0.8f * share);
+    Overgrowth moss = moss_at(m->moss, point, damp, low, fminf(0.009f, 0.2f * place->radius));
+    float flat = 1.0f - 0.7f * moss.share;
+    bark->form += moss.height;
+    bark->height *= flat;
+    bark->slope_u *= flat;
+    bark->slope_v *= flat;
+    bark->color = vec3_lerp(bark->color, moss.color, moss.share);
 }
 
 void bark_moss(const Material *m, const SurfacePoint *point, const StemPlace *place,
                BarkSurface *bark)
 {
-    if (m->lichen > 0.0f) {
-        add_lichen(m, point, place, bark);
+    const float twig = 0.012f; // m, radius
+    if (m->lichen > 0.0f && place->radius > twig) {
+        Overgrowth lichen = lichen_at(m->lichen, point);
+        bark->form += lichen.height;
+        bark->color = vec3_lerp(bark->color, lichen.color, lichen.share);
     }
     if (m->moss > 0.0f) {
         add_moss(m, point, place, bark);

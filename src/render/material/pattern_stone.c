@@ -1,0 +1,139 @@
+// Weathered stone. Its relief is broken along planes of three sizes: cells of space (Worley 1996),
+// each cut by a plane of its own, with joints between the largest. On it grains of minerals,
+// stains below joints, lichen, and moss where it is level and low.
+#include "render/material/overgrowth.h"
+#include "render/material/pattern.h"
+#include "render/material/pattern_noise.h"
+
+#include <math.h>
+#include <stddef.h>
+
+enum { SIZES = 3, SEED_WARP = 201, SEED_CELLS = 210, SEED_GRAIN = 220, SEED_STAIN = 224 };
+
+typedef struct Broken {
+    float height; // about -0.5 .. 0.5
+    float joint;  // 0..1: depth in a joint
+} Broken;
+
+static float scale_of(const Material *m)
+{
+    return m->pattern_scale > 0.0f ? m->pattern_scale : 0.6f;
+}
+
+// Height of the plane that cuts the cell: through its point, facing a direction of its own.
+static float plane_height(const CellPoint *cell)
+{
+    Vec3 facing = vec3(noise_unit(cell->cell, 11) - 0.5f, noise_unit(cell->cell, 12) - 0.5f,
+                       noise_unit(cell->cell, 13) - 0.5f);
+    return noise_unit(cell->cell, 14) - 0.5f - 1.4f * vec3_dot(facing, cell->point);
+}
+
+// p: m, in the object's space.
+static Broken broken_at(Vec3 p, float scale, float footprint)
+{
+    Broken broken = {0};
+    float amplitude = 0.55f, warp = 0.09f * scale;
+    Vec3 aside = {noise_solid(vec3_scale(p, 2.1f / scale), SEED_WARP, NULL),
+                  noise_solid(vec3_scale(p, 2.1f / scale), SEED_WARP + 1, NULL),
+                  noise_solid(vec3_scale(p, 2.1f / scale), SEED_WARP + 2, NULL)};
+    p = vec3_madd(p, warp, aside);
+    for (uint32_t i = 0; i < SIZES; i++) {
+        float seen = pattern_detail(scale, footprint);
+        if (seen <= 0.0f) {
+            break;
+        }
+        // Wider than high: stone parts more easily along its bed.
+        CellPoint cell =
+            noise_cells(vec3(p.x / scale, 1.7f * p.y / scale, p.z / scale), SEED_CELLS + i);
+        float inside = smoothstepf(0.0f, 0.05f, cell.border);
+        float open = i == 0 && noise_unit(cell.cell ^ cell.next, 15) > 0.55f;
+        float joint = open * (1.0f - smoothstepf(0.0f, 0.05f, cell.border));
+        broken.height += seen * amplitude * (inside * plane_height(&cell) - 0.5f * joint);
+        broken.joint = fmaxf(broken.joint, seen * joint);
+        scale *= 0.36f;
+        amplitude *= 0.42f;
+    }
+    return broken;
+}
+
+// Fine roughness of the grain, as a share of the pattern's depth.
+static float grain_height(Vec3 p, float footprint)
+{
+    const float size = 0.016f; // m
+    float seen = pattern_detail(size, footprint);
+    return seen > 0.0f ? 0.05f * seen * noise_fractal(vec3_scale(p, 1.0f / size), 3, SEED_GRAIN)
+                       : 0.0f;
+}
+
+static float relief_at(const Material *m, Vec3 p, float footprint)
+{
+    return m->pattern_depth *
+           (broken_at(p, scale_of(m), footprint).height + grain_height(p, footprint));
+}
+
+static Overgrowth moss_of(const Material *m, const SurfacePoint *point, float joint)
+{
+    Vec3 n = surface_smooth_normal(point);
+    float damp = clampf(0.05f + 0.8f * n.y - 0.2f * n.z, 0.0f, 1.0f);
+    return moss_at(m->moss, point, damp, 1.5f * joint, 0.012f);
+}
+
+float pattern_stone_height(const Material *m, const SurfacePoint *point)
+{
+    Vec3 p = point->object_position;
+    float height = relief_at(m, p, point->footprint);
+    if (m->moss > 0.0f) {
+        float joint = broken_at(p, scale_of(m), point->footprint).joint;
+        height += moss_of(m, point, joint).height;
+    }
+    return m->lichen > 0.0f ? height + lichen_at(m->lichen, point).height : height;
+}
+
+// The relief as bumps: its differences over a quarter of a pixel or of the finest cell.
+static Vec3 relief_slope(const Material *m, const SurfacePoint *point)
+{
+    Vec3 p = point->object_position;
+    float step = fmaxf(0.25f * point->footprint, 0.01f * scale_of(m));
+    float here = relief_at(m, p, point->footprint);
+    Vec3 ahead = {relief_at(m, vec3_add(p, vec3(step, 0, 0)), point->footprint),
+                  relief_at(m, vec3_add(p, vec3(0, step, 0)), point->footprint),
+                  relief_at(m, vec3_add(p, vec3(0, 0, step)), point->footprint)};
+    return vec3_scale(vec3_sub(ahead, vec3_splat(here)), 1.0f / step);
+}
+
+static Vec3 minerals(const Material *m, const SurfacePoint *point, Vec3 color, float joint)
+{
+    Vec3 p = point->object_position;
+    const float grain = 0.006f; // m
+    float scale = scale_of(m);
+    float stain = noise_fractal(vec3(p.x / scale, 0.35f * p.y / scale, p.z / scale), 4, SEED_STAIN);
+    float weathered = smoothstepf(-0.3f, 0.4f, stain) * 0.85f + 0.6f * joint;
+    color = vec3_lerp(color, m->color2, clampf(weathered, 0.0f, 1.0f));
+    float seen = pattern_detail(grain, point->footprint);
+    if (seen > 0.0f) {
+        CellPoint cell = noise_cells(vec3_scale(p, 1.0f / grain), SEED_GRAIN + 3);
+        float kind = noise_unit(cell.cell, 21); // dark mica, grey quartz, pale feldspar
+        float tone = kind < 0.14f ? 0.35f : kind < 0.6f ? 0.92f : 1.2f;
+        color = vec3_scale(color, lerpf(1.0f, tone, seen));
+    }
+    return color;
+}
+
+void pattern_stone(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float joint = broken_at(point->object_position, scale_of(m), point->footprint).joint;
+    shade->color = minerals(m, point, shade->color, joint);
+    float bump = 1.0f - point->displaced;
+    if (m->lichen > 0.0f) {
+        Overgrowth lichen = lichen_at(m->lichen, point);
+        shade->color = vec3_lerp(shade->color, lichen.color, lichen.share);
+    }
+    if (m->moss > 0.0f) {
+        Overgrowth moss = moss_of(m, point, joint);
+        shade->color = vec3_lerp(shade->color, moss.color, moss.share);
+        bump *= 1.0f - 0.7f * moss.share;
+    }
+    if (bump > 0.0f && m->pattern_depth > 0.0f) {
+        shade->normal = pattern_tilt(shade->normal, vec3_scale(relief_slope(m, point), bump));
+    }
+}
