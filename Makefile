@@ -13,6 +13,8 @@ CLUSTER_PACKAGES = slurm-wlm munge
 , := ,
 VERSION := $(shell sed -n 's/^\#define RAMIFY_VERSION "\(.*\)"/\1/p' src/ramify.h)
 SONAME  := libramify.so.0# counts up when programs must be compiled anew
+# The commit that is compiled: that of this folder's repository, or what `make dist` wrote into an archive of it.
+COMMIT  := $(or $(if $(wildcard .git),$(shell git describe --always --abbrev=12 --dirty --exclude='*' 2>/dev/null)),$(shell cat .commit 2>/dev/null),unknown)
 CONFIG ?= release
 ARCH   ?= native
 PREFIX ?= /usr/local
@@ -25,7 +27,9 @@ OBJ    := $(OUT)/obj
 OPT      := $(if $(filter sanitize,$(CONFIG)),-O1 -fsanitize=address$(,)undefined -fno-omit-frame-pointer,-O3)
 # What makes a flaw of memory harder to use, in what is installed; sanitizers have their own ways.
 HARDEN   := $(if $(filter sanitize,$(CONFIG)),,-fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3)
-COMMON   := -g $(OPT) -march=$(ARCH) -ffp-contract=off -fno-tree-slp-vectorize -fno-math-errno -fno-trapping-math -fopenmp -fPIC -MMD -MP -Isrc \
+# No path of this folder gets into what is compiled, so that every folder makes the same bytes.
+NO_PATHS := -ffile-prefix-map=$(CURDIR)=.
+COMMON   := -g $(OPT) $(NO_PATHS) -march=$(ARCH) -ffp-contract=off -fno-tree-slp-vectorize -fno-math-errno -fno-trapping-math -fopenmp -fPIC -MMD -MP -Isrc \
             -Wall -Wextra -Werror
 CFLAGS   := -std=c17 -D_GNU_SOURCE $(COMMON) -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 CXXFLAGS := -std=c++17 $(COMMON)
@@ -64,14 +68,14 @@ LIB_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter-out src/cli/% $(foreach p,$(PL
 PLUGIN_OBJ := $(foreach p,$(PLUGINS),$(PLUGIN_$p:%=$(OBJ)/%.o))
 SPECIES   := $(sort $(wildcard scenes/species/*.yaml))
 LIB_OBJ   += $(OBJ)/species_library.o
-CLI_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter src/cli/%,$(SOURCES)))
+CLI_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter src/cli/%,$(SOURCES))) $(OBJ)/commit.o
 TESTS     := $(sort $(wildcard tests/*/test_*.c))
 TEST_BIN  := $(patsubst tests/%.c,$(OUT)/tests/%,$(TESTS))
 BENCHES   := $(sort $(wildcard tests/bench/*.c))
 BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp) tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
-.PHONY: all demo cross-check docs test test-cluster peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages
+.PHONY: dist deb deb-check reproduce all demo cross-check docs test test-cluster peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 
@@ -167,6 +171,38 @@ ramify.pc:
 	    'Description: grows, skins and renders branching things' 'Version: $(VERSION)' 'Libs: -L"$${libdir}" -lramify' \
 	    'Libs.private: -Wl,-rpath,"$${libdir}/ramify" $(LDLIBS) -lgomp -lpthread' 'Cflags: -I"$${includedir}"' > $(OUT)/ramify.pc
 
+# ---- releases ----
+
+# The time of all files in archives and packages: that of the commit, or what `make dist` wrote.
+export SOURCE_DATE_EPOCH ?= $(or $(if $(wildcard .git),$(shell git log -1 --format=%ct 2>/dev/null)),$(shell cat .date 2>/dev/null),0)
+DIST := build/ramify-$(VERSION)
+
+dist: ## write build/ramify-VERSION.tar.gz: the sources of the commit, in the same bytes each time
+	@[ -d .git ] || { echo "make dist archives a commit; this folder is no repository" >&2; exit 1; }
+	@git diff --quiet HEAD || { echo "make dist archives a commit; commit the changes first" >&2; exit 1; }
+	@rm -rf $(DIST) && mkdir -p $(DIST)
+	@git archive HEAD | tar x -C $(DIST)
+	@echo '$(COMMIT)' > $(DIST)/.commit && echo $(SOURCE_DATE_EPOCH) > $(DIST)/.date
+	@cd build && LC_ALL=C tar c --sort=name --format=ustar --owner=0 --group=0 --numeric-owner --mode=go=rX,u+rw \
+	    --mtime=@$(SOURCE_DATE_EPOCH) $(notdir $(DIST)) | gzip -9n > $(notdir $(DIST)).tar.gz
+	@rm -rf $(DIST) && echo "  DIST $(DIST).tar.gz"
+
+# Of the command alone. It runs on any processor of the last fifteen years, and looks for plug-ins in one place.
+DEB_ARCH ?= x86-64-v2
+DEB_MAKE = $(MAKE) --no-print-directory OUT=build/deb ARCH=$(DEB_ARCH) RUNPATH_PROGRAM='-Wl,--enable-new-dtags,-rpath,/usr/lib/ramify'
+deb: packages ## write a Debian package, build/deb/ramify_VERSION-1_ARCHITECTURE.deb
+	@+$(DEB_MAKE) -j$$(nproc) build/deb/ramify $(PLUGINS:%=build/deb/ramify-%.so)
+	@+$(DEB_MAKE) $(COMMANDS:%=build/deb/man/ramify-%.1) build/deb/man/ramify.1 build/deb/completion/ramify build/deb/completion/_ramify
+	@.debian/build build/deb $(VERSION)
+
+deb-check: deb ## check the package with lintian, and install, use and remove it in a fresh Debian (as root)
+	$(call need,lintian debootstrap)
+	lintian --fail-on error,warning --no-tag-display-limit build/deb/*.deb
+	@.debian/try build/deb/*.deb build/deb/try
+
+reproduce: dist ## build twice, in two folders: programs and packages must have the same bytes
+	@.debian/reproduce $(DIST).tar.gz build/reproduce
+
 clean: ## remove build/
 	rm -rf build
 
@@ -215,9 +251,18 @@ $(OBJ)/species_library.o: $(SPECIES)
 	   for f in $(SPECIES); do printf '.asciz "%s"\n.incbin "%s"\n.byte 0\n' "$$(basename $$f .yaml)" "$$f"; done; \
 	   printf '%s\n' '.byte 0' '.section .note.GNU-stack,"",@progbits'; } | $(CC) -x assembler -c - -o $@
 
+# Made anew only if the commit is another one.
+.PHONY: commit
+$(OBJ)/commit.txt: commit
+	@mkdir -p $(@D)
+	@echo '$(COMMIT)' | cmp -s - $@ || echo '$(COMMIT)' > $@
+$(OBJ)/commit.o: $(OBJ)/commit.txt
+	@printf '%s\n' '.section .rodata' '.globl program_commit' 'program_commit: .asciz "$(COMMIT)"' \
+	    '.section .note.GNU-stack,"",@progbits' | $(CC) -x assembler -c - -o $@
+
 $(OUT)/libramify.a: $(LIB_OBJ)
 	@echo "  AR   $@"
-	@rm -f $@ && ar rcs $@ $^
+	@rm -f $@ && ar rcsD $@ $^
 
 # Only ramify_* can be seen from outside.
 $(OUT)/libramify.so: $(LIB_OBJ) src/ramify.map | $(PLUGIN_FILES)

@@ -31,6 +31,10 @@ extern "C" {
 // Version of the linked library, as RAMIFY_VERSION; static text.
 RAMIFY_API const char *ramify_version(void);
 
+// Writes the compiler and the versions of the libraries that it was built with, "GCC 12.2.0, Embree
+// 3.13.5, ...", into text of size bytes.
+RAMIFY_API void ramify_libraries(char *text, size_t size);
+
 // Values of RamifyError.code.
 enum {
     RAMIFY_OK = 0,

@@ -1,11 +1,17 @@
 #include "api/handles.h"
 
+#include "api/libraries.h"
 #include "base/memory.h"
 #include "config/hint.h"
 
+#include <assimp/version.h>
+#include <nlopt.h>
+#include <seccomp.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <yaml.h>
 
 enum { MAX_THREADS = 1024 };
 
@@ -45,6 +51,18 @@ Run api_run(const RamifyRun *run)
 const char *ramify_version(void)
 {
     return RAMIFY_VERSION;
+}
+
+void ramify_libraries(char *text, size_t size)
+{
+    int major, minor, patch;
+    nlopt_version(&major, &minor, &patch);
+    snprintf(text, size,
+             "GCC %d.%d.%d, %s, Assimp %u.%u.%u, libyaml %s, NLopt %d.%d.%d, libseccomp %d.%d.%d",
+             __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__, libraries_compiled(),
+             aiGetVersionMajor(), aiGetVersionMinor(), aiGetVersionPatch(),
+             yaml_get_version_string(), major, minor, patch, SCMP_VER_MAJOR, SCMP_VER_MINOR,
+             SCMP_VER_MICRO);
 }
 
 static int text_size(size_t size)

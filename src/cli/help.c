@@ -70,7 +70,7 @@ static void print_program_help(void)
         }
         printf(" %s\n", command_table[i].doc);
     }
-    printf("  %-29s %s\n\n", "ramify --version", "print the version");
+    printf("  %-29s %s\n\n", "ramify --version", "print version, commit and libraries");
     printf("'ramify COMMAND --help' lists a command's options, 'ramify help COMMAND --man' prints "
            "its man "
            "page.\nExit status: 0 done, 1 failed while running, 2 bad command line or scene, 130 "

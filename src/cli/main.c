@@ -4,6 +4,17 @@
 
 #include <stdio.h>
 
+// Of the Makefile: the commit that was compiled, "-dirty" behind it if files were changed since, or
+// "unknown".
+extern const char program_commit[];
+
+static void print_version(void)
+{
+    char libraries[1024];
+    ramify_libraries(libraries, sizeof libraries);
+    printf("ramify %s\ncommit %s\nbuilt with %s\n", ramify_version(), program_commit, libraries);
+}
+
 // Prints the error and returns the exit status.
 static int report(const RamifyError *e)
 {
@@ -20,7 +31,7 @@ int main(int argc, char **argv)
     RamifyError e = {0};
     bool done = options_parse(&options, argc, argv, &e);
     if (done && options.version) {
-        printf("ramify %s\n", ramify_version());
+        print_version();
     } else if (done) {
         const Command *command = &command_table[options.help ? COMMAND_HELP : options.command];
         done = command->run(&options, &e);

@@ -19,9 +19,16 @@
 #include <time.h>
 #include <unistd.h>
 
-// Writing the two files of a picture, in units of the time in which it is developed without
-// denoising.
-#define ENCODING 3.0
+// Encoding files, in units of the time in which a picture is developed without denoising.
+#define PNG_ENCODING 2.0
+#define EXR_ENCODING 4.0
+
+enum { ROUGH_SAMPLES = 16 }; // previews of fewer samples are denoised
+
+// Processor seconds a pixel.
+typedef struct PixelCosts {
+    double plain, clean; // developing it, without and with denoising
+} PixelCosts;
 
 static double seconds_of(int who)
 {
@@ -58,12 +65,14 @@ double scene_memory_built(const Scene *scene)
     return fmax((double)memory_peak(), resident_bytes() + scene_film_memory(scene));
 }
 
-// A small noisy picture of a grey surface.
-static Film *make_sample(Error *e)
+// Some rows of a noisy picture of a grey surface: as wide as the picture, because the denoiser's
+// share of the caches depends on that.
+static Film *make_sample(int width, Error *e)
 {
-    enum { WIDTH = 256, HEIGHT = 160 };
-    Film *film = film_new(WIDTH, HEIGHT, e);
-    for (int i = 0; film && i < WIDTH * HEIGHT; i++) {
+    enum { ROWS = 48, MOST = 2048 };
+    width = width < MOST ? width : MOST;
+    Film *film = film_new(width, ROWS, e);
+    for (int i = 0; film && i < width * ROWS; i++) {
         film->color[i] = vec3_splat(0.2f + 0.1f * random_unit(random_key(1, (uint64_t)i)));
         film->albedo[i] = vec3_splat(0.5f);
         film->normal[i] = vec3(0, 0, 1);
@@ -85,7 +94,7 @@ static double thread_seconds(void)
 // of so short a time on waiting for each other than with a whole picture.
 static bool develop(const Scene *scene, bool denoise, const Run *run, double *seconds, Error *e)
 {
-    Film *film = make_sample(e);
+    Film *film = make_sample(scene->film.width, e);
     Image *image = NULL;
     double start = thread_seconds();
 #pragma omp parallel num_threads(2) // in which further parallel regions have one thread
@@ -100,19 +109,24 @@ static bool develop(const Scene *scene, bool denoise, const Run *run, double *se
     return image;
 }
 
-// Adds what tracing takes and the previews that are written meanwhile. first, preview: seconds for
-// the first look and for a preview. most: processor seconds that tracing may take.
-static void add_passes(Estimate *estimate, int samples, const PathCosts *costs, double pixels,
-                       double look, double preview, double most)
+// Adds what tracing takes and the previews that are written meanwhile. traced, all: pixels of the
+// crop and of the picture. most: processor seconds that tracing may take.
+static void add_passes(Estimate *estimate, const Scene *scene, const PathCosts *costs,
+                       const PixelCosts *pixel, double traced, double all, double most)
 {
-    double now = look, due = 0.0;
-    estimate->preview = look;
+    int samples = scene->render.samples;
+    double encode = all * PNG_ENCODING * pixel->plain;
+    double now = traced / 16.0 * probe_pass_seconds(costs, 0, 1) + all * pixel->plain + encode;
+    double due = 0.0;                            // of the next preview
+    estimate->preview = samples > 1 ? now : 0.0; // the first look
     for (int done = 0, end; done < samples && estimate->trace < most; done = end) {
         end = integrator_pass_end(done, samples);
-        double pass = pixels * probe_pass_seconds(costs, done, end);
+        double pass = traced * probe_pass_seconds(costs, done, end);
         estimate->trace += pass;
         now += pass;
         if ((end & (end - 1)) == 0 && end < samples && now >= due) {
+            bool denoised = scene->denoise || end < ROUGH_SAMPLES;
+            double preview = all * (denoised ? pixel->clean : pixel->plain) + encode;
             estimate->preview += preview;
             now += preview;
             due = 2.0 * now;
@@ -125,21 +139,25 @@ static bool estimate_picture(const Scene *scene, const Renderer *renderer, const
                              Estimate *estimate, Error *e)
 {
     PathCosts costs;
-    double plain, clean;
-    if (!renderer_probe(renderer, run, &costs, e) || !develop(scene, false, run, &plain, e) ||
-        !develop(scene, scene->denoise, run, &clean, e)) {
+    PixelCosts pixel;
+    if (!renderer_probe(renderer, run, &costs, e) || !develop(scene, false, run, &pixel.plain, e)) {
+        return false;
+    }
+    pixel.clean = pixel.plain;
+    // a denoiser that is missing matters only to previews if the scene does not ask for it
+    if (!develop(scene, true, run, &pixel.clean, scene->denoise ? e : NULL) && scene->denoise) {
         return false;
     }
     const FilmParams *film = &scene->film;
     PixelBox crop = film_crop_pixels(film->width, film->height, film->crop);
     double traced = (double)(crop.x1 - crop.x0) * (crop.y1 - crop.y0),
            all = (double)film->width * film->height;
-    estimate->paths = (int64_t)traced * scene->render.samples;
-    estimate->write = all * (clean + ENCODING * plain);
-    double look = traced / 16.0 * probe_pass_seconds(&costs, 0, 1) + all * plain;
     const RenderParams *render = &scene->render;
     double most = render->max_seconds > 0.0 ? run->threads * render->max_seconds : (double)INFINITY;
-    add_passes(estimate, render->samples, &costs, traced, look, all * clean, most);
+    estimate->paths = (int64_t)traced * render->samples;
+    estimate->write = all * ((scene->denoise ? pixel.clean : pixel.plain) +
+                             (PNG_ENCODING + EXR_ENCODING) * pixel.plain);
+    add_passes(estimate, scene, &costs, &pixel, traced, all, most);
     estimate->memory = scene_memory_built(scene);
     return true;
 }

@@ -28,6 +28,8 @@ hash() { cksum <"$1"; }
 
 check version 0 "$RAMIFY" --version
 says version_number out "ramify 0."
+matches version_commit out '^commit [0-9a-f]\{12\}\(-dirty\)*$\|^commit unknown$'
+says version_libraries out 'OpenSubdiv 3.'
 check help 0 "$RAMIFY" --help
 says help_lists_commands out "ramify render SCENE"
 check help_of_a_command 0 "$RAMIFY" help render

@@ -1,0 +1,25 @@
+#include "api/libraries.h"
+
+#include <Imath/ImathConfig.h>
+#include <OpenColorIO/OpenColorABI.h>
+#include <OpenEXR/OpenEXRConfig.h>
+#include <OpenImageIO/oiioversion.h>
+#include <embree3/rtcore_config.h>
+#include <oneapi/tbb/version.h>
+#include <opensubdiv/version.h>
+#include <openvdb/version.h>
+
+#define TEXT_OF(x) #x
+#define TEXT(x) TEXT_OF(x)
+#define OIIO TEXT(OIIO_VERSION_MAJOR) "." TEXT(OIIO_VERSION_MINOR) "." TEXT(OIIO_VERSION_PATCH)
+#define OSD                        \
+    TEXT(OPENSUBDIV_VERSION_MAJOR) \
+    "." TEXT(OPENSUBDIV_VERSION_MINOR) "." TEXT(OPENSUBDIV_VERSION_PATCH)
+
+const char *libraries_compiled(void)
+{
+    return "Embree " RTC_VERSION_STRING ", OpenSubdiv " OSD
+           ", OpenVDB " OPENVDB_LIBRARY_VERSION_STRING ", OpenImageIO " OIIO
+           ", OpenEXR " OPENEXR_VERSION_STRING ", Imath " IMATH_VERSION_STRING
+           ", OpenColorIO " OCIO_VERSION ", TBB " TBB_VERSION_STRING;
+}
