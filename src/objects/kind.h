@@ -11,7 +11,7 @@
 #include "objects/common/recipe.h"
 #include "outtree/flow.h"
 
-enum { OBJECT_MOST_MATERIALS = 8 };
+enum { OBJECT_MOST_MATERIALS = 12 };
 
 // Another object, whose surface a growth keeps clear of.
 typedef struct ClearOf {
@@ -162,6 +162,13 @@ typedef struct Kind {
 
 #define SNOW_MATERIAL_ROW(INDEX) \
     MATERIAL_ROW(INDEX, "snow_material", "Material of settled snow; default: snow.")
+
+#define VETERAN_MATERIAL_ROWS(DEADWOOD, MISTLETOE, MOSS)                                   \
+    MATERIAL_ROW(DEADWOOD, "deadwood_material",                                            \
+                 "Material of dead limbs and of knots, without bark; default: deadwood."), \
+        MATERIAL_ROW(MISTLETOE, "mistletoe_material",                                      \
+                     "Material of mistletoe; default: mistletoe."),                        \
+        MATERIAL_ROW(MOSS, "moss_material", "Material of tufts of moss; default: moss.")
 
 #define RIME_MATERIAL_ROW(INDEX)         \
     MATERIAL_ROW(INDEX, "rime_material", \

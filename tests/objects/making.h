@@ -25,7 +25,7 @@ static inline Grown grown_of(const OutTree *tree)
 // Materials 0, 1, 2, ... by role, nothing around.
 static inline Placing placing_in(Geometry *geometry, const Recipe *recipe)
 {
-    static const int material[] = {0, 1, 2, 3, 4, 5, 6};
+    static const int material[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
     return (Placing){.recipe = recipe, .geometry = geometry, .material = material};
 }
 

@@ -181,6 +181,132 @@ static void attractors_form_a_crown_that_light_fills(void **state)
     }
 }
 
+// A veteran has dead limbs, the more the older it is, in its upper crown; a young tree has none.
+static void old_trees_have_dead_tops(void **state)
+{
+    (void)state;
+    static const float age[] = {60.0f, 120.0f, 180.0f, 300.0f};
+    double last = 0.0;
+    for (int i = 0; i < 4; i++) {
+        TreeParams params = bare_tree();
+        params.light.growth.seasons = 24;
+        params.light.growth.snags = 0.0f; // stubs are dead wood, too
+        params.veteran.dead_limbs = 0.4f;
+        params.age = age[i];
+        OutTree *tree = grow(&params, 4);
+        double dead = measured(&params, tree, "dead_share"), wanted = i < 2 ? 0.0 : 0.2 * (i - 1);
+        assert_true(dead >= 0.6 * wanted && dead <= 1.1 * wanted);
+        assert_true(i < 2 || dead > 1.4 * last);
+        last = dead;
+        double height = 0.0, living = 0.0, nodes = 0.0, alive = 0.0;
+        for (int64_t k = 0; k < tree->count; k++) {
+            bool snag = tree->colony[k] == TREE_SNAGS;
+            assert_true(!snag || tree->radius[k] >= 0.01f); // twigs have fallen
+            height += snag ? (double)tree->position[k].y : 0.0;
+            nodes += snag;
+            living += tree->colony[k] == TREE_CROWN ? (double)tree->position[k].y : 0.0;
+            alive += tree->colony[k] == TREE_CROWN;
+        }
+        assert_true(i < 2 || height / nodes > living / alive);
+        out_tree_free(tree);
+    }
+}
+
+static void mistletoe_grows_on_grown_up_trees(void **state)
+{
+    (void)state;
+    static const float age[] = {20.0f, 120.0f};
+    static const double balls[] = {0.0, 12.0};
+    for (int i = 0; i < 2; i++) {
+        TreeParams params = bare_tree();
+        params.light.growth.seasons = 24;
+        params.veteran.mistletoe = 12;
+        params.age = age[i];
+        OutTree *tree = grow(&params, 4);
+        assert_float_equal(measured(&params, tree, "mistletoe"), balls[i], 0.0);
+        out_tree_free(tree);
+    }
+}
+
+// With healing, old stubs become knots, nodes inside the wood that bore the limb; living wood
+// stays as it is.
+static void old_stubs_heal_to_knots(void **state)
+{
+    (void)state;
+    TreeParams params = bare_tree();
+    params.light.growth.seasons = 30;
+    OutTree *stubs = grow(&params, 4);
+    params.light.healing = 6;
+    OutTree *healed = grow(&params, 4);
+    int64_t count[2][TREE_COLONIES] = {0};
+    for (int64_t i = 0; i < stubs->count; i++) {
+        count[0][stubs->colony[i]]++;
+    }
+    for (int64_t i = 0; i < healed->count; i++) {
+        count[1][healed->colony[i]]++;
+        if (healed->colony[i] == TREE_KNOTS) {
+            int32_t base = healed->parent[i];
+            assert_true(healed->colony[base] <= TREE_CROWN);
+            float away = vec3_distance(healed->position[i], healed->position[base]);
+            assert_true(away < 0.6f * healed->radius[base]);
+        }
+    }
+    assert_int_equal(count[0][TREE_TRUNK], count[1][TREE_TRUNK]);
+    assert_int_equal(count[0][TREE_CROWN], count[1][TREE_CROWN]);
+    assert_true(count[0][TREE_KNOTS] == 0 && count[1][TREE_KNOTS] > 50);
+    assert_true(count[1][TREE_SNAGS] < count[0][TREE_SNAGS]);
+    out_tree_free(stubs);
+    out_tree_free(healed);
+}
+
+static int64_t count_parts(const Geometry *geometry, int role, int64_t *instances, int64_t *faces)
+{
+    int64_t parts = 0;
+    *instances = *faces = 0;
+    for (int64_t i = 0; i < geometry->count; i++) {
+        if (geometry->part[i].material == role) {
+            parts++;
+            *instances += geometry->part[i].instance_count;
+            *faces += geometry->part[i].mesh ? geometry->part[i].mesh->face_count : 0;
+        }
+    }
+    return parts;
+}
+
+// Dead wood, mistletoe, moss and knots are parts of their own materials, in their number, and no
+// tuft of moss is higher than the foot.
+static void what_years_leave_has_geometry(void **state)
+{
+    (void)state;
+    TreeParams params = bare_tree();
+    params.light.growth.seasons = 24;
+    params.skin.levels = 1;
+    params.age = 240.0f;
+    params.light.healing = 6;
+    params.veteran = (VeteranParams){.dead_limbs = 0.3f, .mistletoe = 9, .moss = 200};
+    Run run = run_default();
+    Recipe recipe = {.seed = 4, .label = "oak", .run = &run};
+    Grown grown;
+    assert_true(kind_grow(&kind_tree, &params, &recipe, 1.0f, NULL, &grown, NULL));
+    Geometry geometry = {0};
+    Placing placing = placing_in(&geometry, &recipe);
+    assert_true(kind_tree.geometry(&params, &grown, &placing, NULL));
+    int64_t instances, faces;
+    assert_true(count_parts(&geometry, TREE_DEADWOOD, &instances, &faces) >= 2 && faces > 500);
+    assert_true(count_parts(&geometry, TREE_MISTLETOE, &instances, &faces) > 0);
+    assert_int_equal(instances, 9);
+    assert_true(count_parts(&geometry, TREE_MOSS, &instances, &faces) > 0);
+    assert_int_equal(instances, 200);
+    for (int64_t i = 0; i < geometry.count; i++) {
+        const Part *part = &geometry.part[i];
+        for (int64_t k = 0; part->material == TREE_MOSS && k < part->instance_count; k++) {
+            assert_true(part->instance[k].m[1][3] < 2.0f);
+        }
+    }
+    geometry_clear(&geometry);
+    grown_clear(&grown);
+}
+
 static void stems_grow_beside_each_other(void **state)
 {
     (void)state;
@@ -236,6 +362,10 @@ int main(void)
         cmocka_unit_test(height_and_age_imply_each_other),
         cmocka_unit_test(light_fills_limbs_that_attractors_laid),
         cmocka_unit_test(attractors_form_a_crown_that_light_fills),
+        cmocka_unit_test(old_trees_have_dead_tops),
+        cmocka_unit_test(mistletoe_grows_on_grown_up_trees),
+        cmocka_unit_test(old_stubs_heal_to_knots),
+        cmocka_unit_test(what_years_leave_has_geometry),
         cmocka_unit_test(stems_grow_beside_each_other),
         cmocka_unit_test(stems_scatter_inside_their_circle),
     };

@@ -49,7 +49,8 @@ static const Case scenes[] = {
      ":1:39: unknown key 'max_cuont' in objects.oak.tree.leaves; did you mean 'max_count'?"},
     {"objects: [{name: oak, tree: {transform: 5}}]\n",
      ":1:30: unknown key 'transform' in objects.oak.tree; known: species, position, height, age, "
-     "grown_by, light, seed, season, latitude, phenology, snow, trunk, crown, roots, radii, "
+     "grown_by, light, seed, season, latitude, phenology, snow, veteran, trunk, crown, roots, "
+     "radii, "
      "leaves, "
      "organs, skin"},
     {"{}", ":1:1: the scene has no 'objects'; this key is required: Objects of the scene."},

@@ -71,7 +71,9 @@ typedef struct LightSite {
     float tip,
         girth;      // m: radius of a tip and of the thickest stem's base (see out_tree_pipe_radii)
     float exponent; // of the pipe model if girth is 0
-    int32_t colony[3]; // of the nodes of stems, of branches, of snags
+    int healing; // seasons after its death in which a branch's stub has fallen and its place been
+                 // overgrown: a knot, one node inside the wood; 0 = stubs stay
+    int32_t colony[4]; // of the nodes of stems, of branches, of snags, of knots
     uint64_t seed;
 } LightSite;
 

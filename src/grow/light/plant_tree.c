@@ -8,6 +8,14 @@
 
 #define STUB_GIRTHS 9.0f // a stub is at most so many of its radii long
 #define LEAST_STUB 2.0f  // thinnest branch that leaves one, in tips
+#define KNOT_DEPTH 0.5f  // of the wood's radius: how far out a knot's node lies
+
+static bool is_knot(const Plant *plant, const Metamer *m, const LightSite *site)
+{
+    return site->healing > 0 && m->died != PLANT_ALIVE && m->parent >= 0 &&
+           plant->metamer[m->parent].died == PLANT_ALIVE &&
+           site->seasons - m->died >= site->healing;
+}
 
 typedef struct WoodShape {
     float *radius; // m, per metamer
@@ -60,6 +68,10 @@ static void choose_kept(const Plant *plant, const LightParams *params, const Lig
         const Metamer *m = &plant->metamer[i];
         shape->stub[i] = 0.0f;
         shape->kept[i] = m->died == PLANT_ALIVE;
+        if (is_knot(plant, m, site)) {
+            shape->kept[i] = shape->radius[i] >= LEAST_STUB * site->tip;
+            continue;
+        }
         if (shape->kept[i] || m->parent < 0 || params->snags <= 0.0f) {
             continue;
         }
@@ -77,9 +89,23 @@ static void choose_kept(const Plant *plant, const LightParams *params, const Lig
     }
 }
 
-static int32_t colony_of(const Metamer *m, const LightSite *site)
+static int32_t colony_of(const Plant *plant, const Metamer *m, const LightSite *site)
 {
-    return m->died != PLANT_ALIVE ? site->colony[2] : site->colony[m->order > 0];
+    int32_t dead = site->colony[is_knot(plant, m, site) ? 3 : 2];
+    return m->died != PLANT_ALIVE ? dead : site->colony[m->order > 0];
+}
+
+// m; a knot's node lies inside the wood that bears it.
+static Vec3 place_of(const Plant *plant, int64_t i, const LightSite *site, const WoodShape *shape)
+{
+    const Metamer *m = &plant->metamer[i];
+    if (!is_knot(plant, m, site)) {
+        return vec3_madd(site->foot, site->internode, m->position);
+    }
+    Vec3 base = plant->metamer[m->parent].position;
+    Vec3 d = vec3_normalize(vec3_sub(m->position, base));
+    return vec3_madd(vec3_madd(site->foot, site->internode, base),
+                     KNOT_DEPTH * shape->radius[m->parent], d);
 }
 
 static bool add_nodes(const Plant *plant, const LightSite *site, const WoodShape *shape,
@@ -91,8 +117,8 @@ static bool add_nodes(const Plant *plant, const LightSite *site, const WoodShape
             continue;
         }
         int32_t parent = m->parent >= 0 ? node[m->parent] : -1;
-        Vec3 at = vec3_madd(site->foot, site->internode, m->position);
-        int64_t made = out_tree_add_node(tree, at, parent, m->birth, colony_of(m, site), m->id, e);
+        int64_t made = out_tree_add_node(tree, place_of(plant, i, site, shape), parent, m->birth,
+                                         colony_of(plant, m, site), m->id, e);
         if (made < 0) {
             return false;
         }

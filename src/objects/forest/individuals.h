@@ -30,7 +30,7 @@ void individuals_free(Individuals *all);
 
 // Grows them as one out-tree: node colonies are COLONIES * (index of the individual) + that of a
 // tree.
-enum { INDIVIDUAL_COLONIES = 4 };
+enum { INDIVIDUAL_COLONIES = TREE_COLONIES };
 bool individuals_grow(const Individuals *all, const Recipe *recipe, OutTree *into, Error *e);
 
 // The nodes of one individual, moved to the origin, with a tree's colonies.

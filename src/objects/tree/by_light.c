@@ -48,7 +48,8 @@ static LightSite plan_site(const TreePlan *plan, uint64_t seed)
                        .tip = tree->radii.tip,
                        .girth = tree->trunk.radius,
                        .exponent = tree->radii.exponent,
-                       .colony = {TREE_TRUNK, TREE_CROWN, TREE_SNAGS},
+                       .healing = tree->light.healing,
+                       .colony = {TREE_TRUNK, TREE_CROWN, TREE_SNAGS, TREE_KNOTS},
                        .seed = random_key(seed, STREAM_LIGHT)};
 }
 

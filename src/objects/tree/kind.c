@@ -4,6 +4,7 @@
 #include "objects/common/swept.h"
 #include "objects/tree/defaults.h"
 #include "objects/tree/tree.h"
+#include "objects/tree/veteran.h"
 #include "outtree/measure_wood.h"
 #include "render/material/material.h"
 
@@ -131,7 +132,7 @@ static bool measure_wood(const TreeParams *params, const OutTree *tree, MeasureL
     OutTree *above = out_tree_copy(tree, e);
     bool *keep = above ? memory_alloc(tree->count, sizeof *keep, e) : NULL;
     for (int64_t i = 0; keep && i < tree->count; i++) {
-        keep[i] = tree->colony[i] != TREE_ROOTS;
+        keep[i] = tree->colony[i] != TREE_ROOTS && tree->colony[i] != TREE_KNOTS;
     }
     bool done = keep && out_tree_keep_nodes(above, keep, e) &&
                 out_tree_measure_wood(above, params->position.y, list, e);
@@ -140,17 +141,34 @@ static bool measure_wood(const TreeParams *params, const OutTree *tree, MeasureL
     return done;
 }
 
+static bool measure_veteran(const TreeParams *given, const OutTree *tree, uint64_t seed,
+                            MeasureList *list, Error *e)
+{
+    TreePlan plan;
+    tree_plan_make(&plan, given, seed);
+    int64_t knots = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        knots += tree->colony[i] == TREE_KNOTS;
+    }
+    return measures_add(list, "dead_share", tree_dead_share(tree), "", (double)NAN, (double)NAN,
+                        e) &&
+           measures_add(list, "mistletoe", tree_mistletoe(tree, &plan.params, seed, NULL), "",
+                        (double)NAN, (double)NAN, e) &&
+           measures_add(list, "knots", (double)knots, "", (double)NAN, (double)NAN, e);
+}
+
 // Natural ranges: radii after Eloy (2011); the others are typical of broad-leaved trees.
 static bool measure(const void *given, const Grown *grown, const Recipe *recipe, MeasureList *list,
                     Error *e)
 {
-    (void)recipe;
     measures_set_range(list, "radius_exponent", 1.8, 2.3);
     measures_set_range(list, "branch_angle", 30.0, 70.0);
     measures_set_range(list, "horton_number", 3.0, 5.0);
     measures_set_range(list, "tip_radius", 0.0005, 0.002);
     return measure_height(given, grown->tree, list, e) &&
-           measure_wood(given, grown->tree, list, e) && measure_swept(given, grown->tree, list, e);
+           measure_wood(given, grown->tree, list, e) &&
+           measure_swept(given, grown->tree, list, e) &&
+           measure_veteran(given, grown->tree, recipe ? recipe->seed : 0, list, e);
 }
 
 static void needs(const void *params, Needs *needs)
@@ -174,7 +192,7 @@ static void needs(const void *params, Needs *needs)
 }
 
 // Snow: nearly white, with grains. Petals: white with a touch of pink, thin. Fruit: a ripe apple.
-// Cones: dry wood.
+// Cones: dry wood. Dead wood: weathered to grey.
 static const Material BUILTIN[] = {
     {.name = "snow",
      .kind = MATERIAL_DIFFUSE,
@@ -223,6 +241,35 @@ static const Material BUILTIN[] = {
      .specular = 0.4f,
      .ior = 1.5f,
      .variation = 0.25f},
+    {.name = "deadwood",
+     .kind = MATERIAL_PRINCIPLED,
+     .color = {0.300f, 0.275f, 0.245f},
+     .color2 = {0.120f, 0.100f, 0.082f},
+     .roughness = 0.85f,
+     .specular = 0.2f,
+     .ior = 1.5f,
+     .pattern = PATTERN_BARK,
+     .bark = BARK_FIBROUS,
+     .pattern_scale = 0.03f,
+     .pattern_depth = 0.003f},
+    {.name = "mistletoe",
+     .kind = MATERIAL_LEAF,
+     .color = {0.150f, 0.185f, 0.050f},
+     .color2 = {0.185f, 0.200f, 0.070f},
+     .transmittance = {0.050f, 0.075f, 0.010f},
+     .roughness = 0.6f,
+     .specular = 0.2f,
+     .ior = 1.5f,
+     .variation = 0.25f},
+    {.name = "moss",
+     .kind = MATERIAL_LEAF,
+     .color = {0.055f, 0.085f, 0.018f},
+     .color2 = {0.095f, 0.110f, 0.028f},
+     .transmittance = {0.035f, 0.055f, 0.006f},
+     .roughness = 0.8f,
+     .specular = 0.1f,
+     .ior = 1.5f,
+     .variation = 0.4f},
     {.name = ""},
 };
 
@@ -232,13 +279,15 @@ static const Key MATERIALS[] = {
     LEAF_MATERIAL_ROW(2),
     ORGAN_MATERIAL_ROWS(TREE_BLOSSOM, TREE_FRUIT, TREE_CONE, TREE_STALK),
     SNOW_MATERIAL_ROW(TREE_SNOW),
+    VETERAN_MATERIAL_ROWS(TREE_DEADWOOD, TREE_MISTLETOE, TREE_MOSS),
     {0},
 };
 
 const Kind kind_tree = {
     .variant = {KIND_ROW("tree", &tree_table, "A tree; the defaults make an oak."), MATERIALS},
     .carried = true,
-    .materials = {"bark", "twig", "leaf", "blossom", "fruit", "cone", "stalk", "snow"},
+    .materials = {"bark", "twig", "leaf", "blossom", "fruit", "cone", "stalk", "snow", "deadwood",
+                  "mistletoe", "moss"},
     .builtin = BUILTIN,
     .own_space = own_space,
     .seed = own_seed,

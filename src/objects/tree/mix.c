@@ -23,6 +23,9 @@ static const Key SHARE_KEYS[] = {
     SHARE_MATERIAL(TREE_CONE, "cone_material", "Material of cones, catkins and buds."),
     SHARE_MATERIAL(TREE_STALK, "stalk_material", "Material of stalks."),
     SHARE_MATERIAL(TREE_SNOW, "snow_material", "Material of settled snow."),
+    SHARE_MATERIAL(TREE_DEADWOOD, "deadwood_material", "Material of dead wood without bark."),
+    SHARE_MATERIAL(TREE_MISTLETOE, "mistletoe_material", "Material of mistletoe."),
+    SHARE_MATERIAL(TREE_MOSS, "moss_material", "Material of moss."),
     {0},
 };
 
@@ -46,9 +49,10 @@ const Table tree_share_table = {.name = "tree_share",
 const char *tree_mix_material(const TreeShare *mix, int count, int i)
 {
     static const char *const OWN[TREE_ROLES] = {
-        [TREE_BARK] = "bark",       [TREE_TWIG] = "twig",   [TREE_LEAF] = "leaf",
-        [TREE_BLOSSOM] = "blossom", [TREE_FRUIT] = "fruit", [TREE_CONE] = "cone",
-        [TREE_STALK] = "stalk",     [TREE_SNOW] = "snow"};
+        [TREE_BARK] = "bark",           [TREE_TWIG] = "twig",   [TREE_LEAF] = "leaf",
+        [TREE_BLOSSOM] = "blossom",     [TREE_FRUIT] = "fruit", [TREE_CONE] = "cone",
+        [TREE_STALK] = "stalk",         [TREE_SNOW] = "snow",   [TREE_DEADWOOD] = "deadwood",
+        [TREE_MISTLETOE] = "mistletoe", [TREE_MOSS] = "moss"};
     if (i >= count * TREE_ROLES) {
         return NULL;
     }

@@ -4,8 +4,6 @@
 
 #include "objects/tree/tree.h"
 
-enum { TREE_ROLES = TREE_SNOW + 1 };
-
 typedef struct TreeShare {
     float share; // of the wood's trees, relative to the others'
     TreeParams *tree;

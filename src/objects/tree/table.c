@@ -235,6 +235,10 @@ static const Key LIGHT_KEYS[] = {
     {LIGHT_KEY(growth.bole, "bole", KEY_FLOAT), .high = 1,
      .doc = "Height below which the trunk loses its branches, as a fraction of the tree's height; "
             "crown.base, if given, replaces it."},
+    {LIGHT_KEY(healing, "healing", KEY_INT), .high = 1000, .unit = "seasons",
+     .doc =
+         "Simulated seasons after which the stub of a shed branch has fallen and its place been "
+         "overgrown: a ring of callus about dead wood, where a limb really was. 0 = stubs stay."},
     {LIGHT_KEY(growth.snags, "snags", KEY_FLOAT), .high = 1,
      .doc = "Length of the dead stub that a shed branch leaves, as a fraction of the branch's "
             "length; thick branches leave short stubs. 0 = none."},
@@ -256,6 +260,31 @@ static const Table LIGHT_TABLE = {
                "plagiotropy: 0.9}\n",
     .size = sizeof(TreeLight),
     .keys = LIGHT_KEYS};
+
+static const Key VETERAN_KEYS[] = {
+    {KEY_OF(VeteranParams, dead_limbs, "dead_limbs", KEY_FLOAT), .high = 0.9,
+     .doc = "Share of the limbs' wood that is dead in a tree of twice its light.mature_age, the "
+            "highest limbs first: bare, grey, without bark and twigs. Less in younger trees; none "
+            "up to that age."},
+    {KEY_OF(VeteranParams, mistletoe, "mistletoe", KEY_INT), .high = 10000,
+     .doc = "Number of balls of mistletoe in the crown of a grown-up tree; fewer in a younger one, "
+            "none below 0.3 of light.mature_age."},
+    {KEY_OF(VeteranParams, moss, "moss", KEY_INT), .high = 1000000,
+     .doc = "Number of tufts of moss on trunk and roots at the foot, most on what faces up or away "
+            "from the sun (-z)."},
+    {0},
+};
+
+static const Table VETERAN_TABLE = {
+    .name = "veteran",
+    .doc = "What the years leave on a tree that is grown by light. Material of bark has moss, "
+           "lichen, hollows and ribs.",
+    .example = "objects:\n"
+               "  - name: old_oak\n"
+               "    tree: {species: pedunculate_oak, age: 350, veteran: {dead_limbs: 0.3, moss: "
+               "3000}}\n",
+    .size = sizeof(VeteranParams),
+    .keys = VETERAN_KEYS};
 
 static const EnumName GROWN_BY_NAMES[] = {{"auto", GROWN_BY_AUTO},
                                           {"light", GROWN_BY_LIGHT},
@@ -292,6 +321,8 @@ static const Key TREE_KEYS[] = {
     PHENOLOGY_ROWS(TreeParams),
     {KEY_OF(TreeParams, snow, "snow", KEY_GROUP), .table = &snow_table,
      .doc = "Snow that has settled on the branches."},
+    {KEY_OF(TreeParams, veteran, "veteran", KEY_GROUP), .table = &VETERAN_TABLE,
+     .doc = "Dead limbs, mistletoe, moss."},
     {KEY_OF(TreeParams, trunk, "trunk", KEY_GROUP), .table = &TRUNK_TABLE,
      .doc = "The trunk. It grows straight up unless lean, a tropism of its growth or a field bends "
             "it."},

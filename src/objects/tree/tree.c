@@ -10,6 +10,7 @@
 #include "objects/tree/defaults.h"
 #include "objects/tree/limbs.h"
 #include "objects/tree/ribs.h"
+#include "objects/tree/veteran.h"
 #include "outtree/radii.h"
 
 #include <stdlib.h>
@@ -337,7 +338,8 @@ bool tree_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e)
         return false;
     }
     tree_compute_radii(whole->tree, tree, by_light);
-    if (!tree_round_ends(whole->tree, tree, e)) {
+    if (!tree_round_ends(whole->tree, tree, e) ||
+        (by_light && !tree_kill_limbs(whole->tree, tree, seed, e))) {
         return false;
     }
     return tree->roots.count <= 0 ||

@@ -69,7 +69,14 @@ typedef struct TreeLight {
     ReachParams attractors;
     float mature_height; // m, of a grown-up tree
     float mature_age;    // years
+    int healing;         // see LightSite
 } TreeLight;
+
+typedef struct VeteranParams {
+    float dead_limbs; // 0..1: share of the limbs' wood, of a tree of twice its mature age
+    int mistletoe;    // balls on a grown-up tree
+    int moss;         // tufts at the foot
+} VeteranParams;
 
 typedef struct TreeParams {
     char *species; // NULL: what it names is applied before the file is loaded (scene/species.h)
@@ -91,13 +98,15 @@ typedef struct TreeParams {
     float latitude; // degrees
     Phenology phenology;
     SnowParams snow;
+    VeteranParams veteran;
 } TreeParams;
 
 // Nodes of a main root's start, from inside the trunk's flare to where growth begins.
 enum { TREE_ROOT_PIECES = 6 };
 
-// Colonies of the out-trees that tree_grow makes. The last two bear no leaves.
-enum { TREE_TRUNK, TREE_CROWN, TREE_ROOTS, TREE_SNAGS };
+// Colonies of the out-trees that tree_grow makes. The last three bear no leaves: roots, dead wood
+// and the places of overgrown limbs (one node inside the wood).
+enum { TREE_TRUNK, TREE_CROWN, TREE_ROOTS, TREE_SNAGS, TREE_KNOTS, TREE_COLONIES };
 
 // Roles of materials.
 enum {
@@ -108,7 +117,11 @@ enum {
     TREE_FRUIT,
     TREE_CONE,
     TREE_STALK,
-    TREE_SNOW
+    TREE_SNOW,
+    TREE_DEADWOOD,
+    TREE_MISTLETOE,
+    TREE_MOSS,
+    TREE_ROLES
 };
 
 // Streams of the object's seed. The lobes of the default crown share the trunk's number.
