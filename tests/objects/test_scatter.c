@@ -151,6 +151,32 @@ static void clumps(void **state)
     scatter_places_free(&clumped);
 }
 
+static bool is_flooded(const void *user, Vec3 p)
+{
+    (void)user;
+    return p.x > 1.0f;
+}
+
+static void keeps_to_its_side_of_the_shore(void **state)
+{
+    (void)state;
+    Thing thing = {.share = 1.0f};
+    ScatteringParams scatter = of_things(&thing, 1);
+    scatter.count = 200;
+    Run run = run_default();
+    Recipe recipe = {.seed = 4, .run = &run};
+    Flood flood = {is_flooded, NULL};
+    for (int wet = 0; wet < 2; wet++) {
+        scatter.in_water = wet;
+        ScatterPlaces places = places_of(&scatter, &recipe, &(Surroundings){.flood = &flood});
+        assert_int_equal(places.count, 200);
+        for (int64_t i = 0; i < places.count; i++) {
+            assert_int_equal(foot(&places.place[i]).x > 1.0f, wet);
+        }
+        scatter_places_free(&places);
+    }
+}
+
 static void copies_every_thing(void **state)
 {
     (void)state;
@@ -191,6 +217,7 @@ int main(void)
         cmocka_unit_test(stops_where_there_is_no_room),
         cmocka_unit_test(keeps_to_slopes_and_shares),
         cmocka_unit_test(clumps),
+        cmocka_unit_test(keeps_to_its_side_of_the_shore),
         cmocka_unit_test(copies_every_thing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

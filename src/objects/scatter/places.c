@@ -120,7 +120,7 @@ static bool is_allowed(const Search *s, const Spot *spot)
     bool near = !s->surface || (distance >= params->inner &&
                                 (params->radius == 0.0f || distance <= params->radius));
     return near && within(slope, params->slope) && within(spot->p.y, params->altitude) &&
-           !flood_covers(s->around->flood, spot->p);
+           flood_covers(s->around->flood, spot->p) == params->in_water;
 }
 
 static int choose_thing(const Search *s, uint64_t key)

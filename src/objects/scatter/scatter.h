@@ -24,6 +24,7 @@ typedef struct ScatteringParams {
     float altitude[2]; // m
     float align;       // 0 = upright .. 1 = along the surface's normal
     float sink;        // m below the surface, of a copy of scale 1
+    bool in_water;     // in water, not outside of it
     int variants;      // of each thing
     Thing *things;
     int thing_count;
@@ -38,8 +39,8 @@ typedef struct ScatterPlaces {
 
 ScatteringParams scattering_params_default(void);
 
-// On the recipe's surface, or else on the land and outside of water. Fewer than params->count if
-// there is no room for more. Clear with scatter_places_free, also on failure.
+// On the recipe's surface, or else on the land; outside of water or in it. Fewer than params->count
+// if there is no room for more. Clear with scatter_places_free, also on failure.
 bool scatter_places_init(ScatterPlaces *places, const ScatteringParams *params,
                          const Recipe *recipe, const Surroundings *around, Error *e);
 void scatter_places_free(ScatterPlaces *places);

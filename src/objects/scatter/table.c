@@ -93,6 +93,8 @@ static const Key SCATTER_KEYS[] = {
      .doc = "How far copies turn from upright (0) to the surface's normal (1)."},
     {KEY_OF(ScatteringParams, sink, "sink", KEY_FLOAT), .low = -1000, .high = 1000, .unit = "m",
      .doc = "Depth of the origin below the surface, for a copy of scale 1."},
+    {KEY_OF(ScatteringParams, in_water, "in_water", KEY_BOOL),
+     .doc = "Stand in water, as reeds do, instead of outside of it."},
     {KEY_OF(ScatteringParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
      .doc = "Number of different individuals of each thing; all others are copies of them."},
     {0},
@@ -129,7 +131,7 @@ static void scatter_defaults(void *out)
 const Table scatter_table = {
     .name = "scatter",
     .doc = "Copies of any objects over the land or over the surface of another object: flowers, "
-           "stones, shrubs, trees, imported meshes. They do not stand in water.",
+           "stones, shrubs, trees, imported meshes.",
     .example = "objects:\n"
                "  - name: meadow\n"
                "    ground: {grass_tufts: 20000}\n"
