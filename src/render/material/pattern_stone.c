@@ -59,9 +59,9 @@ static Broken broken_at(Vec3 p, float scale, float footprint)
 // Fine roughness of the grain, as a share of the pattern's depth.
 static float grain_height(Vec3 p, float footprint)
 {
-    const float size = 0.016f; // m
-    float seen = pattern_detail(size, footprint);
-    return seen > 0.0f ? 0.05f * seen * noise_fractal(vec3_scale(p, 1.0f / size), 3, SEED_GRAIN)
+    const float size = 0.06f; // m, of its coarsest octave
+    float seen = pattern_detail(0.5f * size, footprint);
+    return seen > 0.0f ? 0.1f * seen * noise_fractal(vec3_scale(p, 1.0f / size), 5, SEED_GRAIN)
                        : 0.0f;
 }
 
@@ -104,11 +104,14 @@ static Vec3 relief_slope(const Material *m, const SurfacePoint *point)
 static Vec3 minerals(const Material *m, const SurfacePoint *point, Vec3 color, float joint)
 {
     Vec3 p = point->object_position;
-    const float grain = 0.006f; // m
+    const float grain = 0.006f, patch = 0.05f; // m
     float scale = scale_of(m);
     float stain = noise_fractal(vec3(p.x / scale, 0.35f * p.y / scale, p.z / scale), 4, SEED_STAIN);
     float weathered = smoothstepf(-0.3f, 0.4f, stain) * 0.85f + 0.6f * joint;
     color = vec3_lerp(color, m->color2, clampf(weathered, 0.0f, 1.0f));
+    float patches = pattern_detail(0.5f * patch, point->footprint);
+    patches *= noise_fractal(vec3_scale(p, 1.0f / patch), 3, SEED_GRAIN + 8);
+    color = vec3_scale(color, 1.0f + 0.3f * patches);
     float seen = pattern_detail(grain, point->footprint);
     if (seen > 0.0f) {
         CellPoint cell = noise_cells(vec3_scale(p, 1.0f / grain), SEED_GRAIN + 3);
