@@ -29,7 +29,7 @@ check whole 0 "$RAMIFY" render $scene -o whole.png -q
 # ---- tiles
 
 check tiles 0 "$RAMIFY" batch $scene --tiles 3x2 --pack 2 --jobs 2 -o all.png
-says tiles_says err '6 tiles, 2 a task'
+says tiles_says err 'tiles 2-3: done'
 yes tiles_have_the_bits cmp whole.exr all.exr
 yes tiles_have_the_display cmp whole.png all.png
 yes nothing_is_left_begun [ "$(ls all.batch/parts | wc -l)" -eq 6 ]
@@ -196,9 +196,10 @@ says slurm_missing_says err "'sbatch' cannot be started"
 PATH=$PWD/bin:$PATH
 check slurm 0 "$RAMIFY" batch $scene --tiles 5x4 --pack 3 -o s.png --engine slurm --partition q --sbatch=--time=7 --threads 3
 says slurm_says err 'submitted: tasks 1, merge 2'
+says slurm_estimate err '20 tiles, 3 a task; about'
 says slurm_array calls '--array=0-6 --output=logs/task-0%3a.log slurm/task.sh 0'
 says slurm_merge calls '--dependency=afterany:1 slurm/merge.sh'
-for line in '--cpus-per-task=3' '--partition=q' '--time=7' '--requeue' '--mem=1000M'; do
+for line in '--cpus-per-task=3' '--partition=q' '--time=7' '--requeue' '--mem=500M'; do
     yes "slurm_directive_$line" grep -qx "#SBATCH $line" s.batch/slurm/task.sh
 done
 for task in 0 3 6; do

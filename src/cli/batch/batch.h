@@ -69,13 +69,16 @@ bool batch_read_range(const char *text, int low, int high, int *first, int *last
 // ---- what a task costs: estimate.c
 
 typedef struct Estimate {
-    double start; // s, before the first part
-    double part;  // s, each
-    double bytes; // of memory
+    double start;  // s, before the first part
+    double part;   // s, each
+    double memory; // bytes
+    double merge;  // bytes of memory that the merge takes
 } Estimate;
 
-// For tasks of this many threads.
-Estimate batch_estimate(const Batch *batch, int threads);
+// For tasks of this many threads, by ramify_estimate, which grows the scene; its result is kept in
+// the folder's file `estimate`.
+bool batch_estimate(const Batch *batch, int threads, const Options *options, Estimate *cost,
+                    RamifyError *e);
 
 // Parts of one task: as --pack says, else so many that it takes some minutes.
 int batch_pack(const Batch *batch, const Options *options, const Estimate *cost);
@@ -83,8 +86,9 @@ int batch_pack(const Batch *batch, const Options *options, const Estimate *cost)
 // Threads of a task: as --threads says, else the processors of this machine by --jobs.
 int batch_threads(const Options *options);
 
-// Writes "64 tiles, 4 a task: about 3 min and 1.2 GB each" to stderr.
-void batch_print_estimate(const Batch *batch, int pack, const Estimate *cost);
+// Writes "64 tiles, 4 a task; about 3 min and 1.2 GB a task" to stderr, unless --quiet is given.
+void batch_print_estimate(const Batch *batch, const Options *options, int pack,
+                          const Estimate *cost);
 
 // ---- work
 

@@ -136,20 +136,23 @@ static bool run_tasks(Crew *crew, RamifyError *e)
                           crew->batch->folder));
 }
 
+// Without --pack, each job has one task: the scene is grown as often as there are jobs.
+static int local_pack(const Batch *batch, const Options *options, int jobs)
+{
+    int parts = batch->last - batch->first + 1;
+    return options->pack > 0 ? options->pack : (parts + jobs - 1) / jobs;
+}
+
 bool batch_local(const Batch *batch, const Options *options, RamifyError *e)
 {
-    int threads = batch_threads(options);
-    Estimate cost = batch_estimate(batch, threads);
+    int jobs = options->jobs > 0 ? options->jobs : 1;
     Crew crew = {.batch = batch,
                  .options = options,
                  .interrupted = interrupt_flag(),
-                 .jobs = options->jobs > 0 ? options->jobs : 1,
-                 .pack = batch_pack(batch, options, &cost),
-                 .threads = threads,
+                 .jobs = jobs,
+                 .pack = local_pack(batch, options, jobs),
+                 .threads = batch_threads(options),
                  .next = batch->first};
-    if (!options->quiet) {
-        batch_print_estimate(batch, crew.pack, &cost);
-    }
     crew.task = allocate(crew.jobs, sizeof *crew.task, e);
     bool done = crew.task && run_tasks(&crew, e);
     free(crew.task);

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MEMORY_FACTOR 1.5 // of the estimate
-#define CHUNK_SECONDS 180 // that farms aim at once they know how long a part takes
+#define MEMORY_FACTOR 1.25 // of the estimate
+#define CHUNK_SECONDS 180  // that farms aim at once they know how long a part takes
 
 static void put_parameters(FILE *stream, const Batch *batch)
 {
@@ -45,7 +45,7 @@ static void put_requirements(FILE *stream, const Estimate *cost, int threads)
             "      amounts:\n"
             "        - {name: amount.worker.vcpu, min: %d}\n"
             "        - {name: amount.worker.memory, min: %.0f} # MiB\n",
-            threads, ceil(MEMORY_FACTOR * cost->bytes / 1048576.0));
+            threads, ceil(MEMORY_FACTOR * cost->memory / 1048576.0));
 }
 
 static void put_steps(FILE *stream, const Batch *batch, const char *parts, int pack,
@@ -99,13 +99,17 @@ static char *list_parts(const Batch *batch, RamifyError *e)
 
 bool batch_openjd(const Batch *batch, const Options *options, RamifyError *e)
 {
-    char path[BATCH_PATH + 64], *template = NULL, *parts = list_parts(batch, e);
+    char path[BATCH_PATH + 64], *template = NULL;
     size_t size = 0;
     Error why = {0};
+    Estimate cost;
     int threads = batch_threads(options);
-    Estimate cost = batch_estimate(batch, threads);
+    char *parts = batch_estimate(batch, threads, options, &cost, e) ? list_parts(batch, e) : NULL;
+    if (!parts) {
+        return false;
+    }
     int pack = batch_pack(batch, options, &cost);
-    FILE *stream = parts ? open_memstream(&template, &size) : NULL;
+    FILE *stream = open_memstream(&template, &size);
     if (!stream) {
         free(parts);
         return fail(e, RAMIFY_MEMORY, "out of memory");
@@ -118,7 +122,7 @@ bool batch_openjd(const Batch *batch, const Options *options, RamifyError *e)
     free(template);
     free(parts);
     if (done && !options->quiet) {
-        batch_print_estimate(batch, pack, &cost);
+        batch_print_estimate(batch, options, pack, &cost);
         fprintf(stderr, "%s: written; submit it to a farm\n", path);
     }
     return done;

@@ -23,10 +23,10 @@ enum {
     WARNING_SECONDS = 120 // before the end of a task's time, to save what it has begun
 };
 
-#define TIME_FACTOR 3.0 // of the estimate, which is as uncertain as that
+#define TIME_FACTOR 2.0 // of the estimate: other machines are slower
 #define LEAST_MINUTES 10.0
-#define MEMORY_FACTOR 1.5
-#define LEAST_MEMORY 1e9 // bytes
+#define MEMORY_FACTOR 1.25
+#define LEAST_MEMORY 5e8 // bytes
 
 // A submission.
 typedef struct Submission {
@@ -56,7 +56,7 @@ static void put_directives(FILE *stream, const Submission *s, bool merge)
 {
     const Options *o = s->options;
     double seconds = merge ? 0.0 : s->cost.start + s->pack * s->cost.part;
-    double memory = fmax(LEAST_MEMORY, MEMORY_FACTOR * s->cost.bytes);
+    double memory = fmax(LEAST_MEMORY, MEMORY_FACTOR * (merge ? s->cost.merge : s->cost.memory));
     fprintf(stream, "#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=%d\n#SBATCH --mem=%.0fM\n",
             s->threads, ceil(memory * 1e-6));
     fprintf(stream, "#SBATCH --time=%.0f\n",
@@ -190,8 +190,6 @@ bool batch_slurm(const Batch *batch, const Options *options, RamifyError *e)
     char folder[BATCH_PATH + 16], said[256], sbatch_name[] = "sbatch", version[] = "--version";
     char *const probe[] = {sbatch_name, version, NULL};
     Submission s = {.batch = batch, .options = options, .threads = batch_threads(options)};
-    s.cost = batch_estimate(batch, s.threads);
-    s.pack = batch_pack(batch, options, &s.cost);
     if (!program_run(probe, said, sizeof said, e)) {
         RamifyError why = *e;
         return fail(e, why.code,
@@ -199,9 +197,11 @@ bool batch_slurm(const Batch *batch, const Options *options, RamifyError *e)
                     "runs the same here",
                     why.message);
     }
-    if (!options->quiet) {
-        batch_print_estimate(batch, s.pack, &s.cost);
+    if (!batch_estimate(batch, s.threads, options, &s.cost, e)) {
+        return false;
     }
+    s.pack = batch_pack(batch, options, &s.cost);
+    batch_print_estimate(batch, options, s.pack, &s.cost);
     snprintf(folder, sizeof folder, "%s/slurm", batch->folder);
     mkdir(folder, 0777); // writing tells what is wrong
     return write_script(&s, "task.sh", slurm_task_sh, false, e) &&
