@@ -562,6 +562,12 @@ RAMIFY_API bool ramify_film_write(const RamifyFilm *film, const RamifyScene *sce
                                   const char *file, bool denoise, const RamifyRun *run,
                                   RamifyError *error);
 
+// Writes an .exr of the pixels of the scene's crop (film.crop) alone, which is their data window in
+// the display window of the picture: a part, for ramify_film_join, or to go on with by
+// ramify_film_read. Not denoised.
+RAMIFY_API bool ramify_film_write_part(const RamifyFilm *film, const RamifyScene *scene,
+                                       const char *file, RamifyError *error);
+
 typedef struct RamifyRenderer RamifyRenderer;
 
 // RAMIFY_BAD_INPUT if this machine does not support the instruction set isa. NULL is fine.

@@ -119,6 +119,13 @@ bool ramify_film_write(const RamifyFilm *film, const RamifyScene *scene, const c
     return done || api_fail(error, &e);
 }
 
+bool ramify_film_write_part(const RamifyFilm *film, const RamifyScene *scene, const char *file,
+                            RamifyError *error)
+{
+    Error e = {0};
+    return picture_write_part(file, scene_of(scene), film_of(film), &e) || api_fail(error, &e);
+}
+
 bool ramify_write_image(const RamifyScene *scene, const float *rgba, const char *file,
                         RamifyError *error)
 {

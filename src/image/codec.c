@@ -34,7 +34,14 @@ bool image_write_exr(const char *file, const ImageLayer *layers, int count, cons
                      Error *e)
 {
     const ImageCodec *codec = image_codec(e);
-    return codec && codec->write_exr(file, layers, count, metadata, e);
+    return codec && codec->write_exr(file, layers, count, NULL, metadata, e);
+}
+
+bool image_write_exr_window(const char *file, const ImageLayer *layers, int count,
+                            const int window[4], const char *metadata, Error *e)
+{
+    const ImageCodec *codec = image_codec(e);
+    return codec && codec->write_exr(file, layers, count, window, metadata, e);
 }
 
 bool image_encode_png(const Image *image, const char *metadata, unsigned char **bytes, size_t *size,

@@ -245,13 +245,40 @@ bool check_layers(const char *file, const ImageLayer *layers, int count, Error *
     return count > 0 || error_set(e, ERROR_INPUT, "'%s' cannot be written: no layers", file);
 }
 
-bool write_exr(const char *file, const ImageLayer *layers, int count, const char *metadata,
-               Error *e)
+// Channels of all layers, pixel by pixel, of the spec's window.
+std::vector<float> interleave(const OIIO::ImageSpec &spec, const ImageLayer *layers, int count)
+{
+    size_t width = size_t(spec.width), channels = size_t(spec.nchannels), offset = 0;
+    std::vector<float> pixels(width * size_t(spec.height) * channels);
+    for (int i = 0; i < count; i++) {
+        const Image *image = layers[i].image;
+        size_t own = size_t(image->channels);
+        for (size_t y = 0; y < size_t(spec.height); y++) {
+            const float *row =
+                image->pixel + ((size_t(spec.y) + y) * size_t(image->width) + size_t(spec.x)) * own;
+            for (size_t x = 0; x < width; x++) {
+                std::memcpy(&pixels[(y * width + x) * channels + offset], row + x * own,
+                            own * sizeof(float));
+            }
+        }
+        offset += own;
+    }
+    return pixels;
+}
+
+bool write_exr(const char *file, const ImageLayer *layers, int count, const int *window,
+               const char *metadata, Error *e)
 {
     if (!check_layers(file, layers, count, e)) {
         return false;
     }
     OIIO::ImageSpec spec(layers[0].image->width, layers[0].image->height, 0, OIIO::TypeDesc::FLOAT);
+    if (window) { // the spec's full size stays
+        spec.x = window[0];
+        spec.y = window[1];
+        spec.width = window[2];
+        spec.height = window[3];
+    }
     for (int i = 0; i < count; i++) {
         std::string prefix = layers[i].name[0] ? std::string(layers[i].name) + "." : "";
         for (const char *c = layers[i].channel_names; *c; c++) {
@@ -262,17 +289,7 @@ bool write_exr(const char *file, const ImageLayer *layers, int count, const char
             spec.nchannels++;
         }
     }
-    size_t size = size_t(spec.width) * size_t(spec.height), channels = size_t(spec.nchannels);
-    std::vector<float> pixels(size * channels);
-    size_t offset = 0;
-    for (int i = 0; i < count; i++) {
-        size_t own = size_t(layers[i].image->channels);
-        for (size_t p = 0; p < size; p++) {
-            std::memcpy(&pixels[p * channels + offset], layers[i].image->pixel + p * own,
-                        own * sizeof(float));
-        }
-        offset += own;
-    }
+    std::vector<float> pixels = interleave(spec, layers, count);
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "lin_srgb");
     add_metadata(spec, metadata, false);
@@ -340,11 +357,11 @@ bool guarded_display16(const char *file, const Image *image, const char *metadat
                    [&] { return write_display16(file, image, metadata, e); });
 }
 
-bool guarded_exr(const char *file, const ImageLayer *layers, int count, const char *metadata,
-                 Error *e)
+bool guarded_exr(const char *file, const ImageLayer *layers, int count, const int *window,
+                 const char *metadata, Error *e)
 {
     return guarded("'" + std::string(file) + "' cannot be written", e,
-                   [&] { return write_exr(file, layers, count, metadata, e); });
+                   [&] { return write_exr(file, layers, count, window, metadata, e); });
 }
 
 bool guarded_grey16(const char *file, const Image *image, const char *metadata, Error *e)

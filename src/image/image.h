@@ -40,9 +40,10 @@ Image *image_read_color(const char *file, bool *linear, const Run *run, Error *e
 Image *image_read_layer(const char *file, const char *layer, const char *channels, const Run *run,
                         Error *e);
 
-// Reads these channels, in this order, by their full names ("variance.V").
-Image *image_read_channels(const char *file, const char *const *names, int count, const Run *run,
-                           Error *e);
+// Reads these channels, in this order, by their full names ("variance.V"). window: left and top of
+// the pixels; left, top, width and height of the whole picture.
+Image *image_read_channels(const char *file, const char *const *names, int count, int window[6],
+                           const Run *run, Error *e);
 
 // The metadata text under key, up to 64 MB, without decoding a pixel; the caller frees it.
 // ERROR_INPUT when there is none.
@@ -100,5 +101,10 @@ typedef struct ImageLayer {
 // Writes a linear float EXR with all layers (of one size) and metadata.
 bool image_write_exr(const char *file, const ImageLayer *layers, int count, const char *metadata,
                      Error *e);
+
+// The same of a part of the picture: left, top, width and height of the pixels that are written, as
+// OpenEXR's data window in the display window of the whole.
+bool image_write_exr_window(const char *file, const ImageLayer *layers, int count,
+                            const int window[4], const char *metadata, Error *e);
 
 #endif

@@ -84,52 +84,55 @@ static bool start(const DecodeJob *job, DecodeHeader *header, ChildOutput *outpu
     return true;
 }
 
-static Image *read_floats(const DecodeJob *job, bool *linear, const Run *run, Error *e)
+static Image *read_floats(const DecodeJob *job, DecodeHeader *h, const Run *run, Error *e)
 {
     ChildOutput output;
-    DecodeHeader h;
-    if (!start(job, &h, &output, run, e)) {
+    if (!start(job, h, &output, run, e)) {
         return NULL;
     }
-    Image *image = image_new(h.width, h.height, h.channels, e);
-    int64_t count = (int64_t)h.width * h.height * h.channels;
+    Image *image = image_new(h->width, h->height, h->channels, e);
+    int64_t count = (int64_t)h->width * h->height * h->channels;
     if (!image || !child_read(&output, image->pixel, count, sizeof *image->pixel, e)) {
         image_free(image);
         image = NULL;
         fail(job, e);
     }
     child_output_close(&output);
-    *linear = h.linear != 0;
     return image;
 }
 
 Image *image_read(const char *file, const Run *run, Error *e)
 {
-    bool linear;
-    return read_floats(&(DecodeJob){.file = file, .kind = DECODE_ALL}, &linear, run, e);
+    DecodeHeader header;
+    return read_floats(&(DecodeJob){.file = file, .kind = DECODE_ALL}, &header, run, e);
 }
 
 Image *image_read_color(const char *file, bool *linear, const Run *run, Error *e)
 {
-    return read_floats(&(DecodeJob){.file = file, .kind = DECODE_COLOR}, linear, run, e);
+    DecodeHeader header = {0};
+    Image *image = read_floats(&(DecodeJob){.file = file, .kind = DECODE_COLOR}, &header, run, e);
+    *linear = header.linear != 0;
+    return image;
 }
 
 Image *image_read_layer(const char *file, const char *layer, const char *channels, const Run *run,
                         Error *e)
 {
-    bool linear;
+    DecodeHeader header;
     return read_floats(
         &(DecodeJob){.file = file, .kind = DECODE_LAYER, .layer = layer, .channels = channels},
-        &linear, run, e);
+        &header, run, e);
 }
 
-Image *image_read_channels(const char *file, const char *const *names, int count, const Run *run,
-                           Error *e)
+Image *image_read_channels(const char *file, const char *const *names, int count, int window[6],
+                           const Run *run, Error *e)
 {
-    bool linear;
-    return read_floats(
-        &(DecodeJob){.file = file, .kind = DECODE_NAMED, .names = names, .count = count}, &linear,
+    DecodeHeader header = {0};
+    Image *image = read_floats(
+        &(DecodeJob){.file = file, .kind = DECODE_NAMED, .names = names, .count = count}, &header,
         run, e);
+    memcpy(window, header.window, sizeof header.window);
+    return image;
 }
 
 char *image_read_metadata(const char *file, const char *key, const Run *run, Error *e)

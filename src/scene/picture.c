@@ -265,8 +265,9 @@ static Image view_of(const Film *film, const float *value, int channels)
     return (Image){film->width, film->height, channels, (float *)(uintptr_t)value};
 }
 
+// window: see image_write_exr_window.
 static bool write_layers(const char *file, const Scene *scene, const Film *film,
-                         const Vec3 *denoised, const char *mark, Error *e)
+                         const Vec3 *denoised, const int window[4], const char *mark, Error *e)
 {
     FilmPlane plane[FILM_PLANES];
     Image image[FILM_PLANES + 1];
@@ -283,7 +284,7 @@ static bool write_layers(const char *file, const Scene *scene, const Film *film,
         count++;
     }
     char *metadata = make_metadata(scene, mark, e);
-    bool done = metadata && image_write_exr(file, layers, count, metadata, e);
+    bool done = metadata && image_write_exr_window(file, layers, count, window, metadata, e);
     free(metadata);
     return done;
 }
@@ -294,8 +295,9 @@ static bool write_exr(const char *file, const Scene *scene, const Film *film, bo
     bool clean = denoise && can_denoise(scene, film);
     Vec3 *own = clean && !film->denoised ? denoised_plane(scene, film, run, e) : NULL;
     const Vec3 *denoised = own ? own : film->denoised;
-    bool done =
-        (!clean || denoised) && write_layers(file, scene, film, clean ? denoised : NULL, mark, e);
+    const int whole[4] = {0, 0, film->width, film->height};
+    bool done = (!clean || denoised) &&
+                write_layers(file, scene, film, clean ? denoised : NULL, whole, mark, e);
     free(own);
     return done;
 }
@@ -304,6 +306,13 @@ bool picture_write_exr(const char *file, const Scene *scene, const Film *film, b
                        const Run *run, Error *e)
 {
     return write_exr(file, scene, film, denoise, NULL, run, e);
+}
+
+bool picture_write_part(const char *file, const Scene *scene, const Film *film, Error *e)
+{
+    PixelBox box = film_crop_pixels(film->width, film->height, scene->film.crop);
+    const int window[4] = {box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0};
+    return write_layers(file, scene, film, NULL, window, NULL, e);
 }
 
 bool picture_write_marked(const char *file, const Scene *scene, const Film *film, const char *mark,

@@ -42,6 +42,10 @@ bool picture_write_display(const char *file, const Scene *scene, const Film *fil
 bool picture_write_exr(const char *file, const Scene *scene, const Film *film, bool denoise,
                        const Run *run, Error *e);
 
+// Writes the same, of the pixels of the scene's crop alone: a part, from which
+// picture_read_film and picture_join read. Never denoised.
+bool picture_write_part(const char *file, const Scene *scene, const Film *film, Error *e);
+
 // Writes either format, selected by the file extension and denoised if the scene asks for it, with
 // `mark` as metadata under PICTURE_MARK: equal marks mean equal images.
 #define PICTURE_MARK "ramify:frame"

@@ -125,8 +125,8 @@ static int channel_names(const FilmPlane plane[FILM_PLANES], char name[MOST_CHAN
     return count;
 }
 
-static Image *read_planes(const char *file, const FilmPlane plane[FILM_PLANES], const Run *run,
-                          Error *e)
+static Image *read_planes(const char *file, const FilmPlane plane[FILM_PLANES], int window[6],
+                          const Run *run, Error *e)
 {
     char text[MOST_CHANNELS][NAME_SIZE];
     const char *name[MOST_CHANNELS];
@@ -134,40 +134,59 @@ static Image *read_planes(const char *file, const FilmPlane plane[FILM_PLANES], 
     for (int i = 0; i < count; i++) {
         name[i] = text[i];
     }
-    return image_read_channels(file, name, count, run, e);
+    return image_read_channels(file, name, count, window, run, e);
 }
 
-static void copy_planes(const Image *image, const FilmPlane plane[FILM_PLANES])
+// Copies the image, whose upper left pixel lies at x, y, to planes of this width.
+static void copy_planes(const Image *image, int x, int y, int width,
+                        const FilmPlane plane[FILM_PLANES])
 {
-    size_t first = 0;
+    int64_t first = 0;
     for (int i = 0; i < FILM_PLANES; i++) {
-        size_t channels = strlen(plane[i].channels);
-        for (size_t p = 0; p < (size_t)image->width * (size_t)image->height; p++) {
-            memcpy(plane[i].value + p * channels,
-                   image->pixel + p * (size_t)image->channels + first, channels * sizeof(float));
+        int64_t channels = (int64_t)strlen(plane[i].channels);
+        for (int64_t p = 0; p < (int64_t)image->width * image->height; p++) {
+            int64_t to = (y + p / image->width) * width + x + p % image->width;
+            memcpy(plane[i].value + to * channels, image->pixel + p * image->channels + first,
+                   (size_t)channels * sizeof(float));
         }
         first += channels;
     }
 }
 
-// Whole counts of samples are what a rendering relies on.
-static bool check_film(const char *file, const Film *film, Error *e)
+// A picture, or a part of one (picture_write_part).
+static bool check_window(const char *file, const Film *film, const Image *image,
+                         const int window[6], Error *e)
 {
-    for (int64_t i = 0; i < (int64_t)film->width * film->height; i++) {
-        float n = film->samples[i], hits = film->hits[i];
-        if (!(n >= 0.0f && n <= 1 << 24 && floorf(n) == n && hits >= 0.0f && hits <= n)) {
-            return error_set(e, ERROR_INPUT,
-                             "'%s' is damaged: pixel %lld, %lld has %g samples of which %g met "
-                             "something; a picture as ramify writes it is needed",
-                             file, (long long)(i % film->width), (long long)(i / film->width),
-                             (double)n, (double)hits);
+    bool whole =
+        window[2] == 0 && window[3] == 0 && window[4] == film->width && window[5] == film->height;
+    bool within = window[0] >= 0 && window[1] >= 0 && window[0] <= film->width - image->width &&
+                  window[1] <= film->height - image->height;
+    return (whole && within) ||
+           error_set(e, ERROR_INPUT, "'%s' has %d x %d pixels, its settings say %d x %d", file,
+                     window[4], window[5], film->width, film->height);
+}
+
+// Whole counts of samples are what a rendering relies on.
+static bool check_film(const char *file, const Film *film, const PixelBox *box, Error *e)
+{
+    for (int y = box->y0; y < box->y1; y++) {
+        for (int x = box->x0; x < box->x1; x++) {
+            int64_t i = (int64_t)y * film->width + x;
+            float n = film->samples[i], hits = film->hits[i];
+            if (!(n >= 0.0f && n <= 1 << 24 && floorf(n) == n && hits >= 0.0f && hits <= n)) {
+                return error_set(e, ERROR_INPUT,
+                                 "'%s' is damaged: pixel %d, %d has %g samples of which %g met "
+                                 "something; a picture as ramify writes it is needed",
+                                 file, x, y, (double)n, (double)hits);
+            }
         }
     }
     return true;
 }
 
-Film *picture_read_film(const char *file, const Scene *scene, bool any_crop, const Run *run,
-                        Error *e)
+// *box: the pixels that the file holds.
+static Film *read_film(const char *file, const Scene *scene, bool any_crop, PixelBox *box,
+                       const Run *run, Error *e)
 {
     if (!check_picture(file, scene, any_crop, e)) {
         return NULL;
@@ -178,14 +197,16 @@ Film *picture_read_film(const char *file, const Scene *scene, bool any_crop, con
         return NULL;
     }
     film_planes(film, plane);
-    Image *image = read_planes(file, plane, run, e);
-    bool done =
-        image && ((image->width == film->width && image->height == film->height) ||
-                  error_set(e, ERROR_INPUT, "'%s' has %d x %d pixels, its settings say %d x %d",
-                            file, image->width, image->height, film->width, film->height));
+    int window[6];
+    Image *image = read_planes(file, plane, window, run, e);
+    bool done = image && check_window(file, film, image, window, e);
     if (done) {
-        copy_planes(image, plane);
-        done = check_film(file, film, e);
+        *box = (PixelBox){.x0 = window[0],
+                          .y0 = window[1],
+                          .x1 = window[0] + image->width,
+                          .y1 = window[1] + image->height};
+        copy_planes(image, box->x0, box->y0, film->width, plane);
+        done = check_film(file, film, box, e);
     }
     image_free(image);
     if (!done) {
@@ -195,16 +216,26 @@ Film *picture_read_film(const char *file, const Scene *scene, bool any_crop, con
     return film;
 }
 
+Film *picture_read_film(const char *file, const Scene *scene, bool any_crop, const Run *run,
+                        Error *e)
+{
+    PixelBox box;
+    return read_film(file, scene, any_crop, &box, run, e);
+}
+
 // ---- joining ----
 
-// Moves the pixels with samples into the whole. source: per pixel, the number of the file + 1.
-static bool take_pixels(Film *whole, const Film *part, const char *const *files, int number,
-                        int32_t *source, Error *e)
+// Moves the box's pixels with samples into the whole. source: per pixel, the number of the file
+// + 1.
+static bool take_pixels(Film *whole, const Film *part, const PixelBox *box,
+                        const char *const *files, int number, int32_t *source, Error *e)
 {
     FilmPlane to[FILM_PLANES], from[FILM_PLANES];
     film_planes(whole, to);
     film_planes(part, from);
-    for (int64_t i = 0; i < (int64_t)part->width * part->height; i++) {
+    int64_t width = box->x1 - box->x0, height = box->y1 - box->y0;
+    for (int64_t p = 0; p < width * height; p++) {
+        int64_t i = (box->y0 + p / width) * part->width + box->x0 + p % width;
         if (part->samples[i] < 1.0f) {
             continue;
         }
@@ -233,8 +264,9 @@ Film *picture_join(const char *const *files, int count, const Scene *scene, int6
     int32_t *source = whole ? memory_alloc_zero(pixels, sizeof *source, e) : NULL;
     bool done = source;
     for (int i = 0; done && i < count; i++) {
-        Film *part = picture_read_film(files[i], scene, true, run, e);
-        done = part && take_pixels(whole, part, files, i, source, e);
+        PixelBox box;
+        Film *part = read_film(files[i], scene, true, &box, run, e);
+        done = part && take_pixels(whole, part, &box, files, i, source, e);
         film_free(part);
     }
     *missing = 0;

@@ -93,10 +93,13 @@ if [ $status -eq 130 ]; then
     says stopped_says err 'run it again to go on'
     check begun 0 "$RAMIFY" batch status slow.batch
     says begun_says out 'begun: 0'
-    printf 'no picture' >slow.batch/parts/000000.begun.exr # no bits are lost by a broken checkpoint
-    timeout -s TERM 1 "$RAMIFY" batch run slow.batch --threads 1 >out 2>err
-    says broken_checkpoint err 'warning'
 fi
+check broken 0 "$RAMIFY" batch $scene --tiles 1x1 -o broken.png --engine openjd -q
+printf 'no picture' >broken.batch/parts/000000.begun.exr
+check broken_run 0 "$RAMIFY" batch run broken.batch
+says broken_run_says err 'warning'
+check broken_merge 0 "$RAMIFY" batch merge broken.batch -q
+yes broken_checkpoint_loses_no_bits cmp whole.exr broken.exr
 
 # ---- frames
 

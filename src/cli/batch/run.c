@@ -21,13 +21,6 @@ typedef struct Tile {
     double every, next; // s between checkpoints; clock_seconds of the next
 } Tile;
 
-static bool write_film(const Tile *tile, const char *file, RamifyError *e)
-{
-    RamifyRun patient = tile->run; // an interrupted film is still written
-    patient.cancelled = NULL;
-    return ramify_film_write(tile->film, tile->scene, file, false, &patient, e);
-}
-
 // Writes the film so far, now and then. What cannot be written now perhaps can the next time.
 static void checkpoint(void *user, const RamifyFilm *film, int samples)
 {
@@ -39,7 +32,7 @@ static void checkpoint(void *user, const RamifyFilm *film, int samples)
         return;
     }
     RamifyError e = {0};
-    if (!write_film(tile, tile->begun, &e)) {
+    if (!ramify_film_write_part(tile->film, tile->scene, tile->begun, &e)) {
         tile->run.warn(tile->run.user, e.message);
     }
     double end = clock_seconds(), rest = (end - start) / CHECKPOINT_SHARE;
@@ -80,9 +73,10 @@ static bool trace_tile(Tile *tile, RamifyRenderer *renderer, RamifyError *e)
         return false;
     }
     if (*tile->run.cancelled) {
-        return write_film(tile, tile->begun, e) && fail(e, RAMIFY_CANCELLED, "interrupted");
+        return ramify_film_write_part(tile->film, tile->scene, tile->begun, e) &&
+               fail(e, RAMIFY_CANCELLED, "interrupted");
     }
-    if (!write_film(tile, tile->file, e)) {
+    if (!ramify_film_write_part(tile->film, tile->scene, tile->file, e)) {
         return false;
     }
     unlink(tile->begun);
