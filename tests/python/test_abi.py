@@ -40,14 +40,14 @@ def kind(ctype):
         return "void"
     if ctype in (ctypes.c_char_p, ctypes.c_void_p) or hasattr(ctype, "contents") or issubclass(ctype, ctypes._CFuncPtr):
         return "pointer"
-    return {"c_int": "int", "c_long": "int64", "c_ulong": "uint64", "c_bool": "bool"}[ctype.__name__]
+    return {"c_int": "int", "c_long": "int64", "c_ulong": "uint64", "c_bool": "bool", "c_double": "double"}[ctype.__name__]
 
 
 def kind_of_text(declared):
     if "*" in declared or "[" in declared or declared.startswith("RamifyPass"):
         return "pointer"
     word = re.sub(r"\bconst\b", "", declared).split()[0]
-    return {"void": "void", "int": "int", "int64_t": "int64", "uint64_t": "uint64", "size_t": "uint64", "bool": "bool"}[word]
+    return {"void": "void", "int": "int", "int64_t": "int64", "uint64_t": "uint64", "size_t": "uint64", "bool": "bool", "double": "double"}[word]
 
 
 def test_functions_take_and_give_what_the_header_says():

@@ -227,6 +227,44 @@ def test_pictures_are_arrays_and_files(scene, tmp_path):
         film.colour
 
 
+def test_a_picture_is_read_and_finished(tmp_path):
+    few, many = ramify.Scene({**BUSH, "render": {"samples": 2, "planned_samples": 4}}), ramify.Scene(
+        {**BUSH, "render": {"samples": 4, "planned_samples": 4}}
+    )
+    few.render(isa="sse4.2").save(tmp_path / "few.exr")
+    film = ramify.Film.read(tmp_path / "few.exr", many)
+    assert film.samples.max() == 2
+    many.render(isa="sse4.2", resume=film)
+    assert film.samples.max() == 4 and np.allclose(film.rgba, many.render(isa="sse4.2").rgba, rtol=1e-5, atol=1e-6)
+    with pytest.raises(ramify.BadInput):
+        ramify.Film.read(tmp_path / "few.exr", ramify.Scene({**BUSH, "seed": 5}))
+
+
+def test_parts_are_joined(tmp_path):
+    parts = []
+    for name, crop in (("left", [0, 0, 0.5, 1]), ("right", [0.5, 0, 1, 1])):
+        parts.append(tmp_path / f"{name}.exr")
+        ramify.Scene({**BUSH, "film": {**BUSH["film"], "crop": crop}}).render(isa="sse4.2").save(parts[-1])
+    whole = ramify.Scene(BUSH)
+    assert np.array_equal(ramify.Film.join(parts, whole).rgba, whole.render(isa="sse4.2").rgba)
+    assert (ramify.Film.join(parts[:1], whole).samples == 0).any()
+
+
+def test_paths_add_up_to_the_pixel(world):
+    film = world.render(isa="sse4.2")
+    paths = [world.replay(12, 8, i, isa="sse4.2") for i in range(film.info.samples)]
+    assert np.allclose(np.mean([p.color for p in paths], axis=0), film.color[8, 12], rtol=1e-4, atol=1e-6)
+    assert paths[0].steps[0]["end"] in ("surface", "lamp", "medium", "outside")
+    with pytest.raises(ramify.BadInput):
+        world.replay(1000, 0)
+
+
+def test_estimate_and_species(scene):
+    estimate = scene.estimate()
+    assert estimate["paths"] == 24 * 16 * 4 and estimate["memory"] > 1e6 and estimate["trace_seconds"] > 0
+    assert "Quercus robur" in ramify.species()
+
+
 def test_a_wrong_file_is_refused_before_the_work(tmp_path):
     for file in (tmp_path / "x.xyz", tmp_path / "nowhere" / "x.png", tmp_path):
         start = time.monotonic()

@@ -19,7 +19,7 @@ from typing import Any, Dict, Mapping, Optional, Union
 
 from ._call import BadInput, Error, File, VERSION as __version__, call, path
 from .fit import Evaluation, Fit, Target
-from .scene import Scene, schema
+from .scene import Scene, schema, species
 from .tree import Land, Tree
 from .world import Film, Mesh, Curves, World
 
@@ -37,6 +37,7 @@ __all__ = [
     "Tree",
     "World",
     "schema",
+    "species",
     "render",
 ]
 

@@ -202,6 +202,32 @@ class RenderInfo(c.Structure):
 
 
 # Name in ramify.h of each struct above.
+class Estimate(c.Structure):
+    _fields_ = [
+        ("memory", c.c_int64),
+        ("paths", c.c_int64),
+        ("grow_seconds", c.c_double),
+        ("build_seconds", c.c_double),
+        ("trace_seconds", c.c_double),
+        ("preview_seconds", c.c_double),
+        ("write_seconds", c.c_double),
+    ]
+
+
+class PathStep(c.Structure):
+    _fields_ = [
+        ("end", c.c_char_p),
+        ("material", c.c_char_p),
+        ("object", c.c_int32),
+        ("origin", c.c_float * 3),
+        ("position", c.c_float * 3),
+        ("direction", c.c_float * 3),
+        ("normal", c.c_float * 3),
+        ("throughput", c.c_float * 3),
+        ("light", c.c_float * 3),
+    ]
+
+
 STRUCTS = {
     "RamifyError": Error,
     "RamifyRun": Run,
@@ -219,6 +245,8 @@ STRUCTS = {
     "RamifyExportOptions": ExportOptions,
     "RamifyExportReport": ExportReport,
     "RamifyRenderInfo": RenderInfo,
+    "RamifyEstimate": Estimate,
+    "RamifyPathStep": PathStep,
 }
 
 _handle, _text, _int, _error = c.c_void_p, c.c_char_p, c.c_int, c.POINTER(Error)
@@ -230,6 +258,7 @@ FUNCTIONS = {
     "free": (None, [c.c_void_p]),
     "memory_peak": (c.c_int64, []),
     "schema": (c.c_void_p, [_error]),
+    "species": (c.c_void_p, [_error]),
     "scene_load": (_handle, [_text, _texts, _int, _error]),
     "scene_load_text": (_handle, [_text, c.c_size_t, _text, _text, _texts, _int, _error]),
     "scene_free": (None, [_handle]),
@@ -280,6 +309,8 @@ FUNCTIONS = {
     ),
     "film_new": (_handle, [_int, _int, _error]),
     "film_free": (None, [_handle]),
+    "film_read": (_handle, [_text, _handle, _run, _error]),
+    "film_join": (_handle, [_texts, _int, _handle, c.POINTER(c.c_int64), _run, _error]),
     "film_layer": (c.c_void_p, [_handle, _text, c.POINTER(_int)]),
     "film_denoise": (c.c_bool, [_handle, _handle, _run, _error]),
     "film_write": (c.c_bool, [_handle, _handle, _text, c.c_bool, _run, _error]),
@@ -291,6 +322,15 @@ FUNCTIONS = {
         c.c_bool,
         [_handle, _handle, PASS, c.c_void_p, _run, c.POINTER(RenderInfo), _error],
     ),
+    "renderer_resume": (
+        c.c_bool,
+        [_handle, _handle, PASS, c.c_double, c.c_void_p, _run, c.POINTER(RenderInfo), _error],
+    ),
+    "renderer_replay": (
+        _int,
+        [_handle, _handle, _int, _int, _int, c.POINTER(PathStep), _int, c.POINTER(c.c_float), _error],
+    ),
+    "estimate": (c.c_bool, [_handle, _text, c.c_int64, _run, c.POINTER(Estimate), _error]),
 }
 
 

@@ -49,6 +49,15 @@ def _choice(name, value, known):
     return known.index(value)
 
 
+def species() -> str:
+    """The built-in library of species, a line each: name, Latin name, form, height, months of leaves and organs."""
+    text = call("species")
+    try:
+        return c.string_at(text).decode()
+    finally:
+        lib.ramify_free(text)
+
+
 def schema() -> Dict[str, Any]:
     """The JSON Schema of scene files, as a dict."""
     text = call("schema")
@@ -184,9 +193,20 @@ class Scene:
         threads: int = 0,
         progress: Progress = None,
         each_pass: Optional[Callable[[Film, int], object]] = None,
+        resume: Optional[Film] = None,
     ) -> Film:
         """Builds and path traces the scene; returns the Film (see World.render)."""
-        return self.build(threads, progress).render(isa, threads, progress, each_pass)
+        return self.build(threads, progress).render(isa, threads, progress, each_pass, resume)
+
+    def estimate(self, isa: Optional[str] = None, threads: int = 0) -> Dict[str, Any]:
+        """Estimates what rendering takes, by a part of the work: memory (bytes at most), paths, and processor seconds:
+        grow_seconds, build_seconds, trace_seconds, preview_seconds, write_seconds."""
+        found, name = _abi.Estimate(), None if isa is None else isa.encode()
+        run(
+            lambda how, _, error: lib.ramify_estimate(self._handle.pointer, name, 0, how, c.byref(found), error),
+            threads,
+        )
+        return {name: getattr(found, name) for name, *_ in found._fields_}
 
     def export(
         self,

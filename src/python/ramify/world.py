@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import ctypes as c
-from typing import Any, Callable, Dict, List, Optional, Union
+from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _abi
 from ._arrays import view
-from ._call import File, Handle, Progress, lib, path, run
+from ._call import File, Handle, Progress, check, lib, path, run
+
+MOST_STEPS = 1024  # of a path
 
 
 class _Part:
@@ -83,19 +85,9 @@ class World:
         lib.ramify_world_info(self.handle.pointer, c.byref(info))
         return {name: getattr(info, name) for name, *_ in info._fields_}
 
-    def render(
-        self,
-        isa: Optional[str] = None,
-        threads: int = 0,
-        progress: Progress = None,
-        each_pass: Optional[Callable[[Film, int], object]] = None,
-    ) -> Film:
-        """Path traces the world. isa: "sse4.2" and others pin the instruction set, for the same bits on every machine.
-        each_pass(film, samples) is called after 1, 4, 16, 32, 64, ... samples with the Film so far. Returns a Film."""
-        size = _abi.SceneInfo()
-        lib.ramify_scene_info(self._scene.pointer, c.byref(size))
+    def _renderer(self, isa, threads, progress):
         name = None if isa is None else isa.encode()
-        renderer = Handle(
+        return Handle(
             run(
                 lambda how, _, error: lib.ramify_renderer_new(self.handle.pointer, name, how, error),
                 threads,
@@ -105,34 +97,106 @@ class World:
             "renderer_free",
             self.handle,
         )
-        film = Film(size.width, size.height, self._scene)
+
+    def render(
+        self,
+        isa: Optional[str] = None,
+        threads: int = 0,
+        progress: Progress = None,
+        each_pass: Optional[Callable[[Film, int], object]] = None,
+        resume: Optional[Film] = None,
+    ) -> Film:
+        """Path traces the world. isa: "sse4.2" and others pin the instruction set, for the same bits on every machine.
+        each_pass(film, samples) is called after 1, 4, 16, 32, 64, ... samples with the Film so far. resume: a Film with
+        samples (Film.read), to which the missing ones are added; of an interrupted rendering it becomes what that would
+        have made, to the bit. Returns the Film."""
+        size = _abi.SceneInfo()
+        lib.ramify_scene_info(self._scene.pointer, c.byref(size))
+        renderer = self._renderer(isa, threads, progress)
+        film = Film(size.width, size.height, self._scene) if resume is None else resume
 
         def show(_user, _pointer, samples):
             each_pass(film, samples)
 
-        run(
-            lambda how, each, error: lib.ramify_renderer_render(
-                renderer.pointer, film.handle.pointer, each, None, how, c.byref(film.info), error
-            ),
-            threads,
-            progress,
-            show if each_pass else None,
-        )
+        def trace(how, each, error):
+            of = renderer.pointer, film.handle.pointer, each
+            if resume is None:
+                return lib.ramify_renderer_render(*of, None, how, c.byref(film.info), error)
+            return lib.ramify_renderer_resume(*of, 0.0, None, how, c.byref(film.info), error)
+
+        run(trace, threads, progress, show if each_pass else None)
         return film
+
+    def replay(self, x: int, y: int, sample: int = 0, isa: Optional[str] = None, threads: int = 0) -> Path:
+        """Traces one sample of a pixel again: every ray of its path, for debugging."""
+        renderer, error = self._renderer(isa, threads, None), _abi.Error()
+        steps, color = (_abi.PathStep * MOST_STEPS)(), (c.c_float * 3)()
+        count = lib.ramify_renderer_replay(
+            renderer.pointer, self.handle.pointer, x, y, sample, steps, MOST_STEPS, color, c.byref(error)
+        )
+        check(count + 1, error)  # -1 = failed
+        return Path([_step(step) for step in steps[: min(count, MOST_STEPS)]], tuple(color))
+
+
+def _step(step):
+    """A step of a path as a dict."""
+    values = {name: getattr(step, name) for name, *_ in step._fields_}
+    for name, value in values.items():
+        if isinstance(value, bytes):
+            values[name] = value.decode()
+        elif hasattr(value, "_length_"):
+            values[name] = tuple(value)
+    return values
+
+
+class Path(NamedTuple):
+    """A path of light: steps, dicts from the camera on (end, material, object, origin, position, direction, normal,
+    throughput, light), and the color that it adds to its pixel."""
+
+    steps: List[Dict[str, Any]]
+    color: Tuple[float, float, float]
 
 
 class Film:
     """The result of rendering, with all layers: height x width (x 3) float32 arrays."""
 
-    def __init__(self, width, height, scene):
+    def __init__(self, width, height, scene, pointer=None):
         error = _abi.Error()
-        pointer = lib.ramify_film_new(width, height, c.byref(error))
+        pointer = pointer or lib.ramify_film_new(width, height, c.byref(error))
         if not pointer:
             raise MemoryError(error.message.decode())
         self.handle = Handle(pointer, "film_free")
         self._scene = scene
         self.width, self.height = width, height
         self.info = _abi.RenderInfo()
+
+    @classmethod
+    def _of(cls, scene, make, threads):
+        """A Film of the scene that make(how, error) of the library gives."""
+        pointer = run(lambda how, _, error: make(how, error), threads, discard=lib.ramify_film_free)
+        info = _abi.SceneInfo()
+        lib.ramify_scene_info(scene._handle.pointer, c.byref(info))
+        return cls(info.width, info.height, scene._handle, pointer)
+
+    @classmethod
+    def read(cls, file: File, scene: Any, threads: int = 0) -> Film:
+        """Reads the .exr of a picture of this Scene, to go on with it (World.render's resume). BadInput if it is of
+        another scene."""
+        name = path(file)
+        return cls._of(
+            scene, lambda how, error: lib.ramify_film_read(name, scene._handle.pointer, how, error), threads
+        )
+
+    @classmethod
+    def join(cls, files: Iterable[File], scene: Any, threads: int = 0) -> Film:
+        """Joins .exr files of parts of this Scene's picture (film.crop); pixels that are in none have 0 samples."""
+        names = [path(file) for file in files]
+        texts = (c.c_char_p * len(names))(*names)
+        return cls._of(
+            scene,
+            lambda how, error: lib.ramify_film_join(texts, len(names), scene._handle.pointer, None, how, error),
+            threads,
+        )
 
     def layer(self, name: str) -> np.ndarray:
         """The layer with this name; KeyError if there is none."""
