@@ -197,7 +197,7 @@ deb: packages ## write a Debian package, build/deb/ramify_VERSION-1_ARCHITECTURE
 
 deb-check: deb ## check the package with lintian, and install, use and remove it in a fresh Debian (as root)
 	$(call need,lintian debootstrap)
-	lintian --fail-on error,warning --no-tag-display-limit build/deb/*.deb
+	lintian --fail-on error,warning --tag-display-limit 0 build/deb/*.deb
 	@.debian/try build/deb/*.deb build/deb/try
 
 reproduce: dist ## build twice, in two folders: programs and packages must have the same bytes
