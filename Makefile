@@ -1,11 +1,12 @@
 # ramify: `make help` lists the targets. Every target installs the Debian packages it needs when they are missing.
 
 # The one list of Debian packages. BUILD: to compile and run. CHECK: only for lint, format, sanitize and bench. PEERS: other
-# programs that tests hold our files against, as COMMAND:PACKAGE. CLUSTER: only for test-cluster.
+# programs that tests hold our files against, as COMMAND:PACKAGE. FUZZ: only for fuzz. CLUSTER: only for test-cluster.
 BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libboost-dev libopenimageio-dev \
                  libopenexr-dev libopencolorio-dev libassimp-dev libyaml-dev libtbb-dev libnlopt-dev libseccomp-dev \
                  libcmocka-dev ffmpeg
 CHECK_PACKAGES = clang-format clang-tidy cppcheck
+FUZZ_PACKAGES  = clang libclang-rt-14-dev
 PEER_COMMANDS  = povray:povray povray:povray-includes blender:blender node:nodejs npm:npm chromium:chromium mandoc:mandoc \
                  oiiotool:openimageio-tools assimp:assimp-utils zsh:zsh
 CLUSTER_PACKAGES = slurm-wlm munge
@@ -25,11 +26,17 @@ OBJ    := $(OUT)/obj
 # change no value; they let sqrtf become one instruction.) GCC 12 fuses the products of complex numbers that it vectorizes in
 # spite of the first: straight code is vectorized in the path tracer alone, and the Fourier transform not at all.
 OPT      := $(if $(filter sanitize,$(CONFIG)),-O1 -fsanitize=address$(,)undefined -fno-omit-frame-pointer,-O3)
+ifeq ($(CONFIG),fuzz) # compiled by clang, without OpenMP: an input is read by one thread
+CC       := clang
+CXX      := clang++
+OPT      := -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -w
+endif
 # What makes a flaw of memory harder to use, in what is installed; sanitizers have their own ways.
-HARDEN   := $(if $(filter sanitize,$(CONFIG)),,-fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3)
+HARDEN   := $(if $(filter sanitize fuzz,$(CONFIG)),,-fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3)
 # No path of this folder gets into what is compiled, so that every folder makes the same bytes.
+OPENMP   := $(if $(filter fuzz,$(CONFIG)),,-fopenmp)
 NO_PATHS := -ffile-prefix-map=$(CURDIR)=.
-COMMON   := -g $(OPT) $(NO_PATHS) -march=$(ARCH) -ffp-contract=off -fno-tree-slp-vectorize -fno-math-errno -fno-trapping-math -fopenmp -fPIC -MMD -MP -Isrc \
+COMMON   := -g $(OPT) $(NO_PATHS) -march=$(ARCH) -ffp-contract=off -fno-tree-slp-vectorize -fno-math-errno -fno-trapping-math $(OPENMP) -fPIC -MMD -MP -Isrc \
             -Wall -Wextra -Werror
 CFLAGS   := -std=c17 -D_GNU_SOURCE $(COMMON) -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 CXXFLAGS := -std=c++17 $(COMMON)
@@ -37,7 +44,7 @@ LDLIBS   := -lembree3 -losdCPU -lassimp -lyaml -lnlopt -lseccomp -lstdc++ -lm
 LDFLAGS  := -Wl,-z,relro,-z,now,-z,noexecstack -fopenmp $(if $(filter sanitize,$(CONFIG)),-fsanitize=address$(,)undefined)
 
 # The path tracer's small functions call each other across files: inlining them while linking makes it 1.1 x faster.
-LTO := $(if $(filter sanitize,$(CONFIG)),,-flto=auto -ffat-lto-objects)
+LTO := $(if $(filter sanitize fuzz,$(CONFIG)),,-flto=auto -ffat-lto-objects)
 $(OBJ)/render/%.c.o: CFLAGS += $(LTO) -ftree-slp-vectorize
 $(OBJ)/base/fft.c.o: CFLAGS += -fno-tree-vectorize
 $(OUT)/ramify $(OUT)/libramify.so $(OUT)/tests/bench/%: private LDFLAGS += $(LTO)
@@ -71,11 +78,13 @@ LIB_OBJ   += $(OBJ)/species_library.o
 CLI_OBJ   := $(patsubst src/%,$(OBJ)/%.o,$(filter src/cli/%,$(SOURCES))) $(OBJ)/commit.o
 TESTS     := $(sort $(wildcard tests/*/test_*.c))
 TEST_BIN  := $(patsubst tests/%.c,$(OUT)/tests/%,$(TESTS))
+FUZZ_TARGETS := scene set rules swc heights mesh picture vdb
 BENCHES   := $(sort $(wildcard tests/bench/*.c))
 BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp) tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
 .PHONY: dist deb deb-check reproduce all demo cross-check docs test test-cluster peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages
+.PHONY: fuzz random-scenes
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 
@@ -114,6 +123,14 @@ bench-renderers: all ## compare with Cycles and Mitsuba 3 from PyPI: SCENES=s1,s
 	@tests/bench/renderers/run $(OUT) $(if $(SCENES),--scenes $(SCENES)) $(if $(SKY),--sky "$(SKY)") \
 	    $(if $(REPEATS),--repeats $(REPEATS)) $(if $(SIZE),--size $(SIZE)) $(if $(JSON),--json "$(JSON)") \
 	    $(if $(PICTURES),--pictures "$(PICTURES)")
+
+random-scenes: all ## render COUNT=1000 random scenes: each gives a picture, the same for any number of threads, or one error
+	@OMP_WAIT_POLICY=passive python3 tests/fuzz/random_scenes.py $(OUT)/ramify $(or $(COUNT),1000) $(or $(SEED),1) build/random-scenes
+
+fuzz: ## feed random inputs to all that reads files: SECONDS=60 for each of TARGETS="scene set rules swc heights mesh picture vdb"
+	$(call need,$(FUZZ_PACKAGES))
+	@$(MAKE) --no-print-directory CONFIG=fuzz -j$$(nproc) $(FUZZ_TARGETS:%=build/fuzz/fuzz_%)
+	@tests/fuzz/run build/fuzz $(or $(SECONDS),60) $(or $(TARGETS),$(FUZZ_TARGETS))
 
 sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory CONFIG=sanitize test
@@ -316,6 +333,17 @@ $(OUT)/tests/%: tests/%.c $(OUT)/libramify.a | $(PLUGIN_FILES)
 	@mkdir -p $(@D)
 	@echo "  TEST $<"
 	@$(CC) $(CFLAGS) -Itests $< $(OUT)/libramify.a $(LDFLAGS) $(RUNPATH_TEST) -lcmocka $(LDLIBS) -o $@
+
+# What a child process runs is linked in, plug-ins and all.
+FUZZ_PLUGIN_picture := oiio
+FUZZ_PLUGIN_vdb     := vdb
+define fuzz_rule
+build/fuzz/fuzz_$(1): tests/fuzz/fuzz_$(1).c tests/fuzz/fuzz.h $(OUT)/libramify.a $(PLUGIN_$(FUZZ_PLUGIN_$(1)):%=$(OBJ)/%.o)
+	@echo "  FUZZ $$<"
+	@$$(CC) $$(CFLAGS) -Itests $$< $$(filter %.o,$$^) $(OUT)/libramify.a -fsanitize=fuzzer,address,undefined -fsanitize-link-c++-runtime $$(LDLIBS) \
+	    $$(LDLIBS_$(FUZZ_PLUGIN_$(1))) -o $$@
+endef
+$(foreach t,$(FUZZ_TARGETS),$(eval $(call fuzz_rule,$t)))
 
 # So many programs, each of which would optimize the path tracer anew.
 $(TEST_BIN) $(OUT)/tests/cross/compare: private LDFLAGS += -fno-lto

@@ -1,0 +1,21 @@
+// OpenVDB files, as they are read in the child process: as a mesh, or as a volume.
+#include "fuzz.h"
+#include "shape/vdb.h"
+
+extern const VdbReaders vdb_readers;
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (size < 1 || size > 1 << 16) {
+        return -1;
+    }
+    const char *file = fuzz_file(".vdb", data + 1, size - 1);
+    Error e = {0};
+    if (data[0] & 1) {
+        volume_free(vdb_readers.volume(file, NULL, &e));
+    } else {
+        mesh_free(vdb_readers.surface(file, &e));
+    }
+    unlink(file);
+    return 0;
+}
