@@ -288,6 +288,27 @@ static void a_vigorous_branch_gets_more(void **state)
     plant_clear(&plant);
 }
 
+// A branch whose leaves get enough dies if they must keep much bare wood alive.
+static void bare_wood_counts_by_its_upkeep(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        LightParams params = light_params_default();
+        params.light_need = 0.3f;
+        params.upkeep = (float)i;
+        Plant plant = forked_plant();
+        int32_t base = plant.metamer[3].lateral;
+        plant.metamer[base].season = -5; // without leaves
+        plant.metamer[plant.metamer[base].next].light = 0.4f;
+        plant_sum_light(&plant, 0, 1);
+        assert_int_equal(plant.metamer[base].size, 2);
+        assert_int_equal(plant.metamer[base].leafy, 1);
+        params.leaf_seasons = 1;
+        assert_int_equal(plant_shed(&plant, &params, 0, 0.0f), i);
+        plant_clear(&plant);
+    }
+}
+
 // The tree that covers itself does so no more.
 static void uneven_vigor_makes_uneven_crowns(void **state)
 {
@@ -526,6 +547,7 @@ int main(void)
         cmocka_unit_test(lost_leaders_make_an_axis_crooked),
         cmocka_unit_test(no_cane_grows_into_the_ground),
         cmocka_unit_test(a_vigorous_branch_gets_more),
+        cmocka_unit_test(bare_wood_counts_by_its_upkeep),
         cmocka_unit_test(uneven_vigor_makes_uneven_crowns),
         cmocka_unit_test(a_lone_tree_does_not_lean),
         cmocka_unit_test(the_stem_is_bare_below_the_bole),

@@ -40,6 +40,8 @@ typedef struct LightParams {
     float plagiotropy;   // 0..1: how far side shoots spread in a level plane
     float bole;          // height below which the stem loses its branches, share of the tree's
     float snags;         // length of the stub that a shed branch leaves, share of the branch's
+    float upkeep;        // what a metamer without leaves counts in light_need, beside one with
+                         // leaves: wood must be kept alive, too
 } LightParams;
 
 LightParams light_params_default(void); // an oak in the open

@@ -29,6 +29,7 @@ typedef struct Metamer {
     float claims;  // the same of the light that counts
     float growth;  // metamers that it and all above it may make; shared out downward up
     int32_t leafy; // metamers with leaves, of it and all above it
+    int32_t size;  // all living ones
 } Metamer;
 
 typedef struct Plant {

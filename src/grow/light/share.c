@@ -32,6 +32,7 @@ void plant_sum_light(Plant *plant, int season, int leaf_seasons)
         Metamer *m = &plant->metamer[plant->living[i]];
         bool leaves = metamer_has_leaves(m, season, leaf_seasons);
         m->leafy = leaves;
+        m->size = 1;
         m->income = leaves ? m->light : 0.0f;
         m->claims = m->claim * m->income;
     }
@@ -41,6 +42,7 @@ void plant_sum_light(Plant *plant, int season, int leaf_seasons)
             plant->metamer[m->parent].income += m->income;
             plant->metamer[m->parent].claims += m->claims;
             plant->metamer[m->parent].leafy += m->leafy;
+            plant->metamer[m->parent].size += m->size;
         }
     }
 }

@@ -1,8 +1,11 @@
 #include "grow/light/shed.h"
 
-static bool is_starving(const Metamer *m, float light_need)
+// Takenaka's criterion (1994): the light of a branch by its size.
+static bool is_starving(const Metamer *m, const LightParams *params)
 {
-    return m->leafy == 0 || m->income < light_need * (float)m->leafy;
+    float bare = (float)(m->size - m->leafy);
+    float kept = (float)m->leafy + params->upkeep * bare;
+    return m->leafy == 0 || m->income < params->light_need * kept;
 }
 
 int64_t plant_shed(Plant *plant, const LightParams *params, int season, float bole)
@@ -21,7 +24,7 @@ int64_t plant_shed(Plant *plant, const LightParams *params, int season, float bo
         }
         bool low = base->order == 0 && base->position.y < bole;
         bool branch = base->next != i; // not what continues the axis
-        if (branch && (low || is_starving(m, params->light_need))) {
+        if (branch && (low || is_starving(m, params))) {
             m->died = season;
             shed++;
         }

@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "grow/room.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -129,7 +130,9 @@ static uint64_t trial_key(const TreePlan *plan, const LightSite *site)
                           trunk->radius / height,
                           trunk->stem_circle / height,
                           trunk->stem_scatter};
-    return key_of_words(key_of_words(STREAM_TRIAL, &growth, sizeof growth), more, sizeof more);
+    uint64_t key = key_of_words(STREAM_TRIAL, &growth, offsetof(LightParams, upkeep));
+    key = key_of_words(key, more, sizeof more);
+    return growth.upkeep > 0.0f ? key_of_words(key, &growth.upkeep, sizeof growth.upkeep) : key;
 }
 
 // trials: of all rivals; NULL = it has a trial of its own.

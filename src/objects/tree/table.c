@@ -194,6 +194,11 @@ static const Key LIGHT_KEYS[] = {
     {LIGHT_KEY(growth.light_need, "light_need", KEY_FLOAT), .high = 1,
      .doc = "A branch dies when its leaves get less than this fraction of the light in the open: "
             "0.1 for trees that bear shade, 0.3 for those that need light."},
+    {LIGHT_KEY(growth.upkeep, "upkeep", KEY_FLOAT), .high = 10,
+     .doc =
+         "What a node without leaves counts in light_need beside one with leaves, as its wood "
+         "must be kept alive: 0 = nothing; 0.3 to 1 = old limbs die in half shade, so that trees "
+         "of a closed stand lose them high up."},
     {LIGHT_KEY(growth.branch_angle, "branch_angle", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3,
      .high = 150, .unit = "degrees",
      .doc = "Angle between a branch and its axis at the base: of limbs on the trunk, of branches "
