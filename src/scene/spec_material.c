@@ -16,13 +16,11 @@
 static const EnumName KINDS[] = {MATERIAL_KINDS(KIND){0}};
 #undef KIND
 static const EnumName PATTERNS[] = {
-    {"none", PATTERN_NONE},           {"bark", PATTERN_BARK},
-    {"ground", PATTERN_GROUND},       {"stone", PATTERN_STONE},
-    {"leaf", PATTERN_LEAF},           {"noise", PATTERN_NOISE},
-    {"corallite", PATTERN_CORALLITE}, {"youth", PATTERN_YOUTH},
-    {"sand", PATTERN_SAND},           {"mountain", PATTERN_MOUNTAIN},
-    {"badlands", PATTERN_BADLANDS},   {"water", PATTERN_WATER},
-    {"altitude", PATTERN_ALTITUDE},   {0}};
+    {"none", PATTERN_NONE},   {"bark", PATTERN_BARK},           {"ground", PATTERN_GROUND},
+    {"stone", PATTERN_STONE}, {"masonry", PATTERN_MASONRY},     {"leaf", PATTERN_LEAF},
+    {"noise", PATTERN_NOISE}, {"corallite", PATTERN_CORALLITE}, {"youth", PATTERN_YOUTH},
+    {"sand", PATTERN_SAND},   {"mountain", PATTERN_MOUNTAIN},   {"badlands", PATTERN_BADLANDS},
+    {"water", PATTERN_WATER}, {"altitude", PATTERN_ALTITUDE},   {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
                                  {"birch", BARK_BIRCH},       {"smooth", BARK_SMOOTH},
@@ -83,7 +81,8 @@ static const Key MATERIAL_KEYS[] = {
      .doc = "Variation of the thickness in streaks, about pattern_scale wide."},
     {KEY_OF(Material, pattern, "pattern", KEY_ENUM), .kinds = BUMPED, .names = PATTERNS,
      .doc = "Procedural pattern of color and color2, with bumps. bark: ridges and furrows; ground: "
-            "soil and grass in patches; stone: broken faces, joints, minerals and stains; leaf: "
+            "soil and grass in patches; stone: broken faces, joints, minerals and stains; masonry: "
+            "a wall of stones in courses; leaf: "
             "veins and blotches; noise: plain noise; corallite: "
             "cups of a coral; youth: color2 where a branch still grows; sand: ripples of a sea "
             "floor; mountain: rock, scree, grass and snow; badlands: coloured strata; water: "
@@ -107,16 +106,17 @@ static const Key MATERIAL_KEYS[] = {
      .unit = "m", .doc = "Height of the pattern's bumps; 0 = none."},
     {KEY_OF(Material, displacement, "displacement", KEY_ENUM), .kinds = PATTERNED,
      .names = DISPLACEMENTS,
-     .doc = "Is the relief true geometry near the camera? auto: of barks and of "
+     .doc = "Is the relief true geometry near the camera? auto: of barks, stone, "
+            "masonry and "
             "displacement_texture; on: of pattern noise, too; off: bumps everywhere. Meshes that "
             "are drawn once are diced to about 1.5 pixels (5 x render.detail) where the camera "
             "sees the relief; copies of an object keep bumps."},
     {KEY_OF(Material, moss, "moss", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
-     .doc =
-         "Patterns bark and stone: how much moss grows on it: at the foot, on sides that face up "
-         "or north (-z), in furrows and joints first."},
+     .doc = "Patterns bark, stone and masonry: how much moss grows on it: at the foot, on sides "
+            "that face up "
+            "or north (-z), in furrows and joints first."},
     {KEY_OF(Material, lichen, "lichen", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
-     .doc = "Patterns bark and stone: how much lichen grows on it."},
+     .doc = "Patterns bark, stone and masonry: how much lichen grows on it."},
     {KEY_OF(Material, scars, "scars", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern bark: how many knots and scars of shed limbs it has."},
     {KEY_OF(Material, ribs, "ribs", KEY_FLOAT), .kinds = PATTERNED, .high = 1,

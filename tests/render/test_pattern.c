@@ -414,6 +414,39 @@ static void test_stone_moss(void **state)
     assert_true(greener[2] < 0.2 * greener[1]);
 }
 
+// Stones lie before the mortar between them, on all sides of a wall, and differ in tone.
+static void test_masonry(void **state)
+{
+    (void)state;
+    static const Vec3 SIDES[] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_MASONRY;
+    m.color = vec3_splat(0.3f);
+    m.color2 = vec3_splat(0.12f);
+    m.pattern_scale = 0.2f;
+    m.pattern_depth = 0.03f;
+    for (int side = 0; side < 3; side++) {
+        int mortar = 0;
+        float dark = 1.0f, bright = 0.0f;
+        const int count = 4000;
+        for (uint64_t i = 0; i < (uint64_t)count; i++) {
+            SurfacePoint point = on_stone(random_point(i, 5.0f), 0.0005f);
+            point.normal = point.geometric_normal = SIDES[side];
+            float height = pattern_height(&m, &point);
+            assert_true(height > -0.025f && height < 0.03f);
+            mortar += height < -0.01f;
+            PatternShade shade = {.color = m.color, .normal = point.normal};
+            pattern_apply(&m, &point, &shade);
+            dark = fminf(dark, shade.color.x);
+            bright = fmaxf(bright, shade.color.x);
+            assert_true(vec3_dot(shade.normal, point.normal) > 0.0f);
+        }
+        // joints of a tenth of a course between stones of 1 by 1.7: about 15 % of the face
+        assert_in_range(mortar, count / 20, count / 3);
+        assert_true(dark < 0.1f && bright > 0.27f);
+    }
+}
+
 static void test_noise_pattern(void **state)
 {
     (void)state;
@@ -449,6 +482,7 @@ int main(void)
         cmocka_unit_test(test_variation),
         cmocka_unit_test(test_stone),
         cmocka_unit_test(test_stone_moss),
+        cmocka_unit_test(test_masonry),
         cmocka_unit_test(test_noise_pattern),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -46,15 +46,16 @@ typedef enum PatternKind {
     PATTERN_MOUNTAIN,  // rock, scree, grass and snow by altitude, slope and wetness of the land
     PATTERN_BADLANDS,  // rock in coloured beds, rills, sandy flats
     PATTERN_WATER,     // ripples
+    PATTERN_MASONRY,   // a wall of stones in courses
     PATTERN_STONE,     // weathered rock: broken faces, joints, minerals, stains
     PATTERN_ALTITUDE   // the colours of a map, by the altitude of the land
 } PatternKind;
 
 // Is relief displaced near the camera?
 typedef enum Displacement {
-    DISPLACEMENT_AUTO, // of barks, stone and of displacement_texture
+    DISPLACEMENT_AUTO, // of barks, stone, masonry and of displacement_texture
     DISPLACEMENT_OFF,  // bumps everywhere
-    DISPLACEMENT_ON    // of patterns that can be: bark, stone, noise
+    DISPLACEMENT_ON    // of patterns that can be: bark, stone, masonry, noise
 } Displacement;
 
 typedef enum BarkKind {

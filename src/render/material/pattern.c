@@ -12,6 +12,18 @@ Vec3 pattern_tilt(Vec3 n, Vec3 slope)
     return vec3_normalize(vec3_madd(n, -1.0f / (1.0f + length / most), slope));
 }
 
+Vec3 pattern_slope(const Material *m, const SurfacePoint *point,
+                   float (*height)(const Material *, const SurfacePoint *, Vec3 p), float step)
+{
+    Vec3 p = point->object_position;
+    step = fmaxf(0.25f * point->footprint, step);
+    float here = height(m, point, p);
+    Vec3 ahead = {height(m, point, vec3_add(p, vec3(step, 0, 0))),
+                  height(m, point, vec3_add(p, vec3(0, step, 0))),
+                  height(m, point, vec3_add(p, vec3(0, 0, step)))};
+    return vec3_scale(vec3_sub(ahead, vec3_splat(here)), 1.0f / step);
+}
+
 float pattern_detail(float wavelength, float footprint)
 {
     return 1.0f - smoothstepf(0.25f, 1.0f, footprint / wavelength);
@@ -55,10 +67,11 @@ static float noise_height(const Material *m, const SurfacePoint *point)
 
 float pattern_height(const Material *m, const SurfacePoint *point)
 {
-    return m->pattern == PATTERN_BARK    ? pattern_bark_height(m, point)
-           : m->pattern == PATTERN_STONE ? pattern_stone_height(m, point)
-           : m->pattern == PATTERN_NOISE ? noise_height(m, point)
-                                         : 0.0f;
+    return m->pattern == PATTERN_BARK      ? pattern_bark_height(m, point)
+           : m->pattern == PATTERN_MASONRY ? pattern_masonry_height(m, point)
+           : m->pattern == PATTERN_STONE   ? pattern_stone_height(m, point)
+           : m->pattern == PATTERN_NOISE   ? noise_height(m, point)
+                                           : 0.0f;
 }
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)
@@ -71,6 +84,9 @@ void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *s
         break;
     case PATTERN_BARK:
         pattern_bark(m, point, shade);
+        break;
+    case PATTERN_MASONRY:
+        pattern_masonry(m, point, shade);
         break;
     case PATTERN_STONE:
         pattern_stone(m, point, shade);

@@ -22,6 +22,8 @@ float pattern_height(const Material *material, const SurfacePoint *point);
 // The kinds, one file each.
 void pattern_bark(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_bark_height(const Material *material, const SurfacePoint *point); // m
+void pattern_masonry(const Material *material, const SurfacePoint *point, PatternShade *shade);
+float pattern_masonry_height(const Material *material, const SurfacePoint *point); // m
 void pattern_stone(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_stone_height(const Material *material, const SurfacePoint *point); // m
 void pattern_ground(const Material *material, const SurfacePoint *point, PatternShade *shade);
@@ -35,6 +37,11 @@ void pattern_season(const Material *material, const SurfacePoint *point, Pattern
 void pattern_corallite(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_youth(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_sand(const Material *material, const SurfacePoint *point, PatternShade *shade);
+
+// The gradient of a relief (its height, m, at p in the object's space) for bumps, by differences
+// over a quarter of the pixel, at least `step` m.
+Vec3 pattern_slope(const Material *material, const SurfacePoint *point,
+                   float (*height)(const Material *, const SurfacePoint *, Vec3 p), float step);
 
 // n tilted by the surface gradient of a height field (slope: world, dimensionless). Slopes are
 // bounded softly, so that bumps never turn a surface over.

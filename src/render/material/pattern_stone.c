@@ -65,8 +65,9 @@ static float grain_height(Vec3 p, float footprint)
                        : 0.0f;
 }
 
-static float relief_at(const Material *m, Vec3 p, float footprint)
+static float relief_at(const Material *m, const SurfacePoint *point, Vec3 p)
 {
+    float footprint = point->footprint;
     return m->pattern_depth *
            (broken_at(p, scale_of(m), footprint).height + grain_height(p, footprint));
 }
@@ -81,24 +82,12 @@ static Overgrowth moss_of(const Material *m, const SurfacePoint *point, float jo
 float pattern_stone_height(const Material *m, const SurfacePoint *point)
 {
     Vec3 p = point->object_position;
-    float height = relief_at(m, p, point->footprint);
+    float height = relief_at(m, point, p);
     if (m->moss > 0.0f) {
         float joint = broken_at(p, scale_of(m), point->footprint).joint;
         height += moss_of(m, point, joint).height;
     }
     return m->lichen > 0.0f ? height + lichen_at(m->lichen, point).height : height;
-}
-
-// The relief as bumps: its differences over a quarter of a pixel or of the finest cell.
-static Vec3 relief_slope(const Material *m, const SurfacePoint *point)
-{
-    Vec3 p = point->object_position;
-    float step = fmaxf(0.25f * point->footprint, 0.01f * scale_of(m));
-    float here = relief_at(m, p, point->footprint);
-    Vec3 ahead = {relief_at(m, vec3_add(p, vec3(step, 0, 0)), point->footprint),
-                  relief_at(m, vec3_add(p, vec3(0, step, 0)), point->footprint),
-                  relief_at(m, vec3_add(p, vec3(0, 0, step)), point->footprint)};
-    return vec3_scale(vec3_sub(ahead, vec3_splat(here)), 1.0f / step);
 }
 
 static Vec3 minerals(const Material *m, const SurfacePoint *point, Vec3 color, float joint)
@@ -137,6 +126,7 @@ void pattern_stone(const Material *m, const SurfacePoint *point, PatternShade *s
         bump *= 1.0f - 0.7f * moss.share;
     }
     if (bump > 0.0f && m->pattern_depth > 0.0f) {
-        shade->normal = pattern_tilt(shade->normal, vec3_scale(relief_slope(m, point), bump));
+        Vec3 slope = pattern_slope(m, point, relief_at, 0.01f * scale_of(m));
+        shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, bump));
     }
 }

@@ -9,6 +9,7 @@
 static bool displaces_pattern(const Material *m)
 {
     return m->pattern == PATTERN_BARK || m->pattern == PATTERN_STONE ||
+           m->pattern == PATTERN_MASONRY ||
            (m->pattern == PATTERN_NOISE && m->displacement == DISPLACEMENT_ON);
 }
 
