@@ -202,17 +202,25 @@ bool individuals_grow(const Individuals *all, const Recipe *recipe, OutTree *int
     return done;
 }
 
+// The nodes of an individual follow each other.
 OutTree *individuals_tree(const Individuals *all, const OutTree *grown, int index, Error *e)
 {
-    OutTree *tree = out_tree_copy(grown, e);
-    bool *keep = tree ? memory_alloc(grown->count, sizeof *keep, e) : NULL;
-    for (int64_t i = 0; keep && i < grown->count; i++) {
-        keep[i] = grown->colony[i] / INDIVIDUAL_COLONIES == index;
-        tree->colony[i] = grown->colony[i] % INDIVIDUAL_COLONIES;
-        tree->position[i] = vec3_sub(tree->position[i], all->one[index].foot);
+    int64_t first = 0;
+    while (first < grown->count && grown->colony[first] / INDIVIDUAL_COLONIES != index) {
+        first++;
     }
-    bool done = keep && out_tree_keep_nodes(tree, keep, e);
-    free(keep);
+    OutTree *tree = out_tree_new(e);
+    bool done = tree;
+    for (int64_t i = first;
+         done && i < grown->count && grown->colony[i] / INDIVIDUAL_COLONIES == index; i++) {
+        int64_t parent = grown->parent[i] >= 0 ? grown->parent[i] - first : -1;
+        int64_t made = out_tree_copy_node(tree, parent, grown, i, e);
+        done = made >= 0;
+        if (done) {
+            tree->colony[made] = grown->colony[i] % INDIVIDUAL_COLONIES;
+            tree->position[made] = vec3_sub(grown->position[i], all->one[index].foot);
+        }
+    }
     if (!done) {
         out_tree_free(tree);
         return NULL;
