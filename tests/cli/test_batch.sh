@@ -108,6 +108,8 @@ frames="--samples 2 --size 32x24"
 check turn 0 "$RAMIFY" turntable "$PWD/$scene" --frames 5 $frames -o turn-%02d.png -q
 check frames 0 "$RAMIFY" batch $scene --frames 0-4 $frames -o f-%02d.png --pack 2 --jobs 2
 says frames_says err '5 frames'
+check frames_status 0 "$RAMIFY" batch status f.batch
+says frames_status_says out 'f-%02d.png: there'
 for i in 0 1 2 3 4; do
     yes frame_$i cmp turn-0$i.png f-0$i.png
 done

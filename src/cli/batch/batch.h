@@ -35,6 +35,10 @@ Batch *batch_create(const Options *options, RamifyError *e); // plan.c
 Batch *batch_open(const char *folder, RamifyError *e);
 void batch_free(Batch *batch);
 
+// Fills what follows from the options and the scene, which is loaded: the parts and the turntable.
+// RAMIFY_BAD_INPUT when they make no batch. settle.c
+bool batch_settle(Batch *batch, const Options *options, const char *output, RamifyError *e);
+
 // The batch's scene with one more override, "film.crop=[...]"; free it.
 RamifyScene *batch_scene(const Batch *batch, const char *change, RamifyError *e);
 

@@ -43,6 +43,18 @@ static void print_json(const Batch *batch, const bool *missing, int missing_coun
     printf("]}\n");
 }
 
+// Is the output there: the picture, the film, or the last frame?
+static bool output_there(const Batch *batch)
+{
+    char name[BATCH_PATH + 64];
+    const char *output = batch->plan.output;
+    if (batch->columns > 0 || output_has_ending(output, ".mp4")) {
+        return access(output, F_OK) == 0;
+    }
+    snprintf(name, sizeof name, output, batch->last); // checked by ramify_turntable_check
+    return access(name, F_OK) == 0;
+}
+
 static void print_text(const Batch *batch, const bool *missing, int missing_count,
                        const bool *begun, int begun_count)
 {
@@ -58,8 +70,7 @@ static void print_text(const Batch *batch, const bool *missing, int missing_coun
         batch_list(missing, batch->first, batch->last, ", ", list, sizeof list);
         printf("missing: %s\n", list);
     } else {
-        printf("%s: %s\n", batch->plan.output,
-               access(batch->plan.output, F_OK) == 0 ? "there" : "not merged yet");
+        printf("%s: %s\n", batch->plan.output, output_there(batch) ? "there" : "not merged yet");
     }
 }
 
