@@ -50,6 +50,8 @@ $(OBJ)/render/%.c.o $(OUT)/ramify: SAME_LTO := $(if $(LTO),PWD=/proc/self/cwd )
 $(OBJ)/render/%.c.o: CFLAGS += $(LTO) -ftree-slp-vectorize
 $(OBJ)/base/fft.c.o: CFLAGS += -fno-tree-vectorize
 $(OUT)/ramify $(OUT)/libramify.so $(OUT)/tests/bench/%: private LDFLAGS += $(LTO)
+# TBB's headers cast addresses that are none.
+$(OBJ)/shape/vdb_%.cpp.o: CXXFLAGS += $(if $(filter fuzz,$(CONFIG)),-fno-sanitize=alignment)
 
 # What needs libraries that take long to load (OpenImageIO brings 240 others) lies in plug-ins, ramify-NAME.so, which are
 # loaded when first used (base/plugin.h). Their sources and libraries:
