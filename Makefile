@@ -46,7 +46,7 @@ LDFLAGS  := -Wl,-z,relro,-z,now,-z,noexecstack -fopenmp $(if $(filter sanitize,$
 # The path tracer's small functions call each other across files: inlining them while linking makes it 1.1 x faster.
 LTO := $(if $(filter sanitize fuzz,$(CONFIG)),,-flto=auto -ffat-lto-objects)
 # What is kept for linking names the folder whatever the options say: let it be called the same everywhere.
-$(OBJ)/render/%.c.o $(OUT)/ramify: SAME_LTO := $(if $(LTO),PWD=/proc/self/cwd )
+$(OBJ)/render/%.c.o $(OUT)/ramify: private SAME_LTO := $(if $(LTO),PWD=/proc/self/cwd )
 $(OBJ)/render/%.c.o: CFLAGS += $(LTO) -ftree-slp-vectorize
 $(OBJ)/base/fft.c.o: CFLAGS += -fno-tree-vectorize
 $(OUT)/ramify $(OUT)/libramify.so $(OUT)/tests/bench/%: private LDFLAGS += $(LTO)
