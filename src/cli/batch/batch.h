@@ -2,10 +2,13 @@
 // other, on one machine or many.
 //
 // A batch is a folder that all machines see:
-//   plan        the command as it was given, a line an option; the scene's file and ramify's
-//   version scene.yaml  the scene's text parts/      000007.exr: a tile or frame that is finished.
-//   000007.begun.exr: one that is not logs/       what the tasks said slurm/, template.yaml: the
-//   engine's files
+//
+//     plan        the command as it was given, a line an option; the scene's file; ramify's version
+//     scene.yaml  the scene's text
+//     parts/      000007.exr: a tile or frame that is finished; 000007.begun.exr: one that is not
+//     logs/       what the tasks said
+//     slurm/, template.yaml   the engine's files
+//
 // The state of a batch is which parts are there, and nothing else: they get their names when they
 // are complete, and two tasks that render the same part write the same bits.
 #ifndef RAMIFY_CLI_BATCH_H
