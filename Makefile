@@ -87,7 +87,7 @@ BENCHES   := $(sort $(wildcard tests/bench/*.c))
 BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp) tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
-.PHONY: dist deb deb-check reproduce all demo cross-check docs test test-cluster peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages
+.PHONY: dist deb deb-check reproduce all demo cross-check docs test test-cluster peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages cluster-packages
 .PHONY: fuzz random-scenes
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
@@ -98,12 +98,11 @@ all: packages ## build build/ramify, build/libramify.a and build/libramify.so
 demo: all ## render the oak of scenes/oak.yaml to build/oak.png (and .exr)
 	$(OUT)/ramify render scenes/oak.yaml -o $(OUT)/oak.png
 
-test: all $(if $(filter true,$(CI)),peers) ## build and run every test; the last line counts them
+test: all $(if $(filter true,$(CI)),peers cluster-packages) ## build and run every test; the last line counts them
 	@$(MAKE) --no-print-directory -j$$(nproc) $(TEST_BIN) $(OUT)/tests/cross/compare
 	@RAMIFY=$(OUT)/ramify tests/run $(TEST_BIN)
 
-test-cluster: all ## run ramify batch on a real Slurm with two nodes on this machine, which die; as root
-	$(call need,$(CLUSTER_PACKAGES))
+test-cluster: all cluster-packages ## run ramify batch on a real Slurm with two nodes on this machine, which die; as root
 	@RAMIFY=$(OUT)/ramify tests/cluster/run
 
 cross-check: all ## render the scenes of tests/cross in POV-Ray too and compare: build/cross-check/index.html
@@ -242,6 +241,9 @@ endef
 
 packages:
 	$(call need,$(BUILD_PACKAGES))
+
+cluster-packages:
+	$(call need,$(CLUSTER_PACKAGES))
 
 check-packages:
 	$(call need,$(CHECK_PACKAGES))
