@@ -20,7 +20,7 @@ static bool geometry(const void *given, const Grown *grown, const Placing *placi
 }
 
 static const Material BUILTIN[] = {
-    {.name = "stone",
+    {.name = "fieldstone",
      .kind = MATERIAL_PRINCIPLED,
      .color = {0.235f, 0.225f, 0.205f},
      .color2 = {0.125f, 0.120f, 0.105f},
@@ -42,7 +42,7 @@ static const Key MATERIALS[] = {
 const Kind kind_stone = {
     .variant = {KIND_ROW("stone", &stone_table, "A stone or boulder."), MATERIALS},
     .carried = true,
-    .materials = {"stone"},
+    .materials = {"fieldstone"},
     .builtin = BUILTIN,
     .own_space = own_space,
     .geometry = geometry};

@@ -46,7 +46,7 @@ static void stone_defaults(void *out)
 const Table stone_table = {
     .name = "stone",
     .doc = "A stone or boulder: a block with flat faces, more or less rounded. Many of them: "
-           "scatter. Material: stone.",
+           "scatter. Material: fieldstone.",
     .example = "objects:\n"
                "  - name: boulder\n"
                "    stone: {size: 1.4, roundness: 0.2, sink: 0.35}\n",
