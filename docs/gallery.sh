@@ -127,7 +127,7 @@ still pine-rock pine-rock
 still leaves-sun leaves-sun
 still willow-lake willow-lake
 still cherry-blossom cherry-blossom
-still beech-wood beech-wood --samples 8
+still beech-wood beech-wood --samples 20
 still birch-grove birch-grove
 still spruce-snow spruce-snow
 still lsystem-tree lsystem-tree --size 1600x900
