@@ -61,9 +61,10 @@ static Block block_at(Vec3 p, Vec3 n, float scale)
     float bottom, top, left, right;
     int row = interval_of(up, 7, &bottom, &top);
     uint32_t line = block_hash(row, 17);
-    int number = interval_of(along / length + noise_unit(line, 32), line, &left, &right);
+    float shift = 0.5f * (float)(row & 1) + 0.3f * noise_unit(line, 32); // no joint over another
+    int number = interval_of(along / length + shift, line, &left, &right);
     float half_x = 0.5f * length * (right - left), half_y = 0.5f * (top - bottom);
-    float x = length * (along / length + noise_unit(line, 32) - 0.5f * (left + right));
+    float x = length * (along / length + shift - 0.5f * (left + right));
     float border = rectangle_border(x, up - 0.5f * (bottom + top), half_x, half_y, 0.14f);
     return (Block){block_hash(row, number), scale * border};
 }
@@ -81,7 +82,7 @@ static float relief_at(const Material *m, const SurfacePoint *point, Vec3 p)
     float edge = clampf(1.0f - block.border / (0.3f * scale), 0.0f, 1.0f);
     float rough = noise_fractal(vec3_scale(p, 6.0f / scale), 4, SEED_ROUGH);
     float face =
-        0.35f + 0.4f * (noise_unit(block.hash, 33) - 0.5f) - 0.35f * edge * edge + 0.28f * rough;
+        0.35f + 0.4f * (noise_unit(block.hash, 33) - 0.5f) - 0.35f * edge * edge + 0.17f * rough;
     return m->pattern_depth * seen *
            lerpf(-0.5f + 0.08f * rough, face, stone_share(block.border, scale));
 }
