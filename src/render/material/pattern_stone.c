@@ -82,11 +82,9 @@ static Overgrowth moss_of(const Material *m, const SurfacePoint *point, float jo
 float pattern_stone_height(const Material *m, const SurfacePoint *point)
 {
     Vec3 p = point->object_position;
-    float height = relief_at(m, point, p);
-    if (m->moss > 0.0f) {
-        float joint = broken_at(p, scale_of(m), point->footprint).joint;
-        height += moss_of(m, point, joint).height;
-    }
+    Broken broken = broken_at(p, scale_of(m), point->footprint);
+    float height = m->pattern_depth * (broken.height + grain_height(p, point->footprint));
+    height += m->moss > 0.0f ? moss_of(m, point, broken.joint).height : 0.0f;
     return m->lichen > 0.0f ? height + lichen_at(m->lichen, point).height : height;
 }
 
