@@ -118,6 +118,7 @@ static void start_paths(const Tracer *tracer, int x, int y, int sample, int coun
         p->key = (uint32_t)random_key(p->sampler.key, p->sampler.reversed);
         p->ray.key = p->key++;
         p->start = p->from.position = p->ray.origin;
+        p->cloud_key = random_key(p->key, 0xc10d);
     }
 }
 
@@ -177,11 +178,15 @@ typedef enum Whereabouts { IN_MEDIUM, AT_SURFACE, OUTSIDE, NOWHERE } Whereabouts
 
 static Whereabouts travel(Path *path, const Hit *hit, bool met)
 {
+    float far = met ? hit->t : INFINITY, cloud = path_meet_cloud(path, far);
     if (path->media.now.present) {
-        Travel travel = path_travel(path, met ? hit->t : INFINITY);
+        Travel travel = path_travel(path, fminf(far, cloud));
         if (travel != TRAVEL_ARRIVED) {
             return travel == TRAVEL_SCATTERED ? IN_MEDIUM : NOWHERE;
         }
+    }
+    if (cloud < INFINITY) {
+        return path_scatter_in_cloud(path, cloud) == TRAVEL_SCATTERED ? IN_MEDIUM : NOWHERE;
     }
     if (met) {
         return AT_SURFACE;

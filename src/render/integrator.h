@@ -5,6 +5,7 @@
 
 #include "render/accel/accel.h"
 #include "render/camera.h"
+#include "render/cloud/clouds.h"
 #include "render/filter.h"
 #include "render/light/lights.h"
 #include "render/sampler.h"
@@ -21,6 +22,8 @@ typedef struct Tracer {
     float medium_radius;
     bool has_index_matched; // some part is an index-matched interface
     bool has_glow;          // lamps, or parts that glow
+    const CloudSet *clouds; // NULL = none
+    float cloud_haze;       // m over which distance fades clouds to 1 / e
     CameraFrame camera;
     Filter filter;
     SamplePlan plan;

@@ -47,8 +47,11 @@ typedef struct Path {
     int depth;       // bounces so far
     int stretches;   // of rays through media so far
     int crossings;   // of index-matched interfaces
-    bool mirrored;   // only mirror reflections since the camera
-    bool straight;   // only films and index-matched interfaces since the camera
+    int cloud_order; // how far the phase function of droplets has widened: scatterings by them
+    bool in_cloud;   // scattered by a droplet since the last surface
+    uint64_t cloud_key; // state of the random numbers that track through clouds
+    bool mirrored;      // only mirror reflections since the camera
+    bool straight;      // only films and index-matched interfaces since the camera
     int64_t rays;
 } Path;
 
@@ -124,11 +127,30 @@ void path_sample_light(Vertex *vertex, const float u[4]);
 // Samples the BSDF for the next ray. False when the path ends here. u: of SET_BSDF.
 bool path_bounce(Vertex *vertex, const float u[4]);
 
+// Distance fades what is seen into the horizon's colour, which replaces all but 1 / e of it after
+// `length` m; 0 = clear. Only for camera rays and mirror reflections of them: in diffuse light the
+// difference does not show.
+void path_add_haze(Path *path, float distance, float length);
+
 // ---- path_scatter.c
 
 typedef enum Travel { TRAVEL_ARRIVED, TRAVEL_SCATTERED, TRAVEL_ENDED } Travel;
 
 // Moves the path through the medium around it, up to the hit at distance `far`.
 Travel path_travel(Path *path, float far);
+
+// ---- path_clouds.c
+
+// An estimate of the share of light that clouds let pass along a shadow ray of the path.
+float path_pass_clouds(Path *path, const Ray *ray);
+
+// Draws the distance at which a droplet scatters the path's ray; INFINITY if none does.
+float path_meet_cloud(Path *path, float far);
+
+// Scatters the path there.
+Travel path_scatter_in_cloud(Path *path, float t);
+
+// What leaves a surface that diffuse light has reached meets clouds as diffuse light, too.
+void path_leave_diffusely(Path *path);
 
 #endif

@@ -130,7 +130,10 @@ static bool passes_bodies(Path *path, Ray ray, const LightSample *light, Media m
 void path_cast_shadow_through(Path *path, const Ray *ray, const LightSample *light,
                               const Media *media, Vec3 radiance)
 {
-    Vec3 share = vec3_splat(1.0f);
+    Vec3 share = vec3_splat(path_pass_clouds(path, ray));
+    if (share.x <= 0.0f) {
+        return;
+    }
     if (!path->tracer->has_index_matched) {
         lose(media, path->tracer, ray, ray->far, &share);
         path_cast_shadow(path, ray, vec3_mul(radiance, share));

@@ -17,11 +17,8 @@ static Ray ray_from(Path *path, const SurfacePoint *point, Vec3 direction)
                  .key = path->key++};
 }
 
-// Distance fades surfaces into the horizon's colour. Only for camera rays and mirror reflections of
-// them: in diffuse light the difference does not show.
-static void add_haze(Path *path, float distance)
+void path_add_haze(Path *path, float distance, float length)
 {
-    float length = path->tracer->world->sky.haze_distance;
     if (length > 0.0f && path->mirrored) {
         float clear = expf(-distance / length);
         Vec3 veil = lights_horizon(path->tracer->lights, path->ray.direction);
@@ -94,6 +91,10 @@ static bool shade(Vertex *vertex)
     if (path->depth >= tracer->world->render.max_depth || !path_survives(path)) {
         return false;
     }
+    path->in_cloud = false;
+    if (path->depth > 0) {
+        path_leave_diffusely(path);
+    }
     if (!(bsdf->traits & TRAIT_THIN)) {
         bool opaque = bsdf->traits & TRAIT_OPAQUE;
         path->from =
@@ -107,7 +108,7 @@ Arrival path_arrive(Vertex *vertex)
     Path *path = vertex->path;
     const Tracer *tracer = path->tracer;
     const Hit *hit = &vertex->hit;
-    add_haze(path, hit->t);
+    path_add_haze(path, hit->t, tracer->world->sky.haze_distance);
     int light = accel_light(tracer->accel, hit);
     if (light >= 0) {
         path_add_light(path, lights_emitted(tracer->lights, light, path->start, path->ray.direction,
@@ -144,7 +145,8 @@ void path_sample_light(Vertex *vertex, const float u[4])
     path_aim(&shadow, &light);
     Vec3 radiance =
         vec3_scale(vec3_mul(f, light.radiance), power_heuristic(light.pdf, pdf) / light.pdf);
-    if (tracer->has_index_matched || path->media.now.present || tracer->outside.present) {
+    if (tracer->has_index_matched || path->media.now.present || tracer->outside.present ||
+        tracer->clouds) {
         Media media = path->media;
         if (bsdf->traits & TRAIT_BODY &&
             vec3_dot(light.direction, point->geometric_normal) < 0.0f) {

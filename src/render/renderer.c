@@ -13,6 +13,7 @@ struct Renderer {
     MaterialSet *materials;
     Accel *accel;
     Lights *lights;
+    CloudSet *clouds; // NULL = none
     const char *isa;
 };
 
@@ -23,6 +24,18 @@ static bool build_lights(Renderer *renderer, const Run *run, Error *e)
     lights_free(renderer->lights);
     renderer->lights = lights_new(renderer->world, radius, run, e);
     return renderer->lights;
+}
+
+static bool build_clouds(Renderer *renderer, const Run *run, Error *e)
+{
+    const World *world = renderer->world;
+    clouds_free(renderer->clouds);
+    renderer->clouds = NULL;
+    if (world->cloud_count == 0) {
+        return true;
+    }
+    renderer->clouds = clouds_new(world->cloud, world->cloud_count, world->cloud_seed, run, e);
+    return renderer->clouds;
 }
 
 static bool build_accel(Renderer *renderer, const Run *run, Error *e)
@@ -56,7 +69,8 @@ Renderer *renderer_new(const World *world, const char *isa, const Run *run, Erro
     renderer->world = world;
     renderer->isa = isa;
     renderer->materials = prepare_materials(world, run, e);
-    if (!renderer->materials || !build_accel(renderer, run, e) || !build_lights(renderer, run, e)) {
+    if (!renderer->materials || !build_accel(renderer, run, e) || !build_lights(renderer, run, e) ||
+        !build_clouds(renderer, run, e)) {
         renderer_free(renderer);
         return NULL;
     }
@@ -79,6 +93,10 @@ bool renderer_update(Renderer *renderer, unsigned changed, const Run *run, Error
     if ((changed & RENDERER_LAMPS || filters) && !build_accel(renderer, run, e)) {
         return false;
     }
+    if (changed & RENDERER_CLOUDS && !build_clouds(renderer, run, e)) {
+        return false;
+    }
+    changed &= ~(unsigned)RENDERER_CLOUDS;
     if (changed == RENDERER_SKY_TURNED && !lights_water(renderer->lights)) {
         lights_turn_sky(renderer->lights);
         return true;
@@ -89,6 +107,7 @@ bool renderer_update(Renderer *renderer, unsigned changed, const Run *run, Error
 void renderer_free(Renderer *renderer)
 {
     if (renderer) {
+        clouds_free(renderer->clouds);
         lights_free(renderer->lights);
         accel_free(renderer->accel);
         material_set_free(renderer->materials);
@@ -109,6 +128,13 @@ static bool check_sizes(const World *world, const Film *film, Error *e)
     return true;
 }
 
+// Clean air scatters green light to 1 / e in 80 km; haze adds to it with the turbidity.
+static float cloud_haze(const Sky *sky)
+{
+    float clear = 110e3f / fmaxf(sky->turbidity, 1.0f);
+    return sky->haze_distance > 0.0f ? sky->haze_distance : clear;
+}
+
 static void fill_tracer(Tracer *tracer, const Renderer *renderer)
 {
     const World *world = renderer->world;
@@ -116,6 +142,8 @@ static void fill_tracer(Tracer *tracer, const Renderer *renderer)
     tracer->world = world;
     tracer->accel = renderer->accel;
     tracer->lights = renderer->lights;
+    tracer->clouds = renderer->clouds;
+    tracer->cloud_haze = cloud_haze(&world->sky);
     tracer->materials = renderer->materials;
     tracer->camera = camera_frame(&world->camera, world->film.width, world->film.height);
     uint64_t seed =

@@ -22,7 +22,8 @@ enum {
     RENDERER_SKY_TURNED = 1, // only sky.rotation: costs nothing
     RENDERER_LIGHT = 2,      // any other value of sky and medium
     RENDERER_MATERIALS = 4,  // values of materials; number and order must stay
-    RENDERER_LAMPS = 8       // lamps: rebuilds the acceleration structures, which hold them
+    RENDERER_LAMPS = 8,      // lamps: rebuilds the acceleration structures, which hold them
+    RENDERER_CLOUDS = 16     // clouds: grows them anew
 };
 
 // Updates what depends on the changed flags. After a failure the renderer can only be freed.

@@ -47,6 +47,7 @@ World *world_new(Error *e)
 void world_free(World *world)
 {
     if (world) {
+        free(world->cloud);
         free(world->light);
         free(world->material);
         geometry_clear(&world->geometry);

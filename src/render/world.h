@@ -5,6 +5,7 @@
 
 #include "mesh/geometry.h"
 #include "render/camera.h"
+#include "render/cloud/cloud.h"
 #include "render/film_params.h"
 #include "render/light/light.h"
 #include "render/material/material.h"
@@ -18,7 +19,10 @@ typedef struct World {
     RenderParams render;
     Sky sky;
     Medium medium; // MEDIUM_NONE: clear air
-    Light *light;  // owned
+    Cloud *cloud;  // owned
+    int cloud_count;
+    uint64_t cloud_seed;
+    Light *light; // owned
     int light_count;
     Material *material; // owned
     int material_count;

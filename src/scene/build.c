@@ -72,6 +72,22 @@ static bool add_lights(World *world, const Scene *scene, Error *e)
     return true;
 }
 
+static bool add_clouds(World *world, const Scene *scene, Error *e)
+{
+    free(world->cloud);
+    world->cloud_count = 0;
+    world->cloud = memory_alloc(scene->cloud_count, sizeof *world->cloud, e);
+    if (!world->cloud) {
+        return false;
+    }
+    if (scene->cloud_count > 0) {
+        memcpy(world->cloud, scene->clouds, sizeof *world->cloud * (size_t)scene->cloud_count);
+    }
+    world->cloud_count = scene->cloud_count;
+    world->cloud_seed = scene->seed;
+    return true;
+}
+
 // ---- objects ----
 
 // Derived from its name and the scene's seed, so that it does not depend on other objects.
@@ -313,7 +329,8 @@ bool scene_give_settings(const Scene *scene, World *world, Error *e)
     world->render = scene->render;
     world->sky = scene->sky;
     world->medium = scene->medium ? *scene->medium : (Medium){0};
-    return add_materials(world, scene, e) && add_lights(world, scene, e);
+    return add_materials(world, scene, e) && add_lights(world, scene, e) &&
+           add_clouds(world, scene, e);
 }
 
 bool scene_place_objects(World *world, const Scene *scene, const bool *placed, Grown *growths,

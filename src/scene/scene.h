@@ -69,6 +69,7 @@ typedef struct SceneAnimation {
     int track_count;
 } SceneAnimation;
 
+typedef struct Cloud Cloud;
 typedef struct Light Light;
 typedef struct Material Material;
 typedef struct Medium Medium;
@@ -99,6 +100,8 @@ typedef struct Scene {
     RenderParams render;
     Sky sky;
     Medium *medium; // NULL = clear air
+    Cloud *clouds;
+    int cloud_count;
     Light *lights;
     int light_count;
     Material *materials;

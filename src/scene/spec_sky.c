@@ -36,7 +36,9 @@ static const Key SKY_KEYS[] = {
     {KEY_OF(Sky, ground_albedo, "ground_albedo", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1,
      .doc = "Reflectance of the ground; light that it reflects brightens the sky."},
     {KEY_OF(Sky, clouds, "clouds", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .high = 1,
-     .doc = "Fraction of the sky covered by thin clouds; they are visible but cast no shadows."},
+     .doc = "Fraction of the sky covered by thin, high clouds; they are visible but cast no "
+            "shadows. The "
+            "scene's `clouds` do."},
     {KEY_OF(Sky, moon, "moon", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .high = 1e6,
      .doc = "Multiplier of the full moon's light: 1 = a moonlit landscape, 0 = no moon."},
     {KEY_OF(Sky, moon_elevation, "moon_elevation", KEY_FLOAT), .kinds = BIT(SKY_NIGHT), .low = -10,

@@ -1,0 +1,31 @@
+#include "render/cloud/cloud.h"
+
+// Extinctions: a liquid water content of 0.2 to 0.5 g/m^3 in droplets of 8 to 10 um (Pruppacher and
+// Klett 1997, ch. 2).
+Cloud cloud_default(CloudKind kind)
+{
+    switch (kind) {
+    case CLOUD_STRATUS:
+        return (Cloud){.kind = kind,
+                       .base = 1500.0f,
+                       .thickness = 400.0f,
+                       .cover = 0.7f,
+                       .size = 1800.0f,
+                       .extinction = 0.05f};
+    case CLOUD_STORM:
+        return (Cloud){.kind = kind,
+                       .base = 1000.0f,
+                       .thickness = 10500.0f,
+                       .cover = 1.0f,
+                       .size = 5000.0f,
+                       .extinction = 0.03f};
+    case CLOUD_CUMULUS:
+        break;
+    }
+    return (Cloud){.kind = CLOUD_CUMULUS,
+                   .base = 1200.0f,
+                   .thickness = 1100.0f,
+                   .cover = 0.3f,
+                   .size = 1500.0f,
+                   .extinction = 0.05f};
+}

@@ -1,0 +1,248 @@
+#include "render/cloud/clouds.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "render/cloud/cloud_grid.h"
+
+#include <stdlib.h>
+
+struct CloudSet {
+    Billow *billow;
+    int count;
+    CloudGrid grid[];
+};
+
+// m: no cloud is seen beyond, where the Earth's curve has hidden it.
+static const float REACH = 90000.0f;
+
+CloudSet *clouds_new(const Cloud *cloud, int count, uint64_t seed, const Run *run, Error *e)
+{
+    CloudSet *clouds = memory_alloc_zero(1, sizeof *clouds + sizeof(CloudGrid) * (size_t)count, e);
+    if (!clouds) {
+        return NULL;
+    }
+    uint64_t key = random_key(seed, 0xc10d);
+    clouds->billow = billow_new(key, run, e);
+    bool done = clouds->billow;
+    for (int i = 0; done && i < count; i++) {
+        clouds->count++;
+        uint64_t own = random_key(random_key(key, (uint64_t)i), (uint64_t)cloud[i].seed);
+        done = cloud_grid_fill(&clouds->grid[i], &cloud[i], clouds->billow, own, run, e);
+    }
+    if (!done) {
+        clouds_free(clouds);
+        return NULL;
+    }
+    return clouds;
+}
+
+void clouds_free(CloudSet *clouds)
+{
+    if (clouds) {
+        for (int i = 0; i < clouds->count; i++) {
+            cloud_grid_clear(&clouds->grid[i]);
+        }
+        billow_free(clouds->billow);
+        free(clouds);
+    }
+}
+
+int64_t clouds_bytes(const CloudSet *clouds)
+{
+    int64_t sum = 0;
+    for (int i = 0; i < clouds->count; i++) {
+        const int *n = clouds->grid[i].count;
+        sum += (int64_t)n[0] * n[1] * n[2] * (int64_t)sizeof *clouds->grid[i].distance;
+    }
+    return sum;
+}
+
+float clouds_extinction(const CloudSet *clouds, Vec3 p)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < clouds->count; i++) {
+        sum += cloud_grid_extinction(&clouds->grid[i], p);
+    }
+    return sum;
+}
+
+// ---- a walk through the bricks that a ray meets (Amanatides and Woo 1987) ----
+
+typedef struct Walk {
+    const CloudGrid *grid;
+    int brick[3], step[3];
+    float next[3], delta[3]; // m along the ray: to the next border, and between borders
+    float near, far;         // m: of the brick
+    float end;
+    float bound; // 1/m: of the brick
+} Walk;
+
+static inline float coordinate(Vec3 v, int axis)
+{
+    return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
+}
+
+// The part of the ray within the grid; false if there is none.
+static bool clip(const CloudGrid *g, const CloudRay *ray, float *near, float *far)
+{
+    *near = 0.0f;
+    *far = fminf(ray->far, REACH);
+    for (int axis = 0; axis < 3; axis++) {
+        if (g->repeats && axis != 1) {
+            continue;
+        }
+        float low = coordinate(g->low, axis), d = coordinate(ray->direction, axis);
+        float high = low + g->voxel * (float)g->count[axis], o = coordinate(ray->origin, axis);
+        if (d == 0.0f) {
+            if (o < low || o > high) {
+                return false;
+            }
+            continue;
+        }
+        float a = (low - o) / d, b = (high - o) / d;
+        *near = fmaxf(*near, fminf(a, b));
+        *far = fminf(*far, fmaxf(a, b));
+    }
+    return *near < *far;
+}
+
+static void enter(Walk *w)
+{
+    const CloudGrid *g = w->grid;
+    int x = w->brick[0], z = w->brick[2];
+    if (g->repeats) {
+        x &= g->bricks[0] - 1;
+        z &= g->bricks[2] - 1;
+    }
+    w->far = fminf(fminf(w->next[0], fminf(w->next[1], w->next[2])), w->end);
+    bool inside = (unsigned)x < (unsigned)g->bricks[0] && (unsigned)z < (unsigned)g->bricks[2] &&
+                  (unsigned)w->brick[1] < (unsigned)g->bricks[1];
+    w->bound =
+        inside ? g->bound[((int64_t)z * g->bricks[0] + x) * g->bricks[1] + w->brick[1]] : 0.0f;
+}
+
+static bool walk_begin(Walk *w, const CloudGrid *g, const CloudRay *ray)
+{
+    w->grid = g;
+    if (!clip(g, ray, &w->near, &w->end)) {
+        return false;
+    }
+    float side = g->voxel * BRICK;
+    for (int axis = 0; axis < 3; axis++) {
+        float d = coordinate(ray->direction, axis);
+        float o = coordinate(ray->origin, axis) - coordinate(g->low, axis);
+        w->brick[axis] = (int)floorf((o + w->near * d) / side);
+        w->step[axis] = d < 0.0f ? -1 : 1;
+        w->delta[axis] = d != 0.0f ? side / fabsf(d) : INFINITY;
+        float border = side * (float)(w->brick[axis] + (d < 0.0f ? 0 : 1));
+        w->next[axis] = d != 0.0f ? fmaxf((border - o) / d, w->near) : INFINITY;
+    }
+    enter(w);
+    return true;
+}
+
+static bool walk_on(Walk *w)
+{
+    if (w->far >= w->end) {
+        return false;
+    }
+    int axis = w->next[0] < w->next[1] ? 0 : 1;
+    axis = w->next[2] < w->next[axis] ? 2 : axis;
+    w->near = w->far;
+    w->brick[axis] += w->step[axis];
+    w->next[axis] += w->delta[axis];
+    enter(w);
+    return true;
+}
+
+// ---- tracking ----
+
+static float draw(uint64_t *key)
+{
+    *key += 0x9e3779b97f4a7c15ull;
+    return random_unit(*key);
+}
+
+static float draw_depth(uint64_t *key)
+{
+    return -logf(1.0f - draw(key));
+}
+
+static float collide(const CloudGrid *g, const CloudRay *ray, float scale, uint64_t *key)
+{
+    Walk w;
+    if (!walk_begin(&w, g, ray)) {
+        return INFINITY;
+    }
+    float depth = draw_depth(key);
+    do {
+        float bound = w.bound * scale, t = w.near;
+        while (bound > 0.0f) {
+            float step = depth / bound;
+            if (t + step >= w.far) {
+                depth -= (w.far - t) * bound;
+                break;
+            }
+            t += step;
+            Vec3 p = vec3_madd(ray->origin, t, ray->direction);
+            if (draw(key) * bound < scale * cloud_grid_extinction(g, p)) {
+                return t;
+            }
+            depth = draw_depth(key);
+        }
+    } while (walk_on(&w));
+    return INFINITY;
+}
+
+// Ratio tracking; what is nearly lost is played for.
+static float pass(const CloudGrid *g, const CloudRay *ray, float scale, uint64_t *key)
+{
+    Walk w;
+    if (!walk_begin(&w, g, ray)) {
+        return 1.0f;
+    }
+    float share = 1.0f, depth = draw_depth(key);
+    do {
+        float bound = w.bound * scale, t = w.near;
+        while (bound > 0.0f) {
+            float step = depth / bound;
+            if (t + step >= w.far) {
+                depth -= (w.far - t) * bound;
+                break;
+            }
+            t += step;
+            Vec3 p = vec3_madd(ray->origin, t, ray->direction);
+            share *= 1.0f - fminf(scale * cloud_grid_extinction(g, p) / bound, 1.0f);
+            if (share < 0.2f) {
+                if (draw(key) >= share) {
+                    return 0.0f;
+                }
+                share = 1.0f;
+            }
+            depth = draw_depth(key);
+        }
+    } while (walk_on(&w));
+    return share;
+}
+
+float clouds_collide(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key)
+{
+    CloudRay rest = *ray;
+    float nearest = INFINITY;
+    for (int i = 0; i < clouds->count; i++) {
+        float t = collide(&clouds->grid[i], &rest, scale, key);
+        if (t < nearest) {
+            nearest = rest.far = t;
+        }
+    }
+    return nearest;
+}
+
+float clouds_pass(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key)
+{
+    float share = 1.0f;
+    for (int i = 0; i < clouds->count && share > 0.0f; i++) {
+        share *= pass(&clouds->grid[i], ray, scale, key);
+    }
+    return share;
+}

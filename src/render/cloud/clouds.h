@@ -1,0 +1,36 @@
+// All clouds of a scene, and tracking through them with null collisions against the bounds of
+// bricks (Woodcock et al. 1965; Novak et al., "Residual Ratio Tracking", SIGGRAPH Asia 2014;
+// bricks: Szirmay-Kalos et al. 2011). Unbiased for the field as it is looked up.
+#ifndef RAMIFY_RENDER_CLOUD_CLOUDS_H
+#define RAMIFY_RENDER_CLOUD_CLOUDS_H
+
+#include "base/run.h"
+#include "base/vec.h"
+#include "render/cloud/cloud.h"
+
+#include <stdint.h>
+
+typedef struct CloudSet CloudSet;
+
+// seed: of the scene. ERROR_MEMORY when the grids do not fit.
+CloudSet *clouds_new(const Cloud *cloud, int count, uint64_t seed, const Run *run, Error *e);
+void clouds_free(CloudSet *clouds); // NULL is fine
+int64_t clouds_bytes(const CloudSet *clouds);
+
+// Part of a ray with unit direction, up to far m.
+typedef struct CloudRay {
+    Vec3 origin, direction;
+    float far;
+} CloudRay;
+
+// Draws the distance to the first collision with a droplet, where extinctions count `scale` times;
+// INFINITY = none. *key: state of the random numbers, which advances.
+float clouds_collide(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key);
+
+// An estimate of the ray's transmittance, 0 .. 1, of the right mean.
+float clouds_pass(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key);
+
+// Extinction of all clouds at a place, 1/m.
+float clouds_extinction(const CloudSet *clouds, Vec3 p);
+
+#endif

@@ -1,0 +1,136 @@
+// A path among clouds: droplets scatter nearly straight on, dozens of times before light leaves.
+//
+// The first scattering events are nature's. With each, the phase function widens and the extinction
+// shrinks, so that extinction x (1 - g) stays (similarity: Zhao, Ramamoorthi and Bala, "High-Order
+// Similarity Relations in Radiative Transfer", SIGGRAPH 2014): what forward scattering no longer
+// changes is not traced. Droplets absorb nothing of visible light.
+#include "render/path.h"
+
+#include "base/random.h"
+
+#include <stddef.h>
+
+enum {
+    ORDERS = 6,        // after so many scatterings the phase function is even
+    MOST_ORDERS = 256, // scatterings of a path that the camera sees; what is lost is below 1 %
+    MOST_ORDERS_DIFFUSE = 96
+};
+static const float DROPLET_ANISOTROPY = 0.86f; // visible light, radii of 5 to 15 um
+
+static float anisotropy_at(int order)
+{
+    int left = ORDERS - order;
+    return left > 0 ? DROPLET_ANISOTROPY * (float)left / ORDERS : 0.0f;
+}
+
+static float extinction_scale(int order)
+{
+    return (1.0f - DROPLET_ANISOTROPY) / (1.0f - anisotropy_at(order));
+}
+
+void path_leave_diffusely(Path *path)
+{
+    path->cloud_order = path->cloud_order > ORDERS ? path->cloud_order : ORDERS;
+}
+
+float path_pass_clouds(Path *path, const Ray *ray)
+{
+    const CloudSet *clouds = path->tracer->clouds;
+    if (!clouds) {
+        return 1.0f;
+    }
+    CloudRay part = {ray->origin, ray->direction, ray->far};
+    return clouds_pass(clouds, &part, extinction_scale(path->cloud_order), &path->cloud_key);
+}
+
+float path_meet_cloud(Path *path, float far)
+{
+    const CloudSet *clouds = path->tracer->clouds;
+    if (!clouds || path->media.count > 0) {
+        return INFINITY;
+    }
+    CloudRay part = {path->ray.origin, path->ray.direction, far};
+    return clouds_collide(clouds, &part, extinction_scale(path->cloud_order), &path->cloud_key);
+}
+
+// The cloud as the first thing seen: white, facing the side from which it gets thinner.
+static void note_cloud(Path *path, Vec3 point, float distance)
+{
+    static const float STEP = 40.0f; // m
+    Vec3 slope = vec3_splat(0.0f);
+    const CloudSet *clouds = path->tracer->clouds;
+    for (int axis = 0; axis < 3; axis++) {
+        Vec3 d = vec3(axis == 0 ? STEP : 0.0f, axis == 1 ? STEP : 0.0f, axis == 2 ? STEP : 0.0f);
+        float change = clouds_extinction(clouds, vec3_sub(point, d)) -
+                       clouds_extinction(clouds, vec3_add(point, d));
+        slope = vec3_madd(slope, change / STEP, d);
+    }
+    float steep = vec3_length(slope);
+    PathResult *result = path->result;
+    result->hit = true;
+    result->seen = SEEN_SURFACE;
+    result->normal = steep > 0.0f ? vec3_scale(slope, 1.0f / steep) : vec3_neg(path->ray.direction);
+    result->position = point;
+    result->depth = path->travelled + distance;
+    result->object = -1;
+}
+
+static void sample_light(Path *path, Vec3 point, const float u[4])
+{
+    const Tracer *tracer = path->tracer;
+    LightSample light;
+    if (!lights_can_sample(tracer->lights) ||
+        !lights_sample(tracer->lights, &path->from, u, &light)) {
+        return;
+    }
+    float cosine = vec3_dot(path->ray.direction, light.direction);
+    float phase = phase_density(anisotropy_at(path->cloud_order), cosine);
+    Ray shadow = {
+        .origin = point, .direction = light.direction, .far = INFINITY, .key = path->key++};
+    path_aim(&shadow, &light);
+    path->cloud_order++;
+    float weight = phase * power_heuristic(light.pdf, phase) / light.pdf;
+    path_cast_shadow_through(path, &shadow, &light, &path->media,
+                             vec3_scale(light.radiance, weight));
+    path->cloud_order--;
+}
+
+// Roulette would not do: without absorption light lasts for hundreds of scatterings, over which the
+// weight of what survives grows without bound.
+static bool goes_on(const Path *path)
+{
+    return path->cloud_order < (path->depth > 1 ? MOST_ORDERS_DIFFUSE : MOST_ORDERS);
+}
+
+Travel path_scatter_in_cloud(Path *path, float t)
+{
+    const Tracer *tracer = path->tracer;
+    Vec3 point = vec3_madd(path->ray.origin, t, path->ray.direction);
+    if (path->straight) {
+        note_cloud(path, point, t);
+    }
+    path_add_haze(path, t, tracer->cloud_haze);
+    if (!path->in_cloud && path->depth++ >= tracer->world->render.max_depth) {
+        return TRAVEL_ENDED;
+    }
+    path->in_cloud = true;
+    path->mirrored = path->straight = false;
+    path->from = (LightReceiver){.position = point};
+    float u[4], v[4];
+    uint32_t set = (uint32_t)(SET_MEDIUM + SETS_PER_STRETCH * path->stretches++);
+    sampler_draw(&path->sampler, set, u);
+    sampler_draw(&path->sampler, set + 1, v);
+    sample_light(path, point, u);
+    float g = anisotropy_at(path->cloud_order);
+    Vec3 direction = phase_draw(g, path->ray.direction, v[0], v[1]);
+    float phase = phase_density(g, vec3_dot(path->ray.direction, direction));
+    path->bsdf_pdf = lights_can_sample(tracer->lights) ? phase : 0.0f;
+    path->start = point;
+    path->travelled = 0.0f;
+    path->footprint += path->spread * t;
+    path->spread = larger(path->spread, 0.25f / (1.0f + phase));
+    path->ray = (Ray){.origin = point, .direction = direction, .far = INFINITY, .key = path->key++};
+    path->cloud_order++;
+    path->roulette = v[2];
+    return goes_on(path) ? TRAVEL_SCATTERED : TRAVEL_ENDED;
+}

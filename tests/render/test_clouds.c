@@ -1,0 +1,233 @@
+// Clouds against numerical integrals and a furnace.
+#include "tiny_world.h"
+
+#include "base/random.h"
+#include "render/cloud/clouds.h"
+
+#define assert_in_bounds(value, low, high)                                      \
+    do {                                                                        \
+        double v_ = (double)(value), a_ = (double)(low), b_ = (double)(high);   \
+        if (!(v_ >= a_ && v_ <= b_)) {                                          \
+            fail_msg("%s = %.6g, not within %.6g .. %.6g", #value, v_, a_, b_); \
+        }                                                                       \
+    } while (0)
+
+static CloudSet *grow(Cloud cloud)
+{
+    Run run = run_default();
+    Error e = {.code = ERROR_NONE};
+    CloudSet *clouds = clouds_new(&cloud, 1, 3, &run, &e);
+    if (!clouds) {
+        fail_msg("%s", e.message);
+    }
+    return clouds;
+}
+
+static Cloud small_heaps(void)
+{
+    Cloud cloud = cloud_default(CLOUD_CUMULUS);
+    cloud.size = 400.0f;
+    cloud.thickness = 300.0f;
+    cloud.cover = 0.5f;
+    return cloud;
+}
+
+// A ray through the layer from below, oblique.
+static CloudRay ray_number(uint64_t i)
+{
+    uint64_t key = random_key(11, i);
+    Vec3 up = random_direction(random_key(key, 2));
+    up.y = 0.4f + fabsf(up.y);
+    return (CloudRay){.origin = vec3(random_range(random_key(key, 0), -9000, 9000), 900,
+                                     random_range(random_key(key, 1), -9000, 9000)),
+                      .direction = vec3_normalize(up),
+                      .far = 2000.0f};
+}
+
+// Optical depth up to t by steps of half a metre.
+static double depth_along(const CloudSet *clouds, const CloudRay *ray, double t)
+{
+    int steps = (int)(t / 0.5) + 1;
+    double sum = 0.0;
+    for (int i = 0; i < steps; i++) {
+        float at = (float)(((double)i + 0.5) * t / steps);
+        sum += (double)clouds_extinction(clouds, vec3_madd(ray->origin, at, ray->direction)) * t /
+               steps;
+    }
+    return sum;
+}
+
+// Shares that pass, by both ways of tracking, equal exp(-depth); collisions lie where they must.
+static void tracking_has_the_mean_of_the_integral(void **state)
+{
+    (void)state;
+    CloudSet *clouds = grow(small_heaps());
+    enum { TRIALS = 4000, RAYS = 12 };
+    const float scale = 0.14f;
+    int met = 0;
+    for (uint64_t i = 0; i < RAYS; i++) {
+        CloudRay ray = ray_number(i);
+        double wanted = exp(-(double)scale * depth_along(clouds, &ray, (double)ray.far));
+        double passed = 0.0, missed = 0.0, early = 0.0;
+        uint64_t key = random_key(5, i);
+        for (int k = 0; k < TRIALS; k++) {
+            passed += (double)clouds_pass(clouds, &ray, scale, &key) / TRIALS;
+            float t = clouds_collide(clouds, &ray, scale, &key);
+            missed += isinf(t) ? 1.0 / TRIALS : 0.0;
+            early += t < 700.0f ? 1.0 / TRIALS : 0.0;
+        }
+        double error = 4.5 * 0.5 / sqrt((double)TRIALS);
+        assert_in_bounds(passed, wanted - error, wanted + error);
+        assert_in_bounds(missed, wanted - error, wanted + error);
+        double before = 1.0 - exp(-(double)scale * depth_along(clouds, &ray, 700.0));
+        assert_in_bounds(early, before - error, before + error);
+        met += wanted < 0.9;
+    }
+    assert_true(met >= 4); // rays do meet clouds
+    clouds_free(clouds);
+}
+
+// The share of vertical rays that meet a cloud is the cover; and the field repeats.
+static double covered(const CloudSet *clouds, double period)
+{
+    enum { SIDE = 48 };
+    int met = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        float x = (float)((i % SIDE + 0.5) * period / SIDE);
+        float z = (float)((i / SIDE + 0.5) * period / SIDE);
+        bool any = false;
+        for (float y = 1100.0f; y < 3500.0f && !any; y += 15.0f) {
+            any = clouds_extinction(clouds, vec3(x, y, z)) > 0.0f;
+        }
+        met += any;
+    }
+    return (double)met / (SIDE * SIDE);
+}
+
+static void clouds_cover_their_share_of_the_sky(void **state)
+{
+    (void)state;
+    for (int i = 1; i <= 3; i++) {
+        Cloud sheet = cloud_default(CLOUD_STRATUS);
+        sheet.cover = 0.3f * (float)i;
+        CloudSet *clouds = grow(sheet);
+        double share = covered(clouds, 16.0 * (double)sheet.size);
+        assert_in_bounds(share, (double)sheet.cover - 0.04, (double)sheet.cover + 0.04);
+        clouds_free(clouds);
+    }
+    for (int i = 1; i <= 3; i++) {
+        Cloud heaps = small_heaps();
+        heaps.cover = 0.15f * (float)i;
+        CloudSet *clouds = grow(heaps);
+        double share = covered(clouds, 16.0 * (double)heaps.size);
+        assert_in_bounds(share, 0.85 * (double)heaps.cover, 1.15 * (double)heaps.cover);
+        clouds_free(clouds);
+    }
+}
+
+static void heaps_stand_on_one_base_and_no_higher_than_told(void **state)
+{
+    (void)state;
+    Cloud heaps = small_heaps();
+    CloudSet *clouds = grow(heaps);
+    int below = 0, inside = 0, above = 0;
+    for (uint64_t i = 0; i < 40000; i++) {
+        Vec3 p = vec3(random_range(random_key(i, 0), 0, 6400), 0,
+                      random_range(random_key(i, 1), 0, 6400));
+        p.y = heaps.base - 60.0f * random_unit(random_key(i, 2));
+        below += clouds_extinction(clouds, p) > 0.0f;
+        p.y = heaps.base + 80.0f * random_unit(random_key(i, 3));
+        inside += clouds_extinction(clouds, p) > 0.0f;
+        p.y = heaps.base + heaps.thickness * random_range(random_key(i, 4), 1.35f, 2.0f);
+        above += clouds_extinction(clouds, p) > 0.0f;
+    }
+    assert_int_equal(below, 0);
+    assert_true(inside > 4000);
+    assert_int_equal(above, 0);
+    clouds_free(clouds);
+}
+
+static World *cloudy_world(int samples)
+{
+    World *world = tiny_world(24, 16, samples, 0.5f);
+    world->camera.position = vec3(0, 10, 0);
+    world->camera.target = vec3(300, 500, 1000);
+    world->camera.fov = 60;
+    world->cloud = memory_alloc(1, sizeof *world->cloud, NULL);
+    assert_non_null(world->cloud);
+    world->cloud[0] = small_heaps();
+    world->cloud_count = 1;
+    world->cloud_seed = 3;
+    add_mesh(world, quad_mesh(vec3(-1, -5, -1), vec3(0, 0, 2), vec3(2, 0, 0)), 0, 0);
+    return world;
+}
+
+// Droplets absorb nothing, so under an even sky clouds cannot be seen. With lamps, light is sampled
+// apart and must add up to the same.
+static void an_even_sky_hides_clouds(void **state)
+{
+    (void)state;
+    for (int lamps = 0; lamps < 2; lamps++) {
+        World *world = cloudy_world(16);
+        world->sky =
+            (Sky){.kind = SKY_CONSTANT, .color = {1, 1, 1}, .strength = 1, .visible = true};
+        if (lamps) { // behind the camera and dark
+            add_light(world, (Light){.kind = LIGHT_SPHERE,
+                                     .center = {0, -50, -400},
+                                     .radius = 1,
+                                     .radiance = {1e-6f, 1e-6f, 1e-6f}});
+        }
+        Film *film = trace(world, 2, NULL);
+        double mean = mean_luminance(film), error = 4.0 * mean_error(film) + 1e-3;
+        assert_in_bounds(mean, 0.99 - error, 1.0 + error); // 1 % goes with the last scatterings
+        film_free(film);
+        world_free(world);
+    }
+}
+
+// Land in the shade of a closed sheet gets less light than in the open, but some.
+static void clouds_shade_the_land(void **state)
+{
+    (void)state;
+    double light[2];
+    for (int clouds = 0; clouds < 2; clouds++) {
+        World *world = cloudy_world(64);
+        world->cloud[0] = cloud_default(CLOUD_STRATUS);
+        world->cloud[0].cover = 1.0f;
+        world->cloud_count = clouds;
+        world->camera.target = vec3(0, 0, 0.01f);
+        world->camera.fov = 4;
+        world->sky = world_default().sky;
+        Film *film = trace(world, 2, NULL);
+        light[clouds] = mean_luminance(film);
+        film_free(film);
+        world_free(world);
+    }
+    assert_in_bounds(light[1] / light[0], 0.05, 0.6);
+}
+
+static void threads_do_not_change_clouds(void **state)
+{
+    (void)state;
+    World *world = cloudy_world(4);
+    world->sky = world_default().sky;
+    Film *one = trace(world, 1, NULL), *three = trace(world, 3, NULL);
+    size_t pixels = (size_t)(one->width * one->height);
+    assert_memory_equal(one->color, three->color, sizeof *one->color * pixels);
+    film_free(one);
+    film_free(three);
+    world_free(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tracking_has_the_mean_of_the_integral),
+        cmocka_unit_test(clouds_cover_their_share_of_the_sky),
+        cmocka_unit_test(heaps_stand_on_one_base_and_no_higher_than_told),
+        cmocka_unit_test(an_even_sky_hides_clouds),
+        cmocka_unit_test(clouds_shade_the_land),
+        cmocka_unit_test(threads_do_not_change_clouds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
