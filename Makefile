@@ -4,7 +4,7 @@
 # programs that tests hold our files against, as COMMAND:PACKAGE. FUZZ: only for fuzz. CLUSTER: only for test-cluster.
 BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libboost-dev libopenimageio-dev \
                  libopenexr-dev libopencolorio-dev libassimp-dev libyaml-dev libtbb-dev libnlopt-dev libseccomp-dev \
-                 libcmocka-dev ffmpeg
+                 libcmocka-dev libgdal-dev ffmpeg
 CHECK_PACKAGES = clang-format clang-tidy cppcheck
 FUZZ_PACKAGES  = clang libclang-rt-14-dev
 PEER_COMMANDS  = povray:povray povray:povray-includes blender:blender node:nodejs npm:npm chromium:chromium mandoc:mandoc \
@@ -55,13 +55,15 @@ $(OBJ)/shape/vdb_%.cpp.o: CXXFLAGS += $(if $(filter fuzz,$(CONFIG)),-fno-sanitiz
 
 # What needs libraries that take long to load (OpenImageIO brings 240 others) lies in plug-ins, ramify-NAME.so, which are
 # loaded when first used (base/plugin.h). Their sources and libraries:
-PLUGINS      := oiio vdb ocio
+PLUGINS      := oiio vdb ocio gdal
 PLUGIN_oiio  := image/decode.cpp image/encode.cpp render/material/texture_filter.cpp
 LDLIBS_oiio  := -lOpenImageIO -lOpenImageIO_Util -lOpenEXR -lstdc++ -lm
 PLUGIN_vdb   := shape/vdb_level_set.cpp shape/vdb_grid_file.cpp shape/vdb_read.cpp shape/spare_memory.cpp
 LDLIBS_vdb   := -lopenvdb -lImath -ltbb -lstdc++ -lm
 PLUGIN_ocio  := image/ocio_view.cpp
 LDLIBS_ocio  := -lOpenColorIO -lstdc++ -lm
+PLUGIN_gdal  := land/survey_gdal.cpp
+LDLIBS_gdal  := -lgdal -lstdc++ -lm
 PLUGIN_FILES := $(PLUGINS:%=$(OUT)/ramify-%.so)
 # Where programs look for plug-ins: beside them in build/, or in lib/ramify/.
 RUNPATH         = -Wl,--enable-new-dtags,-rpath,'$(1)'

@@ -5,6 +5,7 @@
 #include <OpenEXR/OpenEXRConfig.h>
 #include <OpenImageIO/oiioversion.h>
 #include <embree3/rtcore_config.h>
+#include <gdal/gdal_version.h>
 #include <oneapi/tbb/version.h>
 #include <opensubdiv/version.h>
 #include <openvdb/version.h>
@@ -21,5 +22,5 @@ const char *libraries_compiled(void)
     return "Embree " RTC_VERSION_STRING ", OpenSubdiv " OSD
            ", OpenVDB " OPENVDB_LIBRARY_VERSION_STRING ", OpenImageIO " OIIO
            ", OpenEXR " OPENEXR_VERSION_STRING ", Imath " IMATH_VERSION_STRING
-           ", OpenColorIO " OCIO_VERSION ", TBB " TBB_VERSION_STRING;
+           ", OpenColorIO " OCIO_VERSION ", GDAL " GDAL_RELEASE_NAME ", TBB " TBB_VERSION_STRING;
 }

@@ -50,6 +50,15 @@ END
 loads view_of_a_configuration_loads_opencolorio 'ocio oiio' "$RAMIFY" render ball.yaml -q -o view.png \
     --set film.color.config=views.ocio
 
+cat >survey.yaml <<'END'
+objects:
+  - name: land
+    terrain: {form: survey, size: 60, resolution: 16, survey: {file: land.asc}, forest: {count: 0}}
+END
+printf 'ncols 5\nnrows 5\nxllcorner 1000\nyllcorner 1000\ncellsize 20\n' >land.asc
+seq 25 >>land.asc
+loads survey_loads_gdal gdal "$RAMIFY" export survey.yaml -q -o survey.stl
+
 # A copy of the program alone finds none.
 cp "$RAMIFY" alone
 check alone_starts 0 ./alone --version

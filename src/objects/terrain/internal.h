@@ -26,13 +26,13 @@ enum {
 typedef struct Terrain {
     const TerrainParams *params; // borrowed
     uint64_t seed;
-    OutTree *tree;            // rivers or ridges, heights and radii filled in; owned by the Grown
-    HeightField *map;         // of TERRAIN_MAP: lifts, shares of the relief
-    RidgeLift *lift;          // of TERRAIN_RIDGES; all that follows is of TERRAIN_RIVERS
-    float *area;              // m^2, drainage area of each node
-    float *uplift;            // factor on gradients at each node
-    float gradient;           // of hillslopes at uplift 1
-    TroughEnvelope *land;     // heights of valleys and slopes
+    OutTree *tree;        // rivers or ridges, heights and radii filled in; owned by the Grown
+    HeightField *map;     // of TERRAIN_MAP: lifts, shares of the relief; of TERRAIN_SURVEY: heights
+    RidgeLift *lift;      // of TERRAIN_RIDGES; all that follows is of TERRAIN_RIVERS
+    float *area;          // m^2, drainage area of each node
+    float *uplift;        // factor on gradients at each node
+    float gradient;       // of hillslopes at uplift 1
+    TroughEnvelope *land; // heights of valleys and slopes
     TroughEnvelope *distance; // m to the nearest river, in plan
     // The visible rivers on the finished heights, set by terrain_heights; NULL or without nodes if
     // none is wide enough.
@@ -86,6 +86,17 @@ enum { TERRAIN_MOST_COLORS = 64 };
 
 // color_map.c: the lifts that the picture's colours tell. The caller frees the field.
 HeightField *terrain_read_map(const TerrainParams *params, const Run *run, Error *e);
+
+// survey.c: the square of the survey, lowest height 0. The caller frees the field.
+HeightField *terrain_read_survey(const TerrainParams *params, const Run *run, Error *e);
+// The rivers that drain it, y = their level; none if they have no water. *tree may be set on
+// failure.
+bool terrain_find_rivers(OutTree **tree, const TerrainParams *params, const Recipe *recipe,
+                         Error *e);
+// Fills terrain->area, ->uplift (1) and the tree's radii.
+bool terrain_finish_survey(Terrain *terrain, Error *e);
+// The height at a place: terrain->map's, with detail finer than its cells.
+float terrain_surveyed_at(const Terrain *terrain, float x, float z);
 
 // uplift.c: fills terrain->uplift, at least 0.02 at each node. Reads the user's picture.
 bool terrain_uplift(Terrain *terrain, const Run *run, Error *e);

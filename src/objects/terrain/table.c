@@ -255,6 +255,38 @@ static const Table MAP_TABLE = {
     .keys = MAP_KEYS,
     .check = check_map};
 
+// ---- survey
+
+static const Key SURVEY_KEYS[] = {
+    {KEY_OF(SurveyParams, file, "file", KEY_FILE),
+     .doc = "Raster of heights, north up, in any format that GDAL reads: GeoTIFF, HGT, ASC, DTED, "
+            "IMG, VRT and others. Required by form: survey."},
+    {KEY_OF(SurveyParams, band, "band", KEY_INT), .low = 1, .high = 65535,
+     .doc = "Band with the heights; 1 = the first."},
+    {KEY_OF(SurveyParams, center, "center", KEY_VECTOR), .count = 2, .low = -1e7, .high = 1e7,
+     .unit = "m",
+     .doc = "Middle of the terrain, to the east and to the south of the raster's middle; `size` "
+            "tells how much is cut out."},
+    {KEY_OF(SurveyParams, exaggeration, "exaggeration", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .doc = "Factor on the heights; 1 = as they are."},
+    {0},
+};
+
+static const Table SURVEY_TABLE = {
+    .name = "survey",
+    .doc = "Surveyed land: a square of a raster of heights. Its lowest point is at y = 0; degrees "
+           "become metres. Its rivers are found: `rivers.count` tells how many brooks, "
+           "`rivers.water` how wide they are (0 = none). `noise` adds detail finer than its cells, "
+           "in proportion to the slope.",
+    .example = "objects:\n"
+               "  - name: range\n"
+               "    terrain:\n"
+               "      form: survey\n"
+               "      size: 11000\n"
+               "      survey: {file: heights.tif, center: [-2000, 0]}\n",
+    .size = sizeof(SurveyParams),
+    .keys = SURVEY_KEYS};
+
 // ---- noise, erosion, forest
 
 static const Key NOISE_KEYS[] = {
@@ -330,11 +362,9 @@ static const Table FOREST_TABLE = {.name = "forest",
                                    .size = sizeof(TerrainForestParams),
                                    .keys = FOREST_KEYS};
 
-static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS},
-                                      {"ridges", TERRAIN_RIDGES},
-                                      {"map", TERRAIN_MAP},
-                                      {"noise", TERRAIN_NOISE},
-                                      {0}};
+static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS}, {"ridges", TERRAIN_RIDGES},
+                                      {"map", TERRAIN_MAP},       {"noise", TERRAIN_NOISE},
+                                      {"survey", TERRAIN_SURVEY}, {0}};
 
 static const EnumName SHOW_NAMES[] = {
     {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
@@ -344,14 +374,14 @@ static const Key TERRAIN_KEYS[] = {
      .doc =
          "Source of the heights. rivers: valleys along a tree of rivers; ridges: land lifted "
          "along a tree of ridges; map: land lifted by the colours of an image; noise: noise alone, "
-         "on a plane."},
+         "on a plane; survey: a raster of surveyed heights."},
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
      .doc = "Side length of the square; all else scales with it."},
     {KEY_OF(TerrainParams, relief, "relief", KEY_FLOAT), .high = 1e5, .unit = "m",
      .doc = "Height of the highest valley slopes above the outlets, or of the highest ridge above "
-            "the plain; 0 = natural slopes. Not of noise alone."},
+            "the plain; 0 = natural slopes. Not of noise alone or surveys."},
     {KEY_OF(TerrainParams, resolution, "resolution", KEY_INT), .low = 16, .high = 8192,
      .doc = "Cells per side, a power of two; it changes the detail, not the form."},
     {KEY_OF(TerrainParams, water_level, "water_level", KEY_FLOAT), .high = 1,
@@ -364,6 +394,8 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Ridges, which lift the land of form: ridges."},
     {KEY_OF(TerrainParams, map, "map", KEY_GROUP), .table = &MAP_TABLE,
      .doc = "Painted map, which lifts the land of form: map."},
+    {KEY_OF(TerrainParams, survey, "survey", KEY_GROUP), .table = &SURVEY_TABLE,
+     .doc = "Surveyed heights, the land of form: survey."},
     {KEY_OF(TerrainParams, noise, "noise", KEY_GROUP), .table = &NOISE_TABLE,
      .doc = "Fine erosion by sparse convolution noise."},
     {KEY_OF(TerrainParams, erosion, "erosion", KEY_GROUP), .table = &EROSION_TABLE,
@@ -392,6 +424,9 @@ static bool check_terrain(const Mapping *mapping, void *params)
     int cells = terrain->resolution;
     if (terrain->form == TERRAIN_MAP && !terrain->map.image) {
         return mapping_fail(mapping, "map.image", " is missing; form: map needs an image");
+    }
+    if (terrain->form == TERRAIN_SURVEY && !terrain->survey.file) {
+        return mapping_fail(mapping, "survey.file", " is missing; form: survey needs a raster");
     }
     return (cells & (cells - 1)) == 0 ||
            mapping_fail(mapping, "resolution", " is %d; it must be a power of two, such as 1024",

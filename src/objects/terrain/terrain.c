@@ -31,6 +31,7 @@ TerrainParams terrain_params_default(void)
                    .valley = 0.03f,
                    .water = 0.0025f,
                    .field_weight = 1.0f},
+        .survey = {.band = 1, .exaggeration = 1.0f},
         .noise = {.iterations = 6, .amplitude = 0.11f, .gain = 0.5f, .ridged = 0.7f, .warp = 0.35f},
         .erosion = {.talus = 38.0f},
         .forest = {.height = 28.0f, .low = 0.02f, .high = 0.4f, .slope = 36.0f, .clumping = 0.7f},
@@ -51,6 +52,9 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         case TERRAIN_MAP:
         case TERRAIN_NOISE:
             resolved.noise.wavelength = 0.125f;
+            break;
+        case TERRAIN_SURVEY: // two cells of the raster
+            break;
         }
     }
     return resolved;
@@ -137,6 +141,8 @@ bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *
         return terrain_grow_rivers(&whole->tree, params, recipe, e);
     case TERRAIN_RIDGES:
         return terrain_grow_ridges(&whole->tree, params, recipe, e);
+    case TERRAIN_SURVEY:
+        return terrain_find_rivers(&whole->tree, params, recipe, e);
     case TERRAIN_MAP:
     case TERRAIN_NOISE:
         whole->tree = out_tree_new(e);
@@ -202,6 +208,9 @@ bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole
     grown->state = terrain;
     grown->free_state = free_terrain;
     *terrain = (Terrain){.params = params, .seed = recipe->seed, .tree = grown->tree};
+    if (terrain->params->form == TERRAIN_SURVEY) {
+        return terrain_finish_survey(terrain, e);
+    }
     if (terrain->params->form != TERRAIN_RIVERS) {
         return terrain->params->form != TERRAIN_RIDGES || terrain_raise_ridges(terrain, e);
     }
@@ -261,6 +270,18 @@ static float valleys_at(const Terrain *terrain, float x, float z, float *wetness
     return height;
 }
 
+// Beside the surveyed rivers.
+static float wetness_at(const Terrain *terrain, float x, float z)
+{
+    int32_t nearest = 0;
+    if (!terrain->distance) {
+        return 0.0f;
+    }
+    float away = trough_envelope_at(terrain->distance, x, z, &nearest);
+    float valley = 1.5f * terrain_valley(terrain->params, terrain->area[nearest]);
+    return 1.0f - smoothstepf(0.0f, 1.0f, away / (valley + 0.002f * terrain->params->size));
+}
+
 // The lift at a place, 0..1.
 static float lift_at(const Terrain *terrain, float x, float z)
 {
@@ -294,6 +315,9 @@ static float land_at(const Terrain *terrain, float x, float z, float *wetness)
     case TERRAIN_RIDGES:
     case TERRAIN_MAP:
         return lifted_at(terrain, x, z);
+    case TERRAIN_SURVEY:
+        *wetness = wetness_at(terrain, x, z);
+        return terrain_surveyed_at(terrain, x, z);
     case TERRAIN_NOISE:
         break;
     }
@@ -377,7 +401,8 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
     if (!terrain_erode(field, &params->erosion, run, e)) {
         return false;
     }
-    bool drains = params->form == TERRAIN_RIVERS;
+    bool drains = params->form == TERRAIN_RIVERS ||
+                  (params->form == TERRAIN_SURVEY && terrain->tree->count > 0);
     if (drains) {
         carve_rivers(field, terrain->tree);
         if (!height_field_fill(field, 1e-5f, e)) {
@@ -402,6 +427,13 @@ static bool prepare_land(Terrain *terrain, const Run *run, Error *e)
         return terrain->lift;
     case TERRAIN_MAP:
         terrain->map = terrain_read_map(terrain->params, run, e);
+        return terrain->map;
+    case TERRAIN_SURVEY:
+        terrain->map = terrain_read_survey(terrain->params, run, e);
+        if (terrain->map && terrain->tree->count > 0) {
+            terrain->distance = make_envelope(terrain, true, run, e);
+            return terrain->distance;
+        }
         return terrain->map;
     case TERRAIN_NOISE:
         break;

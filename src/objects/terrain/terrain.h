@@ -38,7 +38,13 @@ typedef enum TerrainSide {
 } TerrainSide;
 
 // What the land's heights come from.
-typedef enum TerrainForm { TERRAIN_RIVERS, TERRAIN_RIDGES, TERRAIN_MAP, TERRAIN_NOISE } TerrainForm;
+typedef enum TerrainForm {
+    TERRAIN_RIVERS,
+    TERRAIN_RIDGES,
+    TERRAIN_MAP,
+    TERRAIN_NOISE,
+    TERRAIN_SURVEY
+} TerrainForm;
 
 // What is drawn.
 typedef enum TerrainShow {
@@ -81,6 +87,14 @@ typedef struct MapParams {
     ColorStop *colors; // NULL = terrain_altitudes
     int color_count;
 } MapParams;
+
+// Surveyed heights.
+typedef struct SurveyParams {
+    char *file;         // a raster that GDAL reads
+    int band;           // 1 = the first
+    float center[2];    // m: the square's middle, to the east and to the south of the raster's
+    float exaggeration; // factor on heights
+} SurveyParams;
 
 typedef struct RiverParams {
     TreeSource source;
@@ -138,6 +152,7 @@ typedef struct TerrainParams {
     RiverParams rivers;
     RidgeParams ridges;
     MapParams map;
+    SurveyParams survey;
     TerrainNoiseParams noise;
     TerrainErosionParams erosion;
     TerrainTerraceParams terraces;
@@ -162,7 +177,8 @@ bool terrain_grow(const void *params, const Recipe *recipe, Grown *whole, Error 
 bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
                     Error *e);
 
-// Heights and wetness; square, resolution + 1 samples per side. Of TERRAIN_RIVERS every sample off
+// Heights and wetness; square, resolution + 1 samples per side. Of TERRAIN_RIVERS and
+// TERRAIN_SURVEY with rivers every sample off
 // the rim drains, and beds of rivers wide enough for the grid are dug last. The same bits for any
 // number of threads.
 HeightField *terrain_heights(const void *params, const Grown *grown, const Run *run, Error *e);
