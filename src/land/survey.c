@@ -43,8 +43,8 @@ static float mean_below(const Level *fine, const Level *coarse, int64_t i)
 // The coarser level at sample i of the finer one, bilinearly.
 static float height_above(const Level *fine, const Level *coarse, int64_t i)
 {
-    float x = 0.5f * (float)(i % fine->columns) - 0.25f;
-    float y = 0.5f * (float)(i / fine->columns) - 0.25f;
+    int64_t at_column = i % fine->columns, at_row = i / fine->columns;
+    float x = 0.5f * (float)at_column - 0.25f, y = 0.5f * (float)at_row - 0.25f;
     x = clampf(x, 0.0f, (float)(coarse->columns - 1));
     y = clampf(y, 0.0f, (float)(coarse->rows - 1));
     int column = (int)x, row = (int)y;

@@ -37,8 +37,9 @@ static HeightField *cut_out(const HeightField *raster, const TerrainParams *para
     HeightField *square =
         height_field_new(cells + 1, cells + 1, (Vec2){cell, cell}, (Vec2){corner, corner}, e);
     for (int64_t i = 0; square && i < height_field_count(square); i++) {
-        float x = corner + cell * (float)(i % (cells + 1)) + survey->center[0];
-        float z = corner + cell * (float)(i / (cells + 1)) + survey->center[1];
+        int64_t column = i % (cells + 1), row = i / (cells + 1);
+        float x = corner + cell * (float)column + survey->center[0];
+        float z = corner + cell * (float)row + survey->center[1];
         square->height[i] = survey->exaggeration * height_field_smooth_at(raster, x, z);
     }
     return square;
