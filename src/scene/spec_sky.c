@@ -1,8 +1,13 @@
 // Keys of the sky and of area lights.
+#include "render/sky/ephemeris.h"
 #include "render/world.h"
 #include "scene/spec_check.h"
 
+#include <math.h>
+
 #define BIT(kind) (1u << (kind))
+
+#define LOWEST_SUN (-10.0) // degrees, of sun_sky
 
 static const EnumName SKY_KINDS[] = {{"sun_sky", SKY_SUN_SKY},   {"environment", SKY_ENVIRONMENT},
                                      {"constant", SKY_CONSTANT}, {"night", SKY_NIGHT},
@@ -17,12 +22,22 @@ static const Key SKY_KEYS[] = {
             "stars, airglow and the moon, exposed for the night; none: black."},
     {KEY_OF(Sky, color, "color", KEY_COLOR), .kinds = BIT(SKY_CONSTANT), .high = 1e9,
      .unit = "W/(m^2 sr)", .doc = "Radiance of the sky."},
-    {KEY_OF(Sky, sun_elevation, "sun_elevation", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = -10,
-     .high = 90, .unit = "degrees",
+    {KEY_OF(Sky, sun_elevation, "sun_elevation", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY),
+     .low = LOWEST_SUN, .high = 90, .unit = "degrees",
      .doc = "Elevation of the sun above the horizon: 2 to 6 gives long shadows and warm light; "
             "below -0.3 the sun has set."},
     {KEY_OF(Sky, sun_azimuth, "sun_azimuth", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = -360,
      .high = 360, .unit = "degrees", .doc = "Azimuth of the sun, from +Z toward +X."},
+    {KEY_OF(Sky, time, "time", KEY_TEXT), .kinds = BIT(SKY_SUN_SKY) | BIT(SKY_NIGHT),
+     .doc = "Date and time, as 2026-10-14T17:40, which place sun and moon instead of their "
+            "elevations and azimuths. With a zone (Z, +02:00) it is that of clocks; without one, "
+            "local mean time: the sun is highest near 12:00. North is -Z, east +X, before "
+            "`rotation`."},
+    {KEY_OF(Sky, latitude, "latitude", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY) | BIT(SKY_NIGHT),
+     .low = -90, .high = 90, .unit = "degrees", .doc = "Latitude for `time`, north positive."},
+    {KEY_OF(Sky, longitude, "longitude", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY) | BIT(SKY_NIGHT),
+     .low = -180, .high = 180, .unit = "degrees",
+     .doc = "Longitude for a `time` with a zone, east positive."},
     {KEY_OF(Sky, sun_size, "sun_size", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .flags = KEY_ABOVE,
      .high = 90, .unit = "degrees",
      .doc = "Angular diameter of the sun; a larger sun casts softer shadows and is as bright in "
@@ -68,6 +83,37 @@ static const Key SKY_KEYS[] = {
     {0},
 };
 
+// Sun and moon at the sky's time.
+static bool place_by_time(const Mapping *mapping, void *params)
+{
+    Sky *sky = params;
+    double days;
+    bool zoned;
+    if (!sky->time) {
+        return true;
+    }
+    if (!ephemeris_days(sky->time, &days, &zoned)) {
+        return mapping_fail(mapping, "time",
+                            " is '%s'; it must be a date and a time, such as 2026-10-14T17:40 or "
+                            "2026-10-14T17:40+02:00",
+                            sky->time);
+    }
+    double longitude = zoned ? (double)sky->longitude : 0.0;
+    SkyPlace sun = ephemeris_sun(days, (double)sky->latitude, longitude);
+    SkyPlace moon = ephemeris_moon(days, (double)sky->latitude, longitude);
+    if (sky->kind == SKY_SUN_SKY && sun.elevation < LOWEST_SUN) {
+        return mapping_fail(mapping, "time",
+                            " is in the night: the sun is at %.1f degrees, and sun_sky needs at "
+                            "least %g; kind: night shows stars and moon",
+                            sun.elevation, LOWEST_SUN);
+    }
+    sky->sun_elevation = (float)sun.elevation;
+    sky->sun_azimuth = (float)sun.azimuth;
+    sky->moon_elevation = (float)fmax(moon.elevation, LOWEST_SUN);
+    sky->moon_azimuth = (float)moon.azimuth;
+    return true;
+}
+
 const Table sky_table = {
     .name = "sky",
     .doc = "Light from the environment: day sky, night sky, panorama or constant colour.",
@@ -75,7 +121,8 @@ const Table sky_table = {
         "sky: {kind: sun_sky, sun_elevation: 4, sun_azimuth: 200, turbidity: 4, clouds: 0.3}\n",
     .size = sizeof(Sky),
     .keys = SKY_KEYS,
-    .kind_key = "kind"};
+    .kind_key = "kind",
+    .check = place_by_time};
 
 static const EnumName LIGHT_KINDS[] = {{"quad", LIGHT_QUAD}, {"sphere", LIGHT_SPHERE}, {0}};
 

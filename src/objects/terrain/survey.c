@@ -101,9 +101,9 @@ static bool gather_rivers(OutTree *tree, const HeightField *field, const Drainag
             continue;
         }
         int64_t parent = to == i ? -1 : node[to];
-        Vec3 p =
-            vec3(field->origin.x + field->cell.x * (float)(i % field->columns), drainage->filled[i],
-                 field->origin.y + field->cell.y * (float)(i / field->columns));
+        int column = i % field->columns, row = i / field->columns;
+        Vec3 p = vec3(field->origin.x + field->cell.x * (float)column, drainage->filled[i],
+                      field->origin.y + field->cell.y * (float)row);
         int32_t birth = parent < 0 ? 0 : tree->birth[parent] + 1;
         node[i] = out_tree_add_node(tree, p, parent, birth, 0, random_key(seed, (uint64_t)i), e);
         done = node[i] >= 0;

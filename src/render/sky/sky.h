@@ -23,10 +23,12 @@ typedef struct Sky {
     float moon_size;      // angular diameter, degrees
     float stars;          // SKY_NIGHT: factor on their light
     float city_glow;      // SKY_NIGHT: light of towns along the horizon
-    const char *file;     // SKY_ENVIRONMENT: latitude-longitude HDR, borrowed
-    float rotation;       // of all of it, sun, moon, clouds and stars too: degrees about +Y
-    float strength;       // factor on all of it
-    bool visible;         // seen by camera rays; if not, the background is black with alpha 0
+    char *time; // "2026-10-14T17:40": places sun and moon (render/sky/ephemeris.h); NULL = not
+    float latitude, longitude; // degrees, north and east positive; with time
+    const char *file;          // SKY_ENVIRONMENT: latitude-longitude HDR, borrowed
+    float rotation;            // of all of it, sun, moon, clouds and stars too: degrees about +Y
+    float strength;            // factor on all of it
+    bool visible;              // seen by camera rays; if not, the background is black with alpha 0
     float haze_distance; // m over which distant surfaces fade to 1/e into the sky's horizon colour;
                          // 0 = no haze
 } Sky;
