@@ -64,6 +64,8 @@ PLUGIN_ocio  := image/ocio_view.cpp
 LDLIBS_ocio  := -lOpenColorIO -lstdc++ -lm
 PLUGIN_gdal  := land/survey_gdal.cpp
 LDLIBS_gdal  := -lgdal -lstdc++ -lm
+# OpenEXR's headers include Imath's by their bare names.
+$(OBJ)/image/encode.cpp.o: CXXFLAGS += $(shell pkg-config --cflags-only-I Imath)
 PLUGIN_FILES := $(PLUGINS:%=$(OUT)/ramify-%.so)
 # Where programs look for plug-ins: beside them in build/, or in lib/ramify/.
 RUNPATH         = -Wl,--enable-new-dtags,-rpath,'$(1)'
@@ -90,7 +92,7 @@ BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp) tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
 .PHONY: dist deb deb-check reproduce all demo cross-check docs test test-cluster peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages cluster-packages
-.PHONY: fuzz random-scenes
+.PHONY: fuzz faults random-scenes
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 
@@ -136,6 +138,9 @@ fuzz: ## feed random inputs to all that reads files: SECONDS=60 for each of TARG
 	$(call need,$(FUZZ_PACKAGES))
 	@$(MAKE) --no-print-directory CONFIG=fuzz -j$$(nproc) $(FUZZ_TARGETS:%=build/fuzz/fuzz_%)
 	@tests/fuzz/run build/fuzz $(or $(SECONDS),60) $(or $(TARGETS),$(FUZZ_TARGETS))
+
+faults: all ## let every allocation, reading, writing and start of a process of small runs fail in turn, some 100,000: CASES="render ..."
+	@RAMIFY=$(OUT)/ramify sh tests/faults/test_faults.sh --all $(CASES:%=--case %)
 
 sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory CONFIG=sanitize test

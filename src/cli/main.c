@@ -1,5 +1,6 @@
 // The ramify command: parses the command line, runs one command, reports errors.
 #include "cli/command.h"
+#include "cli/last_words.h"
 #include "cli/option_table.h"
 
 #include <stdio.h>
@@ -29,6 +30,7 @@ int main(int argc, char **argv)
 {
     Options options;
     RamifyError e = {0};
+    last_words_begin();
     bool done = options_parse(&options, argc, argv, &e);
     if (done && options.version) {
         print_version();

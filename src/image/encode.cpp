@@ -3,6 +3,9 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
@@ -11,6 +14,7 @@
 #include <cstring>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -27,6 +31,8 @@ namespace
 {
 
 using Bytes = std::vector<unsigned char>;
+
+const size_t ROOM_FOR_METADATA = 1 << 20;
 
 // Runs body and converts exceptions to an Error. what: "'x.png' cannot be written"
 template <typename Body> bool guarded(const std::string &what, Error *e, Body body)
@@ -88,11 +94,20 @@ class ExrThreads
     ExrThreads &operator=(const ExrThreads &) = delete;
 };
 
+// OpenImageIO collects a line for each thing that fails after the first.
+std::string first_line(const std::string &text)
+{
+    return text.substr(0, text.find('\n'));
+}
+
 bool encode(const char *file, const char *format, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
             const void *pixels, Bytes &bytes, Error *e)
 {
+    // Room for all: libjpeg and libpng cannot bear an exception while they write.
+    bytes.reserve(size_t(spec.image_bytes()) + ROOM_FOR_METADATA);
     OIIO::Filesystem::IOVecOutput proxy(bytes);
     OIIO::attribute("threads", 1); // nor are OpenImageIO's own, see ExrThreads
+    OIIO::attribute("debug", 0);   // errors are ours to tell
     std::optional<ExrThreads> threads;
     if (std::strcmp(format, "openexr") == 0) {
         threads.emplace();
@@ -107,7 +122,7 @@ bool encode(const char *file, const char *format, const OIIO::ImageSpec &spec, O
                 output->write_image(type, pixels) && output->close();
     if (!done) {
         return error_set(e, ERROR_INTERNAL, "'%s' cannot be written: %s", file,
-                         output->geterror().c_str());
+                         first_line(output->geterror()).c_str());
     }
     return true;
 }
@@ -266,6 +281,54 @@ std::vector<float> interleave(const OIIO::ImageSpec &spec, const ImageLayer *lay
     return pixels;
 }
 
+// An EXR file in memory, for OpenEXR to look into.
+class ExrBytes : public Imf::IStream
+{
+  public:
+    explicit ExrBytes(const Bytes &bytes) : IStream("memory.exr"), all(bytes)
+    {
+    }
+    bool read(char target[], int count) override
+    {
+        if (count < 0 || size_t(count) > all.size() - at) {
+            throw std::runtime_error("the end is missing");
+        }
+        std::memcpy(target, all.data() + at, size_t(count));
+        at += size_t(count);
+        return at < all.size();
+    }
+    uint64_t tellg() override
+    {
+        return at;
+    }
+    void seekg(uint64_t to) override
+    {
+        at = std::min(size_t(to), all.size());
+    }
+
+  private:
+    const Bytes &all;
+    size_t at = 0;
+};
+
+// Neither an attribute nor lines of pixels that could not be written for lack of memory are an
+// error to OpenImageIO and OpenEXR: they are left out. This reads the header and the table of lines
+// only.
+bool check_exr(const char *file, const Bytes &bytes, const char *metadata, Error *e)
+{
+    ExrBytes stream(bytes);
+    Imf::InputFile input(stream, 0);
+    bool whole = input.isComplete();
+    for (const char *key : {"Software", "capDate"}) { // of add_metadata
+        whole = whole && input.header().find(key) != input.header().end();
+    }
+    for (const char *key = metadata; key && *key; key += std::strlen(key) + 1) {
+        whole = whole && input.header().find(key) != input.header().end();
+        key += std::strlen(key) + 1; // over the value
+    }
+    return whole || error_set(e, ERROR_MEMORY, "'%s' cannot be written: out of memory", file);
+}
+
 bool write_exr(const char *file, const ImageLayer *layers, int count, const int *window,
                const char *metadata, Error *e)
 {
@@ -295,7 +358,7 @@ bool write_exr(const char *file, const ImageLayer *layers, int count, const int 
     add_metadata(spec, metadata, false);
     Bytes bytes;
     return encode(file, "openexr", spec, OIIO::TypeDesc::FLOAT, pixels.data(), bytes, e) &&
-           file_replace(file, bytes.data(), bytes.size(), e);
+           check_exr(file, bytes, metadata, e) && file_replace(file, bytes.data(), bytes.size(), e);
 }
 
 // Only for our own PNGs, so without a child process.
@@ -369,6 +432,24 @@ bool guarded_grey16(const char *file, const Image *image, const char *metadata, 
     return guarded("'" + std::string(file) + "' cannot be written", e,
                    [&] { return write_grey16(file, image, metadata, e); });
 }
+
+} // namespace
+
+namespace
+{
+
+// When it runs out of memory while it lists its formats, OpenImageIO waits for itself for ever. So
+// it lists them when this is loaded, which is tried only with enough room (base/plugin.c).
+struct Formats {
+    Formats()
+    {
+        try {
+            OIIO::attribute("threads", 1);
+            OIIO::get_string_attribute("format_list");
+        } catch (const std::exception &) { // it tries again when it needs them
+        }
+    }
+} const formats;
 
 } // namespace
 

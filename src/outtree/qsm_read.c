@@ -5,7 +5,6 @@
 #include "outtree/qsm.h"
 #include "outtree/text_table.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -185,9 +184,6 @@ static bool read_rows(QsmFile *qsm, FILE *stream, Error *e)
         if (!blank && !header && !add_row(qsm, &row, start, e)) {
             return false;
         }
-    }
-    if (ferror(stream)) {
-        return error_set(e, ERROR_IO, "cannot read '%s': %s", qsm->file, strerror(errno));
     }
     if (qsm->count == 0) {
         error_set(e, ERROR_INPUT, "no cylinder in it; a QSM has one a line: " COLUMNS);

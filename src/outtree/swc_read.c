@@ -5,7 +5,6 @@
 #include "outtree/out_tree_io.h"
 #include "outtree/text_table.h"
 
-#include <errno.h>
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -133,9 +132,6 @@ static bool read_rows(SwcFile *swc, FILE *stream, Error *e)
         if (!read_row(start, row, e)) {
             return fail_at(swc, line, e);
         }
-    }
-    if (ferror(stream)) {
-        return error_set(e, ERROR_IO, "cannot read '%s': %s", swc->file, strerror(errno));
     }
     return swc->count > 0 ||
            (error_set(e, ERROR_INPUT, "no node in it; SWC has one a line"), fail_at(swc, 0, e));

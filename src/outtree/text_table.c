@@ -38,6 +38,9 @@ bool table_read_line(FILE *stream, const TableFormat *format, char text[TABLE_MA
                              TABLE_MAX_LINE - 1, format->name, format->row);
         }
     }
+    if (c == EOF && ferror(stream)) { // what it gave of the line would be judged as if it were all
+        return error_set(e, ERROR_IO, "cannot be read further: %s", strerror(errno));
+    }
     *more = c != EOF || length > 0;
     length -= length > 0 && text[length - 1] == '\r';
     text[length] = 0;

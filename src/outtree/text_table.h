@@ -20,7 +20,8 @@ typedef struct TableFormat {
 FILE *table_open(const char *file, const TableFormat *format, Error *e);
 
 // Reads one line into text, without its end (LF or CRLF); a comment (#) that is too long is cut.
-// ERROR_INPUT for a NUL or a line that is too long. *more: whether there was a line.
+// ERROR_INPUT for a NUL or a line that is too long, ERROR_IO when reading fails. *more: whether
+// there was a line.
 bool table_read_line(FILE *stream, const TableFormat *format, char text[TABLE_MAX_LINE], bool *more,
                      Error *e);
 

@@ -235,25 +235,28 @@ static bool any_gpu(const Glb *glb)
     return any;
 }
 
-// Required extensions: a reader without instancing would show one instance of each.
-static void put_extensions(const Glb *glb, FILE *json)
+// Required extensions: a reader without instancing would show one instance of each. False when out
+// of memory.
+static bool put_extensions(const Glb *glb, FILE *json)
 {
     bool gpu = any_gpu(glb);
     char *text = NULL;
     size_t size = 0;
     FILE *list = open_memstream(&text, &size);
     if (!list) {
-        return;
+        return false;
     }
     glb_put_material_extensions(glb, list);
     fputs(glb_light_count(glb) > 0 ? "\"KHR_lights_punctual\"," : "", list);
     fputs(gpu ? "\"EXT_mesh_gpu_instancing\"," : "", list);
-    fclose(list);
-    if (text && size > 0) {
+    bool good = !ferror(list);
+    good = fclose(list) == 0 && good;
+    if (good && size > 0) {
         fprintf(json, ",\n\"extensionsUsed\":[%.*s]", (int)size - 1, text);
     }
     fputs(gpu ? ",\n\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"]" : "", json);
     free(text);
+    return good;
 }
 
 char *glb_json(const Glb *glb, size_t *size, Error *e)
@@ -265,7 +268,7 @@ char *glb_json(const Glb *glb, size_t *size, Error *e)
         return NULL;
     }
     fputs("{\"asset\":{\"version\":\"2.0\",\"generator\":\"ramify\"}", json);
-    put_extensions(glb, json);
+    bool good = put_extensions(glb, json);
     glb_put_nodes(glb, json);
     glb_put_camera(glb, json);
     if (glb_light_count(glb) > 0) {
@@ -278,7 +281,7 @@ char *glb_json(const Glb *glb, size_t *size, Error *e)
         put_views(glb, json);
     }
     fputs("}", json);
-    bool good = !ferror(json);
+    good = !ferror(json) && good;
     good = fclose(json) == 0 && good;
     if (!good) {
         error_set(e, ERROR_MEMORY, "out of memory for the description of a GLB file");
