@@ -170,7 +170,7 @@ static const Case scenes[] = {
      "different ends, or use kind: point"},
     {"objects: [{name: a, terrain: {form: hills}}]\n",
      ":1:37: objects.a.terrain.form is 'hills'; known: rivers, ridges, map, "
-     "noise"},
+     "noise, survey"},
     {"objects: [{name: a, terrain: {form: map}}]\n",
      ":1:30: objects.a.terrain.map.image is missing; form: map needs an image"},
     {"objects: [{name: a, terrain: {ridges: {lift: [{distance: 0, height: 1}, {distance: 0, "
