@@ -192,15 +192,23 @@ static float deepest(const CloudGrid *g, int bx, int by, int bz)
     return (float)most * g->voxel / DISTANCE_STEPS;
 }
 
+// Droplets grow as air rises: density at an altitude in shares of the thickness.
+static float gain_at(float share)
+{
+    return 0.5f + clampf(share, 0.0f, 0.5f);
+}
+
 static void fill_bounds(CloudGrid *g, const Run *run)
 {
 #pragma omp parallel for schedule(static) num_threads(run->threads)
     for (int bz = 0; bz < g->bricks[2]; bz++) {
         for (int bx = 0; bx < g->bricks[0]; bx++) {
             for (int by = 0; by < g->bricks[1]; by++) {
+                float top = g->low.y + g->voxel * (float)(BRICK * (by + 1)) - g->base;
                 float most = deepest(g, bx, by, bz) + g->height[0] + g->height[1];
                 g->bound[((int64_t)bz * g->bricks[0] + bx) * g->bricks[1] + by] =
-                    g->extinction * clampf(most / g->edge, 0.0f, 1.0f);
+                    g->extinction * gain_at(top / g->thickness) *
+                    clampf(most / g->edge, 0.0f, 1.0f);
             }
         }
     }
@@ -282,6 +290,6 @@ float cloud_grid_extinction(const CloudGrid *g, Vec3 p)
     inside = fminf(inside, above);
     float share = above / g->thickness;
     float ice = clampf((share - g->frozen) / 0.2f, 0.0f, 1.0f);
-    float gain = 0.5f + clampf(share, 0.0f, 0.5f);
-    return g->extinction * gain * clampf(inside / (g->edge * (1.0f + 5.0f * ice)), 0.0f, 1.0f);
+    return g->extinction * gain_at(share) *
+           clampf(inside / (g->edge * (1.0f + 5.0f * ice)), 0.0f, 1.0f);
 }
