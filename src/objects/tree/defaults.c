@@ -66,6 +66,7 @@ TreeParams tree_params_default(void)
         .latitude = 50.0f,
         .phenology = phenology_default(),
         .snow = snow_params_default(),
+        .hoar = hoar_params_default(),
     };
 }
 

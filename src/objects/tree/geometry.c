@@ -89,5 +89,6 @@ bool tree_geometry(const void *given, const Grown *grown, const Placing *placing
                               tree_add_mistletoe(grown->tree, params, placing, e);
     return done &&
            snow_add(grown->tree, &params->skin, &params->snow,
-                    params->roots.count > 0 ? TREE_ROOTS : -1, first, placing, TREE_SNOW, e);
+                    params->roots.count > 0 ? TREE_ROOTS : -1, first, placing, TREE_SNOW, e) &&
+           hoar_add(grown->tree, &params->skin, &params->hoar, placing, TREE_RIME, e);
 }

@@ -174,7 +174,7 @@ static bool measure(const void *given, const Grown *grown, const Recipe *recipe,
 static void needs(const void *params, Needs *needs)
 {
     const TreeParams *tree = params;
-    enum { LEAF_FACES = 25, LEAVES_AN_ATTRACTOR = 6, SNOW_BYTES = 7000 };
+    enum { LEAF_FACES = 25, LEAVES_AN_ATTRACTOR = 6, SNOW_BYTES = 7000, HOAR_BYTES = 100 };
     TreeAttractors each = count_attractors(params);
     double count = (double)attractors(params), leaves = (double)tree->leaves.max_count;
     int levels = tree->skin.levels;
@@ -188,6 +188,11 @@ static void needs(const void *params, Needs *needs)
                      fmin(leaves, LEAVES_AN_ATTRACTOR * (count + metamers)), LEAF_FACES);
     if (tree->snow.depth > 0.0f) {
         needs_add(needs, "snow.depth", count + metamers, SNOW_BYTES);
+    }
+    if (tree->hoar.length > 0.0f) { // as many as fit on a metamer of 3 cm
+        double tufts = fmin((double)tree->hoar.max_count,
+                            (count + metamers) * 0.06 / (double)tree->hoar.length);
+        needs_add(needs, "hoar.max_count", tufts, HOAR_BYTES);
     }
 }
 
@@ -280,6 +285,7 @@ static const Key MATERIALS[] = {
     ORGAN_MATERIAL_ROWS(TREE_BLOSSOM, TREE_FRUIT, TREE_CONE, TREE_STALK),
     SNOW_MATERIAL_ROW(TREE_SNOW),
     VETERAN_MATERIAL_ROWS(TREE_DEADWOOD, TREE_MISTLETOE, TREE_MOSS),
+    RIME_MATERIAL_ROW(TREE_RIME),
     {0},
 };
 
@@ -287,7 +293,7 @@ const Kind kind_tree = {
     .variant = {KIND_ROW("tree", &tree_table, "A tree; the defaults make an oak."), MATERIALS},
     .carried = true,
     .materials = {"bark", "twig", "leaf", "blossom", "fruit", "cone", "stalk", "snow", "deadwood",
-                  "mistletoe", "moss"},
+                  "mistletoe", "moss", "rime"},
     .builtin = BUILTIN,
     .own_space = own_space,
     .seed = own_seed,

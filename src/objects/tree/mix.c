@@ -26,6 +26,7 @@ static const Key SHARE_KEYS[] = {
     SHARE_MATERIAL(TREE_DEADWOOD, "deadwood_material", "Material of dead wood without bark."),
     SHARE_MATERIAL(TREE_MISTLETOE, "mistletoe_material", "Material of mistletoe."),
     SHARE_MATERIAL(TREE_MOSS, "moss_material", "Material of moss."),
+    SHARE_MATERIAL(TREE_RIME, "rime_material", "Material of hoar frost."),
     {0},
 };
 
@@ -52,7 +53,7 @@ const char *tree_mix_material(const TreeShare *mix, int count, int i)
         [TREE_BARK] = "bark",           [TREE_TWIG] = "twig",   [TREE_LEAF] = "leaf",
         [TREE_BLOSSOM] = "blossom",     [TREE_FRUIT] = "fruit", [TREE_CONE] = "cone",
         [TREE_STALK] = "stalk",         [TREE_SNOW] = "snow",   [TREE_DEADWOOD] = "deadwood",
-        [TREE_MISTLETOE] = "mistletoe", [TREE_MOSS] = "moss"};
+        [TREE_MISTLETOE] = "mistletoe", [TREE_MOSS] = "moss",   [TREE_RIME] = "rime"};
     if (i >= count * TREE_ROLES) {
         return NULL;
     }

@@ -326,6 +326,8 @@ static const Key TREE_KEYS[] = {
     PHENOLOGY_ROWS(TreeParams),
     {KEY_OF(TreeParams, snow, "snow", KEY_GROUP), .table = &snow_table,
      .doc = "Snow that has settled on the branches."},
+    {KEY_OF(TreeParams, hoar, "hoar", KEY_GROUP), .table = &hoar_table,
+     .doc = "Hoar frost on twigs and branches."},
     {KEY_OF(TreeParams, veteran, "veteran", KEY_GROUP), .table = &VETERAN_TABLE,
      .doc = "Dead limbs, mistletoe, moss."},
     {KEY_OF(TreeParams, trunk, "trunk", KEY_GROUP), .table = &TRUNK_TABLE,

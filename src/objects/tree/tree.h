@@ -9,6 +9,7 @@
 #include "mesh/geometry.h"
 #include "objects/common/branches.h"
 #include "objects/common/element.h"
+#include "objects/common/hoar.h"
 #include "objects/common/organs.h"
 #include "objects/common/phenology.h"
 #include "objects/common/recipe.h"
@@ -98,6 +99,7 @@ typedef struct TreeParams {
     float latitude; // degrees
     Phenology phenology;
     SnowParams snow;
+    HoarParams hoar;
     VeteranParams veteran;
 } TreeParams;
 
@@ -121,6 +123,7 @@ enum {
     TREE_DEADWOOD,
     TREE_MISTLETOE,
     TREE_MOSS,
+    TREE_RIME,
     TREE_ROLES
 };
 
