@@ -1,4 +1,7 @@
-// Built-in materials, available in every scene.
+// Built-in materials, available in every scene. A scene's material of the same name starts from the
+// built-in one. So that no new one changes scenes that have a material of their own of that name,
+// the names without a slash are complete (tests/scene/test_scene.c): a new one is called KIND/NAME,
+// as "stone/gravel", which no other material can be.
 #ifndef RAMIFY_SCENE_BUILTIN_H
 #define RAMIFY_SCENE_BUILTIN_H
 

@@ -5,6 +5,8 @@
 #include "scene/builtin.h"
 #include "scene/spec_check.h"
 
+#include <string.h>
+
 #define BIT(kind) (1u << (kind))
 #define ALL_BUT(kinds) (~(kinds))
 #define COLOURED ALL_BUT(BIT(MATERIAL_EMISSION))
@@ -36,7 +38,8 @@ static const EnumName MAPPINGS[] = {
 static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, name, "name", KEY_NAME), .flags = KEY_REQUIRED, .count = 64,
      .doc = "Name that objects refer to. With the name of a built-in material, the entry changes "
-            "that material and starts from its values."},
+            "that material and starts from its values. Other names have no slash, so that a later "
+            "version's built-in materials, whose names have one, are never yours."},
     {KEY_OF(Material, kind, "kind", KEY_ENUM), .names = KINDS,
      .doc = "diffuse: matt; conductor: metal; dielectric: glass or ice; principled: matt base "
             "under a glossy coat, or metal; leaf: thin sheet that transmits light; emission: emits "
@@ -182,6 +185,11 @@ static void material_defaults(const Node *given, int kind, void *out)
 static bool check_material(const Mapping *mapping, void *params)
 {
     const Material *material = params;
+    if (strchr(material->name, '/') && !builtin_material(material->name)) {
+        return mapping_fail(mapping, "name",
+                            " has a slash, as built-in materials' names may have and others may "
+                            "not; use another character");
+    }
     return check_color_stops(mapping, material->colors, material->color_count);
 }
 

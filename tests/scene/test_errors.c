@@ -188,6 +188,9 @@ static const Case scenes[] = {
     {"objects: [{name: a, terrain: {ridges: {file: no.swc}}}]\n",
      ":1:46: objects.a.terrain.ridges.file: cannot read 'no.swc': No such file or directory; paths "
      "are relative to the scene's folder"},
+    {"materials: [{name: a/b}]\n" TREE,
+     ":1:20: materials.a/b.name has a slash, as built-in materials' names may have and others may "
+     "not; use another character"},
     {"materials: [{name: m, pattern: altitude, colors: [{at: 0.5, color: [1, 1, 1]}, {at: 0.2, "
      "color: [0, 0, 0]}]}]\n" TREE,
      ":1:80: materials.m.colors.1 is at the altitude 0.2, the one before it at 0.5; altitudes must "

@@ -10,6 +10,7 @@
 #include "objects/mesh/mesh.h"
 #include "objects/shape/shape.h"
 #include "objects/tree/tree.h"
+#include "scene/builtin.h"
 #include "scene/spec.h"
 
 #include <locale.h>
@@ -586,10 +587,53 @@ static void every_path_can_be_set(void **state)
     free(paths);
 }
 
+// A new built-in material changes no scene: the names that a scene's own material can have are
+// complete, and in order of the alphabet here.
+static void built_in_materials_take_no_further_names(void **state)
+{
+    (void)state;
+    static const char names[] =
+        " altitude artery attractor badlands bark blossom broken clay cone conifer copper coral "
+        "coral_polyp deadwood fallen fieldstone fruit grass ground ice lake lamp leaf leaf_vein "
+        "lightning mistletoe moss mountain node reef_rock rime snow soap_film stalk twig vein ";
+    int count = 0;
+    for (int i = 0; builtin_material_at(i); i++) {
+        char name[80];
+        snprintf(name, sizeof name, " %s ", builtin_material_at(i)->name);
+        if (!strchr(name, '/') && !strstr(names, name)) {
+            fail_msg("the new built-in material%smust be called KIND/NAME: scene/builtin.h", name);
+        }
+        count += !strchr(name, '/');
+    }
+    for (const char *c = names + 1; (c = strchr(c, ' ')); c++) {
+        count--;
+    }
+    assert_int_equal(count, 0);
+}
+
+// A scene's material of a name that is not built in starts from its kind alone.
+static void own_materials_are_their_own(void **state)
+{
+    (void)state;
+    Scene *scene =
+        read_text("materials: [{name: gravel, kind: principled}, {name: bark, color: 0.5}]\n"
+                  "objects: [{name: oak, tree: }]\n",
+                  NULL, 0);
+    Material plain_one = material_default(MATERIAL_PRINCIPLED), *own = &scene->materials[0];
+    assert_true(own->color.x == plain_one.color.x && own->roughness == plain_one.roughness &&
+                own->pattern == plain_one.pattern);
+    assert_ptr_equal(scene_material(scene, "gravel"), own);
+    const Material *bark = scene_material(scene, "bark");
+    assert_true(bark->color.x == 0.5f && bark->pattern == PATTERN_BARK);
+    scene_free(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults_are_those_of_the_modules),
+        cmocka_unit_test(built_in_materials_take_no_further_names),
+        cmocka_unit_test(own_materials_are_their_own),
         cmocka_unit_test(overrides_reach_every_depth),
         cmocka_unit_test(anchors_and_merge_keys_work),
         cmocka_unit_test(an_override_changes_one_copy_of_an_anchor),
