@@ -2,6 +2,7 @@
 
 #include "base/exact_math.h"
 #include "base/memory.h"
+#include "base/strata.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -55,6 +56,7 @@ void mesh_free(Mesh *mesh)
         free(mesh->radius);
         free(mesh->birth);
         free(mesh->site);
+        strata_free(mesh->strata);
         free(mesh);
     }
 }

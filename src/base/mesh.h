@@ -12,13 +12,14 @@ typedef struct Mesh {
     int face_size;        // vertices per face: 3 or 4, the same for all faces
     int64_t vertex_count; // below 2^32
     int64_t face_count;
-    uint32_t *index; // face_count * face_size, counter-clockwise seen from outside
-    Vec3 *position;  // m
-    Vec3 *normal;    // unit, per vertex; NULL = flat shaded
-    Vec2 *uv;        // m, around and along on grown meshes, 0..1 elsewhere; NULL = none
-    float *radius;   // m, radius of the vertex's branch; NULL = none
-    float *birth;    // growth step, as a fraction of the last one, 0..1; NULL = none
-    Vec2 *site;      // land: altitude (x) and wetness (y), 0..1 each; NULL = none
+    uint32_t *index;       // face_count * face_size, counter-clockwise seen from outside
+    Vec3 *position;        // m
+    Vec3 *normal;          // unit, per vertex; NULL = flat shaded
+    Vec2 *uv;              // m, around and along on grown meshes, 0..1 elsewhere; NULL = none
+    float *radius;         // m, radius of the vertex's branch; NULL = none
+    float *birth;          // growth step, as a fraction of the last one, 0..1; NULL = none
+    Vec2 *site;            // land: altitude (x) and wetness (y), 0..1 each; NULL = none
+    struct Strata *strata; // land: its beds of rock, in the mesh's space; owned; NULL = none
 } Mesh;
 
 // Optional arrays for mesh_new.

@@ -90,7 +90,8 @@ static SurfacePoint pattern_point(const ExportSurface *surface, const Transform 
                           .uv = vertex->uv,
                           .radius = vertex->radius,
                           .birth = vertex->birth,
-                          .site = mesh->site ? mesh->site[v] : (Vec2){0, 0}};
+                          .site = mesh->site ? mesh->site[v] : (Vec2){0, 0},
+                          .strata = mesh->strata};
     Vec3 u, w;
     export_tangents(mesh, (const uint32_t[3]){corner[0], corner[1], corner[mesh->face_size - 1]},
                     &u, &w);

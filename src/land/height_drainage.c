@@ -74,6 +74,7 @@ static float next_above(float x)
 
 typedef struct Flood {
     const HeightField *field;
+    const uint8_t *outlet; // NULL = the rim
     Drainage *out;
     LowestQueue queue;
     uint8_t *seen;
@@ -88,7 +89,7 @@ static bool begin_at_rim(Flood *flood, Error *e)
         flood->out->receiver[i] = (int32_t)i;
         if (!isfinite(field->height[i])) {
             flood->seen[i] = 1;
-        } else if (on_rim(field, i)) {
+        } else if (flood->outlet ? flood->outlet[i] : on_rim(field, i)) {
             flood->seen[i] = 1;
             if (!lowest_queue_push(&flood->queue, field->height[i], (int32_t)i, e)) {
                 return false;
@@ -106,9 +107,12 @@ static bool flood_all(Flood *flood, Error *e)
     while (flood->queue.count > 0) {
         int32_t here = lowest_queue_pop(&flood->queue).index;
         flood->out->order[reached++] = here;
+        int columns = flood->field->columns, rows = flood->field->rows;
+        int column = here % columns, row = here / columns;
         for (int k = 0; k < 8; k++) {
-            int64_t n = neighbour(flood->field, here, k);
-            if (n < 0 || flood->seen[n]) {
+            int c = column + STEP_X[k], r = row + STEP_Z[k];
+            int64_t n = (int64_t)r * columns + c;
+            if (c < 0 || r < 0 || c >= columns || r >= rows || flood->seen[n]) {
                 continue;
             }
             float least = flood->out->filled[here] + flood->fall * step_length(flood->field, k);
@@ -180,9 +184,9 @@ static Drainage *allocate(const HeightField *field, Error *e)
     return out;
 }
 
-static Drainage *flood_field(const HeightField *field, float fall, Error *e)
+static Drainage *flood_field(const HeightField *field, const uint8_t *outlet, float fall, Error *e)
 {
-    Flood flood = {.field = field, .out = allocate(field, e), .fall = fall};
+    Flood flood = {.field = field, .outlet = outlet, .out = allocate(field, e), .fall = fall};
     bool done = flood.out != NULL;
     if (done) {
         flood.seen = memory_alloc_zero(height_field_count(field), 1, e);
@@ -199,13 +203,18 @@ static Drainage *flood_field(const HeightField *field, float fall, Error *e)
 
 Drainage *drainage_new(const HeightField *field, Error *e)
 {
-    Drainage *out = flood_field(field, 0.0f, e);
+    Drainage *out = flood_field(field, NULL, 0.0f, e);
     if (out) {
         point_downhill(field, out);
         gather_areas(field, out);
         out->pits = height_field_pits(field);
     }
     return out;
+}
+
+Drainage *drainage_flood(const HeightField *field, const uint8_t *outlet, Error *e)
+{
+    return flood_field(field, outlet, 0.0f, e);
 }
 
 void drainage_free(Drainage *drainage)
@@ -221,7 +230,7 @@ void drainage_free(Drainage *drainage)
 
 bool height_field_fill(HeightField *field, float fall, Error *e)
 {
-    Drainage *flooded = flood_field(field, fall, e);
+    Drainage *flooded = flood_field(field, NULL, fall, e);
     if (!flooded) {
         return false;
     }

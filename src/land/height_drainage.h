@@ -20,6 +20,11 @@ typedef struct Drainage {
 Drainage *drainage_new(const HeightField *field, Error *e);
 void drainage_free(Drainage *drainage); // NULL is fine
 
+// The flood alone: order, filled and receiver, which leads along the flood's way, not down the
+// steepest slope; areas are 0. outlet: per sample, 1 = water leaves there and nowhere else; NULL =
+// over the rim.
+Drainage *drainage_flood(const HeightField *field, const uint8_t *outlet, Error *e);
+
 // Raises samples by the least amount that lets every one drain: each ends up above its receiver by
 // a slope of at least `fall` (0 = by one float step).
 bool height_field_fill(HeightField *field, float fall, Error *e);

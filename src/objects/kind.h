@@ -50,6 +50,10 @@ typedef struct Kind {
     // role's.
     const char *materials[OBJECT_MOST_MATERIALS];
 
+    // Name of the built-in material of a role that these parameters ask for in place of
+    // materials[role]; NULL = materials[role]. NULL = never.
+    const char *(*material_for)(const void *params, int role);
+
     // Built-in materials that only this kind defaults to, ended by one without a name; NULL = none.
     const struct Material *builtin;
 
@@ -173,6 +177,13 @@ typedef struct Kind {
 #define RIME_MATERIAL_ROW(INDEX)         \
     MATERIAL_ROW(INDEX, "rime_material", \
                  "Material of frost that is white with enclosed air; default: rime.")
+
+// The built-in material of a role; NULL = the first role's.
+static inline const char *kind_material(const Kind *kind, const void *params, int role)
+{
+    const char *asked = kind->material_for ? kind->material_for(params, role) : NULL;
+    return asked ? asked : kind->materials[role];
+}
 
 // NULL if index is not below the number of kinds.
 const Kind *kind_at(int index);

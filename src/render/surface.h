@@ -30,9 +30,10 @@ typedef struct SurfacePoint {
                         // before displacement; else 0
     Vec3 along;         // of diced meshes: unit, world, the way in which v grows; else 0
     Vec2 site;          // of land: altitude and wetness, 0..1 each
-    float variation;    // 0..1 per instance
-    float season;       // of a leaf, -1..1: see InstanceLook
-    bool backface;      // the ray met the side away from the mesh's own orientation
+    const struct Strata *strata; // of land: its beds of rock, in the part's space; NULL = none
+    float variation;             // 0..1 per instance
+    float season;                // of a leaf, -1..1: see InstanceLook
+    bool backface;               // the ray met the side away from the mesh's own orientation
     float
         epsilon; // m: how far along facet_normal a ray starts so as not to meet this surface again
     float footprint; // m: rough width of the pixel here, for fading fine patterns; 0 = unknown

@@ -207,7 +207,7 @@ static void find_materials(const World *world, const Making *m, int material[OBJ
 {
     for (int i = 0; i < OBJECT_MOST_MATERIALS; i++) {
         const char *name = m->scene->objects[m->index].material[i];
-        int found = find_material(world, name ? name : m->kind->materials[i]);
+        int found = find_material(world, name ? name : kind_material(m->kind, m->params, i));
         material[i] = found >= 0 ? found : material[0];
     }
 }

@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#define MOST_TABLES 64
+#define MOST_TABLES 96
 
 typedef struct Writer {
     SchemaText *text;

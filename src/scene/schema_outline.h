@@ -5,7 +5,7 @@
 
 #include "scene/schema_text.h"
 
-#define OUTLINE_MOST_SECTIONS 96
+#define OUTLINE_MOST_SECTIONS 128
 #define OUTLINE_MOST_PLACES 64
 
 typedef struct OutlinePlace {

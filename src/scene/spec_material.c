@@ -18,11 +18,14 @@
 static const EnumName KINDS[] = {MATERIAL_KINDS(KIND){0}};
 #undef KIND
 static const EnumName PATTERNS[] = {
-    {"none", PATTERN_NONE},   {"bark", PATTERN_BARK},           {"ground", PATTERN_GROUND},
-    {"stone", PATTERN_STONE}, {"masonry", PATTERN_MASONRY},     {"leaf", PATTERN_LEAF},
-    {"noise", PATTERN_NOISE}, {"corallite", PATTERN_CORALLITE}, {"youth", PATTERN_YOUTH},
-    {"sand", PATTERN_SAND},   {"mountain", PATTERN_MOUNTAIN},   {"badlands", PATTERN_BADLANDS},
-    {"water", PATTERN_WATER}, {"altitude", PATTERN_ALTITUDE},   {0}};
+    {"none", PATTERN_NONE},         {"bark", PATTERN_BARK},
+    {"ground", PATTERN_GROUND},     {"stone", PATTERN_STONE},
+    {"masonry", PATTERN_MASONRY},   {"leaf", PATTERN_LEAF},
+    {"noise", PATTERN_NOISE},       {"corallite", PATTERN_CORALLITE},
+    {"youth", PATTERN_YOUTH},       {"sand", PATTERN_SAND},
+    {"mountain", PATTERN_MOUNTAIN}, {"badlands", PATTERN_BADLANDS},
+    {"water", PATTERN_WATER},       {"altitude", PATTERN_ALTITUDE},
+    {"strata", PATTERN_STRATA},     {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
                                  {"birch", BARK_BIRCH},       {"smooth", BARK_SMOOTH},
@@ -89,7 +92,8 @@ static const Key MATERIAL_KEYS[] = {
             "veins and blotches; noise: plain noise; corallite: "
             "cups of a coral; youth: color2 where a branch still grows; sand: ripples of a sea "
             "floor; mountain: rock, scree, grass and snow; badlands: coloured strata; water: "
-            "ripples; altitude: a map's scale of colours over a terrain; none: one colour."},
+            "ripples; altitude: a map's scale of colours over a terrain; strata: the colours of a "
+            "terrain's beds, with rubble, soil (color) and shrubs (color2); none: one colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
      .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "
             "and ash; plates: thick scaly plates, on thinner stems thin flakes of color2, as of "

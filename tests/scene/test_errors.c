@@ -171,7 +171,9 @@ static const Case scenes[] = {
      "different ends, or use kind: point"},
     {"objects: [{name: a, terrain: {form: hills}}]\n",
      ":1:37: objects.a.terrain.form is 'hills'; known: rivers, ridges, map, "
-     "noise, survey"},
+     "noise, survey, canyon, mesas"},
+    {"objects: [{name: a, terrain: {form: canyon, evolution: {cells: 700}}}]\n",
+     ":1:64: objects.a.terrain.evolution.cells is 700; it must be a power of two, such as 1024"},
     {"objects: [{name: a, terrain: {form: map}}]\n",
      ":1:30: objects.a.terrain.map.image is missing; form: map needs an image"},
     {"objects: [{name: a, terrain: {ridges: {lift: [{distance: 0, height: 1}, {distance: 0, "

@@ -63,6 +63,8 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"terrain: {resolution: 64, rivers: {count: 200}}", 0xfaa674fa934997ce},
         {"terrain: {resolution: 64, form: ridges, ridges: {count: 200}}", 0x5986ae362203d199},
         {"terrain: {resolution: 64, form: noise}", 0x3f387f552d79754c},
+        {"terrain: {resolution: 64, form: canyon}", 0x0aa8378ce838b12b},
+        {"terrain: {resolution: 64, form: mesas, strata: {dip: 2}}", 0xcf11c46eb04227f6},
         {"shape: {envelope: [{shape: capsule, size: [0.3, 1, 0.3]}, "
          "{shape: box, size: 0.5, rotation: [10, 20, 30]}]}",
          0x02ae3c4879220b89},

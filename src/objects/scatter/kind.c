@@ -18,8 +18,10 @@ static const char *further_material(const void *params, int index)
         return NULL;
     }
     const SceneObject *object = &scatter->things[number].object;
-    const char *given = object->material[role], *own = object->kind->materials[role];
-    const char *first = object->material[0] ? object->material[0] : object->kind->materials[0];
+    const char *given = object->material[role],
+               *own = kind_material(object->kind, object->params, role);
+    const char *first =
+        object->material[0] ? object->material[0] : kind_material(object->kind, object->params, 0);
     return given ? given : own ? own : first;
 }
 

@@ -263,7 +263,9 @@ static bool dig_beds(const Terrain *terrain, HeightField *field, const Run *run)
 
 bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
-    if (terrain->params->rivers.water <= 0.0f) {
+    float water = terrain_evolves(terrain->params) ? terrain->params->canyon.river
+                                                   : terrain->params->rivers.water;
+    if (water <= 0.0f) {
         return true;
     }
     terrain->water = wide_rivers(terrain, field->cell.x, e);

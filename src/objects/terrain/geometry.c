@@ -1,7 +1,71 @@
 // The parts of a terrain: land, water, forest; or the plane with its map or its tree.
+#include "base/memory.h"
 #include "land/height_mesh.h"
 #include "mesh/curves.h"
 #include "objects/terrain/internal.h"
+
+// Gives a mesh of the land its beds, in the mesh's space.
+static bool give_strata(Mesh *mesh, const Terrain *terrain, Error *e)
+{
+    if (!mesh || !terrain->strata) {
+        return mesh;
+    }
+    mesh->strata = strata_copy(terrain->strata, e);
+    if (mesh->strata) {
+        mesh->strata->origin = vec3_add(mesh->strata->origin, terrain->params->position);
+    }
+    return mesh->strata;
+}
+
+// The square's copy number (column, row) away: odd ones are mirrored, so that borders meet.
+static Transform mirrored(const TerrainParams *params, int column, int row)
+{
+    float x = column % 2 == 0 ? 1.0f : -1.0f, z = row % 2 == 0 ? 1.0f : -1.0f;
+    Vec3 middle = params->position;
+    Vec3 place = vec3((float)column * params->size + (1.0f - x) * middle.x, 0.0f,
+                      (float)row * params->size + (1.0f - z) * middle.z);
+    return transform_from_axes(vec3(x, 0, 0), vec3(0, 1, 0), vec3(0, 0, z), place);
+}
+
+// Adds mirrored copies of a part around the square. Takes ownership of the mesh.
+static bool add_copies(Mesh *mesh, const TerrainParams *params, const Placing *placing, int role,
+                       Error *e)
+{
+    int rings = params->beyond, side = 2 * rings + 1;
+    Part part = {.mesh = mesh,
+                 .instance = memory_alloc((int64_t)side * side, sizeof(Transform), e)};
+    for (int i = 0; part.instance && i < side * side; i++) {
+        int column = i % side - rings, row = i / side - rings;
+        if (column != 0 || row != 0) {
+            part.instance[part.instance_count++] = mirrored(params, column, row);
+        }
+    }
+    if (!part.instance) {
+        mesh_free(mesh);
+        return false;
+    }
+    return placing_add(placing, part, role, e);
+}
+
+// The land around the square: coarser, as it is farther from the eye.
+static bool add_beyond(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                       Error *e)
+{
+    const TerrainParams *params = terrain->params;
+    if (params->beyond <= 0) {
+        return true;
+    }
+    HeightMeshParams meshing = {.error = 0.25f * params->mesh_error * params->size};
+    Mesh *mesh = height_mesh_new(field, &meshing, e);
+    for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
+        mesh->position[i] = vec3_add(mesh->position[i], params->position);
+    }
+    if (!give_strata(mesh, terrain, e)) {
+        mesh_free(mesh);
+        return false;
+    }
+    return add_copies(mesh, params, placing, TERRAIN_LAND, e);
+}
 
 static bool add_land(const Terrain *terrain, const HeightField *field, const Placing *placing,
                      Error *e)
@@ -22,6 +86,10 @@ static bool add_land(const Terrain *terrain, const HeightField *field, const Pla
     }
     for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
         mesh->position[i] = vec3_add(mesh->position[i], params->position);
+    }
+    if (!give_strata(mesh, terrain, e)) {
+        mesh_free(mesh);
+        return false;
     }
     return placing_add(placing, (Part){.mesh = mesh}, TERRAIN_LAND, e);
 }
@@ -70,6 +138,7 @@ bool terrain_geometry(const void *given, const Grown *grown, const Placing *plac
         return drawn;
     }
     bool done = field && add_land(terrain, field, placing, e) &&
+                add_beyond(terrain, field, placing, e) &&
                 terrain_add_water(terrain, field, placing, e) &&
                 (params->forest.count <= 0 || terrain_add_forest(terrain, field, placing, e));
     height_field_free(field);

@@ -2,6 +2,8 @@
 #ifndef RAMIFY_OBJECTS_TERRAIN_INTERNAL_H
 #define RAMIFY_OBJECTS_TERRAIN_INTERNAL_H
 
+#include "base/strata.h"
+#include "land/landscape.h"
 #include "objects/terrain/envelope.h"
 #include "objects/terrain/lift.h"
 #include "objects/terrain/terrain.h"
@@ -19,7 +21,12 @@ enum {
     STREAM_UPLIFT = 31,
     STREAM_TERRACES = 41,
     STREAM_WINDINGS = 42,
-    STREAM_FOREST = 61
+    STREAM_FOREST = 61,
+    STREAM_COURSE = 71,
+    STREAM_PLATEAU = 72,
+    STREAM_WEAKNESS = 73,
+    STREAM_WATER_WAYS = 74,
+    STREAM_JOINTS = 75
 };
 
 // The tree and everything derived from it.
@@ -33,6 +40,8 @@ typedef struct Terrain {
     float *uplift;        // factor on gradients at each node
     float gradient;       // of hillslopes at uplift 1
     TroughEnvelope *land; // heights of valleys and slopes
+    Strata *strata;       // beds of rock, in the terrain's own space; NULL = none
+    Landscape *evolved;   // of landforms; set by terrain_heights
     TroughEnvelope *distance; // m to the nearest river, in plan
     // The visible rivers on the finished heights, set by terrain_heights; NULL or without nodes if
     // none is wide enough.
@@ -142,6 +151,22 @@ float terrain_shore(const Terrain *terrain, float x, float z);
 // erosion.c: thermal and stream erosion of a field.
 bool terrain_erode(HeightField *field, const TerrainErosionParams *params, const Run *run,
                    Error *e);
+
+// beds.c: the beds that the parameters give, or the landform's own, with their top in the plateau;
+// *strata stays NULL without any.
+bool terrain_lay_beds(const TerrainParams *params, Strata **strata, Error *e);
+
+// course.c: the courses of the rivers that cut a plateau, from their outlets up, on the plane y =
+// 0, radius = half the water's width.
+bool terrain_grow_courses(OutTree **tree, const TerrainParams *params, const Recipe *recipe,
+                          Error *e);
+
+// plateau.c: the plateau as it is now, on a grid of its own. The caller frees it.
+Landscape *terrain_evolve(const Terrain *terrain, const Run *run, Error *e);
+// The height at a place, m, and 0..1: how much of the ground is loose.
+float terrain_evolved_at(const Terrain *terrain, float x, float z, float *cover);
+// Height of the river at a node of the tree of courses, m.
+float terrain_course_height(const TerrainParams *params, const OutTree *tree, int64_t i);
 
 // water.c, forest.c: parts of the geometry, moved by params->position.
 bool terrain_add_water(const Terrain *terrain, const HeightField *field, const Placing *placing,

@@ -35,10 +35,14 @@ static int64_t copies(const void *params)
 
 static void needs(const void *params, Needs *needs)
 {
-    enum { CELL_BYTES = 200, RIVER_BYTES = 1500 };
+    enum { CELL_BYTES = 200, RIVER_BYTES = 1500, LANDSCAPE_BYTES = 140 };
     const TerrainParams *terrain = params;
     double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // trees per side
     needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, CELL_BYTES);
+    if (terrain_evolves(terrain)) {
+        double cells = fmin(terrain->resolution, terrain->evolution.cells);
+        needs_add(needs, "evolution.cells", cells * cells, LANDSCAPE_BYTES);
+    }
     needs_add(needs, terrain->form == TERRAIN_RIDGES ? "ridges.count" : "rivers.count",
               (double)attractors(params), RIVER_BYTES);
     needs_add_copies(needs, "forest.count", fmin(terrain->forest.count, rows * rows), 1e9);
@@ -48,6 +52,14 @@ static void settle(const void *params, void *settled)
 {
     TerrainParams p = terrain_params_resolve(params);
     memcpy(settled, &p, sizeof p);
+}
+
+// Land of beds shows them.
+static const char *material_for(const void *params, int role)
+{
+    const TerrainParams *terrain = params;
+    bool beds = terrain_evolves(terrain) || terrain->strata.bed_count > 0;
+    return role == TERRAIN_LAND && beds ? "terrain/strata" : NULL;
 }
 
 static const Material BUILTIN[] = {
@@ -69,6 +81,14 @@ static const Material BUILTIN[] = {
      .ior = 1.5f,
      .pattern = PATTERN_BADLANDS,
      .pattern_depth = 1.0f},
+    {.name = "terrain/strata",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.40f, 0.29f, 0.19f},
+     .color2 = {0.075f, 0.083f, 0.046f},
+     .roughness = 0.7f,
+     .ior = 1.5f,
+     .pattern = PATTERN_STRATA,
+     .pattern_depth = 3.0f},
     {.name = "lake",
      .kind = MATERIAL_PRINCIPLED,
      .color = {0.012f, 0.030f, 0.034f},
@@ -106,6 +126,7 @@ static const Key MATERIALS[] = {
 const Kind kind_terrain = {
     .variant = {KIND_ROW("terrain", &terrain_table, "Mountains, valleys and rivers."), MATERIALS},
     .materials = {"mountain", "lake", "conifer", "node"},
+    .material_for = material_for,
     .builtin = BUILTIN,
     .needs = needs,
     .describe = describe,
@@ -115,4 +136,5 @@ const Kind kind_terrain = {
     .grow = terrain_grow,
     .finish = terrain_finish,
     .geometry = terrain_geometry,
+    .measure = terrain_measure,
     .heights = terrain_heights};

@@ -364,7 +364,8 @@ static const Table FOREST_TABLE = {.name = "forest",
 
 static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS}, {"ridges", TERRAIN_RIDGES},
                                       {"map", TERRAIN_MAP},       {"noise", TERRAIN_NOISE},
-                                      {"survey", TERRAIN_SURVEY}, {0}};
+                                      {"survey", TERRAIN_SURVEY}, {"canyon", TERRAIN_CANYON},
+                                      {"mesas", TERRAIN_MESAS},   {0}};
 
 static const EnumName SHOW_NAMES[] = {
     {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
@@ -374,14 +375,16 @@ static const Key TERRAIN_KEYS[] = {
      .doc =
          "Source of the heights. rivers: valleys along a tree of rivers; ridges: land lifted "
          "along a tree of ridges; map: land lifted by the colours of an image; noise: noise alone, "
-         "on a plane; survey: a raster of surveyed heights."},
+         "on a plane; survey: a raster of surveyed heights; canyon: a plateau of beds that a river "
+         "has cut; mesas: what is left of such a plateau."},
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
      .doc = "Side length of the square; all else scales with it."},
     {KEY_OF(TerrainParams, relief, "relief", KEY_FLOAT), .high = 1e5, .unit = "m",
-     .doc = "Height of the highest valley slopes above the outlets, or of the highest ridge above "
-            "the plain; 0 = natural slopes. Not of noise alone or surveys."},
+     .doc = "Height of the highest valley slopes above the outlets, of the highest ridge above "
+            "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09 "
+            "and of mesas 0.04 of the size. Not of noise alone or surveys."},
     {KEY_OF(TerrainParams, resolution, "resolution", KEY_INT), .low = 16, .high = 8192,
      .doc = "Cells per side, a power of two; it changes the detail, not the form."},
     {KEY_OF(TerrainParams, water_level, "water_level", KEY_FLOAT), .high = 1,
@@ -404,6 +407,17 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Beds of hard rock, which form steps."},
     {KEY_OF(TerrainParams, forest, "forest", KEY_GROUP), .table = &FOREST_TABLE,
      .doc = "Conifers on the slopes."},
+    {KEY_OF(TerrainParams, strata, "strata", KEY_GROUP), .table = &strata_table,
+     .doc = "Beds of rock, which the erosion of landforms obeys and the pattern strata shows."},
+    {KEY_OF(TerrainParams, canyon, "canyon", KEY_GROUP), .table = &canyon_table,
+     .doc = "Canyon, of form: canyon."},
+    {KEY_OF(TerrainParams, mesas, "mesas", KEY_GROUP), .table = &mesa_table,
+     .doc = "Mesas and buttes, of form: mesas."},
+    {KEY_OF(TerrainParams, evolution, "evolution", KEY_GROUP), .table = &evolution_table,
+     .doc = "Processes that make form: canyon and form: mesas."},
+    {KEY_OF(TerrainParams, beyond, "beyond", KEY_INT), .high = 8,
+     .doc = "Rings of mirrored copies around the square, so that the land goes on to the horizon; "
+            "0 = none. They are seen, not stood on."},
     {KEY_OF(TerrainParams, show, "show", KEY_ENUM), .names = SHOW_NAMES,
      .doc = "What is drawn. land: the land with its water and forest; map: the flat plane with the "
             "land's altitudes, for a material of the pattern altitude; tree: the plane and the "
@@ -428,6 +442,11 @@ static bool check_terrain(const Mapping *mapping, void *params)
     if (terrain->form == TERRAIN_SURVEY && !terrain->survey.file) {
         return mapping_fail(mapping, "survey.file", " is missing; form: survey needs a raster");
     }
+    int evolved = terrain->evolution.cells;
+    if ((evolved & (evolved - 1)) != 0) {
+        return mapping_fail(mapping, "evolution.cells",
+                            " is %d; it must be a power of two, such as 1024", evolved);
+    }
     return (cells & (cells - 1)) == 0 ||
            mapping_fail(mapping, "resolution", " is %d; it must be a power of two, such as 1024",
                         cells);
@@ -437,7 +456,9 @@ const Table terrain_table = {
     .name = "terrain",
     .doc = "Mountains, valleys and rivers (Tanaka et al., section 5.5). A tree of rivers or of "
            "ridges grows first, or is read from a file or a picture; the land follows from it. "
-           "Materials: mountain, lake, node.",
+           "Landforms come from a plateau that rivers cut and slopes wear. Materials: mountain "
+           "(strata "
+           "where there are beds), lake, node.",
     .example =
         "objects:\n"
         "  - name: range\n"

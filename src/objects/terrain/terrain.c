@@ -35,6 +35,15 @@ TerrainParams terrain_params_default(void)
         .noise = {.iterations = 6, .amplitude = 0.11f, .gain = 0.5f, .ridged = 0.7f, .warp = 0.35f},
         .erosion = {.talus = 38.0f},
         .forest = {.height = 28.0f, .low = 0.02f, .high = 0.4f, .slope = 36.0f, .clumping = 0.7f},
+        .canyon = {.sinuosity = 1.35f, .meander = 0.42f, .river = 70.0f, .side_canyons = 1.0f},
+        .mesas = {.streams = 6, .remaining = 0.12f},
+        .evolution = {.streams = 1.0f,
+                      .weathering = 1.0f,
+                      .rubble = 0.25f,
+                      .repose = 34.0f,
+                      .deposition = 1.0f,
+                      .soil = 1.0f,
+                      .cells = 1024},
         .mesh_error = 0.0006f};
 }
 
@@ -51,11 +60,21 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
             break;
         case TERRAIN_MAP:
         case TERRAIN_NOISE:
+        case TERRAIN_CANYON:
+        case TERRAIN_MESAS:
             resolved.noise.wavelength = 0.125f;
             break;
         case TERRAIN_SURVEY: // two cells of the raster
             break;
         }
+    }
+    if (terrain_evolves(params)) {
+        bool canyon = params->form == TERRAIN_CANYON;
+        resolved.relief =
+            params->relief > 0.0f ? params->relief : (canyon ? 0.09f : 0.04f) * params->size;
+        resolved.canyon.width =
+            params->canyon.width > 0.0f ? params->canyon.width : 6.0f * resolved.relief;
+        resolved.strata.top = params->strata.top != 0.0f ? params->strata.top : resolved.relief;
     }
     return resolved;
 }
@@ -143,6 +162,9 @@ bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *
         return terrain_grow_ridges(&whole->tree, params, recipe, e);
     case TERRAIN_SURVEY:
         return terrain_find_rivers(&whole->tree, params, recipe, e);
+    case TERRAIN_CANYON:
+    case TERRAIN_MESAS:
+        return terrain_grow_courses(&whole->tree, params, recipe, e);
     case TERRAIN_MAP:
     case TERRAIN_NOISE:
         whole->tree = out_tree_new(e);
@@ -181,6 +203,8 @@ static void forget(Terrain *terrain)
     out_tree_free(terrain->water);
     trough_envelope_free(terrain->shore);
     free(terrain->bank);
+    landscape_free(terrain->evolved);
+    terrain->evolved = NULL;
     terrain->map = NULL;
     terrain->lift = NULL;
     terrain->land = terrain->distance = terrain->shore = NULL;
@@ -194,7 +218,20 @@ static void free_terrain(void *state)
     forget(terrain);
     free(terrain->area);
     free(terrain->uplift);
+    strata_free(terrain->strata);
     free(terrain);
+}
+
+// The rivers' heights, and areas that tell a river's main stem.
+static bool fill_courses(Terrain *terrain, Error *e)
+{
+    OutTree *tree = terrain->tree;
+    terrain->area = memory_alloc(tree->count, sizeof *terrain->area, e);
+    for (int64_t i = 0; terrain->area && i < tree->count; i++) {
+        terrain->area[i] = 1.0f;
+        tree->position[i].y = terrain_course_height(terrain->params, tree, i);
+    }
+    return terrain->area;
 }
 
 bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
@@ -210,6 +247,12 @@ bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole
     *terrain = (Terrain){.params = params, .seed = recipe->seed, .tree = grown->tree};
     if (terrain->params->form == TERRAIN_SURVEY) {
         return terrain_finish_survey(terrain, e);
+    }
+    if (!terrain_lay_beds(terrain->params, &terrain->strata, e)) {
+        return false;
+    }
+    if (terrain_evolves(terrain->params)) {
+        return fill_courses(terrain, e);
     }
     if (terrain->params->form != TERRAIN_RIVERS) {
         return terrain->params->form != TERRAIN_RIDGES || terrain_raise_ridges(terrain, e);
@@ -318,6 +361,9 @@ static float land_at(const Terrain *terrain, float x, float z, float *wetness)
     case TERRAIN_SURVEY:
         *wetness = wetness_at(terrain, x, z);
         return terrain_surveyed_at(terrain, x, z);
+    case TERRAIN_CANYON:
+    case TERRAIN_MESAS:
+        return terrain_evolved_at(terrain, x, z, wetness);
     case TERRAIN_NOISE:
         break;
     }
@@ -410,6 +456,9 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
         }
     }
     make_terraces(field, &params->terraces, random_key(terrain->seed, STREAM_TERRACES));
+    if (terrain_evolves(params)) {
+        return terrain_lay_rivers(terrain, field, run, e);
+    }
     return !drains || ((params->terraces.count <= 0 || height_field_fill(field, 0.0f, e)) &&
                        terrain_lay_rivers(terrain, field, run, e)); // on the final land
 }
@@ -435,6 +484,10 @@ static bool prepare_land(Terrain *terrain, const Run *run, Error *e)
             return terrain->distance;
         }
         return terrain->map;
+    case TERRAIN_CANYON:
+    case TERRAIN_MESAS:
+        terrain->evolved = terrain_evolve(terrain, run, e);
+        return terrain->evolved;
     case TERRAIN_NOISE:
         break;
     }

@@ -9,6 +9,7 @@
 #include "field/guide_field.h"
 #include "land/height_field.h"
 #include "objects/common/recipe.h"
+#include "objects/terrain/landform.h"
 #include "objects/terrain/lift.h"
 #include "outtree/out_tree.h"
 #include "render/material/material.h"
@@ -43,7 +44,9 @@ typedef enum TerrainForm {
     TERRAIN_RIDGES,
     TERRAIN_MAP,
     TERRAIN_NOISE,
-    TERRAIN_SURVEY
+    TERRAIN_SURVEY,
+    TERRAIN_CANYON, // a plateau that a river has cut
+    TERRAIN_MESAS   // what is left of one
 } TerrainForm;
 
 // What is drawn.
@@ -157,6 +160,11 @@ typedef struct TerrainParams {
     TerrainErosionParams erosion;
     TerrainTerraceParams terraces;
     TerrainForestParams forest;
+    StrataParams strata; // top: 0 = the plateau's height
+    CanyonParams canyon;
+    MesaParams mesas;
+    EvolutionParams evolution;
+    int beyond;       // rings of mirrored copies around the square
     float mesh_error; // largest error of the mesh, as a share of its distance to the camera
 } TerrainParams;
 
@@ -187,6 +195,12 @@ HeightField *terrain_heights(const void *params, const Grown *grown, const Run *
 enum { TERRAIN_ALTITUDES = 6 };
 extern ColorStop terrain_altitudes[TERRAIN_ALTITUDES];
 
+// Does the land come from processes that wear a plateau?
+static inline bool terrain_evolves(const TerrainParams *params)
+{
+    return params->form == TERRAIN_CANYON || params->form == TERRAIN_MESAS;
+}
+
 // Height of the lake, in the field's own space.
 float terrain_water_height(const TerrainParams *params, const HeightField *field);
 
@@ -194,6 +208,11 @@ enum { TERRAIN_LAND, TERRAIN_WATER, TERRAIN_FOLIAGE, TERRAIN_LINES }; // roles o
 
 // Adds land (finer toward the eye, no cracks; even without one), water and forest.
 bool terrain_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
+
+// Of landforms: incision, cliffs, talus, what is left of the plateau, the canyon's width. After
+// terrain_heights.
+bool terrain_measure(const void *params, const Grown *grown, const Recipe *recipe,
+                     MeasureList *list, Error *e);
 
 extern const struct Table terrain_table; // of its parameters
 

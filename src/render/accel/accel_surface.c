@@ -169,6 +169,7 @@ static void mesh_surface(const PieceHit *at, const Transform *t, Vec3 direction,
         point->site.x += c.weight[i] * mesh->site[c.vertex[i]].x;
         point->site.y += c.weight[i] * mesh->site[c.vertex[i]].y;
     }
+    point->strata = at->own->part->mesh->strata;
     point->epsilon = 4e-6f * vec3_largest(point->position) + 1e-7f;
 }
 

@@ -48,7 +48,8 @@ typedef enum PatternKind {
     PATTERN_WATER,     // ripples
     PATTERN_MASONRY,   // a wall of stones in courses
     PATTERN_STONE,     // weathered rock: broken faces, joints, minerals, stains
-    PATTERN_ALTITUDE   // the colours of a map, by the altitude of the land
+    PATTERN_ALTITUDE,  // the colours of a map, by the altitude of the land
+    PATTERN_STRATA     // the beds of the land in their own colours, talus, soil and shrubs
 } PatternKind;
 
 // Is relief displaced near the camera?

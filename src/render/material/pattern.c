@@ -29,6 +29,28 @@ float pattern_detail(float wavelength, float footprint)
     return 1.0f - smoothstepf(0.25f, 1.0f, footprint / wavelength);
 }
 
+PatternOctaves pattern_octaves(const SurfacePoint *point, float wavelength, int octaves, float gain,
+                               float squash, uint32_t seed)
+{
+    PatternOctaves sum = {0};
+    float height = 1.0f;
+    for (int i = 0; i < octaves; i++) {
+        float seen = pattern_detail(wavelength, point->footprint);
+        if (seen <= 0.0f) {
+            break;
+        }
+        Vec3 p = vec3_scale(point->object_position, 1.0f / wavelength), slope;
+        p.y *= squash;
+        float n = noise_solid(p, seed + (uint32_t)i, &slope);
+        slope.y *= squash;
+        sum.value += seen * height * n;
+        sum.slope = vec3_madd(sum.slope, seen * height / wavelength, slope);
+        wavelength *= 0.47f;
+        height *= gain;
+    }
+    return sum;
+}
+
 // Shifts the hue between green-blue and red and scales the value, per instance.
 static Vec3 vary(Vec3 color, float variation, float value, float hue)
 {
@@ -70,6 +92,7 @@ float pattern_height(const Material *m, const SurfacePoint *point)
     return m->pattern == PATTERN_BARK      ? pattern_bark_height(m, point)
            : m->pattern == PATTERN_MASONRY ? pattern_masonry_height(m, point)
            : m->pattern == PATTERN_STONE   ? pattern_stone_height(m, point)
+           : m->pattern == PATTERN_STRATA  ? pattern_strata_height(m, point)
            : m->pattern == PATTERN_NOISE   ? noise_height(m, point)
                                            : 0.0f;
 }
@@ -117,6 +140,9 @@ void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *s
         break;
     case PATTERN_ALTITUDE:
         pattern_altitude(m, point, shade);
+        break;
+    case PATTERN_STRATA:
+        pattern_strata(m, point, shade);
         break;
     case PATTERN_NOISE:
         noise_pattern(m, point, shade);

@@ -30,6 +30,8 @@ void pattern_ground(const Material *material, const SurfacePoint *point, Pattern
 void pattern_mountain(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_badlands(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_altitude(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_strata(const Material *material, const SurfacePoint *point, PatternShade *shade);
+float pattern_strata_height(const Material *material, const SurfacePoint *point); // m
 void pattern_water(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_leaf(const Material *material, const SurfacePoint *point, PatternShade *shade);
 // The leaf's colours at its season: turned from the edge inward, or young.
@@ -42,6 +44,17 @@ void pattern_sand(const Material *material, const SurfacePoint *point, PatternSh
 // over a quarter of the pixel, at least `step` m.
 Vec3 pattern_slope(const Material *material, const SurfacePoint *point,
                    float (*height)(const Material *, const SurfacePoint *, Vec3 p), float step);
+
+// Noise summed over the octaves that the pixel resolves, and its gradient per metre.
+typedef struct PatternOctaves {
+    float value;
+    Vec3 slope;
+} PatternOctaves;
+
+// Octaves from `wavelength` (m, in the object's space) down, each half as long and `gain` times as
+// high as the last. squash: the ratio of length to height of the features.
+PatternOctaves pattern_octaves(const SurfacePoint *point, float wavelength, int octaves, float gain,
+                               float squash, uint32_t seed);
 
 // n tilted by the surface gradient of a height field (slope: world, dimensionless). Slopes are
 // bounded softly, so that bumps never turn a surface over.

@@ -6,36 +6,6 @@
 
 #include <stddef.h>
 
-// Noise summed over the octaves that the pixel resolves, and its gradient per metre.
-typedef struct Relief {
-    float value;
-    Vec3 slope;
-} Relief;
-
-// Octaves from `wavelength` down, each half as long and `gain` times as high as the last. squash:
-// the ratio of length to height of the features.
-static Relief relief_at(const SurfacePoint *point, float wavelength, int octaves, float gain,
-                        float squash, uint32_t seed)
-{
-    Relief sum = {0};
-    float height = 1.0f;
-    for (int i = 0; i < octaves; i++) {
-        float seen = pattern_detail(wavelength, point->footprint);
-        if (seen <= 0.0f) {
-            break;
-        }
-        Vec3 p = vec3_scale(point->object_position, 1.0f / wavelength), slope;
-        p.y *= squash;
-        float n = noise_solid(p, seed + (uint32_t)i, &slope);
-        slope.y *= squash;
-        sum.value += seen * height * n;
-        sum.slope = vec3_madd(sum.slope, seen * height / wavelength, slope);
-        wavelength *= 0.47f;
-        height *= gain;
-    }
-    return sum;
-}
-
 typedef struct Ground {
     Vec3 color;
     Vec3 slope; // of its relief, per metre
@@ -73,12 +43,13 @@ static float bed_tone(float level, uint32_t seed)
 
 static Ground rock(const Material *m, const SurfacePoint *point, Vec3 color, float scale)
 {
-    Relief rough = relief_at(point, 0.5f * scale, 7, 0.52f, 1.6f, 61);
-    Relief cracks = relief_at(point, 0.13f * scale, 4, 0.6f, 0.45f, 71);
+    PatternOctaves rough = pattern_octaves(point, 0.5f * scale, 7, 0.52f, 1.6f, 61);
+    PatternOctaves cracks = pattern_octaves(point, 0.13f * scale, 4, 0.6f, 0.45f, 71);
     // Steeply tilted, folded beds, visible in some places and lost in broken rock in others.
     float level = bed_level(point, 0.32f * scale, vec3(0.62f, 0.55f, 0.35f));
-    float seen = pattern_detail(0.32f * scale, point->footprint) *
-                 smoothstepf(-0.25f, 0.5f, relief_at(point, 7.0f * scale, 3, 0.5f, 1.0f, 57).value);
+    float seen =
+        pattern_detail(0.32f * scale, point->footprint) *
+        smoothstepf(-0.25f, 0.5f, pattern_octaves(point, 7.0f * scale, 3, 0.5f, 1.0f, 57).value);
     float tone = lerpf(0.5f, bed_tone(level + 0.3f * rough.value, 7), 0.7f * seen);
     float fine = bed_tone(4.3f * level + 0.6f * rough.value, 9);
     tone = lerpf(tone, fine, 0.35f * seen * pattern_detail(0.08f * scale, point->footprint));
@@ -95,7 +66,7 @@ static Ground rock(const Material *m, const SurfacePoint *point, Vec3 color, flo
 
 static Ground scree(const Material *m, const SurfacePoint *point, Vec3 color, float scale)
 {
-    Relief stones = relief_at(point, 0.10f * scale, 5, 0.62f, 1.0f, 81);
+    PatternOctaves stones = pattern_octaves(point, 0.10f * scale, 5, 0.62f, 1.0f, 81);
     Ground g = {.color = vec3_scale(vec3_lerp(color, m->color2, 0.35f), 1.12f)};
     g.color = vec3_scale(g.color, 1.0f + 0.25f * clampf(stones.value, -1.2f, 1.2f));
     g.slope = vec3_scale(stones.slope, 0.022f * scale);
@@ -104,7 +75,7 @@ static Ground scree(const Material *m, const SurfacePoint *point, Vec3 color, fl
 
 static Ground grass(const SurfacePoint *point, float scale, float wetness, float altitude)
 {
-    Relief tufts = relief_at(point, 0.16f * scale, 6, 0.6f, 0.7f, 91);
+    PatternOctaves tufts = pattern_octaves(point, 0.16f * scale, 6, 0.6f, 0.7f, 91);
     float dry = clampf(0.5f + 0.6f * tufts.value + 0.6f * altitude - 0.5f * wetness, 0.0f, 1.0f);
     Vec3 lush = {0.038f, 0.062f, 0.018f}, straw = {0.098f, 0.092f, 0.038f};
     Ground g = {.color = vec3_lerp(lush, straw, dry)};
@@ -115,7 +86,7 @@ static Ground grass(const SurfacePoint *point, float scale, float wetness, float
 
 static Ground snow(const SurfacePoint *point, float scale)
 {
-    Relief drift = relief_at(point, 0.35f * scale, 5, 0.42f, 1.0f, 101);
+    PatternOctaves drift = pattern_octaves(point, 0.35f * scale, 5, 0.42f, 1.0f, 101);
     Ground g = {.color = {0.86f, 0.88f, 0.90f}};
     g.slope = vec3_scale(drift.slope, 0.018f * scale);
     return g;
@@ -126,8 +97,8 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 90.0f;
     float altitude = point->site.x, wetness = point->site.y;
     float upright = fabsf(point->geometric_normal.y);
-    Relief broad = relief_at(point, 4.0f * scale, 4, 0.55f, 1.0f, 41);
-    Relief fray = relief_at(point, 0.4f * scale, 6, 0.6f, 1.0f, 45);
+    PatternOctaves broad = pattern_octaves(point, 4.0f * scale, 4, 0.55f, 1.0f, 41);
+    PatternOctaves fray = pattern_octaves(point, 0.4f * scale, 6, 0.6f, 1.0f, 45);
     float ragged = 0.45f * broad.value + 0.55f * fray.value;
     Ground g = rock(m, point, shade->color, scale);
     float loose = smoothstepf(0.70f, 0.80f, upright + 0.07f * ragged);
@@ -161,8 +132,9 @@ void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade
 {
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 40.0f;
     float upright = fabsf(point->geometric_normal.y);
-    Relief rough = relief_at(point, 0.5f * scale, 8, 0.54f, 1.3f, 111);
-    Relief rills = relief_at(point, 0.28f * scale, 5, 0.6f, 0.16f, 121); // run down the slopes
+    PatternOctaves rough = pattern_octaves(point, 0.5f * scale, 8, 0.54f, 1.3f, 111);
+    PatternOctaves rills =
+        pattern_octaves(point, 0.28f * scale, 5, 0.6f, 0.16f, 121); // run down the slopes
     float level = bed_level(point, scale, vec3(0.05f, 1.0f, 0.03f)) + 0.05f * rough.value;
     float tone = bed_tone(level, 11);
     tone = lerpf(tone, bed_tone(3.7f * level, 13),
@@ -178,11 +150,11 @@ void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade
     slope = vec3_madd(slope, 0.05f * scale, rills.slope);
     slope.y += 1.3f * (tone - 0.5f);
     // Sand and rubble where it is flat.
-    Relief sand = relief_at(point, 0.3f * scale, 7, 0.55f, 1.0f, 131);
+    PatternOctaves sand = pattern_octaves(point, 0.3f * scale, 7, 0.55f, 1.0f, 131);
     Vec3 floor_color = vec3_lerp(vec3_lerp(shade->color, pale, 0.45f), m->color2, 0.25f);
     floor_color = vec3_scale(floor_color, 1.0f + 0.2f * clampf(sand.value, -1.3f, 1.3f));
     float scrub = smoothstepf(0.25f, 0.6f,
-                              relief_at(point, 0.12f * scale, 3, 0.7f, 1.0f, 141).value +
+                              pattern_octaves(point, 0.12f * scale, 3, 0.7f, 1.0f, 141).value +
                                   0.5f * point->site.y);
     floor_color = vec3_lerp(floor_color, vec3(0.085f, 0.088f, 0.045f), 0.65f * scrub);
     float flat = smoothstepf(0.86f, 0.95f, upright + 0.08f * sand.value);
@@ -211,7 +183,7 @@ void pattern_altitude(const Material *m, const SurfacePoint *point, PatternShade
 void pattern_water(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 6.0f;
-    Relief waves = relief_at(point, scale, 6, 0.5f, 1.0f, 151);
+    PatternOctaves waves = pattern_octaves(point, scale, 6, 0.5f, 1.0f, 151);
     Vec3 slope = vec3(waves.slope.x, 0.0f, waves.slope.z);
     shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, m->pattern_depth));
 }

@@ -10,7 +10,8 @@ static bool displaces_pattern(const Material *m)
 {
     return m->pattern == PATTERN_BARK || m->pattern == PATTERN_STONE ||
            m->pattern == PATTERN_MASONRY ||
-           (m->pattern == PATTERN_NOISE && m->displacement == DISPLACEMENT_ON);
+           ((m->pattern == PATTERN_NOISE || m->pattern == PATTERN_STRATA) &&
+            m->displacement == DISPLACEMENT_ON);
 }
 
 static bool has_map(const Material *m)

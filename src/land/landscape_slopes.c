@@ -1,0 +1,308 @@
+// Slopes. Heights of rock are compared as runs along the stable profile of its beds (strata_run):
+// there a stable slope is one of gradient 1, whatever the bed, and a face that weathers back at
+// speed v sinks at v times the gradient (the eikonal equation, upwind differences after Godunov).
+#include "base/memory.h"
+#include "land/landscape_parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// ---- faces
+
+static double run_of(const Landscape *land, int64_t i, double height)
+{
+    return land->strata ? strata_run(land->strata, height - (double)land->stack[i]) : height;
+}
+
+static double height_of(const Landscape *land, int64_t i, double run)
+{
+    return land->strata ? strata_level(land->strata, run) + (double)land->stack[i] : run;
+}
+
+static double surface(const Landscape *land, int64_t i)
+{
+    return land->rock[i] + land->loose[i];
+}
+
+// The lower of the surfaces on both sides of i along a row (step 1) or a column.
+static double lower_side(const Landscape *land, int64_t i, int at, int64_t step)
+{
+    double before = at > 0 ? surface(land, i - step) : INFINITY;
+    double after = at < land->side - 1 ? surface(land, i + step) : INFINITY;
+    return before < after ? before : after;
+}
+
+// The highest run that stands beside runs a and b along both axes: the solution of |grad| = 1.
+static double steepest_stable(double a, double b, double cell)
+{
+    double low = a < b ? a : b, gap = a < b ? b - a : a - b;
+    if (gap >= cell) {
+        return low + cell;
+    }
+    return 0.5 * (a + b + sqrt(2.0 * cell * cell - gap * gap));
+}
+
+// Speed at which faces of rock of this hardness weather back, relative to hardness 0.
+static double weathering(double hardness)
+{
+    double soft = 1.0 - hardness;
+    return 0.03 + 0.97 * soft * soft;
+}
+
+// The rock's height after weathering and falling.
+static double worn(const Landscape *land, const LandscapeRates *rates, int column, int row,
+                   double time)
+{
+    int64_t i = (int64_t)row * land->side + column;
+    double rock = land->rock[i], x = lower_side(land, i, column, 1);
+    double z = lower_side(land, i, row, land->side);
+    if (x >= rock && z >= rock) {
+        return rock;
+    }
+    double here = run_of(land, i, rock);
+    double to_x = x < rock ? run_of(land, i, x) : here, to_z = z < rock ? run_of(land, i, z) : here;
+    double stable = steepest_stable(x < rock ? to_x : here + land->cell,
+                                    z < rock ? to_z : here + land->cell, land->cell);
+    double gradient =
+        sqrt((here - to_x) * (here - to_x) + (here - to_z) * (here - to_z)) / land->cell;
+    gradient = gradient < 1.0 ? gradient : 1.0;
+    double hardness = landscape_hardness(land, landscape_bed(land, i, rock));
+    double covered = land->loose[i] > 0.0 ? 1.0 / (1.0 + 0.12 * land->loose[i]) : 1.0;
+    double speed = rates->retreat * weathering(hardness) * (double)land->weakness[i] * covered;
+    double after = here - time * speed * gradient;
+    after = after < stable ? after : stable;
+    double height = height_of(land, i, after);
+    return height < rock ? height : rock;
+}
+
+static bool wear_faces(Landscape *land, const LandscapeRates *rates, double time, const Run *run,
+                       Error *e)
+{
+    double *next = memory_alloc(landscape_count(land), sizeof *next, e);
+    double *fine = memory_alloc(land->side, sizeof *fine, e);
+    if (!next || !fine) {
+        free(next);
+        free(fine);
+        return false;
+    }
+#pragma omp parallel for schedule(static) num_threads(run->threads)
+    for (int row = 0; row < land->side; row++) {
+        for (int column = 0; column < land->side; column++) {
+            int64_t i = (int64_t)row * land->side + column;
+            next[i] = land->base[i] ? land->rock[i] : worn(land, rates, column, row, time);
+        }
+    }
+#pragma omp parallel for schedule(static) num_threads(run->threads)
+    for (int row = 0; row < land->side; row++) {
+        fine[row] = 0.0;
+        for (int column = 0; column < land->side; column++) {
+            int64_t i = (int64_t)row * land->side + column;
+            double fallen = land->rock[i] - next[i];
+            double washed = land->loose[i] * rates->wash * time;
+            washed = washed < land->loose[i] ? washed : land->loose[i];
+            land->rock[i] = next[i];
+            land->loose[i] += rates->rubble * fallen - washed;
+            fine[row] += (1.0 - rates->rubble) * fallen + washed;
+        }
+    }
+    double own = land->cell * land->cell;
+    for (int row = 0; row < land->side; row++) {
+        land->outflow += fine[row] * own;
+    }
+    free(next);
+    free(fine);
+    return true;
+}
+
+// ---- rubble and soil
+
+static const int STEP[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
+                               {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+
+typedef struct Slide {
+    Landscape *land;
+    double *top;     // of each sample: the surface, m
+    double *share;   // of what would leave each sample, that its cover allows
+    double *next;    // loose cover after a step
+    double *arrived; // per row: at bases, m
+    double limit[2]; // m: height difference that rubble bears, to a side and across a corner
+    double creep[2]; // share of a height difference that creeps
+} Slide;
+
+static bool slide_init(Slide *s, Landscape *land, const LandscapeRates *rates, double time,
+                       Error *e)
+{
+    double creep = rates->creep * time / (land->cell * land->cell);
+    creep = creep < 0.1 ? creep : 0.1;
+    double limit = rates->repose * land->cell;
+    *s = (Slide){
+        .land = land, .limit = {limit, 1.4142135623730951 * limit}, .creep = {creep, 0.5 * creep}};
+    int64_t count = landscape_count(land);
+    return (s->top = memory_alloc(count, sizeof *s->top, e)) &&
+           (s->share = memory_alloc(count, sizeof *s->share, e)) &&
+           (s->next = memory_alloc(count, sizeof *s->next, e)) &&
+           (s->arrived = memory_alloc(land->side, sizeof *s->arrived, e));
+}
+
+static void slide_clear(Slide *s)
+{
+    free(s->top);
+    free(s->share);
+    free(s->next);
+    free(s->arrived);
+}
+
+// m that would leave a sample `drop` above its neighbour in direction k.
+static inline double leaves(const Slide *s, double drop, int k)
+{
+    double over = drop - s->limit[k & 1];
+    return (over > 0.0 ? 0.11 * over : 0.0) + drop * s->creep[k & 1];
+}
+
+// The neighbours of a sample: the first of *count directions, with their offsets.
+typedef struct Around {
+    int count, direction[8];
+    int64_t offset[8];
+} Around;
+
+static Around around_of(const Landscape *land, int column, int row)
+{
+    Around a = {0};
+    for (int k = 0; k < 8; k++) {
+        int c = column + STEP[k][0], r = row + STEP[k][1];
+        if (c >= 0 && r >= 0 && c < land->side && r < land->side) {
+            a.direction[a.count] = k;
+            a.offset[a.count++] = (int64_t)STEP[k][1] * land->side + STEP[k][0];
+        }
+    }
+    return a;
+}
+
+static double share_of(const Slide *s, int64_t i, const Around *around)
+{
+    const Landscape *land = s->land;
+    if (land->base[i] || land->loose[i] <= 0.0) {
+        return 0.0;
+    }
+    double sum = 0.0, here = s->top[i];
+    for (int n = 0; n < around->count; n++) {
+        double drop = here - s->top[i + around->offset[n]];
+        sum += drop > 0.0 ? leaves(s, drop, around->direction[n]) : 0.0;
+    }
+    return sum > land->loose[i] ? land->loose[i] / sum : 1.0;
+}
+
+// The loose cover of a sample after what leaves and what arrives.
+static double moved(const Slide *s, int64_t i, const Around *around)
+{
+    double here = s->top[i], own = s->share[i], loose = s->land->loose[i];
+    for (int n = 0; n < around->count; n++) {
+        int64_t other = i + around->offset[n];
+        double drop = here - s->top[other];
+        if (drop > 0.0) {
+            loose -= own * leaves(s, drop, around->direction[n]);
+        } else if (s->share[other] > 0.0) {
+            loose += s->share[other] * leaves(s, -drop, around->direction[n]);
+        }
+    }
+    return loose;
+}
+
+static void find_shares(const Slide *s, int row)
+{
+    int last = s->land->side - 1;
+    int64_t first = (int64_t)row * s->land->side;
+    Around inner = around_of(s->land, 1, row), west = around_of(s->land, 0, row);
+    Around east = around_of(s->land, last, row);
+    for (int column = 0; column <= last; column++) {
+        const Around *around = column == 0 ? &west : column == last ? &east : &inner;
+        s->share[first + column] = share_of(s, first + column, around);
+    }
+}
+
+// Rounding may leave a hair below nothing: it is taken from the rock. What reaches a base is gone.
+static void move_row(const Slide *s, int row)
+{
+    Landscape *land = s->land;
+    int last = land->side - 1;
+    Around inner = around_of(land, 1, row), west = around_of(land, 0, row);
+    Around east = around_of(land, last, row);
+    s->arrived[row] = 0.0;
+    for (int column = 0; column <= last; column++) {
+        int64_t i = (int64_t)row * land->side + column;
+        const Around *around = column == 0 ? &west : column == last ? &east : &inner;
+        double loose = moved(s, i, around);
+        if (land->base[i]) {
+            s->arrived[row] += loose;
+            loose = 0.0;
+        } else if (loose < 0.0) {
+            land->rock[i] += loose;
+            loose = 0.0;
+        }
+        s->next[i] = loose;
+    }
+}
+
+static void slide_once(Slide *s, int threads)
+{
+    Landscape *land = s->land;
+#pragma omp parallel num_threads(threads)
+    {
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < landscape_count(land); i++) {
+            s->top[i] = surface(land, i);
+        }
+#pragma omp for schedule(static)
+        for (int row = 0; row < land->side; row++) {
+            find_shares(s, row);
+        }
+#pragma omp for schedule(static)
+        for (int row = 0; row < land->side; row++) {
+            move_row(s, row);
+        }
+    }
+    for (int row = 0; row < land->side; row++) {
+        land->outflow += s->arrived[row] * land->cell * land->cell;
+    }
+    double *loose = land->loose;
+    land->loose = s->next;
+    s->next = loose;
+}
+
+// Bare rock turns to soil, the slower the thicker the soil already is (after Heimsath et al. 1997).
+static void make_soil(Landscape *land, double depth, int threads)
+{
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        double cover = 1.0 + 2.0 * land->loose[i];
+        double soil = land->base[i] ? 0.0 : depth / (cover * cover);
+        land->rock[i] -= soil;
+        land->loose[i] += soil;
+    }
+}
+
+static bool slide_rubble(Landscape *land, const LandscapeRates *rates, double time, const Run *run,
+                         Error *e)
+{
+    enum { TIMES = 4 };
+    Slide slide;
+    bool done = slide_init(&slide, land, rates, time / TIMES, e);
+    if (done && rates->soil > 0.0) {
+        make_soil(land, rates->soil * time, run->threads);
+    }
+    for (int k = 0; done && k < TIMES; k++) {
+        done = !run_is_cancelled(run) || run_cancel_error(e);
+        if (done) {
+            slide_once(&slide, run->threads);
+        }
+    }
+    slide_clear(&slide);
+    return done;
+}
+
+bool landscape_slopes(Landscape *land, const LandscapeRates *rates, double time, const Run *run,
+                      Error *e)
+{
+    return wear_faces(land, rates, time, run, e) && slide_rubble(land, rates, time, run, e);
+}

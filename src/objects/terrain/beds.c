@@ -1,0 +1,64 @@
+// The beds of the landforms, and those that the user gives.
+#include "base/memory.h"
+#include "objects/terrain/internal.h"
+
+#include <string.h>
+
+// A section of a plateau of limestone, sandstone and shale, from its rim down; thicknesses are
+// shares of the relief. Hard beds stand as cliffs, shales as slopes, and the broad bench above the
+// lowest sandstone is where a thick shale has weathered back.
+static const StrataBed CANYON[] = {
+    {0.077f, 0.85f, 0.0f, {0.56f, 0.46f, 0.34f}, 6.0f},  // limestone of the rim
+    {0.054f, 0.30f, 0.0f, {0.50f, 0.36f, 0.24f}, 3.0f},  // marl
+    {0.095f, 0.90f, 0.0f, {0.62f, 0.51f, 0.37f}, 12.0f}, // dune sandstone
+    {0.068f, 0.06f, 0.0f, {0.38f, 0.135f, 0.07f}, 2.5f}, // red shale
+    {0.036f, 0.70f, 0.0f, {0.44f, 0.20f, 0.115f}, 5.0f}, // red beds: ledges and slopes
+    {0.032f, 0.15f, 0.0f, {0.39f, 0.15f, 0.08f}, 2.0f},
+    {0.032f, 0.68f, 0.0f, {0.46f, 0.22f, 0.13f}, 5.0f},
+    {0.034f, 0.15f, 0.0f, {0.39f, 0.16f, 0.09f}, 2.0f},
+    {0.038f, 0.72f, 0.0f, {0.45f, 0.23f, 0.14f}, 5.0f},
+    {0.027f, 0.20f, 0.0f, {0.40f, 0.17f, 0.10f}, 2.0f},
+    {0.144f, 0.97f, 0.0f, {0.43f, 0.225f, 0.14f}, 14.0f}, // massive limestone, stained red
+    {0.041f, 0.50f, 0.0f, {0.37f, 0.30f, 0.215f}, 3.0f},
+    {0.108f, 0.03f, 22.0f, {0.30f, 0.27f, 0.19f}, 2.0f},   // green shale
+    {0.045f, 0.88f, 0.0f, {0.31f, 0.20f, 0.125f}, 4.0f},   // brown sandstone
+    {1.0f, 0.66f, 52.0f, {0.135f, 0.115f, 0.105f}, 0.0f}}; // dark schist
+
+// A thick sandstone over shale on a hard floor.
+static const StrataBed MESAS[] = {{0.06f, 0.80f, 0.0f, {0.42f, 0.19f, 0.11f}, 3.0f},
+                                  {0.04f, 0.25f, 0.0f, {0.40f, 0.15f, 0.085f}, 2.0f},
+                                  {0.44f, 0.93f, 83.0f, {0.48f, 0.215f, 0.115f}, 14.0f},
+                                  {0.10f, 0.10f, 0.0f, {0.37f, 0.13f, 0.075f}, 2.5f},
+                                  {0.035f, 0.60f, 0.0f, {0.44f, 0.18f, 0.105f}, 2.5f},
+                                  {0.12f, 0.08f, 0.0f, {0.36f, 0.125f, 0.07f}, 2.5f},
+                                  {0.03f, 0.60f, 0.0f, {0.44f, 0.19f, 0.11f}, 2.5f},
+                                  {0.14f, 0.05f, 26.0f, {0.38f, 0.14f, 0.08f}, 2.5f},
+                                  {1.0f, 0.92f, 0.0f, {0.45f, 0.24f, 0.15f}, 6.0f}};
+
+static int own_beds(const TerrainParams *params, StrataBed *beds)
+{
+    const StrataBed *from = params->form == TERRAIN_CANYON ? CANYON : MESAS;
+    int count = params->form == TERRAIN_CANYON ? (int)(sizeof CANYON / sizeof *CANYON)
+                                               : (int)(sizeof MESAS / sizeof *MESAS);
+    for (int i = 0; i < count; i++) {
+        beds[i] = from[i];
+        beds[i].thickness *= params->relief;
+    }
+    return count;
+}
+
+bool terrain_lay_beds(const TerrainParams *given, Strata **strata, Error *e)
+{
+    TerrainParams params = terrain_params_resolve(given);
+    StrataBed own[STRATA_MOST_BEDS];
+    if (params.strata.bed_count == 0) {
+        if (!terrain_evolves(&params)) {
+            return true;
+        }
+        params.strata.beds = own;
+        params.strata.bed_count = own_beds(&params, own);
+    }
+    float top = params.strata.top != 0.0f ? params.strata.top : params.relief;
+    *strata = strata_new(&params.strata, vec3(0.0f, top, 0.0f), params.size, e);
+    return *strata;
+}

@@ -1,0 +1,34 @@
+// Landforms that processes make out of a plateau of beds of rock: rivers cut it, slopes weather
+// back. What they differ by is where the rivers run, how far the work has gone, and the beds.
+#ifndef RAMIFY_OBJECTS_TERRAIN_LANDFORM_H
+#define RAMIFY_OBJECTS_TERRAIN_LANDFORM_H
+
+#include "base/strata.h"
+
+typedef struct CanyonParams {
+    float width;        // m, from rim to rim; 0 = by the relief
+    float sinuosity;    // length of the river over that of its valley, 1..4
+    float meander;      // wavelength of its bends along the valley, share of the size
+    float river;        // m, width of the water; 0 = dry
+    float side_canyons; // how far they reach back, 0..; 1 = well into the plateau
+} CanyonParams;
+
+typedef struct MesaParams {
+    int streams;     // that cross the plain
+    float remaining; // share of the plateau that still stands, 0..1
+} MesaParams;
+
+// How the land evolves; factors on the landform's own rates.
+typedef struct EvolutionParams {
+    float streams;    // incision by tributaries
+    float weathering; // retreat of faces
+    float rubble;     // share of fallen rock that stays as rubble, 0..1
+    float repose;     // degrees, of rubble
+    float deposition; // of the streams' load: 0 = none
+    float soil;       // creeping soil
+    int cells;        // a side, at most
+} EvolutionParams;
+
+extern const struct Table strata_table, canyon_table, mesa_table, evolution_table;
+
+#endif

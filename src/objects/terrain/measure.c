@@ -1,0 +1,161 @@
+// Measures of the landforms, for targets.
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "objects/terrain/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct LandformSurvey {
+    const Landscape *land;
+    TerrainParams params;
+    double river;   // m: mean height of the bases
+    double plateau; // m: the height above which a twentieth of the land lies
+} LandformSurvey;
+
+static double surface(const Landscape *land, int64_t i)
+{
+    return land->rock[i] + land->loose[i];
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static bool find_levels(LandformSurvey *s, Error *e)
+{
+    const Landscape *land = s->land;
+    int64_t count = landscape_count(land), bases = 0;
+    double *height = memory_alloc(count, sizeof *height, e);
+    for (int64_t i = 0; height && i < count; i++) {
+        height[i] = surface(land, i);
+        s->river += land->base[i] ? height[i] : 0.0;
+        bases += land->base[i];
+    }
+    if (height) {
+        qsort(height, (size_t)count, sizeof *height, ascending);
+        s->plateau = height[count - 1 - count / 20];
+        s->river = bases > 0 ? s->river / (double)bases : (double)NAN;
+    }
+    free(height);
+    return height;
+}
+
+// The median over all rows of the distance between the rims on both sides of the river: that skips
+// side canyons. A rim is where the land rises above nine tenths of the depth.
+static double canyon_width(const LandformSurvey *s, double *widths)
+{
+    const Landscape *land = s->land;
+    double rim = s->river + 0.9 * (s->plateau - s->river);
+    int rows = 0;
+    for (int row = 0; row < land->side; row++) {
+        int64_t first = (int64_t)row * land->side;
+        int from = 0, to = land->side - 1;
+        while (from < to && !land->base[first + from]) {
+            from++;
+        }
+        while (to > from && !land->base[first + to]) {
+            to--;
+        }
+        if (!land->base[first + from]) {
+            continue;
+        }
+        while (from > 0 && surface(land, first + from) < rim) {
+            from--;
+        }
+        while (to < land->side - 1 && surface(land, first + to) < rim) {
+            to++;
+        }
+        widths[rows++] = (double)(to - from) * land->cell;
+    }
+    qsort(widths, (size_t)rows, sizeof *widths, ascending);
+    return rows > 0 ? widths[rows / 2] : (double)NAN;
+}
+
+// The share of the samples that are above a share of the depth.
+static double share_above(const LandformSurvey *s, double level)
+{
+    int64_t count = landscape_count(s->land), above = 0;
+    for (int64_t i = 0; i < count; i++) {
+        above += surface(s->land, i) > s->river + level * (s->plateau - s->river);
+    }
+    return (double)above / (double)count;
+}
+
+// m by which a neighbour is lower.
+static double fall(const Landscape *land, int64_t i, int64_t step)
+{
+    return fmax(surface(land, i) - surface(land, i + step), 0.0);
+}
+
+// Of the samples between a tenth and nine tenths of the depth: the share that fall
+// by more than 45 degrees; and the mean fall, degrees, of those under at least 2 m of rubble.
+static void measure_slopes(const LandformSurvey *s, double *cliffs, double *talus)
+{
+    const Landscape *land = s->land;
+    double low = s->river + 0.1 * (s->plateau - s->river), steep = 0.0, all = 0.0;
+    double high = s->river + 0.9 * (s->plateau - s->river), sum = 0.0, covered = 0.0;
+    for (int row = 1; row < land->side - 1; row++) {
+        for (int column = 1; column < land->side - 1; column++) {
+            int64_t i = (int64_t)row * land->side + column;
+            double h = surface(land, i);
+            if (h < low || h > high) {
+                continue;
+            }
+            double dx = fmax(fall(land, i, 1), fall(land, i, -1));
+            double dz = fmax(fall(land, i, land->side), fall(land, i, -land->side));
+            double slope = sqrt(dx * dx + dz * dz) / land->cell;
+            all += 1.0;
+            steep += slope > 1.0;
+            if (land->loose[i] > 2.0) {
+                sum += (double)exact_atan2((float)slope, 1.0f) * 57.29577951308232;
+                covered += 1.0;
+            }
+        }
+    }
+    *cliffs = all > 0.0 ? steep / all : (double)NAN;
+    *talus = covered > 0.0 ? sum / covered : (double)NAN;
+}
+
+// Length of the river over the distance between its ends.
+static double sinuosity(const OutTree *tree)
+{
+    double length = 0.0;
+    for (int64_t i = 1; i < tree->count; i++) {
+        Vec3 a = tree->position[i], b = tree->position[i - 1];
+        length += (double)vec3_distance(vec3(a.x, 0, a.z), vec3(b.x, 0, b.z));
+    }
+    Vec3 a = tree->position[0], b = tree->position[tree->count - 1];
+    return length / (double)vec3_distance(vec3(a.x, 0, a.z), vec3(b.x, 0, b.z));
+}
+
+bool terrain_measure(const void *given, const Grown *grown, const Recipe *recipe, MeasureList *list,
+                     Error *e)
+{
+    const Terrain *terrain = grown->state;
+    (void)recipe;
+    if (!terrain->evolved) { // terrain_heights came before
+        return true;
+    }
+    LandformSurvey s = {.land = terrain->evolved, .params = terrain_params_resolve(given)};
+    double *widths = memory_alloc(s.land->side, sizeof *widths, e), nan = (double)NAN;
+    if (!widths || !find_levels(&s, e)) {
+        free(widths);
+        return false;
+    }
+    bool canyon = s.params.form == TERRAIN_CANYON;
+    double cliffs, talus;
+    measure_slopes(&s, &cliffs, &talus);
+    bool done = measures_add(list, "incision", s.plateau - s.river, "m", nan, nan, e) &&
+                measures_add(list, "cliff_share", cliffs, "", nan, nan, e) &&
+                measures_add(list, "talus_slope", talus, "degrees", 25, 38, e) &&
+                measures_add(list, "plateau_share", share_above(&s, 0.8), "", nan, nan, e);
+    if (done && canyon) {
+        done = measures_add(list, "canyon_width", canyon_width(&s, widths), "m", nan, nan, e) &&
+               measures_add(list, "sinuosity", sinuosity(grown->tree), "", nan, nan, e);
+    }
+    free(widths);
+    return done;
+}

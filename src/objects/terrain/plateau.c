@@ -1,0 +1,258 @@
+// A plateau of beds that rivers cut: a large river through it (canyon), or streams that have worn
+// most of it away (mesas). The large rivers are the base level: they cut down at the rate that is
+// given and carry off whatever reaches them. All else follows from the processes of
+// land/landscape.h, first on a coarse grid, then on finer ones, each for a later part of the time.
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "objects/terrain/internal.h"
+#include "objects/terrain/noise.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Plateau {
+    const Terrain *terrain;
+    TerrainParams params; // resolved
+    LandscapeRates rates; // per unit of time, which is the whole age of the landform
+    double cut;           // share of the time at which the rivers have reached their depth
+    float size;
+} Plateau;
+
+// ---- the rivers
+
+// Height of the course at a share of its length from the outlet up, with the rivers at a share of
+// their depth.
+static float course_height(const TerrainParams *params, float way, float depth)
+{
+    float fall = params->form == TERRAIN_CANYON ? 0.0022f * params->size : 0.03f * params->relief;
+    return (1.0f - depth) * params->relief + (depth < 1.0f ? depth : 1.0f) * fall * way;
+}
+
+static int last_birth(const OutTree *tree)
+{
+    int last = 1;
+    for (int64_t i = 0; i < tree->count; i++) {
+        last = tree->birth[i] > last ? tree->birth[i] : last;
+    }
+    return last;
+}
+
+float terrain_course_height(const TerrainParams *given, const OutTree *tree, int64_t i)
+{
+    TerrainParams params = terrain_params_resolve(given);
+    return course_height(&params, (float)tree->birth[i] / (float)last_birth(tree), 1.0f);
+}
+
+// Makes the samples within `half` of a place the base.
+static void set_base(Landscape *land, double x, double z, double half, double height)
+{
+    int reach = 1 + (int)(half / land->cell);
+    int column = (int)((x - land->corner) / land->cell + 0.5);
+    int row = (int)((z - land->corner) / land->cell + 0.5);
+    for (int r = row - reach; r <= row + reach; r++) {
+        for (int c = column - reach; c <= column + reach; c++) {
+            if (r < 0 || c < 0 || r >= land->side || c >= land->side) {
+                continue;
+            }
+            double dx = land->corner + c * land->cell - x, dz = land->corner + r * land->cell - z;
+            if (dx * dx + dz * dz <= half * half) {
+                landscape_set_base(land, (int64_t)r * land->side + c, height);
+            }
+        }
+    }
+}
+
+// Moves the rivers to where they are at this time. Their bends have grown while they cut down.
+static void set_rivers(const Plateau *p, Landscape *land, double time)
+{
+    const OutTree *tree = p->terrain->tree;
+    float depth = time < p->cut ? (float)(time / p->cut) : 1.0f, grown = 0.8f + 0.2f * depth;
+    float last = (float)last_birth(tree);
+    memset(land->base, 0, (size_t)landscape_count(land));
+    for (int64_t i = 0; i < tree->count; i++) {
+        float way = (float)tree->birth[i] / last;
+        Vec3 at = tree->position[i];
+        at.x *= p->params.form == TERRAIN_CANYON ? grown : 1.0f;
+        double half = fmax((double)tree->radius[i], 0.75 * land->cell);
+        int64_t below = tree->parent[i] >= 0 ? tree->parent[i] : i;
+        Vec3 to = tree->position[below];
+        to.x *= p->params.form == TERRAIN_CANYON ? grown : 1.0f;
+        int steps = 1 + (int)(vec3_distance(vec3(at.x, 0, at.z), vec3(to.x, 0, to.z)) /
+                              (0.7f * (float)land->cell));
+        for (int k = 0; k < steps; k++) {
+            float t = (float)k / (float)steps;
+            set_base(land, (double)lerpf(at.x, to.x, t), (double)lerpf(at.z, to.z, t), half,
+                     (double)course_height(&p->params, way, depth));
+        }
+    }
+}
+
+// ---- the plateau
+
+static void set_weakness(const Plateau *p, Landscape *land, const Run *run)
+{
+    uint64_t key = random_key(p->terrain->seed, STREAM_WEAKNESS);
+#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
+    for (int row = 0; row < land->side; row++) {
+        for (int column = 0; column < land->side; column++) {
+            float x = (float)(land->corner + column * land->cell) / p->size;
+            float z = (float)(land->corner + row * land->cell) / p->size;
+            float n = sparse_noise_fractal(14.0f * x, 14.0f * z, 5, 0.7f, 0.0f, key);
+            land->weakness[(int64_t)row * land->side + column] =
+                clampf(1.0f + 0.45f * n, 0.25f, 2.0f);
+        }
+    }
+}
+
+static void raise_plateau(const Plateau *p, Landscape *land, const Run *run)
+{
+    uint64_t key = random_key(p->terrain->seed, STREAM_PLATEAU);
+    float tilt = p->params.form == TERRAIN_CANYON ? 0.008f : 0.0f;
+#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
+    for (int row = 0; row < land->side; row++) {
+        for (int column = 0; column < land->side; column++) {
+            float x = (float)(land->corner + column * land->cell);
+            float z = (float)(land->corner + row * land->cell);
+            float u = 7.0f * x / p->size, v = 7.0f * z / p->size;
+            float rough = 0.0014f * p->size * sparse_noise_fractal(u, v, 6, 0.5f, 0.0f, key);
+            land->rock[(int64_t)row * land->side + column] =
+                (double)(p->params.relief + tilt * fabsf(x) + rough);
+        }
+    }
+}
+
+// The distance that the beds' stable profile takes from the rivers to the plateau.
+static float profile_width(const Plateau *p)
+{
+    const Strata *strata = p->terrain->strata;
+    float middle = strata_base(strata, 0.0f, 0.0f);
+    return (float)(strata_run(strata, (double)(p->params.relief - middle)) -
+                   strata_run(strata, (double)-middle));
+}
+
+// m: the width of the belt in which the river winds, three times the deviation from its middle.
+static float winding_belt(const OutTree *tree)
+{
+    double sum = 0.0, squares = 0.0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        double x = (double)tree->position[i].x;
+        sum += x;
+        squares += x * x;
+    }
+    double mean = sum / (double)tree->count;
+    return 3.0f * sqrtf((float)(squares / (double)tree->count - mean * mean));
+}
+
+// m by which faces of soft rock weather back in all.
+static float retreat_of(const Plateau *p)
+{
+    const TerrainParams *params = &p->params;
+    float profile = profile_width(p);
+    if (params->form == TERRAIN_CANYON) {
+        float belt = params->canyon.river + winding_belt(p->terrain->tree);
+        float beyond = 0.5f * (params->canyon.width - belt) - profile;
+        return 2.0f * (beyond > 0.0f ? beyond : 0.0f);
+    }
+    float spacing = params->size / (0.5f * (float)params->mesas.streams);
+    float reach = 0.5f * spacing * (1.0f - sqrtf(params->mesas.remaining)) - profile;
+    return 1.5f * (reach > 0.0f ? reach : 0.0f);
+}
+
+static float tangent(float degrees)
+{
+    float sine, cosine;
+    exact_sincos(degrees * 0.017453292f, &sine, &cosine);
+    return sine / cosine;
+}
+
+static Plateau plateau_of(const Terrain *terrain)
+{
+    Plateau p = {.terrain = terrain, .params = terrain_params_resolve(terrain->params)};
+    const EvolutionParams *evolution = &p.params.evolution;
+    bool canyon = p.params.form == TERRAIN_CANYON;
+    double size = (double)p.params.size,
+           reach = canyon ? (double)p.params.canyon.side_canyons : 0.6;
+    p.size = p.params.size;
+    p.cut = canyon ? 0.8 : 0.3;
+    p.rates = (LandscapeRates){.incision = 8.0 * reach * (double)evolution->streams,
+                               .loose = 30.0 * (double)evolution->streams,
+                               .least_area = 2e-5 * size * size,
+                               .deposition = (double)evolution->deposition,
+                               .retreat = (double)(retreat_of(&p) * evolution->weathering),
+                               .rubble = (double)evolution->rubble,
+                               .repose = (double)tangent(evolution->repose),
+                               .wash = 8.0,
+                               .soil = 1e-4 * size * (double)evolution->soil,
+                               .creep = 3e-7 * size * size * (double)evolution->soil,
+                               .seed = random_key(terrain->seed, STREAM_WATER_WAYS)};
+    return p;
+}
+
+// ---- time
+
+// Evolves the land from one time to another, in steps in which no face moves by half a cell.
+static bool evolve(const Plateau *p, Landscape *land, double from, double to, const Run *run,
+                   Error *e)
+{
+    enum { REROUTE = 2, LEAST_STEPS = 12 };
+    double most = 0.3 * land->cell / fmax(p->rates.retreat, 1e-6 * (double)p->size);
+    most = fmin(most, 0.01);
+    int steps = (int)((to - from) / most) + 1;
+    steps = steps > LEAST_STEPS ? steps : LEAST_STEPS;
+    double step = (to - from) / steps;
+    for (int i = 0; i < steps; i++) {
+        double time = from + step * (i + 1);
+        run_progress(run, "erosion", time);
+        set_rivers(p, land, time);
+        if (!landscape_step(land, &p->rates, step, i % REROUTE == 0, run, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+Landscape *terrain_evolve(const Terrain *terrain, const Run *run, Error *e)
+{
+    enum { FIRST_CELLS = 256 };
+    static const double until[] = {0.7, 0.9, 0.97, 0.99}; // time at which a finer grid takes over
+    Plateau p = plateau_of(terrain);
+    int last = p.params.resolution < p.params.evolution.cells ? p.params.resolution
+                                                              : p.params.evolution.cells;
+    int cells = last < FIRST_CELLS ? last : FIRST_CELLS;
+    Landscape *land = landscape_new(cells, (double)p.size, terrain->strata, e);
+    if (land) {
+        raise_plateau(&p, land, run);
+    }
+    double time = 0.0;
+    for (int level = 0; land; level++, cells *= 2) {
+        double end = cells < last && level < 4 ? until[level] : 1.0;
+        set_weakness(&p, land, run);
+        Landscape *finer = NULL;
+        bool done = evolve(&p, land, time, end, run, e);
+        if (done && cells >= last) {
+            return land;
+        }
+        finer = done ? landscape_refined(land, run, e) : NULL;
+        landscape_free(land);
+        land = finer;
+        time = end;
+    }
+    return NULL;
+}
+
+float terrain_evolved_at(const Terrain *terrain, float x, float z, float *cover)
+{
+    const float wavelength = 0.006f * terrain->params->size;
+    uint64_t key = random_key(terrain->seed, STREAM_JOINTS);
+    float u = x / wavelength, v = z / wavelength;
+    // Faces follow joints: they are not as smooth in plan as the grid of the processes makes them.
+    float reach = 0.13f * wavelength;
+    float dx = reach * sparse_noise_fractal(u, v, 4, 0.55f, 0.0f, key);
+    float dz = reach * sparse_noise_fractal(u, v, 4, 0.55f, 0.0f, key + 1);
+    double loose;
+    double height = landscape_at(terrain->evolved, (double)(x + dx), (double)(z + dz), &loose);
+    *cover = (float)(loose / (loose + 1.0));
+    return (float)height;
+}

@@ -1,0 +1,163 @@
+// The keys of landforms: beds of rock, canyon, mesas, and the processes that make them.
+#include "config/table.h"
+#include "objects/terrain/landform.h"
+
+static const Key BED_KEYS[] = {
+    {KEY_OF(StrataBed, thickness, "thickness", KEY_FLOAT), .flags = KEY_REQUIRED | KEY_ABOVE,
+     .high = 1e5, .unit = "m", .doc = "Vertical thickness."},
+    {KEY_OF(StrataBed, hardness, "hardness", KEY_FLOAT), .high = 1,
+     .doc = "0 = clay, which wears away first; 1 = the hardest rock, which stands as a cliff."},
+    {KEY_OF(StrataBed, slope, "slope", KEY_FLOAT), .high = 89, .unit = "degrees",
+     .doc = "Steepest face that stands; 0 = by the hardness, from 32 to 80."},
+    {KEY_OF(StrataBed, color, "color", KEY_COLOR), .high = 1, .doc = "Reflectance."},
+    {KEY_OF(StrataBed, lamina, "lamina", KEY_FLOAT), .high = 1e4, .unit = "m",
+     .doc = "Mean thickness of the layers within the bed; 0 = none."},
+    {0},
+};
+
+static void bed_defaults(void *out)
+{
+    *(StrataBed *)out =
+        (StrataBed){.hardness = 0.5f, .color = {0.42f, 0.22f, 0.13f}, .lamina = 3.0f};
+}
+
+static const Table BED_TABLE = {.name = "bed",
+                                .doc = "A bed of rock.",
+                                .size = sizeof(StrataBed),
+                                .keys = BED_KEYS,
+                                .defaults = bed_defaults};
+
+static const Key FAULT_KEYS[] = {
+    {KEY_OF(StrataFault, at, "at", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 2, .unit = "sizes",
+     .doc = "A place on the fault: x and z as fractions of the terrain's size."},
+    {KEY_OF(StrataFault, azimuth, "azimuth", KEY_FLOAT), .low = -360, .high = 360,
+     .unit = "degrees", .doc = "Direction in which the fault runs, clockwise from north (-z)."},
+    {KEY_OF(StrataFault, drop, "drop", KEY_FLOAT), .flags = KEY_REQUIRED, .low = -1e5, .high = 1e5,
+     .unit = "m", .doc = "How much lower beds lie on its right, seen along the azimuth."},
+    {0},
+};
+
+static const Table FAULT_TABLE = {
+    .name = "fault", .doc = "A vertical fault.", .size = sizeof(StrataFault), .keys = FAULT_KEYS};
+
+static const Key FOLD_KEYS[] = {
+    {KEY_OF(StrataFolds, wavelength, "wavelength", KEY_FLOAT), .high = 1e6, .unit = "m",
+     .doc = "Distance from crest to crest; 0 = no folds."},
+    {KEY_OF(StrataFolds, amplitude, "amplitude", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc = "Height of crests above the mean."},
+    {KEY_OF(StrataFolds, azimuth, "azimuth", KEY_FLOAT), .low = -360, .high = 360,
+     .unit = "degrees", .doc = "Direction across the crests, clockwise from north."},
+    {0},
+};
+
+static const Table FOLD_TABLE = {.name = "folds",
+                                 .doc = "Folds of the beds, all alike.",
+                                 .size = sizeof(StrataFolds),
+                                 .keys = FOLD_KEYS};
+
+static const Key STRATA_KEYS[] = {
+    {KEY_OF(StrataParams, beds, "beds", KEY_LIST),
+     .count_offset = offsetof(StrataParams, bed_count), .count = STRATA_MOST_BEDS,
+     .table = &BED_TABLE,
+     .doc = "Beds from the top down. The first goes on upward and the last downward; none = the "
+            "landform's own, in proportion to its relief."},
+    {KEY_OF(StrataParams, top, "top", KEY_FLOAT), .low = -1e5, .high = 1e5, .unit = "m",
+     .doc = "Height of the top of the first bed in the middle of the terrain, above its position; "
+            "0 = the relief."},
+    {KEY_OF(StrataParams, dip, "dip", KEY_FLOAT), .high = 89, .unit = "degrees",
+     .doc = "How steeply the beds dip."},
+    {KEY_OF(StrataParams, dip_azimuth, "dip_azimuth", KEY_FLOAT), .low = -360, .high = 360,
+     .unit = "degrees", .doc = "Direction in which they dip, clockwise from north (-z)."},
+    {KEY_OF(StrataParams, folds, "folds", KEY_GROUP), .table = &FOLD_TABLE, .doc = "Folds."},
+    {KEY_OF(StrataParams, faults, "faults", KEY_LIST),
+     .count_offset = offsetof(StrataParams, fault_count), .count = STRATA_MOST_FAULTS,
+     .table = &FAULT_TABLE, .doc = "Vertical faults."},
+    {0},
+};
+
+const Table strata_table = {
+    .name = "strata",
+    .doc = "Beds of rock. Erosion obeys them: hard beds stand as cliffs, soft ones weather back to "
+           "slopes and benches. A material of the pattern strata shows their colours.",
+    .example = "objects:\n"
+               "  - name: mesa\n"
+               "    terrain:\n"
+               "      form: mesas\n"
+               "      relief: 300\n"
+               "      strata:\n"
+               "        dip: 1\n"
+               "        beds:\n"
+               "          - {thickness: 120, hardness: 0.9, color: [0.48, 0.22, 0.12]}\n"
+               "          - {thickness: 170, hardness: 0.1, color: [0.38, 0.14, 0.08]}\n"
+               "          - {thickness: 100, hardness: 0.9, color: [0.45, 0.24, 0.15]}\n",
+    .size = sizeof(StrataParams),
+    .keys = STRATA_KEYS};
+
+static const Key CANYON_KEYS[] = {
+    {KEY_OF(CanyonParams, width, "width", KEY_FLOAT), .high = 1e6, .unit = "m",
+     .doc = "Mean width from rim to rim, side canyons left out; 0 = six times the relief. The "
+            "steepest faces that the beds allow set a lower limit."},
+    {KEY_OF(CanyonParams, sinuosity, "sinuosity", KEY_FLOAT), .low = 1, .high = 3.5,
+     .doc = "Length of the river relative to that of its valley; 1 = straight."},
+    {KEY_OF(CanyonParams, meander, "meander", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
+     .unit = "sizes", .doc = "Wavelength of the river's bends along its valley."},
+    {KEY_OF(CanyonParams, river, "river", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc = "Width of the water; 0 = dry."},
+    {KEY_OF(CanyonParams, side_canyons, "side_canyons", KEY_FLOAT), .high = 10,
+     .doc = "How far side canyons reach back into the plateau."},
+    {0},
+};
+
+const Table canyon_table = {.name = "canyon",
+                            .doc =
+                                "A river that has cut a plateau of beds. The relief is the depth.",
+                            .example = "objects:\n"
+                                       "  - name: canyon\n"
+                                       "    terrain:\n"
+                                       "      form: canyon\n"
+                                       "      size: 8000\n"
+                                       "      relief: 500\n"
+                                       "      canyon: {width: 1800, sinuosity: 1.8}\n",
+                            .size = sizeof(CanyonParams),
+                            .keys = CANYON_KEYS};
+
+static const Key MESA_KEYS[] = {
+    {KEY_OF(MesaParams, streams, "streams", KEY_INT), .low = 2, .high = 64,
+     .doc = "Number of streams across the plain between the mesas."},
+    {KEY_OF(MesaParams, remaining, "remaining", KEY_FLOAT), .low = 0.005, .high = 0.9,
+     .doc = "About the fraction of the plateau that still stands: many mesas at 0.3, a few buttes "
+            "at 0.03."},
+    {0},
+};
+
+const Table mesa_table = {.name = "mesas",
+                          .doc = "A plateau of which mesas and buttes are left. The relief "
+                                 "is their height above the plain.",
+                          .size = sizeof(MesaParams),
+                          .keys = MESA_KEYS};
+
+static const Key EVOLUTION_KEYS[] = {
+    {KEY_OF(EvolutionParams, streams, "streams", KEY_FLOAT), .high = 100,
+     .doc = "Factor on the erosion by streams."},
+    {KEY_OF(EvolutionParams, weathering, "weathering", KEY_FLOAT), .high = 100,
+     .doc = "Factor on the retreat of faces, of soft beds most."},
+    {KEY_OF(EvolutionParams, rubble, "rubble", KEY_FLOAT), .high = 1,
+     .doc = "Fraction of the fallen rock that stays as rubble at the feet of faces."},
+    {KEY_OF(EvolutionParams, repose, "repose", KEY_FLOAT), .low = 1, .high = 60, .unit = "degrees",
+     .doc = "Angle of repose of rubble."},
+    {KEY_OF(EvolutionParams, deposition, "deposition", KEY_FLOAT), .high = 5,
+     .doc = "How readily streams drop their load: 0 = never; 1 and more build fans and floors."},
+    {KEY_OF(EvolutionParams, soil, "soil", KEY_FLOAT), .high = 100,
+     .doc = "Factor on the making of soil and its creep, which rounds soft ground."},
+    {KEY_OF(EvolutionParams, cells, "cells", KEY_INT), .low = 64, .high = 4096,
+     .doc = "Largest grid of the processes, cells per side, a power of two. A finer resolution "
+            "interpolates along the beds' own profile."},
+    {0},
+};
+
+const Table evolution_table = {
+    .name = "evolution",
+    .doc = "Processes that make the landforms: streams that erode and drop their load, weathering "
+           "bed by bed, rubble, soil.",
+    .size = sizeof(EvolutionParams),
+    .keys = EVOLUTION_KEYS};

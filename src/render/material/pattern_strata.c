@@ -1,0 +1,182 @@
+// Land of beds (base/strata.h). Each bed shows in its own colour wherever the surface meets it,
+// with laminae, stains below ledges on faces, rubble from the beds above on talus
+// (SurfacePoint.site.y), and soil with shrubs where it is level.
+#include "base/strata.h"
+#include "render/material/pattern.h"
+#include "render/material/pattern_noise.h"
+
+#include <stddef.h>
+
+enum {
+    SEED_WOBBLE = 301,
+    SEED_ROUGH = 310,
+    SEED_STREAK = 320,
+    SEED_STONES = 330,
+    SEED_SOIL = 340,
+    SEED_SHRUB = 350
+};
+
+// Where a point is in the stack: contacts are not ruled lines.
+static float level_at(const Strata *strata, Vec3 p)
+{
+    float wobble = 1.1f * noise_solid(vec3_scale(p, 1.0f / 60.0f), SEED_WOBBLE, NULL) +
+                   0.3f * noise_solid(vec3_scale(p, 1.0f / 9.0f), SEED_WOBBLE + 1, NULL);
+    return p.y - strata_base(strata, p.x, p.z) + wobble;
+}
+
+static Vec3 bed_color(const Strata *strata, float level)
+{
+    return strata->bed[strata_bed(strata, level)].color;
+}
+
+// The mean colour over the height that a pixel covers.
+static Vec3 seen_color(const Strata *strata, float level, float footprint)
+{
+    float third = 0.33f * footprint;
+    Vec3 sum = vec3_add(bed_color(strata, level - third), bed_color(strata, level + third));
+    return vec3_scale(vec3_add(sum, bed_color(strata, level)), 1.0f / 3.0f);
+}
+
+// A random number per layer, with soft borders; 0.5 where the pixel does not show layers.
+static float layer_tone(float level, float thickness, float footprint, uint32_t seed)
+{
+    float seen = pattern_detail(2.0f * thickness, footprint);
+    if (seen <= 0.0f) {
+        return 0.5f;
+    }
+    float at = level / thickness, whole = floorf(at);
+    uint32_t layer = (uint32_t)(int32_t)whole * 2654435761u + seed;
+    float tone = lerpf(noise_unit(layer, 3), noise_unit(layer + 2654435761u, 3),
+                       smoothstepf(0.75f, 1.0f, at - whole));
+    return lerpf(0.5f, tone, seen);
+}
+
+// The laminae of a bed at three scales, about 0..1; 0.5 = none.
+static float lamina_tone(const Strata *strata, float level, float footprint)
+{
+    int number = strata_bed(strata, level);
+    float lamina = strata->bed[number].lamina;
+    if (lamina <= 0.0f) {
+        return 0.5f;
+    }
+    uint32_t seed = 7919u * (uint32_t)number;
+    return 0.5f * layer_tone(level, lamina, footprint, seed + 11) +
+           0.3f * layer_tone(level, 0.27f * lamina, footprint, seed + 13) +
+           0.2f * layer_tone(level, 0.07f * lamina, footprint, seed + 17);
+}
+
+typedef struct Ground {
+    Vec3 color;
+    Vec3 slope; // of its relief, per metre
+} Ground;
+
+static float scale_of(const Material *m)
+{
+    return m->pattern_scale > 0.0f ? m->pattern_scale : 36.0f;
+}
+
+static Ground rock(const Material *m, const SurfacePoint *point, float level, float steep)
+{
+    float scale = scale_of(m), footprint = point->footprint;
+    PatternOctaves rough = pattern_octaves(point, scale, 8, 0.55f, 1.2f, SEED_ROUGH);
+    PatternOctaves joints = pattern_octaves(point, 0.55f * scale, 6, 0.62f, 0.13f, SEED_STREAK);
+    PatternOctaves streaks = pattern_octaves(point, 1.4f * scale, 6, 0.62f, 0.09f, SEED_STREAK + 8);
+    float bent = level + 0.02f * scale * rough.value;
+    float tone = lamina_tone(point->strata, bent, footprint);
+    Ground g = {.color = seen_color(point->strata, level, footprint)};
+    g.color = vec3_scale(g.color, 0.78f + 0.44f * tone);
+    g.color = vec3_scale(g.color, clampf(1.0f + 0.18f * rough.value, 0.6f, 1.4f));
+    // Desert varnish runs down the faces.
+    float stain = steep * smoothstepf(0.05f, 0.55f, streaks.value);
+    g.color = vec3_lerp(g.color, vec3(0.12f, 0.075f, 0.055f), 0.42f * stain);
+    g.color = vec3_scale(g.color, 1.0f - 0.3f * steep * smoothstepf(0.25f, 0.7f, joints.value));
+    g.slope = vec3_scale(rough.slope, 0.05f * scale);
+    g.slope = vec3_madd(g.slope, 0.055f * scale * steep, joints.slope);
+    g.slope.y += 1.6f * (tone - 0.5f);
+    return g;
+}
+
+// Blocks and fines that fell from the beds above.
+static Ground rubble(const SurfacePoint *point, float level)
+{
+    PatternOctaves stones = pattern_octaves(point, 6.0f, 5, 0.65f, 1.0f, SEED_STONES);
+    PatternOctaves chutes = pattern_octaves(point, 45.0f, 5, 0.6f, 0.3f, SEED_STONES + 8);
+    Vec3 sum = {0};
+    for (int i = 0; i < 4; i++) {
+        sum = vec3_add(sum, bed_color(point->strata, level + 6.0f + 32.0f * (float)i));
+    }
+    Ground g = {.color = vec3_scale(sum, 0.25f)};
+    g.color = vec3_lerp(g.color, bed_color(point->strata, level), 0.3f);
+    g.color =
+        vec3_scale(g.color, clampf(0.95f + 0.2f * stones.value + 0.16f * chutes.value, 0.5f, 1.5f));
+    g.slope = vec3_madd(vec3_scale(stones.slope, 0.9f), 2.2f, chutes.slope);
+    return g;
+}
+
+static Ground soil(const Material *m, const SurfacePoint *point, float level)
+{
+    PatternOctaves sand = pattern_octaves(point, 40.0f, 7, 0.55f, 1.0f, SEED_SOIL);
+    Ground g = {.color = vec3_lerp(m->color, bed_color(point->strata, level - 2.0f), 0.5f)};
+    g.color = vec3_scale(g.color, clampf(1.0f + 0.16f * sand.value, 0.6f, 1.4f));
+    g.slope = vec3_scale(sand.slope, 1.2f);
+    return g;
+}
+
+// The share of the ground under shrubs: discs in plan, or their mean where they are too small.
+static float shrubs(const SurfacePoint *point, float density, float size)
+{
+    PatternOctaves groves = pattern_octaves(point, 220.0f, 5, 0.6f, 1.0f, SEED_SHRUB);
+    float grows = clampf(density * (0.8f + 1.3f * groves.value), 0.0f, 1.0f);
+    Vec3 p = vec3_scale(point->object_position, 1.0f / size);
+    float mean = 0.55f * grows, seen = pattern_detail(1.2f * size, point->footprint);
+    if (seen <= 0.0f) {
+        return mean;
+    }
+    CellPoint cell = noise_cells(vec3(p.x, 0.5f, p.z), SEED_SHRUB + 9);
+    float away = sqrtf(cell.point.x * cell.point.x + cell.point.z * cell.point.z);
+    float radius =
+        noise_unit(cell.cell, 5) < grows ? 0.22f + 0.25f * noise_unit(cell.cell, 6) : 0.0f;
+    float share = radius > 0.0f ? 1.0f - smoothstepf(0.8f * radius, radius, away) : 0.0f;
+    return lerpf(mean, share, seen);
+}
+
+void pattern_strata(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    if (!point->strata) {
+        return;
+    }
+    float upright = fabsf(surface_smooth_normal(point).y),
+          level = level_at(point->strata, point->object_position);
+    PatternOctaves fray = pattern_octaves(point, 24.0f, 5, 0.6f, 1.0f, SEED_WOBBLE + 4);
+    float steep = 1.0f - smoothstepf(0.45f, 0.72f, upright + 0.06f * fray.value);
+    Ground g = rock(m, point, level, steep), other = rubble(point, level);
+    float loose = smoothstepf(0.18f, 0.5f, point->site.y + 0.12f * fray.value) *
+                  smoothstepf(0.55f, 0.7f, upright + 0.05f * fray.value);
+    g.color = vec3_lerp(g.color, other.color, loose);
+    g.slope = vec3_lerp(g.slope, other.slope, loose);
+    float even = smoothstepf(0.90f, 0.975f, upright + 0.03f * fray.value);
+    other = soil(m, point, level);
+    g.color = vec3_lerp(g.color, other.color, even);
+    g.slope = vec3_lerp(g.slope, other.slope, even);
+    float green = shrubs(point, 0.12f * smoothstepf(0.72f, 0.85f, upright) + 0.42f * even, 6.5f);
+    g.color = vec3_lerp(g.color, m->color2, green);
+    shade->color = g.color;
+    float bump = m->pattern_depth > 0.0f ? 1.0f - point->displaced : 0.0f;
+    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, bump));
+}
+
+float pattern_strata_height(const Material *m, const SurfacePoint *point)
+{
+    if (!point->strata) {
+        return 0.0f;
+    }
+    float upright = fabsf(point->smooth_normal.y);
+    float steep = 1.0f - smoothstepf(0.6f, 0.95f, upright);
+    float level = level_at(point->strata, point->object_position);
+    PatternOctaves rough = pattern_octaves(point, scale_of(m), 8, 0.5f, 1.2f, SEED_ROUGH);
+    PatternOctaves joints =
+        pattern_octaves(point, 0.55f * scale_of(m), 6, 0.6f, 0.13f, SEED_STREAK);
+    float tone = lamina_tone(point->strata, level, point->footprint) - 0.5f;
+    float face = steep * (0.7f * tone - 0.3f * joints.value);
+    return m->pattern_depth * (face + (0.04f + 0.2f * steep) * rough.value);
+}
