@@ -731,6 +731,7 @@ typedef struct RamifyGoldenOptions {
     // Called after each scene; its arguments are valid until it returns. NULL = none.
     void (*each)(void *user, const RamifyGoldenScene *scene);
     void *user;
+    int64_t memory; // bytes; scenes that certainly need more fail; 0 = no limit
 } RamifyGoldenOptions;
 
 typedef struct RamifyGoldenCounts {

@@ -130,6 +130,7 @@ static GoldenOptions options_of(const RamifyGoldenOptions *o)
     own.filter = o->filter;
     own.isa = !o->isa ? own.isa : (strcmp(o->isa, "native") == 0 ? NULL : o->isa);
     own.mode = o->mode > 0 ? o->mode - 1 : -1;
+    own.memory = o->memory;
     own.series = o->series > 0 ? o->series : own.series;
     if (o->limits) {
         own.limits = (Limits){o->limits->max_rmse, o->limits->threshold, o->limits->max_failing};

@@ -112,7 +112,8 @@ bool command_golden(const Options *options, RamifyError *e)
         .report = options->report,
         .junit = options->junit,
         .each = print_scene,
-        .user = &listing};
+        .user = &listing,
+        .memory = (int64_t)options->memory};
     if (options->json) {
         printf("{\"scenes\": [");
     }

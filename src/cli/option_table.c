@@ -501,7 +501,7 @@ const Option option_table[] = {
      .low = 1,
      .high = 1e15,
      .type = OPTION_BYTES,
-     .commands = RENDERS | BIT(COMMAND_INFO),
+     .commands = RENDERS | BIT(COMMAND_INFO) | BIT(COMMAND_GOLDEN),
      .doc = "refuse a scene that needs more memory than SIZE, as in 8G (K, M, G, T: powers of "
             "1000), and tell which number to change"},
     {.name = "threads",

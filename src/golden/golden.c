@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "golden/folder.h"
 #include "golden/pinned.h"
+#include "scene/needs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -199,7 +200,8 @@ static bool work(const char *scene_file, const GoldenOptions *options, const Run
                  GoldenResult *result, Error *e)
 {
     Scene *scene = scene_read(scene_file, NULL, 0, e);
-    if (!scene) {
+    if (!scene || !scene_limit_memory(scene, (double)options->memory, 0.0, e)) {
+        scene_free(scene);
         return false;
     }
     result->mode = options->mode >= 0 ? (GoldenMode)options->mode : scene->golden.mode;

@@ -39,6 +39,7 @@ typedef struct GoldenOptions {
     int mode;           // a GoldenMode for all scenes; negative = the scene's own
     uint64_t series;    // GOLDEN_STATISTICAL: other values give other seeds for ours; not 0
     Limits limits;      // for all scenes; negative = the scene's own
+    int64_t memory;     // bytes; scenes that certainly need more fail; 0 = no limit
     void (*each)(void *user, const GoldenResult *result); // called after each result; NULL = none
     void *user;
 } GoldenOptions;

@@ -36,7 +36,7 @@ static void structs_lie_as_before(void **state)
         STRUCT(RamifyLimits, max_failing, 24, 16),
         STRUCT(RamifyDifference, message, 376, 120),
         STRUCT(RamifyGoldenScene, seconds, 56, 48),
-        STRUCT(RamifyGoldenOptions, user, 72, 64),
+        STRUCT(RamifyGoldenOptions, memory, 80, 72),
         STRUCT(RamifyGoldenCounts, orphans, 24, 20),
         STRUCT(RamifyKeys, value, 136, 8),
         STRUCT(RamifyTurntable, isa, 600, 592),

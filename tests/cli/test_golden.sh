@@ -33,6 +33,11 @@ check golden_two_modes 2 "$RAMIFY" golden g --exact --statistical
 check golden_wrong_isa 2 "$RAMIFY" golden g --isa sse9
 
 scene plain 0.5
+sed -i 's/width: 48, height: 32/width: 10000, height: 9000/' g/plain.yaml
+check memory_limit 1 "$RAMIFY" golden g -q --memory 2G
+matches memory_limit_message out 'plain  *failed .*GB of memory are needed, but 2.00 GB are allowed'
+rm g/plain.yaml
+scene plain 0.5
 scene glow 0.3 'seed: 7'
 scene noisy 0.5 'golden: {mode: statistical}'
 check missing 1 "$RAMIFY" golden g -q
