@@ -124,6 +124,10 @@ RAMIFY_API void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *inf
 // Samples per pixel for which the pattern of the noise is laid out.
 RAMIFY_API int ramify_scene_planned_samples(const RamifyScene *scene);
 
+// The samples of each pixel that the scene takes: *first .. *end - 1 of *all (render.first_sample,
+// render.end_sample, render.samples).
+RAMIFY_API void ramify_scene_sample_range(const RamifyScene *scene, int *first, int *end, int *all);
+
 // Frames of the scene's animation; 0 = it has none.
 RAMIFY_API int ramify_scene_frames(const RamifyScene *scene);
 
@@ -398,6 +402,12 @@ RAMIFY_API void ramify_world_info(const RamifyWorld *world, RamifyWorldInfo *inf
 // x0, y0, x1, y1 in 0..1 from the top left. RAMIFY_BAD_INPUT when it holds no pixel. No renderer
 // may be rendering meanwhile.
 RAMIFY_API bool ramify_world_crop(RamifyWorld *world, const float crop[4], RamifyError *error);
+
+// Chooses the samples that renderers of the world take of each pixel from now on, as
+// render.first_sample and render.end_sample do: first .. end - 1. RAMIFY_BAD_INPUT unless 0 <= first
+// < end <= render.samples, or when the scene limits noise or time. No renderer may be rendering
+// meanwhile.
+RAMIFY_API bool ramify_world_samples(RamifyWorld *world, int first, int end, RamifyError *error);
 
 // One mesh or one set of round curves. All pointers are borrowed from the world; absent arrays are
 // NULL.

@@ -221,6 +221,7 @@ static double meter_frame(Shooting *s, int frame, Error *e)
         scene->film.height = (scene->film.height * METER_SIZE + most - 1) / most;
     }
     scene->render.samples = METER_SAMPLES;
+    scene->render.first_sample = scene->render.end_sample = 0;
     scene->render.max_seconds = 0.0;
     scene->render.max_noise = 0.0f;
     float whole[4] = {0.0f, 0.0f, 1.0f, 1.0f};

@@ -66,7 +66,7 @@ void ramify_scene_info(const RamifyScene *scene, RamifySceneInfo *info)
                               .seed = own->seed,
                               .width = own->film.width,
                               .height = own->film.height,
-                              .samples = own->render.samples,
+                              .samples = render_end(&own->render) - own->render.first_sample,
                               .denoise = own->denoise,
                               .max_seconds = own->render.max_seconds,
                               .max_noise = own->render.max_noise,
@@ -87,8 +87,15 @@ int ramify_scene_frames(const RamifyScene *scene)
 
 int ramify_scene_planned_samples(const RamifyScene *scene)
 {
+    return render_planned(&scene_of(scene)->render);
+}
+
+void ramify_scene_sample_range(const RamifyScene *scene, int *first, int *end, int *all)
+{
     const RenderParams *render = &scene_of(scene)->render;
-    return render->planned_samples > 0 ? render->planned_samples : render->samples;
+    *first = render->first_sample;
+    *end = render_end(render);
+    *all = render->samples;
 }
 
 const char *ramify_scene_text(const RamifyScene *scene)

@@ -60,6 +60,23 @@ bool ramify_world_crop(RamifyWorld *world, const float crop[4], RamifyError *err
     return true;
 }
 
+bool ramify_world_samples(RamifyWorld *world, int first, int end, RamifyError *error)
+{
+    Error e = {0};
+    RenderParams *render = &world->world->render;
+    if (first < 0 || first >= end || end > render->samples || render->max_noise > 0.0f ||
+        render->max_seconds > 0.0) {
+        error_set(&e, ERROR_INPUT,
+                  "samples %d to %d of %d a pixel, noise %g, %g seconds; 0 <= first < end <= "
+                  "render.samples is needed, without limits of noise and time",
+                  first, end, render->samples, (double)render->max_noise, render->max_seconds);
+        return api_fail(error, &e);
+    }
+    render->first_sample = first;
+    render->end_sample = end;
+    return true;
+}
+
 int64_t ramify_world_part_count(const RamifyWorld *world)
 {
     return world->world->geometry.count;

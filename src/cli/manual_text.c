@@ -132,10 +132,14 @@ static const ManualText TEXTS[] = {
                    "ramify export pine.yaml --object pine --colors none -o pine.obj"}}},
     {.command = "merge",
      .paragraphs =
-         {"Joins the .exr files of renderings of one scene with different crops (--crop) into one "
-          "picture and its .exr. The settings in the files prove that they belong together: only "
-          "the crop and the limits of samples and time may differ. Every pixel must be in exactly "
-          "one part.",
+         {"Joins the .exr files of renderings of one scene with different crops (--crop), "
+          "different samples (--sample-range), or both, into one picture and its .exr. The "
+          "settings "
+          "in the files prove that they belong together: only the crop, the samples and the limit "
+          "of time may differ. Every sample of every pixel must be in exactly one part.",
+          "Sums over samples are exact, so the result has the bits of the picture rendered at "
+          "once, "
+          "however the samples were divided and in whatever order the files are named.",
           "A pixel's value does not depend on the crop, so the result has the bits of the picture "
           "rendered at once. With --noise, regions are judged in tiles of 16 x 16 pixels, counted "
           "from the upper left of the whole picture: crops that end at multiples of 16 pixels keep "
@@ -145,11 +149,16 @@ static const ManualText TEXTS[] = {
      .examples = {{"two halves, rendered on two machines",
                    "ramify render pine.yaml --crop 0,0,1,0.5 -o top.exr; "
                    "ramify render pine.yaml --crop 0,0.5,1,1 -o low.exr; "
-                   "ramify merge top.exr low.exr -o pine.exr"}}},
+                   "ramify merge top.exr low.exr -o pine.exr"},
+                  {"the samples on two machines",
+                   "ramify render pine.yaml --samples 64 --sample-range 0:32 -o a.exr; "
+                   "ramify render pine.yaml --samples 64 --sample-range 32:64 -o b.exr; "
+                   "ramify merge a.exr b.exr -o pine.exr"}}},
     {.command = "batch",
      .paragraphs =
-         {"Renders the tiles of a picture (--tiles) or the frames of an animation (--frames) as "
-          "tasks that need not know of each other, on one machine or on the many of a cluster, and "
+         {"Renders the tiles of a picture (--tiles), also by ranges of their samples "
+          "(--sample-ranges), or the frames of an animation (--frames) as tasks that need not know "
+          "of each other, on one machine or on the many of a cluster, and "
           "joins them. The result has the same bits as the picture rendered at once. "
           "docs/clusters.md tells more.",
           "The batch is a folder, by default NAME.batch beside the output, that all machines must "

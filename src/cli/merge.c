@@ -5,11 +5,12 @@
 
 #include <stdio.h>
 
-// The parts' scene, of which each shows a crop: the whole picture.
+// The parts' scene, of which each has a crop, a range of samples or both: the whole picture.
 static RamifyScene *whole_scene(const Options *options, RamifyError *e)
 {
-    const char *const all[] = {"film.crop=[0, 0, 1, 1]"};
-    return ramify_scene_load(options->operand, all, 1, e);
+    const char *const all[] = {"film.crop=[0, 0, 1, 1]", "render.first_sample=0",
+                               "render.end_sample=0"};
+    return ramify_scene_load(options->operand, all, 3, e);
 }
 
 static bool check_parts(const Options *options, RamifyError *e)
@@ -17,7 +18,8 @@ static bool check_parts(const Options *options, RamifyError *e)
     for (int i = 0; i < options->operand_count; i++) {
         if (!output_has_ending(options->operands[i], ".exr")) {
             return fail(e, RAMIFY_BAD_INPUT,
-                        "'%s' is no part; the .exr of a rendering with --crop is needed",
+                        "'%s' is no part; the .exr of a rendering with --crop or --sample-range is "
+                        "needed",
                         options->operands[i]);
         }
     }

@@ -16,6 +16,7 @@ typedef enum OptionType {
     OPTION_TEXT,     // const char *
     OPTION_SIZE,     // WxH: width and height of the scene_key
     OPTION_CROP,     // x0,y0,x1,y1, only with a scene_key
+    OPTION_SAMPLES,  // A:B: render.first_sample and render.end_sample
     OPTION_KEYS,     // RamifyKeys, a:b:c
     OPTION_SET,      // path=value, repeatable
     OPTION_VARY,     // path=low:high, repeatable

@@ -74,6 +74,11 @@ static bool bad_value(const Option *option, const char *text, RamifyError *e)
         snprintf(message, sizeof message,
                  " %.60s; it must be x0,y0,x1,y1 in 0..1 with x0 < x1 and y0 < y1", text);
         break;
+    case OPTION_SAMPLES:
+        snprintf(message, sizeof message,
+                 " %.60s; it must be A:B, samples A to B - 1, with 0 <= A < B <= %.9g", text,
+                 option->high);
+        break;
     case OPTION_KEYS:
         snprintf(message, sizeof message,
                  " %.60s; it must be 1 to %d numbers of %.9g to %.9g with colons "
@@ -138,6 +143,11 @@ static bool take_numbers(Options *options, const Option *option, const char *tex
         valid = read_numbers(text, option, ',', v, 4) == 4 && (float)v[0] < (float)v[2] &&
                 (float)v[1] < (float)v[3];
         set_key(options, option->scene_key, "[%.9g, %.9g, %.9g, %.9g]", v[0], v[1], v[2], v[3]);
+    } else if (option->type == OPTION_SAMPLES) {
+        valid = read_numbers(text, option, ':', v, 2) == 2 && v[0] < v[1] && v[0] == floor(v[0]) &&
+                v[1] == floor(v[1]);
+        set_key(options, "render.first_sample", "%.0f", v[0]);
+        set_key(options, "render.end_sample", "%.0f", v[1]);
     } else if (option->type == OPTION_KEYS) {
         keys.count = read_numbers(text, option, ':', v, RAMIFY_MOST_KEYS);
         valid = keys.count > 0;

@@ -80,6 +80,7 @@ typedef struct Options {
     const char *directives[MAX_DIRECTIVES]; // batch, Slurm's
     int directive_count;
     int jobs, pack; // batch; 0 = the default
+    int sample_ranges;
     double turns;
     const char *ease;          // NULL = default
     RamifyTurntable turntable; // remaining turntable options

@@ -207,11 +207,18 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
 // The scene of a picture with more samples. The pattern of its noise stays laid out as it was.
 static RamifyScene *scene_with_samples(const Options *options, RamifyScene *scene, RamifyError *e)
 {
-    RamifySceneInfo info;
+    int first, end, samples;
     Options more = *options;
-    ramify_scene_info(scene, &info);
+    ramify_scene_sample_range(scene, &first, &end, &samples);
+    if (first > 0 || end < samples) {
+        fail(e, RAMIFY_BAD_INPUT,
+             "'%s' has samples %d to %d of %d alone; ramify merge it with the others before adding "
+             "samples",
+             options->operand, first, end - 1, samples);
+        return NULL;
+    }
     snprintf(more.keys[more.key_count++], MAX_KEY_TEXT, "render.samples=%d",
-             info.samples + options->add_samples);
+             samples + options->add_samples);
     snprintf(more.keys[more.key_count++], MAX_KEY_TEXT, "render.planned_samples=%d",
              ramify_scene_planned_samples(scene));
     return command_scene(&more, e);
@@ -221,6 +228,12 @@ static bool check_continuation(const Options *options, RamifyError *e)
 {
     bool adds = option_given(options, "add-samples");
     bool picture = options->operand && output_has_ending(options->operand, ".exr");
+    if (adds && option_given(options, "sample-range")) {
+        return fail(
+            e, RAMIFY_BAD_INPUT,
+            "both --sample-range and --add-samples; a range is of all samples of a picture: "
+            "add samples to the picture that merge makes of its ranges");
+    }
     return !adds || ((picture || fail(e, RAMIFY_BAD_INPUT,
                                       "--add-samples needs a picture: ramify render PICTURE.exr "
                                       "--add-samples N")) &&

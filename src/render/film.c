@@ -2,9 +2,52 @@
 
 #include "base/memory.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+// Layer and channels of the planes of means in files, and the layers of their rests.
+static const struct {
+    const char *layer, *channels, *rest[FILM_RESTS];
+} MEANS[FILM_MEANS] = {
+    [MEAN_COLOR] = {"", "RGB", {"color_rest", "color_rest2"}},
+    [MEAN_LIGHT] = {"light", "RGB", {"light_rest", "light_rest2"}},
+    [MEAN_SKY] = {"sky", "RGB", {"sky_rest", "sky_rest2"}},
+    [MEAN_POSITION] = {"position", "XYZ", {"position_rest", "position_rest2"}},
+    [MEAN_DEPTH] = {"depth", "Z", {"depth_rest", "depth_rest2"}},
+    [MEAN_ALBEDO] = {"albedo", "RGB", {"albedo_rest"}},
+    [MEAN_NORMAL] = {"normal", "XYZ", {"normal_rest"}},
+    [MEAN_ALPHA] = {"", "A", {"alpha_rest"}},
+    [MEAN_LIGHT_SHARE] = {"light_share", "V", {"light_share_rest"}},
+    [MEAN_SKY_SHARE] = {"sky_share", "V", {"sky_share_rest"}},
+};
+
+static bool film_make_means(Film *film, int64_t count, Error *e)
+{
+    for (int i = 0; i < FILM_MEANS; i++) {
+        int64_t values = count * (int64_t)strlen(MEANS[i].channels);
+        film->mean[i] = memory_alloc_zero(values, sizeof(float), e);
+        bool made = film->mean[i];
+        for (int k = 0; k < FILM_RESTS && MEANS[i].rest[k]; k++) {
+            made = made && (film->rest[i][k] = memory_alloc_zero(values, sizeof(float), e));
+        }
+        if (!made) {
+            return false;
+        }
+    }
+    film->color = (Vec3 *)(void *)film->mean[MEAN_COLOR];
+    film->light = (Vec3 *)(void *)film->mean[MEAN_LIGHT];
+    film->sky = (Vec3 *)(void *)film->mean[MEAN_SKY];
+    film->position = (Vec3 *)(void *)film->mean[MEAN_POSITION];
+    film->depth = film->mean[MEAN_DEPTH];
+    film->albedo = (Vec3 *)(void *)film->mean[MEAN_ALBEDO];
+    film->normal = (Vec3 *)(void *)film->mean[MEAN_NORMAL];
+    film->alpha = film->mean[MEAN_ALPHA];
+    film->light_share = film->mean[MEAN_LIGHT_SHARE];
+    film->sky_share = film->mean[MEAN_SKY_SHARE];
+    return true;
+}
 
 static bool film_make_planes(Film *film, Error *e)
 {
@@ -13,19 +56,15 @@ static bool film_make_planes(Film *film, Error *e)
                       film->height)) {
         return false;
     }
-    Vec3 **vectors[] = {&film->color,  &film->light,  &film->sky,
-                        &film->albedo, &film->normal, &film->position};
-    float **scalars[] = {&film->alpha,  &film->light_share, &film->sky_share, &film->depth,
-                         &film->object, &film->hits,        &film->samples,   &film->variance};
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
-        if (!(*vectors[i] = memory_alloc_zero(count, sizeof(Vec3), e))) {
-            return false;
-        }
-    }
+    float **scalars[] = {&film->object, &film->hits, &film->samples, &film->variance};
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) {
         if (!(*scalars[i] = memory_alloc_zero(count, sizeof(float), e))) {
             return false;
         }
+    }
+    film->squares = memory_alloc_zero(count * FILM_SQUARE_LIMBS, sizeof(float), e);
+    if (!film->squares || !film_make_means(film, count, e)) {
+        return false;
     }
     for (int64_t i = 0; i < count; i++) {
         film->depth[i] = INFINITY;
@@ -62,21 +101,17 @@ void film_drop_denoised(Film *film)
 void film_free(Film *film)
 {
     if (film) {
-        free(film->color);
-        free(film->light);
-        free(film->sky);
-        free(film->light_share);
-        free(film->sky_share);
-        free(film->alpha);
-        free(film->albedo);
-        free(film->normal);
-        free(film->depth);
-        free(film->position);
         free(film->object);
         free(film->hits);
         free(film->samples);
         free(film->variance);
         free(film->denoised);
+        for (int i = 0; i < FILM_MEANS; i++) {
+            free(film->mean[i]);
+            free(film->rest[i][0]);
+            free(film->rest[i][1]);
+        }
+        free(film->squares);
         free(film);
     }
 }
@@ -119,21 +154,26 @@ void film_forget(Film *film, const float crop[4])
 
 void film_planes(const Film *film, FilmPlane plane[FILM_PLANES])
 {
-    const FilmPlane all[FILM_PLANES] = {
-        {&film->color->x, "", "RGB"},
-        {film->alpha, "", "A"},
-        {&film->albedo->x, "albedo", "RGB"},
-        {&film->normal->x, "normal", "XYZ"},
-        {film->depth, "depth", "Z"},
-        {&film->position->x, "position", "XYZ"},
-        {film->object, "object", "V"},
-        {film->samples, "samples", "V"},
-        {film->hits, "hits", "V"},
-        {film->variance, "variance", "V"},
-        {&film->light->x, "light", "RGB"},
-        {&film->sky->x, "sky", "RGB"},
-        {film->light_share, "light_share", "V"},
-        {film->sky_share, "sky_share", "V"},
-    };
-    memcpy(plane, all, sizeof all);
+    static const FilmMean order[FILM_MEANS] = {
+        MEAN_COLOR,    MEAN_ALPHA, MEAN_ALBEDO, MEAN_NORMAL,      MEAN_DEPTH,
+        MEAN_POSITION, MEAN_LIGHT, MEAN_SKY,    MEAN_LIGHT_SHARE, MEAN_SKY_SHARE};
+    const FilmPlane others[] = {{film->object, "object", "V"},
+                                {film->samples, "samples", "V"},
+                                {film->hits, "hits", "V"},
+                                {film->variance, "variance", "V"},
+                                {film->squares, "squares", "ABCDE"}};
+    int count = 0;
+    for (int i = 0; i < FILM_MEANS; i++) {
+        FilmMean mean = order[i];
+        plane[count++] = (FilmPlane){film->mean[mean], MEANS[mean].layer, MEANS[mean].channels};
+    }
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        plane[count++] = others[i];
+    }
+    for (int i = 0; i < FILM_MEANS; i++) {
+        for (int k = 0; k < FILM_RESTS && MEANS[i].rest[k]; k++) {
+            plane[count++] = (FilmPlane){film->rest[i][k], MEANS[i].rest[k], MEANS[i].channels};
+        }
+    }
+    assert(count == FILM_PLANES);
 }

@@ -1,5 +1,9 @@
 // The film: the planes that a rendering fills. One entry per pixel, row by row from the top left,
 // 32-bit float.
+//
+// Sums over samples are exact, hence independent of their order: a value of a sample is rounded to
+// a whole number of quanta, and a plane of means has planes beside it that hold what rounding took
+// from the mean times its number of samples (film_merge.h).
 #ifndef RAMIFY_RENDER_FILM_H
 #define RAMIFY_RENDER_FILM_H
 
@@ -7,6 +11,26 @@
 #include "base/vec.h"
 
 #include <stdint.h>
+
+// The planes of means.
+typedef enum FilmMean {
+    MEAN_COLOR,
+    MEAN_LIGHT,
+    MEAN_SKY,
+    MEAN_POSITION,
+    MEAN_DEPTH,
+    MEAN_ALBEDO, // from here on values are within -1 .. 1
+    MEAN_NORMAL,
+    MEAN_ALPHA,
+    MEAN_LIGHT_SHARE,
+    MEAN_SKY_SHARE,
+    FILM_MEANS
+} FilmMean;
+
+enum {
+    FILM_RESTS = 2,       // planes beside one of means
+    FILM_SQUARE_LIMBS = 5 // of 24 bits
+};
 
 typedef struct Film {
     int width, height;
@@ -25,11 +49,15 @@ typedef struct Film {
     float *hits;     // samples that met a surface: what depth and position are means over
     float *samples;  // taken so far
     float *variance; // of the pixel's mean luminance, estimated; for adaptive stopping, denoising
-    Vec3 *denoised;  // radiance as a denoiser left it; NULL = not denoised since it was rendered
+    float *mean[FILM_MEANS];             // the planes above by FilmMean
+    float *rest[FILM_MEANS][FILM_RESTS]; // quanta, whole numbers, coarse and fine; bounded values
+                                         // have no fine ones (NULL)
+    float *squares; // sum of squared luminances in quanta: FILM_SQUARE_LIMBS limbs, lowest first
+    Vec3 *denoised; // radiance as a denoiser left it; NULL = not denoised since it was rendered
 } Film;
 
 // Bytes of a pixel in all planes.
-#define FILM_PIXEL_BYTES (7.0 * sizeof(Vec3) + 8.0 * sizeof(float))
+#define FILM_PIXEL_BYTES (7.0 * sizeof(Vec3) + (8.0 + 35.0 + FILM_SQUARE_LIMBS) * sizeof(float))
 
 // Returns NULL with ERROR_MEMORY, before it allocates, when memory is too small.
 Film *film_new(int width, int height, Error *e);
@@ -48,7 +76,7 @@ typedef struct FilmPlane {
 } FilmPlane;
 
 // All planes but `denoised`: what a rendering can be resumed from.
-enum { FILM_PLANES = 14 };
+enum { FILM_PLANES = 30 };
 void film_planes(const Film *film, FilmPlane plane[FILM_PLANES]);
 
 // Pixels x0 <= x < x1, y0 <= y < y1.

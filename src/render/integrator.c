@@ -295,12 +295,20 @@ void integrator_paths(const Tracer *tracer, int x, int y, int sample, int count,
     }
 }
 
-int integrator_pass_end(int done, int samples)
+void integrator_wave(const Tracer *tracer, int sample, int *begin, int *end)
+{
+    *begin = sample < 1 ? 0 : (sample < 4 ? 1 : (sample < 16 ? 4 : sample - sample % WAVE_SIZE));
+    *end = sample < 1 ? 1 : (sample < 4 ? 4 : *begin - *begin % WAVE_SIZE + WAVE_SIZE);
+    *begin = sample >= tracer->planned && *begin < tracer->planned ? tracer->planned : *begin;
+    *end = sample<tracer->planned && * end> tracer->planned ? tracer->planned : *end;
+}
+
+int integrator_pass_end(int done, int end)
 {
     enum { PASS_LIMIT = 64 };
-    int more = done < WAVE_SIZE ? 3 * done : done;
-    more = done < 1 ? 1 : (more < PASS_LIMIT ? more : PASS_LIMIT);
-    return done + more < samples ? done + more : samples;
+    int next = done < 1 ? 1 : (done < 4 ? 4 : (done < 16 ? 16 : (done < 32 ? 32 : 0)));
+    next = next > 0 ? next : done - done % PASS_LIMIT + PASS_LIMIT;
+    return next < end ? next : end;
 }
 
 // ---- replay ----
@@ -361,16 +369,9 @@ static void follow(Wave *wave, bool camera, const Path *path, PathStep *step)
 int integrator_replay(const Tracer *tracer, int x, int y, int sample, PathStep step[], int most,
                       PathResult *result)
 {
-    int samples = tracer->world->render.samples, begin = 0, end = 0;
-    while (end <= sample) { // the pass
-        begin = end;
-        end = integrator_pass_end(end, samples);
-    }
-    while (begin + WAVE_SIZE - begin % WAVE_SIZE <= sample) { // the wave in it
-        begin += WAVE_SIZE - begin % WAVE_SIZE;
-    }
-    int count = WAVE_SIZE - begin % WAVE_SIZE, steps = 0;
-    count = count < end - begin ? count : end - begin;
+    int begin, end, steps = 0;
+    integrator_wave(tracer, sample, &begin, &end);
+    int count = end - begin;
     Path path[WAVE_SIZE];
     PathResult results[WAVE_SIZE];
     Wave wave;

@@ -27,6 +27,7 @@ typedef struct Tracer {
     CameraFrame camera;
     Filter filter;
     SamplePlan plan;
+    int planned; // samples for which it was made
 } Tracer;
 
 // What a camera ray meets first.
@@ -79,8 +80,13 @@ typedef struct PathStep {
 int integrator_replay(const Tracer *tracer, int x, int y, int sample, PathStep step[], int most,
                       PathResult *result);
 
-// Samples begin .. end - 1 of a pixel are one pass: they end at 1, 4, 16, 32, 64, 128 ... samples,
-// so that few of them go in waves that are not full.
-int integrator_pass_end(int done, int samples);
+// Samples of a pixel that are traced together: those from *begin on that end at 1, 4, 16, 32, 48
+// ... or at the planned number. Which rays share a packet may decide what a ray meets that grazes
+// an edge, so the numbers alone tell which samples belong together, whatever else is traced.
+void integrator_wave(const Tracer *tracer, int sample, int *begin, int *end);
+
+// Where the pass ends that begins at sample `done`: at 1, 4, 16, 32, 64, 128 ..., so that few of
+// its samples go in waves that are not full, or at `end`.
+int integrator_pass_end(int done, int end);
 
 #endif

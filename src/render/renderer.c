@@ -125,6 +125,10 @@ static bool check_sizes(const World *world, const Film *film, Error *e)
         return error_set(e, ERROR_INPUT, "%d samples a pixel; at least 1 is needed",
                          world->render.samples);
     }
+    if (world->render.first_sample >= render_end(&world->render)) {
+        return error_set(e, ERROR_INPUT, "samples %d to %d of a pixel are none",
+                         world->render.first_sample, render_end(&world->render) - 1);
+    }
     return true;
 }
 
@@ -148,8 +152,8 @@ static void fill_tracer(Tracer *tracer, const Renderer *renderer)
     tracer->camera = camera_frame(&world->camera, world->film.width, world->film.height);
     uint64_t seed =
         params->noise_seed ? random_key(params->seed, params->noise_seed) : params->seed;
-    sample_plan_fill(&tracer->plan, seed,
-                     params->planned_samples > 0 ? params->planned_samples : params->samples);
+    tracer->planned = render_planned(params);
+    sample_plan_fill(&tracer->plan, seed, tracer->planned);
     filter_fill(&tracer->filter, world->film.filter, world->film.filter_radius);
     tracer_set_media(tracer, accel_bounds(renderer->accel));
 }

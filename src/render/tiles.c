@@ -15,7 +15,7 @@ enum { TILE_SIZE = 16, LEAST_ADAPTIVE_SAMPLES = 16, LOOK_STEP = 4 };
 
 typedef struct Tile {
     int x0, y0, x1, y1;
-    int samples; // taken so far, of its pixel with the fewest
+    int samples; // the next to take, of its pixel with the fewest
     bool quiet;  // its noise is below max_noise
 } Tile;
 
@@ -26,6 +26,7 @@ typedef struct Job {
     Tile *tile;
     int tile_count;
     int64_t pixels;
+    int first, end; // samples that are to be taken: first .. end - 1
     double start;
     double call;      // run_seconds at which the pass is interrupted for a call; INFINITY = not
     pthread_t caller; // the thread that reports progress
@@ -33,28 +34,27 @@ typedef struct Job {
     _Atomic int64_t settled; // paths traced, or skipped by adaptive stopping
 } Job;
 
-// Adds samples begin .. end - 1 of the pixel to its sum. Which rays share a packet may decide what
-// a ray meets that grazes an edge, so a wave holds samples of one pixel whose numbers alone tell
-// that they belong together.
-static void trace_pixel(const Tracer *tracer, int x, int y, int begin, int end, PixelSum *sum)
+// Adds samples begin .. end - 1 of the pixel to its sum. Waves are traced whole, also where the
+// range begins or ends within one.
+static void trace_pixel(const Tracer *tracer, int x, int y, int begin, int end, PathSum *sum)
 {
     PathResult result[WAVE_SIZE];
-    for (int k = begin, count; k < end; k += count) {
-        count = WAVE_SIZE - k % WAVE_SIZE;
-        count = count < end - k ? count : end - k;
-        integrator_paths(tracer, x, y, k, count, result);
-        for (int i = 0; i < count; i++) {
-            pixel_sum_add(sum, &result[i]);
+    for (int from, to, k = begin; k < end; k = to) {
+        integrator_wave(tracer, k, &from, &to);
+        integrator_paths(tracer, x, y, from, to - from, result);
+        for (; k < to && k < end; k++) {
+            path_sum_add(sum, &result[k - from]);
         }
     }
 }
 
-static int samples_of(const Film *film, int x, int y)
+// Number of the next sample of the pixel.
+static int next_sample(const Job *job, int x, int y)
 {
-    return (int)film->samples[(int64_t)y * film->width + x];
+    return job->first + (int)job->film->samples[(int64_t)y * job->film->width + x];
 }
 
-// Renders the pixels of the tile that have fewer than `end` samples. When cancelled, the remaining
+// Renders the pixels of the tile up to sample `end` - 1. When cancelled, the remaining
 // ones and the tile's count stay as they were; no further pass follows.
 static void render_tile(Job *job, Tile *tile, int end)
 {
@@ -62,7 +62,7 @@ static void render_tile(Job *job, Tile *tile, int end)
     bool whole = true;
     for (int y = tile->y0; y < tile->y1; y++) {
         for (int x = tile->x0; x < tile->x1; x++) {
-            int begin = samples_of(job->film, x, y);
+            int begin = next_sample(job, x, y);
             if (begin >= end) {
                 continue; // of a film that was resumed
             }
@@ -70,10 +70,14 @@ static void render_tile(Job *job, Tile *tile, int end)
                 whole = false;
                 break;
             }
-            PixelSum sum = {.object = 0};
-            trace_pixel(job->tracer, x, y, begin, end, &sum);
-            film_merge(job->film, (int64_t)y * job->film->width + x, begin, end - begin, &sum);
-            rays += sum.rays;
+            PathSum paths_sum = {.samples = 0};
+            PixelSum sum;
+            int64_t pixel = (int64_t)y * job->film->width + x;
+            trace_pixel(job->tracer, x, y, begin, end, &paths_sum);
+            film_sum(job->film, pixel, &sum);
+            pixel_sum_add(&sum, &paths_sum);
+            film_set(job->film, pixel, &sum);
+            rays += paths_sum.rays;
             paths += end - begin;
         }
     }
@@ -84,12 +88,12 @@ static void render_tile(Job *job, Tile *tile, int end)
     }
 }
 
-static int most_samples(const Film *film, const Tile *tile)
+static int most_samples(const Job *job, const Tile *tile)
 {
     int most = 0;
     for (int y = tile->y0; y < tile->y1; y++) {
         for (int x = tile->x0; x < tile->x1; x++) {
-            int own = samples_of(film, x, y);
+            int own = next_sample(job, x, y);
             most = own > most ? own : most;
         }
     }
@@ -119,7 +123,7 @@ static bool must_stop(const Job *job)
 static void tell_progress(const Job *job)
 {
     const RenderParams *params = &job->tracer->world->render;
-    double done = (double)job->settled / ((double)job->pixels * params->samples);
+    double done = (double)job->settled / ((double)job->pixels * (job->end - job->first));
     if (params->max_seconds > 0.0) {
         done = fmax(done, (run_seconds() - job->start) / params->max_seconds);
     }
@@ -131,7 +135,7 @@ static void tell_progress(const Job *job)
 static bool is_quiet(const Job *job, const Tile *tile, int end)
 {
     float limit = job->tracer->world->render.max_noise;
-    return limit > 0.0f && end >= LEAST_ADAPTIVE_SAMPLES && most_samples(job->film, tile) <= end &&
+    return limit > 0.0f && end >= LEAST_ADAPTIVE_SAMPLES && most_samples(job, tile) <= end &&
            tile_noise(job->film, tile) < limit;
 }
 
@@ -154,7 +158,7 @@ static void render_pass(Job *job, int before, int end, int *first)
                 render_tile(job, tile, end);
                 tile->quiet = is_quiet(job, tile, end);
             }
-            stop = stop || run_is_cancelled(job->run) || (end > 1 && must_stop(job)) ||
+            stop = stop || run_is_cancelled(job->run) || (before > job->first && must_stop(job)) ||
                    run_seconds() > job->call;
             if (pthread_equal(pthread_self(), job->caller)) {
                 tell_progress(job);
@@ -196,13 +200,14 @@ typedef struct Calls {
     void *user;
 } Calls;
 
+// Samples that every pixel has.
 static int least_samples(const Job *job)
 {
     int least = job->tile[0].samples;
     for (int i = 1; i < job->tile_count; i++) {
         least = job->tile[i].samples < least ? job->tile[i].samples : least;
     }
-    return least;
+    return least - job->first;
 }
 
 static bool all_quiet(const Job *job)
@@ -222,7 +227,7 @@ static void render_whole_pass(Job *job, const Calls *calls, int before, int end)
     while (first < job->tile_count) {
         job->call = calls->every > 0.0 ? run_seconds() + calls->every : (double)INFINITY;
         render_pass(job, before, end, &first);
-        if (run_is_cancelled(job->run) || (end > 1 && must_stop(job))) {
+        if (run_is_cancelled(job->run) || (before > job->first && must_stop(job))) {
             return;
         }
         if (first < job->tile_count) {
@@ -233,16 +238,16 @@ static void render_whole_pass(Job *job, const Calls *calls, int before, int end)
 
 static void render_passes(Job *job, const Calls *calls)
 {
-    int samples = job->tracer->world->render.samples, done = 0;
-    while (done < samples && !(done > 0 && must_stop(job)) && !all_quiet(job)) {
+    int done = job->first;
+    while (done < job->end && !(done > job->first && must_stop(job)) && !all_quiet(job)) {
         int before = done;
         int64_t paths = job->paths;
-        done = integrator_pass_end(done, samples);
+        done = integrator_pass_end(done, job->end);
         render_whole_pass(job, calls, before, done);
         bool power_of_two = (done & (done - 1)) == 0;
-        if (calls->pass && job->paths > paths && (power_of_two || done == samples) &&
+        if (calls->pass && job->paths > paths && (power_of_two || done == job->end) &&
             !run_is_cancelled(job->run)) {
-            calls->pass(calls->user, job->film, done);
+            calls->pass(calls->user, job->film, done - job->first);
         }
     }
 }
@@ -255,7 +260,7 @@ static void count_samples(const Job *job)
         tile->samples = INT_MAX;
         for (int y = tile->y0; y < tile->y1; y++) {
             for (int x = tile->x0; x < tile->x1; x++) {
-                int own = samples_of(job->film, x, y);
+                int own = next_sample(job, x, y);
                 tile->samples = own < tile->samples ? own : tile->samples;
             }
         }
@@ -265,15 +270,14 @@ static void count_samples(const Job *job)
 // Clears the pixels that a cancelled first pass did not reach: black and transparent.
 static void clear_unseen(const Job *job)
 {
-    const PixelSum nothing = {.object = 0};
+    const PixelSum nothing = {.samples = 0};
     for (int i = 0; i < job->tile_count; i++) {
         const Tile *tile = &job->tile[i];
-        for (int y = tile->y0; y < tile->y1 && tile->samples == 0; y++) {
+        for (int y = tile->y0; y < tile->y1 && tile->samples == job->first; y++) {
             for (int x = tile->x0; x < tile->x1; x++) {
                 int64_t pixel = (int64_t)y * job->film->width + x;
                 if (job->film->samples[pixel] <= 0.0f) {
-                    film_merge(job->film, pixel, 0, 1, &nothing);
-                    job->film->samples[pixel] = 0.0f;
+                    film_set(job->film, pixel, &nothing);
                 }
             }
         }
@@ -286,6 +290,8 @@ bool tiles_render(const Tracer *tracer, Film *film, const Run *run, RenderPass *
     Job job = {.tracer = tracer,
                .film = film,
                .run = run,
+               .first = tracer->world->render.first_sample,
+               .end = render_end(&tracer->world->render),
                .start = run_seconds(),
                .caller = pthread_self()};
     job.tile = make_tiles(&tracer->world->film, &job.tile_count, &job.pixels, e);
@@ -316,12 +322,14 @@ static void look_at_tile(const Job *job, const Tile *tile)
     for (int y = tile->y0; y < tile->y1; y += LOOK_STEP) {
         for (int x = tile->x0; x < tile->x1 && !run_is_cancelled(job->run); x += LOOK_STEP) {
             PathResult path;
-            PixelSum sum = {.object = 0};
+            PathSum one = {.samples = 0};
+            PixelSum sum = {.samples = 0};
             integrator_paths(job->tracer, x, y, 0, 1, &path);
-            pixel_sum_add(&sum, &path);
+            path_sum_add(&one, &path);
+            pixel_sum_add(&sum, &one);
             for (int j = y; j < y + LOOK_STEP && j < tile->y1; j++) {
                 for (int i = x; i < x + LOOK_STEP && i < tile->x1; i++) {
-                    film_merge(job->film, (int64_t)j * job->film->width + i, 0, 1, &sum);
+                    film_set(job->film, (int64_t)j * job->film->width + i, &sum);
                 }
             }
         }

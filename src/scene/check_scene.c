@@ -66,6 +66,28 @@ bool check_film(const Mapping *mapping, void *params)
            mapping_fail(mapping, "png_depth", " is %d; it must be 8 or 16", scene->png_depth);
 }
 
+// Of a range of samples, others must be able to take the rest.
+bool check_render(const Mapping *mapping, void *params)
+{
+    const RenderParams *render = params;
+    int end = render_end(render);
+    if (end > render->samples) {
+        return mapping_fail(mapping, "end_sample", " is %d; it must be at most samples, %d", end,
+                            render->samples);
+    }
+    if (render->first_sample >= end) {
+        return mapping_fail(mapping, "first_sample", " is %d; it must be below %s, %d",
+                            render->first_sample, render->end_sample > 0 ? "end_sample" : "samples",
+                            end);
+    }
+    const char *limit = render->max_noise > 0.0f ? "noise" : "seconds";
+    return !render_is_range(render) || !(render->max_noise > 0.0f || render->max_seconds > 0.0) ||
+           mapping_fail(mapping, limit,
+                        " is %g, which decides on the number of samples; a range of samples "
+                        "(first_sample, end_sample) needs it known: set it to 0",
+                        render->max_noise > 0.0f ? (double)render->max_noise : render->max_seconds);
+}
+
 bool check_light(const Mapping *mapping, void *params)
 {
     const Light *light = params;

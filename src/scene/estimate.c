@@ -114,12 +114,12 @@ static bool develop(const Scene *scene, bool denoise, const Run *run, double *se
 static void add_passes(Estimate *estimate, const Scene *scene, const PathCosts *costs,
                        const PixelCosts *pixel, double traced, double all, double most)
 {
-    int samples = scene->render.samples;
+    int first = scene->render.first_sample, samples = render_end(&scene->render);
     double encode = all * PNG_ENCODING * pixel->plain;
     double now = traced / 16.0 * probe_pass_seconds(costs, 0, 1) + all * pixel->plain + encode;
     double due = 0.0;                            // of the next preview
-    estimate->preview = samples > 1 ? now : 0.0; // the first look
-    for (int done = 0, end; done < samples && estimate->trace < most; done = end) {
+    estimate->preview = samples > first + 1 ? now : 0.0; // the first look
+    for (int done = first, end; done < samples && estimate->trace < most; done = end) {
         end = integrator_pass_end(done, samples);
         double pass = traced * probe_pass_seconds(costs, done, end);
         estimate->trace += pass;

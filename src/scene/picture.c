@@ -77,8 +77,9 @@ static Image *plane_image(const Film *film, const void *plane, int channels, Err
 // JPEG.
 static char *make_metadata(const Scene *scene, const char *mark, Error *e)
 {
-    const char *const pairs[] = {PICTURE_MARK,  mark,          PICTURE_VERSION,  RAMIFY_VERSION,
-                                 PICTURE_SCENE, scene->origin, PICTURE_SETTINGS, scene->resolved};
+    const char *const pairs[] = {
+        PICTURE_MARK,        mark,          PICTURE_VERSION, RAMIFY_VERSION,   PICTURE_FILM,
+        PICTURE_FILM_LAYOUT, PICTURE_SCENE, scene->origin,   PICTURE_SETTINGS, scene->resolved};
     enum { COUNT = sizeof pairs / sizeof pairs[0] };
     int first = mark ? 0 : 2;
     int64_t length = 1;

@@ -49,7 +49,9 @@ bool picture_write_part(const char *file, const Scene *scene, const Film *film, 
 // Writes either format, selected by the file extension and denoised if the scene asks for it, with
 // `mark` as metadata under PICTURE_MARK: equal marks mean equal images.
 #define PICTURE_MARK "ramify:frame"
-#define PICTURE_VERSION "ramify:version"   // key of the program's version
+#define PICTURE_VERSION "ramify:version" // key of the program's version
+#define PICTURE_FILM "ramify:film"       // key of the layout of the film's planes in an .exr
+#define PICTURE_FILM_LAYOUT "ramify " RAMIFY_VERSION ", exact sums"
 #define PICTURE_SCENE "ramify:scene"       // key of the text of the scene file
 #define PICTURE_SETTINGS "ramify:settings" // key of the scene as YAML with every setting
 bool picture_write_marked(const char *file, const Scene *scene, const Film *film, const char *mark,

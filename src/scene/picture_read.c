@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "image/image.h"
 #include "ramify.h"
+#include "render/film_merge.h"
 #include "scene/picture.h"
 
 #include <math.h>
@@ -31,20 +32,14 @@ char *picture_read_settings(const char *file, char **origin, Error *e)
 
 // ---- is it a picture of this scene? ----
 
-// Samples for which the noise of a scene's pictures is laid out.
-static int planned(const Scene *scene)
-{
-    const RenderParams *render = &scene->render;
-    return render->planned_samples > 0 ? render->planned_samples : render->samples;
-}
-
 // The scene's settings without those that may differ between a picture and its continuation.
 static Scene *without_counts(const char *text, const char *name, const Scene *place, bool any_crop,
                              Error *e)
 {
-    const char *const same[] = {"render.samples=1", "render.planned_samples=0", "render.seconds=0",
-                                "film.crop=[0, 0, 1, 1]"};
-    return scene_read_text(text, strlen(text), name, place->folder, same, any_crop ? 4 : 3, e);
+    const char *const same[] = {"render.samples=1",      "render.planned_samples=0",
+                                "render.first_sample=0", "render.end_sample=0",
+                                "render.seconds=0",      "film.crop=[0, 0, 1, 1]"};
+    return scene_read_text(text, strlen(text), name, place->folder, same, any_crop ? 6 : 5, e);
 }
 
 // Sets the error to the first line in which the texts differ.
@@ -69,11 +64,12 @@ static bool tell_difference(const char *file, const char *theirs, const char *ou
 static bool compare_settings(const char *file, const Scene *theirs, const Scene *scene,
                              bool any_crop, Error *e)
 {
-    if (planned(theirs) != planned(scene)) {
+    int planned = render_planned(&theirs->render), ours = render_planned(&scene->render);
+    if (planned != ours) {
         return error_set(e, ERROR_INPUT,
                          "'%s' has its noise laid out for %d samples, the scene for %d; to add "
                          "samples to a picture use --add-samples",
-                         file, planned(theirs), planned(scene));
+                         file, planned, ours);
     }
     Scene *a = without_counts(theirs->resolved, file, scene, any_crop, e);
     Scene *b = a ? without_counts(scene->resolved, scene->file, scene, any_crop, e) : NULL;
@@ -86,23 +82,45 @@ static bool compare_settings(const char *file, const Scene *theirs, const Scene 
 
 static bool check_version(const char *file, Error *e)
 {
-    char *text = image_read_metadata(file, PICTURE_VERSION, NULL, e);
-    bool same = text && (strcmp(text, RAMIFY_VERSION) == 0 ||
-                         error_set(e, ERROR_INPUT,
-                                   "'%s' was rendered by ramify %.40s, this is %s; render it anew, "
-                                   "or go on with that version",
-                                   file, text, RAMIFY_VERSION));
+    char *text = image_read_metadata(file, PICTURE_FILM, NULL, NULL);
+    bool same = (text && strcmp(text, PICTURE_FILM_LAYOUT) == 0) ||
+                error_set(e, ERROR_INPUT,
+                          "'%s' holds a film of %.40s, this program's is of %s; render it anew, or "
+                          "go on with that version",
+                          file, text ? text : "an older ramify", PICTURE_FILM_LAYOUT);
     free(text);
     return same;
 }
 
-static bool check_picture(const char *file, const Scene *scene, bool any_crop, Error *e)
+// A rendering that goes on takes the same samples; of a picture that is complete, others too.
+static bool check_range(const char *file, const PicturePart *part, const Scene *scene, Error *e)
+{
+    const RenderParams *ours = &scene->render;
+    bool same = part->first == ours->first_sample && part->end == render_end(ours);
+    return (!part->range && !render_is_range(ours)) || same ||
+           error_set(e, ERROR_INPUT,
+                     "'%s' has samples %d to %d of each pixel, the scene takes %d to %d; move it "
+                     "away, write to another file, or join both by ramify merge",
+                     file, part->first, part->end - 1, ours->first_sample, render_end(ours) - 1);
+}
+
+static bool check_picture(const char *file, const Scene *scene, bool any_crop, PicturePart *part,
+                          Error *e)
 {
     char *text = picture_read_settings(file, NULL, e);
     Scene *theirs = text && check_version(file, e)
                         ? scene_read_text(text, strlen(text), file, scene->folder, NULL, 0, e)
                         : NULL;
     bool same = theirs && compare_settings(file, theirs, scene, any_crop, e);
+    if (same) {
+        const FilmParams *film = &theirs->film;
+        *part = (PicturePart){.crop = film_crop_pixels(film->width, film->height, film->crop),
+                              .first = theirs->render.first_sample,
+                              .end = render_end(&theirs->render),
+                              .samples = theirs->render.samples,
+                              .range = render_is_range(&theirs->render)};
+        same = any_crop || check_range(file, part, scene, e);
+    }
     scene_free(theirs);
     free(text);
     return same;
@@ -110,7 +128,7 @@ static bool check_picture(const char *file, const Scene *scene, bool any_crop, E
 
 // ---- its film ----
 
-enum { MOST_CHANNELS = 3 * FILM_PLANES, NAME_SIZE = 24 };
+enum { MOST_CHANNELS = 5 * FILM_PLANES, NAME_SIZE = 24 };
 
 // Full names of the channels of all planes: "R", "albedo.R", "depth.Z". Returns their number.
 static int channel_names(const FilmPlane plane[FILM_PLANES], char name[MOST_CHANNELS][NAME_SIZE])
@@ -166,29 +184,34 @@ static bool check_window(const char *file, const Film *film, const Image *image,
                      window[4], window[5], film->width, film->height);
 }
 
-// Whole counts of samples are what a rendering relies on.
-static bool check_film(const char *file, const Film *film, const PixelBox *box, Error *e)
+// Values that sums can be made of again are what a rendering relies on.
+static bool check_film(const char *file, const Film *film, const PicturePart *part, Error *e)
 {
-    for (int y = box->y0; y < box->y1; y++) {
-        for (int x = box->x0; x < box->x1; x++) {
+    for (int y = part->box.y0; y < part->box.y1; y++) {
+        for (int x = part->box.x0; x < part->box.x1; x++) {
             int64_t i = (int64_t)y * film->width + x;
-            float n = film->samples[i], hits = film->hits[i];
-            if (!(n >= 0.0f && n <= 1 << 24 && floorf(n) == n && hits >= 0.0f && hits <= n)) {
+            if (!film_is_sound(film, i)) {
                 return error_set(e, ERROR_INPUT,
                                  "'%s' is damaged: pixel %d, %d has %g samples of which %g met "
-                                 "something; a picture as ramify writes it is needed",
-                                 file, x, y, (double)n, (double)hits);
+                                 "something, or values that are no sums of so many; a picture as "
+                                 "ramify writes it is needed",
+                                 file, x, y, (double)film->samples[i], (double)film->hits[i]);
+            }
+            if (part->range && (int)film->samples[i] > part->end - part->first) {
+                return error_set(e, ERROR_INPUT,
+                                 "'%s' is damaged: pixel %d, %d has %g samples, its settings say "
+                                 "%d to %d",
+                                 file, x, y, (double)film->samples[i], part->first, part->end - 1);
             }
         }
     }
     return true;
 }
 
-// *box: the pixels that the file holds.
-static Film *read_film(const char *file, const Scene *scene, bool any_crop, PixelBox *box,
+static Film *read_film(const char *file, const Scene *scene, bool any_crop, PicturePart *part,
                        const Run *run, Error *e)
 {
-    if (!check_picture(file, scene, any_crop, e)) {
+    if (!check_picture(file, scene, any_crop, part, e)) {
         return NULL;
     }
     FilmPlane plane[FILM_PLANES];
@@ -201,12 +224,12 @@ static Film *read_film(const char *file, const Scene *scene, bool any_crop, Pixe
     Image *image = read_planes(file, plane, window, run, e);
     bool done = image && check_window(file, film, image, window, e);
     if (done) {
-        *box = (PixelBox){.x0 = window[0],
-                          .y0 = window[1],
-                          .x1 = window[0] + image->width,
-                          .y1 = window[1] + image->height};
-        copy_planes(image, box->x0, box->y0, film->width, plane);
-        done = check_film(file, film, box, e);
+        part->box = (PixelBox){.x0 = window[0],
+                               .y0 = window[1],
+                               .x1 = window[0] + image->width,
+                               .y1 = window[1] + image->height};
+        copy_planes(image, window[0], window[1], film->width, plane);
+        done = check_film(file, film, part, e);
     }
     image_free(image);
     if (!done) {
@@ -219,64 +242,12 @@ static Film *read_film(const char *file, const Scene *scene, bool any_crop, Pixe
 Film *picture_read_film(const char *file, const Scene *scene, bool any_crop, const Run *run,
                         Error *e)
 {
-    PixelBox box;
-    return read_film(file, scene, any_crop, &box, run, e);
+    PicturePart part;
+    return read_film(file, scene, any_crop, &part, run, e);
 }
 
-// ---- joining ----
-
-// Moves the box's pixels with samples into the whole. source: per pixel, the number of the file
-// + 1.
-static bool take_pixels(Film *whole, const Film *part, const PixelBox *box,
-                        const char *const *files, int number, int32_t *source, Error *e)
+Film *picture_read_part(const char *file, const Scene *scene, PicturePart *part, const Run *run,
+                        Error *e)
 {
-    FilmPlane to[FILM_PLANES], from[FILM_PLANES];
-    film_planes(whole, to);
-    film_planes(part, from);
-    int64_t width = box->x1 - box->x0, height = box->y1 - box->y0;
-    for (int64_t p = 0; p < width * height; p++) {
-        int64_t i = (box->y0 + p / width) * part->width + box->x0 + p % width;
-        if (part->samples[i] < 1.0f) {
-            continue;
-        }
-        if (source[i]) {
-            return error_set(e, ERROR_INPUT,
-                             "'%s' and '%s' both have samples for pixel %lld, %lld; parts that do "
-                             "not overlap are needed",
-                             files[source[i] - 1], files[number], (long long)(i % part->width),
-                             (long long)(i / part->width));
-        }
-        source[i] = number + 1;
-        for (int k = 0; k < FILM_PLANES; k++) {
-            int64_t channels = (int64_t)strlen(to[k].channels);
-            memcpy(to[k].value + i * channels, from[k].value + i * channels,
-                   (size_t)channels * sizeof(float));
-        }
-    }
-    return true;
-}
-
-Film *picture_join(const char *const *files, int count, const Scene *scene, int64_t *missing,
-                   const Run *run, Error *e)
-{
-    int64_t pixels = (int64_t)scene->film.width * scene->film.height;
-    Film *whole = film_new(scene->film.width, scene->film.height, e);
-    int32_t *source = whole ? memory_alloc_zero(pixels, sizeof *source, e) : NULL;
-    bool done = source;
-    for (int i = 0; done && i < count; i++) {
-        PixelBox box;
-        Film *part = read_film(files[i], scene, true, &box, run, e);
-        done = part && take_pixels(whole, part, &box, files, i, source, e);
-        film_free(part);
-    }
-    *missing = 0;
-    for (int64_t i = 0; done && i < pixels; i++) {
-        *missing += !source[i];
-    }
-    free(source);
-    if (!done) {
-        film_free(whole);
-        return NULL;
-    }
-    return whole;
+    return read_film(file, scene, true, part, run, e);
 }

@@ -18,9 +18,22 @@ char *picture_read_settings(const char *file, char **origin, Error *e);
 Film *picture_read_film(const char *file, const Scene *scene, bool any_crop, const Run *run,
                         Error *e);
 
-// The films of several pictures of parts of the scene's picture as one: each pixel from the file
-// that has samples for it. *missing: pixels without samples in any. ERROR_INPUT as from
-// picture_read_film, and when two files have samples for the same pixel.
+// What a picture holds of its scene's.
+typedef struct PicturePart {
+    PixelBox box, crop; // the file's pixels; those that were rendered
+    int first, end;     // the samples of each that were to be taken, first .. end - 1
+    int samples;        // of these
+    bool range;         // not all of them
+} PicturePart;
+
+// The same of a picture of any crop and range of samples.
+Film *picture_read_part(const char *file, const Scene *scene, PicturePart *part, const Run *run,
+                        Error *e);
+
+// The films of several pictures of parts of the scene's picture as one: the sums of all their
+// samples, in whatever order they are named. *missing: pixels without samples in any. ERROR_INPUT
+// as from picture_read_film, when two files have the same samples of a pixel, and when some samples
+// of a pixel are in none. picture_join.c
 Film *picture_join(const char *const *files, int count, const Scene *scene, int64_t *missing,
                    const Run *run, Error *e);
 

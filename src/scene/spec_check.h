@@ -11,7 +11,7 @@ typedef bool TableCheck(const Mapping *mapping, void *params);
 
 TableCheck check_scene;  // names are unique, references exist
 TableCheck check_camera; // also turns focal_length into fov
-TableCheck check_film, check_light;
+TableCheck check_film, check_render, check_light;
 TableCheck check_target; // low <= high
 TableCheck check_track;  // keys in order and of one type; stores line and column
 

@@ -149,6 +149,11 @@ static const Key RENDER_KEYS[] = {
      .doc =
          "Number of samples per pixel for which the pattern of the noise is laid out; 0 = samples. "
          "Pictures to which samples are added keep theirs."},
+    {KEY_OF(RenderParams, first_sample, "first_sample", KEY_INT), .high = (1 << 24) - 1,
+     .doc = "The samples before this one (counted from 0) are left to another rendering; `ramify "
+            "merge` joins both."},
+    {KEY_OF(RenderParams, end_sample, "end_sample", KEY_INT), .high = 1 << 24,
+     .doc = "This sample and further ones are left to another rendering; 0 = none are."},
     {KEY_OF(RenderParams, max_depth, "max_depth", KEY_INT), .low = 1, .high = 10000,
      .doc = "Maximum number of bounces of a path; 1 = direct light only. Glass and leaves need "
             "more than opaque surfaces."},
@@ -176,7 +181,8 @@ static const Table RENDER_TABLE = {
     .doc = "Path tracer: samples, path length, noise threshold and time limit.",
     .example = "render: {samples: 256, max_depth: 12, noise: 0.02}\n",
     .size = sizeof(RenderParams),
-    .keys = RENDER_KEYS};
+    .keys = RENDER_KEYS,
+    .check = check_render};
 
 static const Key TARGET_KEYS[] = {
     {KEY_OF(SceneTarget, object, "object", KEY_TEXT), .flags = KEY_REQUIRED,

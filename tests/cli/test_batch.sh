@@ -51,6 +51,19 @@ yes rest_renders_no_tile_again [ "$(stat -c %Y all.batch/parts/000000.exr)" = "$
 mv scenes/moved.yaml scenes/scene.yaml
 check again 0 "$RAMIFY" batch $scene --tiles 3x2 -o all.png -q
 
+# ranges of samples
+
+check ranges_whole 0 "$RAMIFY" render $scene --noise 0 -o ranges_whole.png -q
+check ranges 0 "$RAMIFY" batch $scene --noise 0 --tiles 2x1 --sample-ranges 3 --pack 1 --jobs 2 -o ranges.png
+says ranges_says err 'parts 5-5: done'
+yes ranges_have_the_bits cmp ranges_whole.exr ranges.exr
+yes ranges_have_the_display cmp ranges_whole.png ranges.png
+rm ranges.batch/parts/000004.exr
+check ranges_miss 1 "$RAMIFY" batch merge ranges.batch
+says ranges_miss_says err '1 of 6 parts are missing: 4;'
+check ranges_rest 0 "$RAMIFY" batch submit ranges.batch -q
+yes ranges_rest_has_the_bits cmp ranges_whole.exr ranges.exr
+
 # single tiles, with settings of the command line, from a picture
 check fine 0 "$RAMIFY" batch $scene --tiles 6x5 -o fine.png --samples 4 --set camera.fov=50 -q
 check fine_whole 0 "$RAMIFY" render $scene -o one.png --samples 4 --set camera.fov=50 -q

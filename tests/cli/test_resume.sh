@@ -78,6 +78,8 @@ check added_differs 1 "$RAMIFY" compare plain.exr more.exr --max-rmse 0
 check added_is_alike 0 "$RAMIFY" compare plain.exr more.exr --max-rmse 0.05
 check add_more 0 "$RAMIFY" render more.exr --add-samples 32 -o more.png
 says add_more_says err '160 samples'
+check planned 0 "$RAMIFY" render scene.yaml --noise 0 --samples 160 --set render.planned_samples=96 -o planned.png -q
+yes added_has_the_bits_of_all_at_once cmp planned.exr more.exr
 check add_to_a_scene 2 "$RAMIFY" render scene.yaml --add-samples 32
 says add_to_a_scene_says err PICTURE.exr
 
@@ -98,5 +100,57 @@ says merge_overlaps_says err 'both have samples'
 check other 0 "$RAMIFY" render scene.yaml --crop 0.533334,0.533334,1,1 -o other.exr -q --set camera.fov=21
 check merge_strangers 2 "$RAMIFY" merge left.exr upper.exr other.exr -o strange.png
 says merge_strangers_says err "'fov: 21'"
+# ---- ranges of samples, which end anywhere
+
+range() { # NAME A:B OPTION...
+    name=$1 samples=$2
+    shift 2
+    check "range_$name" 0 "$RAMIFY" render scene.yaml --noise 0 --sample-range "$samples" -o "$name.exr" -q --no-preview "$@"
+}
+range first 0:7 --threads 1
+range middle 7:50 --threads 2
+range last 50:96 --threads 3
+for order in "first middle last" "last first middle" "middle last first"; do
+    set -- $order
+    check "ranges_$1" 0 "$RAMIFY" merge "$1.exr" "$2.exr" "$3.exr" -o ranges.png -q
+    yes "ranges_$1_have_the_bits" cmp plain.exr ranges.exr
+    yes "ranges_$1_have_the_display" cmp plain.png ranges.png
+done
+range left_few 0:33 --crop 0,0,0.533334,1
+range left_more 33:96 --crop 0,0,0.533334,1
+check right 0 "$RAMIFY" render scene.yaml --noise 0 --crop 0.533334,0,1,1 -o right.exr -q
+check ranges_and_crops 0 "$RAMIFY" merge left_more.exr right.exr left_few.exr -o ranges.png -q
+yes ranges_and_crops_have_the_bits cmp plain.exr ranges.exr
+for moment in 0.15 0.2 0.25 0.3 0.35 0.4; do
+    timeout -s KILL $moment "$RAMIFY" render scene.yaml --noise 0 --sample-range 7:50 -o killed.exr -q --resume --checkpoint 0.02 --threads 1
+done
+range killed 7:50 --resume
+yes killed_range_is_the_same cmp middle.exr killed.exr
+
+check range_gap 2 "$RAMIFY" merge first.exr last.exr -o gap.png
+says range_gap_says err 'samples 7 to 49 of pixel 0, 0 are in none of the 2 files'
+check range_end 2 "$RAMIFY" merge middle.exr first.exr -o gap.png
+says range_end_says err 'samples 50 to 95 '
+range over 40:60
+check range_overlap 2 "$RAMIFY" merge first.exr middle.exr over.exr last.exr -o gap.png
+says range_overlap_says err "'middle.exr' has samples 7 to 49, 'over.exr' 40 to 59"
+check range_and_whole 2 "$RAMIFY" merge first.exr plain.exr -o gap.png
+says range_and_whole_says err 'both have samples'
+check range_of_more 0 "$RAMIFY" render scene.yaml --noise 0 --samples 200 --set render.planned_samples=96 --sample-range 50:96 -o more.exr -q
+check range_of_another 2 "$RAMIFY" merge first.exr middle.exr more.exr -o gap.png
+says range_of_another_says err "'more.exr' has samples 50 to 95 of 200 a pixel"
+check range_noise 2 "$RAMIFY" render scene.yaml --sample-range 0:7 -o gap.png
+says range_noise_says err 'render.noise is 0.02'
+check range_seconds 2 "$RAMIFY" render scene.yaml --noise 0 --seconds 9 --sample-range 0:7 -o gap.png
+says range_seconds_says err 'render.seconds is 9'
+check range_beyond 2 "$RAMIFY" render scene.yaml --noise 0 --sample-range 0:97 -o gap.png
+says range_beyond_says err 'at most samples, 96'
+check range_backward 2 "$RAMIFY" render scene.yaml --noise 0 --sample-range 7:7 -o gap.png
+check range_resumes_another 2 "$RAMIFY" render scene.yaml --noise 0 --sample-range 7:51 -o middle.exr --resume
+says range_resumes_another_says err 'has samples 7 to 49 of each pixel, the scene takes 7 to 50'
+check range_adds 2 "$RAMIFY" render middle.exr --add-samples 4 -o gap.png
+says range_adds_says err 'has samples 7 to 49 of 96 alone'
+yes range_refusals_write_nothing [ ! -e gap.png ] && [ ! -e gap.exr ]
+
 check merge_without_output 2 "$RAMIFY" merge left.exr upper.exr
 check merge_nothing 2 "$RAMIFY" merge

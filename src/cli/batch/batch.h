@@ -26,6 +26,7 @@ typedef struct Batch {
     RamifyScene *scene;        // owned
     int first, last;           // numbers of the parts, inclusive
     int columns, rows;         // of tiles; 0 = the parts are frames
+    int ranges;                // of each tile's samples
     RamifyTurntable turntable; // of frames
     const char *ending;        // of the parts' files, ".exr"
 } Batch;
@@ -42,10 +43,11 @@ void batch_free(Batch *batch);
 // RAMIFY_BAD_INPUT when they make no batch. settle.c
 bool batch_settle(Batch *batch, const Options *options, const char *output, RamifyError *e);
 
-// The batch's scene with one more override, "film.crop=[...]"; free it.
-RamifyScene *batch_scene(const Batch *batch, const char *change, RamifyError *e);
+// The batch's scene with up to MOST_CHANGES more overrides, as "film.crop=[...]"; free it.
+enum { MOST_CHANGES = 3 };
+RamifyScene *batch_scene(const Batch *batch, const char *const *changes, int count, RamifyError *e);
 
-// What its parts are: "tile" or "frame".
+// What its parts are: "tile", "frame" or, of a tile's ranges of samples, "part".
 const char *batch_noun(const Batch *batch);
 
 // ---- parts: parts.c
@@ -59,8 +61,13 @@ char *batch_frame_pattern(const Batch *batch, RamifyError *e);
 
 bool batch_part_done(const Batch *batch, int part);
 
-// Crop of a tile in 0..1. Edges lie at multiples of 16 pixels, as the renderer's own tiles do.
+// Crop of a part's tile in 0..1. Edges lie at multiples of 16 pixels, as the renderer's own tiles
+// do.
 void batch_tile_crop(const Batch *batch, int part, float crop[4]);
+
+// Samples of a part of a picture: *first .. *end - 1. They end at multiples of 16, as far as there
+// are so many, which the renderer traces together.
+void batch_samples(const Batch *batch, int part, int *first, int *end);
 
 // Writes the numbers first .. last for which wanted[i - first], as "3, 7, 9-12", into text; ends in
 // "..." when they do not fit.

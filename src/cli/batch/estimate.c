@@ -68,12 +68,11 @@ bool batch_estimate(const Batch *batch, int threads, const Options *options, Est
     bool anew =
         !tiles && (batch->turntable.grow.count > 0 || ramify_scene_frames(batch->scene) > 0);
     double scene = found.grow_seconds + found.build_seconds / threads;
-    *cost =
-        (Estimate){.start = START_SECONDS + scene,
-                   .part = tiles ? trace / (batch->columns * batch->rows) + TILE_SECONDS * pixels
-                                 : trace + found.write_seconds / threads + (anew ? scene : 0.0),
-                   .memory = (double)found.memory,
-                   .merge = MERGE_BYTES + MERGE_PIXEL * pixels};
+    *cost = (Estimate){.start = START_SECONDS + scene,
+                       .part = tiles ? trace / (batch->last + 1) + TILE_SECONDS * pixels
+                                     : trace + found.write_seconds / threads + (anew ? scene : 0.0),
+                       .memory = (double)found.memory,
+                       .merge = MERGE_BYTES + MERGE_PIXEL * pixels};
     return true;
 }
 

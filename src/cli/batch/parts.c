@@ -8,11 +8,13 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { TILE = 16 }; // pixels of the renderer's tiles, in which --noise is judged
+// Of the renderer's tiles, in pixels, in which --noise is judged; and of the samples that it traces
+// together.
+enum { TILE = 16 };
 
 const char *batch_noun(const Batch *batch)
 {
-    return batch->columns > 0 ? "tile" : "frame";
+    return batch->ranges > 1 ? "part" : (batch->columns > 0 ? "tile" : "frame");
 }
 
 static char *part_name(const Batch *batch, int part, const char *state, RamifyError *e)
@@ -59,21 +61,30 @@ bool batch_part_done(const Batch *batch, int part)
     return done;
 }
 
-// Pixel at which column (or row) number i of `count` begins.
-static int tile_edge(int i, int count, int pixels)
+// Pixel (or sample) at which column (row, range) number i of `count` begins.
+static int tile_edge(int i, int count, int all)
 {
-    int tiles = (pixels + TILE - 1) / TILE, edge = (int)((int64_t)tiles * i / count) * TILE;
-    return edge < pixels ? edge : pixels;
+    int tiles = (all + TILE - 1) / TILE, edge = (int)((int64_t)tiles * i / count) * TILE;
+    return edge < all ? edge : all;
 }
 
 void batch_tile_crop(const Batch *batch, int part, float crop[4])
 {
-    int width, height, column = part % batch->columns, row = part / batch->columns;
+    int width, height, tile = part / batch->ranges;
+    int column = tile % batch->columns, row = tile / batch->columns;
     ramify_scene_size(batch->scene, &width, &height);
     for (int end = 0; end < 2; end++) {
         crop[2 * end] = (float)tile_edge(column + end, batch->columns, width) / (float)width;
         crop[2 * end + 1] = (float)tile_edge(row + end, batch->rows, height) / (float)height;
     }
+}
+
+void batch_samples(const Batch *batch, int part, int *first, int *end)
+{
+    int ignored_first, ignored_end, all, range = part % batch->ranges;
+    ramify_scene_sample_range(batch->scene, &ignored_first, &ignored_end, &all);
+    *first = tile_edge(range, batch->ranges, all);
+    *end = tile_edge(range + 1, batch->ranges, all);
 }
 
 void batch_list(const bool *wanted, int first, int last, const char *separator, char *text,

@@ -21,9 +21,9 @@
 enum { MOST_WORDS = MAX_OVERRIDES + MAX_KEYS + MAX_OPTIONS };
 
 // Besides --output and what changes the scene.
-static const char *const PLANNED[] = {"tiles",      "frames", "fps",       "turns", "spin",
-                                      "elevation",  "dolly",  "grow",      "sun",   "ease",
-                                      "vary-noise", "isa",    "checkpoint"};
+static const char *const PLANNED[] = {"tiles", "sample-ranges", "frames",     "fps",  "turns",
+                                      "spin",  "elevation",     "dolly",      "grow", "sun",
+                                      "ease",  "vary-noise",    "checkpoint", "isa"};
 
 // ---- writing
 
@@ -41,6 +41,9 @@ static void put_option(FILE *stream, const Option *option, const Options *option
     switch (option->type) {
     case OPTION_REAL:
         fprintf(stream, "=%.17g", *(const double *)at);
+        break;
+    case OPTION_INT:
+        fprintf(stream, "=%d", *(const int *)at);
         break;
     case OPTION_KEYS:
         fprintf(stream, "=");
@@ -222,31 +225,33 @@ static bool read_plan(Batch *batch, RamifyError *e)
     return true;
 }
 
-// Reads the scene from text, with one more override unless that is NULL.
-static RamifyScene *scene_of_text(const Batch *batch, const char *text, const char *change,
-                                  RamifyError *e)
+// Reads the scene from text, with some more overrides.
+static RamifyScene *scene_of_text(const Batch *batch, const char *text, const char *const *changes,
+                                  int change_count, RamifyError *e)
 {
-    const char *overrides[MAX_OVERRIDES + 1];
+    const char *overrides[MAX_OVERRIDES + MOST_CHANGES];
     int count = batch->plan.override_count;
     char name[BATCH_PATH + 64], folder[BATCH_PATH];
     snprintf(name, sizeof name, "%s/scene.yaml", batch->folder);
     snprintf(folder, sizeof folder, "%.*s",
              (int)(strrchr(batch->scene_file, '/') - batch->scene_file), batch->scene_file);
     memcpy(overrides, batch->plan.overrides, (size_t)count * sizeof *overrides);
-    overrides[count] = change;
+    for (int i = 0; i < change_count; i++) {
+        overrides[count++] = changes[i];
+    }
     return ramify_scene_load_text(text, strlen(text), name, *folder ? folder : "/", overrides,
-                                  count + (change != NULL), e);
+                                  count, e);
 }
 
-RamifyScene *batch_scene(const Batch *batch, const char *change, RamifyError *e)
+RamifyScene *batch_scene(const Batch *batch, const char *const *changes, int count, RamifyError *e)
 {
-    return scene_of_text(batch, ramify_scene_text(batch->scene), change, e);
+    return scene_of_text(batch, ramify_scene_text(batch->scene), changes, count, e);
 }
 
 static bool load_scene(Batch *batch, RamifyError *e)
 {
     char *text = read_text(batch->folder, "scene.yaml", e);
-    batch->scene = text ? scene_of_text(batch, text, NULL, e) : NULL;
+    batch->scene = text ? scene_of_text(batch, text, NULL, 0, e) : NULL;
     free(text);
     return batch->scene;
 }

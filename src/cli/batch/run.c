@@ -39,13 +39,28 @@ static void checkpoint(void *user, const RamifyFilm *film, int samples)
     tile->next = end + (rest > tile->every ? rest : tile->every);
 }
 
-// The batch's scene with the crop of a tile.
-static RamifyScene *tile_scene(const Batch *batch, const float crop[4], RamifyError *e)
+// The batch's scene with the crop and the samples of a part.
+static RamifyScene *part_scene(const Batch *batch, int part, const float crop[4], RamifyError *e)
 {
-    char change[160];
+    int first_sample, end_sample;
+    char change[160], first[64], end[64];
+    const char *const changes[MOST_CHANGES] = {change, first, end};
+    batch_samples(batch, part, &first_sample, &end_sample);
     snprintf(change, sizeof change, "film.crop=[%.9g, %.9g, %.9g, %.9g]", (double)crop[0],
              (double)crop[1], (double)crop[2], (double)crop[3]);
-    return batch_scene(batch, change, e);
+    snprintf(first, sizeof first, "render.first_sample=%d", first_sample);
+    snprintf(end, sizeof end, "render.end_sample=%d", end_sample);
+    return batch_scene(batch, changes, batch->ranges > 1 ? 3 : 1, e);
+}
+
+// Sets the world to a part.
+static bool choose_part(const Batch *batch, int part, const float crop[4], RamifyWorld *world,
+                        RamifyError *e)
+{
+    int first, end;
+    batch_samples(batch, part, &first, &end);
+    return ramify_world_crop(world, crop, e) &&
+           (batch->ranges == 1 || ramify_world_samples(world, first, end, e));
 }
 
 // The film of a checkpoint, or an empty one. A checkpoint that cannot be read is no loss of bits.
@@ -93,9 +108,10 @@ static bool run_tile(const Batch *batch, int part, RamifyWorld *world, RamifyRen
                  .every = option_given(plan, "checkpoint") ? plan->checkpoint : CHECKPOINT_SECONDS,
                  .file = batch_part_file(batch, part, e),
                  .begun = batch_begun_file(batch, part, e)};
-    tile.scene = tile.file && tile.begun ? tile_scene(batch, crop, e) : NULL;
+    tile.scene = tile.file && tile.begun ? part_scene(batch, part, crop, e) : NULL;
     tile.film = tile.scene ? start_film(&tile, e) : NULL;
-    bool done = tile.film && ramify_world_crop(world, crop, e) && trace_tile(&tile, renderer, e);
+    bool done =
+        tile.film && choose_part(batch, part, crop, world, e) && trace_tile(&tile, renderer, e);
     ramify_film_free(tile.film);
     ramify_scene_free(tile.scene);
     free(tile.file);

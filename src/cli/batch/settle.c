@@ -25,6 +25,35 @@ static bool settle_tiles(Batch *batch, const char *text, RamifyError *e)
                          text, most_columns, most_rows, width, height);
 }
 
+// Divides the samples of each tile.
+static bool settle_ranges(Batch *batch, const Options *options, RamifyError *e)
+{
+    int first, end, samples;
+    RamifySceneInfo info;
+    ramify_scene_info(batch->scene, &info);
+    ramify_scene_sample_range(batch->scene, &first, &end, &samples);
+    int ranges = option_given(options, "sample-ranges") ? options->sample_ranges : 1,
+        most = (samples + 15) / 16;
+    if (ranges > most) {
+        return fail(e, RAMIFY_BAD_INPUT,
+                    "--sample-ranges %d; it must be at most %d for %d samples, because a range has "
+                    "at least 16",
+                    ranges, most, samples);
+    }
+    if (ranges > 1 && info.max_noise > 0.0) {
+        return fail_in(e, info.file, RAMIFY_BAD_INPUT,
+                       "render.noise is %g, which decides on the number of samples; "
+                       "--sample-ranges needs it known: --set render.noise=0",
+                       info.max_noise);
+    }
+    batch->ranges = ranges;
+    batch->last = batch->columns * batch->rows * ranges - 1;
+    return batch->last < MOST_PARTS ||
+           fail(e, RAMIFY_BAD_INPUT,
+                "%d tiles of %d ranges of samples; at most %d parts are needed",
+                batch->columns * batch->rows, ranges, MOST_PARTS);
+}
+
 // Reads "A-B" or "A-B/N".
 static bool settle_frames(Batch *batch, const char *text, const char *output, RamifyError *e)
 {
@@ -63,6 +92,13 @@ static bool check_scene(const RamifyScene *scene, RamifyError *e)
     ramify_scene_info(scene, &info);
     bool whole = info.crop[0] <= 0.0f && info.crop[1] <= 0.0f && info.crop[2] >= 1.0f &&
                  info.crop[3] >= 1.0f;
+    int first, end, samples;
+    ramify_scene_sample_range(scene, &first, &end, &samples);
+    if (first > 0 || end < samples) {
+        return fail_in(e, info.file, RAMIFY_BAD_INPUT,
+                       "render.first_sample and render.end_sample leave samples out; a batch needs "
+                       "all: --set render.first_sample=0 --set render.end_sample=0");
+    }
     return (info.max_seconds <= 0.0 ||
             fail_in(e, info.file, RAMIFY_BAD_INPUT,
                     "render.seconds is %g, which makes each part depend on its machine; a batch "
@@ -81,9 +117,14 @@ bool batch_settle(Batch *batch, const Options *options, const char *output, Rami
                     "an animation",
                     options->tiles ? "both --tiles and --frames" : "neither --tiles nor --frames");
     }
+    if (options->range && option_given(options, "sample-ranges")) {
+        return fail(e, RAMIFY_BAD_INPUT,
+                    "both --frames and --sample-ranges; ranges divide the samples of --tiles");
+    }
     return ramify_check_isa(options->isa, e) && check_scene(batch->scene, e) &&
            command_turn(options, &batch->turntable, e) &&
-           (options->tiles ? settle_tiles(batch, options->tiles, e)
-                           : settle_frames(batch, options->range, output, e)) &&
+           (options->tiles
+                ? settle_tiles(batch, options->tiles, e) && settle_ranges(batch, options, e)
+                : settle_frames(batch, options->range, output, e)) &&
            ramify_develop_check(batch->scene, e);
 }
