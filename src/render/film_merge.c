@@ -91,32 +91,45 @@ static WideUint square_quanta(double l)
     return square < 0x1p63 ? (WideUint)(uint64_t)(int64_t)square : (WideUint)square;
 }
 
-void path_sum_add(PathSum *sum, const PathResult *path)
+// In two steps: a load of several values waits for the stores of single ones right before it.
+void path_sum_add(PathSum *sum, const PathResult path[], int count)
 {
-    float value[FILM_CHANNELS] = {0.0f};
-    double exact[FILM_CHANNELS];
-    put_path(path, value);
-    for (int i = 0; i < FILM_CHANNELS; i++) {
-        float x = value[i] > -LIMIT[i] ? value[i] : -LIMIT[i]; // of NAN too
-        x = x < LIMIT[i] ? x : LIMIT[i];
-        exact[i] = (double)x + SHIFT[i] - SHIFT[i];
-        sum->mean[i] += exact[i];
+    _Alignas(64) // else GCC 12 loads it as if it were
+        float value[WAVE_SIZE][FILM_CHANNELS] = {{0.0f}};
+    double luminance[WAVE_SIZE];
+    for (int k = 0; k < count; k++) {
+        put_path(&path[k], value[k]);
+        if (path[k].hit) {
+            sum->object = sum->hits++ ? sum->object : path[k].object + 1;
+        }
+        sum->rays += path[k].rays;
     }
-    // of the color as it is summed, so that equal samples have no variance
-    sum->squares += square_quanta(luminance_of(exact[0], exact[1], exact[2]));
-    if (path->hit) {
-        sum->object = sum->hits++ ? sum->object : path->object + 1;
+    for (int k = 0; k < count; k++) {
+        double exact[FILM_CHANNELS];
+        for (int i = 0; i < FILM_CHANNELS; i++) {
+            float x = value[k][i] > -LIMIT[i] ? value[k][i] : -LIMIT[i]; // of NAN too
+            x = x < LIMIT[i] ? x : LIMIT[i];
+            exact[i] = (double)x + SHIFT[i] - SHIFT[i];
+            sum->mean[i] += exact[i];
+        }
+        // of the color as it is summed, so that equal samples have no variance
+        luminance[k] = luminance_of(exact[0], exact[1], exact[2]);
     }
-    sum->samples++;
-    sum->rays += path->rays;
+    for (int k = 0; k < count; k++) {
+        sum->squares += square_quanta(luminance[k]);
+    }
+    sum->samples += count;
 }
 
 // ---- pixels
 
 void pixel_sum_add(PixelSum *sum, const PathSum *later)
 {
-    for (int i = 0; i < FILM_CHANNELS; i++) {
-        sum->mean[i] += (int64_t)(later->mean[i] * (i < WIDE_CHANNELS ? WIDE : UNIT));
+    for (int i = 0; i < WIDE_CHANNELS; i++) {
+        sum->mean[i] += (int64_t)(later->mean[i] * WIDE);
+    }
+    for (int i = WIDE_CHANNELS; i < FILM_CHANNELS; i++) {
+        sum->mean[i] += (int64_t)(later->mean[i] * UNIT);
     }
     sum->squares += later->squares;
     sum->object = sum->hits > 0 ? sum->object : later->object;

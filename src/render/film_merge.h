@@ -30,7 +30,8 @@ typedef struct PathSum {
     int64_t rays;
 } PathSum;
 
-void path_sum_add(PathSum *sum, const PathResult *path);
+// count: at most WAVE_SIZE; at most MOST_ADDED in all calls.
+void path_sum_add(PathSum *sum, const PathResult path[], int count);
 
 // The sum of a pixel's samples.
 typedef struct PixelSum {

@@ -42,9 +42,7 @@ static void trace_pixel(const Tracer *tracer, int x, int y, int begin, int end, 
     for (int from, to, k = begin; k < end; k = to) {
         integrator_wave(tracer, k, &from, &to);
         integrator_paths(tracer, x, y, from, to - from, result);
-        for (; k < to && k < end; k++) {
-            path_sum_add(sum, &result[k - from]);
-        }
+        path_sum_add(sum, result + (k - from), (to < end ? to : end) - k);
     }
 }
 
@@ -325,7 +323,7 @@ static void look_at_tile(const Job *job, const Tile *tile)
             PathSum one = {.samples = 0};
             PixelSum sum = {.samples = 0};
             integrator_paths(job->tracer, x, y, 0, 1, &path);
-            path_sum_add(&one, &path);
+            path_sum_add(&one, &path, 1);
             pixel_sum_add(&sum, &one);
             for (int j = y; j < y + LOOK_STEP && j < tile->y1; j++) {
                 for (int i = x; i < x + LOOK_STEP && i < tile->x1; i++) {

@@ -103,9 +103,10 @@ END
 mkdir -p bin
 cat >bin/ramify <<END
 #!/bin/sh
-case \$1 in
-render) exec "$RAMIFY" "\$@" --size 32x20 --samples 1 --quiet ;;
-turntable) exec "$RAMIFY" "\$@" --size 32x20 --samples 1 --frames 3 --quiet ;;
+case "\$*" in
+render*--sample-range*) exec "$RAMIFY" "\$@" --size 32x20 --quiet ;; # of the samples that the example names
+render*) exec "$RAMIFY" "\$@" --size 32x20 --samples 1 --quiet ;;
+turntable*) exec "$RAMIFY" "\$@" --size 32x20 --samples 1 --frames 3 --quiet ;;
 *) exec "$RAMIFY" "\$@" ;;
 esac
 END

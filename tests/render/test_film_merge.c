@@ -36,7 +36,7 @@ static void add(Film *film, int64_t pixel, int begin, int end)
         PathSum paths = {.samples = 0};
         for (int k = 0; k < MOST_ADDED && begin < end; k++) {
             PathResult path = path_of(begin++);
-            path_sum_add(&paths, &path);
+            path_sum_add(&paths, &path, 1);
         }
         PixelSum sum;
         film_sum(film, pixel, &sum);
@@ -119,7 +119,7 @@ static void equal_samples_have_no_variance(void **state)
     PathSum paths = {.samples = 0};
     PixelSum sum = {.samples = 0};
     for (int k = 0; k < MOST_ADDED; k++) {
-        path_sum_add(&paths, &path);
+        path_sum_add(&paths, &path, 1);
     }
     pixel_sum_add(&sum, &paths);
     film_set(film, 0, &sum);
@@ -139,8 +139,8 @@ static void fireflies_are_limited(void **state)
         PathResult path = {.color = vec3_splat(bright[i])}, dark = {.color = vec3_splat(0.5f)};
         PathSum paths = {.samples = 0};
         PixelSum sum = {.samples = 0};
-        path_sum_add(&paths, &path);
-        path_sum_add(&paths, &dark);
+        path_sum_add(&paths, &path, 1);
+        path_sum_add(&paths, &dark, 1);
         pixel_sum_add(&sum, &paths);
         film_set(film, 0, &sum);
         assert_true(film->color[0].y == 0x1p18f + 0.25f);
