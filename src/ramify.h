@@ -404,9 +404,9 @@ RAMIFY_API void ramify_world_info(const RamifyWorld *world, RamifyWorldInfo *inf
 RAMIFY_API bool ramify_world_crop(RamifyWorld *world, const float crop[4], RamifyError *error);
 
 // Chooses the samples that renderers of the world take of each pixel from now on, as
-// render.first_sample and render.end_sample do: first .. end - 1. RAMIFY_BAD_INPUT unless 0 <= first
-// < end <= render.samples, or when the scene limits noise or time. No renderer may be rendering
-// meanwhile.
+// render.first_sample and render.end_sample do: first .. end - 1. RAMIFY_BAD_INPUT unless 0 <=
+// first < end <= render.samples, or when the scene limits noise or time. No renderer may be
+// rendering meanwhile.
 RAMIFY_API bool ramify_world_samples(RamifyWorld *world, int first, int end, RamifyError *error);
 
 // One mesh or one set of round curves. All pointers are borrowed from the world; absent arrays are
