@@ -275,12 +275,12 @@ static const Key SCENE_KEYS[] = {
      .count = 100000, .table = &light_table, .doc = "Area lights."},
     {KEY_OF(Scene, materials, "materials", KEY_LIST),
      .count_offset = offsetof(Scene, material_count), .count = 10000, .table = &material_table,
-     .doc =
-         "Materials, which objects refer to by name. bark, twig, leaf, ground, grass, fallen, "
-         "conifer, ice, rime, soap_film, copper, lightning, coral, coral_polyp, reef_rock, "
-         "mountain, badlands, terrain/strata, lake, altitude, artery, vein, leaf_vein, broken and clay are "
-         "built in; an "
-         "entry with one of these names changes it."},
+     .doc = "Materials, which objects refer to by name. bark, twig, leaf, ground, grass, fallen, "
+            "conifer, ice, rime, soap_film, copper, lightning, coral, coral_polyp, reef_rock, "
+            "mountain, badlands, terrain/strata, lake, altitude, artery, vein, leaf_vein, broken "
+            "and clay are "
+            "built in; an "
+            "entry with one of these names changes it."},
     {KEY_OF(Scene, objects, "objects", KEY_LIST), .count_offset = offsetof(Scene, object_count),
      .flags = KEY_REQUIRED, .low = 1, .count = 10000, .table = &object_table,
      .doc = "Objects of the scene."},

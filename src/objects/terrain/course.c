@@ -72,7 +72,8 @@ static bool add_course(OutTree *tree, const Course *course, int number, float bo
 static Course plain_stream(const TerrainParams *params, int number, uint64_t seed)
 {
     float border = 0.5f * params->size;
-    float share = ((float)(number / 2) + 0.5f) / (float)((params->mesas.streams + 1) / 2) - 0.5f;
+    int rank = number / 2, ranks = (params->mesas.streams + 1) / 2; // among those of its direction
+    float share = ((float)rank + 0.5f) / (float)ranks - 0.5f;
     float from = share + random_range(random_key(seed, NUMBER_ENDS), -0.12f, 0.12f);
     float to = share + random_range(random_key(seed, NUMBER_ENDS + 1), -0.12f, 0.12f);
     bool along_x = number % 2 != 0;
