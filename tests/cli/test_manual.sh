@@ -40,7 +40,7 @@ done >wrong
 verdict links_resolve
 
 # Examples of the reference: pieces of a scene; what lacks objects gets one.
-: >meadow.png
+: >meadow.png >heights.tif
 printf "1 1 0 0 0 5 -1\n2 3 0 20 0 1 1\n" >neuron.swc
 awk '/^```yaml$/ {n++; inside = 1; next} /^```$/ {inside = 0} inside {print > sprintf("example-%02d.yaml", n)}' scene.md
 : >wrong
