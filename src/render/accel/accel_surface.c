@@ -169,7 +169,8 @@ static void mesh_surface(const PieceHit *at, const Transform *t, Vec3 direction,
         point->site.x += c.weight[i] * mesh->site[c.vertex[i]].x;
         point->site.y += c.weight[i] * mesh->site[c.vertex[i]].y;
     }
-    point->strata = at->own->part->mesh->strata;
+    const Mesh *given = at->own->part->mesh; // NULL of what is skinned around curves
+    point->strata = given ? given->strata : NULL;
     point->epsilon = 4e-6f * vec3_largest(point->position) + 1e-7f;
 }
 
