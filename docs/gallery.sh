@@ -130,6 +130,7 @@ still cherry-blossom cherry-blossom
 still beech-wood beech-wood --samples 20
 still birch-grove birch-grove
 still spruce-snow spruce-snow
+still hoar-birch hoar-birch
 still lsystem-tree lsystem-tree --size 1600x900
 if is_wanted coral-figure-2; then
     panel coral-figure-2 --size 800x600
@@ -175,6 +176,8 @@ fi
 # ---- terrain ----
 still mountains mountains
 still badlands badlands
+still canyon canyon
+still mesas mesas
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
         panel terrain-noise --size 800x450 --set objects.noise.terrain.noise.iterations=$iterations
