@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "config/yaml.h"
+#include "render/cloud/clouds.h"
 #include "render/film.h"
 #include "scene/place.h"
 
@@ -34,7 +35,8 @@ double scene_film_memory(const Scene *scene)
 
 double scene_memory(const Scene *scene)
 {
-    return PROGRAM_BYTES + needs_of(scene, -1).bytes + scene_film_memory(scene);
+    return PROGRAM_BYTES + needs_of(scene, -1).bytes + scene_film_memory(scene) +
+           (double)clouds_bytes(scene->clouds, scene->cloud_count);
 }
 
 // ---- a limit ----

@@ -214,14 +214,33 @@ static void fill_bounds(CloudGrid *g, const Run *run)
     }
 }
 
-bool cloud_grid_fill(CloudGrid *g, const Cloud *cloud, const Billow *billow, uint64_t key,
-                     const Run *run, Error *e)
+// All but what lies in memory. Returns how far billows reach, m.
+static float describe(CloudGrid *g, const Cloud *cloud, const Billow *billow)
 {
     set_roughness(g, cloud, billow);
     float reach = g->height[0] + g->height[1];
     lay_out(g, cloud, reach + g->edge);
-    int64_t nodes = (int64_t)g->count[0] * g->count[1] * g->count[2];
-    if (!memory_check((double)nodes * sizeof *g->distance, e, "clouds of %d x %d x %d voxels",
+    return reach;
+}
+
+static int64_t node_count(const CloudGrid *g)
+{
+    return (int64_t)g->count[0] * g->count[1] * g->count[2];
+}
+
+int64_t cloud_grid_bytes(const Cloud *cloud)
+{
+    CloudGrid grid;
+    describe(&grid, cloud, NULL);
+    return node_count(&grid) * (int64_t)sizeof *grid.distance;
+}
+
+bool cloud_grid_fill(CloudGrid *g, const Cloud *cloud, const Billow *billow, uint64_t key,
+                     const Run *run, Error *e)
+{
+    float reach = describe(g, cloud, billow);
+    int64_t nodes = node_count(g);
+    if (!memory_check((double)cloud_grid_bytes(cloud), e, "clouds of %d x %d x %d voxels",
                       g->count[0], g->count[1], g->count[2])) {
         return false;
     }

@@ -36,6 +36,8 @@ bool cloud_grid_fill(CloudGrid *grid, const Cloud *cloud, const Billow *billow, 
                      const Run *run, Error *e);
 void cloud_grid_clear(CloudGrid *grid);
 
+int64_t cloud_grid_bytes(const Cloud *cloud); // that its distances take
+
 // Extinction at a place, 1/m.
 float cloud_grid_extinction(const CloudGrid *grid, Vec3 p);
 

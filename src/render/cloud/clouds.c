@@ -47,12 +47,11 @@ void clouds_free(CloudSet *clouds)
     }
 }
 
-int64_t clouds_bytes(const CloudSet *clouds)
+int64_t clouds_bytes(const Cloud *cloud, int count)
 {
     int64_t sum = 0;
-    for (int i = 0; i < clouds->count; i++) {
-        const int *n = clouds->grid[i].count;
-        sum += (int64_t)n[0] * n[1] * n[2] * (int64_t)sizeof *clouds->grid[i].distance;
+    for (int i = 0; i < count; i++) {
+        sum += cloud_grid_bytes(&cloud[i]);
     }
     return sum;
 }
@@ -163,65 +162,75 @@ static float draw(uint64_t *key)
     return random_unit(*key);
 }
 
-static float draw_depth(uint64_t *key)
+// Tentative collisions with a grid along a ray, as frequent as its bricks' bounds say.
+typedef struct Flight {
+    const CloudRay *ray;
+    float scale;
+    uint64_t *key;
+    Walk walk;
+    float t, bound; // m, 1/m: of the last collision
+} Flight;
+
+static bool flight_begin(Flight *f, const CloudGrid *grid, const CloudRay *ray, float scale,
+                         uint64_t *key)
 {
-    return -logf(1.0f - draw(key));
+    *f = (Flight){.ray = ray, .scale = scale, .key = key};
+    bool meets = walk_begin(&f->walk, grid, ray);
+    f->t = f->walk.near;
+    return meets;
 }
 
-static float collide(const CloudGrid *g, const CloudRay *ray, float scale, uint64_t *key)
+// Goes on to the next one; false when there is none.
+static bool flight_on(Flight *f)
 {
-    Walk w;
-    if (!walk_begin(&w, g, ray)) {
-        return INFINITY;
-    }
-    float depth = draw_depth(key);
+    float depth = -logf(1.0f - draw(f->key));
     do {
-        float bound = w.bound * scale, t = w.near;
-        while (bound > 0.0f) {
-            float step = depth / bound;
-            if (t + step >= w.far) {
-                depth -= (w.far - t) * bound;
-                break;
-            }
-            t += step;
-            Vec3 p = vec3_madd(ray->origin, t, ray->direction);
-            if (draw(key) * bound < scale * cloud_grid_extinction(g, p)) {
-                return t;
-            }
-            depth = draw_depth(key);
+        f->bound = f->walk.bound * f->scale;
+        f->t = fmaxf(f->t, f->walk.near);
+        float left = (f->walk.far - f->t) * f->bound;
+        if (depth < left) {
+            f->t += depth / f->bound;
+            return true;
         }
-    } while (walk_on(&w));
+        depth -= left;
+    } while (walk_on(&f->walk));
+    return false;
+}
+
+// The probability that the tentative collision is a true one.
+static float flight_truth(const Flight *f)
+{
+    Vec3 p = vec3_madd(f->ray->origin, f->t, f->ray->direction);
+    return fminf(f->scale * cloud_grid_extinction(f->walk.grid, p) / f->bound, 1.0f);
+}
+
+static float collide(const CloudGrid *grid, const CloudRay *ray, float scale, uint64_t *key)
+{
+    Flight flight;
+    bool flies = flight_begin(&flight, grid, ray, scale, key);
+    while (flies && flight_on(&flight)) {
+        if (draw(key) < flight_truth(&flight)) {
+            return flight.t;
+        }
+    }
     return INFINITY;
 }
 
 // Ratio tracking; what is nearly lost is played for.
-static float pass(const CloudGrid *g, const CloudRay *ray, float scale, uint64_t *key)
+static float pass(const CloudGrid *grid, const CloudRay *ray, float scale, uint64_t *key)
 {
-    Walk w;
-    if (!walk_begin(&w, g, ray)) {
-        return 1.0f;
-    }
-    float share = 1.0f, depth = draw_depth(key);
-    do {
-        float bound = w.bound * scale, t = w.near;
-        while (bound > 0.0f) {
-            float step = depth / bound;
-            if (t + step >= w.far) {
-                depth -= (w.far - t) * bound;
-                break;
+    Flight flight;
+    bool flies = flight_begin(&flight, grid, ray, scale, key);
+    float share = 1.0f;
+    while (flies && flight_on(&flight)) {
+        share *= 1.0f - flight_truth(&flight);
+        if (share < 0.2f) {
+            if (draw(key) >= share) {
+                return 0.0f;
             }
-            t += step;
-            Vec3 p = vec3_madd(ray->origin, t, ray->direction);
-            share *= 1.0f - fminf(scale * cloud_grid_extinction(g, p) / bound, 1.0f);
-            if (share < 0.2f) {
-                if (draw(key) >= share) {
-                    return 0.0f;
-                }
-                share = 1.0f;
-            }
-            depth = draw_depth(key);
+            share = 1.0f;
         }
-    } while (walk_on(&w));
+    }
     return share;
 }
 

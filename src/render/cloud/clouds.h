@@ -15,7 +15,9 @@ typedef struct CloudSet CloudSet;
 // seed: of the scene. ERROR_MEMORY when the grids do not fit.
 CloudSet *clouds_new(const Cloud *cloud, int count, uint64_t seed, const Run *run, Error *e);
 void clouds_free(CloudSet *clouds); // NULL is fine
-int64_t clouds_bytes(const CloudSet *clouds);
+
+// Bytes that clouds_new will hold.
+int64_t clouds_bytes(const Cloud *cloud, int count);
 
 // Part of a ray with unit direction, up to far m.
 typedef struct CloudRay {
