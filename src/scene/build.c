@@ -57,35 +57,39 @@ static bool add_materials(World *world, const Scene *scene, Error *e)
     return true;
 }
 
-static bool add_lights(World *world, const Scene *scene, Error *e)
+// A copy of a list of the scene, which replaces that of the world. False when out of memory.
+static bool copy_list(void **to, int *to_count, const void *from, int count, size_t size, Error *e)
 {
-    free(world->light);
-    world->light_count = 0;
-    world->light = memory_alloc(scene->light_count, sizeof *world->light, e);
-    if (!world->light) {
+    free(*to);
+    *to_count = 0;
+    *to = memory_alloc(count, size, e);
+    if (!*to) {
         return false;
     }
-    if (scene->light_count > 0) {
-        memcpy(world->light, scene->lights, sizeof *world->light * (size_t)scene->light_count);
+    if (count > 0) {
+        memcpy(*to, from, size * (size_t)count);
     }
-    world->light_count = scene->light_count;
+    *to_count = count;
     return true;
+}
+
+static bool add_lights(World *world, const Scene *scene, Error *e)
+{
+    void *list = world->light;
+    bool done = copy_list(&list, &world->light_count, scene->lights, scene->light_count,
+                          sizeof *world->light, e);
+    world->light = list;
+    return done;
 }
 
 static bool add_clouds(World *world, const Scene *scene, Error *e)
 {
-    free(world->cloud);
-    world->cloud_count = 0;
-    world->cloud = memory_alloc(scene->cloud_count, sizeof *world->cloud, e);
-    if (!world->cloud) {
-        return false;
-    }
-    if (scene->cloud_count > 0) {
-        memcpy(world->cloud, scene->clouds, sizeof *world->cloud * (size_t)scene->cloud_count);
-    }
-    world->cloud_count = scene->cloud_count;
+    void *list = world->cloud;
+    bool done = copy_list(&list, &world->cloud_count, scene->clouds, scene->cloud_count,
+                          sizeof *world->cloud, e);
+    world->cloud = list;
     world->cloud_seed = scene->seed;
-    return true;
+    return done;
 }
 
 // ---- objects ----

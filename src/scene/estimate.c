@@ -117,7 +117,7 @@ static void add_passes(Estimate *estimate, const Scene *scene, const PathCosts *
     int first = scene->render.first_sample, samples = render_end(&scene->render);
     double encode = all * PNG_ENCODING * pixel->plain;
     double now = traced / 16.0 * probe_pass_seconds(costs, 0, 1) + all * pixel->plain + encode;
-    double due = 0.0;                            // of the next preview
+    double due = 0.0;                                    // of the next preview
     estimate->preview = samples > first + 1 ? now : 0.0; // the first look
     for (int done = first, end; done < samples && estimate->trace < most; done = end) {
         end = integrator_pass_end(done, samples);

@@ -33,24 +33,24 @@ static bool contains(const PixelBox *box, int x, int y)
 // Ranges of samples must be of the same number, and no two files may hold the same samples.
 static bool check_ranges(const Joint *joint, int number, Error *e)
 {
-    const PicturePart *new = &joint->part[number];
+    const PicturePart *fresh = &joint->part[number];
     int samples = joint->scene->render.samples;
-    if (new->range &&new->samples != samples) {
+    if (fresh->range && fresh->samples != samples) {
         return error_set(e, ERROR_INPUT,
                          "'%s' has samples %d to %d of %d a pixel, '%s' is of %d; parts of one "
                          "picture are needed",
-                         joint->file[number], new->first, new->end - 1, new->samples,
+                         joint->file[number], fresh->first, fresh->end - 1, fresh->samples,
                          joint->file[0], samples);
     }
-    for (int i = 0; i < number && new->range; i++) {
+    for (int i = 0; i < number && fresh->range; i++) {
         const PicturePart *old = &joint->part[i];
-        if (old->range && intersect(&old->crop, &new->crop) &&
-            old->first < new->end &&new->first < old->end) {
+        if (old->range && intersect(&old->crop, &fresh->crop) && old->first < fresh->end &&
+            fresh->first < old->end) {
             return error_set(e, ERROR_INPUT,
                              "'%s' has samples %d to %d, '%s' %d to %d of the same pixels; parts "
                              "that do not overlap are needed",
                              joint->file[i], old->first, old->end - 1, joint->file[number],
-                             new->first, new->end - 1);
+                             fresh->first, fresh->end - 1);
         }
     }
     return true;
