@@ -207,16 +207,23 @@ static TerrainParams surveyed(float size)
     return params;
 }
 
+// Of the valley of 1600 m. False and e when refused.
+static bool grow_valley(const TerrainParams *params, Grown *grown, Error *e)
+{
+    write_asc(81, 81, 500000.0, 4000000.0, 20.0, valley);
+    Run run = run_default();
+    Recipe recipe = {.seed = 5, .label = "land", .run = &run};
+    return kind_grow(&kind_terrain, params, &recipe, 1.0f, NULL, grown, e);
+}
+
 static void a_surveyed_valley_gets_its_river(void **state)
 {
     (void)state;
-    write_asc(81, 81, 500000.0, 4000000.0, 20.0, valley);
     TerrainParams params = surveyed(1280.0f);
     Error e = {0};
     Run run = run_default();
-    Recipe recipe = {.seed = 5, .label = "land", .run = &run};
     Grown grown;
-    if (!kind_grow(&kind_terrain, &params, &recipe, 1.0f, NULL, &grown, &e)) {
+    if (!grow_valley(&params, &grown, &e)) {
         fail_msg("%s", e.message);
     }
     int64_t widest = 0;
@@ -242,13 +249,10 @@ static void a_surveyed_valley_gets_its_river(void **state)
 static void a_square_beyond_the_raster_is_refused(void **state)
 {
     (void)state;
-    write_asc(81, 81, 500000.0, 4000000.0, 20.0, valley);
     TerrainParams params = surveyed(1700.0f);
     Error e = {0};
-    Run run = run_default();
-    Recipe recipe = {.seed = 5, .label = "land", .run = &run};
     Grown grown;
-    assert_false(kind_grow(&kind_terrain, &params, &recipe, 1.0f, NULL, &grown, &e));
+    assert_false(grow_valley(&params, &grown, &e));
     assert_non_null(strstr(e.message, "covers 1600 x 1600 m; a square of 1700 m"));
     grown_clear(&grown);
 }
