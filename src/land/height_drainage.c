@@ -79,6 +79,10 @@ typedef struct Flood {
     LowestQueue queue;
     uint8_t *seen;
     float fall;
+    int32_t *trace; // slopes whose neighbours have yet to be reached; NULL = in order of height
+    int64_t traced; // of them; `done` have been dealt with
+    int64_t done;
+    int64_t reached;
 } Flood;
 
 static bool begin_at_rim(Flood *flood, Error *e)
@@ -99,35 +103,68 @@ static bool begin_at_rim(Flood *flood, Error *e)
     return true;
 }
 
+// Reaches sample n from `here`, k the direction. Where the ground rises its level is known, so
+// tracing need not wait for its turn.
+static bool reach(Flood *flood, int32_t here, int64_t n, int k, Error *e)
+{
+    Drainage *out = flood->out;
+    float least = out->filled[here] + flood->fall * step_length(flood->field, k);
+    float above = next_above(out->filled[here]), h = flood->field->height[n];
+    least = least > above ? least : above;
+    flood->seen[n] = 1;
+    out->filled[n] = h > least ? h : least;
+    out->receiver[n] = here;
+    if (flood->trace && h > least) {
+        flood->trace[flood->traced++] = (int32_t)n;
+        return true;
+    }
+    return lowest_queue_push(&flood->queue, out->filled[n], (int32_t)n, e);
+}
+
+// Reaches the neighbours of a sample; while tracing, only those that are higher: the others may be
+// reached from lower ones, so the sample waits for them in the queue.
+static bool reach_around(Flood *flood, int32_t here, bool tracing, Error *e)
+{
+    int columns = flood->field->columns, rows = flood->field->rows;
+    int column = here % columns, row = here / columns;
+    bool waits = false;
+    for (int k = 0; k < 8; k++) {
+        int c = column + STEP_X[k], r = row + STEP_Z[k];
+        int64_t n = (int64_t)r * columns + c;
+        if (c < 0 || r < 0 || c >= columns || r >= rows || flood->seen[n]) {
+            continue;
+        }
+        if (tracing && !(flood->field->height[n] > next_above(flood->out->filled[here]))) {
+            waits = true;
+        } else if (!reach(flood, here, n, k, e)) {
+            return false;
+        }
+    }
+    return !waits || lowest_queue_push(&flood->queue, flood->out->filled[here], here, e);
+}
+
 // Every sample is reached from its lowest flooded neighbour, which is its receiver if it is in a
-// pit. Others drain by steepest descent, set by point_downhill.
+// pit. Others drain by steepest descent, set by point_downhill. Slopes are traced without the queue
+// (after Zhou et al. 2016).
 static bool flood_all(Flood *flood, Error *e)
 {
-    int64_t reached = 0;
     while (flood->queue.count > 0) {
         int32_t here = lowest_queue_pop(&flood->queue).index;
-        flood->out->order[reached++] = here;
-        int columns = flood->field->columns, rows = flood->field->rows;
-        int column = here % columns, row = here / columns;
-        for (int k = 0; k < 8; k++) {
-            int c = column + STEP_X[k], r = row + STEP_Z[k];
-            int64_t n = (int64_t)r * columns + c;
-            if (c < 0 || r < 0 || c >= columns || r >= rows || flood->seen[n]) {
-                continue;
-            }
-            float least = flood->out->filled[here] + flood->fall * step_length(flood->field, k);
-            float above = next_above(flood->out->filled[here]);
-            least = least > above ? least : above;
-            float h = flood->field->height[n];
-            flood->seen[n] = 1;
-            flood->out->filled[n] = h > least ? h : least;
-            flood->out->receiver[n] = here;
-            if (!lowest_queue_push(&flood->queue, flood->out->filled[n], (int32_t)n, e)) {
+        if (!reach_around(flood, here, false, e)) {
+            return false;
+        }
+        if (!flood->trace) {
+            flood->out->order[flood->reached++] = here;
+        }
+        while (flood->done < flood->traced) {
+            if (!reach_around(flood, flood->trace[flood->done++], true, e)) {
                 return false;
             }
         }
     }
-    flood->out->count = reached;
+    if (!flood->trace) {
+        flood->out->count = flood->reached;
+    }
     return true;
 }
 
@@ -184,15 +221,22 @@ static Drainage *allocate(const HeightField *field, Error *e)
     return out;
 }
 
-static Drainage *flood_field(const HeightField *field, const uint8_t *outlet, float fall, Error *e)
+// traced: without an order, but faster; then fall must be 0.
+static Drainage *flood_field(const HeightField *field, const uint8_t *outlet, float fall,
+                             bool traced, Error *e)
 {
     Flood flood = {.field = field, .outlet = outlet, .out = allocate(field, e), .fall = fall};
     bool done = flood.out != NULL;
+    if (done && traced) { // no order
+        flood.trace = flood.out->order;
+        flood.out->order = NULL;
+    }
     if (done) {
         flood.seen = memory_alloc_zero(height_field_count(field), 1, e);
         done = flood.seen && begin_at_rim(&flood, e) && flood_all(&flood, e);
     }
     free(flood.seen);
+    free(flood.trace);
     free(flood.queue.item);
     if (!done) {
         drainage_free(flood.out);
@@ -203,7 +247,7 @@ static Drainage *flood_field(const HeightField *field, const uint8_t *outlet, fl
 
 Drainage *drainage_new(const HeightField *field, Error *e)
 {
-    Drainage *out = flood_field(field, NULL, 0.0f, e);
+    Drainage *out = flood_field(field, NULL, 0.0f, false, e);
     if (out) {
         point_downhill(field, out);
         gather_areas(field, out);
@@ -214,7 +258,7 @@ Drainage *drainage_new(const HeightField *field, Error *e)
 
 Drainage *drainage_flood(const HeightField *field, const uint8_t *outlet, Error *e)
 {
-    return flood_field(field, outlet, 0.0f, e);
+    return flood_field(field, outlet, 0.0f, true, e);
 }
 
 void drainage_free(Drainage *drainage)
@@ -230,7 +274,7 @@ void drainage_free(Drainage *drainage)
 
 bool height_field_fill(HeightField *field, float fall, Error *e)
 {
-    Drainage *flooded = flood_field(field, NULL, fall, e);
+    Drainage *flooded = flood_field(field, NULL, fall, false, e);
     if (!flooded) {
         return false;
     }

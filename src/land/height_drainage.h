@@ -20,9 +20,9 @@ typedef struct Drainage {
 Drainage *drainage_new(const HeightField *field, Error *e);
 void drainage_free(Drainage *drainage); // NULL is fine
 
-// The flood alone: order, filled and receiver, which leads along the flood's way, not down the
-// steepest slope; areas are 0. outlet: per sample, 1 = water leaves there and nowhere else; NULL =
-// over the rim.
+// The flood alone: filled and receiver, which leads along the flood's way, not down the steepest
+// slope; areas are 0 and order is NULL. Samples that cannot be reached receive themselves. outlet:
+// per sample, 1 = water leaves there and nowhere else; NULL = over the rim.
 Drainage *drainage_flood(const HeightField *field, const uint8_t *outlet, Error *e);
 
 // Raises samples by the least amount that lets every one drain: each ends up above its receiver by

@@ -83,6 +83,55 @@ static void gather_areas(const Landscape *land, Routing *route)
     }
 }
 
+// Fills route->order depth first from the bases (Braun and Willett 2013): a stream's samples come
+// one after the other, so passes along it find their data in the cache, as they would not in the
+// order of heights. flooded->receiver, which is no longer needed, holds the stack.
+static bool order_by_stream(const Landscape *land, Drainage *flooded, Routing *route, Error *e)
+{
+    int64_t count = landscape_count(land);
+    int32_t *first = memory_alloc_zero(count + 1, sizeof *first, e); // of each sample's donors
+    int32_t *donor = memory_alloc(count, sizeof *donor, e);
+    if (!first || !donor) {
+        free(first);
+        free(donor);
+        return false;
+    }
+    for (int64_t i = 0; i < count; i++) {
+        first[route->receiver[i] + 1] += route->receiver[i] != (int32_t)i;
+    }
+    for (int64_t i = 0; i < count; i++) {
+        first[i + 1] += first[i];
+    }
+    int32_t donors = first[count];
+    for (int64_t i = count - 1; i >= 0; i--) { // fills each list from its end
+        int32_t to = route->receiver[i];
+        if (to != (int32_t)i) {
+            donor[--first[to + 1]] = (int32_t)i;
+        }
+    }
+    // Now list i begins at first[i + 1] and ends where list i + 1 begins.
+    int32_t *stack = flooded->receiver;
+    int64_t placed = 0;
+    for (int64_t root = 0; root < count; root++) {
+        int64_t height = 0;
+        if (land->base[root]) {
+            stack[height++] = (int32_t)root;
+        }
+        while (height > 0) {
+            int32_t i = stack[--height];
+            route->order[placed++] = i;
+            int64_t end = i + 2 <= count ? first[i + 2] : donors;
+            for (int64_t k = first[i + 1]; k < end; k++) {
+                stack[height++] = donor[k];
+            }
+        }
+    }
+    route->count = placed;
+    free(first);
+    free(donor);
+    return true;
+}
+
 bool landscape_find_route(Landscape *land, uint64_t seed, const Run *run, Error *e)
 {
     Drainage *flooded = flood(land, e);
@@ -94,18 +143,18 @@ bool landscape_find_route(Landscape *land, uint64_t seed, const Run *run, Error 
         route = land->route = memory_alloc_zero(1, sizeof *route, e);
         int64_t count = landscape_count(land);
         bool made = route && (route->receiver = memory_alloc(count, sizeof *route->receiver, e)) &&
+                    (route->order = memory_alloc(count, sizeof *route->order, e)) &&
                     (route->area = memory_alloc(count, sizeof *route->area, e));
         if (!made) {
             drainage_free(flooded);
             return false;
         }
     }
-    route->count = flooded->count;
     point_down(land, flooded, route, seed, run->threads);
-    free(route->order);
-    route->order = flooded->order;
-    flooded->order = NULL;
+    bool done = order_by_stream(land, flooded, route, e);
     drainage_free(flooded);
-    gather_areas(land, route);
-    return true;
+    if (done) {
+        gather_areas(land, route);
+    }
+    return done;
 }

@@ -153,71 +153,73 @@ static void slide_clear(Slide *s)
     free(s->arrived);
 }
 
-// m that would leave a sample `drop` above its neighbour in direction k.
-static inline double leaves(const Slide *s, double drop, int k)
+// m that would leave a sample `drop` >= 0 above its neighbour.
+static inline double leaves(double drop, double limit, double creep)
 {
-    double over = drop - s->limit[k & 1];
-    return (over > 0.0 ? 0.11 * over : 0.0) + drop * s->creep[k & 1];
+    double over = drop - limit;
+    return 0.11 * (over > 0.0 ? over : 0.0) + creep * drop;
 }
 
-// The neighbours of a sample: the first of *count directions, with their offsets.
-typedef struct Around {
-    int count, direction[8];
-    int64_t offset[8];
-} Around;
+// The part of a row whose neighbours in direction k exist: columns from..to-1, `offset` to them.
+typedef struct Span {
+    int from, to;
+    int64_t offset;
+} Span;
 
-static Around around_of(const Landscape *land, int column, int row)
+static Span span_of(const Landscape *land, int row, int k)
 {
-    Around a = {0};
-    for (int k = 0; k < 8; k++) {
-        int c = column + STEP[k][0], r = row + STEP[k][1];
-        if (c >= 0 && r >= 0 && c < land->side && r < land->side) {
-            a.direction[a.count] = k;
-            a.offset[a.count++] = (int64_t)STEP[k][1] * land->side + STEP[k][0];
-        }
+    int r = row + STEP[k][1], dx = STEP[k][0];
+    if (r < 0 || r >= land->side) {
+        return (Span){0};
     }
-    return a;
+    return (Span){dx < 0 ? 1 : 0, dx > 0 ? land->side - 1 : land->side,
+                  (int64_t)STEP[k][1] * land->side + dx};
 }
 
-static double share_of(const Slide *s, int64_t i, const Around *around)
-{
-    const Landscape *land = s->land;
-    if (land->base[i] || land->loose[i] <= 0.0) {
-        return 0.0;
-    }
-    double sum = 0.0, here = s->top[i];
-    for (int n = 0; n < around->count; n++) {
-        double drop = here - s->top[i + around->offset[n]];
-        sum += drop > 0.0 ? leaves(s, drop, around->direction[n]) : 0.0;
-    }
-    return sum > land->loose[i] ? land->loose[i] / sum : 1.0;
-}
-
-// The loose cover of a sample after what leaves and what arrives.
-static double moved(const Slide *s, int64_t i, const Around *around)
-{
-    double here = s->top[i], own = s->share[i], loose = s->land->loose[i];
-    for (int n = 0; n < around->count; n++) {
-        int64_t other = i + around->offset[n];
-        double drop = here - s->top[other];
-        if (drop > 0.0) {
-            loose -= own * leaves(s, drop, around->direction[n]);
-        } else if (s->share[other] > 0.0) {
-            loose += s->share[other] * leaves(s, -drop, around->direction[n]);
-        }
-    }
-    return loose;
-}
-
+// The share of what would leave each sample of a row that its cover allows. Loops run along the
+// row, direction by direction, so that they can be vectorized.
 static void find_shares(const Slide *s, int row)
 {
-    int last = s->land->side - 1;
-    int64_t first = (int64_t)row * s->land->side;
-    Around inner = around_of(s->land, 1, row), west = around_of(s->land, 0, row);
-    Around east = around_of(s->land, last, row);
-    for (int column = 0; column <= last; column++) {
-        const Around *around = column == 0 ? &west : column == last ? &east : &inner;
-        s->share[first + column] = share_of(s, first + column, around);
+    const Landscape *land = s->land;
+    int64_t first = (int64_t)row * land->side;
+    const double *top = s->top + first, *loose = land->loose + first;
+    double *sum = s->share + first;
+    memset(sum, 0, sizeof *sum * (size_t)land->side);
+    for (int k = 0; k < 8; k++) {
+        Span span = span_of(land, row, k);
+        const double *other = top + span.offset;
+        double limit = s->limit[k & 1], creep = s->creep[k & 1];
+#pragma omp simd
+        for (int c = span.from; c < span.to; c++) {
+            double drop = top[c] - other[c];
+            sum[c] += leaves(drop > 0.0 ? drop : 0.0, limit, creep);
+        }
+    }
+    for (int c = 0; c < land->side; c++) {
+        sum[c] = land->base[first + c] || loose[c] <= 0.0 ? 0.0
+                 : sum[c] > loose[c]                      ? loose[c] / sum[c]
+                                                          : 1.0;
+    }
+}
+
+// The loose cover of a row after what leaves and what arrives.
+static void exchange(const Slide *s, int row)
+{
+    const Landscape *land = s->land;
+    int64_t first = (int64_t)row * land->side;
+    const double *top = s->top + first, *share = s->share + first;
+    double *next = s->next + first;
+    memcpy(next, land->loose + first, sizeof *next * (size_t)land->side);
+    for (int k = 0; k < 8; k++) {
+        Span span = span_of(land, row, k);
+        const double *other = top + span.offset, *its_share = share + span.offset;
+        double limit = s->limit[k & 1], creep = s->creep[k & 1];
+#pragma omp simd
+        for (int c = span.from; c < span.to; c++) {
+            double drop = top[c] - other[c], fall = drop > 0.0 ? drop : -drop;
+            double moves = leaves(fall, limit, creep);
+            next[c] += drop > 0.0 ? -share[c] * moves : its_share[c] * moves;
+        }
     }
 }
 
@@ -225,22 +227,17 @@ static void find_shares(const Slide *s, int row)
 static void move_row(const Slide *s, int row)
 {
     Landscape *land = s->land;
-    int last = land->side - 1;
-    Around inner = around_of(land, 1, row), west = around_of(land, 0, row);
-    Around east = around_of(land, last, row);
+    exchange(s, row);
     s->arrived[row] = 0.0;
-    for (int column = 0; column <= last; column++) {
+    for (int column = 0; column < land->side; column++) {
         int64_t i = (int64_t)row * land->side + column;
-        const Around *around = column == 0 ? &west : column == last ? &east : &inner;
-        double loose = moved(s, i, around);
         if (land->base[i]) {
-            s->arrived[row] += loose;
-            loose = 0.0;
-        } else if (loose < 0.0) {
-            land->rock[i] += loose;
-            loose = 0.0;
+            s->arrived[row] += s->next[i];
+            s->next[i] = 0.0;
+        } else if (s->next[i] < 0.0) {
+            land->rock[i] += s->next[i];
+            s->next[i] = 0.0;
         }
-        s->next[i] = loose;
     }
 }
 
