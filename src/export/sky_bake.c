@@ -36,7 +36,9 @@ bool sky_bake(const Sky *sky, int width, const Run *run, BakedSky *baked, Error 
     *baked = (BakedSky){0};
     Dome *dome;
     if (sky->kind == SKY_SUN_SKY) {
-        dome = sky_dome(sky, &baked->sun, run, e);
+        Atmosphere *atmosphere = sky_atmosphere(sky, run, e);
+        dome = atmosphere ? sky_dome(sky, atmosphere, &baked->sun, run, e) : NULL;
+        atmosphere_free(atmosphere);
     } else if (sky->kind == SKY_NIGHT) {
         dome = night_dome(sky, &baked->sun, e);
     } else {

@@ -13,7 +13,8 @@ enum {
     SET_LIGHT = 2,
     SETS_PER_BOUNCE = 2,
     SET_MEDIUM = 1 << 20,
-    SETS_PER_STRETCH = 3
+    SETS_PER_STRETCH = 3,
+    SET_AIR = 1 << 21 // one per bounce
 };
 
 enum { DEEPEST_NESTING = 6 };
@@ -64,9 +65,9 @@ typedef struct Vertex {
     Bsdf bsdf;
 } Vertex;
 
-// Shadow rays that wait to be traced together. A path casts up to two while its ray travels: from a
-// medium and from the surface.
-enum { SHADOWS_LIMIT = 2 * WAVE_SIZE };
+// Shadow rays that wait to be traced together. A path casts up to three while its ray travels: from
+// a medium, from the air and from the surface.
+enum { SHADOWS_LIMIT = 3 * WAVE_SIZE };
 
 typedef struct ShadowLight {
     Vec3 light; // what arrives unless the ray is blocked
@@ -127,10 +128,12 @@ void path_sample_light(Vertex *vertex, const float u[4]);
 // Samples the BSDF for the next ray. False when the path ends here. u: of SET_BSDF.
 bool path_bounce(Vertex *vertex, const float u[4]);
 
-// Distance fades what is seen into the horizon's colour, which replaces all but 1 / e of it after
-// `length` m; 0 = clear. Only for camera rays and mirror reflections of them: in diffuse light the
-// difference does not show.
-void path_add_haze(Path *path, float distance, float length);
+// ---- path_air.c
+
+// Adds the air in front of what the path's ray has met, `distance` m away, and haze that replaces
+// all but 1 / e of it after haze_length m (0 = none). Only for camera rays and mirror reflections of
+// them: in diffuse light the difference does not show.
+void path_see_through_air(Path *path, float distance, float haze_length);
 
 // ---- path_scatter.c
 

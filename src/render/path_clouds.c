@@ -109,7 +109,7 @@ Travel path_scatter_in_cloud(Path *path, float t)
     if (path->straight) {
         note_cloud(path, point, t);
     }
-    path_add_haze(path, t, tracer->cloud_haze);
+    path_see_through_air(path, t, tracer->cloud_haze);
     if (!path->in_cloud && path->depth++ >= tracer->world->render.max_depth) {
         return TRAVEL_ENDED;
     }

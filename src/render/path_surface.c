@@ -17,16 +17,6 @@ static Ray ray_from(Path *path, const SurfacePoint *point, Vec3 direction)
                  .key = path->key++};
 }
 
-void path_add_haze(Path *path, float distance, float length)
-{
-    if (length > 0.0f && path->mirrored) {
-        float clear = expf(-distance / length);
-        Vec3 veil = lights_horizon(path->tracer->lights, path->ray.direction);
-        path_add_light(path, vec3_scale(veil, 1.0f - clear));
-        path->throughput = vec3_scale(path->throughput, clear);
-    }
-}
-
 // Straight on through an index-matched interface. False after too many of them.
 static bool cross_index_matched(Path *path, const SurfacePoint *point)
 {
@@ -108,7 +98,7 @@ Arrival path_arrive(Vertex *vertex)
     Path *path = vertex->path;
     const Tracer *tracer = path->tracer;
     const Hit *hit = &vertex->hit;
-    path_add_haze(path, hit->t, tracer->world->sky.haze_distance);
+    path_see_through_air(path, hit->t, tracer->world->sky.haze_distance);
     int light = accel_light(tracer->accel, hit);
     if (light >= 0) {
         path_add_light(path, lights_emitted(tracer->lights, light, path->start, path->ray.direction,

@@ -132,11 +132,14 @@ static bool check_sizes(const World *world, const Film *film, Error *e)
     return true;
 }
 
-// Clean air scatters green light to 1 / e in 80 km; haze adds to it with the turbidity.
+// Without air in front of them, clouds fade all the same: clean air scatters green light to 1 / e in
+// 80 km; haze adds to it with the turbidity.
 static float cloud_haze(const Sky *sky)
 {
-    float clear = 110e3f / fmaxf(sky->turbidity, 1.0f);
-    return sky->haze_distance > 0.0f ? sky->haze_distance : clear;
+    if (sky->haze_distance > 0.0f || sky->aerial_perspective > 0.0f) {
+        return sky->haze_distance;
+    }
+    return 110e3f / fmaxf(sky->turbidity, 1.0f);
 }
 
 static void fill_tracer(Tracer *tracer, const Renderer *renderer)

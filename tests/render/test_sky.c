@@ -13,8 +13,11 @@ static Dome *make_sky(float elevation, float turbidity, Sun *sun)
     world->sky.sun_azimuth = 0.0f;
     world->sky.turbidity = turbidity;
     Run run = run_default();
-    Dome *dome = sky_dome(&world->sky, sun, &run, NULL);
+    Atmosphere *atmosphere = sky_atmosphere(&world->sky, &run, NULL);
+    assert_non_null(atmosphere);
+    Dome *dome = sky_dome(&world->sky, atmosphere, sun, &run, NULL);
     assert_non_null(dome);
+    atmosphere_free(atmosphere);
     world_free(world);
     return dome;
 }

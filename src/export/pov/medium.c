@@ -45,9 +45,15 @@ static Vec3 horizon_direction(const Pov *pov, const CameraFrame *frame, float t)
     return vec3_normalize(d);
 }
 
-static bool has_haze(const Sky *sky)
+// The distance over which haze and air take light to 1 / e, m; INFINITY without any.
+static float haze_length(const Sky *sky)
 {
-    return sky->kind != SKY_NONE && sky->haze_distance > 0.0f;
+    float haze =
+        sky->kind != SKY_NONE && sky->haze_distance > 0.0f ? 1.0f / sky->haze_distance : 0.0f;
+    if (sky->kind == SKY_SUN_SKY) {
+        haze += sky->aerial_perspective / (1000.0f * atmosphere_clear_length(sky->turbidity));
+    }
+    return 1.0f / haze;
 }
 
 // Fog has one colour, haze that of the horizon behind it. The visible part of the horizon counts,
@@ -73,12 +79,13 @@ static float haze_rise(const Pov *pov)
 
 PovHaze pov_haze(const Pov *pov)
 {
-    if (!has_haze(&pov->world->sky)) {
+    float length = haze_length(&pov->world->sky);
+    if (isinf(length)) {
         return (PovHaze){0};
     }
     float above = fmaxf(0.0f, pov->top - pov->world->camera.position.y);
     float depth = above + 0.5f * PI_F * haze_rise(pov); // its density is 1 / (1 + (y / rise)^2)
-    return (PovHaze){haze_color(pov), depth / pov->world->sky.haze_distance};
+    return (PovHaze){haze_color(pov), depth / length};
 }
 
 Vec3 pov_haze_undo(const PovHaze *haze, Vec3 direction, Vec3 color)
@@ -129,8 +136,9 @@ void pov_medium(Pov *pov)
 {
     const Medium *m = &pov->world->medium;
     float extinction = luminance(vec3_add(m->scattering, m->absorption));
-    if (has_haze(&pov->world->sky)) {
-        write_fog(pov, pov->world->sky.haze_distance, pov->top, haze_rise(pov), haze_color(pov));
+    float haze = haze_length(&pov->world->sky);
+    if (isfinite(haze)) {
+        write_fog(pov, haze, pov->top, haze_rise(pov), haze_color(pov));
     }
     if (m->kind == MEDIUM_NONE || !(extinction > 0.0f)) {
         return;

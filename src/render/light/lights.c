@@ -69,6 +69,7 @@ void lights_free(Lights *lights)
 {
     if (lights) {
         dome_free(lights->dome);
+        air_free(lights->air);
         water_free(lights->water);
         emitter_set_clear(&lights->emitters);
         free(lights->share);

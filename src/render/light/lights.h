@@ -6,6 +6,7 @@
 #include "base/run.h"
 #include "render/light/emitter_set.h"
 #include "render/medium/water.h"
+#include "render/sky/air.h"
 #include "render/sky/sun_sky.h"
 
 typedef struct World World;
@@ -109,6 +110,10 @@ float lights_glow(const Lights *lights, const SurfacePlace *place, Vec3 position
 
 // The sun by day, the moon by night; NULL where neither shines.
 const Sun *lights_sun(const Lights *lights);
+
+// What air does to what is seen along a ray; u: uniform. False without aerial perspective.
+bool lights_air(const Lights *lights, Vec3 from, Vec3 direction, float distance, float u,
+                AirView *view);
 
 // The colour of haze when looking along direction.
 Vec3 lights_horizon(const Lights *lights, Vec3 direction);

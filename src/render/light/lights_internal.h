@@ -3,6 +3,7 @@
 #define RAMIFY_RENDER_LIGHT_LIGHTS_INTERNAL_H
 
 #include "render/light/lights.h"
+#include "render/sky/air.h"
 #include "render/sky/clouds.h"
 #include "render/world.h"
 
@@ -10,6 +11,7 @@ struct Lights {
     const World *world;
     Vec3 constant; // SKY_CONSTANT: radiance
     Dome *dome;    // NULL without sky or environment
+    Air *air;      // NULL where it is not seen
     Sun sun;
     Sun built_sun;            // before the sky was turned
     float built_rotation;     // of the dome

@@ -22,6 +22,19 @@ static Clouds make_clouds(const Lights *lights)
     return clouds;
 }
 
+static bool make_day(Lights *lights, const Run *run, Error *e)
+{
+    const Sky *sky = &lights->world->sky;
+    Atmosphere *atmosphere = sky_atmosphere(sky, run, e);
+    lights->dome = atmosphere ? sky_dome(sky, atmosphere, &lights->sun, run, e) : NULL;
+    if (!lights->dome || !(sky->aerial_perspective > 0.0f)) {
+        atmosphere_free(atmosphere);
+        return lights->dome;
+    }
+    lights->air = air_new(atmosphere, sky, e);
+    return lights->air;
+}
+
 static bool make_sky(Lights *lights, const Run *run, Error *e)
 {
     const Sky *sky = &lights->world->sky;
@@ -32,10 +45,10 @@ static bool make_sky(Lights *lights, const Run *run, Error *e)
         lights->constant = vec3_scale(sky->color, sky->strength);
         return true;
     case SKY_SUN_SKY:
-        lights->dome = sky_dome(sky, &lights->sun, run, e);
-        if (lights->dome) {
-            lights->clouds = make_clouds(lights);
+        if (!make_day(lights, run, e)) {
+            return false;
         }
+        lights->clouds = make_clouds(lights);
         break;
     case SKY_NIGHT:
         lights->dome = night_dome(sky, &lights->sun, e);
@@ -227,6 +240,15 @@ void lights_background_many(const Lights *lights, const BackgroundRay ray[], int
             radiance[i] = seen_above(lights, r->direction, &place[i], r->spread);
         }
     }
+}
+
+bool lights_air(const Lights *lights, Vec3 from, Vec3 direction, float distance, float u,
+                AirView *view)
+{
+    if (lights->air) {
+        *view = air_view(lights->air, from, direction, distance, lights->sun.direction, u);
+    }
+    return lights->air;
 }
 
 const Sun *lights_sun(const Lights *lights)

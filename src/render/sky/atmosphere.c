@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double GROUND_RADIUS = 6360.0, TOP_RADIUS = 6460.0, EYE_ALTITUDE = 0.05;
+static const double GROUND_RADIUS = 6360.0, TOP_RADIUS = 6460.0;
 
 enum { AIR_ALTITUDES = 48, AIR_ANGLES = 160, GLOW_ALTITUDES = 12, GLOW_ANGLES = 32 };
 
@@ -19,6 +19,7 @@ struct Atmosphere {
     Spectrum rayleigh, mie, ozone; // extinction per km
     Spectrum mie_scattering;
     float ground_albedo;
+    double eye; // radius of the ground of the scene
     Column to_space[AIR_ALTITUDES][AIR_ANGLES];
     Spectrum glow[GLOW_ALTITUDES]
                  [GLOW_ANGLES]; // light scattered twice and more, for sun irradiance
@@ -57,6 +58,17 @@ void wavelength_to_rgb(double nm, double rgb[3])
     rgb[2] = 0.0556434 * x - 0.2040259 * y + 1.0572252 * z;
 }
 
+Vec3 spectrum_band_rgb(int band)
+{
+    Vec3 sum = vec3_splat(0.0f);
+    for (int w = 0; w < 40; w += 5) {
+        double rgb[3];
+        wavelength_to_rgb(380.0 + 40.0 * band + w + 2.5, rgb);
+        sum = vec3_madd(sum, 683.0f * 5.0f, vec3((float)rgb[0], (float)rgb[1], (float)rgb[2]));
+    }
+    return sum;
+}
+
 Vec3 spectrum_to_rgb(const Spectrum *spectrum)
 {
     double sum[3] = {0.0, 0.0, 0.0};
@@ -70,18 +82,34 @@ Vec3 spectrum_to_rgb(const Spectrum *spectrum)
     return vec3_max(vec3((float)sum[0], (float)sum[1], (float)sum[2]), vec3_splat(0.0f));
 }
 
-// Rayleigh: 0.0116 per km at 550 nm (Bucholtz 1995). Aerosol: Angstrom's law with exponent 1.3 and
-// the turbidity coefficient of Preetham et al. 1999, scale height 1.2 km, 5 % absorbed. Ozone:
-// Chappuis band, 300 Dobson units in a tent of half-width 15 km.
+// Bucholtz 1995: 0.0116 per km at 550 nm.
+static float rayleigh_extinction(float um)
+{
+    return 0.0116f * powf(0.55f / um, 4.08f);
+}
+
+// Angstrom's law with exponent 1.3 and the turbidity coefficient of Preetham et al. 1999; scale
+// height 1.2 km.
+static float mie_extinction(float turbidity, float um)
+{
+    float beta = fmaxf(0.04608f * turbidity - 0.04586f, 0.0f);
+    return beta * powf(um, -1.3f) / 1.2f;
+}
+
+float atmosphere_clear_length(float turbidity)
+{
+    return 1.0f / (rayleigh_extinction(0.55f) + mie_extinction(turbidity, 0.55f));
+}
+
+// Aerosols absorb 5 %. Ozone: Chappuis band, 300 Dobson units in a tent of half-width 15 km.
 static void fill_coefficients(Atmosphere *a, float turbidity)
 {
     static const float ozone_cross_section[SPECTRUM_BANDS] = {0.01f, 0.12f, 0.70f, 1.85f, 3.90f,
                                                               5.00f, 2.90f, 1.35f}; // 1e-25 m^2
-    float beta = fmaxf(0.04608f * turbidity - 0.04586f, 0.0f);
     for (int i = 0; i < SPECTRUM_BANDS; i++) {
         float um = 0.4f + 0.04f * (float)i;
-        a->rayleigh.v[i] = 0.0116f * powf(0.55f / um, 4.08f);
-        a->mie.v[i] = beta * powf(um, -1.3f) / 1.2f;
+        a->rayleigh.v[i] = rayleigh_extinction(um);
+        a->mie.v[i] = mie_extinction(turbidity, um);
         a->mie_scattering.v[i] = 0.95f * a->mie.v[i];
         a->ozone.v[i] = ozone_cross_section[i] * 1e-25f * 8.07e22f / 15.0f;
     }
@@ -202,7 +230,7 @@ Spectrum atmosphere_sun_transmittance(const Atmosphere *a, float sine)
 {
     Spectrum result = {{0.0f}};
     Column c;
-    if (column_to_space(a, GROUND_RADIUS + EYE_ALTITUDE, (double)sine, &c)) {
+    if (column_to_space(a, a->eye, (double)sine, &c)) {
         for (int i = 0; i < SPECTRUM_BANDS; i++) {
             result.v[i] = decay(extinction(a, i, c));
         }
@@ -242,22 +270,30 @@ static Spectrum glow_at(const Atmosphere *a, double r, double mu_sun)
     return result;
 }
 
+// A ray from radius r; mu, mu_sun and cosine are those of its angle to the vertical, of the sun's
+// to the vertical, and of the ray's to the sun.
+typedef struct AirRay {
+    double r, mu, mu_sun, cosine;
+    float phase[2]; // of air, of aerosols
+    bool with_glow;
+} AirRay;
+
 // Results of the march, for a sun of irradiance 1 in every band.
 typedef struct March {
-    Spectrum light;     // in-scattered toward the eye
-    Spectrum returned;  // the same if the surroundings shone with radiance 1: Hillaire's f_ms
-    Spectrum remaining; // transmittance of the whole path
+    Spectrum sunlit;   // scattered once toward the eye
+    Spectrum glow;     // scattered more than once
+    Spectrum returned; // the same if the surroundings shone with radiance 1: Hillaire's f_ms
+    Column passed;
 } March;
 
-// One step of the march: adds the segment of length `step` around the point, behind the
-// transmittance `passed`.
-static void gather(const Atmosphere *a, March *m, double r, double mu_sun, Column passed,
-                   Column density, double step, const float phase[2], bool with_glow)
+// Adds the segment of length `step` around the point at radius r, behind `passed`.
+static void gather(const Atmosphere *a, March *m, const AirRay *ray, double r, double mu_sun,
+                   Column passed, Column density, double step)
 {
     Column sun = {0.0f, 0.0f, 0.0f};
     bool lit = column_to_space(a, r, mu_sun, &sun);
     Spectrum glow = {{0.0f}};
-    if (with_glow) {
+    if (ray->with_glow) {
         glow = glow_at(a, r, mu_sun);
     }
     for (int i = 0; i < SPECTRUM_BANDS; i++) {
@@ -265,35 +301,42 @@ static void gather(const Atmosphere *a, March *m, double r, double mu_sun, Colum
         float dust = a->mie_scattering.v[i] * density.mie;
         float seen = decay(extinction(a, i, passed)) * (float)step;
         float direct = lit ? decay(extinction(a, i, sun)) : 0.0f;
-        m->light.v[i] +=
-            seen * (direct * (air * phase[0] + dust * phase[1]) + (air + dust) * glow.v[i]);
+        m->sunlit.v[i] += seen * direct * (air * ray->phase[0] + dust * ray->phase[1]);
+        m->glow.v[i] += seen * (air + dust) * glow.v[i];
         m->returned.v[i] += seen * (air + dust);
     }
 }
 
-// From radius r along cosine mu for `length` km; cosine is that of the angle to the sun.
-static March march(const Atmosphere *a, double r, double mu, double mu_sun, double cosine,
-                   double length, int steps, const float phase[2], bool with_glow)
+// One step of the march, from `before` to `after` km.
+static void march_on(const Atmosphere *a, March *m, const AirRay *ray, double before, double after)
 {
-    March m = {{{0.0f}}, {{0.0f}}, {{0.0f}}};
-    Column passed = {0.0f, 0.0f, 0.0f};
+    double t = 0.5 * (before + after);
+    double radius = sqrt(ray->r * ray->r + t * t + 2.0 * ray->r * ray->mu * t);
+    Column d = density_at(radius - GROUND_RADIUS);
+    float half = 0.5f * (float)(after - before);
+    Column middle = {m->passed.rayleigh + d.rayleigh * half, m->passed.mie + d.mie * half,
+                     m->passed.ozone + d.ozone * half};
+    double mu_here = (ray->r * ray->mu_sun + t * ray->cosine) / radius;
+    gather(a, m, ray, radius, mu_here, middle, d, after - before);
+    m->passed = (Column){middle.rayleigh + d.rayleigh * half, middle.mie + d.mie * half,
+                         middle.ozone + d.ozone * half};
+}
+
+// Where step i of so many ends: shorter ones near the eye.
+static double step_end(double length, int i, int steps)
+{
+    double s = (double)(i + 1) / steps;
+    return length * s * s;
+}
+
+static March march(const Atmosphere *a, const AirRay *ray, double length, int steps)
+{
+    March m = {.sunlit = {{0.0f}}};
     double before = 0.0;
     for (int i = 0; i < steps; i++) {
-        double s = (double)(i + 1) / steps, after = length * s * s, step = after - before;
-        double t = 0.5 * (before + after);
-        double radius = sqrt(r * r + t * t + 2.0 * r * mu * t);
-        Column d = density_at(radius - GROUND_RADIUS);
-        float half = 0.5f * (float)step;
-        Column middle = {passed.rayleigh + d.rayleigh * half, passed.mie + d.mie * half,
-                         passed.ozone + d.ozone * half};
-        double mu_here = (r * mu_sun + t * cosine) / radius;
-        gather(a, &m, radius, mu_here, middle, d, step, phase, with_glow);
-        passed = (Column){middle.rayleigh + d.rayleigh * half, middle.mie + d.mie * half,
-                          middle.ozone + d.ozone * half};
+        double after = step_end(length, i, steps);
+        march_on(a, &m, ray, before, after);
         before = after;
-    }
-    for (int i = 0; i < SPECTRUM_BANDS; i++) {
-        m.remaining.v[i] = decay(extinction(a, i, passed));
     }
     return m;
 }
@@ -305,7 +348,7 @@ static March march(const Atmosphere *a, double r, double mu, double mu_sun, doub
 static Spectrum multiple_scattering(const Atmosphere *a, double r, double mu_sun)
 {
     enum { POLAR = 8, TURNS = 8 };
-    const float isotropic[2] = {0.25f / PI_F, 0.25f / PI_F};
+    const float isotropic = 0.25f / PI_F;
     Spectrum second = {{0.0f}}, share = {{0.0f}}, result;
     double sine_sun = sqrt(fmax(0.0, 1.0 - mu_sun * mu_sun));
     for (int k = 0; k < POLAR * TURNS; k++) {
@@ -315,16 +358,17 @@ static Spectrum multiple_scattering(const Atmosphere *a, double r, double mu_sun
         double cosine = mu * mu_sun + sqrt(1.0 - mu * mu) * sine_sun * cos(turn);
         double length = distance_to_top(r, mu);
         bool ground = meets_ground(r, mu, &length);
-        March m = march(a, r, mu, mu_sun, cosine, length, 16, isotropic, false);
+        AirRay ray = {r, mu, mu_sun, cosine, {isotropic, isotropic}, false};
+        March m = march(a, &ray, length, 16);
         Column sun;
         double foot = (r * mu_sun + length * cosine) / GROUND_RADIUS;
         bool lit = ground && foot > 0.0 && column_to_space(a, GROUND_RADIUS, foot, &sun);
         for (int i = 0; i < SPECTRUM_BANDS; i++) {
-            second.v[i] += m.light.v[i];
+            second.v[i] += m.sunlit.v[i];
             share.v[i] += m.returned.v[i];
             if (lit) {
-                second.v[i] += m.remaining.v[i] * decay(extinction(a, i, sun)) * (float)foot *
-                               a->ground_albedo / PI_F;
+                float clear = decay(extinction(a, i, m.passed)) * decay(extinction(a, i, sun));
+                second.v[i] += clear * (float)foot * a->ground_albedo / PI_F;
             }
         }
     }
@@ -335,13 +379,15 @@ static Spectrum multiple_scattering(const Atmosphere *a, double r, double mu_sun
     return result;
 }
 
-Atmosphere *atmosphere_new(float turbidity, float ground_albedo, const Run *run, Error *e)
+Atmosphere *atmosphere_new(float turbidity, float ground_albedo, float altitude, const Run *run,
+                           Error *e)
 {
     Atmosphere *a = memory_alloc_zero(1, sizeof *a, e);
     if (!a) {
         return NULL;
     }
     a->ground_albedo = ground_albedo;
+    a->eye = GROUND_RADIUS + (double)altitude / 1000.0;
     fill_coefficients(a, turbidity);
     fill_columns(a);
 #pragma omp parallel for schedule(dynamic) num_threads(run->threads)
@@ -359,17 +405,48 @@ void atmosphere_free(Atmosphere *atmosphere)
     free(atmosphere);
 }
 
+// A ray from `height` km above the scene's ground.
+static AirRay ray_from(const Atmosphere *a, double height, Vec3 direction, Vec3 sun)
+{
+    float cosine = clampf(vec3_dot(direction, sun), -1.0f, 1.0f);
+    return (AirRay){.r = fmax(a->eye + height, GROUND_RADIUS),
+                    .mu = (double)direction.y,
+                    .mu_sun = (double)sun.y,
+                    .cosine = (double)cosine,
+                    .phase = {rayleigh_phase(cosine), mie_phase(cosine)},
+                    .with_glow = true};
+}
+
 Spectrum atmosphere_radiance(const Atmosphere *a, Vec3 direction, Vec3 sun)
 {
-    double r = GROUND_RADIUS + EYE_ALTITUDE, mu = (double)direction.y;
-    double length = distance_to_top(r, mu);
-    meets_ground(r, mu, &length);
-    float cosine = clampf(vec3_dot(direction, sun), -1.0f, 1.0f);
-    const float phase[2] = {rayleigh_phase(cosine), mie_phase(cosine)};
-    March m = march(a, r, mu, (double)sun.y, (double)cosine, length, 48, phase, true);
-    Spectrum solar = atmosphere_solar_irradiance();
+    AirRay ray = ray_from(a, 0.0, direction, sun);
+    double length = distance_to_top(ray.r, ray.mu);
+    meets_ground(ray.r, ray.mu, &length);
+    March m = march(a, &ray, length, 48);
+    Spectrum solar = atmosphere_solar_irradiance(), light;
     for (int i = 0; i < SPECTRUM_BANDS; i++) {
-        m.light.v[i] *= solar.v[i];
+        light.v[i] = (m.sunlit.v[i] + m.glow.v[i]) * solar.v[i];
     }
-    return m.light;
+    return light;
+}
+
+void atmosphere_stretch(const Atmosphere *a, double height, Vec3 direction, Vec3 sun, double length,
+                        AirStretch *stretch)
+{
+    const double km_a_step = 4.0;
+    AirRay ray = ray_from(a, height, direction, sun);
+    March m = {.sunlit = {{0.0f}}};
+    double before = 0.0;
+    stretch->steps = (int)fmin(2.0 + length / km_a_step, AIR_STEPS);
+    for (int i = 0; i < stretch->steps; i++) {
+        double after = step_end(length, i, stretch->steps);
+        m.sunlit = (Spectrum){{0.0f}};
+        march_on(a, &m, &ray, before, after);
+        stretch->sunlit[i] = m.sunlit;
+        stretch->end[i] = before = after;
+    }
+    stretch->glow = m.glow;
+    for (int i = 0; i < SPECTRUM_BANDS; i++) {
+        stretch->clear.v[i] = decay(extinction(a, i, m.passed));
+    }
 }

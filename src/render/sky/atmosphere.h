@@ -17,9 +17,10 @@ typedef struct Spectrum {
 
 typedef struct Atmosphere Atmosphere;
 
-// turbidity: 1 = pure air, 2-3 clear, 6 hazy (Preetham et al. 1999); ground_albedo grey, 0..1.
-// Built in about 0.1 s by run->threads threads.
-Atmosphere *atmosphere_new(float turbidity, float ground_albedo, const Run *run, Error *e);
+// turbidity: 1 = pure air, 2-3 clear, 6 hazy (Preetham et al. 1999); ground_albedo grey, 0..1;
+// altitude: of the scene's ground above the sea, m. Built in about 0.1 s by run->threads threads.
+Atmosphere *atmosphere_new(float turbidity, float ground_albedo, float altitude, const Run *run,
+                           Error *e);
 void atmosphere_free(Atmosphere *atmosphere); // NULL is fine
 
 // Transmittance of the atmosphere for the sun at this sine of elevation, seen from near the ground.
@@ -29,12 +30,32 @@ Spectrum atmosphere_sun_transmittance(const Atmosphere *atmosphere, float sine);
 // the sun in direction sun. Below the horizon: of the air in front of the ground.
 Spectrum atmosphere_radiance(const Atmosphere *atmosphere, Vec3 direction, Vec3 sun);
 
+// The distance over which level air at sea level takes light of 550 nm to 1 / e, km.
+float atmosphere_clear_length(float turbidity);
+
+// Air between an eye and what it sees, for a sun of irradiance 1 in every band.
+enum { AIR_STEPS = 12 };
+typedef struct AirStretch {
+    Spectrum clear; // transmittance
+    Spectrum glow;  // light scattered more than once, toward the eye
+    int steps;
+    Spectrum sunlit[AIR_STEPS]; // sunlight scattered once toward the eye, by step
+    double end[AIR_STEPS];      // km from the eye
+} AirStretch;
+
+// height: of the eye above the scene's ground, km; length: to what it sees, km.
+void atmosphere_stretch(const Atmosphere *atmosphere, double height, Vec3 direction, Vec3 sun,
+                        double length, AirStretch *stretch);
+
 // The sun's irradiance outside the atmosphere, W / (m^2 nm).
 Spectrum atmosphere_solar_irradiance(void);
 
 // The contribution of a wavelength to each channel of linear Rec. 709 (some are negative): CIE
 // 1931.
 void wavelength_to_rgb(double nm, double rgb[3]);
+
+// Radiance 1 in a band to linear Rec. 709 times luminance in cd/m^2; some are negative.
+Vec3 spectrum_band_rgb(int band);
 
 // Radiance per band to linear Rec. 709 times luminance in cd/m^2 (irradiance: lux).
 Vec3 spectrum_to_rgb(const Spectrum *spectrum);

@@ -1,6 +1,5 @@
 #include "render/sky/sun_sky.h"
 
-#include "render/sky/atmosphere.h"
 #include "render/warp.h"
 
 #include <stddef.h>
@@ -83,12 +82,13 @@ static void bake_lower_half(Dome *dome, Vec3 ground)
     }
 }
 
-Dome *sky_dome(const Sky *sky, Sun *sun, const Run *run, Error *e)
+Atmosphere *sky_atmosphere(const Sky *sky, const Run *run, Error *e)
 {
-    Atmosphere *atmosphere = atmosphere_new(sky->turbidity, sky->ground_albedo, run, e);
-    if (!atmosphere) {
-        return NULL;
-    }
+    return atmosphere_new(sky->turbidity, sky->ground_albedo, sky->altitude, run, e);
+}
+
+Dome *sky_dome(const Sky *sky, const Atmosphere *atmosphere, Sun *sun, const Run *run, Error *e)
+{
     *sun = make_sun(sky, atmosphere);
     Dome *dome = dome_new(SKY_COLUMNS, SKY_ROWS, true, sky->sun_azimuth * RADIANS_PER_DEGREE, e);
     if (dome) {
@@ -99,7 +99,6 @@ Dome *sky_dome(const Sky *sky, Sun *sun, const Run *run, Error *e)
         bake_lower_half(dome, vec3_scale(light, sky->ground_albedo / PI_F));
         dome_prepare(dome);
     }
-    atmosphere_free(atmosphere);
     return dome;
 }
 

@@ -7,6 +7,7 @@
 #define RAMIFY_RENDER_SKY_SUN_SKY_H
 
 #include "base/run.h"
+#include "render/sky/atmosphere.h"
 #include "render/sky/dome.h"
 #include "render/sky/sky.h"
 
@@ -21,9 +22,12 @@ typedef struct Sun {
     bool even; // without limb darkening: the moon
 } Sun;
 
-// sky->kind must be SKY_SUN_SKY. The lower half of the dome is the ground: below the horizon, haze
-// blends within a few degrees into ground_albedo under this sky.
-Dome *sky_dome(const Sky *sky, Sun *sun, const Run *run, Error *e);
+// Of a sky with kind SKY_SUN_SKY.
+Atmosphere *sky_atmosphere(const Sky *sky, const Run *run, Error *e);
+
+// The lower half of the dome is the ground: below the horizon, haze blends within a few degrees
+// into ground_albedo under this sky.
+Dome *sky_dome(const Sky *sky, const Atmosphere *atmosphere, Sun *sun, const Run *run, Error *e);
 
 // Radiance of the disc in direction, with limb darkening; 0 outside.
 Vec3 sun_radiance(const Sun *sun, Vec3 direction);
