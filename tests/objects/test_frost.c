@@ -338,6 +338,65 @@ static void blades_and_grains_are_closed(void **state)
     }
 }
 
+static FrostParams small_ferns(FrostSurface surface)
+{
+    FrostParams params = frost_habit_default(surface, FROST_FERNS);
+    params.nuclei = 5;
+    params.spines = 40;
+    params.sides = 12000;
+    params.grains = 300;
+    return params;
+}
+
+static void ferns_leave_at_their_angle_and_do_not_cross(void **state)
+{
+    (void)state;
+    for (int angle = 40; angle <= 60; angle += 20) {
+        FrostParams params = small_ferns(FROST_PANE);
+        params.angle = (float)angle;
+        OutTree *tree = grow(&params, 1, 1.0f);
+        assert_true(tree->count > 2000);
+        assert_float_equal(measured(tree, &params, "side_angle"), angle, 3.0);
+        assert_true(measured(tree, &params, "side_angle_spread") < 8.0);
+        assert_int_equal(count_crossings(tree), 0);
+        out_tree_free(tree);
+    }
+}
+
+// Nodes keep out of the islands, which have the share of the surface that was asked for, so there
+// are fewer of them; grains are elsewhere.
+static void ferns_leave_glass_clear(void **state)
+{
+    (void)state;
+    FrostParams params = small_ferns(FROST_PANE);
+    double count[2];
+    for (int i = 0; i < 2; i++) {
+        params.clear = 0.5f * (float)i;
+        OutTree *tree = grow(&params, 1, 1.0f);
+        count[i] = (double)tree->count;
+        out_tree_free(tree);
+    }
+    assert_true(count[1] < 0.6 * count[0] && count[1] > 0.1 * count[0]);
+}
+
+static void ferns_are_the_same_on_any_threads(void **state)
+{
+    (void)state;
+    for (int surface = 0; surface < 2; surface++) {
+        FrostParams params = small_ferns((FrostSurface)surface);
+        OutTree *one = grow(&params, 1, 1.0f);
+        for (int threads = 2; threads <= 3; threads++) {
+            OutTree *more = grow(&params, threads, 1.0f);
+            assert_true(out_tree_hash(one) == out_tree_hash(more));
+            out_tree_free(more);
+        }
+        for (int64_t i = 0; surface == FROST_BUBBLE && i < one->count; i++) {
+            assert_float_equal(vec3_length(one->position[i]), params.radius, 1e-5f * params.radius);
+        }
+        out_tree_free(one);
+    }
+}
+
 static void nuclei_stand_where_they_should(void **state)
 {
     (void)state;
@@ -375,6 +434,9 @@ int main(void)
         cmocka_unit_test(threads_do_not_show),
         cmocka_unit_test(ten_times_the_size_looks_the_same),
         cmocka_unit_test(blades_and_grains_are_closed),
+        cmocka_unit_test(ferns_leave_at_their_angle_and_do_not_cross),
+        cmocka_unit_test(ferns_leave_glass_clear),
+        cmocka_unit_test(ferns_are_the_same_on_any_threads),
         cmocka_unit_test(nuclei_stand_where_they_should),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

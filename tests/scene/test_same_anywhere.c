@@ -304,6 +304,9 @@ static const struct {
     {"frost: {surface: bubble, spines: 60, sides: 900, grains: 200, position: @p(0 0 0), radius: "
      "@l(0.03)}",
      MOVE | SCALE},
+    {"frost: {habit: ferns, spines: 20, sides: 3000, grains: 200, position: @p(0 0 0), width: "
+     "@l(0.6), height: @l(0.45), nucleus: [{position: @p(0.1 0.1 0)}, {position: @p(-0.2 0 0)}]}",
+     MOVE | SCALE},
     {"dla: {particles: 200, position: @p(0 0 0), rotation: [0, @a(0), 0], size: @l(1)}", ALL},
     {"venation: {position: @p(0 0 0), rotation: [0, @a(0), 0], length: @l(0.1), petiole: @l(0.02), "
      "detail: 12}",

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "grow/colonize.h"
+#include "objects/frost/ferns.h"
 #include "objects/frost/surface.h"
 #include "outtree/chains.h"
 #include "outtree/crossings.h"
@@ -19,29 +20,41 @@ static const float MOST_BARE = 1.5f;
 
 FrostParams frost_params_default(FrostSurface surface)
 {
-    bool pane = surface == FROST_PANE;
-    return (FrostParams){.surface = surface,
-                         .width = 0.6f,
-                         .height = 0.45f,
-                         .radius = 0.03f,
-                         .nuclei = pane ? 13 : 1,
-                         .turn = pane ? 110.0f : 120.0f,
-                         .field_weight = pane ? 1.0f : 1.5f,
-                         .spines = pane ? 420 : 700,
-                         .sides = pane ? 150000 : 100000,
-                         .angle = 60.0f,
-                         .skip = 0.33f,
-                         .orders = 3,
-                         .width_share = 0.22f,
-                         .relief = 0.5f,
-                         .rime = 0.4f,
-                         .grains = pane ? 30000 : 6000};
+    return frost_habit_default(surface, FROST_SPINES);
 }
 
-static float side_spacing(const FrostParams *params)
+FrostParams frost_habit_default(FrostSurface surface, FrostHabit habit)
 {
-    int64_t count = params->sides > 0 ? params->sides : 20 * params->spines;
-    return sqrtf(frost_area(params) / (float)count);
+    bool pane = surface == FROST_PANE;
+    FrostParams params = {.surface = surface,
+                          .width = 0.6f,
+                          .height = 0.45f,
+                          .radius = 0.03f,
+                          .nuclei = pane ? 13 : 1,
+                          .turn = pane ? 110.0f : 120.0f,
+                          .field_weight = pane ? 1.0f : 1.5f,
+                          .spines = pane ? 420 : 700,
+                          .sides = pane ? 150000 : 100000,
+                          .angle = 60.0f,
+                          .skip = 0.33f,
+                          .orders = 3,
+                          .width_share = 0.22f,
+                          .relief = 0.5f,
+                          .rime = 0.4f,
+                          .grains = pane ? 30000 : 6000};
+    if (habit == FROST_FERNS) {
+        params.habit = FROST_FERNS;
+        params.spines = pane ? 300 : 200;
+        params.sides = pane ? 700000 : 300000;
+        params.angle = 50.0f;
+        params.curl = 30.0f;
+        params.skip = 0.03f;
+        params.orders = 2;
+        params.width_share = 0.32f;
+        params.clear = 0.1f;
+        params.scratches = pane ? 3 : 0;
+    }
+    return params;
 }
 
 static bool add_nuclei(OutTree *tree, const FrostParams *params, uint64_t seed, Error *e)
@@ -135,7 +148,7 @@ static bool smooth(OutTree *tree, Error *e)
 static OutTree *refine_spines(OutTree *tree, const FrostParams *params, Error *e)
 {
     OutTree *fine =
-        smooth(tree, e) ? out_tree_resample(tree, SIDE_STEP * side_spacing(params), e) : NULL;
+        smooth(tree, e) ? out_tree_resample(tree, SIDE_STEP * frost_side_spacing(params), e) : NULL;
     out_tree_free(tree);
     for (int64_t i = 0; fine && i < fine->count; i++) {
         fine->normal[i] = frost_project(params, &fine->position[i]);
@@ -203,7 +216,7 @@ static void count_bare(const OutTree *tree, int32_t *since, uint8_t *children)
 static bool trim_rods(OutTree *tree, const FrostParams *params, Error *e)
 {
     float spine_spacing = sqrtf(frost_area(params) / (float)params->spines);
-    float most = MOST_BARE * spine_spacing / (SIDE_STEP * side_spacing(params));
+    float most = MOST_BARE * spine_spacing / (SIDE_STEP * frost_side_spacing(params));
     int32_t *since = memory_alloc(tree->count, sizeof *since, e);
     uint8_t *children = memory_alloc_zero(tree->count, sizeof *children, e);
     bool *keep = memory_alloc(tree->count, sizeof *keep, e);
@@ -224,6 +237,9 @@ static bool trim_rods(OutTree *tree, const FrostParams *params, Error *e)
 bool frost_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     const FrostParams *params = given;
+    if (params->habit == FROST_FERNS) {
+        return ferns_grow(params, recipe, whole, e);
+    }
     OutTree *tree = out_tree_new(e);
     if (!tree || !add_nuclei(tree, params, random_key(recipe->seed, STREAM_FROST_NUCLEI), e) ||
         !grow_spines(tree, params, recipe, e)) {
@@ -248,6 +264,6 @@ bool frost_finish(const void *given, const Recipe *recipe, const Grown *whole, G
 {
     (void)recipe, (void)whole, (void)e;
     const FrostParams *params = given;
-    out_tree_pipe_radii(grown->tree, 6.0f, params->width_share * side_spacing(params), 0.0f);
+    out_tree_pipe_radii(grown->tree, 6.0f, params->width_share * frost_side_spacing(params), 0.0f);
     return true;
 }

@@ -14,6 +14,11 @@ typedef enum FrostSurface {
     FROST_BUBBLE // the sphere of `radius` about `position`
 } FrostSurface;
 
+typedef enum FrostHabit {
+    FROST_SPINES, // straight needles at 60 degrees
+    FROST_FERNS   // plumes: ribs that curve, with barbs and barbules that follow them
+} FrostHabit;
+
 typedef enum FrostPlace {
     FROST_BORDER,   // nuclei along the pane's border
     FROST_SCATTERED // anywhere on it
@@ -25,6 +30,7 @@ typedef struct FrostNucleus {
 
 typedef struct FrostParams {
     FrostSurface surface;
+    FrostHabit habit;
     Vec3 position;       // m
     float width, height; // m, pane
     float radius;        // m, bubble
@@ -40,6 +46,9 @@ typedef struct FrostParams {
     float angle;        // degrees between a side and its parent; 60 for ice
     float skip;         // 0..1: probability that a side does not grow
     int orders;         // of branching: 1 = sides alone, 3 = sides of sides of sides
+    float curl;         // ferns: degrees by which sides bend toward their parent's direction
+    int scratches;      // ferns: lines on a pane from which plumes grow to both sides
+    float clear;        // ferns: 0..1: share of the surface that stays clear
     float width_share;  // half-width of the finest blades, in spacings between sides
     float relief;       // height of a blade's rib over its half-width
     float rime;         // 0..1: share of white (air-filled) sides; the others are clear
@@ -55,11 +64,15 @@ enum {
     STREAM_FROST_SPINES = 3,
     STREAM_FROST_SIDE_POINTS = 4,
     STREAM_FROST_SIDES = 5,
-    STREAM_FROST_GRAINS = 6
+    STREAM_FROST_GRAINS = 6,
+    STREAM_FROST_ISLANDS = 7,
+    STREAM_FROST_PLUMES = 8,
+    STREAM_FROST_SCRATCHES = 9
 };
 
 // Window frost on a pane of 0.6 x 0.45 m; a bubble has other defaults.
 FrostParams frost_params_default(FrostSurface surface);
+FrostParams frost_habit_default(FrostSurface surface, FrostHabit habit);
 
 // The recipe (see recipe.h). Grows spines and sides; births rise by one from node to node of a
 // spine, by two along sides. Radius = half-width of the blades, normal = the surface's, colony =

@@ -13,29 +13,43 @@ static double angle_between(Vec3 a, Vec3 b)
                     RADIANS_PER_DEGREE);
 }
 
-// Degrees between the step to a side's node and the one before; 0 for nodes of spines.
-static double turn_at(const OutTree *tree, int64_t node)
+// Is the node the first of a side? A spine goes on by a birth of one more; in ferns every chain
+// goes on by a node's first child, and sides are its others.
+static bool may_be_side(const OutTree *tree, const FrostParams *params, int64_t node)
 {
     int32_t parent = tree->parent[node], before = parent < 0 ? -1 : tree->parent[parent];
-    bool spine = before < 0 || tree->birth[node] - tree->birth[parent] == 1;
-    return spine ? 0.0
-                 : angle_between(vec3_sub(tree->position[node], tree->position[parent]),
-                                 vec3_sub(tree->position[parent], tree->position[before]));
+    if (before < 0) {
+        return false;
+    }
+    return params->habit == FROST_FERNS ? tree->id[node] != out_tree_child_id(tree->id[parent], 0)
+                                        : tree->birth[node] - tree->birth[parent] != 1;
 }
 
-// A branch is a side if it leaves at more than half the angle of ice, the border between forward
-// and sideways in the growth.
-static bool measure_sides(const OutTree *tree, MeasureList *list, Error *e)
+// Degrees between the step to a side's node and the one before; 0 for other nodes.
+static double turn_at(const OutTree *tree, const FrostParams *params, int64_t node)
+{
+    int32_t parent = tree->parent[node];
+    return may_be_side(tree, params, node)
+               ? angle_between(
+                     vec3_sub(tree->position[node], tree->position[parent]),
+                     vec3_sub(tree->position[parent], tree->position[tree->parent[parent]]))
+               : 0.0;
+}
+
+// A branch of spines is a side if it leaves at more than half the angle of ice, the border between
+// forward and sideways in the growth.
+static bool measure_sides(const OutTree *tree, const FrostParams *params, MeasureList *list,
+                          Error *e)
 {
     int32_t *order = memory_alloc(tree->count, sizeof *order, e), highest = 0;
-    double sum = 0.0, squares = 0.0;
+    double sum = 0.0, squares = 0.0, least = params->habit == FROST_FERNS ? 0.0 : 30.0;
     int64_t sides = 0;
     for (int64_t i = 0; order && i < tree->count; i++) {
         int32_t parent = tree->parent[i];
-        double angle = turn_at(tree, i);
-        order[i] = (parent < 0 ? 0 : order[parent]) + (angle > 30.0);
+        double angle = turn_at(tree, params, i);
+        order[i] = (parent < 0 ? 0 : order[parent]) + (angle > least);
         highest = order[i] > highest ? order[i] : highest;
-        if (angle > 30.0) {
+        if (angle > least) {
             sum += angle;
             squares += angle * angle;
             sides++;
@@ -43,10 +57,12 @@ static bool measure_sides(const OutTree *tree, MeasureList *list, Error *e)
     }
     bool done = order != NULL;
     free(order);
+    bool ice = params->habit == FROST_SPINES;
     double mean = sides > 0 ? sum / (double)sides : NAN;
     double spread = sides > 0 ? sqrt(fmax(0.0, squares / (double)sides - mean * mean)) : NAN;
     return done && measures_add(list, "orders", (double)highest, "", NAN, NAN, e) &&
-           measures_add(list, "side_angle", mean, "degrees", 57.0, 63.0, e) &&
+           measures_add(list, "side_angle", mean, "degrees", ice ? 57.0 : NAN, ice ? 63.0 : NAN,
+                        e) &&
            measures_add(list, "side_angle_spread", spread, "degrees", NAN, NAN, e);
 }
 
@@ -127,7 +143,11 @@ static bool measure_spines(const OutTree *tree, const FrostParams *params, Measu
     bool *is_spine = memory_alloc(tree->count, sizeof *is_spine, e);
     for (int64_t i = 0; is_spine && i < tree->count; i++) {
         int32_t parent = tree->parent[i];
-        is_spine[i] = parent < 0 || tree->birth[i] - tree->birth[parent] == 1;
+        bool goes_on = params->habit == FROST_FERNS
+                           ? parent < 0 || is_spine[parent]
+                           : parent < 0 || tree->birth[i] - tree->birth[parent] == 1;
+        is_spine[i] = goes_on && (params->habit == FROST_SPINES || parent < 0 ||
+                                  tree->id[i] == out_tree_child_id(tree->id[parent], 0));
     }
     bool done =
         is_spine && swept_measure(tree, is_spine, nucleus_axis, params, "spine_swept", list, e);
@@ -139,6 +159,7 @@ bool frost_measure(const void *params, const Grown *grown, const Recipe *recipe,
                    Error *e)
 {
     (void)recipe;
-    return measure_sides(grown->tree, list, e) && measure_swept(grown->tree, params, list, e) &&
+    return measure_sides(grown->tree, params, list, e) &&
+           measure_swept(grown->tree, params, list, e) &&
            measure_spines(grown->tree, params, list, e);
 }

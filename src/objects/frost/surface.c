@@ -16,6 +16,12 @@ float frost_area(const FrostParams *params)
                                          : 4.0f * PI_F * params->radius * params->radius;
 }
 
+float frost_side_spacing(const FrostParams *params)
+{
+    int64_t count = params->sides > 0 ? params->sides : 20 * params->spines;
+    return sqrtf(frost_area(params) / (float)count);
+}
+
 Vec3 frost_project(const FrostParams *params, Vec3 *p)
 {
     Vec3 d = vec3_sub(*p, params->position);

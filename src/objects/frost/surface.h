@@ -5,7 +5,8 @@
 #include "objects/frost/frost.h"
 #include "shape/points.h"
 
-float frost_area(const FrostParams *params); // m^2
+float frost_area(const FrostParams *params);         // m^2
+float frost_side_spacing(const FrostParams *params); // m, mean, of the sides' attractors
 
 // Moves p to the nearest point of the surface; returns the unit normal there.
 Vec3 frost_project(const FrostParams *params, Vec3 *p);

@@ -2,9 +2,12 @@
 #include "objects/common/tables.h"
 #include "objects/frost/frost.h"
 
+#include <string.h>
+
 #define BIT(kind) (1u << (kind))
 
 static const EnumName SURFACES[] = {{"pane", FROST_PANE}, {"bubble", FROST_BUBBLE}, {0}};
+static const EnumName HABITS[] = {{"spines", FROST_SPINES}, {"ferns", FROST_FERNS}, {0}};
 static const EnumName PLACES[] = {{"border", FROST_BORDER}, {"scattered", FROST_SCATTERED}, {0}};
 
 static const Key NUCLEUS_KEYS[] = {
@@ -22,6 +25,10 @@ static const Table NUCLEUS_TABLE = {.name = "nucleus",
 static const Key FROST_KEYS[] = {
     {KEY_OF(FrostParams, surface, "surface", KEY_ENUM), .names = SURFACES,
      .doc = "pane: a rectangle facing +Z; bubble: a sphere that freezes from below."},
+    {KEY_OF(FrostParams, habit, "habit", KEY_ENUM), .names = HABITS,
+     .doc =
+         "spines: straight needles at 60 degrees; ferns: plumes, whose ribs curve, with barbs and "
+         "barbules that follow them, until they meet others."},
     {KEY_OF(FrostParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the pane or bubble."},
     {KEY_OF(FrostParams, width, "width", KEY_FLOAT), .kinds = BIT(FROST_PANE), .flags = KEY_ABOVE,
@@ -56,6 +63,12 @@ static const Key FROST_KEYS[] = {
      .doc = "Probability that a side branch does not grow."},
     {KEY_OF(FrostParams, orders, "orders", KEY_INT), .low = 1, .high = 100,
      .doc = "Orders of branching: 1 = side branches, 2 = their side branches too, and so on."},
+    {KEY_OF(FrostParams, curl, "curl", KEY_FLOAT), .high = 90, .unit = "degrees",
+     .doc = "Ferns: angle by which barbs bend toward the direction of their rib."},
+    {KEY_OF(FrostParams, scratches, "scratches", KEY_INT), .kinds = BIT(FROST_PANE), .high = 10000,
+     .doc = "Ferns: number of scratches in the glass, from which plumes grow to both sides."},
+    {KEY_OF(FrostParams, clear, "clear", KEY_FLOAT), .high = 1,
+     .doc = "Ferns: share of the surface that stays clear, in islands."},
     {KEY_OF(FrostParams, width_share, "width_share", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
      .doc = "Half-width of the finest blades, in mean spacings of the side branches' attractors."},
     {KEY_OF(FrostParams, relief, "relief", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
@@ -69,8 +82,10 @@ static const Key FROST_KEYS[] = {
 
 static void frost_defaults(const Node *given, int kind, void *out)
 {
-    (void)given;
-    *(FrostParams *)out = frost_params_default(kind < 0 ? FROST_PANE : (FrostSurface)kind);
+    const char *habit = given ? node_get_text(given, "habit") : NULL;
+    bool ferns = habit && strcmp(habit, HABITS[FROST_FERNS].name) == 0;
+    *(FrostParams *)out = frost_habit_default(kind < 0 ? FROST_PANE : (FrostSurface)kind,
+                                              ferns ? FROST_FERNS : FROST_SPINES);
 }
 
 const Table frost_table = {
