@@ -11,6 +11,7 @@
 #include <vector>
 
 extern "C" {
+#include "base/exact_math.h"
 #include "land/height_field.h"
 #include "land/survey_raster.h"
 }
@@ -38,8 +39,10 @@ bool fail(Error *e, const char *what)
 void degree_lengths(double latitude, double length[2])
 {
     const double a = 6378137.0, e2 = 0.00669437999014, radian = PI / 180.0;
-    double s = std::sin(latitude * radian), w = std::sqrt(1.0 - e2 * s * s);
-    length[0] = radian * a / w * std::cos(latitude * radian);
+    double s, c;
+    exact_sincos_double(latitude * radian, &s, &c);
+    double w = std::sqrt(1.0 - e2 * s * s);
+    length[0] = radian * a / w * c;
     length[1] = radian * a * (1.0 - e2) / (w * w * w);
 }
 

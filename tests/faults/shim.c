@@ -387,32 +387,21 @@ int puts(const char *text)
     return stream_fails(stdout, WRITE) ? EOF : real(text);
 }
 
-static int print(FILE *stream, const char *format, va_list arguments)
-{
-    return stream_fails(stream, WRITE) ? -1 : vfprintf(stream, format, arguments);
-}
-
-int __fprintf_chk(FILE *stream, int flag, const char *format, ...);
-int __fprintf_chk(FILE *stream, int flag, const char *format, ...)
-{
-    (void)flag;
-    va_list arguments;
-    va_start(arguments, format);
-    int done = print(stream, format, arguments);
-    va_end(arguments);
-    return done;
-}
-
-int __printf_chk(int flag, const char *format, ...);
-int __printf_chk(int flag, const char *format, ...)
-{
-    (void)flag;
-    va_list arguments;
-    va_start(arguments, format);
-    int done = print(stdout, format, arguments);
-    va_end(arguments);
-    return done;
-}
+// printf's functions as -D_FORTIFY_SOURCE calls them: to the stream, with the further parameters.
+#define PRINTF(name, to, ...)                                                      \
+    int name(__VA_ARGS__ int flag, const char *format, ...);                       \
+    int name(__VA_ARGS__ int flag, const char *format, ...)                        \
+    {                                                                              \
+        (void)flag;                                                                \
+        va_list arguments;                                                         \
+        va_start(arguments, format);                                               \
+        int done = stream_fails(to, WRITE) ? -1 : vfprintf(to, format, arguments); \
+        va_end(arguments);                                                         \
+        return done;                                                               \
+    }
+#define OF_STREAM FILE *stream,
+PRINTF(__fprintf_chk, stream, OF_STREAM)
+PRINTF(__printf_chk, stdout)
 
 int fflush(FILE *stream)
 {

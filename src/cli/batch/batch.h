@@ -33,10 +33,10 @@ typedef struct Batch {
 
 // Plans a batch by the command line and makes its folder, or opens the folder if it holds the same
 // plan already. RAMIFY_BAD_INPUT when it holds another. Free with batch_free.
-Batch *batch_create(const Options *options, RamifyError *e); // plan.c
+Batch *batch_create(const Options *options, RamifyError *e); // create.c
 
 // Opens a batch's folder. RAMIFY_BAD_INPUT when it is none, or of another version of ramify.
-Batch *batch_open(const char *folder, RamifyError *e);
+Batch *batch_open(const char *folder, RamifyError *e); // open.c
 void batch_free(Batch *batch);
 
 // Fills what follows from the options and the scene, which is loaded: the parts and the turntable.
