@@ -3,6 +3,7 @@
 of threads, or one error that names its place.
 
 usage: random_scenes.py RAMIFY COUNT [SEED] [FOLDER]      FOLDER keeps the scenes that failed; by default none is kept
+       random_scenes.py --write RAMIFY COUNT SEED FOLDER  only writes the scenes, as FOLDER/NUMBER.yaml
 """
 import json
 import math
@@ -214,8 +215,22 @@ def judge(ramify, scene, folder, threads):
     return "", True
 
 
+def read_schema(ramify):
+    return json.loads(subprocess.run([ramify, "schema"], capture_output=True, check=True).stdout)
+
+
+def write(ramify, count, seed, folder):
+    """Writes scenes for other programs to build or render."""
+    schema = read_schema(ramify)
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    for number in range(int(seed), int(seed) + int(count)):
+        scene, file = draw_scene(schema, number), Path(folder) / f"{number}.yaml"
+        repair(ramify, scene, file)
+        file.write_text(json.dumps(scene, indent=1))
+
+
 def main(ramify, count, seed=1, keep=None):
-    schema = json.loads(subprocess.run([ramify, "schema"], capture_output=True, check=True).stdout)
+    schema = read_schema(ramify)
     rendered = failed = 0
     with tempfile.TemporaryDirectory() as name:
         for number in range(int(seed), int(seed) + int(count)):
@@ -234,4 +249,4 @@ def main(ramify, count, seed=1, keep=None):
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(write(*sys.argv[2:]) if sys.argv[1] == "--write" else main(*sys.argv[1:]))

@@ -142,6 +142,40 @@ static void a_rosette_is_at_the_end(void **state)
     geometry_clear(&geometry);
 }
 
+// However wide the spacing, a rosette keeps its leaves: then fewer twigs have any.
+static void rosettes_are_limited(void **state)
+{
+    (void)state;
+    LeavesParams leaves = plain_leaves(ARRANGE_ROSETTE);
+    leaves.per_node = 30;
+    leaves.max_count = 100;
+    Geometry geometry = {0};
+    Run run = run_default();
+    Recipe recipe = {.seed = 1, .label = "twigs", .run = &run};
+    static const int material[3] = {0};
+    Placing placing = {.recipe = &recipe, .geometry = &geometry, .material = material};
+    LeafLight light = {.center = {0, -5, 0}};
+    Error e = {0};
+    enum { TWIGS = 20 };
+    CurveSet *curves = curves_new(2 * TWIGS, TWIGS, &e);
+    assert_non_null(curves);
+    for (int i = 0; i <= TWIGS; i++) {
+        curves->first[i] = 2 * i;
+    }
+    for (int i = 0; i < 2 * TWIGS; i++) {
+        curves->position[i] = vec3((float)(i / 2), (float)(i % 2), 0);
+        curves->radius[i] = 0.001f;
+        curves->birth[i] = curves->along[i] = 0.0f;
+        curves->id[i / 2] = (uint64_t)i;
+    }
+    assert_true(foliage_add(curves, NULL, &leaves, &light, 3, &placing, 0, &e));
+    assert_int_equal(geometry.count, 1);
+    assert_in_range(geometry.part[0].instance_count, 30, 100);
+    assert_int_equal(geometry.part[0].instance_count % 30, 0);
+    geometry_clear(&geometry);
+    curves_free(curves);
+}
+
 static void short_shoots_bear_clusters(void **state)
 {
     (void)state;
@@ -281,6 +315,7 @@ int main(void)
         cmocka_unit_test(two_rows_lie_left_and_right),
         cmocka_unit_test(hanging_leaves_hang),
         cmocka_unit_test(a_rosette_is_at_the_end),
+        cmocka_unit_test(rosettes_are_limited),
         cmocka_unit_test(short_shoots_bear_clusters),
         cmocka_unit_test(needles_cover_the_twig),
         cmocka_unit_test(leaves_turn_from_the_top),

@@ -4,6 +4,7 @@
 
 #include "base/file_replace.h"
 #include "base/json.h"
+#include "base/text_stream.h"
 #include "cli/command.h"
 
 #include <math.h>
@@ -99,8 +100,7 @@ static char *list_parts(const Batch *batch, RamifyError *e)
 
 bool batch_openjd(const Batch *batch, const Options *options, RamifyError *e)
 {
-    char path[BATCH_PATH + 64], *template = NULL;
-    size_t size = 0;
+    char path[BATCH_PATH + 64];
     Error why = {0};
     Estimate cost;
     int threads = batch_threads(options);
@@ -109,16 +109,18 @@ bool batch_openjd(const Batch *batch, const Options *options, RamifyError *e)
         return false;
     }
     int pack = batch_pack(batch, options, &cost);
-    FILE *stream = open_memstream(&template, &size);
-    if (!stream) {
+    FILE *stream;
+    TextStream *text = text_stream_new(&stream, NULL);
+    if (!text) {
         free(parts);
         return fail(e, RAMIFY_MEMORY, "out of memory");
     }
     put_parameters(stream, batch);
     put_steps(stream, batch, parts, pack, &cost, threads);
     snprintf(path, sizeof path, "%s/template.yaml", batch->folder);
-    bool done = fclose(stream) == 0 && (file_replace(path, template, strlen(template), &why) ||
-                                        fail(e, RAMIFY_IO, "%s", why.message));
+    char *template = text_stream_close(text, NULL, &why);
+    bool done = (template && file_replace(path, template, strlen(template), &why)) ||
+                fail(e, template ? RAMIFY_IO : RAMIFY_MEMORY, "%s", why.message);
     free(template);
     free(parts);
     if (done && !options->quiet) {

@@ -2,6 +2,7 @@
 // parser of the command line.
 #include "cli/batch/plan.h"
 
+#include "base/text_stream.h"
 #include "cli/batch/folder.h"
 #include "cli/command.h"
 #include "cli/option_table.h"
@@ -92,19 +93,18 @@ static bool check_lines(const Options *options, const char *output, RamifyError 
 
 char *plan_text(const Options *given, const char *output, RamifyError *e)
 {
-    char scene[BATCH_PATH], *text = NULL;
-    size_t size = 0;
+    char scene[BATCH_PATH];
+    FILE *stream;
     if (!check_lines(given, output, e) || !folder_absolute(given->operand, false, scene, e)) {
         return NULL;
     }
-    FILE *stream = open_memstream(&text, &size);
-    if (stream) {
+    TextStream *lines = text_stream_new(&stream, NULL);
+    if (lines) {
         put_plan(stream, given, output, scene);
     }
-    if (!stream || fclose(stream) != 0) {
+    char *text = text_stream_close(lines, NULL, NULL);
+    if (!text) {
         fail(e, RAMIFY_MEMORY, "out of memory");
-        free(text);
-        return NULL;
     }
     return text;
 }

@@ -2,6 +2,7 @@
 #include "cli/batch/batch.h"
 
 #include "base/file_replace.h"
+#include "base/text_stream.h"
 #include "cli/batch/program.h"
 #include "cli/command.h"
 
@@ -82,12 +83,14 @@ static bool write_script(const Submission *s, const char *name, const char *text
 {
     char path[BATCH_PATH + 64], program[BATCH_PATH];
     Error why = {0};
-    char *script = NULL;
-    size_t size = 0;
+    FILE *stream;
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    FILE *stream = length > 0 ? open_memstream(&script, &size) : NULL;
-    if (!stream) {
+    if (length <= 0) {
         return fail(e, RAMIFY_IO, "the path of this program cannot be found");
+    }
+    TextStream *lines = text_stream_new(&stream, NULL);
+    if (!lines) {
+        return fail(e, RAMIFY_MEMORY, "out of memory");
     }
     program[length] = 0;
     fprintf(stream, "#!/bin/sh\n");
@@ -101,8 +104,9 @@ static bool write_script(const Submission *s, const char *name, const char *text
     }
     fprintf(stream, "\n%s", text);
     snprintf(path, sizeof path, "%s/slurm/%s", s->batch->folder, name);
-    bool done = fclose(stream) == 0 && (file_replace(path, script, strlen(script), &why) ||
-                                        fail(e, RAMIFY_IO, "%s", why.message));
+    char *script = text_stream_close(lines, NULL, &why);
+    bool done = (script && file_replace(path, script, strlen(script), &why)) ||
+                fail(e, script ? RAMIFY_IO : RAMIFY_MEMORY, "%s", why.message);
     free(script);
     return done;
 }

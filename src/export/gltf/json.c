@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/number_text.h"
+#include "base/text_stream.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -237,38 +238,37 @@ static bool any_gpu(const Glb *glb)
 
 // Required extensions: a reader without instancing would show one instance of each. False when out
 // of memory.
-static bool put_extensions(const Glb *glb, FILE *json)
+static bool put_extensions(const Glb *glb, FILE *json, Error *e)
 {
     bool gpu = any_gpu(glb);
-    char *text = NULL;
     size_t size = 0;
-    FILE *list = open_memstream(&text, &size);
-    if (!list) {
+    FILE *list;
+    TextStream *stream = text_stream_new(&list, e);
+    if (!stream) {
         return false;
     }
     glb_put_material_extensions(glb, list);
     fputs(glb_light_count(glb) > 0 ? "\"KHR_lights_punctual\"," : "", list);
     fputs(gpu ? "\"EXT_mesh_gpu_instancing\"," : "", list);
-    bool good = !ferror(list);
-    good = fclose(list) == 0 && good;
-    if (good && size > 0) {
+    char *text = text_stream_close(stream, &size, e);
+    if (text && size > 0) {
         fprintf(json, ",\n\"extensionsUsed\":[%.*s]", (int)size - 1, text);
     }
     fputs(gpu ? ",\n\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"]" : "", json);
+    bool done = text;
     free(text);
-    return good;
+    return done;
 }
 
 char *glb_json(const Glb *glb, size_t *size, Error *e)
 {
-    char *text = NULL;
-    FILE *json = open_memstream(&text, size);
-    if (!json) {
-        error_set(e, ERROR_MEMORY, "out of memory for the description of a GLB file");
+    FILE *json;
+    TextStream *stream = text_stream_new(&json, e);
+    if (!stream) {
         return NULL;
     }
     fputs("{\"asset\":{\"version\":\"2.0\",\"generator\":\"ramify\"}", json);
-    bool good = put_extensions(glb, json);
+    bool good = put_extensions(glb, json, e);
     glb_put_nodes(glb, json);
     glb_put_camera(glb, json);
     if (glb_light_count(glb) > 0) {
@@ -281,10 +281,8 @@ char *glb_json(const Glb *glb, size_t *size, Error *e)
         put_views(glb, json);
     }
     fputs("}", json);
-    good = !ferror(json) && good;
-    good = fclose(json) == 0 && good;
+    char *text = text_stream_close(stream, size, good ? e : NULL);
     if (!good) {
-        error_set(e, ERROR_MEMORY, "out of memory for the description of a GLB file");
         free(text);
         return NULL;
     }

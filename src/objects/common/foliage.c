@@ -6,15 +6,18 @@
 #include "objects/common/leaf_place.h"
 #include "objects/common/leaf_season.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 enum { STREAM_LENGTH = 1, STREAM_WIDTH = 2, STREAM_FOLD = 3, STREAM_CURL = 4 }; // of a leaf mesh
 // Of a twig; LEAVES + i: node i.
-enum { STREAM_OFFSET = 1, STREAM_REFERENCE = 2, STREAM_LEAVES = 100 };
+enum { STREAM_OFFSET = 1, STREAM_REFERENCE = 2, STREAM_SHARE = 3, STREAM_LEAVES = 100 };
 enum { STREAM_VARIANT = 9, STREAM_VARIATION = 10 }; // of a leaf
 
 // Of a leaf: here, and at least in the ray tracer.
 #define LEAF_BYTES (1.5 * (sizeof(Transform) + 2 * sizeof(float)) + 100.0)
+
+#define WIDEST 1000.0f // m: spacing of leaves; no twig is as long
 
 typedef struct Foliage {
     const LeavesParams *leaves;
@@ -22,6 +25,7 @@ typedef struct Foliage {
     LeafBatch *batch; // leaves->variants of them
     const LeafLight *light;
     float spacing; // m, the scene's, widened if there are too many leaves
+    float share;   // of the twigs that have leaves at all; 1 unless widening does not suffice
     uint64_t seed;
     const Run *run;
 } Foliage;
@@ -110,6 +114,10 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
     const LeavesParams *leaves = foliage->leaves;
     bool pieces = leaves_are_pieces(leaves), tip_only = leaves->arrangement == ARRANGE_ROSETTE;
     uint64_t twig_key = random_key(foliage->seed, twigs->id[curve]);
+    if (foliage->share < 1.0f &&
+        random_unit(random_key(twig_key, STREAM_SHARE)) >= foliage->share) {
+        return 0;
+    }
     int64_t first = twigs->first[curve], last = twigs->first[curve + 1] - 1, number = 0;
     float until = pieces || tip_only
                       ? 0.0f
@@ -182,16 +190,21 @@ static bool add_parts(Foliage *foliage, const Placing *placing, int role, Error 
 }
 
 // Widens the spacing until there are at most max_count leaves. One step by the ratio is not enough,
-// because every twig keeps its first leaf for long; the least factor guarantees termination. Also
-// false if memory is short.
+// because every twig keeps its first leaf for long; the least factor guarantees termination. A
+// rosette, and a first piece, stay however wide the spacing: then fewer twigs get any. Also false
+// if memory is short.
 static bool limit_leaves(Foliage *foliage, const CurveSet *twigs, Error *e)
 {
     bool failed = false;
     int64_t most = foliage->leaves->max_count;
     int64_t count = all_leaves(foliage, twigs, false, &failed, e);
     while (count > most && !failed) {
-        float ratio = (float)count / (float)most;
-        foliage->spacing *= ratio > 1.01f ? ratio : 1.01f;
+        float ratio = fmaxf((float)count / (float)most, 1.01f);
+        if (foliage->leaves->arrangement == ARRANGE_ROSETTE || foliage->spacing > WIDEST) {
+            foliage->share /= ratio;
+        } else {
+            foliage->spacing *= ratio;
+        }
         count = all_leaves(foliage, twigs, false, &failed, e);
     }
     return !failed && memory_check((double)count * LEAF_BYTES, e,
@@ -204,7 +217,7 @@ bool foliage_add(const CurveSet *twigs, const bool *bare, const LeavesParams *le
                  const LeafLight *light, uint64_t seed, const Placing *placing, int role, Error *e)
 {
     const Run *run = placing->recipe->run;
-    Foliage foliage = {leaves, bare, NULL, light, leaves->spacing, seed, run};
+    Foliage foliage = {leaves, bare, NULL, light, leaves->spacing, 1.0f, seed, run};
     foliage.batch = memory_alloc_zero(leaves->variants, sizeof *foliage.batch, e);
     if (!foliage.batch) {
         return false;
