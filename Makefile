@@ -1,7 +1,8 @@
 # ramify: `make help` lists the targets. Every target installs the Debian packages it needs when they are missing.
 
 # The one list of Debian packages. BUILD: to compile and run. CHECK: only for lint, format, sanitize and bench. PEERS: other
-# programs that tests hold our files against, as COMMAND:PACKAGE. FUZZ: only for fuzz. CLUSTER: only for test-cluster.
+# programs that tests hold our files against, as COMMAND:PACKAGE. FUZZ: only for fuzz. CLUSTER: only for
+# test-cluster. SAME_BITS: only for same-bits-builds.
 BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libboost-dev libopenimageio-dev \
                  libopenexr-dev libopencolorio-dev libassimp-dev libyaml-dev libtbb-dev libnlopt-dev libseccomp-dev \
                  libcmocka-dev libgdal-dev ffmpeg
@@ -9,6 +10,7 @@ CHECK_PACKAGES = clang-format clang-tidy cppcheck
 FUZZ_PACKAGES  = clang libclang-rt-14-dev
 PEER_COMMANDS  = povray:povray povray:povray-includes blender:blender node:nodejs npm:npm chromium:chromium mandoc:mandoc \
                  oiiotool:openimageio-tools assimp:assimp-utils zsh:zsh
+SAME_BITS_PACKAGES = clang libomp-14-dev
 CLUSTER_PACKAGES = slurm-wlm munge
 
 , := ,
@@ -19,7 +21,7 @@ COMMIT  := $(or $(if $(wildcard .git),$(shell git describe --always --abbrev=12 
 CONFIG ?= release
 ARCH   ?= native
 PREFIX ?= /usr/local
-OUT    ?= build$(if $(filter-out release,$(CONFIG)),/$(CONFIG))
+OUT    ?= build$(if $(filter-out release,$(CONFIG)),/$(if $(filter variant,$(CONFIG)),same-bits/$(VARIANT),$(CONFIG)))
 OBJ    := $(OUT)/obj
 
 # Same bits for growth everywhere: no contraction into FMA, no reassociation. (-fno-math-errno and -fno-trapping-math
@@ -30,6 +32,13 @@ ifeq ($(CONFIG),fuzz) # compiled by clang, without OpenMP: an input is read by o
 CC       := clang
 CXX      := clang++
 OPT      := -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -w
+endif
+ifeq ($(CONFIG),variant) # VARIANT: COMPILER-OPTIMIZATION-PROCESSOR, as clang-O1-avx512; for same-bits-builds
+OF       := $(subst -, ,$(VARIANT))
+CC       := $(word 1,$(OF))
+CXX      := $(CC:gcc=g)++
+OPT      := -$(word 2,$(OF)) -w
+ARCH     := $(if $(filter avx512,$(word 3,$(OF))),x86-64-v4,x86-64-v3)
 endif
 # What makes a flaw of memory harder to use, in what is installed; sanitizers have their own ways.
 HARDEN   := $(if $(filter sanitize fuzz,$(CONFIG)),,-fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3)
@@ -44,7 +53,7 @@ LDLIBS   := -lembree3 -losdCPU -lassimp -lyaml -lnlopt -lseccomp -lstdc++ -lm
 LDFLAGS  := -Wl,-z,relro,-z,now,-z,noexecstack -fopenmp $(if $(filter sanitize,$(CONFIG)),-fsanitize=address$(,)undefined)
 
 # The path tracer's small functions call each other across files: inlining them while linking makes it 1.1 x faster.
-LTO := $(if $(filter sanitize fuzz,$(CONFIG)),,-flto=auto -ffat-lto-objects)
+LTO := $(if $(filter sanitize fuzz variant,$(CONFIG)),,-flto=auto -ffat-lto-objects)
 # What is kept for linking names the folder whatever the options say: let it be called the same everywhere.
 $(OBJ)/render/%.c.o $(OUT)/ramify: private SAME_LTO := $(if $(LTO),PWD=/proc/self/cwd )
 $(OBJ)/render/%.c.o: CFLAGS += $(LTO) -ftree-slp-vectorize
@@ -92,7 +101,7 @@ BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp) tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
 .PHONY: dist deb deb-check reproduce all demo cross-check docs test test-cluster peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages cluster-packages
-.PHONY: fuzz faults random-scenes
+.PHONY: fuzz faults random-scenes same-bits-builds soak
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 
@@ -134,10 +143,23 @@ bench-renderers: all ## compare with Cycles and Mitsuba 3 from PyPI: SCENES=s1,s
 random-scenes: all ## render COUNT=1000 random scenes: each gives a picture, the same for any number of threads, or one error
 	@OMP_WAIT_POLICY=passive python3 tests/fuzz/random_scenes.py $(OUT)/ramify $(or $(COUNT),1000) $(or $(SEED),1) build/random-scenes
 
+# Growth and geometry are the same in all of these; what only other commands need is not built.
+VARIANTS := $(foreach c,gcc clang,$(foreach o,O1 O3,$(foreach a,avx2 avx512,$c-$o-$a)))
+same-bits-builds: all ## compare growth and meshes of gcc and clang, -O1 and -O3, AVX2 and AVX-512, 1 to 16 threads: VARIANTS="gcc-O1-avx2 ..."
+	$(call need,$(SAME_BITS_PACKAGES))
+	@set -e; for variant in $(VARIANTS); do \
+	    $(MAKE) --no-print-directory -j$$(nproc) CONFIG=variant VARIANT=$$variant 'PLUGIN_FILES=$$(OUT)/ramify-vdb.so' \
+	        build/same-bits/$$variant/tests/bits/print_bits; done
+	@tests/bits/run $(OUT)/ramify build/same-bits $(VARIANTS)
+
 fuzz: ## feed random inputs to all that reads files: SECONDS=60 for each of TARGETS="scene set rules swc heights mesh picture vdb"
 	$(call need,$(FUZZ_PACKAGES))
 	@$(MAKE) --no-print-directory CONFIG=fuzz -j$$(nproc) $(FUZZ_TARGETS:%=build/fuzz/fuzz_%)
 	@tests/fuzz/run build/fuzz $(or $(SECONDS),60) $(or $(TARGETS),$(FUZZ_TARGETS))
+
+soak: all ## render COUNT=500 random stills in one process, whose memory must stay flat, as many by the command, and 100 at once
+	@$(MAKE) --no-print-directory $(OUT)/tests/soak/soak
+	@OMP_WAIT_POLICY=passive python3 tests/soak/run.py $(OUT)/ramify $(OUT)/tests/soak/soak $(or $(COUNT),500) build/soak
 
 faults: all ## let every allocation, reading, writing and start of a process of small runs fail in turn, some 100,000: CASES="render ..."
 	@RAMIFY=$(OUT)/ramify sh tests/faults/test_faults.sh --all $(CASES:%=--case %)
@@ -357,6 +379,12 @@ build/fuzz/fuzz_$(1): tests/fuzz/fuzz_$(1).c tests/fuzz/fuzz.h $(OUT)/libramify.
 	    $$(LDLIBS_$(FUZZ_PLUGIN_$(1))) -o $$@
 endef
 $(foreach t,$(FUZZ_TARGETS),$(eval $(call fuzz_rule,$t)))
+
+# As a host's program: only what ramify.h has.
+$(OUT)/tests/soak/soak: tests/soak/soak.c $(OUT)/libramify.so
+	@mkdir -p $(@D)
+	@echo "  TEST $<"
+	@$(CC) $(CFLAGS) $< -L$(OUT) -lramify $(RUNPATH_TEST) -o $@
 
 # So many programs, each of which would optimize the path tracer anew.
 $(TEST_BIN) $(OUT)/tests/cross/compare: private LDFLAGS += -fno-lto
