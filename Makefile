@@ -101,7 +101,7 @@ BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp) tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
 .PHONY: dist deb deb-check reproduce all demo cross-check docs test test-cluster peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages cluster-packages
-.PHONY: fuzz faults random-scenes same-bits-builds soak
+.PHONY: fuzz faults random-scenes same-bits-builds soak valgrind
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 
@@ -151,6 +151,16 @@ same-bits-builds: all ## compare growth and meshes of gcc and clang, -O1 and -O3
 	    $(MAKE) --no-print-directory -j$$(nproc) CONFIG=variant VARIANT=$$variant 'PLUGIN_FILES=$$(OUT)/ramify-vdb.so' \
 	        build/same-bits/$$variant/tests/bits/print_bits; done
 	@tests/bits/run $(OUT)/ramify build/same-bits $(VARIANTS)
+
+# Without AVX-512, which Valgrind does not know; tests that take minutes under it or trace rays are left out.
+VALGRIND := build/same-bits/gcc-O1-avx2
+VALGRIND_TESTS ?= base/test_base base/test_mesh outtree/test_out_tree outtree/test_swc outtree/test_murray objects/test_foliage mesh/test_curves
+valgrind: packages ## run a few quick tests under Valgrind's memcheck: VALGRIND_TESTS="base/test_base ..."
+	$(call need,valgrind)
+	@$(MAKE) --no-print-directory -j$$(nproc) CONFIG=variant VARIANT=$(notdir $(VALGRIND)) 'PLUGIN_FILES=$$(OUT)/ramify-vdb.so' \
+	    $(VALGRIND_TESTS:%=$(VALGRIND)/tests/%)
+	@set -e; for test in $(VALGRIND_TESTS); do echo "  MEMCHECK $$test"; OMP_NUM_THREADS=1 valgrind -q --error-exitcode=9 --leak-check=full \
+	    --errors-for-leak-kinds=definite $(VALGRIND)/tests/$$test; done
 
 fuzz: ## feed random inputs to all that reads files: SECONDS=60 for each of TARGETS="scene set rules swc heights mesh picture vdb"
 	$(call need,$(FUZZ_PACKAGES))
