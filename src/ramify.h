@@ -257,6 +257,13 @@ typedef struct RamifyLandInfo {
 // Sizes, range and hash; takes time proportional to the number of heights.
 RAMIFY_API void ramify_land_info(const RamifyLand *land, RamifyLandInfo *info);
 
+// A map of the land in the same place and samples, its values in the place of heights: "slope"
+// (degrees), "aspect" (degrees from north by east toward which the land falls, -1 where it is
+// level), "curvature" (1/m, positive in hollows), "flow" (catchment, m^2), "wetness" (topographic
+// index) or "river-distance" (m). RAMIFY_BAD_INPUT for another name. Free with ramify_land_free.
+RAMIFY_API RamifyLand *ramify_land_map(const RamifyLand *land, const char *name,
+                                       RamifyError *error);
+
 // columns * rows heights, m, row by row, x fastest; borrowed.
 RAMIFY_API const float *ramify_land_heights(const RamifyLand *land);
 

@@ -1,6 +1,7 @@
 #include "api/handles.h"
 
 #include "export/heights.h"
+#include "land/height_maps.h"
 #include "land/height_measure.h"
 #include "scene/picture.h"
 
@@ -39,6 +40,12 @@ RamifyLand *ramify_land_read(const char *file, RamifyError *error)
 {
     Error e = {0};
     return hand_land(height_field_read_asc(file, &e), &e, error);
+}
+
+RamifyLand *ramify_land_map(const RamifyLand *land, const char *name, RamifyError *error)
+{
+    Error e = {0};
+    return hand_land(height_map(land_of(land), name, &e), &e, error);
 }
 
 void ramify_land_free(RamifyLand *land)

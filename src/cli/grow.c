@@ -90,6 +90,11 @@ static bool check_request(const Options *options, const RamifyScene *scene, Rami
         return fail_in(e, info.file, RAMIFY_BAD_INPUT,
                        "no object of this scene grows; it needs a tree or another growing thing");
     }
+    if (options->map && !(file && is_heights(file) && land_count(scene) > 0)) {
+        return fail(e, RAMIFY_BAD_INPUT,
+                    "--map %s; it needs a scene with a terrain and --output .png, .exr or .asc",
+                    options->map);
+    }
     if (!file) {
         return true;
     }

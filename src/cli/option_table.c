@@ -396,6 +396,15 @@ const Option option_table[] = {
      .type = OPTION_OBJECT,
      .commands = BIT(COMMAND_EXPORT),
      .doc = "write only this object; may be repeated"},
+    {.name = "map",
+     .value = "NAME",
+     .offset = AT(map),
+     .choices = "slope aspect curvature flow wetness river-distance",
+     .type = OPTION_TEXT,
+     .commands = BIT(COMMAND_GROW),
+     .doc = "write this map of a terrain instead of its heights: slope, aspect (degrees), "
+            "curvature (1/m), flow (catchment, m^2), wetness (topographic index) or river-distance "
+            "(m)"},
     {.name = "instances",
      .value = "HOW",
      .offset = AT(instances),

@@ -239,12 +239,17 @@ static bool list_survey(const Survey *s, MeasureList *list, Error *e)
            measures_add(list, "rivers_that_drain", share, "", nan, nan, e);
 }
 
+double height_field_river_area(const HeightField *field)
+{
+    double cell = (double)field->cell.x * (double)field->cell.y;
+    return fmax(1e-3 * (double)height_field_count(field), 32.0) * cell;
+}
+
 bool height_field_measure(const HeightField *field, double least_area, MeasureList *list, Error *e)
 {
     int64_t count = height_field_count(field);
-    double cell = (double)field->cell.x * (double)field->cell.y;
-    double automatic = 1e-3 * (double)count > 32.0 ? 1e-3 * (double)count : 32.0;
-    Survey s = {.field = field, .least_area = least_area > 0.0 ? least_area : automatic * cell};
+    Survey s = {.field = field,
+                .least_area = least_area > 0.0 ? least_area : height_field_river_area(field)};
     Drainage *drainage = drainage_new(field, e);
     s.drainage = drainage;
     s.order = memory_alloc_zero(count, 1, e);

@@ -7,8 +7,11 @@
 #include "base/measures.h"
 #include "land/height_drainage.h"
 
-// Rivers are samples with a catchment above `least_area` (m^2); 0 = a thousandth of the field, but
-// at least 32 cells.
+// The catchment, m^2, above which a sample is a river where nothing else is asked for: a thousandth
+// of the field, but at least 32 cells.
+double height_field_river_area(const HeightField *field);
+
+// Rivers are samples with a catchment above `least_area` (m^2); 0 = height_field_river_area.
 bool height_field_measure(const HeightField *field, double least_area, MeasureList *list, Error *e);
 
 // Strahler order of every sample (Strahler 1957): 0 off the rivers.

@@ -238,6 +238,13 @@ static void land_has_heights(void **state)
     assert_true(low == info.low);
     RamifyMeasures *measures = ramify_land_measure(land, &error);
     assert_true(ramify_measures_find(measures, "hypsometric_integral") >= 0);
+    RamifyLand *slope = ramify_land_map(land, "slope", &error);
+    assert_non_null(slope);
+    ramify_land_info(slope, &same);
+    assert_true(same.columns == info.columns && same.low >= 0.0f && same.high < 90.0f);
+    ramify_land_free(slope);
+    assert_null(ramify_land_map(land, "beauty", &error));
+    assert_int_equal(error.code, RAMIFY_BAD_INPUT);
     assert_false(ramify_land_write(land, "/tmp/x.tga", &error));
     assert_int_equal(error.code, RAMIFY_BAD_INPUT);
     assert_null(ramify_land(scene, BALL, NULL, NULL, &error));

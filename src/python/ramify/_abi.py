@@ -281,6 +281,7 @@ FUNCTIONS = {
     "tree_hash": (c.c_uint64, [_handle]),
     "land": (_handle, [_handle, _int, _handle, _run, _error]),
     "land_read": (_handle, [_text, _error]),
+    "land_map": (_handle, [_handle, _text, _error]),
     "land_free": (None, [_handle]),
     "land_info": (None, [_handle, c.POINTER(LandInfo)]),
     "land_heights": (c.c_void_p, [_handle]),

@@ -94,6 +94,10 @@ class Land:
         """Writes .png (16 bits, from the lowest to the highest point), .exr or .asc (m), by the file's extension."""
         call("land_write", self._handle.pointer, path(file))
 
+    def map(self, name: str) -> Land:
+        """A map in the place of the heights: slope, aspect, curvature, flow, wetness or river-distance."""
+        return Land(call("land_map", self._handle.pointer, name.encode()))
+
     @property
     def heights(self) -> np.ndarray:
         address = lib.ramify_land_heights(self._handle.pointer)
