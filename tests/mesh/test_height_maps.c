@@ -18,8 +18,9 @@ static HeightField *make(Surface *surface)
     HeightField *field = height_field_new(COLUMNS, ROWS, CELL, (Vec2){-100.0f, -75.0f}, NULL);
     assert_non_null(field);
     for (int i = 0; i < COLUMNS * ROWS; i++) {
-        float x = field->origin.x + CELL.x * (float)(i % COLUMNS);
-        float z = field->origin.y + CELL.y * (float)(i / COLUMNS);
+        int column = i % COLUMNS, row = i / COLUMNS;
+        float x = field->origin.x + CELL.x * (float)column;
+        float z = field->origin.y + CELL.y * (float)row;
         field->height[i] = surface(x, z);
     }
     return field;
@@ -143,8 +144,8 @@ static float nearest(const uint8_t *order, int at)
 {
     float best = INFINITY;
     for (int i = 0; i < COLUMNS * ROWS; i++) {
-        float x = CELL.x * (float)(i % COLUMNS - at % COLUMNS);
-        float z = CELL.y * (float)(i / COLUMNS - at / COLUMNS);
+        int columns = i % COLUMNS - at % COLUMNS, rows = i / COLUMNS - at / COLUMNS;
+        float x = CELL.x * (float)columns, z = CELL.y * (float)rows;
         best = order[i] > 0 ? fminf(best, sqrtf(x * x + z * z)) : best;
     }
     return best;
