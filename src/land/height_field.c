@@ -36,6 +36,7 @@ void height_field_free(HeightField *field)
     if (field) {
         free(field->height);
         free(field->wetness);
+        free(field->climate);
         free(field);
     }
 }

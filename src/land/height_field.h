@@ -15,6 +15,7 @@ typedef struct HeightField {
     Vec2 origin;    // m: x and z of sample (0, 0)
     float *height;  // m
     float *wetness; // 0..1: 1 in rivers, 0 on dry slopes; NULL = unknown
+    float *climate; // 0..1: the altitude as snow and plants feel it; NULL = the altitude
 } HeightField;
 
 enum { HEIGHT_FIELD_MAX = 16384 }; // samples per side

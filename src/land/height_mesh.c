@@ -170,8 +170,8 @@ static Mesh *make_mesh(const Mesher *m, Error *e)
         mesh->position[i] = p;
         mesh->normal[i] = field_normal(field, column, row);
         mesh->uv[i] = (Vec2){p.x, p.z};
-        mesh->site[i] =
-            (Vec2){(p.y - low) * scale, field->wetness ? field->wetness[m->sample[i]] : 0.0f};
+        float felt = field->climate ? field->climate[m->sample[i]] : (p.y - low) * scale;
+        mesh->site[i] = (Vec2){felt, field->wetness ? field->wetness[m->sample[i]] : 0.0f};
     }
     return mesh;
 }

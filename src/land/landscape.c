@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void lay_stack(Landscape *land)
+void landscape_lay_stack(Landscape *land)
 {
     for (int64_t i = 0; land->strata && i < landscape_count(land); i++) {
         double x = land->corner + (double)(i % land->side) * land->cell;
@@ -39,7 +39,7 @@ Landscape *landscape_new(int cells, double size, const Strata *strata, Error *e)
     for (int64_t i = 0; i < count; i++) {
         land->weakness[i] = 1.0f;
     }
-    lay_stack(land);
+    landscape_lay_stack(land);
     return land;
 }
 
@@ -94,6 +94,12 @@ bool landscape_step(Landscape *land, const LandscapeRates *rates, double time, b
         return false;
     }
     return landscape_streams(land, rates, time, e) && landscape_slopes(land, rates, time, run, e);
+}
+
+bool landscape_slopes_only(Landscape *land, const LandscapeRates *rates, double time,
+                           const Run *run, Error *e)
+{
+    return landscape_slopes(land, rates, time, run, e);
 }
 
 double landscape_volume(const Landscape *land)

@@ -56,12 +56,19 @@ void landscape_free(Landscape *land); // NULL is fine
 // sharp.
 Landscape *landscape_refined(const Landscape *land, const Run *run, Error *e);
 
+// Finds anew where the beds of land->strata lie.
+void landscape_lay_stack(Landscape *land);
+
 // Makes sample i a base and moves its surface to this height. What is removed counts as outflow.
 void landscape_set_base(Landscape *land, int64_t i, double height);
 
 // One step. The water's ways are found anew if `reroute`, and in the first step.
 bool landscape_step(Landscape *land, const LandscapeRates *rates, double time, bool reroute,
                     const Run *run, Error *e);
+
+// The part of a step that slopes have in it: weathering, rockfall, rubble and soil, no water.
+bool landscape_slopes_only(Landscape *land, const LandscapeRates *rates, double time,
+                           const Run *run, Error *e);
 
 // The surface at a place, m, and the thickness of the sediment there: between samples, rock follows
 // the stable profile.

@@ -37,6 +37,13 @@ static const StrataBed MESAS[] = {{0.06f, 0.80f, 0.0f, {0.42f, 0.19f, 0.11f}, 3.
 
 static int own_beds(const TerrainParams *params, StrataBed *beds)
 {
+    if (params->form == TERRAIN_ALPS) { // one rock, which age makes rotten
+        beds[0] = (StrataBed){.thickness = 1.0f,
+                              .hardness = 0.6f,
+                              .slope = lerpf(53.0f, 34.0f, params->alps.age),
+                              .color = {0.3f, 0.29f, 0.27f}};
+        return 1;
+    }
     const StrataBed *from = params->form == TERRAIN_CANYON ? CANYON : MESAS;
     int count = params->form == TERRAIN_CANYON ? (int)(sizeof CANYON / sizeof *CANYON)
                                                : (int)(sizeof MESAS / sizeof *MESAS);

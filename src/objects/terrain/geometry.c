@@ -7,7 +7,8 @@
 // Gives a mesh of the land its beds, in the mesh's space.
 static bool give_strata(Mesh *mesh, const Terrain *terrain, Error *e)
 {
-    if (!mesh || !terrain->strata) {
+    bool one = terrain->params->form == TERRAIN_ALPS && terrain->params->strata.bed_count == 0;
+    if (!mesh || !terrain->strata || one) {
         return mesh;
     }
     mesh->strata = strata_copy(terrain->strata, e);

@@ -163,6 +163,11 @@ bool terrain_grow_courses(OutTree **tree, const TerrainParams *params, const Rec
 
 // plateau.c: the plateau as it is now, on a grid of its own. The caller frees it.
 Landscape *terrain_evolve(const Terrain *terrain, const Run *run, Error *e);
+// alps.c: the same of the form alps.
+Landscape *terrain_evolve_alps(const Terrain *terrain, const Run *run, Error *e);
+// alps_climate.c: fills field->climate: altitudes as snow feels them.
+bool terrain_find_climate(const TerrainParams *params, HeightField *field, const Run *run,
+                          Error *e);
 // The height at a place, m, and 0..1: how much of the ground is loose.
 float terrain_evolved_at(const Terrain *terrain, float x, float z, float *cover);
 // Height of the river at a node of the tree of courses, m.

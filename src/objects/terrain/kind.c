@@ -58,6 +58,9 @@ static void settle(const void *params, void *settled)
 static const char *material_for(const void *params, int role)
 {
     const TerrainParams *terrain = params;
+    if (role == TERRAIN_LAND && terrain->form == TERRAIN_ALPS && terrain->strata.bed_count == 0) {
+        return "terrain/alps";
+    }
     bool beds = terrain_evolves(terrain) || terrain->strata.bed_count > 0;
     return role == TERRAIN_LAND && beds ? "terrain/strata" : NULL;
 }
@@ -81,6 +84,16 @@ static const Material BUILTIN[] = {
      .ior = 1.5f,
      .pattern = PATTERN_BADLANDS,
      .pattern_depth = 1.0f},
+    {.name = "terrain/alps",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.205f, 0.192f, 0.175f},
+     .color2 = {0.105f, 0.100f, 0.096f},
+     .roughness = 0.6f,
+     .ior = 1.5f,
+     .pattern = PATTERN_ALPS,
+     .pattern_depth = 1.0f,
+     .snow_line = 0.56f,
+     .grass_line = 0.42f},
     {.name = "terrain/strata",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.40f, 0.29f, 0.19f},

@@ -18,6 +18,14 @@ typedef struct MesaParams {
     float remaining; // share of the plateau that still stands, 0..1
 } MesaParams;
 
+typedef struct AlpsParams {
+    float ice;      // how much glaciers have worn; 0 = never, 1 = as in the Alps
+    float ice_line; // altitude of their equilibrium line, share of the relief
+    float age;      // 0 = sharp and young, 1 = old, rounded hills
+    int outlets;    // of the rivers, on the border
+    float wind;     // degrees from north, clockwise: where the wind comes from that drifts snow
+} AlpsParams;
+
 // How the land evolves; factors on the landform's own rates.
 typedef struct EvolutionParams {
     float streams;    // incision by tributaries
@@ -29,6 +37,6 @@ typedef struct EvolutionParams {
     int cells;        // a side, at most
 } EvolutionParams;
 
-extern const struct Table strata_table, canyon_table, mesa_table, evolution_table;
+extern const struct Table strata_table, canyon_table, mesa_table, alps_table, evolution_table;
 
 #endif

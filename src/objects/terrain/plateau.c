@@ -248,7 +248,7 @@ float terrain_evolved_at(const Terrain *terrain, float x, float z, float *cover)
     uint64_t key = random_key(terrain->seed, STREAM_JOINTS);
     float u = x / wavelength, v = z / wavelength;
     // Faces follow joints: they are not as smooth in plan as the grid of the processes makes them.
-    float reach = 0.13f * wavelength;
+    float reach = (terrain->params->form == TERRAIN_ALPS ? 0.05f : 0.13f) * wavelength;
     float dx = reach * sparse_noise_fractal(u, v, 4, 0.55f, 0.0f, key);
     float dz = reach * sparse_noise_fractal(u, v, 4, 0.55f, 0.0f, key + 1);
     double loose;

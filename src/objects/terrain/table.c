@@ -362,10 +362,10 @@ static const Table FOREST_TABLE = {.name = "forest",
                                    .size = sizeof(TerrainForestParams),
                                    .keys = FOREST_KEYS};
 
-static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS}, {"ridges", TERRAIN_RIDGES},
-                                      {"map", TERRAIN_MAP},       {"noise", TERRAIN_NOISE},
-                                      {"survey", TERRAIN_SURVEY}, {"canyon", TERRAIN_CANYON},
-                                      {"mesas", TERRAIN_MESAS},   {0}};
+static const EnumName FORM_NAMES[] = {
+    {"rivers", TERRAIN_RIVERS}, {"ridges", TERRAIN_RIDGES}, {"map", TERRAIN_MAP},
+    {"noise", TERRAIN_NOISE},   {"survey", TERRAIN_SURVEY}, {"canyon", TERRAIN_CANYON},
+    {"mesas", TERRAIN_MESAS},   {"alps", TERRAIN_ALPS},     {0}};
 
 static const EnumName SHOW_NAMES[] = {
     {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
@@ -376,15 +376,16 @@ static const Key TERRAIN_KEYS[] = {
          "Source of the heights. rivers: valleys along a tree of rivers; ridges: land lifted "
          "along a tree of ridges; map: land lifted by the colours of an image; noise: noise alone, "
          "on a plane; survey: a raster of surveyed heights; canyon: a plateau of beds that a river "
-         "has cut; mesas: what is left of such a plateau."},
+         "has cut; mesas: what is left of such a plateau; alps: a rising block, cut by rivers and "
+         "worn by glaciers."},
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
      .doc = "Side length of the square; all else scales with it."},
     {KEY_OF(TerrainParams, relief, "relief", KEY_FLOAT), .high = 1e5, .unit = "m",
      .doc = "Height of the highest valley slopes above the outlets, of the highest ridge above "
-            "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09 "
-            "and of mesas 0.04 of the size. Not of noise alone or surveys."},
+            "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09, "
+            "of mesas 0.04 and of alps 0.16 of the size. Not of noise alone or surveys."},
     {KEY_OF(TerrainParams, resolution, "resolution", KEY_INT), .low = 16, .high = 8192,
      .doc = "Cells per side, a power of two; it changes the detail, not the form."},
     {KEY_OF(TerrainParams, water_level, "water_level", KEY_FLOAT), .high = 1,
@@ -413,8 +414,10 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Canyon, of form: canyon."},
     {KEY_OF(TerrainParams, mesas, "mesas", KEY_GROUP), .table = &mesa_table,
      .doc = "Mesas and buttes, of form: mesas."},
+    {KEY_OF(TerrainParams, alps, "alps", KEY_GROUP), .table = &alps_table,
+     .doc = "Mountains worn by ice, of form: alps."},
     {KEY_OF(TerrainParams, evolution, "evolution", KEY_GROUP), .table = &evolution_table,
-     .doc = "Processes that make form: canyon and form: mesas."},
+     .doc = "Processes that make form: canyon, mesas and alps."},
     {KEY_OF(TerrainParams, beyond, "beyond", KEY_INT), .high = 8,
      .doc = "Rings of mirrored copies around the square, so that the land goes on to the horizon; "
             "0 = none. They are seen, not stood on."},

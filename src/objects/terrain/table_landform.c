@@ -136,6 +136,34 @@ const Table mesa_table = {.name = "mesas",
                           .size = sizeof(MesaParams),
                           .keys = MESA_KEYS};
 
+static const Key ALPS_KEYS[] = {
+    {KEY_OF(AlpsParams, ice, "ice", KEY_FLOAT), .high = 4,
+     .doc = "How much glaciers have worn: 0 = rivers alone; 1 = troughs, cirques and horns."},
+    {KEY_OF(AlpsParams, ice_line, "ice_line", KEY_FLOAT), .high = 1,
+     .doc = "Altitude of the glaciers' equilibrium line, as a fraction of the relief: low = ice "
+            "streams in all valleys, high = cirques alone."},
+    {KEY_OF(AlpsParams, age, "age", KEY_FLOAT), .high = 1,
+     .doc = "0 = young, with sharp ridges; 1 = old, rounded hills under soil."},
+    {KEY_OF(AlpsParams, outlets, "outlets", KEY_INT), .low = 1, .high = 64,
+     .doc = "Number of rivers that leave over the border."},
+    {KEY_OF(AlpsParams, wind, "wind", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
+     .doc = "Where the wind comes from, clockwise from north (-z): snow drifts to the lee."},
+    {0},
+};
+
+const Table alps_table = {.name = "alps",
+                          .doc = "A block that rises, cut by rivers and worn by glaciers. The "
+                                 "relief is about its height.",
+                          .example = "objects:\n"
+                                     "  - name: range\n"
+                                     "    terrain:\n"
+                                     "      form: alps\n"
+                                     "      size: 14000\n"
+                                     "      relief: 2200\n"
+                                     "      alps: {ice: 1, ice_line: 0.4}\n",
+                          .size = sizeof(AlpsParams),
+                          .keys = ALPS_KEYS};
+
 static const Key EVOLUTION_KEYS[] = {
     {KEY_OF(EvolutionParams, streams, "streams", KEY_FLOAT), .high = 100,
      .doc = "Factor on the erosion by streams."},

@@ -37,6 +37,7 @@ TerrainParams terrain_params_default(void)
         .forest = {.height = 28.0f, .low = 0.02f, .high = 0.4f, .slope = 36.0f, .clumping = 0.7f},
         .canyon = {.sinuosity = 1.35f, .meander = 0.42f, .river = 70.0f, .side_canyons = 1.0f},
         .mesas = {.streams = 6, .remaining = 0.12f},
+        .alps = {.ice = 1.0f, .ice_line = 0.66f, .outlets = 5, .wind = 270.0f},
         .evolution = {.streams = 1.0f,
                       .weathering = 1.0f,
                       .rubble = 0.25f,
@@ -62,6 +63,7 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         case TERRAIN_NOISE:
         case TERRAIN_CANYON:
         case TERRAIN_MESAS:
+        case TERRAIN_ALPS:
             resolved.noise.wavelength = 0.125f;
             break;
         case TERRAIN_SURVEY: // two cells of the raster
@@ -70,8 +72,11 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
     }
     if (terrain_evolves(params)) {
         bool canyon = params->form == TERRAIN_CANYON;
-        resolved.relief =
-            params->relief > 0.0f ? params->relief : (canyon ? 0.09f : 0.04f) * params->size;
+        resolved.relief = params->relief > 0.0f
+                              ? params->relief
+                              : params->size * (canyon                         ? 0.09f
+                                                : params->form == TERRAIN_ALPS ? 0.16f
+                                                                               : 0.04f);
         resolved.canyon.width =
             params->canyon.width > 0.0f ? params->canyon.width : 6.0f * resolved.relief;
         resolved.strata.top = params->strata.top != 0.0f ? params->strata.top : resolved.relief;
@@ -167,6 +172,7 @@ bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *
         return terrain_grow_courses(&whole->tree, params, recipe, e);
     case TERRAIN_MAP:
     case TERRAIN_NOISE:
+    case TERRAIN_ALPS:
         whole->tree = out_tree_new(e);
     }
     return whole->tree;
@@ -363,6 +369,7 @@ static float land_at(const Terrain *terrain, float x, float z, float *wetness)
         return terrain_surveyed_at(terrain, x, z);
     case TERRAIN_CANYON:
     case TERRAIN_MESAS:
+    case TERRAIN_ALPS:
         return terrain_evolved_at(terrain, x, z, wetness);
     case TERRAIN_NOISE:
         break;
@@ -456,6 +463,9 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
         }
     }
     make_terraces(field, &params->terraces, random_key(terrain->seed, STREAM_TERRACES));
+    if (params->form == TERRAIN_ALPS) {
+        return terrain_find_climate(params, field, run, e);
+    }
     if (terrain_evolves(params)) {
         return terrain_lay_rivers(terrain, field, run, e);
     }
@@ -487,6 +497,9 @@ static bool prepare_land(Terrain *terrain, const Run *run, Error *e)
     case TERRAIN_CANYON:
     case TERRAIN_MESAS:
         terrain->evolved = terrain_evolve(terrain, run, e);
+        return terrain->evolved;
+    case TERRAIN_ALPS:
+        terrain->evolved = terrain_evolve_alps(terrain, run, e);
         return terrain->evolved;
     case TERRAIN_NOISE:
         break;

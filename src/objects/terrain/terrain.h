@@ -46,7 +46,8 @@ typedef enum TerrainForm {
     TERRAIN_NOISE,
     TERRAIN_SURVEY,
     TERRAIN_CANYON, // a plateau that a river has cut
-    TERRAIN_MESAS   // what is left of one
+    TERRAIN_MESAS,  // what is left of one
+    TERRAIN_ALPS    // a rising block, cut by rivers and worn by glaciers
 } TerrainForm;
 
 // What is drawn.
@@ -163,6 +164,7 @@ typedef struct TerrainParams {
     StrataParams strata; // top: 0 = the plateau's height
     CanyonParams canyon;
     MesaParams mesas;
+    AlpsParams alps;
     EvolutionParams evolution;
     int beyond;       // rings of mirrored copies around the square
     float mesh_error; // largest error of the mesh, as a share of its distance to the camera
@@ -195,10 +197,11 @@ HeightField *terrain_heights(const void *params, const Grown *grown, const Run *
 enum { TERRAIN_ALTITUDES = 6 };
 extern ColorStop terrain_altitudes[TERRAIN_ALTITUDES];
 
-// Does the land come from processes that wear a plateau?
+// Does the land come from processes that wear it?
 static inline bool terrain_evolves(const TerrainParams *params)
 {
-    return params->form == TERRAIN_CANYON || params->form == TERRAIN_MESAS;
+    return params->form == TERRAIN_CANYON || params->form == TERRAIN_MESAS ||
+           params->form == TERRAIN_ALPS;
 }
 
 // Height of the lake, in the field's own space.

@@ -49,6 +49,7 @@ typedef enum PatternKind {
     PATTERN_MASONRY,   // a wall of stones in courses
     PATTERN_STONE,     // weathered rock: broken faces, joints, minerals, stains
     PATTERN_ALTITUDE,  // the colours of a map, by the altitude of the land
+    PATTERN_ALPS,      // rock, scree, meadows and snow where wind, hollows and ledges hold it
     PATTERN_STRATA     // the beds of the land in their own colours, talus, soil and shrubs
 } PatternKind;
 

@@ -141,6 +141,9 @@ void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *s
     case PATTERN_ALTITUDE:
         pattern_altitude(m, point, shade);
         break;
+    case PATTERN_ALPS:
+        pattern_alps(m, point, shade);
+        break;
     case PATTERN_STRATA:
         pattern_strata(m, point, shade);
         break;

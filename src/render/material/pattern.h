@@ -29,6 +29,7 @@ float pattern_stone_height(const Material *material, const SurfacePoint *point);
 void pattern_ground(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_mountain(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_badlands(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_alps(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_altitude(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_strata(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_strata_height(const Material *material, const SurfacePoint *point); // m

@@ -128,6 +128,48 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
     shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }
 
+// Mountains worn by ice. site.x is the altitude as snow feels it, higher in hollows and to the lee,
+// lower on crests; site.y the share of loose ground: scree and the fill of valleys.
+void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 70.0f;
+    float felt = point->site.x, loose = point->site.y;
+    float upright = fabsf(surface_smooth_normal(point).y);
+    PatternOctaves broad = pattern_octaves(point, 5.0f * scale, 5, 0.55f, 1.0f, 161);
+    PatternOctaves fray = pattern_octaves(point, 0.5f * scale, 8, 0.62f, 1.0f, 167);
+    PatternOctaves chutes = pattern_octaves(point, 0.9f * scale, 6, 0.6f, 0.22f, 177);
+    float ragged = 0.4f * broad.value + 0.6f * fray.value;
+    Ground g = rock(m, point, vec3_scale(shade->color, 1.0f + 0.25f * broad.value), scale);
+    // Water and dust darken faces along the chutes.
+    g.color = vec3_scale(g.color, 1.0f - 0.35f * smoothstepf(0.1f, 0.6f, chutes.value));
+    g.slope = vec3_madd(g.slope, 0.04f * scale, chutes.slope);
+    float lies = smoothstepf(0.62f, 0.78f, upright + 0.08f * ragged) *
+                 smoothstepf(0.12f, 0.4f, loose + 0.25f * ragged);
+    Ground other = scree(m, point, shade->color, scale);
+    other.color = vec3_scale(other.color, 1.0f + 0.18f * chutes.value);
+    g = blend(g, &other, lies);
+    if (m->grass_line > 0.0f) {
+        float rise = felt + 0.09f * ragged - 0.05f * loose;
+        float green = smoothstepf(m->grass_line + 0.05f, m->grass_line - 0.09f, rise) *
+                      smoothstepf(0.66f, 0.80f, upright + 0.12f * ragged);
+        other = grass(point, scale, 0.4f * loose, felt / m->grass_line);
+        g = blend(g, &other, green);
+    }
+    if (m->snow_line > 0.0f) {
+        // Far below the line only hollows that hold it through the summer; far above all but walls.
+        float cold = felt - m->snow_line + 0.07f * ragged;
+        float least = lerpf(0.82f, 0.50f, smoothstepf(-0.05f, 0.25f, cold));
+        float held = smoothstepf(least, least + 0.06f, upright + 0.09f * fray.value);
+        // Ledges between the chutes' ribs.
+        held = fmaxf(held, smoothstepf(0.25f, 0.5f, fray.value - 0.5f * chutes.value) *
+                               smoothstepf(0.02f, 0.12f, cold) * smoothstepf(0.3f, 0.5f, upright));
+        other = snow(point, scale);
+        g = blend(g, &other, smoothstepf(-0.015f, 0.02f, cold) * held);
+    }
+    shade->color = g.color;
+    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
+}
+
 void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 40.0f;

@@ -1,0 +1,274 @@
+#include "land/glacier.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// 2 A (rho g)^3 / 5 with A = 2.4e-24 / (s Pa^3), temperate ice: 1 / (a m^3).
+static const double FLOW = 2.2e-5;
+// Of Weertman's sliding, u = SLIDE ice^2 slope^3 (rho g absorbed): 1 / (a m), several times as fast
+// as ice of 200 m shears.
+static const double SLIDE = 1.5;
+
+// Thin ice on steep ground is held by its bed and by its neighbours, which the shallow ice
+// approximation does not know: without this it would slide as fast as thick ice below.
+static const double STEEPEST = 0.15; // gradient
+static const double FASTEST = 120.0; // m / a: faster only in ice falls, whose ice is thin
+
+Glacier *glacier_new(const Landscape *land, Error *e)
+{
+    Glacier *glacier = memory_alloc_zero(1, sizeof *glacier, e);
+    int64_t count = landscape_count(land);
+    if (glacier && (glacier->ice = memory_alloc_zero(count, sizeof *glacier->ice, e)) &&
+        (glacier->slip = memory_alloc_zero(count, sizeof *glacier->slip, e))) {
+        return glacier;
+    }
+    glacier_free(glacier);
+    return NULL;
+}
+
+void glacier_free(Glacier *glacier)
+{
+    if (glacier) {
+        free(glacier->ice);
+        free(glacier->slip);
+        free(glacier);
+    }
+}
+
+typedef struct Flow {
+    const Landscape *land;
+    double *bed, *top, *gain; // m, m, m / a
+    double *along, *down;     // m^2 / a: diffusivity between a sample and the next in its row, in
+                              // its column
+} Flow;
+
+static void flow_clear(Flow *f)
+{
+    free(f->bed);
+    free(f->top);
+    free(f->gain);
+    free(f->along);
+    free(f->down);
+}
+
+static bool flow_init(Flow *f, const Landscape *land, Error *e)
+{
+    int64_t count = landscape_count(land);
+    *f = (Flow){.land = land};
+    return (f->bed = memory_alloc(count, sizeof *f->bed, e)) &&
+           (f->top = memory_alloc(count, sizeof *f->top, e)) &&
+           (f->gain = memory_alloc(count, sizeof *f->gain, e)) &&
+           (f->along = memory_alloc_zero(count, sizeof *f->along, e)) &&
+           (f->down = memory_alloc_zero(count, sizeof *f->down, e));
+}
+
+// Central difference along a row (step 1) or a column; one-sided at the border.
+static double gradient(const Landscape *land, const double *h, int64_t i, int at, int64_t step)
+{
+    int64_t before = at > 0 ? i - step : i, after = at < land->side - 1 ? i + step : i;
+    return (h[after] - h[before]) / ((double)((after - before) / step) * land->cell);
+}
+
+static double slope_squared(const Landscape *land, const double *h, int64_t i)
+{
+    int column = (int)(i % land->side), row = (int)(i / land->side);
+    double x = gradient(land, h, i, column, 1), z = gradient(land, h, i, row, land->side);
+    return x * x + z * z;
+}
+
+// What a sample gains: nothing where the ground is too steep to hold snow.
+static void find_gain(Flow *f, const GlacierParams *params, int threads)
+{
+    const Landscape *land = f->land;
+    double limit = params->steepest * params->steepest;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        double gain = params->gradient * (f->top[i] - params->line);
+        if (gain > 0.0) {
+            double held = 1.0 - slope_squared(land, f->bed, i) / limit;
+            gain = (gain < params->most ? gain : params->most) * (held > 0.0 ? held : 0.0);
+        }
+        f->gain[i] = land->base[i] ? -1e3 : gain;
+    }
+}
+
+// The diffusivity between two samples: creep and sliding of the mean thickness.
+static double between(const Flow *f, int64_t a, int64_t b, double squared)
+{
+    double low = f->bed[a] > f->bed[b] ? f->bed[a] : f->bed[b];
+    double high = f->top[a] > f->top[b] ? f->top[a] : f->top[b];
+    double ice = high - low; // over the sill between them
+    if (ice <= 0.0) {
+        return 0.0;
+    }
+    squared = squared < 0.25 ? squared : 0.25; // steeper ice falls, but is thin
+    return ice * ice * ice * squared * (FLOW * ice * ice + SLIDE);
+}
+
+// The square of the surface's gradient between sample i and the next one `step` on: the difference
+// of both along the step, which central differences would miss, and their mean across it.
+static double edge_slope_squared(const Flow *f, int64_t i, int64_t step)
+{
+    const Landscape *land = f->land;
+    bool along = step == 1;
+    int at = along ? (int)(i / land->side) : (int)(i % land->side);
+    int64_t aside = along ? land->side : 1;
+    double ahead = (f->top[i + step] - f->top[i]) / land->cell;
+    double across =
+        0.5 * (gradient(land, f->top, i, at, aside) + gradient(land, f->top, i + step, at, aside));
+    return ahead * ahead + across * across;
+}
+
+// The flow is lagged: half of the last step's diffusivity keeps it from swinging.
+static void find_diffusivity(Flow *f, bool first, int threads)
+{
+    const Landscape *land = f->land;
+    double kept = first ? 0.0 : 0.5;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int row = 0; row < land->side; row++) {
+        for (int column = 0; column < land->side; column++) {
+            int64_t i = (int64_t)row * land->side + column;
+            if (column + 1 < land->side) {
+                double now = between(f, i, i + 1, edge_slope_squared(f, i, 1));
+                f->along[i] = kept * f->along[i] + (1.0 - kept) * now;
+            }
+            if (row + 1 < land->side) {
+                double now = between(f, i, i + land->side, edge_slope_squared(f, i, land->side));
+                f->down[i] = kept * f->down[i] + (1.0 - kept) * now;
+            }
+        }
+    }
+}
+
+// One projected Gauss-Seidel update of every second sample. old: m, ice before the step.
+static void sweep(Flow *f, const double *old, double years, int color, int threads)
+{
+    const Landscape *land = f->land;
+    double share = years / (land->cell * land->cell);
+    int side = land->side;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int row = 0; row < side; row++) {
+        for (int column = (row + color) % 2; column < side; column += 2) {
+            int64_t i = (int64_t)row * side + column;
+            double west = column > 0 ? share * f->along[i - 1] : 0.0;
+            double north = row > 0 ? share * f->down[i - side] : 0.0;
+            double east = share * f->along[i], south = share * f->down[i];
+            double sum = f->bed[i] + old[i] + years * f->gain[i];
+            sum += west > 0.0 ? west * f->top[i - 1] : 0.0;
+            sum += north > 0.0 ? north * f->top[i - side] : 0.0;
+            sum += east > 0.0 ? east * f->top[i + 1] : 0.0;
+            sum += south > 0.0 ? south * f->top[i + side] : 0.0;
+            double top = sum / (1.0 + west + north + east + south);
+            f->top[i] = top > f->bed[i] ? top : f->bed[i];
+        }
+    }
+}
+
+static void find_slip(Glacier *glacier, const Flow *f)
+{
+    for (int64_t i = 0; i < landscape_count(f->land); i++) {
+        double ice = glacier->ice[i], squared = slope_squared(f->land, f->top, i);
+        squared = squared < STEEPEST * STEEPEST ? squared : STEEPEST * STEEPEST;
+        double speed = SLIDE * ice * ice * squared * sqrt(squared);
+        glacier->slip[i] = speed < FASTEST ? speed : FASTEST;
+    }
+}
+
+bool glacier_flow(Glacier *glacier, const Landscape *land, const GlacierParams *params,
+                  double years, const Run *run, Error *e)
+{
+    enum { SWEEPS = 16 };
+    const double LONGEST = 5.0; // a
+    Flow f;
+    bool done = flow_init(&f, land, e);
+    for (double left = years; done && left > 0.0;) {
+        double step = left < LONGEST ? left : LONGEST;
+        for (int64_t i = 0; i < landscape_count(land); i++) {
+            f.bed[i] = land->rock[i] + land->loose[i];
+            f.top[i] = f.bed[i] + glacier->ice[i];
+        }
+        find_gain(&f, params, run->threads);
+        find_diffusivity(&f, left == years, run->threads);
+        for (int k = 0; k < 2 * SWEEPS; k++) {
+            sweep(&f, glacier->ice, step, k % 2, run->threads);
+        }
+        for (int64_t i = 0; i < landscape_count(land); i++) {
+            glacier->ice[i] = f.top[i] - f.bed[i];
+        }
+        left -= step;
+        done = !run_is_cancelled(run) || run_cancel_error(e);
+    }
+    if (done) {
+        find_slip(glacier, &f);
+    }
+    flow_clear(&f);
+    return done;
+}
+
+// How readily a sample takes till: thin ice that melts, and the ground just before it.
+static double margin(const Glacier *glacier, const Landscape *land, const GlacierParams *params,
+                     int64_t i)
+{
+    double ice = glacier->ice[i], top = land->rock[i] + land->loose[i] + ice;
+    if (land->base[i] || ice <= 0.0 || ice > 80.0 || top > params->line) {
+        return 0.0;
+    }
+    return (params->line - top) * (1.0 - ice / 80.0);
+}
+
+static void lay_till(const Glacier *glacier, Landscape *land, const GlacierParams *params,
+                     double depth)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        sum += margin(glacier, land, params, i);
+    }
+    double share = sum > 0.0 ? params->till * depth / sum : 0.0, laid = 0.0;
+    for (int64_t i = 0; share > 0.0 && i < landscape_count(land); i++) {
+        double till = share * margin(glacier, land, params, i);
+        land->loose[i] += till;
+        laid += till;
+    }
+    land->outflow += (depth - laid) * land->cell * land->cell;
+}
+
+// The mean sliding speed about a sample: ice bears on its surroundings. The border mirrors.
+static double mean_slip(const Glacier *glacier, const Landscape *land, int column, int row)
+{
+    int last = land->side - 1;
+    int left = column > 0 ? column - 1 : 1, right = column < last ? column + 1 : last - 1;
+    int above = row > 0 ? row - 1 : 1, below = row < last ? row + 1 : last - 1;
+    const double *here = glacier->slip + (int64_t)row * land->side;
+    const double *north = glacier->slip + (int64_t)above * land->side;
+    const double *south = glacier->slip + (int64_t)below * land->side;
+    return 0.25 * here[column] +
+           0.125 * (here[left] + here[right] + north[column] + south[column]) +
+           0.0625 * (north[left] + north[right] + south[left] + south[right]);
+}
+
+bool glacier_wear(Glacier *glacier, Landscape *land, const GlacierParams *params, double years,
+                  Error *e)
+{
+    double *worn = memory_alloc_zero(landscape_count(land), sizeof *worn, e), depth = 0.0;
+    if (!worn) {
+        return false;
+    }
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        if (!land->base[i] && glacier->ice[i] > 0.0) {
+            double mean = mean_slip(glacier, land, (int)(i % land->side), (int)(i / land->side));
+            worn[i] = params->erosion * years * mean * (double)land->weakness[i];
+        }
+    }
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        double loose = glacier->ice[i] > 20.0 ? land->loose[i] : 0.0;
+        land->loose[i] -= loose;
+        land->rock[i] -= worn[i];
+        depth += worn[i] + loose;
+    }
+    lay_till(glacier, land, params, depth);
+    free(worn);
+    return true;
+}

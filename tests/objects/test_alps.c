@@ -1,0 +1,190 @@
+// Glaciers: flow, volume, threads; and the form alps on several seeds.
+#include "land/glacier.h"
+#include "land/height_drainage.h"
+#include "making.h"
+#include "objects/terrain/terrain.h"
+#include "testing.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CELLS = 64 };
+static const double CELL = 60.0;
+
+// A valley of V section that falls to a base at its end; sides of 30 degrees.
+static Landscape *valley(void)
+{
+    Landscape *land = landscape_new(CELLS, CELLS * CELL, NULL, NULL);
+    assert_non_null(land);
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        double away = fabs((double)(i % land->side) - CELLS / 2) * CELL;
+        double up = (double)(i / land->side) * CELL;
+        land->rock[i] = 0.577 * away + 0.08 * up;
+    }
+    for (int column = 0; column < land->side; column++) {
+        landscape_set_base(land, column, land->rock[column]);
+    }
+    return land;
+}
+
+static const GlacierParams ICE = {
+    .line = 450.0, .gradient = 0.006, .most = 1.2, .steepest = 1.2, .erosion = 1e-4, .till = 0.25};
+
+static void glaciate(Landscape *land, Glacier *glacier, int steps, int threads)
+{
+    Error e = {0};
+    Run run = run_default();
+    run.threads = threads;
+    LandscapeRates frost = {.retreat = 2.0, .rubble = 0.5, .repose = 0.65};
+    for (int i = 0; i < steps; i++) {
+        if (!glacier_flow(glacier, land, &ICE, i == 0 ? 400.0 : 40.0, &run, &e) ||
+            !glacier_wear(glacier, land, &ICE, 300.0, &e) ||
+            !landscape_slopes_only(land, &frost, 1.0, &run, &e)) {
+            fail_msg("%s", e.message);
+        }
+    }
+}
+
+static void ice_deepens_its_valley_and_keeps_volume(void **state)
+{
+    (void)state;
+    Landscape *land = valley(), *same = valley();
+    Glacier *glacier = glacier_new(land, NULL), *again = glacier_new(same, NULL);
+    double volume = landscape_volume(land);
+    glaciate(land, glacier, 60, 1);
+    glaciate(same, again, 60, 3);
+    double deepest = 0.0, worn = 0.0;
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        double away = fabs((double)(i % land->side) - CELLS / 2) * CELL;
+        double cut = 0.577 * away + 0.08 * (double)(i / land->side) * CELL - land->rock[i];
+        deepest = fmax(deepest, cut);
+        worn += fabs(cut) * CELL * CELL;
+        assert_true(land->loose[i] >= 0.0 && glacier->ice[i] >= 0.0);
+    }
+    if (!(deepest > 30.0)) {
+        fail_msg("%g m worn", deepest);
+    }
+    assert_true(fabs(landscape_volume(land) - volume) < 1e-6 * worn);
+    size_t bytes = sizeof(double) * (size_t)landscape_count(land);
+    assert_memory_equal(land->rock, same->rock, bytes);
+    assert_memory_equal(glacier->ice, again->ice, bytes);
+    glacier_free(glacier);
+    glacier_free(again);
+    landscape_free(land);
+    landscape_free(same);
+}
+
+// Ice on a plane of slope S that gains b: in steady state the flux is b x, hence
+// b x = (FLOW H^2 + SLIDE) H^3 S^3 with the constants of the source.
+static void steady_ice_carries_what_it_gains(void **state)
+{
+    (void)state;
+    Landscape *land = landscape_new(CELLS, CELLS * 200.0, NULL, NULL);
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        land->rock[i] = 4000.0 - 0.1 * 200.0 * (double)(i % land->side);
+    }
+    for (int row = 0; row < land->side; row++) {
+        int64_t i = (int64_t)row * land->side + CELLS;
+        landscape_set_base(land, i, land->rock[i]);
+    }
+    // Everywhere above the line: the gain is `most` on ground that holds all snow.
+    GlacierParams params = {.line = 0.0, .gradient = 1.0, .most = 0.5, .steepest = 100.0};
+    Glacier *glacier = glacier_new(land, NULL);
+    Run run = run_default();
+    assert_true(glacier_flow(glacier, land, &params, 3000.0, &run, NULL));
+    for (int column = 16; column < 48; column += 8) {
+        int64_t i = (int64_t)(CELLS / 2) * land->side + column;
+        double ice = glacier->ice[i];
+        double slope =
+            (land->rock[i - 1] + glacier->ice[i - 1] - land->rock[i + 1] - glacier->ice[i + 1]) /
+            400.0;
+        double flux = (2.2e-5 * ice * ice + 1.5) * ice * ice * ice * slope * slope * slope;
+        double wanted = 0.5 * 200.0 * (column + 0.5);
+        if (fabs(flux - wanted) > 0.12 * wanted) {
+            fail_msg("column %d carries %g m^2/a, gains %g", column, flux, wanted);
+        }
+    }
+    glacier_free(glacier);
+    landscape_free(land);
+}
+
+static HeightField *heights(uint64_t seed, int threads, float age, MeasureList *list)
+{
+    Error e = {0};
+    Run run = run_default();
+    run.threads = threads;
+    TerrainParams params = terrain_params_default();
+    params.form = TERRAIN_ALPS;
+    params.size = 16000.0f;
+    params.relief = 2500.0f;
+    params.resolution = 256;
+    params.alps.age = age;
+    Recipe recipe = {.seed = seed, .label = "land", .run = &run};
+    Grown grown;
+    HeightField *field = NULL;
+    if (kind_grow(&kind_terrain, &params, &recipe, 1.0f, NULL, &grown, &e)) {
+        field = terrain_heights(&params, &grown, &run, &e);
+    }
+    if (!field || (list && !terrain_measure(&params, &grown, &recipe, list, &e))) {
+        fail_msg("%s", e.message);
+    }
+    grown_clear(&grown);
+    return field;
+}
+
+static double value(const MeasureList *list, const char *name)
+{
+    const Measure *measure = measures_find(list, name);
+    assert_non_null(measure);
+    return measure->value;
+}
+
+static void alps_keep_their_promises(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        MeasureList list = {0}, old = {0};
+        HeightField *field = heights(seed, 2, 0.0f, &list);
+        float low, high;
+        height_field_range(field, &low, &high);
+        assert_true(high - low > 0.75f * 2500.0f && high - low < 1.25f * 2500.0f);
+        double sum = 0.0;
+        for (int64_t i = 0; i < height_field_count(field); i++) {
+            sum += (double)(field->height[i] - low);
+            assert_true(isfinite(field->climate[i]));
+        }
+        double integral = sum / (double)height_field_count(field) / (double)(high - low);
+        if (!(integral > 0.3 && integral < 0.6)) {
+            fail_msg("hypsometric integral %g", integral);
+        }
+        HeightField *rounded = heights(seed, 2, 1.0f, &old);
+        assert_true(value(&old, "cliff_share") < 0.5 * value(&list, "cliff_share"));
+        height_field_free(field);
+        height_field_free(rounded);
+        measures_clear(&list);
+        measures_clear(&old);
+    }
+}
+
+static void the_same_bits_for_any_threads(void **state)
+{
+    (void)state;
+    HeightField *one = heights(4, 1, 0.3f, NULL), *three = heights(4, 3, 0.3f, NULL);
+    assert_true(height_field_hash(one) == height_field_hash(three));
+    assert_memory_equal(one->climate, three->climate,
+                        sizeof(float) * (size_t)height_field_count(one));
+    height_field_free(one);
+    height_field_free(three);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ice_deepens_its_valley_and_keeps_volume),
+        cmocka_unit_test(steady_ice_carries_what_it_gains),
+        cmocka_unit_test(alps_keep_their_promises),
+        cmocka_unit_test(the_same_bits_for_any_threads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
