@@ -53,12 +53,13 @@ static const Key FROST_KEYS[] = {
     {KEY_OF(FrostParams, field_weight, "field_weight", KEY_FLOAT), .high = 1000,
      .doc = "Weight of the field relative to the pull of the free surface."},
     {KEY_OF(FrostParams, spines, "spines", KEY_INT64), .low = 1, .high = 2147483647,
-     .doc = "Number of attractors of the spines; more give denser spines."},
+     .doc = "Number of attractors of the spines; more give denser spines. Ferns: they set the "
+            "spacing of ribs and the length of barbs."},
     {KEY_OF(FrostParams, sides, "sides", KEY_INT64), .high = 2147483647,
-     .doc =
-         "Number of attractors of the side branches; more give finer branches, 0 = bare spines."},
+     .doc = "Number of attractors of the side branches, of ferns the barbs; more give finer "
+            "branches, 0 = bare spines."},
     {KEY_OF(FrostParams, angle, "angle", KEY_FLOAT), .low = 20, .high = 90, .unit = "degrees",
-     .doc = "Angle between a side branch and its parent; 60 for ice."},
+     .doc = "Angle between a side branch and its parent: 60 for ice, in ferns 50."},
     {KEY_OF(FrostParams, skip, "skip", KEY_FLOAT), .high = 1,
      .doc = "Probability that a side branch does not grow."},
     {KEY_OF(FrostParams, orders, "orders", KEY_INT), .low = 1, .high = 100,

@@ -138,7 +138,7 @@ const Table mesa_table = {.name = "mesas",
 
 static const Key ALPS_KEYS[] = {
     {KEY_OF(AlpsParams, ice, "ice", KEY_FLOAT), .high = 4,
-     .doc = "How much glaciers have worn: 0 = rivers alone; 1 = troughs, cirques and horns."},
+     .doc = "How much glaciers have worn: 0 = rivers alone; 1 = as the ice ages did."},
     {KEY_OF(AlpsParams, ice_line, "ice_line", KEY_FLOAT), .high = 1,
      .doc = "Altitude of the glaciers' equilibrium line, as a fraction of the relief: low = ice "
             "streams in all valleys, high = cirques alone."},
