@@ -98,6 +98,12 @@ RAMIFY_API RamifyScene *ramify_scene_load_text(const char *text, size_t length, 
                                                const char *folder, const char *const *overrides,
                                                int override_count, RamifyError *error);
 
+// The settings of a picture (.exr, .png) that ramify has rendered, without the files that they
+// name, which need not exist: to join and develop films, not to grow or to render.
+RAMIFY_API RamifyScene *ramify_scene_load_settings(const char *picture,
+                                                   const char *const *overrides, int override_count,
+                                                   RamifyError *error);
+
 RAMIFY_API void ramify_scene_free(RamifyScene *scene);
 
 // Width and height of the picture, pixels.

@@ -3,9 +3,11 @@
 
 #include "render/material/material.h"
 #include "scene/needs.h"
+#include "scene/picture_read.h"
 #include "scene/species_list.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static RamifyScene *hand_scene(Scene *scene, Error *e, RamifyError *error)
@@ -33,6 +35,18 @@ RamifyScene *ramify_scene_load_text(const char *text, size_t length, const char 
 {
     Error e = {0};
     Scene *scene = scene_read_text(text, length, name, folder, overrides, override_count, &e);
+    return hand_scene(scene, &e, error);
+}
+
+RamifyScene *ramify_scene_load_settings(const char *picture, const char *const *overrides,
+                                        int override_count, RamifyError *error)
+{
+    Error e = {0};
+    char *origin = NULL, *text = picture_read_settings(picture, &origin, &e);
+    Scene *scene =
+        text ? scene_read_settings(text, origin, picture, overrides, override_count, &e) : NULL;
+    free(text);
+    free(origin);
     return hand_scene(scene, &e, error);
 }
 

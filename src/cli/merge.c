@@ -10,7 +10,7 @@ static RamifyScene *whole_scene(const Options *options, RamifyError *e)
 {
     const char *const all[] = {"film.crop=[0, 0, 1, 1]", "render.first_sample=0",
                                "render.end_sample=0"};
-    return ramify_scene_load(options->operand, all, 3, e);
+    return ramify_scene_load_settings(options->operand, all, 3, e);
 }
 
 static bool check_parts(const Options *options, RamifyError *e)

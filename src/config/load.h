@@ -17,6 +17,7 @@ typedef struct Loader {
     Arena *arena;       // holds the struct, everything it points to, and texts of messages
     const char *file;   // the scene's name, for errors
     const char *folder; // base of relative file paths; "" = the current folder
+    bool without_files; // files that are named need not exist
     Error *e;
     FileName *files; // files found so far, the latest first
     uint64_t hash;   // of their paths, sizes and times

@@ -245,7 +245,7 @@ static bool load_file(const Value *v, char **member)
     bool below = path && *text != '/' && length > 0 && strncmp(path, loader->folder, length) == 0 &&
                  path[length] == '/';
     FileName *file = arena_alloc(loader->arena, sizeof *file, loader->e);
-    if (!path || !file || !check_file(v, path)) {
+    if (!path || !file || !(loader->without_files || check_file(v, path))) {
         return false;
     }
     *file = (FileName){loader->files, path, below ? path + length + 1 : path};

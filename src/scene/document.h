@@ -9,6 +9,7 @@ typedef struct SceneSource {
     const char *text;
     size_t length;
     const char *origin;        // see Scene.origin; NULL = the text
+    bool without_files;        // those that it names need not exist
     const char *name, *folder; // for messages; base of relative paths
     const char *const *overrides;
     int override_count;

@@ -33,13 +33,12 @@ char *picture_read_settings(const char *file, char **origin, Error *e)
 // ---- is it a picture of this scene? ----
 
 // The scene's settings without those that may differ between a picture and its continuation.
-static Scene *without_counts(const char *text, const char *name, const Scene *place, bool any_crop,
-                             Error *e)
+static Scene *without_counts(const char *text, const char *name, bool any_crop, Error *e)
 {
     const char *const same[] = {"render.samples=1",      "render.planned_samples=0",
                                 "render.first_sample=0", "render.end_sample=0",
                                 "render.seconds=0",      "film.crop=[0, 0, 1, 1]"};
-    return scene_read_text(text, strlen(text), name, place->folder, same, any_crop ? 6 : 5, e);
+    return scene_read_settings(text, NULL, name, same, any_crop ? 6 : 5, e);
 }
 
 // Sets the error to the first line in which the texts differ.
@@ -71,8 +70,8 @@ static bool compare_settings(const char *file, const Scene *theirs, const Scene 
                          "samples to a picture use --add-samples",
                          file, planned, ours);
     }
-    Scene *a = without_counts(theirs->resolved, file, scene, any_crop, e);
-    Scene *b = a ? without_counts(scene->resolved, scene->file, scene, any_crop, e) : NULL;
+    Scene *a = without_counts(theirs->resolved, file, any_crop, e);
+    Scene *b = a ? without_counts(scene->resolved, scene->file, any_crop, e) : NULL;
     bool same = b && (strcmp(a->resolved, b->resolved) == 0 ||
                       tell_difference(file, a->resolved, b->resolved, e));
     scene_free(a);
@@ -108,9 +107,8 @@ static bool check_picture(const char *file, const Scene *scene, bool any_crop, P
                           Error *e)
 {
     char *text = picture_read_settings(file, NULL, e);
-    Scene *theirs = text && check_version(file, e)
-                        ? scene_read_text(text, strlen(text), file, scene->folder, NULL, 0, e)
-                        : NULL;
+    Scene *theirs =
+        text && check_version(file, e) ? scene_read_settings(text, NULL, file, NULL, 0, e) : NULL;
     bool same = theirs && compare_settings(file, theirs, scene, any_crop, e);
     if (same) {
         const FilmParams *film = &theirs->film;

@@ -44,7 +44,11 @@ static bool keep_source(Scene *scene, const SceneSource *source, Error *e)
 // Creates the scene of a document. It takes over the arena.
 static Scene *load_scene(Arena *arena, const Node *document, const SceneSource *source, Error *e)
 {
-    Loader loader = {.arena = arena, .file = source->name, .folder = source->folder, .e = e};
+    Loader loader = {.arena = arena,
+                     .file = source->name,
+                     .folder = source->folder,
+                     .without_files = source->without_files,
+                     .e = e};
     Scene *scene = load_document(&loader, &scene_table, document);
     if (!scene) {
         return NULL;
@@ -87,6 +91,20 @@ Scene *scene_read_text(const char *text, size_t length, const char *name, const 
                                       .length = length,
                                       .name = name,
                                       .folder = folder,
+                                      .overrides = overrides,
+                                      .override_count = override_count},
+                       e);
+}
+
+Scene *scene_read_settings(const char *text, const char *origin, const char *name,
+                           const char *const *overrides, int override_count, Error *e)
+{
+    return read_source(&(SceneSource){.text = text,
+                                      .length = strlen(text),
+                                      .origin = origin,
+                                      .without_files = true,
+                                      .name = name,
+                                      .folder = "",
                                       .overrides = overrides,
                                       .override_count = override_count},
                        e);

@@ -127,6 +127,11 @@ Scene *scene_read(const char *file, const char *const *overrides, int override_c
 Scene *scene_read_text(const char *text, size_t length, const char *name, const char *folder,
                        const char *const *overrides, int override_count, Error *e);
 
+// The settings of a picture, without the files that they name: to compare, to join and to develop
+// films, not to grow or to render. origin: see Scene.origin; NULL = the text.
+Scene *scene_read_settings(const char *text, const char *origin, const char *name,
+                           const char *const *overrides, int override_count, Error *e);
+
 // A new value, as YAML, for one key of a scene. line, column: place in the scene file, for
 // messages; line 0: messages name `source` instead.
 typedef struct SceneChange {

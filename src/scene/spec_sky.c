@@ -81,10 +81,11 @@ static const Key SKY_KEYS[] = {
      .doc = "Altitude of the scene's ground (y = 0) above the sea: thinner air, a darker sky."},
     {KEY_OF(Sky, aerial_perspective, "aerial_perspective", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY),
      .high = 1e6,
-     .doc = "Air between the camera and what it sees, in metres per metre of the scene: 1 = nature, "
-            "in which `turbidity` 1, 1.3 and 2 let green light reach 86, 27 and 10 km to 1/e; "
-            "more for scenes built small; 0 = none. Sunlit air is dark where terrain or clouds "
-            "shade it."},
+     .doc =
+         "Air between the camera and what it sees, in metres per metre of the scene: 1 = nature, "
+         "in which `turbidity` 1, 1.3 and 2 let green light reach 86, 27 and 10 km to 1/e; "
+         "more for scenes built small; 0 = none. Sunlit air is dark where terrain or clouds "
+         "shade it."},
     {KEY_OF(Sky, haze_distance, "haze_distance", KEY_FLOAT), .kinds = SKY_ANY, .high = 1e9,
      .unit = "m",
      .doc = "Distance at which haze reduces a surface's light to 1/e and replaces the rest by the "

@@ -100,6 +100,18 @@ says merge_overlaps_says err 'both have samples'
 check other 0 "$RAMIFY" render scene.yaml --crop 0.533334,0.533334,1,1 -o other.exr -q --set camera.fov=21
 check merge_strangers 2 "$RAMIFY" merge left.exr upper.exr other.exr -o strange.png
 says merge_strangers_says err "'fov: 21'"
+
+# Parts that lie apart from the files of their scene
+
+mkdir shelf
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >shelf/leaf.obj
+printf 'film: {width: 32, height: 32}\nrender: {samples: 2}\nobjects: [{name: a, mesh: {file: leaf.obj}}]\n' >shelf/leaf.yaml
+check shelf_whole 0 "$RAMIFY" render shelf/leaf.yaml -o shelf.png -q
+check shelf_left 0 "$RAMIFY" render shelf/leaf.yaml --crop 0,0,0.5,1 -o shelf-left.exr -q
+check shelf_right 0 "$RAMIFY" render shelf/leaf.yaml --crop 0.5,0,1,1 -o shelf-right.exr -q
+check shelf_merge 0 "$RAMIFY" merge shelf-left.exr shelf-right.exr -o shelf-both.png -q
+yes shelf_merge_is_the_same cmp shelf.png shelf-both.png
+
 # ---- ranges of samples, which end anywhere
 
 range() { # NAME A:B OPTION...

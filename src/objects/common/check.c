@@ -16,8 +16,9 @@ bool check_scale(const Mapping *mapping, Vec3 scale)
 bool check_mesh_file(const Mapping *mapping, const char *path)
 {
     Error e = {0};
-    return import_check(path, &e) || mapping_fail(mapping, "file", ": '%s': %s",
-                                                  node_get_text(mapping->given, "file"), e.message);
+    return mapping->loader->without_files || import_check(path, &e) ||
+           mapping_fail(mapping, "file", ": '%s': %s", node_get_text(mapping->given, "file"),
+                        e.message);
 }
 
 // ---- envelopes ----

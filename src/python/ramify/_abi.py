@@ -260,6 +260,7 @@ FUNCTIONS = {
     "schema": (c.c_void_p, [_error]),
     "species": (c.c_void_p, [_error]),
     "scene_load": (_handle, [_text, _texts, _int, _error]),
+    "scene_load_settings": (_handle, [_text, _texts, _int, _error]),
     "scene_load_text": (_handle, [_text, c.c_size_t, _text, _text, _texts, _int, _error]),
     "scene_free": (None, [_handle]),
     "scene_info": (None, [_handle, c.POINTER(SceneInfo)]),
