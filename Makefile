@@ -33,6 +33,11 @@ CC       := clang
 CXX      := clang++
 OPT      := -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -w
 endif
+ifeq ($(CONFIG),threads) # compiled by clang, whose OpenMP tells ThreadSanitizer (by Archer) what its barriers order
+CC       := clang
+CXX      := clang++
+OPT      := -O1 -fsanitize=thread -fno-omit-frame-pointer -w
+endif
 ifeq ($(CONFIG),variant) # VARIANT: COMPILER-OPTIMIZATION-PROCESSOR, as clang-O1-avx512; for same-bits-builds
 OF       := $(subst -, ,$(VARIANT))
 CC       := $(word 1,$(OF))
@@ -41,7 +46,7 @@ OPT      := -$(word 2,$(OF)) -w
 ARCH     := $(if $(filter avx512,$(word 3,$(OF))),x86-64-v4,x86-64-v3)
 endif
 # What makes a flaw of memory harder to use, in what is installed; sanitizers have their own ways.
-HARDEN   := $(if $(filter sanitize fuzz,$(CONFIG)),,-fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3)
+HARDEN   := $(if $(filter sanitize fuzz threads,$(CONFIG)),,-fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3)
 # No path of this folder gets into what is compiled, so that every folder makes the same bytes.
 OPENMP   := $(if $(filter fuzz,$(CONFIG)),,-fopenmp)
 NO_PATHS := -ffile-prefix-map=$(CURDIR)=.
@@ -50,10 +55,10 @@ COMMON   := -g $(OPT) $(NO_PATHS) -march=$(ARCH) -ffp-contract=off -fno-tree-slp
 CFLAGS   := -std=c17 -D_GNU_SOURCE $(COMMON) -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 CXXFLAGS := -std=c++17 $(COMMON)
 LDLIBS   := -lembree3 -losdCPU -lassimp -lyaml -lnlopt -lseccomp -lstdc++ -lm
-LDFLAGS  := -Wl,-z,relro,-z,now,-z,noexecstack -fopenmp $(if $(filter sanitize,$(CONFIG)),-fsanitize=address$(,)undefined)
+LDFLAGS  := -Wl,-z,relro,-z,now,-z,noexecstack -fopenmp $(if $(filter sanitize,$(CONFIG)),-fsanitize=address$(,)undefined) $(if $(filter threads,$(CONFIG)),-fsanitize=thread)
 
 # The path tracer's small functions call each other across files: inlining them while linking makes it 1.1 x faster.
-LTO := $(if $(filter sanitize fuzz variant,$(CONFIG)),,-flto=auto -ffat-lto-objects)
+LTO := $(if $(filter sanitize fuzz variant threads,$(CONFIG)),,-flto=auto -ffat-lto-objects)
 # What is kept for linking names the folder whatever the options say: let it be called the same everywhere.
 $(OBJ)/render/%.c.o $(OUT)/ramify: private SAME_LTO := $(if $(LTO),PWD=/proc/self/cwd )
 $(OBJ)/render/%.c.o: CFLAGS += $(LTO) -ftree-slp-vectorize
@@ -101,7 +106,7 @@ BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp) tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
 .PHONY: dist deb deb-check reproduce all demo cross-check docs test test-cluster peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages cluster-packages
-.PHONY: fuzz faults random-scenes same-bits-builds soak valgrind
+.PHONY: fuzz faults random-scenes same-bits-builds soak tsan valgrind
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 
@@ -161,6 +166,16 @@ valgrind: packages ## run a few quick tests under Valgrind's memcheck: VALGRIND_
 	    $(VALGRIND_TESTS:%=$(VALGRIND)/tests/%)
 	@set -e; for test in $(VALGRIND_TESTS); do echo "  MEMCHECK $$test"; OMP_NUM_THREADS=1 valgrind -q --error-exitcode=9 --leak-check=full \
 	    --errors-for-leak-kinds=definite $(VALGRIND)/tests/$$test; done
+
+# ThreadSanitizer sees only what was compiled for it: reports whose other half lies in a library are left out.
+THREAD_TESTS ?= grow/test_colonize grow/test_light grow/test_dla grow/test_venation mesh/test_height mesh/test_skin \
+    render/test_clouds render/test_update render/test_emitters
+ARCHER := /usr/lib/llvm-14/lib/libarcher.so
+tsan: packages ## run a few tests of parallel code under ThreadSanitizer: THREAD_TESTS="grow/test_colonize ..."
+	$(call need,$(SAME_BITS_PACKAGES) $(FUZZ_PACKAGES))
+	@$(MAKE) --no-print-directory -j$$(nproc) CONFIG=threads PLUGIN_FILES= $(THREAD_TESTS:%=build/threads/tests/%)
+	@set -e; for test in $(THREAD_TESTS); do echo "  TSAN $$test"; OMP_NUM_THREADS=4 OMP_TOOL_LIBRARIES=$(ARCHER) \
+	    TSAN_OPTIONS=ignore_noninstrumented_modules=1:suppressions=tests/tsan.supp build/threads/tests/$$test; done
 
 fuzz: ## feed random inputs to all that reads files: SECONDS=60 for each of TARGETS="scene set rules swc heights mesh picture vdb"
 	$(call need,$(FUZZ_PACKAGES))

@@ -27,9 +27,10 @@ static inline Run run_default(void)
     return run;
 }
 
+// Another thread or a signal may set the flag meanwhile.
 static inline bool run_is_cancelled(const Run *run)
 {
-    return run->cancelled && *run->cancelled;
+    return run->cancelled && __atomic_load_n(run->cancelled, __ATOMIC_RELAXED);
 }
 
 // Fills e with ERROR_CANCELLED and returns false.

@@ -667,7 +667,9 @@ static void cancel_at_a_report(void *user, const char *stage, double done)
 {
     Stop *stop = user;
     (void)done;
-    stop->cancelled = strcmp(stage, "trace") == 0 && ++stop->passes >= 3;
+    if (strcmp(stage, "trace") == 0 && ++stop->passes >= 3) {
+        __atomic_store_n(&stop->cancelled, 1, __ATOMIC_RELAXED); // other threads read it
+    }
 }
 
 // After the request a thread finishes at most the pixel it is at, also in the first pass.
