@@ -87,7 +87,7 @@ ERROR = re.compile(r"(ramify: (?!warning)|libgomp: |[^ :]+(:\d+){0,2}: |Insuffic
 # What outside libraries do wrong, out of our reach: what happens, the function that could not allocate.
 KNOWN = [("signal 11", "ImageCacheTile4read", "OpenImageIO uses a tile of a texture that it could not allocate"),
          ("signal 11", "TableRepMap", "OpenImageIO's table of strings does not check what it allocates"),
-         ("signal 11", "libblosc", "c-blosc, which compresses VDB files, does not check what it allocates")]
+         ("signal 11", "blosc", "c-blosc, which compresses VDB files, does not check what it allocates")]
 # libpng's own words beside it.
 NOISE = re.compile(r"libpng error: .*|")
 WARNING = re.compile(r"(ramify: warning: |[^ :]+(:\d+:\d+)?: warning: )")
