@@ -131,8 +131,8 @@ bool path_bounce(Vertex *vertex, const float u[4]);
 // ---- path_air.c
 
 // Adds the air in front of what the path's ray has met, `distance` m away, and haze that replaces
-// all but 1 / e of it after haze_length m (0 = none). Only for camera rays and mirror reflections of
-// them: in diffuse light the difference does not show.
+// all but 1 / e of it after haze_length m (0 = none). Only for camera rays and mirror reflections
+// of them: in diffuse light the difference does not show.
 void path_see_through_air(Path *path, float distance, float haze_length);
 
 // ---- path_scatter.c

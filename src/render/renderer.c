@@ -132,8 +132,8 @@ static bool check_sizes(const World *world, const Film *film, Error *e)
     return true;
 }
 
-// Without air in front of them, clouds fade all the same: clean air scatters green light to 1 / e in
-// 80 km; haze adds to it with the turbidity.
+// Without air in front of them, clouds fade all the same: clean air scatters green light to 1 / e
+// in 80 km; haze adds to it with the turbidity.
 static float cloud_haze(const Sky *sky)
 {
     if (sky->haze_distance > 0.0f || sky->aerial_perspective > 0.0f) {

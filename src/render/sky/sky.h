@@ -29,8 +29,8 @@ typedef struct Sky {
     float rotation;            // of all of it, sun, moon, clouds and stars too: degrees about +Y
     float strength;            // factor on all of it
     bool visible;              // seen by camera rays; if not, the background is black with alpha 0
-    float aerial_perspective; // SKY_SUN_SKY: metres of air for a metre of the scene; 0 = none
-    float altitude;           // SKY_SUN_SKY: of the scene's ground above the sea, m
+    float aerial_perspective;  // SKY_SUN_SKY: metres of air for a metre of the scene; 0 = none
+    float altitude;            // SKY_SUN_SKY: of the scene's ground above the sea, m
     float haze_distance; // m over which distant surfaces fade to 1/e into the sky's horizon colour;
                          // 0 = no haze
 } Sky;
