@@ -69,7 +69,8 @@ static bool flow_init(Flow *f, const Landscape *land, Error *e)
 static double gradient(const Landscape *land, const double *h, int64_t i, int at, int64_t step)
 {
     int64_t before = at > 0 ? i - step : i, after = at < land->side - 1 ? i + step : i;
-    return (h[after] - h[before]) / ((double)((after - before) / step) * land->cell);
+    int64_t cells = (after - before) / step;
+    return (h[after] - h[before]) / ((double)cells * land->cell);
 }
 
 static double slope_squared(const Landscape *land, const double *h, int64_t i)
