@@ -201,7 +201,7 @@ static PlumeParams plume_params(const FrostParams *params, const Recipe *recipe)
                                                                       : PLUME_MOST_ORDERS,
                          .side_rib = 2.0f * BARB_SPACING * s / ribs,
                          .side_length = 4.0f * ribs,
-                         .field_weight = 4.0f,
+                         .field_weight = params->field_weight,
                          .spread = 2.0f,
                          .skip = params->skip,
                          .project = project,

@@ -46,6 +46,7 @@ FrostParams frost_habit_default(FrostSurface surface, FrostHabit habit)
         params.habit = FROST_FERNS;
         params.spines = pane ? 300 : 200;
         params.sides = pane ? 700000 : 300000;
+        params.field_weight = 4.0f;
         params.angle = 50.0f;
         params.curl = 30.0f;
         params.skip = 0.03f;

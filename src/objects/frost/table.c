@@ -47,7 +47,8 @@ static const Key FROST_KEYS[] = {
     {KEY_OF(FrostParams, turn, "turn", KEY_FLOAT), .low = -36000, .high = 36000, .unit = "degrees",
      .doc = "Angle that the field's streamlines sweep from a nucleus to the rim."},
     {KEY_OF(FrostParams, profile, "profile", KEY_ENUM), .names = field_profiles,
-     .doc = "swept: the field's streamlines sweep `turn`; spines also follow the free surface and "
+     .doc = "Spines: swept: the field's streamlines sweep `turn`; spines also follow the free "
+            "surface and "
             "sweep less; grown: the field is turned further, so that the spines sweep `turn`; "
             "constant: every vector is turned by `turn`."},
     {KEY_OF(FrostParams, field_weight, "field_weight", KEY_FLOAT), .high = 1000,

@@ -60,26 +60,24 @@ void wavelength_to_rgb(double nm, double rgb[3])
 
 Vec3 spectrum_band_rgb(int band)
 {
-    Vec3 sum = vec3_splat(0.0f);
+    double sum[3] = {0.0, 0.0, 0.0};
     for (int w = 0; w < 40; w += 5) {
         double rgb[3];
         wavelength_to_rgb(380.0 + 40.0 * band + w + 2.5, rgb);
-        sum = vec3_madd(sum, 683.0f * 5.0f, vec3((float)rgb[0], (float)rgb[1], (float)rgb[2]));
+        for (int k = 0; k < 3; k++) {
+            sum[k] += 683.0 * 5.0 * rgb[k];
+        }
     }
-    return sum;
+    return vec3((float)sum[0], (float)sum[1], (float)sum[2]);
 }
 
 Vec3 spectrum_to_rgb(const Spectrum *spectrum)
 {
-    double sum[3] = {0.0, 0.0, 0.0};
-    for (int w = 380; w < 700; w += 5) {
-        double rgb[3];
-        wavelength_to_rgb(w + 2.5, rgb);
-        for (int k = 0; k < 3; k++) {
-            sum[k] += 683.0 * 5.0 * rgb[k] * (double)spectrum->v[(w - 380) / 40];
-        }
+    Vec3 sum = vec3_splat(0.0f);
+    for (int i = 0; i < SPECTRUM_BANDS; i++) {
+        sum = vec3_madd(sum, spectrum->v[i], spectrum_band_rgb(i));
     }
-    return vec3_max(vec3((float)sum[0], (float)sum[1], (float)sum[2]), vec3_splat(0.0f));
+    return vec3_max(sum, vec3_splat(0.0f));
 }
 
 // Bucholtz 1995: 0.0116 per km at 550 nm.
