@@ -81,6 +81,22 @@ static int find_painter(const RamifyScene *scene)
     return found;
 }
 
+static bool check_map(const Options *options, const RamifyScene *scene, RamifyError *e)
+{
+    static const char *const maps[] = {"slope", "aspect",  "curvature",
+                                       "flow",  "wetness", "river-distance"};
+    if (!options->map) {
+        return true;
+    }
+    const char *file = options->output;
+    bool possible = file && is_heights(file) && land_count(scene) > 0;
+    return command_choice("map", options->map, maps, 6, e) >= 0 &&
+           (possible || fail(e, RAMIFY_BAD_INPUT,
+                             "--map %s; it needs a scene with a terrain and --output .png, .exr or "
+                             ".asc",
+                             options->map));
+}
+
 static bool check_request(const Options *options, const RamifyScene *scene, RamifyError *e)
 {
     const char *file = options->output;
@@ -90,10 +106,8 @@ static bool check_request(const Options *options, const RamifyScene *scene, Rami
         return fail_in(e, info.file, RAMIFY_BAD_INPUT,
                        "no object of this scene grows; it needs a tree or another growing thing");
     }
-    if (options->map && !(file && is_heights(file) && land_count(scene) > 0)) {
-        return fail(e, RAMIFY_BAD_INPUT,
-                    "--map %s; it needs a scene with a terrain and --output .png, .exr or .asc",
-                    options->map);
+    if (!check_map(options, scene, e)) {
+        return false;
     }
     if (!file) {
         return true;
