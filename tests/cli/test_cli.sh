@@ -88,6 +88,13 @@ check grow_two_threads 0 "$RAMIFY" grow scene.yaml -o tree.swc --quiet --threads
 hash tree.swc >two
 yes growth_ignores_threads cmp one two
 check grow_wrong_ending 2 "$RAMIFY" grow scene.yaml -o tree.txt
+printf 'objects: [{name: land, terrain: {resolution: 32, size: 600, relief: 90, rivers: {count: 40}}}]\n' >land.yaml
+check grow_map 0 "$RAMIFY" grow land.yaml --map slope -o slope.asc --quiet
+yes grow_map_in_degrees awk 'NR > 6 { for (i = 1; i <= NF; i++) { if ($i < 0 || $i >= 90) exit 1; sum += $i } } END { exit !(sum > 0) }' slope.asc
+check grow_no_map 2 "$RAMIFY" grow land.yaml --map beauty -o beauty.asc
+says grow_no_map_message err "must be one of slope, aspect"
+check grow_map_of_tree 2 "$RAMIFY" grow scene.yaml --map slope -o slope.png
+yes grow_map_of_tree_writes_nothing [ ! -e slope.png ]
 check grow_nothing 2 "$RAMIFY" grow scene.yaml --set 'objects=[{name: a, ground: }]'
 
 check render 0 "$RAMIFY" render scene.yaml -o a.png --threads 1 --json
