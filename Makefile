@@ -15,7 +15,7 @@ CLUSTER_PACKAGES = slurm-wlm munge
 
 , := ,
 VERSION := $(shell sed -n 's/^\#define RAMIFY_VERSION "\(.*\)"/\1/p' src/ramify.h)
-SONAME  := libramify.so.0# counts up when programs must be compiled anew
+SONAME  := libramify.so.1# counts up when programs must be compiled anew
 # The commit that is compiled: that of this folder's repository, or what `make dist` wrote into an archive of it.
 COMMIT  := $(or $(if $(wildcard .git),$(shell git describe --always --abbrev=12 --dirty --exclude='*' 2>/dev/null)),$(shell cat .commit 2>/dev/null),unknown)
 CONFIG ?= release

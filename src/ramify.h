@@ -799,6 +799,9 @@ typedef struct RamifyTurntable {
     int32_t ease;         // default: smooth for elevation and dolly, linear for the rest
     int32_t vary_noise;   // different noise pattern per frame: 1 yes, -1 no, 0 = the scene decides
     const char *isa;      // as for ramify_renderer_new
+    // Seconds between savings of a frame that takes longer: f-07.begun.exr, with which the next
+    // call goes on. 0 = 60; negative = never.
+    double checkpoint;
 } RamifyTurntable;
 
 typedef struct RamifyTurntableInfo {

@@ -1,5 +1,6 @@
 #include "animate/finish.h"
 
+#include "animate/checkpoint.h"
 #include "base/memory.h"
 #include "scene/picture.h"
 
@@ -39,6 +40,9 @@ static void *finish(void *user)
     Run run = run_default();
     run.threads = f->threads;
     f->done = picture_write_marked(f->file, f->scene, f->film, f->mark, &run, &f->e);
+    if (f->done) {
+        checkpoint_remove(f->file);
+    }
     return NULL;
 }
 

@@ -1,5 +1,6 @@
 #include "animate/frames.h"
 
+#include "animate/checkpoint.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -128,12 +129,20 @@ int frames_folder_take(const char *folder, Error *e)
     }
 }
 
-// "000012.png", or "000012.png.ramify-4711-0.part".
+// Does the name end so, or with ".ramify-4711-0.part" after it?
+static bool is_file(const char *end, const char *wanted)
+{
+    size_t length = strlen(wanted);
+    return strncmp(end, wanted, length) == 0 &&
+           (end[length] == 0 || strncmp(end + length, ".ramify-", 8) == 0);
+}
+
+// "000012.png" or "000012.begun.exr", or what a killed run has left of them.
 static bool is_frame(const char *name)
 {
     size_t digits = strspn(name, "0123456789");
-    return digits >= NAME_DIGITS && strncmp(name + digits, ".png", 4) == 0 &&
-           (name[digits + 4] == 0 || strncmp(name + digits + 4, ".ramify-", 8) == 0);
+    return digits >= NAME_DIGITS &&
+           (is_file(name + digits, ".png") || is_file(name + digits, CHECKPOINT_ENDING));
 }
 
 void frames_folder_remove(const char *folder)

@@ -1,5 +1,6 @@
 #include "animate/shoot.h"
 
+#include "animate/checkpoint.h"
 #include "animate/finish.h"
 #include "animate/frames.h"
 #include "animate/pattern.h"
@@ -290,18 +291,58 @@ static Run own_run(Shooting *s)
     return run;
 }
 
-static bool trace_frame(Shooting *s, Film *film, Error *e)
+// Makes *film the frame's: as an earlier run has saved it, or without samples.
+static bool load_film(Shooting *s, const Scene *scene, const Checkpoint *checkpoint, Film **film,
+                      Error *e)
 {
-    Run run = own_run(s);
-    Scene *scene = turntable_scene(s->turntable, s->shot[s->at].frame, e);
+    Film *saved = checkpoint_read(checkpoint);
+    if (saved) {
+        film_free(*film);
+        *film = saved;
+        return true;
+    }
+    if (*film) {
+        film_forget(*film, scene->film.crop);
+    } else {
+        *film = film_new(s->scene->film.width, s->scene->film.height, e);
+    }
+    return *film;
+}
+
+// Traces the film of the scene that is set up, saving it now and then, and when cancelled.
+static bool trace_film(Shooting *s, const Scene *scene, const char *file, Film **film,
+                       const Run *run, Error *e)
+{
+    Checkpoint checkpoint;
     RenderStats stats;
-    if (!scene || !stage_set(s->stage, scene, &run, e) ||
-        !stage_render(s->stage, film, &run, &stats, e)) {
+    double every = s->params->checkpoint;
+    if (!checkpoint_begin(&checkpoint, file, scene, s->shot[s->at].mark, every, s->run, e)) {
         return false;
     }
-    s->stats->trace_seconds += stats.seconds;
-    s->stats->paths += stats.paths;
-    return !run_is_cancelled(s->run) || run_cancel_error(e);
+    bool done = load_film(s, scene, &checkpoint, film, e) &&
+                stage_resume(s->stage, *film, run, checkpoint_pass, every, &checkpoint, &stats, e);
+    if (done) {
+        s->stats->trace_seconds += stats.seconds;
+        s->stats->paths += stats.paths;
+    }
+    if (done && run_is_cancelled(s->run)) {
+        checkpoint_save(&checkpoint, *film);
+        done = run_cancel_error(e);
+    }
+    checkpoint_clear(&checkpoint);
+    return done;
+}
+
+static bool trace_frame(Shooting *s, Film **film, Error *e)
+{
+    int frame = s->shot[s->at].frame;
+    Run run = own_run(s);
+    char *file = pattern_name(s->pattern, frame, e);
+    Scene *scene = file ? turntable_scene(s->turntable, frame, e) : NULL;
+    bool done = scene && stage_set(s->stage, scene, &run, e) && // which owns the scene from here
+                trace_film(s, scene, file, film, &run, e);
+    free(file);
+    return done;
 }
 
 // Passes the film to the finisher once the previous write has ended.
@@ -357,10 +398,7 @@ static bool shoot_frames(Shooting *s, Error *e)
             film_free(*film);
             *film = NULL;
         }
-        if (!*film) {
-            *film = film_new(s->scene->film.width, s->scene->film.height, e);
-        }
-        done = *film && trace_frame(s, *film, e) && hand_over(s, *film, e);
+        done = trace_frame(s, film, e) && hand_over(s, *film, e);
     }
     double traced = run_seconds();
     bool finished = finisher_wait(s->finisher, done ? e : NULL); // also waits for an earlier write

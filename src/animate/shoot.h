@@ -14,6 +14,7 @@ typedef struct ShootParams {
     const char *output; // pattern (see pattern.h) ending in .png, .jpg or .exr; or .mp4
     int start, end;     // frames start .. end, inclusive; negative end = to the last
     const char *isa;    // as for renderer_new
+    double checkpoint;  // s between savings of a frame being traced (checkpoint.h); 0 = never
 } ShootParams;
 
 typedef struct ShootStats {
@@ -28,8 +29,8 @@ typedef struct ShootStats {
 } ShootStats;
 
 // False and e on failure or cancellation (ERROR_CANCELLED, after the tile being traced; the
-// interrupted frame is not written). Finished frames stay, and the same call resumes. stats is
-// filled in either case.
+// interrupted frame is saved to go on with). Finished frames stay, and the same call resumes. stats
+// is filled in either case.
 bool shoot(const Scene *scene, const ShootParams *params, const Run *run, ShootStats *stats,
            Error *e);
 

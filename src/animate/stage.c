@@ -125,6 +125,12 @@ bool stage_render(Stage *stage, Film *film, const Run *run, RenderStats *stats, 
     return renderer_render(stage->renderer, film, run, NULL, NULL, stats, e);
 }
 
+bool stage_resume(Stage *stage, Film *film, const Run *run, RenderPass *pass, double every,
+                  void *user, RenderStats *stats, Error *e)
+{
+    return renderer_resume(stage->renderer, film, run, pass, every, user, stats, e);
+}
+
 const StageStats *stage_stats(const Stage *stage)
 {
     return &stage->stats;

@@ -30,6 +30,10 @@ bool stage_set(Stage *stage, Scene *scene, const Run *run, Error *e);
 // Renders the current scene; see renderer_render.
 bool stage_render(Stage *stage, Film *film, const Run *run, RenderStats *stats, Error *e);
 
+// Goes on with the samples that the film holds; see renderer_resume.
+bool stage_resume(Stage *stage, Film *film, const Run *run, RenderPass *pass, double every,
+                  void *user, RenderStats *stats, Error *e);
+
 const StageStats *stage_stats(const Stage *stage);
 
 #endif

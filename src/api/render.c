@@ -123,7 +123,8 @@ bool ramify_film_write_part(const RamifyFilm *film, const RamifyScene *scene, co
                             RamifyError *error)
 {
     Error e = {0};
-    return picture_write_part(file, scene_of(scene), film_of(film), &e) || api_fail(error, &e);
+    return picture_write_part(file, scene_of(scene), film_of(film), NULL, &e) ||
+           api_fail(error, &e);
 }
 
 bool ramify_write_image(const RamifyScene *scene, const float *rgba, const char *file,

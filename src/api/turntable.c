@@ -1,5 +1,6 @@
 #include "animate/shoot.h"
 #include "api/handles.h"
+#include "base/save_clock.h"
 
 #include <math.h>
 #include <string.h>
@@ -121,6 +122,7 @@ bool ramify_turntable(const RamifyScene *scene, const RamifyTurntable *turntable
     Run own = api_run(run);
     ShootStats stats = {0};
     ShootParams params = {.output = file, .start = given->start, .isa = given->isa};
+    params.checkpoint = given->checkpoint == 0.0 ? SAVE_CLOCK_USUAL : fmax(given->checkpoint, 0.0);
     bool done = take_end(given, &params.end, &e) && take_params(given, &params.turntable, &e) &&
                 shoot(scene_of(scene), &params, &own, &stats, &e);
     if (info) {

@@ -1,5 +1,6 @@
 #include "cli/command.h"
 
+#include "base/save_clock.h"
 #include "cli/interrupt.h"
 
 #include <errno.h>
@@ -36,6 +37,11 @@ RamifyScene *command_scene(const Options *options, RamifyError *e)
 bool command_check_memory(const Options *options, const RamifyScene *scene, RamifyError *e)
 {
     return ramify_check_memory(scene, (int64_t)options->memory, 0, e);
+}
+
+double command_checkpoint(const Options *options)
+{
+    return option_given(options, "checkpoint") ? options->checkpoint : SAVE_CLOCK_USUAL;
 }
 
 RamifyLimits command_limits(const Options *options)

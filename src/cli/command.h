@@ -39,6 +39,9 @@ bool command_join(const Options *options, const RamifyScene *scene, RamifyError 
 // Refuses a scene that certainly needs more than --memory, before any work.
 bool command_check_memory(const Options *options, const RamifyScene *scene, RamifyError *e);
 
+// Seconds between checkpoints of a picture; 0 = none.
+double command_checkpoint(const Options *options);
+
 // Limits for comparing pictures; negative if not given.
 RamifyLimits command_limits(const Options *options);
 

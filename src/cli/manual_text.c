@@ -63,7 +63,8 @@ static const ManualText TEXTS[] = {
           "first, frame i of N shows the time i/N, so that the animation loops without a jump; "
           "else i/(N-1), so that it ends on the last value.",
           "After an interruption the same command resumes: frames that exist, complete and made "
-          "with the same settings, are skipped. --start and --end distribute the work over "
+          "with the same settings, are skipped, and a frame that was saved on the way "
+          "(--checkpoint) goes on with the same bits. --start and --end distribute the work over "
           "several machines."},
      .examples =
          {{"a small film", "ramify turntable pine.yaml --size 320x180 --samples 16 -o pine.mp4"},
@@ -165,8 +166,8 @@ static const ManualText TEXTS[] = {
           "see under the same name: plan (the command), scene.yaml (the scene's text), parts "
           "(finished tiles or frames), logs, and the engine's files. A part gets its name when it "
           "is complete. What is done is which parts are there: a task may be killed, repeated, or "
-          "run twice at any time. A tile is saved every minute (--checkpoint), so that its next "
-          "task goes on with it.",
+          "run twice at any time. A tile or frame is saved every minute (--checkpoint), so that "
+          "its next task goes on with it.",
           "Run again, the same command renders what is missing; so does submit FOLDER. status "
           "FOLDER prints what is done and missing. run FOLDER --parts A-B renders some parts in "
           "this process: it is what all engines call. merge FOLDER makes the output.",

@@ -305,9 +305,10 @@ const Option option_table[] = {
      .low = 0,
      .high = 1e6,
      .type = OPTION_REAL,
-     .commands = BIT(COMMAND_RENDER) | BATCH,
-     .doc =
-         "write the .exr so far every T seconds, for --resume; 60 by default, 0 = only at the end"},
+     .commands = BIT(COMMAND_RENDER) | BIT(COMMAND_TURNTABLE) | BATCH,
+     .doc = "save the rendering so far every T seconds, to go on from after an interruption: a "
+            "picture in its .exr, for --resume, a tile or frame in a file ending in .begun.exr; 60 "
+            "by default, 0 = never"},
     {.name = "add-samples",
      .value = "N",
      .offset = AT(add_samples),

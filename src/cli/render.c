@@ -1,5 +1,6 @@
 // ramify render: renders a scene to a picture.
 #include "base/json.h"
+#include "base/save_clock.h"
 #include "cli/command.h"
 #include "cli/outputs.h"
 
@@ -9,9 +10,6 @@
 #include <unistd.h>
 
 enum { ROUGH_SAMPLES = 16 }; // previews of fewer samples are denoised
-
-#define CHECKPOINT_SECONDS 60.0 // between checkpoints, unless --checkpoint says otherwise
-#define CHECKPOINT_SHARE 0.03   // of the time, at most, is spent on writing checkpoints
 
 // A rendering and its statistics.
 typedef struct Job {
@@ -31,7 +29,7 @@ typedef struct Preview {
     Progress *progress;
     bool shows;         // previews are wanted
     double start, next; // clock_seconds, of previews
-    double every, save; // s between checkpoints; clock_seconds of the next
+    SaveClock save;     // of checkpoints
     double spent;       // s, spent on writing
     bool failed;
 } Preview;
@@ -57,8 +55,7 @@ static void write_checkpoint(Preview *p, const RamifyFilm *film)
 {
     double start = clock_seconds();
     write_early(p, p->job->outputs->exr, film, false);
-    double written = clock_seconds(), rest = (written - start) / CHECKPOINT_SHARE;
-    p->save = written + (rest > p->every ? rest : p->every);
+    save_clock_saved(&p->save, start, clock_seconds());
 }
 
 // Writes a denoised preview after the first pass, then one at growing intervals: a picture is
@@ -75,7 +72,7 @@ static void preview_pass(void *user, const RamifyFilm *film, int samples)
         double written = clock_seconds();
         p->next = written + (written - p->start);
     }
-    if (p->every > 0.0 && clock_seconds() >= p->save) {
+    if (save_clock_is_due(&p->save, clock_seconds())) {
         write_checkpoint(p, film);
     }
 }
@@ -101,17 +98,15 @@ static bool trace(Job *job, const RamifyWorld *world, const Options *options, Ra
                        .progress = progress,
                        .shows = !options->no_preview && job->info.samples > 1,
                        .start = built,
-                       .every = option_given(options, "checkpoint") ? options->checkpoint
-                                                                    : CHECKPOINT_SECONDS};
-    preview.save = built + preview.every;
+                       .save = save_clock_start(command_checkpoint(options), built)};
     const float *crop = job->info.crop;
     progress->work = (double)job->info.width * job->info.height * (double)(crop[2] - crop[0]) *
                      (double)(crop[3] - crop[1]) * job->info.samples;
     bool look = preview.shows && !job->resumed;
     bool done = renderer && ramify_check_memory(job->scene, (int64_t)options->memory, 1, e) &&
                 (!look || first_look(&preview, renderer, film, e)) &&
-                ramify_renderer_resume(renderer, film, preview_pass, preview.every, &preview, run,
-                                       &job->render, e);
+                ramify_renderer_resume(renderer, film, preview_pass, preview.save.every, &preview,
+                                       run, &job->render, e);
     job->build = built - start;
     job->trace = clock_seconds() - built - preview.spent;
     job->write += preview.spent;

@@ -14,6 +14,8 @@ bool command_turn(const Options *options, RamifyTurntable *turntable, RamifyErro
     turntable->vary_noise = options->vary_noise;
     turntable->turns = options->turns;
     turntable->still = option_given(options, "turns") && options->turns == 0.0;
+    double checkpoint = command_checkpoint(options);
+    turntable->checkpoint = checkpoint > 0.0 ? checkpoint : -1.0; // 0 would be the default
     if (options->ease && strcmp(options->ease, "smooth") == 0) {
         turntable->ease = RAMIFY_EASE_SMOOTH;
     } else if (options->ease && strcmp(options->ease, "linear") == 0) {

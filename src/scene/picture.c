@@ -309,11 +309,12 @@ bool picture_write_exr(const char *file, const Scene *scene, const Film *film, b
     return write_exr(file, scene, film, denoise, NULL, run, e);
 }
 
-bool picture_write_part(const char *file, const Scene *scene, const Film *film, Error *e)
+bool picture_write_part(const char *file, const Scene *scene, const Film *film, const char *mark,
+                        Error *e)
 {
     PixelBox box = film_crop_pixels(film->width, film->height, scene->film.crop);
     const int window[4] = {box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0};
-    return write_layers(file, scene, film, NULL, window, NULL, e);
+    return write_layers(file, scene, film, NULL, window, mark, e);
 }
 
 bool picture_write_marked(const char *file, const Scene *scene, const Film *film, const char *mark,

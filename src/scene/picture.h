@@ -42,10 +42,6 @@ bool picture_write_display(const char *file, const Scene *scene, const Film *fil
 bool picture_write_exr(const char *file, const Scene *scene, const Film *film, bool denoise,
                        const Run *run, Error *e);
 
-// Writes the same, of the pixels of the scene's crop alone: a part, from which
-// picture_read_film and picture_join read. Never denoised.
-bool picture_write_part(const char *file, const Scene *scene, const Film *film, Error *e);
-
 // Writes either format, selected by the file extension and denoised if the scene asks for it, with
 // `mark` as metadata under PICTURE_MARK: equal marks mean equal images.
 #define PICTURE_MARK "ramify:frame"
@@ -56,6 +52,11 @@ bool picture_write_part(const char *file, const Scene *scene, const Film *film, 
 #define PICTURE_SETTINGS "ramify:settings" // key of the scene as YAML with every setting
 bool picture_write_marked(const char *file, const Scene *scene, const Film *film, const char *mark,
                           const Run *run, Error *e);
+
+// Writes the linear EXR of the pixels of the scene's crop alone: a part, from which
+// picture_read_film and picture_join read. Never denoised. mark: as above, or NULL.
+bool picture_write_part(const char *file, const Scene *scene, const Film *film, const char *mark,
+                        Error *e);
 
 // Stops by which auto_exposure would brighten the film; NAN and e when out of memory.
 double picture_metered_stops(const Film *film, Error *e);

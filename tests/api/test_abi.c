@@ -39,7 +39,7 @@ static void structs_lie_as_before(void **state)
         STRUCT(RamifyGoldenOptions, memory, 80, 72),
         STRUCT(RamifyGoldenCounts, orphans, 24, 20),
         STRUCT(RamifyKeys, value, 136, 8),
-        STRUCT(RamifyTurntable, isa, 600, 592),
+        STRUCT(RamifyTurntable, checkpoint, 608, 600),
         STRUCT(RamifyTurntableInfo, video_seconds, 88, 80),
     };
     for (size_t i = 0; i < sizeof structs / sizeof structs[0]; i++) {

@@ -107,6 +107,22 @@ if [ $status -eq 130 ]; then
     check begun 0 "$RAMIFY" batch status slow.batch
     says begun_says out 'begun: 0'
 fi
+# a frame goes on with the samples it had
+film="--frames 0-0/3 --samples 1000 --noise 0 --size 64x48"
+check frame_planned 0 "$RAMIFY" batch $scene $film --checkpoint 0.05 -o film-%d.png --folder frame.batch --engine openjd -q
+setsid "$RAMIFY" batch run frame.batch -q --threads 1 2>err &
+process=$!
+tries=0
+while [ ! -e frame.batch/parts/000000.begun.exr ] && [ $tries -lt 600 ]; do sleep 0.05; tries=$((tries + 1)); done
+kill -KILL $process
+wait $process
+check frame_begun 0 "$RAMIFY" batch status frame.batch
+says frame_begun_says out 'begun: 0'
+check frame_goes_on 0 "$RAMIFY" batch run frame.batch -q
+yes frame_is_begun_no_more [ ! -e frame.batch/parts/000000.begun.exr ]
+check frame_at_once 0 "$RAMIFY" turntable "$PWD/$scene" --frames 3 --end 0 --samples 1000 --noise 0 --size 64x48 -o once-%d.png -q
+yes frame_has_the_bits [ "$(cksum <once-0.png)" = "$(cksum <frame.batch/parts/000000.png)" ]
+
 check broken 0 "$RAMIFY" batch $scene --tiles 1x1 -o broken.png --engine openjd -q
 printf 'no picture' >broken.batch/parts/000000.begun.exr
 check broken_run 0 "$RAMIFY" batch run broken.batch

@@ -180,6 +180,38 @@ check film_goes_on 0 $long -o k.mp4 --json
 says film_goes_on_from_its_frames out '"rendered": 28, "skipped": 2'
 no film_clears_up [ -e k.mp4.frames ]
 
+# A frame that takes long goes on with the samples it had, after Ctrl-C and after a kill.
+slow="$RAMIFY turntable scene.yaml --frames 2 --samples 600 --size 96x72 --checkpoint 0.1 -o l/f-%d.png"
+stop_frame() { # stop_frame SIGNAL: while frame 0 is being traced
+    mkdir -p l
+    setsid sh -c 'exec "$@"' sh $slow -q 2>err &
+    child=$!
+    tries=0
+    while [ ! -e l/f-0.begun.exr ] && [ $tries -lt 1200 ]; do sleep 0.05; tries=$((tries + 1)); done
+    kill "-$1" $child
+    wait $child
+}
+paths() { sed -n 's/.*"paths": \([0-9]*\).*/\1/p' "$1"; }
+stop_frame KILL
+yes killed_frame_is_saved [ -e l/f-0.begun.exr -a ! -e l/f-0.png ]
+stop_frame INT
+yes stopped_frame_is_saved [ -e l/f-0.begun.exr -a ! -e l/f-0.png ]
+cp l/f-0.begun.exr begun.exr
+check frame_goes_on 0 $slow --json
+cp out goes_on
+no frame_leaves_nothing ls l/*.begun.exr
+mv l whole && mkdir l
+check frame_uninterrupted 0 $slow --json
+yes frame_has_the_same_bits [ "$(sum whole/f-?.png)" = "$(sum l/f-?.png)" ]
+yes frame_went_on [ "$(paths goes_on)" -lt "$(paths out)" ]
+rm l/f-0.png && cp begun.exr l/f-0.begun.exr
+check other_frame 0 $slow --set camera.fov=31 --json
+yes other_frame_starts_anew [ "$(paths out)" -eq "$((96 * 72 * 2 * 600))" ]
+rm l/f-0.png && echo damaged >l/f-0.begun.exr
+check damaged_frame 0 $slow --end 0 --json
+says damaged_frame_says err 'f-0.begun.exr'
+yes damaged_frame_starts_anew [ "$(paths out)" -eq "$((96 * 72 * 600))" ]
+
 # Two runs do not make one film: the later one says so, and harms nothing.
 setsid sh -c 'exec "$@"' sh $long -o two.mp4 -q 2>first &
 child=$!

@@ -17,24 +17,23 @@ const char *batch_noun(const Batch *batch)
     return batch->ranges > 1 ? "part" : (batch->columns > 0 ? "tile" : "frame");
 }
 
-static char *part_name(const Batch *batch, int part, const char *state, RamifyError *e)
+static char *part_name(const Batch *batch, int part, const char *ending, RamifyError *e)
 {
     char *name = allocate(BATCH_PATH + 64, 1, e);
     if (name) {
-        snprintf(name, BATCH_PATH + 64, "%s/parts/%06d%s%s", batch->folder, part, state,
-                 batch->ending);
+        snprintf(name, BATCH_PATH + 64, "%s/parts/%06d%s", batch->folder, part, ending);
     }
     return name;
 }
 
 char *batch_part_file(const Batch *batch, int part, RamifyError *e)
 {
-    return part_name(batch, part, "", e);
+    return part_name(batch, part, batch->ending, e);
 }
 
 char *batch_begun_file(const Batch *batch, int part, RamifyError *e)
 {
-    return part_name(batch, part, ".begun", e);
+    return part_name(batch, part, ".begun.exr", e);
 }
 
 char *batch_frame_pattern(const Batch *batch, RamifyError *e)

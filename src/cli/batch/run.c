@@ -1,6 +1,7 @@
 // One task of a batch: renders some of its parts in this process, one after another.
 #include "cli/batch/batch.h"
 
+#include "base/save_clock.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 
@@ -8,17 +9,13 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#define CHECKPOINT_SECONDS \
-    60.0                      // between checkpoints, unless the plan's --checkpoint says otherwise
-#define CHECKPOINT_SHARE 0.03 // of the time, at most, is spent on writing them
-
 // A tile that is being rendered.
 typedef struct Tile {
     RamifyScene *scene; // the batch's, with the tile's crop; owned
     RamifyFilm *film;
     char *file, *begun;
     RamifyRun run;
-    double every, next; // s between checkpoints; clock_seconds of the next
+    SaveClock save; // of checkpoints
 } Tile;
 
 // Writes the film so far, now and then. What cannot be written now perhaps can the next time.
@@ -28,15 +25,14 @@ static void checkpoint(void *user, const RamifyFilm *film, int samples)
     double start = clock_seconds();
     (void)film;
     (void)samples;
-    if (tile->every <= 0.0 || start < tile->next) {
+    if (!save_clock_is_due(&tile->save, start)) {
         return;
     }
     RamifyError e = {0};
     if (!ramify_film_write_part(tile->film, tile->scene, tile->begun, &e)) {
         tile->run.warn(tile->run.user, e.message);
     }
-    double end = clock_seconds(), rest = (end - start) / CHECKPOINT_SHARE;
-    tile->next = end + (rest > tile->every ? rest : tile->every);
+    save_clock_saved(&tile->save, start, clock_seconds());
 }
 
 // The batch's scene with the crop and the samples of a part.
@@ -82,9 +78,9 @@ static RamifyFilm *start_film(const Tile *tile, RamifyError *e)
 static bool trace_tile(Tile *tile, RamifyRenderer *renderer, RamifyError *e)
 {
     RamifyRenderInfo info;
-    tile->next = clock_seconds() + tile->every;
-    if (!ramify_renderer_resume(renderer, tile->film, checkpoint, tile->every, tile, &tile->run,
-                                &info, e)) {
+    tile->save = save_clock_start(tile->save.every, clock_seconds());
+    if (!ramify_renderer_resume(renderer, tile->film, checkpoint, tile->save.every, tile,
+                                &tile->run, &info, e)) {
         return false;
     }
     if (*tile->run.cancelled) {
@@ -101,11 +97,10 @@ static bool trace_tile(Tile *tile, RamifyRenderer *renderer, RamifyError *e)
 static bool run_tile(const Batch *batch, int part, RamifyWorld *world, RamifyRenderer *renderer,
                      const RamifyRun *run, RamifyError *e)
 {
-    const Options *plan = &batch->plan;
     float crop[4];
     batch_tile_crop(batch, part, crop);
     Tile tile = {.run = *run,
-                 .every = option_given(plan, "checkpoint") ? plan->checkpoint : CHECKPOINT_SECONDS,
+                 .save.every = command_checkpoint(&batch->plan),
                  .file = batch_part_file(batch, part, e),
                  .begun = batch_begun_file(batch, part, e)};
     tile.scene = tile.file && tile.begun ? part_scene(batch, part, crop, e) : NULL;

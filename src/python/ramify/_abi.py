@@ -5,7 +5,7 @@ import ctypes.util
 import os
 from pathlib import Path
 
-SONAME = "libramify.so.0"
+SONAME = "libramify.so.1"
 
 
 class Error(c.Structure):
