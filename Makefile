@@ -4,7 +4,7 @@
 # programs that tests hold our files against, as COMMAND:PACKAGE. FUZZ: only for fuzz. CLUSTER: only for
 # test-cluster. SAME_BITS: only for same-bits-builds.
 BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libboost-dev libopenimageio-dev \
-                 libopenexr-dev libopencolorio-dev libassimp-dev libyaml-dev libtbb-dev libnlopt-dev libseccomp-dev \
+                 libopenexr-dev zlib1g-dev libopencolorio-dev libassimp-dev libyaml-dev libtbb-dev libnlopt-dev libseccomp-dev \
                  libcmocka-dev libgdal-dev ffmpeg
 CHECK_PACKAGES = clang-format clang-tidy cppcheck
 FUZZ_PACKAGES  = clang libclang-rt-14-dev
@@ -31,7 +31,7 @@ OPT      := $(if $(filter sanitize,$(CONFIG)),-O1 -fsanitize=address$(,)undefine
 ifeq ($(CONFIG),fuzz) # compiled by clang, without OpenMP: an input is read by one thread
 CC       := clang
 CXX      := clang++
-OPT      := -O1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -w
+OPT      := -O2 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -w
 endif
 ifeq ($(CONFIG),threads) # compiled by clang, whose OpenMP tells ThreadSanitizer (by Archer) what its barriers order
 CC       := clang
@@ -70,8 +70,8 @@ $(OBJ)/shape/vdb_%.cpp.o: CXXFLAGS += $(if $(filter fuzz,$(CONFIG)),-fno-sanitiz
 # What needs libraries that take long to load (OpenImageIO brings 240 others) lies in plug-ins, ramify-NAME.so, which are
 # loaded when first used (base/plugin.h). Their sources and libraries:
 PLUGINS      := oiio vdb ocio gdal
-PLUGIN_oiio  := image/decode.cpp image/encode.cpp render/material/texture_filter.cpp
-LDLIBS_oiio  := -lOpenImageIO -lOpenImageIO_Util -lOpenEXR -lstdc++ -lm
+PLUGIN_oiio  := image/decode.cpp image/encode.cpp image/encode_exr.cpp image/png_text.cpp render/material/texture_filter.cpp
+LDLIBS_oiio  := -lOpenImageIO -lOpenImageIO_Util -lOpenEXR -lImath -lz -lstdc++ -lm
 PLUGIN_vdb   := shape/vdb_level_set.cpp shape/vdb_grid_file.cpp shape/vdb_read.cpp shape/spare_memory.cpp
 LDLIBS_vdb   := -lopenvdb -lImath -ltbb -lstdc++ -lm
 PLUGIN_ocio  := image/ocio_view.cpp
@@ -79,7 +79,7 @@ LDLIBS_ocio  := -lOpenColorIO -lstdc++ -lm
 PLUGIN_gdal  := land/survey_gdal.cpp
 LDLIBS_gdal  := -lgdal -lstdc++ -lm
 # OpenEXR's headers include Imath's by their bare names.
-$(OBJ)/image/encode.cpp.o: CXXFLAGS += $(shell pkg-config --cflags-only-I Imath)
+$(OBJ)/image/encode_exr.cpp.o: CXXFLAGS += $(shell pkg-config --cflags-only-I Imath)
 PLUGIN_FILES := $(PLUGINS:%=$(OUT)/ramify-%.so)
 # Where programs look for plug-ins: beside them in build/, or in lib/ramify/.
 RUNPATH         = -Wl,--enable-new-dtags,-rpath,'$(1)'
@@ -177,10 +177,10 @@ tsan: packages ## run a few tests of parallel code under ThreadSanitizer: THREAD
 	@set -e; for test in $(THREAD_TESTS); do echo "  TSAN $$test"; OMP_NUM_THREADS=4 OMP_TOOL_LIBRARIES=$(ARCHER) \
 	    TSAN_OPTIONS=ignore_noninstrumented_modules=1:suppressions=tests/tsan.supp build/threads/tests/$$test; done
 
-fuzz: ## feed random inputs to all that reads files: SECONDS=60 for each of TARGETS="scene set rules swc heights mesh picture vdb"
+fuzz: ## feed random inputs to all that reads files: SECONDS=60 or RUNS=n for each of TARGETS="scene set rules swc heights mesh picture vdb"
 	$(call need,$(FUZZ_PACKAGES))
 	@$(MAKE) --no-print-directory CONFIG=fuzz -j$$(nproc) $(FUZZ_TARGETS:%=build/fuzz/fuzz_%)
-	@tests/fuzz/run build/fuzz $(or $(SECONDS),60) $(or $(TARGETS),$(FUZZ_TARGETS))
+	@tests/fuzz/run build/fuzz $(or $(SECONDS),$(if $(RUNS),0,60)) $(or $(RUNS),-1) $(or $(TARGETS),$(FUZZ_TARGETS))
 
 soak: all ## render COUNT=500 random stills in one process, whose memory must stay flat, as many by the command, and 100 at once
 	@$(MAKE) --no-print-directory $(OUT)/tests/soak/soak
@@ -345,6 +345,7 @@ $(OUT)/libramify.a: $(LIB_OBJ)
 $(OUT)/libramify.so: $(LIB_OBJ) src/ramify.map | $(PLUGIN_FILES)
 	@echo "  LINK $@"
 	@$(CC) -shared -Wl,-soname,$(SONAME) $(LIB_OBJ) -Wl,--version-script=src/ramify.map $(LDFLAGS) $(RUNPATH_LIBRARY) $(LDLIBS) -o $@
+	@ln -sf $(@F) $(OUT)/$(SONAME)
 
 # Only its tables can be seen from outside.
 define plugin_rule
@@ -393,6 +394,14 @@ $(OUT)/tests/%: tests/%.c $(OUT)/libramify.a | $(PLUGIN_FILES)
 	@mkdir -p $(@D)
 	@echo "  TEST $<"
 	@$(CC) $(CFLAGS) -Itests $< $(OUT)/libramify.a $(LDFLAGS) $(RUNPATH_TEST) -lcmocka $(LDLIBS) -o $@
+
+# Reads what the targets of libFuzzer read, plug-ins and all.
+CORPUS_OBJ := $(PLUGIN_oiio:%=$(OBJ)/%.o) $(PLUGIN_vdb:%=$(OBJ)/%.o)
+$(OUT)/tests/fuzz/test_corpus: tests/fuzz/test_corpus.c $(wildcard tests/fuzz/fuzz*.[ch]) $(CORPUS_OBJ) $(OUT)/libramify.a | $(PLUGIN_FILES)
+	@mkdir -p $(@D)
+	@echo "  TEST $<"
+	@$(CC) $(CFLAGS) -Itests $< $(CORPUS_OBJ) $(OUT)/libramify.a $(LDFLAGS) $(RUNPATH_TEST) -lcmocka $(LDLIBS) $(LDLIBS_oiio) \
+	    $(LDLIBS_vdb) -o $@
 
 # What a child process runs is linked in, plug-ins and all.
 FUZZ_PLUGIN_picture := oiio

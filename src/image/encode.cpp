@@ -3,50 +3,29 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
-#include <OpenEXR/ImfInputFile.h>
-#include <OpenEXR/ImfThreading.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <new>
-#include <optional>
-#include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
+
+#include "image/encode_guard.h"
+#include "image/png_text.h"
 
 extern "C" {
 #include "base/file_replace.h"
 #include "base/memory.h"
 #include "image/codec.h"
 #include "image/decode.h"
+#include "image/encode_exr.h"
 #include "image/quantise.h"
 }
 
 namespace
 {
 
-using Bytes = std::vector<unsigned char>;
-
-const size_t ROOM_FOR_METADATA = 1 << 20;
-
-// Runs body and converts exceptions to an Error. what: "'x.png' cannot be written"
-template <typename Body> bool guarded(const std::string &what, Error *e, Body body)
-{
-    try {
-        return body();
-    } catch (const std::bad_alloc &) {
-        return error_set(e, ERROR_MEMORY, "%s: out of memory", what.c_str());
-    } catch (const std::exception &failure) {
-        return error_set(e, ERROR_INTERNAL, "%s: %s", what.c_str(), failure.what());
-    } catch (...) {
-        return error_set(e, ERROR_INTERNAL, "%s: unknown failure", what.c_str());
-    }
-}
+const size_t ROOM_FOR_HEADER = 1 << 20;
 
 std::string extension_of(const char *file)
 {
@@ -56,43 +35,21 @@ std::string extension_of(const char *file)
     return extension;
 }
 
-// Adds the pairs as attributes; as one text for formats without free attributes.
-void add_metadata(OIIO::ImageSpec &spec, const char *metadata, bool as_one_text)
+// All pairs as one text, for JPEG, which has no free attributes. It is cut: a marker holds less
+// than 65,536 bytes.
+void add_description(OIIO::ImageSpec &spec, const char *metadata)
 {
+    const size_t limit = 30000;
     std::string text;
     for (const char *key = metadata; key && *key;) {
         const char *value = key + std::strlen(key) + 1;
-        if (as_one_text) {
-            text += std::string(key) + ": " + value + "\n";
-        } else {
-            spec.attribute(key, value);
-        }
+        text += std::string(key) + ": " + value + "\n";
         key = value + std::strlen(value) + 1;
     }
-    if (as_one_text && !text.empty()) {
-        const size_t limit = 30000; // a JPEG marker holds less than 65,536 bytes
+    if (!text.empty()) {
         spec.attribute("ImageDescription", text.substr(0, limit));
     }
-    spec.attribute("DateTime", ""); // no time stamp: equal pictures give equal files
-    spec.attribute("Software", "ramify");
 }
-
-// OpenEXR's threads exist while a picture is written and never beside a child process that reads
-// one (base/child.h): threads are not forked, and the child would wait for them for ever.
-class ExrThreads
-{
-  public:
-    ExrThreads()
-    {
-        Imf::setGlobalThreadCount(int(std::thread::hardware_concurrency()));
-    }
-    ~ExrThreads()
-    {
-        Imf::setGlobalThreadCount(0);
-    }
-    ExrThreads(const ExrThreads &) = delete;
-    ExrThreads &operator=(const ExrThreads &) = delete;
-};
 
 // OpenImageIO collects a line for each thing that fails after the first.
 std::string first_line(const std::string &text)
@@ -100,18 +57,18 @@ std::string first_line(const std::string &text)
     return text.substr(0, text.find('\n'));
 }
 
-bool encode(const char *file, const char *format, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
+// metadata: of a PNG. Its texts are not OpenImageIO's attributes, which would stay in memory until
+// the process ends.
+bool encode(const char *file, const char *format, OIIO::ImageSpec &spec, const char *metadata,
             const void *pixels, Bytes &bytes, Error *e)
 {
     // Room for all: libjpeg and libpng cannot bear an exception while they write.
-    bytes.reserve(size_t(spec.image_bytes()) + ROOM_FOR_METADATA);
+    bytes.reserve(size_t(spec.image_bytes()) + ROOM_FOR_HEADER);
+    spec.attribute("DateTime", ""); // no time stamp: equal pictures give equal files
+    spec.attribute("Software", "ramify");
     OIIO::Filesystem::IOVecOutput proxy(bytes);
-    OIIO::attribute("threads", 1); // nor are OpenImageIO's own, see ExrThreads
+    OIIO::attribute("threads", 1); // none that a child process could wait for (base/child.h)
     OIIO::attribute("debug", 0);   // errors are ours to tell
-    std::optional<ExrThreads> threads;
-    if (std::strcmp(format, "openexr") == 0) {
-        threads.emplace();
-    }
     auto output = OIIO::ImageOutput::create(format);
     if (!output || !output->supports("ioproxy")) {
         return error_set(e, ERROR_INTERNAL, "'%s' cannot be written: OpenImageIO has no %s writer",
@@ -119,11 +76,12 @@ bool encode(const char *file, const char *format, const OIIO::ImageSpec &spec, O
     }
     std::string name = std::string("memory.") + format;
     bool done = output->set_ioproxy(&proxy) && output->open(name, spec) &&
-                output->write_image(type, pixels) && output->close();
+                output->write_image(spec.format, pixels) && output->close();
     if (!done) {
         return error_set(e, ERROR_INTERNAL, "'%s' cannot be written: %s", file,
                          first_line(output->geterror()).c_str());
     }
+    png_add_texts(bytes, metadata);
     return true;
 }
 
@@ -190,10 +148,10 @@ bool encode_display(const char *file, const Image *image, const char *metadata, 
     if (jpeg) {
         spec.attribute("CompressionQuality", 95);
         spec.attribute("jpeg:subsampling", "4:4:4");
+        add_description(spec, metadata);
     }
-    add_metadata(spec, metadata, jpeg);
-    return encode(file, jpeg ? "jpeg" : "png", spec, OIIO::TypeDesc::UINT8, pixels.data(), bytes,
-                  e);
+    return encode(file, jpeg ? "jpeg" : "png", spec, jpeg ? nullptr : metadata, pixels.data(),
+                  bytes, e);
 }
 
 bool write_display(const char *file, const Image *image, const char *metadata, Error *e)
@@ -213,11 +171,10 @@ bool write_display16(const char *file, const Image *image, const char *metadata,
         return false;
     }
     OIIO::ImageSpec spec = display_spec(image, image->channels, OIIO::TypeDesc::UINT16);
-    add_metadata(spec, metadata, false);
     std::vector<uint16_t> pixels = quantise_16(
         image->pixel, size_t(image->width) * size_t(image->height) * size_t(image->channels));
     Bytes bytes;
-    return encode(file, "png", spec, OIIO::TypeDesc::UINT16, pixels.data(), bytes, e) &&
+    return encode(file, "png", spec, metadata, pixels.data(), bytes, e) &&
            file_replace(file, bytes.data(), bytes.size(), e);
 }
 
@@ -232,133 +189,11 @@ bool write_grey16(const char *file, const Image *image, const char *metadata, Er
     OIIO::ImageSpec spec(image->width, image->height, 1, OIIO::TypeDesc::UINT16);
     spec.attribute("oiio:ColorSpace", "Linear"); // prevents viewers from applying a curve to
                                                  // heights
-    add_metadata(spec, metadata, false);
     std::vector<uint16_t> pixels =
         quantise_16(image->pixel, size_t(image->width) * size_t(image->height));
     Bytes bytes;
-    return encode(file, "png", spec, OIIO::TypeDesc::UINT16, pixels.data(), bytes, e) &&
+    return encode(file, "png", spec, metadata, pixels.data(), bytes, e) &&
            file_replace(file, bytes.data(), bytes.size(), e);
-}
-
-bool check_layers(const char *file, const ImageLayer *layers, int count, Error *e)
-{
-    for (int i = 0; i < count; i++) {
-        const Image *image = layers[i].image, *first = layers[0].image;
-        if (image->width != first->width || image->height != first->height) {
-            return error_set(e, ERROR_INPUT,
-                             "'%s' cannot be written: layer '%s' is %d x %d, the first one %d x %d",
-                             file, layers[i].name, image->width, image->height, first->width,
-                             first->height);
-        }
-        if ((int)std::strlen(layers[i].channel_names) != image->channels) {
-            return error_set(
-                e, ERROR_INPUT,
-                "'%s' cannot be written: layer '%s' has %d channels but the names '%s'", file,
-                layers[i].name, image->channels, layers[i].channel_names);
-        }
-    }
-    return count > 0 || error_set(e, ERROR_INPUT, "'%s' cannot be written: no layers", file);
-}
-
-// Channels of all layers, pixel by pixel, of the spec's window.
-std::vector<float> interleave(const OIIO::ImageSpec &spec, const ImageLayer *layers, int count)
-{
-    size_t width = size_t(spec.width), channels = size_t(spec.nchannels), offset = 0;
-    std::vector<float> pixels(width * size_t(spec.height) * channels);
-    for (int i = 0; i < count; i++) {
-        const Image *image = layers[i].image;
-        size_t own = size_t(image->channels);
-        for (size_t y = 0; y < size_t(spec.height); y++) {
-            const float *row =
-                image->pixel + ((size_t(spec.y) + y) * size_t(image->width) + size_t(spec.x)) * own;
-            for (size_t x = 0; x < width; x++) {
-                std::memcpy(&pixels[(y * width + x) * channels + offset], row + x * own,
-                            own * sizeof(float));
-            }
-        }
-        offset += own;
-    }
-    return pixels;
-}
-
-// An EXR file in memory, for OpenEXR to look into.
-class ExrBytes : public Imf::IStream
-{
-  public:
-    explicit ExrBytes(const Bytes &bytes) : IStream("memory.exr"), all(bytes)
-    {
-    }
-    bool read(char target[], int count) override
-    {
-        if (count < 0 || size_t(count) > all.size() - at) {
-            throw std::runtime_error("the end is missing");
-        }
-        std::memcpy(target, all.data() + at, size_t(count));
-        at += size_t(count);
-        return at < all.size();
-    }
-    uint64_t tellg() override
-    {
-        return at;
-    }
-    void seekg(uint64_t to) override
-    {
-        at = std::min(size_t(to), all.size());
-    }
-
-  private:
-    const Bytes &all;
-    size_t at = 0;
-};
-
-// Neither an attribute nor lines of pixels that could not be written for lack of memory are an
-// error to OpenImageIO and OpenEXR: they are left out. This reads the header and the table of lines
-// only.
-bool check_exr(const char *file, const Bytes &bytes, const char *metadata, Error *e)
-{
-    ExrBytes stream(bytes);
-    Imf::InputFile input(stream, 0);
-    bool whole = input.isComplete();
-    for (const char *key : {"Software", "capDate"}) { // of add_metadata
-        whole = whole && input.header().find(key) != input.header().end();
-    }
-    for (const char *key = metadata; key && *key; key += std::strlen(key) + 1) {
-        whole = whole && input.header().find(key) != input.header().end();
-        key += std::strlen(key) + 1; // over the value
-    }
-    return whole || error_set(e, ERROR_MEMORY, "'%s' cannot be written: out of memory", file);
-}
-
-bool write_exr(const char *file, const ImageLayer *layers, int count, const int *window,
-               const char *metadata, Error *e)
-{
-    if (!check_layers(file, layers, count, e)) {
-        return false;
-    }
-    OIIO::ImageSpec spec(layers[0].image->width, layers[0].image->height, 0, OIIO::TypeDesc::FLOAT);
-    if (window) { // the spec's full size stays
-        spec.x = window[0];
-        spec.y = window[1];
-        spec.width = window[2];
-        spec.height = window[3];
-    }
-    for (int i = 0; i < count; i++) {
-        std::string prefix = layers[i].name[0] ? std::string(layers[i].name) + "." : "";
-        for (const char *c = layers[i].channel_names; *c; c++) {
-            if (prefix.empty() && *c == 'A') {
-                spec.alpha_channel = spec.nchannels;
-            }
-            spec.channelnames.push_back(prefix + *c);
-            spec.nchannels++;
-        }
-    }
-    std::vector<float> pixels = interleave(spec, layers, count);
-    spec.attribute("compression", "zip");
-    spec.attribute("oiio:ColorSpace", "lin_srgb");
-    add_metadata(spec, metadata, false);
-    Bytes bytes;
-    return encode(file, "openexr", spec, OIIO::TypeDesc::FLOAT, pixels.data(), bytes, e) &&
-           check_exr(file, bytes, metadata, e) && file_replace(file, bytes.data(), bytes.size(), e);
 }
 
 // Only for our own PNGs, so without a child process.
@@ -420,13 +255,6 @@ bool guarded_display16(const char *file, const Image *image, const char *metadat
                    [&] { return write_display16(file, image, metadata, e); });
 }
 
-bool guarded_exr(const char *file, const ImageLayer *layers, int count, const int *window,
-                 const char *metadata, Error *e)
-{
-    return guarded("'" + std::string(file) + "' cannot be written", e,
-                   [&] { return write_exr(file, layers, count, window, metadata, e); });
-}
-
 bool guarded_grey16(const char *file, const Image *image, const char *metadata, Error *e)
 {
     return guarded("'" + std::string(file) + "' cannot be written", e,
@@ -455,5 +283,5 @@ struct Formats {
 
 extern "C" const ImageCodec image_codec_oiio;
 const ImageCodec image_codec_oiio = {sizeof(ImageCodec), decode_picture,  guarded_display,
-                                     guarded_display16,  guarded_grey16,  guarded_exr,
+                                     guarded_display16,  guarded_grey16,  encode_exr,
                                      encode_png,         decode_png_bytes};
