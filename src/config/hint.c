@@ -1,6 +1,7 @@
 #include "config/hint.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define LONGEST 64
@@ -40,7 +41,8 @@ int hint_nearest(const char *word, const char *const *known, int count)
     // Up to a third of the letters may differ, but at least one, or two in words of four or more.
     int length = (int)strnlen(word, LONGEST), limit = length < 4 ? 1 : 2 + (length - 4) / 5;
     for (int i = 0; i < count; i++) {
-        int distance = hint_distance(word, known[i]);
+        int longer = (int)strnlen(known[i], LONGEST) - length; // each letter more is a change
+        int distance = abs(longer) <= limit ? hint_distance(word, known[i]) : LONGEST;
         if (distance <= limit) {
             limit = distance - 1;
             nearest = i;

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BLOCK_SIZE 65536
+#define FIRST_BLOCK 8192 // bytes; each further block is twice as large, up to LARGEST_BLOCK
+#define LARGEST_BLOCK 65536
 #define TEXT_A_VALUE 64 // bytes of text that count as one more value when aliases expand
 
 enum { LONGEST_TOKEN = 255 }; // bytes of one name of a path
@@ -45,7 +46,9 @@ void *arena_alloc(Arena *arena, size_t size, Error *e)
     size = (size + _Alignof(max_align_t) - 1) / _Alignof(max_align_t) * _Alignof(max_align_t);
     Block *block = arena->block;
     if (!block || block->size - block->used < size) {
-        size_t wanted = size > BLOCK_SIZE ? size : BLOCK_SIZE;
+        size_t wanted = !block ? FIRST_BLOCK : 2 * block->size;
+        wanted = wanted < LARGEST_BLOCK ? wanted : LARGEST_BLOCK;
+        wanted = wanted > size ? wanted : size;
         block = memory_alloc_zero((int64_t)(sizeof(Block) + wanted), 1, e);
         if (!block) {
             return NULL;

@@ -11,13 +11,14 @@
 typedef struct Anchor {
     const char *name;
     const Node *node;
+    struct Anchor *before;
 } Anchor;
 
 typedef struct Composer {
     yaml_parser_t parser;
     Arena *arena;
     const char *name, *source;
-    Anchor anchors[MAX_ANCHORS];
+    Anchor *anchor; // the last one
     int anchor_count;
     int budget; // nodes still allowed
     Error *e;
@@ -92,17 +93,23 @@ static bool remember(Composer *c, const yaml_char_t *anchor, const Node *node)
         return fail_at(c, (yaml_mark_t){0, (size_t)node->line - 1, (size_t)node->column - 1});
     }
     const char *name = (const char *)anchor;
-    Anchor *slot = &c->anchors[c->anchor_count++];
-    *slot = (Anchor){arena_text(c->arena, name, strlen(name), c->e), node};
-    return slot->name;
+    Anchor *last = arena_alloc(c->arena, sizeof *last, c->e);
+    const char *copy = last ? arena_text(c->arena, name, strlen(name), c->e) : NULL;
+    if (!copy) {
+        return false;
+    }
+    *last = (Anchor){copy, node, c->anchor};
+    c->anchor = last;
+    c->anchor_count++;
+    return true;
 }
 
 static Node *copy_of_anchor(Composer *c, const yaml_event_t *event)
 {
     const char *name = (const char *)event->data.alias.anchor;
-    for (int i = c->anchor_count - 1; i >= 0; i--) {
-        if (strcmp(c->anchors[i].name, name) == 0) {
-            Node *copy = node_copy(c->arena, c->anchors[i].node, &c->budget, c->e);
+    for (const Anchor *anchor = c->anchor; anchor; anchor = anchor->before) {
+        if (strcmp(anchor->name, name) == 0) {
+            Node *copy = node_copy(c->arena, anchor->node, &c->budget, c->e);
             if (!copy) {
                 fail_at(c, event->start_mark);
             }

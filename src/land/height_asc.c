@@ -22,7 +22,7 @@ typedef struct AscHeader {
 
 typedef struct AscText {
     const char *file;
-    char *text, *at;
+    char *at;
     int line;
 } AscText;
 
@@ -214,19 +214,25 @@ static char *read_text(const char *file, Error *e)
     return text;
 }
 
-HeightField *height_field_read_asc(const char *file, Error *e)
+HeightField *height_field_parse_asc(char *text, const char *file, Error *e)
 {
-    AscText asc = {.file = file, .line = 1};
+    AscText asc = {.file = file, .at = text, .line = 1};
     CLocale locale;
     if (!c_locale_enter(&locale, e)) {
         return NULL;
     }
-    asc.text = asc.at = read_text(file, e);
-    HeightField *field = asc.text ? read_heights(&asc, e) : NULL;
+    HeightField *field = read_heights(&asc, e);
+    c_locale_leave(&locale);
+    return field;
+}
+
+HeightField *height_field_read_asc(const char *file, Error *e)
+{
+    char *text = read_text(file, e);
+    HeightField *field = text ? height_field_parse_asc(text, file, e) : NULL;
     if (!field) {
         error_locate(e, file, 0, 0);
     }
-    c_locale_leave(&locale);
-    free(asc.text);
+    free(text);
     return field;
 }

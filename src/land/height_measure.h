@@ -24,4 +24,7 @@ bool drainage_orders(const Drainage *drainage, double least_area, uint8_t *order
 // names file, line and what would be right. The caller frees the field.
 HeightField *height_field_read_asc(const char *file, Error *e);
 
+// The same from a text in memory, which it cuts into words; the name `file` is for errors alone.
+HeightField *height_field_parse_asc(char *text, const char *file, Error *e);
+
 #endif

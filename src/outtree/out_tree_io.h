@@ -6,6 +6,8 @@
 #include "base/run.h"
 #include "outtree/out_tree.h"
 
+#include <stdio.h>
+
 // Node types of SWC; files may hold others.
 typedef enum SwcType {
     SWC_UNDEFINED = 0,
@@ -27,6 +29,10 @@ bool out_tree_write_swc(const OutTree *tree, const char *file, Error *e);
 // generated. ERROR_INPUT with file and line; the caller frees the tree. (swc_read.c)
 OutTree *out_tree_read_swc(const char *file, Error *e);
 
+// The same from a stream that no other thread uses, whose name `file` is for errors alone; the
+// caller closes it. (swc_read.c)
+OutTree *out_tree_parse_swc(FILE *stream, const char *file, Error *e);
+
 // Reads a quantitative structure model: the table of cylinders that TreeQSM (Raumonen 2013) writes
 // as text, in metres with z up. A row is a line of 14, 15 (2.3) or 17 numbers (2.4), separated by
 // blanks or commas: radius, length, start x y z, unit axis x y z, parent and extension (rows from
@@ -34,6 +40,9 @@ OutTree *out_tree_read_swc(const char *file, Error *e);
 // that begins with "radius" are skipped. See qsm.h for the tree. ERROR_INPUT with file, line and
 // column; the caller frees the tree. (qsm_read.c)
 OutTree *out_tree_read_qsm(const char *file, Error *e);
+
+// The same from a stream, as out_tree_parse_swc. (qsm_read.c)
+OutTree *out_tree_parse_qsm(FILE *stream, const char *file, Error *e);
 
 // The same as out_tree_read_swc in a child process with limits (base/child.h), for untrusted files.
 // (import.c)

@@ -207,12 +207,8 @@ static bool check_links(const QsmFile *qsm, Error *e)
     return true;
 }
 
-OutTree *out_tree_read_qsm(const char *file, Error *e)
+OutTree *out_tree_parse_qsm(FILE *stream, const char *file, Error *e)
 {
-    FILE *stream = table_open(file, &QSM, e);
-    if (!stream) {
-        return NULL;
-    }
     QsmFile qsm = {.file = file};
     OutTree *tree = NULL;
     CLocale locale;
@@ -221,7 +217,17 @@ OutTree *out_tree_read_qsm(const char *file, Error *e)
         tree = read ? qsm_make_tree(qsm.cylinder, qsm.count, file, e) : NULL;
         c_locale_leave(&locale);
     }
-    fclose(stream);
     free(qsm.cylinder);
+    return tree;
+}
+
+OutTree *out_tree_read_qsm(const char *file, Error *e)
+{
+    FILE *stream = table_open(file, &QSM, e);
+    if (!stream) {
+        return NULL;
+    }
+    OutTree *tree = out_tree_parse_qsm(stream, file, e);
+    fclose(stream);
     return tree;
 }

@@ -243,12 +243,8 @@ static OutTree *make_tree(SwcFile *swc, Error *e)
     return tree;
 }
 
-OutTree *out_tree_read_swc(const char *file, Error *e)
+OutTree *out_tree_parse_swc(FILE *stream, const char *file, Error *e)
 {
-    FILE *stream = table_open(file, &SWC, e);
-    if (!stream) {
-        return NULL;
-    }
     SwcFile swc = {.file = file};
     OutTree *tree = NULL;
     CLocale locale;
@@ -257,8 +253,18 @@ OutTree *out_tree_read_swc(const char *file, Error *e)
         tree = read ? make_tree(&swc, e) : NULL;
         c_locale_leave(&locale);
     }
-    fclose(stream);
     free(swc.row);
     free(swc.name);
+    return tree;
+}
+
+OutTree *out_tree_read_swc(const char *file, Error *e)
+{
+    FILE *stream = table_open(file, &SWC, e);
+    if (!stream) {
+        return NULL;
+    }
+    OutTree *tree = out_tree_parse_swc(stream, file, e);
+    fclose(stream);
     return tree;
 }

@@ -26,7 +26,7 @@ bool table_read_line(FILE *stream, const TableFormat *format, char text[TABLE_MA
                      Error *e)
 {
     int c, length = 0;
-    while ((c = getc(stream)) != EOF && c != '\n') {
+    while ((c = getc_unlocked(stream)) != EOF && c != '\n') {
         if (c == 0) {
             return error_set(e, ERROR_INPUT, "not a text file: it holds a NUL; %s is text",
                              format->name);

@@ -7,10 +7,23 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+// A copy of the bytes as a text, which the caller frees.
+static inline char *fuzz_text(const uint8_t *data, size_t size)
+{
+    char *text = malloc(size + 1);
+    if (!text) {
+        abort();
+    }
+    memcpy(text, data, size);
+    text[size] = 0;
+    return text;
+}
 
 // A file in memory with this ending (".obj") and these bytes; the same name each time.
 static inline const char *fuzz_file(const char *ending, const uint8_t *data, size_t size)

@@ -6,9 +6,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char *axiom = malloc(size + 1);
-    memcpy(axiom, data, size);
-    axiom[size] = 0;
+    char *axiom = fuzz_text(data, size);
     char *rules = strchr(axiom, '\n');
     if (rules) {
         *rules++ = 0;

@@ -21,9 +21,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     enum { MOST = 8 };
     const char *lines[MOST];
     int count = 0;
-    char *text = malloc(size + 1), *rest = text;
-    memcpy(text, data, size);
-    text[size] = 0;
+    char *text = fuzz_text(data, size), *rest = text;
     while (count < MOST && rest) {
         lines[count++] = strsep(&rest, "\n");
     }
