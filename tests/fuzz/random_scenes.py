@@ -14,6 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+ROOT = Path(__file__).resolve().parents[2]
 SECONDS = 120  # a scene may take
 # Keys that set how much work an object is: the largest value drawn.
 MOST = {
@@ -22,8 +23,11 @@ MOST = {
     "terminals": 60, "max_count": 60, "count": 12, "variants": 2, "levels": 1, "bolts": 3, "max_depth": 4,
     "height": 6, "radius": 20, "flat_radius": 20, "grass_radius": 10, "max_steps": 40, "iterations": 3, "leaflets": 12,
     "leaflets_of_part": 6, "per_node": 6, "per_cluster": 20, "streams": 1, "colonies": 2, "max_order": 3, "detail": 2,
+    "nuclei": 4, "beyond": 1, "tips": 20, "cushions": 20,
 }
-# Keys of files, of other objects, and of libraries that may not be there.
+# Keys that choose between forms of a thing, on which other keys depend: drawn more often than others.
+CHOICES = {"kind", "form", "habit", "surface", "pattern", "show", "shape", "rule"}
+# Keys of files, of other objects, and of libraries that may not be there; what a scene needs of them is given below.
 SKIPPED = {
     "file", "map", "grid", "config", "color_map", "density", "clear_of", "contest", "over", "denoiser", "golden",
     "targets", "animation", "crop", "texture", "image", "fit", "surface_of", "deform", "placed", "trace", "lift",
@@ -42,7 +46,16 @@ SMALL = {
     "outtree": {"growth": {"levels": [{"attractors": 80}]}, "leaves": {"max_count": 10}},
     "lightning": {"height": 5, "bolts": 1}, "venation": {"width": 0.06, "length": 0.1}, "stone": {"resolution": 6},
     "shape": {"envelope": [{"shape": "sphere"}]},
+    "mesh": {"file": str(ROOT / "scenes/meshes/hare.obj")},
+    "skeleton": {"file": str(ROOT / "tests/fuzz/corpus/swc/header_types_crlf.swc")},
+    "climber": {"climbs": "wall", "starts": [{"position": [0, 0, 0.5]}], "height": 0.8, "spread": 0.5, "spacing": 0.1,
+                "leaves": {"max_count": 60}, "hanging": {"count": 3}},
+    "scatter": {"count": 12, "radius": 4, "variants": 2},
 }
+# What grows in a fraction of a second on every place of a scatter.
+THINGS = ("tree", "coral", "lsystem", "frost", "shape", "stone", "venation", "sculpture")
+SPECIES = sorted(file.stem for file in (ROOT / "scenes/species").glob("*.yaml"))
+HERBS = ("timothy", "oxeye_daisy", "cow_parsley", "meadow_buttercup", "common_sorrel")  # small at their own height
 
 
 class Drawer:
@@ -99,7 +112,7 @@ class Drawer:
         found = {}
         for key, of in schema.get("properties", {}).items():
             wanted = key in schema.get("required", [])
-            if key in SKIPPED or not (wanted or self.draw.random() < share):
+            if key in SKIPPED or not (wanted or self.draw.random() < (0.7 if key in CHOICES else share)):
                 continue
             value = self.value(of, key, depth)
             if value is not None and value != []:
@@ -116,6 +129,25 @@ def merged(found, small):
     return result
 
 
+def draw_body(drawer, schema, kind):
+    """The keys of an object of a kind, small."""
+    body = merged(drawer.mapping(schema["$defs"]["object"]["properties"][kind]), SMALL[kind])
+    if kind == "tree" and drawer.draw.random() < 0.4:
+        body["species"] = drawer.draw.choice(SPECIES)
+        if body["species"] in HERBS:
+            body.pop("height")
+    if kind == "terrain" and body.get("form") in ("map", "survey"):
+        body["form"] = "alps"  # those need a file
+    if kind == "climber":
+        body["species"] = drawer.draw.choice(["ivy", "wisteria"])
+    if kind == "scatter":
+        body["things"] = []
+        for _ in range(drawer.draw.randint(1, 2)):
+            thing = drawer.draw.choice(THINGS)
+            body["things"].append({thing: draw_body(drawer, schema, thing)})
+    return body
+
+
 def draw_scene(schema, seed):
     draw = random.Random(seed)
     drawer = Drawer(schema, draw)
@@ -124,13 +156,15 @@ def draw_scene(schema, seed):
     for part in ("film", "render", "sky", "medium"):
         if draw.random() < 0.6:
             scene[part] = drawer.mapping(properties[part])
-    if scene.get("sky", {}).get("kind") == "environment":
-        del scene["sky"]  # which needs a file
+    if scene.get("sky", {}).get("kind", "environment" if draw.random() < 0.8 else "") == "environment":
+        scene["sky"] = {"kind": "constant"}  # that needs a file; the default, sun and sky, takes half a second to build
     scene["film"] = merged(scene.get("film", {}), {"width": 24, "height": 16})
     scene["render"] = merged(scene.get("render", {}), {"samples": 1, "max_depth": draw.randint(1, 6)})
     scene["camera"] = {"position": [draw.uniform(-4, 4), draw.uniform(0.5, 4), 8], "target": [0, 1, 0]}
     if draw.random() < 0.5:
         scene["lights"] = [drawer.mapping(schema["$defs"]["light"])]
+    if draw.random() < 0.2:
+        scene["clouds"] = [drawer.mapping(schema["$defs"]["cloud"])]
     names = []
     for i in range(draw.randint(0, 2)):
         material = drawer.mapping(schema["$defs"]["material"])
@@ -139,11 +173,12 @@ def draw_scene(schema, seed):
     scene["objects"] = []
     for i in range(draw.randint(1, 3)):
         kind = draw.choice(sorted(SMALL))
-        of = schema["$defs"]["object"]["properties"][kind]
-        body = merged(drawer.mapping(of), SMALL[kind])
-        one = {"name": f"o{i}", kind: body}
-        if names and draw.random() < 0.7:
-            one["material"] = draw.choice(names)
+        if kind == "climber" and not any(one["name"] == "wall" for one in scene["objects"]):
+            scene["objects"].append({"name": "wall", "shape": {"envelope": [{"shape": "sphere", "size": 0.5}]}})
+        one = {"name": f"o{i}", kind: draw_body(drawer, schema, kind)}
+        for key in schema["$defs"]["object"]["properties"]:
+            if names and key.endswith("material") and draw.random() < (0.7 if key == "material" else 0.1):
+                one[key] = draw.choice(names)
         scene["objects"].append(one)
     return scene
 
@@ -182,9 +217,10 @@ def repair(ramify, scene, file):
         if result.returncode == 0:
             return
         message = re.sub(r"^.*?:\d+:\d+: ", "", result.stderr)
+        none = re.match(r"(objects\.\w+): an? \w+ has no (\w+); remove", message)
         other = re.match(r"key '(\w+)' does not apply to ([\w.]+?)(?: of kind|;|:| )", message)
         named = re.search(r"((?:objects|materials|lights|film|render|sky|medium|camera)(?:\.\w+)+)", message)
-        path = f"{other[2]}.{other[1]}" if other else named[1] if named else ""
+        path = f"{other[2]}.{other[1]}" if other else f"{none[1]}.{none[2]}" if none else named[1] if named else ""
         if not remove(scene, path):
             return
 
