@@ -106,7 +106,7 @@ BENCH_BIN := $(patsubst tests/%.c,$(OUT)/tests/%,$(BENCHES))
 FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp) tests/*.h tests/*/*.[ch] docs/examples/*.c)
 
 .PHONY: dist deb deb-check reproduce all demo cross-check docs test test-cluster peers bench bench-renderers sanitize lint format format-check install uninstall clean help packages check-packages cluster-packages
-.PHONY: fuzz faults random-scenes same-bits-builds soak tsan valgrind
+.PHONY: fuzz faults estimates random-scenes same-bits-builds soak tsan valgrind
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 
@@ -185,6 +185,9 @@ fuzz: ## feed random inputs to all that reads files: SECONDS=60 or RUNS=n for ea
 soak: all ## render COUNT=500 random stills in one process, whose memory must stay flat, as many by the command, and 100 at once
 	@$(MAKE) --no-print-directory $(OUT)/tests/soak/soak
 	@OMP_WAIT_POLICY=passive python3 tests/soak/run.py $(OUT)/ramify $(OUT)/tests/soak/soak $(or $(COUNT),500) build/soak
+
+estimates: all ## compare what ramify info --estimate tells with what the stills of the gallery take, small: SCENES="scenes/oak.yaml ..."
+	@OMP_WAIT_POLICY=passive tests/estimates $(OUT)/ramify $(SCENES)
 
 faults: all ## let every allocation, reading, writing and start of a process of small runs fail in turn, some 100,000: CASES="render ..."
 	@RAMIFY=$(OUT)/ramify sh tests/faults/test_faults.sh --all $(CASES:%=--case %)

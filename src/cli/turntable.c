@@ -4,7 +4,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 bool command_turn(const Options *options, RamifyTurntable *turntable, RamifyError *e)
 {
@@ -16,14 +15,12 @@ bool command_turn(const Options *options, RamifyTurntable *turntable, RamifyErro
     turntable->still = option_given(options, "turns") && options->turns == 0.0;
     double checkpoint = command_checkpoint(options);
     turntable->checkpoint = checkpoint > 0.0 ? checkpoint : -1.0; // 0 would be the default
-    if (options->ease && strcmp(options->ease, "smooth") == 0) {
-        turntable->ease = RAMIFY_EASE_SMOOTH;
-    } else if (options->ease && strcmp(options->ease, "linear") == 0) {
-        turntable->ease = RAMIFY_EASE_LINEAR;
-    } else if (options->ease) {
-        return fail(e, RAMIFY_BAD_INPUT, "--ease %.60s; it must be linear or smooth",
-                    options->ease);
+    static const char *const eases[] = {"linear", "smooth"};
+    int ease = command_choice("ease", options->ease, eases, 2, e);
+    if (ease < 0) {
+        return false;
     }
+    turntable->ease = options->ease ? RAMIFY_EASE_LINEAR + ease : RAMIFY_EASE_USUAL;
     bool ends = option_given(options, "end");
     if (ends && options->end < turntable->start) {
         return fail(e, RAMIFY_BAD_INPUT, "--start %d comes after --end %d; swap them",
