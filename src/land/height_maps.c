@@ -1,5 +1,6 @@
 #include "land/height_maps.h"
 
+#include "base/exact_math.h"
 #include "base/memory.h"
 #include "land/height_drainage.h"
 #include "land/height_measure.h"
@@ -60,7 +61,7 @@ typedef float LocalMap(const HeightField *field, const Around *around);
 
 static float slope_at(const HeightField *field, const Around *a)
 {
-    return atanf(steepness(gradient(field, a))) / RADIANS_PER_DEGREE;
+    return exact_atan2(steepness(gradient(field, a)), 1.0f) / RADIANS_PER_DEGREE;
 }
 
 static float aspect_at(const HeightField *field, const Around *a)
@@ -69,7 +70,7 @@ static float aspect_at(const HeightField *field, const Around *a)
     if (g.x == 0.0f && g.y == 0.0f) {
         return -1.0f;
     }
-    float degrees = atan2f(-g.x, g.y) / RADIANS_PER_DEGREE;
+    float degrees = exact_atan2(-g.x, g.y) / RADIANS_PER_DEGREE;
     return degrees < 0.0f ? degrees + 360.0f : degrees;
 }
 
@@ -119,7 +120,8 @@ static bool fill_wetness(const HeightField *field, const Drainage *drainage, Hei
             Around around = look_around(field, column, row);
             float slope = fmaxf(steepness(gradient(field, &around)), least_slope);
             float contour = (float)drainage->area[i] / width;
-            out->height[i] = isfinite(field->height[i]) ? logf(contour / slope) : NAN;
+            out->height[i] =
+                isfinite(field->height[i]) ? (float)exact_log((double)(contour / slope)) : NAN;
         }
     }
     (void)e;

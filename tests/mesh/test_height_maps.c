@@ -5,6 +5,8 @@
 #include "land/height_drainage.h"
 #include "land/height_maps.h"
 #include "land/height_measure.h"
+#include "land/height_raster.h"
+#include "mesh/ball.h"
 
 #include <string.h>
 
@@ -189,6 +191,30 @@ static void missing_land_is_missing_in_maps(void **state)
     height_field_free(field);
 }
 
+// A ball seen from above is its upper half.
+static void a_mesh_is_seen_from_above(void **state)
+{
+    (void)state;
+    enum { SIDE = 101 };
+    Mesh *ball = ball_mesh(60, NULL);
+    assert_non_null(ball);
+    HeightField *field = height_field_of_mesh(ball, SIDE, NULL);
+    assert_non_null(field);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        float x = field->origin.x + field->cell.x * (float)(i % SIDE);
+        float z = field->origin.y + field->cell.y * (float)(i / SIDE);
+        float r = hypotf(x, z);
+        if (r < 0.95f) {
+            float wanted = sqrtf(1.0f - r * r), off = field->height[i] - wanted;
+            assert_true(off < 1e-4f && off > -0.01f); // facets lie below the ball
+        } else if (r > 1.001f) {
+            assert_true(isnan(field->height[i]));
+        }
+    }
+    height_field_free(field);
+    mesh_free(ball);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -197,6 +223,7 @@ int main(void)
         cmocka_unit_test(a_slope_gets_wetter_downward),
         cmocka_unit_test(rivers_are_as_far_as_brute_force_finds),
         cmocka_unit_test(missing_land_is_missing_in_maps),
+        cmocka_unit_test(a_mesh_is_seen_from_above),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -177,6 +177,69 @@ static void keeps_to_its_side_of_the_shore(void **state)
     }
 }
 
+// The maps that conditions name, as where.c numbers them.
+enum { MAP_SLOPE = 0, MAP_ASPECT = 1 };
+
+static void land_of_one_slope_meets_its_range_alone(void **state)
+{
+    (void)state;
+    float slope = 0.3f; // 16.7 degrees, falling to the west
+    Thing thing = {.share = 1.0f};
+    MapRange ranges[2] = {{.map = MAP_SLOPE, .range = {16.0f, 17.0f}},
+                          {.map = MAP_ASPECT, .range = {265.0f, 275.0f}}};
+    ScatteringParams scatter = of_things(&thing, 1);
+    scatter.count = 50;
+    scatter.where = ranges;
+    scatter.where_count = 2;
+    Run run = run_default();
+    Recipe recipe = {.seed = 6, .run = &run};
+    Surroundings around = {.land = {slope_height, &slope}};
+    ScatterPlaces places = places_of(&scatter, &recipe, &around);
+    assert_int_equal(places.count, 50);
+    scatter_places_free(&places);
+    ranges[0].range[1] = 16.5f;
+    places = places_of(&scatter, &recipe, &around);
+    assert_int_equal(places.count, 0);
+    scatter_places_free(&places);
+}
+
+// Of a ball seen from above, the slope at a distance r from the axis is asin r.
+static void copies_become_fewer_beyond_a_range(void **state)
+{
+    (void)state;
+    Error e = {0};
+    Mesh *ball = ball_mesh(80, &e);
+    assert_non_null(ball);
+    ShapeSurface surface = {.mesh = ball};
+    Thing thing = {.share = 1.0f};
+    MapRange ranges[2] = {{.map = MAP_SLOPE, .range = {0.0f, 20.0f}, .fade = 20.0f},
+                          {.map = MAP_ASPECT, .range = {315.0f, 45.0f}}}; // through north
+    ScatteringParams scatter = of_things(&thing, 1);
+    scatter.count = 20000;
+    scatter.radius = 0.0f;
+    scatter.slope[1] = 80.0f; // the lower half lies under the map too
+    scatter.where = ranges;
+    scatter.where_count = 2;
+    Run run = run_default();
+    Recipe recipe = {.seed = 7, .run = &run, .surface = &surface};
+    ScatterPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    double in = 0.0, fading = 0.0;
+    for (int64_t i = 0; i < places.count; i++) {
+        Vec3 p = foot(&places.place[i]);
+        float slope = asinf(fminf(hypotf(p.x, p.z), 1.0f)) / RADIANS_PER_DEGREE;
+        assert_true(slope < 41.5f && -p.z > fabsf(p.x) - 0.03f);
+        in += slope < 20.0f;
+        fading += slope >= 20.0f;
+    }
+    // Area goes by sin(slope): the integral of sin s (1 - (s - 20) / 20) from 20 to 40 degrees,
+    // over 1 - cos 20.
+    double a = 20.0 * (double)RADIANS_PER_DEGREE, b = 2.0 * a;
+    double wanted = (cos(a) - (sin(b) - sin(a)) / (b - a)) / (1.0 - cos(a));
+    assert_true(in > 100.0 && fabs(fading / in / wanted - 1.0) < 0.15);
+    scatter_places_free(&places);
+    mesh_free(ball);
+}
+
 static void copies_every_thing(void **state)
 {
     (void)state;
@@ -218,6 +281,8 @@ int main(void)
         cmocka_unit_test(keeps_to_slopes_and_shares),
         cmocka_unit_test(clumps),
         cmocka_unit_test(keeps_to_its_side_of_the_shore),
+        cmocka_unit_test(land_of_one_slope_meets_its_range_alone),
+        cmocka_unit_test(copies_become_fewer_beyond_a_range),
         cmocka_unit_test(copies_every_thing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,6 +4,7 @@
 #include "base/noise.h"
 #include "base/random.h"
 #include "objects/scatter/scatter.h"
+#include "objects/scatter/where.h"
 #include "shape/point_hash.h"
 
 #include <stdlib.h>
@@ -21,7 +22,8 @@ enum {
     STREAM_VARIANT = 7,
     STREAM_PATCH = 8,
     STREAM_SIZE = 9,
-    STREAM_TURN = 10
+    STREAM_TURN = 10,
+    STREAM_WHERE = 11
 };
 
 enum { TRIES = 40 }; // for each copy, at most
@@ -33,6 +35,7 @@ typedef struct Search {
     const ShapeSurface *surface; // NULL = the land
     double *area;                // m^2, of the surface's faces 0 .. i; NULL with the land
     PointHash *taken;            // NULL = places may be as near as they like
+    Where where;                 // maps that places are chosen by
     float shares;                // of all things
     uint64_t seed;
 } Search;
@@ -120,7 +123,9 @@ static bool is_allowed(const Search *s, const Spot *spot)
     bool near = !s->surface || (distance >= params->inner &&
                                 (params->radius == 0.0f || distance <= params->radius));
     return near && within(slope, params->slope) && within(spot->p.y, params->altitude) &&
-           flood_covers(s->around->flood, spot->p) == params->in_water;
+           flood_covers(s->around->flood, spot->p) == params->in_water &&
+           random_unit(random_key(spot->key, STREAM_WHERE)) <
+               where_share(&s->where, params, spot->p);
 }
 
 static int choose_thing(const Search *s, uint64_t key)
@@ -181,7 +186,8 @@ static bool search_begin(Search *s, Error *e)
     s->area = s->surface ? sum_areas(s->surface->mesh, e) : NULL;
     bool spaced = s->params->spacing > 0.0f;
     s->taken = spaced ? point_hash_new(s->params->spacing, e) : NULL;
-    return (s->area || !s->surface) && (s->taken || !spaced);
+    return (s->area || !s->surface) && (s->taken || !spaced) &&
+           where_init(&s->where, s->params, s->surface, &s->around->land, e);
 }
 
 static bool search(const Search *s, ScatterPlaces *places, const Run *run, Error *e)
@@ -222,6 +228,7 @@ bool scatter_places_init(ScatterPlaces *places, const ScatteringParams *params,
     places->thing = places->place ? memory_alloc(params->count, sizeof *places->thing, e) : NULL;
     bool done = places->thing && search_begin(&s, e) && search(&s, places, recipe->run, e);
     point_hash_free(s.taken);
+    where_free(&s.where);
     free(s.area);
     return done;
 }

@@ -10,6 +10,13 @@ typedef struct Thing {
     float share;        // of the copies, relative to the other things'
 } Thing;
 
+// A condition on the places: a map's value lies in a range (where.h).
+typedef struct MapRange {
+    int map;        // which (where.c)
+    float range[2]; // least and greatest value, in the map's unit
+    float fade;     // in that unit: copies become fewer over this distance from the range
+} MapRange;
+
 typedef struct ScatteringParams {
     char *on; // name of the object whose surface they stand on; NULL = the land
     int64_t count;
@@ -26,6 +33,8 @@ typedef struct ScatteringParams {
     float sink;        // m below the surface, of a copy of scale 1
     bool in_water;     // in water, not outside of it
     int variants;      // of each thing
+    MapRange *where;   // conditions that all hold
+    int where_count;
     Thing *things;
     int thing_count;
 } ScatteringParams;
