@@ -70,7 +70,7 @@ $(OBJ)/shape/vdb_%.cpp.o: CXXFLAGS += $(if $(filter fuzz,$(CONFIG)),-fno-sanitiz
 # What needs libraries that take long to load (OpenImageIO brings 240 others) lies in plug-ins, ramify-NAME.so, which are
 # loaded when first used (base/plugin.h). Their sources and libraries:
 PLUGINS      := oiio vdb ocio gdal
-PLUGIN_oiio  := image/decode.cpp image/encode.cpp image/encode_exr.cpp image/png_text.cpp render/material/texture_filter.cpp
+PLUGIN_oiio  := image/decode.cpp image/encode.cpp image/encode_bytes.cpp image/encode_check.cpp image/encode_exr.cpp image/png_text.cpp
 LDLIBS_oiio  := -lOpenImageIO -lOpenImageIO_Util -lOpenEXR -lImath -lz -lstdc++ -lm
 PLUGIN_vdb   := shape/vdb_level_set.cpp shape/vdb_grid_file.cpp shape/vdb_read.cpp shape/spare_memory.cpp
 LDLIBS_vdb   := -lopenvdb -lImath -ltbb -lstdc++ -lm

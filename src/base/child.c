@@ -47,8 +47,7 @@ static bool start(const ChildJob *job, ChildReport *report, int file, Child *chi
     int why = errno;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     *child = (Child){.pid = pid, .pidfd = pid > 0 ? pidfd_open(pid, 0) : -1};
-    return pid > 0 ||
-           error_set(e, ERROR_IO, "no process can be started to read it in: %s", strerror(why));
+    return pid > 0 || error_set(e, ERROR_IO, "no process can be started for it: %s", strerror(why));
 }
 
 // Checks whether the child has ended. A host that ignores SIGCHLD, or waits for any child, receives
@@ -106,10 +105,21 @@ static void clean(char *text, size_t size)
     }
 }
 
+static const char *worker(const ChildJob *job)
+{
+    return job->worker ? job->worker : "reader";
+}
+
+// A reader that fails has a bad file, a writer bad luck.
+static ErrorCode blame(const ChildJob *job)
+{
+    return job->worker ? ERROR_INTERNAL : ERROR_INPUT;
+}
+
 static bool too_late(const ChildJob *job, Error *e)
 {
-    return error_set(e, ERROR_INPUT, "the reader took longer than %g s; %s is needed", job->seconds,
-                     job->wanted);
+    return error_set(e, blame(job), "the %s took longer than %g s; %s is needed", worker(job),
+                     job->seconds, job->wanted);
 }
 
 static bool crashed(const ChildJob *job, int signal, int call, Error *e)
@@ -117,7 +127,7 @@ static bool crashed(const ChildJob *job, int signal, int call, Error *e)
     if (signal == SIGSYS) {
         char name[64];
         child_filter_name(call, name, sizeof name);
-        return error_set(e, ERROR_INPUT,
+        return error_set(e, blame(job),
                          "the reader was stopped at the system call '%s', which reading does not "
                          "need; the file may be an attack: %s is needed",
                          name, job->wanted);
@@ -126,12 +136,13 @@ static bool crashed(const ChildJob *job, int signal, int call, Error *e)
         return too_late(job, e);
     }
     if (signal == SIGKILL) {
-        return error_set(e, ERROR_INPUT,
-                         "the reader was killed from outside, as the system does when memory runs "
-                         "out; try again with more of it free");
+        return error_set(e, blame(job),
+                         "the %s was killed from outside, as the system does when memory runs "
+                         "out; try again with more of it free",
+                         worker(job));
     }
     const char *name = sigdescr_np(signal);
-    return error_set(e, ERROR_INPUT, "the reader crashed (%s); %s is needed",
+    return error_set(e, blame(job), "the %s crashed (%s); %s is needed", worker(job),
                      name ? name : "unknown signal", job->wanted);
 }
 
@@ -139,6 +150,9 @@ static bool crashed(const ChildJob *job, int signal, int call, Error *e)
 // the user's limits (ulimit) leave less than that.
 static bool short_of_memory(const ChildJob *job, const ChildReport *report, Error *e)
 {
+    if (job->memory == INT64_MAX) {
+        return error_set(e, ERROR_MEMORY, "out of memory");
+    }
     if (report->own_limit) {
         return error_set(
             e, ERROR_INPUT,
@@ -160,7 +174,10 @@ static bool task_failed(const ChildJob *job, const ChildReport *report, Error *e
     }
     bool known = copy.code == ERROR_INPUT || copy.code == ERROR_IO;
     error_set(e, known ? copy.code : ERROR_INTERNAL, "%s", copy.message);
-    error_locate(e, job->file, copy.line > 0 ? copy.line : 0, copy.column > 0 ? copy.column : 0);
+    if (job->file) {
+        error_locate(e, job->file, copy.line > 0 ? copy.line : 0,
+                     copy.column > 0 ? copy.column : 0);
+    }
     return false;
 }
 
@@ -179,7 +196,7 @@ static bool judge(const ChildJob *job, Outcome outcome, const Child *child,
         return crashed(job, signal, report->call, e);
     }
     if (!report->ended) {
-        return error_set(e, ERROR_INPUT, "the reader ended without a result; %s is needed",
+        return error_set(e, blame(job), "the %s ended without a result; %s is needed", worker(job),
                          job->wanted);
     }
     return report->error.code == ERROR_NONE || task_failed(job, report, e);
@@ -190,7 +207,7 @@ static bool rewind_output(ChildOutput *output, Error *e)
 {
     struct stat status;
     if (fstat(output->file, &status) != 0 || lseek(output->file, 0, SEEK_SET) != 0) {
-        return error_set(e, ERROR_IO, "cannot take over what was read: %s", strerror(errno));
+        return error_set(e, ERROR_IO, "cannot take over the result: %s", strerror(errno));
     }
     output->left = status.st_size;
     return true;
@@ -201,6 +218,7 @@ static bool run_child(const ChildJob *job, ChildReport *report, const Run *run, 
 {
     Child child;
     if (!start(job, report, output->file, &child, e)) {
+        output->not_started = true;
         return false;
     }
     Outcome outcome = wait_for(&child, job->seconds, run);
@@ -218,8 +236,7 @@ bool child_run(const ChildJob *job, const Run *run, ChildOutput *output, Error *
         mmap(NULL, sizeof *report, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     bool done = output->file >= 0 && report != MAP_FAILED;
     if (!done) {
-        error_set(e, ERROR_IO, "no memory can be shared with a process to read it in: %s",
-                  strerror(errno));
+        error_set(e, ERROR_IO, "no memory can be shared with another process: %s", strerror(errno));
     }
     done = done && run_child(job, report, run, output, e);
     if (report != MAP_FAILED) {
@@ -227,7 +244,24 @@ bool child_run(const ChildJob *job, const Run *run, ChildOutput *output, Error *
     }
     if (!done) {
         child_output_close(output);
-        error_locate(e, job->file, 0, 0);
+        if (job->file) {
+            error_locate(e, job->file, 0, 0);
+        }
+    }
+    return done;
+}
+
+bool child_run_here(const ChildJob *job, ChildOutput *output, Error *e)
+{
+    *output = (ChildOutput){.file = memfd_create("ramify", MFD_CLOEXEC)};
+    Error own = {0};
+    bool done = output->file >= 0
+                    ? job->task(job->data, output, &own)
+                    : error_set(&own, ERROR_IO, "no memory for a file: %s", strerror(errno));
+    done = done && rewind_output(output, &own);
+    if (!done) {
+        child_output_close(output);
+        error_set(e, own.code, "%s", own.message);
     }
     return done;
 }

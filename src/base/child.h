@@ -1,5 +1,6 @@
 // Runs work on untrusted input in a child process with limits, so that a crash or a hang becomes an
-// Error: readers of other programs' files run in one.
+// Error: readers of other programs' files run in one, and so do the writers of pictures, whose
+// libraries crash, hang or leave something out when memory runs out.
 //
 // The child is a fork that shares only a report and a file in memory with its parent, has no
 // terminal, and dies with its parent. If the kernel supports it, a system call filter
@@ -16,8 +17,14 @@
 // The child's result: bytes in memory, written in the child and read in the parent. Untrusted until
 // checked.
 typedef struct ChildOutput {
-    int file;     // -1 = closed
-    int64_t left; // bytes not yet read
+    int file;         // -1 = closed
+    int64_t left;     // bytes not yet read
+    bool limited;     // in a child: its size is limited by the job, not by the user alone
+    bool not_started; // child_run has failed before anything was tried: the system has no process
+    // In a child: ends it with ERROR_MEMORY, from any thread. A task in C++ makes it its
+    // std::new_handler, so that no library has to cope with an exception it does not expect. Else
+    // NULL.
+    void (*out_of_memory)(void);
 } ChildOutput;
 
 // Runs in the child on one thread (no OpenMP, no locks that threads of the host may hold; malloc
@@ -28,11 +35,13 @@ typedef bool ChildTask(const void *data, ChildOutput *output, Error *e);
 typedef struct ChildJob {
     ChildTask *task;
     const void *data;   // passed to task
-    const char *file;   // the file it reads, for errors
+    const char *file;   // the file it reads, for errors; NULL = the caller names it
+    const char *worker; // "writer"; NULL = "reader", for errors
     const char *wanted; // "a whole OBJ file": what would be right, for errors
     double seconds;     // limit of wall-clock and of processor time
     int64_t memory;     // limit in bytes, beyond what this process has mapped already; the same
-                        // again for output. Not enforced under AddressSanitizer.
+                        // again for output; INT64_MAX = the user's own limits. Not enforced
+                        // under AddressSanitizer.
 } ChildJob;
 
 // Runs the job; true with output open for reading, to be closed by child_output_close. Otherwise e,
@@ -40,6 +49,9 @@ typedef struct ChildJob {
 // exceeded a limit or ended without an error; ERROR_CANCELLED; ERROR_IO when no child can be
 // started. The child is reaped on return, whatever the host does with SIGCHLD. Thread-safe.
 bool child_run(const ChildJob *job, const Run *run, ChildOutput *output, Error *e);
+
+// Runs the task in this process instead, without limits. Errors: the task's own, ERROR_IO.
+bool child_run_here(const ChildJob *job, ChildOutput *output, Error *e);
 
 // In the task: appends count elements of size bytes.
 bool child_write(ChildOutput *output, const void *data, int64_t count, size_t size, Error *e);

@@ -15,7 +15,7 @@
 
 enum { OUTPUT_FILE = 3, MOST_FILES = 64, SIGNAL_STACK = 65536 };
 
-// Global for the crash handler; set only in the child.
+// Global for handlers, which have no argument; set only in the child.
 static ChildReport *crash_report;
 
 static void on_crash(int number, siginfo_t *info, void *context)
@@ -24,6 +24,13 @@ static void on_crash(int number, siginfo_t *info, void *context)
     crash_report->call = number == SIGSYS ? info->si_syscall : 0;
     crash_report->signal = number;
     _exit(EXIT_FAILURE);
+}
+
+static void out_of_memory(void)
+{
+    error_set(&crash_report->error, ERROR_MEMORY, "out of memory");
+    crash_report->ended = 1;
+    _exit(EXIT_SUCCESS);
 }
 
 // The child records a crash itself, because its exit status may be lost to a host that ignores
@@ -42,8 +49,8 @@ static void catch_crashes(ChildReport *report)
     void *memory =
         mmap(NULL, SIGNAL_STACK, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     stack_t stack = {.ss_sp = memory, .ss_size = SIGNAL_STACK};
+    crash_report = report;
     if (memory != MAP_FAILED && sigaltstack(&stack, NULL) == 0) {
-        crash_report = report;
         action.sa_sigaction = on_crash;
         action.sa_flags = SA_ONSTACK | SA_SIGINFO;
         for (size_t i = 0; i < sizeof crashes / sizeof crashes[0]; i++) {
@@ -98,6 +105,17 @@ static bool lower_limit(__rlimit_resource_t what, int64_t value)
     return setrlimit(what, &limit) == 0 && limit.rlim_cur == (rlim_t)value;
 }
 
+// The output is in memory, so the user's limit of files holds only if it cannot be raised.
+static void limit_output(int64_t most)
+{
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_FSIZE, &limit) == 0) {
+        limit.rlim_max = limit.rlim_max > (rlim_t)most ? (rlim_t)most : limit.rlim_max;
+        limit.rlim_cur = limit.rlim_max;
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+}
+
 static void set_limits(const ChildJob *job, ChildReport *report)
 {
     int64_t seconds = (int64_t)ceil(job->seconds);
@@ -107,7 +125,7 @@ static void set_limits(const ChildJob *job, ChildReport *report)
     if (mapped > 0 && !__builtin_add_overflow(mapped, job->memory, &memory)) {
         report->own_limit = lower_limit(RLIMIT_AS, memory);
     }
-    lower_limit(RLIMIT_FSIZE, job->memory);
+    limit_output(job->memory);
     lower_limit(RLIMIT_CORE, 0);
     lower_limit(RLIMIT_NOFILE, MOST_FILES);
 }
@@ -140,7 +158,9 @@ _Noreturn void child_confined(const ChildJob *job, ChildReport *report, int file
     } else {
         set_limits(job, report);
         child_filter(); // on kernels without filters the limits still apply
-        ChildOutput output = {.file = OUTPUT_FILE};
+        ChildOutput output = {.file = OUTPUT_FILE,
+                              .limited = job->memory != INT64_MAX,
+                              .out_of_memory = out_of_memory};
         if (job->task(job->data, &output, &e)) {
             e.code = ERROR_NONE;
         } else if (e.code == ERROR_NONE) {

@@ -21,8 +21,9 @@ bool child_write(ChildOutput *output, const void *data, int64_t count, size_t si
     while (left > 0) {
         ssize_t put = write(output->file, at, left < LARGEST_WRITE ? left : LARGEST_WRITE);
         if (put < 0 && errno != EINTR) {
-            return error_set(e, errno == EFBIG || errno == ENOMEM ? ERROR_MEMORY : ERROR_IO,
-                             "cannot hand back what was read: %s", strerror(errno));
+            bool memory = errno == ENOMEM || (errno == EFBIG && output->limited);
+            return error_set(e, memory ? ERROR_MEMORY : ERROR_IO, "cannot hand back the result: %s",
+                             strerror(errno));
         }
         at += put > 0 ? put : 0;
         left -= put > 0 ? (size_t)put : 0;
@@ -45,13 +46,13 @@ bool child_read(ChildOutput *output, void *data, int64_t count, size_t size, Err
     size_t left;
     if (count < 0 || __builtin_mul_overflow((size_t)count, size, &left) ||
         left > (size_t)output->left) {
-        return error_set(e, ERROR_INPUT, "the reader broke off in its result");
+        return error_set(e, ERROR_INPUT, "the result breaks off");
     }
     output->left -= (int64_t)left;
     while (left > 0) {
         ssize_t got = read(output->file, at, left < LARGEST_READ ? left : LARGEST_READ);
         if (got == 0 || (got < 0 && errno != EINTR)) {
-            return error_set(e, ERROR_IO, "cannot take over what was read: %s",
+            return error_set(e, ERROR_IO, "cannot take over the result: %s",
                              got == 0 ? "it shrank" : strerror(errno));
         }
         give_back(output->file, got);

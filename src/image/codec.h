@@ -12,14 +12,7 @@
 typedef struct ImageCodec {
     size_t size;       // of this struct
     ChildTask *decode; // of a DecodeJob (image/decode.h)
-    bool (*write_display)(const char *file, const Image *image, const char *metadata, Error *e);
-    bool (*write_display16)(const char *file, const Image *image, const char *metadata, Error *e);
-    bool (*write_grey16)(const char *file, const Image *image, const char *metadata, Error *e);
-    bool (*write_exr)(const char *file, const ImageLayer *layers, int count, const int *window,
-                      const char *metadata, Error *e); // window NULL = all
-    bool (*encode_png)(const Image *image, const char *metadata, unsigned char **bytes,
-                       size_t *size, Error *e);
-    Image *(*decode_png)(const unsigned char *bytes, size_t size, Error *e);
+    ChildTask *encode; // of an EncodeJob (image/encode.h)
 } ImageCodec;
 
 // Errors: see plugin_table.

@@ -1,11 +1,14 @@
 // Decodes a picture in a child process through OpenImageIO and returns its pixels in blocks of
 // rows, so that only one block is in memory if the format is read row by row.
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 extern "C" {
@@ -253,6 +256,16 @@ bool hand_metadata(const OIIO::ImageSpec &spec, const DecodeJob *job, DecodeHead
            child_write(output, text.data(), header->metadata, 1, e);
 }
 
+// A PNG.
+std::unique_ptr<OIIO::ImageInput> open_memory(const DecodeJob *job, const OIIO::ImageSpec &config,
+                                              OIIO::Filesystem::IOMemReader &memory)
+{
+    auto input = OIIO::ImageInput::create("png");
+    OIIO::ImageSpec spec;
+    bool open = input && input->set_ioproxy(&memory) && input->open(job->file, spec, config);
+    return open ? std::move(input) : nullptr;
+}
+
 bool decode(const DecodeJob *job, ChildOutput *output, Error *e)
 {
     // the threads of the forking process do not exist here
@@ -262,7 +275,9 @@ bool decode(const DecodeJob *job, ChildOutput *output, Error *e)
     if (job->kind != DECODE_TEXTURE) { // textures are filtered, so they stay multiplied by alpha
         config.attribute("oiio:UnassociatedAlpha", 1);
     }
-    auto input = OIIO::ImageInput::open(job->file, &config);
+    OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char *>(job->bytes), job->size);
+    auto input =
+        job->bytes ? open_memory(job, config, memory) : OIIO::ImageInput::open(job->file, &config);
     if (!input) {
         return error_set(e, ERROR_INPUT, "%s", OIIO::geterror().c_str());
     }
@@ -285,6 +300,9 @@ bool decode(const DecodeJob *job, ChildOutput *output, Error *e)
 
 extern "C" bool decode_picture(const void *data, ChildOutput *output, Error *e)
 {
+    if (output->out_of_memory) {
+        std::set_new_handler(output->out_of_memory);
+    }
     try {
         return decode(static_cast<const DecodeJob *>(data), output, e);
     } catch (const std::bad_alloc &) {

@@ -19,6 +19,9 @@ typedef enum DecodeKind {
 
 typedef struct DecodeJob {
     const char *file;
+    const unsigned char
+        *bytes; // `size` of the file, a PNG, which is then a name alone; NULL = read it
+    size_t size;
     DecodeKind kind;
     const char *layer, *channels; // DECODE_LAYER
     const char *const *names;     // DECODE_NAMED: `count` of channels

@@ -1,7 +1,6 @@
 // Writes EXR pictures by OpenEXR itself: planes are read where they lie, and OpenImageIO would keep
 // each text of the metadata until the process ends.
 #include "image/encode_exr.h"
-#include "image/encode_guard.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -13,16 +12,18 @@
 #include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 #include <thread>
-
-extern "C" {
-#include "base/file_replace.h"
-}
 
 namespace
 {
+
+using Bytes = std::vector<unsigned char>;
+
+const int ROWS_AT_A_TIME = 64;
 
 // OpenEXR's threads exist while a picture is written and never beside a child process that reads
 // one (base/child.h): threads are not forked, and the child would wait for them for ever.
@@ -101,24 +102,21 @@ class ExrInput : public Imf::IStream
     size_t at = 0;
 };
 
-bool check_layers(const char *file, const ImageLayer *layers, int count, Error *e)
+bool check_layers(const ImageLayer *layers, int count, Error *e)
 {
     for (int i = 0; i < count; i++) {
         const Image *image = layers[i].image, *first = layers[0].image;
         if (image->width != first->width || image->height != first->height) {
-            return error_set(e, ERROR_INPUT,
-                             "'%s' cannot be written: layer '%s' is %d x %d, the first one %d x %d",
-                             file, layers[i].name, image->width, image->height, first->width,
+            return error_set(e, ERROR_INPUT, "layer '%s' is %d x %d, the first one %d x %d",
+                             layers[i].name, image->width, image->height, first->width,
                              first->height);
         }
         if ((int)std::strlen(layers[i].channel_names) != image->channels) {
-            return error_set(
-                e, ERROR_INPUT,
-                "'%s' cannot be written: layer '%s' has %d channels but the names '%s'", file,
-                layers[i].name, image->channels, layers[i].channel_names);
+            return error_set(e, ERROR_INPUT, "layer '%s' has %d channels but the names '%s'",
+                             layers[i].name, image->channels, layers[i].channel_names);
         }
     }
-    return count > 0 || error_set(e, ERROR_INPUT, "'%s' cannot be written: no layers", file);
+    return count > 0 || error_set(e, ERROR_INPUT, "no layers");
 }
 
 // The window of the picture, in which pixels are written; OpenEXR counts to the last one.
@@ -141,58 +139,118 @@ Imf::Header make_header(const Image *image, const int *window, const char *metad
     return header;
 }
 
-// Adds the layers' channels, which stay where they are.
-void add_channels(const ImageLayer *layers, int count, Imf::Header &header, Imf::FrameBuffer &frame)
+// The name of a layer's channel in the file.
+std::string channel_name(const ImageLayer &layer, int c)
 {
-    for (int i = 0; i < count; i++) {
-        const Image *image = layers[i].image;
+    return (layer.name[0] ? std::string(layer.name) + "." : "") + layer.channel_names[c];
+}
+
+// Adds the layers' channels, which stay where they are.
+void add_channels(const EncodeJob &job, Imf::Header &header, Imf::FrameBuffer &frame)
+{
+    for (int i = 0; i < job.count; i++) {
+        const Image *image = job.layers[i].image;
         size_t pixel = sizeof(float) * size_t(image->channels), row = pixel * size_t(image->width);
         for (int c = 0; c < image->channels; c++) {
-            std::string name = layers[i].name[0] ? std::string(layers[i].name) + "." : "";
-            name += layers[i].channel_names[c];
+            std::string name = channel_name(job.layers[i], c);
             header.channels().insert(name, Imf::Channel(Imf::FLOAT));
             frame.insert(name, Imf::Slice(Imf::FLOAT, (char *)(image->pixel + c), pixel, row));
         }
     }
 }
 
-// Lines of pixels that could not be written for lack of memory are no error to OpenEXR: they are
-// left out. This reads the header and the table of lines only.
-bool is_whole(const Bytes &bytes)
+void write_lines(const EncodeJob &job, Bytes &bytes)
 {
-    ExrInput stream(bytes);
-    return Imf::InputFile(stream, 0).isComplete();
+    Imf::Header header = make_header(job.layers[0].image, job.window, job.metadata);
+    Imf::FrameBuffer frame;
+    add_channels(job, header, frame);
+    const Imath::Box2i &data = header.dataWindow();
+    ExrOutput stream(bytes);
+    Imf::OutputFile output(stream, header);
+    output.setFrameBuffer(frame);
+    output.writePixels(data.max.y - data.min.y + 1);
+} // its destructor writes the table of lines
+
+// Rows of all channels as they are read back, one plane a channel.
+struct Planes {
+    size_t width;
+    std::vector<float> value;
+
+    float *row(size_t plane, int y)
+    {
+        return value.data() + (plane * size_t(ROWS_AT_A_TIME) + size_t(y)) * width;
+    }
+};
+
+// first: the row of the picture that is the planes' first one.
+bool same_rows(const EncodeJob &job, Planes &planes, int left, int first, int rows)
+{
+    size_t plane = 0;
+    for (int i = 0; i < job.count; i++) {
+        const Image *image = job.layers[i].image;
+        for (int c = 0; c < image->channels; c++, plane++) {
+            for (int y = 0; y < rows; y++) {
+                const float *wanted = image->pixel +
+                                      ((size_t)(first + y) * size_t(image->width) + size_t(left)) *
+                                          size_t(image->channels) +
+                                      c;
+                const float *found = planes.row(plane, y);
+                for (size_t x = 0; x < planes.width; x++, wanted += image->channels) {
+                    if (std::memcmp(wanted, found + x, sizeof(float)) != 0) {
+                        return false;
+                    }
+                }
+            }
+        }
+    }
+    return true;
 }
 
-bool write_exr(const char *file, const ImageLayer *layers, int count, const int *window,
-               const char *metadata, Error *e)
+// Lines of pixels that could not be written for lack of memory are no error to OpenEXR: they are
+// left out. So all are read again and compared bit by bit, some at a time.
+bool holds_all(const EncodeJob &job, const Bytes &bytes)
 {
-    if (!check_layers(file, layers, count, e)) {
-        return false;
+    ExrInput stream(bytes);
+    Imf::InputFile input(stream);
+    const Imath::Box2i &data = input.header().dataWindow();
+    size_t channels = 0;
+    for (int i = 0; i < job.count; i++) {
+        channels += size_t(job.layers[i].image->channels);
     }
-    Bytes bytes;
-    {
-        Imf::Header header = make_header(layers[0].image, window, metadata);
+    Planes planes = {size_t(data.max.x - data.min.x + 1), {}};
+    planes.value.resize(channels * size_t(ROWS_AT_A_TIME) * planes.width);
+    bool same = input.isComplete();
+    for (int y = data.min.y; same && y <= data.max.y; y += ROWS_AT_A_TIME) {
+        int last = std::min(y + ROWS_AT_A_TIME - 1, data.max.y);
         Imf::FrameBuffer frame;
-        add_channels(layers, count, header, frame);
-        const Imath::Box2i &data = header.dataWindow();
-        ExrOutput stream(bytes);
-        ExrThreads threads;
-        Imf::OutputFile output(stream, header);
-        output.setFrameBuffer(frame);
-        output.writePixels(data.max.y - data.min.y + 1);
-    } // which writes the table of lines
-    if (!is_whole(bytes)) {
-        return error_set(e, ERROR_MEMORY, "'%s' cannot be written: out of memory", file);
+        size_t plane = 0;
+        for (int i = 0; i < job.count; i++) {
+            for (int c = 0; c < job.layers[i].image->channels; c++, plane++) {
+                // OpenEXR counts from the picture's corner
+                char *corner = (char *)planes.row(plane, 0) -
+                               (ptrdiff_t(y) * ptrdiff_t(planes.width) + data.min.x) *
+                                   ptrdiff_t(sizeof(float));
+                frame.insert(
+                    channel_name(job.layers[i], c),
+                    Imf::Slice(Imf::FLOAT, corner, sizeof(float), sizeof(float) * planes.width));
+            }
+        }
+        input.setFrameBuffer(frame);
+        input.readPixels(y, last);
+        same = same_rows(job, planes, data.min.x, y, last - y + 1);
     }
-    return file_replace(file, bytes.data(), bytes.size(), e);
+    return same;
 }
 
 } // namespace
 
-extern "C" bool encode_exr(const char *file, const ImageLayer *layers, int count, const int *window,
-                           const char *metadata, Error *e)
+bool encode_exr(const EncodeJob &job, Bytes &bytes, Error *e)
 {
-    return guarded("'" + std::string(file) + "' cannot be written", e,
-                   [&] { return write_exr(file, layers, count, window, metadata, e); });
+    if (!check_layers(job.layers, job.count, e)) {
+        return false;
+    }
+    ExrThreads threads;
+    write_lines(job, bytes);
+    return holds_all(job, bytes) ||
+           error_set(e, ERROR_MEMORY, "what was written is not complete; out of memory");
 }

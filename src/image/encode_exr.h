@@ -1,19 +1,15 @@
-// EXR pictures, in the plug-in ramify-oiio.so.
+// EXR pictures, in the plug-in ramify-oiio.so. C++.
 #ifndef RAMIFY_IMAGE_ENCODE_EXR_H
 #define RAMIFY_IMAGE_ENCODE_EXR_H
 
-#ifdef __cplusplus
+#include <vector>
+
 extern "C" {
-#endif
-
-#include "image/image.h"
-
-// See image_write_exr_window; window NULL = all of the picture.
-bool encode_exr(const char *file, const ImageLayer *layers, int count, const int *window,
-                const char *metadata, Error *e);
-
-#ifdef __cplusplus
+#include "image/encode.h"
 }
-#endif
+
+// Encodes the layers and decodes the result again: bytes are a whole file with these pixels, or
+// there is an error. Throws.
+bool encode_exr(const EncodeJob &job, std::vector<unsigned char> &bytes, Error *e);
 
 #endif

@@ -63,7 +63,7 @@ static bool start(const DecodeJob *job, DecodeHeader *header, ChildOutput *outpu
                   Error *e)
 {
     *output = (ChildOutput){.file = -1};
-    const ImageCodec *codec = check_file(job->file, e) ? image_codec(e) : NULL;
+    const ImageCodec *codec = job->bytes || check_file(job->file, e) ? image_codec(e) : NULL;
     if (!codec) {
         return fail(job, e);
     }
@@ -105,6 +105,14 @@ Image *image_read(const char *file, const Run *run, Error *e)
 {
     DecodeHeader header;
     return read_floats(&(DecodeJob){.file = file, .kind = DECODE_ALL}, &header, run, e);
+}
+
+Image *image_decode_png(const unsigned char *bytes, size_t size, Error *e)
+{
+    DecodeHeader header;
+    return read_floats(
+        &(DecodeJob){.file = "memory.png", .bytes = bytes, .size = size, .kind = DECODE_ALL},
+        &header, NULL, e);
 }
 
 Image *image_read_color(const char *file, bool *linear, const Run *run, Error *e)

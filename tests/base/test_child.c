@@ -348,7 +348,7 @@ static void survives_them(void **state)
     Error e;
     assert_false(runs(close_everything, NULL, 60, &quiet, &e)); // its memory was never short
     assert_int_equal(e.code, ERROR_IO);
-    assert_string_equal(e.message, "cannot hand back what was read: Bad file descriptor");
+    assert_string_equal(e.message, "cannot hand back the result: Bad file descriptor");
     fails_with(write_for_ever, 60, memory);
     fails_with(loop, 0.2, "the reader took longer than 0.2 s; a better one is needed");
     fails_with(sleep_long, 0.2, "the reader took longer than 0.2 s; a better one is needed");

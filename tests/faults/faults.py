@@ -2,12 +2,15 @@
 """Lets every allocation, reading, writing and start of a process or thread fail in turn, while small scenes are rendered,
 exported and read. Each time ramify must end with the right files, or with one error and the files as they were before.
 
-usage: faults.py RAMIFY SHIM [--all] [--case NAME] [--jobs N] [--keep]
+usage: faults.py RAMIFY SHIM [--places | --all] [--case NAME] [--family NAME] [--jobs N]
 
-By default a sample that takes less than a minute: the first calls of each family, then every k-th for a prime k. Prints
+By default a sample that takes less than a minute: the first calls of each family, then every k-th for a prime k. --places: of
+the calls of all cases that have the same ten functions on top of their stacks the first one, once and all from it on. --all:
+every call. Prints
 "ok CASE_FAMILY" or "not ok CASE_FAMILY", and what went wrong with the places of the calls that failed.
 """
 import argparse
+import array
 import collections
 import concurrent.futures
 import os
@@ -23,7 +26,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SECONDS = 20  # a run may take; some tenths are usual
 FAMILIES = ("memory", "read", "write", "process")
-PLACES, PLACE_TEXT = 64, 1536  # as in shim.c
+PLACES, PLACE_TEXT, MOST_TRACED = 64, 1536, 1 << 20  # as in shim.c
 LEAKED = 99
 OLD = b"what was there before\n"
 
@@ -47,13 +50,13 @@ sky: {kind: environment, file: sky.hdr}
 materials: [{name: painted, kind: diffuse, texture: paint.png}]
 objects: [{name: pebble, material: painted, mesh: {file: pebble.obj}}]
 """
-NET = "objects: [{name: net, outtree: {envelope: [{shape: sphere}], growth: {levels: [{attractors: 20}]}}}]\n"
+NET = "objects: [{name: net, outtree: {envelope: [{shape: sphere}, {shape: sphere}], voxel: 0.2, growth: {levels: [{attractors: 20}]}}}]\n"
 BALL = "objects: [{name: ball, shape: {envelope: [{shape: sphere}], voxel: 0.3}}]\n"
 MESH = "objects: [{name: pebble, mesh: {file: pebble.%s}}]\n"
 CLOUD = """
 objects:
   - name: net
-    outtree: {envelope: [{shape: mesh, file: ball.vdb}], growth: {levels: [{attractors: 20}]}}
+    outtree: {envelope: [{shape: mesh, file: ball.vdb}], voxel: 0.2, growth: {levels: [{attractors: 20}]}}
 """
 NEURON = "objects: [{name: cell, skeleton: {file: cell.swc, skin: {levels: 1}}}]\n"
 RIVERS = "objects: [{name: land, terrain: {resolution: 32, rivers: {file: cell.swc}}}]\n"
@@ -142,7 +145,9 @@ class Runner:
         folder.mkdir()
         self.log = Log(folder / "log")
         self.server = None
-        self.environment = dict(os.environ, OMP_WAIT_POLICY="passive", LD_PRELOAD=str(shim), FAULT_LOG=str(self.log.file))
+        self.trace = folder / "trace"
+        self.environment = dict(os.environ, OMP_WAIT_POLICY="passive", LD_PRELOAD=str(shim), FAULT_LOG=str(self.log.file),
+                                FAULT_TRACE=str(self.trace))
         asan = self.environment.get("ASAN_OPTIONS")
         self.environment["ASAN_OPTIONS"] = (asan + ":" if asan else "") + "verify_asan_link_order=0:allocator_may_return_null=1"
 
@@ -195,6 +200,19 @@ class Case:
         work.mkdir()
         for file, data in self.before.items():
             (work / file).write_bytes(data)
+
+    def trace(self, runner):
+        """Runs without faults. Returns for each family the hashes of all calls' stacks, in their order."""
+        with open(runner.trace, "wb") as f:
+            f.truncate(8 * MOST_TRACED * len(FAMILIES))
+        self.set_up(runner.folder / "work")
+        status, _, err = runner.run(runner.folder / "work", self.arguments, "trace", False)
+        if status != 0:
+            sys.exit(f"{self.name}: exit status {status} while its calls are traced: {err}")
+        hashes = array.array("Q", runner.trace.read_bytes())
+        counts = runner.log.read()[0].values()
+        return {family: hashes[i * MOST_TRACED:i * MOST_TRACED + min(count, MOST_TRACED)]
+                for i, (family, count) in enumerate(zip(FAMILIES, counts))}
 
     def learn(self, runner):
         """Runs without faults, twice. Returns the number of calls of each family."""
@@ -256,10 +274,22 @@ def chosen(count, first, further):
     return list(range(1, min(first, count) + 1)) + list(range(first + 1, count + 1, prime_from((count - first) / further)))
 
 
-def faults_of(family, count, everything, main):
+def by_place(hashes, known):
+    """The first call of each stack that is not known; known gets the stacks."""
+    first = {}
+    for number, stack in enumerate(hashes, 1):
+        if stack not in known:
+            first.setdefault(stack, number)
+    known |= first.keys()
+    return sorted(first.values())
+
+
+def faults_of(family, count, places, everything, main):
     """The faults to try: of one call, and of all from one on."""
     if everything:
         once = on = range(1, count + 1)
+    elif places is not None:
+        once = on = places
     elif main and family == "memory":
         once, on = chosen(count, 20, 120), chosen(count, 2, 20)
     else:
@@ -291,6 +321,7 @@ def main():
     parser.add_argument("ramify")
     parser.add_argument("shim")
     parser.add_argument("--all", action="store_true", help="every call, once and all from it on")
+    parser.add_argument("--places", action="store_true", help="one call of each stack, once and all from it on")
     parser.add_argument("--case", action="append", help="only these")
     parser.add_argument("--family", action="append")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
@@ -303,6 +334,9 @@ def main():
         make_inputs(ramify, folder / "inputs")
         runners = []
         mine = threading.local()
+        # The one process that has the same places at the same addresses in all cases.
+        tracer = Runner(ramify, shim, folder / "tracer") if options.places else None
+        known = {family: set() for family in FAMILIES}
 
         def runner():
             if not hasattr(mine, "runner"):
@@ -321,7 +355,11 @@ def main():
         def report(name, results):
             """Prints what came of the faults of one case and family, findings of one cause once."""
             findings = collections.defaultdict(list)
+            count = 0
             for fault, status, failed, wrong, place in results:
+                count += 1
+                if count % 100 == 0 and sys.stderr.isatty():
+                    print(f"\r{name} {count}", end="\r", file=sys.stderr)
                 total["runs"] += 1
                 if any(wrong.startswith(what) and function in place for what, function, _ in KNOWN):
                     total["known"] += 1
@@ -330,7 +368,7 @@ def main():
                 if wrong:
                     findings[signature(wrong, place)].append((fault, wrong, place))
             total["wrong"] += sum(len(found) for found in findings.values())
-            print(f"{'not ok' if findings else 'ok'} {name}_{len(results)}_faults", flush=True)
+            print(f"{'not ok' if findings else 'ok'} {name}_{count}_faults", flush=True)
             for found in findings.values():
                 fault, wrong, place = found[0]
                 print(f"   {len(found)} x {wrong}\n      as {' '.join(each[0] for each in found[:6])}")
@@ -339,11 +377,13 @@ def main():
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
             for case in [Case(name, folder / "inputs") for name in options.case or CASES]:
                 counts = pool.submit(lambda c=case: c.learn(runner())).result()
+                traced = case.trace(tracer) if tracer else {}
                 for family in options.family or FAMILIES:
-                    faults = faults_of(family, counts[family], options.all, case.name == "render")
+                    places = by_place(traced[family], known[family]) if tracer else None
+                    faults = faults_of(family, counts[family], places, options.all, case.name == "render")
                     if faults:
-                        report(f"{case.name}_{family}", list(pool.map(lambda f, c=case: attempt(c, f), faults)))
-        for each in runners:
+                        report(f"{case.name}_{family}", pool.map(lambda f, c=case: attempt(c, f), faults))
+        for each in runners + [tracer] * bool(tracer):
             each.close()
     print(f"# {total['runs']} runs: {total['reported']} reported, {total['tolerated']} tolerated, "
           f"{total['not reached']} not reached, {total['known']} known flaws of libraries, {total['wrong']} wrong")

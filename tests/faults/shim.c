@@ -4,9 +4,11 @@
 // FAULT_LOG names a file of sizeof(Log) zero bytes. It is mapped shared, so that child processes
 // count on, and holds, when the program ends, how many calls of each family there were and where
 // those were that failed. FAULT=FAMILY:N lets the N-th call of a family fail (from 1),
-// FAULT=FAMILY:N+ all from it on. FAULT_SERVE=PLUGIN:PLUGIN... loads these libraries and then runs
-// the program in a fork for each request that it reads from stdin (run_request), which saves the
-// time of loading; the exit status, or the signal's number below 0, goes to stdout.
+// FAULT=FAMILY:N+ all from it on, FAULT=trace none: then FAULT_TRACE names a file of sizeof(Trace)
+// zero bytes, which gets a hash of each call's stack. FAULT_SERVE=PLUGIN:PLUGIN... loads these
+// libraries and then runs the program in a fork for each request that it reads from stdin
+// (run_request), which saves the time of loading; the exit status, or the signal's number below 0,
+// goes to stdout.
 //
 // What is not counted: calls before main() and while libraries are loaded (constructors of outside
 // libraries cannot report an error), calls after main(), allocations of libseccomp, and writing to
@@ -39,8 +41,16 @@ typedef struct Log {
     char place[PLACES][PLACE_TEXT]; // backtraces of the first that failed
 } Log;
 
+enum { MOST_TRACED = 1 << 20, HASHED = 12 };
+
+// Calls with the same ten places on top of the stack have the same hash.
+typedef struct Trace {
+    uint64_t stack[FAMILIES][MOST_TRACED];
+} Trace;
+
 static struct {
-    Log *log; // NULL = does nothing
+    Log *log;     // NULL = does nothing
+    Trace *trace; // NULL = calls are only counted
     int family;
     int64_t at;
     bool further;
@@ -66,6 +76,17 @@ static void note_place(char *text)
     }
 }
 
+static uint64_t stack_hash(void)
+{
+    void *frames[DEPTH];
+    int count = backtrace(frames, HASHED);
+    uint64_t hash = 0xcbf29ce484222325U; // FNV-1a, by words
+    for (int i = 2; i < count; i++) {
+        hash = (hash ^ (uintptr_t)frames[i]) * 0x100000001b3U;
+    }
+    return hash;
+}
+
 // Counts a call; whether it shall fail, with this errno.
 static bool fails(int family, int reason)
 {
@@ -73,6 +94,11 @@ static bool fails(int family, int reason)
         return false;
     }
     int64_t number = atomic_fetch_add(&fault.log->calls[family], 1) + 1;
+    if (fault.trace && number <= MOST_TRACED) {
+        quiet++;
+        fault.trace->stack[family][number - 1] = stack_hash();
+        quiet--;
+    }
     if (family != fault.family || (fault.further ? number < fault.at : number != fault.at)) {
         return false;
     }
@@ -495,6 +521,17 @@ static int counted_main(int argc, char **argv, char **environment)
     return status;
 }
 
+static void *map_file(const char *file, size_t size)
+{
+    int opened = file ? open(file, O_RDWR | O_CLOEXEC) : -1;
+    void *mapped =
+        opened >= 0 ? mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, opened, 0) : MAP_FAILED;
+    if (opened >= 0) {
+        close(opened);
+    }
+    return mapped != MAP_FAILED ? mapped : NULL;
+}
+
 static void choose(const char *what)
 {
     fault.family = -1;
@@ -506,17 +543,9 @@ static void choose(const char *what)
             fault.further = what[strlen(what) - 1] == '+';
         }
     }
-}
-
-static void map_log(const char *file)
-{
-    int log = file ? open(file, O_RDWR | O_CLOEXEC) : -1;
-    void *mapped =
-        log >= 0 ? mmap(NULL, sizeof(Log), PROT_READ | PROT_WRITE, MAP_SHARED, log, 0) : MAP_FAILED;
-    if (log >= 0) {
-        close(log);
+    if (what && strcmp(what, "trace") == 0) {
+        fault.trace = map_file(getenv("FAULT_TRACE"), sizeof(Trace));
     }
-    fault.log = mapped != MAP_FAILED ? mapped : NULL;
 }
 
 // ---- many runs of a program that is loaded once
@@ -591,7 +620,7 @@ static int begin(int argc, char **argv, char **environment)
     const char *plugins = getenv("FAULT_SERVE");
     void *frame;
     backtrace(&frame, 1); // loads the unwinder
-    map_log(getenv("FAULT_LOG"));
+    fault.log = map_file(getenv("FAULT_LOG"), sizeof(Log));
     dl_iterate_phdr(find_seccomp, NULL);
     if (!plugins) {
         choose(getenv("FAULT"));

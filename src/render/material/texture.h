@@ -1,6 +1,5 @@
-// Textures from picture files, looked up by uv through OpenImageIO's texture cache. A file is read
-// whole in a child process with limits. Lookups are filtered by the footprint and may run in many
-// threads.
+// Textures from picture files, looked up by uv. A file is read whole in a child process with
+// limits. Lookups are filtered by the footprint (mip_map.h) and may run in many threads.
 #ifndef RAMIFY_RENDER_MATERIAL_TEXTURE_H
 #define RAMIFY_RENDER_MATERIAL_TEXTURE_H
 
