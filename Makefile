@@ -189,8 +189,8 @@ soak: all ## render COUNT=500 random stills in one process, whose memory must st
 estimates: all ## compare what ramify info --estimate tells with what the stills of the gallery take, small: SCENES="scenes/oak.yaml ..."
 	@OMP_WAIT_POLICY=passive tests/estimates $(OUT)/ramify $(SCENES)
 
-faults: all ## let every allocation, reading, writing and start of a process of small runs fail in turn, some 100,000: CASES="render ..."
-	@RAMIFY=$(OUT)/ramify sh tests/faults/test_faults.sh --all $(CASES:%=--case %)
+faults: all ## let allocations, readings, writings and starts of processes of small runs fail, one for each call stack: CASES="render ...", EVERY=1 for all calls
+	@RAMIFY=$(OUT)/ramify sh tests/faults/test_faults.sh $(if $(EVERY),--all,--places) $(CASES:%=--case %)
 
 sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(MAKE) --no-print-directory CONFIG=sanitize test

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Lets every allocation, reading, writing and start of a process or thread fail in turn, while small scenes are rendered,
+"""Lets allocations, readings, writings and starts of a process or thread fail in turn, while small scenes are rendered,
 exported and read. Each time ramify must end with the right files, or with one error and the files as they were before.
 
 usage: faults.py RAMIFY SHIM [--places | --all] [--case NAME] [--family NAME] [--jobs N]
 
 By default a sample that takes less than a minute: the first calls of each family, then every k-th for a prime k. --places: of
-the calls of all cases that have the same ten functions on top of their stacks the first one, once and all from it on. --all:
-every call. Prints
+the calls of all cases that have the same eight places on top of their stacks the first one, once and all from it on. --all:
+every call. RAMIFY may be built with AddressSanitizer, which then finds leaks and wrong accesses after a fault. Prints
 "ok CASE_FAMILY" or "not ok CASE_FAMILY", and what went wrong with the places of the calls that failed.
 """
 import argparse
@@ -88,11 +88,11 @@ CASES = {
 # The error of the command, or of a library that ends the program itself: GCC's OpenMP, libjpeg.
 ERROR = re.compile(r"(ramify: (?!warning)|libgomp: |[^ :]+(:\d+){0,2}: |Insufficient memory )\S.{5,}")
 # What outside libraries do wrong, out of our reach: what happens, the function that could not allocate.
-KNOWN = [("signal 11", "ImageCacheTile4read", "OpenImageIO uses a tile of a texture that it could not allocate"),
-         ("signal 11", "TableRepMap", "OpenImageIO's table of strings does not check what it allocates"),
+KNOWN = [("signal 11", "TableRepMap", "OpenImageIO's table of strings does not check what it allocates"),
+         ("leaks", "TopologyRefiner", "OpenSubdiv loses a level of refinement that it could not complete"),
          ("signal 11", "blosc", "c-blosc, which compresses VDB files, does not check what it allocates")]
-# libpng's own words beside it.
-NOISE = re.compile(r"libpng error: .*|")
+# libpng's own words beside it; LeakSanitizer's of threads that a fork does not have.
+NOISE = re.compile(r"libpng error: .*|==\d+==Running thread .*|")
 WARNING = re.compile(r"(ramify: warning: |[^ :]+(:\d+:\d+)?: warning: )")
 
 
@@ -149,6 +149,7 @@ class Runner:
         self.environment = dict(os.environ, OMP_WAIT_POLICY="passive", LD_PRELOAD=str(shim), FAULT_LOG=str(self.log.file),
                                 FAULT_TRACE=str(self.trace))
         asan = self.environment.get("ASAN_OPTIONS")
+        self.environment.setdefault("LSAN_OPTIONS", f"suppressions={ROOT}/tests/leaks.supp:print_suppressions=0")
         self.environment["ASAN_OPTIONS"] = (asan + ":" if asan else "") + "verify_asan_link_order=0:allocator_may_return_null=1"
 
     def serve(self):

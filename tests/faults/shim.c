@@ -41,9 +41,9 @@ typedef struct Log {
     char place[PLACES][PLACE_TEXT]; // backtraces of the first that failed
 } Log;
 
-enum { MOST_TRACED = 1 << 20, HASHED = 12 };
+enum { MOST_TRACED = 1 << 20, HASHED = 10 };
 
-// Calls with the same ten places on top of the stack have the same hash.
+// Calls with the same eight places on top of the stack have the same hash.
 typedef struct Trace {
     uint64_t stack[FAMILIES][MOST_TRACED];
 } Trace;
@@ -193,6 +193,9 @@ void *calloc(size_t count, size_t size)
 
 void *realloc(void *memory, size_t size)
 {
+    if (finding && !memory) {
+        return early_alloc(size);
+    }
     REAL(void *, realloc, void *, size_t)
     if (is_early(memory)) {
         void *copy = malloc(size);
@@ -201,12 +204,16 @@ void *realloc(void *memory, size_t size)
     return ALLOCATION_FAILS() ? NULL : real(memory, size);
 }
 
+// What dlsym frees before it has found free is lost: an error's text, which AddressSanitizer left.
 void free(void *memory)
 {
-    REAL(void, free, void *)
-    if (!is_early(memory)) {
-        real(memory);
+    if (finding || is_early(memory)) {
+        return;
     }
+    finding = true;
+    REAL(void, free, void *)
+    finding = false;
+    real(memory);
 }
 
 int posix_memalign(void **memory, size_t alignment, size_t size)
@@ -226,6 +233,59 @@ void *memalign(size_t alignment, size_t size)
     REAL(void *, memalign, size_t, size_t)
     return ALLOCATION_FAILS() ? NULL : real(alignment, size);
 }
+
+// operator new and new[] of AddressSanitizer, which do not call malloc and end the program where
+// those of C++ throw. Others do call it, so only these are counted here.
+void __asan_init(void) __attribute__((weak));
+
+static void out_of_memory(void)
+{
+    void (*(*get_handler)(void))(void), (*throw_bad_alloc)(void);
+    quiet++;
+    void *get = dlsym(RTLD_DEFAULT, "_ZSt15get_new_handlerv");
+    void *throw = dlsym(RTLD_DEFAULT, "_ZSt17__throw_bad_allocv");
+    quiet--;
+    memcpy(&get_handler, &get, sizeof get);
+    memcpy(&throw_bad_alloc, &throw, sizeof throw);
+    void (*handler)(void) = get_handler();
+    (handler ? handler : throw_bad_alloc)();
+}
+
+#define NEW(name)                                \
+    void *name(size_t size);                     \
+    void *name(size_t size)                      \
+    {                                            \
+        REAL(void *, name, size_t)               \
+        if (__asan_init && ALLOCATION_FAILS()) { \
+            out_of_memory();                     \
+        }                                        \
+        return real(size);                       \
+    }
+NEW(_Znwm)
+NEW(_Znam)
+
+#define NEW_ALIGNED(name)                        \
+    void *name(size_t size, size_t alignment);   \
+    void *name(size_t size, size_t alignment)    \
+    {                                            \
+        REAL(void *, name, size_t, size_t)       \
+        if (__asan_init && ALLOCATION_FAILS()) { \
+            out_of_memory();                     \
+        }                                        \
+        return real(size, alignment);            \
+    }
+NEW_ALIGNED(_ZnwmSt11align_val_t)
+NEW_ALIGNED(_ZnamSt11align_val_t)
+
+#define NEW_NOTHROW(name)                                                      \
+    void *name(size_t size, const void *nothrow);                              \
+    void *name(size_t size, const void *nothrow)                               \
+    {                                                                          \
+        REAL(void *, name, size_t, const void *)                               \
+        return __asan_init && ALLOCATION_FAILS() ? NULL : real(size, nothrow); \
+    }
+NEW_NOTHROW(_ZnwmRKSt9nothrow_t)
+NEW_NOTHROW(_ZnamRKSt9nothrow_t)
 
 void *mmap(void *at, size_t size, int protection, int flags, int file, off_t offset)
 {
@@ -501,11 +561,21 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*work)(v
 
 // ---- when to count
 
+// of LeakSanitizer
+void __lsan_disable(void) __attribute__((weak));
+void __lsan_enable(void) __attribute__((weak));
+
 void *dlopen(const char *file, int how)
 {
     REAL(void *, dlopen, const char *, int)
     quiet++;
+    if (__lsan_disable) { // what the loader keeps, and constructors of outside libraries
+        __lsan_disable();
+    }
     void *library = real(file, how);
+    if (__lsan_enable) {
+        __lsan_enable();
+    }
     quiet--;
     return library;
 }
