@@ -17,6 +17,14 @@ static bool cut(const Kind *kind, const void *params, const OutTree *whole, floa
                             : out_tree_keep_births(tree, grow_to, e);
 }
 
+// A node that is nowhere would keep what is built on it busy for ever.
+static bool grow_whole(const Kind *kind, const void *params, const Recipe *recipe, Grown *whole,
+                       Error *e)
+{
+    return kind->grow(params, recipe, whole, e) &&
+           (out_tree_check(whole->tree, e) || recipe_fail(recipe, NULL, e));
+}
+
 bool kind_grow(const Kind *kind, const void *params, const Recipe *recipe, float grow_to,
                Grown *memory, Grown *grown, Error *e)
 {
@@ -25,7 +33,7 @@ bool kind_grow(const Kind *kind, const void *params, const Recipe *recipe, float
     if (!kind->grow) {
         return true;
     }
-    if (!whole->tree && !kind->grow(params, recipe, whole, e)) {
+    if (!whole->tree && !grow_whole(kind, params, recipe, whole, e)) {
         grown_clear(whole);
         return false;
     }

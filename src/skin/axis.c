@@ -137,10 +137,11 @@ static bool sample_axis(SkinPlan *plan, SkinChain *chain, int64_t count, Error *
         if (!add_point(plan, &sample, e)) {
             return false;
         }
-        if (along >= length) {
+        if (!(along < length)) {
             break;
         }
-        along = along + 1.5f * step >= length ? length : along + step;
+        float next = along + step; // no more than along, if the chain has millions of nodes
+        along = next > along && along + 1.5f * step < length ? next : length;
     }
     chain->samples = plan->point_count - chain->axis;
     return true;

@@ -9,13 +9,16 @@ import json
 import math
 import random
 import re
+import resource
+import signal
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-SECONDS = 120  # a scene may take
+SECONDS = 120  # of processor time that a scene may take, with its threads
+PATIENCE = 3600  # seconds to wait for it on a busy machine
 # Keys that set how much work an object is: the largest value drawn.
 MOST = {
     "attractors": 60, "resolution": 32, "generations": 4, "seasons": 6, "age": 6, "particles": 300, "spines": 30,
@@ -213,7 +216,7 @@ def repair(ramify, scene, file):
     """Takes out what the program refuses, by the path that its message names: keys of other kinds above all."""
     for _ in range(100):
         file.write_text(json.dumps(scene, indent=1))
-        result = subprocess.run([ramify, "info", file], capture_output=True, text=True, timeout=SECONDS)
+        result = subprocess.run([ramify, "info", file], capture_output=True, text=True, timeout=PATIENCE)
         if result.returncode == 0:
             return
         message = re.sub(r"^.*?:\d+:\d+: ", "", result.stderr)
@@ -225,9 +228,13 @@ def repair(ramify, scene, file):
             return
 
 
+def limit_time():
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS + 1))
+
+
 def run(ramify, file, output, *options):
     return subprocess.run([ramify, "render", file, "-q", "--no-preview", "-o", output, *options], capture_output=True,
-                          text=True, timeout=SECONDS)
+                          text=True, timeout=PATIENCE, preexec_fn=limit_time)
 
 
 def judge(ramify, scene, folder, threads):
@@ -241,13 +248,15 @@ def judge(ramify, scene, folder, threads):
         if result.returncode == 2:
             sound = re.match(r".*:\d+:\d+: \S", result.stderr) and not one.exists()
             return "" if sound else f"refused without a place: {result.stderr[-300:]}", False
+        if result.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+            return f"took more than {SECONDS} s of processor time", False
         if result.returncode != 0 or not one.exists():
             return f"exit status {result.returncode}: {result.stderr[-300:]}", False
         if threads and (run(ramify, file, many, "--threads", "3").returncode != 0 or
                         one.read_bytes() != many.read_bytes()):
             return "another picture with 3 threads", True
     except subprocess.TimeoutExpired:
-        return f"took more than {SECONDS} s", False
+        return f"took more than {PATIENCE} s", False
     return "", True
 
 
@@ -276,7 +285,7 @@ def main(ramify, count, seed=1, keep=None):
             rendered += done
             failed += wrong != ""
             if wrong:
-                print(f"scene {number}: {wrong}")
+                print(f"scene {number}: {wrong}", flush=True)
                 if keep:
                     Path(keep).mkdir(parents=True, exist_ok=True)
                     (Path(keep) / f"{number}.yaml").write_text(json.dumps(scene, indent=1))

@@ -212,6 +212,31 @@ static void the_normal_of_a_start_turns_the_field(void **state)
     }
 }
 
+// The height is shared out among the internodes of free growth: without any there is none.
+static void a_tree_that_does_not_grow_by_light_is_refused(void **state)
+{
+    static const char *const ways[] = {"light", "both"};
+    for (int i = 0; i < 2; i++) {
+        char text[256];
+        int size = snprintf(text, sizeof text,
+                            "objects:\n"
+                            "  - name: bush\n"
+                            "    tree: {height: 3, grown_by: %s,\n"
+                            "           light: {vigor: 0, seasons: 6, tropism: [0, -1, 0]},\n"
+                            "           crown: {growth: {levels: [{attractors: 60}]}}}\n",
+                            ways[i]);
+        Error e = {0};
+        Run run = run_default();
+        Scene *scene =
+            scene_read(fixture_write(*state, "bush.yaml", text, (size_t)size), NULL, 0, &e);
+        assert_non_null(scene);
+        assert_null(scene_grow_object(scene, 0, &run, &e));
+        assert_int_equal(e.code, ERROR_INPUT);
+        assert_non_null(strstr(e.message, "increase light.vigor"));
+        scene_free(scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -225,6 +250,8 @@ int main(void)
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(nuclei_that_are_named_bend_growth, fixture_set_up,
                                         fixture_tear_down),
+        cmocka_unit_test_setup_teardown(a_tree_that_does_not_grow_by_light_is_refused,
+                                        fixture_set_up, fixture_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -61,6 +61,16 @@ static LightParams plan_growth(const TreePlan *plan)
     return growth;
 }
 
+// All lengths follow from the height that free growth reaches.
+static bool check_height(float height, Error *e)
+{
+    return height > 0.0f ||
+           (error_set(e, ERROR_INPUT,
+                      "without hindrance it grows no higher than its foot, so it has no size; "
+                      "increase light.vigor, or let light.tropism point upward"),
+            error_key(e, "light"));
+}
+
 static float top_of(const OutTree *tree)
 {
     return out_tree_bounds(tree).high.y;
@@ -160,7 +170,8 @@ static bool find_internode(const TreePlan *plan, LightSite *site, const Recipe *
         trial.seasons = LEAST_TRIAL_SEASONS;
     }
     RoomTrials *trials = recipe->room ? recipe->room->trials : NULL;
-    if (!find_reach(plan, trial, trials, recipe, &site->reach, e)) {
+    if (!find_reach(plan, trial, trials, recipe, &site->reach, e) ||
+        !check_height(site->reach.high.y, e)) {
         return false;
     }
     site->internode = plan->params.height / site->reach.high.y;
@@ -287,13 +298,18 @@ static OutTree *grow_to_height(const TreePlan *plan, LightSite *site, const Reci
 {
     const TreeParams *params = &plan->params;
     OutTree *tree = grow_free(plan, site, recipe, e);
-    if (tree) {
-        float height = top_of(tree) - params->position.y;
+    if (!tree) {
+        return NULL;
+    }
+    float height = top_of(tree) - params->position.y;
+    bool done = check_height(height, e);
+    if (done) {
         scale_about(tree, params->position, params->height / height);
-        if (!place_stems(tree, params, site->seed, e)) {
-            out_tree_free(tree);
-            tree = NULL;
-        }
+        done = place_stems(tree, params, site->seed, e);
+    }
+    if (!done) {
+        out_tree_free(tree);
+        return NULL;
     }
     return tree;
 }
@@ -335,7 +351,8 @@ static bool plan_stand(StandTree *tree, int count, TreePlan *plan, StandPlant *p
         StandPlant *one = &plant_of[i];
         one->params = plan_growth(&plan[i]);
         one->site = plan_site(&plan[i], tree[i].seed);
-        done = find_reach(&plan[i], one->site, &trials, recipe, &one->site.reach, e);
+        done = find_reach(&plan[i], one->site, &trials, recipe, &one->site.reach, e) &&
+               check_height(one->site.reach.high.y, e);
         if (done) {
             one->site.internode = plan[i].params.height / one->site.reach.high.y;
             one->start = plant(&plan[i].params, one->site.seed, e);
