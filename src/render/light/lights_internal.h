@@ -4,7 +4,7 @@
 
 #include "render/light/lights.h"
 #include "render/sky/air.h"
-#include "render/sky/clouds.h"
+#include "render/sky/painted_clouds.h"
 #include "render/world.h"
 
 struct Lights {
@@ -16,7 +16,7 @@ struct Lights {
     Sun built_sun;            // before the sky was turned
     float built_rotation;     // of the dome
     float turn_cos, turn_sin; // of the sky's rotation about +Y
-    Clouds clouds;            // as the sky was built: not turned
+    PaintedClouds clouds;     // as the sky was built: not turned
     Water *water;             // NULL without any
     EmitterSet emitters;      // glowing geometry
     float *share;             // chance to be chosen: of the world's lights, dome, sun, all emitters

@@ -7,13 +7,13 @@
 #include <stddef.h>
 
 // Clouds are lit by the sun and by the sky's mean radiance half way up.
-static Clouds make_clouds(const Lights *lights)
+static PaintedClouds paint_clouds(const Lights *lights)
 {
     const Sky *sky = &lights->world->sky;
-    Clouds clouds = {.cover = sky->clouds,
-                     .sun_direction = lights->sun.direction,
-                     .sunlight = vec3_scale(lights->sun.radiance, lights->sun.solid_angle),
-                     .seed = (uint32_t)lights->world->render.seed};
+    PaintedClouds clouds = {.cover = sky->clouds,
+                            .sun_direction = lights->sun.direction,
+                            .sunlight = vec3_scale(lights->sun.radiance, lights->sun.solid_angle),
+                            .seed = (uint32_t)lights->world->render.seed};
     const float half = 0.70710678f;
     const Vec3 around[4] = {{half, half, 0}, {-half, half, 0}, {0, half, half}, {0, half, -half}};
     for (int i = 0; i < 4; i++) {
@@ -48,7 +48,7 @@ static bool make_sky(Lights *lights, const Run *run, Error *e)
         if (!make_day(lights, run, e)) {
             return false;
         }
-        lights->clouds = make_clouds(lights);
+        lights->clouds = paint_clouds(lights);
         break;
     case SKY_NIGHT:
         lights->dome = night_dome(sky, &lights->sun, e);
@@ -153,7 +153,7 @@ static Vec3 seen_above(const Lights *lights, Vec3 direction, const DomePlace *pl
 {
     const Sky *sky = &lights->world->sky;
     Vec3 above = into_sky(lights, direction);
-    Vec3 sum = clouds_before(&lights->clouds, above, dome_radiance(lights->dome, place));
+    Vec3 sum = painted_clouds_before(&lights->clouds, above, dome_radiance(lights->dome, place));
     bool covered = lights->sun_index >= 0 && sun_covers(&lights->sun, direction);
     if (sky->kind == SKY_NIGHT && !covered) {
         sum = vec3_add(sum, night_stars(sky, above, spread));
@@ -208,8 +208,8 @@ static Vec3 background_from_water(const Lights *lights, const BackgroundRay *ray
     if (lights->dome) {
         DomePlace place = dome_find(lights->dome, passage.direction);
         if (eye && lights->world->sky.kind == SKY_SUN_SKY) {
-            above = clouds_before(&lights->clouds, into_sky(lights, passage.direction),
-                                  dome_radiance(lights->dome, &place));
+            above = painted_clouds_before(&lights->clouds, into_sky(lights, passage.direction),
+                                          dome_radiance(lights->dome, &place));
             above = vec3_add(above, glitter(lights, passage.direction));
         } else if (eye) {
             above = seen_above(lights, passage.direction, &place, ray->spread);

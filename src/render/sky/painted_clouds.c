@@ -1,4 +1,4 @@
-#include "render/sky/clouds.h"
+#include "render/sky/painted_clouds.h"
 
 #include "render/material/pattern_noise.h"
 
@@ -17,7 +17,7 @@ static float distance_to_layer(float sine)
 
 // Optical thickness of the layer above the point (x, z), km: streaks along the wind, bent by slow
 // eddies, torn by finer noise.
-static float thickness(const Clouds *clouds, float x, float z)
+static float thickness(const PaintedClouds *clouds, float x, float z)
 {
     Vec3 place = vec3(0.9f * x + 0.45f * z, -0.45f * x + 0.9f * z, 0.0f);
     float eddy = noise_fractal(vec3_scale(place, 0.035f), 3, clouds->seed);
@@ -29,7 +29,7 @@ static float thickness(const Clouds *clouds, float x, float z)
     return 1.6f * smoothstepf(0.0f, 0.75f, density);
 }
 
-Vec3 clouds_before(const Clouds *clouds, Vec3 direction, Vec3 behind)
+Vec3 painted_clouds_before(const PaintedClouds *clouds, Vec3 direction, Vec3 behind)
 {
     if (clouds->cover <= 0.0f || direction.y <= 0.0f) {
         return behind;
