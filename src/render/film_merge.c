@@ -63,8 +63,8 @@ static void put_path(const PathResult *path, float value[FILM_CHANNELS])
         put_vector(value + (light ? LIGHT : SKY), vec3_scale(path->color, path->sharpness));
         value[light ? LIGHT_SHARE : SKY_SHARE] = path->sharpness;
     }
+    put_vector(value + NORMAL, path->normal);
     if (path->hit) {
-        put_vector(value + NORMAL, path->normal);
         put_vector(value + POSITION, path->position);
         value[DEPTH] = path->depth;
     }

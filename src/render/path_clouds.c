@@ -39,8 +39,22 @@ float path_pass_clouds(Path *path, const Ray *ray)
     if (!clouds) {
         return 1.0f;
     }
-    CloudRay part = {ray->origin, ray->direction, ray->far};
+    CloudRay part = {ray->origin, ray->direction, ray->far, path->cloud_order >= ORDERS};
     return clouds_pass(clouds, &part, extinction_scale(path->cloud_order), &path->cloud_key);
+}
+
+// The side from which the clouds before `far` get thinner, weighted by how much they hide. Like
+// haze they have no place, and white albedo. The normal depends on the ray alone, not on where a
+// droplet scatters the path, so that it can guide a denoiser.
+static void note_cloud(Path *path, float far)
+{
+    const CloudSet *clouds = path->tracer->clouds;
+    CloudRay part = {.origin = path->ray.origin, .direction = path->ray.direction, .far = far};
+    float distance, opacity = clouds_seen(clouds, &part, &distance);
+    if (opacity > 0.0f) {
+        Vec3 slope = clouds_slope(clouds, vec3_madd(part.origin, distance, part.direction));
+        path->result->normal = vec3_scale(slope, -opacity / (1.0f + vec3_length(slope)));
+    }
 }
 
 float path_meet_cloud(Path *path, float far)
@@ -49,30 +63,11 @@ float path_meet_cloud(Path *path, float far)
     if (!clouds || path->media.count > 0) {
         return INFINITY;
     }
-    CloudRay part = {path->ray.origin, path->ray.direction, far};
-    return clouds_collide(clouds, &part, extinction_scale(path->cloud_order), &path->cloud_key);
-}
-
-// The cloud as the first thing seen: white, facing the side from which it gets thinner.
-static void note_cloud(Path *path, Vec3 point, float distance)
-{
-    static const float STEP = 40.0f; // m
-    Vec3 slope = vec3_splat(0.0f);
-    const CloudSet *clouds = path->tracer->clouds;
-    for (int axis = 0; axis < 3; axis++) {
-        Vec3 d = vec3(axis == 0 ? STEP : 0.0f, axis == 1 ? STEP : 0.0f, axis == 2 ? STEP : 0.0f);
-        float change = clouds_extinction(clouds, vec3_sub(point, d)) -
-                       clouds_extinction(clouds, vec3_add(point, d));
-        slope = vec3_madd(slope, change / STEP, d);
+    if (path->straight) {
+        note_cloud(path, far);
     }
-    float steep = vec3_length(slope);
-    PathResult *result = path->result;
-    result->hit = true;
-    result->seen = SEEN_SURFACE;
-    result->normal = steep > 0.0f ? vec3_scale(slope, 1.0f / steep) : vec3_neg(path->ray.direction);
-    result->position = point;
-    result->depth = path->travelled + distance;
-    result->object = -1;
+    CloudRay part = {path->ray.origin, path->ray.direction, far, path->cloud_order >= ORDERS};
+    return clouds_collide(clouds, &part, extinction_scale(path->cloud_order), &path->cloud_key);
 }
 
 static void sample_light(Path *path, Vec3 point, const float u[4])
@@ -106,9 +101,6 @@ Travel path_scatter_in_cloud(Path *path, float t)
 {
     const Tracer *tracer = path->tracer;
     Vec3 point = vec3_madd(path->ray.origin, t, path->ray.direction);
-    if (path->straight) {
-        note_cloud(path, point, t);
-    }
     path_see_through_air(path, t, tracer->cloud_haze);
     if (!path->in_cloud && path->depth++ >= tracer->world->render.max_depth) {
         return TRAVEL_ENDED;

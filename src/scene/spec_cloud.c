@@ -9,7 +9,8 @@ static const EnumName KINDS[] = {
 
 static const Key CLOUD_KEYS[] = {
     {KEY_OF(Cloud, kind, "kind", KEY_ENUM), .names = KINDS,
-     .doc = "cumulus: heaps on one flat base, all over the land; stratus: a sheet, closed or torn; "
+     .doc = "cumulus: heaps of all sizes and ages on one flat base, all over the land; stratus: a "
+            "sheet, closed or torn; "
             "storm: one cumulonimbus, whose anvil the wind draws out."},
     {KEY_OF(Cloud, base, "base", KEY_FLOAT), .low = -1000, .high = 20000, .unit = "m",
      .doc = "Altitude of the underside above y = 0."},
@@ -23,8 +24,9 @@ static const Key CLOUD_KEYS[] = {
      .doc = "Width of the large heaps, which many smaller ones surround; of a sheet's rolls; of "
             "the storm below its anvil."},
     {KEY_OF(Cloud, extinction, "extinction", KEY_FLOAT), .high = 1, .unit = "1/m",
-     .doc = "Extinction where droplets are dense: 0.05 = one sees 60 m far in it; 0.003 for veils "
-            "of ice."},
+     .doc =
+         "Extinction where droplets are dense, from a quarter of the thickness up: 0.05 = one sees "
+         "60 m far in it; 0.003 for veils of ice."},
     {KEY_OF(Cloud, wind, "wind", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
      .doc = "Azimuth the wind blows toward, from +Z toward +X: heaps and anvils are longer along "
             "it."},

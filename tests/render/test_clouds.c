@@ -2,7 +2,11 @@
 #include "tiny_world.h"
 
 #include "base/random.h"
+#include "render/cloud/cloud_grid.h"
 #include "render/cloud/clouds.h"
+#include "render/cloud/heaps.h"
+
+#include <stdlib.h>
 
 #define assert_in_bounds(value, low, high)                                      \
     do {                                                                        \
@@ -147,6 +151,113 @@ static void heaps_stand_on_one_base_and_no_higher_than_told(void **state)
     clouds_free(clouds);
 }
 
+// The bound of the brick around a place, 1/m.
+static float bound_at(const CloudGrid *g, Vec3 p)
+{
+    int b[3];
+    float at[3] = {p.x - g->low.x, p.y - g->low.y, p.z - g->low.z};
+    for (int axis = 0; axis < 3; axis++) {
+        b[axis] = (int)floorf(at[axis] / (g->voxel * BRICK));
+        if (g->repeats && axis != 1) {
+            b[axis] = (b[axis] % g->bricks[axis] + g->bricks[axis]) % g->bricks[axis];
+        }
+        assert_in_range(b[axis], 0, g->bricks[axis] - 1);
+    }
+    return g->bound[((int64_t)b[2] * g->bricks[0] + b[0]) * g->bricks[1] + b[1]];
+}
+
+// Tracking is right only where bounds bound.
+static void no_brick_is_denser_than_its_bound(void **state)
+{
+    (void)state;
+    Run run = run_default();
+    Error e = {.code = ERROR_NONE};
+    DetailNoise *detail = detail_new(5, &run, &e);
+    assert_non_null(detail);
+    for (int kind = CLOUD_CUMULUS; kind <= CLOUD_STORM; kind++) {
+        Cloud cloud = cloud_default((CloudKind)kind);
+        CloudGrid grid = {0};
+        assert_true(cloud_grid_new(&grid, &cloud, detail, 6, &run, &e));
+        int met = 0;
+        for (uint64_t i = 0; i < 400000; i++) {
+            Vec3 u = vec3(random_unit(random_key(i, 0)), random_unit(random_key(i, 1)),
+                          random_unit(random_key(i, 2)));
+            Vec3 p = vec3_add(
+                grid.low, vec3_mul(u, vec3_scale(vec3((float)grid.count[0], (float)grid.count[1],
+                                                      (float)grid.count[2]),
+                                                 0.999f * grid.voxel)));
+            float bound = bound_at(&grid, p) * 1.00001f;
+            float fine = cloud_grid_extinction(&grid, p, true);
+            assert_true(fine <= bound && cloud_grid_extinction(&grid, p, false) <= bound);
+            met += fine > 0.0f;
+        }
+        assert_true(met > 4000);
+        cloud_grid_clear(&grid);
+    }
+    detail_free(detail);
+}
+
+static int compare_extinctions(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+// Extinction in the cores of heaps, h m above their base: a high quantile of what is met there.
+static float core_at(const CloudSet *clouds, float altitude)
+{
+    enum { TRIALS = 40000 };
+    float *met = malloc(TRIALS * sizeof *met);
+    assert_non_null(met);
+    size_t count = 0;
+    for (uint64_t i = 0; i < TRIALS; i++) {
+        Vec3 p = vec3(random_range(random_key(i, 0), 0, 6400), altitude,
+                      random_range(random_key(i, 1), 0, 6400));
+        float extinction = clouds_extinction(clouds, p);
+        if (extinction > 0.0f) {
+            met[count++] = extinction;
+        }
+    }
+    assert_true(count > 1000);
+    qsort(met, count, sizeof *met, compare_extinctions);
+    float core = met[count * 95 / 100];
+    free(met);
+    return core;
+}
+
+// As many droplets share water that grows with height: extinction grows with the power 2/3, up to
+// where dry air is mixed in as fast.
+static void liquid_water_rises_from_one_base(void **state)
+{
+    (void)state;
+    Cloud heaps = small_heaps();
+    CloudSet *clouds = grow(heaps);
+    float low = core_at(clouds, heaps.base + 25.0f), middle = core_at(clouds, heaps.base + 50.0f);
+    float high = core_at(clouds, heaps.base + 100.0f);
+    assert_in_bounds(middle / low, 0.93 * pow(2.0, 2.0 / 3.0), 1.07 * pow(2.0, 2.0 / 3.0));
+    assert_in_bounds(high, 0.97 * (double)heaps.extinction, 1.0001 * (double)heaps.extinction);
+    clouds_free(clouds);
+}
+
+// The number of heaps wider than w falls off like w^-0.9, as long as none is too wide.
+static void small_heaps_are_many(void **state)
+{
+    (void)state;
+    enum { COUNT = 20000 };
+    int wider[4] = {0};
+    for (int i = 0; i < COUNT; i++) {
+        float width = heaps_width(((float)i + 0.5f) / COUNT);
+        assert_in_bounds(width, 0.0799, 1.6001);
+        for (int k = 0; k < 4; k++) {
+            wider[k] += width > 0.1f * (float)(1 << k);
+        }
+    }
+    double first = (double)(wider[0] - wider[1]) / (wider[1] - wider[2]);
+    double second = (double)(wider[1] - wider[2]) / (wider[2] - wider[3]);
+    assert_in_bounds(first, 1.8, 1.93); // 2^0.9 = 1.866
+    assert_in_bounds(second, 1.8, 1.93);
+}
+
 static World *cloudy_world(int samples)
 {
     World *world = tiny_world(24, 16, samples, 0.5f);
@@ -206,6 +317,23 @@ static void clouds_shade_the_land(void **state)
     assert_in_bounds(light[1] / light[0], 0.05, 0.6);
 }
 
+// Like haze, clouds have no place; but they have normals, which guide denoisers.
+static void clouds_have_normals_but_no_depth(void **state)
+{
+    (void)state;
+    World *world = cloudy_world(8);
+    Film *film = trace(world, 2, NULL);
+    int seen = 0;
+    for (int i = 0; i < film->width * film->height; i++) {
+        double length = (double)vec3_length(film->normal[i]);
+        assert_in_bounds(length, 0.0, 1.0001);
+        seen += length > 0.2 && isinf(film->depth[i]);
+    }
+    assert_true(seen > 20);
+    film_free(film);
+    world_free(world);
+}
+
 static void threads_do_not_change_clouds(void **state)
 {
     (void)state;
@@ -225,8 +353,12 @@ int main(void)
         cmocka_unit_test(tracking_has_the_mean_of_the_integral),
         cmocka_unit_test(clouds_cover_their_share_of_the_sky),
         cmocka_unit_test(heaps_stand_on_one_base_and_no_higher_than_told),
+        cmocka_unit_test(no_brick_is_denser_than_its_bound),
+        cmocka_unit_test(liquid_water_rises_from_one_base),
+        cmocka_unit_test(small_heaps_are_many),
         cmocka_unit_test(an_even_sky_hides_clouds),
         cmocka_unit_test(clouds_shade_the_land),
+        cmocka_unit_test(clouds_have_normals_but_no_depth),
         cmocka_unit_test(threads_do_not_change_clouds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

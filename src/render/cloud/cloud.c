@@ -27,5 +27,5 @@ Cloud cloud_default(CloudKind kind)
                    .thickness = 1100.0f,
                    .cover = 0.3f,
                    .size = 1500.0f,
-                   .extinction = 0.05f};
+                   .extinction = 0.09f};
 }

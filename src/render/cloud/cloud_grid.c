@@ -1,18 +1,12 @@
 #include "render/cloud/cloud_grid.h"
 
 #include "base/memory.h"
-#include "base/random.h"
-#include "render/cloud/puffs.h"
+#include "render/cloud/cloud_fill.h"
 
 #include <stdlib.h>
-#include <string.h>
 
-enum { NODES_ACROSS = 512, FARTHEST = -128 * DISTANCE_STEPS };
-
-static int64_t node_at(const CloudGrid *g, int x, int y, int z)
-{
-    return ((int64_t)z * g->count[0] + x) * g->count[1] + y;
-}
+// Where the border is soft, billows are lower, and droplets fewer: dry air is mixed in.
+static const float SOFT_BILLOWS = 0.4f, SOFT_DENSITY = 0.45f;
 
 // ---- layout ----
 
@@ -42,160 +36,87 @@ static void lay_out(CloudGrid *g, const Cloud *cloud, float margin)
     }
 }
 
-static void set_roughness(CloudGrid *g, const Cloud *cloud, const Billow *billow)
+static Roughness roughness_of(const Cloud *cloud)
 {
-    bool sheet = cloud->kind == CLOUD_STRATUS;
     float size = cloud->kind == CLOUD_STORM ? 0.5f * cloud->size : cloud->size;
-    g->billow = billow;
-    g->period[0] = 0.37f * size;
-    g->period[1] = 0.071f * size;
-    g->height[0] = (sheet ? 0.02f : 0.034f) * size;
-    g->height[1] = 0.008f * size;
-    g->edge = (sheet ? 0.08f : 0.016f) * size;
-    g->frozen = cloud->kind == CLOUD_STORM ? 0.65f : 2.0f;
+    Roughness r = {.period = {0.62f * size, 0.097f * size},
+                   .billow = {0.05f * size, 0.011f * size},
+                   .wisp = {0.07f * size, 0.03f * size},
+                   .edge = {0.008f * size, 0.11f * size},
+                   .base = 0.02f * size};
+    if (cloud->kind == CLOUD_STRATUS) {
+        r.billow[0] = 0.02f * size;
+        r.wisp[0] = 0.03f * size;
+        r.edge[0] = 0.04f * size;
+    }
+    return r;
+}
+
+float cloud_grid_reach(const CloudGrid *g, float softness)
+{
+    const Roughness *r = &g->rough;
+    float billows = 1.0f + softness * (SOFT_BILLOWS - 1.0f);
+    return billows * (r->billow[0] + r->billow[1]) + softness * (r->wisp[0] + r->wisp[1]);
+}
+
+// All but what lies in memory.
+static void describe(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail)
+{
+    g->rough = roughness_of(cloud);
+    g->detail = detail;
     g->base = cloud->base;
     g->thickness = cloud->thickness;
     g->extinction = cloud->extinction;
+    lay_out(g, cloud, cloud_grid_reach(g, 1.0f));
 }
 
-// ---- forms ----
+// ---- profiles ----
 
-static int16_t in_steps(const CloudGrid *g, float distance)
+// Liquid water grows in proportion to the height above the condensation level; on as many droplets
+// as below, so extinction grows like the power 2/3 of it (Brenguier et al. 2000). share: of the
+// thickness.
+static float gain_at(float share)
 {
-    float steps = distance / g->voxel * DISTANCE_STEPS;
-    return (int16_t)lrintf(clampf(steps, FARTHEST, -FARTHEST - 1));
+    float x = clampf(share / 0.25f, 0.0f, 1.0f);
+    return sqrtf(x * sqrtf(x));
 }
 
-// Unites a ball with the nodes of slice z. reach: m outside of it that still get a distance.
-static void unite(CloudGrid *g, const Puff *puff, int z, float reach)
+static float edge_at(const Roughness *r, float softness)
 {
-    Vec3 c = vec3_scale(vec3_sub(puff->center, g->low), 1.0f / g->voxel);
-    float wide = (puff->radius + reach) / g->voxel;
-    float tall = (puff->radius / puff->flatness + reach) / g->voxel;
-    int y0 = (int)fmaxf(ceilf(c.y - tall), 0.0f);
-    int y1 = (int)fminf(floorf(c.y + tall), (float)g->count[1] - 1.0f);
-    for (int x = (int)ceilf(c.x - wide); x <= (int)floorf(c.x + wide); x++) {
-        if (!g->repeats && (x < 0 || x >= g->count[0])) {
-            continue;
-        }
-        int16_t *column =
-            g->distance + node_at(g, x & (NODES_ACROSS - 1), 0, z & (NODES_ACROSS - 1));
-        float dx = (float)x - c.x, dz = (float)z - c.z;
-        for (int y = y0; y <= y1; y++) {
-            float dy = ((float)y - c.y) * puff->flatness;
-            float far = g->voxel * sqrtf(dx * dx + dy * dy + dz * dz);
-            int16_t inside = in_steps(g, (puff->radius - far) / puff->flatness);
-            column[y] = column[y] > inside ? column[y] : inside;
-        }
-    }
+    return r->edge[0] + softness * (r->edge[1] - r->edge[0]);
 }
 
-static void fill_with_puffs(CloudGrid *g, const Puffs *puffs, float reach, const Run *run)
+static float density_limit(float softness)
 {
-#pragma omp parallel for schedule(dynamic, 8) num_threads(run->threads)
-    for (int slice = 0; slice < g->count[2]; slice++) {
-        for (int64_t i = 0; i < puffs->count; i++) {
-            const Puff *puff = &puffs->puff[i];
-            float wide = (puff->radius + reach) / g->voxel;
-            float c = (puff->center.z - g->low.z) / g->voxel;
-            int z = slice; // the slice itself, or where it repeats near the ball
-            if (g->repeats) {
-                z += NODES_ACROSS * (int)lrintf((c - (float)slice) / NODES_ACROSS);
-            }
-            if (fabsf((float)z - c) <= wide) {
-                unite(g, puff, z, reach);
-            }
-        }
-    }
-}
-
-// Rolls of a sheet, about -1 .. 1, at a place in shares of the period.
-static float rolls(const CloudGrid *g, float x, float z)
-{
-    float slow = billow_at(g->billow, vec3(x, 0.3f, z));
-    return 0.7f * slow + 0.3f * billow_at(g->billow, vec3(4.0f * x, 0.7f, 4.0f * z));
-}
-
-static int compare_floats(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
-// The height of rolls above which a share `cover` of the sheet lies.
-static float rolls_cut(const CloudGrid *g, float cover)
-{
-    enum { SAMPLES = 64 };
-    float value[SAMPLES * SAMPLES];
-    for (int i = 0; i < SAMPLES * SAMPLES; i++) {
-        int x = i % SAMPLES, z = i / SAMPLES;
-        value[i] = rolls(g, (float)x / SAMPLES, (float)z / SAMPLES);
-    }
-    qsort(value, SAMPLES * SAMPLES, sizeof value[0], compare_floats);
-    int index = (int)((1.0f - cover) * SAMPLES * SAMPLES);
-    return cover >= 1.0f ? -2.0f : value[index < SAMPLES * SAMPLES ? index : SAMPLES * SAMPLES - 1];
-}
-
-static void fill_with_sheet(CloudGrid *g, const Cloud *cloud, const Run *run)
-{
-    float cut = rolls_cut(g, cloud->cover);
-#pragma omp parallel for schedule(static) num_threads(run->threads)
-    for (int z = 0; z < g->count[2]; z++) {
-        for (int x = 0; x < g->count[0]; x++) {
-            float roll = rolls(g, (float)x / NODES_ACROSS, (float)z / NODES_ACROSS);
-            float rise = clampf((roll - cut) / 0.5f, -1.0f, 1.0f);
-            float top =
-                cloud->base + cloud->thickness * (rise > 0.0f ? 0.25f + 0.75f * rise : rise);
-            for (int y = 0; y < g->count[1]; y++) {
-                float altitude = g->low.y + g->voxel * (float)y;
-                float inside =
-                    fminf(top - altitude, altitude - cloud->base + 0.2f * cloud->thickness);
-                g->distance[node_at(g, x, y, z)] = in_steps(g, inside);
-            }
-        }
-    }
-}
-
-static bool fill_with_heaps(CloudGrid *g, const Cloud *cloud, float reach, uint64_t key,
-                            const Run *run, Error *e)
-{
-    Puffs puffs = {0};
-    float smallest = 0.8f * g->voxel;
-    bool done = cloud->kind == CLOUD_STORM
-                    ? puffs_grow_storm(&puffs, cloud, smallest, key, e)
-                    : puffs_grow_cumulus(&puffs, cloud, g->voxel * NODES_ACROSS, smallest, key, e);
-    if (done) {
-        fill_with_puffs(g, &puffs, reach, run);
-    }
-    puffs_clear(&puffs);
-    return done;
+    return 1.0f + softness * (SOFT_DENSITY - 1.0f);
 }
 
 // ---- bounds ----
 
-// The greatest distance of a brick's nodes, those that it shares with the next bricks included.
-static float deepest(const CloudGrid *g, int bx, int by, int bz)
+// The greatest density in a brick but for altitude. A quotient of linear functions of distance and
+// softness is greatest at a node, of those that the brick shares with the next ones, too.
+static float densest(const CloudGrid *g, int bx, int by, int bz)
 {
-    int16_t most = FARTHEST;
+    const int wrap = NODES_ACROSS - 1;
+    float most = 0.0f, limit = 0.0f;
     for (int k = 0; k <= BRICK; k++) {
         for (int i = 0; i <= BRICK; i++) {
             int x = bx * BRICK + i, z = bz * BRICK + k;
-            x = g->repeats ? x & (NODES_ACROSS - 1) : (x < g->count[0] ? x : g->count[0] - 1);
-            z = g->repeats ? z & (NODES_ACROSS - 1) : (z < g->count[2] ? z : g->count[2] - 1);
-            const int16_t *column = g->distance + node_at(g, x, 0, z);
+            x = g->repeats ? x & wrap : (x < g->count[0] ? x : g->count[0] - 1);
+            z = g->repeats ? z & wrap : (z < g->count[2] ? z : g->count[2] - 1);
+            const CloudNode *column = g->node + cloud_grid_node(g, x, 0, z);
             for (int j = 0; j <= BRICK; j++) {
                 int y = by * BRICK + j < g->count[1] ? by * BRICK + j : g->count[1] - 1;
-                most = most > column[y] ? most : column[y];
+                float softness = (float)column[y].softness / SOFTEST;
+                float inside = (float)column[y].distance * g->voxel / DISTANCE_STEPS;
+                float share =
+                    (inside + cloud_grid_reach(g, softness)) / edge_at(&g->rough, softness);
+                most = fmaxf(most, share);
+                limit = fmaxf(limit, density_limit(softness));
             }
         }
     }
-    return (float)most * g->voxel / DISTANCE_STEPS;
-}
-
-// Droplets grow as air rises: density at an altitude in shares of the thickness.
-static float gain_at(float share)
-{
-    return 0.5f + clampf(share, 0.0f, 0.5f);
+    return fminf(most, 1.0f) * limit;
 }
 
 static void fill_bounds(CloudGrid *g, const Run *run)
@@ -205,22 +126,12 @@ static void fill_bounds(CloudGrid *g, const Run *run)
         for (int bx = 0; bx < g->bricks[0]; bx++) {
             for (int by = 0; by < g->bricks[1]; by++) {
                 float top = g->low.y + g->voxel * (float)(BRICK * (by + 1)) - g->base;
-                float most = deepest(g, bx, by, bz) + g->height[0] + g->height[1];
                 g->bound[((int64_t)bz * g->bricks[0] + bx) * g->bricks[1] + by] =
                     g->extinction * gain_at(top / g->thickness) *
-                    clampf(most / g->edge, 0.0f, 1.0f);
+                    clampf(top / g->rough.base, 0.0f, 1.0f) * densest(g, bx, by, bz);
             }
         }
     }
-}
-
-// All but what lies in memory. Returns how far billows reach, m.
-static float describe(CloudGrid *g, const Cloud *cloud, const Billow *billow)
-{
-    set_roughness(g, cloud, billow);
-    float reach = g->height[0] + g->height[1];
-    lay_out(g, cloud, reach + g->edge);
-    return reach;
 }
 
 static int64_t node_count(const CloudGrid *g)
@@ -232,29 +143,27 @@ int64_t cloud_grid_bytes(const Cloud *cloud)
 {
     CloudGrid grid;
     describe(&grid, cloud, NULL);
-    return node_count(&grid) * (int64_t)sizeof *grid.distance;
+    return node_count(&grid) * (int64_t)sizeof *grid.node;
 }
 
-bool cloud_grid_fill(CloudGrid *g, const Cloud *cloud, const Billow *billow, uint64_t key,
-                     const Run *run, Error *e)
+bool cloud_grid_new(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail, uint64_t key,
+                    const Run *run, Error *e)
 {
-    float reach = describe(g, cloud, billow);
+    describe(g, cloud, detail);
     int64_t nodes = node_count(g);
     if (!memory_check((double)cloud_grid_bytes(cloud), e, "clouds of %d x %d x %d voxels",
                       g->count[0], g->count[1], g->count[2])) {
         return false;
     }
-    g->distance = memory_alloc(nodes, sizeof *g->distance, e);
+    g->node = memory_alloc(nodes, sizeof *g->node, e);
     g->bound = memory_alloc(nodes / (BRICK * BRICK * BRICK), sizeof *g->bound, e);
-    if (!g->distance || !g->bound) {
+    if (!g->node || !g->bound) {
         return false;
     }
     for (int64_t i = 0; i < nodes; i++) {
-        g->distance[i] = FARTHEST;
+        g->node[i] = (CloudNode){.distance = FARTHEST};
     }
-    if (cloud->kind == CLOUD_STRATUS) {
-        fill_with_sheet(g, cloud, run);
-    } else if (!fill_with_heaps(g, cloud, reach + 2.0f * g->voxel, key, run, e)) {
+    if (!cloud_fill(g, cloud, key, run, e)) {
         return false;
     }
     fill_bounds(g, run);
@@ -263,52 +172,105 @@ bool cloud_grid_fill(CloudGrid *g, const Cloud *cloud, const Billow *billow, uin
 
 void cloud_grid_clear(CloudGrid *g)
 {
-    free(g->distance);
+    free(g->node);
     free(g->bound);
-    g->distance = NULL;
+    g->node = NULL;
     g->bound = NULL;
 }
 
 // ---- looking up ----
 
-// Distance by trilinear interpolation, m; p in voxels from node 0.
-static float distance_at(const CloudGrid *g, Vec3 p)
+// The coarse form at a place.
+typedef struct Coarse {
+    float inside, softness; // m
+} Coarse;
+
+static Coarse between(CloudNode a, CloudNode b, float t)
+{
+    return (Coarse){lerpf(a.distance, b.distance, t), lerpf(a.softness, b.softness, t)};
+}
+
+static Coarse mix(Coarse a, Coarse b, float t)
+{
+    return (Coarse){lerpf(a.inside, b.inside, t), lerpf(a.softness, b.softness, t)};
+}
+
+// By trilinear interpolation; p in voxels from node 0.
+static Coarse coarse_at(const CloudGrid *g, Vec3 p)
 {
     float fx = floorf(p.x), fy = floorf(p.y), fz = floorf(p.z);
     int x = (int)fx, y = (int)fy, z = (int)fz;
     if (y < 0 || y + 1 >= g->count[1]) {
-        return -INFINITY;
+        return (Coarse){-INFINITY, 0.0f};
     }
     if (!g->repeats && (x < 0 || z < 0 || x + 1 >= g->count[0] || z + 1 >= g->count[2])) {
-        return -INFINITY;
+        return (Coarse){-INFINITY, 0.0f};
     }
     const int wrap = NODES_ACROSS - 1;
-    const int16_t *a = g->distance + node_at(g, x & wrap, y, z & wrap);
-    const int16_t *b = g->distance + node_at(g, (x + 1) & wrap, y, z & wrap);
-    const int16_t *c = g->distance + node_at(g, x & wrap, y, (z + 1) & wrap);
-    const int16_t *d = g->distance + node_at(g, (x + 1) & wrap, y, (z + 1) & wrap);
+    const CloudNode *a = g->node + cloud_grid_node(g, x & wrap, y, z & wrap);
+    const CloudNode *b = g->node + cloud_grid_node(g, (x + 1) & wrap, y, z & wrap);
+    const CloudNode *c = g->node + cloud_grid_node(g, x & wrap, y, (z + 1) & wrap);
+    const CloudNode *d = g->node + cloud_grid_node(g, (x + 1) & wrap, y, (z + 1) & wrap);
     float u = p.x - fx, v = p.y - fy, w = p.z - fz;
-    float near = lerpf(lerpf(a[0], a[1], v), lerpf(b[0], b[1], v), u);
-    float far = lerpf(lerpf(c[0], c[1], v), lerpf(d[0], d[1], v), u);
-    return lerpf(near, far, w) * g->voxel / DISTANCE_STEPS;
+    Coarse near = mix(between(a[0], a[1], v), between(b[0], b[1], v), u);
+    Coarse far = mix(between(c[0], c[1], v), between(d[0], d[1], v), u);
+    Coarse sum = mix(near, far, w);
+    return (Coarse){sum.inside * g->voxel / DISTANCE_STEPS, sum.softness / SOFTEST};
 }
 
-float cloud_grid_extinction(const CloudGrid *g, Vec3 p)
+// Turned, so that the period of the detail is along no axis.
+static Vec3 turned(Vec3 p)
 {
-    float inside = distance_at(g, vec3_scale(vec3_sub(p, g->low), 1.0f / g->voxel));
-    if (inside <= -(g->height[0] + g->height[1])) {
+    return vec3(0.8f * p.x + 0.36f * p.y + 0.48f * p.z, -0.6f * p.x + 0.48f * p.y + 0.64f * p.z,
+                -0.8f * p.y + 0.6f * p.z);
+}
+
+// Extinction where detail has moved the border: inside and ragged (0 .. 2.8) are what it makes.
+static float profile(const CloudGrid *g, float above, float inside, float softness, float ragged)
+{
+    const Roughness *r = &g->rough;
+    float share = clampf(inside / edge_at(r, softness), 0.0f, 1.0f);
+    float raised = clampf(above / r->base - 0.8f * ragged, 0.0f, 1.0f);
+    return g->extinction * gain_at(above / g->thickness) * raised * density_limit(softness) *
+           share * lerpf(1.0f, share, softness);
+}
+
+float cloud_grid_extinction(const CloudGrid *g, Vec3 p, bool fine)
+{
+    const Roughness *r = &g->rough;
+    float above = p.y - g->base;
+    if (above <= 0.0f) {
         return 0.0f;
     }
-    if (inside < g->edge + g->height[0] + g->height[1]) {
-        inside += g->height[0] * billow_at(g->billow, vec3_scale(p, 1.0f / g->period[0]));
-        if (inside > -g->height[1] && inside < g->edge + g->height[1]) {
-            inside += g->height[1] * billow_at(g->billow, vec3_scale(p, 1.0f / g->period[1]));
+    Coarse c = coarse_at(g, vec3_scale(vec3_sub(p, g->low), 1.0f / g->voxel));
+    float s = c.softness, edge = edge_at(r, s), reach = cloud_grid_reach(g, s);
+    if (c.inside <= -reach) {
+        return 0.0f;
+    }
+    float billows = 1.0f + s * (SOFT_BILLOWS - 1.0f), inside = c.inside, ragged = 0.0f;
+    if (inside < edge + reach || above < 3.3f * r->base) {
+        Vec3 q = turned(p);
+        Detail large = detail_at(g->detail, vec3_scale(q, 1.0f / r->period[0]));
+        inside += billows * r->billow[0] * large.billow + s * r->wisp[0] * large.wisp;
+        ragged = 1.0f + large.wisp;
+        float rest = billows * r->billow[1] + s * r->wisp[1];
+        if (fine && inside > -rest && inside < edge + rest) {
+            Detail small = detail_at(g->detail, vec3_scale(q, 1.0f / r->period[1]));
+            inside += billows * r->billow[1] * small.billow + s * r->wisp[1] * small.wisp;
+            ragged += 0.4f * (1.0f + small.wisp);
         }
     }
-    float above = p.y - g->base; // condensation begins at one altitude, and gains with height
-    inside = fminf(inside, above);
-    float share = above / g->thickness;
-    float ice = clampf((share - g->frozen) / 0.2f, 0.0f, 1.0f);
-    return g->extinction * gain_at(share) *
-           clampf(inside / (g->edge * (1.0f + 5.0f * ice)), 0.0f, 1.0f);
+    return profile(g, above, inside, s, ragged);
+}
+
+float cloud_grid_smooth(const CloudGrid *g, Vec3 p)
+{
+    float above = p.y - g->base;
+    Coarse c = coarse_at(g, vec3_scale(vec3_sub(p, g->low), 1.0f / g->voxel));
+    float s = c.softness, reach = (1.0f - s) * g->rough.billow[0];
+    if (above <= 0.0f || c.inside <= -reach) {
+        return 0.0f;
+    }
+    Detail large = detail_at(g->detail, vec3_scale(turned(p), 1.0f / g->rough.period[0]));
+    return profile(g, above, c.inside + reach * large.billow, s, 1.4f);
 }

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 struct CloudSet {
-    Billow *billow;
+    DetailNoise *detail;
     int count;
     CloudGrid grid[];
 };
@@ -22,12 +22,12 @@ CloudSet *clouds_new(const Cloud *cloud, int count, uint64_t seed, const Run *ru
         return NULL;
     }
     uint64_t key = random_key(seed, 0xc10d);
-    clouds->billow = billow_new(key, run, e);
-    bool done = clouds->billow;
+    clouds->detail = detail_new(key, run, e);
+    bool done = clouds->detail;
     for (int i = 0; done && i < count; i++) {
         clouds->count++;
         uint64_t own = random_key(random_key(key, (uint64_t)i), (uint64_t)cloud[i].seed);
-        done = cloud_grid_fill(&clouds->grid[i], &cloud[i], clouds->billow, own, run, e);
+        done = cloud_grid_new(&clouds->grid[i], &cloud[i], clouds->detail, own, run, e);
     }
     if (!done) {
         clouds_free(clouds);
@@ -42,7 +42,7 @@ void clouds_free(CloudSet *clouds)
         for (int i = 0; i < clouds->count; i++) {
             cloud_grid_clear(&clouds->grid[i]);
         }
-        billow_free(clouds->billow);
+        detail_free(clouds->detail);
         free(clouds);
     }
 }
@@ -60,7 +60,7 @@ float clouds_extinction(const CloudSet *clouds, Vec3 p)
 {
     float sum = 0.0f;
     for (int i = 0; i < clouds->count; i++) {
-        sum += cloud_grid_extinction(&clouds->grid[i], p);
+        sum += cloud_grid_extinction(&clouds->grid[i], p, true);
     }
     return sum;
 }
@@ -201,7 +201,8 @@ static bool flight_on(Flight *f)
 static float flight_truth(const Flight *f)
 {
     Vec3 p = vec3_madd(f->ray->origin, f->t, f->ray->direction);
-    return fminf(f->scale * cloud_grid_extinction(f->walk.grid, p) / f->bound, 1.0f);
+    return fminf(f->scale * cloud_grid_extinction(f->walk.grid, p, !f->ray->blurred) / f->bound,
+                 1.0f);
 }
 
 static float collide(const CloudGrid *grid, const CloudRay *ray, float scale, uint64_t *key)
@@ -254,4 +255,54 @@ float clouds_pass(const CloudSet *clouds, const CloudRay *ray, float scale, uint
         share *= pass(&clouds->grid[i], ray, scale, key);
     }
     return share;
+}
+
+// ---- what a camera sees of them ----
+
+// Dims the share *left of light that has come so far, and adds what is lost times its distance.
+static void see(const CloudGrid *grid, const CloudRay *ray, float *left, float *moment)
+{
+    Walk walk;
+    bool more = walk_begin(&walk, grid, ray);
+    for (; more && *left > 0.02f; more = walk_on(&walk)) {
+        if (walk.bound <= 0.0f) {
+            continue;
+        }
+        float step = fmaxf(0.4f * grid->voxel, 0.004f * walk.near);
+        int steps = (int)((walk.far - walk.near) / step) + 1;
+        step = (walk.far - walk.near) / (float)steps;
+        for (int i = 0; i < steps; i++) {
+            float t = walk.near + step * ((float)i + 0.5f);
+            float extinction = cloud_grid_smooth(grid, vec3_madd(ray->origin, t, ray->direction));
+            float lost = *left * (1.0f - expf(-step * extinction));
+            *left -= lost;
+            *moment += lost * t;
+        }
+    }
+}
+
+float clouds_seen(const CloudSet *clouds, const CloudRay *ray, float *distance)
+{
+    float left = 1.0f, moment = 0.0f;
+    for (int i = 0; i < clouds->count; i++) {
+        see(&clouds->grid[i], ray, &left, &moment);
+    }
+    *distance = left < 1.0f ? moment / (1.0f - left) : INFINITY;
+    return 1.0f - left;
+}
+
+Vec3 clouds_slope(const CloudSet *clouds, Vec3 p)
+{
+    Vec3 sum = vec3_splat(0.0f);
+    for (int i = 0; i < clouds->count; i++) {
+        const CloudGrid *g = &clouds->grid[i];
+        float h = 0.5f * g->voxel;
+        Vec3 x = vec3(h, 0, 0), y = vec3(0, h, 0), z = vec3(0, 0, h);
+        Vec3 change =
+            vec3(cloud_grid_smooth(g, vec3_add(p, x)) - cloud_grid_smooth(g, vec3_sub(p, x)),
+                 cloud_grid_smooth(g, vec3_add(p, y)) - cloud_grid_smooth(g, vec3_sub(p, y)),
+                 cloud_grid_smooth(g, vec3_add(p, z)) - cloud_grid_smooth(g, vec3_sub(p, z)));
+        sum = vec3_madd(sum, 0.5f / h * g->rough.edge[1] / fmaxf(g->extinction, 1e-9f), change);
+    }
+    return sum;
 }

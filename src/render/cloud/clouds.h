@@ -23,6 +23,7 @@ int64_t clouds_bytes(const Cloud *cloud, int count);
 typedef struct CloudRay {
     Vec3 origin, direction;
     float far;
+    bool blurred; // of light that many scatterings have spread: small detail is left out
 } CloudRay;
 
 // Draws the distance to the first collision with a droplet, where extinctions count `scale` times;
@@ -34,5 +35,12 @@ float clouds_pass(const CloudSet *clouds, const CloudRay *ray, float scale, uint
 
 // Extinction of all clouds at a place, 1/m.
 float clouds_extinction(const CloudSet *clouds, Vec3 p);
+
+// The share of light that a ray loses, by steps through the clouds without wisps, and the mean
+// distance at which it does, m.
+float clouds_seen(const CloudSet *clouds, const CloudRay *ray, float *distance);
+
+// Gradient of the extinction without wisps, over that of a soft border.
+Vec3 clouds_slope(const CloudSet *clouds, Vec3 p);
 
 #endif

@@ -1,5 +1,5 @@
-// Heaped clouds as trees of balls: rising columns of air bear balls on their flanks, and these
-// smaller ones, as on a cauliflower (after Bouthors and Neyret, "Modeling Clouds Shape",
+// Clouds' coarse forms as trees of balls: rising columns of air bear balls on their flanks, and
+// these smaller ones, as on a cauliflower (after Bouthors and Neyret, "Modeling Clouds Shape",
 // Eurographics 2004).
 #ifndef RAMIFY_RENDER_CLOUD_PUFFS_H
 #define RAMIFY_RENDER_CLOUD_PUFFS_H
@@ -14,20 +14,31 @@ typedef struct Puff {
     Vec3 center; // m
     float radius;
     float flatness; // 1 = a ball; more: its height is that much less than its width
+    float softness; // 0 = growing, with a crisp border; 1 = dissolving into shreds
 } Puff;
 
 typedef struct Puffs {
     Puff *puff; // owned
     int64_t count, capacity;
+    float floor;    // m: altitude of the base, below which no ball is centred
+    float smallest; // m: radius
 } Puffs;
 
-// Adds the heaps of a square of `period` m from the origin, in which they cover the cloud's share;
-// altitudes are absolute. No ball is smaller than `smallest`.
-bool puffs_grow_cumulus(Puffs *puffs, const Cloud *cloud, float period, float smallest,
-                        uint64_t key, Error *e);
+// A column of air with balls on its flanks.
+typedef struct Column {
+    Vec3 foot;
+    float radius, height; // m
+    float lean_x, lean_z; // m downwind a metre of height
+    float softness;
+} Column;
+
+bool puffs_add(Puffs *puffs, Puff puff, Error *e);
+
+// Balls up a column, narrower toward its top.
+bool puffs_add_column(Puffs *puffs, const Column *column, uint64_t key, Error *e);
 
 // Adds one storm about (center_x, center_z): towers up to the anvil, which the wind draws out.
-bool puffs_grow_storm(Puffs *puffs, const Cloud *cloud, float smallest, uint64_t key, Error *e);
+bool puffs_grow_storm(Puffs *puffs, const Cloud *cloud, uint64_t key, Error *e);
 
 void puffs_clear(Puffs *puffs);
 

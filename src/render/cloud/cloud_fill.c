@@ -1,0 +1,146 @@
+#include "render/cloud/cloud_fill.h"
+
+#include "render/cloud/heaps.h"
+#include "render/cloud/puffs.h"
+
+#include <stdlib.h>
+
+enum { WRAP = NODES_ACROSS - 1 };
+
+static int16_t in_steps(const CloudGrid *g, float distance)
+{
+    float steps = distance / g->voxel * DISTANCE_STEPS;
+    return (int16_t)lrintf(clampf(steps, FARTHEST, -FARTHEST - 1));
+}
+
+static int16_t in_softness(float softness)
+{
+    return (int16_t)lrintf(clampf(softness, 0.0f, 1.0f) * SOFTEST);
+}
+
+// ---- balls ----
+
+// How far outside of a ball nodes get a distance, m.
+static float reach_of(const CloudGrid *g, const Puff *puff)
+{
+    return cloud_grid_reach(g, puff->softness) + 2.0f * g->voxel;
+}
+
+// Unites a ball with the nodes of slice z.
+static void unite(CloudGrid *g, const Puff *puff, int z)
+{
+    Vec3 c = vec3_scale(vec3_sub(puff->center, g->low), 1.0f / g->voxel);
+    float reach = reach_of(g, puff), wide = (puff->radius + reach) / g->voxel;
+    float tall = (puff->radius / puff->flatness + reach) / g->voxel;
+    int16_t softness = in_softness(puff->softness);
+    int y0 = (int)fmaxf(ceilf(c.y - tall), 0.0f);
+    int y1 = (int)fminf(floorf(c.y + tall), (float)g->count[1] - 1.0f);
+    for (int x = (int)ceilf(c.x - wide); x <= (int)floorf(c.x + wide); x++) {
+        if (!g->repeats && (x < 0 || x >= g->count[0])) {
+            continue;
+        }
+        CloudNode *column = g->node + cloud_grid_node(g, x & WRAP, 0, z & WRAP);
+        float dx = (float)x - c.x, dz = (float)z - c.z;
+        for (int y = y0; y <= y1; y++) {
+            float dy = ((float)y - c.y) * puff->flatness;
+            float far = g->voxel * sqrtf(dx * dx + dy * dy + dz * dz);
+            int16_t inside = in_steps(g, (puff->radius - far) / puff->flatness);
+            if (inside > column[y].distance) {
+                column[y] = (CloudNode){inside, softness};
+            }
+        }
+    }
+}
+
+static void fill_with_puffs(CloudGrid *g, const Puffs *puffs, const Run *run)
+{
+#pragma omp parallel for schedule(dynamic, 8) num_threads(run->threads)
+    for (int slice = 0; slice < g->count[2]; slice++) {
+        for (int64_t i = 0; i < puffs->count; i++) {
+            const Puff *puff = &puffs->puff[i];
+            float wide = (puff->radius + reach_of(g, puff)) / g->voxel;
+            float c = (puff->center.z - g->low.z) / g->voxel;
+            int z = slice; // the slice itself, or where it repeats near the ball
+            if (g->repeats) {
+                z += NODES_ACROSS * (int)lrintf((c - (float)slice) / NODES_ACROSS);
+            }
+            if (fabsf((float)z - c) <= wide) {
+                unite(g, puff, z);
+            }
+        }
+    }
+}
+
+static bool fill_with_heaps(CloudGrid *g, const Cloud *cloud, uint64_t key, const Run *run,
+                            Error *e)
+{
+    Puffs puffs = {.floor = cloud->base, .smallest = 0.8f * g->voxel};
+    bool done = cloud->kind == CLOUD_STORM
+                    ? puffs_grow_storm(&puffs, cloud, key, e)
+                    : heaps_grow(&puffs, cloud, g->voxel * NODES_ACROSS, key, e);
+    if (done) {
+        fill_with_puffs(g, &puffs, run);
+    }
+    puffs_clear(&puffs);
+    return done;
+}
+
+// ---- a sheet ----
+
+// Rolls of a sheet, about -1 .. 1, at a place in shares of the period.
+static float rolls(const CloudGrid *g, float x, float z)
+{
+    Detail slow = detail_at(g->detail, vec3(x, 0.3f, z));
+    Detail fast = detail_at(g->detail, vec3(3.0f * x, 0.7f, 3.0f * z));
+    return 0.35f * slow.billow + 0.35f * slow.wisp + 0.3f * fast.billow;
+}
+
+static int compare_floats(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+// The height of rolls above which a share `cover` of the sheet lies.
+static float rolls_cut(const CloudGrid *g, float cover)
+{
+    enum { SAMPLES = 64 };
+    float value[SAMPLES * SAMPLES];
+    for (int i = 0; i < SAMPLES * SAMPLES; i++) {
+        int x = i % SAMPLES, z = i / SAMPLES;
+        value[i] = rolls(g, (float)x / SAMPLES, (float)z / SAMPLES);
+    }
+    qsort(value, SAMPLES * SAMPLES, sizeof value[0], compare_floats);
+    int index = (int)((1.0f - cover) * SAMPLES * SAMPLES);
+    return cover >= 1.0f ? -2.0f : value[index < SAMPLES * SAMPLES ? index : SAMPLES * SAMPLES - 1];
+}
+
+static void fill_with_sheet(CloudGrid *g, const Cloud *cloud, const Run *run)
+{
+    float cut = rolls_cut(g, cloud->cover);
+#pragma omp parallel for schedule(static) num_threads(run->threads)
+    for (int z = 0; z < g->count[2]; z++) {
+        for (int x = 0; x < g->count[0]; x++) {
+            float roll = rolls(g, (float)x / NODES_ACROSS, (float)z / NODES_ACROSS);
+            float rise = clampf((roll - cut) / 0.5f, -1.0f, 1.0f);
+            float top =
+                cloud->base + cloud->thickness * (rise > 0.0f ? 0.25f + 0.75f * rise : rise);
+            int16_t softness = in_softness(0.6f - 0.5f * rise);
+            for (int y = 0; y < g->count[1]; y++) {
+                float altitude = g->low.y + g->voxel * (float)y;
+                float inside =
+                    fminf(top - altitude, altitude - cloud->base + 0.2f * cloud->thickness);
+                g->node[cloud_grid_node(g, x, y, z)] = (CloudNode){in_steps(g, inside), softness};
+            }
+        }
+    }
+}
+
+bool cloud_fill(CloudGrid *g, const Cloud *cloud, uint64_t key, const Run *run, Error *e)
+{
+    if (cloud->kind == CLOUD_STRATUS) {
+        fill_with_sheet(g, cloud, run);
+        return true;
+    }
+    return fill_with_heaps(g, cloud, key, run, e);
+}
