@@ -21,15 +21,12 @@ typedef struct ChildOutput {
     int64_t left;     // bytes not yet read
     bool limited;     // in a child: its size is limited by the job, not by the user alone
     bool not_started; // child_run has failed before anything was tried: the system has no process
-    // In a child: ends it with ERROR_MEMORY, from any thread. A task in C++ makes it its
-    // std::new_handler, so that no library has to cope with an exception it does not expect. Else
-    // NULL.
-    void (*out_of_memory)(void);
 } ChildOutput;
 
 // Runs in the child on one thread (no OpenMP, no locks that threads of the host may hold; malloc
 // and stdio are safe). Writes its result to output, or returns false with an error, of which the
-// parent keeps code, message, line and column.
+// parent keeps code, message, line and column. An operator new of C++ that fails ends the child
+// with ERROR_MEMORY, so that no library has to cope with an exception that it does not expect.
 typedef bool ChildTask(const void *data, ChildOutput *output, Error *e);
 
 typedef struct ChildJob {

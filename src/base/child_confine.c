@@ -1,6 +1,7 @@
 #include "base/child_confine.h"
 
 #include "base/child_filter.h"
+#include "base/new_handler.h"
 
 #include <fcntl.h>
 #include <math.h>
@@ -26,6 +27,7 @@ static void on_crash(int number, siginfo_t *info, void *context)
     _exit(EXIT_FAILURE);
 }
 
+// In any thread.
 static void out_of_memory(void)
 {
     error_set(&crash_report->error, ERROR_MEMORY, "out of memory");
@@ -157,10 +159,9 @@ _Noreturn void child_confined(const ChildJob *job, ChildReport *report, int file
         error_set(&e, ERROR_IO, "files cannot be closed before it is read; too many are open");
     } else {
         set_limits(job, report);
+        new_handler_set(out_of_memory);
         child_filter(); // on kernels without filters the limits still apply
-        ChildOutput output = {.file = OUTPUT_FILE,
-                              .limited = job->memory != INT64_MAX,
-                              .out_of_memory = out_of_memory};
+        ChildOutput output = {.file = OUTPUT_FILE, .limited = job->memory != INT64_MAX};
         if (job->task(job->data, &output, &e)) {
             e.code = ERROR_NONE;
         } else if (e.code == ERROR_NONE) {

@@ -46,7 +46,7 @@ bool child_read(ChildOutput *output, void *data, int64_t count, size_t size, Err
     size_t left;
     if (count < 0 || __builtin_mul_overflow((size_t)count, size, &left) ||
         left > (size_t)output->left) {
-        return error_set(e, ERROR_INPUT, "the result breaks off");
+        return error_set(e, ERROR_INPUT, "it broke off in its result");
     }
     output->left -= (int64_t)left;
     while (left > 0) {

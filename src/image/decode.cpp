@@ -300,9 +300,6 @@ bool decode(const DecodeJob *job, ChildOutput *output, Error *e)
 
 extern "C" bool decode_picture(const void *data, ChildOutput *output, Error *e)
 {
-    if (output->out_of_memory) {
-        std::set_new_handler(output->out_of_memory);
-    }
     try {
         return decode(static_cast<const DecodeJob *>(data), output, e);
     } catch (const std::bad_alloc &) {

@@ -175,9 +175,6 @@ struct Formats {
 
 extern "C" bool encode_picture(const void *data, ChildOutput *output, Error *e)
 {
-    if (output->out_of_memory) {
-        std::set_new_handler(output->out_of_memory);
-    }
     try {
         Bytes bytes;
         return encode_kind(*static_cast<const EncodeJob *>(data), bytes, e) &&

@@ -44,7 +44,8 @@ SpareMemory::SpareMemory()
         s.spare = ::operator new(SPARE_BYTES);
     }
     if (s.users++ == 0) {
-        s.before = std::set_new_handler(give_back);
+        s.before = std::get_new_handler();
+        std::set_new_handler(s.before ? s.before : give_back);
     }
 }
 

@@ -4,8 +4,9 @@
 #define RAMIFY_SHAPE_SPARE_MEMORY_H
 
 // While one of these exists, operator new releases the reserve before it throws std::bad_alloc, so
-// that destructors can allocate while the stack unwinds. The constructor throws std::bad_alloc if
-// the reserve itself cannot be allocated. Thread-safe; all objects share the reserve.
+// that destructors can allocate while the stack unwinds. A handler that is there already stays, as
+// in a child process (base/child.h). The constructor throws std::bad_alloc if the reserve itself
+// cannot be allocated. Thread-safe; all objects share the reserve.
 class SpareMemory
 {
   public:
