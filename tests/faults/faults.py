@@ -90,6 +90,7 @@ ERROR = re.compile(r"(ramify: (?!warning)|libgomp: |[^ :]+(:\d+){0,2}: |Insuffic
 # What outside libraries do wrong, out of our reach: what happens, the function that could not allocate.
 KNOWN = [("signal 11", "TableRepMap", "OpenImageIO's table of strings does not check what it allocates"),
          ("leaks", "TopologyRefiner", "OpenSubdiv loses a level of refinement that it could not complete"),
+         ("signal 11", "stealNodes", "OpenVDB allocates while it destroys a tree, where no exception may pass"),
          ("signal 11", "blosc", "c-blosc, which compresses VDB files, does not check what it allocates")]
 # libpng's own words beside it; LeakSanitizer's of threads that a fork does not have.
 NOISE = re.compile(r"libpng error: .*|==\d+==Running thread .*|")
