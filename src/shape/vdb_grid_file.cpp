@@ -81,11 +81,28 @@ struct Plane {
     std::vector<char> active;
 };
 
+// The library composes the names of its types once, in streams that pass over a lack of memory: a
+// name cut short would make files that nothing reads.
+template <typename Grid> bool is_called(const char *name)
+{
+    openvdb::GridBase::ConstPtr grid = Grid::create(); // asked as the library asks when it writes
+    return grid->type() == name && openvdb::GridBase::isRegistered(name);
+}
+
+bool types_have_names()
+{
+    return is_called<openvdb::FloatGrid>("Tree_float_5_4_3") &&
+           is_called<openvdb::Vec3SGrid>("Tree_vec3s_5_4_3");
+}
+
 GridFile *make(Error *e)
 {
     VdbGridFile *made = nullptr;
     guarded(e, [&] {
         openvdb::initialize();
+        if (!types_have_names()) {
+            throw std::bad_alloc();
+        }
         made = new VdbGridFile;
         return true;
     });
