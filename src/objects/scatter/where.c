@@ -40,7 +40,7 @@ bool where_init(Where *where, const ScatteringParams *params, const ShapeSurface
     }
     HeightField *field =
         surface ? height_field_of_mesh(surface->mesh, SIDE, e) : sample_land(params, land, e);
-    where->map = field ? memory_alloc_zero(params->where_count, sizeof *where->map, e) : NULL;
+    where->map = field ? memory_alloc_zero(params->where_count, sizeof(HeightField *), e) : NULL;
     bool done = where->map;
     while (done && where->count < params->where_count) {
         const char *name = enum_name(MAPS, params->where[where->count].map);
