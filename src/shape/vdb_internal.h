@@ -23,6 +23,7 @@ template <typename Grid> void clear_without_allocating(Grid &grid)
 struct VdbGridFile final : GridFile {
     openvdb::GridPtrVec grids;
 
+    // cppcheck-suppress uninitDerivedMemberVar ; the braces set it
     VdbGridFile() : GridFile{&vdb_grid_files}
     {
     }

@@ -48,6 +48,7 @@ struct VdbLevelSet final : LevelSet {
     std::vector<const float *> table;
     std::vector<float> inside, outside; // the values of blocks without a leaf
 
+    // cppcheck-suppress uninitDerivedMemberVar ; the braces set it
     VdbLevelSet() : LevelSet{&vdb_level_sets}
     {
     }
@@ -317,6 +318,7 @@ LevelSet *from_mesh(const Mesh *mesh, LevelSetFrame frame, const Run *run, Error
     return done ? made.release() : nullptr;
 }
 
+// cppcheck-suppress passedByValue ; as C calls it
 LevelSet *from_distance(LevelSetDistance distance, const void *shape, Aabb bounds,
                         LevelSetFrame frame, const Run *run, Error *e)
 {
