@@ -206,7 +206,7 @@ format: check-packages ## lay the code out with clang-format
 	clang-format -i $(FORMATTED)
 
 format-check: check-packages
-	clang-format --dry-run --Werror $(FORMATTED)
+	@clang-format --dry-run --Werror $(FORMATTED)
 
 # Where Debian's Python looks for modules below /usr/local, and below /usr with python3 in place of python3.11.
 PYTHON_SITE ?= lib/$(shell python3 -c 'import sys; print("python%d.%d" % sys.version_info[:2])' 2>/dev/null || echo python3)/dist-packages
