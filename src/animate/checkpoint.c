@@ -1,6 +1,7 @@
 #include "animate/checkpoint.h"
 
 #include "animate/frames.h"
+#include "base/file_name.h"
 #include "base/memory.h"
 #include "image/image.h"
 #include "scene/picture.h"
@@ -13,8 +14,7 @@
 
 static char *name_beside(const char *picture, Error *e)
 {
-    const char *slash = strrchr(picture, '/'), *dot = strrchr(picture, '.');
-    int stem = (int)(dot && dot > slash ? (size_t)(dot - picture) : strlen(picture));
+    int stem = (int)(strlen(picture) - strlen(file_name_ending(picture)));
     size_t room = (size_t)stem + sizeof CHECKPOINT_ENDING;
     char *name = memory_alloc((int64_t)room, 1, e);
     if (name) {

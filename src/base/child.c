@@ -128,9 +128,10 @@ static bool crashed(const ChildJob *job, int signal, int call, Error *e)
         char name[64];
         child_filter_name(call, name, sizeof name);
         return error_set(e, blame(job),
-                         "the reader was stopped at the system call '%s', which reading does not "
-                         "need; the file may be an attack: %s is needed",
-                         name, job->wanted);
+                         "the %s was stopped at the system call '%s', which it does not need%s: %s "
+                         "is needed",
+                         worker(job), name, job->worker ? "" : "; the file may be an attack",
+                         job->wanted);
     }
     if (signal == SIGXCPU) {
         return too_late(job, e);

@@ -223,11 +223,5 @@ OutTree *out_tree_parse_qsm(FILE *stream, const char *file, Error *e)
 
 OutTree *out_tree_read_qsm(const char *file, Error *e)
 {
-    FILE *stream = table_open(file, &QSM, e);
-    if (!stream) {
-        return NULL;
-    }
-    OutTree *tree = out_tree_parse_qsm(stream, file, e);
-    fclose(stream);
-    return tree;
+    return table_read(file, &QSM, out_tree_parse_qsm, e);
 }

@@ -260,11 +260,5 @@ OutTree *out_tree_parse_swc(FILE *stream, const char *file, Error *e)
 
 OutTree *out_tree_read_swc(const char *file, Error *e)
 {
-    FILE *stream = table_open(file, &SWC, e);
-    if (!stream) {
-        return NULL;
-    }
-    OutTree *tree = out_tree_parse_swc(stream, file, e);
-    fclose(stream);
-    return tree;
+    return table_read(file, &SWC, out_tree_parse_swc, e);
 }

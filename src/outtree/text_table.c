@@ -4,7 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-FILE *table_open(const char *file, const TableFormat *format, Error *e)
+static FILE *open_regular(const char *file, const TableFormat *format, Error *e)
 {
     struct stat status;
     if (stat(file, &status) != 0) {
@@ -20,6 +20,16 @@ FILE *table_open(const char *file, const TableFormat *format, Error *e)
     }
     error_locate(e, file, 0, 0);
     return NULL;
+}
+
+OutTree *table_read(const char *file, const TableFormat *format, TableParse *parse, Error *e)
+{
+    FILE *stream = open_regular(file, format, e);
+    OutTree *tree = stream ? parse(stream, file, e) : NULL;
+    if (stream) {
+        fclose(stream);
+    }
+    return tree;
 }
 
 bool table_read_line(FILE *stream, const TableFormat *format, char text[TABLE_MAX_LINE], bool *more,

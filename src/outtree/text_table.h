@@ -2,7 +2,7 @@
 #ifndef RAMIFY_OUTTREE_TEXT_TABLE_H
 #define RAMIFY_OUTTREE_TEXT_TABLE_H
 
-#include "base/error.h"
+#include "outtree/out_tree.h"
 
 #include <stdio.h>
 
@@ -15,9 +15,12 @@ typedef struct TableFormat {
     const char *row;  // "seven numbers"
 } TableFormat;
 
-// Opens a regular file for reading; NULL and ERROR_INPUT with the file's name. The caller closes
-// it.
-FILE *table_open(const char *file, const TableFormat *format, Error *e);
+// Makes a tree of an open stream; file is for messages.
+typedef OutTree *TableParse(FILE *stream, const char *file, Error *e);
+
+// Opens a regular file, parses it and closes it; NULL and e on failure, ERROR_INPUT with the file's
+// name when it cannot be opened. The caller frees the tree.
+OutTree *table_read(const char *file, const TableFormat *format, TableParse *parse, Error *e);
 
 // Reads one line into text, without its end (LF or CRLF); a comment (#) that is too long is cut.
 // ERROR_INPUT for a NUL or a line that is too long, ERROR_IO when reading fails. *more: whether
