@@ -45,7 +45,10 @@ RamifyLand *ramify_land_read(const char *file, RamifyError *error)
 RamifyLand *ramify_land_map(const RamifyLand *land, const char *name, RamifyError *error)
 {
     Error e = {0};
-    return hand_land(height_map(land_of(land), name, &e), &e, error);
+    Run run = api_run(NULL);
+    HeightMap map;
+    bool known = height_map_parse(name, &map, &e);
+    return hand_land(known ? height_map(land_of(land), &map, &run, &e) : NULL, &e, error);
 }
 
 void ramify_land_free(RamifyLand *land)

@@ -6,6 +6,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void print_trees(const RamifyScene *scene, RamifyTree *const *trees, double seconds)
 {
@@ -83,14 +84,17 @@ static int find_painter(const RamifyScene *scene)
 
 static bool check_map(const Options *options, const RamifyScene *scene, RamifyError *e)
 {
-    static const char *const maps[] = {"slope", "aspect",  "curvature",
-                                       "flow",  "wetness", "river-distance"};
+    static const char *const maps[] = {"slope",   "aspect",         "curvature", "flow",
+                                       "wetness", "river-distance", "deposit",   "wear",
+                                       "bedrock", "snow",           "sun-hours"};
     if (!options->map) {
         return true;
     }
+    char name[64]; // without the numbers that may follow it
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(options->map, ":"), options->map);
     const char *file = options->output;
     bool possible = file && is_heights(file) && land_count(scene) > 0;
-    return command_choice("map", options->map, maps, 6, e) >= 0 &&
+    return command_choice("map", name, maps, 11, e) >= 0 &&
            (possible || fail(e, RAMIFY_BAD_INPUT,
                              "--map %s; it needs a scene with a terrain and --output .png, .exr or "
                              ".asc",

@@ -37,8 +37,21 @@ void height_field_free(HeightField *field)
         free(field->height);
         free(field->wetness);
         free(field->climate);
+        free(field->change);
+        free(field->loose);
         free(field);
     }
+}
+
+int64_t height_field_bytes(const HeightField *field)
+{
+    const float *const given[] = {field->height, field->wetness, field->climate, field->change,
+                                  field->loose};
+    int64_t bytes = sizeof *field;
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
+        bytes += given[i] ? height_field_count(field) * (int64_t)sizeof(float) : 0;
+    }
+    return bytes;
 }
 
 void height_field_range(const HeightField *field, float *low, float *high)

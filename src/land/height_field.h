@@ -16,6 +16,9 @@ typedef struct HeightField {
     float *height;  // m
     float *wetness; // 0..1: 1 in rivers, 0 on dry slopes; NULL = unknown
     float *climate; // 0..1: the altitude as snow and plants feel it; NULL = the altitude
+    float *change;  // m by which erosion has raised the land, negative where it has worn it; NULL =
+                    // unknown
+    float *loose;   // m of loose ground on the rock; NULL = unknown
 } HeightField;
 
 enum { HEIGHT_FIELD_MAX = 16384 }; // samples per side
@@ -29,6 +32,9 @@ static inline int64_t height_field_count(const HeightField *field)
 {
     return (int64_t)field->columns * field->rows;
 }
+
+// Of memory, all arrays.
+int64_t height_field_bytes(const HeightField *field);
 
 // The lowest and the highest height, m.
 void height_field_range(const HeightField *field, float *low, float *high);

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "land/height_drainage.h"
 #include "land/height_measure.h"
+#include "land/sun_hours.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -209,42 +210,145 @@ static bool fill_drained(const HeightField *field, DrainageMap *map, HeightField
     return done;
 }
 
+// ---- maps of how the land came to be
+
+typedef bool RecordMap(const HeightField *field, HeightField *out);
+
+// What streams and slopes have laid down is what lies loose where that is known.
+static bool fill_deposit(const HeightField *field, HeightField *out)
+{
+    for (int64_t i = 0; i < height_field_count(field) && (field->loose || field->change); i++) {
+        out->height[i] = field->loose ? field->loose[i] : fmaxf(field->change[i], 0.0f);
+    }
+    return field->loose || field->change;
+}
+
+static bool fill_wear(const HeightField *field, HeightField *out)
+{
+    for (int64_t i = 0; i < height_field_count(field) && field->change; i++) {
+        float laid = field->loose ? field->loose[i] : fmaxf(field->change[i], 0.0f);
+        out->height[i] = laid - field->change[i];
+    }
+    return field->change;
+}
+
+static bool fill_bedrock(const HeightField *field, HeightField *out)
+{
+    const float covered = 0.5f; // m that hide all rock
+    for (int64_t i = 0; i < height_field_count(field) && field->loose; i++) {
+        out->height[i] = fmaxf(1.0f - field->loose[i] / covered, 0.0f);
+    }
+    return field->loose;
+}
+
+// As the pattern alps draws it with the snow line of its built-in material: far below the line only
+// level hollows hold snow, far above it all but walls do.
+static bool fill_snow(const HeightField *field, HeightField *out)
+{
+    const float line = 0.56f;
+    for (int64_t i = 0; i < height_field_count(field) && field->climate; i++) {
+        Around around = look_around(field, (int)(i % field->columns), (int)(i / field->columns));
+        float slope = steepness(gradient(field, &around));
+        float upright = 1.0f / sqrtf(1.0f + slope * slope), cold = field->climate[i] - line;
+        float least = lerpf(0.82f, 0.50f, smoothstepf(-0.05f, 0.25f, cold));
+        out->height[i] =
+            smoothstepf(-0.015f, 0.02f, cold) * smoothstepf(least, least + 0.06f, upright);
+    }
+    return field->climate;
+}
+
+static bool fill_record(const HeightField *field, RecordMap *map, HeightField *out)
+{
+    bool known = map(field, out);
+    for (int64_t i = 0; known && i < height_field_count(field); i++) {
+        out->height[i] = isfinite(field->height[i]) ? out->height[i] : NAN;
+    }
+    return known;
+}
+
 // ----
 
 static const struct {
     const char *name;
     LocalMap *local;
     DrainageMap *drained;
-} maps[] = {{"slope", slope_at, NULL},         {"aspect", aspect_at, NULL},
-            {"curvature", curvature_at, NULL}, {"flow", NULL, fill_flow},
-            {"wetness", NULL, fill_wetness},   {"river-distance", NULL, fill_river_distance}};
+    RecordMap *record;
+    const char *needs; // of a record: what has it
+} maps[] = {
+    [HEIGHT_MAP_SLOPE] = {"slope", .local = slope_at},
+    [HEIGHT_MAP_ASPECT] = {"aspect", .local = aspect_at},
+    [HEIGHT_MAP_CURVATURE] = {"curvature", .local = curvature_at},
+    [HEIGHT_MAP_FLOW] = {"flow", .drained = fill_flow},
+    [HEIGHT_MAP_WETNESS] = {"wetness", .drained = fill_wetness},
+    [HEIGHT_MAP_RIVER_DISTANCE] = {"river-distance", .drained = fill_river_distance},
+    [HEIGHT_MAP_DEPOSIT] = {"deposit", .record = fill_deposit,
+                            .needs = "a terrain with erosion, or of form canyon, mesas or alps"},
+    [HEIGHT_MAP_WEAR] = {"wear", .record = fill_wear,
+                         .needs = "a terrain with erosion, or of form canyon or mesas"},
+    [HEIGHT_MAP_BEDROCK] = {"bedrock", .record = fill_bedrock,
+                            .needs = "a terrain of form canyon, mesas or alps"},
+    [HEIGHT_MAP_SNOW] = {"snow", .record = fill_snow, .needs = "a terrain of form alps"},
+    [HEIGHT_MAP_SUN_HOURS] = {"sun-hours"}};
 
-static int find(const char *name)
+static int find(const char *name, size_t length)
 {
     int count = (int)(sizeof maps / sizeof *maps);
     for (int i = 0; i < count; i++) {
-        if (strcmp(maps[i].name, name) == 0) {
+        if (strlen(maps[i].name) == length && strncmp(maps[i].name, name, length) == 0) {
             return i;
         }
     }
     return -1;
 }
 
-HeightField *height_map(const HeightField *field, const char *name, Error *e)
+bool height_map_parse(const char *text, HeightMap *map, Error *e)
 {
-    int k = find(name);
-    if (k < 0) {
-        error_set(e, ERROR_INPUT, "no map of land is called '%s'; known: %s", name,
-                  HEIGHT_MAP_NAMES);
-        return NULL;
+    size_t length = strcspn(text, ":");
+    *map = (HeightMap){find(text, length), HEIGHT_MAP_LATITUDE, 0};
+    if (map->kind < 0) {
+        return error_set(e, ERROR_INPUT, "no map of land is called '%.*s'; known: %s", (int)length,
+                         text, HEIGHT_MAP_NAMES);
     }
+    if (!text[length]) {
+        return true;
+    }
+    char *end = NULL;
+    double latitude = strtod(text + length + 1, &end);
+    long day = *end == ':' ? strtol(end + 1, &end, 10) : 0;
+    if (map->kind != HEIGHT_MAP_SUN_HOURS || *end || end == text + length + 1 ||
+        !(fabs(latitude) <= 90.0) || day < 0 || day > 366) {
+        return error_set(e, ERROR_INPUT,
+                         "the map '%s'; only sun-hours takes numbers, as sun-hours:LATITUDE:DAY, "
+                         "with a latitude from -90 to 90 and a day of the year from 1 to 366, or 0 "
+                         "for the year's mean",
+                         text);
+    }
+    map->latitude = (float)latitude;
+    map->day = (int)day;
+    return true;
+}
+
+static bool fill(const HeightField *field, const HeightMap *map, HeightField *out, const Run *run,
+                 Error *e)
+{
+    if (maps[map->kind].local) {
+        return fill_local(field, maps[map->kind].local, out, e);
+    }
+    if (maps[map->kind].drained) {
+        return fill_drained(field, maps[map->kind].drained, out, e);
+    }
+    if (map->kind == HEIGHT_MAP_SUN_HOURS) {
+        return sun_hours(field, map->latitude, map->day, out->height, run, e);
+    }
+    return fill_record(field, maps[map->kind].record, out) ||
+           error_set(e, ERROR_INPUT, "the land has no map '%s'; it needs %s", maps[map->kind].name,
+                     maps[map->kind].needs);
+}
+
+HeightField *height_map(const HeightField *field, const HeightMap *map, const Run *run, Error *e)
+{
     HeightField *out = height_field_new(field->columns, field->rows, field->cell, field->origin, e);
-    if (!out) {
-        return NULL;
-    }
-    bool done = maps[k].local ? fill_local(field, maps[k].local, out, e)
-                              : fill_drained(field, maps[k].drained, out, e);
-    if (!done) {
+    if (out && !fill(field, map, out, run, e)) {
         height_field_free(out);
         return NULL;
     }

@@ -2,19 +2,59 @@
 #ifndef RAMIFY_LAND_HEIGHT_MAPS_H
 #define RAMIFY_LAND_HEIGHT_MAPS_H
 
+#include "base/run.h"
 #include "land/height_field.h"
 
-// The names of all maps, space-separated:
+// The registry of maps: MAP(ID, name).
 // slope           degrees, over eight neighbours (Horn 1981)
 // aspect          degrees, toward which the land falls: 0 = north (-z), 90 = east (+x); -1 = level
 // curvature       1/m, the Laplacian: positive in hollows, negative on ridges
 // flow            m^2, the catchment of each sample (height_drainage.h)
 // wetness         ln(catchment per width of contour / tan slope) (Beven and Kirkby 1979)
 // river-distance  m to the nearest river, as height_field_measure finds them
-#define HEIGHT_MAP_NAMES "slope aspect curvature flow wetness river-distance"
+// deposit         m that erosion has laid down, and
+// wear            m that it has taken away: deposit - wear is HeightField.change
+// bedrock         0..1: 1 where rock is bare, 0 under 0.5 m of loose ground or more
+// snow            0..1: share of the ground that snow covers
+// sun-hours       mean hours of direct sun a day (sun_hours.h)
+#define HEIGHT_MAPS(MAP)                  \
+    MAP(SLOPE, "slope")                   \
+    MAP(ASPECT, "aspect")                 \
+    MAP(CURVATURE, "curvature")           \
+    MAP(FLOW, "flow")                     \
+    MAP(WETNESS, "wetness")               \
+    MAP(RIVER_DISTANCE, "river-distance") \
+    MAP(DEPOSIT, "deposit")               \
+    MAP(WEAR, "wear")                     \
+    MAP(BEDROCK, "bedrock")               \
+    MAP(SNOW, "snow")                     \
+    MAP(SUN_HOURS, "sun-hours")
+
+enum {
+#define MAP(ID, NAME) HEIGHT_MAP_##ID,
+    HEIGHT_MAPS(MAP)
+#undef MAP
+};
+
+#define HEIGHT_MAP_NAME(ID, NAME) NAME " "
+#define HEIGHT_MAP_NAMES HEIGHT_MAPS(HEIGHT_MAP_NAME) // of all maps, a space after each
+
+enum { HEIGHT_MAP_SIDE = 1024 };  // samples a side of a surface that is no height field
+#define HEIGHT_MAP_LATITUDE 45.0f // degrees, where none is given
+
+typedef struct HeightMap {
+    int kind;       // HEIGHT_MAP_*
+    float latitude; // degrees, of sun-hours
+    int day;        // of the year, of sun-hours: 1 = 1 January; 0 = the year's mean
+} HeightMap;
+
+// A map by its name; sun-hours also as "sun-hours:LATITUDE" or "sun-hours:LATITUDE:DAY".
+// ERROR_INPUT for anything else.
+bool height_map_parse(const char *text, HeightMap *map, Error *e);
 
 // A field of the same samples whose heights are the map's values; missing where the land is. The
-// caller frees it. ERROR_INPUT for another name.
-HeightField *height_map(const HeightField *field, const char *name, Error *e);
+// caller frees it. ERROR_INPUT if the land does not know what the map shows. The same bits for any
+// number of threads.
+HeightField *height_map(const HeightField *field, const HeightMap *map, const Run *run, Error *e);
 
 #endif

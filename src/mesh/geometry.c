@@ -21,6 +21,7 @@ static void part_clear(Part *part)
     free(part->instance);
     free(part->variation);
     free(part->season);
+    height_field_free(part->land);
 }
 
 bool geometry_add(Geometry *geometry, Part part, Error *e)
@@ -100,6 +101,7 @@ GeometryCounts geometry_counts(const Geometry *geometry)
             counts.curve_segments += part->curves->point_count - part->curves->curve_count;
             counts.bytes += curves_bytes(part->curves);
         }
+        counts.bytes += part->land ? height_field_bytes(part->land) : 0;
         counts.instances += part->instance_count;
         counts.bytes += part->instance_count * (int64_t)sizeof(Transform);
     }

@@ -6,6 +6,7 @@
 #include "base/mesh.h"
 #include "base/random.h"
 #include "base/run.h"
+#include "land/height_field.h"
 #include "mesh/curves.h"
 
 typedef enum PartKind { PART_MESH, PART_CURVES } PartKind;
@@ -32,6 +33,8 @@ typedef struct Part {
     float *season;       // owned; of leaves, per instance: see InstanceLook; NULL = 0
     int64_t instance_count;
     CoarseMesh coarse[PART_COARSE_MOST]; // of an instanced mesh: from fine to coarse
+    HeightField *land; // owned; of a terrain whose maps are drawn: what the part shows, in the
+                       // scene; NULL = none
 } Part;
 
 typedef struct Geometry {

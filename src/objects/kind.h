@@ -93,6 +93,9 @@ typedef struct Kind {
     // Heights of a terrain, in the object's own space; NULL = the kind is no terrain.
     HeightField *(*heights)(const void *params, const Grown *grown, const Run *run, Error *e);
 
+    // Number of samples of these heights; NULL likewise.
+    int64_t (*samples)(const void *params);
+
     // Height (m) of the ground that other objects stand on; NULL = the kind is no ground. seed: the
     // object's.
     float (*ground)(const void *params, uint64_t seed, float x, float z);

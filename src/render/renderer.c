@@ -57,6 +57,9 @@ static MaterialSet *prepare_materials(const World *world, const Run *run, Error 
     }
     MaterialSet *set = material_set_new(world->material, used, world->material_count, run, e);
     free(used);
+    if (set) {
+        material_set_use_masks(set, &world->masks);
+    }
     return set;
 }
 

@@ -52,6 +52,7 @@ void world_free(World *world)
         free(world->light);
         free(world->material);
         geometry_clear(&world->geometry);
+        mask_set_clear(&world->masks);
         free(world);
     }
 }

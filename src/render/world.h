@@ -8,6 +8,7 @@
 #include "render/cloud/cloud.h"
 #include "render/film_params.h"
 #include "render/light/light.h"
+#include "render/material/mask.h"
 #include "render/material/material.h"
 #include "render/medium/medium.h"
 #include "render/render_params.h"
@@ -27,7 +28,8 @@ typedef struct World {
     Material *material; // owned
     int material_count;
     Geometry geometry;
-    Views views; // of all pictures that a renderer makes of it; count 0 = the camera's
+    MaskSet masks; // of the layers of materials on the parts; none = no layer lies anywhere
+    Views views;   // of all pictures that a renderer makes of it; count 0 = the camera's
 } World;
 
 // Defaults: a 40-degree pinhole camera 10 m in front of the origin at eye height, 1280 x 720

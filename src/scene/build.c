@@ -10,6 +10,7 @@
 #include "scene/builtin.h"
 #include "scene/carry.h"
 #include "scene/making.h"
+#include "scene/masks.h"
 #include "scene/needs.h"
 #include "scene/place.h"
 #include "scene/scene_flood.h"
@@ -269,6 +270,24 @@ static Land find_land(const Scene *scene, const OwnSpace *own, GroundObject *gro
     return (Land){0};
 }
 
+bool scene_keeps_land(const Scene *scene, int index)
+{
+    const char *name = scene->objects[index].name;
+    scene = scene->whole ? scene->whole : scene;
+    for (int i = 0; i < scene->material_count; i++) {
+        if (scene->materials[i].layer_count > 0) {
+            return true;
+        }
+    }
+    for (int i = 0; i < scene->object_count; i++) {
+        const char *over = scene_object_over(&scene->objects[i]);
+        if (over && strcmp(over, name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool add_geometry(World *world, const Making *m, Error *e)
 {
     int material[OBJECT_MOST_MATERIALS] = {0};
@@ -286,6 +305,7 @@ static bool add_geometry(World *world, const Making *m, Error *e)
                        .material = material,
                        .further = further,
                        .object = m->index,
+                       .keep_land = scene_keeps_land(m->scene, m->index),
                        .around = {.eye = &world->camera.position,
                                   .material = world->material,
                                   .flood = m->kind->reads_water ? &water.flood : NULL,
@@ -365,7 +385,8 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
         return NULL;
     }
     bool done = scene_give_settings(scene, world, e) &&
-                scene_place_objects(world, scene, NULL, NULL, false, run, stats, e);
+                scene_place_objects(world, scene, NULL, NULL, false, run, stats, e) &&
+                (scene_make_masks(world, scene, run, e) || scene_fail_at(scene, "", e));
     if (!done) {
         world_free(world);
         return NULL;

@@ -51,6 +51,10 @@ bool scene_give_settings(const Scene *scene, World *world, Error *e);
 bool scene_place_object(World *world, const Scene *scene, int index, Shared shared, const Run *run,
                         BuildStats *stats, Error *e);
 
+// Will maps be drawn of the object, should it be a terrain: for layers of materials or for objects
+// on it?
+bool scene_keeps_land(const Scene *scene, int index);
+
 // Places the objects for which `placed` is false (NULL = all) in an order in which obstacles come
 // first, then puts the world's parts into the order of the scene's objects. growths: see Shared.
 // keep: keep the growths also of objects that do not contend.

@@ -3,7 +3,9 @@
 #include "base/memory.h"
 #include "config/compare.h"
 #include "render/world.h"
+#include "scene/masks.h"
 #include "scene/needs.h"
+#include "scene/place.h"
 #include "scene/scene_flood.h"
 #include "scene/spec.h"
 
@@ -85,7 +87,9 @@ static bool object_fits(const SceneBuilder *builder, const Scene *scene, int ind
     const Scene *old = &builder->scene;
     const Kind *kind = scene->objects[index].kind;
     bool reads_scene = kind->reads_scene || scene_object_has_neighbours(&scene->objects[index]);
-    return same_object(old, scene, index) && (alike || !reads_scene) &&
+    return same_object(old, scene, index) &&
+           scene_keeps_land(old, index) == scene_keeps_land(scene, index) &&
+           (alike || !reads_scene) &&
            (!kind->reads_water || scene_flood_hash(old) == scene_flood_hash(scene)) &&
            (!kind->grow || old->grow_to == scene->grow_to);
 }
@@ -192,8 +196,11 @@ World *scene_builder_build(SceneBuilder *builder, const Scene *scene, const Run 
         all = all && stays[i];
     }
     forget(builder, scene, alike);
-    bool done = scene_give_settings(scene, builder->world, e) &&
-                (all || build_objects(builder, scene, stays, run, stats, e));
+    bool masked = all && key_equal(table_find(&scene_table, "materials"), &builder->scene, scene);
+    bool done =
+        scene_give_settings(scene, builder->world, e) &&
+        (all || build_objects(builder, scene, stays, run, stats, e)) &&
+        (masked || scene_make_masks(builder->world, scene, run, e) || scene_fail_at(scene, "", e));
     free(stays);
     builder->scene = *scene;
     builder->built = done;

@@ -179,7 +179,8 @@ static const Node *find_reference(const Node *node, const char *text)
     return NULL;
 }
 
-static bool no_material(const Mapping *mapping, const Scene *scene, const SceneObject *object,
+// Fails at a key that names a material that does not exist. where: "objects.oak".
+static bool no_material(const Mapping *mapping, const Scene *scene, const char *where,
                         const Node *named)
 {
     const char *names[MOST_HINTED];
@@ -192,8 +193,8 @@ static bool no_material(const Mapping *mapping, const Scene *scene, const SceneO
         names[count++] = builtin_material_at(i)->name;
     }
     hint_format(named->text, names, count, hint, sizeof hint);
-    return load_fail(mapping->loader, named, "objects.%s.%s: there is no material '%.60s'; %s",
-                     object->name, named->key, named->text, hint);
+    return load_fail(mapping->loader, named, "%s.%s: there is no material '%.60s'; %s", where,
+                     named->key, named->text, hint);
 }
 
 static bool check_materials(const Mapping *mapping, const Scene *scene)
@@ -201,10 +202,12 @@ static bool check_materials(const Mapping *mapping, const Scene *scene)
     const Node *given = node_get(mapping->given, "objects")->first;
     for (int i = 0; i < scene->object_count; i++, given = given->next) {
         const SceneObject *object = &scene->objects[i];
+        char where[96];
+        snprintf(where, sizeof where, "objects.%.80s", object->name);
         for (const Key *row = object->kind->variant.beside; row->key; row++) {
             const char *name = pointer_at((const char *)object + row->offset);
             if (name && !scene_material(scene, name)) {
-                return no_material(mapping, scene, object, node_get(given, row->key));
+                return no_material(mapping, scene, where, node_get(given, row->key));
             }
         }
         const char *name;
@@ -213,7 +216,40 @@ static bool check_materials(const Mapping *mapping, const Scene *scene)
              k++) {
             const Node *named = scene_material(scene, name) ? NULL : find_reference(given, name);
             if (named) {
-                return no_material(mapping, scene, object, named);
+                return no_material(mapping, scene, where, named);
+            }
+        }
+    }
+    return true;
+}
+
+static bool can_be_layer(const Material *m)
+{
+    return (m->kind == MATERIAL_DIFFUSE || m->kind == MATERIAL_PRINCIPLED) && m->layer_count == 0;
+}
+
+// Layers are materials that can be mixed with the one below.
+static bool check_layers(const Mapping *mapping, const Scene *scene)
+{
+    const Node *given = node_get(mapping->given, "materials");
+    given = given ? given->first : NULL;
+    for (int i = 0; i < scene->material_count; i++, given = given->next) {
+        const Material *below = &scene->materials[i];
+        const Node *layer = node_get(given, "layers");
+        layer = layer ? layer->first : NULL;
+        for (int k = 0; k < below->layer_count; k++, layer = layer->next) {
+            const Material *m = scene_material(scene, below->layers[k].material);
+            const Node *named = node_get(layer, "material");
+            char where[128];
+            snprintf(where, sizeof where, "materials.%.63s.layers.%d", below->name, k);
+            if (!m) {
+                return no_material(mapping, scene, where, named);
+            }
+            if (!can_be_layer(m)) {
+                return load_fail(mapping->loader, named,
+                                 "%s.material: '%.60s' is no layer; it must be diffuse or "
+                                 "principled and have no layers itself",
+                                 where, m->name);
             }
         }
     }
@@ -413,5 +449,6 @@ bool check_scene(const Mapping *mapping, void *params)
     const Scene *scene = params;
     return check_names(mapping, "materials", "material") &&
            check_names(mapping, "objects", "object") && check_targets(mapping, scene) &&
-           check_materials(mapping, scene) && check_neighbours(mapping, scene);
+           check_materials(mapping, scene) && check_layers(mapping, scene) &&
+           check_neighbours(mapping, scene);
 }

@@ -54,6 +54,7 @@ static bool find_surface(Making *m, const Scene *scene, Surfaces *surfaces, Erro
     }
     int index = scene_find_object(scene, over);
     m->recipe.surface = surfaces_over(surfaces, index, m->recipe.run, e);
+    m->recipe.land = surfaces_land(surfaces, index);
     return m->recipe.surface || error_key(e, "%s", m->scene->objects[m->index].kind->over_key);
 }
 

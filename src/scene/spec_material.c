@@ -1,4 +1,5 @@
 // Keys of materials.
+#include "land/where.h"
 #include "objects/common/tables.h"
 #include "render/material/material.h"
 #include "render/material/thin_film.h"
@@ -12,6 +13,7 @@
 #define COLOURED ALL_BUT(BIT(MATERIAL_EMISSION))
 #define FILM BIT(MATERIAL_THIN_FILM)
 #define PATTERNED ALL_BUT(BIT(MATERIAL_EMISSION) | BIT(MATERIAL_DIELECTRIC) | FILM)
+#define LAYERED (BIT(MATERIAL_DIFFUSE) | BIT(MATERIAL_PRINCIPLED))
 #define BUMPED (PATTERNED | BIT(MATERIAL_DIELECTRIC))
 
 #define KIND(NAME, name) {#name, MATERIAL_##NAME},
@@ -45,6 +47,46 @@ static const EnumName DISPLACEMENTS[] = {
 
 static const EnumName MAPPINGS[] = {
     {"auto", MAPPING_AUTO}, {"uv", MAPPING_UV}, {"triplanar", MAPPING_TRIPLANAR}, {0}};
+
+static const Key LAYER_KEYS[] = {
+    {KEY_OF(MaterialLayer, material, "material", KEY_TEXT), .flags = KEY_REQUIRED,
+     .doc = "Name of the layer's material: diffuse or principled, without layers of its own."},
+    {KEY_OF(MaterialLayer, where, "where", KEY_LIST),
+     .count_offset = offsetof(MaterialLayer, where_count), .count = 16, .table = &map_range_table,
+     .doc = "Conditions on maps of the object's surface seen from above, which all hold where the "
+            "layer lies; none = everywhere."},
+    {KEY_OF(MaterialLayer, strength, "strength", KEY_FLOAT), .high = 1,
+     .doc = "Share of the surface that the layer covers where they hold."},
+    {KEY_OF(MaterialLayer, fray, "fray", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc = "Distance over which noise displaces the layer's borders, so that they are ragged."},
+    {0},
+};
+
+static void layer_defaults(void *out)
+{
+    *(MaterialLayer *)out = (MaterialLayer){.strength = 1.0f};
+}
+
+static const Table LAYER_TABLE = {
+    .name = "layer",
+    .doc = "Another material on a material, where maps of the surface allow it. Colour, bumps, "
+           "roughness and coat are mixed; relief, opacity and exports stay those of the material "
+           "below. Curves have no layers.",
+    .example = "materials:\n"
+               "  - {name: turf, pattern: ground}\n"
+               "  - {name: silt, color: [0.20, 0.16, 0.11]}\n"
+               "  - name: slopes\n"
+               "    pattern: stone\n"
+               "    layers:\n"
+               "      - {material: turf, fray: 2, where: [{map: slope, range: [0, 24], fade: 8}]}\n"
+               "      - {material: silt, where: [{map: wetness, range: [9, 30], fade: 1}]}\n"
+               "objects:\n"
+               "  - name: hills\n"
+               "    material: slopes\n"
+               "    terrain: {size: 400, resolution: 256}\n",
+    .size = sizeof(MaterialLayer),
+    .keys = LAYER_KEYS,
+    .defaults = layer_defaults};
 
 static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, name, "name", KEY_NAME), .flags = KEY_REQUIRED, .count = 64,
@@ -114,6 +156,9 @@ static const Key MATERIAL_KEYS[] = {
      .count_offset = offsetof(Material, color_count), .count = 64, .table = &color_stop_table,
      .doc = "Pattern altitude: its colours by altitude, linear between these; none = from color to "
             "color2."},
+    {KEY_OF(Material, layers, "layers", KEY_LIST), .kinds = LAYERED,
+     .count_offset = offsetof(Material, layer_count), .count = 16, .table = &LAYER_TABLE,
+     .doc = "Layers of other materials on this one, from the lowest to the topmost."},
     {KEY_OF(Material, pattern_scale, "pattern_scale", KEY_FLOAT), .kinds = BUMPED | FILM,
      .high = 1e6, .unit = "m",
      .doc = "Wavelength of the pattern's largest features; 0 = the pattern's default."},

@@ -13,6 +13,8 @@ typedef struct Surface {
     float size;
     Mesh *mesh; // of `over`; NULL = not made yet
     ShapeSurface over;
+    const HeightField *land; // NULL = it is no terrain
+    HeightField *own_land;   // that one, unless a placed part owns it
 } Surface;
 
 struct Surfaces {
@@ -42,6 +44,7 @@ void surfaces_free(Surfaces *surfaces)
         for (int i = 0; i < surfaces->scene->object_count; i++) {
             nearest_free(surfaces->of[i].nearest);
             mesh_free(surfaces->of[i].mesh);
+            height_field_free(surfaces->of[i].own_land);
         }
         free(surfaces->of);
         free(surfaces);
@@ -79,6 +82,13 @@ static bool build(Surfaces *surfaces, int index, bool mesh, const Run *run, Erro
                 scene_place_object(world, surfaces->scene, index, (Shared){.surfaces = surfaces},
                                    &quiet, &stats, e) &&
                 make(&surfaces->of[index], &world->geometry, mesh, run, e);
+    for (int64_t i = 0; done && i < world->geometry.count; i++) {
+        Part *part = &world->geometry.part[i];
+        if (part->land && !surfaces->of[index].own_land) {
+            surfaces->of[index].land = surfaces->of[index].own_land = part->land;
+            part->land = NULL;
+        }
+    }
     world_free(world);
     return done;
 }
@@ -90,6 +100,7 @@ static bool find_placed(const Surfaces *surfaces, int index, Geometry *parts, Er
     for (int64_t i = 0; surfaces->placed && i < surfaces->placed->count; i++) {
         const Part *part = &surfaces->placed->part[i];
         if (part->object == index) {
+            surfaces->of[index].land = part->land ? part->land : surfaces->of[index].land;
             if (!memory_reserve(&parts->part, &parts->capacity, parts->count + 1, sizeof *part,
                                 e)) {
                 return false;
@@ -138,6 +149,11 @@ const ShapeSurface *surfaces_over(Surfaces *surfaces, int index, const Run *run,
         return NULL;
     }
     return &surface->over;
+}
+
+const HeightField *surfaces_land(const Surfaces *surfaces, int index)
+{
+    return surfaces->of[index].land;
 }
 
 // ---- order

@@ -23,6 +23,10 @@ const Nearest *surfaces_of(Surfaces *surfaces, int index, float *size, const Run
 // ERROR_INPUT if the object has no meshes.
 const ShapeSurface *surfaces_over(Surfaces *surfaces, int index, const Run *run, Error *e);
 
+// Its heights if it is a terrain that surfaces_over has found or built; else NULL. Owned by the
+// surfaces or by the part that shows it.
+const HeightField *surfaces_land(const Surfaces *surfaces, int index);
+
 // The objects in an order in which obstacles and surfaces come before the objects that are clear of
 // them or grow over them, and otherwise as in the scene. order: object_count numbers.
 bool surfaces_order(const Scene *scene, int *order, Error *e);

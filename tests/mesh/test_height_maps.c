@@ -1,6 +1,7 @@
 // Maps of height fields against closed forms and brute force.
 #include "testing.h"
 
+#include "base/memory.h"
 #include "base/random.h"
 #include "land/height_drainage.h"
 #include "land/height_maps.h"
@@ -30,7 +31,10 @@ static HeightField *make(Surface *surface)
 
 static HeightField *map_of(const HeightField *field, const char *name)
 {
-    HeightField *map = height_map(field, name, NULL);
+    Run run = run_default();
+    HeightMap kind;
+    assert_true(height_map_parse(name, &kind, NULL));
+    HeightField *map = height_map(field, &kind, &run, NULL);
     assert_non_null(map);
     assert_true(map->columns == field->columns && map->rows == field->rows);
     return map;
@@ -177,6 +181,9 @@ static void missing_land_is_missing_in_maps(void **state)
     HeightField *field = make(rough);
     int hole = 12 * COLUMNS + 17;
     field->height[hole] = NAN;
+    field->change = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
+    field->loose = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
+    field->climate = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
     char names[] = HEIGHT_MAP_NAMES;
     for (char *name = strtok(names, " "); name; name = strtok(NULL, " ")) {
         HeightField *map = map_of(field, name);
@@ -185,9 +192,78 @@ static void missing_land_is_missing_in_maps(void **state)
         }
         height_field_free(map);
     }
+    height_field_free(field);
+}
+
+static void only_maps_have_names(void **state)
+{
+    (void)state;
+    const char *const wrong[] = {
+        "beauty",         "", "slop", "slope:3", "sun-hours:", "sun-hours:91", "sun-hours:3:367",
+        "sun-hours:3:4:5"};
     Error e = {0};
-    assert_null(height_map(field, "beauty", &e));
-    assert_non_null(strstr(e.message, "known: slope aspect"));
+    HeightMap map;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        e = (Error){0};
+        assert_false(height_map_parse(wrong[i], &map, &e));
+        assert_int_equal(e.code, ERROR_INPUT);
+        assert_non_null(strstr(e.message, i < 3 ? "known: slope aspect" : "LATITUDE:DAY"));
+    }
+    assert_true(height_map_parse("sun-hours:-33.5:172", &map, &e));
+    assert_true(map.kind == HEIGHT_MAP_SUN_HOURS && map.latitude == -33.5f && map.day == 172);
+}
+
+// ---- records of erosion
+
+static void what_is_laid_less_what_is_worn_is_the_change(void **state)
+{
+    (void)state;
+    HeightField *field = make(rough);
+    field->change = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
+    for (int loose = 0; loose < 2; loose++) {
+        for (int i = 0; i < COLUMNS * ROWS; i++) {
+            field->change[i] = 0.1f * (float)(i % 41 - 25);
+        }
+        if (loose) { // what lies loose, also where rock was worn below it
+            field->loose = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
+            for (int i = 0; i < COLUMNS * ROWS; i++) {
+                field->loose[i] = fmaxf(field->change[i], 0.0f) + 0.125f * (float)(i % 7);
+            }
+        }
+        HeightField *deposit = map_of(field, "deposit"), *wear = map_of(field, "wear");
+        for (int i = 0; i < COLUMNS * ROWS; i++) {
+            float laid = deposit->height[i], worn = wear->height[i];
+            assert_true(laid >= 0.0f && worn >= 0.0f);
+            assert_true(fabsf(laid - worn - field->change[i]) < 1e-6f);
+            assert_true(loose || laid * worn == 0.0f);
+        }
+        height_field_free(deposit);
+        height_field_free(wear);
+    }
+    HeightField *bedrock = map_of(field, "bedrock");
+    for (int i = 0; i < COLUMNS * ROWS; i++) {
+        float wanted = fmaxf(1.0f - 2.0f * field->loose[i], 0.0f);
+        assert_true(fabsf(bedrock->height[i] - wanted) < 1e-6f);
+    }
+    height_field_free(bedrock);
+    height_field_free(field);
+}
+
+static void land_without_records_has_no_maps_of_them(void **state)
+{
+    (void)state;
+    const char *const names[] = {"deposit", "wear", "bedrock", "snow"};
+    HeightField *field = make(rough);
+    Run run = run_default();
+    for (int i = 0; i < 4; i++) {
+        Error e = {0};
+        HeightMap map;
+        assert_true(height_map_parse(names[i], &map, &e));
+        assert_null(height_map(field, &map, &run, &e));
+        assert_int_equal(e.code, ERROR_INPUT);
+        assert_non_null(strstr(e.message, names[i]));
+        assert_non_null(strstr(e.message, "it needs a terrain"));
+    }
     height_field_free(field);
 }
 
@@ -223,6 +299,9 @@ int main(void)
         cmocka_unit_test(a_slope_gets_wetter_downward),
         cmocka_unit_test(rivers_are_as_far_as_brute_force_finds),
         cmocka_unit_test(missing_land_is_missing_in_maps),
+        cmocka_unit_test(only_maps_have_names),
+        cmocka_unit_test(what_is_laid_less_what_is_worn_is_the_change),
+        cmocka_unit_test(land_without_records_has_no_maps_of_them),
         cmocka_unit_test(a_mesh_is_seen_from_above),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -177,16 +177,13 @@ static void keeps_to_its_side_of_the_shore(void **state)
     }
 }
 
-// The maps that conditions name, as where.c numbers them.
-enum { MAP_SLOPE = 0, MAP_ASPECT = 1 };
-
 static void land_of_one_slope_meets_its_range_alone(void **state)
 {
     (void)state;
     float slope = 0.3f; // 16.7 degrees, falling to the west
     Thing thing = {.share = 1.0f};
-    MapRange ranges[2] = {{.map = MAP_SLOPE, .range = {16.0f, 17.0f}},
-                          {.map = MAP_ASPECT, .range = {265.0f, 275.0f}}};
+    MapRange ranges[2] = {{.map = HEIGHT_MAP_SLOPE, .range = {16.0f, 17.0f}},
+                          {.map = HEIGHT_MAP_ASPECT, .range = {265.0f, 275.0f}}};
     ScatteringParams scatter = of_things(&thing, 1);
     scatter.count = 50;
     scatter.where = ranges;
@@ -212,8 +209,8 @@ static void copies_become_fewer_beyond_a_range(void **state)
     assert_non_null(ball);
     ShapeSurface surface = {.mesh = ball};
     Thing thing = {.share = 1.0f};
-    MapRange ranges[2] = {{.map = MAP_SLOPE, .range = {0.0f, 20.0f}, .fade = 20.0f},
-                          {.map = MAP_ASPECT, .range = {315.0f, 45.0f}}}; // through north
+    MapRange ranges[2] = {{.map = HEIGHT_MAP_SLOPE, .range = {0.0f, 20.0f}, .fade = 20.0f},
+                          {.map = HEIGHT_MAP_ASPECT, .range = {315.0f, 45.0f}}}; // through north
     ScatteringParams scatter = of_things(&thing, 1);
     scatter.count = 20000;
     scatter.radius = 0.0f;

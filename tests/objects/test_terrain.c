@@ -1,6 +1,7 @@
 #include "base/random.h"
 #include "image/image.h"
 #include "land/height_drainage.h"
+#include "land/height_maps.h"
 #include "land/height_measure.h"
 #include "making.h"
 #include "objects/terrain/envelope.h"
@@ -473,6 +474,69 @@ static void measures_are_those_of_nature(void **state)
     out_tree_free(tree);
 }
 
+// Sums of heights of two lands, and of what the first records.
+static void erosion_records_what_it_moves(void **state)
+{
+    (void)state;
+    TerrainParams params = small_terrain();
+    params.form = TERRAIN_NOISE;
+    params.noise.iterations = 6;
+    OutTree *tree = grow(&params, 5, 2);
+    HeightField *before = heights(&params, tree, 5, 2);
+    assert_null(before->change);
+    params.erosion = (TerrainErosionParams){.streams = 1.0f, .thermal = 2.0f, .talus = 20.0f};
+    HeightField *after = heights(&params, tree, 5, 2);
+    Run run = run_default();
+    HeightField *deposit = height_map(after, &(HeightMap){.kind = HEIGHT_MAP_DEPOSIT}, &run, NULL);
+    HeightField *wear = height_map(after, &(HeightMap){.kind = HEIGHT_MAP_WEAR}, &run, NULL);
+    double moved = 0.0, recorded = 0.0, all = 0.0;
+    for (int64_t i = 0; i < height_field_count(after); i++) {
+        moved += (double)after->height[i] - (double)before->height[i];
+        recorded += (double)deposit->height[i] - (double)wear->height[i];
+        all += (double)deposit->height[i] + (double)wear->height[i];
+    }
+    double mean = all / (double)height_field_count(after);
+    assert_true(mean > 1.0); // m: else there is nothing to record
+    assert_true(fabs(moved - recorded) < 1e-6 * all);
+    HeightField *fields[4] = {before, after, deposit, wear};
+    for (int i = 0; i < 4; i++) {
+        height_field_free(fields[i]);
+    }
+    out_tree_free(tree);
+}
+
+// What the rivers have left of a plateau, and the rubble on it.
+static void a_canyon_records_what_has_gone(void **state)
+{
+    (void)state;
+    TerrainParams params = small_terrain();
+    params.form = TERRAIN_CANYON;
+    params.size = 3000.0f;
+    params.relief = 300.0f;
+    OutTree *tree = grow(&params, 5, 2);
+    HeightField *field = heights(&params, tree, 5, 2);
+    Run run = run_default();
+    HeightField *deposit = height_map(field, &(HeightMap){.kind = HEIGHT_MAP_DEPOSIT}, &run, NULL);
+    HeightField *wear = height_map(field, &(HeightMap){.kind = HEIGHT_MAP_WEAR}, &run, NULL);
+    HeightField *bedrock = height_map(field, &(HeightMap){.kind = HEIGHT_MAP_BEDROCK}, &run, NULL);
+    float deepest = 0.0f;
+    int bare = 0, covered = 0;
+    for (int64_t i = 0; i < height_field_count(field); i++) {
+        assert_true(deposit->height[i] >= 0.0f && wear->height[i] > -1e-3f);
+        deepest = fmaxf(deepest, wear->height[i]);
+        bare += bedrock->height[i] == 1.0f;
+        covered += bedrock->height[i] == 0.0f;
+        assert_true(bedrock->height[i] > 0.0f || deposit->height[i] >= 0.5f);
+    }
+    assert_true(deepest > 270.0f && deepest < 360.0f);
+    assert_true(bare > 0 && covered > 0);
+    HeightField *fields[4] = {field, deposit, wear, bedrock};
+    for (int i = 0; i < 4; i++) {
+        height_field_free(fields[i]);
+    }
+    out_tree_free(tree);
+}
+
 static void erosion_lowers_what_is_too_steep(void **state)
 {
     (void)state;
@@ -749,6 +813,8 @@ int main(void)
         cmocka_unit_test(basins_are_those_of_nature),
         cmocka_unit_test(measures_are_those_of_nature),
         cmocka_unit_test(erosion_lowers_what_is_too_steep),
+        cmocka_unit_test(erosion_records_what_it_moves),
+        cmocka_unit_test(a_canyon_records_what_has_gone),
         cmocka_unit_test(land_water_and_forest_become_parts),
         cmocka_unit_test(rivers_lie_in_their_beds),
     };

@@ -116,6 +116,9 @@ static const Place places[] = {
     {"skeleton", "file: orphan.swc", 2, 0, "is no node"},
     {"skeleton", "file: far.swc, scale: 1e9", 4, 38, "reaches farther"},
     {"skeleton", "file: far.swc, basal: false", 4, 5, "are hidden"},
+    // maps that the land does not have
+    {"scatter", "things: [{stone: {}}], where: [{map: snow, range: [0, 1]}]", 4, 46,
+     "no map 'snow'; it needs a terrain of form alps"},
 };
 
 typedef struct SceneText {
@@ -127,6 +130,10 @@ typedef struct SceneText {
 static const SceneText scenes[] = {
     {"materials: [{name: m, texture: junk.png}]\n", 2, 32, "junk.png"},
     {"materials: [{name: l}, {name: m, alpha_texture: junk.png}]\n", 2, 49, "junk.png"},
+    {"materials: [{name: x}, {name: m, layers: [{material: x, where: [{map: slope, range: [0, "
+     "9]},\n"
+     "  {map: deposit, range: [0, 1]}]}]}]\n",
+     3, 3, "layer 1 of material 'm' on object 'ball': the land has no map 'deposit'; it needs a"},
     {"sky: {kind: environment, file: junk.hdr}\n", 2, 32, "junk.hdr"},
     {"sky: {kind: environment, file: junk.png}\n", 2, 32, "junk.png"},
 };

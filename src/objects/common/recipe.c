@@ -19,6 +19,7 @@ bool placing_add(const Placing *placing, Part part, int role, Error *e)
         free(part.instance);
         free(part.variation);
         free(part.season);
+        height_field_free(part.land);
         return false;
     }
     part.kind = part.curves ? PART_CURVES : PART_MESH;

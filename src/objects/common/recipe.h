@@ -16,6 +16,7 @@
 
 #include "base/measures.h"
 #include "base/run.h"
+#include "land/height_field.h"
 #include "mesh/geometry.h"
 #include "objects/common/surroundings.h"
 #include "outtree/out_tree.h"
@@ -36,6 +37,7 @@ typedef struct Recipe {
     const struct Room *room;            // obstacles and rivals (grow/room.h); NULL = it grows alone
     const Carrier *carrier;             // NULL = it stays at rest
     const struct ShapeSurface *surface; // that it grows over (Kind.over); NULL = none
+    const HeightField *land;            // the same as a terrain's heights; NULL = it is none
 } Recipe;
 
 // The result of growth. Initialize to {0}.
@@ -54,6 +56,7 @@ typedef struct Placing {
     const int *material; // indices into the world's list, by the kind's roles
     const int *further;  // the same of Kind.further_material; NULL = it has none
     int object;          // index in the scene
+    bool keep_land;      // maps of the land will be drawn: its heights stay with its first part
     Surroundings around;
 } Placing;
 

@@ -10,6 +10,7 @@
 extern const Table shape_table, points_table, growth_table, guide_field_table;
 extern const EnumName field_profiles[];
 extern const Table color_stop_table; // of a scale of colours
+extern const Table map_range_table;  // of a condition on a map of land (land/where.h)
 
 // The rows of an element (trunk, crown, roots): envelope, voxel, points, growth, fields.
 #define ELEMENT_ROWS(STRUCT)                                                                      \

@@ -3,8 +3,8 @@
 #include "base/memory.h"
 #include "base/noise.h"
 #include "base/random.h"
+#include "land/height_raster.h"
 #include "objects/scatter/scatter.h"
-#include "objects/scatter/where.h"
 #include "shape/point_hash.h"
 
 #include <stdlib.h>
@@ -124,8 +124,7 @@ static bool is_allowed(const Search *s, const Spot *spot)
                                 (params->radius == 0.0f || distance <= params->radius));
     return near && within(slope, params->slope) && within(spot->p.y, params->altitude) &&
            flood_covers(s->around->flood, spot->p) == params->in_water &&
-           random_unit(random_key(spot->key, STREAM_WHERE)) <
-               where_share(&s->where, params, spot->p);
+           random_unit(random_key(spot->key, STREAM_WHERE)) < where_share(&s->where, spot->p);
 }
 
 static int choose_thing(const Search *s, uint64_t key)
@@ -176,9 +175,44 @@ static Transform stand(const ScatteringParams *params, const Spot *spot)
                                vec3_madd(spot->p, -size * params->sink, up));
 }
 
+// ---- maps
+
+// The land under the disc, with a margin for what the maps look at around a sample.
+static HeightField *sample_land(const ScatteringParams *params, const Land *land, Error *e)
+{
+    float half = 1.05f * params->radius, cell = 2.0f * half / (float)(HEIGHT_MAP_SIDE - 1);
+    Vec2 origin = {params->center.x - half, params->center.z - half};
+    HeightField *field =
+        height_field_new(HEIGHT_MAP_SIDE, HEIGHT_MAP_SIDE, (Vec2){cell, cell}, origin, e);
+    for (int64_t i = 0; field && i < height_field_count(field); i++) {
+        int column = (int)(i % HEIGHT_MAP_SIDE), row = (int)(i / HEIGHT_MAP_SIDE);
+        field->height[i] =
+            land_height(land, origin.x + (float)column * cell, origin.y + (float)row * cell);
+    }
+    return field;
+}
+
+static bool draw_maps(Search *s, const Recipe *recipe, Error *e)
+{
+    const ScatteringParams *params = s->params;
+    if (params->where_count == 0) {
+        return true;
+    }
+    HeightField *own = NULL;
+    if (!recipe->land) {
+        own = s->surface ? height_field_of_mesh(s->surface->mesh, HEIGHT_MAP_SIDE, e)
+                         : sample_land(params, &s->around->land, e);
+    }
+    const HeightField *land = recipe->land ? recipe->land : own;
+    bool done =
+        land && where_init(&s->where, params->where, params->where_count, land, recipe->run, e);
+    height_field_free(own);
+    return done;
+}
+
 // ---- all of them
 
-static bool search_begin(Search *s, Error *e)
+static bool search_begin(Search *s, const Recipe *recipe, Error *e)
 {
     for (int i = 0; i < s->params->thing_count; i++) {
         s->shares += s->params->things[i].share;
@@ -186,8 +220,7 @@ static bool search_begin(Search *s, Error *e)
     s->area = s->surface ? sum_areas(s->surface->mesh, e) : NULL;
     bool spaced = s->params->spacing > 0.0f;
     s->taken = spaced ? point_hash_new(s->params->spacing, e) : NULL;
-    return (s->area || !s->surface) && (s->taken || !spaced) &&
-           where_init(&s->where, s->params, s->surface, &s->around->land, e);
+    return (s->area || !s->surface) && (s->taken || !spaced) && draw_maps(s, recipe, e);
 }
 
 static bool search(const Search *s, ScatterPlaces *places, const Run *run, Error *e)
@@ -226,7 +259,7 @@ bool scatter_places_init(ScatterPlaces *places, const ScatteringParams *params,
         .params = params, .around = around, .surface = recipe->surface, .seed = recipe->seed};
     places->place = memory_alloc(params->count, sizeof *places->place, e);
     places->thing = places->place ? memory_alloc(params->count, sizeof *places->thing, e) : NULL;
-    bool done = places->thing && search_begin(&s, e) && search(&s, places, recipe->run, e);
+    bool done = places->thing && search_begin(&s, recipe, e) && search(&s, places, recipe->run, e);
     point_hash_free(s.taken);
     where_free(&s.where);
     free(s.area);

@@ -2,6 +2,7 @@
 #ifndef RAMIFY_OBJECTS_SCATTER_SCATTER_H
 #define RAMIFY_OBJECTS_SCATTER_SCATTER_H
 
+#include "land/where.h"
 #include "objects/kind.h"
 
 // One of the objects that are copied.
@@ -9,13 +10,6 @@ typedef struct Thing {
     SceneObject object; // without a name; first, for the offsets of the kinds' keys
     float share;        // of the copies, relative to the other things'
 } Thing;
-
-// A condition on the places: a map's value lies in a range (where.h).
-typedef struct MapRange {
-    int map;        // which (where.c)
-    float range[2]; // least and greatest value, in the map's unit
-    float fade;     // in that unit: copies become fewer over this distance from the range
-} MapRange;
 
 typedef struct ScatteringParams {
     char *on; // name of the object whose surface they stand on; NULL = the land

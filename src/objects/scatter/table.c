@@ -1,7 +1,6 @@
 // The keys of scattering.
 #include "objects/common/tables.h"
 #include "objects/scatter/scatter.h"
-#include "objects/scatter/where.h"
 
 #include <string.h>
 
@@ -91,7 +90,8 @@ static const Key SCATTER_KEYS[] = {
     {KEY_OF(ScatteringParams, altitude, "altitude", KEY_VECTOR), .count = 2, .low = -1e6,
      .high = 1e6, .unit = "m", .doc = "Lowest and highest place."},
     {KEY_OF(ScatteringParams, where, "where", KEY_LIST),
-     .count_offset = offsetof(ScatteringParams, where_count), .count = 16, .table = &where_table,
+     .count_offset = offsetof(ScatteringParams, where_count), .count = 16,
+     .table = &map_range_table,
      .doc = "Conditions on maps of the land, which all hold where copies stand."},
     {KEY_OF(ScatteringParams, align, "align", KEY_FLOAT), .high = 1,
      .doc = "How far copies turn from upright (0) to the surface's normal (1)."},

@@ -123,15 +123,20 @@ static HeightField *resample(const HeightField *field, Error *e)
     return copy;
 }
 
+// Also to the record of them.
 static void add_changes(HeightField *field, const HeightField *changes, int threads)
 {
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int row = 0; row < field->rows; row++) {
         for (int column = 0; column < field->columns; column++) {
+            int64_t i = (int64_t)row * field->columns + column;
             float x = field->origin.x + (float)column * field->cell.x;
             float z = field->origin.y + (float)row * field->cell.y;
-            field->height[(int64_t)row * field->columns + column] +=
-                height_field_smooth_at(changes, x, z);
+            float change = height_field_smooth_at(changes, x, z);
+            field->height[i] += change;
+            if (field->change) {
+                field->change[i] += change;
+            }
         }
     }
 }
@@ -144,6 +149,10 @@ bool terrain_erode(HeightField *field, const TerrainErosionParams *params, const
     HeightField *before = resample(field, e), *after = before ? resample(field, e) : NULL;
     bool done = after && (params->streams <= 0.0f || erode_streams(after, params, run, e)) &&
                 (params->thermal <= 0.0f || erode_slopes(after, params, run, e));
+    if (done && !field->change && !field->loose) { // else no record began before erosion
+        field->change = memory_alloc_zero(height_field_count(field), sizeof(float), e);
+        done = field->change;
+    }
     if (done) {
         for (int64_t i = 0; i < height_field_count(after); i++) {
             after->height[i] -= before->height[i];

@@ -127,10 +127,22 @@ static bool add_lines(const Terrain *terrain, const Placing *placing, Error *e)
     return placing_add(placing, (Part){.curves = lines}, TERRAIN_LINES, e);
 }
 
+// Leaves the land with the first part that the terrain has added, in the scene. Takes ownership.
+static void keep_land(HeightField *field, const TerrainParams *params, Part *first)
+{
+    for (int64_t i = 0; i < height_field_count(field); i++) {
+        field->height[i] += params->position.y;
+    }
+    field->origin.x += params->position.x;
+    field->origin.y += params->position.z;
+    first->land = field;
+}
+
 bool terrain_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
     const TerrainParams *params = given;
     const Terrain *terrain = grown->state;
+    int64_t first = placing->geometry->count;
     HeightField *field = terrain_heights(params, grown, placing->recipe->run, e);
     if (field && params->show != SHOW_LAND) {
         bool drawn = add_land(terrain, field, placing, e) &&
@@ -142,6 +154,10 @@ bool terrain_geometry(const void *given, const Grown *grown, const Placing *plac
                 add_beyond(terrain, field, placing, e) &&
                 terrain_add_water(terrain, field, placing, e) &&
                 (params->forest.count <= 0 || terrain_add_forest(terrain, field, placing, e));
-    height_field_free(field);
+    if (done && placing->keep_land) {
+        keep_land(field, params, &placing->geometry->part[first]);
+    } else {
+        height_field_free(field);
+    }
     return done;
 }

@@ -148,7 +148,7 @@ int32_t *terrain_main_children(const OutTree *water, Error *e);
 // m from a place to the nearest river's water, negative in it; infinite without water.
 float terrain_shore(const Terrain *terrain, float x, float z);
 
-// erosion.c: thermal and stream erosion of a field.
+// erosion.c: thermal and stream erosion of a field; its changes are added to field->change.
 bool terrain_erode(HeightField *field, const TerrainErosionParams *params, const Run *run,
                    Error *e);
 
@@ -168,8 +168,13 @@ Landscape *terrain_evolve_alps(const Terrain *terrain, const Run *run, Error *e)
 // alps_climate.c: fills field->climate: altitudes as snow feels them.
 bool terrain_find_climate(const TerrainParams *params, HeightField *field, const Run *run,
                           Error *e);
-// The height at a place, m, and 0..1: how much of the ground is loose.
-float terrain_evolved_at(const Terrain *terrain, float x, float z, float *cover);
+// The land at a place.
+typedef struct EvolvedPlace {
+    float height; // m
+    float loose;  // m of loose ground on the rock
+    float change; // m since the plateau was whole; of alps, which had none, 0
+} EvolvedPlace;
+EvolvedPlace terrain_evolved_at(const Terrain *terrain, float x, float z);
 // Height of the river at a node of the tree of courses, m.
 float terrain_course_height(const TerrainParams *params, const OutTree *tree, int64_t i);
 

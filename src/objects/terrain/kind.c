@@ -33,9 +33,15 @@ static int64_t copies(const void *params)
     return terrain->forest.count;
 }
 
+static int64_t samples(const void *params)
+{
+    const TerrainParams *terrain = params;
+    return (int64_t)(terrain->resolution + 1) * (terrain->resolution + 1);
+}
+
 static void needs(const void *params, Needs *needs)
 {
-    enum { CELL_BYTES = 200, RIVER_BYTES = 1500, LANDSCAPE_BYTES = 140 };
+    enum { CELL_BYTES = 208, RIVER_BYTES = 1500, LANDSCAPE_BYTES = 140 };
     const TerrainParams *terrain = params;
     double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // trees per side
     needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, CELL_BYTES);
@@ -142,6 +148,7 @@ const Kind kind_terrain = {
     .material_for = material_for,
     .builtin = BUILTIN,
     .needs = needs,
+    .samples = samples,
     .describe = describe,
     .attractors = attractors,
     .copies = copies,

@@ -106,19 +106,25 @@ static void set_weakness(const Plateau *p, Landscape *land, const Run *run)
     }
 }
 
+// Height of the plateau before rivers cut it.
+static float plateau_at(const Terrain *terrain, const TerrainParams *params, float x, float z)
+{
+    uint64_t key = random_key(terrain->seed, STREAM_PLATEAU);
+    float tilt = params->form == TERRAIN_CANYON ? 0.008f : 0.0f;
+    float u = 7.0f * x / params->size, v = 7.0f * z / params->size;
+    float rough = 0.0014f * params->size * sparse_noise_fractal(u, v, 6, 0.5f, 0.0f, key);
+    return params->relief + tilt * fabsf(x) + rough;
+}
+
 static void raise_plateau(const Plateau *p, Landscape *land, const Run *run)
 {
-    uint64_t key = random_key(p->terrain->seed, STREAM_PLATEAU);
-    float tilt = p->params.form == TERRAIN_CANYON ? 0.008f : 0.0f;
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
     for (int row = 0; row < land->side; row++) {
         for (int column = 0; column < land->side; column++) {
             float x = (float)(land->corner + column * land->cell);
             float z = (float)(land->corner + row * land->cell);
-            float u = 7.0f * x / p->size, v = 7.0f * z / p->size;
-            float rough = 0.0014f * p->size * sparse_noise_fractal(u, v, 6, 0.5f, 0.0f, key);
             land->rock[(int64_t)row * land->side + column] =
-                (double)(p->params.relief + tilt * fabsf(x) + rough);
+                (double)plateau_at(p->terrain, &p->params, x, z);
         }
     }
 }
@@ -242,7 +248,7 @@ Landscape *terrain_evolve(const Terrain *terrain, const Run *run, Error *e)
     return NULL;
 }
 
-float terrain_evolved_at(const Terrain *terrain, float x, float z, float *cover)
+EvolvedPlace terrain_evolved_at(const Terrain *terrain, float x, float z)
 {
     const float wavelength = 0.006f * terrain->params->size;
     uint64_t key = random_key(terrain->seed, STREAM_JOINTS);
@@ -253,6 +259,12 @@ float terrain_evolved_at(const Terrain *terrain, float x, float z, float *cover)
     float dz = reach * sparse_noise_fractal(u, v, 4, 0.55f, 0.0f, key + 1);
     double loose;
     double height = landscape_at(terrain->evolved, (double)(x + dx), (double)(z + dz), &loose);
-    *cover = (float)(loose / (loose + 1.0));
-    return (float)height;
+    EvolvedPlace place = {.height = (float)height, .loose = (float)loose};
+    if (terrain->params->form != TERRAIN_ALPS) {
+        TerrainParams params = terrain_params_resolve(terrain->params);
+        // Between samples rock may lie a little above the plateau: it was not worn there.
+        float change = place.height - plateau_at(terrain, &params, x + dx, z + dz);
+        place.change = fminf(change, place.loose);
+    }
+    return place;
 }

@@ -370,11 +370,35 @@ static float land_at(const Terrain *terrain, float x, float z, float *wetness)
     case TERRAIN_CANYON:
     case TERRAIN_MESAS:
     case TERRAIN_ALPS:
-        return terrain_evolved_at(terrain, x, z, wetness);
     case TERRAIN_NOISE:
         break;
     }
     return noise_at(terrain, x, z);
+}
+
+// Of landforms; wetness is how much of the ground is loose.
+static void sample_evolved(const Terrain *terrain, HeightField *field, int64_t i, float x, float z)
+{
+    EvolvedPlace place = terrain_evolved_at(terrain, x, z);
+    field->height[i] = place.height;
+    field->wetness[i] = (float)((double)place.loose / ((double)place.loose + 1.0));
+    field->loose[i] = place.loose;
+    if (field->change) {
+        field->change[i] = place.change;
+    }
+}
+
+// Room for what landforms record.
+static bool add_records(const TerrainParams *params, HeightField *field, Error *e)
+{
+    int64_t count = height_field_count(field);
+    if (!terrain_evolves(params)) {
+        return true;
+    }
+    field->loose = memory_alloc_zero(count, sizeof(float), e);
+    bool whole = params->form != TERRAIN_ALPS; // before it rose there was no land to compare with
+    field->change = whole && field->loose ? memory_alloc_zero(count, sizeof(float), e) : NULL;
+    return field->loose && (field->change || !whole);
 }
 
 static bool sample_land(const Terrain *terrain, HeightField *field, const Run *run)
@@ -388,7 +412,11 @@ static bool sample_land(const Terrain *terrain, HeightField *field, const Run *r
             int64_t i = (int64_t)row * field->columns + column;
             float x = field->origin.x + (float)column * field->cell.x;
             float z = field->origin.y + (float)row * field->cell.y;
-            field->height[i] = land_at(terrain, x, z, &field->wetness[i]);
+            if (terrain->evolved) {
+                sample_evolved(terrain, field, i, x, z);
+            } else {
+                field->height[i] = land_at(terrain, x, z, &field->wetness[i]);
+            }
         }
     }
     return !run_is_cancelled(run);
@@ -523,7 +551,8 @@ HeightField *terrain_heights(const void *given, const Grown *grown, const Run *r
     }
     run_progress(run, "heights", 0.0);
     field->wetness = memory_alloc_zero(height_field_count(field), sizeof(float), e);
-    if (!field->wetness || !(sample_land(terrain, field, run) || run_cancel_error(e)) ||
+    if (!field->wetness || !add_records(params, field, e) ||
+        !(sample_land(terrain, field, run) || run_cancel_error(e)) ||
         !finish_field(terrain, field, run, e)) {
         height_field_free(field);
         return NULL;

@@ -95,7 +95,8 @@ class Land:
         call("land_write", self._handle.pointer, path(file))
 
     def map(self, name: str) -> Land:
-        """A map in the place of the heights: slope, aspect, curvature, flow, wetness or river-distance."""
+        """A map in the place of the heights: slope, aspect, curvature, flow, wetness, river-distance, deposit, wear, bedrock,
+        snow or sun-hours (also as sun-hours:LATITUDE:DAY)."""
         return Land(call("land_map", self._handle.pointer, name.encode()))
 
     @property

@@ -1,5 +1,6 @@
 #include "render/material/bsdf.h"
 
+#include "render/material/layers.h"
 #include "render/material/maps.h"
 #include "render/material/material_ops.h"
 #include "render/material/pattern.h"
@@ -31,14 +32,9 @@ static inline void fill_plain(Bsdf *b, const MaterialEntry *entry, const Surface
     b->alpha = 0.0f;
 }
 
-void bsdf_fill(const MaterialSet *set, const SurfacePoint *point, Vec3 wo, Bsdf *b)
+void bsdf_shade(const MaterialEntry *entry, const SurfacePoint *point, Bsdf *b)
 {
-    const MaterialEntry *entry = &set->entry[point->material];
     const Material *m = &entry->material;
-    if (entry->plain) {
-        fill_plain(b, entry, point, wo);
-        return;
-    }
     *b = (Bsdf){.ops = entry->ops,
                 .traits = entry->ops->traits,
                 .lambert = entry->lambert,
@@ -61,10 +57,24 @@ void bsdf_fill(const MaterialSet *set, const SurfacePoint *point, Vec3 wo, Bsdf 
     if (entry->mapped) {
         maps_apply(entry, point, b);
     }
+}
+
+void bsdf_fill(const MaterialSet *set, const SurfacePoint *point, Vec3 wo, Bsdf *b)
+{
+    const MaterialEntry *entry = &set->entry[point->material];
+    if (entry->plain) {
+        fill_plain(b, entry, point, wo);
+        return;
+    }
+    bsdf_shade(entry, point, b);
+    LayerMix mix;
+    bool mixed = entry->layer && layers_mix(set, entry, point, b, &mix);
     b->normal = normal_toward(b->normal, wo);
     b->color = vec3_max(vec3_min(b->color, vec3_splat(1.0f)), vec3_splat(0.0f));
     b->albedo = b->color;
-    if (entry->ops->prepare) {
+    if (mixed) {
+        layers_prepare(&mix, b, vec3_dot(b->normal, wo));
+    } else if (entry->ops->prepare) {
         entry->ops->prepare(b, entry, point, vec3_dot(b->normal, wo));
     }
 }

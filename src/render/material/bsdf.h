@@ -22,6 +22,10 @@ typedef struct MaterialSet MaterialSet;
 // all. ERROR_INPUT names the material and the file if a texture cannot be read.
 MaterialSet *material_set_new(const Material *materials, const bool *used, int count,
                               const Run *run, Error *e);
+// Layers lie where these masks tell (mask.h), whose parts are numbered as SurfacePoint.part;
+// without them nowhere. Borrowed.
+struct MaskSet;
+void material_set_use_masks(MaterialSet *set, const struct MaskSet *masks);
 void material_set_free(MaterialSet *set); // NULL is fine
 
 struct GgxTable;

@@ -60,6 +60,17 @@ void layered_finish(Bsdf *b, float cos_o)
     }
 }
 
+void layered_prepare(Bsdf *b, float specular, float metallic, float cos_o)
+{
+    layered_add_coat(b, specular, 1.0f, cos_o);
+    layered_add_metal(b, b->color, metallic, cos_o);
+    b->specular = vec3_lerp(b->specular, b->color, metallic);
+    b->grazing = lerpf(b->grazing, 1.0f, metallic);
+    b->color = vec3_scale(b->color, 1.0f - metallic);
+    b->transmittance = vec3_splat(0.0f);
+    layered_finish(b, cos_o);
+}
+
 bool layered_draw(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
 {
     if (u[2] < b->probability) {

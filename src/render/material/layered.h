@@ -14,6 +14,9 @@ void layered_add_coat(Bsdf *bsdf, float specular, float weight, float cos_o);
 // The metallic part of the glossy lobe, `weight` of it: what scattering between facets gives back.
 void layered_add_metal(Bsdf *bsdf, Vec3 color, float weight, float cos_o);
 
+// All of principled: a coat over diffuse reflection, or metal, or a mixture.
+void layered_prepare(Bsdf *bsdf, float specular, float metallic, float cos_o);
+
 // Chooses the probabilities of drawing each lobe. Last.
 void layered_finish(Bsdf *bsdf, float cos_o);
 

@@ -112,9 +112,9 @@ static Vec3 slope_of(const Texture *texture, const Projection p[], int count)
     return slope;
 }
 
-static void set_roughness(const MaterialEntry *entry, float factor, Bsdf *b)
+void maps_set_roughness(const MaterialEntry *entry, float roughness, Bsdf *b)
 {
-    b->roughness = clampf(entry->material.roughness * factor, 0.0f, 1.0f);
+    b->roughness = clampf(roughness, 0.0f, 1.0f);
     if (entry->rough_tables) {
         int level = (int)(b->roughness * (float)(ROUGH_TABLES - 1) + 0.5f);
         b->table = &entry->rough_tables[level];
@@ -180,7 +180,8 @@ void maps_apply(const MaterialEntry *entry, const SurfacePoint *point, Bsdf *b)
         b->transmittance = vec3_mul(b->transmittance, texel);
     }
     if (entry->roughness) {
-        set_roughness(entry, mean_of(texture_data, entry->roughness, p, count).x, b);
+        float factor = mean_of(texture_data, entry->roughness, p, count).x;
+        maps_set_roughness(entry, m->roughness * factor, b);
     }
     if (entry->normal) {
         float side = point->backface ? -1.0f : 1.0f;

@@ -83,6 +83,15 @@ typedef struct ColorStop {
     Vec3 color; // reflectance
 } ColorStop;
 
+// Another material where maps of the surface allow it.
+typedef struct MaterialLayer {
+    char *material;         // its name: of MATERIAL_DIFFUSE or MATERIAL_PRINCIPLED, without layers
+    struct MapRange *where; // conditions that all hold (land/where.h); borrowed
+    int where_count;
+    float strength; // 0..1: share that the layer covers where they hold
+    float fray;     // m by which noise displaces its borders
+} MaterialLayer;
+
 typedef struct Material {
     char name[64];
     MaterialKind kind;
@@ -125,6 +134,8 @@ typedef struct Material {
     const char *transmittance_texture; // multiplies transmittance; NULL = none; borrowed
     const char *displacement_texture;  // red is the height; NULL = none; borrowed
     float displacement_depth;          // m, of white over black there
+    MaterialLayer *layers; // of MATERIAL_DIFFUSE and MATERIAL_PRINCIPLED: on it, from the lowest to
+    int layer_count;       // the topmost; borrowed
     TextureMapping texture_mapping;
     float texture_scale; // m, or units of uv, that the pictures cover; 0 = 1
 } Material;

@@ -36,6 +36,9 @@ typedef struct MaterialOps {
 MATERIAL_KINDS(KIND)
 #undef KIND
 
+// Begins a Bsdf: colours, roughness and normal of the entry's pattern and pictures at the point.
+void bsdf_shade(const MaterialEntry *entry, const SurfacePoint *point, Bsdf *bsdf);
+
 const MaterialOps *material_ops(MaterialKind kind);
 
 #endif

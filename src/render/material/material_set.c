@@ -2,9 +2,11 @@
 
 #include "base/memory.h"
 #include "render/material/maps.h"
+#include "render/material/mask.h"
 #include "render/material/material_ops.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static float alpha_of(const MaterialEntry *entry)
 {
@@ -56,9 +58,9 @@ static bool open_textures(MaterialSet *set, MaterialEntry *entry, const Run *run
 }
 
 // The tables of a surface whose roughness differs from place to place.
-static bool tabulate_roughness(MaterialEntry *entry, Error *e)
+static bool tabulate_roughness(MaterialEntry *entry, bool mixed, Error *e)
 {
-    if (!entry->roughness || !entry->table) {
+    if (!mixed && (!entry->roughness || !entry->table)) {
         return true;
     }
     entry->rough_tables = memory_alloc_zero(ROUGH_TABLES, sizeof *entry->rough_tables, e);
@@ -67,6 +69,37 @@ static bool tabulate_roughness(MaterialEntry *entry, Error *e)
         ggx_table_reflection(&entry->rough_tables[i], fmaxf(roughness * roughness, LEAST_ALPHA));
     }
     return entry->rough_tables;
+}
+
+static int find_material(const Material *materials, int count, const char *name)
+{
+    int found = 0;
+    while (found < count && strcmp(materials[found].name, name) != 0) {
+        found++;
+    }
+    return found;
+}
+
+// Finds the materials of the layers. *coated: does the surface have a coat anywhere?
+static bool find_layers(MaterialEntry *entry, const Material *materials, int count, bool *coated,
+                        Error *e)
+{
+    const Material *m = &entry->material;
+    *coated = m->layer_count > 0 && m->kind == MATERIAL_PRINCIPLED;
+    if (m->layer_count == 0) {
+        return true;
+    }
+    entry->layer = memory_alloc(m->layer_count, sizeof *entry->layer, e);
+    for (int i = 0; entry->layer && i < m->layer_count; i++) {
+        int found = find_material(materials, count, m->layers[i].material);
+        if (found == count) {
+            return error_set(e, ERROR_INPUT, "material '%s' has a layer of '%s', which is none",
+                             m->name, m->layers[i].material);
+        }
+        entry->layer[i] = found;
+        *coated = *coated || materials[found].kind == MATERIAL_PRINCIPLED;
+    }
+    return entry->layer;
 }
 
 static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material *material,
@@ -82,9 +115,9 @@ static bool prepare_entry(MaterialSet *set, MaterialEntry *entry, const Material
     entry->ops = material_ops(m->kind);
     entry->mapped = maps_are_given(m);
     entry->plain = !entry->ops->prepare && m->pattern == PATTERN_NONE && m->variation <= 0.0f &&
-                   !entry->mapped;
+                   !entry->mapped && m->layer_count == 0;
     return (!used || !entry->ops->tabulate || entry->ops->tabulate(entry, set, e)) &&
-           open_textures(set, entry, run, e) && tabulate_roughness(entry, e);
+           open_textures(set, entry, run, e);
 }
 
 MaterialSet *material_set_new(const Material *materials, const bool *used, int count,
@@ -98,13 +131,22 @@ MaterialSet *material_set_new(const Material *materials, const bool *used, int c
     bool done = set->entry != NULL;
     set->count = done ? count : 0;
     for (int i = 0; done && i < count; i++) {
-        done = prepare_entry(set, &set->entry[i], &materials[i], !used || used[i], run, e);
+        MaterialEntry *entry = &set->entry[i];
+        bool shown = !used || used[i], coated = false;
+        done = prepare_entry(set, entry, &materials[i], shown, run, e) &&
+               find_layers(entry, materials, count, &coated, e) &&
+               tabulate_roughness(entry, shown && coated, e);
     }
     if (!done) {
         material_set_free(set);
         return NULL;
     }
     return set;
+}
+
+void material_set_use_masks(MaterialSet *set, const MaskSet *masks)
+{
+    set->masks = masks;
 }
 
 void material_set_free(MaterialSet *set)
@@ -115,6 +157,7 @@ void material_set_free(MaterialSet *set)
     for (int i = 0; i < set->count; i++) {
         free(set->entry[i].table);
         free(set->entry[i].rough_tables);
+        free(set->entry[i].layer);
     }
     free(set->entry);
     texture_cache_free(set->textures);

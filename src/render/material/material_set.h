@@ -24,6 +24,7 @@ typedef struct MaterialEntry {
     GgxTable *rough_tables;     // owned, ROUGH_TABLES of them from roughness 0 to 1; NULL = `table`
                                 // is for all of the surface
     bool mapped;                // one of the pictures but opacity is given
+    int *layer;                 // owned: the numbers of its layers' materials; NULL = it has none
     // Borrowed from the cache; NULL = none.
     Texture *color, *opacity, *normal, *roughness, *transmittance, *displacement;
 } MaterialEntry;
@@ -31,8 +32,9 @@ typedef struct MaterialEntry {
 struct MaterialSet {
     int count;
     MaterialEntry *entry;
-    TextureCache *textures; // NULL if no material has one
-    ThinFilmTable *films;   // NULL if no material is a thin film
+    TextureCache *textures;      // NULL if no material has one
+    const struct MaskSet *masks; // borrowed; NULL = no layer lies anywhere
+    ThinFilmTable *films;        // NULL if no material is a thin film
 };
 
 // Allocates the entry's table and sets its alpha, which is not 0: LEAST_ALPHA where the lobe is

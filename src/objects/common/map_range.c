@@ -1,0 +1,66 @@
+// The keys of a condition on a map of land.
+#include "land/where.h"
+#include "objects/common/tables.h"
+
+#define MAP(ID, NAME) {NAME, HEIGHT_MAP_##ID},
+static const EnumName MAPS[] = {HEIGHT_MAPS(MAP){0}};
+#undef MAP
+
+static const Key KEYS[] = {
+    {KEY_OF(MapRange, map, "map", KEY_ENUM), .flags = KEY_REQUIRED, .names = MAPS,
+     .doc =
+         "slope: degrees from level; aspect: degrees toward which the land falls, 0 = north (-z), "
+         "90 = east (+x); curvature: 1/m, positive in hollows, negative on ridges; flow: m^2 of "
+         "catchment; wetness: the topographic index ln(catchment per m of contour / slope), about "
+         "5 on ridges and 15 in valleys; river-distance: m to the nearest river; sun-hours: mean "
+         "hours of direct sun a day, with the shade of the land itself. Only of terrains: deposit "
+         "and wear: m that erosion has laid down and taken away; bedrock: 1 where rock is bare, 0 "
+         "under 0.5 m of loose ground; snow: share of the ground that snow covers (form alps)."},
+    {KEY_OF(MapRange, range, "range", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 2, .low = -1e9,
+     .high = 1e9,
+     .doc =
+         "Least and greatest value, in the map's unit. Of aspect, [300, 60] leads through north."},
+    {KEY_OF(MapRange, fade, "fade", KEY_FLOAT), .high = 1e9,
+     .doc = "Distance from the range, in the map's unit, over which copies become fewer, or a "
+            "layer thinner; 0 = none outside."},
+    {KEY_OF(MapRange, latitude, "latitude", KEY_FLOAT), .low = -90, .high = 90, .unit = "degrees",
+     .doc = "Of sun-hours: latitude of the land, north positive."},
+    {KEY_OF(MapRange, day, "day", KEY_INT), .high = 366,
+     .doc = "Of sun-hours: day of the year, 1 = 1 January; 0 = the year's mean."},
+    {0},
+};
+
+static void defaults(void *out)
+{
+    *(MapRange *)out = (MapRange){.latitude = HEIGHT_MAP_LATITUDE};
+}
+
+static bool check(const Mapping *mapping, void *params)
+{
+    const MapRange *range = params;
+    return range->map == HEIGHT_MAP_ASPECT || range->range[0] <= range->range[1] ||
+           mapping_fail(mapping, "range", " is [%g, %g]; the first must not exceed the second",
+                        (double)range->range[0], (double)range->range[1]);
+}
+
+const Table map_range_table = {
+    .name = "where",
+    .doc = "A condition on a map of a surface seen from above: of a terrain's own samples, of 1024 "
+           "x 1024 samples over the bounds of another object, or of the land under a scattering's "
+           "disc. `ramify grow SCENE --map NAME -o map.png` shows the maps of a terrain.",
+    .example = "objects:\n"
+               "  - name: land\n"
+               "    terrain: {size: 400, resolution: 256}\n"
+               "  - name: stones\n"
+               "    scatter:\n"
+               "      on: land\n"
+               "      radius: 0\n"
+               "      count: 500\n"
+               "      where:\n"
+               "        - {map: slope, range: [25, 60], fade: 5}\n"
+               "        - {map: aspect, range: [90, 270]}\n"
+               "      things: [{stone: {size: 2}}]\n",
+    .size = sizeof(MapRange),
+    .keys = KEYS,
+    .defaults = defaults,
+    .check = check};
