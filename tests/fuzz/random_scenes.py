@@ -5,15 +5,17 @@ of threads, or one error that names its place.
 usage: random_scenes.py RAMIFY COUNT [SEED] [FOLDER]      FOLDER keeps the scenes that failed; by default none is kept
        random_scenes.py --write RAMIFY COUNT SEED FOLDER  only writes the scenes, as FOLDER/NUMBER.yaml
 """
+import concurrent.futures
 import json
 import math
+import os
 import random
 import re
-import resource
 import signal
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -228,13 +230,10 @@ def repair(ramify, scene, file):
             return
 
 
-def limit_time():
-    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS + 1))
-
-
 def run(ramify, file, output, *options):
-    return subprocess.run([ramify, "render", file, "-q", "--no-preview", "-o", output, *options], capture_output=True,
-                          text=True, timeout=PATIENCE, preexec_fn=limit_time)
+    limit = ["prlimit", f"--cpu={SECONDS}:{SECONDS + 1}"]
+    return subprocess.run([*limit, ramify, "render", file, "-q", "--no-preview", "-o", output, *options],
+                          capture_output=True, text=True, timeout=PATIENCE)
 
 
 def judge(ramify, scene, folder, threads):
@@ -274,23 +273,33 @@ def write(ramify, count, seed, folder):
         file.write_text(json.dumps(scene, indent=1))
 
 
-def main(ramify, count, seed=1, keep=None):
-    schema = read_schema(ramify)
-    rendered = failed = 0
+def try_scene(ramify, schema, number, keep):
+    """What is wrong with a scene, whether it was rendered, and the seconds it took."""
+    start = time.monotonic()
     with tempfile.TemporaryDirectory() as name:
-        for number in range(int(seed), int(seed) + int(count)):
-            scene = draw_scene(schema, number)
-            repair(ramify, scene, Path(name) / "scene.yaml")
-            wrong, done = judge(ramify, scene, Path(name), number % 4 == 0)
-            rendered += done
-            failed += wrong != ""
+        scene = draw_scene(schema, number)
+        repair(ramify, scene, Path(name) / "scene.yaml")
+        wrong, done = judge(ramify, scene, Path(name), number % 4 == 0)
+    if wrong and keep:
+        Path(keep).mkdir(parents=True, exist_ok=True)
+        (Path(keep) / f"{number}.yaml").write_text(json.dumps(scene, indent=1))
+    return wrong, done, time.monotonic() - start
+
+
+def main(ramify, count, seed=1, keep=None):
+    schema, numbers = read_schema(ramify), range(int(seed), int(seed) + int(count))
+    start, tried, rendered, failed, longest = time.monotonic(), 0, 0, 0, (0.0, 0)
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        results = pool.map(lambda number: try_scene(ramify, schema, number, keep), numbers)
+        for number, (wrong, done, seconds) in zip(numbers, results):
+            tried, rendered, failed = tried + 1, rendered + done, failed + (wrong != "")
+            longest = max(longest, (seconds, number))
             if wrong:
                 print(f"scene {number}: {wrong}", flush=True)
-                if keep:
-                    Path(keep).mkdir(parents=True, exist_ok=True)
-                    (Path(keep) / f"{number}.yaml").write_text(json.dumps(scene, indent=1))
-    print(f"{count} scenes: {rendered} rendered, {int(count) - rendered - failed} refused, {failed} failed")
-    return failed > 0 or rendered < int(count) / 4
+            if tried % 50 == 0 or tried == len(numbers):
+                print(f"{tried} scenes: {rendered} rendered, {tried - rendered - failed} refused, {failed} failed, "
+                      f"{time.monotonic() - start:.0f} s; the longest, {longest[1]}, took {longest[0]:.0f} s", flush=True)
+    return failed > 0 or rendered < tried / 4
 
 
 if __name__ == "__main__":
