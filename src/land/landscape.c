@@ -102,6 +102,17 @@ bool landscape_slopes_only(Landscape *land, const LandscapeRates *rates, double 
     return landscape_slopes(land, rates, time, run, e);
 }
 
+HeightField *landscape_heights(const Landscape *land, Error *e)
+{
+    float cell = (float)land->cell, corner = (float)land->corner;
+    HeightField *field =
+        height_field_new(land->side, land->side, (Vec2){cell, cell}, (Vec2){corner, corner}, e);
+    for (int64_t i = 0; field && i < landscape_count(land); i++) {
+        field->height[i] = (float)(land->rock[i] + land->loose[i]);
+    }
+    return field;
+}
+
 double landscape_volume(const Landscape *land)
 {
     double sum = 0.0;

@@ -77,6 +77,9 @@ double landscape_at(const Landscape *land, double x, double z, double *loose);
 // Rock and sediment above height 0, with what has left, less what has risen: constant, m^3.
 double landscape_volume(const Landscape *land);
 
+// The surface as heights. The caller frees it.
+HeightField *landscape_heights(const Landscape *land, Error *e);
+
 // How fast rock of a hardness erodes, and how fast its faces weather back, relative to hardness 0.
 double landscape_erodibility(double hardness);
 

@@ -28,7 +28,7 @@ MOST = {
     "terminals": 60, "max_count": 60, "count": 12, "variants": 2, "levels": 1, "bolts": 3, "max_depth": 4,
     "height": 6, "radius": 20, "flat_radius": 20, "grass_radius": 10, "max_steps": 40, "iterations": 3, "leaflets": 12,
     "leaflets_of_part": 6, "per_node": 6, "per_cluster": 20, "streams": 1, "colonies": 2, "max_order": 3, "detail": 2,
-    "nuclei": 4, "beyond": 1, "tips": 20, "cushions": 20,
+    "nuclei": 4, "beyond": 1, "tips": 20, "cushions": 20, "swell": 10,
 }
 # Keys that choose between forms of a thing, on which other keys depend: drawn more often than others.
 CHOICES = {"kind", "form", "habit", "surface", "pattern", "show", "shape", "rule"}
@@ -41,7 +41,7 @@ SKIPPED = {
 SMALL = {
     "tree": {"height": 3, "light": {"seasons": 6}, "leaves": {"max_count": 40},
              "crown": {"growth": {"levels": [{"attractors": 60}]}}, "roots": {"count": 2}},
-    "forest": {"radius": 12, "stands": 1, "stand_trees": 2, "height": 5, "ferns": 4, "leaves": {"max_count": 30}},
+    "forest": {"radius": 12, "spacing": 2, "stands": 1, "stand_trees": 2, "height": 5, "ferns": 4, "leaves": {"max_count": 30}},
     "ground": {"radius": 20, "flat_radius": 5, "grass_tufts": 60},
     "terrain": {"resolution": 32, "rivers": {"count": 40}, "ridges": {"count": 40}},
     "coral": {"attractors": 60}, "lsystem": {"generations": 3}, "dla": {"particles": 200},

@@ -181,10 +181,29 @@ static LightTree *tree_over(const Emitter *emitter, int count)
     for (int i = 0; i < count; i++) {
         bounds[i] = emitter_bounds(&emitter[i], 1.0f);
     }
-    LightTree *tree = light_tree_new(bounds, count, NULL);
+    Run run = run_default();
+    LightTree *tree = light_tree_new(bounds, count, &run, NULL);
     assert_non_null(tree);
     free(bounds);
     return tree;
+}
+
+static void a_cancelled_tree_is_not_built(void **state)
+{
+    (void)state;
+    enum { COUNT = 1000 };
+    LightBounds bounds[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        Vec3 p = {(float)i, 0, 0};
+        Emitter emitter = emitter_triangle(p, vec3_add(p, vec3(1, 0, 0)), vec3(0, 1, 0), true, 0);
+        bounds[i] = emitter_bounds(&emitter, 1.0f);
+    }
+    volatile int cancelled = 1;
+    Run run = run_default();
+    run.cancelled = &cancelled;
+    Error e = {0};
+    assert_null(light_tree_new(bounds, COUNT, &run, &e));
+    assert_int_equal(e.code, ERROR_CANCELLED);
 }
 
 // Probabilities sum to one, and each is how often its light is drawn.
@@ -383,6 +402,7 @@ static void instances_glow_alike(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cancelled_tree_is_not_built),
         cmocka_unit_test(quad_irradiance_closed_form),
         cmocka_unit_test(cylinder_irradiance_closed_form),
         cmocka_unit_test(glow_scales_the_radiance),

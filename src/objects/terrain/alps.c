@@ -85,7 +85,7 @@ static bool cut_by_rivers(const Range *r, Landscape *land, const Run *run, Error
     LandscapeRates rates = {.uplift = 0.12 * r->size,
                             .incision = 45.0,
                             .loose = 45.0,
-                            .least_area = 0.5 * own,
+                            .least_area = 8.0 * own, // slopes above it are plane
                             .repose = 100.0,
                             .seed = random_key(r->terrain->seed, STREAM_WATER_WAYS)};
     for (int i = 0; i < STEPS; i++) {
@@ -114,7 +114,7 @@ static bool wear_by_ice(const Range *r, Landscape *land, const Run *run, Error *
                          .gradient = 0.006,
                          .most = 1.2,
                          .steepest = 1.2,
-                         .erosion = 1.0e-4 * (double)alps->ice * relief / 2400.0,
+                         .erosion = 2.5e-4 * (double)alps->ice * relief / 2400.0,
                          .till = 0.25};
     LandscapeRates frost = {.retreat = 2.0,
                             .rubble = 0.5,
@@ -136,12 +136,7 @@ static bool wear_by_ice(const Range *r, Landscape *land, const Run *run, Error *
 // left.
 static bool fill_basins(Landscape *land, Error *e)
 {
-    float cell = (float)land->cell, corner = (float)land->corner;
-    HeightField *field =
-        height_field_new(land->side, land->side, (Vec2){cell, cell}, (Vec2){corner, corner}, e);
-    for (int64_t i = 0; field && i < landscape_count(land); i++) {
-        field->height[i] = (float)(land->rock[i] + land->loose[i]);
-    }
+    HeightField *field = landscape_heights(land, e);
     Drainage *flooded = field ? drainage_flood(field, land->base, e) : NULL;
     for (int64_t i = 0; flooded && i < landscape_count(land); i++) {
         double fill = (double)flooded->filled[i] - (land->rock[i] + land->loose[i]);

@@ -1,6 +1,7 @@
 // Measures of the landforms, for targets.
 #include "base/exact_math.h"
 #include "base/memory.h"
+#include "land/valley_profile.h"
 #include "objects/terrain/internal.h"
 
 #include <math.h>
@@ -131,6 +132,20 @@ static double sinuosity(const OutTree *tree)
     return length / (double)vec3_distance(vec3(a.x, 0, a.z), vec3(b.x, 0, b.z));
 }
 
+// What tells the U of glaciers from the V of rivers.
+static bool measure_valleys(const Landscape *land, double size, MeasureList *list, Error *e)
+{
+    double exponent = 0.0, nan = (double)NAN;
+    HeightField *field = landscape_heights(land, e);
+    Drainage *drainage = field ? drainage_new(field, e) : NULL;
+    bool done = drainage &&
+                valley_profile_exponent(field, drainage, 0.01 * size * size, &exponent, e) &&
+                measures_add(list, "valley_exponent", exponent, "", nan, nan, e);
+    drainage_free(drainage);
+    height_field_free(field);
+    return done;
+}
+
 bool terrain_measure(const void *given, const Grown *grown, const Recipe *recipe, MeasureList *list,
                      Error *e)
 {
@@ -157,5 +172,6 @@ bool terrain_measure(const void *given, const Grown *grown, const Recipe *recipe
                measures_add(list, "sinuosity", sinuosity(grown->tree), "", nan, nan, e);
     }
     free(widths);
-    return done;
+    return done && (s.params.form != TERRAIN_ALPS ||
+                    measure_valleys(s.land, (double)s.params.size, list, e));
 }

@@ -37,7 +37,7 @@ TerrainParams terrain_params_default(void)
         .forest = {.height = 28.0f, .low = 0.02f, .high = 0.4f, .slope = 36.0f, .clumping = 0.7f},
         .canyon = {.sinuosity = 1.35f, .meander = 0.42f, .river = 70.0f, .side_canyons = 1.0f},
         .mesas = {.streams = 6, .remaining = 0.12f},
-        .alps = {.ice = 1.0f, .ice_line = 0.66f, .outlets = 5, .wind = 270.0f},
+        .alps = {.ice = 1.0f, .ice_line = 0.4f, .outlets = 5, .wind = 270.0f},
         .evolution = {.streams = 1.0f,
                       .weathering = 1.0f,
                       .rubble = 0.25f,

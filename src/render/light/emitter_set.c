@@ -113,7 +113,7 @@ static bool add_part(EmitterSet *set, const World *world, int number, Error *e)
     return true;
 }
 
-static bool plant_tree(EmitterSet *set, const World *world, Error *e)
+static bool plant_tree(EmitterSet *set, const World *world, const Run *run, Error *e)
 {
     LightBounds *bounds = memory_alloc(set->count, sizeof *bounds, e);
     for (int64_t i = 0; bounds && i < set->count; i++) {
@@ -121,12 +121,12 @@ static bool plant_tree(EmitterSet *set, const World *world, Error *e)
         int material = world->geometry.part[emitter->part].material;
         bounds[i] = emitter_bounds(emitter, luminance(world->material[material].radiance));
     }
-    set->tree = bounds ? light_tree_new(bounds, set->count, e) : NULL;
+    set->tree = bounds ? light_tree_new(bounds, set->count, run, e) : NULL;
     free(bounds);
     return set->tree != NULL;
 }
 
-bool emitter_set_fill(EmitterSet *set, const World *world, Error *e)
+bool emitter_set_fill(EmitterSet *set, const World *world, const Run *run, Error *e)
 {
     *set = (EmitterSet){0};
     int64_t total = 0;
@@ -145,7 +145,7 @@ bool emitter_set_fill(EmitterSet *set, const World *world, Error *e)
         set->first[i] = glows(world, part) ? set->count : -1;
         made = set->first[i] < 0 || add_part(set, world, (int)i, e);
     }
-    if (!made || !plant_tree(set, world, e)) {
+    if (!made || !plant_tree(set, world, run, e)) {
         emitter_set_clear(set);
         return false;
     }

@@ -3,6 +3,7 @@
 #ifndef RAMIFY_RENDER_LIGHT_EMITTER_SET_H
 #define RAMIFY_RENDER_LIGHT_EMITTER_SET_H
 
+#include "base/run.h"
 #include "render/light/emitter.h"
 
 typedef struct World World;
@@ -23,7 +24,7 @@ typedef struct SurfacePlace {
     float u, v;         // within the primitive, as Embree has them
 } SurfacePlace;
 
-bool emitter_set_fill(EmitterSet *set, const World *world, Error *e);
+bool emitter_set_fill(EmitterSet *set, const World *world, const Run *run, Error *e);
 void emitter_set_clear(EmitterSet *set);
 
 // The emitter at that place; position: the point hit, world.

@@ -6,6 +6,7 @@
 #define RAMIFY_RENDER_LIGHT_LIGHT_TREE_H
 
 #include "base/error.h"
+#include "base/run.h"
 #include "base/vec.h"
 
 #include <stdint.h>
@@ -33,8 +34,8 @@ typedef struct LightSegment {
 
 typedef struct LightTree LightTree;
 
-// bounds: count of them, at least 1; read only while building.
-LightTree *light_tree_new(const LightBounds *bounds, int64_t count, Error *e);
+// bounds: count of them, at least 1; read only while building. ERROR_CANCELLED when cancelled.
+LightTree *light_tree_new(const LightBounds *bounds, int64_t count, const Run *run, Error *e);
 void light_tree_free(LightTree *tree); // NULL is fine
 
 float light_tree_power(const LightTree *tree); // sum over all lights

@@ -78,6 +78,7 @@ static float split_cost(const LightBounds *b, float stretch)
 
 typedef struct Builder {
     const LightBounds *bounds;
+    const Run *run;
     LightTree *tree;
     Fork *fork;
     int32_t *item;       // lights, parted in place
@@ -180,7 +181,8 @@ static int32_t build(Builder *b, int64_t begin, int64_t count, int depth)
         fork->bounds = b->bounds[b->item[begin]];
         return index;
     }
-    int64_t first = split(b, b->item + begin, count, depth);
+    // Cancelled, the rest is built quickly and thrown away.
+    int64_t first = run_is_cancelled(b->run) ? count / 2 : split(b, b->item + begin, count, depth);
     int32_t left = build(b, begin, first, depth + 1);
     fork->right = build(b, begin + first, count - first, depth + 1);
     fork->bounds = bounds_union(&b->fork[left].bounds, &b->fork[fork->right].bounds);
@@ -242,7 +244,7 @@ static int32_t widen(Builder *b, int32_t root, int32_t parent, int32_t lane)
     return index;
 }
 
-LightTree *light_tree_new(const LightBounds *bounds, int64_t count, Error *e)
+LightTree *light_tree_new(const LightBounds *bounds, int64_t count, const Run *run, Error *e)
 {
     if (count < 1 || count > INT32_MAX / 2) {
         error_set(e, ERROR_INPUT,
@@ -267,12 +269,17 @@ LightTree *light_tree_new(const LightBounds *bounds, int64_t count, Error *e)
     for (int32_t i = 0; i < tree->count; i++) {
         item[i] = i;
     }
-    Builder builder = {.bounds = bounds, .tree = tree, .fork = fork, .item = item};
+    Builder builder = {.bounds = bounds, .run = run, .tree = tree, .fork = fork, .item = item};
     build(&builder, 0, count, 0);
     widen(&builder, 0, -1, 0);
     tree->power = fork[0].bounds.power;
     free(item);
     free(fork);
+    if (run_is_cancelled(run)) {
+        run_cancel_error(e);
+        light_tree_free(tree);
+        return NULL;
+    }
     return tree;
 }
 

@@ -42,7 +42,7 @@ Lights *lights_new(const World *world, float scene_radius, const Run *run, Error
     lights->world = world;
     lights->turn_cos = 1.0f;
     lights->dome_index = lights->sun_index = lights->emitters_index = -1;
-    if (!lights_make_above(lights, run, e) || !emitter_set_fill(&lights->emitters, world, e)) {
+    if (!lights_make_above(lights, run, e) || !emitter_set_fill(&lights->emitters, world, run, e)) {
         lights_free(lights);
         return NULL;
     }

@@ -157,12 +157,11 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
     }
     if (m->snow_line > 0.0f) {
         // Far below the line only hollows that hold it through the summer; far above all but walls.
-        float cold = felt - m->snow_line + 0.07f * ragged;
-        float least = lerpf(0.82f, 0.50f, smoothstepf(-0.05f, 0.25f, cold));
-        float held = smoothstepf(least, least + 0.06f, upright + 0.09f * fray.value);
-        // Ledges between the chutes' ribs.
-        held = fmaxf(held, smoothstepf(0.25f, 0.5f, fray.value - 0.5f * chutes.value) *
-                               smoothstepf(0.02f, 0.12f, cold) * smoothstepf(0.3f, 0.5f, upright));
+        // It slides out of the chutes' ribs and stays in what lies between them.
+        float cold = felt - m->snow_line + 0.07f * broad.value + 0.02f * fray.value;
+        float least = lerpf(0.80f, 0.46f, smoothstepf(-0.04f, 0.22f, cold));
+        float kept = upright - 0.25f * chutes.value + 0.03f * fray.value;
+        float held = smoothstepf(least - 0.02f, least + 0.05f, kept);
         other = snow(point, scale);
         g = blend(g, &other, smoothstepf(-0.015f, 0.02f, cold) * held);
     }
