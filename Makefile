@@ -9,7 +9,7 @@ BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvd
 CHECK_PACKAGES = clang-format clang-tidy cppcheck
 FUZZ_PACKAGES  = clang libclang-rt-14-dev
 PEER_COMMANDS  = povray:povray povray:povray-includes blender:blender node:nodejs npm:npm chromium:chromium mandoc:mandoc \
-                 oiiotool:openimageio-tools assimp:assimp-utils zsh:zsh
+                 oiiotool:openimageio-tools gdalinfo:gdal-bin assimp:assimp-utils zsh:zsh
 SAME_BITS_PACKAGES = clang libomp-14-dev
 CLUSTER_PACKAGES = slurm-wlm munge
 
@@ -76,7 +76,7 @@ PLUGIN_vdb   := shape/vdb_level_set.cpp shape/vdb_grid_file.cpp shape/vdb_read.c
 LDLIBS_vdb   := -lopenvdb -lImath -ltbb -lstdc++ -lm
 PLUGIN_ocio  := image/ocio_view.cpp
 LDLIBS_ocio  := -lOpenColorIO -lstdc++ -lm
-PLUGIN_gdal  := land/survey_gdal.cpp
+PLUGIN_gdal  := land/survey_gdal.cpp land/geotiff_gdal.cpp
 LDLIBS_gdal  := -lgdal -lstdc++ -lm
 # OpenEXR's headers include Imath's by their bare names.
 $(OBJ)/image/encode_exr.cpp.o: CXXFLAGS += $(shell pkg-config --cflags-only-I Imath)

@@ -278,8 +278,9 @@ RAMIFY_API RamifyLand *ramify_land_map(const RamifyLand *land, const char *name,
 RAMIFY_API const float *ramify_land_heights(const RamifyLand *land);
 
 // Writes a 16-bit grey .png, black at the lowest and white at the highest point, a float .exr in
-// metres (channel Y), or an Esri ASCII grid (.asc) in metres; ramify:low, ramify:high and
-// ramify:cell in the metadata of pictures are metres.
+// metres (channel Y), an Esri ASCII grid (.asc) in metres, or a GeoTIFF (.tif) of 32-bit floats, in
+// the reference system of the survey that the land comes from or in a local one of metres.
+// ramify:low, ramify:high and ramify:cell in the metadata of pictures are metres.
 RAMIFY_API bool ramify_land_write(const RamifyLand *land, const char *file, RamifyError *error);
 
 // Draws object number index (the veins of a leaf) as a picture of one value per pixel, 0..1: fills
@@ -495,7 +496,7 @@ RAMIFY_API bool ramify_export(const RamifyScene *scene, const char *file,
 
 // Writes results already grown from a scene: trees[i] and lands[i] belong to object number i, or
 // are NULL. Several trees go to one FILE-OBJECT.swc (or .json) each, or to a single .graphml;
-// several lands to one FILE-OBJECT.png (.exr, .asc) each. run may be NULL.
+// several lands to one FILE-OBJECT.png (.exr, .asc, .tif) each. run may be NULL.
 RAMIFY_API bool ramify_export_trees(const RamifyScene *scene, const RamifyTree *const *trees,
                                     const char *file, const RamifyRun *run, RamifyError *error);
 RAMIFY_API bool ramify_export_lands(const RamifyScene *scene, const RamifyLand *const *lands,

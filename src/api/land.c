@@ -75,7 +75,8 @@ const float *ramify_land_heights(const RamifyLand *land)
 bool ramify_land_write(const RamifyLand *land, const char *file, RamifyError *error)
 {
     Error e = {0};
-    return export_height_field(land_of(land), file, &e) || api_fail(error, &e);
+    Run run = api_run(NULL);
+    return export_height_field(land_of(land), file, &run, &e) || api_fail(error, &e);
 }
 
 static bool paint(const Scene *scene, int index, const OutTree *tree, int width, int height,

@@ -62,7 +62,7 @@ static bool is_picture(const char *file)
 
 static bool is_heights(const char *file)
 {
-    return is_picture(file) || output_has_ending(file, ".asc");
+    return is_picture(file) || output_has_ending(file, ".asc") || output_has_ending(file, ".tif");
 }
 
 // Index of the only object whose kind makes a picture; -1 if there is none or several.
@@ -96,8 +96,8 @@ static bool check_map(const Options *options, const RamifyScene *scene, RamifyEr
     bool possible = file && is_heights(file) && land_count(scene) > 0;
     return command_choice("map", name, maps, 11, e) >= 0 &&
            (possible || fail(e, RAMIFY_BAD_INPUT,
-                             "--map %s; it needs a scene with a terrain and --output .png, .exr or "
-                             ".asc",
+                             "--map %s; it needs a scene with a terrain and --output .png, .exr, "
+                             ".asc or .tif",
                              options->map));
 }
 
@@ -122,14 +122,16 @@ static bool check_request(const Options *options, const RamifyScene *scene, Rami
                     "(venation)",
                     file);
     }
-    if (output_has_ending(file, ".asc") && land_count(scene) == 0) {
+    bool heights = output_has_ending(file, ".asc") || output_has_ending(file, ".tif");
+    if (heights && land_count(scene) == 0) {
         return fail(e, RAMIFY_BAD_INPUT, "--output %s; for heights the scene must have a terrain",
                     file);
     }
     if (!is_heights(file) && !output_has_ending(file, ".swc") &&
         !output_has_ending(file, ".json") && !output_has_ending(file, ".graphml")) {
         return fail(e, RAMIFY_BAD_INPUT,
-                    "--output %s; its ending must be .swc, .json, .graphml, .png, .exr or .asc",
+                    "--output %s; its ending must be .swc, .json, .graphml, .png, .exr, .asc or "
+                    ".tif",
                     file);
     }
     return output_check(file, e);

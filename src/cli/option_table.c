@@ -35,7 +35,8 @@ const Option option_table[] = {
          "the name, as in oak-%04d.png; batch: with --tiles .png or .jpg with the .exr beside it, "
          "with --frames .mp4, or .png, .jpg or .exr with the frame's number in the name; "
          "grow: .swc, .json, .graphml or, of a leaf's veins or a terrain's heights, .png or .exr "
-         "(heights also .asc); fit: .yaml, the scene with the best values; export: the format by "
+         "(heights also .asc, .tif); fit: .yaml, the scene with the best values; export: the "
+         "format by "
          "its ending"},
     {.name = "frames",
      .value = "N",

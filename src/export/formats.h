@@ -20,6 +20,7 @@
     FORMAT(vdb)                \
     FORMAT(csv)                \
     FORMAT(asc)                \
+    FORMAT(tif)                \
     FORMAT(exr)                \
     FORMAT(png)
 

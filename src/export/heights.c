@@ -7,6 +7,7 @@
 #include "export/asset_path.h"
 #include "export/formats.h"
 #include "image/image.h"
+#include "land/geotiff.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -86,7 +87,7 @@ static bool write_asc(const HeightField *field, const char *file, Error *e)
     return file_writer_close(out, true, e);
 }
 
-bool export_height_field(const HeightField *field, const char *file, Error *e)
+bool export_height_field(const HeightField *field, const char *file, const Run *run, Error *e)
 {
     if (file_name_ends(file, ".asc")) {
         return write_asc(field, file, e);
@@ -94,7 +95,10 @@ bool export_height_field(const HeightField *field, const char *file, Error *e)
     if (file_name_ends(file, ".png") || file_name_ends(file, ".exr")) {
         return write_picture(field, file, e);
     }
-    return error_set(e, ERROR_INPUT, "heights in '%s'; its ending must be .png, .exr or .asc",
+    if (file_name_ends(file, ".tif")) {
+        return geotiff_write(field, file, run, e);
+    }
+    return error_set(e, ERROR_INPUT, "heights in '%s'; its ending must be .png, .exr, .asc or .tif",
                      file);
 }
 
@@ -112,7 +116,8 @@ static bool write(const ExportSource *source, const char *file, const Run *run, 
             done = run_cancel_error(e);
         } else if (source->land[i]) {
             char *own = count == 1 ? NULL : asset_of_object(file, source->object_name[i], e);
-            done = (count == 1 || own) && export_height_field(source->land[i], own ? own : file, e);
+            done = (count == 1 || own) &&
+                   export_height_field(source->land[i], own ? own : file, run, e);
             free(own);
         }
     }
@@ -122,3 +127,4 @@ static bool write(const ExportSource *source, const char *file, const Run *run, 
 const ExportFormat asc_format = {".asc", "heights of land, Esri ASCII grid", 0, EXPORT_LAND, write};
 const ExportFormat exr_format = {".exr", "heights of land, float picture", 0, EXPORT_LAND, write};
 const ExportFormat png_format = {".png", "heights of land, 16-bit picture", 0, EXPORT_LAND, write};
+const ExportFormat tif_format = {".tif", "heights of land, GeoTIFF", 0, EXPORT_LAND, write};

@@ -31,6 +31,40 @@ HeightField *height_field_new(int columns, int rows, Vec2 cell, Vec2 origin, Err
     return field;
 }
 
+static void free_place(GeoPlace *place)
+{
+    if (place) {
+        free(place->reference);
+        free(place);
+    }
+}
+
+bool height_field_take_place(HeightField *field, const HeightField *from, double x, double z,
+                             Error *e)
+{
+    if (!from->place) {
+        return true;
+    }
+    free_place(field->place);
+    field->place = memory_alloc(1, sizeof *field->place, e);
+    if (!field->place) {
+        return false;
+    }
+    *field->place = *from->place;
+    field->place->east += x * from->place->unit_x;
+    field->place->north -= z * from->place->unit_z;
+    const char *reference = from->place->reference;
+    if (reference) {
+        int64_t size = (int64_t)strlen(reference) + 1;
+        field->place->reference = memory_alloc(size, 1, e);
+        if (!field->place->reference) {
+            return false;
+        }
+        memcpy(field->place->reference, reference, (size_t)size);
+    }
+    return true;
+}
+
 void height_field_free(HeightField *field)
 {
     if (field) {
@@ -39,6 +73,7 @@ void height_field_free(HeightField *field)
         free(field->climate);
         free(field->change);
         free(field->loose);
+        free_place(field->place);
         free(field);
     }
 }

@@ -8,6 +8,13 @@
 
 #include <stdint.h>
 
+// Where a field lies on the earth.
+typedef struct GeoPlace {
+    char *reference;       // owned: the coordinate reference system as WKT; NULL = none is known
+    double east, north;    // its coordinates of x = 0, z = 0
+    double unit_x, unit_z; // its units for a metre to the east, and for one to the north
+} GeoPlace;
+
 // Samples are at origin + (column * cell.x, row * cell.y) of the plane (x, z), row by row.
 typedef struct HeightField {
     int columns, rows;
@@ -19,6 +26,7 @@ typedef struct HeightField {
     float *change;  // m by which erosion has raised the land, negative where it has worn it; NULL =
                     // unknown
     float *loose;   // m of loose ground on the rock; NULL = unknown
+    GeoPlace *place; // owned; NULL = anywhere
 } HeightField;
 
 enum { HEIGHT_FIELD_MAX = 16384 }; // samples per side
@@ -32,6 +40,11 @@ static inline int64_t height_field_count(const HeightField *field)
 {
     return (int64_t)field->columns * field->rows;
 }
+
+// Gives the field the place of another, if that has one, whose point (x, z) is the field's origin
+// of coordinates.
+bool height_field_take_place(HeightField *field, const HeightField *from, double x, double z,
+                             Error *e);
 
 // Of memory, all arrays.
 int64_t height_field_bytes(const HeightField *field);

@@ -348,7 +348,8 @@ static bool fill(const HeightField *field, const HeightMap *map, HeightField *ou
 HeightField *height_map(const HeightField *field, const HeightMap *map, const Run *run, Error *e)
 {
     HeightField *out = height_field_new(field->columns, field->rows, field->cell, field->origin, e);
-    if (out && !fill(field, map, out, run, e)) {
+    if (out &&
+        !(height_field_take_place(out, field, 0.0, 0.0, e) && fill(field, map, out, run, e))) {
         height_field_free(out);
         return NULL;
     }

@@ -96,6 +96,37 @@ static bool header_is_sound(const SurveyHeader *header, Error *e)
                               header->columns, header->rows, header->cell[0], header->cell[1]);
 }
 
+// Reads the place that follows the header.
+static bool receive_place(ChildOutput *output, const SurveyHeader *header, HeightField *field,
+                          Error *e)
+{
+    if (header->reference < 0 || header->reference > SURVEY_REFERENCE_MOST) {
+        return error_set(e, ERROR_INPUT, "a reference system of %d bytes", header->reference);
+    }
+    char *reference = memory_alloc_zero((int64_t)header->reference + 1, 1, e);
+    if (!reference || !child_read(output, reference, header->reference, 1, e)) {
+        free(reference);
+        return false;
+    }
+    bool known = header->placed && isfinite(header->middle[0]) && isfinite(header->middle[1]) &&
+                 header->unit[0] > 0.0 && header->unit[1] > 0.0;
+    field->place = known ? memory_alloc_zero(1, sizeof *field->place, e) : NULL;
+    if (!field->place) {
+        free(reference);
+        return !known;
+    }
+    bool named = header->reference > 0;
+    *field->place = (GeoPlace){.reference = named ? reference : NULL,
+                               .east = header->middle[0],
+                               .north = header->middle[1],
+                               .unit_x = 1.0 / header->unit[0],
+                               .unit_z = 1.0 / header->unit[1]};
+    if (!named) {
+        free(reference);
+    }
+    return true;
+}
+
 static HeightField *receive(ChildOutput *output, Error *e)
 {
     SurveyHeader header;
@@ -103,7 +134,8 @@ static HeightField *receive(ChildOutput *output, Error *e)
         return NULL;
     }
     HeightField *field = make_field(&header, e);
-    if (!field || !child_read(output, field->height, height_field_count(field), sizeof(float), e) ||
+    if (!field || !receive_place(output, &header, field, e) ||
+        !child_read(output, field->height, height_field_count(field), sizeof(float), e) ||
         !fill_holes(&(Level){field->columns, field->rows, field->height}, e)) {
         height_field_free(field);
         return NULL;

@@ -1,4 +1,5 @@
 // Rasters of heights through GDAL 3. Part of the plug-in ramify-gdal.so.
+#include <gdal/cpl_conv.h>
 #include <gdal/gdal.h>
 #include <gdal/ogr_srs_api.h>
 
@@ -8,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <string>
 #include <vector>
 
 extern "C" {
@@ -57,7 +59,7 @@ bool is_in_degrees(GDALDatasetH set, const double place[6])
 }
 
 // Metres between samples to the east and to the south, and whether the first row is the southern.
-bool find_cells(GDALDatasetH set, double cell[2], bool *upward, Error *e)
+bool find_cells(GDALDatasetH set, SurveyHeader &header, bool *upward, Error *e)
 {
     double place[6] = {0.0, 1.0, 0.0, 0.0, 0.0, -1.0};
     bool placed = GDALGetGeoTransform(set, place) == CE_None;
@@ -73,8 +75,14 @@ bool find_cells(GDALDatasetH set, double cell[2], bool *upward, Error *e)
         unit[0] = unit[1] = OSRGetLinearUnits(GDALGetSpatialRef(set), nullptr);
     }
     *upward = place[5] > 0.0;
-    cell[0] = std::fabs(place[1]) * unit[0];
-    cell[1] = std::fabs(place[5]) * unit[1];
+    header.placed = placed;
+    for (int i = 0; i < 2; i++) {
+        double step = i == 0 ? place[1] : place[5];
+        int count = i == 0 ? GDALGetRasterXSize(set) : GDALGetRasterYSize(set);
+        header.cell[i] = std::fabs(step) * unit[i];
+        header.middle[i] = place[3 * i] + 0.5 * step * count;
+        header.unit[i] = unit[i];
+    }
     return true;
 }
 
@@ -117,10 +125,24 @@ bool read_heights(GDALRasterBandH band, const SurveyHeader &header, std::vector<
     return true;
 }
 
-bool send(ChildOutput *output, const SurveyHeader &header, const std::vector<float> &height,
-          bool upward, Error *e)
+// The reference system as WKT; empty where the file has none.
+std::string reference_of(GDALDatasetH set)
 {
-    bool done = child_write(output, &header, 1, sizeof header, e);
+    OGRSpatialReferenceH reference = GDALGetSpatialRef(set);
+    char *text = nullptr;
+    std::string wkt;
+    if (reference && OSRExportToWkt(reference, &text) == OGRERR_NONE && text) {
+        wkt = text;
+    }
+    CPLFree(text);
+    return wkt.size() <= SURVEY_REFERENCE_MOST ? wkt : std::string();
+}
+
+bool send(ChildOutput *output, const SurveyHeader &header, const std::string &reference,
+          const std::vector<float> &height, bool upward, Error *e)
+{
+    bool done = child_write(output, &header, 1, sizeof header, e) &&
+                child_write(output, reference.data(), header.reference, 1, e);
     for (int row = 0; done && row < header.rows; row++) {
         int from = upward ? header.rows - 1 - row : row;
         const float *line =
@@ -144,7 +166,7 @@ bool read_raster(const SurveyJob *job, ChildOutput *output, Error *e)
     }
     SurveyHeader header = {};
     bool upward = false;
-    if (!find_cells(set.get(), header.cell, &upward, e)) {
+    if (!find_cells(set.get(), header, &upward, e)) {
         return false;
     }
     int columns = GDALGetRasterXSize(set.get()), rows = GDALGetRasterYSize(set.get());
@@ -152,9 +174,11 @@ bool read_raster(const SurveyJob *job, ChildOutput *output, Error *e)
     header.rows = std::min<int>(rows, HEIGHT_FIELD_MAX);
     header.cell[0] *= static_cast<double>(columns) / header.columns;
     header.cell[1] *= static_cast<double>(rows) / header.rows;
+    std::string reference = reference_of(set.get());
+    header.reference = static_cast<int32_t>(reference.size());
     std::vector<float> height;
     return read_heights(GDALGetRasterBand(set.get(), job->band), header, height, e) &&
-           send(output, header, height, upward, e);
+           send(output, header, reference, height, upward, e);
 }
 
 bool read_job(const void *data, ChildOutput *output, Error *e)

@@ -13,10 +13,17 @@ typedef struct SurveyJob {
     int band;
 } SurveyJob;
 
-// Precedes the heights: columns x rows floats, m, from the north-west row by row; NaN = no data.
+enum { SURVEY_REFERENCE_MOST = 65536 }; // bytes
+
+// Precedes the reference system, then the heights: columns x rows floats, m, from the north-west
+// row by row; NaN = no data.
 typedef struct SurveyHeader {
     int32_t columns, rows;
-    double cell[2]; // m: between samples, to the east and to the south
+    int32_t placed;    // 0 = the file tells no place
+    int32_t reference; // bytes of the reference system as WKT; 0 = none
+    double cell[2];    // m: between samples, to the east and to the south
+    double middle[2];  // its coordinates of the raster's middle
+    double unit[2];    // m of one unit of its coordinates
 } SurveyHeader;
 
 typedef struct SurveyCodec {

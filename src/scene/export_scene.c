@@ -242,7 +242,7 @@ bool scene_write_grown(const Scene *scene, const OutTree *const *trees,
     if (format->needs != (trees ? EXPORT_TREES : EXPORT_LAND)) {
         return error_set(e, ERROR_INPUT, "'%s' cannot hold %s", file,
                          trees ? "out-trees; .swc, .json and .graphml can"
-                               : "heights; .png, .exr and .asc can");
+                               : "heights; .png, .exr, .asc and .tif can");
     }
     const char **name = memory_alloc(scene->object_count, sizeof *name, e);
     FlowParams *flow = make_flows(scene, e);

@@ -225,7 +225,8 @@ static void exporting(void **state)
     (void)state;
     for (int i = 0; i < ramify_export_format_count(); i++) {
         ending = ramify_export_format_ending(i);
-        bool heights = strstr(".png .exr .asc", ending); // of a terrain, which this scene lacks
+        bool heights =
+            strstr(".png .exr .asc .tif", ending); // of a terrain, which this scene lacks
         text = strcmp(ending, ".csv") == 0 ? net : bush;
         if (!heights) {
             let_each_fail(way_export, 8);

@@ -1,4 +1,5 @@
 // Land from surveyed rasters: places and units against closed forms, holes, rivers, bad files.
+#include "land/geotiff.h"
 #include "land/height_measure.h"
 #include "land/survey.h"
 #include "making.h"
@@ -104,6 +105,47 @@ static void metres_stay_metres(void **state)
     assert_near(field->origin.y, -0.5 * 19 * 25, 1e-3);
     assert_near(field->height[30 * 7 + 4], 704.0, 1e-3);
     height_field_free(field);
+}
+
+static void assert_same_place(const HeightField *a, const HeightField *b)
+{
+    assert_true(a->columns == b->columns && a->rows == b->rows);
+    assert_near(a->cell.x, (double)b->cell.x, 1e-5 * (double)b->cell.x);
+    assert_near(a->cell.y, (double)b->cell.y, 1e-5 * (double)b->cell.y);
+    assert_non_null(a->place);
+    assert_non_null(b->place);
+    assert_true(fabs(a->place->east - b->place->east) < 1e-6 * fabs(b->place->east));
+    assert_true(fabs(a->place->north - b->place->north) < 1e-6 * fabs(b->place->north));
+    assert_true(fabs(a->place->unit_x / b->place->unit_x - 1.0) < 1e-6);
+    assert_true(fabs(a->place->unit_z / b->place->unit_z - 1.0) < 1e-6);
+}
+
+// What is read and written as a GeoTIFF has the same heights, and in metres the same place.
+static void a_geotiff_keeps_heights_and_place(void **state)
+{
+    (void)state;
+    const double corners[2][3] = {{500000.0, 4000000.0, 25.0}, {7.5, 46.5, 0.001}};
+    char tif_file[64];
+    snprintf(tif_file, sizeof tif_file, "%s/land.tif", folder);
+    for (int k = 0; k < 2; k++) {
+        write_asc(30, 20, corners[k][0], corners[k][1], corners[k][2], ramp);
+        HeightField *field = read_sound(asc_file);
+        double east = corners[k][0] + 15.0 * corners[k][2];
+        assert_true(fabs(field->place->east - east) < 1e-6 * east);
+        Run run = run_default();
+        Error e = {0};
+        if (!geotiff_write(field, tif_file, &run, &e)) {
+            fail_msg("%s", e.message);
+        }
+        HeightField *again = read_sound(tif_file);
+        if (k == 0) { // the local system that degrees without a system get is one of metres
+            assert_same_place(again, field);
+        }
+        assert_memory_equal(again->height, field->height, 30 * 20 * sizeof(float));
+        height_field_free(again);
+        height_field_free(field);
+    }
+    unlink(tif_file);
 }
 
 // Lengths of a degree at 46.5 degrees north, by the usual series in cosines of the latitude:
@@ -261,6 +303,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(metres_stay_metres),
+        cmocka_unit_test(a_geotiff_keeps_heights_and_place),
         cmocka_unit_test(degrees_become_metres),
         cmocka_unit_test(other_rows_and_units_are_understood),
         cmocka_unit_test(holes_are_filled_from_around),

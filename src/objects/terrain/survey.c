@@ -36,6 +36,11 @@ static HeightField *cut_out(const HeightField *raster, const TerrainParams *para
     float cell = params->size / (float)cells, corner = -0.5f * params->size;
     HeightField *square =
         height_field_new(cells + 1, cells + 1, (Vec2){cell, cell}, (Vec2){corner, corner}, e);
+    if (square && !height_field_take_place(square, raster, (double)survey->center[0],
+                                           (double)survey->center[1], e)) {
+        height_field_free(square);
+        return NULL;
+    }
     for (int64_t i = 0; square && i < height_field_count(square); i++) {
         int64_t column = i % (cells + 1), row = i / (cells + 1);
         float x = corner + cell * (float)column + survey->center[0];

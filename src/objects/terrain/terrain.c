@@ -551,7 +551,9 @@ HeightField *terrain_heights(const void *given, const Grown *grown, const Run *r
     }
     run_progress(run, "heights", 0.0);
     field->wetness = memory_alloc_zero(height_field_count(field), sizeof(float), e);
-    if (!field->wetness || !add_records(params, field, e) ||
+    bool placed =
+        params->form != TERRAIN_SURVEY || height_field_take_place(field, terrain->map, 0.0, 0.0, e);
+    if (!placed || !field->wetness || !add_records(params, field, e) ||
         !(sample_land(terrain, field, run) || run_cancel_error(e)) ||
         !finish_field(terrain, field, run, e)) {
         height_field_free(field);

@@ -91,7 +91,7 @@ class Land:
         return cls(call("land_read", path(file)))
 
     def write(self, file: File) -> None:
-        """Writes .png (16 bits, from the lowest to the highest point), .exr or .asc (m), by the file's extension."""
+        """Writes .png (16 bits, from the lowest to the highest point), .exr, .asc or .tif (m), by the file's extension."""
         call("land_write", self._handle.pointer, path(file))
 
     def map(self, name: str) -> Land:
