@@ -9,7 +9,7 @@
 // file's nodata value. Pixels lie about the samples in the field's own reference system
 // (HeightField.place), or in a local one of metres, x to the east and y = -z to the north. Encoded
 // by GDAL in a child process. ERROR_IO if the file cannot be written.
-#define GEOTIFF_MISSING -9999.0f
+#define GEOTIFF_MISSING (-9999.0f)
 bool geotiff_write(const HeightField *field, const char *file, const Run *run, Error *e);
 
 #endif
