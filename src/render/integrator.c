@@ -16,6 +16,7 @@ typedef struct Wave {
     Path *path[WAVE_SIZE];
     Vertex vertex[WAVE_SIZE];
     ShadowQueue shadows;
+    CloudGuide guide;
     SamplerLanes lanes;
 } Wave;
 
@@ -89,6 +90,9 @@ static void start_paths(const Tracer *tracer, int x, int y, int sample, int coun
     wave->tracer = tracer;
     wave->count = count;
     wave->shadows.count = 0;
+    wave->guide.known = false;
+    camera_ray(&tracer->camera, (float)x + 0.5f, (float)y + 0.5f, (float[]){0.5f, 0.5f},
+               &wave->guide.origin, &wave->guide.direction);
     sampler_lanes_clear(&wave->lanes);
     Sampler sampler[WAVE_SIZE];
     samplers_at(&tracer->plan, (uint32_t)x, (uint32_t)y, (uint32_t)sample, count, sampler);
@@ -96,6 +100,7 @@ static void start_paths(const Tracer *tracer, int x, int y, int sample, int coun
         path[i] = (Path){.tracer = tracer,
                          .result = &result[i],
                          .shadows = &wave->shadows,
+                         .guide = &wave->guide,
                          .sampler = sampler[i],
                          .throughput = {1.0f, 1.0f, 1.0f},
                          .media.now = tracer->outside,

@@ -27,11 +27,20 @@ typedef struct Media {
     bool sheltered;            // some body of the stack refracts: shadow rays cannot leave it
 } Media;
 
+// How clouds lie before the middle of a pixel, for the denoiser: found once for the paths of a
+// wave, because it takes a march through the clouds.
+typedef struct CloudGuide {
+    Vec3 origin, direction;
+    bool known;
+    Vec3 normal; // where known: see path_clouds.c
+} CloudGuide;
+
 // A path between two surfaces.
 typedef struct Path {
     const Tracer *tracer;
     PathResult *result;
     struct ShadowQueue *shadows;
+    CloudGuide *guide;
     Sampler sampler;
     Ray ray;
     uint32_t key; // of the next ray

@@ -43,18 +43,36 @@ float path_pass_clouds(Path *path, const Ray *ray)
     return clouds_pass(clouds, &part, extinction_scale(path->cloud_order), &path->cloud_key);
 }
 
-// The side from which the clouds before `far` get thinner, weighted by how much they hide. Like
-// haze they have no place, and white albedo. The normal depends on the ray alone, not on where a
-// droplet scatters the path, so that it can guide a denoiser.
+// The side from which the clouds along a camera ray get thinner, weighted by how much they hide.
+// The normal depends on the ray alone, not on where a droplet scatters the path, so that it can
+// guide a denoiser.
+static Vec3 cloud_normal(const CloudSet *clouds, const CloudRay *ray)
+{
+    float distance, opacity = clouds_seen(clouds, ray, &distance);
+    if (opacity <= 0.0f) {
+        return vec3_splat(0.0f);
+    }
+    Vec3 slope = clouds_slope(clouds, vec3_madd(ray->origin, distance, ray->direction));
+    return vec3_scale(slope, -opacity / (1.0f + vec3_length(slope)));
+}
+
+// Notes the clouds before `far`. Like haze they have no place, and white albedo. Where nothing lies
+// behind them, all paths of a pixel share the normal along the ray through its middle.
 static void note_cloud(Path *path, float far)
 {
     const CloudSet *clouds = path->tracer->clouds;
-    CloudRay part = {.origin = path->ray.origin, .direction = path->ray.direction, .far = far};
-    float distance, opacity = clouds_seen(clouds, &part, &distance);
-    if (opacity > 0.0f) {
-        Vec3 slope = clouds_slope(clouds, vec3_madd(part.origin, distance, part.direction));
-        path->result->normal = vec3_scale(slope, -opacity / (1.0f + vec3_length(slope)));
+    if (far < INFINITY || path->crossings > 0) {
+        CloudRay part = {.origin = path->ray.origin, .direction = path->ray.direction, .far = far};
+        path->result->normal = cloud_normal(clouds, &part);
+        return;
     }
+    CloudGuide *guide = path->guide;
+    if (!guide->known) {
+        CloudRay all = {.origin = guide->origin, .direction = guide->direction, .far = INFINITY};
+        guide->normal = cloud_normal(clouds, &all);
+        guide->known = true;
+    }
+    path->result->normal = guide->normal;
 }
 
 float path_meet_cloud(Path *path, float far)
@@ -63,11 +81,12 @@ float path_meet_cloud(Path *path, float far)
     if (!clouds || path->media.count > 0) {
         return INFINITY;
     }
-    if (path->straight) {
+    CloudRay part = {path->ray.origin, path->ray.direction, far, path->cloud_order >= ORDERS};
+    float t = clouds_collide(clouds, &part, extinction_scale(path->cloud_order), &path->cloud_key);
+    if (path->straight && (t < INFINITY || far == INFINITY)) { // else a surface has a normal
         note_cloud(path, far);
     }
-    CloudRay part = {path->ray.origin, path->ray.direction, far, path->cloud_order >= ORDERS};
-    return clouds_collide(clouds, &part, extinction_scale(path->cloud_order), &path->cloud_key);
+    return t;
 }
 
 static void sample_light(Path *path, Vec3 point, const float u[4])

@@ -151,23 +151,33 @@ static void heaps_stand_on_one_base_and_no_higher_than_told(void **state)
     clouds_free(clouds);
 }
 
-// The bound of the brick around a place, 1/m.
-static float bound_at(const CloudGrid *g, Vec3 p)
+// The bounds around a place: of its cell, or of the part of it.
+static CloudBounds bounds_around(const CloudGrid *g, Vec3 p)
 {
-    int b[3];
+    int c[3], part[3];
     float at[3] = {p.x - g->low.x, p.y - g->low.y, p.z - g->low.z};
     for (int axis = 0; axis < 3; axis++) {
-        b[axis] = (int)floorf(at[axis] / (g->voxel * BRICK));
-        if (g->repeats && axis != 1) {
-            b[axis] = (b[axis] % g->bricks[axis] + g->bricks[axis]) % g->bricks[axis];
-        }
-        assert_in_range(b[axis], 0, g->bricks[axis] - 1);
+        float cells = at[axis] / (g->voxel * CELL);
+        c[axis] = (int)floorf(cells);
+        part[axis] = (int)((cells - (float)c[axis]) * PARTS);
+        assert_in_range(c[axis], 0, g->cells[axis] - 1);
+        assert_in_range(part[axis], 0, PARTS - 1);
     }
-    return g->bound[((int64_t)b[2] * g->bricks[0] + b[0]) * g->bricks[1] + b[1]];
+    const CloudCell *cell = &g->cell[cloud_grid_cell(g, c[0], c[1], c[2])];
+    return cell->parts < 0
+               ? cell->bounds
+               : g->part[((cell->parts * PARTS + part[2]) * PARTS + part[0]) * PARTS + part[1]];
 }
 
-// Tracking is right only where bounds bound.
-static void no_brick_is_denser_than_its_bound(void **state)
+static void assert_bounds_hold(const CloudGrid *g, Vec3 p, float extinction)
+{
+    CloudBounds bounds = bounds_around(g, p);
+    float step = g->extinction / CELL_STEPS;
+    assert_in_bounds(extinction, 0.99999f * step * bounds.least, 1.00001f * step * bounds.most);
+}
+
+// Tracking is right only where bounds bound, and fast only where they are tight.
+static void no_cell_is_thinner_or_denser_than_its_bounds(void **state)
 {
     (void)state;
     Run run = run_default();
@@ -179,6 +189,7 @@ static void no_brick_is_denser_than_its_bound(void **state)
         CloudGrid grid = {0};
         assert_true(cloud_grid_new(&grid, &cloud, detail, 6, &run, &e));
         int met = 0;
+        double sum = 0.0, least = 0.0, most = 0.0;
         for (uint64_t i = 0; i < 400000; i++) {
             Vec3 u = vec3(random_unit(random_key(i, 0)), random_unit(random_key(i, 1)),
                           random_unit(random_key(i, 2)));
@@ -186,14 +197,57 @@ static void no_brick_is_denser_than_its_bound(void **state)
                 grid.low, vec3_mul(u, vec3_scale(vec3((float)grid.count[0], (float)grid.count[1],
                                                       (float)grid.count[2]),
                                                  0.999f * grid.voxel)));
-            float bound = bound_at(&grid, p) * 1.00001f;
             float fine = cloud_grid_extinction(&grid, p, true);
-            assert_true(fine <= bound && cloud_grid_extinction(&grid, p, false) <= bound);
+            assert_bounds_hold(&grid, p, fine);
+            assert_bounds_hold(&grid, p, cloud_grid_extinction(&grid, p, false));
             met += fine > 0.0f;
+            sum += (double)(fine / grid.extinction);
+            least += bounds_around(&grid, p).least / (double)CELL_STEPS;
+            most += bounds_around(&grid, p).most / (double)CELL_STEPS;
         }
         assert_true(met > 4000);
+        assert_in_bounds(most / sum, 1.0, 3.0);
+        assert_in_bounds(least / sum, 0.2, 1.0);
         cloud_grid_clear(&grid);
     }
+    detail_free(detail);
+}
+
+// A gap is the chessboard distance to the nearest cell with droplets.
+static void gaps_reach_to_the_next_cloud(void **state)
+{
+    (void)state;
+    Run run = run_default();
+    Error e = {.code = ERROR_NONE};
+    DetailNoise *detail = detail_new(5, &run, &e);
+    assert_non_null(detail);
+    Cloud cloud = small_heaps();
+    cloud.cover = 0.03f;
+    CloudGrid g = {0};
+    assert_true(cloud_grid_new(&g, &cloud, detail, 6, &run, &e));
+    int wide = 0;
+    for (uint64_t i = 0; i < 3000; i++) {
+        int x = (int)(random_unit(random_key(i, 0)) * (float)g.cells[0]);
+        int y = (int)(random_unit(random_key(i, 1)) * (float)g.cells[1]);
+        int z = (int)(random_unit(random_key(i, 2)) * (float)g.cells[2]);
+        int wanted = MOST_GAP;
+        for (int dz = -wanted; dz <= wanted; dz++) {
+            for (int dx = -wanted; dx <= wanted; dx++) {
+                for (int dy = -y; dy < g.cells[1] - y; dy++) {
+                    int far = abs(dx) > abs(dz) ? abs(dx) : abs(dz);
+                    far = abs(dy) > far ? abs(dy) : far;
+                    if (far < wanted &&
+                        g.cell[cloud_grid_cell(&g, x + dx, y + dy, z + dz)].bounds.most) {
+                        wanted = far;
+                    }
+                }
+            }
+        }
+        assert_int_equal(g.cell[cloud_grid_cell(&g, x, y, z)].gap, wanted);
+        wide += wanted > 5;
+    }
+    assert_true(wide > 100);
+    cloud_grid_clear(&g);
     detail_free(detail);
 }
 
@@ -353,7 +407,8 @@ int main(void)
         cmocka_unit_test(tracking_has_the_mean_of_the_integral),
         cmocka_unit_test(clouds_cover_their_share_of_the_sky),
         cmocka_unit_test(heaps_stand_on_one_base_and_no_higher_than_told),
-        cmocka_unit_test(no_brick_is_denser_than_its_bound),
+        cmocka_unit_test(no_cell_is_thinner_or_denser_than_its_bounds),
+        cmocka_unit_test(gaps_reach_to_the_next_cloud),
         cmocka_unit_test(liquid_water_rises_from_one_base),
         cmocka_unit_test(small_heaps_are_many),
         cmocka_unit_test(an_even_sky_hides_clouds),

@@ -1,18 +1,17 @@
 #include "render/cloud/cloud_grid.h"
 
 #include "base/memory.h"
+#include "render/cloud/cloud_bounds.h"
 #include "render/cloud/cloud_fill.h"
+#include "render/cloud/profile.h"
 
 #include <stdlib.h>
 
-// Where the border is soft, billows are lower, and droplets fewer: dry air is mixed in.
-static const float SOFT_BILLOWS = 0.4f, SOFT_DENSITY = 0.45f;
-
 // ---- layout ----
 
-static int up_to_bricks(float nodes)
+static int up_to_cells(float nodes)
 {
-    return ((int)nodes / BRICK + 1) * BRICK;
+    return ((int)nodes / CELL + 1) * CELL;
 }
 
 static void lay_out(CloudGrid *g, const Cloud *cloud, float margin)
@@ -30,9 +29,9 @@ static void lay_out(CloudGrid *g, const Cloud *cloud, float margin)
         g->low.z = cloud->center_z - 0.5f * across + (ahead + 0.5f * across) * cosf(wind);
     }
     g->count[0] = g->count[2] = NODES_ACROSS;
-    g->count[1] = up_to_bricks((1.25f * cloud->thickness + 2.0f * margin) / g->voxel);
+    g->count[1] = up_to_cells((1.25f * cloud->thickness + 2.0f * margin) / g->voxel);
     for (int i = 0; i < 3; i++) {
-        g->bricks[i] = g->count[i] / BRICK;
+        g->cells[i] = g->count[i] / CELL;
     }
 }
 
@@ -55,8 +54,8 @@ static Roughness roughness_of(const Cloud *cloud)
 float cloud_grid_reach(const CloudGrid *g, float softness)
 {
     const Roughness *r = &g->rough;
-    float billows = 1.0f + softness * (SOFT_BILLOWS - 1.0f);
-    return billows * (r->billow[0] + r->billow[1]) + softness * (r->wisp[0] + r->wisp[1]);
+    return billows_at(softness) * (r->billow[0] + r->billow[1]) +
+           softness * (r->wisp[0] + r->wisp[1]);
 }
 
 // All but what lies in memory.
@@ -70,69 +69,7 @@ static void describe(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail
     lay_out(g, cloud, cloud_grid_reach(g, 1.0f));
 }
 
-// ---- profiles ----
-
-// Liquid water grows in proportion to the height above the condensation level; on as many droplets
-// as below, so extinction grows like the power 2/3 of it (Brenguier et al. 2000). share: of the
-// thickness.
-static float gain_at(float share)
-{
-    float x = clampf(share / 0.25f, 0.0f, 1.0f);
-    return sqrtf(x * sqrtf(x));
-}
-
-static float edge_at(const Roughness *r, float softness)
-{
-    return r->edge[0] + softness * (r->edge[1] - r->edge[0]);
-}
-
-static float density_limit(float softness)
-{
-    return 1.0f + softness * (SOFT_DENSITY - 1.0f);
-}
-
-// ---- bounds ----
-
-// The greatest density in a brick but for altitude. A quotient of linear functions of distance and
-// softness is greatest at a node, of those that the brick shares with the next ones, too.
-static float densest(const CloudGrid *g, int bx, int by, int bz)
-{
-    const int wrap = NODES_ACROSS - 1;
-    float most = 0.0f, limit = 0.0f;
-    for (int k = 0; k <= BRICK; k++) {
-        for (int i = 0; i <= BRICK; i++) {
-            int x = bx * BRICK + i, z = bz * BRICK + k;
-            x = g->repeats ? x & wrap : (x < g->count[0] ? x : g->count[0] - 1);
-            z = g->repeats ? z & wrap : (z < g->count[2] ? z : g->count[2] - 1);
-            const CloudNode *column = g->node + cloud_grid_node(g, x, 0, z);
-            for (int j = 0; j <= BRICK; j++) {
-                int y = by * BRICK + j < g->count[1] ? by * BRICK + j : g->count[1] - 1;
-                float softness = (float)column[y].softness / SOFTEST;
-                float inside = (float)column[y].distance * g->voxel / DISTANCE_STEPS;
-                float share =
-                    (inside + cloud_grid_reach(g, softness)) / edge_at(&g->rough, softness);
-                most = fmaxf(most, share);
-                limit = fmaxf(limit, density_limit(softness));
-            }
-        }
-    }
-    return fminf(most, 1.0f) * limit;
-}
-
-static void fill_bounds(CloudGrid *g, const Run *run)
-{
-#pragma omp parallel for schedule(static) num_threads(run->threads)
-    for (int bz = 0; bz < g->bricks[2]; bz++) {
-        for (int bx = 0; bx < g->bricks[0]; bx++) {
-            for (int by = 0; by < g->bricks[1]; by++) {
-                float top = g->low.y + g->voxel * (float)(BRICK * (by + 1)) - g->base;
-                g->bound[((int64_t)bz * g->bricks[0] + bx) * g->bricks[1] + by] =
-                    g->extinction * gain_at(top / g->thickness) *
-                    clampf(top / g->rough.base, 0.0f, 1.0f) * densest(g, bx, by, bz);
-            }
-        }
-    }
-}
+// ---- contents ----
 
 static int64_t node_count(const CloudGrid *g)
 {
@@ -143,7 +80,9 @@ int64_t cloud_grid_bytes(const Cloud *cloud)
 {
     CloudGrid grid;
     describe(&grid, cloud, NULL);
-    return node_count(&grid) * (int64_t)sizeof *grid.node;
+    return node_count(&grid) * (int64_t)sizeof *grid.node +
+           cloud_grid_cells(&grid) * (int64_t)sizeof *grid.cell +
+           cloud_grid_cells(&grid) / 3 * (int64_t)sizeof *grid.part * PARTS * PARTS * PARTS;
 }
 
 bool cloud_grid_new(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail, uint64_t key,
@@ -156,26 +95,24 @@ bool cloud_grid_new(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail,
         return false;
     }
     g->node = memory_alloc(nodes, sizeof *g->node, e);
-    g->bound = memory_alloc(nodes / (BRICK * BRICK * BRICK), sizeof *g->bound, e);
-    if (!g->node || !g->bound) {
+    g->cell = memory_alloc(cloud_grid_cells(g), sizeof *g->cell, e);
+    if (!g->node || !g->cell) {
         return false;
     }
     for (int64_t i = 0; i < nodes; i++) {
         g->node[i] = (CloudNode){.distance = FARTHEST};
     }
-    if (!cloud_fill(g, cloud, key, run, e)) {
-        return false;
-    }
-    fill_bounds(g, run);
-    return true;
+    return cloud_fill(g, cloud, key, run, e) && cloud_bounds_fill(g, run, e);
 }
 
 void cloud_grid_clear(CloudGrid *g)
 {
     free(g->node);
-    free(g->bound);
+    free(g->cell);
+    free(g->part);
     g->node = NULL;
-    g->bound = NULL;
+    g->cell = NULL;
+    g->part = NULL;
 }
 
 // ---- looking up ----
@@ -218,49 +155,114 @@ static Coarse coarse_at(const CloudGrid *g, Vec3 p)
     return (Coarse){sum.inside * g->voxel / DISTANCE_STEPS, sum.softness / SOFTEST};
 }
 
-// Turned, so that the period of the detail is along no axis.
-static Vec3 turned(Vec3 p)
+const Vec3 cloud_grid_turned_cube = {1.64f, 1.72f, 1.4f};
+
+Vec3 cloud_grid_turned(Vec3 p)
 {
     return vec3(0.8f * p.x + 0.36f * p.y + 0.48f * p.z, -0.6f * p.x + 0.48f * p.y + 0.64f * p.z,
                 -0.8f * p.y + 0.6f * p.z);
 }
 
-// Extinction where detail has moved the border: inside and ragged (0 .. 2.8) are what it makes.
+// Extinction where detail has moved the border: inside and ragged (0 .. 2 + 2 RAGGED_SMALL) are
+// what it makes.
 static float profile(const CloudGrid *g, float above, float inside, float softness, float ragged)
 {
     const Roughness *r = &g->rough;
-    float share = clampf(inside / edge_at(r, softness), 0.0f, 1.0f);
-    float raised = clampf(above / r->base - 0.8f * ragged, 0.0f, 1.0f);
-    return g->extinction * gain_at(above / g->thickness) * raised * density_limit(softness) *
-           share * lerpf(1.0f, share, softness);
+    float share = unit_clamp(inside / edge_at(r, softness));
+    return g->extinction * gain_at(above / g->thickness) * raised_at(r, above, ragged) *
+           density_at(share, softness);
+}
+
+// A lookup in stages, each of which leaves less of the detail open.
+typedef struct Lookup {
+    float above;            // m over the base
+    float inside, softness; // m: of the border as far as it is known
+    float open;             // m: farthest that what is not looked up yet moves it
+    float ragged;
+} Lookup;
+
+static Lookup lookup_begin(const CloudGrid *g, Vec3 p)
+{
+    Coarse c = coarse_at(g, vec3_scale(vec3_sub(p, g->low), 1.0f / g->voxel));
+    return (Lookup){p.y - g->base, c.inside, c.softness, cloud_grid_reach(g, c.softness), 0.0f};
+}
+
+// Whether the border's detail makes no difference to the extinction.
+static bool decided(const CloudGrid *g, const Lookup *l)
+{
+    bool inner = l->inside >= edge_at(&g->rough, l->softness) + l->open;
+    return l->inside <= -l->open || (inner && l->above >= RAGGED_UP_TO * g->rough.base);
+}
+
+static void look_up_large(const CloudGrid *g, Vec3 q, Lookup *l)
+{
+    const Roughness *r = &g->rough;
+    float s = l->softness, billows = billows_at(s);
+    Detail large = detail_at(g->detail, vec3_scale(q, 1.0f / r->period[0]));
+    l->inside += billows * r->billow[0] * large.billow + s * r->wisp[0] * large.wisp;
+    l->open = billows * r->billow[1] + s * r->wisp[1];
+    l->ragged = 1.0f + large.wisp;
+}
+
+static void look_up_small(const CloudGrid *g, Vec3 q, Lookup *l)
+{
+    const Roughness *r = &g->rough;
+    float s = l->softness;
+    if (l->inside > -l->open && l->inside < edge_at(r, s) + l->open) {
+        Detail small = detail_at(g->detail, vec3_scale(q, 1.0f / r->period[1]));
+        l->inside += billows_at(s) * r->billow[1] * small.billow + s * r->wisp[1] * small.wisp;
+        l->ragged += RAGGED_SMALL * (1.0f + small.wisp);
+    }
+    l->open = 0.0f;
 }
 
 float cloud_grid_extinction(const CloudGrid *g, Vec3 p, bool fine)
 {
-    const Roughness *r = &g->rough;
-    float above = p.y - g->base;
-    if (above <= 0.0f) {
+    if (p.y <= g->base) {
         return 0.0f;
     }
-    Coarse c = coarse_at(g, vec3_scale(vec3_sub(p, g->low), 1.0f / g->voxel));
-    float s = c.softness, edge = edge_at(r, s), reach = cloud_grid_reach(g, s);
-    if (c.inside <= -reach) {
-        return 0.0f;
-    }
-    float billows = 1.0f + s * (SOFT_BILLOWS - 1.0f), inside = c.inside, ragged = 0.0f;
-    if (inside < edge + reach || above < 3.3f * r->base) {
-        Vec3 q = turned(p);
-        Detail large = detail_at(g->detail, vec3_scale(q, 1.0f / r->period[0]));
-        inside += billows * r->billow[0] * large.billow + s * r->wisp[0] * large.wisp;
-        ragged = 1.0f + large.wisp;
-        float rest = billows * r->billow[1] + s * r->wisp[1];
-        if (fine && inside > -rest && inside < edge + rest) {
-            Detail small = detail_at(g->detail, vec3_scale(q, 1.0f / r->period[1]));
-            inside += billows * r->billow[1] * small.billow + s * r->wisp[1] * small.wisp;
-            ragged += 0.4f * (1.0f + small.wisp);
+    Lookup l = lookup_begin(g, p);
+    if (!decided(g, &l)) {
+        Vec3 q = cloud_grid_turned(p);
+        look_up_large(g, q, &l);
+        if (fine) {
+            look_up_small(g, q, &l);
         }
     }
-    return profile(g, above, inside, s, ragged);
+    return profile(g, l.above, l.inside, l.softness, l.ragged);
+}
+
+// 1 or 0 where what is open cannot change it, else -1. gain: greatest extinction at the altitude.
+static int told(const CloudGrid *g, const Lookup *l, float gain, float level)
+{
+    float scale = 1.0f / edge_at(&g->rough, l->softness);
+    float high = unit_clamp((l->inside + l->open) * scale);
+    float low = unit_clamp((l->inside - l->open) * scale);
+    if (gain * density_at(high, l->softness) <= level) {
+        return 0;
+    }
+    bool level_base = l->above >= RAGGED_UP_TO * g->rough.base;
+    return level_base && gain * density_at(low, l->softness) > level ? 1 : -1;
+}
+
+bool cloud_grid_exceeds(const CloudGrid *g, Vec3 p, bool fine, float level)
+{
+    if (p.y <= g->base) {
+        return false;
+    }
+    Lookup l = lookup_begin(g, p);
+    float gain = g->extinction * gain_at(l.above / g->thickness);
+    int known = told(g, &l, gain, level);
+    if (known < 0 && !decided(g, &l)) {
+        Vec3 q = cloud_grid_turned(p);
+        look_up_large(g, q, &l);
+        l.open = fine ? l.open : 0.0f;
+        known = told(g, &l, gain, level);
+        if (known < 0 && fine) {
+            look_up_small(g, q, &l);
+        }
+    }
+    return known >= 0 ? known : profile(g, l.above, l.inside, l.softness, l.ragged) > level;
 }
 
 float cloud_grid_smooth(const CloudGrid *g, Vec3 p)
@@ -271,6 +273,7 @@ float cloud_grid_smooth(const CloudGrid *g, Vec3 p)
     if (above <= 0.0f || c.inside <= -reach) {
         return 0.0f;
     }
-    Detail large = detail_at(g->detail, vec3_scale(turned(p), 1.0f / g->rough.period[0]));
+    Detail large =
+        detail_at(g->detail, vec3_scale(cloud_grid_turned(p), 1.0f / g->rough.period[0]));
     return profile(g, above, c.inside + reach * large.billow, s, 1.4f);
 }

@@ -1,6 +1,6 @@
 // One entry of a scene's clouds as a field of extinction: a grid of signed distances to the cloud's
 // coarse form and of how soft its border is, which billows and wisps move where the field is looked
-// up; and the greatest extinction in each brick of the grid.
+// up; and the least and greatest extinction in the cells of a coarser grid and in parts of them.
 #ifndef RAMIFY_RENDER_CLOUD_CLOUD_GRID_H
 #define RAMIFY_RENDER_CLOUD_CLOUD_GRID_H
 
@@ -12,7 +12,10 @@
 #include <stdint.h>
 
 enum {
-    BRICK = 4,            // voxels along its side
+    CELL = 2,         // voxels along its side
+    PARTS = 4,        // of a cell where the extinction changes much, along its side
+    CELL_STEPS = 255, // of the greatest extinction
+    MOST_GAP = 32,
     NODES_ACROSS = 512,   // in x and z
     DISTANCE_STEPS = 256, // a voxel
     FARTHEST = -128 * DISTANCE_STEPS,
@@ -23,6 +26,18 @@ typedef struct CloudNode {
     int16_t distance; // inside the coarse form, in steps
     int16_t softness; // of the border, 0 .. SOFTEST
 } CloudNode;
+
+// Of the extinction, in steps.
+typedef struct CloudBounds {
+    uint8_t least, most;
+} CloudBounds;
+
+typedef struct CloudCell {
+    CloudBounds bounds;
+    uint8_t gap;   // cells to the nearest one with droplets, in the largest of the three
+                   // directions; 0 if most > 0, else 1 .. MOST_GAP
+    int32_t parts; // place of its PARTS^3 parts, times PARTS^3, z first, y last; -1 = alike
+} CloudCell;
 
 // How lookups shape the border. All in m; pairs: large and small.
 typedef struct Roughness {
@@ -36,10 +51,11 @@ typedef struct Roughness {
 typedef struct CloudGrid {
     Vec3 low;                  // m: position of node (0, 0, 0)
     float voxel;               // m
-    int count[3], bricks[3];   // nodes and bricks in x, y, z; multiples of BRICK
+    int count[3], cells[3];    // nodes and cells in x, y, z; multiples of CELL
     bool repeats;              // in x and z without end
     CloudNode *node;           // at cloud_grid_node; owned
-    float *bound;              // (z bricks_x + x) bricks_y + y: greatest extinction; owned
+    CloudCell *cell;           // at cloud_grid_cell; owned
+    CloudBounds *part;         // owned
     const DetailNoise *detail; // borrowed
     Roughness rough;
     float base, thickness, extinction;
@@ -50,18 +66,42 @@ bool cloud_grid_new(CloudGrid *grid, const Cloud *cloud, const DetailNoise *deta
                     const Run *run, Error *e);
 void cloud_grid_clear(CloudGrid *grid);
 
-int64_t cloud_grid_bytes(const Cloud *cloud); // that its nodes take
+int64_t cloud_grid_bytes(const Cloud *cloud); // that it takes, with parts in a third of the cells
 
 static inline int64_t cloud_grid_node(const CloudGrid *g, int x, int y, int z)
 {
     return ((int64_t)z * g->count[0] + x) * g->count[1] + y;
 }
 
+// -1 beyond a grid that does not repeat.
+static inline int64_t cloud_grid_cell(const CloudGrid *g, int x, int y, int z)
+{
+    if (g->repeats) { // cells across are a power of two
+        x &= g->cells[0] - 1;
+        z &= g->cells[2] - 1;
+    }
+    bool inside = (unsigned)x < (unsigned)g->cells[0] && (unsigned)z < (unsigned)g->cells[2] &&
+                  (unsigned)y < (unsigned)g->cells[1];
+    return inside ? ((int64_t)z * g->cells[0] + x) * g->cells[1] + y : -1;
+}
+
+static inline int64_t cloud_grid_cells(const CloudGrid *g)
+{
+    return (int64_t)g->cells[0] * g->cells[1] * g->cells[2];
+}
+
+// A place where its detail is looked up: turned, so that the period is along no axis.
+Vec3 cloud_grid_turned(Vec3 p);
+extern const Vec3 cloud_grid_turned_cube; // half the box around the cube -1 .. 1 when turned
+
 // Farthest from a coarse border of this softness that detail moves the cloud's, m.
 float cloud_grid_reach(const CloudGrid *grid, float softness);
 
 // Extinction at a place, 1/m. fine: with the small detail, too.
 float cloud_grid_extinction(const CloudGrid *grid, Vec3 p, bool fine);
+
+// Whether the extinction is greater than a level >= 0; looks no further than it takes to tell.
+bool cloud_grid_exceeds(const CloudGrid *grid, Vec3 p, bool fine, float level);
 
 // The same without wisps and small billows: what guides a denoiser must not be torn.
 float cloud_grid_smooth(const CloudGrid *grid, Vec3 p);

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "render/cloud/cloud_grid.h"
+#include "render/cloud/walk.h"
 
 #include <stdlib.h>
 
@@ -11,9 +12,6 @@ struct CloudSet {
     int count;
     CloudGrid grid[];
 };
-
-// m: no cloud is seen beyond, where the Earth's curve has hidden it.
-static const float REACH = 90000.0f;
 
 CloudSet *clouds_new(const Cloud *cloud, int count, uint64_t seed, const Run *run, Error *e)
 {
@@ -65,95 +63,6 @@ float clouds_extinction(const CloudSet *clouds, Vec3 p)
     return sum;
 }
 
-// ---- a walk through the bricks that a ray meets (Amanatides and Woo 1987) ----
-
-typedef struct Walk {
-    const CloudGrid *grid;
-    int brick[3], step[3];
-    float next[3], delta[3]; // m along the ray: to the next border, and between borders
-    float near, far;         // m: of the brick
-    float end;
-    float bound; // 1/m: of the brick
-} Walk;
-
-static inline float coordinate(Vec3 v, int axis)
-{
-    return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
-}
-
-// The part of the ray within the grid; false if there is none.
-static bool clip(const CloudGrid *g, const CloudRay *ray, float *near, float *far)
-{
-    *near = 0.0f;
-    *far = fminf(ray->far, REACH);
-    for (int axis = 0; axis < 3; axis++) {
-        if (g->repeats && axis != 1) {
-            continue;
-        }
-        float low = coordinate(g->low, axis), d = coordinate(ray->direction, axis);
-        float high = low + g->voxel * (float)g->count[axis], o = coordinate(ray->origin, axis);
-        if (d == 0.0f) {
-            if (o < low || o > high) {
-                return false;
-            }
-            continue;
-        }
-        float a = (low - o) / d, b = (high - o) / d;
-        *near = fmaxf(*near, fminf(a, b));
-        *far = fminf(*far, fmaxf(a, b));
-    }
-    return *near < *far;
-}
-
-static void enter(Walk *w)
-{
-    const CloudGrid *g = w->grid;
-    int x = w->brick[0], z = w->brick[2];
-    if (g->repeats) {
-        x &= g->bricks[0] - 1;
-        z &= g->bricks[2] - 1;
-    }
-    w->far = fminf(fminf(w->next[0], fminf(w->next[1], w->next[2])), w->end);
-    bool inside = (unsigned)x < (unsigned)g->bricks[0] && (unsigned)z < (unsigned)g->bricks[2] &&
-                  (unsigned)w->brick[1] < (unsigned)g->bricks[1];
-    w->bound =
-        inside ? g->bound[((int64_t)z * g->bricks[0] + x) * g->bricks[1] + w->brick[1]] : 0.0f;
-}
-
-static bool walk_begin(Walk *w, const CloudGrid *g, const CloudRay *ray)
-{
-    w->grid = g;
-    if (!clip(g, ray, &w->near, &w->end)) {
-        return false;
-    }
-    float side = g->voxel * BRICK;
-    for (int axis = 0; axis < 3; axis++) {
-        float d = coordinate(ray->direction, axis);
-        float o = coordinate(ray->origin, axis) - coordinate(g->low, axis);
-        w->brick[axis] = (int)floorf((o + w->near * d) / side);
-        w->step[axis] = d < 0.0f ? -1 : 1;
-        w->delta[axis] = d != 0.0f ? side / fabsf(d) : INFINITY;
-        float border = side * (float)(w->brick[axis] + (d < 0.0f ? 0 : 1));
-        w->next[axis] = d != 0.0f ? fmaxf((border - o) / d, w->near) : INFINITY;
-    }
-    enter(w);
-    return true;
-}
-
-static bool walk_on(Walk *w)
-{
-    if (w->far >= w->end) {
-        return false;
-    }
-    int axis = w->next[0] < w->next[1] ? 0 : 1;
-    axis = w->next[2] < w->next[axis] ? 2 : axis;
-    w->near = w->far;
-    w->brick[axis] += w->step[axis];
-    w->next[axis] += w->delta[axis];
-    enter(w);
-    return true;
-}
-
 // ---- tracking ----
 
 static float draw(uint64_t *key)
@@ -162,76 +71,59 @@ static float draw(uint64_t *key)
     return random_unit(*key);
 }
 
-// Tentative collisions with a grid along a ray, as frequent as its bricks' bounds say.
-typedef struct Flight {
-    const CloudRay *ray;
-    float scale;
-    uint64_t *key;
-    Walk walk;
-    float t, bound; // m, 1/m: of the last collision
-} Flight;
-
-static bool flight_begin(Flight *f, const CloudGrid *grid, const CloudRay *ray, float scale,
-                         uint64_t *key)
-{
-    *f = (Flight){.ray = ray, .scale = scale, .key = key};
-    bool meets = walk_begin(&f->walk, grid, ray);
-    f->t = f->walk.near;
-    return meets;
-}
-
-// Goes on to the next one; false when there is none.
-static bool flight_on(Flight *f)
-{
-    float depth = -logf(1.0f - draw(f->key));
-    do {
-        f->bound = f->walk.bound * f->scale;
-        f->t = fmaxf(f->t, f->walk.near);
-        float left = (f->walk.far - f->t) * f->bound;
-        if (depth < left) {
-            f->t += depth / f->bound;
-            return true;
-        }
-        depth -= left;
-    } while (walk_on(&f->walk));
-    return false;
-}
-
-// The probability that the tentative collision is a true one.
-static float flight_truth(const Flight *f)
-{
-    Vec3 p = vec3_madd(f->ray->origin, f->t, f->ray->direction);
-    return fminf(f->scale * cloud_grid_extinction(f->walk.grid, p, !f->ray->blurred) / f->bound,
-                 1.0f);
-}
-
+// Decomposition tracking (Kutz et al., "Spectral and Decomposition Tracking", SIGGRAPH 2017): what
+// a cell has at least collides without a look at the field.
 static float collide(const CloudGrid *grid, const CloudRay *ray, float scale, uint64_t *key)
 {
-    Flight flight;
-    bool flies = flight_begin(&flight, grid, ray, scale, key);
-    while (flies && flight_on(&flight)) {
-        if (draw(key) < flight_truth(&flight)) {
-            return flight.t;
-        }
+    Walk walk;
+    if (!walk_begin(&walk, grid, ray, false)) {
+        return INFINITY;
     }
+    float depth = -logf(1.0f - draw(key)); // to the next tentative collision
+    do {
+        float bound = walk.most * scale, t = walk.near;
+        while (depth < (walk.far - t) * bound) {
+            t += depth / bound;
+            float level = walk.most * draw(key);
+            Vec3 p = vec3_madd(ray->origin, t, ray->direction);
+            if (level < walk.least || cloud_grid_exceeds(grid, p, !ray->blurred, level)) {
+                return t;
+            }
+            depth = -logf(1.0f - draw(key));
+        }
+        depth -= (walk.far - t) * bound;
+    } while (walk_on(&walk));
     return INFINITY;
 }
 
-// Ratio tracking; what is nearly lost is played for.
+// Plays for what is nearly lost: the share becomes 0 or 1.
+static float play(float share, uint64_t *key)
+{
+    return share >= 0.2f ? share : (draw(key) < share ? 1.0f : 0.0f);
+}
+
+// Residual ratio tracking: what a cell has at least dims in closed form.
 static float pass(const CloudGrid *grid, const CloudRay *ray, float scale, uint64_t *key)
 {
-    Flight flight;
-    bool flies = flight_begin(&flight, grid, ray, scale, key);
-    float share = 1.0f;
-    while (flies && flight_on(&flight)) {
-        share *= 1.0f - flight_truth(&flight);
-        if (share < 0.2f) {
-            if (draw(key) >= share) {
-                return 0.0f;
-            }
-            share = 1.0f;
-        }
+    Walk walk;
+    if (!walk_begin(&walk, grid, ray, false)) {
+        return 1.0f;
     }
+    float share = 1.0f, depth = -logf(1.0f - draw(key));
+    do {
+        float rest = walk.most - walk.least, bound = rest * scale, t = walk.near;
+        if (walk.least > 0.0f) {
+            share = play(share * expf(-scale * walk.least * (walk.far - t)), key);
+        }
+        while (share > 0.0f && depth < (walk.far - t) * bound) {
+            t += depth / bound;
+            Vec3 p = vec3_madd(ray->origin, t, ray->direction);
+            float more = cloud_grid_extinction(grid, p, !ray->blurred) - walk.least;
+            share = play(share * (1.0f - clampf(more / rest, 0.0f, 1.0f)), key);
+            depth = -logf(1.0f - draw(key));
+        }
+        depth -= (walk.far - t) * bound;
+    } while (share > 0.0f && walk_on(&walk));
     return share;
 }
 
@@ -263,9 +155,9 @@ float clouds_pass(const CloudSet *clouds, const CloudRay *ray, float scale, uint
 static void see(const CloudGrid *grid, const CloudRay *ray, float *left, float *moment)
 {
     Walk walk;
-    bool more = walk_begin(&walk, grid, ray);
+    bool more = walk_begin(&walk, grid, ray, true);
     for (; more && *left > 0.02f; more = walk_on(&walk)) {
-        if (walk.bound <= 0.0f) {
+        if (walk.most <= 0.0f) {
             continue;
         }
         float step = fmaxf(0.4f * grid->voxel, 0.004f * walk.near);

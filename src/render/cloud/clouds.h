@@ -1,6 +1,6 @@
 // All clouds of a scene, and tracking through them with null collisions against the bounds of
-// bricks (Woodcock et al. 1965; Novak et al., "Residual Ratio Tracking", SIGGRAPH Asia 2014;
-// bricks: Szirmay-Kalos et al. 2011). Unbiased for the field as it is looked up.
+// cells (Woodcock et al. 1965; Novak et al., "Residual Ratio Tracking", SIGGRAPH Asia 2014;
+// cells: Szirmay-Kalos et al. 2011). Unbiased for the field as it is looked up.
 #ifndef RAMIFY_RENDER_CLOUD_CLOUDS_H
 #define RAMIFY_RENDER_CLOUD_CLOUDS_H
 

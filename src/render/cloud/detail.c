@@ -11,11 +11,19 @@ enum {
     OCTAVES = 3,
     MOST_CELLS = DETAIL_CELLS << (OCTAVES - 1),
     EDDY_CELLS = 3, // of the curl on the period
-    EDDY_SIDE = 32
+    EDDY_SIDE = 32,
+    BLOCK = 4, // texels along the side of a block with known bounds
+    BLOCKS = SIDE / BLOCK
 };
 
+typedef struct ByteRange {
+    uint8_t low[2], high[2]; // billow, wisp
+} ByteRange;
+
 struct DetailNoise {
-    uint8_t texel[SIDE][SIDE][SIDE][2]; // z, y, x: billow, wisp
+    uint8_t texel[SIDE][SIDE][SIDE][2];      // z, y, x: billow, wisp
+    ByteRange block[BLOCKS][BLOCKS][BLOCKS]; // of all that is interpolated in a block
+    ByteRange whole;
 };
 
 // A point of cell noise within its cell; distances to it count `weight` times when squared.
@@ -168,6 +176,76 @@ static uint8_t in_bytes(float value)
     return (uint8_t)lrintf(127.5f + 127.5f * value);
 }
 
+// ---- bounds ----
+
+static ByteRange empty_range(void)
+{
+    return (ByteRange){{255, 255}, {0, 0}};
+}
+
+static void unite(ByteRange *a, ByteRange b)
+{
+    for (int i = 0; i < 2; i++) {
+        a->low[i] = b.low[i] < a->low[i] ? b.low[i] : a->low[i];
+        a->high[i] = b.high[i] > a->high[i] ? b.high[i] : a->high[i];
+    }
+}
+
+static void fill_bounds(DetailNoise *n)
+{
+    enum { ACROSS = BLOCK + 1 }; // what lies in a block is interpolated with the next one's first
+    n->whole = empty_range();
+    for (int i = 0; i < BLOCKS * BLOCKS * BLOCKS; i++) {
+        int x = i % BLOCKS, y = i / BLOCKS % BLOCKS, z = i / (BLOCKS * BLOCKS);
+        ByteRange range = empty_range();
+        for (int k = 0; k < ACROSS * ACROSS * ACROSS; k++) {
+            const uint8_t *t =
+                n->texel[(z * BLOCK + k / (ACROSS * ACROSS)) & MASK]
+                        [(y * BLOCK + k / ACROSS % ACROSS) & MASK][(x * BLOCK + k % ACROSS) & MASK];
+            unite(&range, (ByteRange){{t[0], t[1]}, {t[0], t[1]}});
+        }
+        n->block[z][y][x] = range;
+        unite(&n->whole, range);
+    }
+}
+
+static float from_byte(int byte)
+{
+    return (float)byte * (1.0f / 127.5f) - 1.0f;
+}
+
+static DetailRange from_bytes(ByteRange r)
+{
+    return (DetailRange){{from_byte(r.low[0]), from_byte(r.low[1])},
+                         {from_byte(r.high[0]), from_byte(r.high[1])}};
+}
+
+DetailRange detail_range_whole(const DetailNoise *n)
+{
+    return from_bytes(n->whole);
+}
+
+DetailRange detail_range(const DetailNoise *n, Vec3 middle, Vec3 half)
+{
+    Vec3 a = vec3_scale(vec3_sub(middle, half), BLOCKS);
+    Vec3 b = vec3_scale(vec3_add(middle, half), BLOCKS);
+    if (vec3_largest(vec3_sub(b, a)) > BLOCKS / 2) {
+        return detail_range_whole(n);
+    }
+    ByteRange range = empty_range();
+    const int wrap = BLOCKS - 1;
+    for (int z = (int)floorf(a.z); z <= (int)floorf(b.z); z++) {
+        for (int y = (int)floorf(a.y); y <= (int)floorf(b.y); y++) {
+            for (int x = (int)floorf(a.x); x <= (int)floorf(b.x); x++) {
+                unite(&range, n->block[z & wrap][y & wrap][x & wrap]);
+            }
+        }
+    }
+    return from_bytes(range);
+}
+
+// ---- making ----
+
 DetailNoise *detail_new(uint64_t key, const Run *run, Error *e)
 {
     Tables *tables = memory_alloc(1, sizeof *tables, e);
@@ -189,6 +267,7 @@ DetailNoise *detail_new(uint64_t key, const Run *run, Error *e)
         }
     }
     free(tables);
+    fill_bounds(noise);
     return noise;
 }
 

@@ -24,4 +24,13 @@ void detail_free(DetailNoise *noise); // NULL is fine
 enum { DETAIL_CELLS = 6 };
 Detail detail_at(const DetailNoise *noise, Vec3 p);
 
+// Bounds of both.
+typedef struct DetailRange {
+    Detail low, high;
+} DetailRange;
+
+// Bounds in the box from middle - half to middle + half.
+DetailRange detail_range(const DetailNoise *noise, Vec3 middle, Vec3 half);
+DetailRange detail_range_whole(const DetailNoise *noise); // everywhere
+
 #endif
