@@ -8,6 +8,7 @@
 #include "render/cloud/clouds.h"
 #include "render/filter.h"
 #include "render/light/lights.h"
+#include "render/medium/droplets.h"
 #include "render/sampler.h"
 #include "render/world.h"
 
@@ -23,6 +24,7 @@ typedef struct Tracer {
     bool has_index_matched; // some part is an index-matched interface
     bool has_glow;          // lamps, or parts that glow
     const CloudSet *clouds; // NULL = none
+    DropletPhase droplets;  // of clouds
     float cloud_haze;       // m over which distance fades clouds to 1 / e
     CameraFrame camera;
     Filter filter;

@@ -1,9 +1,9 @@
 // A path among clouds: droplets scatter nearly straight on, dozens of times before light leaves.
 //
 // The first scattering events are nature's. With each, the phase function widens and the extinction
-// shrinks, so that extinction x (1 - g) stays (similarity: Zhao, Ramamoorthi and Bala, "High-Order
-// Similarity Relations in Radiative Transfer", SIGGRAPH 2014): what forward scattering no longer
-// changes is not traced. Droplets absorb nothing of visible light.
+// shrinks, so that extinction x (1 - mean cosine) stays (similarity: Zhao, Ramamoorthi and Bala,
+// "High-Order Similarity Relations in Radiative Transfer", SIGGRAPH 2014): what forward scattering
+// no longer changes is not traced. Droplets absorb nothing of visible light.
 #include "render/path.h"
 
 #include "base/random.h"
@@ -15,17 +15,18 @@ enum {
     MOST_ORDERS = 256, // scatterings of a path that the camera sees; what is lost is below 1 %
     MOST_ORDERS_DIFFUSE = 96
 };
-static const float DROPLET_ANISOTROPY = 0.86f; // visible light, radii of 5 to 15 um
 
-static float anisotropy_at(int order)
+static DropletPhase phase_at(const Tracer *tracer, int order)
 {
-    int left = ORDERS - order;
-    return left > 0 ? DROPLET_ANISOTROPY * (float)left / ORDERS : 0.0f;
+    int left = order < ORDERS ? ORDERS - order : 0;
+    return droplet_phase_widened(&tracer->droplets, (float)left / ORDERS);
 }
 
-static float extinction_scale(int order)
+static float extinction_scale(const Tracer *tracer, int order)
 {
-    return (1.0f - DROPLET_ANISOTROPY) / (1.0f - anisotropy_at(order));
+    DropletPhase phase = phase_at(tracer, order);
+    return (1.0f - droplet_phase_mean_cosine(&tracer->droplets)) /
+           (1.0f - droplet_phase_mean_cosine(&phase));
 }
 
 void path_leave_diffusely(Path *path)
@@ -40,7 +41,8 @@ float path_pass_clouds(Path *path, const Ray *ray)
         return 1.0f;
     }
     CloudRay part = {ray->origin, ray->direction, ray->far, path->cloud_order >= ORDERS};
-    return clouds_pass(clouds, &part, extinction_scale(path->cloud_order), &path->cloud_key);
+    return clouds_pass(clouds, &part, extinction_scale(path->tracer, path->cloud_order),
+                       &path->cloud_key);
 }
 
 // The side from which the clouds along a camera ray get thinner, weighted by how much they hide.
@@ -82,7 +84,8 @@ float path_meet_cloud(Path *path, float far)
         return INFINITY;
     }
     CloudRay part = {path->ray.origin, path->ray.direction, far, path->cloud_order >= ORDERS};
-    float t = clouds_collide(clouds, &part, extinction_scale(path->cloud_order), &path->cloud_key);
+    float t = clouds_collide(clouds, &part, extinction_scale(path->tracer, path->cloud_order),
+                             &path->cloud_key);
     if (path->straight && (t < INFINITY || far == INFINITY)) { // else a surface has a normal
         note_cloud(path, far);
     }
@@ -98,7 +101,8 @@ static void sample_light(Path *path, Vec3 point, const float u[4])
         return;
     }
     float cosine = vec3_dot(path->ray.direction, light.direction);
-    float phase = phase_density(anisotropy_at(path->cloud_order), cosine);
+    DropletPhase droplets = phase_at(tracer, path->cloud_order);
+    float phase = droplet_phase_density(&droplets, cosine);
     Ray shadow = {
         .origin = point, .direction = light.direction, .far = INFINITY, .key = path->key++};
     path_aim(&shadow, &light);
@@ -132,9 +136,9 @@ Travel path_scatter_in_cloud(Path *path, float t)
     sampler_draw(&path->sampler, set, u);
     sampler_draw(&path->sampler, set + 1, v);
     sample_light(path, point, u);
-    float g = anisotropy_at(path->cloud_order);
-    Vec3 direction = phase_draw(g, path->ray.direction, v[0], v[1]);
-    float phase = phase_density(g, vec3_dot(path->ray.direction, direction));
+    DropletPhase droplets = phase_at(tracer, path->cloud_order);
+    Vec3 direction = droplet_phase_draw(&droplets, path->ray.direction, v[0], v[1]);
+    float phase = droplet_phase_density(&droplets, vec3_dot(path->ray.direction, direction));
     path->bsdf_pdf = lights_can_sample(tracer->lights) ? phase : 0.0f;
     path->start = point;
     path->travelled = 0.0f;

@@ -145,6 +145,9 @@ static float cloud_haze(const Sky *sky)
     return 110e3f / fmaxf(sky->turbidity, 1.0f);
 }
 
+// um: of droplets in clouds; 10 to 30 (Miles, Verlinde and Clothiaux 2000).
+static const float CLOUD_DROPLET = 20.0f;
+
 static void fill_tracer(Tracer *tracer, const Renderer *renderer)
 {
     const World *world = renderer->world;
@@ -153,6 +156,7 @@ static void fill_tracer(Tracer *tracer, const Renderer *renderer)
     tracer->accel = renderer->accel;
     tracer->lights = renderer->lights;
     tracer->clouds = renderer->clouds;
+    tracer->droplets = droplet_phase(CLOUD_DROPLET);
     tracer->cloud_haze = cloud_haze(&world->sky);
     tracer->materials = renderer->materials;
     tracer->camera = camera_frame(&world->camera, world->film.width, world->film.height);
