@@ -241,18 +241,18 @@ static bool fill_bedrock(const HeightField *field, HeightField *out)
     return field->loose;
 }
 
-// As the pattern alps draws it with the snow line of its built-in material: far below the line only
-// level hollows hold snow, far above it all but walls do.
+// As the pattern alps draws it, without its noise: near the line only gentle slopes hold snow, far
+// above it all but walls do.
 static bool fill_snow(const HeightField *field, HeightField *out)
 {
-    const float line = 0.56f;
     for (int64_t i = 0; i < height_field_count(field) && field->climate; i++) {
         Around around = look_around(field, (int)(i % field->columns), (int)(i / field->columns));
         float slope = steepness(gradient(field, &around));
-        float upright = 1.0f / sqrtf(1.0f + slope * slope), cold = field->climate[i] - line;
-        float least = lerpf(0.82f, 0.50f, smoothstepf(-0.05f, 0.25f, cold));
+        float upright = 1.0f / sqrtf(1.0f + slope * slope),
+              cold = field->climate[i] - HEIGHT_MAP_SNOW_LINE;
+        float least = lerpf(0.80f, 0.46f, smoothstepf(-0.04f, 0.22f, cold));
         out->height[i] =
-            smoothstepf(-0.015f, 0.02f, cold) * smoothstepf(least, least + 0.06f, upright);
+            smoothstepf(-0.015f, 0.02f, cold) * smoothstepf(least - 0.02f, least + 0.05f, upright);
     }
     return field->climate;
 }

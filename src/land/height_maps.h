@@ -42,6 +42,10 @@ enum {
 enum { HEIGHT_MAP_SIDE = 1024 };  // samples a side of a surface that is no height field
 #define HEIGHT_MAP_LATITUDE 45.0f // degrees, where none is given
 
+// Where snow lies: above this share of the relief, as snow feels the altitude
+// (HeightField.climate). Also the snow line of the material terrain/alps.
+#define HEIGHT_MAP_SNOW_LINE 0.47f
+
 typedef struct HeightMap {
     int kind;       // HEIGHT_MAP_*
     float latitude; // degrees, of sun-hours

@@ -249,6 +249,26 @@ static void what_is_laid_less_what_is_worn_is_the_change(void **state)
     height_field_free(field);
 }
 
+// Level land that ever higher snow feels: none below the line, all above it.
+static void snow_lies_above_its_line(void **state)
+{
+    (void)state;
+    HeightField *field = make(level);
+    field->climate = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
+    for (int i = 0; i < COLUMNS * ROWS; i++) {
+        field->climate[i] = (float)i / (float)(COLUMNS * ROWS);
+    }
+    HeightField *map = map_of(field, "snow");
+    for (int i = 0; i < COLUMNS * ROWS; i++) {
+        float above = field->climate[i] - HEIGHT_MAP_SNOW_LINE, share = map->height[i];
+        assert_true(share >= 0.0f && share <= 1.0f);
+        assert_true(above > -0.016f || share == 0.0f);
+        assert_true(above < 0.021f || share == 1.0f);
+    }
+    height_field_free(map);
+    height_field_free(field);
+}
+
 static void land_without_records_has_no_maps_of_them(void **state)
 {
     (void)state;
@@ -301,6 +321,7 @@ int main(void)
         cmocka_unit_test(missing_land_is_missing_in_maps),
         cmocka_unit_test(only_maps_have_names),
         cmocka_unit_test(what_is_laid_less_what_is_worn_is_the_change),
+        cmocka_unit_test(snow_lies_above_its_line),
         cmocka_unit_test(land_without_records_has_no_maps_of_them),
         cmocka_unit_test(a_mesh_is_seen_from_above),
     };

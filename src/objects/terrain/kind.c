@@ -1,5 +1,6 @@
 // Terrain as a kind of object.
 #include "objects/kind.h"
+#include "land/height_maps.h"
 #include "objects/terrain/terrain.h"
 #include "render/material/material.h"
 
@@ -98,7 +99,7 @@ static const Material BUILTIN[] = {
      .ior = 1.5f,
      .pattern = PATTERN_ALPS,
      .pattern_depth = 1.8f,
-     .snow_line = 0.47f,
+     .snow_line = HEIGHT_MAP_SNOW_LINE,
      .grass_line = 0.47f},
     {.name = "terrain/strata",
      .kind = MATERIAL_DIFFUSE,
