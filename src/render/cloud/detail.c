@@ -229,7 +229,7 @@ DetailRange detail_range(const DetailNoise *n, Vec3 middle, Vec3 half)
 {
     Vec3 a = vec3_scale(vec3_sub(middle, half), BLOCKS);
     Vec3 b = vec3_scale(vec3_add(middle, half), BLOCKS);
-    if (vec3_largest(vec3_sub(b, a)) > BLOCKS / 2) {
+    if (2.0f * vec3_largest(vec3_sub(b, a)) > BLOCKS) {
         return detail_range_whole(n);
     }
     ByteRange range = empty_range();
