@@ -115,7 +115,10 @@ static void enter_cell(Walk *w)
     const CloudGrid *g = w->grid;
     const int *at = w->cells.at;
     int64_t place = cloud_grid_cell(g, at[0], at[1], at[2]);
-    CloudCell cell = place < 0 ? (CloudCell){.parts = -1} : g->cell[place];
+    CloudCell cell = {.parts = -1};
+    if (place >= 0) {
+        cell = g->cell[place];
+    }
     if (cell.gap > 1) {
         leap(w, cell.gap - 1);
     }
