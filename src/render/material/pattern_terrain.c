@@ -143,7 +143,11 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
     // Water and dust darken faces along the chutes.
     g.color = vec3_scale(g.color, 1.0f - 0.35f * smoothstepf(0.1f, 0.6f, chutes.value));
     g.slope = vec3_madd(g.slope, 0.04f * scale, chutes.slope);
-    float lies = smoothstepf(0.62f, 0.78f, upright + 0.08f * ragged) *
+    // Buttresses and ribs: broken steps of tens of metres that the mesh is too coarse for.
+    PatternOctaves steps = pattern_octaves(point, 0.35f * scale, 6, 0.7f, 0.5f, 187);
+    g.slope = vec3_madd(g.slope, 0.10f * scale, steps.slope);
+    g.color = vec3_scale(g.color, clampf(1.0f + 0.35f * steps.value, 0.55f, 1.45f));
+    float lies = smoothstepf(0.72f, 0.84f, upright + 0.10f * ragged) *
                  smoothstepf(0.12f, 0.4f, loose + 0.25f * ragged);
     Ground other = scree(m, point, shade->color, scale);
     other.color = vec3_scale(other.color, 1.0f + 0.18f * chutes.value);
