@@ -1,10 +1,10 @@
 // GeoTIFF through GDAL 3, encoded in memory. Part of the plug-in ramify-gdal.so.
+#include "land/gdal_internal.h"
+
 #include <gdal/cpl_vsi.h>
-#include <gdal/gdal.h>
 #include <gdal/ogr_srs_api.h>
 
 #include <cmath>
-#include <memory>
 #include <new>
 #include <vector>
 
@@ -18,20 +18,6 @@ namespace
 const char *const NAME = "/vsimem/land.tif";
 const char *const LOCAL = "LOCAL_CS[\"local, in metres\",UNIT[\"metre\",1],"
                           "AXIS[\"x\",EAST],AXIS[\"y\",NORTH]]";
-
-struct Closer {
-    void operator()(GDALDatasetH set) const
-    {
-        GDALClose(set);
-    }
-};
-using Dataset = std::unique_ptr<void, Closer>;
-
-bool fail(Error *e, const char *what)
-{
-    const char *why = CPLGetLastErrorMsg();
-    return error_set(e, ERROR_IO, "%s%s%s", what, why[0] ? ": " : "", why);
-}
 
 bool give_place(GDALDatasetH set, const HeightField *field)
 {
@@ -71,15 +57,15 @@ bool encode(const GeoTiffJob *job, Error *e)
 {
     GDALDriverH driver = GDALGetDriverByName("GTiff");
     const char *const options[] = {"COMPRESS=DEFLATE", "PREDICTOR=3", nullptr};
-    Dataset set(driver ? GDALCreate(driver, NAME, job->field->columns, job->field->rows, 1,
-                                    GDT_Float32, const_cast<char **>(options))
-                       : nullptr);
+    gdal::Dataset set(driver ? GDALCreate(driver, NAME, job->field->columns, job->field->rows, 1,
+                                          GDT_Float32, const_cast<char **>(options))
+                             : nullptr);
     if (!set || !give_place(set.get(), job->field) || !give_heights(set.get(), job)) {
-        return fail(e, "GDAL cannot encode it");
+        return gdal::fail(e, ERROR_IO, "GDAL cannot encode it");
     }
     CPLErrorReset();
     set.reset();
-    return CPLGetLastErrorType() < CE_Failure || fail(e, "GDAL cannot complete it");
+    return CPLGetLastErrorType() < CE_Failure || gdal::fail(e, ERROR_IO, "GDAL cannot complete it");
 }
 
 bool write_job(const void *data, ChildOutput *output, Error *e)
@@ -91,7 +77,7 @@ bool write_job(const void *data, ChildOutput *output, Error *e)
         }
         const GByte *bytes = VSIGetMemFileBuffer(NAME, &size, FALSE);
         return bytes ? child_write(output, bytes, static_cast<int64_t>(size), 1, e)
-                     : fail(e, "GDAL has encoded nothing");
+                     : gdal::fail(e, ERROR_IO, "GDAL has encoded nothing");
     } catch (const std::bad_alloc &) {
         return error_set(e, ERROR_MEMORY, "out of memory for a GeoTIFF");
     } catch (...) {
@@ -99,18 +85,9 @@ bool write_job(const void *data, ChildOutput *output, Error *e)
     }
 }
 
-// As survey_gdal.cpp: once, by the parent.
-void start()
-{
-    if (GDALGetDriverCount() == 0) {
-        CPLSetErrorHandler(CPLQuietErrorHandler);
-        GDALAllRegister();
-    }
-}
-
 } // namespace
 
 extern "C" {
 extern const GeoTiffCodec geotiff_codec_gdal;
-const GeoTiffCodec geotiff_codec_gdal = {sizeof(GeoTiffCodec), start, write_job};
+const GeoTiffCodec geotiff_codec_gdal = {sizeof(GeoTiffCodec), gdal::start, write_job};
 }

@@ -1,13 +1,13 @@
 // Rasters of heights through GDAL 3. Part of the plug-in ramify-gdal.so.
+#include "land/gdal_internal.h"
+
 #include <gdal/cpl_conv.h>
-#include <gdal/gdal.h>
 #include <gdal/ogr_srs_api.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <new>
 #include <string>
 #include <vector>
@@ -22,20 +22,6 @@ namespace
 {
 
 const double PI = 3.14159265358979323846;
-
-struct Closer {
-    void operator()(GDALDatasetH set) const
-    {
-        GDALClose(set);
-    }
-};
-using Dataset = std::unique_ptr<void, Closer>;
-
-bool fail(Error *e, const char *what)
-{
-    const char *why = CPLGetLastErrorMsg();
-    return error_set(e, ERROR_INPUT, "%s%s%s", what, why[0] ? ": " : "", why);
-}
 
 // Metres of a degree of longitude and of latitude on the ellipsoid WGS 84.
 void degree_lengths(double latitude, double length[2])
@@ -119,7 +105,7 @@ bool read_heights(GDALRasterBandH band, const SurveyHeader &header, std::vector<
     if (GDALRasterIOEx(band, GF_Read, 0, 0, GDALGetRasterBandXSize(band),
                        GDALGetRasterBandYSize(band), height.data(), header.columns, header.rows,
                        GDT_Float32, 0, 0, &options) != CE_None) {
-        return fail(e, "its heights cannot be read");
+        return gdal::fail(e, ERROR_INPUT, "its heights cannot be read");
     }
     convert(band, height);
     return true;
@@ -154,10 +140,10 @@ bool send(ChildOutput *output, const SurveyHeader &header, const std::string &re
 
 bool read_raster(const SurveyJob *job, ChildOutput *output, Error *e)
 {
-    Dataset set(
+    gdal::Dataset set(
         GDALOpenEx(job->file, GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
     if (!set) {
-        return fail(e, "GDAL knows no raster in it");
+        return gdal::fail(e, ERROR_INPUT, "GDAL knows no raster in it");
     }
     int bands = GDALGetRasterCount(set.get());
     if (job->band > bands) {
@@ -192,18 +178,9 @@ bool read_job(const void *data, ChildOutput *output, Error *e)
     }
 }
 
-// Drivers are registered once, by the parent: the child may not load what they need.
-void start()
-{
-    if (GDALGetDriverCount() == 0) {
-        CPLSetErrorHandler(CPLQuietErrorHandler);
-        GDALAllRegister();
-    }
-}
-
 } // namespace
 
 extern "C" {
 extern const SurveyCodec survey_codec_gdal;
-const SurveyCodec survey_codec_gdal = {sizeof(SurveyCodec), start, read_job};
+const SurveyCodec survey_codec_gdal = {sizeof(SurveyCodec), gdal::start, read_job};
 }
