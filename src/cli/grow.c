@@ -11,7 +11,7 @@
 static void print_trees(const RamifyScene *scene, RamifyTree *const *trees, double seconds)
 {
     for (int i = 0; i < ramify_scene_object_count(scene); i++) {
-        if (trees[i]) {
+        if (trees[i] && ramify_tree_count(trees[i]) > 0) { // land may have no rivers
             float low[3], high[3];
             ramify_tree_bounds(trees[i], low, high);
             fprintf(stderr, "%s: %" PRId64 " nodes, %.2f x %.2f x %.2f m, hash %016" PRIx64 "\n",
