@@ -59,8 +59,9 @@ static Vec2 across_river(const HeightField *field, const Drainage *drainage, int
     for (int k = 0; k < ALONG; k++) {
         end = drainage->receiver[end];
     }
-    float dx = (float)(end % field->columns - sample % field->columns);
-    float dz = (float)(end / field->columns - sample / field->columns);
+    int64_t columns = end % field->columns - sample % field->columns;
+    int64_t rows = end / field->columns - sample / field->columns;
+    float dx = (float)columns, dz = (float)rows;
     float length = sqrtf(dx * dx + dz * dz);
     return length >= 0.5f * ALONG ? (Vec2){-dz / length, dx / length} : (Vec2){0, 0};
 }
@@ -86,7 +87,8 @@ bool valley_profile_exponent(const HeightField *field, const Drainage *drainage,
         if (drainage->area[i] < least_area) {
             continue;
         }
-        Vec2 at = {(float)(i % field->columns), (float)(i / field->columns)};
+        int64_t column = i % field->columns, row = i / field->columns;
+        Vec2 at = {(float)column, (float)row};
         Vec2 across = across_river(field, drainage, i), back = {-across.x, -across.y};
         double sides[2] = {side_exponent(&s, at, across), side_exponent(&s, at, back)};
         for (int k = 0; k < 2; k++) {

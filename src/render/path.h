@@ -57,9 +57,9 @@ typedef struct Path {
     int depth;       // bounces so far
     int stretches;   // of rays through media so far
     int crossings;   // of index-matched interfaces
-    int cloud_order; // how far the phase function of droplets has widened: scatterings by them
-    bool in_cloud;   // scattered by a droplet since the last surface
     uint64_t cloud_key; // state of the random numbers that track through clouds
+    int cloud_order;    // how far the phase function of droplets has widened: scatterings by them
+    bool in_cloud;      // scattered by a droplet since the last surface
     bool mirrored;      // only mirror reflections since the camera
     bool straight;      // only films and index-matched interfaces since the camera
     int64_t rays;

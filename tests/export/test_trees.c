@@ -105,11 +105,12 @@ static HeightField *make_land(Vec2 cell)
 static void esri_grids_read_back_to_the_same_bits(void **state)
 {
     (void)state;
+    Run run = run_default();
     const Vec2 cells[] = {{2.5f, 2.5f}, {2.0f, 0.3f}};
     for (int k = 0; k < 2; k++) {
         Error e = {0};
         HeightField *field = make_land(cells[k]);
-        assert_true(export_height_field(field, "land.asc", &e));
+        assert_true(export_height_field(field, "land.asc", &run, &e));
         HeightField *back = height_field_read_asc("land.asc", &e);
         assert_non_null(back);
         assert_int_equal(back->columns, 7);
@@ -127,8 +128,9 @@ static void esri_grids_read_back_to_the_same_bits(void **state)
 static void esri_grids_lie_where_the_land_lies(void **state)
 {
     (void)state;
+    Run run = run_default();
     HeightField *field = make_land((Vec2){2.5f, 2.5f});
-    assert_true(export_height_field(field, "place.asc", NULL));
+    assert_true(export_height_field(field, "place.asc", &run, NULL));
     FILE *stream = fopen("place.asc", "r");
     assert_non_null(stream);
     double x, y;
@@ -142,9 +144,10 @@ static void esri_grids_lie_where_the_land_lies(void **state)
 static void other_endings_are_refused(void **state)
 {
     (void)state;
+    Run run = run_default();
     Error e = {0};
     HeightField *field = make_land((Vec2){1, 1});
-    assert_false(export_height_field(field, "land.obj", &e));
+    assert_false(export_height_field(field, "land.obj", &run, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     height_field_free(field);
 }
