@@ -145,7 +145,7 @@ static double value(const MeasureList *list, const char *name)
 static void alps_keep_their_promises(void **state)
 {
     (void)state;
-    for (uint64_t seed = 1; seed <= 3; seed++) {
+    for (uint64_t seed = 1; seed <= 2; seed++) {
         MeasureList list = {0}, old = {0};
         HeightField *field = heights(seed, 2, 0.0f, 1.0f, &list);
         float low, high;

@@ -491,8 +491,8 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
         }
     }
     make_terraces(field, &params->terraces, random_key(terrain->seed, STREAM_TERRACES));
-    if (params->form == TERRAIN_ALPS) {
-        return terrain_find_climate(params, field, run, e);
+    if (params->form == TERRAIN_ALPS) { // sampling leaves pits in the flat floors of valleys
+        return height_field_fill(field, 1e-4f, e) && terrain_find_climate(params, field, run, e);
     }
     if (terrain_evolves(params)) {
         return terrain_lay_rivers(terrain, field, run, e);
