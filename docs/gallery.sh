@@ -177,6 +177,7 @@ fi
 still mountains mountains
 still badlands badlands
 still canyon canyon
+still alps alps
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
         panel terrain-noise --size 800x450 --set objects.noise.terrain.noise.iterations=$iterations
