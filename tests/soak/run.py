@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 WARM_UP = 0.2  # of the stills: caches, threads' stacks and arenas of malloc fill
 HEAP_SLACK = 64 << 10  # bytes that the allocated memory may have grown by: what a scene is the first to need
 LEAK = 512  # bytes of each still that the allocated memory may have grown by further
-RSS_SLACK = 0.05  # share by which the process may have grown: malloc's free lists shift
+RSS_SLACK = 0.05  # share by which the process's floor may have risen: malloc's free lists shift, and large scenes stretch them
 AT_ONCE = 100
 SECONDS = 600
 
@@ -37,10 +37,10 @@ def in_one_process(soak, scenes, folder):
     rows = rows[int(WARM_UP * len(rows)):]
     part = max(1, len(rows) // 4)
     heap = [statistics.median(row[1] for row in rows[a:b]) for a, b in ((0, part), (-part, None))]
-    rss = [statistics.median(row[2] for row in rows[a:b]) for a, b in ((0, part), (-part, None))]
+    rss = [min(row[2] for row in rows[a:b]) for a, b in ((0, part), (-part, None))]
     print(f"in one process: {len(scenes) - refused} stills, {refused} refused, {time.monotonic() - start:.0f} s; after the "
           f"warm-up, first and last quarter: {heap[0] / 1e6:.3f} and {heap[1] / 1e6:.3f} MB allocated, "
-          f"{rss[0] / 1e6:.1f} and {rss[1] / 1e6:.1f} MB resident")
+          f"at least {rss[0] / 1e6:.1f} and {rss[1] / 1e6:.1f} MB resident")
     wrong = [] if status == 0 else [f"exit status {status}"]
     wrong += [f"files are left: {left}"] if left not in (["x.png"], []) else []
     between = len(rows) - part  # stills from the middle of the first quarter to that of the last
