@@ -182,12 +182,13 @@ no film_clears_up [ -e k.mp4.frames ]
 
 # A frame that takes long goes on with the samples it had, after Ctrl-C and after a kill.
 slow="$RAMIFY turntable scene.yaml --frames 2 --samples 600 --size 96x72 --checkpoint 0.1 -o l/f-%d.png"
-stop_frame() { # stop_frame SIGNAL: while frame 0 is being traced
+stop_frame() { # stop_frame SIGNAL: while frame 0 is being traced, after it was saved by this run
     mkdir -p l
+    touch started
     setsid sh -c 'exec "$@"' sh $slow -q 2>err &
     child=$!
     tries=0
-    while [ ! -e l/f-0.begun.exr ] && [ $tries -lt 1200 ]; do sleep 0.05; tries=$((tries + 1)); done
+    until [ l/f-0.begun.exr -nt started ] || [ $tries -ge 1200 ]; do sleep 0.05; tries=$((tries + 1)); done
     kill "-$1" $child
     wait $child
 }
