@@ -18,7 +18,7 @@ typedef struct CoarseMesh {
     float error; // m in the mesh's space: size of what is left out
 } CoarseMesh;
 
-enum { PART_COARSE_MOST = 2 };
+enum { PART_COARSE_MOST = 3 };
 
 // One mesh or curve set, drawn once (instance_count 0, in world space) or at every instance.
 typedef struct Part {

@@ -105,7 +105,7 @@ static void coarse_forms_keep_the_area_with_fewer_quads(void **state)
         form[i].petiole = 0.0f;
         Mesh *fine = leaf_mesh_new(&form[i], 7, NULL);
         double least, whole = area(fine, &least), before = (double)fine->face_count;
-        for (int level = 0; level < LEAF_COARSE_LEVELS; level++) {
+        for (int level = 0; level < leaf_coarse_levels(&form[i]); level++) {
             float error = 0.0f;
             Mesh *mesh = leaf_mesh_coarse(&form[i], 7, level, &error, NULL);
             assert_non_null(mesh);

@@ -1,5 +1,9 @@
 // Scattering: places keep to what the parameters allow, and every copy is an instance.
+#include "base/memory.h"
+#include "base/random.h"
 #include "mesh/ball.h"
+#include "mesh/leaf/leaf.h"
+#include "objects/common/instanced.h"
 #include "objects/kinds.h"
 #include "objects/scatter/scatter.h"
 #include "objects/stone/stone.h"
@@ -270,6 +274,63 @@ static void copies_every_thing(void **state)
     geometry_clear(&geometry);
 }
 
+// A branchlet as a spruce's: 14 side shoots with about 2600 needles in all.
+static Part sprays(int64_t count)
+{
+    const LeafParams form = {.shape = LEAF_NEEDLES,
+                             .length = 0.018f,
+                             .width = 0.0016f,
+                             .needles = 800,
+                             .needle_angle = 58.0f,
+                             .side_shoots = 14,
+                             .shoot = 0.5f,
+                             .comb = 0.6f,
+                             .curl = 25.0f};
+    Part part = {.kind = PART_MESH, .mesh = leaf_mesh_new(&form, 3, NULL)};
+    for (int i = 0; i < leaf_coarse_levels(&form); i++) {
+        part.coarse[i].mesh = leaf_mesh_coarse(&form, 3, i, &part.coarse[i].error, NULL);
+    }
+    part.instance = memory_alloc(count, sizeof *part.instance, NULL);
+    for (int64_t i = 0; i < count; i++) {
+        uint64_t key = random_key(1, (uint64_t)i);
+        Vec3 p = vec3_scale(random_direction(random_key(key, 1)), 5.0f);
+        part.instance[i] = transform_from_axes(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), p);
+    }
+    part.instance_count = count;
+    return part;
+}
+
+// A conifer's copy has as many sprays of the same size as the tree, each of fewer faces. When they
+// were fewer and larger instead, trees lost their tiers and tops.
+static void many_sprays_keep_their_size(void **state)
+{
+    (void)state;
+    enum { SPRAYS = 50000, FACES = 1000000 };
+    Geometry model = {0}, geometry = {0};
+    assert_true(geometry_add(&model, sprays(SPRAYS), NULL));
+    const Mesh *fine = model.part[0].mesh;
+    Aabb one = mesh_bounds(fine);
+    assert_true(fine->face_count > 4000);
+    Transform place =
+        transform_from_axes(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(0, 0, 0));
+    Instanced how = {.place = &place, .count = 1, .most_leaves = SPRAYS, .most_faces = FACES};
+    Run run = run_default();
+    Recipe recipe = {.seed = 9, .run = &run};
+    Placing placing = {.recipe = &recipe, .geometry = &geometry};
+    assert_true(instanced_add(&model, &how, &placing, NULL));
+    int64_t faces = 0;
+    Aabb box = aabb_empty();
+    for (int64_t i = 0; i < geometry.count; i++) {
+        faces += geometry.part[i].mesh->face_count;
+        box = aabb_union(box, mesh_bounds(geometry.part[i].mesh));
+    }
+    assert_in_range(faces, 10 * SPRAYS, FACES);
+    assert_true(box.high.y < 5.0f + one.high.y + 0.02f && box.low.y > -5.0f + one.low.y - 0.06f);
+    assert_true(box.high.x < 5.0f + one.high.x + 0.06f);
+    geometry_clear(&model);
+    geometry_clear(&geometry);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -281,6 +342,7 @@ int main(void)
         cmocka_unit_test(land_of_one_slope_meets_its_range_alone),
         cmocka_unit_test(copies_become_fewer_beyond_a_range),
         cmocka_unit_test(copies_every_thing),
+        cmocka_unit_test(many_sprays_keep_their_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

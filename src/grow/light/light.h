@@ -30,6 +30,7 @@ typedef struct LightParams {
     int buds;            // side buds at a node
     int whorl;           // side buds stand at the end of a season's shoot alone, so many on the
                          // stem; 0 = at every node
+    float between;       // chance of a side bud at a node between whorls
     Vec3 tropism;        // pull along LightSite.up on the direction of each new metamer
     float phototropism;  // pull toward the brightest part of the sky
     float zigzag;        // degrees by which a season's shoot turns aside from the last

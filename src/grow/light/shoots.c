@@ -13,7 +13,7 @@
 #define RELAY_ANGLE 0.8f
 
 // Of a metamer's id, the bud's number and the site's seed; NOISE .. + 2.
-enum { STREAM_ANGLE = 1, STREAM_NOISE = 2, STREAM_LOSS = 5, STREAM_VIGOR = 6 };
+enum { STREAM_ANGLE = 1, STREAM_NOISE = 2, STREAM_LOSS = 5, STREAM_VIGOR = 6, STREAM_BETWEEN = 7 };
 
 typedef struct Shooting {
     Plant *plant;
@@ -160,11 +160,12 @@ static void set_vigor(const Shooting *s, Metamer *m)
 static void finish_metamer(const Shooting *s, Metamer *m, int place, bool last)
 {
     const LightParams *p = s->params;
-    bool bears = p->whorl <= 0 || last;
+    uint64_t key = random_key(random_key(s->site->seed, m->id), STREAM_BETWEEN);
+    bool lone = p->between > 0.0f && random_unit(key) < p->between;
     m->season = s->season + 1;
     m->birth = 1 + s->season * (int)vec3_largest(p->shoot) + place;
     m->terminal = last;
-    m->buds = bears ? (1u << (unsigned)bud_count(p, m->order)) - 1u : 0u;
+    m->buds = p->whorl <= 0 || last ? (1u << (unsigned)bud_count(p, m->order)) - 1u : lone;
     m->side = across(rotated(m->side, m->direction, p->phyllotaxis), m->direction);
 }
 

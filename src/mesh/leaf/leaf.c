@@ -149,7 +149,8 @@ static Mesh *coarse_parts_once(const LeafParams *params, uint64_t seed, int leve
     Transform nod = nodding(params);
     Quads quads = {.e = e, .place = params->nod > 0.0f ? &nod : NULL};
     if (leaf_has_needles(params)) {
-        needles_add(&quads, params, level > 0 ? 16 : 4, factor, false, seed);
+        static const int stride[LEAF_COARSE_MOST] = {4, 16, NEEDLES_AS_SHOOTS};
+        needles_add(&quads, params, stride[level], factor, false, seed);
     } else if (level > 0 && params->compound != COMPOUND_PALMATE) {
         LeafParams whole = *params;
         whole.width *= factor;
@@ -175,6 +176,11 @@ static Mesh *coarse_parts(const LeafParams *params, uint64_t seed, int level, do
         mesh = coarse_parts_once(params, seed, level, factor, e);
     }
     return mesh;
+}
+
+int leaf_coarse_levels(const LeafParams *params)
+{
+    return needles_branch(params) ? LEAF_COARSE_MOST : LEAF_COARSE_MOST - 1;
 }
 
 Mesh *leaf_mesh_coarse(const LeafParams *params, uint64_t seed, int level, float *error, Error *e)

@@ -95,9 +95,25 @@ static Vec3 bundled(Vec3 along, int k, int bundle, uint64_t key)
     return vec3_normalize(vec3_madd(along, 0.13f, out));
 }
 
+// All needles of a shoot as one quad, which reaches as far as they do.
+static void add_whole_shoot(Quads *quads, const LeafParams *params, float widen, uint64_t seed)
+{
+    float turn = random_range(random_key(seed, STREAM_ROLL), 0.0f, 2.0f * PI_F), sine, cosine;
+    exact_sincos(turn, &sine, &cosine);
+    Needle needle = {.along = vec3(0, 1, 0),
+                     .side = vec3(cosine, 0, sine),
+                     .length = params->shoot + 0.5f * params->length,
+                     .width = params->width * widen};
+    add_kite(quads, &needle);
+}
+
 static void add_shoot(Quads *quads, const LeafParams *params, int stride, float widen, bool prisms,
                       uint64_t seed)
 {
+    if (stride == NEEDLES_AS_SHOOTS) {
+        add_whole_shoot(quads, params, widen, seed);
+        return;
+    }
     int bundle = params->bundle > 1 ? params->bundle : 1;
     for (int i = 0; i < params->needles; i += stride) {
         int number = i / bundle;
@@ -251,7 +267,7 @@ void needles_add(Quads *quads, const LeafParams *params, int stride, float widen
         add_tuft(quads, params, stride, widen, prisms, seed);
     } else if (params->shape == LEAF_SCALES) {
         add_scales(quads, params, stride, widen, prisms, seed);
-    } else if (params->side_shoots > 0) {
+    } else if (needles_branch(params)) {
         add_branchlet(quads, params, stride, widen, prisms, seed);
     } else {
         add_shoot(quads, params, stride, widen, prisms, seed);

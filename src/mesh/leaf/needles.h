@@ -14,6 +14,15 @@ static inline bool leaf_has_needles(const LeafParams *params)
            params->shape == LEAF_SCALES;
 }
 
+// A stride: each shoot of a branchlet is one quad.
+enum { NEEDLES_AS_SHOOTS = 1 << 20 };
+
+// Are there side shoots?
+static inline bool needles_branch(const LeafParams *params)
+{
+    return params->shape == LEAF_NEEDLES && params->side_shoots > 0;
+}
+
 // Adds the piece along +Y with every needle whose number is a multiple of stride, `widen` times as
 // wide. prisms: needles are three-sided, else flat.
 void needles_add(Quads *quads, const LeafParams *params, int stride, float widen, bool prisms,

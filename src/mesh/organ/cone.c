@@ -31,7 +31,7 @@ static void add_scales(OrganBuild *build, const Scales *scales, uint64_t seed)
     const OrganParams *p = build->params;
     Quads *wood = &build->tissue[TISSUE_WOOD];
     const Transform *outer = wood->place;
-    for (int i = 0; i < scales->count; i++) {
+    for (int i = 0; i < (p->detail > 0 ? scales->count : 0); i++) {
         uint64_t key = random_key(seed, STREAM_SCALES + (uint64_t)i);
         float t = ((float)i + 0.5f) / (float)scales->count;
         float half = 0.5f * p->width * body_half(0.02f + 0.96f * t, scales->egg);
@@ -56,10 +56,12 @@ static void add_scales(OrganBuild *build, const Scales *scales, uint64_t seed)
     }
     enum { RINGS = 7 };
     Vec2 core[RINGS];
+    // Without scales the body reaches about as far as they do.
+    float thick = p->detail > 0 ? fmaxf(scales->core, 0.2f) : 0.85f + 0.3f * p->open;
     for (int i = 0; i < RINGS; i++) {
         float t = (float)i / (RINGS - 1);
         float half = body_half(0.04f + 0.92f * t, scales->egg);
-        core[i] = (Vec2){fmaxf(scales->core, 0.2f) * 0.5f * p->width * half, t * p->length * 0.94f};
+        core[i] = (Vec2){thick * 0.5f * p->width * half, t * p->length * 0.94f};
     }
     quads_revolve(wood, core, RINGS, p->detail > 1 ? 8 : 5);
 }

@@ -43,7 +43,7 @@ void foliage_leaf_meshes(const LeavesParams *leaves, float piece, int variant, u
     form.curl *=
         random_range(random_key(key, STREAM_CURL), blade ? -0.4f : 0.65f, blade ? 1.5f : 1.3f);
     part->mesh = leaf_mesh_new(&form, key, e);
-    for (int i = 0; part->mesh && i < LEAF_COARSE_LEVELS; i++) {
+    for (int i = 0; part->mesh && i < leaf_coarse_levels(&form); i++) {
         CoarseMesh *coarse = &part->coarse[i];
         coarse->mesh = leaf_mesh_coarse(&form, key, i, &coarse->error, e);
         if (!coarse->mesh) {

@@ -27,6 +27,8 @@ enum {
 // Of an organ: here, once for each tissue, and at least in the ray tracer.
 #define ORGAN_BYTES (3.0 * (sizeof(Transform) + 2 * sizeof(float)) + 100.0)
 
+#define SCALE_DEPTH 0.3f // of a scaly organ's width: what its coarse form leaves out
+
 typedef struct Organs {
     const OrganGroup *group;
     const CurveSet *curves;
@@ -188,6 +190,16 @@ static float lowest_of(const OrganGroup *group, const CurveSet *curves, const bo
                                                       : -INFINITY;
 }
 
+// Forms without scales for organs of a few pixels, where there are some; else NULL. The caller
+// frees each.
+static bool coarse_meshes(const OrganParams *form, uint64_t key, Mesh *mesh[TISSUES], Error *e)
+{
+    bool scaly = form->kind == ORGAN_CONE || form->kind == ORGAN_CATKIN;
+    OrganParams plain = *form;
+    plain.detail = 0;
+    return !scaly || organ_meshes(&plain, key, mesh, e);
+}
+
 // Adds a part for each tissue of a variant; the instances are copied for all but the last.
 static bool add_variant(const OrganGroup *group, int variant, LeafBatch *batch,
                         const OrgansParams *params, uint64_t seed, const Placing *placing, Error *e)
@@ -204,15 +216,16 @@ static bool add_variant(const OrganGroup *group, int variant, LeafBatch *batch,
                         .petals = group->petals,
                         .dimple = group->dimple,
                         .detail = group->detail};
-    Mesh *mesh[TISSUES];
-    bool done = organ_meshes(&form, random_key(random_key(seed, STREAM_MESHES), (uint64_t)variant),
-                             mesh, e);
+    uint64_t key = random_key(random_key(seed, STREAM_MESHES), (uint64_t)variant);
+    Mesh *mesh[TISSUES], *coarse[TISSUES] = {NULL};
+    bool done = organ_meshes(&form, key, mesh, e) && coarse_meshes(&form, key, coarse, e);
     for (int t = 0; done && t < TISSUES; t++) {
         if (!mesh[t]) {
             continue;
         }
         Part part = {.mesh = mesh[t], .instance_count = batch->count};
-        mesh[t] = NULL;
+        part.coarse[0] = (CoarseMesh){.mesh = coarse[t], .error = SCALE_DEPTH * form.width};
+        mesh[t] = coarse[t] = NULL;
         part.instance = memory_alloc(batch->count, sizeof *part.instance, e);
         part.variation = memory_alloc(batch->count, sizeof *part.variation, e);
         if (!part.instance || !part.variation) {
@@ -228,6 +241,7 @@ static bool add_variant(const OrganGroup *group, int variant, LeafBatch *batch,
     }
     for (int t = 0; t < TISSUES; t++) {
         mesh_free(mesh[t]);
+        mesh_free(coarse[t]);
     }
     return done;
 }

@@ -26,7 +26,7 @@ enum {
     STREAM_TURN = 5
 };
 
-enum { FERN_VARIANTS = 3, INDIVIDUAL_FACES = 400000 };
+enum { FERN_VARIANTS = 3, INDIVIDUAL_FACES = 1000000 };
 #define FERN_PATCH 7.0f // m, from patch to patch
 
 // The places of one stand; *count may be 0. The caller frees the array.

@@ -11,7 +11,7 @@
 
 enum { STREAM_HEIGHT = 1 };                                              // of a variant's tree
 enum { STREAM_PLACES = 1, STREAM_VARIANT_TREE = 2, STREAM_SPECIES = 3 }; // of a variant
-enum { DISTANT_SEASONS = 26, DISTANT_LEAVES = 40000, DISTANT_FACES = 200000 };
+enum { DISTANT_SEASONS = 26, DISTANT_LEAVES = 40000, DISTANT_FACES = 300000 };
 // Of a tree's place.
 enum {
     STREAM_RADIUS = 1,

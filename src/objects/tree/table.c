@@ -214,6 +214,9 @@ static const Key LIGHT_KEYS[] = {
     {LIGHT_KEY(growth.whorl, "whorl", KEY_INT), .high = 16,
      .doc = "Branches stand in whorls at the end of each season's shoot, as in spruce and pine, "
             "at most so many on the trunk; 0 = side buds at every node."},
+    {LIGHT_KEY(growth.between, "between", KEY_FLOAT), .high = 1,
+     .doc = "Chance of a single branch at a node between whorls: 0 = bare shoots between tiers, "
+            "as in many pines; 0.2 to 0.4 = tiers that merge, as in spruce."},
     {LIGHT_KEY(growth.tropism, "tropism", KEY_VECTOR), .count = 3, .low = -10, .high = 10,
      .doc = "Turn of each new node along crown.growth.tropism, which points up: of the trunk, of "
             "limbs, of the branches on them. Negative: they hang."},
