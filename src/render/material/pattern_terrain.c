@@ -2,6 +2,7 @@
 // decide the type of ground, with borders frayed by noise of several scales. Each type has its own
 // colours and relief, down to the footprint of the pixel.
 #include "render/material/pattern.h"
+#include "render/material/pattern_crags.h"
 #include "render/material/pattern_noise.h"
 
 #include <stddef.h>
@@ -143,10 +144,10 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
     // Water and dust darken faces along the chutes.
     g.color = vec3_scale(g.color, 1.0f - 0.35f * smoothstepf(0.1f, 0.6f, chutes.value));
     g.slope = vec3_madd(g.slope, 0.04f * scale, chutes.slope);
-    // Buttresses and ribs: broken steps of tens of metres that the mesh is too coarse for.
-    PatternOctaves steps = pattern_octaves(point, 0.35f * scale, 6, 0.7f, 0.5f, 187);
-    g.slope = vec3_madd(g.slope, 0.10f * scale, steps.slope);
-    g.color = vec3_scale(g.color, clampf(1.0f + 0.35f * steps.value, 0.55f, 1.45f));
+    // Buttresses, ribs and ledges of tens of metres that the mesh is too coarse for.
+    Crags crags = pattern_crags(point, 1.1f * scale);
+    g.slope = vec3_madd(g.slope, 0.8f, crags.slope);
+    g.color = vec3_scale(g.color, (1.0f + 0.16f * crags.tone) * (1.0f - 0.55f * crags.crevice));
     float lies = smoothstepf(0.72f, 0.84f, upright + 0.10f * ragged) *
                  smoothstepf(0.12f, 0.4f, loose + 0.25f * ragged);
     Ground other = scree(m, point, shade->color, scale);
@@ -164,7 +165,7 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
         // It slides out of the chutes' ribs and stays in what lies between them.
         float cold = felt - m->snow_line + 0.07f * broad.value + 0.02f * fray.value;
         float least = lerpf(0.80f, 0.46f, smoothstepf(-0.04f, 0.22f, cold));
-        float kept = upright - 0.25f * chutes.value + 0.03f * fray.value;
+        float kept = upright - 0.25f * chutes.value + 0.03f * fray.value - 0.16f * crags.slope.y;
         float held = smoothstepf(least - 0.02f, least + 0.05f, kept);
         other = snow(point, scale);
         g = blend(g, &other, smoothstepf(-0.015f, 0.02f, cold) * held);
