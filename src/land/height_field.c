@@ -70,6 +70,7 @@ void height_field_free(HeightField *field)
     if (field) {
         free(field->height);
         free(field->wetness);
+        free(field->ground);
         free(field->climate);
         free(field->change);
         free(field->loose);
@@ -80,8 +81,8 @@ void height_field_free(HeightField *field)
 
 int64_t height_field_bytes(const HeightField *field)
 {
-    const float *const given[] = {field->height, field->wetness, field->climate, field->change,
-                                  field->loose};
+    const float *const given[] = {field->height, field->wetness, field->climate,
+                                  field->change, field->loose,   field->ground};
     int64_t bytes = sizeof *field;
     for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
         bytes += given[i] ? height_field_count(field) * (int64_t)sizeof(float) : 0;

@@ -26,6 +26,8 @@ typedef struct HeightField {
     float *change;  // m by which erosion has raised the land, negative where it has worn it; NULL =
                     // unknown
     float *loose;   // m of loose ground on the rock; NULL = unknown
+    float *ground;  // of volcanoes: lava by its freshness, 1 = just laid, to 0 = none; scoria, -1 =
+                    // red with oxide, to 0; NULL = unknown
     GeoPlace *place; // owned; NULL = anywhere
 } HeightField;
 

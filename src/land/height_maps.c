@@ -257,6 +257,22 @@ static bool fill_snow(const HeightField *field, HeightField *out)
     return field->climate;
 }
 
+static bool fill_lava(const HeightField *field, HeightField *out)
+{
+    for (int64_t i = 0; i < height_field_count(field) && field->ground; i++) {
+        out->height[i] = fmaxf(field->ground[i], 0.0f);
+    }
+    return field->ground;
+}
+
+static bool fill_scoria(const HeightField *field, HeightField *out)
+{
+    for (int64_t i = 0; i < height_field_count(field) && field->ground; i++) {
+        out->height[i] = fmaxf(-field->ground[i], 0.0f);
+    }
+    return field->ground;
+}
+
 static bool fill_record(const HeightField *field, RecordMap *map, HeightField *out)
 {
     bool known = map(field, out);
@@ -281,13 +297,16 @@ static const struct {
     [HEIGHT_MAP_FLOW] = {"flow", .drained = fill_flow},
     [HEIGHT_MAP_WETNESS] = {"wetness", .drained = fill_wetness},
     [HEIGHT_MAP_RIVER_DISTANCE] = {"river-distance", .drained = fill_river_distance},
-    [HEIGHT_MAP_DEPOSIT] = {"deposit", .record = fill_deposit,
-                            .needs = "a terrain with erosion, or of form canyon, mesas or alps"},
+    [HEIGHT_MAP_DEPOSIT] =
+        {"deposit", .record = fill_deposit,
+         .needs = "a terrain with erosion, or of form canyon, mesas, alps or volcano"},
     [HEIGHT_MAP_WEAR] = {"wear", .record = fill_wear,
                          .needs = "a terrain with erosion, or of form canyon or mesas"},
     [HEIGHT_MAP_BEDROCK] = {"bedrock", .record = fill_bedrock,
-                            .needs = "a terrain of form canyon, mesas or alps"},
-    [HEIGHT_MAP_SNOW] = {"snow", .record = fill_snow, .needs = "a terrain of form alps"},
+                            .needs = "a terrain of form canyon, mesas, alps or volcano"},
+    [HEIGHT_MAP_SNOW] = {"snow", .record = fill_snow, .needs = "a terrain of form alps or volcano"},
+    [HEIGHT_MAP_LAVA] = {"lava", .record = fill_lava, .needs = "a terrain of form volcano"},
+    [HEIGHT_MAP_SCORIA] = {"scoria", .record = fill_scoria, .needs = "a terrain of form volcano"},
     [HEIGHT_MAP_SUN_HOURS] = {"sun-hours"}};
 
 static int find(const char *name, size_t length)

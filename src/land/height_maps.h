@@ -16,6 +16,8 @@
 // wear            m that it has taken away: deposit - wear is HeightField.change
 // bedrock         0..1: 1 where rock is bare, 0 under 0.5 m of loose ground or more
 // snow            0..1: share of the ground that snow covers
+// lava            0..1: freshness of the lava on the ground: 1 = just laid, 0 = none, and
+// scoria          0..1: how red hot gas has made the scoria there: HeightField.ground
 // sun-hours       mean hours of direct sun a day (sun_hours.h)
 #define HEIGHT_MAPS(MAP)                  \
     MAP(SLOPE, "slope")                   \
@@ -28,6 +30,8 @@
     MAP(WEAR, "wear")                     \
     MAP(BEDROCK, "bedrock")               \
     MAP(SNOW, "snow")                     \
+    MAP(LAVA, "lava")                     \
+    MAP(SCORIA, "scoria")                 \
     MAP(SUN_HOURS, "sun-hours")
 
 enum {

@@ -171,7 +171,8 @@ static Mesh *make_mesh(const Mesher *m, Error *e)
         mesh->normal[i] = field_normal(field, column, row);
         mesh->uv[i] = (Vec2){p.x, p.z};
         float felt = field->climate ? field->climate[m->sample[i]] : (p.y - low) * scale;
-        mesh->site[i] = (Vec2){felt, field->wetness ? field->wetness[m->sample[i]] : 0.0f};
+        const float *second = field->ground ? field->ground : field->wetness;
+        mesh->site[i] = (Vec2){felt, second ? second[m->sample[i]] : 0.0f};
     }
     return mesh;
 }

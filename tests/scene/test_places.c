@@ -118,7 +118,7 @@ static const Place places[] = {
     {"skeleton", "file: far.swc, basal: false", 4, 5, "are hidden"},
     // maps that the land does not have
     {"scatter", "things: [{stone: {}}], where: [{map: snow, range: [0, 1]}]", 4, 46,
-     "no map 'snow'; it needs a terrain of form alps"},
+     "no map 'snow'; it needs a terrain of form alps or volcano"},
 };
 
 typedef struct SceneText {

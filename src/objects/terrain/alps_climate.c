@@ -64,7 +64,8 @@ static void add_scale(HeightField *field, const float *mean, float width, Vec2 w
     }
 }
 
-bool terrain_find_climate(const TerrainParams *params, HeightField *field, const Run *run, Error *e)
+bool terrain_find_climate(const TerrainParams *params, float wind_azimuth, HeightField *field,
+                          const Run *run, Error *e)
 {
     int64_t count = height_field_count(field);
     field->climate = memory_alloc(count, sizeof *field->climate, e);
@@ -78,7 +79,7 @@ bool terrain_find_climate(const TerrainParams *params, HeightField *field, const
             field->climate[i] = (field->height[i] - low) / (high > low ? high - low : 1.0f);
         }
         // It blows from the azimuth, clockwise from north.
-        exact_sincos(params->alps.wind * 0.017453292f, &sine, &cosine);
+        exact_sincos(wind_azimuth * 0.017453292f, &sine, &cosine);
         Vec2 wind = {-sine, cosine};
         const float width[] = {0.004f, 0.016f}; // shares of the size: gullies and cirques
         for (int k = 0; k < 2; k++) {

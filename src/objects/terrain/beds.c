@@ -44,6 +44,11 @@ static int own_beds(const TerrainParams *params, StrataBed *beds)
                               .color = {0.3f, 0.29f, 0.27f}};
         return 1;
     }
+    if (params->form == TERRAIN_VOLCANO) { // tephra and lava, baked
+        beds[0] = (StrataBed){
+            .thickness = 1.0f, .hardness = 0.4f, .slope = 52.0f, .color = {0.1f, 0.09f, 0.085f}};
+        return 1;
+    }
     const StrataBed *from = params->form == TERRAIN_CANYON ? CANYON : MESAS;
     int count = params->form == TERRAIN_CANYON ? (int)(sizeof CANYON / sizeof *CANYON)
                                                : (int)(sizeof MESAS / sizeof *MESAS);

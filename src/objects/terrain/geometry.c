@@ -7,7 +7,9 @@
 // Gives a mesh of the land its beds, in the mesh's space.
 static bool give_strata(Mesh *mesh, const Terrain *terrain, Error *e)
 {
-    bool one = terrain->params->form == TERRAIN_ALPS && terrain->params->strata.bed_count == 0;
+    TerrainForm form = terrain->params->form;
+    bool one =
+        (form == TERRAIN_ALPS || form == TERRAIN_VOLCANO) && terrain->params->strata.bed_count == 0;
     if (!mesh || !terrain->strata || one) {
         return mesh;
     }

@@ -26,7 +26,12 @@ enum {
     STREAM_PLATEAU = 72,
     STREAM_WEAKNESS = 73,
     STREAM_WATER_WAYS = 74,
-    STREAM_JOINTS = 75
+    STREAM_JOINTS = 75,
+    STREAM_TEPHRA = 76,
+    STREAM_LAVA = 77,
+    STREAM_CRATER = 78,
+    STREAM_BREACH = 79,
+    STREAM_CONES = 80
 };
 
 // The tree and everything derived from it.
@@ -42,6 +47,7 @@ typedef struct Terrain {
     TroughEnvelope *land; // heights of valleys and slopes
     Strata *strata;       // beds of rock, in the terrain's own space; NULL = none
     Landscape *evolved;   // of landforms; set by terrain_heights
+    HeightField *ground;  // of TERRAIN_VOLCANO: HeightField.ground on the landscape's grid
     TroughEnvelope *distance; // m to the nearest river, in plan
     // The visible rivers on the finished heights, set by terrain_heights; NULL or without nodes if
     // none is wide enough.
@@ -165,14 +171,23 @@ bool terrain_grow_courses(OutTree **tree, const TerrainParams *params, const Rec
 Landscape *terrain_evolve(const Terrain *terrain, const Run *run, Error *e);
 // alps.c: the same of the form alps.
 Landscape *terrain_evolve_alps(const Terrain *terrain, const Run *run, Error *e);
-// alps_climate.c: fills field->climate: altitudes as snow feels them.
-bool terrain_find_climate(const TerrainParams *params, HeightField *field, const Run *run,
-                          Error *e);
+// volcano.c: the same of the form volcano. *ground: HeightField.ground on its grid, as heights; the
+// caller frees it.
+Landscape *terrain_evolve_volcano(const Terrain *terrain, HeightField **ground, const Run *run,
+                                  Error *e);
+// volcano_pits.c: raises the ground of pits of less than this depth, m, so that they drain.
+bool terrain_fill_shallow_pits(HeightField *field, float depth, Error *e);
+// volcano_measure.c: after terrain_evolve_volcano.
+bool terrain_measure_volcano(const Terrain *terrain, MeasureList *list, Error *e);
+// alps_climate.c: fills field->climate: altitudes as snow feels them. It drifts with a wind from
+// this azimuth, degrees clockwise from north.
+bool terrain_find_climate(const TerrainParams *params, float wind, HeightField *field,
+                          const Run *run, Error *e);
 // The land at a place.
 typedef struct EvolvedPlace {
     float height; // m
     float loose;  // m of loose ground on the rock
-    float change; // m since the plateau was whole; of alps, which had none, 0
+    float change; // m since the plateau was whole; of alps and volcanoes, which had none, 0
 } EvolvedPlace;
 EvolvedPlace terrain_evolved_at(const Terrain *terrain, float x, float z);
 // Height of the river at a node of the tree of courses, m.

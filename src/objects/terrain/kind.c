@@ -42,13 +42,15 @@ static int64_t samples(const void *params)
 
 static void needs(const void *params, Needs *needs)
 {
-    enum { CELL_BYTES = 208, RIVER_BYTES = 1500, LANDSCAPE_BYTES = 140 };
+    enum { CELL_BYTES = 208, RIVER_BYTES = 1500, LANDSCAPE_BYTES = 140, LAVA_BYTES = 90 };
     const TerrainParams *terrain = params;
     double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // trees per side
     needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, CELL_BYTES);
     if (terrain_evolves(terrain)) {
         double cells = fmin(terrain->resolution, terrain->evolution.cells);
-        needs_add(needs, "evolution.cells", cells * cells, LANDSCAPE_BYTES);
+        needs_add(needs, "evolution.cells", cells * cells,
+                  terrain->form == TERRAIN_VOLCANO ? LANDSCAPE_BYTES + LAVA_BYTES
+                                                   : LANDSCAPE_BYTES);
     }
     needs_add(needs, terrain->form == TERRAIN_RIDGES ? "ridges.count" : "rivers.count",
               (double)attractors(params), RIVER_BYTES);
@@ -67,6 +69,10 @@ static const char *material_for(const void *params, int role)
     const TerrainParams *terrain = params;
     if (role == TERRAIN_LAND && terrain->form == TERRAIN_ALPS && terrain->strata.bed_count == 0) {
         return "terrain/alps";
+    }
+    if (role == TERRAIN_LAND && terrain->form == TERRAIN_VOLCANO &&
+        terrain->strata.bed_count == 0) {
+        return "terrain/volcano";
     }
     bool beds = terrain_evolves(terrain) || terrain->strata.bed_count > 0;
     return role == TERRAIN_LAND && beds ? "terrain/strata" : NULL;
@@ -101,6 +107,16 @@ static const Material BUILTIN[] = {
      .pattern_depth = 1.8f,
      .snow_line = HEIGHT_MAP_SNOW_LINE,
      .grass_line = 0.47f},
+    {.name = "terrain/volcano",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.105f, 0.090f, 0.080f},
+     .color2 = {0.030f, 0.029f, 0.030f},
+     .roughness = 0.7f,
+     .ior = 1.5f,
+     .pattern = PATTERN_VOLCANO,
+     .pattern_depth = 1.5f,
+     .snow_line = HEIGHT_MAP_SNOW_LINE,
+     .grass_line = 0.23f},
     {.name = "terrain/strata",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.40f, 0.29f, 0.19f},

@@ -26,6 +26,21 @@ typedef struct AlpsParams {
     float wind;     // degrees from north, clockwise: where the wind comes from that drifts snow
 } AlpsParams;
 
+// A stratovolcano.
+enum { VOLCANO_MOST_CONES = 64 };
+
+typedef struct VolcanoParams {
+    float at[2];          // the summit's middle, shares of the size
+    float crater;         // m, width of the crater's rim; 0 = by the relief
+    float breach;         // 0 = a closed rim; 1 = a horseshoe that a collapse has left
+    float breach_azimuth; // degrees from north, clockwise: where it opens
+    float caldera;        // m, radius of an older, collapsed summit; 0 = none
+    int flows;            // youngest flows of lava
+    int cones;            // scoria cones on the flanks
+    float wind;           // degrees from north, clockwise: where the wind comes from
+    float age;            // 0 = active, 1 = long extinct, deeply dissected
+} VolcanoParams;
+
 // How the land evolves; factors on the landform's own rates.
 typedef struct EvolutionParams {
     float streams;    // incision by tributaries
@@ -37,6 +52,7 @@ typedef struct EvolutionParams {
     int cells;        // a side, at most
 } EvolutionParams;
 
-extern const struct Table strata_table, canyon_table, mesa_table, alps_table, evolution_table;
+extern const struct Table strata_table, canyon_table, mesa_table, alps_table, volcano_table,
+    evolution_table;
 
 #endif

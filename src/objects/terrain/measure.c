@@ -160,18 +160,21 @@ bool terrain_measure(const void *given, const Grown *grown, const Recipe *recipe
         free(widths);
         return false;
     }
+    bool volcano = s.params.form == TERRAIN_VOLCANO; // its loose ground is not rubble alone
     bool canyon = s.params.form == TERRAIN_CANYON;
     double cliffs, talus;
     measure_slopes(&s, &cliffs, &talus);
     bool done = measures_add(list, "incision", s.plateau - s.river, "m", nan, nan, e) &&
                 measures_add(list, "cliff_share", cliffs, "", nan, nan, e) &&
-                measures_add(list, "talus_slope", talus, "degrees", 25, 38, e) &&
+                (volcano || measures_add(list, "talus_slope", talus, "degrees", 25, 38, e)) &&
                 measures_add(list, "plateau_share", share_above(&s, 0.8), "", nan, nan, e);
     if (done && canyon) {
         done = measures_add(list, "canyon_width", canyon_width(&s, widths), "m", nan, nan, e) &&
                measures_add(list, "sinuosity", sinuosity(grown->tree), "", nan, nan, e);
     }
     free(widths);
-    return done && (s.params.form != TERRAIN_ALPS ||
-                    measure_valleys(s.land, (double)s.params.size, list, e));
+    if (done && s.params.form == TERRAIN_ALPS) {
+        done = measure_valleys(s.land, (double)s.params.size, list, e);
+    }
+    return done && (s.params.form != TERRAIN_VOLCANO || terrain_measure_volcano(terrain, list, e));
 }

@@ -250,17 +250,19 @@ Landscape *terrain_evolve(const Terrain *terrain, const Run *run, Error *e)
 
 EvolvedPlace terrain_evolved_at(const Terrain *terrain, float x, float z)
 {
+    TerrainForm form = terrain->params->form;
+    bool worn = form == TERRAIN_CANYON || form == TERRAIN_MESAS; // out of a plateau
     const float wavelength = 0.006f * terrain->params->size;
     uint64_t key = random_key(terrain->seed, STREAM_JOINTS);
     float u = x / wavelength, v = z / wavelength;
     // Faces follow joints: they are not as smooth in plan as the grid of the processes makes them.
-    float reach = (terrain->params->form == TERRAIN_ALPS ? 0.05f : 0.13f) * wavelength;
+    float reach = (worn ? 0.13f : 0.05f) * wavelength;
     float dx = reach * sparse_noise_fractal(u, v, 4, 0.55f, 0.0f, key);
     float dz = reach * sparse_noise_fractal(u, v, 4, 0.55f, 0.0f, key + 1);
     double loose;
     double height = landscape_at(terrain->evolved, (double)(x + dx), (double)(z + dz), &loose);
     EvolvedPlace place = {.height = (float)height, .loose = (float)loose};
-    if (terrain->params->form != TERRAIN_ALPS) {
+    if (worn) {
         TerrainParams params = terrain_params_resolve(terrain->params);
         // Between samples rock may lie a little above the plateau: it was not worn there.
         float change = place.height - plateau_at(terrain, &params, x + dx, z + dz);

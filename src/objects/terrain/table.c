@@ -362,10 +362,11 @@ static const Table FOREST_TABLE = {.name = "forest",
                                    .size = sizeof(TerrainForestParams),
                                    .keys = FOREST_KEYS};
 
-static const EnumName FORM_NAMES[] = {
-    {"rivers", TERRAIN_RIVERS}, {"ridges", TERRAIN_RIDGES}, {"map", TERRAIN_MAP},
-    {"noise", TERRAIN_NOISE},   {"survey", TERRAIN_SURVEY}, {"canyon", TERRAIN_CANYON},
-    {"mesas", TERRAIN_MESAS},   {"alps", TERRAIN_ALPS},     {0}};
+static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS},   {"ridges", TERRAIN_RIDGES},
+                                      {"map", TERRAIN_MAP},         {"noise", TERRAIN_NOISE},
+                                      {"survey", TERRAIN_SURVEY},   {"canyon", TERRAIN_CANYON},
+                                      {"mesas", TERRAIN_MESAS},     {"alps", TERRAIN_ALPS},
+                                      {"volcano", TERRAIN_VOLCANO}, {0}};
 
 static const EnumName SHOW_NAMES[] = {
     {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
@@ -377,7 +378,7 @@ static const Key TERRAIN_KEYS[] = {
          "along a tree of ridges; map: land lifted by the colours of an image; noise: noise alone, "
          "on a plane; survey: a raster of surveyed heights; canyon: a plateau of beds that a river "
          "has cut; mesas: what is left of such a plateau; alps: a rising block, cut by rivers and "
-         "worn by glaciers."},
+         "worn by glaciers; volcano: tephra and lava about a vent."},
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
@@ -385,7 +386,8 @@ static const Key TERRAIN_KEYS[] = {
     {KEY_OF(TerrainParams, relief, "relief", KEY_FLOAT), .high = 1e5, .unit = "m",
      .doc = "Height of the highest valley slopes above the outlets, of the highest ridge above "
             "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09, "
-            "of mesas 0.04 and of alps 0.16 of the size. Not of noise alone or surveys."},
+            "of mesas 0.04, of alps 0.16 and of a volcano 0.13 of the size. Not of noise alone or "
+            "surveys."},
     {KEY_OF(TerrainParams, resolution, "resolution", KEY_INT), .low = 16, .high = 8192,
      .doc = "Cells per side, a power of two; it changes the detail, not the form."},
     {KEY_OF(TerrainParams, water_level, "water_level", KEY_FLOAT), .high = 1,
@@ -416,8 +418,10 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Mesas and buttes, of form: mesas."},
     {KEY_OF(TerrainParams, alps, "alps", KEY_GROUP), .table = &alps_table,
      .doc = "Mountains worn by ice, of form: alps."},
+    {KEY_OF(TerrainParams, volcano, "volcano", KEY_GROUP), .table = &volcano_table,
+     .doc = "Stratovolcano, of form: volcano."},
     {KEY_OF(TerrainParams, evolution, "evolution", KEY_GROUP), .table = &evolution_table,
-     .doc = "Processes that make form: canyon, mesas and alps."},
+     .doc = "Processes that make form: canyon, mesas, alps and volcano."},
     {KEY_OF(TerrainParams, beyond, "beyond", KEY_INT), .high = 8,
      .doc = "Rings of mirrored copies around the square, so that the land goes on to the horizon; "
             "0 = none. They are seen, not stood on."},

@@ -164,6 +164,45 @@ const Table alps_table = {.name = "alps",
                           .size = sizeof(AlpsParams),
                           .keys = ALPS_KEYS};
 
+static const Key VOLCANO_KEYS[] = {
+    {KEY_OF(VolcanoParams, at, "at", KEY_VECTOR), .count = 2, .low = -0.4, .high = 0.4,
+     .unit = "sizes",
+     .doc = "The middle of the crater: x and z as fractions of the terrain's size."},
+    {KEY_OF(VolcanoParams, crater, "crater", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc = "Width of the crater from rim to rim; 0 = 0.26 of the relief."},
+    {KEY_OF(VolcanoParams, breach, "breach", KEY_FLOAT), .high = 1,
+     .doc = "How much of the cone has slid off: 0 = nothing, the rim is closed; 1 = a horseshoe "
+            "that is open down to the flank. A debris avalanche lies below it."},
+    {KEY_OF(VolcanoParams, breach_azimuth, "breach_azimuth", KEY_FLOAT), .low = -360, .high = 360,
+     .unit = "degrees", .doc = "Direction in which it slid, clockwise from north (-z)."},
+    {KEY_OF(VolcanoParams, caldera, "caldera", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc = "Radius of a caldera, in which a smaller cone has grown; 0 = none."},
+    {KEY_OF(VolcanoParams, flows, "flows", KEY_INT), .high = 200,
+     .doc = "Number of young lava flows, from the rim, the flanks and the feet of the cones."},
+    {KEY_OF(VolcanoParams, cones, "cones", KEY_INT), .high = VOLCANO_MOST_CONES,
+     .doc = "Number of scoria cones on the flanks, most along two fissures."},
+    {KEY_OF(VolcanoParams, wind, "wind", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
+     .doc = "Where the wind comes from, clockwise from north (-z): tephra falls and snow drifts to "
+            "the lee."},
+    {KEY_OF(VolcanoParams, age, "age", KEY_FLOAT), .high = 1,
+     .doc = "0 = active, smooth under fresh tephra; 1 = long extinct, cut by deep gullies."},
+    {0},
+};
+
+const Table volcano_table = {
+    .name = "volcano",
+    .doc = "A stratovolcano: layers of tephra, flows of lava, gullies. The "
+           "relief is the height of its rim above the plain.",
+    .example = "objects:\n"
+               "  - name: cone\n"
+               "    terrain:\n"
+               "      form: volcano\n"
+               "      size: 16000\n"
+               "      relief: 2000\n"
+               "      volcano: {breach: 0.6, breach_azimuth: 20, cones: 8}\n",
+    .size = sizeof(VolcanoParams),
+    .keys = VOLCANO_KEYS};
+
 static const Key EVOLUTION_KEYS[] = {
     {KEY_OF(EvolutionParams, streams, "streams", KEY_FLOAT), .high = 100,
      .doc = "Factor on the erosion by streams."},

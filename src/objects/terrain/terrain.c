@@ -38,6 +38,7 @@ TerrainParams terrain_params_default(void)
         .canyon = {.sinuosity = 1.35f, .meander = 0.42f, .river = 70.0f, .side_canyons = 1.0f},
         .mesas = {.streams = 6, .remaining = 0.12f},
         .alps = {.ice = 1.0f, .ice_line = 0.4f, .outlets = 5, .wind = 270.0f},
+        .volcano = {.flows = 16, .cones = 5, .wind = 270.0f, .age = 0.15f},
         .evolution = {.streams = 1.0f,
                       .weathering = 1.0f,
                       .rubble = 0.25f,
@@ -46,6 +47,21 @@ TerrainParams terrain_params_default(void)
                       .soil = 1.0f,
                       .cells = 1024},
         .mesh_error = 0.0006f};
+}
+
+// Of landforms, as a share of the size.
+static float own_relief(TerrainForm form)
+{
+    switch (form) {
+    case TERRAIN_CANYON:
+        return 0.09f;
+    case TERRAIN_ALPS:
+        return 0.16f;
+    case TERRAIN_VOLCANO:
+        return 0.13f;
+    default:
+        return 0.04f;
+    }
 }
 
 TerrainParams terrain_params_resolve(const TerrainParams *params)
@@ -64,6 +80,7 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         case TERRAIN_CANYON:
         case TERRAIN_MESAS:
         case TERRAIN_ALPS:
+        case TERRAIN_VOLCANO:
             resolved.noise.wavelength = 0.125f;
             break;
         case TERRAIN_SURVEY: // two cells of the raster
@@ -71,12 +88,10 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         }
     }
     if (terrain_evolves(params)) {
-        bool canyon = params->form == TERRAIN_CANYON;
-        resolved.relief = params->relief > 0.0f
-                              ? params->relief
-                              : params->size * (canyon                         ? 0.09f
-                                                : params->form == TERRAIN_ALPS ? 0.16f
-                                                                               : 0.04f);
+        resolved.relief =
+            params->relief > 0.0f ? params->relief : params->size * own_relief(params->form);
+        resolved.volcano.crater =
+            params->volcano.crater > 0.0f ? params->volcano.crater : 0.26f * resolved.relief;
         resolved.canyon.width =
             params->canyon.width > 0.0f ? params->canyon.width : 6.0f * resolved.relief;
         resolved.strata.top = params->strata.top != 0.0f ? params->strata.top : resolved.relief;
@@ -173,6 +188,7 @@ bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *
     case TERRAIN_MAP:
     case TERRAIN_NOISE:
     case TERRAIN_ALPS:
+    case TERRAIN_VOLCANO:
         whole->tree = out_tree_new(e);
     }
     return whole->tree;
@@ -210,7 +226,9 @@ static void forget(Terrain *terrain)
     trough_envelope_free(terrain->shore);
     free(terrain->bank);
     landscape_free(terrain->evolved);
+    height_field_free(terrain->ground);
     terrain->evolved = NULL;
+    terrain->ground = NULL;
     terrain->map = NULL;
     terrain->lift = NULL;
     terrain->land = terrain->distance = terrain->shore = NULL;
@@ -370,6 +388,7 @@ static float land_at(const Terrain *terrain, float x, float z, float *wetness)
     case TERRAIN_CANYON:
     case TERRAIN_MESAS:
     case TERRAIN_ALPS:
+    case TERRAIN_VOLCANO:
     case TERRAIN_NOISE:
         break;
     }
@@ -386,6 +405,9 @@ static void sample_evolved(const Terrain *terrain, HeightField *field, int64_t i
     if (field->change) {
         field->change[i] = place.change;
     }
+    if (field->ground) {
+        field->ground[i] = height_field_at(terrain->ground, x, z);
+    }
 }
 
 // Room for what landforms record.
@@ -396,7 +418,12 @@ static bool add_records(const TerrainParams *params, HeightField *field, Error *
         return true;
     }
     field->loose = memory_alloc_zero(count, sizeof(float), e);
-    bool whole = params->form != TERRAIN_ALPS; // before it rose there was no land to compare with
+    // Before alps and volcanoes rose there was no land to compare with.
+    bool whole = params->form == TERRAIN_CANYON || params->form == TERRAIN_MESAS;
+    if (params->form == TERRAIN_VOLCANO &&
+        !(field->ground = memory_alloc_zero(count, sizeof(float), e))) {
+        return false;
+    }
     field->change = whole && field->loose ? memory_alloc_zero(count, sizeof(float), e) : NULL;
     return field->loose && (field->change || !whole);
 }
@@ -476,6 +503,14 @@ static void carve_rivers(HeightField *field, const OutTree *rivers)
     }
 }
 
+// A volcano stands in warmer air than alps do: snow stays on its upper fifth.
+static void warm(HeightField *field)
+{
+    for (int64_t i = 0; i < height_field_count(field); i++) {
+        field->climate[i] *= 0.6f;
+    }
+}
+
 static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
     const TerrainParams *params = terrain->params;
@@ -492,7 +527,16 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
     }
     make_terraces(field, &params->terraces, random_key(terrain->seed, STREAM_TERRACES));
     if (params->form == TERRAIN_ALPS) { // sampling leaves pits in the flat floors of valleys
-        return height_field_fill(field, 1e-4f, e) && terrain_find_climate(params, field, run, e);
+        return height_field_fill(field, 1e-4f, e) &&
+               terrain_find_climate(params, params->alps.wind, field, run, e);
+    }
+    if (params->form == TERRAIN_VOLCANO) {
+        bool done = terrain_fill_shallow_pits(field, 12.0f, e) &&
+                    terrain_find_climate(params, params->volcano.wind, field, run, e);
+        if (done) {
+            warm(field);
+        }
+        return done;
     }
     if (terrain_evolves(params)) {
         return terrain_lay_rivers(terrain, field, run, e);
@@ -528,6 +572,9 @@ static bool prepare_land(Terrain *terrain, const Run *run, Error *e)
         return terrain->evolved;
     case TERRAIN_ALPS:
         terrain->evolved = terrain_evolve_alps(terrain, run, e);
+        return terrain->evolved;
+    case TERRAIN_VOLCANO:
+        terrain->evolved = terrain_evolve_volcano(terrain, &terrain->ground, run, e);
         return terrain->evolved;
     case TERRAIN_NOISE:
         break;

@@ -47,7 +47,8 @@ typedef enum TerrainForm {
     TERRAIN_SURVEY,
     TERRAIN_CANYON, // a plateau that a river has cut
     TERRAIN_MESAS,  // what is left of one
-    TERRAIN_ALPS    // a rising block, cut by rivers and worn by glaciers
+    TERRAIN_ALPS,   // a rising block, cut by rivers and worn by glaciers
+    TERRAIN_VOLCANO // tephra and lava about a vent
 } TerrainForm;
 
 // What is drawn.
@@ -165,6 +166,7 @@ typedef struct TerrainParams {
     CanyonParams canyon;
     MesaParams mesas;
     AlpsParams alps;
+    VolcanoParams volcano;
     EvolutionParams evolution;
     int beyond;       // rings of mirrored copies around the square
     float mesh_error; // largest error of the mesh, as a share of its distance to the camera
@@ -201,7 +203,7 @@ extern ColorStop terrain_altitudes[TERRAIN_ALTITUDES];
 static inline bool terrain_evolves(const TerrainParams *params)
 {
     return params->form == TERRAIN_CANYON || params->form == TERRAIN_MESAS ||
-           params->form == TERRAIN_ALPS;
+           params->form == TERRAIN_ALPS || params->form == TERRAIN_VOLCANO;
 }
 
 // Height of the lake, in the field's own space.

@@ -50,6 +50,7 @@ typedef enum PatternKind {
     PATTERN_STONE,     // weathered rock: broken faces, joints, minerals, stains
     PATTERN_ALTITUDE,  // the colours of a map, by the altitude of the land
     PATTERN_ALPS,      // rock, scree, meadows and snow where wind, hollows and ledges hold it
+    PATTERN_VOLCANO,   // tephra, lava by its age, red scoria, plants and snow
     PATTERN_STRATA     // the beds of the land in their own colours, talus, soil and shrubs
 } PatternKind;
 

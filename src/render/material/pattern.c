@@ -144,6 +144,9 @@ void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *s
     case PATTERN_ALPS:
         pattern_alps(m, point, shade);
         break;
+    case PATTERN_VOLCANO:
+        pattern_volcano(m, point, shade);
+        break;
     case PATTERN_STRATA:
         pattern_strata(m, point, shade);
         break;

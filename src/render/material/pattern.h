@@ -31,6 +31,7 @@ void pattern_mountain(const Material *material, const SurfacePoint *point, Patte
 void pattern_badlands(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_alps(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_altitude(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_volcano(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_strata(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_strata_height(const Material *material, const SurfacePoint *point); // m
 void pattern_water(const Material *material, const SurfacePoint *point, PatternShade *shade);

@@ -1,0 +1,126 @@
+// A stratovolcano. site.x is the altitude as snow and plants feel it; site.y is the ground
+// (HeightField.ground): positive = lava by its freshness, negative = red scoria, 0 = tephra.
+#include "render/material/pattern.h"
+#include "render/material/pattern_noise.h"
+
+typedef struct Ground {
+    Vec3 color;
+    Vec3 slope; // of its relief, per metre
+} Ground;
+
+// Noise that several kinds of ground share.
+typedef struct Fray {
+    float broad, fine; // of hundreds of metres; of tens and less
+    float both;
+    PatternOctaves chutes; // run down the slopes
+} Fray;
+
+static Ground blend(Ground a, const Ground *b, float t)
+{
+    a.color = vec3_lerp(a.color, b->color, t);
+    a.slope = vec3_lerp(a.slope, b->slope, t);
+    return a;
+}
+
+// Ash and lapilli, in streaks down the slope; on steep ground the beds crop out.
+static Ground tephra(const Material *m, const SurfacePoint *point, const Fray *f, Vec3 color,
+                     float scale, float upright)
+{
+    PatternOctaves grain = pattern_octaves(point, 0.12f * scale, 6, 0.6f, 1.0f, 203);
+    float level = point->object_position.y / (0.25f * scale) + 1.2f * f->broad + 0.3f * f->fine;
+    float bed = noise_unit((uint32_t)(int32_t)floorf(level) * 2654435761u, 5);
+    float crops = smoothstepf(0.80f, 0.68f, upright + 0.06f * f->fine) *
+                  pattern_detail(0.25f * scale, point->footprint);
+    float dark = clampf(0.45f + 0.5f * f->broad + 0.35f * f->chutes.value, 0.0f, 1.0f);
+    Ground g = {.color = vec3_lerp(color, m->color2, 0.55f * dark)};
+    g.color = vec3_scale(g.color, 1.0f + 0.25f * clampf(grain.value, -1.3f, 1.3f));
+    g.color = vec3_scale(g.color, lerpf(1.0f, 0.55f + 0.95f * bed, 0.7f * crops));
+    g.slope = vec3_scale(grain.slope, 0.012f * scale);
+    g.slope = vec3_madd(g.slope, 0.03f * scale, f->chutes.slope);
+    g.slope.y += crops * 0.8f * (bed - 0.5f);
+    return g;
+}
+
+// Blocky lava: black when fresh; lichen and dust make it grey and brown.
+static Ground lava(const Material *m, const SurfacePoint *point, const Fray *f, float scale,
+                   float fresh)
+{
+    PatternOctaves blocks = pattern_octaves(point, 0.28f * scale, 8, 0.72f, 0.8f, 211);
+    PatternOctaves cracks = pattern_octaves(point, 0.09f * scale, 5, 0.65f, 0.6f, 217);
+    Vec3 old = {0.088f, 0.080f, 0.066f};
+    Ground g = {.color = vec3_lerp(old, m->color2, smoothstepf(0.1f, 0.75f, fresh))};
+    float shade = 1.0f + 0.28f * clampf(blocks.value, -1.3f, 1.3f) + 0.12f * f->broad;
+    shade -= 0.3f * smoothstepf(0.1f, 0.6f, cracks.value);
+    g.color = vec3_scale(g.color, clampf(shade, 0.35f, 1.6f));
+    g.slope = vec3_scale(blocks.slope, 0.075f * scale);
+    g.slope = vec3_madd(g.slope, 0.02f * scale, cracks.slope);
+    return g;
+}
+
+// Scoria about the vents, and yellow sulphur where gas still rises.
+static Ground scoria(const SurfacePoint *point, const Fray *f, float scale, float red)
+{
+    PatternOctaves grain = pattern_octaves(point, 0.10f * scale, 5, 0.6f, 1.0f, 223);
+    Vec3 rust = {0.200f, 0.070f, 0.038f}, plum = {0.090f, 0.045f, 0.040f};
+    Ground g = {.color = vec3_lerp(plum, rust, clampf(0.5f + 0.8f * f->both, 0.0f, 1.0f))};
+    float gas = smoothstepf(0.9f, 1.25f, red + 0.5f * f->fine);
+    g.color = vec3_lerp(g.color, vec3(0.46f, 0.40f, 0.14f), 0.8f * gas);
+    g.color = vec3_scale(g.color, 1.0f + 0.25f * clampf(grain.value, -1.3f, 1.3f));
+    g.slope = vec3_scale(grain.slope, 0.015f * scale);
+    return g;
+}
+
+static Ground plants(const SurfacePoint *point, float scale, float height)
+{
+    PatternOctaves tufts = pattern_octaves(point, 0.16f * scale, 6, 0.62f, 0.8f, 229);
+    Vec3 lush = {0.034f, 0.052f, 0.017f}, heath = {0.082f, 0.074f, 0.034f};
+    float dry = clampf(0.25f + 0.6f * tufts.value + 0.7f * height, 0.0f, 1.0f);
+    Ground g = {.color = vec3_lerp(lush, heath, dry)};
+    g.color = vec3_scale(g.color, 1.0f + 0.3f * clampf(tufts.value, -1.3f, 1.3f));
+    g.slope = vec3_scale(tufts.slope, 0.025f * scale);
+    return g;
+}
+
+// The share of snow: it keeps to hollows and chutes, and melts first on dark, rough lava.
+static float snow_share(const Material *m, const SurfacePoint *point, const Fray *f, float upright)
+{
+    float cold = point->site.x - m->snow_line + 0.05f * f->broad + 0.02f * f->fine;
+    cold -= 0.05f * clampf(point->site.y, 0.0f, 1.0f);
+    float kept = upright - 0.22f * f->chutes.value + 0.03f * f->fine;
+    float least = lerpf(0.92f, 0.62f, smoothstepf(-0.05f, 0.16f, cold));
+    return smoothstepf(-0.03f, 0.03f, cold) * smoothstepf(least - 0.03f, least + 0.05f, kept);
+}
+
+void pattern_volcano(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 60.0f;
+    float felt = point->site.x, ground = point->site.y;
+    float upright = fabsf(surface_smooth_normal(point).y);
+    Fray f = {.broad = pattern_octaves(point, 5.0f * scale, 5, 0.55f, 1.0f, 231).value,
+              .fine = pattern_octaves(point, 0.5f * scale, 7, 0.62f, 1.0f, 237).value,
+              .chutes = pattern_octaves(point, 0.7f * scale, 6, 0.6f, 0.18f, 241)};
+    f.both = 0.5f * (f.broad + f.fine);
+    Ground g = tephra(m, point, &f, shade->color, scale, upright);
+    float red = smoothstepf(0.25f, 0.75f, -ground + 0.25f * f.both);
+    Ground other = scoria(point, &f, scale, -ground);
+    g = blend(g, &other, red);
+    float fresh = ground + 0.02f * f.fine;
+    other = lava(m, point, &f, scale, fresh);
+    g = blend(g, &other, smoothstepf(0.04f, 0.12f, fresh));
+    if (m->grass_line > 0.0f) {
+        // Plants climb, and settle on lava with the centuries.
+        float rise = felt + 0.07f * f.both + 0.35f * clampf(ground, 0.0f, 1.0f) +
+                     0.12f * clampf(-ground, 0.0f, 1.0f);
+        float green = smoothstepf(m->grass_line + 0.03f, m->grass_line - 0.10f, rise) *
+                      smoothstepf(0.62f, 0.76f, upright + 0.10f * f.both);
+        green *= 1.0f - smoothstepf(0.35f, 0.6f, fresh + 0.1f * f.both);
+        other = plants(point, scale, felt / m->grass_line);
+        g = blend(g, &other, green);
+    }
+    if (m->snow_line > 0.0f) {
+        other = (Ground){.color = {0.84f, 0.86f, 0.89f}};
+        g = blend(g, &other, snow_share(m, point, &f, upright));
+    }
+    shade->color = g.color;
+    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
+}
