@@ -74,6 +74,7 @@ void height_field_free(HeightField *field)
         free(field->climate);
         free(field->change);
         free(field->loose);
+        free(field->wind);
         free_place(field->place);
         free(field);
     }
@@ -87,7 +88,7 @@ int64_t height_field_bytes(const HeightField *field)
     for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
         bytes += given[i] ? height_field_count(field) * (int64_t)sizeof(float) : 0;
     }
-    return bytes;
+    return bytes + (field->wind ? height_field_count(field) * (int64_t)sizeof(Vec2) : 0);
 }
 
 void height_field_range(const HeightField *field, float *low, float *high)

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/vec.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 // Where a field lies on the earth.
@@ -28,6 +29,8 @@ typedef struct HeightField {
     float *loose;   // m of loose ground on the rock; NULL = unknown
     float *ground;  // of volcanoes: lava by its freshness, 1 = just laid, to 0 = none; scoria, -1 =
                     // red with oxide, to 0; NULL = unknown
+    Vec2 *wind; // of sand: the wind's direction over it, shorter where less sand lies; NULL = none
+    bool periodic;   // the last samples are the first again, and what lies beyond is a copy
     GeoPlace *place; // owned; NULL = anywhere
 } HeightField;
 

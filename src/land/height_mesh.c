@@ -143,12 +143,18 @@ static Vec3 field_normal(const HeightField *field, int column, int row)
     int west = column > 0 ? column - 1 : 0, north = row > 0 ? row - 1 : 0;
     int east = column + 1 < field->columns ? column + 1 : column;
     int south = row + 1 < field->rows ? row + 1 : row;
+    float span_x = (float)(east - west), span_z = (float)(south - north);
+    if (field->periodic) { // the rim has neighbours on the other side
+        west = column > 0 ? west : field->columns - 2;
+        north = row > 0 ? north : field->rows - 2;
+        east = column + 1 < field->columns ? east : 1;
+        south = row + 1 < field->rows ? south : 1;
+        span_x = span_z = 2.0f;
+    }
     const float *h = field->height;
     int64_t stride = field->columns;
-    float dx =
-        (h[row * stride + east] - h[row * stride + west]) / ((float)(east - west) * field->cell.x);
-    float dz = (h[south * stride + column] - h[north * stride + column]) /
-               ((float)(south - north) * field->cell.y);
+    float dx = (h[row * stride + east] - h[row * stride + west]) / (span_x * field->cell.x);
+    float dz = (h[south * stride + column] - h[north * stride + column]) / (span_z * field->cell.y);
     return vec3_normalize(vec3(-dx, 1.0f, -dz));
 }
 
@@ -173,6 +179,10 @@ static Mesh *make_mesh(const Mesher *m, Error *e)
         float felt = field->climate ? field->climate[m->sample[i]] : (p.y - low) * scale;
         const float *second = field->ground ? field->ground : field->wetness;
         mesh->site[i] = (Vec2){felt, second ? second[m->sample[i]] : 0.0f};
+        if (field->wind) {
+            Vec2 wind = field->wind[m->sample[i]];
+            mesh->site[i] = (Vec2){0.5f + 0.5f * wind.x, 0.5f + 0.5f * wind.y};
+        }
     }
     return mesh;
 }

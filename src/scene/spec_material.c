@@ -19,13 +19,25 @@
 #define KIND(NAME, name) {#name, MATERIAL_##NAME},
 static const EnumName KINDS[] = {MATERIAL_KINDS(KIND){0}};
 #undef KIND
-static const EnumName PATTERNS[] = {
-    {"none", PATTERN_NONE},   {"bark", PATTERN_BARK},           {"ground", PATTERN_GROUND},
-    {"stone", PATTERN_STONE}, {"masonry", PATTERN_MASONRY},     {"leaf", PATTERN_LEAF},
-    {"noise", PATTERN_NOISE}, {"corallite", PATTERN_CORALLITE}, {"youth", PATTERN_YOUTH},
-    {"sand", PATTERN_SAND},   {"mountain", PATTERN_MOUNTAIN},   {"badlands", PATTERN_BADLANDS},
-    {"water", PATTERN_WATER}, {"altitude", PATTERN_ALTITUDE},   {"strata", PATTERN_STRATA},
-    {"alps", PATTERN_ALPS},   {"volcano", PATTERN_VOLCANO},     {0}};
+static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
+                                    {"bark", PATTERN_BARK},
+                                    {"ground", PATTERN_GROUND},
+                                    {"stone", PATTERN_STONE},
+                                    {"masonry", PATTERN_MASONRY},
+                                    {"leaf", PATTERN_LEAF},
+                                    {"noise", PATTERN_NOISE},
+                                    {"corallite", PATTERN_CORALLITE},
+                                    {"youth", PATTERN_YOUTH},
+                                    {"sand", PATTERN_SAND},
+                                    {"mountain", PATTERN_MOUNTAIN},
+                                    {"badlands", PATTERN_BADLANDS},
+                                    {"water", PATTERN_WATER},
+                                    {"altitude", PATTERN_ALTITUDE},
+                                    {"strata", PATTERN_STRATA},
+                                    {"alps", PATTERN_ALPS},
+                                    {"volcano", PATTERN_VOLCANO},
+                                    {"dunes", PATTERN_DUNES},
+                                    {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
                                  {"birch", BARK_BIRCH},       {"smooth", BARK_SMOOTH},
@@ -126,14 +138,17 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, film_swirl, "film_swirl", KEY_FLOAT), .kinds = FILM, .high = 1,
      .doc = "Variation of the thickness in streaks, about pattern_scale wide."},
     {KEY_OF(Material, pattern, "pattern", KEY_ENUM), .kinds = BUMPED, .names = PATTERNS,
-     .doc = "Procedural pattern of color and color2, with bumps. bark: ridges and furrows; ground: "
-            "soil and grass in patches; stone: broken faces, joints, minerals and stains; masonry: "
-            "a wall of stones in courses; leaf: "
-            "veins and blotches; noise: plain noise; corallite: "
-            "cups of a coral; youth: color2 where a branch still grows; sand: ripples of a sea "
-            "floor; mountain: rock, scree, grass and snow; badlands: coloured strata; water: "
-            "ripples; altitude: a map's scale of colours over a terrain; strata: the colours of a "
-            "terrain's beds, with rubble, soil (color) and shrubs (color2); none: one colour."},
+     .doc =
+         "Procedural pattern of color and color2, with bumps. bark: ridges and furrows; ground: "
+         "soil and grass in patches; stone: broken faces, joints, minerals and stains; masonry: "
+         "a wall of stones in courses; leaf: "
+         "veins and blotches; noise: plain noise; corallite: "
+         "cups of a coral; youth: color2 where a branch still grows; sand: ripples of a sea "
+         "floor; mountain: rock, scree, grass and snow; badlands: coloured strata; water: "
+         "ripples; altitude: a map's scale of colours over a terrain; strata: the colours of a "
+         "terrain's beds, with rubble, soil (color) and shrubs (color2); dunes: sand with ripples "
+         "of pattern_scale across the wind, and gravel (color2) where there is little; none: one "
+         "colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
      .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "
             "and ash; plates: thick scaly plates, on thinner stems thin flakes of color2, as of "

@@ -277,7 +277,8 @@ static const Key SCENE_KEYS[] = {
      .count_offset = offsetof(Scene, material_count), .count = 10000, .table = &material_table,
      .doc = "Materials, which objects refer to by name. bark, twig, leaf, ground, grass, fallen, "
             "conifer, ice, rime, soap_film, copper, lightning, coral, coral_polyp, reef_rock, "
-            "mountain, badlands, terrain/strata, lake, altitude, artery, vein, leaf_vein, broken "
+            "mountain, badlands, terrain/strata, terrain/dunes, lake, altitude, artery, vein, "
+            "leaf_vein, broken "
             "and clay are "
             "built in; an "
             "entry with one of these names changes it."},

@@ -20,9 +20,15 @@ static bool give_strata(Mesh *mesh, const Terrain *terrain, Error *e)
     return mesh->strata;
 }
 
-// The square's copy number (column, row) away: odd ones are mirrored, so that borders meet.
-static Transform mirrored(const TerrainParams *params, int column, int row)
+// The square's copy number (column, row) away: odd ones are mirrored, so that borders meet. Dunes
+// repeat as they are.
+static Transform copied(const TerrainParams *params, int column, int row)
 {
+    if (params->form == TERRAIN_DUNES) {
+        return transform_from_axes(
+            vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1),
+            vec3((float)column * params->size, 0.0f, (float)row * params->size));
+    }
     float x = column % 2 == 0 ? 1.0f : -1.0f, z = row % 2 == 0 ? 1.0f : -1.0f;
     Vec3 middle = params->position;
     Vec3 place = vec3((float)column * params->size + (1.0f - x) * middle.x, 0.0f,
@@ -30,7 +36,7 @@ static Transform mirrored(const TerrainParams *params, int column, int row)
     return transform_from_axes(vec3(x, 0, 0), vec3(0, 1, 0), vec3(0, 0, z), place);
 }
 
-// Adds mirrored copies of a part around the square. Takes ownership of the mesh.
+// Adds copies of a part around the square. Takes ownership of the mesh.
 static bool add_copies(Mesh *mesh, const TerrainParams *params, const Placing *placing, int role,
                        Error *e)
 {
@@ -40,7 +46,7 @@ static bool add_copies(Mesh *mesh, const TerrainParams *params, const Placing *p
     for (int i = 0; part.instance && i < side * side; i++) {
         int column = i % side - rings, row = i / side - rings;
         if (column != 0 || row != 0) {
-            part.instance[part.instance_count++] = mirrored(params, column, row);
+            part.instance[part.instance_count++] = copied(params, column, row);
         }
     }
     if (!part.instance) {

@@ -3,6 +3,7 @@
 #define RAMIFY_OBJECTS_TERRAIN_INTERNAL_H
 
 #include "base/strata.h"
+#include "land/dunes.h"
 #include "land/landscape.h"
 #include "objects/terrain/envelope.h"
 #include "objects/terrain/lift.h"
@@ -31,7 +32,8 @@ enum {
     STREAM_LAVA = 77,
     STREAM_CRATER = 78,
     STREAM_BREACH = 79,
-    STREAM_CONES = 80
+    STREAM_CONES = 80,
+    STREAM_SAND = 81
 };
 
 // The tree and everything derived from it.
@@ -48,6 +50,7 @@ typedef struct Terrain {
     Strata *strata;       // beds of rock, in the terrain's own space; NULL = none
     Landscape *evolved;   // of landforms; set by terrain_heights
     HeightField *ground;  // of TERRAIN_VOLCANO: HeightField.ground on the landscape's grid
+    Dunes *dunes;         // of TERRAIN_DUNES; set by terrain_heights
     TroughEnvelope *distance; // m to the nearest river, in plan
     // The visible rivers on the finished heights, set by terrain_heights; NULL or without nodes if
     // none is wide enough.
@@ -183,6 +186,14 @@ bool terrain_measure_volcano(const Terrain *terrain, MeasureList *list, Error *e
 // this azimuth, degrees clockwise from north.
 bool terrain_find_climate(const TerrainParams *params, float wind, HeightField *field,
                           const Run *run, Error *e);
+
+// dunes.c: the sand sea as it is now, with the last wind over it. The caller frees it.
+Dunes *terrain_blow_dunes(const Terrain *terrain, const Run *run, Error *e);
+// The wind that blows last.
+DuneWind terrain_last_wind(const TerrainParams *params);
+// Fills sample i of a field at a place.
+void terrain_sample_dunes(const Terrain *terrain, HeightField *field, int64_t i, float x, float z);
+
 // The land at a place.
 typedef struct EvolvedPlace {
     float height; // m

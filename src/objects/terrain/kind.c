@@ -42,7 +42,13 @@ static int64_t samples(const void *params)
 
 static void needs(const void *params, Needs *needs)
 {
-    enum { CELL_BYTES = 208, RIVER_BYTES = 1500, LANDSCAPE_BYTES = 140, LAVA_BYTES = 90 };
+    enum {
+        CELL_BYTES = 208,
+        RIVER_BYTES = 1500,
+        LANDSCAPE_BYTES = 140,
+        LAVA_BYTES = 90,
+        DUNE_BYTES = 90
+    };
     const TerrainParams *terrain = params;
     double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // trees per side
     needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, CELL_BYTES);
@@ -51,6 +57,10 @@ static void needs(const void *params, Needs *needs)
         needs_add(needs, "evolution.cells", cells * cells,
                   terrain->form == TERRAIN_VOLCANO ? LANDSCAPE_BYTES + LAVA_BYTES
                                                    : LANDSCAPE_BYTES);
+    }
+    if (terrain->form == TERRAIN_DUNES) {
+        double cells = fmin(terrain->resolution, terrain->evolution.cells);
+        needs_add(needs, "evolution.cells", cells * cells, DUNE_BYTES);
     }
     needs_add(needs, terrain->form == TERRAIN_RIDGES ? "ridges.count" : "rivers.count",
               (double)attractors(params), RIVER_BYTES);
@@ -73,6 +83,9 @@ static const char *material_for(const void *params, int role)
     if (role == TERRAIN_LAND && terrain->form == TERRAIN_VOLCANO &&
         terrain->strata.bed_count == 0) {
         return "terrain/volcano";
+    }
+    if (role == TERRAIN_LAND && terrain->form == TERRAIN_DUNES) {
+        return "terrain/dunes";
     }
     bool beds = terrain_evolves(terrain) || terrain->strata.bed_count > 0;
     return role == TERRAIN_LAND && beds ? "terrain/strata" : NULL;
@@ -117,6 +130,15 @@ static const Material BUILTIN[] = {
      .pattern_depth = 1.5f,
      .snow_line = HEIGHT_MAP_SNOW_LINE,
      .grass_line = 0.23f},
+    {.name = "terrain/dunes",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.56f, 0.335f, 0.165f},
+     .color2 = {0.24f, 0.165f, 0.105f},
+     .roughness = 0.8f,
+     .ior = 1.5f,
+     .pattern = PATTERN_DUNES,
+     .pattern_scale = 0.16f,
+     .pattern_depth = 0.007f},
     {.name = "terrain/strata",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.40f, 0.29f, 0.19f},

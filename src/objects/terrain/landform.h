@@ -40,6 +40,22 @@ typedef struct VolcanoParams {
     float wind;           // degrees from north, clockwise: where the wind comes from
     float age;            // 0 = active, 1 = long extinct, deeply dissected
 } VolcanoParams;
+// What makes the kinds of dunes: how many winds blow, and how much sand there is.
+typedef enum DuneKind {
+    DUNE_BARCHAN,    // one wind, little sand
+    DUNE_TRANSVERSE, // one wind, much sand
+    DUNE_LINEAR,     // two winds at an obtuse angle in turn
+    DUNE_STAR        // winds from all around in turn
+} DuneKind;
+
+typedef struct DuneParams {
+    DuneKind kind;
+    float wind;    // degrees from north, clockwise: where it comes from, the mean of linear dunes'
+    float spread;  // degrees between the two winds of linear dunes
+    float spacing; // m: about from crest to crest; 0 = a quarter of the size
+    float sand;    // m: mean depth over the land; 0 = by the kind
+    float age;     // 1 = grown up, more = fewer and larger
+} DuneParams;
 
 // How the land evolves; factors on the landform's own rates.
 typedef struct EvolutionParams {
@@ -53,6 +69,6 @@ typedef struct EvolutionParams {
 } EvolutionParams;
 
 extern const struct Table strata_table, canyon_table, mesa_table, alps_table, volcano_table,
-    evolution_table;
+    dune_table, evolution_table;
 
 #endif

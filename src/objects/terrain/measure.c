@@ -1,6 +1,7 @@
 // Measures of the landforms, for targets.
 #include "base/exact_math.h"
 #include "base/memory.h"
+#include "land/dunes_measure.h"
 #include "land/valley_profile.h"
 #include "objects/terrain/internal.h"
 
@@ -146,11 +147,28 @@ static bool measure_valleys(const Landscape *land, double size, MeasureList *lis
     return done;
 }
 
+// Of dunes, under the wind that blew last.
+static bool measure_dunes(const Terrain *terrain, MeasureList *list, Error *e)
+{
+    DuneWind wind = terrain_last_wind(terrain->params);
+    DuneMeasures m;
+    double nan = (double)NAN;
+    return dunes_measure(terrain->dunes, &wind, &m, e) &&
+           measures_add(list, "dune_height", m.height, "m", nan, nan, e) &&
+           measures_add(list, "dune_length", m.length, "m", nan, nan, e) &&
+           measures_add(list, "slip_slope", m.slip, "degrees", 30, 35, e) &&
+           measures_add(list, "windward_slope", m.windward, "degrees", 4, 16, e) &&
+           measures_add(list, "sand_cover", m.covered, "", nan, nan, e);
+}
+
 bool terrain_measure(const void *given, const Grown *grown, const Recipe *recipe, MeasureList *list,
                      Error *e)
 {
     const Terrain *terrain = grown->state;
     (void)recipe;
+    if (terrain->dunes) {
+        return measure_dunes(terrain, list, e);
+    }
     if (!terrain->evolved) { // terrain_heights came before
         return true;
     }

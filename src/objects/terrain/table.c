@@ -362,11 +362,17 @@ static const Table FOREST_TABLE = {.name = "forest",
                                    .size = sizeof(TerrainForestParams),
                                    .keys = FOREST_KEYS};
 
-static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS},   {"ridges", TERRAIN_RIDGES},
-                                      {"map", TERRAIN_MAP},         {"noise", TERRAIN_NOISE},
-                                      {"survey", TERRAIN_SURVEY},   {"canyon", TERRAIN_CANYON},
-                                      {"mesas", TERRAIN_MESAS},     {"alps", TERRAIN_ALPS},
-                                      {"volcano", TERRAIN_VOLCANO}, {0}};
+static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS},
+                                      {"ridges", TERRAIN_RIDGES},
+                                      {"map", TERRAIN_MAP},
+                                      {"noise", TERRAIN_NOISE},
+                                      {"survey", TERRAIN_SURVEY},
+                                      {"canyon", TERRAIN_CANYON},
+                                      {"mesas", TERRAIN_MESAS},
+                                      {"alps", TERRAIN_ALPS},
+                                      {"volcano", TERRAIN_VOLCANO},
+                                      {"dunes", TERRAIN_DUNES},
+                                      {0}};
 
 static const EnumName SHOW_NAMES[] = {
     {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
@@ -378,7 +384,8 @@ static const Key TERRAIN_KEYS[] = {
          "along a tree of ridges; map: land lifted by the colours of an image; noise: noise alone, "
          "on a plane; survey: a raster of surveyed heights; canyon: a plateau of beds that a river "
          "has cut; mesas: what is left of such a plateau; alps: a rising block, cut by rivers and "
-         "worn by glaciers; volcano: tephra and lava about a vent."},
+         "worn by glaciers; volcano: tephra and lava about a vent; dunes: sand that the wind "
+         "carries over a plain."},
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
@@ -386,8 +393,8 @@ static const Key TERRAIN_KEYS[] = {
     {KEY_OF(TerrainParams, relief, "relief", KEY_FLOAT), .high = 1e5, .unit = "m",
      .doc = "Height of the highest valley slopes above the outlets, of the highest ridge above "
             "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09, "
-            "of mesas 0.04, of alps 0.16 and of a volcano 0.13 of the size. Not of noise alone or "
-            "surveys."},
+            "of mesas 0.04, of alps 0.16 and of a volcano 0.13 of the size. Not of noise alone, "
+            "surveys or dunes."},
     {KEY_OF(TerrainParams, resolution, "resolution", KEY_INT), .low = 16, .high = 8192,
      .doc = "Cells per side, a power of two; it changes the detail, not the form."},
     {KEY_OF(TerrainParams, water_level, "water_level", KEY_FLOAT), .high = 1,
@@ -420,11 +427,14 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Mountains worn by ice, of form: alps."},
     {KEY_OF(TerrainParams, volcano, "volcano", KEY_GROUP), .table = &volcano_table,
      .doc = "Stratovolcano, of form: volcano."},
+    {KEY_OF(TerrainParams, dunes, "dunes", KEY_GROUP), .table = &dune_table,
+     .doc = "Dunes, of form: dunes."},
     {KEY_OF(TerrainParams, evolution, "evolution", KEY_GROUP), .table = &evolution_table,
      .doc = "Processes that make form: canyon, mesas, alps and volcano."},
     {KEY_OF(TerrainParams, beyond, "beyond", KEY_INT), .high = 8,
-     .doc = "Rings of mirrored copies around the square, so that the land goes on to the horizon; "
-            "0 = none. They are seen, not stood on."},
+     .doc = "Rings of mirrored copies around the square (of dunes: of copies as they are), so that "
+            "the "
+            "land goes on to the horizon; 0 = none. They are seen, not stood on."},
     {KEY_OF(TerrainParams, show, "show", KEY_ENUM), .names = SHOW_NAMES,
      .doc = "What is drawn. land: the land with its water and forest; map: the flat plane with the "
             "land's altitudes, for a material of the pattern altitude; tree: the plane and the "

@@ -202,6 +202,44 @@ const Table volcano_table = {
                "      volcano: {breach: 0.6, breach_azimuth: 20, cones: 8}\n",
     .size = sizeof(VolcanoParams),
     .keys = VOLCANO_KEYS};
+static const EnumName DUNE_NAMES[] = {{"barchan", DUNE_BARCHAN},
+                                      {"transverse", DUNE_TRANSVERSE},
+                                      {"linear", DUNE_LINEAR},
+                                      {"star", DUNE_STAR},
+                                      {0}};
+
+static const Key DUNE_KEYS[] = {
+    {KEY_OF(DuneParams, kind, "kind", KEY_ENUM), .names = DUNE_NAMES,
+     .doc = "Winds and supply of sand. barchan: one wind, little sand on bare ground; transverse: "
+            "one wind, much sand; linear: two winds at an obtuse angle in turn; star: winds from "
+            "all around in turn."},
+    {KEY_OF(DuneParams, wind, "wind", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
+     .doc = "Where the wind comes from, clockwise from north (-z); of linear dunes the mean of "
+            "both winds."},
+    {KEY_OF(DuneParams, spread, "spread", KEY_FLOAT), .low = 20, .high = 170, .unit = "degrees",
+     .doc = "Angle between the two winds of linear dunes."},
+    {KEY_OF(DuneParams, spacing, "spacing", KEY_FLOAT), .high = 1e6, .unit = "m",
+     .doc = "Approximate distance from crest to crest, which sets the dunes' size too; 0 = a "
+            "quarter of the terrain's size. A quarter to an eighth of the size suits most."},
+    {KEY_OF(DuneParams, sand, "sand", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc = "Mean depth of the sand; 0 = by kind and spacing."},
+    {KEY_OF(DuneParams, age, "age", KEY_FLOAT), .flags = KEY_ABOVE, .high = 20,
+     .doc = "How long the wind has blown: 1 = until dunes have slip faces; more = fewer, larger "
+            "dunes."},
+    {0},
+};
+
+const Table dune_table = {.name = "dunes",
+                          .doc = "Sand that the wind carries. The square repeats without a seam.",
+                          .example = "objects:\n"
+                                     "  - name: erg\n"
+                                     "    terrain:\n"
+                                     "      form: dunes\n"
+                                     "      size: 1200\n"
+                                     "      beyond: 2\n"
+                                     "      dunes: {kind: transverse, wind: 250, spacing: 250}\n",
+                          .size = sizeof(DuneParams),
+                          .keys = DUNE_KEYS};
 
 static const Key EVOLUTION_KEYS[] = {
     {KEY_OF(EvolutionParams, streams, "streams", KEY_FLOAT), .high = 100,

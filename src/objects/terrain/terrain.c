@@ -39,6 +39,7 @@ TerrainParams terrain_params_default(void)
         .mesas = {.streams = 6, .remaining = 0.12f},
         .alps = {.ice = 1.0f, .ice_line = 0.4f, .outlets = 5, .wind = 270.0f},
         .volcano = {.flows = 16, .cones = 5, .wind = 270.0f, .age = 0.15f},
+        .dunes = {.kind = DUNE_TRANSVERSE, .wind = 270.0f, .spread = 120.0f, .age = 1.0f},
         .evolution = {.streams = 1.0f,
                       .weathering = 1.0f,
                       .rubble = 0.25f,
@@ -81,11 +82,21 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         case TERRAIN_MESAS:
         case TERRAIN_ALPS:
         case TERRAIN_VOLCANO:
+        case TERRAIN_DUNES:
             resolved.noise.wavelength = 0.125f;
             break;
         case TERRAIN_SURVEY: // two cells of the raster
             break;
         }
+    }
+    if (params->form == TERRAIN_DUNES) {
+        static const float depth[] = {[DUNE_BARCHAN] = 0.02f,
+                                      [DUNE_TRANSVERSE] = 0.07f,
+                                      [DUNE_LINEAR] = 0.08f,
+                                      [DUNE_STAR] = 0.12f};
+        DuneParams *dunes = &resolved.dunes;
+        dunes->spacing = dunes->spacing > 0.0f ? dunes->spacing : 0.25f * params->size;
+        dunes->sand = dunes->sand > 0.0f ? dunes->sand : depth[dunes->kind] * dunes->spacing;
     }
     if (terrain_evolves(params)) {
         resolved.relief =
@@ -189,6 +200,7 @@ bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *
     case TERRAIN_NOISE:
     case TERRAIN_ALPS:
     case TERRAIN_VOLCANO:
+    case TERRAIN_DUNES:
         whole->tree = out_tree_new(e);
     }
     return whole->tree;
@@ -227,8 +239,10 @@ static void forget(Terrain *terrain)
     free(terrain->bank);
     landscape_free(terrain->evolved);
     height_field_free(terrain->ground);
+    dunes_free(terrain->dunes);
     terrain->evolved = NULL;
     terrain->ground = NULL;
+    terrain->dunes = NULL;
     terrain->map = NULL;
     terrain->lift = NULL;
     terrain->land = terrain->distance = terrain->shore = NULL;
@@ -389,6 +403,7 @@ static float land_at(const Terrain *terrain, float x, float z, float *wetness)
     case TERRAIN_MESAS:
     case TERRAIN_ALPS:
     case TERRAIN_VOLCANO:
+    case TERRAIN_DUNES:
     case TERRAIN_NOISE:
         break;
     }
@@ -414,6 +429,12 @@ static void sample_evolved(const Terrain *terrain, HeightField *field, int64_t i
 static bool add_records(const TerrainParams *params, HeightField *field, Error *e)
 {
     int64_t count = height_field_count(field);
+    if (params->form == TERRAIN_DUNES) {
+        field->periodic = true;
+        field->loose = memory_alloc_zero(count, sizeof(float), e);
+        field->wind = field->loose ? memory_alloc_zero(count, sizeof(Vec2), e) : NULL;
+        return field->wind;
+    }
     if (!terrain_evolves(params)) {
         return true;
     }
@@ -439,7 +460,9 @@ static bool sample_land(const Terrain *terrain, HeightField *field, const Run *r
             int64_t i = (int64_t)row * field->columns + column;
             float x = field->origin.x + (float)column * field->cell.x;
             float z = field->origin.y + (float)row * field->cell.y;
-            if (terrain->evolved) {
+            if (terrain->dunes) {
+                terrain_sample_dunes(terrain, field, i, x, z);
+            } else if (terrain->evolved) {
                 sample_evolved(terrain, field, i, x, z);
             } else {
                 field->height[i] = land_at(terrain, x, z, &field->wetness[i]);
@@ -576,6 +599,9 @@ static bool prepare_land(Terrain *terrain, const Run *run, Error *e)
     case TERRAIN_VOLCANO:
         terrain->evolved = terrain_evolve_volcano(terrain, &terrain->ground, run, e);
         return terrain->evolved;
+    case TERRAIN_DUNES:
+        terrain->dunes = terrain_blow_dunes(terrain, run, e);
+        return terrain->dunes;
     case TERRAIN_NOISE:
         break;
     }

@@ -45,10 +45,11 @@ typedef enum TerrainForm {
     TERRAIN_MAP,
     TERRAIN_NOISE,
     TERRAIN_SURVEY,
-    TERRAIN_CANYON, // a plateau that a river has cut
-    TERRAIN_MESAS,  // what is left of one
-    TERRAIN_ALPS,   // a rising block, cut by rivers and worn by glaciers
-    TERRAIN_VOLCANO // tephra and lava about a vent
+    TERRAIN_CANYON,  // a plateau that a river has cut
+    TERRAIN_MESAS,   // what is left of one
+    TERRAIN_ALPS,    // a rising block, cut by rivers and worn by glaciers
+    TERRAIN_VOLCANO, // tephra and lava about a vent
+    TERRAIN_DUNES    // sand that the wind carries over a plain
 } TerrainForm;
 
 // What is drawn.
@@ -167,6 +168,7 @@ typedef struct TerrainParams {
     MesaParams mesas;
     AlpsParams alps;
     VolcanoParams volcano;
+    DuneParams dunes;
     EvolutionParams evolution;
     int beyond;       // rings of mirrored copies around the square
     float mesh_error; // largest error of the mesh, as a share of its distance to the camera
@@ -214,7 +216,8 @@ enum { TERRAIN_LAND, TERRAIN_WATER, TERRAIN_FOLIAGE, TERRAIN_LINES }; // roles o
 // Adds land (finer toward the eye, no cracks; even without one), water and forest.
 bool terrain_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
-// Of landforms: incision, cliffs, talus, what is left of the plateau, the canyon's width. After
+// Of landforms: incision, cliffs, talus, what is left of the plateau, the canyon's width; of
+// dunes heights, slopes and distances. After
 // terrain_heights.
 bool terrain_measure(const void *params, const Grown *grown, const Recipe *recipe,
                      MeasureList *list, Error *e);

@@ -150,6 +150,9 @@ void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *s
     case PATTERN_STRATA:
         pattern_strata(m, point, shade);
         break;
+    case PATTERN_DUNES:
+        pattern_dunes(m, point, shade);
+        break;
     case PATTERN_NOISE:
         noise_pattern(m, point, shade);
         break;
