@@ -61,7 +61,7 @@ static Ground lava(const Material *m, const SurfacePoint *point, const Fray *f, 
 static Ground scoria(const SurfacePoint *point, const Fray *f, float scale, float red)
 {
     PatternOctaves grain = pattern_octaves(point, 0.10f * scale, 5, 0.6f, 1.0f, 223);
-    Vec3 rust = {0.200f, 0.070f, 0.038f}, plum = {0.090f, 0.045f, 0.040f};
+    Vec3 rust = {0.130f, 0.056f, 0.036f}, plum = {0.090f, 0.045f, 0.040f};
     Ground g = {.color = vec3_lerp(plum, rust, clampf(0.5f + 0.8f * f->both, 0.0f, 1.0f))};
     float gas = smoothstepf(0.9f, 1.25f, red + 0.5f * f->fine);
     g.color = vec3_lerp(g.color, vec3(0.46f, 0.40f, 0.14f), 0.8f * gas);
