@@ -147,7 +147,9 @@ yes nothing_left_behind sh -c '! ls -A | grep -qE "^a\.(png|exr)."'
 "$RAMIFY" render scene.yaml -o long.png -q --samples 1000000 --size 200x150 2>talk &
 process=$!
 waited=0
-while [ ! -s long.png ] && [ $waited -lt 300 ]; do sleep 0.1; waited=$((waited + 1)); done
+until [ -s long.png ] || [ $waited -ge 600 ]; do sleep 0.1; waited=$((waited + 1)); done
+hash long.png >before # the coarse look, or already a later picture: the next one has whole samples
+while hash long.png | cmp -s before - && [ $waited -lt 1200 ]; do sleep 0.1; waited=$((waited + 1)); done
 kill -INT $process
 wait $process
 check interrupt_status 130 sh -c "exit $?"
