@@ -148,6 +148,37 @@ static void closed_veins_have_loops(void **state)
     out_tree_free(again);
 }
 
+// Planted secondary veins arch to one another: a loop for each but the last of a side, whatever
+// grows between them later; with the blade too small for sources they are all there is.
+static void secondary_veins_arch_to_one_another(void **state)
+{
+    (void)state;
+    enum { SECONDARIES = 7 };
+    VeinParams params = vein_params_default();
+    params.birth = 0.2f, params.kill = 0.1f, params.step = 0.0007f;
+    params.secondaries = SECONDARIES;
+    VeinReport report;
+    OutTree *tree = grow(&params, NULL, &report);
+    int64_t pieces, loops;
+    assert_true(out_tree_count_pieces(tree, &pieces, &loops, NULL));
+    assert_int_equal(pieces, 1);
+    assert_int_equal(loops, 2 * (SECONDARIES - 1));
+    assert_int_equal(report.loops, loops);
+    assert_int_equal(count_closings(tree), loops);
+    int64_t right = 0, left = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        Vec3 p = tree->position[i];
+        float half = leaf_half_width(&params.outline, p.y);
+        assert_true(p.y == 0.0f || fabsf(p.x) < 0.95f * half);
+        assert_true(p.x == 0.0f || p.y > tree->position[tree->parent[i]].y - 0.002f); // upward
+        bool leaves = p.x != 0.0f && tree->position[tree->parent[i]].x == 0.0f;
+        right += leaves && p.x > 0.0f, left += leaves && p.x < 0.0f;
+    }
+    assert_int_equal(right, SECONDARIES);
+    assert_int_equal(left, SECONDARIES);
+    out_tree_free(tree);
+}
+
 static void a_larger_leaf_has_the_same_veins(void **state)
 {
     (void)state;
@@ -182,6 +213,7 @@ int main(void)
         cmocka_unit_test(neighbours_follow_the_definition),
         cmocka_unit_test(open_veins_come_to_every_source),
         cmocka_unit_test(closed_veins_have_loops),
+        cmocka_unit_test(secondary_veins_arch_to_one_another),
         cmocka_unit_test(a_larger_leaf_has_the_same_veins),
         cmocka_unit_test(bad_numbers_are_named),
     };

@@ -2,6 +2,7 @@
 #include "making.h"
 #include "testing.h"
 
+#include "objects/venation/vein_curves.h"
 #include "objects/venation/venation.h"
 
 #include <math.h>
@@ -53,6 +54,67 @@ static void a_leaf_has_a_blade_and_a_curve_for_each_piece_of_vein(void **state)
     assert_true(venation_geometry(&params, &grown, &placing, &e));
     assert_int_equal(geometry.count, 1);
     geometry_clear(&geometry);
+    out_tree_free(tree);
+}
+
+static CurveSet *curves_of(const OutTree *tree, const VenationParams *params)
+{
+    Transform place = transform_compose(vec3(0, 0, 0), vec3(0, 0, 0), vec3_splat(1.0f));
+    Error e = {0};
+    CurveSet *curves = venation_curves(tree, params, &place, &e);
+    assert_non_null(curves);
+    return curves;
+}
+
+// Sum of squared turns between pieces that follow each other, and of steps in their radii.
+static void count_roughness(const OutTree *tree, const CurveSet *curves, double *turns,
+                            double *steps)
+{
+    int64_t *piece = malloc(sizeof *piece * (size_t)tree->count), number = 0;
+    *turns = *steps = 0.0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        piece[i] = parent >= 0 ? number++ : -1;
+        bool only = parent >= 0 && piece[parent] >= 0 && tree->radius[i] == tree->radius[parent];
+        const Vec3 *p = curves->position;
+        if (only) {
+            int64_t a = 2 * piece[parent], b = 2 * piece[i];
+            Vec3 before = vec3_normalize(vec3_sub(p[a + 1], p[a]));
+            Vec3 after = vec3_normalize(vec3_sub(p[b + 1], p[b]));
+            *turns += 1.0 - (double)vec3_dot(before, after);
+        }
+        if (parent >= 0 && tree->radius[i] > 0.8f * tree->radius[parent]) { // goes on
+            *steps += fabs((double)curves->radius[2 * piece[i]] / (double)tree->radius[parent] - 1);
+        }
+    }
+    free(piece);
+}
+
+static void smoothing_rounds_bends_and_keeps_joins(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.curl = params.fold = 0.0f;
+    OutTree *tree = grow(&params);
+    CurveSet *rough = curves_of(tree, &params);
+    params.smoothing = 3;
+    CurveSet *smooth = curves_of(tree, &params);
+    double turns[2], steps[2];
+    count_roughness(tree, rough, &turns[0], &steps[0]);
+    count_roughness(tree, smooth, &turns[1], &steps[1]);
+    assert_true(turns[0] > 0.0 && turns[1] < 0.8 * turns[0]);
+    assert_true(steps[0] > 0.0 && steps[1] < 0.5 * steps[0]);
+    int64_t joins = 0;
+    for (int64_t i = 1; i < rough->point_count; i += 2) { // a tip that met another stays there
+        for (int64_t j = 1; j < i; j += 2) {
+            bool meet = vec3_distance(rough->position[i], rough->position[j]) == 0.0f;
+            assert_true(!meet || vec3_distance(smooth->position[i], smooth->position[j]) == 0.0f);
+            joins += meet;
+        }
+    }
+    assert_true(joins > 20);
+    curves_free(rough);
+    curves_free(smooth);
     out_tree_free(tree);
 }
 
@@ -114,6 +176,7 @@ static void the_net_is_measured_against_the_blade(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(smoothing_rounds_bends_and_keeps_joins),
         cmocka_unit_test(a_leaf_has_a_blade_and_a_curve_for_each_piece_of_vein),
         cmocka_unit_test(the_texture_shows_the_midrib_in_the_middle),
         cmocka_unit_test(the_net_is_measured_against_the_blade),

@@ -465,6 +465,26 @@ static void test_noise_pattern(void **state)
     assert_true(low < 0.2f && high > 0.4f);
 }
 
+// A leaf's transmittance follows its colour from point to point.
+static void test_noise_tints_light_that_passes_a_leaf(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_LEAF);
+    m.pattern = PATTERN_NOISE;
+    m.color2 = vec3(0.5f * m.color.x, m.color.y, 2.0f * m.color.z);
+    float least = INFINITY, most = 0.0f;
+    for (int i = 0; i < 1000; i++) {
+        SurfacePoint p = {.normal = vec3(0, 0, 1), .geometric_normal = vec3(0, 0, 1)};
+        p.object_position = random_point((uint64_t)i, 3.0f);
+        PatternShade shade = shade_of(&m, &p);
+        float share = shade.transmittance.x / m.transmittance.x;
+        assert_float_equal(share, shade.color.x / m.color.x, 1e-5f);
+        assert_float_equal(shade.transmittance.y, m.transmittance.y, 1e-6f);
+        least = fminf(least, share), most = fmaxf(most, share);
+    }
+    assert_true(least < 0.6f && most > 0.9f && most <= 1.0f + 1e-5f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -484,6 +504,7 @@ int main(void)
         cmocka_unit_test(test_stone_moss),
         cmocka_unit_test(test_masonry),
         cmocka_unit_test(test_noise_pattern),
+        cmocka_unit_test(test_noise_tints_light_that_passes_a_leaf),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,75 +2,23 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "grow/venation/young_leaf.h"
 #include "outtree/join.h"
 
 #include <stdlib.h>
 
-#define REACH 6.0f      // births: influence radius of sources; they lie closer than that
-#define DARTS 1.5f      // darts thrown per round for each source that the blade has room for
-#define MIDRIB_NODES 24 // at least; more if the step asks for it
-#define SETTLE 400      // most steps after the blade is fully grown
+#define REACH 6.0f // births: influence radius of sources; they lie closer than that
+#define DARTS 1.5f // darts thrown per round for each source that the blade has room for
+#define SETTLE 400 // most steps after the blade is fully grown
 
-enum { STREAM_ROOT_ID = 0, STREAM_ROUNDS = 1 }; // of the seed; one stream per round from ROUNDS on
-enum { STREAM_X = 0, STREAM_Y = 1 };            // of a dart
-
-// Sum of the sources' pulls on a node.
-typedef struct Pull {
-    Vec3 sum;       // of unit vectors to its sources
-    Vec3 nearest;   // unit: to the nearest of them
-    float distance; // m, to that
-} Pull;
-
-// State of a growing leaf.
-typedef struct Leaf {
-    const Run *run;
-    const VeinParams *params;
-    OutTree *tree;
-    int32_t *children; // number of children, per node
-    Pull *pull;        // per node
-    int64_t child_capacity, pull_capacity;
-    Vec3 *source; // sources alive
-    int64_t source_count, source_capacity;
-    PointSet *all_sources;
-    VeinGrid nodes, darts;
-    float scale; // relative size of the blade
-    int32_t birth;
-    VeinReport report;
-} Leaf;
+enum { STREAM_ROUNDS = 1 }; // of the seed; one stream per round from it on; 0: young_leaf.c
+enum { STREAM_X = 0, STREAM_Y = 1 }; // of a dart
 
 static Aabb blade_box(const Leaf *leaf)
 {
     const LeafOutline *o = &leaf->params->outline;
     float s = leaf->scale;
     return (Aabb){vec3(-0.5f * s * o->width, 0, 0), vec3(0.5f * s * o->width, s * o->length, 0)};
-}
-
-static int64_t add_node(Leaf *leaf, Vec3 p, int64_t parent, Error *e)
-{
-    OutTree *tree = leaf->tree;
-    uint64_t id = parent < 0 ? random_key(leaf->params->seed, STREAM_ROOT_ID)
-                             : out_tree_child_id(tree->id[parent], leaf->children[parent]++);
-    int64_t node = out_tree_add_node(tree, p, parent, leaf->birth, 0, id, e);
-    if (node < 0 || !memory_reserve(&leaf->children, &leaf->child_capacity, tree->count,
-                                    sizeof *leaf->children, e)) {
-        return -1;
-    }
-    tree->normal[node] = vec3(0, 0, 1);
-    leaf->children[node] = 0;
-    return node;
-}
-
-static bool plant(Leaf *leaf, Error *e)
-{
-    const VeinParams *params = leaf->params;
-    float height = params->midrib * leaf->scale * params->outline.length;
-    int pieces = (int)(height / params->step);
-    pieces = height > 0.0f && pieces < MIDRIB_NODES ? MIDRIB_NODES : pieces;
-    int64_t node = add_node(leaf, vec3(0, 0, 0), -1, e);
-    for (int i = 1; node >= 0 && i <= pieces; i++) {
-        node = add_node(leaf, vec3(0, height * (float)i / (float)pieces, 0), node, e);
-    }
-    return node >= 0;
 }
 
 // ---- sources ----
@@ -168,7 +116,7 @@ static bool close_loop(Leaf *leaf, Vec3 source, const int32_t *neighbour, int co
         }
     }
     for (int m = 0; meeting > 1 && m < meeting; m++) {
-        if (add_node(leaf, source, met[m], e) < 0) {
+        if (leaf_add_node(leaf, source, met[m], e) < 0) {
             return false;
         }
     }
@@ -273,7 +221,7 @@ static bool grow_step(Leaf *leaf, bool *grew, Error *e)
         if (!(leaf->pull[i].distance < INFINITY) || !find_place(leaf, i, step, slant, &p)) {
             continue;
         }
-        if (add_node(leaf, p, i, e) < 0) {
+        if (leaf_add_node(leaf, p, i, e) < 0) {
             return false;
         }
         *grew = true;
@@ -372,7 +320,7 @@ OutTree *veins_grow(const VeinParams *params, PointSet *sources, VeinReport *rep
     }
     Leaf leaf = {.params = params, .run = run, .all_sources = sources, .scale = params->start};
     leaf.tree = out_tree_new(e);
-    bool done = leaf.tree && plant(&leaf, e) && grow_leaf(&leaf, e);
+    bool done = leaf.tree && leaf_plant(&leaf, e) && grow_leaf(&leaf, e);
     leaf.report.sources_left = leaf.source_count;
     if (report) {
         *report = leaf.report;

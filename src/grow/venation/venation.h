@@ -17,17 +17,19 @@
 typedef struct VeinParams {
     LeafOutline outline;
     bool closed;
-    bool marginal; // the blade grows at its margin and its contents stay; else it grows uniformly
-                   // and carries veins and sources along
-    float birth;   // least distance of a new source from sources and veins
-    float kill;    // a vein this near to a source has reached it
-    float step;    // length of a vein segment
-    float start;   // 0..1: relative size of the blade when the first sources appear
-    float rate;    // relative growth of the blade per round of darts, 0.03 = 3 %
-    int pace;      // vein steps per round
-    float midrib;  // 0..1: length of the initial midrib, relative to the blade
-    float slant;   // pull of young veins toward the tip, relative to the unit pull of sources;
-                   // fades as the blade grows
+    bool marginal;   // the blade grows at its margin and its contents stay; else it grows uniformly
+                     // and carries veins and sources along
+    float birth;     // least distance of a new source from sources and veins
+    float kill;      // a vein this near to a source has reached it
+    float step;      // length of a vein segment
+    float start;     // 0..1: relative size of the blade when the first sources appear
+    float rate;      // relative growth of the blade per round of darts, 0.03 = 3 %
+    int pace;        // vein steps per round
+    float midrib;    // 0..1: length of the initial midrib, relative to the blade
+    float slant;     // pull of young veins toward the tip, relative to the unit pull of sources;
+                     // fades as the blade grows
+    int secondaries; // secondary veins of the young blade on each side, which arch to one another;
+                     // 0 = they, too, grow toward sources
     uint64_t seed;
 } VeinParams;
 

@@ -20,12 +20,18 @@ static const Key VENATION_KEYS[] = {
     {KEY_OF(VenationParams, marginal, "marginal", KEY_BOOL),
      .doc =
          "The blade grows at its margin; false = it grows uniformly and carries its veins along."},
+    {KEY_OF(VenationParams, secondaries, "secondaries", KEY_INT), .high = 200,
+     .doc = "Number of secondary veins on each half of the young blade, which bend toward the tip "
+            "and arch to one another near the margin; 0 = they grow as all finer veins do."},
     {KEY_OF(VenationParams, detail, "detail", KEY_INT), .low = 4, .high = 2000,
      .doc = "Number of areoles (meshes of the vein network) along the leaf's length."},
     {KEY_OF(VenationParams, midrib, "midrib", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Radius of the midrib at the base; 0 = 0.008 of the length."},
     {KEY_OF(VenationParams, vein, "vein", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Radius of the finest veins; 0 = 0.06 of an areole."},
+    {KEY_OF(VenationParams, smoothing, "smoothing", KEY_INT), .high = 1000,
+     .doc = "Number of passes that smooth the bends of veins, which then taper without steps; 0 = "
+            "straight pieces as they grew."},
     {KEY_OF(VenationParams, petiole, "petiole", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "Length of the stalk; 0 = none."},
     {KEY_OF(VenationParams, curl, "curl", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",

@@ -1,8 +1,8 @@
 #include "objects/venation/venation.h"
 
-#include "base/exact_math.h"
 #include "base/random.h"
 #include "grow/venation/venation.h"
+#include "objects/venation/vein_curves.h"
 #include "outtree/join.h"
 #include "outtree/radii.h"
 
@@ -42,6 +42,7 @@ static VeinParams vein_params(const VenationParams *params, uint64_t seed)
     veins.outline = params->outline;
     veins.closed = params->closed;
     veins.marginal = params->marginal;
+    veins.secondaries = params->secondaries;
     veins.birth = params->outline.length / (float)params->detail;
     veins.kill = 0.5f * veins.birth;
     veins.step = 0.25f * veins.birth;
@@ -109,48 +110,6 @@ bool venation_finish(const void *given, const Recipe *recipe, const Grown *whole
 
 // ---- geometry ----
 
-// Bends the flat leaf: folds the halves up about the midrib, bends the length back, leaves the
-// stalk straight.
-static Vec3 bend(const VenationParams *params, Vec3 p)
-{
-    float sine, cosine;
-    exact_sincos(params->fold * RADIANS_PER_DEGREE, &sine, &cosine);
-    float side = fabsf(p.x), z = p.z + side * sine;
-    float x = p.x * cosine, length = params->outline.length;
-    float angle = params->curl * RADIANS_PER_DEGREE;
-    if (angle == 0.0f) {
-        return vec3(x, p.y, z);
-    }
-    float radius = length / angle; // of the circle that the midrib follows
-    float turn = p.y > 0.0f ? p.y / radius : 0.0f;
-    exact_sincos(turn, &sine, &cosine);
-    float y = p.y > 0.0f ? (radius + z) * sine : p.y;
-    return vec3(x, y, (radius + z) * cosine - radius);
-}
-
-// Every vein segment as a separate round curve; their round ends overlap.
-static CurveSet *vein_curves(const OutTree *tree, const VenationParams *params,
-                             const Transform *place, Error *e)
-{
-    int64_t pieces = 0;
-    for (int64_t i = 0; i < tree->count; i++) {
-        pieces += tree->parent[i] >= 0;
-    }
-    CurveSet *curves = curves_new(2 * pieces, pieces, e);
-    int64_t last = tree->count > 0 ? tree->birth[tree->count - 1] : 0, point = 0;
-    for (int64_t i = 0; curves && i < tree->count; i++) {
-        const int64_t end[2] = {tree->parent[i], i};
-        for (int k = 0; end[0] >= 0 && k < 2; k++, point++) {
-            curves->position[point] = transform_point(place, bend(params, tree->position[end[k]]));
-            curves->radius[point] = tree->radius[i]; // the child's radius, not the parent's
-            curves->birth[point] = last > 0 ? (float)tree->birth[end[k]] / (float)last : 0.0f;
-            curves->along[point] = tree->position[end[k]].y;
-            curves->first[point / 2 + 1] = point + 1;
-        }
-    }
-    return curves;
-}
-
 static Mesh *blade_mesh(const VenationParams *params, const Transform *place, Error *e)
 {
     Mesh *mesh = mesh_new(4, (BLADE_ROWS + 1) * (BLADE_COLUMNS + 1), BLADE_ROWS * BLADE_COLUMNS,
@@ -166,7 +125,7 @@ static Mesh *blade_mesh(const VenationParams *params, const Transform *place, Er
             float u = (float)c / BLADE_COLUMNS;
             int i = r * (BLADE_COLUMNS + 1) + c;
             Vec3 flat = vec3((2.0f * u - 1.0f) * half, y, 0);
-            mesh->position[i] = transform_point(place, bend(params, flat));
+            mesh->position[i] = transform_point(place, venation_bend(params, flat));
             mesh->uv[i] = (Vec2){u, v};
             if (r < BLADE_ROWS && c < BLADE_COLUMNS) {
                 uint32_t a = (uint32_t)i, b = a + BLADE_COLUMNS + 1;
@@ -186,7 +145,7 @@ bool venation_geometry(const void *given, const Grown *grown, const Placing *pla
 {
     VenationParams params = venation_params_resolve(given);
     Transform place = transform_compose(params.position, params.rotation, vec3_splat(1.0f));
-    Part veins = {.curves = vein_curves(grown->tree, &params, &place, e)};
+    Part veins = {.curves = venation_curves(grown->tree, &params, &place, e)};
     if (!placing_add(placing, veins, VENATION_VEINS, e)) {
         return false;
     }

@@ -13,7 +13,9 @@ typedef struct VenationParams {
     LeafOutline outline; // width 0 = half of the length
     bool closed;         // veins with loops; otherwise a tree
     bool marginal;       // the blade grows at its margin; otherwise evenly
+    int secondaries;     // on each half, looped near the margin; 0 = grown as all others
     int detail;          // meshes of the net along the leaf's length
+    int smoothing;       // passes that round the veins' bends; with any, radii change gradually
     float midrib;        // m, radius at the base; 0 = 0.008 of the length
     float vein;          // m, radius of the finest; 0 = 0.06 of a mesh
     float petiole;       // m, length of the stalk; 0 = none

@@ -1,0 +1,160 @@
+#include "objects/venation/vein_curves.h"
+
+#include "base/exact_math.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+Vec3 venation_bend(const VenationParams *params, Vec3 p)
+{
+    float sine, cosine;
+    exact_sincos(params->fold * RADIANS_PER_DEGREE, &sine, &cosine);
+    float side = fabsf(p.x), z = p.z + side * sine;
+    float x = p.x * cosine, length = params->outline.length;
+    float angle = params->curl * RADIANS_PER_DEGREE;
+    if (angle == 0.0f) {
+        return vec3(x, p.y, z);
+    }
+    float radius = length / angle; // of the circle that the midrib follows
+    float turn = p.y > 0.0f ? p.y / radius : 0.0f;
+    exact_sincos(turn, &sine, &cosine);
+    float y = p.y > 0.0f ? (radius + z) * sine : p.y;
+    return vec3(x, y, (radius + z) * cosine - radius);
+}
+
+// ---- smoothing ----
+
+// What drawing needs to know about the nodes.
+typedef struct Course {
+    Vec3 *position; // smoothed
+    Vec3 *next;     // of the pass in work
+    int32_t *main;  // the thickest child, or -1
+    bool *fixed;    // shares its place with another node
+} Course;
+
+static void course_free(Course *course)
+{
+    free(course->position);
+    free(course->next);
+    free(course->main);
+    free(course->fixed);
+}
+
+typedef struct Place {
+    Vec3 position;
+    int64_t node;
+} Place;
+
+static int compare_places(const void *a, const void *b)
+{
+    const Place *p = a, *q = b;
+    const float d[3] = {p->position.x - q->position.x, p->position.y - q->position.y,
+                        p->position.z - q->position.z};
+    for (int i = 0; i < 3; i++) {
+        if (d[i] != 0.0f) {
+            return d[i] < 0.0f ? -1 : 1;
+        }
+    }
+    return (p->node > q->node) - (p->node < q->node);
+}
+
+static bool fix_joins(const OutTree *tree, Course *course, Error *e)
+{
+    Place *place = memory_alloc(tree->count, sizeof *place, e);
+    if (!place) {
+        return false;
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        place[i] = (Place){tree->position[i], i};
+    }
+    qsort(place, (size_t)tree->count, sizeof *place, compare_places);
+    for (int64_t i = 1; i < tree->count; i++) {
+        if (vec3_distance(place[i - 1].position, place[i].position) == 0.0f) {
+            course->fixed[place[i - 1].node] = course->fixed[place[i].node] = true;
+        }
+    }
+    free(place);
+    return true;
+}
+
+static bool course_init(Course *course, const OutTree *tree, Error *e)
+{
+    int64_t n = tree->count;
+    course->position = memory_alloc(n, sizeof *course->position, e);
+    course->next = memory_alloc(n, sizeof *course->next, e);
+    course->main = memory_alloc(n, sizeof *course->main, e);
+    course->fixed = memory_alloc_zero(n, sizeof *course->fixed, e);
+    if (!course->position || !course->next || !course->main || !course->fixed) {
+        return false;
+    }
+    for (int64_t i = 0; i < n; i++) {
+        course->position[i] = tree->position[i];
+        course->main[i] = -1;
+        int32_t parent = tree->parent[i];
+        if (parent >= 0 &&
+            (course->main[parent] < 0 || tree->radius[i] > tree->radius[course->main[parent]])) {
+            course->main[parent] = (int32_t)i;
+        }
+    }
+    return fix_joins(tree, course, e);
+}
+
+// Moves every node half-way to the middle of its neighbours along the thickest way.
+static void smooth(Course *course, const OutTree *tree)
+{
+    for (int64_t i = 0; i < tree->count; i++) {
+        Vec3 p = course->position[i];
+        int32_t parent = tree->parent[i], child = course->main[i];
+        if (parent >= 0 && child >= 0 && !course->fixed[i]) {
+            Vec3 middle = vec3_lerp(course->position[parent], course->position[child], 0.5f);
+            p = vec3_lerp(p, middle, 0.5f);
+        }
+        course->next[i] = p;
+    }
+    Vec3 *old = course->position;
+    course->position = course->next;
+    course->next = old;
+}
+
+// ---- curves ----
+
+static CurveSet *make_curves(const OutTree *tree, const Course *course,
+                             const VenationParams *params, const Transform *place, Error *e)
+{
+    int64_t pieces = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        pieces += tree->parent[i] >= 0;
+    }
+    CurveSet *curves = curves_new(2 * pieces, pieces, e);
+    int64_t last = tree->count > 0 ? tree->birth[tree->count - 1] : 0, point = 0;
+    for (int64_t i = 0; curves && i < tree->count; i++) {
+        const int64_t end[2] = {tree->parent[i], i};
+        for (int k = 0; end[0] >= 0 && k < 2; k++, point++) {
+            bool tapers = params->smoothing > 0 && course->main[end[0]] == i;
+            Vec3 p = venation_bend(params, course->position[end[k]]);
+            curves->position[point] = transform_point(place, p);
+            // a branch begins with its own radius, not with that of the vein it leaves
+            curves->radius[point] = tree->radius[tapers ? end[k] : i];
+            curves->birth[point] = last > 0 ? (float)tree->birth[end[k]] / (float)last : 0.0f;
+            curves->along[point] = tree->position[end[k]].y;
+            curves->first[point / 2 + 1] = point + 1;
+        }
+    }
+    return curves;
+}
+
+CurveSet *venation_curves(const OutTree *tree, const VenationParams *params, const Transform *place,
+                          Error *e)
+{
+    Course course = {0};
+    CurveSet *curves = NULL;
+    if (course_init(&course, tree, e)) {
+        for (int pass = 0; pass < params->smoothing; pass++) {
+            smooth(&course, tree);
+        }
+        curves = make_curves(tree, &course, params, place, e);
+    }
+    course_free(&course);
+    return curves;
+}
