@@ -124,6 +124,34 @@ static void keeps_to_slopes_and_shares(void **state)
     mesh_free(ball);
 }
 
+// A patch of 1/400 of the surface is filled as if it were the whole. On a unit sphere the area
+// within a distance r is pi r^2 (Archimedes).
+static void fills_a_small_patch_of_a_surface(void **state)
+{
+    (void)state;
+    Mesh *ball = ball_mesh(40, NULL);
+    assert_non_null(ball);
+    ShapeSurface surface = {.mesh = ball};
+    Thing thing = {.share = 1.0f};
+    ScatteringParams scatter = of_things(&thing, 1);
+    scatter.count = 2000;
+    scatter.center = vec3(0.6f, 0.8f, 0.0f);
+    scatter.radius = 0.1f;
+    Run run = run_default();
+    Recipe recipe = {.seed = 5, .run = &run, .surface = &surface};
+    ScatterPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    assert_int_equal(places.count, 2000);
+    int64_t inner = 0;
+    for (int64_t i = 0; i < places.count; i++) {
+        float away = vec3_distance(foot(&places.place[i]), scatter.center);
+        assert_true(away <= 0.1001f);
+        inner += away < 0.1f * 0.70710678f;
+    }
+    assert_true(fabs((double)inner / 2000.0 - 0.5) < 0.05); // 4 standard errors
+    scatter_places_free(&places);
+    mesh_free(ball);
+}
+
 // Mean number of neighbours within half a metre.
 static double crowd(const ScatterPlaces *places)
 {
@@ -337,6 +365,7 @@ int main(void)
         cmocka_unit_test(keeps_distance_on_the_land),
         cmocka_unit_test(stops_where_there_is_no_room),
         cmocka_unit_test(keeps_to_slopes_and_shares),
+        cmocka_unit_test(fills_a_small_patch_of_a_surface),
         cmocka_unit_test(clumps),
         cmocka_unit_test(keeps_to_its_side_of_the_shore),
         cmocka_unit_test(land_of_one_slope_meets_its_range_alone),

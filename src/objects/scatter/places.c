@@ -66,14 +66,29 @@ static Vec3 corner(const Mesh *mesh, int64_t face, int number)
     return mesh->position[mesh->index[face * mesh->face_size + number]];
 }
 
-// Sums of the areas of the surface's faces.
-static double *sum_areas(const Mesh *mesh, Error *e)
+// May the triangle reach into the shell where copies stand?
+static bool may_be_near(const ScatteringParams *params, const Vec3 corner[3])
+{
+    Vec3 middle = vec3_scale(vec3_add(vec3_add(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
+    float reach = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        float r = vec3_distance(corner[k], middle);
+        reach = r > reach ? r : reach;
+    }
+    float distance = vec3_distance(middle, params->center);
+    return distance + reach >= params->inner &&
+           (params->radius == 0.0f || distance - reach <= params->radius);
+}
+
+// Sums of the areas of the surface's faces, 0 for those too far away: a patch of a wide land is
+// found, too.
+static double *sum_areas(const Mesh *mesh, const ScatteringParams *params, Error *e)
 {
     double *area = memory_alloc(mesh->face_count, sizeof *area, e), sum = 0.0;
     for (int64_t i = 0; area && i < mesh->face_count; i++) {
-        Vec3 a = corner(mesh, i, 0);
-        Vec3 across = vec3_cross(vec3_sub(corner(mesh, i, 1), a), vec3_sub(corner(mesh, i, 2), a));
-        sum += 0.5 * (double)vec3_length(across);
+        Vec3 c[3] = {corner(mesh, i, 0), corner(mesh, i, 1), corner(mesh, i, 2)};
+        Vec3 across = vec3_cross(vec3_sub(c[1], c[0]), vec3_sub(c[2], c[0]));
+        sum += may_be_near(params, c) ? 0.5 * (double)vec3_length(across) : 0.0;
         area[i] = sum;
     }
     return area;
@@ -217,7 +232,7 @@ static bool search_begin(Search *s, const Recipe *recipe, Error *e)
     for (int i = 0; i < s->params->thing_count; i++) {
         s->shares += s->params->things[i].share;
     }
-    s->area = s->surface ? sum_areas(s->surface->mesh, e) : NULL;
+    s->area = s->surface ? sum_areas(s->surface->mesh, s->params, e) : NULL;
     bool spaced = s->params->spacing > 0.0f;
     s->taken = spaced ? point_hash_new(s->params->spacing, e) : NULL;
     return (s->area || !s->surface) && (s->taken || !spaced) && draw_maps(s, recipe, e);

@@ -23,25 +23,6 @@ typedef struct Range {
 
 // ---- the block
 
-// Outlets of the rivers: gaps in the border. The rest of it is a divide, so mirrored land goes on.
-static void open_outlets(const Range *r, Landscape *land)
-{
-    uint64_t key = random_key(r->terrain->seed, STREAM_OUTLETS);
-    int outlets = r->params.alps.outlets, last = land->side - 1;
-    for (int n = 0; n < outlets; n++) {
-        // In turn over the sides, so that no two are neighbours by chance.
-        float at = random_range(random_key(key, (uint64_t)n), 0.15f, 0.85f);
-        int side = (n + (int)(key >> 60)) % 4, place = (int)(at * (float)last + 0.5f);
-        for (int k = -1; k <= 1; k++) {
-            int column = side == 0 ? 0 : side == 1 ? last : place + k;
-            int row = side == 2 ? 0 : side == 3 ? last : place + k;
-            if (column >= 0 && row >= 0 && column <= last && row <= last) {
-                landscape_set_base(land, (int64_t)row * land->side + column, 0.0);
-            }
-        }
-    }
-}
-
 // Rock is weak along joints and shear zones: noise at all scales, for the grid at hand.
 static void set_weakness(const Range *r, Landscape *land, const Run *run)
 {
@@ -80,7 +61,7 @@ static bool cut_by_rivers(const Range *r, Landscape *land, const Run *run, Error
         float n = sparse_noise_fractal(5.0f * x, 5.0f * z, 6, 0.6f, 0.0f, key);
         land->rock[i] = 1e-3 * r->size * (double)(2.0f + 0.3f * n);
     }
-    open_outlets(r, land);
+    terrain_open_outlets(r->terrain, r->params.alps.outlets, land);
     double own = land->cell * land->cell;
     LandscapeRates rates = {.uplift = 0.12 * r->size,
                             .incision = 45.0,
@@ -187,7 +168,7 @@ static Landscape *refine(const Range *r, Landscape *land, const Run *run, Error 
     Landscape *finer = landscape_refined(land, run, e);
     landscape_free(land);
     if (finer) {
-        open_outlets(r, finer);
+        terrain_open_outlets(r->terrain, r->params.alps.outlets, finer);
         set_weakness(r, finer, run);
     }
     return finer;

@@ -49,6 +49,10 @@ static int own_beds(const TerrainParams *params, StrataBed *beds)
             .thickness = 1.0f, .hardness = 0.4f, .slope = 52.0f, .color = {0.1f, 0.09f, 0.085f}};
         return 1;
     }
+    if (params->form == TERRAIN_HILLS) { // soft rock
+        beds[0] = (StrataBed){.thickness = 1.0f, .slope = 45.0f, .color = {0.3f, 0.26f, 0.2f}};
+        return 1;
+    }
     const StrataBed *from = params->form == TERRAIN_CANYON ? CANYON : MESAS;
     int count = params->form == TERRAIN_CANYON ? (int)(sizeof CANYON / sizeof *CANYON)
                                                : (int)(sizeof MESAS / sizeof *MESAS);

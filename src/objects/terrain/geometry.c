@@ -8,8 +8,8 @@
 static bool give_strata(Mesh *mesh, const Terrain *terrain, Error *e)
 {
     TerrainForm form = terrain->params->form;
-    bool one =
-        (form == TERRAIN_ALPS || form == TERRAIN_VOLCANO) && terrain->params->strata.bed_count == 0;
+    bool one = (form == TERRAIN_ALPS || form == TERRAIN_VOLCANO || form == TERRAIN_HILLS) &&
+               terrain->params->strata.bed_count == 0;
     if (!mesh || !terrain->strata || one) {
         return mesh;
     }

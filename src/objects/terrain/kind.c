@@ -53,7 +53,9 @@ static void needs(const void *params, Needs *needs)
     double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // trees per side
     needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, CELL_BYTES);
     if (terrain_evolves(terrain)) {
-        double cells = fmin(terrain->resolution, terrain->evolution.cells);
+        double cells = terrain->form == TERRAIN_HILLS
+                           ? terrain_hill_cells(terrain)
+                           : fmin(terrain->resolution, terrain->evolution.cells);
         needs_add(needs, "evolution.cells", cells * cells,
                   terrain->form == TERRAIN_VOLCANO ? LANDSCAPE_BYTES + LAVA_BYTES
                                                    : LANDSCAPE_BYTES);
@@ -83,6 +85,9 @@ static const char *material_for(const void *params, int role)
     if (role == TERRAIN_LAND && terrain->form == TERRAIN_VOLCANO &&
         terrain->strata.bed_count == 0) {
         return "terrain/volcano";
+    }
+    if (role == TERRAIN_LAND && terrain->form == TERRAIN_HILLS && terrain->strata.bed_count == 0) {
+        return "terrain/hills";
     }
     if (role == TERRAIN_LAND && terrain->form == TERRAIN_DUNES) {
         return "terrain/dunes";
@@ -130,6 +135,14 @@ static const Material BUILTIN[] = {
      .pattern_depth = 1.5f,
      .snow_line = HEIGHT_MAP_SNOW_LINE,
      .grass_line = 0.23f},
+    {.name = "terrain/hills",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.310f, 0.232f, 0.105f},
+     .color2 = {0.082f, 0.098f, 0.030f},
+     .roughness = 0.8f,
+     .ior = 1.5f,
+     .pattern = PATTERN_HILLS,
+     .pattern_depth = 0.5f},
     {.name = "terrain/dunes",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.56f, 0.335f, 0.165f},

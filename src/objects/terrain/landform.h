@@ -57,6 +57,12 @@ typedef struct DuneParams {
     float age;     // 1 = grown up, more = fewer and larger
 } DuneParams;
 
+// Rounded hills under soil.
+typedef struct HillParams {
+    float spacing; // m: about from valley to valley; 0 = a tenth of the size
+    int outlets;   // of the streams, on the border
+} HillParams;
+
 // How the land evolves; factors on the landform's own rates.
 typedef struct EvolutionParams {
     float streams;    // incision by tributaries
@@ -69,6 +75,6 @@ typedef struct EvolutionParams {
 } EvolutionParams;
 
 extern const struct Table strata_table, canyon_table, mesa_table, alps_table, volcano_table,
-    dune_table, evolution_table;
+    dune_table, hill_table, evolution_table;
 
 #endif

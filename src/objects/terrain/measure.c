@@ -194,5 +194,8 @@ bool terrain_measure(const void *given, const Grown *grown, const Recipe *recipe
     if (done && s.params.form == TERRAIN_ALPS) {
         done = measure_valleys(s.land, (double)s.params.size, list, e);
     }
+    if (done && s.params.form == TERRAIN_HILLS) {
+        done = terrain_measure_hills(terrain, list, e);
+    }
     return done && (s.params.form != TERRAIN_VOLCANO || terrain_measure_volcano(terrain, list, e));
 }

@@ -362,17 +362,11 @@ static const Table FOREST_TABLE = {.name = "forest",
                                    .size = sizeof(TerrainForestParams),
                                    .keys = FOREST_KEYS};
 
-static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS},
-                                      {"ridges", TERRAIN_RIDGES},
-                                      {"map", TERRAIN_MAP},
-                                      {"noise", TERRAIN_NOISE},
-                                      {"survey", TERRAIN_SURVEY},
-                                      {"canyon", TERRAIN_CANYON},
-                                      {"mesas", TERRAIN_MESAS},
-                                      {"alps", TERRAIN_ALPS},
-                                      {"volcano", TERRAIN_VOLCANO},
-                                      {"dunes", TERRAIN_DUNES},
-                                      {0}};
+static const EnumName FORM_NAMES[] = {
+    {"rivers", TERRAIN_RIVERS}, {"ridges", TERRAIN_RIDGES}, {"map", TERRAIN_MAP},
+    {"noise", TERRAIN_NOISE},   {"survey", TERRAIN_SURVEY}, {"canyon", TERRAIN_CANYON},
+    {"mesas", TERRAIN_MESAS},   {"alps", TERRAIN_ALPS},     {"volcano", TERRAIN_VOLCANO},
+    {"dunes", TERRAIN_DUNES},   {"hills", TERRAIN_HILLS},   {0}};
 
 static const EnumName SHOW_NAMES[] = {
     {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
@@ -385,7 +379,7 @@ static const Key TERRAIN_KEYS[] = {
          "on a plane; survey: a raster of surveyed heights; canyon: a plateau of beds that a river "
          "has cut; mesas: what is left of such a plateau; alps: a rising block, cut by rivers and "
          "worn by glaciers; volcano: tephra and lava about a vent; dunes: sand that the wind "
-         "carries over a plain."},
+         "carries over a plain; hills: rounded land under creeping soil, which streams cut."},
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
@@ -393,7 +387,8 @@ static const Key TERRAIN_KEYS[] = {
     {KEY_OF(TerrainParams, relief, "relief", KEY_FLOAT), .high = 1e5, .unit = "m",
      .doc = "Height of the highest valley slopes above the outlets, of the highest ridge above "
             "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09, "
-            "of mesas 0.04, of alps 0.16 and of a volcano 0.13 of the size. Not of noise alone, "
+            "of mesas and hills 0.04, of alps 0.16 and of a volcano 0.13 of the size. Not of noise "
+            "alone, "
             "surveys or dunes."},
     {KEY_OF(TerrainParams, resolution, "resolution", KEY_INT), .low = 16, .high = 8192,
      .doc = "Cells per side, a power of two; it changes the detail, not the form."},
@@ -429,8 +424,10 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Stratovolcano, of form: volcano."},
     {KEY_OF(TerrainParams, dunes, "dunes", KEY_GROUP), .table = &dune_table,
      .doc = "Dunes, of form: dunes."},
+    {KEY_OF(TerrainParams, hills, "hills", KEY_GROUP), .table = &hill_table,
+     .doc = "Rounded hills, of form: hills."},
     {KEY_OF(TerrainParams, evolution, "evolution", KEY_GROUP), .table = &evolution_table,
-     .doc = "Processes that make form: canyon, mesas, alps and volcano."},
+     .doc = "Processes that make form: canyon, mesas, alps, volcano and hills."},
     {KEY_OF(TerrainParams, beyond, "beyond", KEY_INT), .high = 8,
      .doc = "Rings of mirrored copies around the square (of dunes: of copies as they are), so that "
             "the "

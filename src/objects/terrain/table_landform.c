@@ -241,6 +241,29 @@ const Table dune_table = {.name = "dunes",
                           .size = sizeof(DuneParams),
                           .keys = DUNE_KEYS};
 
+static const Key HILL_KEYS[] = {
+    {KEY_OF(HillParams, spacing, "spacing", KEY_FLOAT), .high = 1e6, .unit = "m",
+     .doc = "Approximate distance from one small valley to the next; 0 = a tenth of the terrain's "
+            "size. Close valleys need soil that creeps slowly, wide ones soil that creeps fast."},
+    {KEY_OF(HillParams, outlets, "outlets", KEY_INT), .low = 1, .high = 64,
+     .doc = "Number of streams that leave over the border."},
+    {0},
+};
+
+const Table hill_table = {.name = "hills",
+                          .doc =
+                              "Convex hills under soil between streams. The relief is the height "
+                              "of the highest above the outlets.",
+                          .example = "objects:\n"
+                                     "  - name: downs\n"
+                                     "    terrain:\n"
+                                     "      form: hills\n"
+                                     "      size: 4000\n"
+                                     "      relief: 160\n"
+                                     "      hills: {spacing: 350}\n",
+                          .size = sizeof(HillParams),
+                          .keys = HILL_KEYS};
+
 static const Key EVOLUTION_KEYS[] = {
     {KEY_OF(EvolutionParams, streams, "streams", KEY_FLOAT), .high = 100,
      .doc = "Factor on the erosion by streams."},

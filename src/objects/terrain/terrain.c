@@ -39,6 +39,7 @@ TerrainParams terrain_params_default(void)
         .mesas = {.streams = 6, .remaining = 0.12f},
         .alps = {.ice = 1.0f, .ice_line = 0.4f, .outlets = 5, .wind = 270.0f},
         .volcano = {.flows = 16, .cones = 5, .wind = 270.0f, .age = 0.15f},
+        .hills = {.outlets = 4},
         .dunes = {.kind = DUNE_TRANSVERSE, .wind = 270.0f, .spread = 120.0f, .age = 1.0f},
         .evolution = {.streams = 1.0f,
                       .weathering = 1.0f,
@@ -83,6 +84,7 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         case TERRAIN_ALPS:
         case TERRAIN_VOLCANO:
         case TERRAIN_DUNES:
+        case TERRAIN_HILLS:
             resolved.noise.wavelength = 0.125f;
             break;
         case TERRAIN_SURVEY: // two cells of the raster
@@ -101,6 +103,8 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
     if (terrain_evolves(params)) {
         resolved.relief =
             params->relief > 0.0f ? params->relief : params->size * own_relief(params->form);
+        resolved.hills.spacing =
+            params->hills.spacing > 0.0f ? params->hills.spacing : 0.1f * params->size;
         resolved.volcano.crater =
             params->volcano.crater > 0.0f ? params->volcano.crater : 0.26f * resolved.relief;
         resolved.canyon.width =
@@ -201,6 +205,7 @@ bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *
     case TERRAIN_ALPS:
     case TERRAIN_VOLCANO:
     case TERRAIN_DUNES:
+    case TERRAIN_HILLS:
         whole->tree = out_tree_new(e);
     }
     return whole->tree;
@@ -404,6 +409,7 @@ static float land_at(const Terrain *terrain, float x, float z, float *wetness)
     case TERRAIN_ALPS:
     case TERRAIN_VOLCANO:
     case TERRAIN_DUNES:
+    case TERRAIN_HILLS:
     case TERRAIN_NOISE:
         break;
     }
@@ -439,7 +445,7 @@ static bool add_records(const TerrainParams *params, HeightField *field, Error *
         return true;
     }
     field->loose = memory_alloc_zero(count, sizeof(float), e);
-    // Before alps and volcanoes rose there was no land to compare with.
+    // Before alps, volcanoes and hills rose there was no land to compare with.
     bool whole = params->form == TERRAIN_CANYON || params->form == TERRAIN_MESAS;
     if (params->form == TERRAIN_VOLCANO &&
         !(field->ground = memory_alloc_zero(count, sizeof(float), e))) {
@@ -561,6 +567,9 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
         }
         return done;
     }
+    if (params->form == TERRAIN_HILLS) {
+        return height_field_fill(field, 1e-4f, e) && terrain_wet_hollows(field, e);
+    }
     if (terrain_evolves(params)) {
         return terrain_lay_rivers(terrain, field, run, e);
     }
@@ -598,6 +607,9 @@ static bool prepare_land(Terrain *terrain, const Run *run, Error *e)
         return terrain->evolved;
     case TERRAIN_VOLCANO:
         terrain->evolved = terrain_evolve_volcano(terrain, &terrain->ground, run, e);
+        return terrain->evolved;
+    case TERRAIN_HILLS:
+        terrain->evolved = terrain_evolve_hills(terrain, run, e);
         return terrain->evolved;
     case TERRAIN_DUNES:
         terrain->dunes = terrain_blow_dunes(terrain, run, e);

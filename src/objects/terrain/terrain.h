@@ -49,7 +49,8 @@ typedef enum TerrainForm {
     TERRAIN_MESAS,   // what is left of one
     TERRAIN_ALPS,    // a rising block, cut by rivers and worn by glaciers
     TERRAIN_VOLCANO, // tephra and lava about a vent
-    TERRAIN_DUNES    // sand that the wind carries over a plain
+    TERRAIN_DUNES,   // sand that the wind carries over a plain
+    TERRAIN_HILLS    // creeping soil and streams
 } TerrainForm;
 
 // What is drawn.
@@ -169,6 +170,7 @@ typedef struct TerrainParams {
     AlpsParams alps;
     VolcanoParams volcano;
     DuneParams dunes;
+    HillParams hills;
     EvolutionParams evolution;
     int beyond;       // rings of mirrored copies around the square
     float mesh_error; // largest error of the mesh, as a share of its distance to the camera
@@ -205,8 +207,13 @@ extern ColorStop terrain_altitudes[TERRAIN_ALTITUDES];
 static inline bool terrain_evolves(const TerrainParams *params)
 {
     return params->form == TERRAIN_CANYON || params->form == TERRAIN_MESAS ||
-           params->form == TERRAIN_ALPS || params->form == TERRAIN_VOLCANO;
+           params->form == TERRAIN_ALPS || params->form == TERRAIN_VOLCANO ||
+           params->form == TERRAIN_HILLS;
 }
+
+// Of TERRAIN_HILLS: cells a side of the grid of the processes. It resolves what creeping soil
+// leaves; nothing is smaller, so the land is the same at any resolution.
+int terrain_hill_cells(const TerrainParams *params);
 
 // Height of the lake, in the field's own space.
 float terrain_water_height(const TerrainParams *params, const HeightField *field);

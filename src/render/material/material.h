@@ -52,7 +52,8 @@ typedef enum PatternKind {
     PATTERN_ALPS,      // rock, scree, meadows and snow where wind, hollows and ledges hold it
     PATTERN_VOLCANO,   // tephra, lava by its age, red scoria, plants and snow
     PATTERN_STRATA,    // the beds of the land in their own colours, talus, soil and shrubs
-    PATTERN_DUNES      // sand with ripples across the wind, slip faces, gravel between dunes
+    PATTERN_DUNES,     // sand with ripples across the wind, slip faces, gravel between dunes
+    PATTERN_HILLS      // dry grass, fresh grass in hollows, terracettes, bare scars
 } PatternKind;
 
 // Is relief displaced near the camera?

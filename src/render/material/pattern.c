@@ -166,6 +166,9 @@ void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *s
     case PATTERN_DUNES:
         pattern_dunes(m, point, shade);
         break;
+    case PATTERN_HILLS:
+        pattern_hills(m, point, shade);
+        break;
     case PATTERN_NOISE:
         noise_pattern(m, point, shade);
         break;

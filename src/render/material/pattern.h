@@ -40,6 +40,7 @@ void pattern_leaf(const Material *material, const SurfacePoint *point, PatternSh
 void pattern_season(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_corallite(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_youth(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_hills(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_dunes(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_sand(const Material *material, const SurfacePoint *point, PatternShade *shade);
 

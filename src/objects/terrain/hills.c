@@ -1,0 +1,212 @@
+// Rounded hills under soil: the form hills. Land rises as fast as streams cut down and soil creeps
+// away, until the three balance: convex tops, one valley about every `spacing`. What spaces the
+// valleys is the length sqrt(D / K) of creep D and incision K (Perron et al. 2009).
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "land/height_drainage.h"
+#include "objects/terrain/internal.h"
+#include "objects/terrain/noise.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { CELLS_PER_VALLEY = 20 };
+
+// Measured: the distance from valley to valley over sqrt(D / K), see tests/objects/test_hills.c.
+static const double SPACING = 15.5;
+
+typedef struct Hills {
+    const Terrain *terrain;
+    TerrainParams params; // resolved
+    LandscapeRates rates; // of uplift and streams, per lifetime of the hills
+    double creep;         // D, m^2 per lifetime
+} Hills;
+
+static void set_rates(Hills *h)
+{
+    const EvolutionParams *evolution = &h->params.evolution;
+    double length = (double)h->params.hills.spacing / SPACING;
+    double incision = 45.0 * (double)evolution->streams;
+    h->rates = (LandscapeRates){.uplift = 6.0 * (double)h->params.relief,
+                                .incision = incision,
+                                .loose = incision,
+                                .least_area = 6.0 * length * length,
+                                .repose = 1.0,
+                                .seed = random_key(h->terrain->seed, STREAM_WATER_WAYS)};
+    h->creep = 45.0 * length * length * (double)evolution->soil;
+}
+
+// Rock differs from place to place, so that no two hills are alike.
+static void set_weakness(const Hills *h, Landscape *land, const Run *run)
+{
+    uint64_t key = random_key(h->terrain->seed, STREAM_WEAKNESS);
+    double wavelength = 4.0 * (double)h->params.hills.spacing;
+#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
+    for (int row = 0; row < land->side; row++) {
+        for (int column = 0; column < land->side; column++) {
+            float x = (float)((land->corner + column * land->cell) / wavelength);
+            float z = (float)((land->corner + row * land->cell) / wavelength);
+            float n = sparse_noise_fractal(x, z, 4, 0.6f, 0.0f, key);
+            land->weakness[(int64_t)row * land->side + column] =
+                clampf(1.0f + 0.35f * n, 0.4f, 1.8f);
+        }
+    }
+}
+
+static void roughen(const Hills *h, Landscape *land)
+{
+    uint64_t key = random_key(h->terrain->seed, STREAM_PLATEAU);
+    double wavelength = 3.0 * (double)h->params.hills.spacing;
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        int64_t column = i % land->side, row = i / land->side;
+        float x = (float)((double)column * land->cell / wavelength);
+        float z = (float)((double)row * land->cell / wavelength);
+        float n = sparse_noise_fractal(x, z, 6, 0.6f, 0.0f, key);
+        land->rock[i] = 0.02 * (double)h->params.relief * (double)(2.0f + 0.3f * n);
+    }
+}
+
+// One explicit step of dh/dt = D laplace(h): r = D t / cell^2 <= 1/4. Nothing crosses the border;
+// what creeps into a base has left.
+static void creep_once(Landscape *land, double *next, double r, int threads)
+{
+    int side = land->side;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int row = 0; row < side; row++) {
+        const double *h = land->rock + (int64_t)row * side;
+        const double *north = row > 0 ? h - side : h, *south = row < side - 1 ? h + side : h;
+        for (int column = 0; column < side; column++) {
+            double west = h[column > 0 ? column - 1 : column];
+            double east = h[column < side - 1 ? column + 1 : column];
+            double around = north[column] + south[column] + west + east;
+            int64_t i = (int64_t)row * side + column;
+            next[i] = land->base[i] ? h[column] : h[column] + r * (around - 4.0 * h[column]);
+        }
+    }
+}
+
+static double sum_of(const double *h, int64_t count)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < count; i++) {
+        sum += h[i];
+    }
+    return sum;
+}
+
+// Soil creeps for a share of the lifetime. It never lacks: soft rock turns to soil fast.
+static bool creep(const Hills *h, Landscape *land, double share, const Run *run, Error *e)
+{
+    int64_t count = landscape_count(land);
+    double *next = memory_alloc(count, sizeof *next, e);
+    if (!next) {
+        return false;
+    }
+    double whole = h->creep * share / (land->cell * land->cell), before = sum_of(land->rock, count);
+    int steps = 1 + (int)(whole / 0.2);
+    for (int i = 0; i < steps; i++) {
+        creep_once(land, next, whole / steps, run->threads);
+        double *old = land->rock;
+        land->rock = next;
+        next = old;
+    }
+    land->outflow += (before - sum_of(land->rock, count)) * land->cell * land->cell;
+    free(next);
+    return true;
+}
+
+static bool evolve(const Hills *h, Landscape *land, double share, const Run *run, Error *e)
+{
+    // In a step streams move less than a cell up a slope, so that creep keeps pace.
+    double length = sqrt(h->creep / h->rates.incision);
+    int steps = 1 + (int)(share * h->rates.incision * length / (0.4 * land->cell));
+    for (int i = 0; i < steps; i++) {
+        run_progress(run, "erosion", (double)i / steps);
+        // Streams come last: they clear what has crept into them.
+        if (!creep(h, land, share / steps, run, e) ||
+            !landscape_step(land, &h->rates, share / steps, true, run, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Heights are linear in the uplift, so one factor on both gives the relief.
+static void scale_to_relief(Hills *h, Landscape *land)
+{
+    double high = 0.0;
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        high = land->rock[i] > high ? land->rock[i] : high;
+    }
+    double scale = high > 0.0 ? (double)h->params.relief / high : 1.0;
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        land->rock[i] *= scale;
+    }
+    land->outflow *= scale;
+    land->uplifted *= scale;
+    h->rates.uplift *= scale;
+}
+
+// The depth of soil under which rock turns to soil as fast as the land lowers: the same everywhere,
+// as all of it lowers at one rate (Heimsath et al. 1997).
+static void lay_soil(Landscape *land)
+{
+    const double depth = 0.7; // m
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        if (!land->base[i]) {
+            land->rock[i] -= depth;
+            land->loose[i] = depth;
+        }
+    }
+}
+
+int terrain_hill_cells(const TerrainParams *params)
+{
+    TerrainParams p = terrain_params_resolve(params);
+    double cells = CELLS_PER_VALLEY * (double)(p.size / p.hills.spacing);
+    int most = p.evolution.cells;
+    return cells < 64.0 ? 64 : cells > (double)most ? most : 2 * (int)(0.5 * cells + 0.5);
+}
+
+Landscape *terrain_evolve_hills(const Terrain *terrain, const Run *run, Error *e)
+{
+    Hills h = {.terrain = terrain, .params = terrain_params_resolve(terrain->params)};
+    set_rates(&h);
+    int cells = terrain_hill_cells(terrain->params);
+    Landscape *land = landscape_new(cells / 2, (double)h.params.size, terrain->strata, e);
+    if (land) {
+        roughen(&h, land);
+    }
+    for (double lifetimes = 2.0; land; lifetimes = 1.0) {
+        terrain_open_outlets(terrain, h.params.hills.outlets, land);
+        set_weakness(&h, land, run);
+        if (!evolve(&h, land, lifetimes, run, e)) {
+            landscape_free(land);
+            return NULL;
+        }
+        scale_to_relief(&h, land);
+        if (land->side > cells) {
+            lay_soil(land);
+            return land;
+        }
+        Landscape *finer = landscape_refined(land, run, e);
+        landscape_free(land);
+        land = finer;
+    }
+    return NULL;
+}
+
+bool terrain_wet_hollows(HeightField *field, Error *e)
+{
+    Drainage *drainage = drainage_new(field, e);
+    int64_t count = height_field_count(field);
+    for (int64_t i = 0; drainage && i < count; i++) {
+        // Catchment by the metre of contour: 30 m on a slope, 300 m and more in a hollow.
+        float width = (float)drainage->area[i] / field->cell.x;
+        field->wetness[i] = smoothstepf(3.2f, 7.5f, (float)exact_log(width));
+    }
+    bool done = drainage;
+    drainage_free(drainage);
+    return done;
+}

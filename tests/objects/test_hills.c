@@ -1,0 +1,182 @@
+// The form hills: spacing of valleys, balance of creep and streams, soil, threads, volume.
+#include "land/height_drainage.h"
+#include "making.h"
+#include "objects/terrain/internal.h"
+#include "testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Made {
+    Grown grown;
+    HeightField *field;
+    MeasureList list;
+    const Landscape *land; // of the grown
+} Made;
+
+static Made make(float spacing, int resolution, uint64_t seed, int threads)
+{
+    Error e = {0};
+    Run run = run_default();
+    run.threads = threads;
+    TerrainParams params = terrain_params_default();
+    params.form = TERRAIN_HILLS;
+    params.size = 3000.0f;
+    params.relief = 150.0f;
+    params.resolution = resolution;
+    params.hills.spacing = spacing;
+    Recipe recipe = {.seed = seed, .label = "land", .run = &run};
+    Made made = {.field = NULL};
+    if (!kind_grow(&kind_terrain, &params, &recipe, 1.0f, NULL, &made.grown, &e) ||
+        !(made.field = terrain_heights(&params, &made.grown, &run, &e)) ||
+        !terrain_measure(&params, &made.grown, &recipe, &made.list, &e)) {
+        fail_msg("%s", e.message);
+    }
+    made.land = ((const Terrain *)made.grown.state)->evolved;
+    return made;
+}
+
+static void clear(Made *made)
+{
+    measures_clear(&made->list);
+    height_field_free(made->field);
+    grown_clear(&made->grown);
+}
+
+static double value(const Made *made, const char *name)
+{
+    const Measure *measure = measures_find(&made->list, name);
+    assert_non_null(measure);
+    return measure->value;
+}
+
+static void valleys_are_as_far_apart_as_asked(void **state)
+{
+    (void)state;
+    static const float spacing[] = {200.0f, 350.0f};
+    for (int k = 0; k < 4; k++) {
+        Made made = make(spacing[k % 2], 256, (uint64_t)(3 + k / 2), 0);
+        double is = value(&made, "valley_spacing");
+        printf("  asked %g, is %g m\n", (double)spacing[k % 2], is);
+        if (fabs(is - (double)spacing[k % 2]) > 0.3 * (double)spacing[k % 2]) {
+            fail_msg("valleys are %g m apart, not %g", is, (double)spacing[k % 2]);
+        }
+        clear(&made);
+    }
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double surface(const Landscape *land, int64_t i)
+{
+    return land->rock[i] + land->loose[i];
+}
+
+static bool is_top(const Landscape *land, int64_t i)
+{
+    for (int row = -2; row <= 2; row++) {
+        for (int column = -2; column <= 2; column++) {
+            if (surface(land, i + (int64_t)row * land->side + column) > surface(land, i)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// In steady state all tops lower at the rate of the uplift, D times their curvature, so they bend
+// alike, high or low (Roering et al. 2007).
+static void all_tops_bend_alike(void **state)
+{
+    (void)state;
+    Made made = make(300.0f, 256, 5, 0);
+    const Landscape *land = made.land;
+    double bend[4096];
+    int count = 0;
+    for (int row = 2; row < land->side - 2; row++) {
+        for (int column = 2; column < land->side - 2 && count < 4096; column++) {
+            int64_t i = (int64_t)row * land->side + column, next = land->side;
+            if (is_top(land, i)) {
+                double around = surface(land, i - 1) + surface(land, i + 1) +
+                                surface(land, i - next) + surface(land, i + next);
+                bend[count++] = (around - 4.0 * surface(land, i)) / (land->cell * land->cell);
+            }
+        }
+    }
+    assert_true(count > 20);
+    qsort(bend, (size_t)count, sizeof *bend, by_value);
+    double median = bend[count / 2];
+    printf("  curvature of %d tops: %g, %g, %g /m\n", count, bend[count / 10], median,
+           bend[count - 1 - count / 10]);
+    assert_true(bend[count / 10] > 1.15 * median && bend[count - 1 - count / 10] < 0.85 * median);
+    assert_true(fabs(median - value(&made, "hilltop_curvature")) < 1e-9 * fabs(median));
+    clear(&made);
+}
+
+static void land_is_as_high_as_asked_and_under_soil(void **state)
+{
+    (void)state;
+    Made made = make(300.0f, 256, 6, 0);
+    float low, high;
+    height_field_range(made.field, &low, &high);
+    assert_true(fabsf(high - low - 150.0f) < 3.0f);
+    int64_t bare = 0, count = landscape_count(made.land);
+    for (int64_t i = 0; i < count; i++) {
+        bare += made.land->loose[i] < 0.02;
+    }
+    printf("  bare rock: %g of the land\n", (double)bare / (double)count);
+    assert_true((double)bare < 0.05 * (double)count);
+    assert_int_equal(height_field_pits(made.field), 0);
+    clear(&made);
+}
+
+// The resolution changes the detail, not the form.
+static void the_resolution_keeps_the_hills(void **state)
+{
+    (void)state;
+    Made coarse = make(300.0f, 128, 7, 0), fine = make(300.0f, 512, 7, 0);
+    double sum = 0.0, change = 0.0;
+    for (int row = 0; row <= 128; row += 2) {
+        for (int column = 0; column <= 128; column += 2) {
+            float a = coarse.field->height[row * 129 + column];
+            float b = fine.field->height[(4 * row) * 513 + 4 * column];
+            change += (double)((a - b) * (a - b));
+            sum += 1.0;
+        }
+    }
+    change = sqrt(change / sum);
+    printf("  spacing %g and %g m, change %g m\n", value(&coarse, "valley_spacing"),
+           value(&fine, "valley_spacing"), change);
+    assert_true(change < 0.01 * 150.0);
+    clear(&coarse);
+    clear(&fine);
+}
+
+static void threads_change_nothing(void **state)
+{
+    (void)state;
+    Made one = make(300.0f, 128, 8, 1), three = make(300.0f, 128, 8, 3);
+    size_t bytes = sizeof(float) * (size_t)height_field_count(one.field);
+    assert_memory_equal(one.field->height, three.field->height, bytes);
+    assert_memory_equal(one.field->wetness, three.field->wetness, bytes);
+    clear(&one);
+    clear(&three);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(valleys_are_as_far_apart_as_asked),
+        cmocka_unit_test(all_tops_bend_alike),
+        cmocka_unit_test(land_is_as_high_as_asked_and_under_soil),
+        cmocka_unit_test(the_resolution_keeps_the_hills),
+        cmocka_unit_test(threads_change_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
