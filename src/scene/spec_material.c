@@ -144,7 +144,9 @@ static const Key MATERIAL_KEYS[] = {
          "colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
      .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "
-            "and ash; plates: thick scaly plates, on thinner stems thin flakes of color2, as of "
+            "and ash, on thick branches; with a pattern_scale below 0.02, as of a miniature tree, "
+            "on thinner ones, too; plates: thick scaly plates, on thinner stems thin flakes of "
+            "color2, as of "
             "pine; birch: white, with dark lenticels across, peeling, and black (color2) diamonds; "
             "smooth: a skin with faint wrinkles and scars, as of beech; fibrous: long strips, as "
             "of cypress; flakes: patches of several ages from color, the freshest, to color2, as "

@@ -97,6 +97,36 @@ static void successive_leaves_are_turned_by_the_arrangement(void **state)
     }
 }
 
+static float length_of(const Transform *t)
+{
+    return vec3_length(vec3(t->m[0][1], t->m[1][1], t->m[2][1]));
+}
+
+// Sizes and gaps grow from the twig's end, to those of a twig without the key.
+static void leaves_are_smaller_toward_the_end(void **state)
+{
+    (void)state;
+    enum { SMALL = 5 };
+    const Vec3 along = {1, 0, 0};
+    LeavesParams leaves = plain_leaves(ARRANGE_DISTICHOUS);
+    Geometry equal = grow_on(&leaves, along);
+    leaves.tip_leaves = SMALL;
+    Geometry tapered = grow_on(&leaves, along);
+    const Part *part = &tapered.part[0];
+    assert_true(part->instance_count > SMALL + 2);
+    assert_true(part->instance_count > equal.part[0].instance_count);
+    float full = length_of(&equal.part[0].instance[0]);
+    for (int64_t i = 0; i + 1 < part->instance_count; i++) {
+        const Transform *leaf = &part->instance[i];
+        float share = i < SMALL ? (float)(i + 1) / (SMALL + 1) : 1.0f;
+        assert_float_equal(length_of(leaf), share * full, 1e-4f * full);
+        float gap = leaf->m[0][3] - leaf[1].m[0][3];
+        assert_float_equal(gap, share * leaves.spacing, 1e-3f * leaves.spacing);
+    }
+    geometry_clear(&equal);
+    geometry_clear(&tapered);
+}
+
 static void two_rows_lie_left_and_right(void **state)
 {
     (void)state;
@@ -312,6 +342,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(successive_leaves_are_turned_by_the_arrangement),
+        cmocka_unit_test(leaves_are_smaller_toward_the_end),
         cmocka_unit_test(two_rows_lie_left_and_right),
         cmocka_unit_test(hanging_leaves_hang),
         cmocka_unit_test(a_rosette_is_at_the_end),

@@ -150,31 +150,36 @@ typedef struct Spread {
     double around, along; // mean change of brightness over 1 cm
 } Spread;
 
-static Spread measure_kind(BarkKind kind, float radius, float footprint)
+static Spread measure_material(const Material *m, float radius, float footprint)
 {
-    Material m = bark();
-    m.bark = kind;
     Spread s = {0};
     const int count = 4000;
     double squares = 0.0;
     for (int i = 0; i < count; i++) {
         float angle = random_range(random_key(1, (uint64_t)i), -3.0f, 3.0f);
-        float foot = kind == BARK_FURROWED ? 0.0f : 12.0f; // above what lies at the foot
+        float foot = m->bark == BARK_FURROWED ? 0.0f : 12.0f; // above what lies at the foot
         float along = foot + random_range(random_key(2, (uint64_t)i), 0.0f, 5.0f);
         SurfacePoint p = trunk_point(angle, along, radius);
         SurfacePoint q = trunk_point(angle + 0.01f / radius, along, radius);
         SurfacePoint r = trunk_point(angle, along + 0.01f, radius);
         p.footprint = q.footprint = r.footprint = footprint;
-        PatternShade shade = shade_of(&m, &p);
+        PatternShade shade = shade_of(m, &p);
         double c = (double)shade.color.y;
         s.mean += c / count;
         squares += c * c / count;
         s.tilt += (double)(1.0f - vec3_dot(shade.normal, p.normal)) / count;
-        s.around += fabs((double)shade_of(&m, &q).color.y - c) / count;
-        s.along += fabs((double)shade_of(&m, &r).color.y - c) / count;
+        s.around += fabs((double)shade_of(m, &q).color.y - c) / count;
+        s.along += fabs((double)shade_of(m, &r).color.y - c) / count;
     }
     s.deviation = sqrt(fmax(0.0, squares - s.mean * s.mean));
     return s;
+}
+
+static Spread measure_kind(BarkKind kind, float radius, float footprint)
+{
+    Material m = bark();
+    m.bark = kind;
+    return measure_material(&m, radius, footprint);
 }
 
 static Spread measure_bark(float radius, float footprint)
@@ -204,6 +209,21 @@ static void test_bark_scale(void **state)
     Spread thin = measure_bark(0.2f, 5e-4f), thick = measure_bark(0.8f, 5e-4f);
     assert_true(fabs(thin.around / thick.around - 1.0) < 0.15);
     assert_true(fabs(thin.along / thick.along - 1.0) < 0.15);
+}
+
+// The furrows of a miniature tree open on branches that would be smooth twigs of a large one.
+static void test_miniature_bark(void **state)
+{
+    (void)state;
+    Material m = bark();
+    m.pattern_depth = 0.002f;
+    m.pattern_scale = 0.02f;
+    Spread large = measure_material(&m, 0.008f, 1e-4f);
+    m.pattern_scale = 0.005f;
+    Spread small = measure_material(&m, 0.008f, 1e-4f), twig = measure_material(&m, 0.001f, 1e-4f);
+    assert_true(large.tilt < 1e-6 && large.deviation < 0.1 * large.mean);
+    assert_true(small.tilt > 0.02 && small.deviation > 0.15 * small.mean);
+    assert_true(twig.tilt < 1e-6 && twig.deviation < 0.1 * twig.mean);
 }
 
 // Marks run along the stem or across it as in nature, in metres, and fade with distance.
@@ -494,6 +514,7 @@ int main(void)
         cmocka_unit_test(test_bark_has_no_seam),
         cmocka_unit_test(test_bark_relief),
         cmocka_unit_test(test_bark_scale),
+        cmocka_unit_test(test_miniature_bark),
         cmocka_unit_test(test_bark_kinds),
         cmocka_unit_test(test_bark_without_branch),
         cmocka_unit_test(test_ground),

@@ -52,13 +52,15 @@ void foliage_leaf_meshes(const LeavesParams *leaves, float piece, int variant, u
     }
 }
 
-// Distance to the next node, number counted from the twig's tip: they are denser at the end.
+// Distance to the next node, number counted from the twig's tip: they are denser at the end, and
+// where leaves are small.
 static float node_gap(const Foliage *foliage, int64_t number)
 {
     enum { CROWDED = 5 };
     float least = 1.0f - foliage->leaves->crowding;
     float step = foliage->leaves->crowding / CROWDED;
-    return foliage->spacing * (number < CROWDED ? least + step * (float)number : 1.0f);
+    float gap = number < CROWDED ? least + step * (float)number : 1.0f;
+    return foliage->spacing * gap * leaf_size_at(foliage->leaves, number);
 }
 
 static bool add_leaf(Foliage *foliage, Transform place, uint64_t key, Error *e)
@@ -134,6 +136,7 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
                              .reference = reference,
                              .radius = twigs->radius[i],
                              .number = number,
+                             .size = leaf_size_at(leaves, number),
                              .key = random_key(twig_key, STREAM_LEAVES + (uint64_t)number)};
             if (place && !add_node(foliage, twigs, first, i, &node, e)) {
                 *failed = true;

@@ -35,6 +35,12 @@ uint64_t leaf_key(const LeafNode *node, int k)
     return k == 0 ? node->key : random_key(node->key, STREAM_LEAVES + (uint64_t)k);
 }
 
+float leaf_size_at(const LeavesParams *leaves, int64_t number)
+{
+    int64_t small = leaves->tip_leaves;
+    return number < small ? (float)(number + 1) / (float)(small + 1) : 1.0f;
+}
+
 // Azimuth (degrees) about the twig of leaf number k of the node.
 static float azimuth(const LeavesParams *leaves, const LeafNode *node, int k, uint64_t key)
 {
@@ -119,6 +125,17 @@ static Vec3 side_at(const LeafNode *node, float degrees)
     return vec3_rotate(node->reference, node->along, cosine, sine);
 }
 
+// Scales about the frame's origin.
+static Transform resized(Transform frame, float size)
+{
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            frame.m[i][j] *= size;
+        }
+    }
+    return frame;
+}
+
 // A leaf of a short shoot, which leaves the twig at right angles.
 static Transform place_on_spur(const LeavesParams *leaves, const LeafNode *node, int k,
                                const LeafLight *light, uint64_t key)
@@ -152,8 +169,8 @@ static Vec3 off_surface(Vec3 out, Vec3 normal)
     return rise < least ? vec3_normalize(vec3_madd(out, least - rise, normal)) : out;
 }
 
-Transform leaf_place(const LeavesParams *leaves, const LeafNode *node, int k,
-                     const LeafLight *light)
+static Transform place(const LeavesParams *leaves, const LeafNode *node, int k,
+                       const LeafLight *light)
 {
     uint64_t key = leaf_key(node, k);
     if (leaves->arrangement == ARRANGE_SPURS) {
@@ -168,6 +185,12 @@ Transform leaf_place(const LeavesParams *leaves, const LeafNode *node, int k,
     }
     Vec3 p = vec3_madd(node->position, 0.8f * node->radius, out);
     return leaf_frame(leaves, p, node->along, out, leaves->angle, light, key);
+}
+
+Transform leaf_place(const LeavesParams *leaves, const LeafNode *node, int k,
+                     const LeafLight *light)
+{
+    return resized(place(leaves, node, k, light), node->size);
 }
 
 Transform leaf_place_piece(const LeavesParams *leaves, Vec3 start, Vec3 end, float reach,

@@ -19,12 +19,16 @@ typedef struct LeafNode {
     Vec3 reference; // unit, across it: where azimuths about the twig begin
     float radius;   // m, of the twig
     int64_t number; // counted from the twig's tip
+    float size;     // of its leaves, relative to those far from the tip
     uint64_t key;
 } LeafNode;
 
 // The direction that azimuths about a twig begin from: `reference` made perpendicular to it, or
 // level for leaves in two rows.
 Vec3 leaf_reference(const LeavesParams *leaves, Vec3 reference, Vec3 along);
+
+// Size of the leaves of node `number`, counted from the twig's tip, relative to those far from it.
+float leaf_size_at(const LeavesParams *leaves, int64_t number);
 
 // Key of leaf number k of the node.
 uint64_t leaf_key(const LeafNode *node, int k);

@@ -50,6 +50,10 @@ static const Key LEAVES_KEYS[] = {
     {KEY_OF(LeavesParams, crowding, "crowding", KEY_FLOAT), .high = 0.95,
      .doc = "How much closer the last five leaves of a twig stand, as an oak's or a cherry's: 0 = "
             "evenly spaced."},
+    {KEY_OF(LeavesParams, tip_leaves, "tip_leaves", KEY_INT), .high = 1000,
+     .doc = "Number of places at a twig's end whose leaves are smaller and closer toward it, as a "
+            "fern's pinnules: of 9 the last leaf has 1/10 of the size, the one before it 2/10. Not "
+            "of needles on the twig itself. 0 = all have the same size."},
     {KEY_OF(LeavesParams, angle, "angle", KEY_FLOAT), .high = 180, .unit = "degrees",
      .doc = "Angle between a leaf and its twig; of a rosette that of its lowest leaves."},
     {KEY_OF(LeavesParams, droop, "droop", KEY_FLOAT), .high = 1,

@@ -16,6 +16,14 @@ typedef struct BarkRelief {
 enum { LENGTHENING = 6 }; // of ridges along the branch
 
 #define BARK_WIDTH 0.045f // m: of the ridges, by default
+#define MINIATURE 0.02f   // m: ridges that are narrower are a miniature tree's, such as a bonsai's
+
+// Of the branch, m, as that of a full-size tree: a miniature's bark is as old on thinner branches.
+// 0 where it is unknown.
+static float full_size_radius(const SurfacePoint *point, float width)
+{
+    return point->radius / fminf(1.0f, width / MINIATURE);
+}
 
 // The position in units of ridge widths, distorted so that ridges wind and have ragged edges.
 static Vec3 ridge_lookup(const StemPlace *place, float width, Vec3 wind)
@@ -109,7 +117,8 @@ static BarkRelief mix_relief(BarkRelief a, BarkRelief b, float t)
 static BarkRelief relief_at(const SurfacePoint *point, const StemPlace *place, float width,
                             Vec3 wind)
 {
-    float thick = point->radius > 0.0f ? smoothstepf(0.05f, 0.12f, point->radius) : 1.0f;
+    float radius = full_size_radius(point, width);
+    float thick = radius > 0.0f ? smoothstepf(0.05f, 0.12f, radius) : 1.0f;
     float detail = pattern_detail(0.22f * width, point->footprint);
     BarkRelief coarse = {0}, fine = {0};
     if (thick > 0.0f) {
@@ -198,7 +207,8 @@ static BarkSurface furrowed_bark(const Material *m, const SurfacePoint *point,
     Vec3 p = vec3_scale(point->object_position, 0.22f / width);
     noise_solid(vec3(1.3f * p.x, 0.9f * p.y, 1.3f * p.z), 10, &wind);
     wind = vec3_scale(wind, 0.6f);
-    float old = point->radius > 0.0f ? smoothstepf(0.008f, 0.03f, point->radius) : 1.0f;
+    float radius = full_size_radius(point, width);
+    float old = radius > 0.0f ? smoothstepf(0.008f, 0.03f, radius) : 1.0f;
     float seen = old * pattern_detail(1.6f * width, point->footprint);
     const BarkRelief flat = {.height = 0.7f,
                              .furrow = 0.3f}; // the mean of the relief, seen from afar
