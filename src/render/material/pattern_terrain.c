@@ -179,8 +179,9 @@ void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 40.0f;
     float upright = fabsf(point->geometric_normal.y);
     PatternOctaves rough = pattern_octaves(point, 0.5f * scale, 8, 0.54f, 1.3f, 111);
-    PatternOctaves rills =
-        pattern_octaves(point, 0.28f * scale, 5, 0.6f, 0.16f, 121); // run down the slopes
+    // Rills run down the slopes; swelling clay dries to a crust of crumbs.
+    PatternOctaves rills = pattern_octaves(point, 0.16f * scale, 5, 0.62f, 0.11f, 121);
+    PatternOctaves crumbs = pattern_octaves(point, 0.012f * scale, 3, 0.7f, 1.0f, 127);
     float level = bed_level(point, scale, vec3(0.05f, 1.0f, 0.03f)) + 0.05f * rough.value;
     float tone = bed_tone(level, 11);
     tone = lerpf(tone, bed_tone(3.7f * level, 13),
@@ -191,9 +192,12 @@ void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade
     Vec3 color = vec3_lerp(shade->color, m->color2, smoothstepf(0.25f, 0.55f, tone));
     color = vec3_lerp(color, pale, smoothstepf(0.66f, 0.86f, tone));
     color = vec3_lerp(color, dark, 0.75f * smoothstepf(0.24f, 0.08f, tone));
-    color = vec3_scale(color, clampf(1.0f + 0.2f * rough.value - 0.22f * rills.value, 0.5f, 1.5f));
-    Vec3 slope = vec3_scale(rough.slope, 0.075f * scale);
+    color = vec3_scale(
+        color,
+        clampf(1.0f + 0.12f * rough.value - 0.2f * rills.value + 0.14f * crumbs.value, 0.5f, 1.5f));
+    Vec3 slope = vec3_scale(rough.slope, 0.03f * scale);
     slope = vec3_madd(slope, 0.05f * scale, rills.slope);
+    slope = vec3_madd(slope, 0.0035f * scale, crumbs.slope);
     slope.y += 1.3f * (tone - 0.5f);
     // Sand and rubble where it is flat.
     PatternOctaves sand = pattern_octaves(point, 0.3f * scale, 7, 0.55f, 1.0f, 131);
