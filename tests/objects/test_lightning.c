@@ -5,6 +5,7 @@
 #include "testing.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static OutTree *grow_to(const LightningParams *params, uint64_t seed, float share, int threads)
@@ -85,6 +86,44 @@ static void side_branches_go_down_and_fade(void **state)
         chains_free(chains);
         out_tree_free(tree);
     }
+}
+
+// A node's share of the main channel's power, from its radius.
+static double power_share(const LightningParams *params, const OutTree *tree, int64_t node)
+{
+    double thin = (double)(tree->radius[node] / lightning_radius(params, tree));
+    return pow(thin, 1.0 / (double)params->taper);
+}
+
+// With all of the channels beyond it, a branch's power falls at forks and toward tips, whatever the
+// exponent of its radius.
+static void branches_drain_what_lies_beyond(void **state)
+{
+    (void)state;
+    LightningParams params = lightning_params_default();
+    params.lean = 0.0f;
+    params.taper = 0.11f;
+    OutTree *tree = grow(&params, 2);
+    double *beyond = calloc((size_t)tree->count, sizeof *beyond);
+    int graded = 0, full = 0;
+    for (int64_t i = tree->count - 1; i > 0; i--) {
+        int32_t parent = tree->parent[i];
+        double length = (double)vec3_distance(tree->position[i], tree->position[parent]);
+        beyond[parent] += beyond[i] + length;
+    }
+    for (int64_t i = 1; i < tree->count; i++) {
+        double share = power_share(&params, tree, i), drained = 4.0 * beyond[i] / 1000.0;
+        drained = fmin(fmax(drained, 0.02), 1.0);
+        if (share > 0.99) { // the main channel
+            continue;
+        }
+        assert_true(fabs(share - 0.2 * drained) < 0.002);
+        graded += drained > 0.05 && drained < 0.95;
+        full += drained == 1.0;
+    }
+    assert_true(graded > 200 && full > 20);
+    free(beyond);
+    out_tree_free(tree);
 }
 
 static void the_same_seed_gives_the_same_bolt_for_any_threads(void **state)
@@ -256,14 +295,15 @@ static void discharges_stay_over_their_surface(void **state)
     }
 }
 
-static void the_glow_carries_the_power(void **state)
+static void the_glow_carries_the_power_at(float taper)
 {
-    (void)state;
     LightningParams params = lightning_params_default();
     params.power = 5000.0f;
+    params.taper = taper;
     OutTree *tree = grow(&params, 1);
     Geometry geometry = {0};
     float luminance = 0.8f, core = lightning_radius(&params, tree), brightest = 0.0f;
+    float dimmest = 5000.0f;
     const Material material = {.radiance = vec3_splat(luminance)};
     Placing placing = placing_in(&geometry, NULL);
     placing.around.material = &material;
@@ -275,12 +315,25 @@ static void the_glow_carries_the_power(void **state)
         assert_true(curves->glow[i] > 0.0f && curves->radius[i] > 0.0f);
         assert_true(curves->radius[i] <= core);
         brightest = fmaxf(brightest, curves->glow[i]);
+        float power = PI_F * luminance * curves->glow[i] * 2.0f * PI_F * curves->radius[i];
+        // a branch has a fifth of the power, its tip a fiftieth of that
+        assert_true(power > 5000.0f * 0.2f * 0.0199f && power < 5001.0f);
+        dimmest = fminf(dimmest, power);
     }
+    assert_float_equal(dimmest, 5000.0f * 0.2f * 0.02f, 0.5f);
     // a cylinder sends out pi times its radiance from each of 2 pi r square metres a metre
     assert_float_equal(PI_F * luminance * brightest * 2.0f * PI_F * core, 5000.0f, 1.0f);
     assert_int_equal(curves->first[curves->curve_count], curves->point_count);
     geometry_clear(&geometry);
     out_tree_free(tree);
+}
+
+static void the_glow_carries_the_power(void **state)
+{
+    (void)state;
+    the_glow_carries_the_power_at(1.0f / 3.0f);
+    the_glow_carries_the_power_at(0.1f);
+    the_glow_carries_the_power_at(1.0f);
 }
 
 static void cancelled_growth_says_so(void **state)
@@ -301,6 +354,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_main_channel_runs_from_cloud_to_strike),
         cmocka_unit_test(side_branches_go_down_and_fade),
+        cmocka_unit_test(branches_drain_what_lies_beyond),
         cmocka_unit_test(the_same_seed_gives_the_same_bolt_for_any_threads),
         cmocka_unit_test(a_larger_bolt_has_the_same_form),
         cmocka_unit_test(a_leader_is_dim_until_it_strikes),

@@ -46,9 +46,9 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"scatter: {count: 40, spacing: 0.3, things: [{stone: {resolution: 4}}, {tree: {species: "
          "oxeye_daisy}}]}",
          0x93cdeb3e350b295a},
-        {"lightning: {height: 10, bolts: 2}", 0xa6955bc433e5bd28},
+        {"lightning: {height: 10, bolts: 2}", 0xbd6a57f0057ab6b6},
         {"lightning: {points: {place: surface}, envelope: [{shape: sphere, size: 1}]}",
-         0x82e1227cfba8a34c},
+         0xf74b02699ab982c4},
         {"coral: {attractors: 200}", 0x94b4e32eca4fb10e},
         {"coral: {form: massive, attractors: 100}", 0x6cd5c5236530e4fa},
         {"lsystem: {generations: 4}", 0xb26e7379cdd8e999},

@@ -1,5 +1,6 @@
 // The bolts as emissive round curves.
 #include "base/color.h"
+#include "base/exact_math.h"
 #include "base/memory.h"
 #include "objects/lightning/lightning.h"
 #include "outtree/chains.h"
@@ -8,7 +9,7 @@
 #define OWN_RADIANCE 40.0f
 
 static void fill_curve(CurveSet *curves, int64_t curve, const OutTree *tree, const int32_t *node,
-                       int64_t count, float core, float glow, float last_birth)
+                       int64_t count, float core, float taper, float glow, float last_birth)
 {
     int64_t first = curves->first[curve];
     curves->first[curve + 1] = first + count;
@@ -21,8 +22,8 @@ static void fill_curve(CurveSet *curves, int64_t curve, const OutTree *tree, con
         along += k > 0 ? vec3_distance(tree->position[node[k - 1]], tree->position[node[k]]) : 0.0f;
         curves->position[first + k] = tree->position[node[k]];
         curves->radius[first + k] = tree->radius[own];
-        float thin = tree->radius[own] / core; // power ~ its cube, so radiance ~ its square
-        curves->glow[first + k] = glow * thin * thin;
+        float thin = tree->radius[own] / core; // radiance ~ power / radius
+        curves->glow[first + k] = glow * exact_pow(thin, 1.0f / taper - 1.0f);
         curves->along[first + k] = along;
         curves->birth[first + k] = (float)tree->birth[node[k]] / last_birth;
     }
@@ -70,7 +71,7 @@ bool lightning_geometry(const void *given, const Grown *grown, const Placing *pl
             int64_t count = chains->first[c + 1] - chains->first[c];
             if (count > 1) {
                 fill_curve(curves, curve++, tree, chains->node + chains->first[c], count, core,
-                           glow, last_birth);
+                           params->taper, glow, last_birth);
             }
         }
     }

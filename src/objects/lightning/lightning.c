@@ -22,7 +22,8 @@ LightningParams lightning_params_default(void)
                               .branching = 1.0f,
                               .hurst = 0.65f,
                               .jitter = 0.1f,
-                              .branch_power = 0.2f};
+                              .branch_power = 0.2f,
+                              .taper = 0.33f};
     params.element.points.pattern = SCATTER_POISSON;
     params.element.growth.max_children = 2;
     params.element.growth.cone_angle = 60.0f;
@@ -82,34 +83,33 @@ static void mark_main(OutTree *tree, uint64_t strike_id)
     }
 }
 
-static float chain_length(const OutTree *tree, const int32_t *node, int64_t count)
+// Length of all channels beyond each node, m; the caller frees it.
+static float *lengths_beyond(const OutTree *tree, Error *e)
 {
-    float length = 0.0f;
-    for (int64_t k = 1; k < count; k++) {
-        length += vec3_distance(tree->position[node[k - 1]], tree->position[node[k]]);
+    float *beyond = memory_alloc_zero(tree->count, sizeof *beyond, e);
+    for (int64_t i = tree->count - 1; beyond && i >= 0; i--) {
+        int32_t parent = tree->parent[i];
+        if (parent >= 0) {
+            beyond[parent] += beyond[i] + vec3_distance(tree->position[i], tree->position[parent]);
+        }
     }
-    return length;
+    return beyond;
 }
 
-// Powers along one chain, as shares of the main channel's. rank: 0 = the main channel, 1 = its
-// branches, ...
-static void chain_powers(OutTree *tree, const LightningParams *params, float size, int rank,
-                         bool from_root, const int32_t *node, int64_t count)
+// Powers along one chain, as shares of the main channel's. A channel drains the charge of all
+// channels beyond it, which is in proportion to their length, so each dims at every fork and toward
+// its tip. Two do not: a main channel in the air, which carries the current to the ground, and the
+// leader before it strikes.
+static void chain_powers(OutTree *tree, const LightningParams *params, float size, bool main,
+                         bool from_root, const float *beyond, const int32_t *node, int64_t count)
 {
-    enum { LONG = 4 };               // a branch of 1 / LONG of the bolt has its full power
-    static const float faded = 0.1f; // share left at the tip
-    float share = 1.0f, length = chain_length(tree, node, count), done = 0.0f;
-    if (rank > 0) {
-        share = params->branch_power * exact_pow((float)rank, -1.2f);
-        share *= from_root ? 1.0f : clampf(sqrtf(LONG * length / size), 0.2f, 1.0f);
-    }
+    enum { LONG = 4 }; // with 1 / LONG of the size beyond it, a channel has full power
+    static const float least = 0.02f; // share left at the tip
+    bool fades = params->element.points.place == SCATTER_SURFACE || !(main || from_root);
+    float share = main ? 1.0f : params->branch_power;
     for (int64_t k = from_root ? 0 : 1; k < count; k++) {
-        if (k > 0) {
-            done += vec3_distance(tree->position[node[k - 1]], tree->position[node[k]]);
-        }
-        float t = length > 0.0f ? done / length : 0.0f;
-        bool fades = rank > 0 && !from_root;
-        tree->radius[node[k]] = fades ? share * lerpf(1.0f, faded, t) : share;
+        float drained = clampf(LONG * beyond[node[k]] / size, least, 1.0f);
+        tree->radius[node[k]] = fades ? share * drained : share;
     }
 }
 
@@ -123,28 +123,20 @@ static bool set_radii(OutTree *tree, const LightningParams *params, float size, 
         mark_main(tree, strike_id[i]);
     }
     ChainSet *chains = out_tree_chains(tree, e);
-    int *rank = chains ? memory_alloc(chains->count, sizeof *rank, e) : NULL;
-    if (!rank) {
-        chains_free(chains);
-        return false;
-    }
-    for (int64_t c = 0; c < chains->count; c++) {
+    float *beyond = chains ? lengths_beyond(tree, e) : NULL;
+    for (int64_t c = 0; beyond && c < chains->count; c++) {
         const int32_t *node = chains->node + chains->first[c];
         int64_t count = chains->first[c + 1] - chains->first[c];
         bool main = tree->radius[node[count - 1]] == 1.0f;
-        int parent = chains->parent[c];
-        rank[c] = main ? 0 : (parent < 0 ? 1 : rank[parent] + 1);
+        chain_powers(tree, params, size, main, chains->parent[c] < 0, beyond, node, count);
     }
-    for (int64_t c = 0; c < chains->count; c++) {
-        chain_powers(tree, params, size, rank[c], chains->parent[c] < 0,
-                     chains->node + chains->first[c], chains->first[c + 1] - chains->first[c]);
+    for (int64_t i = 0; beyond && i < tree->count; i++) {
+        tree->radius[i] = core * exact_pow(tree->radius[i], params->taper);
     }
-    for (int64_t i = 0; i < tree->count; i++) {
-        tree->radius[i] = core * exact_pow(tree->radius[i], 1.0f / 3.0f);
-    }
-    free(rank);
+    bool done = beyond;
+    free(beyond);
     chains_free(chains);
-    return true;
+    return done;
 }
 
 float lightning_radius(const LightningParams *params, const OutTree *tree)

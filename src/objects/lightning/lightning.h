@@ -32,7 +32,8 @@ typedef struct LightningParams {
     float radius;  // m, drawn radius of the main channel; 0 = height / 1600. In nature 1 to 5 cm,
                    // far below a pixel; the power does not depend on it
     float power;   // W/m, radiant, of the main channel; 0 = in proportion to the radius
-    float branch_power; // power of a side branch at the main channel, as a share of that one's
+    float branch_power; // power of a long side branch at the main channel, as a share of that one's
+    float taper;        // a channel's radius is in proportion to its power to this exponent
     float lift;         // m above the surface; 0 = twice the radius
 } LightningParams;
 
@@ -43,9 +44,9 @@ LightningParams lightning_params_default(void);
 LightningParams lightning_params_resolve(const LightningParams *given);
 
 // The recipe (see recipe.h). Grows the out-tree of all bolts; finish jitters their channels. A
-// node's radius is that of the core; (radius / lightning_radius())^3 is its power over the main
-// channel's. Colony: the bolt's number, and bolts + that number for its streamers. Normals: the
-// surface's, if there is one.
+// node's radius is that of the core; (radius / lightning_radius())^(1 / taper) is its power over
+// the main channel's. Colony: the bolt's number, and bolts + that number for its streamers.
+// Normals: the surface's, if there is one.
 bool lightning_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
 bool lightning_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
                       Error *e);

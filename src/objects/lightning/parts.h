@@ -60,8 +60,8 @@ typedef struct Wander {
 } Wander;
 
 // Takes the tree and returns it with jittered channels and radii: resampled to steps, jittered,
-// resampled to segments, jittered within the steps. Radii: core from a root to each strike, smaller
-// with each order of branching, fading toward tips.
+// resampled to segments, jittered within the steps. Radii: core from a root to each strike;
+// elsewhere, and on a surface everywhere, by the length of the channels beyond.
 OutTree *lightning_wander(OutTree *tree, const LightningParams *params, float size, float core,
                           const Wander *wander, Error *e);
 

@@ -49,7 +49,13 @@ static const Key LIGHTNING_KEYS[] = {
             "bolts of any size look equally bright. The material sets the colour."},
     {KEY_OF(LightningParams, branch_power, "branch_power", KEY_FLOAT), .high = 1,
      .doc = "Power of a side branch where it leaves the main channel, as a fraction of the main "
-            "channel's power."},
+            "channel's power, if all channels beyond are at least 1/4 of the height long; less in "
+            "proportion where they are shorter, so branches dim at forks and toward tips."},
+    {KEY_OF(LightningParams, taper, "taper", KEY_FLOAT), .low = 0.01, .high = 1,
+     .doc =
+         "A channel's radius is in proportion to its power to this exponent, its radiance to the "
+         "rest of the power: 1 = dim channels are thin and as bright as the main one, 0.01 = all "
+         "are equally thick, and dim ones dark."},
     {KEY_OF(LightningParams, lift, "lift", KEY_FLOAT), .high = 1e4, .unit = "m",
      .doc = "Height above the surface; 0 = twice the radius."},
     {0},
