@@ -156,7 +156,7 @@ static bool flood_all(Flood *flood, Error *e)
         if (!flood->trace) {
             flood->out->order[flood->reached++] = here;
         }
-        while (flood->done < flood->traced) {
+        while (flood->trace && flood->done < flood->traced) {
             if (!reach_around(flood, flood->trace[flood->done++], true, e)) {
                 return false;
             }
