@@ -113,11 +113,11 @@ fi
 still lightning lightning
 still lightning-surface lightning-surface
 if is_wanted figure-11; then
-    for share in 0.3 0.55 0.8 0.97 1; do panel lightning-growth --grow-to $share --size 360x720 --samples 8; done
+    for share in 0.3 0.55 0.8 0.97 1; do panel lightning-growth --grow-to $share --size 360x720 --samples 12; done
     sheet figure-11 5x1
 fi
 if is_wanted figure-12; then
-    for share in 0.2 0.45 0.7 1; do panel lightning-surface --grow-to $share --size 800x450 --samples 6; done
+    for share in 0.2 0.45 0.7 1; do panel lightning-surface --grow-to $share --size 800x450 --samples 16; done
     sheet figure-12 2x2
 fi
 still species species
