@@ -113,7 +113,7 @@ fi
 still lightning lightning
 still lightning-surface lightning-surface
 if is_wanted figure-11; then
-    for share in 0.3 0.55 0.8 0.97 1; do panel lightning-growth --grow-to $share --size 360x720 --samples 12; done
+    for share in 0.3 0.55 0.8 0.97 1; do panel lightning-growth --grow-to $share --size 360x720 --samples 10; done
     sheet figure-11 5x1
 fi
 if is_wanted figure-12; then
