@@ -95,7 +95,7 @@ fi
 # ---- trees, fields, forest ----
 
 still figure-9 field-grid --size 1600x900
-still twisted twisted
+still twisted twisted --size 1600x900
 still mesh-crown mesh-crown
 still forest forest --samples 24
 if is_wanted figure-10; then
@@ -132,7 +132,8 @@ still beech-wood beech-wood --samples 20
 still birch-grove birch-grove
 still spruce-snow spruce-snow
 still hoar-birch hoar-birch
-still lsystem-tree lsystem-tree --size 1600x900
+still lsystem-fern lsystem-fern
+still figure-19 lsystem-tree --size 1600x900
 if is_wanted coral-figure-2; then
     panel coral-figure-2 --size 800x600
     panel coral-figure-2-b --size 800x600
