@@ -16,7 +16,7 @@ typedef struct Made {
     const Landscape *land; // of the grown
 } Made;
 
-static Made make(float spacing, int resolution, uint64_t seed, int threads)
+static Made make_rilled(float spacing, int resolution, uint64_t seed, int threads, float rills)
 {
     Error e = {0};
     Run run = run_default();
@@ -27,6 +27,7 @@ static Made make(float spacing, int resolution, uint64_t seed, int threads)
     params.relief = 150.0f;
     params.resolution = resolution;
     params.hills.spacing = spacing;
+    params.hills.rills = rills;
     Recipe recipe = {.seed = seed, .label = "land", .run = &run};
     Made made = {.field = NULL};
     if (!kind_grow(&kind_terrain, &params, &recipe, 1.0f, NULL, &made.grown, &e) ||
@@ -36,6 +37,11 @@ static Made make(float spacing, int resolution, uint64_t seed, int threads)
     }
     made.land = ((const Terrain *)made.grown.state)->evolved;
     return made;
+}
+
+static Made make(float spacing, int resolution, uint64_t seed, int threads)
+{
+    return make_rilled(spacing, resolution, seed, threads, 0.0f);
 }
 
 static void clear(Made *made)
@@ -158,6 +164,48 @@ static void the_resolution_keeps_the_hills(void **state)
     clear(&fine);
 }
 
+// Mean over the land of what its samples differ from the mean of their neighbours, m.
+static double roughness(const HeightField *field)
+{
+    double sum = 0.0, count = 0.0;
+    for (int row = 1; row < field->rows - 1; row++) {
+        for (int column = 1; column < field->columns - 1; column++) {
+            const float *h = field->height + (int64_t)row * field->columns + column;
+            float mean = 0.25f * (h[1] + h[-1] + h[field->columns] + h[-field->columns]);
+            sum += (double)fabsf(h[0] - mean);
+            count += 1.0;
+        }
+    }
+    return sum / count;
+}
+
+static double mean_height(const HeightField *field)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < height_field_count(field); i++) {
+        sum += (double)field->height[i];
+    }
+    return sum / (double)height_field_count(field);
+}
+
+// Rills roughen the slopes and leave the hills.
+static void rills_cut_the_slopes(void **state)
+{
+    (void)state;
+    Made smooth = make_rilled(300.0f, 512, 9, 1, 0.0f), cut = make_rilled(300.0f, 512, 9, 3, 1.0f);
+    Made again = make_rilled(300.0f, 512, 9, 1, 1.0f);
+    double before = roughness(smooth.field), after = roughness(cut.field);
+    double lower = mean_height(smooth.field) - mean_height(cut.field);
+    printf("  roughness %g and %g m, mean %g m lower\n", before, after, lower);
+    assert_true(after > 2.0 * before);
+    assert_true(lower > 0.0 && lower < 0.1 * 150.0);
+    size_t bytes = sizeof(float) * (size_t)height_field_count(cut.field);
+    assert_memory_equal(cut.field->height, again.field->height, bytes);
+    clear(&smooth);
+    clear(&cut);
+    clear(&again);
+}
+
 static void threads_change_nothing(void **state)
 {
     (void)state;
@@ -176,6 +224,7 @@ int main(void)
         cmocka_unit_test(all_tops_bend_alike),
         cmocka_unit_test(land_is_as_high_as_asked_and_under_soil),
         cmocka_unit_test(the_resolution_keeps_the_hills),
+        cmocka_unit_test(rills_cut_the_slopes),
         cmocka_unit_test(threads_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { CELLS_PER_VALLEY = 20 };
 
@@ -41,7 +42,7 @@ static void set_rates(Hills *h)
 static void set_weakness(const Hills *h, Landscape *land, const Run *run)
 {
     uint64_t key = random_key(h->terrain->seed, STREAM_WEAKNESS);
-    double wavelength = 4.0 * (double)h->params.hills.spacing;
+    double wavelength = 1.5 * (double)h->params.hills.spacing;
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
     for (int row = 0; row < land->side; row++) {
         for (int column = 0; column < land->side; column++) {
@@ -49,7 +50,7 @@ static void set_weakness(const Hills *h, Landscape *land, const Run *run)
             float z = (float)((land->corner + row * land->cell) / wavelength);
             float n = sparse_noise_fractal(x, z, 4, 0.6f, 0.0f, key);
             land->weakness[(int64_t)row * land->side + column] =
-                clampf(1.0f + 0.35f * n, 0.4f, 1.8f);
+                clampf(1.0f + 0.7f * n, 0.25f, 2.5f);
         }
     }
 }
@@ -148,6 +149,37 @@ static void scale_to_relief(Hills *h, Landscape *land)
     h->rates.uplift *= scale;
 }
 
+// The land on a grid of twice as many cells. Frees the old one.
+static Landscape *refined(Landscape *land, const Run *run, Error *e)
+{
+    Landscape *finer = landscape_refined(land, run, e);
+    landscape_free(land);
+    return finer;
+}
+
+// Storm water in bare ground: on ever finer grids, streams without creep for a short time.
+static Landscape *cut_rills(Hills *h, Landscape *land, const Run *run, Error *e)
+{
+    int last = h->params.resolution < h->params.evolution.cells ? h->params.resolution
+                                                                : h->params.evolution.cells;
+    h->creep *= 0.04;
+    h->rates.uplift = 0.0;
+    h->rates.least_area *= 0.04;
+    while (land && 1.4 * (land->side - 1) < last) {
+        land = refined(land, run, e);
+        if (!land) {
+            return NULL;
+        }
+        terrain_open_outlets(h->terrain, h->params.hills.outlets, land);
+        set_weakness(h, land, run);
+        if (!evolve(h, land, 0.012 * (double)h->params.hills.rills, run, e)) {
+            landscape_free(land);
+            return NULL;
+        }
+    }
+    return land;
+}
+
 // The depth of soil under which rock turns to soil as fast as the land lowers: the same everywhere,
 // as all of it lowers at one rate (Heimsath et al. 1997).
 static void lay_soil(Landscape *land)
@@ -169,6 +201,17 @@ int terrain_hill_cells(const TerrainParams *params)
     return cells < 64.0 ? 64 : cells > (double)most ? most : 2 * (int)(0.5 * cells + 0.5);
 }
 
+static Landscape *finish(Hills *h, Landscape *land, const Run *run, Error *e)
+{
+    if (h->params.hills.rills > 0.0f) {
+        land = cut_rills(h, land, run, e);
+    }
+    if (land) {
+        lay_soil(land);
+    }
+    return land;
+}
+
 Landscape *terrain_evolve_hills(const Terrain *terrain, const Run *run, Error *e)
 {
     Hills h = {.terrain = terrain, .params = terrain_params_resolve(terrain->params)};
@@ -187,14 +230,48 @@ Landscape *terrain_evolve_hills(const Terrain *terrain, const Run *run, Error *e
         }
         scale_to_relief(&h, land);
         if (land->side > cells) {
-            lay_soil(land);
-            return land;
+            return finish(&h, land, run, e);
         }
-        Landscape *finer = landscape_refined(land, run, e);
-        landscape_free(land);
-        land = finer;
+        land = refined(land, run, e);
     }
     return NULL;
+}
+
+// The second highest and the second lowest of a sample's eight neighbours.
+static Vec2 second_of_neighbours(const HeightField *field, const float *h)
+{
+    float high[2] = {-INFINITY, -INFINITY}, low[2] = {INFINITY, INFINITY};
+    for (int k = 0; k < 9; k++) {
+        float near = h[(int64_t)(k / 3 - 1) * field->columns + k % 3 - 1];
+        if (k == 4) {
+            continue;
+        }
+        high[1] = near > high[0] ? high[0] : near > high[1] ? near : high[1];
+        high[0] = near > high[0] ? near : high[0];
+        low[1] = near < low[0] ? low[0] : near < low[1] ? near : low[1];
+        low[0] = near < low[0] ? near : low[0];
+    }
+    return (Vec2){high[1], low[1]};
+}
+
+bool terrain_fell_needles(HeightField *field, Error *e)
+{
+    enum { ROUNDS = 3 };
+    int64_t count = height_field_count(field);
+    float *before = memory_alloc(count, sizeof *before, e), reach = 0.5f * field->cell.x;
+    for (int round = 0; before && round < ROUNDS; round++) {
+        memcpy(before, field->height, sizeof *before * (size_t)count);
+        for (int row = 1; row < field->rows - 1; row++) {
+            for (int column = 1; column < field->columns - 1; column++) {
+                int64_t i = (int64_t)row * field->columns + column;
+                Vec2 second = second_of_neighbours(field, before + i);
+                field->height[i] = clampf(before[i], second.y - reach, second.x + reach);
+            }
+        }
+    }
+    bool done = before;
+    free(before);
+    return done;
 }
 
 bool terrain_wet_hollows(HeightField *field, Error *e)

@@ -61,6 +61,7 @@ typedef struct DuneParams {
 typedef struct HillParams {
     float spacing; // m: about from valley to valley; 0 = a tenth of the size
     int outlets;   // of the streams, on the border
+    float rills;   // 0 = none, under grass; 1 = deep ones in bare ground
 } HillParams;
 
 // How the land evolves; factors on the landform's own rates.

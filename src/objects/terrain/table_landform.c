@@ -247,6 +247,10 @@ static const Key HILL_KEYS[] = {
             "size. Close valleys need soil that creeps slowly, wide ones soil that creeps fast."},
     {KEY_OF(HillParams, outlets, "outlets", KEY_INT), .low = 1, .high = 64,
      .doc = "Number of streams that leave over the border."},
+    {KEY_OF(HillParams, rills, "rills", KEY_FLOAT), .high = 2,
+     .doc =
+         "Rills, finer than the valleys, that storm water has cut into the slopes: 0 = none, under "
+         "grass; 1 = deep ones, in bare ground. They need cells of a few per cent of the spacing."},
     {0},
 };
 

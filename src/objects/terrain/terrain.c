@@ -568,7 +568,8 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
         return done;
     }
     if (params->form == TERRAIN_HILLS) {
-        return height_field_fill(field, 1e-4f, e) && terrain_wet_hollows(field, e);
+        return (params->hills.rills <= 0.0f || terrain_fell_needles(field, e)) &&
+               height_field_fill(field, 1e-4f, e) && terrain_wet_hollows(field, e);
     }
     if (terrain_evolves(params)) {
         return terrain_lay_rivers(terrain, field, run, e);

@@ -136,11 +136,11 @@ typedef struct Material {
     const char *roughness_texture;     // red multiplies roughness; NULL = none; borrowed
     const char *transmittance_texture; // multiplies transmittance; NULL = none; borrowed
     const char *displacement_texture;  // red is the height; NULL = none; borrowed
-    float displacement_depth;          // m, of white over black there
     MaterialLayer *layers; // of MATERIAL_DIFFUSE and MATERIAL_PRINCIPLED: on it, from the lowest to
     int layer_count;       // the topmost; borrowed
     TextureMapping texture_mapping;
-    float texture_scale; // m, or units of uv, that the pictures cover; 0 = 1
+    float texture_scale;      // m, or units of uv, that the pictures cover; 0 = 1
+    float displacement_depth; // m, of white over black of displacement_texture
 } Material;
 
 Material material_default(MaterialKind kind);
