@@ -95,7 +95,7 @@ fi
 # ---- trees, fields, forest ----
 
 still figure-9 field-grid --size 1600x900
-still twisted twisted --size 1600x900
+still twisted twisted
 still mesh-crown mesh-crown
 still forest forest --samples 24
 if is_wanted figure-10; then
