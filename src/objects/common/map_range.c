@@ -15,7 +15,8 @@ static const Key KEYS[] = {
          "5 on ridges and 15 in valleys; river-distance: m to the nearest river; sun-hours: mean "
          "hours of direct sun a day, with the shade of the land itself. Only of terrains: deposit "
          "and wear: m that erosion has laid down and taken away; bedrock: 1 where rock is bare, 0 "
-         "under 0.5 m of loose ground; snow: share of the ground that snow covers (forms alps and volcano); "
+         "under 0.5 m of loose ground; snow: share of the ground that snow covers (forms alps and "
+         "volcano); "
          "lava: 0 to 1, how fresh the lava on the ground is; scoria: 0 to 1, how red it is "
          "(form volcano)."},
     {KEY_OF(MapRange, range, "range", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 2, .low = -1e9,

@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-enum { STREAM_THINGS = 1000 };                      // of the object's seed; THINGS + variant
+enum { STREAM_THINGS = 1000 };                       // of the object's seed; THINGS + variant
 enum { MOST_LEAVES = 250000, MOST_FACES = 1000000 }; // of a copy
 
 // Builds the thing where it would stand alone in the scene.

@@ -41,8 +41,8 @@ static inline float edge_at(const Roughness *r, float softness)
 }
 
 // Liquid water grows in proportion to the height above the condensation level; on as many droplets
-// as below, so extinction grows like the power 2/3 of it (Brenguier et al. 2000); 3/4 is near enough
-// and takes two square roots. share: of the thickness.
+// as below, so extinction grows like the power 2/3 of it (Brenguier et al. 2000); 3/4 is near
+// enough and takes two square roots. share: of the thickness.
 static inline float gain_at(float share)
 {
     float x = unit_clamp(share / 0.25f);
