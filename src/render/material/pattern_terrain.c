@@ -177,7 +177,7 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
 void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 40.0f;
-    float upright = fabsf(point->geometric_normal.y);
+    float upright = fabsf(surface_smooth_normal(point).y);
     PatternOctaves rough = pattern_octaves(point, 0.5f * scale, 8, 0.54f, 1.3f, 111);
     // Rills run down the slopes; swelling clay dries to a crust of crumbs.
     PatternOctaves rills = pattern_octaves(point, 0.16f * scale, 5, 0.62f, 0.11f, 121);
