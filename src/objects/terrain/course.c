@@ -110,3 +110,15 @@ bool terrain_grow_courses(OutTree **tree, const TerrainParams *given, const Reci
     }
     return done;
 }
+
+bool terrain_fill_courses(Terrain *terrain, const Run *run, Error *e)
+{
+    (void)run;
+    OutTree *tree = terrain->tree;
+    terrain->area = memory_alloc(tree->count, sizeof *terrain->area, e);
+    for (int64_t i = 0; terrain->area && i < tree->count; i++) {
+        terrain->area[i] = 1.0f;
+        tree->position[i].y = terrain_course_height(terrain->params, tree, i);
+    }
+    return terrain->area;
+}

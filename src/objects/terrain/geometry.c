@@ -2,14 +2,12 @@
 #include "base/memory.h"
 #include "land/height_mesh.h"
 #include "mesh/curves.h"
-#include "objects/terrain/internal.h"
+#include "objects/terrain/form.h"
 
 // Gives a mesh of the land its beds, in the mesh's space.
 static bool give_strata(Mesh *mesh, const Terrain *terrain, Error *e)
 {
-    TerrainForm form = terrain->params->form;
-    bool one = (form == TERRAIN_ALPS || form == TERRAIN_VOLCANO || form == TERRAIN_HILLS) &&
-               terrain->params->strata.bed_count == 0;
+    bool one = !terrain_form(terrain->params)->plateau && terrain->params->strata.bed_count == 0;
     if (!mesh || !terrain->strata || one) {
         return mesh;
     }

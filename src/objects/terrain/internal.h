@@ -85,6 +85,15 @@ static inline bool tree_source_given(const TreeSource *source)
     return source->file || source->image;
 }
 
+// roughness.c: wavelength of the noise's first octave, m.
+float terrain_noise_wavelength(const TerrainParams *params);
+// Most displacement of places by the noise, m.
+float terrain_warp_reach(const TerrainParams *params);
+// Moves a place by the noise, at most by `share` of what the parameters allow.
+void terrain_warp(const Terrain *terrain, float share, float *x, float *z);
+// All octaves of the noise, m, for slopes of gradient 1.
+float terrain_noise_at(const Terrain *terrain, float x, float z);
+
 // rivers.c, ridges.c: the tree of the form, on the plane y = 0. *tree may be set on failure.
 bool terrain_grow_rivers(OutTree **tree, const TerrainParams *params, const Recipe *recipe,
                          Error *e);
@@ -92,7 +101,10 @@ bool terrain_grow_ridges(OutTree **tree, const TerrainParams *params, const Reci
                          Error *e);
 
 // ridges.c: heights of the crests, radii = half widths of their bands.
-bool terrain_raise_ridges(Terrain *terrain, Error *e);
+bool terrain_raise_ridges(Terrain *terrain, const Run *run, Error *e);
+// The height at a place that ridges or a map lift. The noise is in proportion to the slopes and
+// fades toward the plain.
+float terrain_lifted_at(const Terrain *terrain, float x, float z);
 // Of land lifted by ridges or a map: m, and the width (share of the size) over which it falls.
 float terrain_lift_relief(const TerrainParams *params);
 float terrain_lift_width(const TerrainParams *params);
@@ -112,7 +124,7 @@ HeightField *terrain_read_survey(const TerrainParams *params, const Run *run, Er
 bool terrain_find_rivers(OutTree **tree, const TerrainParams *params, const Recipe *recipe,
                          Error *e);
 // Fills terrain->area, ->uplift (1) and the tree's radii.
-bool terrain_finish_survey(Terrain *terrain, Error *e);
+bool terrain_finish_survey(Terrain *terrain, const Run *run, Error *e);
 // The height at a place: terrain->map's, with detail finer than its cells.
 float terrain_surveyed_at(const Terrain *terrain, float x, float z);
 
@@ -126,6 +138,18 @@ bool terrain_areas(Terrain *terrain, const Run *run, Error *e);
 // uplift * 1, from the outlets up. A river that would run below another's slope is captured by it,
 // and river ends on another's slope are dropped: *captures counts both. Nodes are sorted by height.
 bool terrain_profile(Terrain *terrain, const Run *run, int64_t *captures, Error *e);
+
+// valleys.c: fills terrain->area, ->uplift and ->gradient; the tree's heights and radii.
+bool terrain_fill_rivers(Terrain *terrain, const Run *run, Error *e);
+// The envelope of all troughs. flat: envelope of distances, with each river at height 0. The caller
+// frees it.
+TroughEnvelope *terrain_envelope(const Terrain *terrain, bool flat, const Run *run, Error *e);
+// The height and the wetness at a place of the land between rivers.
+float terrain_valleys_at(const Terrain *terrain, float x, float z, float *wetness);
+// The wetness beside surveyed rivers.
+float terrain_wetness_at(const Terrain *terrain, float x, float z);
+// No sample along a river is above it.
+void terrain_carve_rivers(HeightField *field, const OutTree *rivers);
 
 // Half the width of a valley floor with this drainage area, m.
 static inline float terrain_valley(const TerrainParams *params, float area)
@@ -170,6 +194,9 @@ bool terrain_lay_beds(const TerrainParams *params, Strata **strata, Error *e);
 bool terrain_grow_courses(OutTree **tree, const TerrainParams *params, const Recipe *recipe,
                           Error *e);
 
+// Heights of the courses, and areas that tell a river's main stem.
+bool terrain_fill_courses(Terrain *terrain, const Run *run, Error *e);
+
 // plateau.c: the plateau as it is now, on a grid of its own. The caller frees it.
 Landscape *terrain_evolve(const Terrain *terrain, const Run *run, Error *e);
 // outlets.c: makes gaps in the border bases at height 0. The rest of it is a divide, so that
@@ -198,6 +225,9 @@ bool terrain_measure_volcano(const Terrain *terrain, MeasureList *list, Error *e
 // this azimuth, degrees clockwise from north.
 bool terrain_find_climate(const TerrainParams *params, float wind, HeightField *field,
                           const Run *run, Error *e);
+
+// measure.c: the exponent of the valleys' profiles.
+bool terrain_measure_alps(const Terrain *terrain, MeasureList *list, Error *e);
 
 // dunes.c: the sand sea as it is now, with the last wind over it. The caller frees it.
 Dunes *terrain_blow_dunes(const Terrain *terrain, const Run *run, Error *e);

@@ -1,7 +1,7 @@
 // Terrain as a kind of object.
 #include "objects/kind.h"
 #include "land/height_maps.h"
-#include "objects/terrain/terrain.h"
+#include "objects/terrain/form.h"
 #include "render/material/material.h"
 
 #include <math.h>
@@ -75,25 +75,18 @@ static void settle(const void *params, void *settled)
     memcpy(settled, &p, sizeof p);
 }
 
-// Land of beds shows them.
+// Land of beds shows them; dunes bury them.
 static const char *material_for(const void *params, int role)
 {
     const TerrainParams *terrain = params;
-    if (role == TERRAIN_LAND && terrain->form == TERRAIN_ALPS && terrain->strata.bed_count == 0) {
-        return "terrain/alps";
+    const Form *form = terrain_form(terrain);
+    if (role != TERRAIN_LAND) {
+        return NULL;
     }
-    if (role == TERRAIN_LAND && terrain->form == TERRAIN_VOLCANO &&
-        terrain->strata.bed_count == 0) {
-        return "terrain/volcano";
+    if (form->material && (!form->evolves || terrain->strata.bed_count == 0)) {
+        return form->material;
     }
-    if (role == TERRAIN_LAND && terrain->form == TERRAIN_HILLS && terrain->strata.bed_count == 0) {
-        return "terrain/hills";
-    }
-    if (role == TERRAIN_LAND && terrain->form == TERRAIN_DUNES) {
-        return "terrain/dunes";
-    }
-    bool beds = terrain_evolves(terrain) || terrain->strata.bed_count > 0;
-    return role == TERRAIN_LAND && beds ? "terrain/strata" : NULL;
+    return form->evolves || terrain->strata.bed_count > 0 ? "terrain/strata" : NULL;
 }
 
 static const Material BUILTIN[] = {

@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "land/dunes_measure.h"
 #include "land/valley_profile.h"
-#include "objects/terrain/internal.h"
+#include "objects/terrain/form.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -134,8 +134,10 @@ static double sinuosity(const OutTree *tree)
 }
 
 // What tells the U of glaciers from the V of rivers.
-static bool measure_valleys(const Landscape *land, double size, MeasureList *list, Error *e)
+bool terrain_measure_alps(const Terrain *terrain, MeasureList *list, Error *e)
 {
+    const Landscape *land = terrain->evolved;
+    double size = (double)terrain->params->size;
     double exponent = 0.0, nan = (double)NAN;
     HeightField *field = landscape_heights(land, e);
     Drainage *drainage = field ? drainage_new(field, e) : NULL;
@@ -178,24 +180,19 @@ bool terrain_measure(const void *given, const Grown *grown, const Recipe *recipe
         free(widths);
         return false;
     }
-    bool volcano = s.params.form == TERRAIN_VOLCANO; // its loose ground is not rubble alone
+    bool rubble = !terrain->ground; // a volcano's loose ground is not rubble alone
     bool canyon = s.params.form == TERRAIN_CANYON;
     double cliffs, talus;
     measure_slopes(&s, &cliffs, &talus);
     bool done = measures_add(list, "incision", s.plateau - s.river, "m", nan, nan, e) &&
                 measures_add(list, "cliff_share", cliffs, "", nan, nan, e) &&
-                (volcano || measures_add(list, "talus_slope", talus, "degrees", 25, 38, e)) &&
+                (!rubble || measures_add(list, "talus_slope", talus, "degrees", 25, 38, e)) &&
                 measures_add(list, "plateau_share", share_above(&s, 0.8), "", nan, nan, e);
     if (done && canyon) {
         done = measures_add(list, "canyon_width", canyon_width(&s, widths), "m", nan, nan, e) &&
                measures_add(list, "sinuosity", sinuosity(grown->tree), "", nan, nan, e);
     }
     free(widths);
-    if (done && s.params.form == TERRAIN_ALPS) {
-        done = measure_valleys(s.land, (double)s.params.size, list, e);
-    }
-    if (done && s.params.form == TERRAIN_HILLS) {
-        done = terrain_measure_hills(terrain, list, e);
-    }
-    return done && (s.params.form != TERRAIN_VOLCANO || terrain_measure_volcano(terrain, list, e));
+    const Form *form = terrain_form(terrain->params);
+    return done && (!form->measure || form->measure(terrain, list, e));
 }

@@ -5,7 +5,7 @@
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "objects/terrain/internal.h"
+#include "objects/terrain/form.h"
 #include "objects/terrain/noise.h"
 
 #include <math.h>
@@ -250,8 +250,7 @@ Landscape *terrain_evolve(const Terrain *terrain, const Run *run, Error *e)
 
 EvolvedPlace terrain_evolved_at(const Terrain *terrain, float x, float z)
 {
-    TerrainForm form = terrain->params->form;
-    bool worn = form == TERRAIN_CANYON || form == TERRAIN_MESAS; // out of a plateau
+    bool worn = terrain_form(terrain->params)->plateau;
     const float wavelength = 0.006f * terrain->params->size;
     uint64_t key = random_key(terrain->seed, STREAM_JOINTS);
     float u = x / wavelength, v = z / wavelength;

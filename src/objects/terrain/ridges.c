@@ -92,8 +92,9 @@ float terrain_lift_relief(const TerrainParams *params)
                                  : natural * terrain_lift_width(params) * params->size;
 }
 
-bool terrain_raise_ridges(Terrain *terrain, Error *e)
+bool terrain_raise_ridges(Terrain *terrain, const Run *run, Error *e)
 {
+    (void)run;
     const TerrainParams *params = terrain->params;
     OutTree *tree = terrain->tree;
     float largest = largest_radius(tree);
@@ -180,4 +181,26 @@ RidgeLift *terrain_ridge_lift(const Terrain *terrain, float margin, const Run *r
         band ? ridge_lift_new(band, count, &curve, half, params->size, margin, run, e) : NULL;
     free(band);
     return lift;
+}
+
+// The lift at a place, 0..1.
+static float lift_at(const Terrain *terrain, float x, float z)
+{
+    return terrain->map ? clampf(height_field_smooth_at(terrain->map, x, z), 0.0f, 1.0f)
+                        : ridge_lift_at(terrain->lift, x, z);
+}
+
+float terrain_lifted_at(const Terrain *terrain, float x, float z)
+{
+    const TerrainParams *params = terrain->params;
+    float relief = terrain_lift_relief(params), sign = terrain_lift_sign(params);
+    if (params->noise.iterations == 0) {
+        return sign * relief * lift_at(terrain, x, z);
+    }
+    float at_x = x, at_z = z;
+    terrain_warp(terrain, 1.0f, &at_x, &at_z);
+    float lift = lift_at(terrain, at_x, at_z);
+    float up = relief / (terrain_lift_width(params) * params->size);
+    float noise = terrain_noise_at(terrain, x, z) * (up < 1.5f ? up : 1.5f);
+    return sign * relief * lift + noise * smoothstepf(0.0f, 0.4f, lift);
 }

@@ -146,8 +146,9 @@ bool terrain_find_rivers(OutTree **tree, const TerrainParams *params, const Reci
     return done;
 }
 
-bool terrain_finish_survey(Terrain *terrain, Error *e)
+bool terrain_finish_survey(Terrain *terrain, const Run *run, Error *e)
 {
+    (void)run;
     OutTree *tree = terrain->tree;
     terrain->area = memory_alloc(tree->count, sizeof *terrain->area, e);
     terrain->uplift = memory_alloc(tree->count, sizeof *terrain->uplift, e);

@@ -204,12 +204,7 @@ enum { TERRAIN_ALTITUDES = 6 };
 extern ColorStop terrain_altitudes[TERRAIN_ALTITUDES];
 
 // Does the land come from processes that wear it?
-static inline bool terrain_evolves(const TerrainParams *params)
-{
-    return params->form == TERRAIN_CANYON || params->form == TERRAIN_MESAS ||
-           params->form == TERRAIN_ALPS || params->form == TERRAIN_VOLCANO ||
-           params->form == TERRAIN_HILLS;
-}
+bool terrain_evolves(const TerrainParams *params);
 
 // Of TERRAIN_HILLS: cells a side of the grid of the processes. It resolves what creeping soil
 // leaves; nothing is smaller, so the land is the same at any resolution.

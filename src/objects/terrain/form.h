@@ -1,0 +1,32 @@
+// What makes the land of one form. A new form is an entry of forms.c, its own file, and its keys.
+#ifndef RAMIFY_OBJECTS_TERRAIN_FORM_H
+#define RAMIFY_OBJECTS_TERRAIN_FORM_H
+
+#include "objects/terrain/internal.h"
+
+typedef struct Form {
+    const char *material; // of the land, unless the scene names beds or a material; NULL = mountain
+    float relief;         // m by the metre of the size, if the scene gives none; 0 = by the slopes
+    float wavelength;     // of the noise's first octave, share of the size, if the scene gives none
+    bool evolves;         // processes wear it: a Landscape
+    bool plateau;         // it was a plateau of beds once
+    // The tree, on the plane y = 0; NULL = none. *tree may be set on failure.
+    bool (*grow)(OutTree **tree, const TerrainParams *params, const Recipe *recipe, Error *e);
+    // Fills in the tree's heights and radii, and what depends on them. NULL = nothing to do.
+    bool (*finish_tree)(Terrain *terrain, const Run *run, Error *e);
+    // What heights are looked up in. NULL = nothing.
+    bool (*prepare)(Terrain *terrain, const Run *run, Error *e);
+    // Makes room for what the field records beside heights and wetness. NULL = nothing.
+    bool (*record)(HeightField *field, Error *e);
+    // Fills sample i of the field, at a place.
+    void (*sample)(const Terrain *terrain, HeightField *field, int64_t i, float x, float z);
+    // After erosion, before terraces, and after them. NULL = nothing to do.
+    bool (*drain)(Terrain *terrain, HeightField *field, const Run *run, Error *e);
+    bool (*finish)(Terrain *terrain, HeightField *field, const Run *run, Error *e);
+    // Beside what all forms that evolve measure. NULL = nothing.
+    bool (*measure)(const Terrain *terrain, MeasureList *list, Error *e);
+} Form;
+
+const Form *terrain_form(const TerrainParams *params);
+
+#endif

@@ -1,0 +1,264 @@
+// The table of forms, and what links them to the files that make them.
+#include "objects/terrain/form.h"
+
+#include "base/memory.h"
+#include "land/height_drainage.h"
+
+// ---- what the heights are looked up in
+
+static bool prepare_rivers(Terrain *terrain, const Run *run, Error *e)
+{
+    terrain->land = terrain_envelope(terrain, false, run, e);
+    terrain->distance = terrain->land ? terrain_envelope(terrain, true, run, e) : NULL;
+    return terrain->distance;
+}
+
+static bool prepare_ridges(Terrain *terrain, const Run *run, Error *e)
+{
+    terrain->lift = terrain_ridge_lift(terrain, terrain_warp_reach(terrain->params), run, e);
+    return terrain->lift;
+}
+
+static bool prepare_map(Terrain *terrain, const Run *run, Error *e)
+{
+    terrain->map = terrain_read_map(terrain->params, run, e);
+    return terrain->map;
+}
+
+static bool prepare_survey(Terrain *terrain, const Run *run, Error *e)
+{
+    terrain->map = terrain_read_survey(terrain->params, run, e);
+    if (terrain->map && terrain->tree->count > 0) {
+        terrain->distance = terrain_envelope(terrain, true, run, e);
+        return terrain->distance;
+    }
+    return terrain->map;
+}
+
+static bool prepare_plateau(Terrain *terrain, const Run *run, Error *e)
+{
+    terrain->evolved = terrain_evolve(terrain, run, e);
+    return terrain->evolved;
+}
+
+static bool prepare_alps(Terrain *terrain, const Run *run, Error *e)
+{
+    terrain->evolved = terrain_evolve_alps(terrain, run, e);
+    return terrain->evolved;
+}
+
+static bool prepare_volcano(Terrain *terrain, const Run *run, Error *e)
+{
+    terrain->evolved = terrain_evolve_volcano(terrain, &terrain->ground, run, e);
+    return terrain->evolved;
+}
+
+static bool prepare_hills(Terrain *terrain, const Run *run, Error *e)
+{
+    terrain->evolved = terrain_evolve_hills(terrain, run, e);
+    return terrain->evolved;
+}
+
+static bool prepare_dunes(Terrain *terrain, const Run *run, Error *e)
+{
+    terrain->dunes = terrain_blow_dunes(terrain, run, e);
+    return terrain->dunes;
+}
+
+// ---- what a field records beside heights and wetness
+
+static bool record_loose(HeightField *field, Error *e)
+{
+    field->loose = memory_alloc_zero(height_field_count(field), sizeof(float), e);
+    return field->loose;
+}
+
+// Only a plateau tells what has been worn; before the other landforms rose there was no land.
+static bool record_change(HeightField *field, Error *e)
+{
+    field->change = memory_alloc_zero(height_field_count(field), sizeof(float), e);
+    return field->change && record_loose(field, e);
+}
+
+static bool record_ground(HeightField *field, Error *e)
+{
+    field->ground = memory_alloc_zero(height_field_count(field), sizeof(float), e);
+    return field->ground && record_loose(field, e);
+}
+
+static bool record_wind(HeightField *field, Error *e)
+{
+    field->periodic = true;
+    field->wind = memory_alloc_zero(height_field_count(field), sizeof(Vec2), e);
+    return field->wind && record_loose(field, e);
+}
+
+// ---- a sample
+
+static void sample_valleys(const Terrain *terrain, HeightField *field, int64_t i, float x, float z)
+{
+    field->height[i] = terrain_valleys_at(terrain, x, z, &field->wetness[i]);
+}
+
+static void sample_lifted(const Terrain *terrain, HeightField *field, int64_t i, float x, float z)
+{
+    field->height[i] = terrain_lifted_at(terrain, x, z);
+}
+
+static void sample_survey(const Terrain *terrain, HeightField *field, int64_t i, float x, float z)
+{
+    field->wetness[i] = terrain_wetness_at(terrain, x, z);
+    field->height[i] = terrain_surveyed_at(terrain, x, z);
+}
+
+static void sample_noise(const Terrain *terrain, HeightField *field, int64_t i, float x, float z)
+{
+    field->height[i] = terrain_noise_at(terrain, x, z);
+}
+
+// Wetness is how much of the ground is loose.
+static void sample_evolved(const Terrain *terrain, HeightField *field, int64_t i, float x, float z)
+{
+    EvolvedPlace place = terrain_evolved_at(terrain, x, z);
+    field->height[i] = place.height;
+    field->wetness[i] = (float)((double)place.loose / ((double)place.loose + 1.0));
+    field->loose[i] = place.loose;
+    if (field->change) {
+        field->change[i] = place.change;
+    }
+    if (field->ground) {
+        field->ground[i] = height_field_at(terrain->ground, x, z);
+    }
+}
+
+// ---- after erosion and terraces
+
+static bool drain(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    (void)run;
+    terrain_carve_rivers(field, terrain->tree);
+    return height_field_fill(field, 1e-5f, e);
+}
+
+static bool drain_survey(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    return terrain->tree->count == 0 || drain(terrain, field, run, e);
+}
+
+static bool finish_rivers(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    return (terrain->params->terraces.count <= 0 || height_field_fill(field, 0.0f, e)) &&
+           terrain_lay_rivers(terrain, field, run, e);
+}
+
+static bool finish_survey(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    return terrain->tree->count == 0 || finish_rivers(terrain, field, run, e);
+}
+
+// Sampling leaves pits in the flat floors of valleys.
+static bool finish_alps(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    const TerrainParams *params = terrain->params;
+    return height_field_fill(field, 1e-4f, e) &&
+           terrain_find_climate(params, params->alps.wind, field, run, e);
+}
+
+// A volcano stands in warmer air than alps do: snow stays on its upper fifth.
+static bool finish_volcano(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    const TerrainParams *params = terrain->params;
+    bool done = terrain_fill_shallow_pits(field, 12.0f, e) &&
+                terrain_find_climate(params, params->volcano.wind, field, run, e);
+    for (int64_t i = 0; done && i < height_field_count(field); i++) {
+        field->climate[i] *= 0.6f;
+    }
+    return done;
+}
+
+static bool finish_hills(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    (void)run;
+    return (terrain->params->hills.rills <= 0.0f || terrain_fell_needles(field, e)) &&
+           height_field_fill(field, 1e-4f, e) && terrain_wet_hollows(field, e);
+}
+
+// ---- the table
+
+static const Form FORMS[] = {
+    [TERRAIN_RIVERS] = {.grow = terrain_grow_rivers,
+                        .finish_tree = terrain_fill_rivers,
+                        .prepare = prepare_rivers,
+                        .sample = sample_valleys,
+                        .drain = drain,
+                        .finish = finish_rivers},
+    [TERRAIN_RIDGES] = {.grow = terrain_grow_ridges,
+                        .finish_tree = terrain_raise_ridges,
+                        .prepare = prepare_ridges,
+                        .sample = sample_lifted},
+    [TERRAIN_MAP] = {.wavelength = 0.125f, .prepare = prepare_map, .sample = sample_lifted},
+    [TERRAIN_NOISE] = {.wavelength = 0.125f, .sample = sample_noise},
+    [TERRAIN_SURVEY] = {.grow = terrain_find_rivers,
+                        .finish_tree = terrain_finish_survey,
+                        .prepare = prepare_survey,
+                        .sample = sample_survey,
+                        .drain = drain_survey,
+                        .finish = finish_survey},
+    [TERRAIN_CANYON] = {.relief = 0.09f,
+                        .wavelength = 0.125f,
+                        .evolves = true,
+                        .plateau = true,
+                        .grow = terrain_grow_courses,
+                        .finish_tree = terrain_fill_courses,
+                        .prepare = prepare_plateau,
+                        .record = record_change,
+                        .sample = sample_evolved,
+                        .finish = terrain_lay_rivers},
+    [TERRAIN_MESAS] = {.relief = 0.04f,
+                       .wavelength = 0.125f,
+                       .evolves = true,
+                       .plateau = true,
+                       .grow = terrain_grow_courses,
+                       .finish_tree = terrain_fill_courses,
+                       .prepare = prepare_plateau,
+                       .record = record_change,
+                       .sample = sample_evolved,
+                       .finish = terrain_lay_rivers},
+    [TERRAIN_ALPS] = {.material = "terrain/alps",
+                      .relief = 0.16f,
+                      .wavelength = 0.125f,
+                      .evolves = true,
+                      .prepare = prepare_alps,
+                      .record = record_loose,
+                      .sample = sample_evolved,
+                      .finish = finish_alps,
+                      .measure = terrain_measure_alps},
+    [TERRAIN_VOLCANO] = {.material = "terrain/volcano",
+                         .relief = 0.13f,
+                         .wavelength = 0.125f,
+                         .evolves = true,
+                         .prepare = prepare_volcano,
+                         .record = record_ground,
+                         .sample = sample_evolved,
+                         .finish = finish_volcano,
+                         .measure = terrain_measure_volcano},
+    [TERRAIN_DUNES] = {.material = "terrain/dunes",
+                       .wavelength = 0.125f,
+                       .prepare = prepare_dunes,
+                       .record = record_wind,
+                       .sample = terrain_sample_dunes},
+    [TERRAIN_HILLS] = {.material = "terrain/hills",
+                       .relief = 0.04f,
+                       .wavelength = 0.125f,
+                       .evolves = true,
+                       .prepare = prepare_hills,
+                       .record = record_loose,
+                       .sample = sample_evolved,
+                       .finish = finish_hills,
+                       .measure = terrain_measure_hills},
+};
+
+const Form *terrain_form(const TerrainParams *params)
+{
+    return &FORMS[params->form];
+}

@@ -1,0 +1,87 @@
+// What a terrain is made by if the scene does not say.
+#include "objects/terrain/form.h"
+
+#include <math.h>
+
+TerrainParams terrain_params_default(void)
+{
+    return (TerrainParams){
+        .size = 12000.0f,
+        .resolution = 1024,
+        .uplift = {.base = 1.0f, .noise = 0.4f},
+        .ridges = {.source = {.scale = 1.0f},
+                   .extent = {0.8f, 0.8f},
+                   .count = 900,
+                   .winding = 0.4f,
+                   .field_weight = 1.0f,
+                   .width = 0.12f},
+        .rivers = {.source = {.scale = 1.0f},
+                   .outlets = 7,
+                   .count = 2500,
+                   .winding = 0.4f,
+                   .gradient = 0.6f,
+                   .concavity = 0.42f,
+                   .valley = 0.03f,
+                   .water = 0.0025f,
+                   .field_weight = 1.0f},
+        .survey = {.band = 1, .exaggeration = 1.0f},
+        .noise = {.iterations = 6, .amplitude = 0.11f, .gain = 0.5f, .ridged = 0.7f, .warp = 0.35f},
+        .erosion = {.talus = 38.0f},
+        .forest = {.height = 28.0f, .low = 0.02f, .high = 0.4f, .slope = 36.0f, .clumping = 0.7f},
+        .canyon = {.sinuosity = 1.35f, .meander = 0.42f, .river = 70.0f, .side_canyons = 1.0f},
+        .mesas = {.streams = 6, .remaining = 0.12f},
+        .alps = {.ice = 1.0f, .ice_line = 0.4f, .outlets = 5, .wind = 270.0f},
+        .volcano = {.flows = 16, .cones = 5, .wind = 270.0f, .age = 0.15f},
+        .hills = {.outlets = 4},
+        .dunes = {.kind = DUNE_TRANSVERSE, .wind = 270.0f, .spread = 120.0f, .age = 1.0f},
+        .evolution = {.streams = 1.0f,
+                      .weathering = 1.0f,
+                      .rubble = 0.25f,
+                      .repose = 34.0f,
+                      .deposition = 1.0f,
+                      .soil = 1.0f,
+                      .cells = 1024},
+        .mesh_error = 0.0006f};
+}
+
+static void resolve_dunes(DuneParams *dunes, float size)
+{
+    static const float depth[] = {[DUNE_BARCHAN] = 0.02f,
+                                  [DUNE_TRANSVERSE] = 0.07f,
+                                  [DUNE_LINEAR] = 0.08f,
+                                  [DUNE_STAR] = 0.12f};
+    dunes->spacing = dunes->spacing > 0.0f ? dunes->spacing : 0.25f * size;
+    dunes->sand = dunes->sand > 0.0f ? dunes->sand : depth[dunes->kind] * dunes->spacing;
+}
+
+TerrainParams terrain_params_resolve(const TerrainParams *params)
+{
+    TerrainParams resolved = *params;
+    const Form *form = terrain_form(params);
+    if (resolved.noise.wavelength == 0.0f) {
+        switch (params->form) {
+        case TERRAIN_RIVERS: // brooks
+            resolved.noise.wavelength = 6.0f / sqrtf((float)params->rivers.count);
+            break;
+        case TERRAIN_RIDGES: // spurs
+            resolved.noise.wavelength = 3.0f / sqrtf((float)params->ridges.count);
+            break;
+        default: // 0 of surveyed land: two cells of the raster
+            resolved.noise.wavelength = form->wavelength;
+        }
+    }
+    if (params->form == TERRAIN_DUNES) {
+        resolve_dunes(&resolved.dunes, params->size);
+    }
+    if (form->evolves) {
+        resolved.relief = params->relief > 0.0f ? params->relief : params->size * form->relief;
+        resolved.hills.spacing =
+            params->hills.spacing > 0.0f ? params->hills.spacing : 0.1f * params->size;
+        resolved.volcano.crater =
+            params->volcano.crater > 0.0f ? params->volcano.crater : 0.26f * resolved.relief;
+        resolved.canyon.width =
+            params->canyon.width > 0.0f ? params->canyon.width : 6.0f * resolved.relief;
+        resolved.strata.top = params->strata.top != 0.0f ? params->strata.top : resolved.relief;
+    }
+    return resolved;
+}
