@@ -193,3 +193,19 @@ Landscape *landscape_refined(const Landscape *land, const Run *run, Error *e)
     }
     return finer;
 }
+
+double landscape_scale_relief(Landscape *land, double relief)
+{
+    double high = 0.0;
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        high = land->rock[i] > high ? land->rock[i] : high;
+    }
+    double scale = high > 0.0 ? relief / high : 1.0;
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        land->rock[i] *= scale;
+        land->loose[i] *= scale;
+    }
+    land->outflow *= scale;
+    land->uplifted *= scale;
+    return scale;
+}

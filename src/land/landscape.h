@@ -56,6 +56,10 @@ void landscape_free(Landscape *land); // NULL is fine
 // sharp.
 Landscape *landscape_refined(const Landscape *land, const Run *run, Error *e);
 
+// Scales heights and volumes so that the highest rock is at `relief`, m; returns the factor (1 for
+// flat land). A change of units, not of the land, where the processes are linear in heights.
+double landscape_scale_relief(Landscape *land, double relief);
+
 // Finds anew where the beds of land->strata lie.
 void landscape_lay_stack(Landscape *land);
 

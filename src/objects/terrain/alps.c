@@ -39,15 +39,6 @@ static void set_weakness(const Range *r, Landscape *land, const Run *run)
     }
 }
 
-static double highest(const Landscape *land)
-{
-    double high = 0.0;
-    for (int64_t i = 0; i < landscape_count(land); i++) {
-        high = land->rock[i] > high ? land->rock[i] : high;
-    }
-    return high;
-}
-
 // Rivers in a rising block, nearly in steady state. Stream power is linear in heights, so the
 // result is scaled to the relief. Ground as steep as rock can be is left to later stages.
 static bool cut_by_rivers(const Range *r, Landscape *land, const Run *run, Error *e)
@@ -74,13 +65,7 @@ static bool cut_by_rivers(const Range *r, Landscape *land, const Run *run, Error
             return false;
         }
     }
-    double scale = 1.12 * (double)r->params.relief / highest(land);
-    for (int64_t i = 0; i < landscape_count(land); i++) { // a change of units, not of the land
-        land->rock[i] *= scale;
-        land->loose[i] *= scale;
-    }
-    land->outflow *= scale;
-    land->uplifted *= scale;
+    landscape_scale_relief(land, 1.12 * (double)r->params.relief);
     return true;
 }
 

@@ -133,22 +133,6 @@ static bool evolve(const Hills *h, Landscape *land, double share, const Run *run
     return true;
 }
 
-// Heights are linear in the uplift, so one factor on both gives the relief.
-static void scale_to_relief(Hills *h, Landscape *land)
-{
-    double high = 0.0;
-    for (int64_t i = 0; i < landscape_count(land); i++) {
-        high = land->rock[i] > high ? land->rock[i] : high;
-    }
-    double scale = high > 0.0 ? (double)h->params.relief / high : 1.0;
-    for (int64_t i = 0; i < landscape_count(land); i++) {
-        land->rock[i] *= scale;
-    }
-    land->outflow *= scale;
-    land->uplifted *= scale;
-    h->rates.uplift *= scale;
-}
-
 // The land on a grid of twice as many cells. Frees the old one.
 static Landscape *refined(Landscape *land, const Run *run, Error *e)
 {
@@ -228,7 +212,8 @@ Landscape *terrain_evolve_hills(const Terrain *terrain, const Run *run, Error *e
             landscape_free(land);
             return NULL;
         }
-        scale_to_relief(&h, land);
+        // Heights are linear in the uplift.
+        h.rates.uplift *= landscape_scale_relief(land, (double)h.params.relief);
         if (land->side > cells) {
             return finish(&h, land, run, e);
         }

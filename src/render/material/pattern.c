@@ -110,68 +110,25 @@ float pattern_height(const Material *m, const SurfacePoint *point)
                                            : 0.0f;
 }
 
+static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShade *) = {
+    [PATTERN_BARK] = pattern_bark,         [PATTERN_MASONRY] = pattern_masonry,
+    [PATTERN_STONE] = pattern_stone,       [PATTERN_GROUND] = pattern_ground,
+    [PATTERN_LEAF] = pattern_leaf,         [PATTERN_CORALLITE] = pattern_corallite,
+    [PATTERN_YOUTH] = pattern_youth,       [PATTERN_SAND] = pattern_sand,
+    [PATTERN_MOUNTAIN] = pattern_mountain, [PATTERN_BADLANDS] = pattern_badlands,
+    [PATTERN_WATER] = pattern_water,       [PATTERN_ALTITUDE] = pattern_altitude,
+    [PATTERN_ALPS] = pattern_alps,         [PATTERN_VOLCANO] = pattern_volcano,
+    [PATTERN_STRATA] = pattern_strata,     [PATTERN_DUNES] = pattern_dunes,
+    [PATTERN_HILLS] = pattern_hills,       [PATTERN_NOISE] = noise_pattern,
+};
+
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     if (m->kind == MATERIAL_LEAF && point->season != 0.0f) {
         pattern_season(m, point, shade);
     }
-    switch (m->pattern) {
-    case PATTERN_NONE:
-        break;
-    case PATTERN_BARK:
-        pattern_bark(m, point, shade);
-        break;
-    case PATTERN_MASONRY:
-        pattern_masonry(m, point, shade);
-        break;
-    case PATTERN_STONE:
-        pattern_stone(m, point, shade);
-        break;
-    case PATTERN_GROUND:
-        pattern_ground(m, point, shade);
-        break;
-    case PATTERN_LEAF:
-        pattern_leaf(m, point, shade);
-        break;
-    case PATTERN_CORALLITE:
-        pattern_corallite(m, point, shade);
-        break;
-    case PATTERN_YOUTH:
-        pattern_youth(m, point, shade);
-        break;
-    case PATTERN_SAND:
-        pattern_sand(m, point, shade);
-        break;
-    case PATTERN_MOUNTAIN:
-        pattern_mountain(m, point, shade);
-        break;
-    case PATTERN_BADLANDS:
-        pattern_badlands(m, point, shade);
-        break;
-    case PATTERN_WATER:
-        pattern_water(m, point, shade);
-        break;
-    case PATTERN_ALTITUDE:
-        pattern_altitude(m, point, shade);
-        break;
-    case PATTERN_ALPS:
-        pattern_alps(m, point, shade);
-        break;
-    case PATTERN_VOLCANO:
-        pattern_volcano(m, point, shade);
-        break;
-    case PATTERN_STRATA:
-        pattern_strata(m, point, shade);
-        break;
-    case PATTERN_DUNES:
-        pattern_dunes(m, point, shade);
-        break;
-    case PATTERN_HILLS:
-        pattern_hills(m, point, shade);
-        break;
-    case PATTERN_NOISE:
-        noise_pattern(m, point, shade);
-        break;
+    if (APPLY[m->pattern]) {
+        APPLY[m->pattern](m, point, shade);
     }
     if (m->variation > 0.0f) {
         uint32_t hash = (uint32_t)(point->variation * 16777216.0f);
