@@ -2,7 +2,7 @@
 #include "land/glacier.h"
 #include "land/height_drainage.h"
 #include "land/valley_profile.h"
-#include "making.h"
+#include "making_terrain.h"
 #include "objects/terrain/terrain.h"
 #include "testing.h"
 
@@ -112,9 +112,6 @@ static void steady_ice_carries_what_it_gains(void **state)
 
 static HeightField *heights(uint64_t seed, int threads, float age, float ice, MeasureList *list)
 {
-    Error e = {0};
-    Run run = run_default();
-    run.threads = threads;
     TerrainParams params = terrain_params_default();
     params.form = TERRAIN_ALPS;
     params.size = 16000.0f;
@@ -122,24 +119,7 @@ static HeightField *heights(uint64_t seed, int threads, float age, float ice, Me
     params.resolution = 256;
     params.alps.age = age;
     params.alps.ice = ice;
-    Recipe recipe = {.seed = seed, .label = "land", .run = &run};
-    Grown grown;
-    HeightField *field = NULL;
-    if (kind_grow(&kind_terrain, &params, &recipe, 1.0f, NULL, &grown, &e)) {
-        field = terrain_heights(&params, &grown, &run, &e);
-    }
-    if (!field || (list && !terrain_measure(&params, &grown, &recipe, list, &e))) {
-        fail_msg("%s", e.message);
-    }
-    grown_clear(&grown);
-    return field;
-}
-
-static double value(const MeasureList *list, const char *name)
-{
-    const Measure *measure = measures_find(list, name);
-    assert_non_null(measure);
-    return measure->value;
+    return make_heights(&params, seed, threads, list, NULL);
 }
 
 static void alps_keep_their_promises(void **state)
@@ -162,9 +142,9 @@ static void alps_keep_their_promises(void **state)
         }
         if (seed == 1) {
             height_field_free(heights(seed, 2, 1.0f, 1.0f, &old));
-            assert_true(value(&old, "cliff_share") < 0.5 * value(&list, "cliff_share"));
+            assert_true(measured(&old, "cliff_share") < 0.5 * measured(&list, "cliff_share"));
         }
-        double exponent = value(&list, "valley_exponent");
+        double exponent = measured(&list, "valley_exponent");
         if (!(exponent > 1.6 && exponent < 2.4)) { // Svensson 1959: 1.5 to 2.5 in nature
             fail_msg("seed %d: valleys have an exponent of %g", (int)seed, exponent);
         }
@@ -179,7 +159,7 @@ static void without_ice_valleys_are_v_shaped(void **state)
     (void)state;
     MeasureList list = {0};
     height_field_free(heights(1, 2, 0.0f, 0.0f, &list));
-    double exponent = value(&list, "valley_exponent");
+    double exponent = measured(&list, "valley_exponent");
     if (!(exponent > 0.9 && exponent < 1.4)) {
         fail_msg("valleys have an exponent of %g", exponent);
     }

@@ -2,7 +2,7 @@
 #include "land/dunes.h"
 #include "land/dunes_measure.h"
 #include "land/height_mesh.h"
-#include "making.h"
+#include "making_terrain.h"
 #include "objects/terrain/terrain.h"
 #include "testing.h"
 
@@ -191,8 +191,6 @@ static void barchans_move_downwind_the_slower_the_higher(void **state)
 
 static HeightField *heights(uint64_t seed, DuneKind kind, int threads, MeasureList *list)
 {
-    Error e = {0};
-    Run run = run_with(threads);
     TerrainParams params = terrain_params_default();
     params.form = TERRAIN_DUNES;
     params.size = 640.0f;
@@ -200,24 +198,7 @@ static HeightField *heights(uint64_t seed, DuneKind kind, int threads, MeasureLi
     params.dunes.kind = kind;
     params.dunes.spacing = 390.0f; // on 64 cells
     params.dunes.wind = 250.0f;
-    Recipe recipe = {.seed = seed, .label = "land", .run = &run};
-    Grown grown;
-    HeightField *field = NULL;
-    if (kind_grow(&kind_terrain, &params, &recipe, 1.0f, NULL, &grown, &e)) {
-        field = terrain_heights(&params, &grown, &run, &e);
-    }
-    if (!field || (list && !terrain_measure(&params, &grown, &recipe, list, &e))) {
-        fail_msg("%s", e.message);
-    }
-    grown_clear(&grown);
-    return field;
-}
-
-static double value(const MeasureList *list, const char *name)
-{
-    const Measure *measure = measures_find(list, name);
-    assert_non_null(measure);
-    return measure->value;
+    return make_heights(&params, seed, threads, list, NULL);
 }
 
 static void dunes_have_natural_slopes(void **state)
@@ -226,8 +207,8 @@ static void dunes_have_natural_slopes(void **state)
     for (uint64_t seed = 1; seed <= 3; seed++) {
         MeasureList list = {0};
         height_field_free(heights(seed, DUNE_TRANSVERSE, 2, &list));
-        double slip = value(&list, "slip_slope"), windward = value(&list, "windward_slope");
-        double height = value(&list, "dune_height"), length = value(&list, "dune_length");
+        double slip = measured(&list, "slip_slope"), windward = measured(&list, "windward_slope");
+        double height = measured(&list, "dune_height"), length = measured(&list, "dune_length");
         assert_true(slip > 32.0 && slip < 34.5);
         if (!(windward > 7.0 && windward < 15.0)) {
             fail_msg("windward slope %g degrees", windward);

@@ -1,8 +1,6 @@
 // The form hills: spacing of valleys, balance of creep and streams, soil, threads, volume.
 #include "land/height_drainage.h"
-#include "making.h"
-#include "objects/terrain/internal.h"
-#include "testing.h"
+#include "making_terrain.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,9 +16,6 @@ typedef struct Made {
 
 static Made make_rilled(float spacing, int resolution, uint64_t seed, int threads, float rills)
 {
-    Error e = {0};
-    Run run = run_default();
-    run.threads = threads;
     TerrainParams params = terrain_params_default();
     params.form = TERRAIN_HILLS;
     params.size = 3000.0f;
@@ -28,13 +23,8 @@ static Made make_rilled(float spacing, int resolution, uint64_t seed, int thread
     params.resolution = resolution;
     params.hills.spacing = spacing;
     params.hills.rills = rills;
-    Recipe recipe = {.seed = seed, .label = "land", .run = &run};
     Made made = {.field = NULL};
-    if (!kind_grow(&kind_terrain, &params, &recipe, 1.0f, NULL, &made.grown, &e) ||
-        !(made.field = terrain_heights(&params, &made.grown, &run, &e)) ||
-        !terrain_measure(&params, &made.grown, &recipe, &made.list, &e)) {
-        fail_msg("%s", e.message);
-    }
+    made.field = make_heights(&params, seed, threads, &made.list, &made.grown);
     made.land = ((const Terrain *)made.grown.state)->evolved;
     return made;
 }

@@ -1,7 +1,5 @@
 // The form volcano on several seeds: profile, crater, breach, lava, threads, volume.
-#include "making.h"
-#include "objects/terrain/internal.h"
-#include "testing.h"
+#include "making_terrain.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,18 +20,8 @@ static TerrainParams cone(void)
 static HeightField *heights(const TerrainParams *params, uint64_t seed, int threads,
                             MeasureList *list, double *volume)
 {
-    Error e = {0};
-    Run run = run_default();
-    run.threads = threads;
-    Recipe recipe = {.seed = seed, .label = "land", .run = &run};
     Grown grown;
-    HeightField *field = NULL;
-    if (kind_grow(&kind_terrain, params, &recipe, 1.0f, NULL, &grown, &e)) {
-        field = terrain_heights(params, &grown, &run, &e);
-    }
-    if (!field || (list && !terrain_measure(params, &grown, &recipe, list, &e))) {
-        fail_msg("%s", e.message);
-    }
+    HeightField *field = make_heights(params, seed, threads, list, &grown);
     if (volume) {
         const Landscape *land = ((const Terrain *)grown.state)->evolved;
         volume[0] = landscape_volume(land);
@@ -43,16 +31,9 @@ static HeightField *heights(const TerrainParams *params, uint64_t seed, int thre
     return field;
 }
 
-static double value(const MeasureList *list, const char *name)
-{
-    const Measure *measure = measures_find(list, name);
-    assert_non_null(measure);
-    return measure->value;
-}
-
 static void within(const MeasureList *list, const char *name, double low, double high)
 {
-    double is = value(list, name);
+    double is = measured(list, name);
     printf("  %s %g\n", name, is);
     if (!(is >= low && is <= high)) {
         fail_msg("%s is %g, not %g to %g", name, is, low, high);
@@ -123,9 +104,9 @@ static void age_cuts_gullies_and_ages_lava(void **state)
     height_field_free(heights(&params, 2, 2, &young, NULL));
     params.volcano.age = 1.0f;
     height_field_free(heights(&params, 2, 2, &old, NULL));
-    printf("steep share %g young, %g old\n", value(&young, "cliff_share"),
-           value(&old, "cliff_share"));
-    assert_true(value(&old, "cliff_share") > value(&young, "cliff_share"));
+    printf("steep share %g young, %g old\n", measured(&young, "cliff_share"),
+           measured(&old, "cliff_share"));
+    assert_true(measured(&old, "cliff_share") > measured(&young, "cliff_share"));
     measures_clear(&young);
     measures_clear(&old);
 }
