@@ -209,3 +209,40 @@ double landscape_scale_relief(Landscape *land, double relief)
     land->uplifted *= scale;
     return scale;
 }
+
+// Lowers sample i to what the four neighbours that a sweep has passed allow; ahead: 1 or -1, the
+// sweep's direction. Samples are walked so that the neighbours are inside.
+static void fell_sample(Landscape *land, int row, int column, int ahead, double slope)
+{
+    static const int from[4][2] = {{0, -1}, {-1, -1}, {-1, 0}, {-1, 1}}; // row, column
+    int64_t i = (int64_t)row * land->side + column;
+    double most = land->rock[i] + land->loose[i];
+    for (int k = 0; k < 4; k++) {
+        int r = row + ahead * from[k][0], c = column + ahead * from[k][1];
+        if (r < 0 || c < 0 || r >= land->side || c >= land->side) {
+            continue;
+        }
+        int64_t near = (int64_t)r * land->side + c;
+        double away = k % 2 == 1 ? sqrt(2.0) : 1.0;
+        most = fmin(most, land->rock[near] + land->loose[near] + slope * land->cell * away);
+    }
+    double fallen = land->rock[i] + land->loose[i] - most;
+    if (fallen > 0.0 && !land->base[i]) {
+        double loose = fmin(land->loose[i], fallen);
+        land->loose[i] -= loose;
+        land->rock[i] -= fallen - loose;
+        land->outflow += fallen * land->cell * land->cell;
+    }
+}
+
+// Two sweeps of a chamfer distance transform (Borgefors 1986): one in reading order, one back.
+void landscape_fell(Landscape *land, double slope)
+{
+    int64_t count = landscape_count(land);
+    for (int64_t i = 0; i < count; i++) {
+        fell_sample(land, (int)(i / land->side), (int)(i % land->side), 1, slope);
+    }
+    for (int64_t i = count - 1; i >= 0; i--) {
+        fell_sample(land, (int)(i / land->side), (int)(i % land->side), -1, slope);
+    }
+}

@@ -60,6 +60,11 @@ Landscape *landscape_refined(const Landscape *land, const Run *run, Error *e);
 // flat land). A change of units, not of the land, where the processes are linear in heights.
 double landscape_scale_relief(Landscape *land, double relief);
 
+// Lets rock fall that stands steeper than `slope`, a tangent, over any distance: no sample is
+// higher than another by more than the slope allows along the grid's eight directions. What falls
+// leaves.
+void landscape_fell(Landscape *land, double slope);
+
 // Finds anew where the beds of land->strata lie.
 void landscape_lay_stack(Landscape *land);
 

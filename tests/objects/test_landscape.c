@@ -319,6 +319,38 @@ static void volume_is_conserved_and_threads_do_not_matter(void **state)
     strata_free(strata);
 }
 
+// Fallen rock against the lowest of the cones that stand on all samples.
+static void steep_rock_falls(void **state)
+{
+    (void)state;
+    enum { CELLS = 24 };
+    const double slope = 1.4;
+    Landscape *land = landscape_new(CELLS, 48.0, NULL, NULL);
+    int side = land->side;
+    double *before = malloc(sizeof *before * (size_t)landscape_count(land));
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        land->rock[i] = 20.0 * (double)random_unit(random_key(7, (uint64_t)i));
+        land->loose[i] = i % 3 == 0 ? 0.5 : 0.0;
+        before[i] = land->rock[i] + land->loose[i];
+    }
+    double volume = landscape_volume(land);
+    landscape_fell(land, slope);
+    for (int i = 0; i < side * side; i++) {
+        double most = before[i];
+        for (int j = 0; j < side * side; j++) {
+            int across = abs(i % side - j % side), down = abs(i / side - j / side);
+            int diagonal = across < down ? across : down;
+            double away = across + down - 2 * diagonal + sqrt(2.0) * diagonal;
+            most = fmin(most, before[j] + slope * land->cell * away);
+        }
+        assert_true(fabs(land->rock[i] + land->loose[i] - most) < 1e-9);
+        assert_true(land->loose[i] >= 0.0);
+    }
+    assert_true(fabs(landscape_volume(land) - volume) < 1e-9 * volume);
+    free(before);
+    landscape_free(land);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -328,6 +360,7 @@ int main(void)
         cmocka_unit_test(faces_retreat_at_their_speed),
         cmocka_unit_test(rubble_rests_at_its_angle),
         cmocka_unit_test(slope_area_law),
+        cmocka_unit_test(steep_rock_falls),
         cmocka_unit_test(volume_is_conserved_and_threads_do_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -178,9 +178,9 @@ static bool finish_volcano(Terrain *terrain, HeightField *field, const Run *run,
 
 static bool finish_hills(Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
+    (void)terrain;
     (void)run;
-    return (terrain->params->hills.rills <= 0.0f || terrain_fell_needles(field, e)) &&
-           height_field_fill(field, 1e-4f, e) && terrain_wet_hollows(field, e);
+    return height_field_fill(field, 1e-4f, e) && terrain_wet_hollows(field, e);
 }
 
 // ---- the table

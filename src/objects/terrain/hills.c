@@ -10,7 +10,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { CELLS_PER_VALLEY = 20 };
 
@@ -144,6 +143,7 @@ static Landscape *refined(Landscape *land, const Run *run, Error *e)
 // Storm water in bare ground: on ever finer grids, streams without creep for a short time.
 static Landscape *cut_rills(Hills *h, Landscape *land, const Run *run, Error *e)
 {
+    const double steepest = 1.4; // of mudstone in the walls of rills: 54 degrees
     int last = h->params.resolution < h->params.evolution.cells ? h->params.resolution
                                                                 : h->params.evolution.cells;
     h->creep *= 0.04;
@@ -160,6 +160,7 @@ static Landscape *cut_rills(Hills *h, Landscape *land, const Run *run, Error *e)
             landscape_free(land);
             return NULL;
         }
+        landscape_fell(land, steepest);
     }
     return land;
 }
@@ -220,43 +221,6 @@ Landscape *terrain_evolve_hills(const Terrain *terrain, const Run *run, Error *e
         land = refined(land, run, e);
     }
     return NULL;
-}
-
-// The second highest and the second lowest of a sample's eight neighbours.
-static Vec2 second_of_neighbours(const HeightField *field, const float *h)
-{
-    float high[2] = {-INFINITY, -INFINITY}, low[2] = {INFINITY, INFINITY};
-    for (int k = 0; k < 9; k++) {
-        float near = h[(int64_t)(k / 3 - 1) * field->columns + k % 3 - 1];
-        if (k == 4) {
-            continue;
-        }
-        high[1] = near > high[0] ? high[0] : near > high[1] ? near : high[1];
-        high[0] = near > high[0] ? near : high[0];
-        low[1] = near < low[0] ? low[0] : near < low[1] ? near : low[1];
-        low[0] = near < low[0] ? near : low[0];
-    }
-    return (Vec2){high[1], low[1]};
-}
-
-bool terrain_fell_needles(HeightField *field, Error *e)
-{
-    enum { ROUNDS = 3 };
-    int64_t count = height_field_count(field);
-    float *before = memory_alloc(count, sizeof *before, e), reach = 0.5f * field->cell.x;
-    for (int round = 0; before && round < ROUNDS; round++) {
-        memcpy(before, field->height, sizeof *before * (size_t)count);
-        for (int row = 1; row < field->rows - 1; row++) {
-            for (int column = 1; column < field->columns - 1; column++) {
-                int64_t i = (int64_t)row * field->columns + column;
-                Vec2 second = second_of_neighbours(field, before + i);
-                field->height[i] = clampf(before[i], second.y - reach, second.x + reach);
-            }
-        }
-    }
-    bool done = before;
-    free(before);
-    return done;
 }
 
 bool terrain_wet_hollows(HeightField *field, Error *e)

@@ -208,9 +208,6 @@ Landscape *terrain_evolve_alps(const Terrain *terrain, const Run *run, Error *e)
 Landscape *terrain_evolve_hills(const Terrain *terrain, const Run *run, Error *e);
 // hills_measure.c: after terrain_evolve_hills.
 bool terrain_measure_hills(const Terrain *terrain, MeasureList *list, Error *e);
-// hills.c: takes away single samples that stand out of their neighbours, or lie far below them,
-// where rills meet on the grid: thinner than anything it can show.
-bool terrain_fell_needles(HeightField *field, Error *e);
 // hills.c: fills in the wetness: 1 where the water of a hollow gathers, 0 on crests.
 bool terrain_wet_hollows(HeightField *field, Error *e);
 // volcano.c: the same of the form volcano. *ground: HeightField.ground on its grid, as heights; the
