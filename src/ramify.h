@@ -154,6 +154,7 @@ typedef struct RamifyObjectInfo {
     int32_t grows;      // 1 = supports ramify_grow
     int32_t is_land;    // 1 = supports ramify_land
     int32_t paints;     // 1 = supports ramify_paint
+    int32_t tiles;      // a side of a terrain's world; 0 = ramify_land_tile is not supported
     int64_t attractors; // number requested; 0 = none
     int64_t instances;  // largest number of leaves, tufts and other copies; 0 = none
 } RamifyObjectInfo;
@@ -274,6 +275,15 @@ RAMIFY_API void ramify_land_info(const RamifyLand *land, RamifyLandInfo *info);
 // of erosion, rock, lava and snow. Free with ramify_land_free.
 RAMIFY_API RamifyLand *ramify_land_map(const RamifyLand *land, const char *name,
                                        RamifyError *error);
+
+// Tile (column, row), from the north-west corner, of the terrain that is object number index, whose
+// key `tiles` cuts it: finer ground than `world`, the land of the same object. Every tile is made
+// alone; neighbours share the samples at their border, with the same bits. map: NULL for heights,
+// or as in ramify_land_map. RAMIFY_BAD_INPUT if there is no such tile or map. run may be NULL. Free
+// with ramify_land_free.
+RAMIFY_API RamifyLand *ramify_land_tile(const RamifyScene *scene, int index,
+                                        const RamifyLand *world, const char *map, int column,
+                                        int row, const RamifyRun *run, RamifyError *error);
 
 // columns * rows heights, m, row by row, x fastest; borrowed.
 RAMIFY_API const float *ramify_land_heights(const RamifyLand *land);

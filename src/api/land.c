@@ -51,6 +51,21 @@ RamifyLand *ramify_land_map(const RamifyLand *land, const char *name, RamifyErro
     return hand_land(known ? height_map(land_of(land), &map, &run, &e) : NULL, &e, error);
 }
 
+RamifyLand *ramify_land_tile(const RamifyScene *scene, int index, const RamifyLand *world,
+                             const char *map, int column, int row, const RamifyRun *run,
+                             RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    HeightMap kind;
+    HeightField *tile = NULL;
+    if (api_check_object(scene, index, &e) && (!map || height_map_parse(map, &kind, &e))) {
+        tile = scene_tile(scene_of(scene), index, land_of(world), map ? &kind : NULL, column, row,
+                          &own, &e);
+    }
+    return hand_land(tile, &e, error);
+}
+
 void ramify_land_free(RamifyLand *land)
 {
     height_field_free((HeightField *)(void *)land);

@@ -140,6 +140,14 @@ const char *ramify_scene_object_name(const RamifyScene *scene, int index)
     return scene_of(scene)->objects[index].name;
 }
 
+// A side of its world; 0 = none.
+static int object_tiles(const SceneObject *object)
+{
+    TileGrid grid;
+    bool cut = object->kind->tiles && object->kind->tiles(object->params, &grid);
+    return cut ? grid.count : 0;
+}
+
 void ramify_scene_object(const RamifyScene *scene, int index, RamifyObjectInfo *info)
 {
     const SceneObject *object = &scene_of(scene)->objects[index];
@@ -150,6 +158,7 @@ void ramify_scene_object(const RamifyScene *scene, int index, RamifyObjectInfo *
                                .grows = kind->grow != NULL,
                                .is_land = kind->heights != NULL,
                                .paints = kind->paint != NULL,
+                               .tiles = object_tiles(object),
                                .attractors = object_attractors(object),
                                .instances = object_instances(object)};
 }

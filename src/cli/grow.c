@@ -110,7 +110,7 @@ static bool check_request(const Options *options, const RamifyScene *scene, Rami
         return fail_in(e, info.file, RAMIFY_BAD_INPUT,
                        "no object of this scene grows; it needs a tree or another growing thing");
     }
-    if (!check_map(options, scene, e)) {
+    if (!check_map(options, scene, e) || (options->tile && !land_check_tiles(options, scene, e))) {
         return false;
     }
     if (!file) {
@@ -155,6 +155,9 @@ static bool write_trees(const Options *options, const RamifyScene *scene, Ramify
 {
     if (!options->output) {
         return true;
+    }
+    if (options->tile) {
+        return land_write_tiles(options, scene, trees, run, e);
     }
     if (is_heights(options->output) && land_count(scene) > 0) {
         return land_write(options, scene, trees, run, e);

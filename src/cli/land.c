@@ -22,7 +22,7 @@ int land_count(const RamifyScene *scene)
     return count;
 }
 
-static void describe(const RamifyScene *scene, int index, const char *map, const RamifyLand *land)
+void land_describe(const RamifyScene *scene, int index, const char *map, const RamifyLand *land)
 {
     RamifyLandInfo info;
     ramify_land_info(land, &info);
@@ -60,7 +60,7 @@ bool land_write(const Options *options, const RamifyScene *scene, RamifyTree *co
            ramify_export_lands(scene, (const RamifyLand *const *)lands, options->output, run, e);
     for (int i = 0; lands && i < count; i++) {
         if (done && lands[i] && !options->quiet) {
-            describe(scene, i, options->map, lands[i]);
+            land_describe(scene, i, options->map, lands[i]);
         }
         ramify_land_free(lands[i]);
     }

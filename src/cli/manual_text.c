@@ -82,7 +82,12 @@ static const ManualText TEXTS[] = {
           "parent), or .json. If there are several objects, their names precede the "
           "extension.",
           "A .png or .exr holds a picture of a leaf's veins, or the heights of a terrain: "
-          ".png with 16 bits, .exr in metres."},
+          ".png with 16 bits, .exr in metres.",
+          "A terrain with the key tiles is a world cut into tiles of finer ground. --tile makes "
+          "one or "
+          "a range of them; each is made alone, on any machine, and neighbours share the samples "
+          "at "
+          "their border, with the same bits."},
      .examples = {{"count", "ramify grow pine.yaml"},
                   {"the tree as a file", "ramify grow pine.yaml -o pine.swc"},
                   {"the numbers for a script", "ramify grow pine.yaml --json --quiet"}}},

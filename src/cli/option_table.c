@@ -398,6 +398,14 @@ const Option option_table[] = {
      .type = OPTION_OBJECT,
      .commands = BIT(COMMAND_EXPORT),
      .doc = "write only this object; may be repeated"},
+    {.name = "tile",
+     .value = "X,Y",
+     .offset = AT(tile),
+     .type = OPTION_TEXT,
+     .commands = BIT(COMMAND_GROW),
+     .doc =
+         "write this tile of a terrain that the key tiles cuts, from 0,0 in the north-west; ranges "
+         "such as 0-3,5 write FILE-X-Y for each tile"},
     {.name = "map",
      .value = "NAME",
      .offset = AT(map),

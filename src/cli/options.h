@@ -63,6 +63,7 @@ typedef struct Options {
     const char *until, *picture;    // fit; NULL = the default, none
     int evaluations;                // fit; 0 = the default
     const char *instances, *colors; // NULL = the format's own
+    const char *tile;               // grow, of land: X,Y or ranges of them; NULL = the whole
     const char *map;                // grow, of land; NULL = its heights
     int tube_sides;                 // 0 = the default
     int end;                        // the last frame to render

@@ -4,7 +4,7 @@
 #define RAMIFY_OBJECTS_KIND_H
 
 #include "config/table.h"
-#include "land/height_field.h"
+#include "land/tiles.h"
 #include "mesh/cover.h"
 #include "objects/common/needs.h"
 #include "objects/common/own_space.h"
@@ -92,6 +92,9 @@ typedef struct Kind {
 
     // Heights of a terrain, in the object's own space; NULL = the kind is no terrain.
     HeightField *(*heights)(const void *params, const Grown *grown, const Run *run, Error *e);
+
+    // Fills in how the land is cut into tiles, but for the seed; false = it is not. NULL = never.
+    bool (*tiles)(const void *params, TileGrid *grid);
 
     // Number of samples of these heights; NULL likewise.
     int64_t (*samples)(const void *params);

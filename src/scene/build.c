@@ -158,6 +158,25 @@ HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, c
     return field;
 }
 
+HeightField *scene_tile(const Scene *scene, int index, const HeightField *world,
+                        const HeightMap *map, int column, int row, const Run *run, Error *e)
+{
+    const SceneObject *object = &scene->objects[index];
+    TileGrid grid;
+    HeightField *tile = NULL;
+    if (!object->kind->tiles || !object->kind->tiles(object->params, &grid)) {
+        error_set(e, ERROR_INPUT, "it is not cut into tiles; a terrain with the key tiles is");
+    } else {
+        grid.seed = scene_object_seed(scene, index);
+        tile = map ? tile_map(world, &grid, column, row, map, run, e)
+                   : tile_land(world, &grid, column, row, run, e);
+    }
+    if (!tile) {
+        scene_fail_object(scene, index, e);
+    }
+    return tile;
+}
+
 // Measures of the land; only kinds with heights have them.
 static bool measure_land(const Making *m, MeasureList *list, Error *e)
 {

@@ -3,7 +3,7 @@
 #define RAMIFY_SCENE_BUILD_H
 
 #include "base/measures.h"
-#include "land/height_field.h"
+#include "land/tiles.h"
 #include "mesh/geometry.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
@@ -31,6 +31,11 @@ OutTree *scene_grow_object(const Scene *scene, int index, const Run *run, Error 
 // land.
 HeightField *scene_heights(const Scene *scene, int index, const OutTree *tree, const Run *run,
                            Error *e);
+
+// Tile (column, row) of object number index from the heights of its whole, or a map of the tile;
+// map: NULL = heights. ERROR_INPUT when the object has no such tile or no such map.
+HeightField *scene_tile(const Scene *scene, int index, const HeightField *world,
+                        const HeightMap *map, int column, int row, const Run *run, Error *e);
 
 // Seed of object number index: its own, or one derived from the scene's seed and its name.
 uint64_t scene_object_seed(const Scene *scene, int index);

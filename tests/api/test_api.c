@@ -245,6 +245,8 @@ static void land_has_heights(void **state)
     ramify_land_free(slope);
     assert_null(ramify_land_map(land, "beauty", &error));
     assert_int_equal(error.code, RAMIFY_BAD_INPUT);
+    assert_null(ramify_land_tile(scene, HILL, land, NULL, 0, 0, NULL, &error));
+    assert_non_null(strstr(error.message, "it is not cut into tiles"));
     assert_false(ramify_land_write(land, "/tmp/x.tga", &error));
     assert_int_equal(error.code, RAMIFY_BAD_INPUT);
     assert_null(ramify_land(scene, BALL, NULL, NULL, &error));

@@ -95,6 +95,20 @@ check grow_no_map 2 "$RAMIFY" grow land.yaml --map beauty -o beauty.asc
 says grow_no_map_message err "must be one of slope, aspect"
 check grow_map_of_tree 2 "$RAMIFY" grow scene.yaml --map slope -o slope.png
 yes grow_map_of_tree_writes_nothing [ ! -e slope.png ]
+printf 'objects: [{name: land, terrain: {form: noise, resolution: 32, size: 600, tiles: {count: 4, cells: 16}}}]\n' >world.yaml
+check grow_tiles 0 "$RAMIFY" grow world.yaml --tile 1-2,3 -o t.asc --quiet
+check grow_tile 0 "$RAMIFY" grow world.yaml --tile 2,3 -o one.asc --quiet
+yes grow_tile_alone cmp t-2-3.asc one.asc
+yes grow_tiles_share_their_border sh -c "awk 'NR > 6 { print \$17 }' t-1-3.asc >west; awk 'NR > 6 { print \$1 }' t-2-3.asc >east
+[ \$(wc -l <west) = 17 ] && cmp west east"
+check grow_tile_map 0 "$RAMIFY" grow world.yaml --tile 2,3 --map slope -o one.asc --quiet
+check grow_no_tile 2 "$RAMIFY" grow world.yaml --tile 4,0 -o one.asc
+says grow_no_tile_message err "the world has tiles 0,0 to 3,3"
+check grow_tile_of_whole 2 "$RAMIFY" grow land.yaml --tile 1,1 -o one.asc
+says grow_tile_of_whole_message err "the key tiles"
+check grow_tile_badly 2 "$RAMIFY" grow world.yaml --tile 3 -o one.asc
+check coarse_tiles 2 "$RAMIFY" info world.yaml --set objects.land.terrain.tiles.count=1
+says coarse_tiles_message err "coarser than the terrain"
 check grow_nothing 2 "$RAMIFY" grow scene.yaml --set 'objects=[{name: a, ground: }]'
 
 check render 0 "$RAMIFY" render scene.yaml -o a.png --threads 1 --json

@@ -180,6 +180,8 @@ def test_land_is_an_array(tmp_path):
     land = scene.land("hills")
     assert land.heights.ndim == 2 and land.heights.dtype == np.float32 and np.ptp(land.heights) > 0
     assert land.cell[0] > 0 and "relief" in land.measure()
+    with pytest.raises(ramify.Error):
+        scene.tile("hills", land, 0, 0)  # it is not cut
     land.write(tmp_path / "hills.asc")
     assert np.allclose(ramify.Land.read(tmp_path / "hills.asc").heights, land.heights, atol=1e-3)
 

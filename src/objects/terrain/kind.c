@@ -69,6 +69,13 @@ static void needs(const void *params, Needs *needs)
     needs_add_copies(needs, "forest.count", fmin(terrain->forest.count, rows * rows), 1e9);
 }
 
+static bool tiles(const void *params, TileGrid *grid)
+{
+    const TerrainTileParams *own = &((const TerrainParams *)params)->tiles;
+    *grid = (TileGrid){.count = own->count, .cells = own->cells, .detail = own->detail};
+    return own->count > 0;
+}
+
 static void settle(const void *params, void *settled)
 {
     TerrainParams p = terrain_params_resolve(params);
@@ -202,4 +209,5 @@ const Kind kind_terrain = {
     .finish = terrain_finish,
     .geometry = terrain_geometry,
     .measure = terrain_measure,
-    .heights = terrain_heights};
+    .heights = terrain_heights,
+    .tiles = tiles};

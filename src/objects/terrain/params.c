@@ -41,6 +41,7 @@ TerrainParams terrain_params_default(void)
                       .deposition = 1.0f,
                       .soil = 1.0f,
                       .cells = 1024},
+        .tiles = {.cells = 512, .detail = 1.0f},
         .mesh_error = 0.0006f};
 }
 

@@ -1,4 +1,5 @@
 // The terrain: uplift, rivers, ridges, noise, erosion, forest.
+#include "land/tiles.h"
 #include "objects/common/tables.h"
 #include "objects/terrain/terrain.h"
 
@@ -341,6 +342,34 @@ static const Table TERRACE_TABLE = {.name = "terraces",
                                     .size = sizeof(TerrainTerraceParams),
                                     .keys = TERRACE_KEYS};
 
+static const Key TILE_KEYS[] = {
+    {KEY_OF(TerrainTileParams, count, "count", KEY_INT), .high = TILE_MOST_COUNT,
+     .doc = "Tiles a side of the world, a power of two; 0 = none."},
+    {KEY_OF(TerrainTileParams, cells, "cells", KEY_INT), .low = TILE_LEAST_CELLS,
+     .high = TILE_MOST_CELLS,
+     .doc =
+         "Cells a side of a tile, a power of two. All tiles together need at least as many cells "
+         "as the terrain's resolution."},
+    {KEY_OF(TerrainTileParams, detail, "detail", KEY_FLOAT), .high = 2,
+     .doc = "Roughness and gullies finer than the terrain's resolution: 0 = none, 1 = natural."},
+    {0},
+};
+
+static const Table TILE_TABLE = {
+    .name = "terrain_tiles",
+    .doc =
+        "Tiles of finer ground, each made alone by ramify grow --tile; neighbours share the "
+        "samples "
+        "at their border, with the same bits. The terrain itself is made once, coarse and whole.",
+    .example = "objects:\n"
+               "  - name: world\n"
+               "    terrain:\n"
+               "      form: hills\n"
+               "      size: 16000\n"
+               "      tiles: {count: 64, cells: 512}\n",
+    .size = sizeof(TerrainTileParams),
+    .keys = TILE_KEYS};
+
 static const Key FOREST_KEYS[] = {
     {KEY_OF(TerrainForestParams, count, "count", KEY_INT), .high = 1e7,
      .doc = "Maximum number of conifers; 0 = none. Distant ones are omitted first."},
@@ -428,6 +457,8 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Rounded hills, of form: hills."},
     {KEY_OF(TerrainParams, evolution, "evolution", KEY_GROUP), .table = &evolution_table,
      .doc = "Processes that make form: canyon, mesas, alps, volcano and hills."},
+    {KEY_OF(TerrainParams, tiles, "tiles", KEY_GROUP), .table = &TILE_TABLE,
+     .doc = "Tiles of finer ground, for ramify grow --tile."},
     {KEY_OF(TerrainParams, beyond, "beyond", KEY_INT), .high = 8,
      .doc = "Rings of mirrored copies around the square (of dunes: of copies as they are), so that "
             "the "
@@ -446,6 +477,23 @@ static void terrain_defaults(void *out)
     *(TerrainParams *)out = terrain_params_default();
 }
 
+static bool check_tiles(const Mapping *mapping, const TerrainTileParams *tiles, int resolution)
+{
+    if ((tiles->count & (tiles->count - 1)) != 0) {
+        return mapping_fail(mapping, "tiles.count", " is %d; it must be a power of two, such as 64",
+                            tiles->count);
+    }
+    if ((tiles->cells & (tiles->cells - 1)) != 0) {
+        return mapping_fail(mapping, "tiles.cells",
+                            " is %d; it must be a power of two, such as 512", tiles->cells);
+    }
+    int64_t all = (int64_t)tiles->count * tiles->cells;
+    return tiles->count == 0 || all >= resolution ||
+           mapping_fail(mapping, "tiles.count",
+                        " is %d; %d tiles of %d cells are coarser than the terrain's %d cells",
+                        tiles->count, tiles->count, tiles->cells, resolution);
+}
+
 static bool check_terrain(const Mapping *mapping, void *params)
 {
     const TerrainParams *terrain = params;
@@ -461,9 +509,10 @@ static bool check_terrain(const Mapping *mapping, void *params)
         return mapping_fail(mapping, "evolution.cells",
                             " is %d; it must be a power of two, such as 1024", evolved);
     }
-    return (cells & (cells - 1)) == 0 ||
-           mapping_fail(mapping, "resolution", " is %d; it must be a power of two, such as 1024",
-                        cells);
+    return check_tiles(mapping, &terrain->tiles, cells) &&
+           ((cells & (cells - 1)) == 0 ||
+            mapping_fail(mapping, "resolution", " is %d; it must be a power of two, such as 1024",
+                         cells));
 }
 
 const Table terrain_table = {

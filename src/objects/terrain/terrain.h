@@ -146,6 +146,13 @@ typedef struct TerrainForestParams {
     float clumping;  // 0 = even, 1 = in woods with clearings
 } TerrainForestParams;
 
+// The world cut into tiles of finer ground (land/tiles.h).
+typedef struct TerrainTileParams {
+    int count;    // a side; 0 = none
+    int cells;    // a side of a tile
+    float detail; // TileGrid.detail
+} TerrainTileParams;
+
 typedef struct TerrainParams {
     Vec3 position;     // m: of the middle, at the height of the outlets
     float size;        // m, side of the square
@@ -172,6 +179,7 @@ typedef struct TerrainParams {
     DuneParams dunes;
     HillParams hills;
     EvolutionParams evolution;
+    TerrainTileParams tiles;
     int beyond;       // rings of mirrored copies around the square
     float mesh_error; // largest error of the mesh, as a share of its distance to the camera
 } TerrainParams;

@@ -62,6 +62,7 @@ class ObjectInfo(c.Structure):
         ("grows", c.c_int32),
         ("is_land", c.c_int32),
         ("paints", c.c_int32),
+        ("tiles", c.c_int32),
         ("attractors", c.c_int64),
         ("instances", c.c_int64),
     ]
@@ -283,6 +284,7 @@ FUNCTIONS = {
     "land": (_handle, [_handle, _int, _handle, _run, _error]),
     "land_read": (_handle, [_text, _error]),
     "land_map": (_handle, [_handle, _text, _error]),
+    "land_tile": (_handle, [_handle, _int, _handle, _text, _int, _int, _run, _error]),
     "land_free": (None, [_handle]),
     "land_info": (None, [_handle, c.POINTER(LandInfo)]),
     "land_heights": (c.c_void_p, [_handle]),

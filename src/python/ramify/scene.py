@@ -133,6 +133,11 @@ class Scene:
             )
         )
 
+    def tile(self, name: Name, world: Land, column: int, row: int, map: Optional[str] = None) -> Land:
+        """Tile (column, row) of a terrain that the key tiles cuts, finer than `world`, its land; or a map of the tile."""
+        kind = map.encode() if map else None
+        return Land(call("land_tile", self._handle.pointer, self._index(name), world._handle.pointer, kind, column, row, None))
+
     def measure(self, name: Name, threads: int = 0, progress: Progress = None) -> Dict[str, float]:
         """Grows one object and measures it, as a dict; nan if not measurable."""
         index = self._index(name)

@@ -1,0 +1,243 @@
+#include "land/tile_detail.h"
+
+#include "base/memory.h"
+#include "base/noise.h"
+#include "base/vec.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// ---- samples between samples
+
+static float between(float a, float b, float c, float d)
+{
+    return 0.0625f * (9.0f * (b + c) - (a + d));
+}
+
+// A fine row or column of the coarse samples `from`, `stride` apart.
+static void refine_line(float *to, int count, int64_t first, const float *from, int64_t from_first,
+                        int64_t to_stride, int64_t stride)
+{
+    for (int i = 0; i < count; i++) {
+        int64_t index = first + i;
+        const float *at = from + (tile_half(index) - from_first) * stride;
+        to[i * to_stride] =
+            (index & 1) == 0 ? at[0] : between(at[-stride], at[0], at[stride], at[2 * stride]);
+    }
+}
+
+bool tile_refine(TileWindow *fine, const TileWindow *coarse, const Run *run, Error *e)
+{
+    int64_t wide = fine->columns;
+    float *rows = memory_alloc(wide * coarse->rows, sizeof *rows, e);
+    fine->height = rows ? memory_alloc(wide * fine->rows, sizeof(float), e) : NULL;
+    if (!fine->height) {
+        free(rows);
+        return false;
+    }
+#pragma omp parallel for schedule(static) num_threads(run->threads)
+    for (int row = 0; row < coarse->rows; row++) {
+        refine_line(rows + row * wide, fine->columns, fine->x,
+                    coarse->height + (int64_t)row * coarse->columns, coarse->x, 1, 1);
+    }
+#pragma omp parallel for schedule(static) num_threads(run->threads)
+    for (int column = 0; column < fine->columns; column++) {
+        refine_line(fine->height + column, fine->rows, fine->z, rows + column, coarse->z, wide,
+                    wide);
+    }
+    free(rows);
+    return true;
+}
+
+// ---- roughness
+
+// The index of the sample that a mirrored or repeated one stands for.
+static int64_t inside(int64_t index, const TileDetail *detail)
+{
+    int64_t period = detail->periodic ? detail->period : 2 * detail->period;
+    int64_t i = (index % period + period) % period;
+    return i > detail->period ? period - i : i;
+}
+
+static float steepness(const float *h, int64_t columns, float cell)
+{
+    float dx = h[1] - h[-1], dz = h[columns] - h[-columns];
+    return 0.5f * sqrtf(dx * dx + dz * dz) / cell;
+}
+
+// Waves of about four cells, as high as the slope allows: flat floors stay flat.
+static bool add_noise(TileWindow *window, const TileDetail *detail, const Run *run, Error *e)
+{
+    const float wavelength = 5.0f, share = 0.11f, steepest = 1.2f;
+    int64_t columns = window->columns, count = columns * window->rows;
+    float *rough = memory_alloc(count, sizeof *rough, e);
+    if (!rough) {
+        return false;
+    }
+    memcpy(rough, window->height, sizeof *rough * (size_t)count);
+#pragma omp parallel for schedule(static) num_threads(run->threads)
+    for (int row = 1; row < window->rows - 1; row++) {
+        for (int64_t column = 1; column < columns - 1; column++) {
+            int64_t i = row * columns + column;
+            float x = (float)inside(window->x + column, detail) / wavelength;
+            float z = (float)inside(window->z + row, detail) / wavelength;
+            float slope = fminf(steepness(window->height + i, columns, detail->cell), steepest);
+            rough[i] += detail->strength * share * wavelength * detail->cell * slope *
+                        noise_plane(x, z, detail->seed);
+        }
+    }
+    free(window->height);
+    window->height = rough;
+    return true;
+}
+
+// ---- gullies
+
+// Water of a shower runs STEPS samples far before it sinks in; ROUNDS showers.
+enum { STEPS = 16, ROUNDS = 3, NEIGHBOURS = 8 };
+
+static const int AROUND[NEIGHBOURS][2] = {{-1, -1}, {0, -1}, {1, -1}, {-1, 0},
+                                          {1, 0},   {-1, 1}, {0, 1},  {1, 1}};
+
+typedef struct Shower {
+    const TileWindow *window;
+    int64_t step[NEIGHBOURS];     // to the neighbours, in samples
+    float away[NEIGHBOURS];       // in cells
+    float *share;                 // of each sample: what each neighbour gets of its water, 0..1
+    float *water, *next, *height; // cells that drain through a sample; heights to be
+} Shower;
+
+static void shower_clear(Shower *s)
+{
+    free(s->share);
+    free(s->water);
+    free(s->next);
+    free(s->height);
+}
+
+static bool shower_init(Shower *s, const TileWindow *window, Error *e)
+{
+    int64_t count = (int64_t)window->columns * window->rows;
+    *s = (Shower){.window = window,
+                  .share = memory_alloc(count * NEIGHBOURS, sizeof *s->share, e),
+                  .water = memory_alloc(count, sizeof *s->water, e),
+                  .next = memory_alloc(count, sizeof *s->next, e),
+                  .height = memory_alloc(count, sizeof *s->height, e)};
+    for (int k = 0; k < NEIGHBOURS; k++) {
+        s->step[k] = AROUND[k][1] * (int64_t)window->columns + AROUND[k][0];
+        s->away[k] = AROUND[k][0] != 0 && AROUND[k][1] != 0 ? 1.41421356f : 1.0f;
+    }
+    return s->share && s->water && s->next && s->height;
+}
+
+// Water is shared among lower neighbours by the squares of the slopes (Freeman 1991, rounder).
+static void share_water(const Shower *s, int64_t i)
+{
+    const float *h = s->window->height + i;
+    float *share = s->share + i * NEIGHBOURS, sum = 0.0f;
+    for (int k = 0; k < NEIGHBOURS; k++) {
+        float fall = (h[0] - h[s->step[k]]) / s->away[k];
+        share[k] = fall > 0.0f ? fall * fall : 0.0f;
+        sum += share[k];
+    }
+    for (int k = 0; k < NEIGHBOURS; k++) {
+        share[k] = sum > 0.0f ? share[k] / sum : 0.0f;
+    }
+}
+
+static void gather_water(const Shower *s, int64_t i)
+{
+    float water = 1.0f;
+    for (int k = 0; k < NEIGHBOURS; k++) {
+        int64_t from = i + s->step[k];
+        water += s->share[from * NEIGHBOURS + NEIGHBOURS - 1 - k] * s->water[from];
+    }
+    s->next[i] = water;
+}
+
+// Cuts where more water gathers than on a plane slope, never below the lowest neighbour, and lets
+// the ground creep a little.
+static void cut(const Shower *s, int64_t i, float strength)
+{
+    const float *h = s->window->height + i;
+    float lowest = h[0], fall = 0.0f, sides = 0.0f;
+    for (int k = 0; k < NEIGHBOURS; k++) {
+        float near = h[s->step[k]];
+        lowest = fminf(lowest, near);
+        fall = fmaxf(fall, (h[0] - near) / s->away[k]);
+        sides += s->away[k] == 1.0f ? near : 0.0f;
+    }
+    float gathered = sqrtf(s->water[i] / (float)STEPS) - 1.0f;
+    float depth = gathered > 0.0f ? 0.14f * strength * gathered * fall : 0.0f;
+    float creep = 0.06f * strength * (0.25f * sides - h[0]);
+    s->height[i] = fmaxf(h[0] - depth, lowest) + creep;
+}
+
+typedef enum Pass { PASS_SHARE, PASS_GATHER, PASS_CUT } Pass;
+
+// One pass over the samples at least `rim` from the window's border.
+static void walk(const Shower *s, Pass pass, int rim, float strength, int threads)
+{
+    int64_t columns = s->window->columns;
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int row = rim; row < s->window->rows - rim; row++) {
+        for (int64_t i = row * columns + rim; i < (row + 1) * columns - rim; i++) {
+            switch (pass) {
+            case PASS_SHARE:
+                share_water(s, i);
+                break;
+            case PASS_GATHER:
+                gather_water(s, i);
+                break;
+            case PASS_CUT:
+                cut(s, i, strength);
+                break;
+            }
+        }
+    }
+}
+
+static bool rain(TileWindow *window, float strength, const Run *run, Error *e)
+{
+    Shower s;
+    int64_t count = (int64_t)window->columns * window->rows;
+    if (!shower_init(&s, window, e)) {
+        shower_clear(&s);
+        return false;
+    }
+    memset(s.share, 0, sizeof *s.share * (size_t)(count * NEIGHBOURS));
+    for (int64_t i = 0; i < count; i++) {
+        s.water[i] = s.next[i] = 1.0f;
+    }
+    memcpy(s.height, window->height, sizeof *s.height * (size_t)count);
+    walk(&s, PASS_SHARE, 1, 0.0f, run->threads);
+    for (int step = 0; step < STEPS; step++) {
+        walk(&s, PASS_GATHER, 1, 0.0f, run->threads);
+        float *swap = s.water;
+        s.water = s.next;
+        s.next = swap;
+    }
+    walk(&s, PASS_CUT, 1, strength, run->threads);
+    free(window->height);
+    window->height = s.height;
+    s.height = NULL;
+    shower_clear(&s);
+    return true;
+}
+
+// The noise looks one sample far; a shower at what water of STEPS samples knows, which is one more,
+// and at the neighbours that it cuts toward.
+int tile_detail_reach(void)
+{
+    return 1 + ROUNDS * (STEPS + 2);
+}
+
+bool tile_roughen(TileWindow *window, const TileDetail *detail, const Run *run, Error *e)
+{
+    bool done = add_noise(window, detail, run, e);
+    for (int round = 0; done && round < ROUNDS; round++) {
+        done = rain(window, detail->strength, run, e);
+    }
+    return done;
+}
