@@ -3,6 +3,7 @@
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/strata.h"
+#include "base/waves.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -57,6 +58,7 @@ void mesh_free(Mesh *mesh)
         free(mesh->birth);
         free(mesh->site);
         strata_free(mesh->strata);
+        waves_free(mesh->waves);
         free(mesh);
     }
 }

@@ -19,6 +19,7 @@ typedef struct Mesh {
     float *radius;         // m, radius of the vertex's branch; NULL = none
     float *birth;          // growth step, as a fraction of the last one, 0..1; NULL = none
     Vec2 *site;            // land: altitude (x) and wetness (y), 0..1 each; NULL = none
+    struct Waves *waves;   // of a sea, for what is finer than the mesh; owned; NULL = none
     struct Strata *strata; // land: its beds of rock, in the mesh's space; owned; NULL = none
 } Mesh;
 

@@ -24,7 +24,8 @@
     X(outtree)   \
     X(climber)   \
     X(stone)     \
-    X(scatter)
+    X(scatter)   \
+    X(sea)
 
 #define DECLARE_KIND(NAME) extern const Kind kind_##NAME;
 KINDS(DECLARE_KIND)

@@ -21,7 +21,7 @@ typedef struct Tracer {
     Filling outside; // the scene's medium
     Vec3 center;     // of the scene
     float medium_radius;
-    bool has_index_matched; // some part is an index-matched interface
+    bool has_passable;      // light goes straight on through some part: index-matched, open water
     bool has_glow;          // lamps, or parts that glow
     const CloudSet *clouds; // NULL = none
     DropletPhase droplets;  // of clouds
@@ -52,7 +52,7 @@ typedef struct PathResult {
     int object;
 } PathResult;
 
-// Fills outside, center, medium_radius, has_index_matched and has_glow. bounds: of the scene.
+// Fills outside, center, medium_radius, has_passable and has_glow. bounds: of the scene.
 void tracer_set_media(Tracer *tracer, Aabb bounds);
 
 // Traces samples sample .. sample + count - 1 of pixel (x, y) together, count <= WAVE_SIZE.

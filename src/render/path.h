@@ -61,6 +61,7 @@ typedef struct Path {
     int cloud_order;    // how far the phase function of droplets has widened: scatterings by them
     bool in_cloud;      // scattered by a droplet since the last surface
     bool mirrored;      // only mirror reflections since the camera
+    bool gathers;       // left a point, not of open water, where light was gathered through it
     bool straight;      // only films and index-matched interfaces since the camera
     int64_t rays;
 } Path;
@@ -110,6 +111,11 @@ bool path_survives(Path *path);
 
 // Pushes a body of this material onto the stack, or removes it when leaving.
 void media_cross(Media *media, const Tracer *tracer, int material, bool leaving);
+
+// Share of radiance that leaves open water straight on, at this cosine to the surface. Sky and sun
+// then light what is in the water from where they are above it, but with the right irradiance: what
+// refraction concentrates is in the factor 1 / ior^2 that radiance loses on its way out.
+float open_water_passage(const Material *m, float cosine);
 
 // The density of the medium along a ray that starts inside media. False if there is none.
 bool media_line(const Media *media, const Tracer *tracer, const Ray *ray, float far,

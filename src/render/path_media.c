@@ -1,6 +1,10 @@
 // The stack of media around a path, and the transmittance of shadow rays.
 #include "render/path.h"
 
+#include "render/material/bsdf_ggx.h"
+
+#include <stddef.h>
+
 enum { MOST_CROSSINGS = 64 };
 
 void tracer_set_media(Tracer *tracer, Aabb bounds)
@@ -18,7 +22,7 @@ void tracer_set_media(Tracer *tracer, Aabb bounds)
     for (int64_t i = 0; i < world->geometry.count; i++) {
         const Material *surface = &world->material[world->geometry.part[i].material];
         tracer->has_glow = tracer->has_glow || material_has(surface, TRAIT_EMISSIVE);
-        tracer->has_index_matched = tracer->has_index_matched || material_is_index_matched(surface);
+        tracer->has_passable = tracer->has_passable || material_lets_through(surface);
     }
 }
 
@@ -27,7 +31,7 @@ static void refresh(Media *media, const Tracer *tracer)
     media->sheltered = false;
     for (int i = 0; i < media->count; i++) {
         const Material *m = &tracer->world->material[media->body[i]];
-        media->sheltered = media->sheltered || !material_is_index_matched(m);
+        media->sheltered = media->sheltered || !material_lets_through(m);
     }
     if (media->count > 0) {
         const Material *m = &tracer->world->material[media->body[media->count - 1]];
@@ -56,6 +60,11 @@ void media_cross(Media *media, const Tracer *tracer, int material, bool leaving)
         }
     }
     refresh(media, tracer);
+}
+
+float open_water_passage(const Material *m, float cosine)
+{
+    return (1.0f - fresnel_dielectric(cosine, m->ior, NULL)) / (m->ior * m->ior);
 }
 
 bool media_line(const Media *media, const Tracer *tracer, const Ray *ray, float far,
@@ -117,6 +126,10 @@ static bool passes_bodies(Path *path, Ray ray, const LightSample *light, Media m
         } else if (material_is_index_matched(m)) {
             *share = vec3_mul(*share, m->color);
             media_cross(&media, tracer, point.material, point.backface);
+        } else if (point.backface && material_has(m, TRAIT_OPEN)) {
+            float cosine = fabsf(vec3_dot(ray.direction, point.geometric_normal));
+            *share = vec3_scale(*share, open_water_passage(m, cosine));
+            media_cross(&media, tracer, point.material, true);
         } else {
             return false;
         }
@@ -134,7 +147,7 @@ void path_cast_shadow_through(Path *path, const Ray *ray, const LightSample *lig
     if (share.x <= 0.0f) {
         return;
     }
-    if (!path->tracer->has_index_matched) {
+    if (!path->tracer->has_passable) {
         lose(media, path->tracer, ray, ray->far, &share);
         path_cast_shadow(path, ray, vec3_mul(radiance, share));
     } else if (passes_bodies(path, *ray, light, *media, &share)) {

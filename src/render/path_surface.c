@@ -28,6 +28,26 @@ static bool cross_index_matched(Path *path, const SurfacePoint *point)
     return ++path->crossings < MOST_CROSSINGS;
 }
 
+// From within open water, a ray from where light was gathered goes straight out, as the shadow rays
+// do, or is mirrored back. False after too many crossings.
+static bool leave_open_water(Path *path, const SurfacePoint *point)
+{
+    const Material *m = &path->tracer->world->material[point->material];
+    Vec3 direction = path->ray.direction;
+    float cosine = vec3_dot(direction, point->geometric_normal);
+    float passage = open_water_passage(m, fabsf(cosine));
+    if (path->roulette < passage) {
+        path->roulette /= passage;
+        return cross_index_matched(path, point);
+    }
+    path->roulette = (path->roulette - passage) / (1.0f - passage);
+    path->ray =
+        ray_from(path, point, vec3_madd(direction, -2.0f * cosine, point->geometric_normal));
+    path->footprint = point->footprint;
+    path->bsdf_pdf = 0.0f;
+    return ++path->crossings < MOST_CROSSINGS;
+}
+
 static Vec3 at_most_one(Vec3 v)
 {
     return vec3(fminf(v.x, 1.0f), fminf(v.y, 1.0f), fminf(v.z, 1.0f));
@@ -109,11 +129,23 @@ Arrival path_arrive(Vertex *vertex)
     SurfacePoint *point = &vertex->point;
     accel_surface(tracer->accel, &path->ray, hit, point);
     point->footprint = path->footprint + path->spread * hit->t;
-    if (tracer->has_index_matched &&
-        material_is_index_matched(&tracer->world->material[point->material])) {
-        return cross_index_matched(path, point) ? ARRIVAL_CROSSED : ARRIVAL_ENDED;
+    if (tracer->has_passable && material_lets_through(&tracer->world->material[point->material])) {
+        const Material *m = &tracer->world->material[point->material];
+        if (material_is_index_matched(m)) {
+            return cross_index_matched(path, point) ? ARRIVAL_CROSSED : ARRIVAL_ENDED;
+        }
+        if (path->gathers && point->backface) {
+            return leave_open_water(path, point) ? ARRIVAL_CROSSED : ARRIVAL_ENDED;
+        }
     }
     return shade(vertex) ? ARRIVAL_SCATTERS : ARRIVAL_ENDED;
+}
+
+// Into open water light is not sampled: what leaves it again is refracted.
+static bool enters_open_water(const Vertex *vertex, Vec3 direction)
+{
+    return vertex->bsdf.traits & TRAIT_OPEN && !vertex->point.backface &&
+           vec3_dot(direction, vertex->point.geometric_normal) < 0.0f;
 }
 
 void path_sample_light(Vertex *vertex, const float u[4])
@@ -126,6 +158,9 @@ void path_sample_light(Vertex *vertex, const float u[4])
     if (bsdf->traits & TRAIT_THIN || !lights_sample(tracer->lights, &path->from, u, &light)) {
         return;
     }
+    if (enters_open_water(vertex, light.direction)) {
+        return;
+    }
     float pdf;
     Vec3 f = bsdf_eval(bsdf, vertex->wo, light.direction, &pdf);
     if (!(f.x + f.y + f.z > 0.0f)) {
@@ -135,7 +170,7 @@ void path_sample_light(Vertex *vertex, const float u[4])
     path_aim(&shadow, &light);
     Vec3 radiance =
         vec3_scale(vec3_mul(f, light.radiance), power_heuristic(light.pdf, pdf) / light.pdf);
-    if (tracer->has_index_matched || path->media.now.present || tracer->outside.present ||
+    if (tracer->has_passable || path->media.now.present || tracer->outside.present ||
         tracer->clouds) {
         Media media = path->media;
         if (bsdf->traits & TRAIT_BODY &&
@@ -168,7 +203,8 @@ bool path_bounce(Vertex *vertex, const float u[4])
     path->straight = false;
     path->start = path->ray.origin;
     path->travelled = 0.0f;
-    path->bsdf_pdf = sample.delta ? 0.0f : sample.pdf;
+    path->bsdf_pdf = sample.delta || enters_open_water(vertex, sample.wi) ? 0.0f : sample.pdf;
+    path->gathers = !sample.delta && !(bsdf->traits & TRAIT_OPEN);
     if (!sample.delta) {
         path->mirrored = false;
         path->spread = larger(path->spread, 0.25f / (1.0f + sample.pdf));

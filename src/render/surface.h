@@ -31,6 +31,7 @@ typedef struct SurfacePoint {
     Vec3 along;         // of diced meshes: unit, world, the way in which v grows; else 0
     Vec2 site;          // of land: altitude and wetness, 0..1 each
     const struct Strata *strata; // of land: its beds of rock, in the part's space; NULL = none
+    const struct Waves *waves;   // of a sea; NULL = none
     float variation;             // 0..1 per instance
     float season;                // of a leaf, -1..1: see InstanceLook
     bool backface;               // the ray met the side away from the mesh's own orientation

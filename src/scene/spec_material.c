@@ -12,9 +12,10 @@
 #define ALL_BUT(kinds) (~(kinds))
 #define COLOURED ALL_BUT(BIT(MATERIAL_EMISSION))
 #define FILM BIT(MATERIAL_THIN_FILM)
-#define PATTERNED ALL_BUT(BIT(MATERIAL_EMISSION) | BIT(MATERIAL_DIELECTRIC) | FILM)
+#define CLEAR (BIT(MATERIAL_DIELECTRIC) | BIT(MATERIAL_WATER))
+#define PATTERNED ALL_BUT(BIT(MATERIAL_EMISSION) | CLEAR | FILM)
 #define LAYERED (BIT(MATERIAL_DIFFUSE) | BIT(MATERIAL_PRINCIPLED))
-#define BUMPED (PATTERNED | BIT(MATERIAL_DIELECTRIC))
+#define BUMPED (PATTERNED | CLEAR)
 
 #define KIND(NAME, name) {#name, MATERIAL_##NAME},
 static const EnumName KINDS[] = {MATERIAL_KINDS(KIND){0}};
@@ -88,28 +89,28 @@ static const Key MATERIAL_KEYS[] = {
             "that material and starts from its values. Other names have no slash, so that a later "
             "version's built-in materials, whose names have one, are never yours."},
     {KEY_OF(Material, kind, "kind", KEY_ENUM), .names = KINDS,
-     .doc = "diffuse: matt; conductor: metal; dielectric: glass or ice; principled: matt base "
+     .doc = "diffuse: matt; conductor: metal; dielectric: glass or ice; water: open water, whose "
+            "body and "
+            "bed sun and sky light straight through the surface; principled: matt base "
             "under a glossy coat, or metal; leaf: thin sheet that transmits light; emission: emits "
             "light, closed meshes and curves outward, sheets to both sides; thin_film: clear soap "
             "film with interference colours."},
     {KEY_OF(Material, color, "color", KEY_COLOR), .kinds = COLOURED, .high = 1,
      .doc = "Reflectance; of a leaf, that of the upper side; of a dielectric, the tint of "
             "transmitted light."},
-    {KEY_OF(Material, color2, "color2", KEY_COLOR), .kinds = PATTERNED, .high = 1,
-     .doc = "Second colour of the pattern: furrows, soil, veins."},
+    {KEY_OF(Material, color2, "color2", KEY_COLOR), .kinds = PATTERNED | BIT(MATERIAL_WATER),
+     .high = 1, .doc = "Second colour of the pattern: furrows, soil, veins; of water its foam."},
     {KEY_OF(Material, transmittance, "transmittance", KEY_COLOR), .kinds = BIT(MATERIAL_LEAF),
      .high = 1, .doc = "Colour of the light that a leaf transmits."},
     {KEY_OF(Material, autumn_color, "autumn_color", KEY_COLOR), .kinds = BIT(MATERIAL_LEAF),
      .high = 1,
      .doc = "Reflectance of a leaf that has turned (leaves.autumn); its transmittance follows."},
-    {KEY_OF(Material, absorption, "absorption", KEY_COLOR), .kinds = BIT(MATERIAL_DIELECTRIC),
-     .high = 1e6, .unit = "1/m",
-     .doc = "Absorption coefficient of the interior (Beer-Lambert law)."},
-    {KEY_OF(Material, scattering, "scattering", KEY_COLOR), .kinds = BIT(MATERIAL_DIELECTRIC),
-     .high = 1e6, .unit = "1/m",
-     .doc = "Scattering coefficient of the interior, as for milk, flesh or ice."},
-    {KEY_OF(Material, anisotropy, "anisotropy", KEY_FLOAT), .kinds = BIT(MATERIAL_DIELECTRIC),
-     .low = -0.98, .high = 0.98,
+    {KEY_OF(Material, absorption, "absorption", KEY_COLOR), .kinds = CLEAR, .high = 1e6,
+     .unit = "1/m", .doc = "Absorption coefficient of the interior (Beer-Lambert law)."},
+    {KEY_OF(Material, scattering, "scattering", KEY_COLOR), .kinds = CLEAR, .high = 1e6,
+     .unit = "1/m", .doc = "Scattering coefficient of the interior, as for milk, flesh or ice."},
+    {KEY_OF(Material, anisotropy, "anisotropy", KEY_FLOAT), .kinds = CLEAR, .low = -0.98,
+     .high = 0.98,
      .doc = "Mean cosine of the scattering angle: 0 = isotropic, near 1 = forward, as in flesh."},
     {KEY_OF(Material, roughness, "roughness", KEY_FLOAT), .kinds = COLOURED & ~FILM, .high = 1,
      .doc = "Roughness of the surface: 0 = a mirror or a clear pane, 1 = matt."},
@@ -118,8 +119,8 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, specular, "specular", KEY_FLOAT),
      .kinds = BIT(MATERIAL_PRINCIPLED) | BIT(MATERIAL_LEAF), .high = 1,
      .doc = "Strength of the glossy coat; 0.5 = index of refraction 1.5."},
-    {KEY_OF(Material, ior, "ior", KEY_FLOAT), .kinds = BIT(MATERIAL_DIELECTRIC) | FILM, .low = 1,
-     .high = 5, .doc = "Index of refraction; 1 = index-matched: light passes straight through."},
+    {KEY_OF(Material, ior, "ior", KEY_FLOAT), .kinds = CLEAR | FILM, .low = 1, .high = 5,
+     .doc = "Index of refraction; 1 = index-matched: light passes straight through."},
     {KEY_OF(Material, radiance, "radiance", KEY_COLOR), .kinds = BIT(MATERIAL_EMISSION),
      .high = 1e12, .unit = "W/(m^2 sr)", .doc = "Emitted radiance."},
     {KEY_OF(Material, film_thickness, "film_thickness", KEY_FLOAT), .kinds = FILM,

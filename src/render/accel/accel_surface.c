@@ -171,6 +171,7 @@ static void mesh_surface(const PieceHit *at, const Transform *t, Vec3 direction,
     }
     const Mesh *given = at->own->part->mesh; // NULL of what is skinned around curves
     point->strata = given ? given->strata : NULL;
+    point->waves = given ? given->waves : NULL;
     point->epsilon = 4e-6f * vec3_largest(point->position) + 1e-7f;
 }
 

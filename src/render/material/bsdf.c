@@ -67,6 +67,9 @@ void bsdf_fill(const MaterialSet *set, const SurfacePoint *point, Vec3 wo, Bsdf 
         return;
     }
     bsdf_shade(entry, point, b);
+    if (entry->ops->shade) {
+        entry->ops->shade(b, entry, point, wo);
+    }
     LayerMix mix;
     bool mixed = entry->layer && layers_mix(set, entry, point, b, &mix);
     b->normal = normal_toward(b->normal, wo);

@@ -46,6 +46,8 @@ typedef struct Bsdf {
     float alpha;        // GGX; 0 = mirror
     float eta;          // index on the far side over that on wo's side
     bool inside;        // wo is inside a dielectric body
+    float foam;         // on water: share of the pixel, of this reflectance
+    Vec3 foam_color;
 
     // The glossy lobe, and the energy that it leaves to the lobes below, looked up for wo.
     Vec3

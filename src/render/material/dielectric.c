@@ -1,11 +1,13 @@
 // Smooth or rough glass or ice (Walter et al. 2007), scaled so that no energy is lost between the
 // facets.
+#include "render/material/dielectric.h"
+
 #include "render/material/bsdf_ggx.h"
 #include "render/material/material_ops.h"
 
 #include <stddef.h>
 
-static void prepare(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, float cos_o)
+void dielectric_prepare(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, float cos_o)
 {
     const Material *m = &entry->material;
     bool inside = point->backface;
@@ -30,7 +32,7 @@ static bool refract(Vec3 wo, Vec3 h, float eta, Vec3 *wi)
     return true;
 }
 
-static bool draw(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
+bool dielectric_draw(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
 {
     Frame frame = frame_about(b->normal);
     Vec3 h = frame_world(&frame, ggx_draw_normal(frame_local(&frame, wo), b->alpha, u[0], u[1]));
@@ -72,7 +74,7 @@ static float single_eval(const Bsdf *b, Vec3 wo, Vec3 wi, float signed_i, float 
     return common / (1.0f + lambda_o + lambda_i);
 }
 
-static Vec3 eval(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
+Vec3 dielectric_eval(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
 {
     float signed_i = vec3_dot(b->normal, wi);
     bool reflected = signed_i > 0.0f, inside = b->inside;
@@ -122,7 +124,7 @@ const MaterialOps dielectric_ops = {.traits = TRAIT_BODY,
                                     .defaults = defaults,
                                     .describe = describe,
                                     .tabulate = tabulate,
-                                    .prepare = prepare,
-                                    .eval = eval,
-                                    .draw = draw,
+                                    .prepare = dielectric_prepare,
+                                    .eval = dielectric_eval,
+                                    .draw = dielectric_draw,
                                     .sample_delta = sample_delta};

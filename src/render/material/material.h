@@ -13,6 +13,7 @@
     KIND(DIFFUSE, diffuse)       \
     KIND(CONDUCTOR, conductor)   \
     KIND(DIELECTRIC, dielectric) \
+    KIND(WATER, water)           \
     KIND(PRINCIPLED, principled) \
     KIND(LEAF, leaf)             \
     KIND(EMISSION, emission)     \
@@ -26,10 +27,12 @@ typedef enum MaterialKind {
 
 // What the ray tracer and the exporters ask of a kind.
 enum {
-    TRAIT_EMISSIVE = 1,  // sends out `radiance`, reflects nothing
-    TRAIT_OPAQUE = 2,    // light arrives from the viewer's side alone
-    TRAIT_BODY = 4,      // encloses a medium: what is transmitted travels through it
-    TRAIT_THIN = 8,      // a film: what is transmitted goes straight on, shadow rays too
+    TRAIT_EMISSIVE = 1, // sends out `radiance`, reflects nothing
+    TRAIT_OPAQUE = 2,   // light arrives from the viewer's side alone
+    TRAIT_BODY = 4,     // encloses a medium: what is transmitted travels through it
+    TRAIT_THIN = 8,     // a film: what is transmitted goes straight on, shadow rays too
+    TRAIT_OPEN = 32,    // a body that light enters and leaves straight on where it is gathered: see
+                        // path_surface.c
     TRAIT_PATTERNED = 16 // pattern, variation and texture change its colour; else at most bumps
 };
 
@@ -152,6 +155,12 @@ bool material_has(const Material *material, unsigned traits);
 static inline bool material_is_index_matched(const Material *m)
 {
     return m->ior <= 1.0f && material_has(m, TRAIT_BODY);
+}
+
+// Do rays go straight on through such an interface, out of the body or both ways?
+static inline bool material_lets_through(const Material *m)
+{
+    return material_is_index_matched(m) || material_has(m, TRAIT_OPEN);
 }
 
 // Does the colour change over the surface; from instance to instance?

@@ -20,6 +20,8 @@ typedef struct MaterialOps {
     // Fills the entry's tables, once per world.
     bool (*tabulate)(MaterialEntry *entry, MaterialSet *set, Error *e);
 
+    // Replaces normal and roughness by what the surface seen from wo shows of itself.
+    void (*shade)(Bsdf *bsdf, const MaterialEntry *entry, const SurfacePoint *point, Vec3 wo);
     // Completes a Bsdf that has its normals, colours, alpha and table. cos_o: of the shading normal
     // and wo.
     void (*prepare)(Bsdf *bsdf, const MaterialEntry *entry, const SurfacePoint *point, float cos_o);

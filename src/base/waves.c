@@ -1,0 +1,229 @@
+#include "base/waves.h"
+
+#include "base/exact_math.h"
+
+#include <stdlib.h>
+
+void waves_shore_free(WavesShore *shore)
+{
+    if (shore) {
+        free(shore->depth);
+        free(shore->share);
+        free(shore->shift);
+        free(shore->breaking);
+        free(shore);
+    }
+}
+
+void waves_free(Waves *waves)
+{
+    if (waves) {
+        for (int i = 0; i < WAVES_TILES; i++) {
+            for (int l = 0; l < WAVES_LEVELS; l++) {
+                free(waves->tile[i].texel[l]);
+            }
+        }
+        waves_shore_free(waves->shore);
+        free(waves);
+    }
+}
+
+// ---- tiles
+
+// Weights of Catmull and Rom's spline at t, 0..1, between the second and the third of four samples.
+static void spline_weights(float t, float weight[4])
+{
+    float t2 = t * t, t3 = t2 * t;
+    weight[0] = 0.5f * (-t + 2.0f * t2 - t3);
+    weight[1] = 0.5f * (2.0f - 5.0f * t2 + 3.0f * t3);
+    weight[2] = 0.5f * (t + 4.0f * t2 - 3.0f * t3);
+    weight[3] = 0.5f * (t3 - t2);
+}
+
+// Adds `share` of one level at the tile's place u, v (in sizes).
+static void add_level(const WaveTile *tile, int level, float u, float v, float share,
+                      float sum[WAVE_CHANNELS])
+{
+    int side = tile->side >> level, mask = side - 1;
+    float s = (u - floorf(u)) * (float)side, t = (v - floorf(v)) * (float)side;
+    int column = (int)s, row = (int)t;
+    float along[4], across[4];
+    spline_weights(s - (float)column, along);
+    spline_weights(t - (float)row, across);
+    for (int j = 0; j < 4; j++) {
+        const float *line =
+            tile->texel[level] + (int64_t)((row + j - 1) & mask) * side * WAVE_CHANNELS;
+        for (int i = 0; i < 4; i++) {
+            const float *texel = line + (int64_t)((column + i - 1) & mask) * WAVE_CHANNELS;
+            float weight = share * across[j] * along[i];
+            for (int c = 0; c < WAVE_CHANNELS; c++) {
+                sum[c] += weight * texel[c];
+            }
+        }
+    }
+}
+
+// The number of halvings by which x exceeds 1: a logarithm to base 2 that is linear between powers
+// of two; + - * / only.
+static float halvings(float x)
+{
+    int exponent;
+    float mantissa = frexpf(x, &exponent); // 0.5 .. 1
+    return (float)(exponent - 1) + 2.0f * mantissa - 1.0f;
+}
+
+// The tile at a place, without waves shorter than twice the width.
+static void tile_at(const WaveTile *tile, float x, float z, float width, float sum[WAVE_CHANNELS])
+{
+    float u = (x * tile->cosine + z * tile->sine) / tile->size;
+    float v = (z * tile->cosine - x * tile->sine) / tile->size;
+    float texel = tile->size / (float)tile->side;
+    float level = 0.5f * width > texel ? halvings(0.5f * width / texel) : 0.0f;
+    int low = (int)level;
+    float part = level - (float)low;
+    for (int c = 0; c < WAVE_CHANNELS; c++) {
+        sum[c] = 0.0f;
+    }
+    if (low < tile->levels) {
+        add_level(tile, low, u, v, 1.0f - part, sum);
+    }
+    if (low + 1 < tile->levels && part > 0.0f) {
+        add_level(tile, low + 1, u, v, part, sum);
+    }
+}
+
+// ---- the shore
+
+// A place on the grid, within it.
+typedef struct GridPlace {
+    int64_t sample[4];
+    float weight[4];
+    // d weight / d x and d z
+    float weight_x[4], weight_z[4];
+} GridPlace;
+
+static GridPlace grid_place(const WavesShore *shore, float x, float z)
+{
+    float s = (x - shore->origin.x) / shore->cell, t = (z - shore->origin.y) / shore->cell;
+    bool in_x = s > 0.0f && s < (float)(shore->columns - 1);
+    bool in_z = t > 0.0f && t < (float)(shore->rows - 1);
+    s = clampf(s, 0.0f, (float)(shore->columns - 1));
+    t = clampf(t, 0.0f, (float)(shore->rows - 1));
+    int column = (int)s, row = (int)t;
+    column = column > shore->columns - 2 ? shore->columns - 2 : column;
+    row = row > shore->rows - 2 ? shore->rows - 2 : row;
+    s -= (float)column;
+    t -= (float)row;
+    int64_t first = (int64_t)row * shore->columns + column;
+    float per_x = in_x ? 1.0f / shore->cell : 0.0f, per_z = in_z ? 1.0f / shore->cell : 0.0f;
+    return (GridPlace){{first, first + 1, first + shore->columns, first + shore->columns + 1},
+                       {(1.0f - s) * (1.0f - t), s * (1.0f - t), (1.0f - s) * t, s * t},
+                       {-(1.0f - t) * per_x, (1.0f - t) * per_x, -t * per_x, t * per_x},
+                       {-(1.0f - s) * per_z, -s * per_z, (1.0f - s) * per_z, s * per_z}};
+}
+
+static float grid_sum(const GridPlace *place, const float weight[4], const float *value, int stride,
+                      int offset)
+{
+    (void)place;
+    float sum = 0.0f;
+    for (int i = 0; i < 4; i++) {
+        sum += weight[i] * value[place->sample[i] * stride + offset];
+    }
+    return sum;
+}
+
+float waves_depth(const WavesShore *shore, float x, float z)
+{
+    GridPlace place = grid_place(shore, x, z);
+    return grid_sum(&place, place.weight, shore->depth, 1, 0);
+}
+
+// Adds the tile where its waves have come by the shore's grid.
+static void add_shifted(const Waves *waves, int index, const GridPlace *place, float x, float z,
+                        float width, float sum[WAVE_CHANNELS])
+{
+    const WavesShore *shore = waves->shore;
+    float share = grid_sum(place, place->weight, shore->share, WAVES_TILES, index);
+    if (share <= 0.0f) {
+        return;
+    }
+    float shift = grid_sum(place, place->weight, shore->shift, WAVES_TILES, index);
+    float shift_x = grid_sum(place, place->weight_x, shore->shift, WAVES_TILES, index);
+    float shift_z = grid_sum(place, place->weight_z, shore->shift, WAVES_TILES, index);
+    float own[WAVE_CHANNELS];
+    // Where waves are drawn together, shorter ones of the tile are left out.
+    float closer = 1.0f + waves->way.x * shift_x + waves->way.y * shift_z;
+    tile_at(&waves->tile[index], x + shift * waves->way.x, z + shift * waves->way.y,
+            width * clampf(closer, 1.0f, 8.0f), own);
+    float along = own[WAVE_SLOPE_X] * waves->way.x + own[WAVE_SLOPE_Z] * waves->way.y;
+    own[WAVE_SLOPE_X] += along * shift_x;
+    own[WAVE_SLOPE_Z] += along * shift_z;
+    for (int c = 0; c < WAVE_CHANNELS; c++) {
+        sum[c] += (c < WAVE_CROWDING ? share : 1.0f) * own[c];
+    }
+}
+
+// ---- the sum
+
+static float hidden_variance(const Waves *waves, float longest)
+{
+    float at = 4.0f * (halvings(longest) - WAVES_BAND_FIRST);
+    at = clampf(at, 0.0f, (float)(WAVES_BANDS - 1));
+    int i = (int)at;
+    i = i > WAVES_BANDS - 2 ? WAVES_BANDS - 2 : i;
+    return lerpf(waves->hidden[i], waves->hidden[i + 1], at - (float)i);
+}
+
+// The normal of the displaced surface: the cross product of its tangents.
+static Vec3 normal_of(const Waves *waves, const float sum[WAVE_CHANNELS])
+{
+    float chop = waves->choppiness;
+    Vec3 along_x = {1.0f + chop * sum[WAVE_STRETCH_XX], sum[WAVE_SLOPE_X],
+                    chop * sum[WAVE_STRETCH_XZ]};
+    Vec3 along_z = {chop * sum[WAVE_STRETCH_XZ], sum[WAVE_SLOPE_Z],
+                    1.0f + chop * sum[WAVE_STRETCH_ZZ]};
+    Vec3 normal = vec3_cross(along_z, along_x);
+    normal.y = fmaxf(normal.y, 0.05f); // a fold has no upper side
+    return vec3_normalize(normal);
+}
+
+void waves_at(const Waves *waves, float x, float z, float width, WavePoint *point)
+{
+    float sum[WAVE_CHANNELS] = {0};
+    const WavesShore *shore = waves->shore;
+    point->breaking = 0.0f;
+    point->depth = INFINITY;
+    if (shore) {
+        GridPlace place = grid_place(shore, x, z);
+        for (int i = 0; i < WAVES_TILES; i++) {
+            add_shifted(waves, i, &place, x, z, width, sum);
+        }
+        point->breaking = grid_sum(&place, place.weight, shore->breaking, 1, 0);
+        point->depth = grid_sum(&place, place.weight, shore->depth, 1, 0);
+    } else {
+        for (int i = 0; i < WAVES_TILES; i++) {
+            float own[WAVE_CHANNELS];
+            tile_at(&waves->tile[i], x, z, width, own);
+            for (int c = 0; c < WAVE_CHANNELS; c++) {
+                sum[c] += own[c];
+            }
+        }
+    }
+    point->displacement = vec3(waves->choppiness * sum[WAVE_ASIDE_X], sum[WAVE_HEIGHT],
+                               waves->choppiness * sum[WAVE_ASIDE_Z]);
+    point->normal = normal_of(waves, sum);
+    point->crowding = waves->choppiness * sum[WAVE_CROWDING];
+    point->trail = waves->choppiness * sum[WAVE_TRAIL];
+    point->roughness2 = hidden_variance(waves, fmaxf(2.0f * width, waves->shortest));
+}
+
+float waves_foam(const Waves *waves, const WavePoint *point)
+{
+    // In surf waves of any steepness break, and the foam of a breaker lasts to the next one.
+    float from = waves->foam * (1.0f - 0.85f * point->breaking), soft = 0.5f * waves->spread;
+    float crest = smoothstepf(from, from + soft, point->crowding);
+    from += 0.15f * waves->spread;
+    float trail = smoothstepf(from, from + 2.0f * soft, point->trail);
+    return fmaxf(crest, 0.7f * trail);
+}

@@ -1,0 +1,94 @@
+// The waves of a sea as periodic tiles of displacement, summed at any place: for the mesh of its
+// surface and for the pattern that shows what is finer than the mesh.
+//
+// A place is that of a parcel of water at rest (x, z); its displacement is horizontal and vertical
+// (Tessendorf, "Simulating Ocean Water", SIGGRAPH 2001). Tiles hold bands of wavelengths of their
+// own, so that their sum counts none twice, and lie at angles of their own, so that no repetition
+// falls together. Near a shore the waves are refracted by a shift along their way, shoal and break
+// (WavesShore).
+#ifndef RAMIFY_BASE_WAVES_H
+#define RAMIFY_BASE_WAVES_H
+
+#include "base/error.h"
+#include "base/vec.h"
+
+#include <stdint.h>
+
+enum { WAVES_TILES = 3, WAVES_LEVELS = 8, WAVES_BANDS = 96 };
+
+// What a tile tells at a texel.
+enum {
+    WAVE_HEIGHT,  // m
+    WAVE_ASIDE_X, // m, horizontal displacement
+    WAVE_ASIDE_Z,
+    WAVE_SLOPE_X, // of the height
+    WAVE_SLOPE_Z,
+    WAVE_STRETCH_XX, // derivatives of the horizontal displacement
+    WAVE_STRETCH_ZZ,
+    WAVE_STRETCH_XZ,
+    WAVE_CROWDING, // by how much the waves that break draw water together
+    WAVE_TRAIL,    // the greatest crowding of the last seconds, less its age
+    WAVE_CHANNELS
+};
+
+// One band of wavelengths on a square that repeats. Level l has side >> l samples a side and waves
+// of four samples or more.
+typedef struct WaveTile {
+    float size;         // m
+    float cosine, sine; // of the angle of its rows with x
+    float longest;      // m: the longest wave of its band
+    int side;           // samples, a power of two
+    int levels;
+    float *texel[WAVES_LEVELS]; // owned; WAVE_CHANNELS a sample, row by row
+} WaveTile;
+
+// What the bed makes of the waves, on a grid over it; beyond the grid, as on its rim.
+typedef struct WavesShore {
+    int columns, rows;
+    float cell;      // m
+    Vec2 origin;     // m: x and z of sample (0, 0)
+    float *depth;    // m of still water; negative on land
+    float *share;    // of the height that each tile has in deep water: WAVES_TILES a sample
+    float *shift;    // m along the way of the waves, by which they lag: WAVES_TILES a sample
+    float *breaking; // 0..1: share of the waves that break
+} WavesShore;
+
+typedef struct Waves {
+    WaveTile tile[WAVES_TILES];
+    Vec2 way;         // unit: whereto the waves run, in plan
+    float choppiness; // of the horizontal displacement; 1 = that of the water
+    float foam;       // crowding from which waves break
+    float spread;     // of the crowding: its standard deviation
+    float shortest;   // m: the shortest wave of all tiles
+    // Variance of the slopes of all waves shorter than 2^(WAVES_BAND_FIRST + i / 4) m, summed over
+    // both axes: what a surface without these has as roughness.
+    float hidden[WAVES_BANDS];
+    WavesShore *shore; // owned; NULL = deep water everywhere
+} Waves;
+
+#define WAVES_BAND_FIRST (-10.0f)
+
+void waves_free(Waves *waves); // NULL is fine
+void waves_shore_free(WavesShore *shore);
+
+// The surface at a parcel's place.
+typedef struct WavePoint {
+    Vec3 displacement; // m; y = the height above the calm surface
+    Vec3 normal;       // unit
+    float crowding;    // of the waves, and of the last seconds
+    float trail;
+    float breaking;   // 0..1: of the surf
+    float depth;      // m of still water; INFINITY without a shore
+    float roughness2; // variance of the slopes that are left out, summed over both axes
+} WavePoint;
+
+// Leaves out waves shorter than twice `width` m.
+void waves_at(const Waves *waves, float x, float z, float width, WavePoint *point);
+
+// Share of the surface at the point that foam covers, 0..1, before its lace.
+float waves_foam(const Waves *waves, const WavePoint *point);
+
+// Depth of still water (m) by the grid; negative on land.
+float waves_depth(const WavesShore *shore, float x, float z);
+
+#endif

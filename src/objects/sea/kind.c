@@ -1,0 +1,120 @@
+// A sea as a kind of object.
+#include "objects/kind.h"
+#include "land/height_raster.h"
+#include "objects/sea/sea.h"
+#include "render/material/material.h"
+#include "shape/envelope.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { BED_SIDE = 1024 };
+
+static const char *over(const void *params)
+{
+    return ((const SeaParams *)params)->bed;
+}
+
+// Waves with their shore, if they have one. The caller frees them.
+static Waves *make_waves(const SeaParams *params, const Recipe *recipe, Error *e)
+{
+    Waves *waves = sea_waves(params, recipe->seed, recipe->run, e);
+    if (!waves || !recipe->surface) {
+        return waves;
+    }
+    HeightField *seen = NULL;
+    const HeightField *land = recipe->land;
+    if (!land) {
+        land = seen = height_field_of_mesh(recipe->surface->mesh, BED_SIDE, e);
+    }
+    waves->shore = land ? sea_shore(params, land, waves, recipe->run, e) : NULL;
+    height_field_free(seen);
+    if (!waves->shore) {
+        waves_free(waves);
+        return NULL;
+    }
+    return waves;
+}
+
+bool sea_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
+{
+    (void)grown;
+    const SeaParams *params = given;
+    Waves *waves = make_waves(params, placing->recipe, e);
+    Mesh *mesh =
+        waves ? sea_mesh(params, placing->around.eye, waves, placing->recipe->run, e) : NULL;
+    return mesh && placing_add(placing, (Part){.mesh = mesh}, 0, e);
+}
+
+// The calm surface.
+static bool cover(const void *given, Cover *cover, const Run *run, Error *e)
+{
+    (void)run;
+    const SeaParams *params = given;
+    Mesh *mesh = mesh_new(4, 4, 1, 0, e);
+    if (!mesh) {
+        return false;
+    }
+    for (uint32_t i = 0; i < 4; i++) {
+        float x = i == 0 || i == 3 ? -params->extent : params->extent;
+        float z = i < 2 ? params->extent : -params->extent;
+        mesh->position[i] = vec3(params->center[0] + x, params->level, params->center[1] + z);
+        mesh->index[i] = i;
+    }
+    bool done = cover_add(cover, mesh, e);
+    mesh_free(mesh);
+    return done;
+}
+
+static void needs(const void *given, Needs *needs)
+{
+    const double vertex_bytes = 32.0 + 2.0 * 12.0 + 2.0 * 60.0, tile_bytes = 16e6;
+    const SeaParams *params = given;
+    double spokes = (double)params->spokes;
+    double growing =
+        log(fmax((double)params->extent * 6.28 / (spokes * (double)params->finest), 1.0));
+    needs_add(needs, "spokes", spokes * spokes * (1.0 + growing) / 6.28, vertex_bytes);
+    needs_add(needs, "sea", WAVES_TILES, tile_bytes);
+}
+
+static void describe(const void *given, char *text, size_t size)
+{
+    const SeaParams *params = given;
+    WaveSpectrum spectrum = sea_spectrum(params);
+    snprintf(text, size, ", waves of %.1f m by %.0f m",
+             4.0 * sqrt(wave_spectrum_variance(&spectrum)),
+             6.283185307 / wave_number(spectrum.peak, spectrum.depth));
+}
+
+// Absorption of pure water (Pope and Fry 1997) at 610, 550 and 460 nm with some dissolved matter,
+// and scattering of a clear coastal sea by its backward share: see references.md.
+static const Material BUILTIN[] = {
+    {.name = "sea/water",
+     .kind = MATERIAL_WATER,
+     .color = {1.0f, 1.0f, 1.0f},
+     .color2 = {0.75f, 0.78f, 0.80f},
+     .absorption = {0.270f, 0.070f, 0.045f},
+     .scattering = {0.045f, 0.050f, 0.055f},
+     .anisotropy = 0.75f,
+     .ior = 1.34f},
+    {.name = ""},
+};
+
+static const Key MATERIALS[] = {
+    OWN_MATERIAL_ROW(0),
+    {0},
+};
+
+const Kind kind_sea = {
+    .variant = {KIND_ROW("sea", &sea_table, "The sea with waves by the spectrum of the wind."),
+                MATERIALS},
+    .reads_scene = true, // the bed
+    .materials = {"sea/water"},
+    .builtin = BUILTIN,
+    .over = over,
+    .over_key = "bed",
+    .cover = cover,
+    .needs = needs,
+    .describe = describe,
+    .measure = sea_measure,
+    .geometry = sea_geometry};

@@ -1,0 +1,152 @@
+#include "objects/sea/spectrum.h"
+
+#include "base/exact_math.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+static const double TURN = 6.28318530717958647692;
+
+static double power(double x, double y)
+{
+    return x > 0.0 ? exact_exp(y * exact_log(x)) : 0.0;
+}
+
+static double hyperbolic_tangent(double x)
+{
+    if (x > 20.0) {
+        return 1.0;
+    }
+    double e = exact_exp(-2.0 * x);
+    return (1.0 - e) / (1.0 + e);
+}
+
+// ---- dispersion
+
+double wave_frequency(double k, double depth)
+{
+    return sqrt(GRAVITY * k * (depth > 0.0 ? hyperbolic_tangent(k * depth) : 1.0));
+}
+
+double wave_number(double omega, double depth)
+{
+    double deep = omega * omega / GRAVITY;
+    if (!(depth > 0.0)) {
+        return deep;
+    }
+    double k = deep * depth < 1.0 ? omega / sqrt(GRAVITY * depth) : deep;
+    for (int i = 0; i < 20; i++) { // Newton's method, from below the root's curvature
+        double t = hyperbolic_tangent(k * depth);
+        double f = GRAVITY * k * t - omega * omega;
+        k -= f / (GRAVITY * (t + k * depth * (1.0 - t * t)));
+    }
+    return k;
+}
+
+double wave_group_speed(double k, double depth)
+{
+    double omega = wave_frequency(k, depth);
+    if (!(depth > 0.0)) {
+        return 0.5 * omega / k;
+    }
+    double t = hyperbolic_tangent(k * depth);
+    return 0.5 * GRAVITY * (t + k * depth * (1.0 - t * t)) / omega;
+}
+
+// ---- the spectrum
+
+WaveSpectrum wave_spectrum(double wind, double fetch, double depth)
+{
+    // Hasselmann et al.: peak and variance by the dimensionless fetch. A fully developed sea has
+    // its peak at 0.13 g / wind and no overshoot (Pierson and Moskowitz 1964).
+    const double most_fetch = (3.5 / 0.13) * (3.5 / 0.13) * (3.5 / 0.13), young = 3000.0;
+    double x = GRAVITY * fetch / (wind * wind);
+    x = x > most_fetch ? most_fetch : x;
+    double youth = x > young ? exact_log(most_fetch / x) / exact_log(most_fetch / young) : 1.0;
+    WaveSpectrum s = {.level = 1.0,
+                      .peak = TURN * 3.5 * GRAVITY / wind * power(x, -1.0 / 3.0),
+                      .peakedness = 1.0 + 2.3 * youth};
+    double wind2 = wind * wind / GRAVITY;
+    s.level = 1.6e-7 * x * wind2 * wind2 / wave_spectrum_variance(&s);
+    s.depth = depth;
+    return s;
+}
+
+// Kitaigorodskii's factor, as Thompson and Vincent (1983) approximate it.
+static double depth_factor(double omega, double depth)
+{
+    double scaled = omega * sqrt(depth / GRAVITY);
+    return scaled <= 1.0   ? 0.5 * scaled * scaled
+           : scaled <= 2.0 ? 1.0 - 0.5 * (2.0 - scaled) * (2.0 - scaled)
+                           : 1.0;
+}
+
+double wave_spectrum_at(const WaveSpectrum *s, double omega)
+{
+    double ratio = s->peak / omega;
+    if (ratio > 4.0) {
+        return 0.0; // exp(-320)
+    }
+    double width = ratio > 1.0 ? 0.07 : 0.09;
+    double off = (omega - s->peak) / (width * s->peak);
+    double ratio4 = ratio * ratio * ratio * ratio;
+    double enhanced = power(s->peakedness, exact_exp(-0.5 * off * off));
+    double omega2 = omega * omega;
+    double deep = s->level * GRAVITY * GRAVITY / (omega2 * omega2 * omega) *
+                  exact_exp(-1.25 * ratio4) * enhanced;
+    return s->depth > 0.0 ? deep * depth_factor(omega, s->depth) : deep;
+}
+
+double wave_spectrum_spread(const WaveSpectrum *s, double omega, double angle)
+{
+    double ratio = omega / s->peak;
+    double beta = ratio < 0.95  ? 2.61 * power(ratio < 0.56 ? 0.56 : ratio, 1.3)
+                  : ratio < 1.6 ? 2.28 * power(ratio, -1.3)
+                                : power(10.0, -0.4 + 0.8393 * power(ratio, -1.134));
+    double e = exact_exp(-beta * fabs(angle));
+    double sech = 2.0 * e / (1.0 + e * e);
+    return 0.5 * beta * sech * sech / hyperbolic_tangent(0.5 * beta * TURN);
+}
+
+double wave_spectrum_density(const WaveSpectrum *s, double k, double angle)
+{
+    double omega = wave_frequency(k, s->depth);
+    return wave_spectrum_at(s, omega) * wave_spectrum_spread(s, omega, angle) *
+           wave_group_speed(k, s->depth) / k;
+}
+
+// Trapezoidal sum over the logarithm of the wave number of k^power times the spectrum.
+static double integral(const WaveSpectrum *s, double low, double high, bool slopes)
+{
+    enum { STEPS = 2000 };
+    double span = exact_log(high / low), sum = 0.0;
+    for (int i = 0; i <= STEPS; i++) {
+        double k = low * exact_exp(span * i / STEPS);
+        double f = wave_spectrum_at(s, wave_frequency(k, s->depth)) * wave_group_speed(k, s->depth);
+        sum += (i == 0 || i == STEPS ? 0.5 : 1.0) * f * k * (slopes ? k * k : 1.0);
+    }
+    return sum * span / STEPS;
+}
+
+double wave_spectrum_variance(const WaveSpectrum *s)
+{
+    double peak = wave_number(s->peak, s->depth);
+    return integral(s, 0.02 * peak, 2000.0 * peak, false);
+}
+
+double wave_spectrum_slopes(const WaveSpectrum *s, double low, double high)
+{
+    return high > low ? integral(s, low, high, true) : 0.0;
+}
+
+// ---- what is known of seas
+
+double cox_munk_slopes(double wind)
+{
+    return 0.003 + 0.00512 * wind;
+}
+
+double monahan_whitecaps(double wind)
+{
+    return 3.84e-6 * power(wind, 3.41);
+}

@@ -1,0 +1,123 @@
+// Open water: a dielectric surface with the waves of a sea (base/waves.h) and their foam. What of
+// the waves is finer than a pixel is roughness.
+//
+// Light finds its way into the body straight through the surface, without refraction
+// (TRAIT_OPEN): so the sun lights the bed and the water without noise. See path_surface.c.
+#include "base/memory.h"
+#include "base/waves.h"
+#include "render/material/bsdf_ggx.h"
+#include "render/material/dielectric.h"
+#include "render/material/maps.h"
+#include "render/material/material_ops.h"
+#include "render/material/pattern.h"
+#include "render/material/pattern_noise.h"
+#include "render/warp.h"
+
+#include <stddef.h>
+
+// Distance to the strands of the lace, 0 on one, about 0.5 in the middle of a hole, 1 hole to 1 m.
+static float lace(Vec2 at, float size, uint32_t seed)
+{
+    Vec3 p = {at.x / size, 0.5f, at.y / size};
+    Vec3 aside = {0.35f * noise_solid(vec3_scale(p, 1.7f), seed + 1, NULL), 0.0f,
+                  0.35f * noise_solid(vec3_scale(p, 1.7f), seed + 2, NULL)};
+    return noise_cells(vec3_add(p, aside), seed).border;
+}
+
+// Share of the pixel that is foam where foam covers this share of the water about it: patches torn
+// into lace, coarse and fine.
+static float foam_of(float cover, Vec2 at, float width)
+{
+    if (cover <= 0.0f) {
+        return 0.0f;
+    }
+    float coarse = pattern_detail(2.4f, width), fine = pattern_detail(0.7f, width);
+    float hole = coarse * lace(at, 2.4f, 811) + (1.0f - coarse) * 0.2f;
+    hole += 0.5f * (fine * lace(at, 0.7f, 821) + (1.0f - fine) * 0.2f);
+    float ragged = 0.25f * noise_solid(vec3(at.x / 6.0f, 0.3f, at.y / 6.0f), 831, NULL);
+    float soft = 0.06f + 0.4f * (1.0f - fine);
+    return smoothstepf(-soft, soft, cover * 0.75f - 0.14f + ragged * cover - hole * 0.8f);
+}
+
+static void shade(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, Vec3 wo)
+{
+    b->foam = 0.0f;
+    b->foam_color = entry->material.color2;
+    if (!point->waves || !point->has_uv) {
+        return;
+    }
+    // A pixel is longer along the view than across.
+    float cosine = fmaxf(fabsf(vec3_dot(surface_smooth_normal(point), wo)), 0.02f);
+    float width = point->footprint / sqrtf(cosine);
+    WavePoint wave;
+    waves_at(point->waves, point->uv.x, point->uv.y, width, &wave);
+    Vec3 normal = point->backface ? vec3_neg(wave.normal) : wave.normal;
+    float facing = vec3_dot(normal, wo);
+    // Slopes that turn away are hidden by others, which face the viewer.
+    b->normal = facing < 0.0f ? vec3_madd(normal, -2.0f * facing, wo) : normal;
+    b->foam = foam_of(waves_foam(point->waves, &wave), point->uv, point->footprint);
+    float alpha = sqrtf(wave.roughness2);
+    b->roughness = sqrtf(clampf(fmaxf(alpha, b->alpha), 0.0f, 0.5f));
+}
+
+static void prepare(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, float cos_o)
+{
+    maps_set_roughness(entry, b->roughness, b);
+    dielectric_prepare(b, entry, point, cos_o);
+}
+
+static Vec3 eval(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
+{
+    Vec3 f = dielectric_eval(b, wo, wi, pdf);
+    if (b->foam <= 0.0f) {
+        return f;
+    }
+    float cosine = fmaxf(vec3_dot(b->normal, wi), 0.0f) * (1.0f / PI_F);
+    *pdf = lerpf(*pdf, cosine, b->foam);
+    return vec3_lerp(f, vec3_scale(b->foam_color, cosine), b->foam);
+}
+
+static bool draw(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
+{
+    if (u[2] < b->foam) {
+        *wi = warp_cosine(b->normal, u[0], u[1]);
+        return true;
+    }
+    const float rest[3] = {u[0], u[1], fminf((u[2] - b->foam) / (1.0f - b->foam), 0.99999994f)};
+    return dielectric_draw(b, wo, rest, wi);
+}
+
+static bool tabulate(MaterialEntry *entry, MaterialSet *set, Error *e)
+{
+    (void)set;
+    entry->alpha = entry->material.roughness * entry->material.roughness;
+    entry->rough_tables = memory_alloc_zero(ROUGH_TABLES, sizeof *entry->rough_tables, e);
+    for (int i = 0; entry->rough_tables && i < ROUGH_TABLES; i++) {
+        float roughness = (float)i / (float)(ROUGH_TABLES - 1);
+        ggx_table_dielectric(&entry->rough_tables[i], fmaxf(roughness * roughness, LEAST_ALPHA),
+                             entry->material.ior);
+    }
+    return entry->rough_tables;
+}
+
+static void describe(const Material *m, Appearance *a)
+{
+    a->ior = m->ior;
+}
+
+static void defaults(Material *m)
+{
+    m->color = vec3_splat(1.0f);
+    m->color2 = vec3_splat(0.6f);
+    m->roughness = 0.0f;
+    m->ior = 1.34f;
+}
+
+const MaterialOps water_ops = {.traits = TRAIT_BODY | TRAIT_OPEN,
+                               .defaults = defaults,
+                               .describe = describe,
+                               .tabulate = tabulate,
+                               .shade = shade,
+                               .prepare = prepare,
+                               .eval = eval,
+                               .draw = draw};

@@ -1,0 +1,337 @@
+// The sea: its spectrum against what was measured at sea, its surface against its spectrum, its
+// waves against the dispersion relation, its foam against observed whitecaps, and its surf against
+// the depth.
+#include "objects/sea/sea.h"
+#include "testing.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double TURN = 6.28318530717958647692;
+
+static Waves *waves_of(const SeaParams *sea, uint64_t seed, int threads)
+{
+    Error e = {0};
+    Run run = run_default();
+    run.threads = threads;
+    Waves *waves = sea_waves(sea, seed, &run, &e);
+    if (!waves) {
+        fail_msg("%s", e.message);
+    }
+    return waves;
+}
+
+// Mean square of a channel over all texels of a tile's finest level.
+static double mean_square(const WaveTile *tile, int channel)
+{
+    double sum = 0.0;
+    int64_t count = (int64_t)tile->side * tile->side;
+    for (int64_t i = 0; i < count; i++) {
+        double value = (double)tile->texel[0][i * WAVE_CHANNELS + channel];
+        sum += value * value;
+    }
+    return sum / (double)count;
+}
+
+static double height_of(const Waves *waves)
+{
+    double sum = 0.0;
+    for (int i = 0; i < WAVES_TILES; i++) {
+        sum += mean_square(&waves->tile[i], WAVE_HEIGHT);
+    }
+    return 4.0 * sqrt(sum);
+}
+
+// Hasselmann et al. 1973: variance g^2 / wind^4 = 1.6e-7 of the dimensionless fetch.
+static void spectrum_has_the_height_of_jonswap(void **state)
+{
+    (void)state;
+    const double fetch[] = {100, 300, 1000, 3000}; // dimensionless
+    for (size_t i = 0; i < sizeof fetch / sizeof fetch[0]; i++) {
+        double wind = 12.0;
+        WaveSpectrum s = wave_spectrum(wind, fetch[i] * wind * wind / GRAVITY, 0.0);
+        double height = 4.0 * sqrt(wave_spectrum_variance(&s));
+        double measured = 4.0 * sqrt(1.6e-7 * fetch[i]) * wind * wind / GRAVITY;
+        printf("    dimensionless fetch %4.0f: %.2f m, JONSWAP %.2f m\n", fetch[i], height,
+               measured);
+        assert_true(fabs(height / measured - 1.0) < 0.01);
+    }
+    // A fully developed sea: Pierson and Moskowitz 1964, 0.0246 wind^2 m.
+    WaveSpectrum full = wave_spectrum(12.0, 1e7, 0.0);
+    double height = 4.0 * sqrt(wave_spectrum_variance(&full));
+    printf("    fully developed at 12 m/s: %.2f m, Pierson-Moskowitz %.2f m\n", height,
+           0.0246 * 144.0);
+    assert_true(fabs(height / (0.0246 * 144.0) - 1.0) < 0.15);
+}
+
+static void directions_add_up(void **state)
+{
+    (void)state;
+    WaveSpectrum s = wave_spectrum(10.0, 1e5, 0.0);
+    for (double ratio = 0.5; ratio < 20.0; ratio *= 1.7) {
+        double sum = 0.0;
+        for (int i = 0; i < 3600; i++) {
+            sum += wave_spectrum_spread(&s, ratio * s.peak, (i + 0.5) / 3600.0 * TURN - 0.5 * TURN);
+        }
+        assert_true(fabs(sum * TURN / 3600.0 - 1.0) < 1e-4);
+    }
+}
+
+static void numbers_solve_the_dispersion_relation(void **state)
+{
+    (void)state;
+    for (double depth = 0.0; depth < 200.0; depth = depth * 3.0 + 0.05) {
+        for (double omega = 0.2; omega < 30.0; omega *= 1.9) {
+            double k = wave_number(omega, depth);
+            assert_true(fabs(wave_frequency(k, depth) / omega - 1.0) < 1e-9);
+            double speed = (wave_frequency(1.0001 * k, depth) - wave_frequency(0.9999 * k, depth)) /
+                           (0.0002 * k);
+            assert_true(fabs(wave_group_speed(k, depth) / speed - 1.0) < 1e-5);
+        }
+    }
+}
+
+// The tiles together have the height of the spectrum: no band twice, none missing.
+static void surface_has_the_height_of_its_spectrum(void **state)
+{
+    (void)state;
+    const float wind[] = {5.0f, 12.0f, 20.0f}, depth[] = {0.0f, 0.0f, 15.0f};
+    for (int i = 0; i < 3; i++) {
+        SeaParams sea = sea_params_default();
+        sea.wind = wind[i];
+        sea.depth = depth[i];
+        Waves *waves = waves_of(&sea, 7, 2);
+        WaveSpectrum s = sea_spectrum(&sea);
+        double want = 4.0 * sqrt(wave_spectrum_variance(&s)), have = height_of(waves);
+        printf("    wind %2.0f m/s, depth %2.0f m: surface %.3f m, spectrum %.3f m\n",
+               (double)wind[i], (double)depth[i], have, want);
+        assert_true(fabs(have / want - 1.0) < 0.03);
+        waves_free(waves);
+    }
+}
+
+// Slopes that the tiles show and those that they hide are together those of Cox and Munk, and at
+// any width the sum is the same.
+static void slopes_are_those_of_cox_and_munk(void **state)
+{
+    (void)state;
+    const float wind[] = {5.0f, 10.0f, 14.0f};
+    for (int i = 0; i < 3; i++) {
+        SeaParams sea = sea_params_default();
+        sea.wind = wind[i];
+        Waves *waves = waves_of(&sea, 7, 2);
+        double shown = 0.0;
+        for (int t = 0; t < WAVES_TILES; t++) {
+            shown += mean_square(&waves->tile[t], WAVE_SLOPE_X) +
+                     mean_square(&waves->tile[t], WAVE_SLOPE_Z);
+        }
+        WavePoint fine, coarse;
+        waves_at(waves, 0.0f, 0.0f, 0.0f, &fine);
+        waves_at(waves, 0.0f, 0.0f, 1e5f, &coarse);
+        double all = shown + (double)fine.roughness2, seen = cox_munk_slopes((double)wind[i]);
+        printf(
+            "    wind %2.0f m/s: slopes %.4f shown + %.4f hidden, far away %.4f, Cox-Munk %.4f\n",
+            (double)wind[i], shown, (double)fine.roughness2, (double)coarse.roughness2, seen);
+        assert_true(all / seen > 0.9 && all / seen < 1.3);
+        assert_true(fabs((double)coarse.roughness2 / all - 1.0) < 0.05);
+        waves_free(waves);
+    }
+}
+
+// A wave of the tile moves at g / omega: its phase in the transform of the heights, from time to
+// time.
+static void waves_move_as_water_waves_do(void **state)
+{
+    (void)state;
+    const double step = 0.125;
+    SeaParams sea = sea_params_default();
+    sea.wind_azimuth = 270.0f; // from the west: toward +x
+    Waves *at[2];
+    for (int i = 0; i < 2; i++) {
+        sea.time = (float)(100.0 + i * step);
+        at[i] = waves_of(&sea, 7, 2);
+    }
+    const WaveTile *tile = &at[0]->tile[0];
+    for (int number = 6; number <= 14; number += 4) {
+        double phase[2];
+        for (int i = 0; i < 2; i++) {
+            double re = 0.0, im = 0.0;
+            for (int row = 0; row < tile->side; row++) {
+                for (int column = 0; column < tile->side; column++) {
+                    const float *texel = at[i]->tile[0].texel[0] +
+                                         ((int64_t)row * tile->side + column) * WAVE_CHANNELS;
+                    double angle = TURN * number * column / tile->side;
+                    re += (double)texel[WAVE_HEIGHT] * cos(angle);
+                    im -= (double)texel[WAVE_HEIGHT] * sin(angle);
+                }
+            }
+            phase[i] = atan2(im, re);
+        }
+        double k = TURN * number / (double)tile->size;
+        double speed = -remainder(phase[1] - phase[0], TURN) / (step * k);
+        double want = sqrt(GRAVITY / k);
+        printf("    wave of %.0f m: %.2f m/s, g / omega = %.2f m/s\n", TURN / k, speed, want);
+        assert_true(fabs(speed / want - 1.0) < 0.05); // some of it runs against the wind
+    }
+    waves_free(at[0]);
+    waves_free(at[1]);
+}
+
+static void bits_do_not_depend_on_threads(void **state)
+{
+    (void)state;
+    SeaParams sea = sea_params_default();
+    sea.extent = 200.0f;
+    sea.spokes = 64;
+    Error e = {0};
+    Mesh *mesh[2];
+    for (int i = 0; i < 2; i++) {
+        Run run = run_default();
+        run.threads = 1 + 3 * i;
+        mesh[i] = sea_mesh(&sea, NULL, waves_of(&sea, 11, run.threads), &run, &e);
+        assert_non_null(mesh[i]);
+    }
+    size_t size = sizeof(Vec3) * (size_t)mesh[0]->vertex_count;
+    assert_memory_equal(mesh[0]->position, mesh[1]->position, size);
+    assert_memory_equal(mesh[0]->normal, mesh[1]->normal, size);
+    for (int t = 0; t < WAVES_TILES; t++) {
+        const WaveTile *tile = &mesh[0]->waves->tile[t];
+        assert_memory_equal(tile->texel[0], mesh[1]->waves->tile[t].texel[0],
+                            sizeof(float) * WAVE_CHANNELS * (size_t)(tile->side * tile->side));
+    }
+    mesh_free(mesh[0]);
+    mesh_free(mesh[1]);
+}
+
+// Within a factor of 2 of Monahan's whitecaps, which scatter by as much themselves.
+static void foam_covers_what_whitecaps_do(void **state)
+{
+    (void)state;
+    enum { SIDE = 400 };
+    const float wind[] = {10.0f, 15.0f};
+    for (int i = 0; i < 2; i++) {
+        SeaParams sea = sea_params_default();
+        sea.wind = wind[i];
+        Waves *waves = waves_of(&sea, 7, 2);
+        double foam = 0.0, size = (double)waves->tile[0].size;
+        for (int k = 0; k < SIDE * SIDE; k++) {
+            WavePoint point;
+            waves_at(waves, (float)(size * (k % SIDE) / SIDE), (float)(size * (k / SIDE) / SIDE),
+                     0.0f, &point);
+            foam += (double)waves_foam(waves, &point);
+        }
+        foam /= SIDE * SIDE;
+        double seen = monahan_whitecaps((double)wind[i]);
+        printf("    wind %2.0f m/s: foam %.2f %%, Monahan %.2f %%\n", (double)wind[i], 100.0 * foam,
+               100.0 * seen);
+        assert_true(foam > 0.5 * seen && foam < 2.0 * seen);
+        waves_free(waves);
+    }
+}
+
+// A beach that rises toward +x by 1 in 25, with the shore line at x = 0.
+static HeightField *beach(void)
+{
+    Error e = {0};
+    HeightField *land =
+        height_field_new(321, 161, (Vec2){5.0f, 5.0f}, (Vec2){-1400.0f, -400.0f}, &e);
+    assert_non_null(land);
+    for (int row = 0; row < land->rows; row++) {
+        for (int column = 0; column < land->columns; column++) {
+            land->height[row * land->columns + column] =
+                0.04f * (land->origin.x + 5.0f * (float)column);
+        }
+    }
+    return land;
+}
+
+// Significant height about a place, over 600 m of shore and a wave's length of depths.
+static double height_near(const Waves *waves, float x)
+{
+    double squares = 0.0;
+    int count = 0;
+    for (float z = -300.0f; z < 300.0f; z += 1.0f, count++) {
+        WavePoint point;
+        waves_at(waves, x + 2.0f * remainderf(0.618f * z, 1.0f), z, 0.0f, &point);
+        squares += (double)point.displacement.y * (double)point.displacement.y;
+    }
+    return 4.0 * sqrt(squares / count);
+}
+
+static void surf_is_limited_by_depth(void **state)
+{
+    (void)state;
+    SeaParams sea = sea_params_default();
+    sea.wind = 12.0f;
+    sea.wind_azimuth = 235.0f; // from the south-west: 35 degrees off the beach's normal
+    Error e = {0};
+    Run run = run_default();
+    Waves *waves = waves_of(&sea, 7, 2);
+    double open = height_of(waves);
+    HeightField *land = beach();
+    waves->shore = sea_shore(&sea, land, waves, &run, &e);
+    assert_non_null(waves->shore);
+    for (float depth = 1.0f; depth <= 4.0f; depth *= 2.0f) {
+        double height = height_near(waves, -25.0f * depth);
+        printf("    depth %.0f m: waves of %.2f m; open sea %.2f m\n", (double)depth, height, open);
+        assert_true(height < 0.78 * (double)depth);
+        assert_true(height > 0.3 * (double)depth);
+    }
+    double far = height_near(waves, -1300.0f);
+    assert_true(fabs(far / open - 1.0) < 0.25);
+    waves_free(waves);
+    height_field_free(land);
+}
+
+// Snell's law: waves that come in at 35 degrees turn toward the shore as they slow down. The phase
+// is that of the place where the tile is looked up.
+static void waves_turn_toward_the_shore(void **state)
+{
+    (void)state;
+    SeaParams sea = sea_params_default();
+    sea.wind = 12.0f;
+    sea.wind_azimuth = 235.0f;
+    Error e = {0};
+    Run run = run_default();
+    Waves *waves = waves_of(&sea, 7, 2);
+    HeightField *land = beach();
+    WavesShore *shore = waves->shore = sea_shore(&sea, land, waves, &run, &e);
+    assert_non_null(shore);
+    WaveSpectrum s = sea_spectrum(&sea);
+    double deep_speed = GRAVITY / s.peak;
+    for (double depth = 2.0; depth <= 8.0; depth *= 2.0) {
+        int column = (int)((-25.0 * depth - (double)shore->origin.x) / (double)shore->cell);
+        int row = shore->rows / 2;
+        const float *shift = shore->shift + ((int64_t)row * shore->columns + column) * WAVES_TILES;
+        double reach = 2.0 * (double)shore->cell;
+        double along_x =
+            (double)waves->way.x + (double)(shift[WAVES_TILES] - shift[-WAVES_TILES]) / reach;
+        int64_t line = (int64_t)shore->columns * WAVES_TILES;
+        double along_z = (double)waves->way.y + (double)(shift[line] - shift[-line]) / reach;
+        double angle = atan2(along_z, along_x) * 360.0 / TURN;
+        double real = -0.04 * ((double)shore->origin.x + column * (double)shore->cell);
+        double speed = s.peak / wave_number(s.peak, real);
+        double snell = asin(fabs((double)waves->way.y) * speed / deep_speed) * 360.0 / TURN;
+        printf("    depth %.1f m: %.1f degrees off the normal, Snell %.1f\n", real, angle, snell);
+        assert_true(fabs(fabs(angle) - snell) < 3.0);
+    }
+    waves_free(waves);
+    height_field_free(land);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(spectrum_has_the_height_of_jonswap),
+        cmocka_unit_test(directions_add_up),
+        cmocka_unit_test(numbers_solve_the_dispersion_relation),
+        cmocka_unit_test(surface_has_the_height_of_its_spectrum),
+        cmocka_unit_test(slopes_are_those_of_cox_and_munk),
+        cmocka_unit_test(waves_move_as_water_waves_do),
+        cmocka_unit_test(bits_do_not_depend_on_threads),
+        cmocka_unit_test(foam_covers_what_whitecaps_do),
+        cmocka_unit_test(surf_is_limited_by_depth),
+        cmocka_unit_test(waves_turn_toward_the_shore),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
