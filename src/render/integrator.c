@@ -26,7 +26,8 @@ _Static_assert((int)WAVE_SIZE <= (int)SAMPLER_LANES && (int)WAVE_SIZE <= (int)BA
 void path_add_light(Path *path, Vec3 radiance)
 {
     Vec3 light = vec3_mul(path->throughput, radiance);
-    Vec3 *sum = path->depth < 2 ? &path->direct : &path->indirect;
+    bool direct = path->depth < 2 && !path->in_cloud; // as of the light that clouds sample
+    Vec3 *sum = direct ? &path->direct : &path->indirect;
     *sum = vec3_add(*sum, light);
 }
 
