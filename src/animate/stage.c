@@ -66,6 +66,9 @@ static unsigned find_changes(const Scene *old, const Scene *now)
     if (!same(old, now, "medium") || !same(old, now, "seed")) {
         changed |= RENDERER_LIGHT; // the seed: of clouds and waves
     }
+    if (!same(old, now, "showers")) {
+        changed |= RENDERER_LIGHT;
+    }
     if (!same(old, now, "clouds") || !same(old, now, "seed")) {
         changed |= RENDERER_CLOUDS;
     }

@@ -229,6 +229,7 @@ static int trace_rays(Wave *wave, bool camera)
             wave->vertex[vertices++].hit = hit[i];
             break;
         case OUTSIDE:
+            path_see_through_rain(path, INFINITY);
             outside[escaped++] = path;
             break;
         case NOWHERE:

@@ -9,8 +9,17 @@
 #include "render/filter.h"
 #include "render/light/lights.h"
 #include "render/medium/droplets.h"
+#include "render/rain/rain.h"
+#include "render/rain/rain_phase.h"
 #include "render/sampler.h"
 #include "render/world.h"
+
+// All showers of the scene.
+typedef struct Rain {
+    RainShaft shaft[RAIN_MOST_SHOWERS];
+    int count;
+    const RainPhase *phase; // borrowed; NULL without showers
+} Rain;
 
 // The data that all paths share; read only.
 typedef struct Tracer {
@@ -25,7 +34,8 @@ typedef struct Tracer {
     bool has_glow;          // lamps, or parts that glow
     const CloudSet *clouds; // NULL = none
     DropletPhase droplets;  // of clouds
-    float cloud_haze;       // m over which distance fades clouds to 1 / e
+    Rain rain;
+    float cloud_haze; // m over which distance fades clouds to 1 / e
     CameraFrame camera;
     Filter filter;
     SamplePlan plan;

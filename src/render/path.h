@@ -14,7 +14,8 @@ enum {
     SETS_PER_BOUNCE = 2,
     SET_MEDIUM = 1 << 20,
     SETS_PER_STRETCH = 3,
-    SET_AIR = 1 << 21 // one per bounce
+    SET_AIR = 1 << 21, // one per bounce
+    SET_RAIN = 3 << 20 // two per bounce
 };
 
 enum { DEEPEST_NESTING = 6 };
@@ -75,9 +76,9 @@ typedef struct Vertex {
     Bsdf bsdf;
 } Vertex;
 
-// Shadow rays that wait to be traced together. A path casts up to three while its ray travels: from
-// a medium, from the air and from the surface.
-enum { SHADOWS_LIMIT = 3 * WAVE_SIZE };
+// Shadow rays that wait to be traced together. A path casts up to six while its ray travels: from
+// a medium, two from rain, from the air before it, from the air and from the surface.
+enum { SHADOWS_LIMIT = 6 * WAVE_SIZE };
 
 typedef struct ShadowLight {
     Vec3 light; // what arrives unless the ray is blocked
@@ -149,6 +150,12 @@ bool path_bounce(Vertex *vertex, const float u[4]);
 // all but 1 / e of it after haze_length m (0 = none). Only for camera rays and mirror reflections
 // of them: in diffuse light the difference does not show.
 void path_see_through_air(Path *path, float distance, float haze_length);
+
+// ---- path_rain.c
+
+// Adds the rain in front of what the path's ray has met, `distance` m away. Only for camera rays
+// and mirror reflections of them.
+void path_see_through_rain(Path *path, float distance);
 
 // ---- path_scatter.c
 

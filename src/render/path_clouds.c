@@ -124,6 +124,7 @@ Travel path_scatter_in_cloud(Path *path, float t)
 {
     const Tracer *tracer = path->tracer;
     Vec3 point = vec3_madd(path->ray.origin, t, path->ray.direction);
+    path_see_through_rain(path, t);
     path_see_through_air(path, t, tracer->cloud_haze);
     if (!path->in_cloud && path->depth++ >= tracer->world->render.max_depth) {
         return TRAVEL_ENDED;

@@ -118,6 +118,7 @@ Arrival path_arrive(Vertex *vertex)
     Path *path = vertex->path;
     const Tracer *tracer = path->tracer;
     const Hit *hit = &vertex->hit;
+    path_see_through_rain(path, hit->t);
     path_see_through_air(path, hit->t, tracer->world->sky.haze_distance);
     int light = accel_light(tracer->accel, hit);
     if (light >= 0) {

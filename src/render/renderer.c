@@ -14,6 +14,7 @@ struct Renderer {
     Accel *accel;
     Lights *lights;
     CloudSet *clouds; // NULL = none
+    RainPhase *rain;  // NULL = no shower
     const char *isa;
 };
 
@@ -36,6 +37,15 @@ static bool build_clouds(Renderer *renderer, const Run *run, Error *e)
     }
     renderer->clouds = clouds_new(world->cloud, world->cloud_count, world->cloud_seed, run, e);
     return renderer->clouds;
+}
+
+static bool build_rain(Renderer *renderer, Error *e)
+{
+    if (renderer->world->shower_count > 0 && !renderer->rain) {
+        renderer->rain = rain_phase_new(e);
+        return renderer->rain;
+    }
+    return true;
 }
 
 static bool build_accel(Renderer *renderer, const Run *run, Error *e)
@@ -73,7 +83,7 @@ Renderer *renderer_new(const World *world, const char *isa, const Run *run, Erro
     renderer->isa = isa;
     renderer->materials = prepare_materials(world, run, e);
     if (!renderer->materials || !build_accel(renderer, run, e) || !build_lights(renderer, run, e) ||
-        !build_clouds(renderer, run, e)) {
+        !build_clouds(renderer, run, e) || !build_rain(renderer, e)) {
         renderer_free(renderer);
         return NULL;
     }
@@ -104,13 +114,14 @@ bool renderer_update(Renderer *renderer, unsigned changed, const Run *run, Error
         lights_turn_sky(renderer->lights);
         return true;
     }
-    return changed == 0 || build_lights(renderer, run, e);
+    return changed == 0 || (build_lights(renderer, run, e) && build_rain(renderer, e));
 }
 
 void renderer_free(Renderer *renderer)
 {
     if (renderer) {
         clouds_free(renderer->clouds);
+        free(renderer->rain);
         lights_free(renderer->lights);
         accel_free(renderer->accel);
         material_set_free(renderer->materials);
@@ -148,6 +159,16 @@ static float cloud_haze(const Sky *sky)
 // um: of droplets in clouds; 10 to 30 (Miles, Verlinde and Clothiaux 2000).
 static const float CLOUD_DROPLET = 20.0f;
 
+static void fill_rain(Rain *rain, const Renderer *renderer)
+{
+    const World *world = renderer->world;
+    rain->count = world->shower_count;
+    rain->phase = renderer->rain;
+    for (int i = 0; i < world->shower_count; i++) {
+        rain->shaft[i] = rain_shaft(&world->shower[i], random_key(world->cloud_seed, (uint64_t)i));
+    }
+}
+
 static void fill_tracer(Tracer *tracer, const Renderer *renderer)
 {
     const World *world = renderer->world;
@@ -157,6 +178,7 @@ static void fill_tracer(Tracer *tracer, const Renderer *renderer)
     tracer->lights = renderer->lights;
     tracer->clouds = renderer->clouds;
     tracer->droplets = droplet_phase(CLOUD_DROPLET);
+    fill_rain(&tracer->rain, renderer);
     tracer->cloud_haze = cloud_haze(&world->sky);
     tracer->materials = renderer->materials;
     tracer->camera = camera_frame(&world->camera, world->film.width, world->film.height);

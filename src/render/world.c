@@ -49,6 +49,7 @@ void world_free(World *world)
 {
     if (world) {
         free(world->cloud);
+        free(world->shower);
         free(world->light);
         free(world->material);
         geometry_clear(&world->geometry);

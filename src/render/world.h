@@ -11,6 +11,7 @@
 #include "render/material/mask.h"
 #include "render/material/material.h"
 #include "render/medium/medium.h"
+#include "render/rain/rain.h"
 #include "render/render_params.h"
 #include "render/sky/sky.h"
 
@@ -23,6 +24,8 @@ typedef struct World {
     Cloud *cloud;  // owned
     int cloud_count;
     uint64_t cloud_seed;
+    Shower *shower; // owned
+    int shower_count;
     Light *light; // owned
     int light_count;
     Material *material; // owned

@@ -93,6 +93,15 @@ static bool add_clouds(World *world, const Scene *scene, Error *e)
     return done;
 }
 
+static bool add_showers(World *world, const Scene *scene, Error *e)
+{
+    void *list = world->shower;
+    bool done = copy_list(&list, &world->shower_count, scene->showers, scene->shower_count,
+                          sizeof *world->shower, e);
+    world->shower = list;
+    return done;
+}
+
 // ---- objects ----
 
 // Derived from its name and the scene's seed, so that it does not depend on other objects.
@@ -373,7 +382,7 @@ bool scene_give_settings(const Scene *scene, World *world, Error *e)
     world->sky = scene->sky;
     world->medium = scene->medium ? *scene->medium : (Medium){0};
     return add_materials(world, scene, e) && add_lights(world, scene, e) &&
-           add_clouds(world, scene, e);
+           add_clouds(world, scene, e) && add_showers(world, scene, e);
 }
 
 bool scene_place_objects(World *world, const Scene *scene, const bool *placed, Grown *growths,

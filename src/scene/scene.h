@@ -10,6 +10,7 @@
 #include "objects/kind.h"
 #include "render/camera.h"
 #include "render/film_params.h"
+#include "render/rain/rain.h"
 #include "render/render_params.h"
 #include "render/sky/sky.h"
 
@@ -102,6 +103,8 @@ typedef struct Scene {
     Medium *medium; // NULL = clear air
     Cloud *clouds;
     int cloud_count;
+    Shower *showers;
+    int shower_count;
     Light *lights;
     int light_count;
     Material *materials;
