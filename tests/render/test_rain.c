@@ -59,7 +59,7 @@ static void rainbows_stand_where_they_are_seen(void **state)
 }
 
 // All light leaves the drop; its mean cosine with the half that is bent by nothing: 0.884, of large
-// spheres of index 1.33 without absorption (Kokhanovsky 2006, ch. 3).
+// spheres of index 1.33 without absorption (Kokhanovsky 2006).
 static void drops_lose_no_light(void **state)
 {
     (void)state;

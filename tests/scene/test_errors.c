@@ -73,7 +73,7 @@ static const Case scenes[] = {
     // types
     {"- 1\n",
      ":1:1: the scene is a list; it must be a mapping of seed, grow_to, camera, film, render, sky, "
-     "medium, clouds, lights, materials, objects, targets, animation, golden"},
+     "medium, clouds, showers, lights, materials, objects, targets, animation, golden"},
     {"objects: 3\n", ":1:10: objects is 3; it must be a list of mappings ('- ' before each)"},
     {"objects: []\n", ":1:10: objects has 0 entries; it must have 1 to 10000"},
     {TREE "camera: {fov: wide}\n", ":2:15: camera.fov is 'wide'; it must be a number"},
