@@ -92,6 +92,17 @@ static void tile_at(const WaveTile *tile, float x, float z, float width, float s
     }
 }
 
+double waves_mean_square(const WaveTile *tile, int channel)
+{
+    int64_t count = (int64_t)tile->side * tile->side;
+    double sum = 0.0;
+    for (int64_t i = 0; i < count; i++) {
+        double value = (double)tile->texel[0][i * WAVE_CHANNELS + channel];
+        sum += value * value;
+    }
+    return sum / (double)count;
+}
+
 // ---- the shore
 
 // A place on the grid, within it.
@@ -221,9 +232,8 @@ void waves_at(const Waves *waves, float x, float z, float width, WavePoint *poin
 float waves_foam(const Waves *waves, const WavePoint *point)
 {
     // In surf waves of any steepness break, and the foam of a breaker lasts to the next one.
-    float from = waves->foam * (1.0f - 0.85f * point->breaking), soft = 0.5f * waves->spread;
-    float crest = smoothstepf(from, from + soft, point->crowding);
-    from += 0.15f * waves->spread;
-    float trail = smoothstepf(from, from + 2.0f * soft, point->trail);
-    return fmaxf(crest, 0.7f * trail);
+    float from = waves->foam * (1.0f - 0.85f * point->breaking), spread = waves->spread;
+    float crest = smoothstepf(from, from + 1.2f * spread, point->crowding);
+    float trail = smoothstepf(from, from + 2.2f * spread, point->trail);
+    return fmaxf(crest, 0.75f * trail);
 }

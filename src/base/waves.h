@@ -71,6 +71,9 @@ typedef struct Waves {
 void waves_free(Waves *waves); // NULL is fine
 void waves_shore_free(WavesShore *shore);
 
+// Mean square of a channel (WAVE_*) over the tile.
+double waves_mean_square(const WaveTile *tile, int channel);
+
 // The surface at a parcel's place.
 typedef struct WavePoint {
     Vec3 displacement; // m; y = the height above the calm surface

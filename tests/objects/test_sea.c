@@ -21,23 +21,11 @@ static Waves *waves_of(const SeaParams *sea, uint64_t seed, int threads)
     return waves;
 }
 
-// Mean square of a channel over all texels of a tile's finest level.
-static double mean_square(const WaveTile *tile, int channel)
-{
-    double sum = 0.0;
-    int64_t count = (int64_t)tile->side * tile->side;
-    for (int64_t i = 0; i < count; i++) {
-        double value = (double)tile->texel[0][i * WAVE_CHANNELS + channel];
-        sum += value * value;
-    }
-    return sum / (double)count;
-}
-
 static double height_of(const Waves *waves)
 {
     double sum = 0.0;
     for (int i = 0; i < WAVES_TILES; i++) {
-        sum += mean_square(&waves->tile[i], WAVE_HEIGHT);
+        sum += waves_mean_square(&waves->tile[i], WAVE_HEIGHT);
     }
     return 4.0 * sqrt(sum);
 }
@@ -122,8 +110,8 @@ static void slopes_are_those_of_cox_and_munk(void **state)
         Waves *waves = waves_of(&sea, 7, 2);
         double shown = 0.0;
         for (int t = 0; t < WAVES_TILES; t++) {
-            shown += mean_square(&waves->tile[t], WAVE_SLOPE_X) +
-                     mean_square(&waves->tile[t], WAVE_SLOPE_Z);
+            shown += waves_mean_square(&waves->tile[t], WAVE_SLOPE_X) +
+                     waves_mean_square(&waves->tile[t], WAVE_SLOPE_Z);
         }
         WavePoint fine, coarse;
         waves_at(waves, 0.0f, 0.0f, 0.0f, &fine);

@@ -190,26 +190,31 @@ static float shoaling(const Bed *bed, double omega, float depth)
     return (float)sqrt(deep / wave_group_speed(wave_number(omega, here), here));
 }
 
-static void limit_heights(const Bed *bed)
+// Significant height of a tile in deep water, m.
+static float tile_height(const WaveTile *tile)
+{
+    return 4.0f * (float)sqrt(waves_mean_square(tile, WAVE_HEIGHT));
+}
+
+static void limit_heights(const Bed *bed, const Waves *waves)
 {
     const WavesShore *shore = bed->shore;
-    double peak = bed->spectrum->peak;
-    float run_up = RUN_UP * (float)bed->height;
+    float run_up = RUN_UP * (float)bed->height, own[WAVES_TILES];
+    for (int t = 0; t < WAVES_TILES; t++) {
+        own[t] = fmaxf(tile_height(&waves->tile[t]), 1e-6f);
+    }
     for (int64_t i = 0; i < count_of(shore); i++) {
         float depth = shore->depth[i];
-        float height = (float)bed->height * shoaling(bed, peak, depth);
+        float height = (float)bed->height * shoaling(bed, bed->spectrum->peak, depth);
         float most = SURF_RATIO * (depth > 0.0f ? depth : 0.0f);
         float washed = clampf((depth + run_up) / run_up, 0.0f, 1.0f) * SURF_RATIO * run_up;
         most = most > washed ? most : washed;
-        float kept = height < most ? height : most;
-        float share = kept / (float)bed->height;
-        shore->breaking[i] = 1.0f - smoothstepf(0.6f, 1.15f, most / height);
-        for (int t = 0; t < WAVES_TILES; t++) {
-            // Short waves are far from breaking; they only end with the water.
-            float own =
-                clampf((depth + run_up) / (0.05f * (float)bed->height + run_up), 0.0f, 1.0f);
-            shore->share[i * WAVES_TILES + t] = t == 0 ? share : fminf(share * 1.5f, own);
+        float *share = shore->share + i * WAVES_TILES;
+        share[0] = (height < most ? height : most) / (float)bed->height;
+        for (int t = 1; t < WAVES_TILES; t++) { // far from breaking
+            share[t] = fminf(0.5f * most / own[t], 1.0f);
         }
+        shore->breaking[i] = 1.0f - smoothstepf(0.6f, 1.15f, most / height);
     }
 }
 
@@ -227,7 +232,7 @@ WavesShore *sea_shore(const SeaParams *params, const HeightField *land, const Wa
         return NULL;
     }
     sound(&bed, land);
-    limit_heights(&bed);
+    limit_heights(&bed, waves);
     bed.time = memory_alloc(count_of(bed.shore), sizeof *bed.time, e);
     bool done = bed.time;
     for (int i = 0; done && i < WAVES_TILES; i++) {
