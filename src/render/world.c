@@ -25,6 +25,7 @@ World world_default(void)
                       .sun_size = 0.53f,
                       .sun_strength = 1.0f,
                       .turbidity = 2.5f,
+                      .sidereal = 285.0f, // a summer evening
                       .altitude = 50.0f,
                       .ground_albedo = 0.2f,
                       .moon_elevation = 35.0f,

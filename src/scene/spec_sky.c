@@ -29,8 +29,8 @@ static const Key SKY_KEYS[] = {
     {KEY_OF(Sky, sun_azimuth, "sun_azimuth", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY), .low = -360,
      .high = 360, .unit = "degrees", .doc = "Azimuth of the sun, from +Z toward +X."},
     {KEY_OF(Sky, time, "time", KEY_TEXT), .kinds = BIT(SKY_SUN_SKY) | BIT(SKY_NIGHT),
-     .doc = "Date and time, as 2026-10-14T17:40, which place sun and moon instead of their "
-            "elevations and azimuths. With a zone (Z, +02:00) it is that of clocks; without one, "
+     .doc = "Date and time, as 2026-10-14T17:40, which place sun, moon and stars, the first two "
+            "instead of their elevations and azimuths, and give the moon its phase. With a zone (Z, +02:00) it is that of clocks; without one, "
             "local mean time: the sun is highest near 12:00. North is -Z, east +X, before "
             "`rotation`."},
     {KEY_OF(Sky, latitude, "latitude", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY) | BIT(SKY_NIGHT),
@@ -121,6 +121,7 @@ static bool place_by_time(const Mapping *mapping, void *params)
     sky->sun_azimuth = (float)sun.azimuth;
     sky->moon_elevation = (float)fmax(moon.elevation, LOWEST_SUN);
     sky->moon_azimuth = (float)moon.azimuth;
+    sky->sidereal = (float)ephemeris_sidereal(days, longitude);
     return true;
 }
 

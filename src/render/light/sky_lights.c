@@ -3,6 +3,7 @@
 
 #include "render/sky/environment.h"
 #include "render/sky/night.h"
+#include "render/sky/stars.h"
 
 #include <stddef.h>
 
@@ -159,7 +160,7 @@ static Vec3 seen_above(const Lights *lights, Vec3 direction, const DomePlace *pl
         sum = vec3_add(sum, night_stars(sky, above, spread));
     }
     if (covered) {
-        float face = lights->sun.even ? night_moon_face(&lights->built_sun, above) : 1.0f;
+        float face = lights->sun.even ? night_moon_face(sky, &lights->built_sun, above) : 1.0f;
         sum = vec3_madd(sum, face, sun_radiance(&lights->sun, direction));
     }
     return sum;

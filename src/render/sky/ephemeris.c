@@ -99,6 +99,12 @@ static double refracted(double elevation)
     return elevation + 1.02 / 60.0 / tan((e + 10.3 / (e + 5.11)) * RADIANS);
 }
 
+double ephemeris_sidereal(double days, double longitude)
+{
+    double degrees = fmod(280.46062 + 360.98564737 * days + longitude, 360.0);
+    return degrees < 0.0 ? degrees + 360.0 : degrees;
+}
+
 static SkyPlace seen_from(Ecliptic e, double days, double latitude, double longitude)
 {
     double tilt = 23.439 - 4e-7 * days;
@@ -107,7 +113,7 @@ static SkyPlace seen_from(Ecliptic e, double days, double latitude, double longi
         cosine(tilt) * cosine(e.latitude) * sine(e.longitude) - sine(tilt) * sine(e.latitude);
     double z =
         sine(tilt) * cosine(e.latitude) * sine(e.longitude) + cosine(tilt) * sine(e.latitude);
-    double sidereal = 280.46062 + 360.98564737 * days + longitude; // degrees
+    double sidereal = ephemeris_sidereal(days, longitude);
     // Toward the place's meridian, east and the celestial pole; then up, east and south.
     double meridian = x * cosine(sidereal) + y * sine(sidereal);
     double east = -x * sine(sidereal) + y * cosine(sidereal);

@@ -21,4 +21,7 @@ bool ephemeris_days(const char *text, double *days, bool *zoned);
 SkyPlace ephemeris_sun(double days, double latitude, double longitude);
 SkyPlace ephemeris_moon(double days, double latitude, double longitude);
 
+// Right ascension on the meridian, degrees, 0 .. 360.
+double ephemeris_sidereal(double days, double longitude);
+
 #endif

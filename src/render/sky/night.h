@@ -1,4 +1,4 @@
-// The night: airglow, the Milky Way, city light along the horizon, stars, and a full moon.
+// The night: airglow, the Milky Way, city light along the horizon, stars, and the moon.
 //
 // Exposed for the night, as a photograph is: a million times nature's radiance.
 #ifndef RAMIFY_RENDER_SKY_NIGHT_H
@@ -10,11 +10,8 @@
 // radiance 0 if there is none.
 Dome *night_dome(const Sky *sky, Sun *moon, Error *e);
 
-// Radiance of stars in a direction; spread: radians of a pixel, over which each star is smoothed.
-Vec3 night_stars(const Sky *sky, Vec3 direction, float spread);
-
-// Factor of the lunar maria on the moon's radiance in a direction within its disc; the mean is
-// about 1.
-float night_moon_face(const Sun *moon, Vec3 direction);
+// Factor of the lunar maria and the phase on the moon's radiance in a direction within its disc;
+// the mean is about 1.
+float night_moon_face(const Sky *sky, const Sun *moon, Vec3 direction);
 
 #endif

@@ -25,6 +25,7 @@ typedef struct Sky {
     float city_glow;      // SKY_NIGHT: light of towns along the horizon
     char *time; // "2026-10-14T17:40": places sun and moon (render/sky/ephemeris.h); NULL = not
     float latitude, longitude; // degrees, north and east positive; with time
+    float sidereal;            // degrees: right ascension on the meridian; with time
     const char *file;          // SKY_ENVIRONMENT: latitude-longitude HDR, borrowed
     float rotation;            // of all of it, sun, moon, clouds and stars too: degrees about +Y
     float strength;            // factor on all of it
