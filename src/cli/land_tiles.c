@@ -58,7 +58,7 @@ static int find_tiled(const RamifyScene *scene)
 
 bool land_check_tiles(const Options *options, const RamifyScene *scene, RamifyError *e)
 {
-    TileRange range;
+    TileRange range = {0};
     if (!read_range(options->tile, &range, e)) {
         return false;
     }
@@ -107,7 +107,7 @@ static bool write_tile(const Options *options, const RamifyScene *scene, int ind
 bool land_write_tiles(const Options *options, const RamifyScene *scene, RamifyTree *const *trees,
                       const RamifyRun *run, RamifyError *e)
 {
-    TileRange range;
+    TileRange range = {0};
     int index = find_tiled(scene);
     RamifyLand *world = read_range(options->tile, &range, e)
                             ? ramify_land(scene, index, trees[index], run, e)
