@@ -23,7 +23,8 @@ typedef struct HeightField {
     Vec2 origin;    // m: x and z of sample (0, 0)
     float *height;  // m
     float *wetness; // 0..1: 1 in rivers, 0 on dry slopes; NULL = unknown
-    float *climate; // 0..1: the altitude as snow and plants feel it; NULL = the altitude
+    float *climate; // 0..1: the altitude as snow and plants feel it, of coasts km above the sea;
+                    // NULL = the altitude
     float *change;  // m by which erosion has raised the land, negative where it has worn it; NULL =
                     // unknown
     float *loose;   // m of loose ground on the rock; NULL = unknown

@@ -21,16 +21,13 @@
 static const EnumName KINDS[] = {MATERIAL_KINDS(KIND){0}};
 #undef KIND
 static const EnumName PATTERNS[] = {
-    {"none", PATTERN_NONE},         {"bark", PATTERN_BARK},
-    {"ground", PATTERN_GROUND},     {"stone", PATTERN_STONE},
-    {"masonry", PATTERN_MASONRY},   {"leaf", PATTERN_LEAF},
-    {"noise", PATTERN_NOISE},       {"corallite", PATTERN_CORALLITE},
-    {"youth", PATTERN_YOUTH},       {"sand", PATTERN_SAND},
-    {"mountain", PATTERN_MOUNTAIN}, {"badlands", PATTERN_BADLANDS},
-    {"water", PATTERN_WATER},       {"altitude", PATTERN_ALTITUDE},
-    {"strata", PATTERN_STRATA},     {"alps", PATTERN_ALPS},
-    {"volcano", PATTERN_VOLCANO},   {"dunes", PATTERN_DUNES},
-    {"hills", PATTERN_HILLS},       {0}};
+    {"none", PATTERN_NONE},   {"bark", PATTERN_BARK},           {"ground", PATTERN_GROUND},
+    {"stone", PATTERN_STONE}, {"masonry", PATTERN_MASONRY},     {"leaf", PATTERN_LEAF},
+    {"noise", PATTERN_NOISE}, {"corallite", PATTERN_CORALLITE}, {"youth", PATTERN_YOUTH},
+    {"sand", PATTERN_SAND},   {"mountain", PATTERN_MOUNTAIN},   {"badlands", PATTERN_BADLANDS},
+    {"water", PATTERN_WATER}, {"altitude", PATTERN_ALTITUDE},   {"strata", PATTERN_STRATA},
+    {"alps", PATTERN_ALPS},   {"volcano", PATTERN_VOLCANO},     {"dunes", PATTERN_DUNES},
+    {"hills", PATTERN_HILLS}, {"coast", PATTERN_COAST},         {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
                                  {"birch", BARK_BIRCH},       {"smooth", BARK_SMOOTH},
@@ -140,7 +137,9 @@ static const Key MATERIAL_KEYS[] = {
          "floor; mountain: rock, scree, grass and snow; badlands: coloured strata; water: "
          "ripples; altitude: a map's scale of colours over a terrain; strata: the colours of a "
          "terrain's beds, with rubble, soil (color) and shrubs (color2); hills: dry grass, fresh "
-         "grass (color2) in hollows, terracettes; dunes: sand with ripples "
+         "grass (color2) in hollows, terracettes; coast: cliffs of a terrain's beds, a "
+         "dark wet band with weed and barnacles over a tide of pattern_scale metres, lichens "
+         "above, turf (color) on top, sand (color2) below; dunes: sand with ripples "
          "of pattern_scale across the wind, and gravel (color2) where there is little; none: one "
          "colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,

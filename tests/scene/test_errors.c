@@ -169,9 +169,9 @@ static const Case scenes[] = {
      "[0, 1, 0], end: [0, 1, 0]}]}]}}}]\n",
      ":1:108: objects.a.tree.crown.fields.0.nuclei.0.end equals position; a line needs two "
      "different ends, or use kind: point"},
-    {"objects: [{name: a, terrain: {form: coast}}]\n",
-     ":1:37: objects.a.terrain.form is 'coast'; known: rivers, ridges, map, "
-     "noise, survey, canyon, mesas, alps, volcano, dunes, hills"},
+    {"objects: [{name: a, terrain: {form: fjord}}]\n",
+     ":1:37: objects.a.terrain.form is 'fjord'; known: rivers, ridges, map, "
+     "noise, survey, canyon, mesas, alps, volcano, dunes, hills, coast"},
     {"objects: [{name: a, terrain: {form: canyon, evolution: {cells: 700}}}]\n",
      ":1:64: objects.a.terrain.evolution.cells is 700; it must be a power of two, such as 1024"},
     {"objects: [{name: a, terrain: {form: map}}]\n",

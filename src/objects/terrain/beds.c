@@ -35,6 +35,28 @@ static const StrataBed MESAS[] = {{0.06f, 0.80f, 0.0f, {0.42f, 0.19f, 0.11f}, 3.
                                   {0.14f, 0.05f, 26.0f, {0.38f, 0.14f, 0.08f}, 2.5f},
                                   {1.0f, 0.92f, 0.0f, {0.45f, 0.24f, 0.15f}, 6.0f}};
 
+// Sandstones and mudstones that dip along the shore, so that hard beds stand out as headlands.
+static const StrataBed COAST[] = {{0.20f, 0.74f, 0.0f, {0.215f, 0.180f, 0.140f}, 1.6f},
+                                  {0.08f, 0.50f, 0.0f, {0.130f, 0.118f, 0.105f}, 0.5f},
+                                  {0.15f, 0.68f, 0.0f, {0.240f, 0.195f, 0.145f}, 1.2f},
+                                  {0.05f, 0.44f, 0.0f, {0.105f, 0.100f, 0.095f}, 0.4f},
+                                  {0.27f, 0.80f, 0.0f, {0.195f, 0.165f, 0.135f}, 2.2f},
+                                  {0.10f, 0.55f, 0.0f, {0.150f, 0.135f, 0.118f}, 0.6f},
+                                  {0.11f, 0.70f, 0.0f, {0.235f, 0.185f, 0.130f}, 1.0f},
+                                  {0.04f, 0.46f, 0.0f, {0.110f, 0.104f, 0.098f}, 0.4f}};
+
+// As many as the dip needs, from above the highest land on one side to below the sea on the other.
+static int coast_beds(const TerrainParams *params, StrataBed *beds)
+{
+    const int kinds = (int)(sizeof COAST / sizeof *COAST), count = 6 * kinds;
+    float height = 2.0f * (params->strata.top - params->relief) + 1.5f * params->relief;
+    for (int i = 0; i < count; i++) {
+        beds[i] = COAST[i % kinds];
+        beds[i].thickness *= height / 6.0f;
+    }
+    return count;
+}
+
 static int own_beds(const TerrainParams *params, StrataBed *beds)
 {
     if (params->form == TERRAIN_ALPS) { // one rock, which age makes rotten
@@ -52,6 +74,9 @@ static int own_beds(const TerrainParams *params, StrataBed *beds)
     if (params->form == TERRAIN_HILLS) { // soft rock
         beds[0] = (StrataBed){.thickness = 1.0f, .slope = 45.0f, .color = {0.3f, 0.26f, 0.2f}};
         return 1;
+    }
+    if (params->form == TERRAIN_COAST) {
+        return coast_beds(params, beds);
     }
     const StrataBed *from = params->form == TERRAIN_CANYON ? CANYON : MESAS;
     int count = params->form == TERRAIN_CANYON ? (int)(sizeof CANYON / sizeof *CANYON)

@@ -1,4 +1,5 @@
 // The table of forms, and what links them to the files that make them.
+#include "objects/terrain/coast.h"
 #include "objects/terrain/form.h"
 
 #include "base/memory.h"
@@ -56,6 +57,12 @@ static bool prepare_volcano(Terrain *terrain, const Run *run, Error *e)
 static bool prepare_hills(Terrain *terrain, const Run *run, Error *e)
 {
     terrain->evolved = terrain_evolve_hills(terrain, run, e);
+    return terrain->evolved;
+}
+
+static bool prepare_coast(Terrain *terrain, const Run *run, Error *e)
+{
+    terrain->evolved = terrain_evolve_coast(terrain, &terrain->ground, run, e);
     return terrain->evolved;
 }
 
@@ -183,6 +190,18 @@ static bool finish_hills(Terrain *terrain, HeightField *field, const Run *run, E
     return height_field_fill(field, 1e-4f, e) && terrain_wet_hollows(field, e);
 }
 
+// Altitudes are km above the sea.
+static bool finish_coast(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    (void)terrain;
+    (void)run;
+    field->climate = memory_alloc(height_field_count(field), sizeof *field->climate, e);
+    for (int64_t i = 0; field->climate && i < height_field_count(field); i++) {
+        field->climate[i] = 0.001f * field->height[i];
+    }
+    return field->climate;
+}
+
 // ---- the table
 
 static const Form FORMS[] = {
@@ -256,6 +275,16 @@ static const Form FORMS[] = {
                        .sample = sample_evolved,
                        .finish = finish_hills,
                        .measure = terrain_measure_hills},
+    [TERRAIN_COAST] = {.material = "terrain/coast",
+                       .relief = 0.04f,
+                       .wavelength = 0.125f,
+                       .evolves = true,
+                       .shows_beds = true,
+                       .prepare = prepare_coast,
+                       .record = record_loose,
+                       .sample = sample_evolved,
+                       .finish = finish_coast,
+                       .measure = terrain_measure_coast},
 };
 
 const Form *terrain_form(const TerrainParams *params)

@@ -34,6 +34,20 @@ static Transform copied(const TerrainParams *params, int column, int row)
     return transform_from_axes(vec3(x, 0, 0), vec3(0, 1, 0), vec3(0, 0, z), place);
 }
 
+// Has the square a copy there? A coast goes on along the shore and once inland.
+static bool is_copied(const TerrainParams *params, int column, int row)
+{
+    if (params->form != TERRAIN_COAST) {
+        return column != 0 || row != 0;
+    }
+    TerrainSide sea = params->coast.sea;
+    int seaward = sea == SIDE_EAST    ? column
+                  : sea == SIDE_WEST  ? -column
+                  : sea == SIDE_NORTH ? -row
+                                      : row;
+    return (column != 0 || row != 0) && (seaward == 0 || seaward == -1);
+}
+
 // Adds copies of a part around the square. Takes ownership of the mesh.
 static bool add_copies(Mesh *mesh, const TerrainParams *params, const Placing *placing, int role,
                        Error *e)
@@ -43,7 +57,7 @@ static bool add_copies(Mesh *mesh, const TerrainParams *params, const Placing *p
                  .instance = memory_alloc((int64_t)side * side, sizeof(Transform), e)};
     for (int i = 0; part.instance && i < side * side; i++) {
         int column = i % side - rings, row = i / side - rings;
-        if (column != 0 || row != 0) {
+        if (is_copied(params, column, row)) {
             part.instance[part.instance_count++] = copied(params, column, row);
         }
     }

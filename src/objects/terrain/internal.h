@@ -49,7 +49,8 @@ typedef struct Terrain {
     TroughEnvelope *land; // heights of valleys and slopes
     Strata *strata;       // beds of rock, in the terrain's own space; NULL = none
     Landscape *evolved;   // of landforms; set by terrain_heights
-    HeightField *ground;  // of TERRAIN_VOLCANO: HeightField.ground on the landscape's grid
+    HeightField *ground;  // of TERRAIN_VOLCANO: HeightField.ground on the landscape's grid; of
+                          // TERRAIN_COAST: m to the edge of what waves have reached
     Dunes *dunes;         // of TERRAIN_DUNES; set by terrain_heights
     TroughEnvelope *distance; // m to the nearest river, in plan
     // The visible rivers on the finished heights, set by terrain_heights; NULL or without nodes if

@@ -47,7 +47,8 @@ static void needs(const void *params, Needs *needs)
         RIVER_BYTES = 1500,
         LANDSCAPE_BYTES = 140,
         LAVA_BYTES = 90,
-        DUNE_BYTES = 90
+        DUNE_BYTES = 90,
+        SHORE_BYTES = 48
     };
     const TerrainParams *terrain = params;
     double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // trees per side
@@ -57,8 +58,9 @@ static void needs(const void *params, Needs *needs)
                            ? terrain_hill_cells(terrain)
                            : fmin(terrain->resolution, terrain->evolution.cells);
         needs_add(needs, "evolution.cells", cells * cells,
-                  terrain->form == TERRAIN_VOLCANO ? LANDSCAPE_BYTES + LAVA_BYTES
-                                                   : LANDSCAPE_BYTES);
+                  LANDSCAPE_BYTES + (terrain->form == TERRAIN_VOLCANO ? LAVA_BYTES
+                                     : terrain->form == TERRAIN_COAST ? SHORE_BYTES
+                                                                      : 0));
     }
     if (terrain->form == TERRAIN_DUNES) {
         double cells = fmin(terrain->resolution, terrain->evolution.cells);
@@ -90,7 +92,7 @@ static const char *material_for(const void *params, int role)
     if (role != TERRAIN_LAND) {
         return NULL;
     }
-    if (form->material && (!form->evolves || terrain->strata.bed_count == 0)) {
+    if (form->material && (!form->evolves || form->shows_beds || terrain->strata.bed_count == 0)) {
         return form->material;
     }
     return form->evolves || terrain->strata.bed_count > 0 ? "terrain/strata" : NULL;
@@ -143,6 +145,14 @@ static const Material BUILTIN[] = {
      .ior = 1.5f,
      .pattern = PATTERN_HILLS,
      .pattern_depth = 0.5f},
+    {.name = "terrain/coast",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.085f, 0.098f, 0.036f},
+     .color2 = {0.36f, 0.30f, 0.215f},
+     .roughness = 0.7f,
+     .ior = 1.5f,
+     .pattern = PATTERN_COAST,
+     .pattern_depth = 1.0f},
     {.name = "terrain/dunes",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.56f, 0.335f, 0.165f},

@@ -57,6 +57,27 @@ typedef struct DuneParams {
     float age;     // 1 = grown up, more = fewer and larger
 } DuneParams;
 
+typedef enum TerrainSide {
+    SIDE_ALL,
+    SIDE_NORTH, // -z
+    SIDE_EAST,  // +x
+    SIDE_SOUTH,
+    SIDE_WEST
+} TerrainSide;
+
+// A coast that waves cut.
+typedef struct CoastParams {
+    TerrainSide sea;     // not SIDE_ALL
+    float waves;         // degrees: where they come from, clockwise from the sea's side
+    float wave_height;   // m
+    float tide;          // m from low to high water
+    float retreat;       // m; 0 = 0.2 of the size
+    float sand;          // share of the worn rock
+    float grain;         // mm
+    float joints;        // contrast of the rock's strength: 0 = all alike
+    float joint_spacing; // m; 0 = 0.03 of the size
+} CoastParams;
+
 // Rounded hills under soil.
 typedef struct HillParams {
     float spacing; // m: about from valley to valley; 0 = a tenth of the size
@@ -76,6 +97,6 @@ typedef struct EvolutionParams {
 } EvolutionParams;
 
 extern const struct Table strata_table, canyon_table, mesa_table, alps_table, volcano_table,
-    dune_table, hill_table, evolution_table;
+    dune_table, hill_table, coast_table, evolution_table;
 
 #endif

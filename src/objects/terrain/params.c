@@ -1,4 +1,5 @@
 // What a terrain is made by if the scene does not say.
+#include "base/exact_math.h"
 #include "objects/terrain/form.h"
 
 #include <math.h>
@@ -33,6 +34,12 @@ TerrainParams terrain_params_default(void)
         .alps = {.ice = 1.0f, .ice_line = 0.4f, .outlets = 5, .wind = 270.0f},
         .volcano = {.flows = 16, .cones = 5, .wind = 270.0f, .age = 0.15f},
         .hills = {.outlets = 4},
+        .coast = {.sea = SIDE_SOUTH,
+                  .wave_height = 2.0f,
+                  .tide = 3.0f,
+                  .sand = 0.006f,
+                  .grain = 0.4f,
+                  .joints = 1.0f},
         .dunes = {.kind = DUNE_TRANSVERSE, .wind = 270.0f, .spread = 120.0f, .age = 1.0f},
         .evolution = {.streams = 1.0f,
                       .weathering = 1.0f,
@@ -53,6 +60,27 @@ static void resolve_dunes(DuneParams *dunes, float size)
                                   [DUNE_STAR] = 0.12f};
     dunes->spacing = dunes->spacing > 0.0f ? dunes->spacing : 0.25f * size;
     dunes->sand = dunes->sand > 0.0f ? dunes->sand : depth[dunes->kind] * dunes->spacing;
+}
+
+// A coast's own beds dip obliquely to the shore; their stack reaches over the land's high side.
+static void resolve_coast(const TerrainParams *params, TerrainParams *resolved)
+{
+    CoastParams *coast = &resolved->coast;
+    coast->retreat = coast->retreat > 0.0f ? coast->retreat : 0.2f * params->size;
+    coast->joint_spacing =
+        coast->joint_spacing > 0.0f ? coast->joint_spacing : 0.03f * params->size;
+    StrataParams *strata = &resolved->strata;
+    if (strata->bed_count > 0) {
+        return;
+    }
+    if (strata->dip == 0.0f) {
+        strata->dip = 8.0f;
+        strata->dip_azimuth = 90.0f * (float)(coast->sea - SIDE_NORTH) + 65.0f;
+    }
+    float sine, cosine;
+    exact_sincos(strata->dip * 0.017453292f, &sine, &cosine);
+    float rise = 0.65f * params->size * sine / cosine;
+    strata->top = params->strata.top != 0.0f ? params->strata.top : resolved->relief + rise;
 }
 
 TerrainParams terrain_params_resolve(const TerrainParams *params)
@@ -83,6 +111,9 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         resolved.canyon.width =
             params->canyon.width > 0.0f ? params->canyon.width : 6.0f * resolved.relief;
         resolved.strata.top = params->strata.top != 0.0f ? params->strata.top : resolved.relief;
+    }
+    if (params->form == TERRAIN_COAST) {
+        resolve_coast(params, &resolved);
     }
     return resolved;
 }

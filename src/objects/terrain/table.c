@@ -391,11 +391,19 @@ static const Table FOREST_TABLE = {.name = "forest",
                                    .size = sizeof(TerrainForestParams),
                                    .keys = FOREST_KEYS};
 
-static const EnumName FORM_NAMES[] = {
-    {"rivers", TERRAIN_RIVERS}, {"ridges", TERRAIN_RIDGES}, {"map", TERRAIN_MAP},
-    {"noise", TERRAIN_NOISE},   {"survey", TERRAIN_SURVEY}, {"canyon", TERRAIN_CANYON},
-    {"mesas", TERRAIN_MESAS},   {"alps", TERRAIN_ALPS},     {"volcano", TERRAIN_VOLCANO},
-    {"dunes", TERRAIN_DUNES},   {"hills", TERRAIN_HILLS},   {0}};
+static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS},
+                                      {"ridges", TERRAIN_RIDGES},
+                                      {"map", TERRAIN_MAP},
+                                      {"noise", TERRAIN_NOISE},
+                                      {"survey", TERRAIN_SURVEY},
+                                      {"canyon", TERRAIN_CANYON},
+                                      {"mesas", TERRAIN_MESAS},
+                                      {"alps", TERRAIN_ALPS},
+                                      {"volcano", TERRAIN_VOLCANO},
+                                      {"dunes", TERRAIN_DUNES},
+                                      {"hills", TERRAIN_HILLS},
+                                      {"coast", TERRAIN_COAST},
+                                      {0}};
 
 static const EnumName SHOW_NAMES[] = {
     {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
@@ -408,7 +416,8 @@ static const Key TERRAIN_KEYS[] = {
          "on a plane; survey: a raster of surveyed heights; canyon: a plateau of beds that a river "
          "has cut; mesas: what is left of such a plateau; alps: a rising block, cut by rivers and "
          "worn by glaciers; volcano: tephra and lava about a vent; dunes: sand that the wind "
-         "carries over a plain; hills: rounded land under creeping soil, which streams cut."},
+         "carries over a plain; hills: rounded land under creeping soil, which streams cut; coast: "
+         "cliffs, shore platforms, stacks and beaches that waves make."},
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
@@ -416,7 +425,8 @@ static const Key TERRAIN_KEYS[] = {
     {KEY_OF(TerrainParams, relief, "relief", KEY_FLOAT), .high = 1e5, .unit = "m",
      .doc = "Height of the highest valley slopes above the outlets, of the highest ridge above "
             "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09, "
-            "of mesas and hills 0.04, of alps 0.16 and of a volcano 0.13 of the size. Not of noise "
+            "of mesas, hills and coasts 0.04, of alps 0.16 and of a volcano 0.13 of the size. Not "
+            "of noise "
             "alone, "
             "surveys or dunes."},
     {KEY_OF(TerrainParams, resolution, "resolution", KEY_INT), .low = 16, .high = 8192,
@@ -455,8 +465,10 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Dunes, of form: dunes."},
     {KEY_OF(TerrainParams, hills, "hills", KEY_GROUP), .table = &hill_table,
      .doc = "Rounded hills, of form: hills."},
+    {KEY_OF(TerrainParams, coast, "coast", KEY_GROUP), .table = &coast_table,
+     .doc = "Coast that waves cut, of form: coast."},
     {KEY_OF(TerrainParams, evolution, "evolution", KEY_GROUP), .table = &evolution_table,
-     .doc = "Processes that make form: canyon, mesas, alps, volcano and hills."},
+     .doc = "Processes that make form: canyon, mesas, alps, volcano, hills and coast."},
     {KEY_OF(TerrainParams, tiles, "tiles", KEY_GROUP), .table = &TILE_TABLE,
      .doc = "Tiles of finer ground, for ramify grow --tile."},
     {KEY_OF(TerrainParams, beyond, "beyond", KEY_INT), .high = 8,

@@ -268,6 +268,57 @@ const Table hill_table = {.name = "hills",
                           .size = sizeof(HillParams),
                           .keys = HILL_KEYS};
 
+static const EnumName SEA_SIDES[] = {
+    {"north", SIDE_NORTH}, {"east", SIDE_EAST}, {"south", SIDE_SOUTH}, {"west", SIDE_WEST}, {0}};
+
+static const Key COAST_KEYS[] = {
+    {KEY_OF(CoastParams, sea, "sea", KEY_ENUM), .names = SEA_SIDES,
+     .doc = "Side of the terrain on which the sea lies."},
+    {KEY_OF(CoastParams, waves, "waves", KEY_FLOAT), .low = -70, .high = 70, .unit = "degrees",
+     .doc = "Where the waves come from, clockwise from the sea's side, seen from above; 0 = they "
+            "come straight in."},
+    {KEY_OF(CoastParams, wave_height, "wave_height", KEY_FLOAT), .flags = KEY_ABOVE, .high = 20,
+     .unit = "m",
+     .doc = "Mean height of the waves: high ones reach deeper, flatten beaches and raise berms."},
+    {KEY_OF(CoastParams, tide, "tide", KEY_FLOAT), .low = 0.1, .high = 20, .unit = "m",
+     .doc = "Range from low to high water, above and below height 0. Cliffs have their feet at "
+            "high water; the larger the tide, the steeper the shore platform."},
+    {KEY_OF(CoastParams, retreat, "retreat", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc = "How far waves have cut back open shore of rock of hardness 0.5; harder rock, bays "
+            "and shore behind a beach less, joints more. 0 = 0.2 of the terrain's size."},
+    {KEY_OF(CoastParams, sand, "sand", KEY_FLOAT), .high = 1,
+     .doc = "Fraction of the worn rock that stays as sand or shingle: it gathers in bays as "
+            "beaches; 0 = none."},
+    {KEY_OF(CoastParams, grain, "grain", KEY_FLOAT), .low = 0.05, .high = 200, .unit = "mm",
+     .doc = "Size of the sand's grains; coarse ones make steep beaches: 0.4 = sand, about 4 "
+            "degrees; 20 = shingle, about 10."},
+    {KEY_OF(CoastParams, joints, "joints", KEY_FLOAT), .high = 2,
+     .doc = "How much the rock's strength differs from place to place: joints, which waves open "
+            "to gullies and behind which they leave stacks, and blocks between them; 0 = not at "
+            "all."},
+    {KEY_OF(CoastParams, joint_spacing, "joint_spacing", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc = "Mean distance between joints of a set; 0 = 0.03 of the terrain's size. The grid must "
+            "resolve a tenth of it."},
+    {0},
+};
+
+const Table coast_table = {
+    .name = "coast",
+    .doc = "A rocky coast: rolling land that waves cut back to cliffs, with shore platforms, "
+           "headlands and coves, gullies and stacks, and beaches where waves are weak. Mean sea "
+           "level is at the terrain's position; the sea itself is an object of its own. Caves and "
+           "arches are not possible: each place has one height. `beyond` goes on along the shore "
+           "and inland.",
+    .example = "objects:\n"
+               "  - name: coast\n"
+               "    terrain:\n"
+               "      form: coast\n"
+               "      size: 1500\n"
+               "      relief: 80\n"
+               "      coast: {sea: south, waves: 20, retreat: 180}\n",
+    .size = sizeof(CoastParams),
+    .keys = COAST_KEYS};
+
 static const Key EVOLUTION_KEYS[] = {
     {KEY_OF(EvolutionParams, streams, "streams", KEY_FLOAT), .high = 100,
      .doc = "Factor on the erosion by streams."},

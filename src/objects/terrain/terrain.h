@@ -30,14 +30,6 @@ typedef struct UpliftParams {
     char *image; // grey picture over the terrain, north up, a factor; NULL = none
 } UpliftParams;
 
-typedef enum TerrainSide {
-    SIDE_ALL,
-    SIDE_NORTH, // -z
-    SIDE_EAST,  // +x
-    SIDE_SOUTH,
-    SIDE_WEST
-} TerrainSide;
-
 // What the land's heights come from.
 typedef enum TerrainForm {
     TERRAIN_RIVERS,
@@ -50,7 +42,8 @@ typedef enum TerrainForm {
     TERRAIN_ALPS,    // a rising block, cut by rivers and worn by glaciers
     TERRAIN_VOLCANO, // tephra and lava about a vent
     TERRAIN_DUNES,   // sand that the wind carries over a plain
-    TERRAIN_HILLS    // creeping soil and streams
+    TERRAIN_HILLS,   // creeping soil and streams
+    TERRAIN_COAST    // cliffs that waves cut
 } TerrainForm;
 
 // What is drawn.
@@ -178,6 +171,7 @@ typedef struct TerrainParams {
     VolcanoParams volcano;
     DuneParams dunes;
     HillParams hills;
+    CoastParams coast;
     EvolutionParams evolution;
     TerrainTileParams tiles;
     int beyond;       // rings of mirrored copies around the square

@@ -56,7 +56,8 @@ typedef enum PatternKind {
     PATTERN_VOLCANO,   // tephra, lava by its age, red scoria, plants and snow
     PATTERN_STRATA,    // the beds of the land in their own colours, talus, soil and shrubs
     PATTERN_DUNES,     // sand with ripples across the wind, slip faces, gravel between dunes
-    PATTERN_HILLS      // dry grass, fresh grass in hollows, terracettes, bare scars
+    PATTERN_HILLS,     // dry grass, fresh grass in hollows, terracettes, bare scars
+    PATTERN_COAST      // cliffs of the land's beds, tidal bands, wet sand, turf
 } PatternKind;
 
 // Is relief displaced near the camera?

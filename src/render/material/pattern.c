@@ -119,7 +119,8 @@ static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShad
     [PATTERN_WATER] = pattern_water,       [PATTERN_ALTITUDE] = pattern_altitude,
     [PATTERN_ALPS] = pattern_alps,         [PATTERN_VOLCANO] = pattern_volcano,
     [PATTERN_STRATA] = pattern_strata,     [PATTERN_DUNES] = pattern_dunes,
-    [PATTERN_HILLS] = pattern_hills,       [PATTERN_NOISE] = noise_pattern,
+    [PATTERN_HILLS] = pattern_hills,       [PATTERN_COAST] = pattern_coast,
+    [PATTERN_NOISE] = noise_pattern,
 };
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)

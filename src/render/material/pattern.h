@@ -41,6 +41,7 @@ void pattern_season(const Material *material, const SurfacePoint *point, Pattern
 void pattern_corallite(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_youth(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_hills(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_coast(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_dunes(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_sand(const Material *material, const SurfacePoint *point, PatternShade *shade);
 
