@@ -17,8 +17,8 @@ bool sea_measure(const void *given, const Grown *grown, const Recipe *recipe, Me
     double size = (double)waves->tile[0].size, squares = 0.0, foam = 0.0;
     for (int i = 0; i < SAMPLES * SAMPLES; i++) {
         WavePoint point;
-        float x = (float)(size * (i % SAMPLES) / SAMPLES),
-              z = (float)(size * (i / SAMPLES) / SAMPLES);
+        int column = i % SAMPLES, row = i / SAMPLES;
+        float x = (float)(size * column / SAMPLES), z = (float)(size * row / SAMPLES);
         waves_at(waves, x, z, 0.0f, &point);
         squares += (double)point.displacement.y * (double)point.displacement.y;
         foam += (double)waves_foam(waves, &point);

@@ -7,6 +7,9 @@
 
 static const double TURN = 6.28318530717958647692;
 
+#define RIPPLE_FROM (TURN / 3.0) // 1/m: where the spectrum's tail becomes too flat
+#define RIPPLE_FULL (TURN / 0.1)
+
 static double power(double x, double y)
 {
     return x > 0.0 ? exact_exp(y * exact_log(x)) : 0.0;
@@ -108,11 +111,27 @@ double wave_spectrum_spread(const WaveSpectrum *s, double omega, double angle)
     return 0.5 * beta * sech * sech / hyperbolic_tangent(0.5 * beta * TURN);
 }
 
+// Share 0..1 of the ripples at a wave number.
+static double ripple_share(double k)
+{
+    double share = exact_log(k / RIPPLE_FROM) / exact_log(RIPPLE_FULL / RIPPLE_FROM);
+    return share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share;
+}
+
+void wave_spectrum_steepen(WaveSpectrum *s, double wind, double shortest, double share)
+{
+    double last = TURN / shortest, peak = wave_number(s->peak, s->depth);
+    double lacking = cox_munk_slopes(wind) - wave_spectrum_slopes(s, 0.25 * peak, last);
+    double folds = 0.5 * exact_log(RIPPLE_FULL / RIPPLE_FROM) + exact_log(last / RIPPLE_FULL);
+    s->ripples = lacking > 0.0 ? share * lacking / folds : 0.0;
+}
+
 double wave_spectrum_density(const WaveSpectrum *s, double k, double angle)
 {
     double omega = wave_frequency(k, s->depth);
-    return wave_spectrum_at(s, omega) * wave_spectrum_spread(s, omega, angle) *
-           wave_group_speed(k, s->depth) / k;
+    double waves = wave_spectrum_at(s, omega) * wave_group_speed(k, s->depth) / k;
+    double ripples = s->ripples * ripple_share(k) / (k * k * k * k);
+    return (waves + ripples) * wave_spectrum_spread(s, omega, angle);
 }
 
 // Trapezoidal sum over the logarithm of the wave number of k^power times the spectrum.
@@ -123,7 +142,8 @@ static double integral(const WaveSpectrum *s, double low, double high, bool slop
     for (int i = 0; i <= STEPS; i++) {
         double k = low * exact_exp(span * i / STEPS);
         double f = wave_spectrum_at(s, wave_frequency(k, s->depth)) * wave_group_speed(k, s->depth);
-        sum += (i == 0 || i == STEPS ? 0.5 : 1.0) * f * k * (slopes ? k * k : 1.0);
+        f = f * k + s->ripples * ripple_share(k) / (k * k);
+        sum += (i == 0 || i == STEPS ? 0.5 : 1.0) * f * (slopes ? k * k : 1.0);
     }
     return sum * span / STEPS;
 }

@@ -1,6 +1,7 @@
 // The spectrum of a wind sea: JONSWAP (Hasselmann et al. 1973), for finite depth by the TMA factor
 // (Bouws et al. 1985), spread over directions by Donelan et al. (1985) with the high frequencies of
-// Banner (1990).
+// Banner (1990). Its tail is too flat for waves shorter than metres, whose steepness grows with the
+// wind: wave_spectrum_steepen adds to them.
 #ifndef RAMIFY_OBJECTS_SEA_SPECTRUM_H
 #define RAMIFY_OBJECTS_SEA_SPECTRUM_H
 
@@ -11,12 +12,17 @@ typedef struct WaveSpectrum {
     double level;      // Phillips' alpha
     double peak;       // rad/s
     double peakedness; // gamma
+    double ripples;    // variance of slopes that the shortest waves have more, per e-fold of length
 } WaveSpectrum;
 
 // wind: m/s at 10 m, > 0; fetch: m, > 0. The sea does not grow beyond a fully developed one.
 WaveSpectrum wave_spectrum(double wind, double fetch, double depth);
 
-// Variance per frequency at omega (rad/s), m^2 s.
+// Steepens waves shorter than 3 m, down to `shortest` m, until all have the share of the slopes
+// that Cox and Munk found beyond those of the spectrum.
+void wave_spectrum_steepen(WaveSpectrum *s, double wind, double shortest, double share);
+
+// Variance per frequency at omega (rad/s), m^2 s; without the ripples.
 double wave_spectrum_at(const WaveSpectrum *s, double omega);
 
 // Share per radian of what runs at an angle from the wind.

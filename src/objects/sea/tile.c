@@ -54,8 +54,9 @@ static double cell_density(const Synthesis *s, double m, double n)
     Vec2 way = sea_way(s->with.params);
     double sum = 0.0;
     for (int i = 0; i < SUBDIVISION * SUBDIVISION; i++) {
-        double u = (m + (i % SUBDIVISION + 0.5) / SUBDIVISION - 0.5) * step;
-        double v = (n + (double)(i / SUBDIVISION + 0.5) / SUBDIVISION - 0.5) * step;
+        int column = i % SUBDIVISION, row = i / SUBDIVISION;
+        double u = (m + (column + 0.5) / SUBDIVISION - 0.5) * step;
+        double v = (n + (row + 0.5) / SUBDIVISION - 0.5) * step;
         double k = sqrt(u * u + v * v);
         double cosine = (double)s->tile->cosine, sine = (double)s->tile->sine;
         double x = u * cosine - v * sine, z = u * sine + v * cosine;
@@ -87,9 +88,10 @@ static WaveMode mode_at(const Synthesis *s, int m, int n)
         return mode;
     }
     double height = sqrt(0.5 * cell_density(s, m, n)) * step;
-    double phase =
-        TURN * (double)random_unit(random_key(random_key(s->with.key, (uint64_t)(m + MOST_NUMBER)),
-                                              (uint64_t)(n + MOST_NUMBER)));
+    uint64_t column = (uint64_t)((int64_t)m + MOST_NUMBER);
+    uint64_t row = (uint64_t)((int64_t)n + MOST_NUMBER);
+    uint64_t key = random_key(random_key(s->with.key, column), row);
+    double phase = TURN * (double)random_unit(key);
     double re, im;
     turn(phase, &im, &re);
     mode.amplitude = (Complex){height * re, height * im};

@@ -8,8 +8,9 @@
 
 static const double TURN = 6.28318530717958647692;
 
-#define RIPPLE (TURN / 0.017) // 1/m: where surface tension takes over from gravity
-#define TILE_WAVES 8.0        // the longest waves of a band go that often into its tile
+#define SHORTEST_WAVE 0.017 // m: where surface tension takes over from gravity
+#define RIPPLE (TURN / SHORTEST_WAVE)
+#define TILE_WAVES 8.0 // the longest waves of a band go that often into its tile
 // Shorter waves break without foam: of the longest wave of the first tile, and m.
 #define SHORTEST_BREAKER 0.025
 #define LEAST_BREAKER 0.5
@@ -19,7 +20,10 @@ static const double TURN = 6.28318530717958647692;
 
 WaveSpectrum sea_spectrum(const SeaParams *params)
 {
-    return wave_spectrum((double)params->wind, (double)params->fetch, (double)params->depth);
+    WaveSpectrum s =
+        wave_spectrum((double)params->wind, (double)params->fetch, (double)params->depth);
+    wave_spectrum_steepen(&s, (double)params->wind, SHORTEST_WAVE, 0.5);
+    return s;
 }
 
 Vec2 sea_way(const SeaParams *params)
