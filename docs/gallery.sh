@@ -182,6 +182,8 @@ still canyon canyon
 still alps alps
 still volcano volcano
 still hills hills
+still braided braided
+still dunes dunes
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
         panel terrain-noise --size 800x450 --set objects.noise.terrain.noise.iterations=$iterations

@@ -85,8 +85,8 @@ static int find_painter(const RamifyScene *scene)
 static bool check_map(const Options *options, const RamifyScene *scene, RamifyError *e)
 {
     static const char *const maps[] = {
-        "slope", "aspect",  "curvature", "flow", "wetness", "river-distance", "deposit",
-        "wear",  "bedrock", "snow",      "lava", "scoria",  "sun-hours"};
+        "slope",   "aspect", "curvature", "flow",   "wetness", "river-distance", "deposit", "wear",
+        "bedrock", "snow",   "lava",      "scoria", "age",     "sun-hours"};
     if (!options->map) {
         return true;
     }

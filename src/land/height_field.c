@@ -74,6 +74,8 @@ void height_field_free(HeightField *field)
         free(field->climate);
         free(field->change);
         free(field->loose);
+        free(field->age);
+        free(field->water);
         free(field->wind);
         free_place(field->place);
         free(field);
@@ -82,8 +84,8 @@ void height_field_free(HeightField *field)
 
 int64_t height_field_bytes(const HeightField *field)
 {
-    const float *const given[] = {field->height, field->wetness, field->climate,
-                                  field->change, field->loose,   field->ground};
+    const float *const given[] = {field->height, field->wetness, field->climate, field->change,
+                                  field->loose,  field->ground,  field->age,     field->water};
     int64_t bytes = sizeof *field;
     for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
         bytes += given[i] ? height_field_count(field) * (int64_t)sizeof(float) : 0;

@@ -257,6 +257,14 @@ static bool fill_snow(const HeightField *field, HeightField *out)
     return field->climate;
 }
 
+static bool fill_age(const HeightField *field, HeightField *out)
+{
+    for (int64_t i = 0; i < height_field_count(field) && field->age; i++) {
+        out->height[i] = field->age[i];
+    }
+    return field->age;
+}
+
 static bool fill_lava(const HeightField *field, HeightField *out)
 {
     for (int64_t i = 0; i < height_field_count(field) && field->ground; i++) {
@@ -307,6 +315,7 @@ static const struct {
     [HEIGHT_MAP_SNOW] = {"snow", .record = fill_snow, .needs = "a terrain of form alps or volcano"},
     [HEIGHT_MAP_LAVA] = {"lava", .record = fill_lava, .needs = "a terrain of form volcano"},
     [HEIGHT_MAP_SCORIA] = {"scoria", .record = fill_scoria, .needs = "a terrain of form volcano"},
+    [HEIGHT_MAP_AGE] = {"age", .record = fill_age, .needs = "a terrain of form braided"},
     [HEIGHT_MAP_SUN_HOURS] = {"sun-hours"}};
 
 static int find(const char *name, size_t length)

@@ -18,6 +18,7 @@
 // snow            0..1: share of the ground that snow covers
 // lava            0..1: freshness of the lava on the ground: 1 = just laid, 0 = none, and
 // scoria          0..1: how red hot gas has made the scoria there: HeightField.ground
+// age             0..1: age of the ground of a braided river's valley: HeightField.age
 // sun-hours       mean hours of direct sun a day (sun_hours.h)
 #define HEIGHT_MAPS(MAP)                  \
     MAP(SLOPE, "slope")                   \
@@ -32,6 +33,7 @@
     MAP(SNOW, "snow")                     \
     MAP(LAVA, "lava")                     \
     MAP(SCORIA, "scoria")                 \
+    MAP(AGE, "age")                       \
     MAP(SUN_HOURS, "sun-hours")
 
 enum {

@@ -179,6 +179,9 @@ static Mesh *make_mesh(const Mesher *m, Error *e)
         float felt = field->climate ? field->climate[m->sample[i]] : (p.y - low) * scale;
         const float *second = field->ground ? field->ground : field->wetness;
         mesh->site[i] = (Vec2){felt, second ? second[m->sample[i]] : 0.0f};
+        if (field->age) {
+            mesh->site[i].x = field->age[m->sample[i]];
+        }
         if (field->wind) {
             Vec2 wind = field->wind[m->sample[i]];
             mesh->site[i] = (Vec2){0.5f + 0.5f * wind.x, 0.5f + 0.5f * wind.y};

@@ -18,7 +18,8 @@ typedef struct HeightMeshParams {
 
 // Triangulates a square field whose side is a power of two cells (else ERROR_INPUT). Normals come
 // from the full field; uv are metres in the plane; Mesh.site holds the altitude (0..1 between the
-// lowest and the highest sample) and the wetness, or of sand (1 + wind) / 2. The caller frees it
+// lowest and the highest sample) and the wetness; of braided rivers the age
+// and the wetness, of sand (1 + wind) / 2. The caller frees it
 // with mesh_free.
 Mesh *height_mesh_new(const HeightField *field, const HeightMeshParams *params, Error *e);
 

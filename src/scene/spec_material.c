@@ -20,14 +20,29 @@
 #define KIND(NAME, name) {#name, MATERIAL_##NAME},
 static const EnumName KINDS[] = {MATERIAL_KINDS(KIND){0}};
 #undef KIND
-static const EnumName PATTERNS[] = {
-    {"none", PATTERN_NONE},   {"bark", PATTERN_BARK},           {"ground", PATTERN_GROUND},
-    {"stone", PATTERN_STONE}, {"masonry", PATTERN_MASONRY},     {"leaf", PATTERN_LEAF},
-    {"noise", PATTERN_NOISE}, {"corallite", PATTERN_CORALLITE}, {"youth", PATTERN_YOUTH},
-    {"sand", PATTERN_SAND},   {"mountain", PATTERN_MOUNTAIN},   {"badlands", PATTERN_BADLANDS},
-    {"water", PATTERN_WATER}, {"altitude", PATTERN_ALTITUDE},   {"strata", PATTERN_STRATA},
-    {"alps", PATTERN_ALPS},   {"volcano", PATTERN_VOLCANO},     {"dunes", PATTERN_DUNES},
-    {"hills", PATTERN_HILLS}, {"coast", PATTERN_COAST},         {0}};
+static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
+                                    {"bark", PATTERN_BARK},
+                                    {"ground", PATTERN_GROUND},
+                                    {"stone", PATTERN_STONE},
+                                    {"masonry", PATTERN_MASONRY},
+                                    {"leaf", PATTERN_LEAF},
+                                    {"noise", PATTERN_NOISE},
+                                    {"corallite", PATTERN_CORALLITE},
+                                    {"youth", PATTERN_YOUTH},
+                                    {"sand", PATTERN_SAND},
+                                    {"mountain", PATTERN_MOUNTAIN},
+                                    {"badlands", PATTERN_BADLANDS},
+                                    {"water", PATTERN_WATER},
+                                    {"altitude", PATTERN_ALTITUDE},
+                                    {"strata", PATTERN_STRATA},
+                                    {"alps", PATTERN_ALPS},
+                                    {"volcano", PATTERN_VOLCANO},
+                                    {"dunes", PATTERN_DUNES},
+                                    {"hills", PATTERN_HILLS},
+                                    {"coast", PATTERN_COAST},
+                                    {"braided", PATTERN_BRAIDED},
+                                    {"glacial", PATTERN_GLACIAL},
+                                    {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
                                  {"birch", BARK_BIRCH},       {"smooth", BARK_SMOOTH},

@@ -185,6 +185,7 @@ static void missing_land_is_missing_in_maps(void **state)
     field->loose = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
     field->climate = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
     field->ground = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
+    field->age = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
     char names[] = HEIGHT_MAP_NAMES;
     for (char *name = strtok(names, " "); name; name = strtok(NULL, " ")) {
         HeightField *map = map_of(field, name);

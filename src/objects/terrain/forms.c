@@ -100,6 +100,14 @@ static bool record_wind(HeightField *field, Error *e)
     return field->wind && record_loose(field, e);
 }
 
+static bool record_braided(HeightField *field, Error *e)
+{
+    int64_t count = height_field_count(field);
+    return record_loose(field, e) &&
+           (field->age = memory_alloc_zero(count, sizeof *field->age, e)) &&
+           (field->water = memory_alloc_zero(count, sizeof *field->water, e));
+}
+
 // ---- a sample
 
 static void sample_valleys(const Terrain *terrain, HeightField *field, int64_t i, float x, float z)
@@ -285,6 +293,13 @@ static const Form FORMS[] = {
                        .sample = sample_evolved,
                        .finish = finish_coast,
                        .measure = terrain_measure_coast},
+    [TERRAIN_BRAIDED] = {.material = "terrain/braided",
+                         .relief = 0.1f,
+                         .wavelength = 0.125f,
+                         .prepare = terrain_grow_braided,
+                         .record = record_braided,
+                         .sample = terrain_sample_braided,
+                         .finish = terrain_keep_shores},
 };
 
 const Form *terrain_form(const TerrainParams *params)

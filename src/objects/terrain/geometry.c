@@ -48,9 +48,8 @@ static bool is_copied(const TerrainParams *params, int column, int row)
     return (column != 0 || row != 0) && (seaward == 0 || seaward == -1);
 }
 
-// Adds copies of a part around the square. Takes ownership of the mesh.
-static bool add_copies(Mesh *mesh, const TerrainParams *params, const Placing *placing, int role,
-                       Error *e)
+bool terrain_add_copies(Mesh *mesh, const TerrainParams *params, const Placing *placing, int role,
+                        Error *e)
 {
     int rings = params->beyond, side = 2 * rings + 1;
     Part part = {.mesh = mesh,
@@ -76,7 +75,8 @@ static bool add_beyond(const Terrain *terrain, const HeightField *field, const P
     if (params->beyond <= 0) {
         return true;
     }
-    HeightMeshParams meshing = {.error = 0.25f * params->mesh_error * params->size};
+    HeightMeshParams meshing = {.error = 0.25f * params->mesh_error * params->size,
+                                .keep = terrain->braid ? terrain->bank : NULL};
     Mesh *mesh = height_mesh_new(field, &meshing, e);
     for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
         mesh->position[i] = vec3_add(mesh->position[i], params->position);
@@ -85,7 +85,7 @@ static bool add_beyond(const Terrain *terrain, const HeightField *field, const P
         mesh_free(mesh);
         return false;
     }
-    return add_copies(mesh, params, placing, TERRAIN_LAND, e);
+    return terrain_add_copies(mesh, params, placing, TERRAIN_LAND, e);
 }
 
 static bool add_land(const Terrain *terrain, const HeightField *field, const Placing *placing,

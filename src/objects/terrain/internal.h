@@ -3,6 +3,8 @@
 #define RAMIFY_OBJECTS_TERRAIN_INTERNAL_H
 
 #include "base/strata.h"
+#include "land/braid.h"
+#include "land/braid_level.h"
 #include "land/dunes.h"
 #include "land/landscape.h"
 #include "objects/terrain/envelope.h"
@@ -33,7 +35,8 @@ enum {
     STREAM_CRATER = 78,
     STREAM_BREACH = 79,
     STREAM_CONES = 80,
-    STREAM_SAND = 81
+    STREAM_SAND = 81,
+    STREAM_PLAIN = 82
 };
 
 // The tree and everything derived from it.
@@ -52,6 +55,9 @@ typedef struct Terrain {
     HeightField *ground;  // of TERRAIN_VOLCANO: HeightField.ground on the landscape's grid; of
                           // TERRAIN_COAST: m to the edge of what waves have reached
     Dunes *dunes;         // of TERRAIN_DUNES; set by terrain_heights
+    Braid *braid;         // of TERRAIN_BRAIDED, with the two that follow; set by terrain_heights
+    BraidLevel *level;
+    HeightField *sides;       // m by which the slopes beside the valley are above its floor
     TroughEnvelope *distance; // m to the nearest river, in plan
     // The visible rivers on the finished heights, set by terrain_heights; NULL or without nodes if
     // none is wide enough.
@@ -234,6 +240,21 @@ DuneWind terrain_last_wind(const TerrainParams *params);
 // Fills sample i of a field at a place.
 void terrain_sample_dunes(const Terrain *terrain, HeightField *field, int64_t i, float x, float z);
 
+// braided.c: fills terrain->braid, ->level and ->sides.
+bool terrain_grow_braided(Terrain *terrain, const Run *run, Error *e);
+// Mean depth of the forming flow, m.
+double terrain_braid_depth(const TerrainParams *params);
+// Fills sample i of a field at a place.
+void terrain_sample_braided(const Terrain *terrain, HeightField *field, int64_t i, float x,
+                            float z);
+// braided_water.c: fills terrain->bank where water is near.
+bool terrain_keep_shores(Terrain *terrain, HeightField *field, const Run *run, Error *e);
+// The water's surface.
+bool terrain_add_braids(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                        Error *e);
+// braided_measure.c: after terrain_heights.
+bool terrain_measure_braided(const Terrain *terrain, MeasureList *list, Error *e);
+
 // The land at a place.
 typedef struct EvolvedPlace {
     float height; // m
@@ -243,6 +264,10 @@ typedef struct EvolvedPlace {
 EvolvedPlace terrain_evolved_at(const Terrain *terrain, float x, float z);
 // Height of the river at a node of the tree of courses, m.
 float terrain_course_height(const TerrainParams *params, const OutTree *tree, int64_t i);
+
+// geometry.c: adds copies of a part around the square. Takes ownership of the mesh.
+bool terrain_add_copies(Mesh *mesh, const TerrainParams *params, const Placing *placing, int role,
+                        Error *e);
 
 // water.c, forest.c: parts of the geometry, moved by params->position.
 bool terrain_add_water(const Terrain *terrain, const HeightField *field, const Placing *placing,

@@ -48,7 +48,8 @@ static void needs(const void *params, Needs *needs)
         LANDSCAPE_BYTES = 140,
         LAVA_BYTES = 90,
         DUNE_BYTES = 90,
-        SHORE_BYTES = 48
+        SHORE_BYTES = 48,
+        BRAID_BYTES = 110
     };
     const TerrainParams *terrain = params;
     double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // trees per side
@@ -65,6 +66,10 @@ static void needs(const void *params, Needs *needs)
     if (terrain->form == TERRAIN_DUNES) {
         double cells = fmin(terrain->resolution, terrain->evolution.cells);
         needs_add(needs, "evolution.cells", cells * cells, DUNE_BYTES);
+    }
+    if (terrain->form == TERRAIN_BRAIDED) {
+        double cells = fmin(terrain->resolution, terrain->evolution.cells);
+        needs_add(needs, "evolution.cells", cells * cells, BRAID_BYTES);
     }
     needs_add(needs, terrain->form == TERRAIN_RIDGES ? "ridges.count" : "rivers.count",
               (double)attractors(params), RIVER_BYTES);
@@ -89,6 +94,9 @@ static const char *material_for(const void *params, int role)
 {
     const TerrainParams *terrain = params;
     const Form *form = terrain_form(terrain);
+    if (role == TERRAIN_WATER && terrain->form == TERRAIN_BRAIDED) {
+        return "terrain/glacial";
+    }
     if (role != TERRAIN_LAND) {
         return NULL;
     }
@@ -162,6 +170,23 @@ static const Material BUILTIN[] = {
      .pattern = PATTERN_DUNES,
      .pattern_scale = 0.16f,
      .pattern_depth = 0.007f},
+    {.name = "terrain/braided",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.225f, 0.226f, 0.222f},
+     .color2 = {0.052f, 0.064f, 0.026f},
+     .roughness = 0.8f,
+     .ior = 1.5f,
+     .pattern = PATTERN_BRAIDED,
+     .pattern_depth = 1.0f},
+    {.name = "terrain/glacial",
+     .kind = MATERIAL_PRINCIPLED,
+     .color = {0.215f, 0.400f, 0.395f},
+     .color2 = {0.130f, 0.125f, 0.110f},
+     .roughness = 0.16f,
+     .specular = 0.28f,
+     .ior = 1.33f,
+     .pattern = PATTERN_GLACIAL,
+     .pattern_depth = 0.03f},
     {.name = "terrain/strata",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.40f, 0.29f, 0.19f},

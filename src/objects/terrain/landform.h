@@ -85,6 +85,17 @@ typedef struct HillParams {
     float rills;   // 0 = none, under grass; 1 = deep ones in bare ground
 } HillParams;
 
+// A river that braids on a plain of gravel.
+typedef struct BraidedParams {
+    float width;          // m, of the plain; 0 = half of the size
+    float slope;          // fall of the valley
+    float threads;        // about how many run side by side
+    float stage;          // the discharge now, share of that which forms the bed
+    float age;            // 1 = grown up, more = fewer and larger threads
+    int terraces;         // on each side of the plain
+    float terrace_height; // m, of the lowest riser
+} BraidedParams;
+
 // How the land evolves; factors on the landform's own rates.
 typedef struct EvolutionParams {
     float streams;    // incision by tributaries
@@ -97,6 +108,6 @@ typedef struct EvolutionParams {
 } EvolutionParams;
 
 extern const struct Table strata_table, canyon_table, mesa_table, alps_table, volcano_table,
-    dune_table, hill_table, coast_table, evolution_table;
+    dune_table, hill_table, coast_table, braided_table, evolution_table;
 
 #endif

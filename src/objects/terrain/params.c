@@ -40,6 +40,12 @@ TerrainParams terrain_params_default(void)
                   .sand = 0.006f,
                   .grain = 0.4f,
                   .joints = 1.0f},
+        .braided = {.slope = 0.006f,
+                    .threads = 6.0f,
+                    .stage = 0.35f,
+                    .age = 1.0f,
+                    .terraces = 2,
+                    .terrace_height = 7.0f},
         .dunes = {.kind = DUNE_TRANSVERSE, .wind = 270.0f, .spread = 120.0f, .age = 1.0f},
         .evolution = {.streams = 1.0f,
                       .weathering = 1.0f,
@@ -101,6 +107,11 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
     }
     if (params->form == TERRAIN_DUNES) {
         resolve_dunes(&resolved.dunes, params->size);
+    }
+    if (params->form == TERRAIN_BRAIDED) {
+        float width = params->braided.width;
+        resolved.braided.width = width > 0.0f ? width : 0.5f * params->size;
+        resolved.relief = params->relief > 0.0f ? params->relief : params->size * form->relief;
     }
     if (form->evolves) {
         resolved.relief = params->relief > 0.0f ? params->relief : params->size * form->relief;

@@ -319,6 +319,43 @@ const Table coast_table = {
     .size = sizeof(CoastParams),
     .keys = COAST_KEYS};
 
+static const Key BRAIDED_KEYS[] = {
+    {KEY_OF(BraidedParams, width, "width", KEY_FLOAT), .high = 1e6, .unit = "m",
+     .doc = "Mean width of the plain of gravel; 0 = half of the terrain's size."},
+    {KEY_OF(BraidedParams, slope, "slope", KEY_FLOAT), .flags = KEY_ABOVE, .high = 0.1,
+     .doc = "Fall of the valley, from north (-z) to south, over its length; 0.002 to 0.02 in "
+            "nature. Depths are in proportion to it."},
+    {KEY_OF(BraidedParams, threads, "threads", KEY_FLOAT), .low = 1, .high = 20,
+     .doc = "About how many threads of water run side by side: the narrower each is, the shallower "
+            "the river."},
+    {KEY_OF(BraidedParams, stage, "stage", KEY_FLOAT), .low = 0.02, .high = 2,
+     .doc =
+         "The discharge now, as a fraction of the one that has formed the bed: at 1 water covers "
+         "most bars, at 0.2 it keeps to a few threads."},
+    {KEY_OF(BraidedParams, age, "age", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
+     .doc =
+         "How long the river has worked: 1 = until bars of its own have replaced the first ones; "
+         "more = fewer, larger threads."},
+    {KEY_OF(BraidedParams, terraces, "terraces", KEY_INT), .high = 5,
+     .doc = "Terraces of old gravel on each side, which the river undercuts."},
+    {KEY_OF(BraidedParams, terrace_height, "terrace_height", KEY_FLOAT), .flags = KEY_ABOVE,
+     .high = 1000, .unit = "m", .doc = "Height of the lowest terrace above the plain."},
+    {0},
+};
+
+const Table braided_table = {
+    .name = "braided",
+    .doc = "A river that braids on its plain of gravel, between terraces and steep slopes. The "
+           "relief is the height of these slopes.",
+    .example = "objects:\n"
+               "  - name: valley\n"
+               "    terrain:\n"
+               "      form: braided\n"
+               "      size: 3000\n"
+               "      braided: {width: 1500, threads: 6, stage: 0.3}\n",
+    .size = sizeof(BraidedParams),
+    .keys = BRAIDED_KEYS};
+
 static const Key EVOLUTION_KEYS[] = {
     {KEY_OF(EvolutionParams, streams, "streams", KEY_FLOAT), .high = 100,
      .doc = "Factor on the erosion by streams."},

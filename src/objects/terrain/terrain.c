@@ -34,6 +34,12 @@ static void forget(Terrain *terrain)
     landscape_free(terrain->evolved);
     height_field_free(terrain->ground);
     dunes_free(terrain->dunes);
+    braid_free(terrain->braid);
+    braid_level_free(terrain->level);
+    height_field_free(terrain->sides);
+    terrain->braid = NULL;
+    terrain->level = NULL;
+    terrain->sides = NULL;
     terrain->evolved = NULL;
     terrain->ground = NULL;
     terrain->dunes = NULL;

@@ -43,7 +43,8 @@ typedef enum TerrainForm {
     TERRAIN_VOLCANO, // tephra and lava about a vent
     TERRAIN_DUNES,   // sand that the wind carries over a plain
     TERRAIN_HILLS,   // creeping soil and streams
-    TERRAIN_COAST    // cliffs that waves cut
+    TERRAIN_COAST,   // cliffs that waves cut
+    TERRAIN_BRAIDED  // a braided river in its valley
 } TerrainForm;
 
 // What is drawn.
@@ -172,6 +173,7 @@ typedef struct TerrainParams {
     DuneParams dunes;
     HillParams hills;
     CoastParams coast;
+    BraidedParams braided;
     EvolutionParams evolution;
     TerrainTileParams tiles;
     int beyond;       // rings of mirrored copies around the square
@@ -221,8 +223,7 @@ enum { TERRAIN_LAND, TERRAIN_WATER, TERRAIN_FOLIAGE, TERRAIN_LINES }; // roles o
 bool terrain_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 // Of landforms: incision, cliffs, talus, what is left of the plateau, the canyon's width; of
-// dunes heights, slopes and distances. After
-// terrain_heights.
+// dunes heights, slopes and distances; of braided rivers threads and bars. After terrain_heights.
 bool terrain_measure(const void *params, const Grown *grown, const Recipe *recipe,
                      MeasureList *list, Error *e);
 

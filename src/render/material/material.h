@@ -57,7 +57,9 @@ typedef enum PatternKind {
     PATTERN_STRATA,    // the beds of the land in their own colours, talus, soil and shrubs
     PATTERN_DUNES,     // sand with ripples across the wind, slip faces, gravel between dunes
     PATTERN_HILLS,     // dry grass, fresh grass in hollows, terracettes, bare scars
-    PATTERN_COAST      // cliffs of the land's beds, tidal bands, wet sand, turf
+    PATTERN_COAST,     // cliffs of the land's beds, tidal bands, wet sand, turf
+    PATTERN_BRAIDED,   // gravel by its age, silt and wet edges of a braided river, terraces, slopes
+    PATTERN_GLACIAL    // its water: turbid by depth, ripples by speed
 } PatternKind;
 
 // Is relief displaced near the camera?

@@ -120,6 +120,7 @@ static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShad
     [PATTERN_ALPS] = pattern_alps,         [PATTERN_VOLCANO] = pattern_volcano,
     [PATTERN_STRATA] = pattern_strata,     [PATTERN_DUNES] = pattern_dunes,
     [PATTERN_HILLS] = pattern_hills,       [PATTERN_COAST] = pattern_coast,
+    [PATTERN_BRAIDED] = pattern_braided,   [PATTERN_GLACIAL] = pattern_glacial,
     [PATTERN_NOISE] = noise_pattern,
 };
 
