@@ -302,8 +302,10 @@ bool sea_tile_fill(const SeaTile *with, WaveTile *tile, Error *e)
         }
     }
     if (failed < WAVES_LEVELS) {
-        *e = error[failed];
         done = false;
+        if (e) {
+            *e = error[failed];
+        }
     }
     free(s.mode);
     return done;
