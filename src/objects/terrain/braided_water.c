@@ -6,10 +6,83 @@
 #include <math.h>
 #include <stdlib.h>
 
+static const float POOL_FALL = 0.05f; // m: how far below the ground the water of a drained pool is
+
 static bool is_known(const HeightField *field, int64_t i)
 {
     return field->water[i] > -INFINITY;
 }
+
+// ---- pools
+
+// Labels: of samples, by what has been found of them.
+enum { DRY, STANDING, SEEN };
+
+// Levels are continued beside the flow as far as shores need. Where they lie above the ground there
+// without an end, as in the hollows of bars, the water would be cut off along the grid.
+typedef struct PoolSearch {
+    HeightField *field;
+    uint8_t *label;
+    int32_t *stack; // of the samples of a pool; all that were found stay on it
+    int64_t count;
+    bool cut; // it reaches where no level is known
+} PoolSearch;
+
+static void visit(PoolSearch *s, int64_t i)
+{
+    if (!is_known(s->field, i)) {
+        s->cut = true;
+    } else if (s->label[i] == STANDING) {
+        s->label[i] = SEEN;
+        s->stack[s->count++] = (int32_t)i;
+    }
+}
+
+static void find_pool(PoolSearch *s, int64_t from)
+{
+    int64_t columns = s->field->columns, rows = s->field->rows;
+    s->count = 0;
+    s->cut = false;
+    visit(s, from);
+    for (int64_t k = 0; k < s->count; k++) {
+        int64_t i = s->stack[k], column = i % columns, row = i / columns;
+        for (int n = 0; n < 9; n++) {
+            int64_t c = column + n % 3 - 1, r = row + n / 3 - 1;
+            if (c >= 0 && r >= 0 && c < columns && r < rows) {
+                visit(s, r * columns + c);
+            }
+        }
+    }
+}
+
+bool terrain_drain_pools(HeightField *field, Error *e)
+{
+    int64_t count = height_field_count(field);
+    PoolSearch s = {.field = field,
+                    .label = memory_alloc(count, 1, e),
+                    .stack = memory_alloc(count, sizeof *s.stack, e)};
+    bool done = s.label && s.stack;
+    for (int64_t i = 0; done && i < count; i++) {
+        // Of what is under water, wetness is 1 where it flows.
+        bool standing =
+            is_known(field, i) && field->water[i] > field->height[i] && field->wetness[i] < 1.0f;
+        s.label[i] = standing ? STANDING : DRY;
+    }
+    for (int64_t i = 0; done && i < count; i++) {
+        if (s.label[i] != STANDING) {
+            continue;
+        }
+        find_pool(&s, i);
+        for (int64_t k = 0; s.cut && k < s.count; k++) {
+            field->water[s.stack[k]] = field->height[s.stack[k]] - POOL_FALL;
+        }
+    }
+    free(s.stack);
+    free(s.label);
+    return done;
+}
+
+// ---- the mesh
 
 // Where water is near, every sample is a vertex of the land: its depth is less than the mesh's
 // error far away.

@@ -210,6 +210,11 @@ static bool finish_coast(Terrain *terrain, HeightField *field, const Run *run, E
     return field->climate;
 }
 
+static bool finish_braided(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    return terrain_drain_pools(field, e) && terrain_keep_shores(terrain, field, run, e);
+}
+
 // ---- the table
 
 static const Form FORMS[] = {
@@ -299,7 +304,7 @@ static const Form FORMS[] = {
                          .prepare = terrain_grow_braided,
                          .record = record_braided,
                          .sample = terrain_sample_braided,
-                         .finish = terrain_keep_shores},
+                         .finish = finish_braided},
 };
 
 const Form *terrain_form(const TerrainParams *params)

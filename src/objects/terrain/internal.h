@@ -247,7 +247,9 @@ double terrain_braid_depth(const TerrainParams *params);
 // Fills sample i of a field at a place.
 void terrain_sample_braided(const Terrain *terrain, HeightField *field, int64_t i, float x,
                             float z);
-// braided_water.c: fills terrain->bank where water is near.
+// braided_water.c: takes away standing water that ends where its level is not known.
+bool terrain_drain_pools(HeightField *field, Error *e);
+// Fills terrain->bank where water is near.
 bool terrain_keep_shores(Terrain *terrain, HeightField *field, const Run *run, Error *e);
 // The water's surface.
 bool terrain_add_braids(const Terrain *terrain, const HeightField *field, const Placing *placing,

@@ -65,9 +65,9 @@ static Cover hillside(const Material *m, const SurfacePoint *point, float uprigh
     Cover c = {.color = vec3_lerp(dark, heath, 0.75f * open)};
     c.color = vec3_scale(c.color, 1.0f + 0.25f * clampf(scrub.value, -1.2f, 1.2f));
     c.slope = vec3_scale(scrub.slope, 0.22f);
-    Vec3 stone = vec3_scale(m->color, 0.62f + 0.16f * clampf(rock.value, -1.5f, 1.5f));
+    Vec3 stone = vec3_scale(m->color, 0.44f + 0.16f * clampf(rock.value, -1.5f, 1.5f));
     Cover cliff = {.color = stone, .slope = vec3_scale(rock.slope, 0.4f)};
-    float steep = smoothstepf(0.84f, 0.72f, upright + 0.05f * rock.value + 0.03f * broad);
+    float steep = smoothstepf(0.74f, 0.6f, upright + 0.05f * rock.value + 0.03f * broad);
     return blend(c, cliff, steep);
 }
 
