@@ -186,6 +186,7 @@ still braided braided
 still dunes dunes
 still rainbow rainbow
 still sea sea
+still coast coast
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
         panel terrain-noise --size 800x450 --set objects.noise.terrain.noise.iterations=$iterations
