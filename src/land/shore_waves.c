@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DIRECTIONS = 15, INTO_LAND = 8, TO_SEA = 64, CHANNELS = 3 };
+enum { DIRECTIONS = 15, MIDDLE = DIRECTIONS / 2, INTO_LAND = 8, TO_SEA = 64, CHANNELS = 3 };
 #define DEGREE 0.017453292519943295
 
 bool shore_waves_init(ShoreWaves *w, const Landscape *land, Error *e)
@@ -167,7 +167,7 @@ static int directions(const ShoreParams *p, Sweep *sweeps)
     double along_x = p->sea_z != 0 ? 1.0 : 0.0, along_z = 1.0 - along_x;
     int count = 0;
     for (int k = 0; k < DIRECTIONS; k++) {
-        double off = (k - DIRECTIONS / 2) * 10.0, sine, cosine, side, ahead;
+        double off = (k - MIDDLE) * 10.0, sine, cosine, side, ahead;
         exact_sincos_double(off * DEGREE, &sine, &cosine);
         double weight = cosine * cosine;
         energy += weight;
