@@ -182,6 +182,20 @@ static bool check_window(const char *file, const Film *film, const Image *image,
                      window[4], window[5], film->width, film->height);
 }
 
+// A rendering that was killed in its first pass leaves the first look where no sample has been.
+static void forget_first_look(Film *film, const PixelBox *box)
+{
+    const PixelSum nothing = {.samples = 0};
+    for (int y = box->y0; y < box->y1; y++) {
+        for (int x = box->x0; x < box->x1; x++) {
+            int64_t i = (int64_t)y * film->width + x;
+            if (film->samples[i] == 0.0f) {
+                film_set(film, i, &nothing);
+            }
+        }
+    }
+}
+
 // Values that sums can be made of again are what a rendering relies on.
 static bool check_film(const char *file, const Film *film, const PicturePart *part, Error *e)
 {
@@ -227,6 +241,7 @@ static Film *read_film(const char *file, const Scene *scene, bool any_crop, Pict
                                .x1 = window[0] + image->width,
                                .y1 = window[1] + image->height};
         copy_planes(image, window[0], window[1], film->width, plane);
+        forget_first_look(film, &part->box);
         done = check_film(file, film, part, e);
     }
     image_free(image);

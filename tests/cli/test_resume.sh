@@ -35,6 +35,19 @@ check resumed 0 "$RAMIFY" render scene.yaml -o cut.png -q --resume
 yes killed_is_the_same cmp whole.exr cut.exr
 yes killed_is_the_same_display cmp whole.png cut.png
 yes nothing_half_is_left [ "$(find . -name '*.part' | wc -l)" -eq 0 ]
+
+# Killed in the first pass: the picture holds the first look where no sample has been.
+slow='--size 480x360 --samples 3 --noise 0 --no-denoise'
+check slow_whole 0 "$RAMIFY" render scene.yaml -o slow.png -q $slow
+"$RAMIFY" render scene.yaml -o early.png -q $slow --checkpoint 0.001 --threads 1 &
+early=$!
+until [ -e early.exr ]; do sleep 0.005; done
+kill -9 $early
+wait $early 2>/dev/null
+check resumed_first_pass 0 "$RAMIFY" render scene.yaml -o early.png -q $slow --resume
+yes killed_first_pass_is_the_same cmp slow.exr early.exr
+yes killed_first_pass_is_the_same_display cmp slow.png early.png
+
 check resumed_when_done 0 "$RAMIFY" render scene.yaml -o cut.png -q --resume
 yes done_is_the_same cmp whole.exr cut.exr
 check resumed_from_nothing 0 "$RAMIFY" render scene.yaml -o new.png -q --resume --no-preview
