@@ -93,9 +93,9 @@ void pattern_braided(const Material *m, const SurfacePoint *point, PatternShade 
         blend(ground, hillside(m, point, upright, broad.value), smoothstepf(0.84f, 0.96f, age));
     // Wet ground is dark, the darker the nearer the water.
     float moist = damp + 0.10f * patch.value;
-    float wet = 0.45f * smoothstepf(0.35f, 0.75f, moist) + 0.55f * smoothstepf(0.78f, 0.97f, moist);
+    float wet = 0.3f * smoothstepf(0.45f, 0.85f, moist) + 0.7f * smoothstepf(0.86f, 1.0f, moist);
     wet *= 1.0f - terrace;
-    shade->color = vec3_scale(ground.color, 1.0f - 0.52f * wet);
+    shade->color = vec3_scale(ground.color, 1.0f - 0.36f * wet);
     Vec3 slope = vec3_scale(ground.slope, m->pattern_depth * (1.0f - 0.5f * wet));
     shade->normal = pattern_tilt(shade->normal, slope);
 }
@@ -104,7 +104,7 @@ void pattern_braided(const Material *m, const SurfacePoint *point, PatternShade 
 // through where water is shallow. site.x = depth / (1 m + depth), site.y how rough the flow is.
 void pattern_glacial(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    const float clear = 0.22f; // m: depth in which the bed fades to 1 / e
+    const float clear = 0.15f; // m: depth in which the bed fades to 1 / e
     float depth = point->site.x / fmaxf(1.0f - point->site.x, 0.02f), rough = point->site.y;
     PatternOctaves drift = pattern_octaves(point, 30.0f, 3, 0.6f, 1.0f, 443);
     float seen = expf(-depth / clear);
