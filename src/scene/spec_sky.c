@@ -30,7 +30,8 @@ static const Key SKY_KEYS[] = {
      .high = 360, .unit = "degrees", .doc = "Azimuth of the sun, from +Z toward +X."},
     {KEY_OF(Sky, time, "time", KEY_TEXT), .kinds = BIT(SKY_SUN_SKY) | BIT(SKY_NIGHT),
      .doc = "Date and time, as 2026-10-14T17:40, which place sun, moon and stars, the first two "
-            "instead of their elevations and azimuths, and give the moon its phase. With a zone (Z, +02:00) it is that of clocks; without one, "
+            "instead of their elevations and azimuths, and give the moon its phase. With a zone "
+            "(Z, +02:00) it is that of clocks; without one, "
             "local mean time: the sun is highest near 12:00. North is -Z, east +X, before "
             "`rotation`."},
     {KEY_OF(Sky, latitude, "latitude", KEY_FLOAT), .kinds = BIT(SKY_SUN_SKY) | BIT(SKY_NIGHT),
