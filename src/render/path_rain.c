@@ -5,7 +5,7 @@
 
 enum { STEPS = 40 };
 
-// Rain along a ray, in equal steps from a random start.
+// Rain along a ray, in equal steps, each looked up at the same random part of it.
 typedef struct RainLine {
     float from, step;
     float depth[STEPS + 1]; // optical, before each step
@@ -24,11 +24,11 @@ static bool find_line(const Rain *rain, const Ray *ray, float far, float jitter,
         return false;
     }
     line->step = (to - from) / STEPS;
-    line->from = from + (jitter - 0.5f) * line->step;
+    line->from = from;
     line->depth[0] = 0.0f;
     for (int k = 0; k < STEPS; k++) {
         Vec3 p =
-            vec3_madd(ray->origin, line->from + ((float)k + 0.5f) * line->step, ray->direction);
+            vec3_madd(ray->origin, line->from + ((float)k + jitter) * line->step, ray->direction);
         float extinction = 0.0f;
         for (int i = 0; i < rain->count; i++) {
             extinction += rain_extinction(&rain->shaft[i], p);
@@ -48,7 +48,7 @@ static float draw_distance(const RainLine *line, float u)
     }
     float width = line->depth[k + 1] - line->depth[k];
     float share = width > 0.0f ? clampf((depth - line->depth[k]) / width, 0.0f, 1.0f) : 0.5f;
-    return fmaxf(line->from + ((float)k + share) * line->step, 0.0f);
+    return line->from + ((float)k + share) * line->step;
 }
 
 // What a drop at a place scatters along the path's ray, of a light in this direction.

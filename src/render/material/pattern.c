@@ -29,6 +29,19 @@ float pattern_detail(float wavelength, float footprint)
     return 1.0f - smoothstepf(0.25f, 1.0f, footprint / wavelength);
 }
 
+float pattern_lamina(float level, float thickness, float footprint, float soft, uint32_t seed)
+{
+    float seen = pattern_detail(2.0f * thickness, footprint);
+    if (seen <= 0.0f) {
+        return 0.5f;
+    }
+    float at = level / thickness, whole = floorf(at);
+    uint32_t layer = (uint32_t)(int32_t)whole * 2654435761u + seed;
+    float tone = lerpf(noise_unit(layer, 3), noise_unit(layer + 2654435761u, 3),
+                       smoothstepf(soft, 1.0f, at - whole));
+    return lerpf(0.5f, tone, seen);
+}
+
 PatternOctaves pattern_octaves(const SurfacePoint *point, float wavelength, int octaves, float gain,
                                float squash, uint32_t seed)
 {

@@ -70,4 +70,8 @@ Vec3 pattern_tilt(Vec3 n, Vec3 slope);
 // The share 0..1 of a feature of this wavelength that a pixel of this footprint still shows.
 float pattern_detail(float wavelength, float footprint);
 
+// A random number per layer of this thickness, 0..1, by the level in the beds; 0.5 where the pixel
+// does not show layers. Borders are soft from the share `soft` of a layer up.
+float pattern_lamina(float level, float thickness, float footprint, float soft, uint32_t seed);
+
 #endif

@@ -40,20 +40,6 @@ static Vec3 bed_color(const Strata *strata, float level)
     return strata->bed[strata_bed(strata, level)].color;
 }
 
-// A number per lamina; 0.5 where the pixel does not show them.
-static float lamina(float level, float thickness, float footprint, uint32_t seed)
-{
-    float seen = pattern_detail(2.0f * thickness, footprint);
-    if (seen <= 0.0f) {
-        return 0.5f;
-    }
-    float at = level / thickness, whole = floorf(at);
-    uint32_t layer = (uint32_t)(int32_t)whole * 2654435761u + seed;
-    float tone = lerpf(noise_unit(layer, 3), noise_unit(layer + 2654435761u, 3),
-                       smoothstepf(0.8f, 1.0f, at - whole));
-    return lerpf(0.5f, tone, seen);
-}
-
 static Ground rock(const Place *p)
 {
     const SurfacePoint *point = p->point;
@@ -72,8 +58,8 @@ static Ground rock(const Place *p)
         int number = strata_bed(strata, level);
         float thick = fmaxf(strata->bed[number].lamina, 0.2f);
         uint32_t seed = 7919u * (uint32_t)number;
-        tone = 0.6f * lamina(level, thick, point->footprint, seed) +
-               0.4f * lamina(level, 0.24f * thick, point->footprint, seed + 5);
+        tone = 0.6f * pattern_lamina(level, thick, point->footprint, 0.8f, seed) +
+               0.4f * pattern_lamina(level, 0.24f * thick, point->footprint, 0.8f, seed + 5);
     }
     float light = 1.0f + 0.5f * (tone - 0.5f) + 0.16f * crags.tone + 0.14f * rough.value;
     light *= 1.0f - 0.5f * crags.crevice;

@@ -37,20 +37,6 @@ static Vec3 seen_color(const Strata *strata, float level, float footprint)
     return vec3_scale(vec3_add(sum, bed_color(strata, level)), 1.0f / 3.0f);
 }
 
-// A random number per layer, with soft borders; 0.5 where the pixel does not show layers.
-static float layer_tone(float level, float thickness, float footprint, uint32_t seed)
-{
-    float seen = pattern_detail(2.0f * thickness, footprint);
-    if (seen <= 0.0f) {
-        return 0.5f;
-    }
-    float at = level / thickness, whole = floorf(at);
-    uint32_t layer = (uint32_t)(int32_t)whole * 2654435761u + seed;
-    float tone = lerpf(noise_unit(layer, 3), noise_unit(layer + 2654435761u, 3),
-                       smoothstepf(0.75f, 1.0f, at - whole));
-    return lerpf(0.5f, tone, seen);
-}
-
 // The laminae of a bed at three scales, about 0..1; 0.5 = none.
 static float lamina_tone(const Strata *strata, float level, float footprint)
 {
@@ -60,9 +46,9 @@ static float lamina_tone(const Strata *strata, float level, float footprint)
         return 0.5f;
     }
     uint32_t seed = 7919u * (uint32_t)number;
-    return 0.5f * layer_tone(level, lamina, footprint, seed + 11) +
-           0.3f * layer_tone(level, 0.27f * lamina, footprint, seed + 13) +
-           0.2f * layer_tone(level, 0.07f * lamina, footprint, seed + 17);
+    return 0.5f * pattern_lamina(level, lamina, footprint, 0.75f, seed + 11) +
+           0.3f * pattern_lamina(level, 0.27f * lamina, footprint, 0.75f, seed + 13) +
+           0.2f * pattern_lamina(level, 0.07f * lamina, footprint, 0.75f, seed + 17);
 }
 
 typedef struct Ground {
