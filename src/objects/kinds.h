@@ -25,7 +25,8 @@
     X(climber)   \
     X(stone)     \
     X(scatter)   \
-    X(sea)
+    X(sea)       \
+    X(snow_crystal)
 
 #define DECLARE_KIND(NAME) extern const Kind kind_##NAME;
 KINDS(DECLARE_KIND)
