@@ -10,7 +10,7 @@ static const SnowfakeRates HABIT[HABITS] = {
     {0.38f, 1.06f, 0.35f, 0.112f, 0.001f, 0.14f, 6e-4f},   // sectored plate
     {0.36f, 1.09f, 0.01f, 0.0745f, 0.0001f, 0.14f, 1e-5f}, // star with plates at its tips
     {0.42f, 1.08f, 0.15f, 0.075f, 0.001f, 0.12f, 1e-4f},   // stellar dendrite
-    {0.8f, 1.9f, 0.1f, 0.02f, 0.003f, 0.05f, 5e-5f}};      // fernlike dendrite
+    {0.58f, 1.3f, 0.08f, 0.025f, 0.003f, 0.07f, 5e-5f}};   // fernlike dendrite
 
 bool snow_is_flat(float temperature)
 {
