@@ -594,7 +594,7 @@ static void built_in_materials_take_no_further_names(void **state)
     (void)state;
     static const char names[] =
         " altitude artery attractor badlands bark blossom broken clay cone conifer copper coral "
-        "coral_polyp crystal_ice deadwood fallen fieldstone fruit grass ground ice lake lamp leaf "
+        "coral_polyp deadwood fallen fieldstone fruit grass ground ice lake lamp leaf "
         "leaf_vein "
         "lightning mistletoe moss mountain node reef_rock rime snow soap_film stalk twig vein ";
     int count = 0;

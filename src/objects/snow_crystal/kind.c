@@ -55,7 +55,7 @@ static void needs(const void *given, Needs *needs)
 }
 
 static const Material BUILTIN[] = {
-    {.name = "crystal_ice",
+    {.name = "snow_crystal/ice",
      .kind = MATERIAL_DIELECTRIC,
      .color = {1.0f, 1.0f, 1.0f},
      .roughness = 0.0f,
@@ -71,7 +71,7 @@ static const Key MATERIALS[] = {
 const Kind kind_snow_crystal = {
     .variant = {KIND_ROW("snow_crystal", &snow_crystal_table, "A flat snow crystal."), MATERIALS},
     .carried = true,
-    .materials = {"crystal_ice"},
+    .materials = {"snow_crystal/ice"},
     .builtin = BUILTIN,
     .own_space = own_space,
     .needs = needs,

@@ -108,7 +108,7 @@ const Table snow_crystal_table = {
     .name = "snow_crystal",
     .doc =
         "A flat snow crystal, grown from vapour (Gravner and Griffeath 2008) in the weather that "
-        "Nakaya's diagram gives each habit. Material: crystal_ice.",
+        "Nakaya's diagram gives each habit. Material: snow_crystal/ice.",
     .example = "objects:\n"
                "  - name: flake\n"
                "    snow_crystal:\n"
