@@ -23,6 +23,17 @@ still() {
     rm -f "$parts"/*
 }
 
+# movie NAME SCENE [OPTION...]: renders the film of SCENE to renders/NAME.webp, 480 pixels wide.
+movie() {
+    is_wanted "$1" || return 0
+    name=$1 scene=$2
+    shift 2
+    "$ramify" turntable "scenes/$scene.yaml" -o "$parts/film.mp4" "$@"
+    ffmpeg -v error -i "$parts/film.mp4" -vf scale=480:-1:flags=lanczos,fps=12 -c:v libwebp_anim -loop 0 \
+        -quality 62 -compression_level 5 -y "renders/$name.webp"
+    rm -rf "$parts"/*
+}
+
 # panel SCENE [OPTION...]: renders one picture of the next sheet.
 panel() {
     scene=$1
@@ -186,6 +197,9 @@ still braided braided
 still dunes dunes
 still rainbow rainbow
 still sea sea
+still snow-crystal snow-crystal
+movie oak-year oak-year
+movie frost-bubble-turn frost-bubble --turns 1 --frames 72 --size 480x270 --samples 12
 still coast coast
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
