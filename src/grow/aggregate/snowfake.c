@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "base/vec.h"
 
 #include <stdlib.h>
 
@@ -90,8 +91,8 @@ static bool lattice_init(Lattice *lattice, int radius, float far, Error *e)
 static void diffuse_row(const Lattice *lattice, int r)
 {
     int inside = lattice->active - 1;
-    int first = -inside - r > -inside ? -inside - r : -inside;
-    int last = inside - r < inside ? inside - r : inside;
+    int first = r < 0 ? -inside - r : -inside;
+    int last = r > 0 ? inside - r : inside;
     const int32_t *here = lattice->vapour + cell_at(lattice, first, r);
     const int32_t *below = here - lattice->width, *above = here + lattice->width;
     int32_t *out = lattice->next + cell_at(lattice, first, r);
@@ -284,10 +285,13 @@ static void widen(Lattice *lattice)
 
 SnowfakeRates snowfake_rates_between(const SnowfakeRates *a, const SnowfakeRates *b, float t)
 {
-#define BETWEEN(NAME) .NAME = a->NAME + t * (b->NAME - a->NAME)
-    return (SnowfakeRates){BETWEEN(rho),   BETWEEN(beta), BETWEEN(alpha), BETWEEN(theta),
-                           BETWEEN(kappa), BETWEEN(mu),   BETWEEN(gamma)};
-#undef BETWEEN
+    return (SnowfakeRates){.rho = lerpf(a->rho, b->rho, t),
+                           .beta = lerpf(a->beta, b->beta, t),
+                           .alpha = lerpf(a->alpha, b->alpha, t),
+                           .theta = lerpf(a->theta, b->theta, t),
+                           .kappa = lerpf(a->kappa, b->kappa, t),
+                           .mu = lerpf(a->mu, b->mu, t),
+                           .gamma = lerpf(a->gamma, b->gamma, t)};
 }
 
 static SnowfakeRates rates_at(const SnowfakeParams *params, int size)
