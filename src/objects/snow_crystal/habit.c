@@ -6,7 +6,7 @@ enum { HABITS = 5 };
 
 // Rates that grow each habit, near those of the paper's figures.
 static const SnowfakeRates HABIT[HABITS] = {
-    {0.35f, 1.05f, 0.1f, 0.15f, 0.001f, 0.12f, 6e-4f},     // solid plate
+    {0.45f, 1.05f, 0.1f, 0.15f, 0.001f, 0.08f, 6e-4f},     // solid plate
     {0.38f, 1.06f, 0.35f, 0.112f, 0.001f, 0.14f, 6e-4f},   // sectored plate
     {0.36f, 1.09f, 0.01f, 0.0745f, 0.0001f, 0.14f, 1e-5f}, // star with plates at its tips
     {0.42f, 1.08f, 0.15f, 0.075f, 0.001f, 0.12f, 1e-4f},   // stellar dendrite

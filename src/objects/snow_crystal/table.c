@@ -25,18 +25,20 @@ static const Key WEATHER_KEYS[] = {
     {KEY_OF(SnowWeather, temperature, "temperature", KEY_FLOAT), .flags = KEY_REQUIRED, .low = -25,
      .high = -0.5, .unit = "degrees Celsius",
      .doc = TEMPERATURE_DOC "and needles grow, which are not made."},
-    {KEY_OF(SnowWeather, supersaturation, "supersaturation", KEY_FLOAT), .flags = KEY_REQUIRED,
-     .high = 0.4, .unit = "g/m³", .doc = "Vapour of the air beyond its balance with ice."},
+    {KEY_OF(SnowWeather, supersaturation, "supersaturation", KEY_FLOAT),
+     .flags = KEY_REQUIRED | KEY_ABOVE, .high = 0.4, .unit = "g/m³",
+     .doc = "Vapour of the air beyond its balance with ice."},
     {0},
 };
 
 static bool check_flat(const Mapping *mapping, float temperature)
 {
     return snow_is_flat(temperature) ||
-           mapping_fail(mapping, "temperature",
-                        "'temperature' is %g: between -10 and -3.5 degrees crystals are columns "
-                        "and needles, which snow_crystal does not make",
-                        (double)temperature);
+           mapping_fail(
+               mapping, "temperature",
+               " is %g degrees; between -10 and -3.5 crystals are columns and needles, which "
+               "snow_crystal does not make",
+               (double)temperature);
 }
 
 static bool weather_check(const Mapping *mapping, void *given)
@@ -73,8 +75,8 @@ static const Key CRYSTAL_KEYS[] = {
     {KEY_OF(SnowCrystalParams, weather.temperature, "temperature", KEY_FLOAT), .low = -25,
      .high = -0.5, .unit = "degrees Celsius",
      .doc = TEMPERATURE_DOC "and needles grow, which are not made. Branches are finest at -15."},
-    {KEY_OF(SnowCrystalParams, weather.supersaturation, "supersaturation", KEY_FLOAT), .high = 0.4,
-     .unit = "g/m³",
+    {KEY_OF(SnowCrystalParams, weather.supersaturation, "supersaturation", KEY_FLOAT),
+     .flags = KEY_ABOVE, .high = 0.4, .unit = "g/m³",
      .doc =
          "Vapour of the air beyond its balance with ice: at -15 degrees plates up to 0.04, "
          "sectored "
@@ -91,8 +93,7 @@ static bool crystal_check(const Mapping *mapping, void *given)
     const SnowCrystalParams *params = given;
     for (int i = 1; i < params->life_count; i++) {
         if (params->life[i].at <= params->life[i - 1].at) {
-            return mapping_fail(mapping, "life",
-                                "'life' must be in the order of 'at': %g comes after %g",
+            return mapping_fail(mapping, "life", " must be in the order of at; %g comes after %g",
                                 (double)params->life[i].at, (double)params->life[i - 1].at);
         }
     }
