@@ -50,7 +50,7 @@ static void describe(const void *given, char *text, size_t size)
 static void needs(const void *given, Needs *needs)
 {
     const SnowCrystalParams *params = given;
-    const double cell_bytes = 2.8 * 2.8 * 17.0 + 4.0 * (4.0 + 6.0 * 24.0); // lattice, then mesh
+    const double cell_bytes = 2.8 * 2.8 * 21.0 + 4.0 * (4.0 + 6.0 * 24.0); // lattice, then mesh
     needs_add(needs, "cells", (double)params->cells * (double)params->cells, cell_bytes);
 }
 
