@@ -23,14 +23,14 @@ still() {
     rm -f "$parts"/*
 }
 
-# movie NAME SCENE [OPTION...]: renders the film of SCENE to renders/NAME.webp, 480 pixels wide.
+# movie NAME SCENE FILTER [OPTION...]: renders the film of SCENE to renders/NAME.webp, 480 pixels wide, cut by ffmpeg's FILTER.
 movie() {
     is_wanted "$1" || return 0
-    name=$1 scene=$2
-    shift 2
+    name=$1 scene=$2 filter=$3
+    shift 3
     "$ramify" turntable "scenes/$scene.yaml" -o "$parts/film.mp4" "$@"
-    ffmpeg -v error -i "$parts/film.mp4" -vf scale=480:-1:flags=lanczos,fps=12 -c:v libwebp_anim -loop 0 \
-        -quality 62 -compression_level 5 -y "renders/$name.webp"
+    ffmpeg -v error -i "$parts/film.mp4" -vf "$filter,scale=480:-1:flags=lanczos,fps=12" -c:v libwebp_anim -loop 0 \
+        -quality 66 -compression_level 5 -y "renders/$name.webp"
     rm -rf "$parts"/*
 }
 
@@ -198,8 +198,12 @@ still dunes dunes
 still rainbow rainbow
 still sea sea
 still snow-crystal snow-crystal
-movie oak-year oak-year
-movie frost-bubble-turn frost-bubble --turns 1 --frames 72 --size 480x270 --samples 12
+movie oak-year oak-year null
+# walls of firs on four sides, as the bubble turns before the sun; the picture's edge is cut where they end
+walls='{shape: box, size: [7.4, 0.9, 0.2], position: [0, 0, -3.6]}, {shape: box, size: [7.4, 0.9, 0.2], position: [0, 0, 3.6]}'
+walls="$walls, {shape: box, size: [0.2, 0.9, 7.4], position: [-3.6, 0, 0]}, {shape: box, size: [0.2, 0.9, 7.4], position: [3.6, 0, 0]}"
+movie frost-bubble-turn frost-bubble crop=438:246:21:24 --spin --turns 1 --grow 0.16:0.6 --frames 60 --fps 12 --size 480x270 \
+    --samples 16 --set "objects.wood.shape.envelope=[$walls]"
 still coast coast
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
