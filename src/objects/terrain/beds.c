@@ -57,6 +57,17 @@ static int coast_beds(const TerrainParams *params, StrataBed *beds)
     return count;
 }
 
+// Thick beds of pure limestone that stand as cliffs, with thin ones between them that make ledges.
+static const StrataBed KARST[] = {{0.13f, 0.80f, 74.0f, {0.30f, 0.295f, 0.28f}, 3.0f},
+                                  {0.012f, 0.60f, 34.0f, {0.25f, 0.24f, 0.215f}, 0.8f},
+                                  {0.17f, 0.85f, 79.0f, {0.32f, 0.31f, 0.285f}, 4.0f},
+                                  {0.009f, 0.60f, 38.0f, {0.26f, 0.245f, 0.22f}, 0.8f},
+                                  {0.21f, 0.90f, 81.0f, {0.31f, 0.305f, 0.29f}, 6.0f},
+                                  {0.014f, 0.60f, 33.0f, {0.25f, 0.24f, 0.22f}, 0.8f},
+                                  {0.24f, 0.90f, 80.0f, {0.33f, 0.32f, 0.295f}, 5.0f},
+                                  {0.010f, 0.60f, 40.0f, {0.26f, 0.25f, 0.225f}, 0.8f},
+                                  {1.0f, 0.90f, 85.0f, {0.32f, 0.315f, 0.30f}, 5.0f}};
+
 static int own_beds(const TerrainParams *params, StrataBed *beds)
 {
     if (params->form == TERRAIN_ALPS) { // one rock, which age makes rotten
@@ -78,9 +89,12 @@ static int own_beds(const TerrainParams *params, StrataBed *beds)
     if (params->form == TERRAIN_COAST) {
         return coast_beds(params, beds);
     }
-    const StrataBed *from = params->form == TERRAIN_CANYON ? CANYON : MESAS;
-    int count = params->form == TERRAIN_CANYON ? (int)(sizeof CANYON / sizeof *CANYON)
-                                               : (int)(sizeof MESAS / sizeof *MESAS);
+    const StrataBed *from = params->form == TERRAIN_CANYON  ? CANYON
+                            : params->form == TERRAIN_KARST ? KARST
+                                                            : MESAS;
+    int count = params->form == TERRAIN_CANYON  ? (int)(sizeof CANYON / sizeof *CANYON)
+                : params->form == TERRAIN_KARST ? (int)(sizeof KARST / sizeof *KARST)
+                                                : (int)(sizeof MESAS / sizeof *MESAS);
     for (int i = 0; i < count; i++) {
         beds[i] = from[i];
         beds[i].thickness *= params->relief;

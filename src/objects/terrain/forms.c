@@ -1,6 +1,7 @@
 // The table of forms, and what links them to the files that make them.
 #include "objects/terrain/coast.h"
 #include "objects/terrain/form.h"
+#include "objects/terrain/karst.h"
 
 #include "base/memory.h"
 #include "land/height_drainage.h"
@@ -63,6 +64,12 @@ static bool prepare_hills(Terrain *terrain, const Run *run, Error *e)
 static bool prepare_coast(Terrain *terrain, const Run *run, Error *e)
 {
     terrain->evolved = terrain_evolve_coast(terrain, &terrain->ground, run, e);
+    return terrain->evolved;
+}
+
+static bool prepare_karst(Terrain *terrain, const Run *run, Error *e)
+{
+    terrain->evolved = terrain_evolve_karst(terrain, run, e);
     return terrain->evolved;
 }
 
@@ -198,7 +205,7 @@ static bool finish_hills(Terrain *terrain, HeightField *field, const Run *run, E
     return height_field_fill(field, 1e-4f, e) && terrain_wet_hollows(field, e);
 }
 
-// Altitudes are km above the sea.
+// Altitudes are km above the sea, or above the water table of karst.
 static bool finish_coast(Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
     (void)terrain;
@@ -305,6 +312,16 @@ static const Form FORMS[] = {
                          .record = record_braided,
                          .sample = terrain_sample_braided,
                          .finish = finish_braided},
+    [TERRAIN_KARST] = {.material = "terrain/karst",
+                       .relief = 0.05f,
+                       .wavelength = 0.125f,
+                       .evolves = true,
+                       .shows_beds = true,
+                       .prepare = prepare_karst,
+                       .record = record_loose,
+                       .sample = sample_evolved,
+                       .finish = finish_coast,
+                       .measure = terrain_measure_karst},
 };
 
 const Form *terrain_form(const TerrainParams *params)

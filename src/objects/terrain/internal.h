@@ -36,7 +36,8 @@ enum {
     STREAM_BREACH = 79,
     STREAM_CONES = 80,
     STREAM_SAND = 81,
-    STREAM_PLAIN = 82
+    STREAM_PLAIN = 82,
+    STREAM_KARST = 83
 };
 
 // The tree and everything derived from it.

@@ -47,6 +47,7 @@ static void needs(const void *params, Needs *needs)
         RIVER_BYTES = 1500,
         LANDSCAPE_BYTES = 140,
         LAVA_BYTES = 90,
+        KARST_BYTES = 64,
         DUNE_BYTES = 90,
         SHORE_BYTES = 48,
         BRAID_BYTES = 110
@@ -61,6 +62,7 @@ static void needs(const void *params, Needs *needs)
         needs_add(needs, "evolution.cells", cells * cells,
                   LANDSCAPE_BYTES + (terrain->form == TERRAIN_VOLCANO ? LAVA_BYTES
                                      : terrain->form == TERRAIN_COAST ? SHORE_BYTES
+                                     : terrain->form == TERRAIN_KARST ? KARST_BYTES
                                                                       : 0));
     }
     if (terrain->form == TERRAIN_DUNES) {
@@ -177,6 +179,14 @@ static const Material BUILTIN[] = {
      .roughness = 0.8f,
      .ior = 1.5f,
      .pattern = PATTERN_BRAIDED,
+     .pattern_depth = 1.0f},
+    {.name = "terrain/karst",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.050f, 0.072f, 0.024f},
+     .color2 = {0.115f, 0.125f, 0.040f},
+     .roughness = 0.8f,
+     .ior = 1.5f,
+     .pattern = PATTERN_KARST,
      .pattern_depth = 1.0f},
     {.name = "terrain/glacial",
      .kind = MATERIAL_PRINCIPLED,

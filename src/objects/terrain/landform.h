@@ -96,6 +96,14 @@ typedef struct BraidedParams {
     float terrace_height; // m, of the lowest riser
 } BraidedParams;
 
+// Limestone that water has dissolved.
+typedef struct KarstParams {
+    float stage;   // 0 = a plateau, 0.4 = cones about cockpits, 1 = towers on a plain
+    float spacing; // m: about from hollow to hollow; 0 = 0.065 of the size
+    float focus;   // how much recharge gathers in hollows
+    float river;   // m, width of a river from elsewhere; 0 = none
+} KarstParams;
+
 // How the land evolves; factors on the landform's own rates.
 typedef struct EvolutionParams {
     float streams;    // incision by tributaries
@@ -108,6 +116,6 @@ typedef struct EvolutionParams {
 } EvolutionParams;
 
 extern const struct Table strata_table, canyon_table, mesa_table, alps_table, volcano_table,
-    dune_table, hill_table, coast_table, braided_table, evolution_table;
+    dune_table, hill_table, coast_table, braided_table, karst_table, evolution_table;
 
 #endif

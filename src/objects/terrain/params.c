@@ -46,6 +46,7 @@ TerrainParams terrain_params_default(void)
                     .age = 1.0f,
                     .terraces = 2,
                     .terrace_height = 7.0f},
+        .karst = {.stage = 0.75f, .focus = 1.0f},
         .dunes = {.kind = DUNE_TRANSVERSE, .wind = 270.0f, .spread = 120.0f, .age = 1.0f},
         .evolution = {.streams = 1.0f,
                       .weathering = 1.0f,
@@ -117,6 +118,8 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         resolved.relief = params->relief > 0.0f ? params->relief : params->size * form->relief;
         resolved.hills.spacing =
             params->hills.spacing > 0.0f ? params->hills.spacing : 0.1f * params->size;
+        resolved.karst.spacing =
+            params->karst.spacing > 0.0f ? params->karst.spacing : 0.065f * params->size;
         resolved.volcano.crater =
             params->volcano.crater > 0.0f ? params->volcano.crater : 0.26f * resolved.relief;
         resolved.canyon.width =

@@ -1,0 +1,105 @@
+// Tower karst: grey limestone in beds, with joints and karren, dark and rusty streaks where water
+// runs down, a dark damp foot; bushes wherever it is not sheer; fields on the plain. site.x is km
+// above the water table; site.y is how loose the ground is, 0 on rock.
+#include "base/strata.h"
+#include "render/material/pattern.h"
+#include "render/material/pattern_crags.h"
+#include "render/material/pattern_noise.h"
+
+#include <stddef.h>
+
+enum { SEED_PATCH = 601, SEED_ROCK = 611, SEED_STREAK = 631, SEED_BUSH = 651, SEED_FIELD = 671 };
+
+typedef struct Ground {
+    Vec3 color;
+    Vec3 slope; // of its relief, per metre
+} Ground;
+
+static Ground blend(Ground a, const Ground *b, float t)
+{
+    a.color = vec3_lerp(a.color, b->color, t);
+    a.slope = vec3_lerp(a.slope, b->slope, t);
+    return a;
+}
+
+// Dark films of algae where water runs, pale tufa and rust beside them.
+static Vec3 stain(const SurfacePoint *point, Vec3 color, float patch)
+{
+    float streak = pattern_octaves(point, 9.0f, 5, 0.65f, 0.07f, SEED_STREAK).value;
+    float thin = pattern_octaves(point, 2.2f, 4, 0.65f, 0.05f, SEED_STREAK + 8).value;
+    float broad = pattern_octaves(point, 60.0f, 3, 0.5f, 0.4f, SEED_STREAK + 14).value;
+    float dark = smoothstepf(0.0f, 0.5f, streak + 0.35f * thin + 0.4f * broad);
+    float rust = smoothstepf(0.15f, 0.6f, 0.7f * patch - streak);
+    color = vec3_lerp(color, vec3(0.30f, 0.225f, 0.135f), 0.4f * rust);
+    color = vec3_lerp(color, vec3(0.055f, 0.056f, 0.055f), 0.75f * dark);
+    return vec3_scale(color, 1.0f + 0.25f * clampf(thin, -1.0f, 1.0f));
+}
+
+static Ground rock(const SurfacePoint *point, float patch)
+{
+    PatternOctaves rough = pattern_octaves(point, 7.0f, 8, 0.6f, 0.7f, SEED_ROCK);
+    PatternOctaves karren = pattern_octaves(point, 1.6f, 5, 0.6f, 0.12f, SEED_ROCK + 9);
+    Crags crags = pattern_crags(point, 9.0f);
+    Vec3 color = {0.31f, 0.30f, 0.28f};
+    float tone = 0.5f;
+    if (point->strata) {
+        Vec3 at = point->object_position;
+        float level = at.y - strata_base(point->strata, at.x, at.z) + 1.2f * patch;
+        int bed = strata_bed(point->strata, level);
+        float thick = fmaxf(point->strata->bed[bed].lamina, 0.4f);
+        color = point->strata->bed[bed].color;
+        tone = pattern_lamina(level, thick, point->footprint, 0.6f, 7919u * (uint32_t)bed);
+    }
+    color = stain(point, color, patch);
+    float light = 1.0f + 0.25f * (tone - 0.5f) + 0.18f * crags.tone + 0.12f * rough.value;
+    light *= 1.0f - 0.55f * crags.crevice;
+    Ground g = {.color = vec3_scale(color, clampf(light, 0.3f, 1.6f))};
+    g.slope = vec3_madd(vec3_scale(rough.slope, 0.3f), 0.8f, crags.slope);
+    g.slope = vec3_madd(g.slope, 0.12f, karren.slope);
+    g.slope.y += 0.6f * (tone - 0.5f);
+    return g;
+}
+
+static Ground bushes(const Material *m, const SurfacePoint *point, float patch)
+{
+    PatternOctaves crown = pattern_octaves(point, 5.0f, 5, 0.6f, 1.0f, SEED_BUSH);
+    PatternOctaves leaf = pattern_octaves(point, 0.8f, 4, 0.65f, 1.0f, SEED_BUSH + 9);
+    Vec3 dry = {0.105f, 0.098f, 0.036f};
+    float light = 1.0f + 0.55f * crown.value + 0.25f * leaf.value;
+    Ground g = {.color = vec3_lerp(m->color, dry, 0.5f * smoothstepf(-0.2f, 0.8f, patch))};
+    g.color = vec3_scale(g.color, clampf(light, 0.25f, 1.8f));
+    g.slope = vec3_madd(vec3_scale(crown.slope, 1.1f), 0.25f, leaf.slope);
+    return g;
+}
+
+static Ground fields(const Material *m, const SurfacePoint *point, float patch)
+{
+    PatternOctaves sward = pattern_octaves(point, 14.0f, 5, 0.6f, 1.0f, SEED_FIELD);
+    PatternOctaves tufts = pattern_octaves(point, 0.6f, 4, 0.65f, 1.0f, SEED_FIELD + 9);
+    Vec3 straw = {0.19f, 0.165f, 0.075f};
+    float old = smoothstepf(-0.3f, 0.7f, sward.value + 0.6f * patch);
+    Ground g = {.color = vec3_lerp(m->color2, straw, 0.5f * old)};
+    g.color = vec3_scale(g.color, clampf(1.0f + 0.25f * tufts.value, 0.5f, 1.5f));
+    g.slope = vec3_scale(tufts.slope, 0.08f);
+    return g;
+}
+
+void pattern_karst(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float patch = pattern_octaves(point, 34.0f, 6, 0.6f, 1.0f, SEED_PATCH).value;
+    float fine = pattern_octaves(point, 4.0f, 5, 0.65f, 1.0f, SEED_PATCH + 9).value;
+    float upright = fabsf(surface_smooth_normal(point).y);
+    float above = 1000.0f * point->site.x;
+    Ground g = rock(point, patch);
+    // The foot is damp and dark.
+    float damp = smoothstepf(9.0f, 2.0f, above + 2.5f * patch);
+    g.color = vec3_scale(g.color, 1.0f - 0.45f * damp);
+    Ground other = bushes(m, point, patch);
+    float holds = upright + 0.20f * patch + 0.16f * fine;
+    g = blend(g, &other, smoothstepf(0.24f, 0.40f, holds));
+    other = fields(m, point, patch);
+    float loose = smoothstepf(0.2f, 0.6f, point->site.y) * smoothstepf(0.8f, 0.93f, upright);
+    g = blend(g, &other, loose);
+    shade->color = g.color;
+    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
+}
