@@ -205,6 +205,7 @@ walls="$walls, {shape: box, size: [0.2, 0.9, 7.4], position: [-3.6, 0, 0]}, {sha
 movie frost-bubble-turn frost-bubble crop=438:246:21:24 --spin --turns 1 --grow 0.16:0.6 --frames 60 --fps 12 --size 480x270 \
     --samples 16 --set "objects.wood.shape.envelope=[$walls]"
 still coast coast
+still karst karst
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
         panel terrain-noise --size 800x450 --set objects.noise.terrain.noise.iterations=$iterations

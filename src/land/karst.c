@@ -105,6 +105,12 @@ static void find_means(const Landscape *land, Hollows *h, int reach, const Run *
     }
 }
 
+static int cells_of(const Landscape *land, double length)
+{
+    int cells = (int)(length / land->cell + 0.5);
+    return cells > 0 ? cells : 1;
+}
+
 static double speed(const Landscape *land, const KarstRates *rates, const Hollows *h, int64_t i)
 {
     double depth = (h->mean[i] - land->rock[i]) / rates->reach;
@@ -140,6 +146,19 @@ static void lower(Landscape *land, const KarstRates *rates, Hollows *h, double n
     }
 }
 
+// Edges lose blocks and dissolve from several sides: convex rock sinks toward its surroundings.
+static void round_edges(Landscape *land, const Hollows *h, double share)
+{
+    double own = land->cell * land->cell;
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        double above = land->rock[i] - h->mean[i];
+        if (above > 0.0) {
+            land->rock[i] -= share * above;
+            land->outflow += share * above * own;
+        }
+    }
+}
+
 // The plain has widened to where the front has come in this time.
 static bool widen(Landscape *land, const KarstRates *rates, double time, double *reached, Error *e)
 {
@@ -160,28 +179,54 @@ static bool widen(Landscape *land, const KarstRates *rates, double time, double 
     return done;
 }
 
+static bool hollows_new(Hollows *h, const Landscape *land, Error *e)
+{
+    int64_t count = landscape_count(land);
+    return (h->mean = memory_alloc(count, sizeof *h->mean, e)) &&
+           (h->pass = memory_alloc(count, sizeof *h->pass, e)) &&
+           (h->taken = memory_alloc(land->side, sizeof *h->taken, e));
+}
+
+static void hollows_clear(Hollows *h)
+{
+    free(h->mean);
+    free(h->pass);
+    free(h->taken);
+}
+
 bool karst_dissolve(Landscape *land, const KarstRates *rates, double time, int steps,
                     double *reached, const Run *run, Error *e)
 {
-    int64_t count = landscape_count(land);
-    Hollows h = {.mean = memory_alloc(count, sizeof *h.mean, e),
-                 .pass = memory_alloc(count, sizeof *h.pass, e),
-                 .taken = memory_alloc(land->side, sizeof *h.taken, e)};
-    bool done = h.mean && h.pass && h.taken;
-    int reach = (int)(rates->reach / land->cell + 0.5);
+    Hollows h = {0};
+    bool done = hollows_new(&h, land, e);
     for (int k = 0; done && k < steps; k++) {
         run_progress(run, "dissolution", (double)k / steps);
         if (run_is_cancelled(run)) {
             done = run_cancel_error(e);
             break;
         }
-        find_means(land, &h, reach > 0 ? reach : 1, run);
+        find_means(land, &h, cells_of(land, rates->reach), run);
         lower(land, rates, &h, time * k / steps, time / steps, reached, run);
+        double share = rates->rounding * time / steps;
+        if (share > 0.0) {
+            find_means(land, &h, cells_of(land, rates->edge), run);
+            round_edges(land, &h, share < 1.0 ? share : 1.0);
+        }
     }
-    free(h.mean);
-    free(h.pass);
-    free(h.taken);
+    hollows_clear(&h);
     return done && widen(land, rates, time, reached, e);
+}
+
+bool karst_round(Landscape *land, double edge, int times, const Run *run, Error *e)
+{
+    Hollows h = {0};
+    bool done = hollows_new(&h, land, e);
+    for (int k = 0; done && k < times; k++) {
+        find_means(land, &h, cells_of(land, edge), run);
+        round_edges(land, &h, 0.5);
+    }
+    hollows_clear(&h);
+    return done;
 }
 
 // ---- rockfall

@@ -12,6 +12,8 @@ typedef struct KarstRates {
     double lowering;  // m per unit of time: of level rock of weakness 1
     double focus;     // by how much a hollow as deep as `reach` dissolves faster
     double reach;     // m: from where recharge flows together
+    double rounding;  // per unit of time: how much edges weather; 0 = not at all
+    double edge;      // m: the size of the edges that do
     double corrosion; // m per unit of time: by which the foot of a slope of weakness 1 retreats
 } KarstRates;
 
@@ -24,6 +26,9 @@ bool karst_dissolve(Landscape *land, const KarstRates *rates, double time, int s
 // Lets rock fall that stands steeper than its beds bear. steepness: a factor on them, of each
 // sample. Rock that falls is dissolved: outflow. Needs land->strata.
 bool karst_fell(Landscape *land, const double *steepness, Error *e);
+
+// Takes blocks off edges of this size, m, so many times: outflow.
+bool karst_round(Landscape *land, double edge, int times, const Run *run, Error *e);
 
 // Lowers values to the greatest ones whose gradient nowhere exceeds that of the sample: arrival
 // times of a front for times and slowness, heights for heights and slopes (upwind differences).

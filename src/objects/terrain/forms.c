@@ -6,6 +6,8 @@
 #include "base/memory.h"
 #include "land/height_drainage.h"
 
+#include <math.h>
+
 // ---- what the heights are looked up in
 
 static bool prepare_rivers(Terrain *terrain, const Run *run, Error *e)
@@ -217,6 +219,18 @@ static bool finish_coast(Terrain *terrain, HeightField *field, const Run *run, E
     return field->climate;
 }
 
+// Between samples the feet of cliffs may swing below the plain: nothing is lower than the river's
+// bed.
+static bool finish_karst(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    TerrainParams params = terrain_params_resolve(terrain->params);
+    float low = -(float)KARST_BED * params.relief;
+    for (int64_t i = 0; i < height_field_count(field); i++) {
+        field->height[i] = fmaxf(field->height[i], params.karst.river > 0.0f ? low : 0.0f);
+    }
+    return finish_coast(terrain, field, run, e);
+}
+
 static bool finish_braided(Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
     return terrain_drain_pools(field, e) && terrain_keep_shores(terrain, field, run, e);
@@ -320,7 +334,7 @@ static const Form FORMS[] = {
                        .prepare = prepare_karst,
                        .record = record_loose,
                        .sample = sample_evolved,
-                       .finish = finish_coast,
+                       .finish = finish_karst,
                        .measure = terrain_measure_karst},
 };
 

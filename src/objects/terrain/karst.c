@@ -29,7 +29,9 @@ static Karst karst_of(const Terrain *terrain)
     k.rates = (KarstRates){.lowering = 0.62 * (double)k.params.relief,
                            .focus = 2.2 * (double)karst->focus,
                            .reach = 0.22 * spacing,
-                           .corrosion = 0.26 * spacing * weathering};
+                           .rounding = 14.0,
+                           .edge = 0.045 * spacing,
+                           .corrosion = 0.19 * spacing * weathering};
     return k;
 }
 
@@ -51,8 +53,9 @@ static double joint_at(double across, double spacing, double cell, uint64_t key,
     *block = near - 2;
     for (int64_t n = near - 1; n <= near + 1; n++) {
         uint64_t own = random_key(key, (uint64_t)n);
-        double place = (double)n + 0.5 + (double)random_range(random_key(own, 1), -0.36f, 0.36f);
-        double open = (double)random_unit(random_key(own, 2)), d = (at - place) * spacing / width;
+        double place = (double)n + 0.5 + (double)random_range(random_key(own, 1), -0.25f, 0.25f);
+        double open = 0.35 + 0.65 * (double)random_unit(random_key(own, 2)),
+               d = (at - place) * spacing / width;
         double share = open * exact_exp(-d * d) * seen;
         most = share > most ? share : most;
         *block = at >= place ? n : *block;
@@ -80,8 +83,8 @@ static double weakness(const Karst *k, double x, double z, double cell)
     }
     double open = 0.75 + 0.5 * fine; // joints open and close along their way
     most *= open < 0.0 ? 0.0 : open > 1.3 ? 1.3 : open;
-    double own = (double)random_range(block, -0.55f, 0.45f);
-    double rock = exact_exp(0.25 * broad + 0.35 * fine + own);
+    double own = (double)random_range(block, -0.25f, 0.25f);
+    double rock = exact_exp(0.15 * broad + 0.2 * fine + own);
     rock = rock < 0.35 ? 0.35 : rock > 2.0 ? 2.0 : rock;
     return 0.75 * rock + 2.6 * most;
 }
@@ -158,7 +161,7 @@ static void lay_plain(const Karst *k, Landscape *land)
         double bank = (d - 1.0) / 0.25;
         bank = bank < 0.0 ? 0.0 : bank > 1.0 ? 1.0 : bank;
         if (d < 1.0) {
-            double deep = 0.02 * relief * (1.0 - d * d);
+            double deep = KARST_BED * relief * (1.0 - d * d);
             land->rock[i] -= deep;
             land->outflow += deep * own;
         }
@@ -181,7 +184,8 @@ Landscape *terrain_evolve_karst(const Terrain *terrain, const Run *run, Error *e
         lay_land(&k, land, reached, run);
         done =
             karst_dissolve(land, &k.rates, (double)k.params.karst.stage, STEPS, reached, run, e) &&
-            fell(&k, land, e);
+            fell(&k, land, e) &&
+            karst_round(land, 0.014 * (double)k.params.karst.spacing, 5, run, e);
     }
     free(reached);
     if (!done) {

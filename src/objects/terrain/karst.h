@@ -13,5 +13,7 @@ bool terrain_measure_karst(const Terrain *terrain, MeasureList *list, Error *e);
 
 // Share of the relief: the plain's alluvium away from the river.
 #define KARST_ALLUVIUM 0.02
+// The deepest of the river's bed below the water table.
+#define KARST_BED 0.02
 
 #endif

@@ -99,7 +99,7 @@ typedef struct BraidedParams {
 // Limestone that water has dissolved.
 typedef struct KarstParams {
     float stage;   // 0 = a plateau, 0.4 = cones about cockpits, 1 = towers on a plain
-    float spacing; // m: about from hollow to hollow; 0 = 0.065 of the size
+    float spacing; // m: about from hollow to hollow; 0 = 0.09 of the size
     float focus;   // how much recharge gathers in hollows
     float river;   // m, width of a river from elsewhere; 0 = none
 } KarstParams;

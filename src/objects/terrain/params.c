@@ -119,7 +119,7 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         resolved.hills.spacing =
             params->hills.spacing > 0.0f ? params->hills.spacing : 0.1f * params->size;
         resolved.karst.spacing =
-            params->karst.spacing > 0.0f ? params->karst.spacing : 0.065f * params->size;
+            params->karst.spacing > 0.0f ? params->karst.spacing : 0.09f * params->size;
         resolved.volcano.crater =
             params->volcano.crater > 0.0f ? params->volcano.crater : 0.26f * resolved.relief;
         resolved.canyon.width =

@@ -325,14 +325,14 @@ static const Key KARST_KEYS[] = {
          "How far the limestone is dissolved: 0 = a plateau; 0.3 = cones about closed hollows "
          "(fengcong, cockpit karst); 0.8 = towers on a plain (fenglin); above 1.2 few are left."},
     {KEY_OF(KarstParams, spacing, "spacing", KEY_FLOAT), .high = 1e6, .unit = "m",
-     .doc = "About the distance from one hollow, or tower, to the next; 0 = 0.065 of the terrain's "
+     .doc = "About the distance from one hollow, or tower, to the next; 0 = 0.09 of the terrain's "
             "size. The grid must resolve a tenth of it."},
     {KEY_OF(KarstParams, focus, "focus", KEY_FLOAT), .high = 3,
      .doc = "How much more water dissolves where it flows together in hollows: 0 = as on summits; "
             "the larger, the steeper the cones."},
     {KEY_OF(KarstParams, river, "river", KEY_FLOAT), .high = 1e5, .unit = "m",
      .doc = "Width of a river that crosses from north (-z) to south on its own plain; 0 = none. "
-            "Its water is that of water_level: 0.01 fills the bed, 0.03 floods the plain to a bay "
+            "Its water is that of water_level: 0.025 fills the bed, 0.06 floods the plain to a bay "
             "of islands."},
     {0},
 };
@@ -349,7 +349,7 @@ const Table karst_table = {
                "      form: karst\n"
                "      size: 4000\n"
                "      relief: 200\n"
-               "      water_level: 0.01\n"
+               "      water_level: 0.025\n"
                "      karst: {stage: 0.8, river: 120}\n",
     .size = sizeof(KarstParams),
     .keys = KARST_KEYS};

@@ -95,8 +95,8 @@ void pattern_karst(const Material *m, const SurfacePoint *point, PatternShade *s
     float damp = smoothstepf(9.0f, 2.0f, above + 2.5f * patch);
     g.color = vec3_scale(g.color, 1.0f - 0.45f * damp);
     Ground other = bushes(m, point, patch);
-    float holds = upright + 0.20f * patch + 0.16f * fine;
-    g = blend(g, &other, smoothstepf(0.24f, 0.40f, holds));
+    float holds = upright + 0.26f * patch + 0.20f * fine;
+    g = blend(g, &other, smoothstepf(0.22f, 0.36f, holds));
     other = fields(m, point, patch);
     float loose = smoothstepf(0.2f, 0.6f, point->site.y) * smoothstepf(0.8f, 0.93f, upright);
     g = blend(g, &other, loose);
