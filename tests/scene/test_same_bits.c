@@ -70,6 +70,7 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"terrain: {resolution: 64, form: alps}", 0x8c861bb4eda4d354},
         {"terrain: {resolution: 64, form: volcano}", 0xdd6d0d91f6a50489},
         {"terrain: {resolution: 64, size: 1000, form: coast}", 0x5f1d9bb2418a7de5},
+        {"terrain: {resolution: 64, form: karst, karst: {river: 300}}", 0x2aa5b91b516f4c15},
         {"terrain: {resolution: 64, form: hills}", 0x3bf18f2164575a9b},
         {"terrain: {resolution: 64, form: braided, braided: {age: 0.2}}", 0xe64c1f09bbed84ae},
         {"terrain: {resolution: 64, form: dunes, dunes: {kind: star, age: 0.2}}",
