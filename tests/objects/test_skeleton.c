@@ -301,6 +301,39 @@ static void survives_odd_skeletons(void **state)
     }
 }
 
+// A straight dendrite of 400 and a soma of 5: 2 spines per unit beyond 12.5, in whole numbers per
+// edge; each is five nodes, its foot inside the dendrite, its end at most 1.4 lengths outside.
+static void spines_have_their_density_and_length(void **state)
+{
+    (void)state;
+    char text[4096];
+    int at = snprintf(text, sizeof text, "1 1 0 0 0 5 -1\n");
+    for (int i = 0; i < 100; i++) {
+        at += snprintf(text + at, sizeof text - (size_t)at, "%d 3 0 %d 0 1 %d\n", i + 2,
+                       4 * (i + 1), i + 1);
+    }
+    SkeletonParams params = params_of_file();
+    OutTree *tree = grow_text(text, &params);
+    int64_t before = tree->count;
+    assert_true(skeleton_dress(tree, &params, &recipe, NULL));
+    assert_int_equal(tree->count, before); // none are asked for
+    params.spines = 2.0f;
+    params.flare = 1.0f;
+    assert_true(skeleton_dress(tree, &params, &recipe, NULL));
+    assert_true(out_tree_check(tree, NULL));
+    int64_t spines = (tree->count - before) / 5;
+    assert_int_equal((tree->count - before) % 5, 0);
+    assert_in_range(spines, 768, 784); // 2 x 387.5, up to an edge
+    for (int64_t i = before; i < tree->count; i++) {
+        Vec3 p = tree->position[i];
+        float off = sqrtf(p.x * p.x + p.z * p.z);
+        assert_true((i - before) % 5 > 0 || off < 1.1f);
+        assert_true(off < 1.1f + 1.4f * params.spine_length);
+        assert_true((i - before) % 5 < 4 || off > 1.1f);
+    }
+    out_tree_free(tree);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -311,6 +344,7 @@ int main(void)
         cmocka_unit_test(grows_by_births),
         cmocka_unit_test(types_survive_writing),
         cmocka_unit_test(says_what_is_wrong_with_a_file),
+        cmocka_unit_test(spines_have_their_density_and_length),
         cmocka_unit_test(survives_odd_skeletons),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -82,10 +82,10 @@ static CrustParams crust_params(const CoralParams *p, uint64_t seed)
                          .seed = random_key(seed, STREAM_CORAL_CRUST)};
 }
 
-// Adds a colony's skin and its corallites. seed, variation (0..1): the colony's own. Takes the
-// mesh.
-static bool add_colony(Mesh *mesh, float variation, const CoralParams *p, uint64_t seed,
-                       const Placing *placing, Error *e)
+// Adds a colony's skin and its corallites; at the ends of the tree's branches too, unless it is
+// NULL. seed, variation (0..1): the colony's own. Takes the mesh.
+static bool add_colony(Mesh *mesh, const OutTree *tree, float variation, const CoralParams *p,
+                       uint64_t seed, const Placing *placing, Error *e)
 {
     PolypPlaces places = {.max_count = p->polyps.max_count,
                           .spacing = p->polyps.spacing,
@@ -93,6 +93,7 @@ static bool add_colony(Mesh *mesh, float variation, const CoralParams *p, uint64
                           .height = p->polyps.height,
                           .lean = p->polyps.lean,
                           .floor = p->position.y,
+                          .tree = tree,
                           .seed = random_key(seed, STREAM_CORAL_POLYPS)};
     if (p->polyps.max_count > 0 && !polyps_add(mesh, &places, placing, CORAL_POLYPS, e)) {
         mesh_free(mesh);
@@ -133,7 +134,7 @@ static bool add_crusts(const OutTree *tree, const CoralParams *p, const Placing 
             mesh_free(mesh);
         } else if (mesh) {
             float variation = random_unit(random_key(seed, STREAM_CORAL_VARIATIONS + (uint64_t)c));
-            done = add_colony(mesh, variation, p,
+            done = add_colony(mesh, NULL, variation, p,
                               random_key(seed, STREAM_CORAL_COLONIES + (uint64_t)c), placing, e);
         }
     }
@@ -153,6 +154,7 @@ bool coral_geometry(const void *params, const Grown *grown, const Placing *placi
     }
     uint64_t seed = placing->recipe->seed;
     Mesh *mesh = branches(grown->tree, &p, placing->recipe->run, e);
-    return mesh && add_colony(mesh, random_unit(random_key(seed, STREAM_CORAL_VARIATIONS)), &p,
-                              seed, placing, e);
+    return mesh &&
+           add_colony(mesh, p.form == CORAL_FAN ? NULL : grown->tree,
+                      random_unit(random_key(seed, STREAM_CORAL_VARIATIONS)), &p, seed, placing, e);
 }

@@ -12,13 +12,17 @@ enum { STREAM_BARYCENTRIC_A = 0, STREAM_BARYCENTRIC_B = 1 };  // of a place
 enum { STREAM_ROUNDING = 0, STREAM_DRAWS = 1 };               // of a triangle; DRAWS + i: draw i
 enum { STREAM_LEAN = 2, STREAM_SIZE = 3, STREAM_HEIGHT = 4 }; // of a cup
 
+#define AXIAL_SIZE 1.5f // diameter of an axial cup, in those of the others
+#define AXIAL_RISE 0.7f // of its foot above a branch's last node, in the branch's radii
+
 enum { AGES = 5, SIDES = 10, TRIES = 6 };
 
-// Outer wall, rim, inner wall, floor: radius and height as shares of the rim's radius and of the
-// cup's height; offset of its youth from the skin's.
+// A foot that widens into the tissue, outer wall, rim, inner wall, floor: radius and height as
+// shares of the rim's radius and of the cup's height; offset of its youth from the skin's.
 static const float PROFILE[][3] = {
-    {0.98f, -0.30f, 0.0f}, {0.94f, 0.35f, 0.0f}, {0.98f, 0.82f, 0.2f},  {0.93f, 0.98f, 0.5f},
-    {0.80f, 1.00f, 0.5f},  {0.64f, 0.90f, 0.3f}, {0.50f, 0.55f, -0.3f}, {0.22f, 0.42f, -0.5f}};
+    {1.50f, -0.25f, 0.0f}, {1.24f, 0.06f, 0.0f}, {1.06f, 0.28f, 0.0f}, {0.97f, 0.58f, 0.05f},
+    {0.98f, 0.86f, 0.15f}, {0.91f, 0.98f, 0.3f}, {0.80f, 1.00f, 0.3f}, {0.66f, 0.90f, 0.1f},
+    {0.54f, 0.55f, -0.3f}, {0.24f, 0.35f, -0.5f}};
 enum { RINGS = sizeof PROFILE / sizeof PROFILE[0] };
 
 Mesh *polyp_cup(float height, float youth, Error *e)
@@ -63,6 +67,7 @@ Mesh *polyp_cup(float height, float youth, Error *e)
 typedef struct Place {
     Vec3 position, normal, along; // along: toward the tip; zero when unknown
     float youth;
+    float size; // relative to the other cups
 } Place;
 
 // The cups so far, in a hash table of cells a spacing wide.
@@ -150,7 +155,7 @@ static Place place_on(const Mesh *mesh, const Facet *f, uint64_t key)
     float a = sqrtf(random_unit(random_key(key, STREAM_BARYCENTRIC_A))),
           b = random_unit(random_key(key, STREAM_BARYCENTRIC_B));
     const float w[3] = {1.0f - a, a * (1.0f - b), a * b};
-    Place place = {.along = f->along};
+    Place place = {.along = f->along, .size = 1.0f};
     for (int i = 0; i < 3; i++) {
         place.position = vec3_madd(place.position, w[i], mesh->position[f->v[i]]);
         place.normal = vec3_madd(place.normal, w[i], mesh->normal[f->v[i]]);
@@ -191,6 +196,32 @@ static bool spread_over(Spread *s, const Mesh *mesh, const PolypPlaces *places, 
     return true;
 }
 
+// An axial cup at the end of each branch, from which the branch grows.
+static bool put_axial(Spread *s, const OutTree *tree, Error *e)
+{
+    bool *is_parent = memory_alloc_zero(tree->count, sizeof *is_parent, e);
+    bool done = is_parent;
+    for (int64_t i = 0; done && i < tree->count; i++) {
+        if (tree->parent[i] >= 0) {
+            is_parent[tree->parent[i]] = true;
+        }
+    }
+    for (int64_t i = 0; done && i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        if (is_parent[i] || parent < 0) {
+            continue;
+        }
+        Vec3 out = vec3_normalize(vec3_sub(tree->position[i], tree->position[parent]));
+        Place place = {.position = vec3_madd(tree->position[i], AXIAL_RISE * tree->radius[i], out),
+                       .normal = out,
+                       .youth = 1.0f,
+                       .size = AXIAL_SIZE};
+        done = !is_free(s, place.position) || put(s, place, e);
+    }
+    free(is_parent);
+    return done;
+}
+
 static double area_of(const Mesh *mesh)
 {
     double sum = 0.0;
@@ -212,7 +243,8 @@ static Transform cup_frame(const Place *place, const PolypPlaces *places, uint64
     along = known ? vec3_normalize(along) : vec3_perpendicular(place->normal);
     Vec3 y = known ? vec3_madd(vec3_scale(place->normal, c), s, along) : place->normal;
     Vec3 x = vec3_normalize(vec3_cross(along, place->normal)), z = vec3_cross(x, y);
-    float size = places->diameter * random_range(random_key(key, STREAM_SIZE), 0.75f, 1.15f);
+    float size =
+        place->size * places->diameter * random_range(random_key(key, STREAM_SIZE), 0.75f, 1.15f);
     float tall = size * random_range(random_key(key, STREAM_HEIGHT), 0.6f, 1.25f);
     return transform_from_axes(vec3_scale(x, size), vec3_scale(y, tall), vec3_scale(z, size),
                                place->position);
@@ -267,7 +299,8 @@ bool polyps_add(const Mesh *skin, const PolypPlaces *places, const Placing *plac
     bool done = s.bucket;
     if (done) {
         memset(s.bucket, -1, (size_t)s.buckets * sizeof *s.bucket);
-        done = spread_over(&s, skin, places, placing->recipe->run, e);
+        done = (!places->tree || put_axial(&s, places->tree, e)) &&
+               spread_over(&s, skin, places, placing->recipe->run, e);
     }
     for (int age = 0; done && age < AGES; age++) {
         done = add_age(&s, places, age, placing, role, e);

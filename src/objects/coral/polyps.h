@@ -4,6 +4,7 @@
 #define RAMIFY_OBJECTS_CORAL_POLYPS_H
 
 #include "objects/common/recipe.h"
+#include "outtree/out_tree.h"
 
 typedef struct PolypPlaces {
     int64_t max_count;
@@ -11,6 +12,7 @@ typedef struct PolypPlaces {
     float diameter, height; // m, of a cup
     float lean;             // degrees from the skin's normal toward +v of its uv
     float floor;            // m: no cups below this height
+    const OutTree *tree;    // whose branches end in axial cups; NULL = none
     uint64_t seed;
 } PolypPlaces;
 

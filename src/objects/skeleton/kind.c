@@ -33,6 +33,13 @@ static void needs(const void *params, Needs *needs)
     double rings = skin->ring_spacing > 0.0f ? 1.0 / (double)skin->ring_spacing : 1.0;
     needs_add_file(needs, "skin.levels", skeleton->file,
                    node_bytes / file_bytes * share * rings * exp2(2.0 * skin->levels));
+    // five nodes a spine, at about 4.4 micrometres between nodes of the file
+    double spine_bytes =
+        skin->curve_radius > 0.0f ? 500.0 : 5.0 * node_bytes * rings * exp2(2.0 * skin->levels);
+    if (skeleton->spines > 0.0f) {
+        needs_add_file(needs, "spines", skeleton->file,
+                       4.4 * (double)skeleton->spines * spine_bytes / file_bytes);
+    }
 }
 
 static const Key MATERIALS[] = {

@@ -18,6 +18,7 @@ SkeletonParams skeleton_params_default(void)
                             .rest = true,
                             .radius_factor = 1.0f,
                             .smoothing = 2,
+                            .spine_length = 1.5f,
                             .skin = {.levels = 2, .ring_spacing = 1.0f}};
 }
 
@@ -250,7 +251,8 @@ bool skeleton_geometry(const void *given, const Grown *grown, const Placing *pla
             solid->radius[i] = fmaxf(solid->radius[i], params->skin.curve_radius);
         }
     }
-    bool done = solid && add_all(solid, params, placing, e);
+    bool done = solid && skeleton_dress(solid, params, placing->recipe, e) &&
+                add_all(solid, params, placing, e);
     out_tree_free(solid);
     return done;
 }

@@ -23,9 +23,12 @@ typedef struct SkeletonParams {
     SkeletonSoma soma;              //
     bool axon, basal, apical, rest; // types to show: 2, 3, 4, and any other
     float radius_factor;
-    float min_radius; // m: least radius drawn; 0 = only nodes of radius 0 are replaced, by 0.0003
-                      // of the extent
-    int smoothing;    // smoothing passes over the branches
+    float min_radius;   // m: least radius drawn; 0 = only nodes of radius 0 are replaced, by 0.0003
+                        // of the extent
+    int smoothing;      // smoothing passes over the branches
+    float flare;        // how much wider branches are where they leave the soma; 0 = as in the file
+    float spines;       // per unit of the file, along dendrites; drawn, not in the out-tree
+    float spine_length; // in units of the file
     SkinningParams skin;
 } SkeletonParams;
 
@@ -45,6 +48,9 @@ bool skeleton_geometry(const void *params, const Grown *grown, const Placing *pl
 // meaning of a soma of three points, or the mean distance of an outline's points from their middle
 // as its radius, whichever is larger. NULL and e on failure.
 OutTree *skeleton_round_soma(const OutTree *tree, Error *e);
+
+// Widens the bases of branches and adds spines to dendrites, as params say (dress.c).
+bool skeleton_dress(OutTree *tree, const SkeletonParams *params, const Recipe *recipe, Error *e);
 
 extern const struct Table skeleton_table; // of its parameters
 

@@ -38,6 +38,15 @@ static const Key SKELETON_KEYS[] = {
             "thickened, to 0.0003 of the extent."},
     {KEY_OF(SkeletonParams, smoothing, "smoothing", KEY_INT), .high = 1000,
      .doc = "Number of passes that smooth the bends of traced branches."},
+    {KEY_OF(SkeletonParams, flare, "flare", KEY_FLOAT), .high = 10,
+     .doc = "How much wider branches are where they leave the soma, as a share of their radius, at "
+            "most half as wide as the soma; 0 = as in the file."},
+    {KEY_OF(SkeletonParams, spines, "spines", KEY_FLOAT), .high = 1000,
+     .doc = "Number of spines per unit of the file along dendrites (types 3 and 4), beyond two and "
+            "a half radii of the soma; branches thinner than a spine's head have none. Pyramidal "
+            "cells have 1 to 3 per micrometre. Measures do not count them."},
+    {KEY_OF(SkeletonParams, spine_length, "spine_length", KEY_FLOAT), .flags = KEY_ABOVE,
+     .high = 1e6, .doc = "Mean length of spines, in units of the file."},
     {KEY_OF(SkeletonParams, skin, "skin", KEY_GROUP), .table = &skin_table,
      .doc = "Surface of the branches."},
     {0},
