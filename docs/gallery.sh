@@ -1,26 +1,38 @@
 #!/bin/sh
-# Renders the pictures of docs/gallery.md into renders/: all of them, or those named on the command line.
+# Renders the pictures of docs/gallery.md into renders/: all of them, or those named on the command line, and tells the
+# seconds that each took. Interrupted, a run without names goes on where it was: build/gallery/ holds unfinished pictures
+# and a mark for each still that is done since its scene was last changed. Remove the folder to start anew.
 # usage: docs/gallery.sh [NAME...]
 set -e
 cd "$(dirname "$0")/.."
 ramify=${RAMIFY:-build/ramify}
 wanted=" $* "
+work=build/gallery
+mkdir -p "$work"
 parts=$(mktemp -d)
 trap 'rm -rf "$parts"' EXIT
 
 is_wanted() { [ "$wanted" = "  " ] || case $wanted in *" $1 "*) ;; *) false ;; esac; }
 
+# is_done NAME SCENE: an earlier run without names has made the still from the scene as it is.
+is_done() { [ "$wanted" = "  " ] && [ -n "$(find "$work" -name "$1.done" -newer "scenes/$2.yaml")" ]; }
+
 # still NAME SCENE [OPTION...]: renders SCENE to renders/NAME.jpg.
 still() {
     is_wanted "$1" || return 0
-    name=$1 scene=$2
+    ! is_done "$1" "$2" || return 0
+    name=$1 scene=$2 began=$(date +%s)
     shift 2
-    "$ramify" render "scenes/$scene.yaml" -o "$parts/still.png" "$@"
+    # an unfinished picture of the scene before a change cannot go on
+    [ "$work/$name.exr" -nt "scenes/$scene.yaml" ] || rm -f "$work/$name.exr"
+    "$ramify" render "scenes/$scene.yaml" -o "$work/$name.png" --resume "$@"
     for quality in 90 84 78; do # at most 900 KB
-        oiiotool "$parts/still.png" --ch R,G,B --compression "jpeg:$quality" -o "renders/$name.jpg"
+        oiiotool "$work/$name.png" --ch R,G,B --compression "jpeg:$quality" -o "renders/$name.jpg"
         [ "$(wc -c <"renders/$name.jpg")" -gt 900000 ] || break
     done
-    rm -f "$parts"/*
+    rm -f "$work/$name.png" "$work/$name.exr"
+    : >"$work/$name.done"
+    echo "$name: $(($(date +%s) - began)) s"
 }
 
 # movie NAME SCENE FILTER [OPTION...]: renders the film of SCENE to renders/NAME.webp, 480 pixels wide, cut by ffmpeg's FILTER.
@@ -88,6 +100,7 @@ still outtree-lightning outtree-lightning
 
 still sculpture sculpture --size 1600x900
 still dla dla
+still neuron neuron
 still fracture fracture
 still venation venation
 
