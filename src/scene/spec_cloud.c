@@ -4,29 +4,38 @@
 
 #define BIT(kind) (1u << (kind))
 
-static const EnumName KINDS[] = {
-    {"cumulus", CLOUD_CUMULUS}, {"stratus", CLOUD_STRATUS}, {"storm", CLOUD_STORM}, {0}};
+static const EnumName KINDS[] = {{"cumulus", CLOUD_CUMULUS},
+                                 {"stratus", CLOUD_STRATUS},
+                                 {"storm", CLOUD_STORM},
+                                 {"fog", CLOUD_FOG},
+                                 {0}};
 
 static const Key CLOUD_KEYS[] = {
     {KEY_OF(Cloud, kind, "kind", KEY_ENUM), .names = KINDS,
      .doc = "cumulus: heaps of all sizes and ages on one flat base, all over the land; stratus: a "
             "sheet, closed or torn; "
-            "storm: one cumulonimbus, whose anvil the wind draws out."},
+            "storm: one cumulonimbus, whose anvil the wind draws out; fog: fills the air from its "
+            "base, "
+            "densest there, up to a wavy top with wisps, out of which higher land stands."},
     {KEY_OF(Cloud, base, "base", KEY_FLOAT), .low = -1000, .high = 20000, .unit = "m",
-     .doc = "Altitude of the underside above y = 0."},
+     .doc = "Altitude of the underside above y = 0. That of fog may lie anywhere below the lowest "
+            "land."},
     {KEY_OF(Cloud, thickness, "thickness", KEY_FLOAT), .flags = KEY_ABOVE, .high = 20000,
      .unit = "m",
-     .doc = "Height of the tallest heaps, of the sheet, or of the storm, above the base."},
-    {KEY_OF(Cloud, cover, "cover", KEY_FLOAT), .kinds = BIT(CLOUD_CUMULUS) | BIT(CLOUD_STRATUS),
-     .high = 1, .doc = "Share of the sky that they cover, seen from below."},
+     .doc = "Height of the tallest heaps, of the sheet, of the storm, or of the fog's highest "
+            "swells, above the base."},
+    {KEY_OF(Cloud, cover, "cover", KEY_FLOAT),
+     .kinds = BIT(CLOUD_CUMULUS) | BIT(CLOUD_STRATUS) | BIT(CLOUD_FOG), .high = 1,
+     .doc = "Share of the sky that they cover, seen from below; of the fog, what holes leave."},
     {KEY_OF(Cloud, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .low = 50, .high = 20000,
      .unit = "m",
-     .doc = "Width of the large heaps, which many smaller ones surround; of a sheet's rolls; of "
+     .doc = "Width of the large heaps, which many smaller ones surround; of the rolls of a sheet "
+            "or fog; of "
             "the storm below its anvil."},
     {KEY_OF(Cloud, extinction, "extinction", KEY_FLOAT), .high = 1, .unit = "1/m",
-     .doc =
-         "Extinction where droplets are dense, from a quarter of the thickness up: 0.05 = one sees "
-         "60 m far in it; 0.003 for veils of ice."},
+     .doc = "Extinction where droplets are dense, from a quarter of the thickness up, or at the "
+            "base of fog: 0.05 = one sees "
+            "60 m far in it; 0.003 for veils of ice."},
     {KEY_OF(Cloud, wind, "wind", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
      .doc = "Azimuth the wind blows toward, from +Z toward +X: heaps and anvils are longer along "
             "it."},

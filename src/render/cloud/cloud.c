@@ -1,7 +1,7 @@
 #include "render/cloud/cloud.h"
 
 // Extinctions: a liquid water content of 0.2 to 0.5 g/m^3 in droplets of 8 to 10 um (Pruppacher and
-// Klett 1997, ch. 2).
+// Klett 1997, ch. 2). Fog: 0.1 g/m^3, in which one sees 100 m far.
 Cloud cloud_default(CloudKind kind)
 {
     switch (kind) {
@@ -18,6 +18,13 @@ Cloud cloud_default(CloudKind kind)
                        .thickness = 10500.0f,
                        .cover = 1.0f,
                        .size = 5000.0f,
+                       .extinction = 0.03f};
+    case CLOUD_FOG:
+        return (Cloud){.kind = kind,
+                       .base = -100.0f,
+                       .thickness = 200.0f,
+                       .cover = 1.0f,
+                       .size = 600.0f,
                        .extinction = 0.03f};
     case CLOUD_CUMULUS:
         break;

@@ -114,6 +114,16 @@ static bool beyond_detail(const CloudGrid *g, const Box *box)
     return !any || box->above <= 0.0f;
 }
 
+// Of the factor that altitude alone decides.
+static Extremes gain_in(const CloudGrid *g, const Box *box)
+{
+    float below = gain_at(g, box->below), above = gain_at(g, box->above);
+    if (!g->fog) {
+        return (Extremes){below, above};
+    }
+    return (Extremes){box->below > 0.0f ? above : 0.0f, below}; // ends sharply at its base
+}
+
 static Extremes in_box(const CloudGrid *g, const Box *box, DetailRange small)
 {
     if (beyond_detail(g, box)) {
@@ -131,9 +141,10 @@ static Extremes in_box(const CloudGrid *g, const Box *box, DetailRange small)
     }
     float smooth = 1.0f + large.low.wisp;
     float torn = 1.0f + large.high.wisp + RAGGED_SMALL * (1.0f + small.high.wisp);
-    return (Extremes){density_at(share.low, softness.high) * gain_at(box->below / g->thickness) *
+    Extremes gain = gain_in(g, box);
+    return (Extremes){density_at(share.low, softness.high) * gain.low *
                           raised_at(&g->rough, box->below, torn),
-                      density_at(share.high, softness.low) * gain_at(box->above / g->thickness) *
+                      density_at(share.high, softness.low) * gain.high *
                           raised_at(&g->rough, box->above, smooth)};
 }
 

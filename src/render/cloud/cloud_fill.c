@@ -136,10 +136,50 @@ static void fill_with_sheet(CloudGrid *g, const Cloud *cloud, const Run *run)
     }
 }
 
+// ---- fog ----
+
+// Height of the top over the base in shares of the thickness, at a place in shares of the period;
+// negative in holes. The top swells and sinks like a sea; toward holes it slopes down.
+static float fog_top(const CloudGrid *g, float cut, float x, float z, float *softness)
+{
+    Detail swell = detail_at(g->detail, vec3(x, 0.9f, z));
+    Detail ripple = detail_at(g->detail, vec3(2.0f * x, 0.1f, 4.0f * z));
+    float rise = clampf((rolls(g, x, z) - cut) / 0.35f, -1.0f, 1.0f);
+    float left = 1.0f - rise;
+    float bank = rise > 0.0f ? 1.0f - left * left * left : rise;
+    float waves = clampf(0.6f * swell.wisp + 0.4f * ripple.wisp, -1.0f, 1.0f);
+    *softness = clampf(0.5f + 0.6f * swell.billow, 0.2f, 0.85f); // patches of wisps, and of heads
+    *softness = rise > 0.0f ? lerpf(0.9f, *softness, rise) : 0.9f;
+    return bank > 0.0f ? bank * (0.85f + 0.15f * waves) : bank;
+}
+
+static void fill_with_fog(CloudGrid *g, const Cloud *cloud, const Run *run)
+{
+    float cut = rolls_cut(g, cloud->cover);
+#pragma omp parallel for schedule(static) num_threads(run->threads)
+    for (int z = 0; z < g->count[2]; z++) {
+        for (int x = 0; x < g->count[0]; x++) {
+            float soft,
+                share = fog_top(g, cut, (float)x / NODES_ACROSS, (float)z / NODES_ACROSS, &soft);
+            float top = cloud->base + cloud->thickness * share;
+            for (int y = 0; y < g->count[1]; y++) {
+                float inside = top - (g->low.y + g->voxel * (float)y);
+                float deep = clampf(2.0f * inside / cloud->thickness, 0.0f, 1.0f);
+                g->node[cloud_grid_node(g, x, y, z)] =
+                    (CloudNode){in_steps(g, inside), in_softness(soft * (1.0f - deep))};
+            }
+        }
+    }
+}
+
 bool cloud_fill(CloudGrid *g, const Cloud *cloud, uint64_t key, const Run *run, Error *e)
 {
     if (cloud->kind == CLOUD_STRATUS) {
         fill_with_sheet(g, cloud, run);
+        return true;
+    }
+    if (cloud->kind == CLOUD_FOG) {
+        fill_with_fog(g, cloud, run);
         return true;
     }
     return fill_with_heaps(g, cloud, key, run, e);

@@ -18,6 +18,7 @@ static void lay_out(CloudGrid *g, const Cloud *cloud, float margin)
 {
     float across = clampf(16.0f * cloud->size, 2000.0f, 40000.0f);
     g->repeats = cloud->kind != CLOUD_STORM;
+    g->fog = cloud->kind == CLOUD_FOG;
     if (!g->repeats) {
         across = 9.0f * cloud->size;
     }
@@ -47,6 +48,12 @@ static Roughness roughness_of(const Cloud *cloud)
         r.billow[0] = 0.02f * size;
         r.wisp[0] = 0.03f * size;
         r.edge[0] = 0.04f * size;
+    }
+    if (cloud->kind == CLOUD_FOG) { // lies calm below the inversion
+        r.billow[0] = 0.03f * size;
+        r.wisp[0] = 0.05f * size;
+        r.edge[0] = 0.02f * size;
+        r.base = 0.0f;
     }
     return r;
 }
@@ -169,7 +176,7 @@ static float profile(const CloudGrid *g, float above, float inside, float softne
 {
     const Roughness *r = &g->rough;
     float share = unit_clamp(inside / edge_at(r, softness));
-    return g->extinction * gain_at(above / g->thickness) * raised_at(r, above, ragged) *
+    return g->extinction * gain_at(g, above) * raised_at(r, above, ragged) *
            density_at(share, softness);
 }
 
@@ -251,7 +258,7 @@ bool cloud_grid_exceeds(const CloudGrid *g, Vec3 p, bool fine, float level)
         return false;
     }
     Lookup l = lookup_begin(g, p);
-    float gain = g->extinction * gain_at(l.above / g->thickness);
+    float gain = g->extinction * gain_at(g, l.above);
     int known = told(g, &l, gain, level);
     if (known < 0 && !decided(g, &l)) {
         Vec3 q = cloud_grid_turned(p);

@@ -45,7 +45,7 @@ typedef struct Roughness {
     float billow[2]; // height of billows where the border is crisp
     float wisp[2];   // height of wisps where it is soft
     float edge[2];   // over which the density rises: where crisp, where soft
-    float base;      // over which it rises from the condensation level
+    float base;      // over which it rises from the condensation level; 0 = has none
 } Roughness;
 
 typedef struct CloudGrid {
@@ -53,6 +53,7 @@ typedef struct CloudGrid {
     float voxel;               // m
     int count[3], cells[3];    // nodes and cells in x, y, z; multiples of CELL
     bool repeats;              // in x and z without end
+    bool fog;                  // densest at its base
     CloudNode *node;           // at cloud_grid_node; owned
     CloudCell *cell;           // at cloud_grid_cell; owned
     CloudBounds *part;         // owned

@@ -43,16 +43,31 @@ static inline float edge_at(const Roughness *r, float softness)
 // Liquid water grows in proportion to the height above the condensation level; on as many droplets
 // as below, so extinction grows like the power 2/3 of it (Brenguier et al. 2000); 3/4 is near
 // enough and takes two square roots. share: of the thickness.
-static inline float gain_at(float share)
+static inline float cloud_gain_at(float share)
 {
     float x = unit_clamp(share / 0.25f);
     return sqrtf(x * sqrtf(x));
 }
 
+// What fog loses from its base to its top: dry air is mixed in from above.
+static const float FOG_THINNING = 0.5f;
+
+static inline float fog_gain_at(float share)
+{
+    return 1.0f - FOG_THINNING * unit_clamp(share);
+}
+
+// Share of the greatest extinction `above` m over the base, > 0.
+static inline float gain_at(const CloudGrid *g, float above)
+{
+    float share = above / g->thickness;
+    return g->fog ? fog_gain_at(share) : cloud_gain_at(share);
+}
+
 // Ragged bases: what detail takes from the density `above` m over the condensation level.
 static inline float raised_at(const Roughness *r, float above, float ragged)
 {
-    return unit_clamp(above / r->base - 0.8f * ragged);
+    return r->base > 0.0f ? unit_clamp(above / r->base - 0.8f * ragged) : 1.0f;
 }
 
 // Raggedness: 0 .. 2 of the large detail, and the small one's share beside it.
