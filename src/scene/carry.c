@@ -67,12 +67,32 @@ static bool carry_points(const Deformation *deformation, Vec3 *position, int64_t
     return !run_is_cancelled(run) || run_cancel_error(e);
 }
 
+// Small copies, such as tufts of frost, are carried whole.
+static bool carry_copies(const Deformation *deformation, Part *part, const Run *run, Error *e)
+{
+    bool done = true;
+    for (int64_t i = 0; done && i < part->instance_count; i++) {
+        Transform *t = &part->instance[i];
+        Vec3 foot = deformation_carry(deformation, transform_point(t, vec3(0, 0, 0)));
+        *t = transform_from_axes(transform_vector(t, vec3(1, 0, 0)),
+                                 transform_vector(t, vec3(0, 1, 0)),
+                                 transform_vector(t, vec3(0, 0, 1)), foot);
+        done = run_goes_on(run, i, e);
+    }
+    return done;
+}
+
 bool carry_parts(const Deformation *deformation, Geometry *geometry, int64_t first, const Run *run,
                  Error *e)
 {
     bool done = true;
     for (int64_t i = first; done && i < geometry->count; i++) {
-        Mesh *mesh = geometry->part[i].mesh;
+        Part *part = &geometry->part[i];
+        Mesh *mesh = part->mesh;
+        if (part->instance) {
+            done = carry_copies(deformation, part, run, e);
+            continue;
+        }
         done = !mesh || (carry_points(deformation, mesh->position, mesh->vertex_count, run, e) &&
                          (!mesh->normal || mesh_compute_normals(mesh, e)));
     }

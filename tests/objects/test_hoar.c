@@ -1,4 +1,4 @@
-// Hoar frost on a straight branch, where its places can be counted.
+// Hoar frost on a straight branch, where its places can be counted; the frost of the clear night.
 #include "base/random.h"
 #include "making.h"
 #include "mesh/hoar.h"
@@ -139,12 +139,31 @@ static void frost_grows_against_the_wind(void **state)
     geometry_clear(&thick);
 }
 
+// By radiation alone nothing grows underneath, and most on top.
+static void a_clear_night_leaves_the_lower_side_bare(void **state)
+{
+    (void)state;
+    HoarParams params = still_air();
+    params.sky = 1.0f;
+    Geometry night = frost_of(&params, 0.002f);
+    assert_true(tufts(&night) > 200);
+    assert_true(mean_side(&night, &params, 0.002f).y > 0.2f);
+    for (int64_t i = 0; i < night.count; i++) {
+        for (int64_t k = 0; k < night.part[i].instance_count; k++) {
+            Vec3 y = transform_vector(&night.part[i].instance[k], vec3(0, 1, 0));
+            assert_true(vec3_normalize(y).y >= -0.8001f);
+        }
+    }
+    geometry_clear(&night);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tufts_are_closed_and_one_high),
         cmocka_unit_test(as_many_tufts_as_density_and_length_ask_for),
         cmocka_unit_test(frost_grows_against_the_wind),
+        cmocka_unit_test(a_clear_night_leaves_the_lower_side_bare),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

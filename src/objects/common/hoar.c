@@ -1,30 +1,18 @@
 #include "objects/common/hoar.h"
 
-#include "base/exact_math.h"
-#include "base/memory.h"
 #include "base/random.h"
-#include "mesh/hoar.h"
+#include "objects/common/hoar_tufts.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-enum { SHAPES = 5 };                                                      // of tufts
-enum { STREAM_SIDE, STREAM_SIZE, STREAM_SHAPE, STREAM_GAP, STREAM_TURN }; // of a place
-
-#define SPACING 0.22f // m between tufts for a metre of needles
-#define SPREAD 55.0f  // degrees, of the needles in a tuft
-
-typedef struct Tufts {
-    Transform *place;
-    int64_t count, capacity;
-} Tufts;
+enum { STREAM_SIDE, STREAM_SIZE, STREAM_SHAPE, STREAM_GAP, STREAM_TURN, STREAM_KEPT }; // of a place
 
 typedef struct Hoar {
     const HoarParams *params;
     Vec3 against; // the wind
     float step;   // m between tufts along thin twigs
     uint64_t seed;
-    Tufts tufts[SHAPES];
+    HoarTufts tufts;
 } Hoar;
 
 // The side of a twig on which a tuft grows: any, turned against the wind.
@@ -43,19 +31,14 @@ static bool add_tuft(Hoar *hoar, Vec3 p, float radius, Vec3 along, uint64_t key,
     Vec3 y = side_of(hoar, along, key);
     float thin = params->thickest / (params->thickest + radius);
     float size = params->length * thin * random_range(random_key(key, STREAM_SIZE), 0.35f, 1.2f);
+    float share = sqrtf(hoar_sky_share(params, y.y, 1.0f)); // 1 unless frost grows by radiation
+    if (random_unit(random_key(key, STREAM_KEPT)) >= share) {
+        return true;
+    }
     Vec3 turned = vec3_lerp(along, vec3_cross(along, y),
                             random_range(random_key(key, STREAM_TURN), -1.0f, 1.0f));
-    Vec3 x = vec3_normalize(vec3_madd(turned, -vec3_dot(turned, y), y)), z = vec3_cross(x, y);
-    Vec3 foot = vec3_madd(p, 0.85f * radius, y);
-    int shape = (int)(SHAPES * random_unit(random_key(key, STREAM_SHAPE)));
-    Tufts *tufts = &hoar->tufts[shape];
-    if (!memory_reserve(&tufts->place, &tufts->capacity, tufts->count + 1, sizeof *tufts->place,
-                        e)) {
-        return false;
-    }
-    tufts->place[tufts->count++] =
-        transform_from_axes(vec3_scale(x, size), vec3_scale(y, size), vec3_scale(z, size), foot);
-    return true;
+    return hoar_tufts_add(&hoar->tufts, vec3_madd(p, 0.85f * radius, y), turned, y, share * size,
+                          random_key(key, STREAM_SHAPE), e);
 }
 
 // Thicker branches carry more tufts side by side.
@@ -101,7 +84,7 @@ static double count_on(const Hoar *hoar, const CurveSet *curves)
 
 static bool place_all(Hoar *hoar, const CurveSet *curves, const Run *run, Error *e)
 {
-    hoar->step = SPACING * hoar->params->length / hoar->params->density;
+    hoar->step = HOAR_SPACING * hoar->params->length / hoar->params->density;
     double count = count_on(hoar, curves), most = (double)hoar->params->max_count;
     if (count > most) {
         run_warn(run, "hoar frost of %.0f tufts is thinned out to hoar.max_count, %.0f", count,
@@ -115,21 +98,9 @@ static bool place_all(Hoar *hoar, const CurveSet *curves, const Run *run, Error 
     return done;
 }
 
-static bool add_parts(Hoar *hoar, const Placing *placing, int role, Error *e)
+static Hoar hoar_of(const HoarParams *params, uint64_t seed)
 {
-    bool done = true;
-    for (int i = 0; i < SHAPES; i++) {
-        Tufts *tufts = &hoar->tufts[i];
-        if (done && tufts->count > 0) {
-            Part part = {.mesh = hoar_tuft(SPREAD, random_key(hoar->seed, (uint64_t)i), e),
-                         .instance = tufts->place,
-                         .instance_count = tufts->count};
-            tufts->place = NULL; // the part owns it
-            done = placing_add(placing, part, role, e);
-        }
-        free(tufts->place);
-    }
-    return done;
+    return (Hoar){.params = params, .against = hoar_against(params), .seed = seed};
 }
 
 bool hoar_add(const OutTree *tree, const SkinningParams *skinning, const HoarParams *params,
@@ -139,20 +110,14 @@ bool hoar_add(const OutTree *tree, const SkinningParams *skinning, const HoarPar
         return true;
     }
     const float every_radius = 1e6f;
-    float sine, cosine;
-    exact_sincos(params->wind * RADIANS_PER_DEGREE, &sine, &cosine);
-    Hoar hoar = {.params = params,
-                 .against = vec3(-sine, 0.0f, -cosine),
-                 .seed = random_key(placing->recipe->seed, 0x40a7)};
+    Hoar hoar = hoar_of(params, random_key(placing->recipe->seed, 0x40a7));
     SkinParams skin = branches_skin(skinning);
     CurveSet *curves = skin_curves(tree, every_radius, &skin, e);
     bool done = curves && place_all(&hoar, curves, placing->recipe->run, e);
     curves_free(curves);
     if (!done) {
-        for (int i = 0; i < SHAPES; i++) {
-            free(hoar.tufts[i].place);
-        }
+        hoar_tufts_clear(&hoar.tufts);
         return false;
     }
-    return add_parts(&hoar, placing, role, e);
+    return hoar_tufts_place(&hoar.tufts, hoar.seed, placing, role, e);
 }

@@ -4,8 +4,8 @@
 
 static const Key HOAR_KEYS[] = {
     {KEY_OF(HoarParams, length, "length", KEY_FLOAT), .high = 1, .unit = "m",
-     .doc = "Length of the needles on thin twigs: 0.005 after a clear night, 0.03 after days of "
-            "freezing fog; 0 = no frost."},
+     .doc = "Length of the needles on thin twigs and edges: 0.005 after a clear night, 0.03 after "
+            "days of freezing fog; 0 = no frost."},
     {KEY_OF(HoarParams, density, "density", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
      .doc = "Number of tufts, relative to a closed cover of needles."},
     {KEY_OF(HoarParams, wind, "wind", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
@@ -13,8 +13,12 @@ static const Key HOAR_KEYS[] = {
     {KEY_OF(HoarParams, bias, "bias", KEY_FLOAT), .high = 1,
      .doc = "Growth against the wind: 0 = hoar frost of still air, all around; 1 = rime, on the "
             "windward side alone."},
+    {KEY_OF(HoarParams, sky, "sky", KEY_FLOAT), .high = 1,
+     .doc =
+         "Growth by radiation: 0 = all sides are equally cold, as in fog; 1 = of a clear night: as "
+         "much as a side sees of the sky, none underneath. A mesh or shape shades itself."},
     {KEY_OF(HoarParams, thickest, "thickest", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
-     .unit = "m", .doc = "Radius of branches on which needles are half as long."},
+     .unit = "m", .doc = "Radius of branches and thin parts on which needles are half as long."},
     {KEY_OF(HoarParams, max_count, "max_count", KEY_INT64), .low = 1, .high = 1e9,
      .doc = "Maximum number of tufts; with a warning, fewer stand farther apart."},
     {0},
@@ -30,12 +34,17 @@ static void hoar_defaults(void *out)
     *(HoarParams *)out = hoar_params_default();
 }
 
-const Table hoar_table = {.name = "hoar",
-                          .doc = "Hoar frost: tufts of feathered ice needles on all branches.",
-                          .example = "objects:\n"
-                                     "  - name: birch\n"
-                                     "    tree: {species: silver_birch, height: 12, season: 1, "
-                                     "hoar: {length: 0.02, bias: 0.5}}\n",
-                          .size = sizeof(HoarParams),
-                          .keys = HOAR_KEYS,
-                          .defaults = hoar_defaults};
+const Table hoar_table = {
+    .name = "hoar",
+    .doc = "Hoar frost: tufts of feathered ice needles, on all branches of a tree "
+           "or on a mesh or shape, denser and longer on edges and thin parts.",
+    .example = "objects:\n"
+               "  - name: birch\n"
+               "    tree: {species: silver_birch, height: 12, season: 1, "
+               "hoar: {length: 0.02, bias: 0.5}}\n"
+               "  - name: post\n"
+               "    shape: {envelope: [{shape: box, size: [0.05, 1, 0.05]}], "
+               "hoar: {length: 0.01, sky: 1}}\n",
+    .size = sizeof(HoarParams),
+    .keys = HOAR_KEYS,
+    .defaults = hoar_defaults};

@@ -26,12 +26,23 @@ static bool geometry(const void *given, const Grown *grown, const Placing *placi
         mesh_free(mesh);
         return false;
     }
-    return placing_add(placing, (Part){.mesh = mesh}, 0, e);
+    if (!mesh) {
+        return false;
+    }
+    if (!hoar_add_on_mesh(mesh, &params->hoar, placing, MESH_RIME, e)) {
+        mesh_free(mesh);
+        return false;
+    }
+    return placing_add(placing, (Part){.mesh = mesh}, MESH_OWN, e);
 }
 
 static void needs(const void *params, Needs *needs)
 {
-    needs_add_mesh_file(needs, "file", ((const MeshParams *)params)->file);
+    const MeshParams *mesh = params;
+    needs_add_mesh_file(needs, "file", mesh->file);
+    if (mesh->hoar.length > 0.0f) { // the area is not known before the file is read
+        needs_add(needs, "hoar.max_count", (double)mesh->hoar.max_count, HOAR_TUFT_BYTES);
+    }
 }
 
 static bool cover(const void *params, Cover *cover, const Run *run, Error *e)
@@ -43,13 +54,14 @@ static bool cover(const void *params, Cover *cover, const Run *run, Error *e)
 }
 
 static const Key MATERIALS[] = {
-    OWN_MATERIAL_ROW(0),
+    OWN_MATERIAL_ROW(MESH_OWN),
+    RIME_MATERIAL_ROW(MESH_RIME),
     {0},
 };
 
 const Kind kind_mesh = {.variant = {KIND_ROW("mesh", &mesh_table, "An imported mesh."), MATERIALS},
                         .carried = true,
-                        .materials = {"clay"},
+                        .materials = {"clay", "rime"},
                         .needs = needs,
                         .geometry = geometry,
                         .cover = cover};

@@ -13,12 +13,14 @@ static const Key MESH_KEYS[] = {
      .doc = "Rotation about x, then y, then z."},
     {KEY_OF(MeshParams, scale, "scale", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3,
      .doc = "Scale along x, y and z, applied before the rotation; negative values mirror."},
+    {KEY_OF(MeshParams, hoar, "hoar", KEY_GROUP), .table = &hoar_table,
+     .doc = "Hoar frost on the surface; faces must face outward."},
     {0},
 };
 
 static void mesh_defaults(void *out)
 {
-    *(MeshParams *)out = (MeshParams){.scale = {1, 1, 1}};
+    *(MeshParams *)out = (MeshParams){.scale = {1, 1, 1}, .hoar = hoar_params_default()};
 }
 
 static bool check_mesh(const Mapping *mapping, void *params)

@@ -3,6 +3,7 @@
 #include "objects/shape/shape.h"
 #include "shape/primitive.h"
 
+#include <math.h>
 #include <string.h>
 
 static Mesh *copy_mesh(const Mesh *mesh, Error *e)
@@ -29,6 +30,7 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
 {
     SolidParams *shape = params;
     own_space_of_shapes(own, shape->shapes, shape->shape_count);
+    shape->hoar.wind = own_space_azimuth(own, shape->hoar.wind);
     return own_space_take_shapes(own, &shape->shapes, shape->shape_count, e);
 }
 
@@ -41,13 +43,18 @@ static Envelope *make(const SolidParams *shape, const Run *run, Error *e)
 static bool geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
     (void)grown;
-    Envelope *envelope = make(given, placing->recipe->run, e);
+    const SolidParams *shape = given;
+    Envelope *envelope = make(shape, placing->recipe->run, e);
     if (!envelope) {
         return false;
     }
     Mesh *mesh = copy_mesh(envelope_surface(envelope), e);
     envelope_free(envelope);
-    return placing_add(placing, (Part){.mesh = mesh}, 0, e);
+    if (mesh && !hoar_add_on_mesh(mesh, &shape->hoar, placing, SHAPE_RIME, e)) {
+        mesh_free(mesh);
+        return false;
+    }
+    return mesh && placing_add(placing, (Part){.mesh = mesh}, SHAPE_OWN, e);
 }
 
 // Area of the surface sampled by a level set, m^2. Half spaces add none.
@@ -72,6 +79,11 @@ static void needs(const void *params, Needs *needs)
         area += surface_area(&shape->shapes[i]);
         needs_add_mesh_file(needs, "envelope", shape->shapes[i].file);
     }
+    if (shape->hoar.length > 0.0f) { // more on thin parts, up to max_count
+        double tufts = 4.0 * area * (double)hoar_tufts_per_area(&shape->hoar, 1.0f);
+        needs_add(needs, "hoar.max_count", fmin(tufts, (double)shape->hoar.max_count),
+                  HOAR_TUFT_BYTES);
+    }
     if (shape->shape_count == 1 && shape->shapes[0].kind != SHAPE_BODY) {
         return; // no level set
     }
@@ -89,7 +101,8 @@ static bool cover(const void *params, Cover *cover, const Run *run, Error *e)
 }
 
 static const Key MATERIALS[] = {
-    OWN_MATERIAL_ROW(0),
+    OWN_MATERIAL_ROW(SHAPE_OWN),
+    RIME_MATERIAL_ROW(SHAPE_RIME),
     {0},
 };
 
@@ -97,7 +110,7 @@ const Kind kind_shape = {
     .variant = {KIND_ROW("shape", &solid_table, "Solids: spheres, boxes and their combinations."),
                 MATERIALS},
     .carried = true,
-    .materials = {"clay"},
+    .materials = {"clay", "rime"},
     .needs = needs,
     .own_space = own_space,
     .geometry = geometry,

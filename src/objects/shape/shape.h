@@ -2,13 +2,17 @@
 #ifndef RAMIFY_OBJECTS_SHAPE_SHAPE_H
 #define RAMIFY_OBJECTS_SHAPE_SHAPE_H
 
+#include "objects/common/hoar.h"
 #include "shape/envelope.h"
 
 typedef struct SolidParams {
     Shape *shapes;
     int shape_count;
     float voxel;
+    HoarParams hoar;
 } SolidParams;
+
+enum { SHAPE_OWN, SHAPE_RIME }; // roles of materials
 
 extern const struct Table solid_table; // of its parameters
 

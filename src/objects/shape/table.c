@@ -9,12 +9,14 @@ static const Key SOLID_KEYS[] = {
     {KEY_OF(SolidParams, voxel, "voxel", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Voxel size, unless the envelope is a single plain shape; 0 = 1/128 of the largest "
             "extent."},
+    {KEY_OF(SolidParams, hoar, "hoar", KEY_GROUP), .table = &hoar_table,
+     .doc = "Hoar frost on the surface."},
     {0},
 };
 
 static void solid_defaults(void *out)
 {
-    *(SolidParams *)out = (SolidParams){0};
+    *(SolidParams *)out = (SolidParams){.hoar = hoar_params_default()};
 }
 
 static bool check_solid(const Mapping *mapping, void *params)

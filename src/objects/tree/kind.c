@@ -174,7 +174,7 @@ static bool measure(const void *given, const Grown *grown, const Recipe *recipe,
 static void needs(const void *params, Needs *needs)
 {
     const TreeParams *tree = params;
-    enum { LEAF_FACES = 25, LEAVES_AN_ATTRACTOR = 6, SNOW_BYTES = 7000, HOAR_BYTES = 100 };
+    enum { LEAF_FACES = 25, LEAVES_AN_ATTRACTOR = 6, SNOW_BYTES = 7000 };
     TreeAttractors each = count_attractors(params);
     double count = (double)attractors(params), leaves = (double)tree->leaves.max_count;
     int levels = tree->skin.levels;
@@ -192,7 +192,7 @@ static void needs(const void *params, Needs *needs)
     if (tree->hoar.length > 0.0f) { // as many as fit on a metamer of 3 cm
         double tufts = fmin((double)tree->hoar.max_count,
                             (count + metamers) * 0.06 / (double)tree->hoar.length);
-        needs_add(needs, "hoar.max_count", tufts, HOAR_BYTES);
+        needs_add(needs, "hoar.max_count", tufts, HOAR_TUFT_BYTES);
     }
 }
 
