@@ -98,7 +98,7 @@ fi
 still outtree-frost outtree-frost
 still outtree-lightning outtree-lightning
 
-still sculpture sculpture --size 1600x900
+still sculpture sculpture --size 1920x1080
 still dla dla
 still neuron neuron
 still fracture fracture
