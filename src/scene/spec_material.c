@@ -42,6 +42,7 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"coast", PATTERN_COAST},
                                     {"braided", PATTERN_BRAIDED},
                                     {"glacial", PATTERN_GLACIAL},
+                                    {"mud", PATTERN_MUD},
                                     {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
@@ -155,7 +156,8 @@ static const Key MATERIAL_KEYS[] = {
          "grass (color2) in hollows, terracettes; coast: cliffs of a terrain's beds, a "
          "dark wet band with weed and barnacles over a tide of pattern_scale metres, lichens "
          "above, turf (color) on top, sand (color2) below; dunes: sand with ripples "
-         "of pattern_scale across the wind, and gravel (color2) where there is little; none: one "
+         "of pattern_scale across the wind, and gravel (color2) where there is little; mud: a pond's "
+         "bed, darker (color2) with depth; none: one "
          "colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
      .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "

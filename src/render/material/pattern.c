@@ -134,7 +134,7 @@ static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShad
     [PATTERN_STRATA] = pattern_strata,     [PATTERN_DUNES] = pattern_dunes,
     [PATTERN_HILLS] = pattern_hills,       [PATTERN_COAST] = pattern_coast,
     [PATTERN_BRAIDED] = pattern_braided,   [PATTERN_GLACIAL] = pattern_glacial,
-    [PATTERN_NOISE] = noise_pattern,
+    [PATTERN_NOISE] = noise_pattern,       [PATTERN_MUD] = pattern_mud,
 };
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)
