@@ -51,7 +51,7 @@ float pond_height(const PondSite *site, float x, float z, float land)
         return land;
     }
     float rise = land - site->level, least = 0.5f * pond->bank;
-    rise += rise < least ? (least - rise) * left : 0.0f;
+    rise += rise < least ? (least - rise) * smoothstepf(0.0f, 0.5f, left) : 0.0f;
     return site->level + rise * (1.0f - left * left);
 }
 
