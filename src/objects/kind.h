@@ -104,8 +104,11 @@ typedef struct Kind {
     float (*ground)(const void *params, uint64_t seed, float x, float z);
 
     // Adds the object's surface to the surfaces that may cover the ground, such as water; NULL =
-    // none.
-    bool (*cover)(const void *params, Cover *cover, const Run *run, Error *e);
+    // none. seed: the object's.
+    bool (*cover)(const void *params, uint64_t seed, Cover *cover, const Run *run, Error *e);
+
+    // Is that surface water whatever the object's material is? NULL = its material tells.
+    bool (*is_water)(const void *params);
 
     // Draws the object as a picture of one value per pixel, 0..1, row by row from the top left
     // (pixel: width * height floats); NULL = no picture.
@@ -179,6 +182,11 @@ typedef struct Kind {
         MATERIAL_ROW(MISTLETOE, "mistletoe_material",                                      \
                      "Material of mistletoe; default: mistletoe."),                        \
         MATERIAL_ROW(MOSS, "moss_material", "Material of tufts of moss; default: moss.")
+
+#define WATER_MATERIAL_ROW(INDEX)                                                              \
+    MATERIAL_ROW(INDEX, "water_material",                                                      \
+                 "Material of a terrain's lakes and rivers, or of a ground's ponds; default: " \
+                 "lake, of ponds ground/water.")
 
 #define RIME_MATERIAL_ROW(INDEX)         \
     MATERIAL_ROW(INDEX, "rime_material", \

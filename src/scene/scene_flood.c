@@ -1,9 +1,11 @@
 #include "scene/scene_flood.h"
 
 #include "base/hash.h"
+#include "base/random.h"
 #include "config/compare.h"
 #include "render/material/material.h"
 #include "render/medium/medium.h"
+#include "scene/build.h"
 #include "scene/spec.h"
 
 #include <math.h>
@@ -18,7 +20,11 @@ static bool is_water(const Material *material)
 
 static bool is_body_of_water(const Scene *scene, const SceneObject *object)
 {
-    return object->kind->cover && object->material[0] &&
+    const Kind *kind = object->kind;
+    if (kind->is_water) {
+        return kind->is_water(object->params);
+    }
+    return kind->cover && object->material[0] &&
            is_water(scene_material(scene, object->material[0]));
 }
 
@@ -41,7 +47,8 @@ bool scene_flood_init(SceneFlood *flood, const Scene *scene, const Run *run, Err
             continue;
         }
         flood->cover = flood->cover ? flood->cover : cover_new(e);
-        if (!flood->cover || !object->kind->cover(object->params, flood->cover, run, e)) {
+        uint64_t seed = scene_object_seed(scene, i);
+        if (!flood->cover || !object->kind->cover(object->params, seed, flood->cover, run, e)) {
             scene_flood_clear(flood);
             return false;
         }
@@ -69,6 +76,7 @@ uint64_t scene_flood_hash(const Scene *scene)
     for (int i = 0; i < scene->object_count; i++) {
         if (is_body_of_water(scene, &scene->objects[i])) {
             hash = table_hash(hash, &object_table, &scene->objects[i], NULL);
+            hash = random_key(hash, scene_object_seed(scene, i));
         }
     }
     return hash;

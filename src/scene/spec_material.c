@@ -20,15 +20,31 @@
 #define KIND(NAME, name) {#name, MATERIAL_##NAME},
 static const EnumName KINDS[] = {MATERIAL_KINDS(KIND){0}};
 #undef KIND
-static const EnumName PATTERNS[] = {
-    {"none", PATTERN_NONE},       {"bark", PATTERN_BARK},           {"ground", PATTERN_GROUND},
-    {"stone", PATTERN_STONE},     {"masonry", PATTERN_MASONRY},     {"leaf", PATTERN_LEAF},
-    {"noise", PATTERN_NOISE},     {"corallite", PATTERN_CORALLITE}, {"youth", PATTERN_YOUTH},
-    {"sand", PATTERN_SAND},       {"mountain", PATTERN_MOUNTAIN},   {"badlands", PATTERN_BADLANDS},
-    {"water", PATTERN_WATER},     {"altitude", PATTERN_ALTITUDE},   {"strata", PATTERN_STRATA},
-    {"alps", PATTERN_ALPS},       {"volcano", PATTERN_VOLCANO},     {"dunes", PATTERN_DUNES},
-    {"hills", PATTERN_HILLS},     {"coast", PATTERN_COAST},         {"braided", PATTERN_BRAIDED},
-    {"glacial", PATTERN_GLACIAL}, {"karst", PATTERN_KARST},         {0}};
+static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
+                                    {"bark", PATTERN_BARK},
+                                    {"ground", PATTERN_GROUND},
+                                    {"stone", PATTERN_STONE},
+                                    {"masonry", PATTERN_MASONRY},
+                                    {"leaf", PATTERN_LEAF},
+                                    {"noise", PATTERN_NOISE},
+                                    {"corallite", PATTERN_CORALLITE},
+                                    {"youth", PATTERN_YOUTH},
+                                    {"sand", PATTERN_SAND},
+                                    {"mountain", PATTERN_MOUNTAIN},
+                                    {"badlands", PATTERN_BADLANDS},
+                                    {"water", PATTERN_WATER},
+                                    {"altitude", PATTERN_ALTITUDE},
+                                    {"strata", PATTERN_STRATA},
+                                    {"alps", PATTERN_ALPS},
+                                    {"volcano", PATTERN_VOLCANO},
+                                    {"dunes", PATTERN_DUNES},
+                                    {"hills", PATTERN_HILLS},
+                                    {"coast", PATTERN_COAST},
+                                    {"braided", PATTERN_BRAIDED},
+                                    {"glacial", PATTERN_GLACIAL},
+                                    {"karst", PATTERN_KARST},
+                                    {"mud", PATTERN_MUD},
+                                    {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
                                  {"birch", BARK_BIRCH},       {"smooth", BARK_SMOOTH},
@@ -142,7 +158,8 @@ static const Key MATERIAL_KEYS[] = {
          "dark wet band with weed and barnacles over a tide of pattern_scale metres, lichens "
          "above, turf (color) on top, sand (color2) below; dunes: sand with ripples "
          "of pattern_scale across the wind, and gravel (color2) where there is little; karst: grey "
-         "limestone with dark streaks of water, bushes (color) and fields (color2); none: one "
+         "limestone with dark streaks of water, bushes (color) and fields (color2); mud: a pond's "
+         "bed, darker (color2) with depth; none: one "
          "colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
      .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "

@@ -53,7 +53,8 @@ GroundParams ground_params_default(void)
                                     .variants = 5}};
 }
 
-float ground_height(const GroundParams *params, uint64_t seed, float x, float z)
+// Height of the land without ponds.
+static float relief_height(const GroundParams *params, uint64_t seed, float x, float z)
 {
     float r = sqrtf(x * x + z * z), scale = 1.0f / params->wavelength;
     float hills =
@@ -65,18 +66,84 @@ float ground_height(const GroundParams *params, uint64_t seed, float x, float z)
     return params->relief * hills * near + 0.07f * bumps * smoothstepf(0.5f, 4.0f, r);
 }
 
+static uint64_t pond_seed(uint64_t seed, int index)
+{
+    return random_key(random_key(seed, STREAM_GROUND_PONDS), (uint64_t)index);
+}
+
+PondSite ground_pond(const GroundParams *params, uint64_t seed, int index)
+{
+    enum { AROUND = 12 };
+    const Pond *pond = &params->ponds[index];
+    float x = pond->position[0], z = pond->position[1];
+    float lowest = relief_height(params, seed, x, z);
+    for (int i = 0; i < AROUND; i++) {
+        float sine, cosine;
+        exact_sincos(2.0f * PI_F * (float)i / AROUND, &sine, &cosine);
+        float h = relief_height(params, seed, x + pond->radius * sine, z + pond->radius * cosine);
+        lowest = h < lowest ? h : lowest;
+    }
+    return (PondSite){pond, lowest - pond->bank, pond_seed(seed, index)};
+}
+
+// The pond whose basin or banks are at the place, possibly; -1 = none. They do not overlap.
+static int pond_near(const GroundParams *params, float x, float z, float margin)
+{
+    for (int i = 0; i < params->pond_count; i++) {
+        const Pond *pond = &params->ponds[i];
+        float dx = x - pond->position[0], dz = z - pond->position[1];
+        float reach = pond_reach(pond) + margin;
+        if (dx * dx + dz * dz < reach * reach) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+float ground_height(const GroundParams *params, uint64_t seed, float x, float z)
+{
+    float land = relief_height(params, seed, x, z);
+    int near = pond_near(params, x, z, 0.0f);
+    if (near < 0) {
+        return land;
+    }
+    PondSite site = ground_pond(params, seed, near);
+    return pond_height(&site, x, z, land);
+}
+
+bool ground_in_pond(const GroundParams *params, uint64_t seed, float x, float z)
+{
+    int near = pond_near(params, x, z, 0.0f);
+    return near >= 0 && pond_share(&params->ponds[near], pond_seed(seed, near), x, z) < 1.0f;
+}
+
 // Radii of a polar grid's rings: half a metre apart near the middle, then in geometric progression
 // to the horizon.
 enum { GROUND_SECTORS = 256 };
+#define FIRST_RING 0.3f // m
+#define RING_GROWTH 0.02f
 
 static int64_t ground_rings(const GroundParams *params, float *radius, int64_t most)
 {
     int64_t count = 0;
-    for (float r = 0.5f; r < params->radius && count + 1 < most; r += 0.3f + 0.02f * r) {
+    for (float r = 0.5f; r < params->radius && count + 1 < most;
+         r += FIRST_RING + RING_GROWTH * r) {
         radius[count++] = r;
     }
     radius[count++] = params->radius;
     return count;
+}
+
+// No face of the land's mesh is longer than `face` here, so one that reaches over the pond has all
+// vertices in the inner margin, and one that has any of them there ends within the outer.
+PondMargin ground_pond_margin(const Pond *pond)
+{
+    float x = pond->position[0], z = pond->position[1];
+    float r = sqrtf(x * x + z * z) + pond_reach(pond);
+    float along = FIRST_RING + RING_GROWTH * r, across = 2.0f * PI_F / GROUND_SECTORS * r;
+    float face = 1.1f * sqrtf(along * along + across * across);
+    face += 0.5f; // of the innermost fan
+    return (PondMargin){face, 2.3f * face};
 }
 
 // Height of the snow's surface above the land at (x, z), m; below 0 where the land is bare.
@@ -96,8 +163,24 @@ static Vec3 ground_point(const GroundParams *params, uint64_t seed, float x, flo
 static Vec3 surface_point(const GroundParams *params, uint64_t seed, bool snow, float x, float z)
 {
     Vec3 p = ground_point(params, seed, x, z);
-    p.y += snow ? snow_height(params, seed, x, z) : 0.0f;
+    if (snow) { // it melts in the water
+        p.y += ground_in_pond(params, seed, x, z) ? -0.05f : snow_height(params, seed, x, z);
+    }
     return p;
+}
+
+// Lowers the mesh of the land below the finer ones of its ponds.
+static void hide_under_ponds(Mesh *mesh, const GroundParams *params)
+{
+    for (int i = 0; i < params->pond_count; i++) {
+        const Pond *pond = &params->ponds[i];
+        float reach = pond_reach(pond) + ground_pond_margin(pond).inner;
+        for (int64_t v = 0; v < mesh->vertex_count; v++) {
+            Vec3 *p = &mesh->position[v];
+            float dx = p->x - pond->position[0], dz = p->z - pond->position[1];
+            p->y -= dx * dx + dz * dz < reach * reach ? 1.0f + pond->depth + 0.2f * reach : 0.0f;
+        }
+    }
 }
 
 static void ground_vertices(Mesh *mesh, const GroundParams *params, uint64_t seed, bool snow,
@@ -155,6 +238,7 @@ static Mesh *ground_mesh(const GroundParams *params, uint64_t seed, bool snow, E
         mesh_free(mesh);
         return NULL;
     }
+    hide_under_ponds(mesh, params);
     return mesh;
 }
 
@@ -250,14 +334,18 @@ static bool add_grass_variant(const GroundParams *params, int variant, const Pla
     return placing_add(placing, part, GROUND_GRASS, e);
 }
 
-// A fallen leaf on the tips of the short grass: either side up, slightly tilted.
-static Transform lying_leaf(const GroundParams *params, uint64_t seed, uint64_t key)
+// A fallen leaf on the tips of the short grass: either side up, slightly tilted. False where it
+// would lie in a pond.
+static bool lying_leaf(const GroundParams *params, uint64_t seed, uint64_t key, Transform *leaf)
 {
     float r = params->fallen_radius * sqrtf(random_unit(random_key(key, STREAM_LEAF_RADIUS))), sine,
           cosine;
     exact_sincos(random_range(random_key(key, STREAM_LEAF_AZIMUTH), 0.0f, 2.0f * PI_F), &sine,
                  &cosine);
     Vec3 p = ground_point(params, seed, r * sine, r * cosine);
+    if (ground_in_pond(params, seed, p.x, p.z)) {
+        return false;
+    }
     p.y += random_range(random_key(key, STREAM_LEAF_HEIGHT), 0.005f, 0.06f);
     Vec3 z = vec3_normalize(
         vec3_madd(vec3(0, 1, 0), 0.35f, random_direction(random_key(key, STREAM_LEAF_TILT))));
@@ -265,7 +353,8 @@ static Transform lying_leaf(const GroundParams *params, uint64_t seed, uint64_t 
         z = vec3_neg(z);
     }
     Vec3 y = vec3_normalize(vec3_cross(z, random_direction(random_key(key, STREAM_LEAF_TURN))));
-    return transform_from_axes(vec3_cross(y, z), y, z, p);
+    *leaf = transform_from_axes(vec3_cross(y, z), y, z, p);
+    return true;
 }
 
 static bool add_fallen_leaves(const GroundParams *params, const Placing *placing, Error *e)
@@ -279,25 +368,56 @@ static bool add_fallen_leaves(const GroundParams *params, const Placing *placing
         }
         uint64_t key = random_key(random_key(seed, STREAM_GROUND_LEAVES), (uint64_t)v);
         leaves.curl = 60.0f; // dry leaves roll up
-        Part part = {.instance = memory_alloc(each, sizeof *part.instance, e),
-                     .instance_count = each};
+        Part part = {.instance = memory_alloc(each, sizeof *part.instance, e)};
         foliage_leaf_meshes(&leaves, leaves.spacing, v, key, &part, e);
         bool done = part.mesh && part.instance;
         for (int64_t i = 0; done && i < each; i++) {
             done = run_goes_on(placing->recipe->run, i, e);
-            part.instance[i] =
-                lying_leaf(params, seed, random_key(key, STREAM_LEAF_PLACES + (uint64_t)i));
+            uint64_t leaf = random_key(key, STREAM_LEAF_PLACES + (uint64_t)i);
+            part.instance_count +=
+                lying_leaf(params, seed, leaf, &part.instance[part.instance_count]) ? 1 : 0;
         }
-        if (!done) {
+        if (!done || part.instance_count == 0) { // as for grass
             part_free_meshes(&part);
             free(part.instance);
-            return false;
+            if (!done) {
+                return false;
+            }
+            continue;
         }
         if (!placing_add(placing, part, GROUND_FALLEN, e)) {
             return false;
         }
     }
     return true;
+}
+
+typedef struct DrawnLand {
+    const GroundParams *params;
+    uint64_t seed;
+    bool snow;
+} DrawnLand;
+
+static Vec3 drawn_point(const void *user, float x, float z)
+{
+    const DrawnLand *drawn = user;
+    return surface_point(drawn->params, drawn->seed, drawn->snow, x, z);
+}
+
+static bool add_pond(const GroundParams *params, int index, const Placing *placing, Error *e)
+{
+    uint64_t seed = placing->recipe->seed;
+    PondSite site = ground_pond(params, seed, index);
+    PondMargin margin = ground_pond_margin(site.pond);
+    DrawnLand bare = {params, seed, false}, white = {params, seed, true};
+    PondLand land = {drawn_point, &bare}, snow = {drawn_point, &white};
+    return placing_add(placing, (Part){.mesh = pond_bank_mesh(&site, &land, &margin, e)},
+                       GROUND_LAND, e) &&
+           placing_add(placing, (Part){.mesh = pond_bed_mesh(&site, &land, e)}, GROUND_BED, e) &&
+           (params->snow <= 0.0f ||
+            placing_add(placing, (Part){.mesh = pond_bank_mesh(&site, &snow, &margin, e)},
+                        GROUND_SNOW, e)) &&
+           placing_add(placing, (Part){.mesh = pond_water_mesh(&site, e)}, GROUND_WATER, e);
 }
 
 bool ground_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
@@ -310,6 +430,9 @@ bool ground_geometry(const void *given, const Grown *grown, const Placing *placi
     if (done && params->snow > 0.0f) {
         done = placing_add(placing, (Part){.mesh = ground_mesh(params, seed, true, e)}, GROUND_SNOW,
                            e);
+    }
+    for (int i = 0; done && i < params->pond_count; i++) {
+        done = add_pond(params, i, placing, e);
     }
     for (int v = 0; done && params->grass_tufts > 0 && v < params->grass_variants; v++) {
         done = add_grass_variant(params, v, placing, e);

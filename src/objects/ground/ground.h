@@ -3,6 +3,7 @@
 #define RAMIFY_OBJECTS_GROUND_GROUND_H
 
 #include "objects/common/recipe.h"
+#include "objects/ground/pond.h"
 #include "objects/tree/mix.h"
 
 // Woods in the distance: a few trees, grown once and instanced.
@@ -33,10 +34,21 @@ typedef struct GroundParams {
     float fallen_radius;   // m
     GroveParams trees;
     float snow; // m, mean depth of the snow on the land; 0 = none
+    Pond *ponds;
+    int pond_count;
 } GroundParams;
 
 // Roles of materials; bark and foliage are of the distant trees.
-enum { GROUND_LAND, GROUND_FALLEN, GROUND_GRASS, GROUND_BARK, GROUND_FOLIAGE, GROUND_SNOW };
+enum {
+    GROUND_LAND,
+    GROUND_FALLEN,
+    GROUND_GRASS,
+    GROUND_BARK,
+    GROUND_FOLIAGE,
+    GROUND_SNOW,
+    GROUND_WATER,
+    GROUND_BED
+};
 
 // Streams of the object's seed.
 enum {
@@ -47,13 +59,23 @@ enum {
     STREAM_GROUND_LEAVES = 5,
     STREAM_GROUND_TREES = 6,
     STREAM_GROUND_WOODS = 7,
-    STREAM_GROUND_DRIFTS = 8
+    STREAM_GROUND_DRIFTS = 8,
+    STREAM_GROUND_PONDS = 9
 };
 
 GroundParams ground_params_default(void); // 2 km of meadow, 60,000 tufts
 
-// Height of the land at (x, z), m.
+// Height of the land at (x, z), m, with its ponds.
 float ground_height(const GroundParams *params, uint64_t seed, float x, float z);
+
+// Pond number index in this land.
+PondSite ground_pond(const GroundParams *params, uint64_t seed, int index);
+
+// Is the place in a pond?
+bool ground_in_pond(const GroundParams *params, uint64_t seed, float x, float z);
+
+// Widths (m) of the border in which the mesh of the land gives way to a pond's own.
+PondMargin ground_pond_margin(const Pond *pond);
 
 // The land with grass, leaves and trees: see recipe.h. Nothing grows, so grown is not used.
 bool ground_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);

@@ -34,6 +34,25 @@ static void needs(const void *params, Needs *needs)
     }
 }
 
+static bool has_ponds(const void *params)
+{
+    return ((const GroundParams *)params)->pond_count > 0;
+}
+
+static bool cover(const void *params, uint64_t seed, Cover *cover, const Run *run, Error *e)
+{
+    (void)run;
+    const GroundParams *ground = params;
+    bool done = true;
+    for (int i = 0; done && i < ground->pond_count; i++) {
+        PondSite site = ground_pond(ground, seed, i);
+        Mesh *mesh = pond_water_mesh(&site, e);
+        done = mesh && cover_add(cover, mesh, e);
+        mesh_free(mesh);
+    }
+    return done;
+}
+
 static const Material BUILTIN[] = {
     {.name = "ground",
      .kind = MATERIAL_DIFFUSE,
@@ -54,6 +73,24 @@ static const Material BUILTIN[] = {
      .pattern = PATTERN_LEAF,
      .veins = 7.0f,
      .variation = 0.7f},
+    // Absorption of pure water with the dissolved matter of a clear pond, which takes blue most.
+    {.name = "ground/water",
+     .kind = MATERIAL_WATER,
+     .color = {1.0f, 1.0f, 1.0f},
+     .color2 = {0.6f, 0.6f, 0.6f},
+     .absorption = {0.50f, 0.42f, 0.85f},
+     .scattering = {0.05f, 0.05f, 0.04f},
+     .anisotropy = 0.75f,
+     .ior = 1.33f},
+    {.name = "ground/bed",
+     .kind = MATERIAL_PRINCIPLED,
+     .color = {0.120f, 0.092f, 0.060f},
+     .color2 = {0.042f, 0.036f, 0.024f},
+     .roughness = 0.75f,
+     .specular = 0.3f,
+     .ior = 1.5f,
+     .pattern = PATTERN_MUD,
+     .pattern_depth = 0.012f},
     {.name = ""},
 };
 
@@ -62,16 +99,23 @@ static const Key MATERIALS[] = {
     LEAF_MATERIAL_ROW(1),
     GRASS_MATERIAL_ROW(2),
     SNOW_MATERIAL_ROW(GROUND_SNOW),
+    WATER_MATERIAL_ROW(GROUND_WATER),
+    MATERIAL_ROW(GROUND_BED, "bed_material",
+                 "Material of the beds of the ground's ponds; default: "
+                 "ground/bed."),
     {0},
 };
 
 const Kind kind_ground = {
     .variant = {KIND_ROW("ground", &ground_table, "Rolling ground with grass."), MATERIALS},
     .reads_water = true,
-    .materials = {"ground", "fallen", "grass", "bark", "leaf", "snow"},
+    .materials = {"ground", "fallen", "grass", "bark", "leaf", "snow", "ground/water",
+                  "ground/bed"},
     .builtin = BUILTIN,
     .further_material = further_material,
     .needs = needs,
     .ground = height,
+    .cover = cover,
+    .is_water = has_ponds,
     .copies = copies,
     .geometry = ground_geometry};

@@ -72,17 +72,57 @@ static const Key GROUND_KEYS[] = {
      .doc =
          "Mean depth of the snow on the land: in drifts, and bare in places where it is shallow; "
          "grass that is taller stands out. 0 = none. Snow on trees: their key snow."},
+    {KEY_OF(GroundParams, ponds, "ponds", KEY_LIST),
+     .count_offset = offsetof(GroundParams, pond_count), .count = 100, .table = &pond_table,
+     .doc = "Ponds: basins with water. They do not touch one another."},
     {KEY_OF(GroundParams, trees, "trees", KEY_GROUP), .table = &GROVE_TABLE,
      .doc = "Distant woods: copies of a few trees."},
     {0},
 };
 
+// Distance (m) from a pond's middle within which the land is drawn by its own meshes.
+static float pond_extent(const Pond *pond)
+{
+    return pond_reach(pond) + ground_pond_margin(pond).outer;
+}
+
+static bool check_pond(const Mapping *mapping, const GroundParams *ground, int index)
+{
+    const Pond *pond = &ground->ponds[index];
+    float x = pond->position[0], z = pond->position[1], extent = pond_extent(pond);
+    if (!(sqrtf(x * x + z * z) + extent < ground->radius)) {
+        return mapping_fail(mapping, "ponds",
+                            ": pond %d needs %g m about its middle, which reach beyond the land's "
+                            "radius, %g m",
+                            index, (double)extent, (double)ground->radius);
+    }
+    for (int i = 0; i < index; i++) {
+        float dx = x - ground->ponds[i].position[0], dz = z - ground->ponds[i].position[1];
+        float apart = sqrtf(dx * dx + dz * dz), least = extent + pond_extent(&ground->ponds[i]);
+        if (apart < least) {
+            return mapping_fail(mapping, "ponds",
+                                ": ponds %d and %d are %g m apart; with their banks they need at "
+                                "least %g m",
+                                i, index, (double)apart, (double)least);
+        }
+    }
+    return true;
+}
+
 static bool check_ground(const Mapping *mapping, void *params)
 {
     const GroundParams *ground = params;
-    return ground->flat_radius < ground->radius ||
-           mapping_fail(mapping, "flat_radius", " is %g m; it must be less than the radius, %g m",
-                        (double)ground->flat_radius, (double)ground->radius);
+    if (ground->flat_radius >= ground->radius) {
+        return mapping_fail(mapping, "flat_radius",
+                            " is %g m; it must be less than the radius, %g m",
+                            (double)ground->flat_radius, (double)ground->radius);
+    }
+    for (int i = 0; i < ground->pond_count; i++) {
+        if (!check_pond(mapping, ground, i)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static void ground_defaults(void *out)
@@ -93,7 +133,7 @@ static void ground_defaults(void *out)
 const Table ground_table = {
     .name = "ground",
     .doc = "Gently rolling land with grass, out to the horizon. Grass and trees do not grow in "
-           "water: a `medium` of water, or a shape or mesh whose material has the pattern `water` "
+           "water: its ponds, a `medium` of water, or a shape or mesh whose material has the pattern `water` "
            "or is a dielectric with the index of water. Materials: ground, grass, fallen.",
     .example =
         "objects:\n"

@@ -45,8 +45,9 @@ static void needs(const void *params, Needs *needs)
     }
 }
 
-static bool cover(const void *params, Cover *cover, const Run *run, Error *e)
+static bool cover(const void *params, uint64_t seed, Cover *cover, const Run *run, Error *e)
 {
+    (void)seed;
     Mesh *mesh = import(params, run, e);
     bool done = mesh && cover_add(cover, mesh, e);
     mesh_free(mesh);

@@ -47,8 +47,9 @@ bool sea_geometry(const void *given, const Grown *grown, const Placing *placing,
 }
 
 // The calm surface.
-static bool cover(const void *given, Cover *cover, const Run *run, Error *e)
+static bool cover(const void *given, uint64_t seed, Cover *cover, const Run *run, Error *e)
 {
+    (void)seed;
     (void)run;
     const SeaParams *params = given;
     Mesh *mesh = mesh_new(4, 4, 1, 0, e);

@@ -92,8 +92,9 @@ static void needs(const void *params, Needs *needs)
               voxel_bytes);
 }
 
-static bool cover(const void *params, Cover *cover, const Run *run, Error *e)
+static bool cover(const void *params, uint64_t seed, Cover *cover, const Run *run, Error *e)
 {
+    (void)seed;
     Envelope *envelope = make(params, run, e);
     bool done = envelope && cover_add(cover, envelope_surface(envelope), e);
     envelope_free(envelope);

@@ -232,7 +232,7 @@ static const Material BUILTIN[] = {
 };
 
 static const Key MATERIALS[] = {
-    MATERIAL_ROW(1, "water_material", "Material of a terrain's lakes and rivers; default: lake."),
+    WATER_MATERIAL_ROW(1),
     MATERIAL_ROW(3, "tree_material",
                  "Material of the lines of a terrain's tree (show: tree); default: node."),
     OWN_MATERIAL_ROW(0),

@@ -60,7 +60,8 @@ typedef enum PatternKind {
     PATTERN_COAST,     // cliffs of the land's beds, tidal bands, wet sand, turf
     PATTERN_BRAIDED,   // gravel by its age, silt and wet edges of a braided river, terraces, slopes
     PATTERN_GLACIAL,   // its water: turbid by depth, ripples by speed
-    PATTERN_KARST      // limestone cliffs with streaks of water, bushes, fields on the plain
+    PATTERN_KARST,     // limestone cliffs with streaks of water, bushes, fields on the plain
+    PATTERN_MUD        // the bed of a pond: ooze, darker with depth (color2), litter, a wet rim
 } PatternKind;
 
 // Is relief displaced near the camera?

@@ -43,6 +43,7 @@ void pattern_youth(const Material *material, const SurfacePoint *point, PatternS
 void pattern_hills(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_coast(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_dunes(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_mud(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_braided(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_karst(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_glacial(const Material *material, const SurfacePoint *point, PatternShade *shade);
