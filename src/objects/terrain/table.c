@@ -391,13 +391,12 @@ static const Table FOREST_TABLE = {.name = "forest",
                                    .size = sizeof(TerrainForestParams),
                                    .keys = FOREST_KEYS};
 
-static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS},   {"ridges", TERRAIN_RIDGES},
-                                      {"map", TERRAIN_MAP},         {"noise", TERRAIN_NOISE},
-                                      {"survey", TERRAIN_SURVEY},   {"canyon", TERRAIN_CANYON},
-                                      {"mesas", TERRAIN_MESAS},     {"alps", TERRAIN_ALPS},
-                                      {"volcano", TERRAIN_VOLCANO}, {"dunes", TERRAIN_DUNES},
-                                      {"hills", TERRAIN_HILLS},     {"coast", TERRAIN_COAST},
-                                      {"braided", TERRAIN_BRAIDED}, {0}};
+static const EnumName FORM_NAMES[] = {
+    {"rivers", TERRAIN_RIVERS},   {"ridges", TERRAIN_RIDGES},   {"map", TERRAIN_MAP},
+    {"noise", TERRAIN_NOISE},     {"survey", TERRAIN_SURVEY},   {"canyon", TERRAIN_CANYON},
+    {"mesas", TERRAIN_MESAS},     {"alps", TERRAIN_ALPS},       {"volcano", TERRAIN_VOLCANO},
+    {"dunes", TERRAIN_DUNES},     {"hills", TERRAIN_HILLS},     {"coast", TERRAIN_COAST},
+    {"braided", TERRAIN_BRAIDED}, {"meander", TERRAIN_MEANDER}, {0}};
 
 static const EnumName SHOW_NAMES[] = {
     {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
@@ -412,19 +411,20 @@ static const Key TERRAIN_KEYS[] = {
          "worn by glaciers; volcano: tephra and lava about a vent; dunes: sand that the wind "
          "carries over a plain; hills: rounded land under creeping soil, which streams cut; coast: "
          "cliffs, shore platforms, stacks and beaches that waves make; braided: a river in many "
-         "threads on its plain of gravel, in a valley."},
+         "threads on its plain of gravel, in a valley; meander: a river that winds in its "
+         "floodplain, with point bars and oxbow lakes."},
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
      .doc = "Side length of the square; all else scales with it."},
     {KEY_OF(TerrainParams, relief, "relief", KEY_FLOAT), .high = 1e5, .unit = "m",
-     .doc =
-         "Height of the highest valley slopes above the outlets, of the highest ridge above "
-         "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09, "
-         "of mesas, hills and coasts 0.04, of braided 0.1, of alps 0.16 and of a volcano 0.13 of "
-         "the size. Not of noise "
-         "alone, "
-         "surveys or dunes."},
+     .doc = "Height of the highest valley slopes above the outlets, of the highest ridge above "
+            "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09, "
+            "of mesas, hills and coasts 0.04, of braided 0.1, of meander 0.03, of alps 0.16 and of "
+            "a volcano 0.13 of "
+            "the size. Not of noise "
+            "alone, "
+            "surveys or dunes."},
     {KEY_OF(TerrainParams, resolution, "resolution", KEY_INT), .low = 16, .high = 8192,
      .doc = "Cells per side, a power of two; it changes the detail, not the form."},
     {KEY_OF(TerrainParams, water_level, "water_level", KEY_FLOAT), .high = 1,
@@ -465,6 +465,8 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Coast that waves cut, of form: coast."},
     {KEY_OF(TerrainParams, braided, "braided", KEY_GROUP), .table = &braided_table,
      .doc = "Braided river, of form: braided."},
+    {KEY_OF(TerrainParams, meander, "meander", KEY_GROUP), .table = &meander_table,
+     .doc = "Meandering river, of form: meander."},
     {KEY_OF(TerrainParams, evolution, "evolution", KEY_GROUP), .table = &evolution_table,
      .doc = "Processes that make form: canyon, mesas, alps, volcano, hills and coast."},
     {KEY_OF(TerrainParams, tiles, "tiles", KEY_GROUP), .table = &TILE_TABLE,

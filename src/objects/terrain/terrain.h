@@ -44,7 +44,8 @@ typedef enum TerrainForm {
     TERRAIN_DUNES,   // sand that the wind carries over a plain
     TERRAIN_HILLS,   // creeping soil and streams
     TERRAIN_COAST,   // cliffs that waves cut
-    TERRAIN_BRAIDED  // a braided river in its valley
+    TERRAIN_BRAIDED, // a braided river in its valley
+    TERRAIN_MEANDER  // a winding river in its floodplain
 } TerrainForm;
 
 // What is drawn.
@@ -174,6 +175,7 @@ typedef struct TerrainParams {
     HillParams hills;
     CoastParams coast;
     BraidedParams braided;
+    MeanderParams meander;
     EvolutionParams evolution;
     TerrainTileParams tiles;
     int beyond;       // rings of mirrored copies around the square
