@@ -91,7 +91,7 @@ bool terrain_keep_shores(Terrain *terrain, HeightField *field, const Run *run, E
     (void)run;
     terrain->bank = memory_alloc_zero(height_field_count(field), 1, e);
     for (int64_t i = 0; terrain->bank && i < height_field_count(field); i++) {
-        float reach = 0.3f * (float)terrain->braid->mean;
+        float reach = terrain->braid ? 0.3f * (float)terrain->braid->mean : 0.5f;
         terrain->bank[i] = is_known(field, i) && field->height[i] < field->water[i] + reach;
     }
     return terrain->bank;
@@ -173,6 +173,9 @@ static Vec3 water_normal(const HeightField *field, int64_t i)
 static float roughness_at(const Terrain *terrain, Vec2 p)
 {
     const Braid *b = terrain->braid;
+    if (!b) {
+        return 0.3f; // a meandering river flows smoothly
+    }
     float half = 0.5f * terrain->params->size, last = (float)b->side - 1.0f;
     int column = (int)clampf((p.x + half) / (float)b->cell, 0.0f, last);
     int row = (int)clampf((p.y + half) / (float)b->cell, 0.0f, last);

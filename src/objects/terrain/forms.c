@@ -236,6 +236,11 @@ static bool finish_braided(Terrain *terrain, HeightField *field, const Run *run,
     return terrain_drain_pools(field, e) && terrain_keep_shores(terrain, field, run, e);
 }
 
+static bool finish_meander(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    return terrain_keep_shores(terrain, field, run, e);
+}
+
 // ---- the table
 
 static const Form FORMS[] = {
@@ -336,6 +341,13 @@ static const Form FORMS[] = {
                        .sample = sample_evolved,
                        .finish = finish_karst,
                        .measure = terrain_measure_karst},
+    [TERRAIN_MEANDER] = {.material = "terrain/braided",
+                         .relief = 0.03f,
+                         .wavelength = 0.125f,
+                         .prepare = terrain_grow_meander,
+                         .record = record_braided,
+                         .sample = terrain_sample_meander,
+                         .finish = finish_meander},
 };
 
 const Form *terrain_form(const TerrainParams *params)

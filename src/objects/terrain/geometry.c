@@ -76,7 +76,7 @@ static bool add_beyond(const Terrain *terrain, const HeightField *field, const P
         return true;
     }
     HeightMeshParams meshing = {.error = 0.25f * params->mesh_error * params->size,
-                                .keep = terrain->braid ? terrain->bank : NULL};
+                                .keep = terrain->braid || terrain->meander ? terrain->bank : NULL};
     Mesh *mesh = height_mesh_new(field, &meshing, e);
     for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
         mesh->position[i] = vec3_add(mesh->position[i], params->position);

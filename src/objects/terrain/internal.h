@@ -7,6 +7,7 @@
 #include "land/braid_level.h"
 #include "land/dunes.h"
 #include "land/landscape.h"
+#include "land/meander.h"
 #include "objects/terrain/envelope.h"
 #include "objects/terrain/lift.h"
 #include "objects/terrain/terrain.h"
@@ -37,7 +38,8 @@ enum {
     STREAM_CONES = 80,
     STREAM_SAND = 81,
     STREAM_PLAIN = 82,
-    STREAM_KARST = 83
+    STREAM_KARST = 83,
+    STREAM_MEANDER = 84
 };
 
 // The tree and everything derived from it.
@@ -58,6 +60,8 @@ typedef struct Terrain {
     Dunes *dunes;         // of TERRAIN_DUNES; set by terrain_heights
     Braid *braid;         // of TERRAIN_BRAIDED, with the two that follow; set by terrain_heights
     BraidLevel *level;
+    Meander *meander;         // of TERRAIN_MEANDER; set by terrain_heights
+    HeightField *plain;       // likewise: its land, sample by sample
     HeightField *sides;       // m by which the slopes beside the valley are above its floor
     TroughEnvelope *distance; // m to the nearest river, in plan
     // The visible rivers on the finished heights, set by terrain_heights; NULL or without nodes if
@@ -257,6 +261,13 @@ bool terrain_add_braids(const Terrain *terrain, const HeightField *field, const 
                         Error *e);
 // braided_measure.c: after terrain_heights.
 bool terrain_measure_braided(const Terrain *terrain, MeasureList *list, Error *e);
+
+// meander.c: fills terrain->meander and ->plain.
+bool terrain_grow_meander(Terrain *terrain, const Run *run, Error *e);
+void terrain_sample_meander(const Terrain *terrain, HeightField *field, int64_t i, float x,
+                            float z);
+// After terrain_heights.
+bool terrain_measure_meander(const Terrain *terrain, MeasureList *list, Error *e);
 
 // The land at a place.
 typedef struct EvolvedPlace {

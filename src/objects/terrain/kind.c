@@ -73,6 +73,9 @@ static void needs(const void *params, Needs *needs)
         double cells = fmin(terrain->resolution, terrain->evolution.cells);
         needs_add(needs, "evolution.cells", cells * cells, BRAID_BYTES);
     }
+    if (terrain->form == TERRAIN_MEANDER) {
+        needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, 40);
+    }
     needs_add(needs, terrain->form == TERRAIN_RIDGES ? "ridges.count" : "rivers.count",
               (double)attractors(params), RIVER_BYTES);
     needs_add_copies(needs, "forest.count", fmin(terrain->forest.count, rows * rows), 1e9);
@@ -96,7 +99,8 @@ static const char *material_for(const void *params, int role)
 {
     const TerrainParams *terrain = params;
     const Form *form = terrain_form(terrain);
-    if (role == TERRAIN_WATER && terrain->form == TERRAIN_BRAIDED) {
+    if (role == TERRAIN_WATER &&
+        (terrain->form == TERRAIN_BRAIDED || terrain->form == TERRAIN_MEANDER)) {
         return "terrain/glacial";
     }
     if (role != TERRAIN_LAND) {

@@ -104,6 +104,14 @@ typedef struct KarstParams {
     float river;   // m, width of a river from elsewhere; 0 = none
 } KarstParams;
 
+// A river that meanders in its floodplain.
+typedef struct MeanderParams {
+    float width; // m, of the channel; 0 = a sixtieth of the size
+    float plain; // width of the floodplain, share of the size
+    float slope; // fall of the valley
+    float age;   // 1 = many bends have been cut off
+} MeanderParams;
+
 // How the land evolves; factors on the landform's own rates.
 typedef struct EvolutionParams {
     float streams;    // incision by tributaries
@@ -116,6 +124,6 @@ typedef struct EvolutionParams {
 } EvolutionParams;
 
 extern const struct Table strata_table, canyon_table, mesa_table, alps_table, volcano_table,
-    dune_table, hill_table, coast_table, braided_table, karst_table, evolution_table;
+    dune_table, hill_table, coast_table, braided_table, karst_table, meander_table, evolution_table;
 
 #endif

@@ -171,6 +171,9 @@ bool terrain_measure(const void *given, const Grown *grown, const Recipe *recipe
     if (terrain->dunes) {
         return measure_dunes(terrain, list, e);
     }
+    if (terrain->meander) {
+        return terrain_measure_meander(terrain, list, e);
+    }
     if (terrain->braid) {
         return terrain_measure_braided(terrain, list, e);
     }

@@ -47,6 +47,7 @@ TerrainParams terrain_params_default(void)
                     .terraces = 2,
                     .terrace_height = 7.0f},
         .karst = {.stage = 0.75f, .focus = 1.0f},
+        .meander = {.plain = 0.7f, .slope = 0.0005f, .age = 1.0f},
         .dunes = {.kind = DUNE_TRANSVERSE, .wind = 270.0f, .spread = 120.0f, .age = 1.0f},
         .evolution = {.streams = 1.0f,
                       .weathering = 1.0f,
@@ -112,6 +113,11 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
     if (params->form == TERRAIN_BRAIDED) {
         float width = params->braided.width;
         resolved.braided.width = width > 0.0f ? width : 0.5f * params->size;
+        resolved.relief = params->relief > 0.0f ? params->relief : params->size * form->relief;
+    }
+    if (params->form == TERRAIN_MEANDER) {
+        float width = params->meander.width;
+        resolved.meander.width = width > 0.0f ? width : params->size / 60.0f;
         resolved.relief = params->relief > 0.0f ? params->relief : params->size * form->relief;
     }
     if (form->evolves) {

@@ -391,12 +391,14 @@ static const Table FOREST_TABLE = {.name = "forest",
                                    .size = sizeof(TerrainForestParams),
                                    .keys = FOREST_KEYS};
 
-static const EnumName FORM_NAMES[] = {
-    {"rivers", TERRAIN_RIVERS},   {"ridges", TERRAIN_RIDGES}, {"map", TERRAIN_MAP},
-    {"noise", TERRAIN_NOISE},     {"survey", TERRAIN_SURVEY}, {"canyon", TERRAIN_CANYON},
-    {"mesas", TERRAIN_MESAS},     {"alps", TERRAIN_ALPS},     {"volcano", TERRAIN_VOLCANO},
-    {"dunes", TERRAIN_DUNES},     {"hills", TERRAIN_HILLS},   {"coast", TERRAIN_COAST},
-    {"braided", TERRAIN_BRAIDED}, {"karst", TERRAIN_KARST},   {0}};
+static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS},   {"ridges", TERRAIN_RIDGES},
+                                      {"map", TERRAIN_MAP},         {"noise", TERRAIN_NOISE},
+                                      {"survey", TERRAIN_SURVEY},   {"canyon", TERRAIN_CANYON},
+                                      {"mesas", TERRAIN_MESAS},     {"alps", TERRAIN_ALPS},
+                                      {"volcano", TERRAIN_VOLCANO}, {"dunes", TERRAIN_DUNES},
+                                      {"hills", TERRAIN_HILLS},     {"coast", TERRAIN_COAST},
+                                      {"braided", TERRAIN_BRAIDED}, {"karst", TERRAIN_KARST},
+                                      {"meander", TERRAIN_MEANDER}, {0}};
 
 static const EnumName SHOW_NAMES[] = {
     {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
@@ -412,7 +414,8 @@ static const Key TERRAIN_KEYS[] = {
          "carries over a plain; hills: rounded land under creeping soil, which streams cut; coast: "
          "cliffs, shore platforms, stacks and beaches that waves make; braided: a river in many "
          "threads on its plain of gravel, in a valley; karst: towers and cones of limestone that "
-         "water has dissolved."},
+         "water has dissolved; meander: a river that winds in its floodplain, with point "
+         "bars and oxbow lakes."},
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
@@ -420,7 +423,8 @@ static const Key TERRAIN_KEYS[] = {
     {KEY_OF(TerrainParams, relief, "relief", KEY_FLOAT), .high = 1e5, .unit = "m",
      .doc = "Height of the highest valley slopes above the outlets, of the highest ridge above "
             "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09, "
-            "of mesas, hills and coasts 0.04, of karst 0.05, of braided 0.1, of alps 0.16 and of a "
+            "of mesas, hills and coasts 0.04, of karst 0.05, of meander 0.03, of braided 0.1, of "
+            "alps 0.16 and of a "
             "volcano 0.13 of "
             "the size. Not of noise "
             "alone, "
@@ -467,6 +471,8 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Braided river, of form: braided."},
     {KEY_OF(TerrainParams, karst, "karst", KEY_GROUP), .table = &karst_table,
      .doc = "Tower karst, of form: karst."},
+    {KEY_OF(TerrainParams, meander, "meander", KEY_GROUP), .table = &meander_table,
+     .doc = "Meandering river, of form: meander."},
     {KEY_OF(TerrainParams, evolution, "evolution", KEY_GROUP), .table = &evolution_table,
      .doc = "Processes that make form: canyon, mesas, alps, volcano, hills, coast and karst."},
     {KEY_OF(TerrainParams, tiles, "tiles", KEY_GROUP), .table = &TILE_TABLE,

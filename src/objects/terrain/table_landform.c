@@ -391,6 +391,34 @@ const Table braided_table = {
     .size = sizeof(BraidedParams),
     .keys = BRAIDED_KEYS};
 
+static const Key MEANDER_KEYS[] = {
+    {KEY_OF(MeanderParams, width, "width", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc =
+         "Width of the river; 0 = a sixtieth of the terrain's size. Bends are about ten times as "
+         "long."},
+    {KEY_OF(MeanderParams, plain, "plain", KEY_FLOAT), .low = 0.1, .high = 1, .unit = "sizes",
+     .doc = "Width of the floodplain between the hills."},
+    {KEY_OF(MeanderParams, slope, "slope", KEY_FLOAT), .high = 0.01,
+     .doc = "Fall of the valley, from north (-z) to south, over its length."},
+    {KEY_OF(MeanderParams, age, "age", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
+     .doc = "How long the river has wandered: 0.3 = bends grow, 1 = many have been cut off."},
+    {0},
+};
+
+const Table meander_table = {
+    .name = "meander",
+    .doc =
+        "A river that winds in its floodplain: outer banks retreat, point bars follow, necks are "
+        "cut and leave oxbow lakes that fill.",
+    .example = "objects:\n"
+               "  - name: valley\n"
+               "    terrain:\n"
+               "      form: meander\n"
+               "      size: 4000\n"
+               "      meander: {width: 60}\n",
+    .size = sizeof(MeanderParams),
+    .keys = MEANDER_KEYS};
+
 static const Key EVOLUTION_KEYS[] = {
     {KEY_OF(EvolutionParams, streams, "streams", KEY_FLOAT), .high = 100,
      .doc = "Factor on the erosion by streams."},

@@ -37,6 +37,10 @@ static void forget(Terrain *terrain)
     braid_free(terrain->braid);
     braid_level_free(terrain->level);
     height_field_free(terrain->sides);
+    meander_free(terrain->meander);
+    height_field_free(terrain->plain);
+    terrain->meander = NULL;
+    terrain->plain = NULL;
     terrain->braid = NULL;
     terrain->level = NULL;
     terrain->sides = NULL;

@@ -45,7 +45,8 @@ typedef enum TerrainForm {
     TERRAIN_HILLS,   // creeping soil and streams
     TERRAIN_COAST,   // cliffs that waves cut
     TERRAIN_BRAIDED, // a braided river in its valley
-    TERRAIN_KARST    // towers of dissolved limestone
+    TERRAIN_KARST,   // towers of dissolved limestone
+    TERRAIN_MEANDER  // a winding river in its floodplain
 } TerrainForm;
 
 // What is drawn.
@@ -176,6 +177,7 @@ typedef struct TerrainParams {
     CoastParams coast;
     BraidedParams braided;
     KarstParams karst;
+    MeanderParams meander;
     EvolutionParams evolution;
     TerrainTileParams tiles;
     int beyond;       // rings of mirrored copies around the square

@@ -220,7 +220,7 @@ bool terrain_add_water(const Terrain *terrain, const HeightField *field, const P
             return false;
         }
     }
-    if (terrain->braid && !terrain_add_braids(terrain, field, placing, e)) {
+    if ((terrain->braid || terrain->meander) && !terrain_add_braids(terrain, field, placing, e)) {
         return false;
     }
     return !terrain->water || add_rivers(terrain, field, placing, e);
