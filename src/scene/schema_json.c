@@ -15,37 +15,43 @@ typedef struct Writer {
 
 #define put(w, ...) schema_put((w)->text, __VA_ARGS__)
 
-static void put_string(Writer *w, const char *text)
+static void put_escaped(Writer *w, const char *text)
 {
-    put(w, "\"");
     for (; *text; text++) {
         put(w, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
     }
+}
+
+static void put_string(Writer *w, const char *text)
+{
+    put(w, "\"");
+    put_escaped(w, text);
     put(w, "\"");
 }
 
 // The documentation, followed by the unit and the kinds.
 static void put_description(Writer *w, const Table *table, const Key *row)
 {
-    char text[1024];
-    int used = snprintf(text, sizeof text, "%s", row->doc);
+    put(w, "\"description\": \"");
+    put_escaped(w, row->doc);
     if (row->unit) {
-        used += snprintf(text + used, sizeof text - (size_t)used, " Unit: %s.", row->unit);
+        put(w, " Unit: ");
+        put_escaped(w, row->unit);
+        put(w, ".");
     }
     if (row->kinds) {
         const Key *kind = table_find(table, table->kind_key);
-        used += snprintf(text + used, sizeof text - (size_t)used, " Only for %s", table->kind_key);
+        put(w, " Only for %s", table->kind_key);
         const char *before = " ";
         for (const EnumName *n = kind->names; n->name; n++) {
             if (row->kinds >> n->value & 1u) {
-                used += snprintf(text + used, sizeof text - (size_t)used, "%s%s", before, n->name);
+                put(w, "%s%s", before, n->name);
                 before = ", ";
             }
         }
-        snprintf(text + used, sizeof text - (size_t)used, ".");
+        put(w, ".");
     }
-    put(w, "\"description\": ");
-    put_string(w, text);
+    put(w, "\"");
 }
 
 static void put_range(Writer *w, const Key *row)
