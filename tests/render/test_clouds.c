@@ -293,6 +293,98 @@ static void liquid_water_rises_from_one_base(void **state)
     clouds_free(clouds);
 }
 
+static Cloud thick_fog(void)
+{
+    Cloud fog = cloud_default(CLOUD_FOG);
+    fog.thickness = 400.0f;
+    return fog;
+}
+
+// Deep in it fog thins out evenly, from its extinction at the base by half of it up to the top:
+// over a height h the optical depth is extinction (h - h^2 / (4 thickness)).
+static void fog_is_dense_below(void **state)
+{
+    (void)state;
+    Cloud fog = thick_fog();
+    CloudSet *clouds = grow(fog);
+    const double height = 0.12 * (double)fog.thickness;
+    const double wanted =
+        (double)fog.extinction * (height - height * height / (4.0 * (double)fog.thickness));
+    const float scale = 1.0f;
+    for (uint64_t i = 0; i < 20; i++) {
+        CloudRay up = {.origin = vec3(random_range(random_key(i, 0), -9000, 9000), fog.base,
+                                      random_range(random_key(i, 1), -9000, 9000)),
+                       .direction = vec3(0, 1, 0),
+                       .far = (float)height};
+        double depth = depth_along(clouds, &up, height);
+        assert_in_bounds(depth, 0.999 * wanted, 1.001 * wanted);
+        enum { TRIALS = 2000 };
+        double passed = 0.0;
+        uint64_t key = random_key(7, i);
+        for (int k = 0; k < TRIALS; k++) {
+            passed += (double)clouds_pass(clouds, &up, scale, &key) / TRIALS;
+        }
+        double error = 4.5 * 0.5 / sqrt((double)TRIALS);
+        assert_in_bounds(passed, exp(-wanted) - error, exp(-wanted) + error);
+    }
+    clouds_free(clouds);
+}
+
+// Nothing is below its base or above its swells and wisps; a closed one has no hole; its top waves.
+static void fog_fills_the_air_up_to_a_wavy_top(void **state)
+{
+    (void)state;
+    Cloud fog = thick_fog();
+    CloudSet *clouds = grow(fog), *again = grow(fog);
+    double low = 1e9, high = -1e9;
+    for (uint64_t i = 0; i < 1500; i++) {
+        Vec3 p = vec3(random_range(random_key(i, 0), -9000, 9000), 0,
+                      random_range(random_key(i, 1), -9000, 9000));
+        p.y = fog.base - 50.0f * random_unit(random_key(i, 2));
+        assert_true(clouds_extinction(clouds, p) <= 0.0f);
+        p.y = fog.base + 0.5f * fog.thickness * random_unit(random_key(i, 3)) + 0.01f;
+        assert_true(clouds_extinction(clouds, p) > 0.25f * fog.extinction);
+        p.y = fog.base + fog.thickness + 0.09f * fog.size;
+        assert_true(clouds_extinction(clouds, p) <= 0.0f);
+        float extinction = 0.0f;
+        while (extinction <= 0.0f) { // down to the top
+            p.y -= 3.0f;
+            extinction = clouds_extinction(clouds, p);
+        }
+        assert_true(clouds_extinction(again, p) == extinction);
+        low = fmin(low, (double)p.y);
+        high = fmax(high, (double)p.y);
+    }
+    assert_in_bounds(high - low, 0.12 * (double)fog.thickness, 0.5 * (double)fog.thickness);
+    clouds_free(clouds);
+    clouds_free(again);
+}
+
+// Of its area, holes leave the cover; at half its height banks are narrower by their slopes.
+static void fog_has_holes_by_its_cover(void **state)
+{
+    (void)state;
+    double before = 0.0;
+    for (int i = 1; i <= 3; i++) {
+        Cloud fog = thick_fog();
+        fog.cover = 0.25f * (float)i;
+        CloudSet *clouds = grow(fog);
+        int low = 0, middle = 0, tries = 20000;
+        for (uint64_t k = 0; k < (uint64_t)tries; k++) {
+            Vec3 p = vec3(random_range(random_key(k, 0), 0, 16.0f * fog.size), fog.base + 1.0f,
+                          random_range(random_key(k, 1), 0, 16.0f * fog.size));
+            low += clouds_extinction(clouds, p) > 0.0f;
+            p.y = fog.base + 0.5f * fog.thickness;
+            middle += clouds_extinction(clouds, p) > 0.0f;
+        }
+        assert_in_bounds((double)low / tries, (double)fog.cover - 0.05, (double)fog.cover + 0.05);
+        assert_true(middle < low);
+        assert_true((double)middle / tries > before + 0.1);
+        before = (double)middle / tries;
+        clouds_free(clouds);
+    }
+}
+
 // The number of heaps wider than w falls off like w^-0.9, as long as none is too wide.
 static void small_heaps_are_many(void **state)
 {
@@ -410,6 +502,9 @@ int main(void)
         cmocka_unit_test(no_cell_is_thinner_or_denser_than_its_bounds),
         cmocka_unit_test(gaps_reach_to_the_next_cloud),
         cmocka_unit_test(liquid_water_rises_from_one_base),
+        cmocka_unit_test(fog_is_dense_below),
+        cmocka_unit_test(fog_fills_the_air_up_to_a_wavy_top),
+        cmocka_unit_test(fog_has_holes_by_its_cover),
         cmocka_unit_test(small_heaps_are_many),
         cmocka_unit_test(an_even_sky_hides_clouds),
         cmocka_unit_test(clouds_shade_the_land),
