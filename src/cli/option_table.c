@@ -417,7 +417,7 @@ const Option option_table[] = {
             "curvature (1/m), flow (catchment, m^2), wetness (topographic index), river-distance "
             "(m), deposit and wear (m that erosion has laid down and taken away), bedrock (1 where "
             "rock is bare), snow (share of the ground), lava (how fresh, 0 to 1), scoria (how red, "
-            "0 to 1), age (of the ground of a braided river's valley, 0 to 1) or sun-hours (a day; "
+            "0 to 1), age (of the ground of a river's valley, 0 to 1) or sun-hours (a day; "
             "mean of the year at latitude 45, or as "
             "sun-hours:LATITUDE:DAY)"},
     {.name = "instances",

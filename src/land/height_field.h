@@ -30,10 +30,10 @@ typedef struct HeightField {
     float *loose;   // m of loose ground on the rock; NULL = unknown
     float *ground;  // of volcanoes: lava by its freshness, 1 = just laid, to 0 = none; scoria, -1 =
                     // red with oxide, to 0; NULL = unknown
-    float *age;   // 0..1, of a braided river's valley: 0 = gravel that water has just moved, up to
-                  // 0.6 where it has long lain; 0.8 = terraces, 1 = slopes; NULL = unknown
-    float *water; // m: level of the water, also under the ground beside it; -INFINITY where there
-                  // is none near; NULL = unknown
+    float *age;     // 0..1, of a river's valley: 0 = gravel that water has just moved, up to
+                    // 0.6 where it has long lain; 0.8 = terraces, 1 = slopes; NULL = unknown
+    float *water;   // m: level of the water, also under the ground beside it; -INFINITY where there
+                    // is none near; NULL = unknown
     Vec2 *wind; // of sand: the wind's direction over it, shorter where less sand lies; NULL = none
     bool periodic;   // the last samples are the first again, and what lies beyond is a copy
     GeoPlace *place; // owned; NULL = anywhere

@@ -315,7 +315,7 @@ static const struct {
     [HEIGHT_MAP_SNOW] = {"snow", .record = fill_snow, .needs = "a terrain of form alps or volcano"},
     [HEIGHT_MAP_LAVA] = {"lava", .record = fill_lava, .needs = "a terrain of form volcano"},
     [HEIGHT_MAP_SCORIA] = {"scoria", .record = fill_scoria, .needs = "a terrain of form volcano"},
-    [HEIGHT_MAP_AGE] = {"age", .record = fill_age, .needs = "a terrain of form braided"},
+    [HEIGHT_MAP_AGE] = {"age", .record = fill_age, .needs = "a terrain of form braided or meander"},
     [HEIGHT_MAP_SUN_HOURS] = {"sun-hours"}};
 
 static int find(const char *name, size_t length)

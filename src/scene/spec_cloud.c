@@ -15,8 +15,7 @@ static const Key CLOUD_KEYS[] = {
      .doc = "cumulus: heaps of all sizes and ages on one flat base, all over the land; stratus: a "
             "sheet, closed or torn; "
             "storm: one cumulonimbus, whose anvil the wind draws out; fog: fills the air from its "
-            "base, "
-            "densest there, up to a wavy top with wisps, out of which higher land stands."},
+            "base, densest there, up to a wavy top with wisps, out of which higher land stands."},
     {KEY_OF(Cloud, base, "base", KEY_FLOAT), .low = -1000, .high = 20000, .unit = "m",
      .doc = "Altitude of the underside above y = 0. That of fog may lie anywhere below the lowest "
             "land."},
@@ -30,12 +29,10 @@ static const Key CLOUD_KEYS[] = {
     {KEY_OF(Cloud, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .low = 50, .high = 20000,
      .unit = "m",
      .doc = "Width of the large heaps, which many smaller ones surround; of the rolls of a sheet "
-            "or fog; of "
-            "the storm below its anvil."},
+            "or fog; of the storm below its anvil."},
     {KEY_OF(Cloud, extinction, "extinction", KEY_FLOAT), .high = 1, .unit = "1/m",
      .doc = "Extinction where droplets are dense, from a quarter of the thickness up, or at the "
-            "base of fog: 0.05 = one sees "
-            "60 m far in it; 0.003 for veils of ice."},
+            "base of fog: 0.05 = one sees 60 m far in it; 0.003 for veils of ice."},
     {KEY_OF(Cloud, wind, "wind", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
      .doc = "Azimuth the wind blows toward, from +Z toward +X: heaps and anvils are longer along "
             "it."},

@@ -85,10 +85,37 @@ static void threads_do_not_change_the_land(void **state)
     height_field_free(first);
 }
 
+// The river does not know the grid: samples that two grids share have the same height, at sizes
+// whose cells are exact in binary.
+static void a_finer_grid_shows_the_same_land(void **state)
+{
+    (void)state;
+    enum { CELLS = 128 };
+    TerrainParams params = terrain_params_default();
+    params.form = TERRAIN_MEANDER;
+    params.size = 4096.0f;
+    params.meander.width = 100.0f;
+    HeightField *field[2];
+    for (int k = 0; k < 2; k++) {
+        params.resolution = CELLS << k;
+        field[k] = make_heights(&params, 5, 0, NULL, NULL);
+    }
+    for (int64_t row = 0; row <= CELLS; row++) {
+        for (int64_t column = 0; column <= CELLS; column++) {
+            float coarse = field[0]->height[row * (CELLS + 1) + column];
+            float fine = field[1]->height[2 * row * (2 * CELLS + 1) + 2 * column];
+            assert_true(coarse == fine);
+        }
+    }
+    height_field_free(field[0]);
+    height_field_free(field[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_waves_grow_as_the_closed_form),
+        cmocka_unit_test(a_finer_grid_shows_the_same_land),
         cmocka_unit_test(threads_do_not_change_the_land),
         cmocka_unit_test(a_grown_river_winds_and_never_crosses_itself),
     };

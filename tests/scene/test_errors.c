@@ -175,6 +175,11 @@ static const Case scenes[] = {
      "meander"},
     {"objects: [{name: a, terrain: {form: canyon, evolution: {cells: 700}}}]\n",
      ":1:64: objects.a.terrain.evolution.cells is 700; it must be a power of two, such as 1024"},
+    {"objects: [{name: a, terrain: {form: meander, size: 4096, resolution: 64, meander: {width: "
+     "40}}}]\n",
+     ":1:91: objects.a.terrain.meander.width is 40 m, less than a cell of the terrain, 64 m; a "
+     "river "
+     "must be at least a cell wide"},
     {"objects: [{name: a, terrain: {form: map}}]\n",
      ":1:30: objects.a.terrain.map.image is missing; form: map needs an image"},
     {"objects: [{name: a, terrain: {ridges: {lift: [{distance: 0, height: 1}, {distance: 0, "

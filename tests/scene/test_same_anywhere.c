@@ -279,6 +279,9 @@ static const struct {
      "0 "
      "0), rotation: [0, @a(0), 0]}]}",
      ALL},
+    {"shape: {envelope: [{shape: box, size: [@l(0.1), @l(0.2), @l(0.05)], position: @p(0 0 0)}], "
+     "hoar: {length: @l(0.02), thickest: @l(0.01), sky: 0.5}}",
+     MOVE | SCALE},
     {"fracture: {attractors: 40, resolution: 32, envelope: [{shape: sphere, size: @l(1), "
      "position: @p(0 0 0), rotation: [0, @a(0), 0]}]}",
      ALL},

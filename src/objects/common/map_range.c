@@ -18,10 +18,9 @@ static const Key KEYS[] = {
          "under 0.5 m of loose ground; snow: share of the ground that snow covers (forms alps and "
          "volcano); "
          "lava: 0 to 1, how fresh the lava on the ground is; scoria: 0 to 1, how red it is "
-         "(form volcano); age: of the ground of a braided river's valley, 0 = gravel that water "
-         "has "
-         "just moved, up to 0.6 where it has long lain, 0.8 = terraces, 1 = slopes (form "
-         "braided)."},
+         "(form volcano); age: of the ground of a river's valley, 0 = what water has just "
+         "moved, up to 0.6 (braided) or 0.74 (meander) where it has long lain, 0.8 = terraces and "
+         "hills, 1 = slopes (forms braided and meander)."},
     {KEY_OF(MapRange, range, "range", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 2, .low = -1e9,
      .high = 1e9,
      .doc =

@@ -196,9 +196,10 @@ static bool spread_over(Spread *s, const Mesh *mesh, const PolypPlaces *places, 
     return true;
 }
 
-// An axial cup at the end of each branch, from which the branch grows.
-static bool put_axial(Spread *s, const OutTree *tree, Error *e)
+// An axial cup at the end of each branch, from which the branch grows, at most max_count.
+static bool put_axial(Spread *s, const PolypPlaces *places, const Run *run, Error *e)
 {
+    const OutTree *tree = places->tree;
     bool *is_parent = memory_alloc_zero(tree->count, sizeof *is_parent, e);
     bool done = is_parent;
     for (int64_t i = 0; done && i < tree->count; i++) {
@@ -206,9 +207,10 @@ static bool put_axial(Spread *s, const OutTree *tree, Error *e)
             is_parent[tree->parent[i]] = true;
         }
     }
-    for (int64_t i = 0; done && i < tree->count; i++) {
+    for (int64_t i = 0; done && i < tree->count && s->count < places->max_count; i++) {
         int32_t parent = tree->parent[i];
-        if (is_parent[i] || parent < 0) {
+        done = run_goes_on(run, i, e);
+        if (!done || is_parent[i] || parent < 0) {
             continue;
         }
         Vec3 out = vec3_normalize(vec3_sub(tree->position[i], tree->position[parent]));
@@ -299,7 +301,7 @@ bool polyps_add(const Mesh *skin, const PolypPlaces *places, const Placing *plac
     bool done = s.bucket;
     if (done) {
         memset(s.bucket, -1, (size_t)s.buckets * sizeof *s.bucket);
-        done = (!places->tree || put_axial(&s, places->tree, e)) &&
+        done = (!places->tree || put_axial(&s, places, placing->recipe->run, e)) &&
                spread_over(&s, skin, places, placing->recipe->run, e);
     }
     for (int age = 0; done && age < AGES; age++) {

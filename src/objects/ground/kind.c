@@ -28,6 +28,9 @@ static void needs(const void *params, Needs *needs)
               0.5 * (sizeof(Transform) + sizeof(float)));
     needs_add_copies(needs, "grass_tufts", 0.55 * (double)ground->grass_tufts, TUFT_FACES);
     needs_add_copies(needs, "fallen_leaves", (double)ground->fallen_leaves, LEAF_FACES);
+    for (int i = 0; i < ground->pond_count; i++) {
+        needs_add_skin(needs, "ponds", (double)pond_faces(&ground->ponds[i]));
+    }
     if (ground->trees.count > 0) {
         needs_add(needs, "trees.variants", ground->trees.variants, TREE_BYTES);
         needs_add_groups(needs, "trees.count", (double)ground->trees.count, PARTS);

@@ -143,6 +143,12 @@ static int rings_of(const Pond *pond)
     return (int)clampf(pond->radius / 0.12f, 16.0f, 96.0f);
 }
 
+// Banks, those under snow, and the bed have the same rings.
+int64_t pond_faces(const Pond *pond)
+{
+    return (int64_t)sectors_of(pond) * (6 * rings_of(pond) + 2);
+}
+
 // site.x: depth over 1 m + itself; site.y: how wet it is, 1 in the water.
 static void set_bed(Mesh *mesh, int64_t vertex, const PondSite *site, const PondLand *land,
                     Vec2 way, float r)

@@ -51,6 +51,8 @@ typedef struct PondLand {
     const void *user;
 } PondLand;
 
+int64_t pond_faces(const Pond *pond); // triangles of its meshes together, at most
+
 Mesh *pond_water_mesh(const PondSite *site, Error *e); // level, reaches a little under the banks
 Mesh *pond_bed_mesh(const PondSite *site, const PondLand *land, Error *e); // out to the wet rim
 Mesh *pond_bank_mesh(const PondSite *site, const PondLand *land, const PondMargin *margin,

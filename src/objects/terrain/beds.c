@@ -68,6 +68,16 @@ static const StrataBed KARST[] = {{0.13f, 0.80f, 74.0f, {0.30f, 0.295f, 0.28f}, 
                                   {0.010f, 0.60f, 40.0f, {0.26f, 0.25f, 0.225f}, 0.8f},
                                   {1.0f, 0.90f, 85.0f, {0.32f, 0.315f, 0.30f}, 5.0f}};
 
+// Their thicknesses are shares of the relief.
+static int copy_beds(StrataBed *beds, const StrataBed *from, size_t count, float relief)
+{
+    for (size_t i = 0; i < count; i++) {
+        beds[i] = from[i];
+        beds[i].thickness *= relief;
+    }
+    return (int)count;
+}
+
 static int own_beds(const TerrainParams *params, StrataBed *beds)
 {
     if (params->form == TERRAIN_ALPS) { // one rock, which age makes rotten
@@ -89,17 +99,13 @@ static int own_beds(const TerrainParams *params, StrataBed *beds)
     if (params->form == TERRAIN_COAST) {
         return coast_beds(params, beds);
     }
-    const StrataBed *from = params->form == TERRAIN_CANYON  ? CANYON
-                            : params->form == TERRAIN_KARST ? KARST
-                                                            : MESAS;
-    int count = params->form == TERRAIN_CANYON  ? (int)(sizeof CANYON / sizeof *CANYON)
-                : params->form == TERRAIN_KARST ? (int)(sizeof KARST / sizeof *KARST)
-                                                : (int)(sizeof MESAS / sizeof *MESAS);
-    for (int i = 0; i < count; i++) {
-        beds[i] = from[i];
-        beds[i].thickness *= params->relief;
+    if (params->form == TERRAIN_CANYON) {
+        return copy_beds(beds, CANYON, sizeof CANYON / sizeof *CANYON, params->relief);
     }
-    return count;
+    if (params->form == TERRAIN_KARST) {
+        return copy_beds(beds, KARST, sizeof KARST / sizeof *KARST, params->relief);
+    }
+    return copy_beds(beds, MESAS, sizeof MESAS / sizeof *MESAS, params->relief);
 }
 
 bool terrain_lay_beds(const TerrainParams *given, Strata **strata, Error *e)

@@ -236,11 +236,6 @@ static bool finish_braided(Terrain *terrain, HeightField *field, const Run *run,
     return terrain_drain_pools(field, e) && terrain_keep_shores(terrain, field, run, e);
 }
 
-static bool finish_meander(Terrain *terrain, HeightField *field, const Run *run, Error *e)
-{
-    return terrain_keep_shores(terrain, field, run, e);
-}
-
 // ---- the table
 
 static const Form FORMS[] = {
@@ -347,7 +342,7 @@ static const Form FORMS[] = {
                          .prepare = terrain_grow_meander,
                          .record = record_braided,
                          .sample = terrain_sample_meander,
-                         .finish = finish_meander},
+                         .finish = terrain_keep_shores},
 };
 
 const Form *terrain_form(const TerrainParams *params)

@@ -425,10 +425,7 @@ static const Key TERRAIN_KEYS[] = {
             "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09, "
             "of mesas, hills and coasts 0.04, of karst 0.05, of meander 0.03, of braided 0.1, of "
             "alps 0.16 and of a "
-            "volcano 0.13 of "
-            "the size. Not of noise "
-            "alone, "
-            "surveys or dunes."},
+            "volcano 0.13 of the size. Not of noise alone, surveys or dunes."},
     {KEY_OF(TerrainParams, resolution, "resolution", KEY_INT), .low = 16, .high = 8192,
      .doc = "Cells per side, a power of two; it changes the detail, not the form."},
     {KEY_OF(TerrainParams, water_level, "water_level", KEY_FLOAT), .high = 1,
@@ -521,6 +518,13 @@ static bool check_terrain(const Mapping *mapping, void *params)
     }
     if (terrain->form == TERRAIN_SURVEY && !terrain->survey.file) {
         return mapping_fail(mapping, "survey.file", " is missing; form: survey needs a raster");
+    }
+    double cell = (double)terrain->size / cells, width = (double)terrain->meander.width;
+    if (terrain->form == TERRAIN_MEANDER && width > 0.0 && width < cell) {
+        return mapping_fail(mapping, "meander.width",
+                            " is %g m, less than a cell of the terrain, %g m; a river must be at "
+                            "least a cell wide",
+                            width, cell);
     }
     int evolved = terrain->evolution.cells;
     if ((evolved & (evolved - 1)) != 0) {

@@ -5,16 +5,12 @@
 #include "base/strata.h"
 #include "render/material/pattern.h"
 #include "render/material/pattern_crags.h"
+#include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
 
 #include <stddef.h>
 
 enum { SEED_FRAY = 401, SEED_BED = 411, SEED_LICHEN = 421, SEED_SAND = 431, SEED_TURF = 441 };
-
-typedef struct Ground {
-    Vec3 color;
-    Vec3 slope; // of its relief, per metre
-} Ground;
 
 typedef struct Place {
     const Material *material;
@@ -25,13 +21,6 @@ typedef struct Place {
     float fray;    // noise of tens of metres, about -1..1
     float fine;    // of metres
 } Place;
-
-static Ground blend(Ground a, const Ground *b, float t)
-{
-    a.color = vec3_lerp(a.color, b->color, t);
-    a.slope = vec3_lerp(a.slope, b->slope, t);
-    return a;
-}
 
 // ---- rock
 
@@ -160,18 +149,18 @@ void pattern_coast(const Material *m, const SurfacePoint *point, PatternShade *s
     float loose = point->site.y + 0.08f * p.fine;
     float low = smoothstepf(p.high + 3.5f, p.high + 2.0f, p.above + 0.5f * p.fray);
     other = rubble(&p, &g);
-    g = blend(g, &other, smoothstepf(0.15f, 0.4f, loose) * (1.0f - low));
+    g = ground_blend(g, &other, smoothstepf(0.15f, 0.4f, loose) * (1.0f - low));
     grow_bands(&p, &g);
     other = sand(&p);
-    g = blend(g, &other,
-              low * smoothstepf(0.04f, 0.22f, loose) *
-                  smoothstepf(0.80f, 0.92f, p.upright + 0.03f * p.fine));
+    g = ground_blend(g, &other,
+                     low * smoothstepf(0.04f, 0.22f, loose) *
+                         smoothstepf(0.80f, 0.92f, p.upright + 0.03f * p.fine));
     // Turf holds on ledges, too; salt spray keeps it off the foot.
     float stands = p.upright + 0.09f * p.fine + 0.06f * p.fray;
     float green = smoothstepf(0.66f, 0.80f, stands) *
                   smoothstepf(p.high + 4.0f, p.high + 9.0f, p.above + 2.0f * p.fray);
     other = turf(&p);
-    g = blend(g, &other, green);
+    g = ground_blend(g, &other, green);
     shade->color = g.color;
     shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }

@@ -4,23 +4,12 @@
 #include "base/strata.h"
 #include "render/material/pattern.h"
 #include "render/material/pattern_crags.h"
+#include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
 
 #include <stddef.h>
 
 enum { SEED_PATCH = 601, SEED_ROCK = 611, SEED_STREAK = 631, SEED_BUSH = 651, SEED_FIELD = 671 };
-
-typedef struct Ground {
-    Vec3 color;
-    Vec3 slope; // of its relief, per metre
-} Ground;
-
-static Ground blend(Ground a, const Ground *b, float t)
-{
-    a.color = vec3_lerp(a.color, b->color, t);
-    a.slope = vec3_lerp(a.slope, b->slope, t);
-    return a;
-}
 
 // Dark films of algae where water runs, pale tufa and rust beside them.
 static Vec3 stain(const SurfacePoint *point, Vec3 color, float patch)
@@ -96,10 +85,10 @@ void pattern_karst(const Material *m, const SurfacePoint *point, PatternShade *s
     g.color = vec3_scale(g.color, 1.0f - 0.45f * damp);
     Ground other = bushes(m, point, patch);
     float holds = upright + 0.26f * patch + 0.20f * fine;
-    g = blend(g, &other, smoothstepf(0.22f, 0.36f, holds));
+    g = ground_blend(g, &other, smoothstepf(0.22f, 0.36f, holds));
     other = fields(m, point, patch);
     float loose = smoothstepf(0.2f, 0.6f, point->site.y) * smoothstepf(0.8f, 0.93f, upright);
-    g = blend(g, &other, loose);
+    g = ground_blend(g, &other, loose);
     shade->color = g.color;
     shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }

@@ -3,21 +3,10 @@
 // colours and relief, down to the footprint of the pixel.
 #include "render/material/pattern.h"
 #include "render/material/pattern_crags.h"
+#include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
 
 #include <stddef.h>
-
-typedef struct Ground {
-    Vec3 color;
-    Vec3 slope; // of its relief, per metre
-} Ground;
-
-static Ground blend(Ground a, const Ground *b, float t)
-{
-    a.color = vec3_lerp(a.color, b->color, t);
-    a.slope = vec3_lerp(a.slope, b->slope, t);
-    return a;
-}
 
 static Vec3 tinted(Vec3 color, float r, float g, float b)
 {
@@ -104,18 +93,18 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
     Ground g = rock(m, point, shade->color, scale);
     float loose = smoothstepf(0.70f, 0.80f, upright + 0.07f * ragged);
     Ground other = scree(m, point, shade->color, scale);
-    g = blend(g, &other, loose);
+    g = ground_blend(g, &other, loose);
     if (m->grass_line > 0.0f) {
         float rise = altitude + 0.10f * ragged - 0.10f * wetness;
         float green = smoothstepf(m->grass_line + 0.06f, m->grass_line - 0.08f, rise) *
                       smoothstepf(0.70f, 0.80f, upright + 0.10f * ragged + 0.05f * wetness);
         other = grass(point, scale, wetness, altitude / m->grass_line);
-        g = blend(g, &other, green);
+        g = ground_blend(g, &other, green);
     }
     // Gravel along the water.
     float bank = smoothstepf(0.86f, 0.97f, wetness + 0.08f * ragged);
     other = scree(m, point, tinted(shade->color, 1.1f, 1.08f, 1.02f), 0.5f * scale);
-    g = blend(g, &other, 0.8f * bank);
+    g = ground_blend(g, &other, 0.8f * bank);
     if (m->snow_line > 0.0f) {
         float cold = altitude + 0.09f * ragged +
                      0.10f * (point->geometric_normal.z < 0.0f ? -point->geometric_normal.z : 0.0f);
@@ -123,7 +112,7 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
         float least = lerpf(0.70f, 0.42f, smoothstepf(m->snow_line, m->snow_line + 0.4f, cold));
         float held = smoothstepf(least, least + 0.07f, upright + 0.10f * fray.value);
         other = snow(point, scale);
-        g = blend(g, &other, high * held);
+        g = ground_blend(g, &other, high * held);
     }
     shade->color = g.color;
     shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
@@ -152,13 +141,13 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
                  smoothstepf(0.12f, 0.4f, loose + 0.25f * ragged);
     Ground other = scree(m, point, shade->color, scale);
     other.color = vec3_scale(other.color, 1.0f + 0.18f * chutes.value);
-    g = blend(g, &other, lies);
+    g = ground_blend(g, &other, lies);
     if (m->grass_line > 0.0f) {
         float rise = felt + 0.09f * ragged - 0.05f * loose;
         float green = smoothstepf(m->grass_line + 0.05f, m->grass_line - 0.09f, rise) *
                       smoothstepf(0.66f, 0.80f, upright + 0.12f * ragged);
         other = grass(point, scale, 0.4f * loose, felt / m->grass_line);
-        g = blend(g, &other, green);
+        g = ground_blend(g, &other, green);
     }
     if (m->snow_line > 0.0f) {
         // Far below the line only hollows that hold it through the summer; far above all but walls.
@@ -168,7 +157,7 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
         float kept = upright - 0.25f * chutes.value + 0.03f * fray.value - 0.16f * crags.slope.y;
         float held = smoothstepf(least - 0.02f, least + 0.05f, kept);
         other = snow(point, scale);
-        g = blend(g, &other, smoothstepf(-0.015f, 0.02f, cold) * held);
+        g = ground_blend(g, &other, smoothstepf(-0.015f, 0.02f, cold) * held);
     }
     shade->color = g.color;
     shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));

@@ -1,12 +1,8 @@
 // A stratovolcano. site.x is the altitude as snow and plants feel it; site.y is the ground
 // (HeightField.ground): positive = lava by its freshness, negative = red scoria, 0 = tephra.
 #include "render/material/pattern.h"
+#include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
-
-typedef struct Ground {
-    Vec3 color;
-    Vec3 slope; // of its relief, per metre
-} Ground;
 
 // Noise that several kinds of ground share.
 typedef struct Fray {
@@ -14,13 +10,6 @@ typedef struct Fray {
     float both;
     PatternOctaves chutes; // run down the slopes
 } Fray;
-
-static Ground blend(Ground a, const Ground *b, float t)
-{
-    a.color = vec3_lerp(a.color, b->color, t);
-    a.slope = vec3_lerp(a.slope, b->slope, t);
-    return a;
-}
 
 // Ash and lapilli, in streaks down the slope; on steep ground the beds crop out.
 static Ground tephra(const Material *m, const SurfacePoint *point, const Fray *f, Vec3 color,
@@ -103,10 +92,10 @@ void pattern_volcano(const Material *m, const SurfacePoint *point, PatternShade 
     Ground g = tephra(m, point, &f, shade->color, scale, upright);
     float red = smoothstepf(0.25f, 0.75f, -ground + 0.25f * f.both);
     Ground other = scoria(point, &f, scale, -ground);
-    g = blend(g, &other, red);
+    g = ground_blend(g, &other, red);
     float fresh = ground + 0.02f * f.fine;
     other = lava(m, point, &f, scale, fresh);
-    g = blend(g, &other, smoothstepf(0.04f, 0.12f, fresh));
+    g = ground_blend(g, &other, smoothstepf(0.04f, 0.12f, fresh));
     if (m->grass_line > 0.0f) {
         // Plants climb, and settle on lava with the centuries.
         float rise = felt + 0.07f * f.both + 0.35f * clampf(ground, 0.0f, 1.0f) +
@@ -115,11 +104,11 @@ void pattern_volcano(const Material *m, const SurfacePoint *point, PatternShade 
                       smoothstepf(0.62f, 0.76f, upright + 0.10f * f.both);
         green *= 1.0f - smoothstepf(0.35f, 0.6f, fresh + 0.1f * f.both);
         other = plants(point, scale, felt / m->grass_line);
-        g = blend(g, &other, green);
+        g = ground_blend(g, &other, green);
     }
     if (m->snow_line > 0.0f) {
         other = (Ground){.color = {0.84f, 0.86f, 0.89f}};
-        g = blend(g, &other, snow_share(m, point, &f, upright));
+        g = ground_blend(g, &other, snow_share(m, point, &f, upright));
     }
     shade->color = g.color;
     shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
