@@ -102,13 +102,11 @@ typedef struct Scene {
     Sky sky;
     Medium *medium; // NULL = clear air
     Cloud *clouds;
-    int cloud_count;
     Shower *showers;
-    int shower_count;
+    int cloud_count, shower_count;
     Light *lights;
-    int light_count;
     Material *materials;
-    int material_count;
+    int light_count, material_count;
     SceneObject *objects;
     int object_count;
     SceneTarget *targets;

@@ -45,7 +45,7 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"ground: {grass_tufts: 200, ponds: [{position: [3, 2]}]}", 0x71af2f31f44db086},
         {"shape: {envelope: [{shape: box, size: [0.1, 0.2, 0.05]}], hoar: {length: 0.02, sky: "
          "0.5}}",
-         2},
+         0x790930f57f94ae71},
         {"stone: {resolution: 8}", 0xda5f7a6a48381f4f},
         {"scatter: {count: 40, spacing: 0.3, things: [{stone: {resolution: 4}}, {tree: {species: "
          "oxeye_daisy}}]}",

@@ -8,6 +8,7 @@
 #include "objects/common/hoar.h"
 #include "objects/common/hoar_tufts.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -133,6 +134,7 @@ static Vec3 growth_direction(const HoarSurface *on, Vec3 n, uint64_t key)
 
 static bool grow_tufts(HoarSurface *on, const Cell *cell, Error *e)
 {
+    assert(on->judged); // every cell has been
     Judged judged = on->judged[on->count++];
     float wanted = on->kept * judged.number;
     int64_t number = (int64_t)(wanted + random_unit(random_key(cell->key, STREAM_NUMBER)));

@@ -133,7 +133,8 @@ static void ground_defaults(void *out)
 const Table ground_table = {
     .name = "ground",
     .doc = "Gently rolling land with grass, out to the horizon. Grass and trees do not grow in "
-           "water: its ponds, a `medium` of water, or a shape or mesh whose material has the pattern `water` "
+           "water: its ponds, a `medium` of water, or a shape or mesh whose material has the "
+           "pattern `water` "
            "or is a dielectric with the index of water. Materials: ground, grass, fallen.",
     .example =
         "objects:\n"
