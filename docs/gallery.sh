@@ -121,7 +121,7 @@ fi
 still figure-9 field-grid --size 1600x900
 still twisted twisted
 still mesh-crown mesh-crown
-still forest forest --samples 24
+still forest forest
 if is_wanted figure-10; then
     for time in 0.2 0.45 0.62 0.8 0.9 1; do
         panel oak --size 534x450 --denoise --samples 16 --set camera.fov=44 --grow-to "$time"
