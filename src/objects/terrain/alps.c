@@ -159,7 +159,7 @@ static Landscape *refine(const Range *r, Landscape *land, const Run *run, Error 
     return finer;
 }
 
-Landscape *terrain_evolve_alps(const Terrain *terrain, const Run *run, Error *e)
+Landscape *terrain_evolve_alps(Terrain *terrain, const Run *run, Error *e)
 {
     Range r = {.terrain = terrain, .params = terrain_params_resolve(terrain->params)};
     float sine, cosine;

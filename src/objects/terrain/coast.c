@@ -264,8 +264,7 @@ static HeightField *ground_of(const Shore *shore, const Landscape *land, Error *
     return ground;
 }
 
-Landscape *terrain_evolve_coast(const Terrain *terrain, HeightField **ground, const Run *run,
-                                Error *e)
+Landscape *terrain_evolve_coast(Terrain *terrain, const Run *run, Error *e)
 {
     static const double until[] = {0.6, 0.85, 0.95, 0.99}; // time at which a finer grid takes over
     Coast c = coast_of(terrain);
@@ -289,7 +288,7 @@ Landscape *terrain_evolve_coast(const Terrain *terrain, HeightField **ground, co
         done = done && refine(&c, &land, &shore, run, e);
     }
     done = done && settle(&c, land, run, e) && shore_lay_beach(shore, land, run, e) &&
-           (*ground = ground_of(shore, land, e));
+           (terrain->ground = ground_of(shore, land, e));
     shore_free(shore);
     if (!done) {
         landscape_free(land);

@@ -5,10 +5,9 @@
 #include "land/shore.h"
 #include "objects/terrain/internal.h"
 
-// coast.c: the land as it is now; sea level is at height 0. *ground: m to the edge of what waves
-// have reached, negative there, on the same grid, as heights; the caller frees it.
-Landscape *terrain_evolve_coast(const Terrain *terrain, HeightField **ground, const Run *run,
-                                Error *e);
+// coast.c: the land as it is now; sea level is at height 0. terrain->ground: m to the edge of
+// what waves have reached, negative there, on the same grid, as heights.
+Landscape *terrain_evolve_coast(Terrain *terrain, const Run *run, Error *e);
 
 // coast_measure.c: after terrain_evolve_coast.
 bool terrain_measure_coast(const Terrain *terrain, MeasureList *list, Error *e);

@@ -8,14 +8,16 @@ typedef struct Form {
     const char *material; // of the land, unless the scene names beds or a material; NULL = mountain
     float relief;         // m by the metre of the size, if the scene gives none; 0 = by the slopes
     float wavelength;     // of the noise's first octave, share of the size, if the scene gives none
-    bool evolves;         // processes wear it: a Landscape
     bool shows_beds;      // so does its material
     bool plateau;         // it was a plateau of beds once
     // The tree, on the plane y = 0; NULL = none. *tree may be set on failure.
     bool (*grow)(OutTree **tree, const TerrainParams *params, const Recipe *recipe, Error *e);
     // Fills in the tree's heights and radii, and what depends on them. NULL = nothing to do.
     bool (*finish_tree)(Terrain *terrain, const Run *run, Error *e);
-    // What heights are looked up in. NULL = nothing.
+    // Land that processes wear, on a grid of its own, which the caller frees; fills in
+    // terrain->ground if the form records it. NULL = the land is not worn so.
+    Landscape *(*evolve)(Terrain *terrain, const Run *run, Error *e);
+    // What else heights are looked up in. NULL = nothing.
     bool (*prepare)(Terrain *terrain, const Run *run, Error *e);
     // Makes room for what the field records beside heights and wetness. NULL = nothing.
     bool (*record)(HeightField *field, Error *e);

@@ -39,42 +39,6 @@ static bool prepare_survey(Terrain *terrain, const Run *run, Error *e)
     return terrain->map;
 }
 
-static bool prepare_plateau(Terrain *terrain, const Run *run, Error *e)
-{
-    terrain->evolved = terrain_evolve(terrain, run, e);
-    return terrain->evolved;
-}
-
-static bool prepare_alps(Terrain *terrain, const Run *run, Error *e)
-{
-    terrain->evolved = terrain_evolve_alps(terrain, run, e);
-    return terrain->evolved;
-}
-
-static bool prepare_volcano(Terrain *terrain, const Run *run, Error *e)
-{
-    terrain->evolved = terrain_evolve_volcano(terrain, &terrain->ground, run, e);
-    return terrain->evolved;
-}
-
-static bool prepare_hills(Terrain *terrain, const Run *run, Error *e)
-{
-    terrain->evolved = terrain_evolve_hills(terrain, run, e);
-    return terrain->evolved;
-}
-
-static bool prepare_coast(Terrain *terrain, const Run *run, Error *e)
-{
-    terrain->evolved = terrain_evolve_coast(terrain, &terrain->ground, run, e);
-    return terrain->evolved;
-}
-
-static bool prepare_karst(Terrain *terrain, const Run *run, Error *e)
-{
-    terrain->evolved = terrain_evolve_karst(terrain, run, e);
-    return terrain->evolved;
-}
-
 static bool prepare_dunes(Terrain *terrain, const Run *run, Error *e)
 {
     terrain->dunes = terrain_blow_dunes(terrain, run, e);
@@ -259,29 +223,26 @@ static const Form FORMS[] = {
                         .finish = finish_survey},
     [TERRAIN_CANYON] = {.relief = 0.09f,
                         .wavelength = 0.125f,
-                        .evolves = true,
                         .plateau = true,
                         .grow = terrain_grow_courses,
                         .finish_tree = terrain_fill_courses,
-                        .prepare = prepare_plateau,
+                        .evolve = terrain_evolve_plateau,
                         .record = record_change,
                         .sample = sample_evolved,
                         .finish = terrain_lay_rivers},
     [TERRAIN_MESAS] = {.relief = 0.04f,
                        .wavelength = 0.125f,
-                       .evolves = true,
                        .plateau = true,
                        .grow = terrain_grow_courses,
                        .finish_tree = terrain_fill_courses,
-                       .prepare = prepare_plateau,
+                       .evolve = terrain_evolve_plateau,
                        .record = record_change,
                        .sample = sample_evolved,
                        .finish = terrain_lay_rivers},
     [TERRAIN_ALPS] = {.material = "terrain/alps",
                       .relief = 0.16f,
                       .wavelength = 0.125f,
-                      .evolves = true,
-                      .prepare = prepare_alps,
+                      .evolve = terrain_evolve_alps,
                       .record = record_loose,
                       .sample = sample_evolved,
                       .finish = finish_alps,
@@ -289,8 +250,7 @@ static const Form FORMS[] = {
     [TERRAIN_VOLCANO] = {.material = "terrain/volcano",
                          .relief = 0.13f,
                          .wavelength = 0.125f,
-                         .evolves = true,
-                         .prepare = prepare_volcano,
+                         .evolve = terrain_evolve_volcano,
                          .record = record_ground,
                          .sample = sample_evolved,
                          .finish = finish_volcano,
@@ -303,8 +263,7 @@ static const Form FORMS[] = {
     [TERRAIN_HILLS] = {.material = "terrain/hills",
                        .relief = 0.04f,
                        .wavelength = 0.125f,
-                       .evolves = true,
-                       .prepare = prepare_hills,
+                       .evolve = terrain_evolve_hills,
                        .record = record_loose,
                        .sample = sample_evolved,
                        .finish = finish_hills,
@@ -312,9 +271,8 @@ static const Form FORMS[] = {
     [TERRAIN_COAST] = {.material = "terrain/coast",
                        .relief = 0.04f,
                        .wavelength = 0.125f,
-                       .evolves = true,
                        .shows_beds = true,
-                       .prepare = prepare_coast,
+                       .evolve = terrain_evolve_coast,
                        .record = record_loose,
                        .sample = sample_evolved,
                        .finish = finish_coast,
@@ -329,9 +287,8 @@ static const Form FORMS[] = {
     [TERRAIN_KARST] = {.material = "terrain/karst",
                        .relief = 0.05f,
                        .wavelength = 0.125f,
-                       .evolves = true,
                        .shows_beds = true,
-                       .prepare = prepare_karst,
+                       .evolve = terrain_evolve_karst,
                        .record = record_loose,
                        .sample = sample_evolved,
                        .finish = finish_karst,

@@ -197,7 +197,7 @@ static Landscape *finish(Hills *h, Landscape *land, const Run *run, Error *e)
     return land;
 }
 
-Landscape *terrain_evolve_hills(const Terrain *terrain, const Run *run, Error *e)
+Landscape *terrain_evolve_hills(Terrain *terrain, const Run *run, Error *e)
 {
     Hills h = {.terrain = terrain, .params = terrain_params_resolve(terrain->params)};
     set_rates(&h);

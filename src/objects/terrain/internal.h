@@ -210,22 +210,21 @@ bool terrain_grow_courses(OutTree **tree, const TerrainParams *params, const Rec
 bool terrain_fill_courses(Terrain *terrain, const Run *run, Error *e);
 
 // plateau.c: the plateau as it is now, on a grid of its own. The caller frees it.
-Landscape *terrain_evolve(const Terrain *terrain, const Run *run, Error *e);
+Landscape *terrain_evolve_plateau(Terrain *terrain, const Run *run, Error *e);
 // outlets.c: makes gaps in the border bases at height 0. The rest of it is a divide, so that
 // mirrored land goes on.
 void terrain_open_outlets(const Terrain *terrain, int outlets, Landscape *land);
 // alps.c: the same of the form alps.
-Landscape *terrain_evolve_alps(const Terrain *terrain, const Run *run, Error *e);
+Landscape *terrain_evolve_alps(Terrain *terrain, const Run *run, Error *e);
 // hills.c: the same of the form hills.
-Landscape *terrain_evolve_hills(const Terrain *terrain, const Run *run, Error *e);
+Landscape *terrain_evolve_hills(Terrain *terrain, const Run *run, Error *e);
 // hills_measure.c: after terrain_evolve_hills.
 bool terrain_measure_hills(const Terrain *terrain, MeasureList *list, Error *e);
 // hills.c: fills in the wetness: 1 where the water of a hollow gathers, 0 on crests.
 bool terrain_wet_hollows(HeightField *field, Error *e);
-// volcano.c: the same of the form volcano. *ground: HeightField.ground on its grid, as heights; the
-// caller frees it.
-Landscape *terrain_evolve_volcano(const Terrain *terrain, HeightField **ground, const Run *run,
-                                  Error *e);
+// volcano.c: the same of the form volcano. terrain->ground: HeightField.ground on its grid, as
+// heights.
+Landscape *terrain_evolve_volcano(Terrain *terrain, const Run *run, Error *e);
 // volcano_pits.c: raises the ground of pits of less than this depth, m, so that they drain.
 bool terrain_fill_shallow_pits(HeightField *field, float depth, Error *e);
 // volcano_measure.c: after terrain_evolve_volcano.

@@ -172,7 +172,7 @@ static void lay_plain(const Karst *k, Landscape *land)
     }
 }
 
-Landscape *terrain_evolve_karst(const Terrain *terrain, const Run *run, Error *e)
+Landscape *terrain_evolve_karst(Terrain *terrain, const Run *run, Error *e)
 {
     Karst k = karst_of(terrain);
     int cells = k.params.resolution < k.params.evolution.cells ? k.params.resolution

@@ -6,7 +6,7 @@
 #include "objects/terrain/internal.h"
 
 // karst.c: the land as it is now; the water table is at height 0, the plain a little above it.
-Landscape *terrain_evolve_karst(const Terrain *terrain, const Run *run, Error *e);
+Landscape *terrain_evolve_karst(Terrain *terrain, const Run *run, Error *e);
 
 // karst_measure.c: after terrain_evolve_karst.
 bool terrain_measure_karst(const Terrain *terrain, MeasureList *list, Error *e);

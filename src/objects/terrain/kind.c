@@ -106,10 +106,10 @@ static const char *material_for(const void *params, int role)
     if (role != TERRAIN_LAND) {
         return NULL;
     }
-    if (form->material && (!form->evolves || form->shows_beds || terrain->strata.bed_count == 0)) {
+    if (form->material && (!form->evolve || form->shows_beds || terrain->strata.bed_count == 0)) {
         return form->material;
     }
-    return form->evolves || terrain->strata.bed_count > 0 ? "terrain/strata" : NULL;
+    return form->evolve || terrain->strata.bed_count > 0 ? "terrain/strata" : NULL;
 }
 
 static const Material BUILTIN[] = {

@@ -120,7 +120,7 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         resolved.meander.width = width > 0.0f ? width : params->size / 60.0f;
         resolved.relief = params->relief > 0.0f ? params->relief : params->size * form->relief;
     }
-    if (form->evolves) {
+    if (form->evolve) {
         resolved.relief = params->relief > 0.0f ? params->relief : params->size * form->relief;
         resolved.hills.spacing =
             params->hills.spacing > 0.0f ? params->hills.spacing : 0.1f * params->size;

@@ -219,7 +219,7 @@ static bool evolve(const Plateau *p, Landscape *land, double from, double to, co
     return true;
 }
 
-Landscape *terrain_evolve(const Terrain *terrain, const Run *run, Error *e)
+Landscape *terrain_evolve_plateau(Terrain *terrain, const Run *run, Error *e)
 {
     enum { FIRST_CELLS = 256 };
     static const double until[] = {0.7, 0.9, 0.97, 0.99}; // time at which a finer grid takes over

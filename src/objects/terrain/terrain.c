@@ -8,7 +8,7 @@
 
 bool terrain_evolves(const TerrainParams *params)
 {
-    return terrain_form(params)->evolves;
+    return terrain_form(params)->evolve;
 }
 
 bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
@@ -142,7 +142,8 @@ HeightField *terrain_heights(const void *given, const Grown *grown, const Run *r
     forget(terrain);
     const Form *form = terrain_form(params);
     HeightField *field = NULL;
-    if (!form->prepare || form->prepare(terrain, run, e)) {
+    bool evolved = !form->evolve || (terrain->evolved = form->evolve(terrain, run, e));
+    if (evolved && (!form->prepare || form->prepare(terrain, run, e))) {
         field = height_field_new(params->resolution + 1, params->resolution + 1, (Vec2){cell, cell},
                                  (Vec2){corner, corner}, e);
     }

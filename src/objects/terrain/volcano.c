@@ -355,8 +355,7 @@ static HeightField *ground_of(const Volcano *v, const Landscape *land, Error *e)
     return ground;
 }
 
-Landscape *terrain_evolve_volcano(const Terrain *terrain, HeightField **ground, const Run *run,
-                                  Error *e)
+Landscape *terrain_evolve_volcano(Terrain *terrain, const Run *run, Error *e)
 {
     Volcano v = volcano_of(terrain);
     int most = v.params.resolution < v.params.evolution.cells ? v.params.resolution
@@ -379,7 +378,7 @@ Landscape *terrain_evolve_volcano(const Terrain *terrain, HeightField **ground, 
         share *= 0.5;
         done = land && weather(&v, land, share, 12, run, e);
     }
-    done = done && finish(&v, land, run, e) && (*ground = ground_of(&v, land, e));
+    done = done && finish(&v, land, run, e) && (terrain->ground = ground_of(&v, land, e));
     clear(&v);
     if (!done) {
         landscape_free(land);
