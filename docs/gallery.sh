@@ -1,11 +1,19 @@
 #!/bin/sh
-# Renders the pictures of docs/gallery.md into renders/: all of them, or those named on the command line, and tells the
-# seconds that each took. Interrupted, a run without names goes on where it was: build/gallery/ holds unfinished pictures
-# and a mark for each still that is done since its scene was last changed. Remove the folder to start anew.
-# usage: docs/gallery.sh [NAME...]
+# Renders the pictures of README.md and docs/gallery.md into renders/: all of them, or those named on the command line, and tells the
+# seconds that each took and its noise before denoising (docs/rendering.md; of a sheet the mean of its panels). Interrupted,
+# a run without names goes on where it was: build/gallery/ holds unfinished pictures and a mark for each still that is done
+# since its scene was last changed. Remove the folder to start anew.
+# --times: renders nothing, but tells the seconds that each takes on two cores: half the processor time that
+# ramify info --estimate foresees.
+# usage: docs/gallery.sh [--times] [NAME...]
 set -e
 cd "$(dirname "$0")/.."
 ramify=${RAMIFY:-build/ramify}
+estimates=
+if [ "$1" = --times ]; then
+    estimates=yes
+    shift
+fi
 wanted=" $* "
 work=build/gallery
 mkdir -p "$work"
@@ -17,48 +25,103 @@ is_wanted() { [ "$wanted" = "  " ] || case $wanted in *" $1 "*) ;; *) false ;; e
 # is_done NAME SCENE: an earlier run without names has made the still from the scene as it is.
 is_done() { [ "$wanted" = "  " ] && [ -n "$(find "$work" -name "$1.done" -newer "scenes/$2.yaml")" ]; }
 
+# estimate SCENE [OPTION...]: adds half of the processor seconds of a picture to $seconds.
+estimate() {
+    scene=$1
+    shift
+    "$ramify" info "scenes/$scene.yaml" --estimate --json --quiet "$@" >"$parts/estimate"
+    seconds=$(sed 's/.*"seconds": {//; s/[^0-9. ]//g' "$parts/estimate" |
+        awk -v sum="${seconds:-0}" '{ for (i = 1; i <= NF; i++) sum += $i / 2 } END { printf "%.2f", sum }')
+}
+
+# draw FILE SCENE [OPTION...]: renders a picture and adds its noise, in percent, to $noises.
+draw() {
+    file=$1 scene=$2
+    shift 2
+    "$ramify" render "scenes/$scene.yaml" -o "$file" --json "$@" >"$parts/told"
+    noises="$noises $(sed -n 's/.*"noise": \([0-9.]*\),.*/\1/p' "$parts/told")"
+    rm -f "$parts/told"
+}
+
+# tell NAME: the seconds since $began, and the mean noise of the pictures that were drawn; or, with --times, the estimate.
+tell() {
+    if [ -n "$estimates" ]; then
+        printf '%s: %.0f s\n' "$1" "$seconds"
+    else
+        echo "$noises" | awk -v name="$1" -v seconds=$(($(date +%s) - began)) '{
+            for (i = 1; i <= NF; i++) sum += 100 * $i / NF
+            printf (NF ? "%s: %d s, noise %.1f %%\n" : "%s: %d s\n"), name, seconds, sum
+        }'
+    fi
+    noises='' seconds=0 began=$(date +%s)
+}
+began=$(date +%s)
+
 # still NAME SCENE [OPTION...]: renders SCENE to renders/NAME.jpg.
 still() {
     is_wanted "$1" || return 0
+    if [ -n "$estimates" ]; then
+        name=$1
+        shift
+        estimate "$@"
+        tell "$name"
+        return
+    fi
     ! is_done "$1" "$2" || return 0
-    name=$1 scene=$2 began=$(date +%s)
+    name=$1 scene=$2 noises='' began=$(date +%s)
     shift 2
     # an unfinished picture of the scene before a change cannot go on
     [ "$work/$name.exr" -nt "scenes/$scene.yaml" ] || rm -f "$work/$name.exr"
-    "$ramify" render "scenes/$scene.yaml" -o "$work/$name.png" --resume "$@"
+    draw "$work/$name.png" "$scene" --resume "$@"
     for quality in 90 84 78; do # at most 900 KB
         oiiotool "$work/$name.png" --ch R,G,B --compression "jpeg:$quality" -o "renders/$name.jpg"
         [ "$(wc -c <"renders/$name.jpg")" -gt 900000 ] || break
     done
     rm -f "$work/$name.png" "$work/$name.exr"
     : >"$work/$name.done"
-    echo "$name: $(($(date +%s) - began)) s"
+    tell "$name"
 }
 
-# movie NAME SCENE FILTER [OPTION...]: renders the film of SCENE to renders/NAME.webp, 480 pixels wide, cut by ffmpeg's FILTER.
+# movie NAME SCENE FRAMES FILTER TURNING [OPTION...]: renders the film of SCENE to renders/NAME.webp, 480 pixels wide, cut by
+# ffmpeg's FILTER. TURNING: options of turntable alone. Its estimate is that of FRAMES stills, each grown anew.
 movie() {
     is_wanted "$1" || return 0
-    name=$1 scene=$2 filter=$3
-    shift 3
-    "$ramify" turntable "scenes/$scene.yaml" -o "$parts/film.mp4" "$@"
+    name=$1 scene=$2 frames=$3 filter=$4 turning=$5 began=$(date +%s)
+    shift 5
+    if [ -n "$estimates" ]; then
+        estimate "$scene" "$@"
+        seconds=$(awk -v one="$seconds" -v frames="$frames" 'BEGIN { print one * frames }')
+        tell "$name"
+        return
+    fi
+    # shellcheck disable=SC2086 # several options
+    "$ramify" turntable "scenes/$scene.yaml" -o "$parts/film.mp4" --frames "$frames" $turning "$@"
     ffmpeg -v error -i "$parts/film.mp4" -vf "$filter,scale=480:-1:flags=lanczos,fps=12" -c:v libwebp_anim -loop 0 \
         -quality 66 -compression_level 5 -y "renders/$name.webp"
     rm -rf "$parts"/*
+    tell "$name"
 }
 
 # panel SCENE [OPTION...]: renders one picture of the next sheet.
 panel() {
-    scene=$1
-    shift
+    if [ -n "$estimates" ]; then
+        estimate "$@"
+        return
+    fi
     count=$((${count:-0} + 1))
-    "$ramify" render "scenes/$scene.yaml" -o "$parts/$(printf %03d "$count").png" "$@"
+    draw "$parts/$(printf %03d "$count").png" "$@"
 }
 
 # sheet NAME COLUMNSxROWS: joins the panels since the last sheet into renders/NAME.jpg.
 sheet() {
+    if [ -n "$estimates" ]; then
+        tell "$1"
+        return
+    fi
     oiiotool "$parts"/*.png --mosaic:pad=4 "$2" --ch R,G,B --compression jpeg:90 -o "renders/$1.jpg"
     rm -f "$parts"/*
     count=0
+    tell "$1"
 }
 
 # A sheet's lines:
@@ -70,7 +133,7 @@ sheet() {
 # ---- points and out-trees ----
 
 # figure 1 is a sheet of other pictures of the gallery
-if is_wanted figure-1; then
+if is_wanted figure-1 && [ -z "$estimates" ]; then
     for picture in forest frost-window lightning vessels-organ mountains sculpture; do
         count=$((${count:-0} + 1))
         oiiotool "renders/$picture.jpg" --resize 560x315 -o "$parts/$(printf %03d "$count").png"
@@ -79,14 +142,14 @@ if is_wanted figure-1; then
 fi
 if is_wanted figure-2; then
     for step in 0 0.25 0.6 1; do
-        panel outtree-plane --grow-to "$step"
+        panel outtree-plane --set grow_to="$step"
     done
     sheet figure-2 2x2
 fi
 still figure-3 outtree-band
 still figure-4 outtree-placement
 if is_wanted figure-5; then
-    panel outtree-groups --grow-to 0
+    panel outtree-groups --set grow_to=0
     panel outtree-groups
     sheet figure-5 2x1
 fi
@@ -111,20 +174,23 @@ still vessels-organ vessels-organ
 still vessels-body vessels-body
 if is_wanted figure-15; then
     for share in 0.15 0.6 0.8 1; do
-        panel vessels-body --grow-to $share --size 400x720
+        panel vessels-body --set grow_to=$share --size 400x720
     done
     sheet figure-15 4x1
 fi
 
 # ---- trees, fields, forest ----
 
+still oak oak --size 1920x1080
+still oak-winter oak-winter --size 1920x1080
+still ash ash
 still figure-9 field-grid --size 1600x900
 still twisted twisted
 still mesh-crown mesh-crown
 still forest forest
 if is_wanted figure-10; then
     for time in 0.2 0.45 0.62 0.8 0.9 1; do
-        panel oak --size 534x450 --denoise --samples 16 --set camera.fov=44 --grow-to "$time"
+        panel oak --size 534x450 --denoise --samples 16 --set camera.fov=44 --set grow_to="$time"
     done
     sheet figure-10 3x2
 fi
@@ -137,11 +203,11 @@ fi
 still lightning lightning
 still lightning-surface lightning-surface
 if is_wanted figure-11; then
-    for share in 0.3 0.55 0.8 0.97 1; do panel lightning-growth --grow-to $share --size 360x720 --samples 10; done
+    for share in 0.3 0.55 0.8 0.97 1; do panel lightning-growth --set grow_to=$share --size 360x720 --samples 10; done
     sheet figure-11 5x1
 fi
 if is_wanted figure-12; then
-    for share in 0.2 0.45 0.7 1; do panel lightning-surface --grow-to $share --size 800x450 --samples 16; done
+    for share in 0.2 0.45 0.7 1; do panel lightning-surface --set grow_to=$share --size 800x450 --samples 16; done
     sheet figure-12 2x2
 fi
 still species species
@@ -175,7 +241,7 @@ still frost-bubble frost-bubble
 if is_wanted figure-7; then
     for turn in 0 120 360; do
         for step in 0.25 0.5 1; do
-            panel guide-field-plane --size 540x540 --set "objects.tree.frost.turn=$turn" --grow-to "$step"
+            panel guide-field-plane --size 540x540 --set "objects.tree.frost.turn=$turn" --set grow_to="$step"
         done
     done
     sheet figure-7 3x3
@@ -188,7 +254,7 @@ if is_wanted figure-8; then
 fi
 if is_wanted figure-13; then
     for step in 0.12 0.3 0.55 1; do
-        panel frost-window --size 800x450 --grow-to "$step"
+        panel frost-window --size 800x450 --set grow_to="$step"
     done
     sheet figure-13 2x2
 fi
@@ -211,11 +277,11 @@ still dunes dunes
 still rainbow rainbow
 still sea sea
 still snow-crystal snow-crystal
-movie oak-year oak-year null
+movie oak-year oak-year 120 null ""
 # walls of firs on four sides, as the bubble turns before the sun; the picture's edge is cut where they end
 walls='{shape: box, size: [7.4, 0.9, 0.2], position: [0, 0, -3.6]}, {shape: box, size: [7.4, 0.9, 0.2], position: [0, 0, 3.6]}'
 walls="$walls, {shape: box, size: [0.2, 0.9, 7.4], position: [-3.6, 0, 0]}, {shape: box, size: [0.2, 0.9, 7.4], position: [3.6, 0, 0]}"
-movie frost-bubble-turn frost-bubble crop=438:246:21:24 --spin --turns 1 --grow 0.16:0.6 --frames 60 --fps 12 --size 480x270 \
+movie frost-bubble-turn frost-bubble 60 crop=438:246:21:24 "--spin --turns 1 --grow 0.16:0.6 --fps 12" --size 480x270 \
     --samples 16 --set "objects.wood.shape.envelope=[$walls]"
 still coast coast
 still karst karst

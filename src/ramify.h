@@ -594,6 +594,12 @@ RAMIFY_API bool ramify_film_denoise(RamifyFilm *film, const RamifyScene *scene,
 RAMIFY_API bool ramify_film_develop(const RamifyFilm *film, const RamifyScene *scene, bool denoise,
                                     float *rgba, const RamifyRun *run, RamifyError *error);
 
+// The noise that the film of this scene has when it is developed, before denoising, as a share of
+// white: the standard error of the display values, mean over channels and pixels of the crop, as if
+// samples were independent. NAN if no pixel has two samples.
+RAMIFY_API bool ramify_film_noise(const RamifyFilm *film, const RamifyScene *scene, double *noise,
+                                  RamifyError *error);
+
 // Writes the film of this scene. .png, .jpg: developed as by ramify_film_develop. .exr: linear
 // RGBA and the layers albedo, normal, depth, position, object and samples unchanged, and with
 // denoise the layer denoised.R, G, B. The scene's text and settings are stored as metadata. run

@@ -107,6 +107,13 @@ bool ramify_film_develop(const RamifyFilm *film, const RamifyScene *scene, bool 
     return true;
 }
 
+bool ramify_film_noise(const RamifyFilm *film, const RamifyScene *scene, double *noise,
+                       RamifyError *error)
+{
+    Error e = {0};
+    return picture_noise(scene_of(scene), film_of(film), noise, &e) || api_fail(error, &e);
+}
+
 bool ramify_film_write(const RamifyFilm *film, const RamifyScene *scene, const char *file,
                        bool denoise, const RamifyRun *run, RamifyError *error)
 {

@@ -4,6 +4,7 @@
 #include "cli/command.h"
 #include "cli/outputs.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +19,7 @@ typedef struct Job {
     RamifySceneInfo info;
     RamifyWorldInfo world;
     RamifyRenderInfo render;
+    double noise;               // share of white; NAN = unknown
     double build, trace, write; // s
     bool resumed;               // from a film on disk
 } Job;
@@ -117,8 +119,12 @@ static bool trace(Job *job, const RamifyWorld *world, const Options *options, Ra
 static void print_summary(const Job *job)
 {
     double rate = job->trace > 0.0 ? (double)job->render.paths / job->trace : 0.0;
-    fprintf(stderr, "%s and %s: %d x %d pixels, %d samples\n", job->outputs->display,
+    fprintf(stderr, "%s and %s: %d x %d pixels, %d samples", job->outputs->display,
             job->outputs->exr, job->info.width, job->info.height, job->render.samples);
+    if (!isnan(job->noise)) {
+        fprintf(stderr, ", noise %.2f %%", 100.0 * job->noise);
+    }
+    fprintf(stderr, "\n");
     fprintf(stderr,
             "%lld nodes, %lld triangles, %lld curve segments, %lld instances, %.0f MB at most\n",
             (long long)job->world.nodes, (long long)job->world.triangles,
@@ -145,6 +151,7 @@ static void print_json(const Job *job)
            (long long)job->world.instances, (long long)job->render.paths,
            (long long)job->render.rays, (long long)ramify_memory_peak(),
            (long long)job->world.bytes + (long long)job->render.bytes);
+    isnan(job->noise) ? printf("\"noise\": null, ") : printf("\"noise\": %.6f, ", job->noise);
     printf("\"seconds\": {\"grow\": %.3f, \"mesh\": %.3f, \"build\": %.3f, \"trace\": %.3f, "
            "\"write\": %.3f}}\n",
            job->world.grow_seconds, job->world.mesh_seconds, job->build, job->trace, job->write);
@@ -176,6 +183,8 @@ static bool render_scene(const Options *options, const RamifyScene *scene, const
     double start = clock_seconds();
     done = done && outputs_write(outputs, film, scene, &run, e);
     job.write += clock_seconds() - start;
+    done = done &&
+           ((options->quiet && !options->json) || ramify_film_noise(film, scene, &job.noise, e));
     if (done) {
         ramify_world_info(world, &job.world);
     }

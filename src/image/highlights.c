@@ -49,7 +49,7 @@ void highlights_compress(Image *image, Image *excess, const HighlightParts *part
                          const ToneParams *params)
 {
     const AgxFit curve = agx_fit(params->look, params->contrast);
-    float gain = exp2f(params->exposure) * (params->auto_exposure ? tone_auto_gain(image) : 1.0f);
+    float gain = tone_gain(image, NULL, params);
     int64_t count = (int64_t)image->width * image->height;
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < count; i++) {

@@ -41,6 +41,11 @@ float tone_auto_gain(const Image *image)
     return gain_of(image, NULL);
 }
 
+float tone_gain(const Image *image, const Image *excess, const ToneParams *params)
+{
+    return exp2f(params->exposure) * (params->auto_exposure ? gain_of(image, excess) : 1.0f);
+}
+
 // Converts to linear, straight (not premultiplied), finite, exposed and white-balanced values.
 static void prepare(Image *out, const Image *image, float gain, float white_balance)
 {
@@ -160,8 +165,7 @@ static bool show_by_ocio(Image *image, const ToneParams *params, Error *e)
 static bool develop(Image *out, const Image *image, const Image *excess, const ToneParams *params,
                     Error *e)
 {
-    float metered = params->auto_exposure ? gain_of(image, excess) : 1.0f;
-    float gain = exp2f(params->exposure) * metered;
+    float gain = tone_gain(image, excess, params);
     prepare(out, image, gain, params->white_balance);
     if (params->bloom > 0.0f && !add_bloom(out, excess, gain, params, e)) {
         return false;

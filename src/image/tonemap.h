@@ -31,6 +31,10 @@ ToneParams tone_params_default(void);
 // linear radiance, to 0.18.
 float tone_auto_gain(const Image *image);
 
+// The factor by which tone_map exposes an image: 2^exposure, and the gain of auto_exposure, which
+// counts the light of `excess` (or NULL).
+float tone_gain(const Image *image, const Image *excess, const ToneParams *params);
+
 // image: linear radiance, 3 or 4 channels; with alpha, radiance is premultiplied (as in films and
 // EXRs). excess: light that highlights_compress took from it, which counts in bloom and exposure;
 // or NULL. The result has sRGB display values, straight (not premultiplied), with the same alpha,

@@ -158,8 +158,7 @@ static Image *denoised_image(const Scene *scene, const Image *beauty, const Film
     return clean;
 }
 
-// The film's radiance with its highlights compressed, and what that took away.
-static Image *compressed_image(const Scene *scene, const Film *film, Image **excess, Error *e)
+Image *picture_compressed(const Scene *scene, const Film *film, Image **excess, Error *e)
 {
     *excess = image_new(film->width, film->height, 3, e);
     Image *beauty = *excess ? beauty_image(film, e) : NULL;
@@ -183,7 +182,7 @@ static bool can_denoise(const Scene *scene, const Film *film)
 static Vec3 *denoised_plane(const Scene *scene, const Film *film, const Run *run, Error *e)
 {
     int64_t count = (int64_t)film->width * film->height;
-    Image *excess, *beauty = compressed_image(scene, film, &excess, e);
+    Image *excess, *beauty = picture_compressed(scene, film, &excess, e);
     Image *clean = beauty ? denoised_image(scene, beauty, film, run, e) : NULL;
     Vec3 *plane = clean ? memory_alloc(count, sizeof *plane, e) : NULL;
     for (int64_t i = 0; plane && i < count; i++) {
@@ -226,7 +225,7 @@ static bool put_denoised(Image *beauty, const Image *excess, const Scene *scene,
 
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run, Error *e)
 {
-    Image *excess, *beauty = compressed_image(scene, film, &excess, e);
+    Image *excess, *beauty = picture_compressed(scene, film, &excess, e);
     bool done = beauty && (!denoise || !can_denoise(scene, film) ||
                            put_denoised(beauty, excess, scene, film, run, e));
     Image *display = done ? tone_map(beauty, excess, &scene->tone, e) : NULL;

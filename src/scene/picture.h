@@ -28,6 +28,18 @@ bool picture_denoise(const Scene *scene, Film *film, const Run *run, Error *e);
 // without film.color.
 bool picture_check_color(const Scene *scene, Error *e);
 
+// The film's radiance and alpha with its highlights compressed (image/highlights.h), and in *excess
+// what that took away. Free both, also after a failure, which gives NULL.
+Image *picture_compressed(const Scene *scene, const Film *film, Image **excess, Error *e);
+
+// The noise of the developed picture before denoising, as a share of white: the standard error of
+// its display values (0 = black, 1 = white), mean over the three channels and all pixels of the
+// crop with at least two samples; NAN if there are none. A pixel's error is that of its radiance,
+// sqrt(film->variance), as exposure, white balance, vignette and view show it. It is that of
+// independent samples, hence an upper bound for those of the sampler; bloom, which blurs it, is
+// left out.
+bool picture_noise(const Scene *scene, const Film *film, double *noise, Error *e);
+
 // Display values of a film, as from tone_map; free them. denoise: denoise first, unless a pixel of
 // the crop has no sample.
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run,

@@ -114,6 +114,8 @@ check grow_nothing 2 "$RAMIFY" grow scene.yaml --set 'objects=[{name: a, ground:
 check render 0 "$RAMIFY" render scene.yaml -o a.png --threads 1 --json
 says render_json out '"samples": 4'
 says render_summary err "triangles"
+yes render_noise grep -q '4 samples, noise [0-9.]* %$' err
+yes render_noise_json grep -q '"noise": 0\.[0-9]*,' out
 yes render_wrote_both test -s a.png -a -s a.exr
 check render_two_threads 0 "$RAMIFY" render scene.yaml -o b.png --threads 2 --quiet
 if command -v oiiotool >/dev/null; then
@@ -123,6 +125,9 @@ fi
 yes pixels_ignore_threads cmp a.png b.png
 check render_again 0 "$RAMIFY" render scene.yaml -o b.png --quiet --seconds 0 --noise 0 --no-denoise
 yes picture_repeats cmp a.png b.png
+check render_once 0 "$RAMIFY" render scene.yaml -o c.png --samples 1 --json
+yes render_once_no_noise grep -q ' 1 samples$' err
+says render_once_no_noise_json out '"noise": null,'
 check render_by_exr_name 0 "$RAMIFY" render scene.yaml -o c.exr --quiet --size 16x8 --samples 1 --crop 0,0,0.5,1
 yes exr_name_writes_both test -s c.exr -a -s c.png
 check render_denoised 0 "$RAMIFY" render scene.yaml -o d.png --quiet --denoise --samples 2 --isa sse4.2

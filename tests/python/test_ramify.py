@@ -221,6 +221,7 @@ def test_pictures_are_arrays_and_files(scene, tmp_path):
         film.denoised
     film.denoise()
     assert film.denoised.shape == (16, 24, 3) and not np.array_equal(film.denoised, film.color)
+    assert 0.0 < film.noise() < 0.5
     film.save(tmp_path / "both.exr", denoise=True)
     assert b"denoised.R" in (tmp_path / "both.exr").read_bytes()
     with pytest.raises(ramify.Error):

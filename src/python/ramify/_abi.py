@@ -317,6 +317,7 @@ FUNCTIONS = {
     "film_join": (_handle, [_texts, _int, _handle, c.POINTER(c.c_int64), _run, _error]),
     "film_layer": (c.c_void_p, [_handle, _text, c.POINTER(_int)]),
     "film_denoise": (c.c_bool, [_handle, _handle, _run, _error]),
+    "film_noise": (c.c_bool, [_handle, _handle, c.POINTER(c.c_double), _error]),
     "film_write": (c.c_bool, [_handle, _handle, _text, c.c_bool, _run, _error]),
     "image_check": (c.c_bool, [_text, _error]),
     "develop_check": (c.c_bool, [_handle, _error]),

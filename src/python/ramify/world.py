@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _abi
 from ._arrays import view
-from ._call import File, Handle, Progress, check, lib, path, run
+from ._call import File, Handle, Progress, call, check, lib, path, run
 
 MOST_STEPS = 1024  # of a path
 
@@ -230,6 +230,13 @@ class Film:
             lambda how, _, error: lib.ramify_film_denoise(self.handle.pointer, self._scene.pointer, how, error),
             threads,
         )
+
+    def noise(self) -> float:
+        """The noise of the developed picture before denoising, as a share of white: the standard error of its display
+        values, mean over the crop, as if samples were independent. NaN if no pixel has two samples."""
+        noise = c.c_double()
+        call("film_noise", self.handle.pointer, self._scene.pointer, c.byref(noise))
+        return noise.value
 
     def save(self, file: File, denoise: Optional[bool] = None, threads: int = 0) -> None:
         """Writes .png or .jpg, developed by the scene's film, or .exr, linear with all layers, denoised among them if
