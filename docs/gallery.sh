@@ -1,12 +1,13 @@
 #!/bin/sh
 # Renders the pictures of docs/gallery.md into renders/: all of them, or those named on the command line, and tells the
-# seconds that each took. Interrupted, a run without names goes on where it was: build/gallery/ holds unfinished pictures
-# and a mark for each still that is done since its scene was last changed. Remove the folder to start anew.
+# seconds that each took. Interrupted, a run goes on where it was: build/gallery/ holds unfinished pictures, the panels of
+# unfinished sheets and, for runs without names, what tells which pictures are done since their scenes were last changed.
+# Remove the folder to start anew.
 # usage: docs/gallery.sh [NAME...]
 set -e
 cd "$(dirname "$0")/.."
 ramify=${RAMIFY:-build/ramify}
-wanted=" $* "
+wanted=" $* " panels=
 work=build/gallery
 mkdir -p "$work"
 parts=$(mktemp -d)
@@ -46,19 +47,36 @@ movie() {
     rm -rf "$parts"/*
 }
 
-# panel SCENE [OPTION...]: renders one picture of the next sheet.
+# panel SCENE [OPTION...]: renders one picture of the next sheet, or takes it from an interrupted run. A run without names also
+# takes it from the sheet that an earlier one has finished. A checksum of the scene's name and the options tells them apart.
 panel() {
-    scene=$1
+    scene=$1 file=$work/panel-$(printf '%s\n' "$@" | cksum | tr ' ' -)
     shift
-    count=$((${count:-0} + 1))
-    "$ramify" render "scenes/$scene.yaml" -o "$parts/$(printf %03d "$count").png" "$@"
+    panels="$panels $file.png"
+    [ "$wanted" != "  " ] || [ ! -e "$file.used.png" ] || mv "$file.used.png" "$file.png"
+    [ ! "$file.png" -nt "scenes/$scene.yaml" ] || return 0
+    [ "$file.part.exr" -nt "scenes/$scene.yaml" ] || rm -f "$file.part.exr"
+    "$ramify" render "scenes/$scene.yaml" -o "$file.part.png" --resume "$@"
+    rm -f "$file.part.exr"
+    mv "$file.part.png" "$file.png"
+}
+
+# join NAME COLUMNSxROWS PICTURE...: joins pictures into renders/NAME.jpg, of at most 900 KB.
+join() {
+    name=$1 grid=$2
+    shift 2
+    for quality in 90 84 78; do
+        oiiotool "$@" --mosaic:pad=4 "$grid" --ch R,G,B --compression "jpeg:$quality" -o "renders/$name.jpg"
+        [ "$(wc -c <"renders/$name.jpg")" -gt 900000 ] || break
+    done
 }
 
 # sheet NAME COLUMNSxROWS: joins the panels since the last sheet into renders/NAME.jpg.
 sheet() {
-    oiiotool "$parts"/*.png --mosaic:pad=4 "$2" --ch R,G,B --compression jpeg:90 -o "renders/$1.jpg"
-    rm -f "$parts"/*
-    count=0
+    # shellcheck disable=SC2086 # names without spaces
+    join "$1" "$2" $panels
+    for file in $panels; do [ ! -e "$file" ] || mv "$file" "${file%.png}.used.png"; done
+    panels=
 }
 
 # A sheet's lines:
@@ -71,11 +89,13 @@ sheet() {
 
 # figure 1 is a sheet of other pictures of the gallery
 if is_wanted figure-1; then
+    set --
     for picture in forest frost-window lightning vessels-organ mountains sculpture; do
-        count=$((${count:-0} + 1))
-        oiiotool "renders/$picture.jpg" --resize 560x315 -o "$parts/$(printf %03d "$count").png"
+        oiiotool "renders/$picture.jpg" --resize 560x315 -o "$parts/$picture.png"
+        set -- "$@" "$parts/$picture.png"
     done
-    sheet figure-1 3x2
+    join figure-1 3x2 "$@"
+    rm -f "$parts"/*
 fi
 if is_wanted figure-2; then
     for step in 0 0.25 0.6 1; do
