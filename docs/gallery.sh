@@ -1,8 +1,9 @@
 #!/bin/sh
 # Renders the pictures of README.md and docs/gallery.md into renders/: all of them, or those named on the command line, and tells the
-# seconds that each took and its noise before denoising (docs/rendering.md; of a sheet the mean of its panels). Interrupted,
-# a run without names goes on where it was: build/gallery/ holds unfinished pictures and a mark for each still that is done
-# since its scene was last changed. Remove the folder to start anew.
+# seconds that each took and its noise before denoising (docs/rendering.md; of a sheet the mean of the panels drawn).
+# Interrupted, a run goes on where it was: build/gallery/ holds unfinished pictures, the panels of unfinished sheets and, for
+# runs without names, what tells which pictures are done since their scenes were last changed. Remove the folder to start
+# anew.
 # --times: renders nothing, but tells the seconds that each takes on two cores: half the processor time that
 # ramify info --estimate foresees.
 # usage: docs/gallery.sh [--times] [NAME...]
@@ -14,7 +15,7 @@ if [ "$1" = --times ]; then
     estimates=yes
     shift
 fi
-wanted=" $* "
+wanted=" $* " panels=
 work=build/gallery
 mkdir -p "$work"
 parts=$(mktemp -d)
@@ -102,14 +103,32 @@ movie() {
     tell "$name"
 }
 
-# panel SCENE [OPTION...]: renders one picture of the next sheet.
+# panel SCENE [OPTION...]: renders one picture of the next sheet, or takes it from an interrupted run. A run without names also
+# takes it from the sheet that an earlier one has finished. A checksum of the scene's name and the options tells them apart.
 panel() {
     if [ -n "$estimates" ]; then
         estimate "$@"
         return
     fi
-    count=$((${count:-0} + 1))
-    draw "$parts/$(printf %03d "$count").png" "$@"
+    scene=$1 panel=$work/panel-$(printf '%s\n' "$@" | cksum | tr ' ' -)
+    shift
+    panels="$panels $panel.png"
+    [ "$wanted" != "  " ] || [ ! -e "$panel.used.png" ] || mv "$panel.used.png" "$panel.png"
+    [ ! "$panel.png" -nt "scenes/$scene.yaml" ] || return 0
+    [ "$panel.part.exr" -nt "scenes/$scene.yaml" ] || rm -f "$panel.part.exr"
+    draw "$panel.part.png" "$scene" --resume "$@"
+    rm -f "$panel.part.exr"
+    mv "$panel.part.png" "$panel.png"
+}
+
+# join NAME COLUMNSxROWS PICTURE...: joins pictures into renders/NAME.jpg, of at most 900 KB.
+join() {
+    name=$1 grid=$2
+    shift 2
+    for quality in 90 84 78; do
+        oiiotool "$@" --mosaic:pad=4 "$grid" --ch R,G,B --compression "jpeg:$quality" -o "renders/$name.jpg"
+        [ "$(wc -c <"renders/$name.jpg")" -gt 900000 ] || break
+    done
 }
 
 # sheet NAME COLUMNSxROWS: joins the panels since the last sheet into renders/NAME.jpg.
@@ -118,9 +137,10 @@ sheet() {
         tell "$1"
         return
     fi
-    oiiotool "$parts"/*.png --mosaic:pad=4 "$2" --ch R,G,B --compression jpeg:90 -o "renders/$1.jpg"
-    rm -f "$parts"/*
-    count=0
+    # shellcheck disable=SC2086 # names without spaces
+    join "$1" "$2" $panels
+    for file in $panels; do [ ! -e "$file" ] || mv "$file" "${file%.png}.used.png"; done
+    panels=
     tell "$1"
 }
 
@@ -134,11 +154,13 @@ sheet() {
 
 # figure 1 is a sheet of other pictures of the gallery
 if is_wanted figure-1 && [ -z "$estimates" ]; then
+    set --
     for picture in forest frost-window lightning vessels-organ mountains sculpture; do
-        count=$((${count:-0} + 1))
-        oiiotool "renders/$picture.jpg" --resize 560x315 -o "$parts/$(printf %03d "$count").png"
+        oiiotool "renders/$picture.jpg" --resize 560x315 -o "$parts/$picture.png"
+        set -- "$@" "$parts/$picture.png"
     done
-    sheet figure-1 3x2
+    join figure-1 3x2 "$@"
+    rm -f "$parts"/*
 fi
 if is_wanted figure-2; then
     for step in 0 0.25 0.6 1; do
