@@ -182,6 +182,12 @@ static bool spread(const HeightField *field, double *squared, Error *e)
     return done;
 }
 
+// Where a field records its water, that is the river: its edge, not the middle, is at distance 0.
+static bool is_river(const HeightField *field, const uint8_t *order, int64_t i)
+{
+    return field->water ? field->water[i] > field->height[i] : order[i] > 0;
+}
+
 static bool fill_river_distance(const HeightField *field, const Drainage *drainage,
                                 HeightField *out, Error *e)
 {
@@ -191,7 +197,7 @@ static bool fill_river_distance(const HeightField *field, const Drainage *draina
     bool done =
         order && squared && drainage_orders(drainage, height_field_river_area(field), order, e);
     for (int64_t i = 0; done && i < count; i++) {
-        squared[i] = order[i] > 0 ? 0.0 : INFINITY;
+        squared[i] = is_river(field, order, i) ? 0.0 : INFINITY;
     }
     done = done && spread(field, squared, e);
     for (int64_t i = 0; done && i < count; i++) {

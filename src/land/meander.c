@@ -13,6 +13,7 @@ static const double UPSTREAM = 2.5; // (Howard and Knutson 1984)
 static const double DECAY = 0.75;   // by the width, of the weight of places upstream
 static const double SPACING = 0.5;  // of nodes, widths
 static const double NECK = 1.3;     // widths between middles at which a bend is cut off
+static const double CHUTE = 14.0;   // more of them where floods cut through soft ground
 static const double STEP = 0.04;    // explicit steps are stable below SPACING^2 / 2
 
 double meander_growth(double wavelength)
@@ -120,9 +121,8 @@ static double curvature(const Meander *m, int64_t i)
     return sides > 0.0 ? 2.0 * turn / sides : 0.0;
 }
 
-// Speed that the curvature here and upstream makes. Its memory begins two turns upstream, where
-// nothing is left of it.
-static void find_speeds(Meander *m)
+// The memory of the curvature upstream begins two turns upstream, where nothing is left of it.
+void meander_bends(const Meander *m, double *bend)
 {
     double weighted = 0.0, last = -curvature(m, -1);
     for (int64_t i = 0; i < 2 * m->count; i++) {
@@ -131,7 +131,16 @@ static void find_speeds(Meander *m)
         double kept = exact_exp(-DECAY * gap);
         weighted = kept * weighted + (1.0 - kept) * 0.5 * (here + last);
         last = here;
-        m->speed[i % m->count] = m->width * m->width * (LOCAL * here + UPSTREAM * weighted);
+        bend[i % m->count] = m->width * weighted;
+    }
+}
+
+static void find_speeds(Meander *m)
+{
+    meander_bends(m, m->speed);
+    for (int64_t i = 0; i < m->count; i++) {
+        double here = -curvature(m, i) * m->width;
+        m->speed[i] = m->width * (LOCAL * here + UPSTREAM * m->speed[i]);
     }
 }
 
@@ -241,19 +250,27 @@ static bool cut_off(Meander *m, int64_t i, int64_t j, Error *e)
     return true;
 }
 
+// m between middles at which the bend that begins here is cut off: a neck that the river has cut
+// through, or a wider one of soft ground across which a flood has cut a chute.
+static double neck_at(const Meander *m, MeanderNode p)
+{
+    double soft = m->contrast * bank_noise(m, p);
+    return m->width * (NECK + CHUTE * (soft > 0.0 ? soft * soft : 0.0));
+}
+
 // The first node after i that is nearer than a neck; 0 = none. A node d away is not reached before
 // the line has had the length for it.
 static int64_t neck_after(const Meander *m, int64_t i)
 {
-    const double near = NECK * m->width, longest = 0.8 * m->width;
     MeanderNode here = m->node[i];
+    const double neck = NECK * m->width, widest = neck_at(m, here), longest = 0.8 * m->width;
     int64_t least = (int64_t)(3.0 * NECK / SPACING);
     for (int64_t j = i + least; j < i + m->count - 8;) {
-        double d = distance(here, node_at(m, j));
-        if (d < near) {
+        double d = distance(here, node_at(m, j)), around = (double)(j - i) * SPACING * m->width;
+        if (d < neck || d < fmin(widest, around / 4.0)) {
             return j;
         }
-        j += 1 + (int64_t)((d - near) / longest);
+        j += 1 + (int64_t)(fmax(d - widest, 0.0) / longest);
     }
     return 0;
 }

@@ -45,10 +45,15 @@ void meander_free(Meander *m); // NULL is fine
 void meander_move(Meander *m, double step);
 // Spaces nodes evenly, half a width apart.
 bool meander_resample(Meander *m, Error *e);
-// Cuts off bends whose necks are narrower than a channel and its banks.
+// Cuts off bends whose necks are narrower than a channel and its banks, or, where the ground is
+// soft, than three of them.
 bool meander_cut(Meander *m, Error *e);
 // All of these.
 bool meander_run(Meander *m, double time, const Run *run, Error *e);
+
+// Curvature that the flow has felt at each node, by that upstream, times the width; positive where
+// the deep outer bank is on the left of the flow. bend: of m->count.
+void meander_bends(const Meander *m, double *bend);
 
 // Length of the river over that of the valley.
 double meander_sinuosity(const Meander *m);

@@ -44,6 +44,8 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"glacial", PATTERN_GLACIAL},
                                     {"karst", PATTERN_KARST},
                                     {"mud", PATTERN_MUD},
+                                    {"floodplain", PATTERN_FLOODPLAIN},
+                                    {"river", PATTERN_RIVER},
                                     {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
@@ -159,8 +161,9 @@ static const Key MATERIAL_KEYS[] = {
          "above, turf (color) on top, sand (color2) below; dunes: sand with ripples "
          "of pattern_scale across the wind, and gravel (color2) where there is little; karst: grey "
          "limestone with dark streaks of water, bushes (color) and fields (color2); mud: a pond's "
-         "bed, darker (color2) with depth; none: one "
-         "colour."},
+         "bed, darker (color2) with depth; floodplain: a meandering river's bars of sand (color), "
+         "meadows (color2) on its scrolls, reeds in hollows, fields on old ground; river: its "
+         "water, through which the bed (color2) shows where it is shallow; none: one colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
      .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "
             "and ash, on thick branches; with a pattern_scale below 0.02, as of a miniature tree, "

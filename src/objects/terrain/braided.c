@@ -296,3 +296,14 @@ void terrain_sample_braided(const Terrain *terrain, HeightField *field, int64_t 
         field->water[i] = -INFINITY;
     }
 }
+
+// Shear stress as a share of 1 + itself.
+float terrain_braid_roughness(const Terrain *terrain, float x, float z)
+{
+    const Braid *b = terrain->braid;
+    float half = 0.5f * terrain->params->size, last = (float)b->side - 1.0f;
+    int column = (int)clampf((x + half) / (float)b->cell, 0.0f, last);
+    int row = (int)clampf((z + half) / (float)b->cell, 0.0f, last);
+    float shear = b->shear[(int64_t)row * b->side + column];
+    return shear / (1.0f + shear);
+}

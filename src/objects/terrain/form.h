@@ -4,12 +4,21 @@
 
 #include "objects/terrain/internal.h"
 
+// What the square's copies beyond it are.
+typedef enum Repeat {
+    REPEAT_MIRRORED, // their borders meet
+    REPEAT_PERIODIC, // itself, which repeats
+    REPEAT_ALONG     // mirrored along x; along z itself, on its slope
+} Repeat;
+
 typedef struct Form {
     const char *material; // of the land, unless the scene names beds or a material; NULL = mountain
-    float relief;         // m by the metre of the size, if the scene gives none; 0 = by the slopes
-    float wavelength;     // of the noise's first octave, share of the size, if the scene gives none
-    bool shows_beds;      // so does its material
-    bool plateau;         // it was a plateau of beds once
+    const char *water;    // of the water that `water` of its heights tells; NULL = there is none
+    Repeat repeat;
+    float relief;     // m by the metre of the size, if the scene gives none; 0 = by the slopes
+    float wavelength; // of the noise's first octave, share of the size, if the scene gives none
+    bool shows_beds;  // so does its material
+    bool plateau;     // it was a plateau of beds once
     // The tree, on the plane y = 0; NULL = none. *tree may be set on failure.
     bool (*grow)(OutTree **tree, const TerrainParams *params, const Recipe *recipe, Error *e);
     // Fills in the tree's heights and radii, and what depends on them. NULL = nothing to do.
@@ -26,6 +35,8 @@ typedef struct Form {
     // After erosion, before terraces, and after them. NULL = nothing to do.
     bool (*drain)(Terrain *terrain, HeightField *field, const Run *run, Error *e);
     bool (*finish)(Terrain *terrain, HeightField *field, const Run *run, Error *e);
+    // Of water with levels of its own: how rough its flow is at a place, 0..1.
+    float (*roughness)(const Terrain *terrain, float x, float z);
     // Beside what all forms that evolve measure. NULL = nothing.
     bool (*measure)(const Terrain *terrain, MeasureList *list, Error *e);
 } Form;

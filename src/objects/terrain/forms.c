@@ -197,7 +197,22 @@ static bool finish_karst(Terrain *terrain, HeightField *field, const Run *run, E
 
 static bool finish_braided(Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
-    return terrain_drain_pools(field, e) && terrain_keep_shores(terrain, field, run, e);
+    (void)run;
+    float reach = 0.3f * (float)terrain->braid->mean;
+    return terrain_drain_pools(field, e) && terrain_keep_shores(terrain, field, reach, e);
+}
+
+static bool finish_meander(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    (void)run;
+    if (!terrain_keep_shores(terrain, field, 0.5f, e)) {
+        return false;
+    }
+    // Scrolls and the borders of old ground are lower than the mesh's error.
+    for (int64_t i = 0; i < height_field_count(field); i++) {
+        terrain->bank[i] |= field->age[i] < 0.735f;
+    }
+    return true;
 }
 
 // ---- the table
@@ -256,6 +271,7 @@ static const Form FORMS[] = {
                          .finish = finish_volcano,
                          .measure = terrain_measure_volcano},
     [TERRAIN_DUNES] = {.material = "terrain/dunes",
+                       .repeat = REPEAT_PERIODIC,
                        .wavelength = 0.125f,
                        .prepare = prepare_dunes,
                        .record = record_wind,
@@ -278,12 +294,14 @@ static const Form FORMS[] = {
                        .finish = finish_coast,
                        .measure = terrain_measure_coast},
     [TERRAIN_BRAIDED] = {.material = "terrain/braided",
+                         .water = "terrain/glacial",
                          .relief = 0.1f,
                          .wavelength = 0.125f,
                          .prepare = terrain_grow_braided,
                          .record = record_braided,
                          .sample = terrain_sample_braided,
-                         .finish = finish_braided},
+                         .finish = finish_braided,
+                         .roughness = terrain_braid_roughness},
     [TERRAIN_KARST] = {.material = "terrain/karst",
                        .relief = 0.05f,
                        .wavelength = 0.125f,
@@ -293,13 +311,16 @@ static const Form FORMS[] = {
                        .sample = sample_evolved,
                        .finish = finish_karst,
                        .measure = terrain_measure_karst},
-    [TERRAIN_MEANDER] = {.material = "terrain/braided",
+    [TERRAIN_MEANDER] = {.material = "terrain/floodplain",
+                         .water = "terrain/river",
+                         .repeat = REPEAT_ALONG,
                          .relief = 0.03f,
                          .wavelength = 0.125f,
                          .prepare = terrain_grow_meander,
                          .record = record_braided,
                          .sample = terrain_sample_meander,
-                         .finish = terrain_keep_shores},
+                         .finish = finish_meander,
+                         .roughness = terrain_meander_roughness},
 };
 
 const Form *terrain_form(const TerrainParams *params)

@@ -18,19 +18,19 @@ static bool give_strata(Mesh *mesh, const Terrain *terrain, Error *e)
     return mesh->strata;
 }
 
-// The square's copy number (column, row) away: odd ones are mirrored, so that borders meet. Dunes
-// repeat as they are.
+// The square's copy number (column, row) away: odd ones are mirrored, so that borders meet, unless
+// the form repeats by itself.
 static Transform copied(const TerrainParams *params, int column, int row)
 {
-    if (params->form == TERRAIN_DUNES) {
-        return transform_from_axes(
-            vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1),
-            vec3((float)column * params->size, 0.0f, (float)row * params->size));
-    }
-    float x = column % 2 == 0 ? 1.0f : -1.0f, z = row % 2 == 0 ? 1.0f : -1.0f;
+    Repeat repeat = terrain_form(params)->repeat;
+    float x = column % 2 == 0 || repeat == REPEAT_PERIODIC ? 1.0f : -1.0f;
+    float z = row % 2 == 0 || repeat != REPEAT_MIRRORED ? 1.0f : -1.0f;
     Vec3 middle = params->position;
     Vec3 place = vec3((float)column * params->size + (1.0f - x) * middle.x, 0.0f,
                       (float)row * params->size + (1.0f - z) * middle.z);
+    if (repeat == REPEAT_ALONG) {
+        place.y = -params->meander.slope * (float)row * params->size;
+    }
     return transform_from_axes(vec3(x, 0, 0), vec3(0, 1, 0), vec3(0, 0, z), place);
 }
 
@@ -76,7 +76,7 @@ static bool add_beyond(const Terrain *terrain, const HeightField *field, const P
         return true;
     }
     HeightMeshParams meshing = {.error = 0.25f * params->mesh_error * params->size,
-                                .keep = terrain->braid || terrain->meander ? terrain->bank : NULL};
+                                .keep = terrain_form(params)->water ? terrain->bank : NULL};
     Mesh *mesh = height_mesh_new(field, &meshing, e);
     for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
         mesh->position[i] = vec3_add(mesh->position[i], params->position);

@@ -39,7 +39,8 @@ enum {
     STREAM_SAND = 81,
     STREAM_PLAIN = 82,
     STREAM_KARST = 83,
-    STREAM_MEANDER = 84
+    STREAM_MEANDER = 84,
+    STREAM_SCROLLS = 85
 };
 
 // The tree and everything derived from it.
@@ -251,13 +252,15 @@ double terrain_braid_depth(const TerrainParams *params);
 // Fills sample i of a field at a place.
 void terrain_sample_braided(const Terrain *terrain, HeightField *field, int64_t i, float x,
                             float z);
-// braided_water.c: takes away standing water that ends where its level is not known.
+// braided.c: of the flow at a place, from 0 in still water to 1.
+float terrain_braid_roughness(const Terrain *terrain, float x, float z);
+// flow_water.c: takes away standing water that ends where its level is not known.
 bool terrain_drain_pools(HeightField *field, Error *e);
-// Fills terrain->bank where water is near.
-bool terrain_keep_shores(Terrain *terrain, HeightField *field, const Run *run, Error *e);
+// Fills terrain->bank where the ground is less than `reach` m above water near it.
+bool terrain_keep_shores(Terrain *terrain, const HeightField *field, float reach, Error *e);
 // The water's surface.
-bool terrain_add_braids(const Terrain *terrain, const HeightField *field, const Placing *placing,
-                        Error *e);
+bool terrain_add_flow(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                      Error *e);
 // braided_measure.c: after terrain_heights.
 bool terrain_measure_braided(const Terrain *terrain, MeasureList *list, Error *e);
 
@@ -265,6 +268,7 @@ bool terrain_measure_braided(const Terrain *terrain, MeasureList *list, Error *e
 bool terrain_grow_meander(Terrain *terrain, const Run *run, Error *e);
 void terrain_sample_meander(const Terrain *terrain, HeightField *field, int64_t i, float x,
                             float z);
+float terrain_meander_roughness(const Terrain *terrain, float x, float z);
 // After terrain_heights.
 bool terrain_measure_meander(const Terrain *terrain, MeasureList *list, Error *e);
 

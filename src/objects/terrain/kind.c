@@ -74,7 +74,7 @@ static void needs(const void *params, Needs *needs)
         needs_add(needs, "evolution.cells", cells * cells, BRAID_BYTES);
     }
     if (terrain->form == TERRAIN_MEANDER) {
-        needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, 40);
+        needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, 60);
     }
     needs_add(needs, terrain->form == TERRAIN_RIDGES ? "ridges.count" : "rivers.count",
               (double)attractors(params), RIVER_BYTES);
@@ -99,9 +99,8 @@ static const char *material_for(const void *params, int role)
 {
     const TerrainParams *terrain = params;
     const Form *form = terrain_form(terrain);
-    if (role == TERRAIN_WATER &&
-        (terrain->form == TERRAIN_BRAIDED || terrain->form == TERRAIN_MEANDER)) {
-        return "terrain/glacial";
+    if (role == TERRAIN_WATER) {
+        return form->water;
     }
     if (role != TERRAIN_LAND) {
         return NULL;
@@ -201,6 +200,23 @@ static const Material BUILTIN[] = {
      .ior = 1.33f,
      .pattern = PATTERN_GLACIAL,
      .pattern_depth = 0.03f},
+    {.name = "terrain/floodplain",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.42f, 0.355f, 0.255f},
+     .color2 = {0.066f, 0.082f, 0.026f},
+     .roughness = 0.8f,
+     .ior = 1.5f,
+     .pattern = PATTERN_FLOODPLAIN,
+     .pattern_depth = 1.0f},
+    {.name = "terrain/river",
+     .kind = MATERIAL_PRINCIPLED,
+     .color = {0.050f, 0.050f, 0.027f},
+     .color2 = {0.190f, 0.150f, 0.090f},
+     .roughness = 0.10f,
+     .specular = 0.25f,
+     .ior = 1.33f,
+     .pattern = PATTERN_RIVER,
+     .pattern_depth = 0.02f},
     {.name = "terrain/strata",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.40f, 0.29f, 0.19f},

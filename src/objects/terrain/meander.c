@@ -1,5 +1,7 @@
-// The form meander: a river that winds in its floodplain. While it moves, each sample records when
-// the channel left it, which makes cut banks, point bars with scrolls, and old ground.
+// The form meander: a river that winds in its floodplain. What it leaves on each sample
+// (meander_trace.h) makes cut banks, point bars with scrolls, pools, and oxbow lakes.
+#include "objects/terrain/meander_trace.h"
+
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -9,160 +11,139 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double AGE = 150.0;   // time (Meander.time) of age 1
-static const double STAMP = 0.16;  // time between two records of the channel
-static const double BARS = 6.0;    // time in which a point bar grows to the floodplain
-static const double SCROLLS = 2.2; // time from one scroll to the next
-static const double FILL = 60.0;   // time in which an oxbow fills
+static const double AGE = 75.0;    // time (Meander.time) of age 1
+static const float BARS = 2.5f;    // time in which a point bar grows half way to the floodplain
+static const float SCROLLS = 0.8f; // mean time from one scroll to the next
 static const float BANK = 0.045f;  // of the width: height of the banks above the water
-static const float DEPTH = 0.06f;  // of the width: greatest depth
+static const float DEPTH = 0.06f;  // of the width: mean depth of the middle of the bed, below banks
+static const float TOE = 0.011f;   // of the width: how far low water has fallen below the bed's rim
+// Of the depth, by half widths and the curvature times the width: transverse slope of the bed, as
+// Ikeda, Parker and Sawai (1981) take it from data, 2.9 to 5 in other rivers.
+static const float SCOUR = 4.5f;
 
 typedef struct Plain {
     const Terrain *terrain;
-    const TerrainParams *p;
+    TerrainParams p;
     HeightField *field;
-    float *left;  // time at which the channel left; < 0 = it never came
-    float *river; // m to the middle of the river, as far as known
-    float *lake;  // likewise, to that of an oxbow
-    float *cut;   // when that was cut off
+    MeanderTrace trace;
+    float time, width; // m
 } Plain;
 
-static double to_piece(MeanderNode a, MeanderNode b, double x, double z)
-{
-    double dx = b.x - a.x, dz = b.z - a.z, squared = dx * dx + dz * dz;
-    double t = squared > 0.0 ? ((x - a.x) * dx + (z - a.z) * dz) / squared : 0.0;
-    t = fmin(fmax(t, 0.0), 1.0);
-    double u = a.x + t * dx - x, v = a.z + t * dz - z;
-    return sqrt(u * u + v * v);
-}
+// Ground about a sample.
+typedef struct Site {
+    float height; // m above the water
+    bool wet;
+} Site;
 
-// Samples within `reach` of a piece of channel: least distance in `near`, if given, and `value`
-// where that is less than before.
-static void stamp(const HeightField *f, MeanderNode a, MeanderNode b, double reach, float *near,
-                  float *value, float v)
-{
-    double cell = (double)f->cell.x, corner = (double)f->origin.x, last = f->columns - 1;
-    int first_column = (int)fmax(floor((fmin(a.x, b.x) - reach - corner) / cell), 0.0);
-    int last_column = (int)fmin(ceil((fmax(a.x, b.x) + reach - corner) / cell), last);
-    int first_row = (int)fmax(floor((fmin(a.z, b.z) - reach - corner) / cell), 0.0);
-    int last_row = (int)fmin(ceil((fmax(a.z, b.z) + reach - corner) / cell), last);
-    for (int row = first_row; row <= last_row; row++) {
-        for (int column = first_column; column <= last_column; column++) {
-            int64_t i = (int64_t)row * f->columns + column;
-            double d = to_piece(a, b, corner + column * cell, corner + row * cell);
-            if (d > reach || (near && (float)d >= near[i])) {
-                continue;
-            }
-            if (near) {
-                near[i] = (float)d;
-            }
-            if (value) {
-                value[i] = v;
-            }
-        }
-    }
-}
+// ---- hills
 
-// Nodes run along z from anywhere; the square is from -half to half.
-static void stamp_line(const Plain *plain, const MeanderNode *node, int64_t count, bool closed,
-                       double reach, float *near, float *value, float v)
+// Noise that repeats after the size along z: of two copies, which take turns.
+static float repeating_noise(const Plain *plain, float x, float z)
 {
-    double size = (double)plain->p->size;
-    for (int64_t i = 0; i < count - (closed ? 0 : 1); i++) {
-        MeanderNode a = node[i], b = node[(i + 1) % count];
-        b.z += i + 1 == count ? size : 0.0;
-        double turns = floor(a.z / size + 0.5);
-        for (int k = -1; k <= 1; k++) {
-            double move = (k - turns) * size;
-            stamp(plain->field, (MeanderNode){a.x, a.z + move}, (MeanderNode){b.x, b.z + move},
-                  reach, near, value, v);
-        }
-    }
-}
-
-static bool wander(Plain *plain, Meander *m, const Run *run, Error *e)
-{
-    double whole = AGE * (double)plain->p->meander.age;
-    int64_t parts = (int64_t)(whole / STAMP) + 1;
-    for (int64_t n = 0; n < parts; n++) {
-        run_progress(run, "river", (double)n / (double)parts);
-        if (!meander_run(m, STAMP, run, e)) {
-            return false;
-        }
-        stamp_line(plain, m->node, m->count, true, 0.5 * m->width, NULL, plain->left,
-                   (float)m->time);
-    }
-    double reach = 1.5 * m->width;
-    stamp_line(plain, m->node, m->count, true, reach, plain->river, NULL, 0.0f);
-    for (int64_t i = 0; i < m->oxbows; i++) {
-        if (m->time - m->oxbow[i].time < FILL) {
-            stamp_line(plain, m->oxbow[i].node, m->oxbow[i].count, false, 0.75 * m->width,
-                       plain->lake, plain->cut, (float)m->oxbow[i].time);
-        }
-    }
-    return true;
+    const TerrainParams *p = &plain->p;
+    uint64_t key = random_key(plain->terrain->seed, STREAM_PLAIN);
+    float scale = 8.0f / p->size, t = z / p->size + 0.5f;
+    float a = sparse_noise_fractal(scale * x, scale * z, 5, 0.5f, 0.0f, key);
+    float b = sparse_noise_fractal(scale * x, scale * (z - p->size), 5, 0.5f, 0.0f, key);
+    return ((1.0f - t) * a + t * b) / sqrtf(t * t + (1.0f - t) * (1.0f - t));
 }
 
 // m above the floodplain of the hills beside it.
 static float hills(const Plain *plain, float x, float z)
 {
-    const TerrainParams *p = plain->p;
-    uint64_t key = random_key(plain->terrain->seed, STREAM_PLAIN);
-    float half = 0.5f * p->size, scale = 8.0f / p->size;
-    float n = sparse_noise_fractal(scale * x, scale * z, 5, 0.5f, 0.0f, key);
+    const TerrainParams *p = &plain->p;
+    float half = 0.5f * p->size, n = repeating_noise(plain, x, z);
     float edge = half * p->meander.plain + 0.02f * p->size * n;
     float t = (fabsf(x) - edge) / (half * (1.15f - p->meander.plain));
     t = clampf(t, 0.0f, 1.0f);
     return p->relief * t * t * (3.0f - 2.0f * t) * (0.8f + 0.2f * n);
 }
 
-// Ground that the channel left `since` ago, above the water.
-static float bar(float since, float width)
+// ---- the floodplain
+
+// Floods come at uneven times: what they have left on the bar, about -1..1.
+static float flood(const Plain *plain, float time)
 {
-    float grown = since / (since + (float)BARS), sine, cosine;
-    exact_sincos(since * 6.2831853f / (float)SCROLLS, &sine, &cosine);
-    float fades = (float)BARS * 3.0f / (since + (float)BARS * 3.0f);
-    return BANK * width * (0.08f + 0.92f * grown + 0.16f * sine * grown * fades);
+    uint64_t key = random_key(plain->terrain->seed, STREAM_SCROLLS);
+    return sparse_noise(2.0f * time / SCROLLS, 0.37f, key);
 }
 
-static void lay_sample(const Plain *plain, const Meander *m, int64_t i)
+// Ground that the channel left at a time, m above the water.
+static float bar(const Plain *plain, float left)
+{
+    float since = plain->time - left, grown = since / (since + BARS);
+    float fades = 25.0f / (25.0f + since);
+    float scroll = 0.16f * flood(plain, left) * grown * fades;
+    return plain->width * (TOE + (BANK - TOE) * (grown + scroll));
+}
+
+// A bend that was cut off stays a hollow, deepest where its last water was.
+static Site oxbow(const Plain *plain, int64_t i, float ground)
+{
+    const MeanderTrace *t = &plain->trace;
+    float w = plain->width, old = t->old[i], open = t->open[i];
+    float low = w * BANK * (0.12f + 0.36f * t->filled[i]);
+    float hollow = smoothstepf(1.3f, 0.7f, old);
+    ground = lerpf(ground, fminf(low, ground), hollow);
+    if (open > 0.0f && old < 1.5f * open) {
+        float across = old / open, shore = across - 1.0f;
+        float depth = DEPTH * w * 0.7f * open * (1.0f - across * across);
+        float beside = lerpf(0.0f, ground, clampf(2.0f * shore, 0.0f, 1.0f));
+        return (Site){across < 1.0f ? -depth : beside, across < 1.0f};
+    }
+    return (Site){ground, false};
+}
+
+// The river's bed: deep at the outer bank, shoal at the point bar.
+static float bed(const Plain *plain, float aside, float bend)
+{
+    float outer = aside * (bend > 0.0f ? 1.0f : -1.0f); // 1 at the outer bank
+    float square = aside * aside, fourth = square * square;
+    float bank = outer > 0.0f ? 1.0f - fourth * square : 1.0f - lerpf(square, fourth, 0.3f);
+    float scour = fmaxf(1.0f + 0.5f * SCOUR * aside * bend, 0.12f);
+    return plain->width * (TOE - DEPTH * scour * bank);
+}
+
+static Site site_at(const Plain *plain, int64_t i, float x, float z)
+{
+    const MeanderTrace *t = &plain->trace;
+    float w = plain->width, left = t->left[i];
+    uint64_t key = random_key(plain->terrain->seed, STREAM_NOISE);
+    float rough = sparse_noise_fractal(x / w, z / w, 4, 0.5f, 0.0f, key);
+    float fresh = left < 0.0f ? 1.0f : (plain->time - left) / (plain->time - left + 2.0f);
+    float ground = left < 0.0f ? BANK * w : bar(plain, left);
+    ground += 0.003f * w * rough * fresh;
+    Site site = {fmaxf(ground, 0.002f * w), false};
+    if (fabsf(t->aside[i]) < 1.0f) {
+        float height = bed(plain, t->aside[i], t->bend[i]);
+        return (Site){height, height < 0.0f};
+    }
+    return t->old[i] < INFINITY ? oxbow(plain, i, site.height) : site;
+}
+
+static void lay_sample(const Plain *plain, int64_t i)
 {
     HeightField *f = plain->field;
+    const MeanderTrace *t = &plain->trace;
     int64_t row = i / f->columns;
     float x = f->origin.x + (float)(i % f->columns) * f->cell.x;
-    float z = f->origin.y + (float)row * f->cell.y, width = (float)m->width;
-    uint64_t key = random_key(plain->terrain->seed, STREAM_NOISE);
-    float rough = sparse_noise_fractal(x / width, z / width, 4, 0.5f, 0.0f, key);
-    float since = plain->left[i] < 0.0f ? (float)AGE : (float)m->time - plain->left[i];
-    float hill = hills(plain, x, z);
-    float ground = bar(since, width) + 0.004f * width * rough * (since / (since + 2.0f)) + hill;
-    ground = fmaxf(ground, 0.002f * width);
-    float age = 0.74f * since / (since + 9.0f);
-    float u = plain->river[i] / (0.5f * width), o = plain->lake[i] / (0.5f * width);
-    bool wet = false;
-    if (u < 1.0f) {
-        ground = -DEPTH * width * (1.0f - u * u);
-        age = 0.0f;
-        wet = true;
-    } else if (o < 1.0f && plain->left[i] < plain->cut[i] + 0.5f) {
-        float filled = ((float)m->time - plain->cut[i]) / (float)FILL;
-        float narrow = o / fmaxf(1.0f - filled, 0.05f);
-        ground = fminf(ground, BANK * width * 0.7f * (o * o - 1.0f) + 0.3f * BANK * width * filled);
-        ground = narrow < 1.0f ? -DEPTH * width * 0.6f * (1.0f - narrow * narrow)
-                               : fmaxf(ground, 0.003f * width);
-        wet = narrow < 1.0f;
-    }
-    float plane = -plain->p->meander.slope * z;
-    f->height[i] = ground + plane;
-    f->age[i] = hill > 0.02f * plain->p->relief ? 0.8f : age;
-    f->water[i] = u < 3.0f || o < 1.5f ? plane : -INFINITY;
-    f->wetness[i] = wet ? 1.0f : clampf(1.0f - ground / (0.5f * BANK * width), 0.0f, 0.9f);
-    f->loose[i] = hill > 0.0f ? 0.5f : DEPTH * width;
+    float z = f->origin.y + (float)row * f->cell.y, w = plain->width;
+    float hill = hills(plain, x, z), plane = -plain->p.meander.slope * z;
+    Site site = site_at(plain, i, x, z);
+    float since = plain->time - t->left[i];
+    f->age[i] = t->left[i] < 0.0f ? 0.74f : 0.74f * since / (since + 9.0f);
+    f->age[i] = hill > 0.02f * plain->p.relief ? 0.8f : f->age[i];
+    f->height[i] = site.height + plane + hill;
+    bool near = fabsf(t->aside[i]) < 3.0f || (t->open[i] > 0.0f && t->old[i] < INFINITY);
+    f->water[i] = near ? plane : -INFINITY;
+    float damp = 1.0f - site.height / (1.25f * BANK * w);
+    f->wetness[i] = site.wet ? 1.0f : hill > 0.0f ? 0.0f : clampf(damp, 0.0f, 0.95f);
+    f->loose[i] = hill > 0.0f ? 0.5f : DEPTH * w;
 }
 
-static bool make_arrays(Plain *plain, Error *e)
+static bool make_field(Plain *plain, Error *e)
 {
-    const TerrainParams *p = plain->p;
+    const TerrainParams *p = &plain->p;
     float cell = p->size / (float)p->resolution, corner = -0.5f * p->size;
     HeightField *f = height_field_new(p->resolution + 1, p->resolution + 1, (Vec2){cell, cell},
                                       (Vec2){corner, corner}, e);
@@ -171,42 +152,35 @@ static bool make_arrays(Plain *plain, Error *e)
         return false;
     }
     int64_t count = height_field_count(f);
-    float **arrays[] = {&f->wetness,   &f->age,      &f->water,    &f->loose,
-                        &plain->river, &plain->lake, &plain->left, &plain->cut};
-    for (int k = 0; k < 8; k++) {
-        *arrays[k] = memory_alloc(count, sizeof(float), e);
-        if (!*arrays[k]) {
-            return false;
-        }
-        for (int64_t i = 0; k >= 4 && i < count; i++) {
-            (*arrays[k])[i] = k < 6 ? 1e30f : -1.0f;
-        }
-    }
-    return true;
+    return (f->wetness = memory_alloc(count, sizeof *f->wetness, e)) &&
+           (f->age = memory_alloc(count, sizeof *f->age, e)) &&
+           (f->water = memory_alloc(count, sizeof *f->water, e)) &&
+           (f->loose = memory_alloc(count, sizeof *f->loose, e)) &&
+           meander_trace_new(&plain->trace, f, e);
 }
 
 bool terrain_grow_meander(Terrain *terrain, const Run *run, Error *e)
 {
-    TerrainParams p = terrain_params_resolve(terrain->params);
-    Plain plain = {.terrain = terrain, .p = &p};
+    Plain plain = {.terrain = terrain, .p = terrain_params_resolve(terrain->params)};
+    const TerrainParams *p = &plain.p;
     uint64_t key = random_key(terrain->seed, STREAM_MEANDER);
-    Meander *m = meander_new((double)p.meander.width, (double)p.size, 0.3, key, e);
+    Meander *m = meander_new((double)p->meander.width, (double)p->size, 0.3, key, e);
     terrain->meander = m;
-    bool done = m && make_arrays(&plain, e);
+    bool done = m && make_field(&plain, e);
     terrain->plain = plain.field;
     if (done) {
         m->contrast = 0.5;
-        m->reach = 0.5 * (double)(p.size * p.meander.plain) - m->width;
-        done = wander(&plain, m, run, e);
+        m->reach = 0.5 * (double)(p->size * p->meander.plain) - m->width;
+        done = meander_trace_run(&plain.trace, m, AGE * (double)p->meander.age, run, e) &&
+               meander_trace_river(&plain.trace, m, e) && meander_trace_oxbows(&plain.trace, m, e);
+        plain.time = (float)m->time;
+        plain.width = (float)m->width;
     }
 #pragma omp parallel for schedule(static) num_threads(run->threads)
     for (int64_t i = 0; i < (done ? height_field_count(plain.field) : 0); i++) {
-        lay_sample(&plain, m, i);
+        lay_sample(&plain, i);
     }
-    free(plain.left);
-    free(plain.river);
-    free(plain.lake);
-    free(plain.cut);
+    meander_trace_free(&plain.trace);
     return done;
 }
 
@@ -222,15 +196,21 @@ void terrain_sample_meander(const Terrain *terrain, HeightField *field, int64_t 
     field->loose[i] = plain->loose[i];
 }
 
+// It flows slowly everywhere.
+float terrain_meander_roughness(const Terrain *terrain, float x, float z)
+{
+    (void)terrain;
+    (void)x;
+    (void)z;
+    return 0.3f;
+}
+
 // Leopold and Wolman 1960: meanders are 7 to 15 widths long.
 bool terrain_measure_meander(const Terrain *terrain, MeasureList *list, Error *e)
 {
     const Meander *m = terrain->meander;
-    int64_t open = 0;
-    for (int64_t i = 0; i < m->oxbows; i++) {
-        open += m->time - m->oxbow[i].time < FILL;
-    }
+    double open = (double)meander_open_oxbows(m);
     return measures_add(list, "sinuosity", meander_sinuosity(m), "", 1.3, 4, e) &&
            measures_add(list, "wavelength_ratio", meander_wavelength(m), "", 5, 15, e) &&
-           measures_add(list, "oxbows", (double)open, "", (double)NAN, (double)NAN, e);
+           measures_add(list, "oxbows", open, "", (double)NAN, (double)NAN, e);
 }

@@ -1,7 +1,7 @@
 // Water surfaces: a level lake, and ribbons along the rivers.
 #include "base/memory.h"
 #include "land/height_mesh.h"
-#include "objects/terrain/internal.h"
+#include "objects/terrain/form.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -220,7 +220,7 @@ bool terrain_add_water(const Terrain *terrain, const HeightField *field, const P
             return false;
         }
     }
-    if ((terrain->braid || terrain->meander) && !terrain_add_braids(terrain, field, placing, e)) {
+    if (terrain_form(params)->water && !terrain_add_flow(terrain, field, placing, e)) {
         return false;
     }
     return !terrain->water || add_rivers(terrain, field, placing, e);

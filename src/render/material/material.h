@@ -61,7 +61,9 @@ typedef enum PatternKind {
     PATTERN_BRAIDED,   // gravel by its age, silt and wet edges of a braided river, terraces, slopes
     PATTERN_GLACIAL,   // its water: turbid by depth, ripples by speed
     PATTERN_KARST,     // limestone cliffs with streaks of water, bushes, fields on the plain
-    PATTERN_MUD        // the bed of a pond: ooze, darker with depth (color2), litter, a wet rim
+    PATTERN_MUD,       // the bed of a pond: ooze, darker with depth (color2), litter, a wet rim
+    PATTERN_FLOODPLAIN, // point bars, scrolls, meadows, reeds and fields of a meandering river
+    PATTERN_RIVER       // its water: the bed in shoals, murky depth, ripples
 } PatternKind;
 
 // Is relief displaced near the camera?

@@ -135,7 +135,8 @@ static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShad
     [PATTERN_HILLS] = pattern_hills,       [PATTERN_COAST] = pattern_coast,
     [PATTERN_BRAIDED] = pattern_braided,   [PATTERN_GLACIAL] = pattern_glacial,
     [PATTERN_NOISE] = noise_pattern,       [PATTERN_KARST] = pattern_karst,
-    [PATTERN_MUD] = pattern_mud,
+    [PATTERN_MUD] = pattern_mud,           [PATTERN_FLOODPLAIN] = pattern_floodplain,
+    [PATTERN_RIVER] = pattern_river,
 };
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)

@@ -45,6 +45,8 @@ void pattern_coast(const Material *material, const SurfacePoint *point, PatternS
 void pattern_dunes(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_mud(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_braided(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_floodplain(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_river(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_karst(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_glacial(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_sand(const Material *material, const SurfacePoint *point, PatternShade *shade);

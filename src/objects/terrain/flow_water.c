@@ -1,7 +1,7 @@
-// The water of a braided river: a surface at the level of the flow, which meets the ground of the
-// land's own mesh at its shores.
+// Water whose level the heights record, as of braided and meandering rivers: a surface that meets
+// the ground of the land's own mesh at its shores.
 #include "base/memory.h"
-#include "objects/terrain/internal.h"
+#include "objects/terrain/form.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,12 +86,10 @@ bool terrain_drain_pools(HeightField *field, Error *e)
 
 // Where water is near, every sample is a vertex of the land: its depth is less than the mesh's
 // error far away.
-bool terrain_keep_shores(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+bool terrain_keep_shores(Terrain *terrain, const HeightField *field, float reach, Error *e)
 {
-    (void)run;
     terrain->bank = memory_alloc_zero(height_field_count(field), 1, e);
     for (int64_t i = 0; terrain->bank && i < height_field_count(field); i++) {
-        float reach = terrain->braid ? 0.3f * (float)terrain->braid->mean : 0.5f;
         terrain->bank[i] = is_known(field, i) && field->height[i] < field->water[i] + reach;
     }
     return terrain->bank;
@@ -169,24 +167,11 @@ static Vec3 water_normal(const HeightField *field, int64_t i)
     return vec3_normalize(vec3(-dx, 1.0f, -dz));
 }
 
-// Shear stress as a share of 1 + itself: how rough the water is.
-static float roughness_at(const Terrain *terrain, Vec2 p)
-{
-    const Braid *b = terrain->braid;
-    if (!b) {
-        return 0.3f; // a meandering river flows smoothly
-    }
-    float half = 0.5f * terrain->params->size, last = (float)b->side - 1.0f;
-    int column = (int)clampf((p.x + half) / (float)b->cell, 0.0f, last);
-    int row = (int)clampf((p.y + half) / (float)b->cell, 0.0f, last);
-    float shear = b->shear[(int64_t)row * b->side + column];
-    return shear / (1.0f + shear);
-}
-
 // site.x: depth over 1 m + itself; site.y: how rough the water is.
 static void fill_vertices(const WaterMesher *w, Mesh *mesh)
 {
     const HeightField *field = w->field;
+    const Form *form = terrain_form(w->terrain->params);
     for (int64_t i = 0; i < height_field_count(field); i++) {
         int32_t v = w->vertex[i];
         if (v < 0) {
@@ -201,7 +186,7 @@ static void fill_vertices(const WaterMesher *w, Mesh *mesh)
             vec3_add(vec3(at.x, field->water[i], at.y), w->terrain->params->position);
         mesh->normal[v] = water_normal(field, i);
         mesh->uv[v] = (Vec2){mesh->position[v].x, mesh->position[v].z};
-        mesh->site[v] = (Vec2){depth / (1.0f + depth), roughness_at(w->terrain, at)};
+        mesh->site[v] = (Vec2){depth / (1.0f + depth), form->roughness(w->terrain, at.x, at.y)};
     }
 }
 
@@ -223,8 +208,8 @@ static Mesh *water_mesh(const WaterMesher *w, Error *e)
     return mesh;
 }
 
-bool terrain_add_braids(const Terrain *terrain, const HeightField *field, const Placing *placing,
-                        Error *e)
+bool terrain_add_flow(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                      Error *e)
 {
     WaterMesher w = {.terrain = terrain, .field = field};
     w.vertex = memory_alloc(height_field_count(field), sizeof *w.vertex, e);
