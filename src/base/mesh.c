@@ -40,6 +40,9 @@ Mesh *mesh_new(int face_size, int64_t vertex_count, int64_t face_count, int arra
     if (made && (arrays & MESH_SITE)) {
         made = (mesh->site = memory_alloc_zero(vertex_count, sizeof(Vec2), e));
     }
+    if (made && (arrays & MESH_FOAM)) {
+        made = (mesh->foam = memory_alloc_zero(vertex_count, sizeof(float), e));
+    }
     if (!made) {
         mesh_free(mesh);
         return NULL;
@@ -57,6 +60,7 @@ void mesh_free(Mesh *mesh)
         free(mesh->radius);
         free(mesh->birth);
         free(mesh->site);
+        free(mesh->foam);
         strata_free(mesh->strata);
         waves_free(mesh->waves);
         free(mesh);

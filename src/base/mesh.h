@@ -19,12 +19,13 @@ typedef struct Mesh {
     float *radius;         // m, radius of the vertex's branch; NULL = none
     float *birth;          // growth step, as a fraction of the last one, 0..1; NULL = none
     Vec2 *site;            // land: altitude (x) and wetness (y), 0..1 each; NULL = none
+    float *foam;           // water: share of it that is white with air, 0..1; NULL = none
     struct Waves *waves;   // of a sea, for what is finer than the mesh; owned; NULL = none
     struct Strata *strata; // land: its beds of rock, in the mesh's space; owned; NULL = none
 } Mesh;
 
 // Optional arrays for mesh_new.
-enum { MESH_NORMAL = 1, MESH_UV = 2, MESH_RADIUS = 4, MESH_BIRTH = 8, MESH_SITE = 16 };
+enum { MESH_NORMAL = 1, MESH_UV = 2, MESH_RADIUS = 4, MESH_BIRTH = 8, MESH_SITE = 16, MESH_FOAM = 32 };
 
 // Creates a mesh with arrays of these sizes, zeroed; NULL and e when out of memory. Free with
 // mesh_free.

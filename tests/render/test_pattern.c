@@ -110,7 +110,7 @@ static Material bark(void)
 
 static PatternShade shade_of(const Material *m, const SurfacePoint *p)
 {
-    PatternShade shade = {m->color, m->transmittance, p->normal};
+    PatternShade shade = {m->color, m->transmittance, p->normal, 0.0f};
     pattern_apply(m, p, &shade);
     assert_true(vec3_finite(shade.color) && vec3_finite(shade.normal));
     assert_float_equal(vec3_length(shade.normal), 1.0f, 1e-3f);

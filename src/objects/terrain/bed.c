@@ -1,4 +1,4 @@
-// Rivers on the finished land: water levels and beds. Noise, erosion and terraces change the land
+// Rivers on the finished land: courses and beds. Noise, erosion and terraces change the land
 // after the rivers' heights are computed, so water levels are fitted to the final land and always
 // fall downstream.
 #include "base/memory.h"
@@ -121,75 +121,6 @@ static bool round_bends(OutTree *water, Error *e)
     return done;
 }
 
-// ---- water levels
-
-static float nearest_sample(const HeightField *field, float x, float z)
-{
-    float u = (x - field->origin.x) / field->cell.x, v = (z - field->origin.y) / field->cell.y;
-    int column = (int)clampf(u + 0.5f, 0.0f, (float)(field->columns - 1));
-    int row = (int)clampf(v + 0.5f, 0.0f, (float)(field->rows - 1));
-    return field->height[(int64_t)row * field->columns + column];
-}
-
-// The lowest land from bank to bank at node i: the highest level at which no water floats.
-static float lowest_across(const OutTree *water, int64_t i, const HeightField *field)
-{
-    Vec3 p = water->position[i], q = water->position[water->parent[i]];
-    float low = nearest_sample(field, p.x, p.z), half = water->radius[i];
-    Vec3 across = vec3_normalize(vec3(p.z - q.z, 0.0f, q.x - p.x));
-    int count = 1 + (int)(half / field->cell.x);
-    for (int k = -count; k <= count; k++) {
-        Vec3 at = vec3_madd(p, half * (float)k / (float)count, across);
-        float h = nearest_sample(field, at.x, at.z);
-        low = h < low ? h : low;
-    }
-    return low;
-}
-
-// Averages each level with those a few cells downstream, which are lower, twice: otherwise the
-// water falls in steps of a cell.
-static bool smooth_levels(OutTree *water, Error *e)
-{
-    enum { REACH = 8, TIMES = 2 };
-    float *mean = memory_alloc(water->count, sizeof *mean, e);
-    for (int time = 0; mean && time < TIMES; time++) {
-        for (int64_t i = 0; i < water->count; i++) {
-            int64_t below = i;
-            float sum = 0.0f;
-            for (int k = 0; k < REACH; k++) {
-                sum += water->position[below].y;
-                below = water->parent[below] >= 0 ? water->parent[below] : below;
-            }
-            mean[i] = sum / REACH;
-        }
-        for (int64_t i = 0; i < water->count; i++) {
-            water->position[i].y = mean[i];
-        }
-    }
-    bool done = mean;
-    free(mean);
-    return done;
-}
-
-// Sets each node's height to the water level: as high as the land allows, falling downstream.
-static void find_levels(OutTree *water, const HeightField *field)
-{
-    const float least_fall = 1e-5f;
-    for (int64_t i = 0; i < water->count; i++) {
-        Vec3 p = water->position[i];
-        water->position[i].y =
-            water->parent[i] < 0 ? nearest_sample(field, p.x, p.z) : lowest_across(water, i, field);
-    }
-    for (int64_t i = water->count - 1; i >= 0; i--) { // children follow their parents
-        if (water->parent[i] >= 0) {
-            Vec3 p = water->position[i], *q = &water->position[water->parent[i]];
-            float dx = p.x - q->x, dz = p.z - q->z;
-            float most = p.y - least_fall * sqrtf(dx * dx + dz * dz);
-            q->y = q->y < most ? q->y : most;
-        }
-    }
-}
-
 // ---- the shore
 
 // The envelope of the distances to the water: to each node's segment (to its parent), less half the
@@ -275,8 +206,11 @@ bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Er
     if (!round_bends(terrain->water, e)) {
         return false;
     }
-    find_levels(terrain->water, field);
-    if (!smooth_levels(terrain->water, e)) {
+    const TerrainParams *params = terrain->params;
+    terrain->drop = terrain_find_levels(terrain->water, &params->rivers, field, e);
+    terrain->flow =
+        terrain->drop ? terrain_find_flow(params, terrain->water, terrain->drop, e) : NULL;
+    if (!terrain->flow) {
         return false;
     }
     terrain->shore = make_shore(terrain->water, terrain->params->size, run, e);

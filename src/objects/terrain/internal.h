@@ -68,7 +68,9 @@ typedef struct Terrain {
     // The visible rivers on the finished heights, set by terrain_heights; NULL or without nodes if
     // none is wide enough.
     OutTree *water; // steps of at most half a cell; y = the water's level, radius = half width
-    TroughEnvelope *shore; // m to the water's edge, negative in the water
+    float *drop;            // m that water falls from each node to its parent; 0 = it flows
+    struct RiverFlow *flow; // of each node
+    TroughEnvelope *shore;  // m to the water's edge, negative in the water
     uint8_t *bank;         // of each sample: 1 = in a bed or at its edge
 } Terrain;
 
@@ -183,6 +185,48 @@ static inline float terrain_bed_depth(float half, float d)
     float share = d < half ? d / half : 1.0f;
     return half * (0.03f + 0.25f * (1.0f - share * share));
 }
+
+// levels.c: sets the heights of the nodes to the water's level, as high as the land allows. Returns
+// the drop of each node, m: 0, or how far the water falls from it to its parent. Between the lip of
+// a fall and its foot all levels are the foot's. The caller frees the array.
+float *terrain_find_levels(OutTree *water, const RiverParams *rivers, const HeightField *field,
+                           Error *e);
+
+// flow.c: what flows at a node.
+typedef struct RiverFlow {
+    float discharge; // m^3/s
+    float slope;     // of the water's surface along its way
+    float depth;     // m, and
+    float speed;     // m/s, of a channel of this slope and the water's width
+    float foam;      // 0..1: share of the surface that is white
+} RiverFlow;
+
+// m^3/s in a river of this half width, m.
+float terrain_discharge(const TerrainParams *params, float half);
+// The flow of this discharge in a channel of this half width and slope; foam as nature's.
+RiverFlow terrain_flow_of(float discharge, float half, float slope);
+// The flow at each node; foam drifts on below rapids and falls. The caller frees the array.
+RiverFlow *terrain_find_flow(const TerrainParams *params, const OutTree *water, const float *drop,
+                             Error *e);
+
+// falls.c: speed of a river's water where it leaves a lip, m/s.
+float terrain_lip_speed(float discharge, float half);
+
+// What a strand of falling water meets.
+typedef struct FallPath {
+    const HeightField *land; // NULL = nothing
+    Vec3 way;                // unit, level: downstream
+    float level;             // m, of the pool in which the path ends
+    float film;              // m over the land at which water slides
+    float step;              // s
+} FallPath;
+
+// Places on the path, `step` apart but for the last, at most `most`; returns their number.
+int terrain_fall_path(const FallPath *path, Vec3 start, Vec3 velocity, Vec3 *place, int most);
+
+// The water that falls, a part for each fall. After terrain_lay_rivers.
+bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                       Error *e);
 
 // bed.c: lays the rivers that the grid resolves on the finished heights: fills terrain->water,
 // ->shore and ->bank and digs the beds.

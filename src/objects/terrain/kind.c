@@ -228,6 +228,7 @@ static const Material BUILTIN[] = {
     {.name = "lake",
      .kind = MATERIAL_PRINCIPLED,
      .color = {0.012f, 0.030f, 0.034f},
+     .color2 = {0.72f, 0.75f, 0.76f},
      .roughness = 0.08f,
      .specular = 0.28f,
      .ior = 1.33f,

@@ -95,6 +95,19 @@ static const Key RIVER_KEYS[] = {
     {KEY_OF(RiverParams, water, "water", KEY_FLOAT), .high = 1,
      .doc = "Half-width of the water, as a fraction of the square root of the drainage area; 0 = "
             "dry. Only rivers wider than 1.2 cells are visible."},
+    {KEY_OF(RiverParams, runoff, "runoff", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .unit = "m3/s/km2",
+     .doc = "Water that a square kilometre of drainage area sends down; 0.15 = mountains after "
+            "rain, 0.03 = their mean. More makes rivers faster, whiter and falls wider of the "
+            "rock. Of canyons and mesas the river's width tells its discharge."},
+    {KEY_OF(RiverParams, foam, "foam", KEY_FLOAT), .high = 10,
+     .doc = "Factor on the white water of rapids, which begins at slopes of about 0.03, and below "
+            "falls; 0 = none."},
+    {KEY_OF(RiverParams, fall_height, "fall_height", KEY_FLOAT), .high = 1e4, .unit = "m",
+     .doc = "Minimum height of a step of the land over which a river falls freely; 0 = no "
+            "waterfalls. Elsewhere steps become ramps of some cells."},
+    {KEY_OF(RiverParams, fall_slope, "fall_slope", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
+     .doc = "Minimum slope of such a step, over two cells; 1 = 45 degrees."},
     {KEY_OF(RiverParams, fields, "fields", KEY_LIST),
      .count_offset = offsetof(RiverParams, field_count), .count = 100, .table = &guide_field_table,
      .doc = "Guide vector fields that steer the rivers' growth, summed with their weights."},
@@ -334,6 +347,9 @@ static const Key TERRACE_KEYS[] = {
      .doc = "Number of hard beds between the lowest and the highest point; 0 = none."},
     {KEY_OF(TerrainTerraceParams, strength, "strength", KEY_FLOAT), .high = 1,
      .doc = "Strength of the steps: 0 = none, 1 = full."},
+    {KEY_OF(TerrainTerraceParams, sheer, "sheer", KEY_FLOAT), .high = 1,
+     .doc = "Steepness of the steps: 0 = slopes, 1 = cliffs, two cells wide, over which rivers "
+            "fall."},
     {0},
 };
 

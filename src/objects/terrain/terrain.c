@@ -29,6 +29,8 @@ static void forget(Terrain *terrain)
     trough_envelope_free(terrain->land);
     trough_envelope_free(terrain->distance);
     out_tree_free(terrain->water);
+    free(terrain->drop);
+    free(terrain->flow);
     trough_envelope_free(terrain->shore);
     free(terrain->bank);
     landscape_free(terrain->evolved);
@@ -51,6 +53,8 @@ static void forget(Terrain *terrain)
     terrain->lift = NULL;
     terrain->land = terrain->distance = terrain->shore = NULL;
     terrain->water = NULL;
+    terrain->drop = NULL;
+    terrain->flow = NULL;
     terrain->bank = NULL;
 }
 
@@ -100,26 +104,63 @@ static bool sample_land(const Terrain *terrain, HeightField *field, const Run *r
     return !run_is_cancelled(run);
 }
 
+// Rise over a cell, per sample; the caller frees the array.
+static float *find_rises(const HeightField *field, Error *e)
+{
+    float *rise = memory_alloc(height_field_count(field), sizeof *rise, e);
+    for (int64_t i = 0; rise && i < height_field_count(field); i++) {
+        int64_t column = i % field->columns, row = i / field->columns;
+        int64_t west = column > 0 ? i - 1 : i, east = column + 1 < field->columns ? i + 1 : i;
+        int64_t north = row > 0 ? i - field->columns : i;
+        int64_t south = row + 1 < field->rows ? i + field->columns : i;
+        float dx = (field->height[east] - field->height[west]) / (float)(east - west);
+        float dz = (field->height[south] - field->height[north]) /
+                   (float)((south - north) / field->columns);
+        rise[i] = sqrtf(dx * dx + dz * dz);
+    }
+    return rise;
+}
+
+// The share of a bed's height below which 0 and above which 1 is left by a cliff, which is as wide
+// as a sample of this rise, relative to the bed's height, needs.
+static float cliff_of(float share, float rise, float sheer)
+{
+    float slope = share * share * share * (share * (6.0f * share - 15.0f) + 10.0f);
+    slope = smoothstepf(0.0f, 1.0f, slope);
+    if (sheer <= 0.0f) {
+        return slope;
+    }
+    float half = rise < 0.5f ? rise : 0.5f;
+    half = half > 1e-4f ? half : 1e-4f;
+    return lerpf(slope, smoothstepf(0.5f - half, 0.5f + half, share), sheer);
+}
+
 // Makes hard beds stand out as steps: flat at first, then steep. Heights stay monotonic, so
-// drainage is unchanged.
-static void make_terraces(HeightField *field, const TerrainTerraceParams *terraces, uint64_t seed)
+// drainage is unchanged, but for cliffs on uneven ground.
+static bool make_terraces(HeightField *field, const TerrainTerraceParams *terraces, uint64_t seed,
+                          Error *e)
 {
     float low, high;
     height_field_range(field, &low, &high);
     float bed = (high - low) / (float)(terraces->count > 0 ? terraces->count : 1);
     if (terraces->count <= 0 || !(bed > 0.0f)) {
-        return;
+        return true;
+    }
+    float *rise = terraces->sheer > 0.0f ? find_rises(field, e) : NULL;
+    if (terraces->sheer > 0.0f && !rise) {
+        return false;
     }
     for (int64_t i = 0; i < height_field_count(field); i++) {
         float t = (field->height[i] - low) / bed;
         int number = (int)t;
         float share = t - (float)number;
         float hard = random_range(random_key(seed, (uint64_t)number), 0.4f, 1.0f);
-        float cliff = share * share * share * (share * (6.0f * share - 15.0f) + 10.0f);
-        cliff = smoothstepf(0.0f, 1.0f, cliff);
+        float cliff = cliff_of(share, rise ? rise[i] / bed : 0.0f, terraces->sheer);
         share = lerpf(share, cliff, 0.92f * hard * terraces->strength);
         field->height[i] = low + bed * ((float)number + share);
     }
+    free(rise);
+    return true;
 }
 
 static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, Error *e)
@@ -130,8 +171,9 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
         (form->drain && !form->drain(terrain, field, run, e))) {
         return false;
     }
-    make_terraces(field, &params->terraces, random_key(terrain->seed, STREAM_TERRACES));
-    return !form->finish || form->finish(terrain, field, run, e);
+    uint64_t seed = random_key(terrain->seed, STREAM_TERRACES);
+    return make_terraces(field, &params->terraces, seed, e) &&
+           (!form->finish || form->finish(terrain, field, run, e));
 }
 
 HeightField *terrain_heights(const void *given, const Grown *grown, const Run *run, Error *e)

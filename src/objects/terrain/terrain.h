@@ -109,6 +109,10 @@ typedef struct RiverParams {
     float concavity;     // exponent of the slope-area law; 0.42 in nature
     float valley;        // half width of valley floors, as a share of sqrt(drainage area)
     float water;         // half width of the water, likewise; 0 = no water
+    float runoff;        // m^3/s for a km^2 of drainage area
+    float foam;          // factor on the white water of rapids
+    float fall_height;   // m: least height of a step over which the water falls; 0 = none
+    float fall_slope;    // least slope of such a step, over two cells
     FieldParams *fields; // guide vector fields over the rivers' growth
     int field_count;
     float field_weight;
@@ -132,6 +136,7 @@ typedef struct TerrainErosionParams {
 typedef struct TerrainTerraceParams {
     int count;      // hard beds between the lowest and the highest point; 0 = none
     float strength; // 0..1: height of the steps
+    float sheer;    // 0..1: 0 = steps are slopes, 1 = cliffs
 } TerrainTerraceParams;
 
 typedef struct TerrainForestParams {

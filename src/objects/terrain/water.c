@@ -111,7 +111,8 @@ static Vec3 water_normal(Vec3 below, Vec3 above)
 }
 
 // Adds one row of `columns` vertices across the river, which flows from `above` to `below`.
-static void add_row(Ribbons *r, Vec3 middle, Vec3 below, Vec3 above, float half, int columns)
+static void add_row(Ribbons *r, Vec3 middle, Vec3 below, Vec3 above, float half, int columns,
+                    float foam)
 {
     Vec3 across = vec3_normalize(vec3(above.z - below.z, 0.0f, below.x - above.x));
     Vec3 normal = water_normal(below, above);
@@ -124,6 +125,7 @@ static void add_row(Ribbons *r, Vec3 middle, Vec3 below, Vec3 above, float half,
         r->mesh->position[v] = vec3_add(p, r->terrain->params->position);
         r->mesh->normal[v] = normal;
         r->mesh->uv[v] = (Vec2){r->mesh->position[v].x, r->mesh->position[v].z};
+        r->mesh->foam[v] = foam;
     }
 }
 
@@ -155,13 +157,15 @@ static void add_stem(Ribbons *r, int32_t first)
     int32_t below = -1, here = water->parent[first] >= 0 ? water->parent[first] : first;
     while (here >= 0) {
         int32_t above = below < 0 && here != first ? first : r->main[here];
-        bool shows = below >= 0 && water->position[here].y >= r->lake;
+        bool falls = below >= 0 && r->terrain->drop[here] > 0.0f; // see falls.c
+        bool shows = below >= 0 && !falls && water->position[here].y >= r->lake;
         if (r->mesh) {
             Vec3 from = water->position[below >= 0 ? below : here];
             Vec3 to = water->position[above >= 0 ? above : here];
             // A brook enters a wider river with its own width.
             float half = below < 0 ? water->radius[first] : water->radius[here];
-            add_row(r, water->position[here], from, to, half, columns);
+            float foam = r->terrain->flow[here].foam;
+            add_row(r, water->position[here], from, to, half, columns, foam);
             if (shows) {
                 add_faces(r, columns);
             }
@@ -199,7 +203,7 @@ static bool add_rivers(const Terrain *terrain, const HeightField *field, const P
     add_stems(&r);
     bool done = true;
     if (r.faces > 0) {
-        r.mesh = mesh_new(4, r.vertices, r.faces, MESH_NORMAL | MESH_UV, e);
+        r.mesh = mesh_new(4, r.vertices, r.faces, MESH_NORMAL | MESH_UV | MESH_FOAM, e);
         if (r.mesh) {
             add_stems(&r);
         }
@@ -223,5 +227,6 @@ bool terrain_add_water(const Terrain *terrain, const HeightField *field, const P
     if (terrain_form(params)->water && !terrain_add_flow(terrain, field, placing, e)) {
         return false;
     }
-    return !terrain->water || add_rivers(terrain, field, placing, e);
+    return !terrain->water || (add_rivers(terrain, field, placing, e) &&
+                               terrain_add_falls(terrain, field, placing, e));
 }

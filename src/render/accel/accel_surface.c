@@ -169,6 +169,9 @@ static void mesh_surface(const PieceHit *at, const Transform *t, Vec3 direction,
         point->site.x += c.weight[i] * mesh->site[c.vertex[i]].x;
         point->site.y += c.weight[i] * mesh->site[c.vertex[i]].y;
     }
+    for (int i = 0; i < 3 && mesh->foam; i++) {
+        point->foam += c.weight[i] * mesh->foam[c.vertex[i]];
+    }
     const Mesh *given = at->own->part->mesh; // NULL of what is skinned around curves
     point->strata = given ? given->strata : NULL;
     point->waves = given ? given->waves : NULL;

@@ -46,13 +46,14 @@ void bsdf_shade(const MaterialEntry *entry, const SurfacePoint *point, Bsdf *b)
                 .alpha = entry->alpha,
                 .table = entry->table};
     if (m->pattern != PATTERN_NONE || m->variation > 0.0f || point->season != 0.0f) {
-        PatternShade shade = {m->color, m->transmittance, point->normal};
+        PatternShade shade = {m->color, m->transmittance, point->normal, 0.0f};
         pattern_apply(m, point, &shade);
         if (b->traits & TRAIT_PATTERNED) {
             b->color = shade.color;
             b->transmittance = shade.transmittance;
         }
         b->normal = shade.normal;
+        b->foam = shade.foam;
     }
     if (entry->mapped) {
         maps_apply(entry, point, b);

@@ -9,6 +9,7 @@
 typedef struct PatternShade {
     Vec3 color, transmittance;
     Vec3 normal; // unit; on the side of the point's normal
+    float foam;  // of water: share of the pixel that is white
 } PatternShade;
 
 // Applies the material's pattern and its variation between instances to shade, which holds the

@@ -1,6 +1,7 @@
 // Mountains and badlands. Altitude and wetness at the point (SurfacePoint.site) and its slope
 // decide the type of ground, with borders frayed by noise of several scales. Each type has its own
 // colours and relief, down to the footprint of the pixel.
+#include "render/material/foam.h"
 #include "render/material/pattern.h"
 #include "render/material/pattern_crags.h"
 #include "render/material/pattern_mix.h"
@@ -218,11 +219,21 @@ void pattern_altitude(const Material *m, const SurfacePoint *point, PatternShade
     shade->color = vec3_lerp(stop[i].color, stop[next].color, t);
 }
 
-// Ripples: a few octaves of noise that fade where the pixel is too coarse.
+// Ripples: a few octaves of noise that fade where the pixel is too coarse. White water heaves, and
+// foam (color2) lies on it.
 void pattern_water(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 6.0f;
     PatternOctaves waves = pattern_octaves(point, scale, 6, 0.5f, 1.0f, 151);
     Vec3 slope = vec3(waves.slope.x, 0.0f, waves.slope.z);
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, m->pattern_depth));
+    slope = vec3_scale(slope, m->pattern_depth);
+    if (point->foam > 0.0f) {
+        const float wave = 1.1f, height = 0.1f; // m
+        PatternOctaves heaves = pattern_octaves(point, wave, 5, 0.6f, 1.0f, 157);
+        slope = vec3_madd(slope, height * point->foam, heaves.slope);
+        Vec2 at = {point->object_position.x, point->object_position.z};
+        shade->foam = point->foam < 1.0f ? foam_share(point->foam, at, point->footprint) : 1.0f;
+        shade->color = vec3_lerp(shade->color, m->color2, shade->foam);
+    }
+    shade->normal = pattern_tilt(shade->normal, slope);
 }

@@ -5,7 +5,8 @@ static void prepare(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *poi
 {
     (void)point;
     float metallic = clampf(entry->material.metallic, 0.0f, 1.0f);
-    layered_prepare(b, entry->material.specular, metallic, cos_o);
+    // Foam faces all ways: it has no gloss.
+    layered_prepare(b, entry->material.specular * (1.0f - b->foam), metallic, cos_o);
 }
 
 static void describe(const Material *m, Appearance *a)

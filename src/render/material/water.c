@@ -7,54 +7,15 @@
 #include "base/waves.h"
 #include "render/material/bsdf_ggx.h"
 #include "render/material/dielectric.h"
+#include "render/material/foam.h"
 #include "render/material/maps.h"
 #include "render/material/material_ops.h"
-#include "render/material/pattern.h"
-#include "render/material/pattern_noise.h"
 #include "render/warp.h"
 
 #include <stddef.h>
 
-// What holes of foam are before the pixel is wide enough to show none of them.
-typedef struct FoamScale {
-    float size; // m: of the holes
-    uint32_t seed;
-} FoamScale;
-
-// Share of the pixel that strands between holes cover, which reach `half` of a hole's size from the
-// middle of a strand; 0.5 fills the holes.
-static float strands(const FoamScale *scale, Vec2 at, float half, float width)
-{
-    float seen = pattern_detail(scale->size, width), mean = clampf(1.8f * half, 0.0f, 1.0f);
-    if (seen <= 0.0f) {
-        return mean;
-    }
-    Vec3 p = {at.x / scale->size, 0.5f, at.y / scale->size}, bend = vec3_scale(p, 1.9f);
-    p.x += 0.3f * noise_solid(bend, scale->seed + 1, NULL);
-    p.z += 0.3f * noise_solid(bend, scale->seed + 2, NULL);
-    float border = noise_cells(p, scale->seed).border;
-    return lerpf(mean, 1.0f - smoothstepf(half - 0.04f, half + 0.1f, border), seen);
-}
-
-// Share of the pixel that is foam where foam covers this share of the water about it: patches that
-// fray and are torn into lace, coarse and fine.
-static float foam_of(float cover, Vec2 at, float width)
-{
-    static const FoamScale coarse = {1.5f, 811}, fine = {0.35f, 821};
-    if (cover <= 0.0f) {
-        return 0.0f;
-    }
-    float ragged = noise_fractal(vec3(at.x / 5.0f, 0.3f, at.y / 5.0f), 6, 831);
-    float dense = clampf(cover + 1.1f * (cover + 0.1f) * ragged - 0.06f, 0.0f, 1.0f);
-    float lace = strands(&coarse, at, 0.5f * dense - 0.04f, width);
-    float film = strands(&fine, at, 0.55f * dense, width);
-    return smoothstepf(0.0f, 0.25f, dense) *
-           fmaxf(lace * (0.35f + 0.65f * film), dense * dense * film);
-}
-
 static void shade(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, Vec3 wo)
 {
-    b->foam = 0.0f;
     b->foam_color = entry->material.color2;
     if (!point->waves || !point->has_uv) {
         return;
@@ -68,7 +29,7 @@ static void shade(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point
     float facing = vec3_dot(normal, wo);
     // Slopes that turn away are hidden by others, which face the viewer.
     b->normal = facing < 0.0f ? vec3_madd(normal, -2.0f * facing, wo) : normal;
-    b->foam = foam_of(waves_foam(point->waves, &wave), point->uv, point->footprint);
+    b->foam = foam_share(waves_foam(point->waves, &wave), point->uv, point->footprint);
     // The core of GGX is as wide as that of a Gaussian of these slopes; its tails are wider.
     float alpha = 0.75f * sqrtf(wave.roughness2);
     b->roughness = sqrtf(clampf(fmaxf(alpha, b->alpha), 0.0f, 0.5f));

@@ -1,0 +1,244 @@
+// Waterfalls: where a river drops over a step of the land, its water leaves the lip as a jet that
+// gravity alone bends, and breaks up into white strands. Where it meets rock it slides and leaps on.
+//
+// The speed at the lip is that of a free overfall, whose depth is 0.715 of the critical one (Rouse,
+// "Discharge Characteristics of the Free Overfall", Civil Eng. 6, 1936).
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "land/height_mesh.h"
+#include "objects/terrain/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define GRAVITY 9.81f
+
+float terrain_lip_speed(float discharge, float half)
+{
+    float wide = discharge / (2.0f * half);
+    float critical = exact_pow(wide * wide / GRAVITY, 1.0f / 3.0f);
+    return critical > 0.0f ? wide / (0.715f * critical) : 0.0f;
+}
+
+// ---- the path of a strand
+
+// Unit normal of the land.
+static Vec3 land_normal(const HeightField *land, float x, float z)
+{
+    float step = 0.25f * land->cell.x;
+    float dx = height_mesh_finest_at(land, x + step, z) - height_mesh_finest_at(land, x - step, z);
+    float dz = height_mesh_finest_at(land, x, z + step) - height_mesh_finest_at(land, x, z - step);
+    return vec3_normalize(vec3(-dx, 2.0f * step, -dz));
+}
+
+// Lays what has come below the surface back on it, and takes away the speed across it.
+static void slide(const FallPath *path, Vec3 *p, Vec3 *v)
+{
+    const float rubs = 1.5f, least = 0.4f; // 1/s: how fast rock slows it; m/s
+    float land = height_mesh_finest_at(path->land, p->x, p->z) + path->film;
+    if (p->y >= land) {
+        return;
+    }
+    p->y = land;
+    Vec3 normal = land_normal(path->land, p->x, p->z);
+    float into = vec3_dot(*v, normal);
+    *v = vec3_scale(into < 0.0f ? vec3_madd(*v, -into, normal) : *v,
+                    1.0f / (1.0f + rubs * path->step));
+    float ahead = vec3_dot(*v, path->way); // it never rests on a ledge
+    *v = ahead < least ? vec3_madd(*v, least - ahead, path->way) : *v;
+}
+
+int terrain_fall_path(const FallPath *path, Vec3 start, Vec3 velocity, Vec3 *place, int most)
+{
+    Vec3 p = start, v = velocity;
+    float t = path->step;
+    int count = 0;
+    place[count++] = p;
+    while (count < most && p.y > path->level) {
+        Vec3 last = p;
+        p = vec3_madd(p, t, v);
+        p.y -= 0.5f * GRAVITY * t * t;
+        v.y -= GRAVITY * t;
+        if (path->land) {
+            slide(path, &p, &v);
+        }
+        if (p.y < path->level) {
+            p = vec3_lerp(last, p, (last.y - path->level) / (last.y - p.y));
+            p.y = path->level;
+        }
+        place[count++] = p;
+    }
+    return count;
+}
+
+// ---- strands
+
+enum {
+    ROWS = 40,   // of a strand
+    STEPS = 160, // of its path
+    ACROSS = 72, // strands of a layer
+    LAYERS = 4,
+    STRANDS = ACROSS * LAYERS
+};
+enum { NUMBER_SIDE, NUMBER_SPEED, NUMBER_DRIFT, NUMBER_LIFT, NUMBER_WIDTH, NUMBER_START, NUMBERS };
+
+typedef struct FallMesher {
+    const Terrain *terrain;
+    const HeightField *field;
+    int32_t lip;
+    float level; // m, of the pool
+    Vec3 way, across;
+    float half, speed, cover; // cover: how closely strands stand together at the foot, 0..1
+    Mesh *mesh;
+    int64_t vertices, faces;
+} FallMesher;
+
+static float number_of(const FallMesher *f, int strand, int number)
+{
+    uint64_t key = random_key(f->terrain->water->id[f->lip], (uint64_t)strand);
+    return random_unit(random_key(key, (uint64_t)number));
+}
+
+// From the lip as the river's surface is drawn there, a little upstream of its end.
+static Vec3 strand_start(const FallMesher *f, float side)
+{
+    Vec3 middle = f->terrain->water->position[f->lip];
+    Vec3 p = vec3_madd(middle, side * f->half, f->across);
+    p = vec3_madd(p, -0.3f * f->field->cell.x, f->way);
+    float least = height_mesh_finest_at(f->field, p.x, p.z) +
+                  0.5f * terrain_bed_depth(f->half, f->half);
+    p.y = middle.y > least ? middle.y : least;
+    return p;
+}
+
+static int strand_path(const FallMesher *f, int strand, Vec3 place[STEPS])
+{
+    int column = strand % ACROSS;
+    float jitter = number_of(f, strand, NUMBER_SIDE);
+    float side = 2.0f * ((float)column + jitter) / ACROSS - 1.0f;
+    float fast = 1.0f - 0.35f * side * side; // banks hold the water back
+    fast *= lerpf(0.7f, 1.25f, number_of(f, strand, NUMBER_SPEED));
+    float drift = 0.16f * f->speed * (number_of(f, strand, NUMBER_DRIFT) - 0.5f);
+    Vec3 velocity = vec3_madd(vec3_scale(f->way, fast * f->speed), drift, f->across);
+    velocity.y = 0.25f * f->speed * (number_of(f, strand, NUMBER_LIFT) - 0.5f);
+    Vec3 start = strand_start(f, 0.97f * side);
+    float height = start.y > f->level ? start.y - f->level : 0.0f;
+    FallPath path = {.land = f->field,
+                     .way = f->way,
+                     .level = f->level,
+                     .film = 0.2f * terrain_bed_depth(f->half, f->half),
+                     .step = sqrtf(2.0f * height / GRAVITY) / (0.6f * STEPS)};
+    return path.step > 0.0f ? terrain_fall_path(&path, start, velocity, place, STEPS) : 0;
+}
+
+// Half the width of a strand where it has fallen by this share: whole at the lip, torn below.
+static float strand_half(const FallMesher *f, int strand, float share)
+{
+    float spacing = 2.0f * f->half / ACROSS;
+    float from = strand < ACROSS ? 0.0f : 0.75f * number_of(f, strand, NUMBER_START);
+    float torn = lerpf(1.3f, lerpf(0.25f, 0.9f, f->cover), smoothstepf(0.0f, 0.5f, share));
+    float own = lerpf(0.5f, 1.2f, number_of(f, strand, NUMBER_WIDTH));
+    float grown = smoothstepf(from, from + 0.12f, share + (strand < ACROSS ? 0.12f : 0.0f));
+    return 0.5f * spacing * torn * own * grown;
+}
+
+static void add_strand_row(FallMesher *f, Vec3 p, Vec3 along, float half, float foam)
+{
+    Vec3 front = vec3_normalize(vec3_cross(along, f->across));
+    for (int i = 0; i < 3; i++) {
+        int64_t v = f->vertices + i;
+        Vec3 at = vec3_madd(p, (float)(i - 1) * half, f->across);
+        at = i == 1 ? vec3_madd(at, 0.6f * half, front) : at;
+        f->mesh->position[v] = vec3_add(at, f->terrain->params->position);
+        f->mesh->uv[v] = (Vec2){f->mesh->position[v].x, f->mesh->position[v].z};
+        f->mesh->foam[v] = foam;
+    }
+}
+
+static void add_strand(FallMesher *f, int strand)
+{
+    Vec3 place[STEPS];
+    int count = strand_path(f, strand, place);
+    if (count < 2) {
+        return;
+    }
+    float lip = f->terrain->flow[f->lip].foam;
+    for (int row = 0; row < ROWS; row++) {
+        float at = (float)row / (ROWS - 1) * (float)(count - 1);
+        int k = (int)at < count - 2 ? (int)at : count - 2;
+        Vec3 p = vec3_lerp(place[k], place[k + 1], at - (float)k);
+        float share = (place[0].y - p.y) / fmaxf(place[0].y - f->level, 1e-6f);
+        float foam = lerpf(fmaxf(lip, 0.35f), 1.0f, smoothstepf(0.0f, 0.12f, share));
+        add_strand_row(f, p, vec3_sub(place[k + 1], place[k]), strand_half(f, strand, share),
+                       foam);
+        for (int i = 0; i < 2 && row > 0; i++) {
+            uint32_t *corner = f->mesh->index + 4 * f->faces++;
+            uint32_t v = (uint32_t)(f->vertices + i);
+            corner[0] = v - 3;
+            corner[1] = v;
+            corner[2] = v + 1;
+            corner[3] = v - 2;
+        }
+        f->vertices += 3;
+    }
+}
+
+// ----
+
+// The lower end of the lip's direction is its pool; the upper one the node above, if there is one.
+static Vec3 way_at(const OutTree *water, const int32_t *main, int32_t lip)
+{
+    Vec3 from = water->position[main[lip] >= 0 ? main[lip] : lip];
+    Vec3 to = water->position[water->parent[lip]];
+    return vec3_normalize(vec3(to.x - from.x, 0.0f, to.z - from.z));
+}
+
+static Mesh *fall_mesh(FallMesher *f, const int32_t *main, Error *e)
+{
+    const OutTree *water = f->terrain->water;
+    const RiverFlow *flow = &f->terrain->flow[f->lip];
+    f->way = way_at(water, main, f->lip);
+    f->across = vec3(f->way.z, 0.0f, -f->way.x);
+    f->half = water->radius[f->lip];
+    f->speed = fmaxf(terrain_lip_speed(flow->discharge, f->half), flow->speed);
+    float height = water->position[f->lip].y - f->level;
+    float thick = flow->discharge / (2.0f * f->half * sqrtf(2.0f * GRAVITY * height));
+    f->cover = thick / (thick + 0.03f); // sheets of a few centimetres are torn
+    f->vertices = f->faces = 0;
+    f->mesh = mesh_new(4, (int64_t)STRANDS * ROWS * 3, (int64_t)STRANDS * (ROWS - 1) * 2,
+                       MESH_NORMAL | MESH_UV | MESH_FOAM, e);
+    for (int i = 0; f->mesh && i < STRANDS; i++) {
+        add_strand(f, i);
+    }
+    if (f->mesh) {
+        f->mesh->vertex_count = f->vertices;
+        f->mesh->face_count = f->faces;
+    }
+    if (f->mesh && !mesh_compute_normals(f->mesh, e)) {
+        mesh_free(f->mesh);
+        return NULL;
+    }
+    return f->mesh;
+}
+
+bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                       Error *e)
+{
+    const OutTree *water = terrain->water;
+    int32_t *main = terrain_main_children(water, e);
+    float lake = terrain->params->water_level > 0.0f
+                     ? terrain_water_height(terrain->params, field)
+                     : -INFINITY;
+    bool done = main;
+    for (int64_t i = 0; done && i < water->count; i++) {
+        if (terrain->drop[i] <= 0.0f || water->position[i].y <= lake) {
+            continue;
+        }
+        FallMesher f = {.terrain = terrain, .field = field, .lip = (int32_t)i};
+        f.level = fmaxf(water->position[water->parent[i]].y, lake);
+        done = placing_add(placing, (Part){.mesh = fall_mesh(&f, main, e)}, TERRAIN_WATER, e);
+    }
+    free(main);
+    return done;
+}

@@ -1,0 +1,98 @@
+// What flows in a river: its discharge, depth and speed, and the foam that its fall makes.
+//
+// The resistance of steep channels is Jarrett's ("Hydraulics of High-Gradient Streams", J. Hydraul.
+// Eng. 110(11), 1984): v = 3.17 R^0.83 S^0.12 in metres and seconds, R the depth of a wide channel.
+#include "base/exact_math.h"
+#include "base/memory.h"
+#include "objects/terrain/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define GRAVITY 9.81f
+#define REGIME 4.8f // width over the root of the discharge, m and m^3/s, of rivers in their own bed
+
+// Energy that the water loses, W/kg: below the first the surface stays whole, at the second it is
+// all white.
+static const float CALM = 0.15f, WHITE = 1.5f;
+
+float terrain_discharge(const TerrainParams *params, float half)
+{
+    if (terrain_evolves(params)) { // a course of the width that the scene gives
+        return 4.0f * half * half / (REGIME * REGIME);
+    }
+    float root = half / params->rivers.water; // of the drainage area
+    return params->rivers.runoff * 1e-6f * root * root;
+}
+
+RiverFlow terrain_flow_of(float discharge, float half, float slope)
+{
+    RiverFlow flow = {.discharge = discharge, .slope = slope > 1e-5f ? slope : 1e-5f};
+    float wide = discharge / (2.0f * half); // m^2/s
+    float factor = 3.17f * exact_pow(flow.slope, 0.12f);
+    flow.depth = exact_pow(wide / factor, 1.0f / 1.83f);
+    flow.speed = flow.depth > 0.0f ? wide / flow.depth : 0.0f;
+    float loss = GRAVITY * flow.speed * flow.slope;
+    flow.foam = clampf((loss - CALM) / (WHITE - CALM), 0.0f, 1.0f);
+    return flow;
+}
+
+// Slope of the water about a node, over a few nodes of one level of pools: not across a fall.
+static float slope_at(const OutTree *water, const int32_t *main, const float *drop, int64_t i)
+{
+    enum { REACH = 6 };
+    int64_t low = i, high = i;
+    float run = 0.0f;
+    for (int k = 0; k < REACH && water->parent[low] >= 0 && drop[low] <= 0.0f; k++) {
+        int64_t next = water->parent[low];
+        Vec3 step = vec3_sub(water->position[low], water->position[next]);
+        run += sqrtf(step.x * step.x + step.z * step.z);
+        low = next;
+    }
+    for (int k = 0; k < REACH && main[high] >= 0 && drop[main[high]] <= 0.0f; k++) {
+        int64_t next = main[high];
+        Vec3 step = vec3_sub(water->position[next], water->position[high]);
+        run += sqrtf(step.x * step.x + step.z * step.z);
+        high = next;
+    }
+    float fall = water->position[high].y - water->position[low].y;
+    return run > 0.0f ? fall / run : 0.0f;
+}
+
+// Foam of rapids and falls drifts on and rises out of the water within seconds.
+static void drift(const OutTree *water, const float *drop, RiverFlow *flow)
+{
+    const float lasts = 4.0f, least = 0.02f; // s; less foam is none
+    for (int64_t i = water->count - 1; i >= 0; i--) {
+        int32_t below = water->parent[i];
+        if (below < 0) {
+            continue;
+        }
+        Vec3 step = vec3_sub(water->position[i], water->position[below]);
+        float run = sqrtf(step.x * step.x + step.z * step.z);
+        float speed = flow[below].speed > 0.1f ? flow[below].speed : 0.1f;
+        float left = flow[i].foam * (float)exact_exp((double)(-run / (speed * lasts)));
+        left = drop[i] > 0.0f ? 1.0f : left;
+        if (left > least && left > flow[below].foam) {
+            flow[below].foam = left;
+        }
+    }
+}
+
+RiverFlow *terrain_find_flow(const TerrainParams *params, const OutTree *water, const float *drop,
+                             Error *e)
+{
+    int32_t *main = terrain_main_children(water, e);
+    RiverFlow *flow = main ? memory_alloc(water->count, sizeof *flow, e) : NULL;
+    for (int64_t i = 0; flow && i < water->count; i++) {
+        float half = water->radius[i];
+        flow[i] = terrain_flow_of(terrain_discharge(params, half), half,
+                                  slope_at(water, main, drop, i));
+        flow[i].foam = clampf(params->rivers.foam * flow[i].foam, 0.0f, 1.0f);
+    }
+    if (flow && params->rivers.foam > 0.0f) {
+        drift(water, drop, flow);
+    }
+    free(main);
+    return flow;
+}

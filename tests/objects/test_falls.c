@@ -1,0 +1,440 @@
+// Rivers that drop: levels that keep steps of the land, the flow along them, and the water that
+// falls.
+#include "making_terrain.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "land/height_mesh.h"
+#include "mesh/geometry.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { CELLS = 256, NODES = 100 };
+static const float SIZE = 400.0f, HALF = 6.0f; // m
+
+// A straight river down a valley along z, with the profile of its floor.
+typedef struct Valley {
+    TerrainParams params;
+    Terrain terrain;
+    HeightField *field;
+    float area[NODES];
+} Valley;
+
+typedef float Profile(float z);
+
+// Falls 0.002 to the south, and over a wall of 12 m in the middle.
+static float stepped(float z)
+{
+    return 40.0f - 0.002f * z - (z > 0.5f ? 12.0f : 0.0f);
+}
+
+static float calm(float z)
+{
+    return 40.0f - 0.002f * z;
+}
+
+static float steep(float z)
+{
+    return 100.0f - 0.3f * z;
+}
+
+static Valley make_valley(Profile *profile)
+{
+    Error e = {0};
+    Valley v = {.params = terrain_params_default()};
+    v.params.size = SIZE;
+    v.params.resolution = CELLS;
+    v.params.rivers.water = 0.006f;
+    float cell = SIZE / CELLS;
+    v.field = height_field_new(CELLS + 1, CELLS + 1, (Vec2){cell, cell},
+                               (Vec2){-0.5f * SIZE, -0.5f * SIZE}, &e);
+    assert_non_null(v.field);
+    for (int64_t i = 0; i < height_field_count(v.field); i++) {
+        float x = -0.5f * SIZE + cell * (float)(i % (CELLS + 1));
+        float z = -0.5f * SIZE + cell * (float)(i / (CELLS + 1));
+        v.field->height[i] = profile(z) + 0.3f * fmaxf(fabsf(x) - 3.0f * HALF, 0.0f);
+    }
+    v.terrain = (Terrain){.seed = 1, .tree = out_tree_new(&e)};
+    for (int i = 0; i < NODES; i++) {
+        float z = SIZE * (0.5f - (float)i / (float)(NODES - 1));
+        int64_t node = out_tree_add_node(v.terrain.tree, vec3(0.0f, 0.0f, z), i - 1, i, 0,
+                                         random_key(7, (uint64_t)i), &e);
+        assert_int_equal(node, i);
+        v.terrain.tree->radius[i] = HALF;
+        v.area[i] = 1e6f;
+    }
+    return v;
+}
+
+static void lay(Valley *v)
+{
+    Error e = {0};
+    Run run = run_default();
+    v->terrain.params = &v->params;
+    v->terrain.area = v->area;
+    assert_true(terrain_lay_rivers(&v->terrain, v->field, &run, &e));
+}
+
+static void drop_valley(Valley *v)
+{
+    Terrain *t = &v->terrain;
+    out_tree_free(t->tree);
+    out_tree_free(t->water);
+    trough_envelope_free(t->shore);
+    free(t->bank);
+    free(t->drop);
+    free(t->flow);
+    height_field_free(v->field);
+}
+
+// The number of falls; *lip: the last of them.
+static int count_falls(const Valley *v, int64_t *lip)
+{
+    int count = 0;
+    for (int64_t i = 0; i < v->terrain.water->count; i++) {
+        if (v->terrain.drop[i] > 0.0f) {
+            count++;
+            *lip = i;
+        }
+    }
+    return count;
+}
+
+// ---- levels
+
+static void a_stepped_bed_keeps_its_step(void **state)
+{
+    (void)state;
+    Valley v = make_valley(stepped);
+    lay(&v);
+    const OutTree *water = v.terrain.water;
+    int64_t lip = -1;
+    assert_int_equal(count_falls(&v, &lip), 1);
+    assert_float_equal(v.terrain.drop[lip], 12.0f, 0.1f);
+    float cell = v.field->cell.x;
+    assert_true(fabsf(water->position[lip].z - 0.5f) < 2.0f * cell);
+    for (int64_t i = 0; i < water->count; i++) {
+        Vec3 p = water->position[i];
+        if (i != lip) { // levels are those of the land, but for the samples' width
+            bool under = i < lip;
+            float wall = under ? 12.0f : 0.0f;
+            assert_float_equal(p.y, calm(p.z) - wall, 0.05f);
+        }
+        if (water->parent[i] >= 0) {
+            assert_true(water->position[water->parent[i]].y <= p.y);
+        }
+    }
+    // Where the wall is, the dug bed drops within two cells.
+    float above = height_field_at(v.field, 0.0f, water->position[lip].z - cell);
+    float below = height_field_at(v.field, 0.0f, water->position[lip].z + 2.0f * cell);
+    assert_float_equal(above - below, 12.0f, 0.3f);
+    drop_valley(&v);
+}
+
+static void without_falls_a_step_is_a_ramp(void **state)
+{
+    (void)state;
+    Valley v = make_valley(stepped);
+    v.params.rivers.fall_height = 0.0f;
+    lay(&v);
+    const OutTree *water = v.terrain.water;
+    int64_t lip = -1;
+    assert_int_equal(count_falls(&v, &lip), 0);
+    float most = 0.0f;
+    for (int64_t i = 1; i < water->count; i++) {
+        most = fmaxf(most, water->position[i].y - water->position[water->parent[i]].y);
+    }
+    assert_true(most < 3.0f);
+    drop_valley(&v);
+}
+
+static void an_even_slope_has_no_falls(void **state)
+{
+    (void)state;
+    Profile *const profiles[] = {calm, steep};
+    for (int k = 0; k < 2; k++) {
+        Valley v = make_valley(profiles[k]);
+        lay(&v);
+        int64_t lip = -1;
+        assert_int_equal(count_falls(&v, &lip), 0);
+        drop_valley(&v);
+    }
+}
+
+// A step lower than `fall_height` is none.
+static void a_step_must_be_high_and_steep(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        Valley v = make_valley(stepped);
+        v.params.rivers.fall_height = k == 0 ? 11.0f : k == 1 ? 13.0f : 2.0f;
+        v.params.rivers.fall_slope = k == 2 ? 3.0f : k == 3 ? 5.0f : 1.0f; // 12 m in 3.1 m: 3.8
+        lay(&v);
+        int64_t lip = -1;
+        assert_int_equal(count_falls(&v, &lip), k % 2 == 0 ? 1 : 0);
+        drop_valley(&v);
+    }
+}
+
+// ---- the flow
+
+static void the_flow_is_continuous_and_jarretts(void **state)
+{
+    (void)state;
+    static const float slopes[] = {0.002f, 0.02f, 0.1f, 0.4f};
+    for (int k = 0; k < 4; k++) {
+        RiverFlow f = terrain_flow_of(12.0f, 5.0f, slopes[k]);
+        assert_float_equal(f.speed * f.depth * 10.0f, 12.0f, 1e-3f);
+        double speed = 3.17 * pow((double)f.depth, 0.83) * pow((double)slopes[k], 0.12);
+        assert_true(fabs((double)f.speed / speed - 1.0) < 1e-4);
+    }
+}
+
+static void foam_grows_with_the_slope(void **state)
+{
+    (void)state;
+    static const float discharges[] = {0.5f, 5.0f, 80.0f};
+    for (int k = 0; k < 3; k++) {
+        float last = 0.0f, half = 2.4f * sqrtf(discharges[k]);
+        for (float slope = 1e-4f; slope < 1.0f; slope *= 1.1f) {
+            float foam = terrain_flow_of(discharges[k], half, slope).foam;
+            assert_true(foam >= last && foam <= 1.0f);
+            assert_true(slope > 0.007f || foam == 0.0f);
+            last = foam;
+        }
+        assert_true(last == 1.0f);
+    }
+}
+
+static void calm_rivers_have_no_foam(void **state)
+{
+    (void)state;
+    Valley v = make_valley(calm);
+    lay(&v);
+    for (int64_t i = 0; i < v.terrain.water->count; i++) {
+        assert_true(v.terrain.flow[i].foam == 0.0f);
+        bool inside = fabsf(v.terrain.water->position[i].z) < 0.4f * SIZE; // level at the outlet
+        assert_true(!inside || fabsf(v.terrain.flow[i].slope - 0.002f) < 2e-4f);
+        // A million square metres of drainage area, in proportion to the width's square.
+        assert_float_equal(v.terrain.flow[i].discharge, v.params.rivers.runoff, 1e-4f);
+    }
+    drop_valley(&v);
+}
+
+// Foam is whole at the foot and fades down the pool by what the water takes to flow there.
+static void foam_drifts_on_below_a_fall(void **state)
+{
+    (void)state;
+    Valley v = make_valley(stepped);
+    lay(&v);
+    const OutTree *water = v.terrain.water;
+    int64_t lip = -1;
+    assert_int_equal(count_falls(&v, &lip), 1);
+    int64_t foot = water->parent[lip], i = foot;
+    assert_true(v.terrain.flow[foot].foam == 1.0f);
+    double expected = 1.0;
+    int faded = 0;
+    for (; water->parent[i] >= 0; i = water->parent[i]) {
+        int32_t below = water->parent[i];
+        double run = (double)(water->position[below].z - water->position[i].z);
+        expected *= exp(-run / (4.0 * (double)v.terrain.flow[below].speed));
+        double found = (double)v.terrain.flow[below].foam;
+        if (expected > 0.03) {
+            assert_true(fabs(found - expected) < 1e-3);
+            faded++;
+        }
+    }
+    assert_true(faded > 2);
+    for (i = lip; i < water->count; i++) { // nothing drifts up
+        assert_true(v.terrain.flow[i].foam == 0.0f);
+    }
+    drop_valley(&v);
+}
+
+// Of a grown terrain with hard beds: levels fall, drops are what they say, and the main stem
+// gathers water.
+static void rivers_over_hard_beds_fall_and_gather(void **state)
+{
+    (void)state;
+    TerrainParams params = terrain_params_default();
+    params.size = 3000.0f;
+    params.relief = 900.0f;
+    params.resolution = 512;
+    params.rivers.count = 60;
+    params.rivers.water = 0.02f;
+    params.terraces = (TerrainTerraceParams){.count = 6, .strength = 1.0f, .sheer = 1.0f};
+    Grown grown;
+    HeightField *field = make_heights(&params, 3, 2, NULL, &grown);
+    const Terrain *terrain = grown.state;
+    const OutTree *water = terrain->water;
+    int falls = 0;
+    for (int64_t i = 0; i < water->count; i++) {
+        int32_t parent = water->parent[i];
+        assert_true(terrain->drop[i] >= 0.0f && (parent >= 0 || terrain->drop[i] == 0.0f));
+        if (parent < 0) {
+            continue;
+        }
+        float fall = water->position[i].y - water->position[parent].y;
+        assert_true(fall >= 0.0f);
+        assert_true(terrain->drop[i] == 0.0f || terrain->drop[i] == fall);
+        falls += terrain->drop[i] > 0.0f;
+        assert_true(terrain->flow[parent].discharge >= 0.999f * terrain->flow[i].discharge);
+    }
+    assert_true(falls >= 3);
+    grown_clear(&grown);
+    height_field_free(field);
+}
+
+// ---- falling water
+
+static void water_leaves_a_lip_at_the_speed_of_an_overfall(void **state)
+{
+    (void)state;
+    static const float discharges[] = {0.1f, 3.0f, 500.0f};
+    for (int k = 0; k < 3; k++) {
+        double q = (double)discharges[k] / 8.0;
+        double critical = 0.0; // depth at which the speed is that of long waves, by halving
+        for (double low = 0.0, high = 100.0; high - low > 1e-9;) {
+            critical = 0.5 * (low + high);
+            *(q / critical > sqrt(9.81 * critical) ? &low : &high) = critical;
+        }
+        double speed = q / (0.715 * critical);
+        assert_true(fabs((double)terrain_lip_speed(discharges[k], 4.0f) / speed - 1.0) < 1e-4);
+    }
+}
+
+static void a_sheet_is_a_parabola(void **state)
+{
+    (void)state;
+    enum { MOST = 400 };
+    FallPath path = {.way = {0.6f, 0.0f, 0.8f}, .level = 3.0f, .step = 0.02f};
+    Vec3 start = {5.0f, 33.0f, -2.0f}, velocity = vec3(1.2f, 0.5f, 1.6f), place[MOST];
+    int count = terrain_fall_path(&path, start, velocity, place, MOST);
+    assert_in_range(count, 50, MOST - 1);
+    for (int i = 0; i < count; i++) {
+        double x = (double)(place[i].x - start.x) / 0.6;
+        double t = x / 2.0, y = 33.0 + 0.5 * t - 0.5 * 9.81 * t * t;
+        bool last = i == count - 1; // cut at the level on a chord
+        assert_true(fabs((double)place[i].y - y) < (last ? 2e-3 : 2e-4) * 30.0);
+        assert_true(fabs((double)(place[i].z - start.z) / 0.8 - x) < 1e-3);
+    }
+    double time = (0.5 + sqrt(0.25 + 2.0 * 9.81 * 30.0)) / 9.81;
+    assert_true(place[count - 1].y == 3.0f);
+    assert_true(fabs((double)(place[count - 1].x - 5.0f) - 1.2 * time) < 2e-3);
+}
+
+// Over a ledge water slides and leaps on; it is never under the land and reaches the pool.
+static void a_ledge_throws_water_out_again(void **state)
+{
+    (void)state;
+    enum { MOST = 2000 };
+    Valley v = make_valley(calm);
+    for (int64_t i = 0; i < height_field_count(v.field); i++) {
+        float z = v.field->origin.y + v.field->cell.y * (float)(i / (CELLS + 1));
+        v.field->height[i] = z < 0.0f ? 30.0f : z < 6.0f ? 16.0f : 0.0f;
+    }
+    FallPath path = {
+        .land = v.field, .way = {0.0f, 0.0f, 1.0f}, .level = 1.0f, .film = 0.05f, .step = 0.02f};
+    Vec3 place[MOST];
+    int count = terrain_fall_path(&path, vec3(0.0f, 30.1f, -1.0f), vec3(0.0f, 0.0f, 1.5f), place,
+                                  MOST);
+    bool slid = false;
+    for (int i = 0; i < count; i++) {
+        float land = height_mesh_finest_at(v.field, place[i].x, place[i].z);
+        assert_true(place[i].y > land - 0.05f || place[i].y == path.level);
+        slid = slid || (fabsf(place[i].y - 16.05f) < 0.02f && place[i].z > 2.0f);
+        assert_true(i == 0 || place[i].z >= place[i - 1].z);
+    }
+    assert_true(slid);
+    assert_true(place[count - 1].y == 1.0f);
+    assert_true(place[count - 1].z > 5.5f);
+    drop_valley(&v);
+}
+
+static Geometry fall_parts(const Valley *v, int threads)
+{
+    Error e = {0};
+    Run run = run_default();
+    run.threads = threads;
+    Recipe recipe = {.seed = 5, .label = "land", .run = &run};
+    Geometry geometry = {0};
+    static const int material[4] = {0, 1, 2, 3};
+    Placing placing = {.recipe = &recipe, .geometry = &geometry, .material = material};
+    assert_true(terrain_add_falls(&v->terrain, v->field, &placing, &e));
+    return geometry;
+}
+
+// The strands of a fall lie between the parabolas of the slowest and the fastest, on both sides of
+// that of the mean speed, and end on the pool.
+static void strands_fall_into_the_pool(void **state)
+{
+    (void)state;
+    Valley v = make_valley(stepped);
+    v.params.rivers.runoff = 20.0f;
+    lay(&v);
+    int64_t lip = -1;
+    assert_int_equal(count_falls(&v, &lip), 1);
+    Geometry geometry = fall_parts(&v, 1);
+    assert_int_equal(geometry.count, 1);
+    const Mesh *mesh = geometry.part[0].mesh;
+    assert_true(mesh->vertex_count > 10000 && mesh->foam);
+    const OutTree *water = v.terrain.water;
+    Vec3 edge = water->position[lip];
+    float pool = water->position[water->parent[lip]].y;
+    double speed = (double)fmaxf(terrain_lip_speed(v.terrain.flow[lip].discharge, HALF),
+                                 v.terrain.flow[lip].speed);
+    double sum = 0.0;
+    int64_t feet = 0;
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        Vec3 p = mesh->position[i];
+        assert_true(p.y > pool - 0.2f && p.y < edge.y + 0.5f);
+        assert_true(fabsf(p.x) < HALF + 2.0f && mesh->foam[i] >= 0.0f && mesh->foam[i] <= 1.0f);
+        if (p.y < pool + 1e-3f) {
+            sum += (double)(p.z - edge.z) + 0.3 * (double)v.field->cell.x;
+            feet++;
+            assert_true(mesh->foam[i] == 1.0f);
+        }
+    }
+    assert_true(feet > 200);
+    double range = speed * sqrt(2.0 * 12.0 / 9.81);
+    assert_true(fabs(sum / (double)feet / (0.87 * range) - 1.0) < 0.1); // the mean of the speeds
+    geometry_clear(&geometry);
+    drop_valley(&v);
+}
+
+static void falls_have_the_same_bits_for_any_threads(void **state)
+{
+    (void)state;
+    Valley v = make_valley(stepped);
+    lay(&v);
+    Geometry one = fall_parts(&v, 1), four = fall_parts(&v, 4);
+    const Mesh *a = one.part[0].mesh, *b = four.part[0].mesh;
+    assert_int_equal(a->vertex_count, b->vertex_count);
+    assert_memory_equal(a->position, b->position, sizeof(Vec3) * (size_t)a->vertex_count);
+    assert_memory_equal(a->foam, b->foam, sizeof(float) * (size_t)a->vertex_count);
+    geometry_clear(&one);
+    geometry_clear(&four);
+    drop_valley(&v);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_stepped_bed_keeps_its_step),
+        cmocka_unit_test(without_falls_a_step_is_a_ramp),
+        cmocka_unit_test(an_even_slope_has_no_falls),
+        cmocka_unit_test(a_step_must_be_high_and_steep),
+        cmocka_unit_test(the_flow_is_continuous_and_jarretts),
+        cmocka_unit_test(foam_grows_with_the_slope),
+        cmocka_unit_test(calm_rivers_have_no_foam),
+        cmocka_unit_test(foam_drifts_on_below_a_fall),
+        cmocka_unit_test(rivers_over_hard_beds_fall_and_gather),
+        cmocka_unit_test(water_leaves_a_lip_at_the_speed_of_an_overfall),
+        cmocka_unit_test(a_sheet_is_a_parabola),
+        cmocka_unit_test(a_ledge_throws_water_out_again),
+        cmocka_unit_test(strands_fall_into_the_pool),
+        cmocka_unit_test(falls_have_the_same_bits_for_any_threads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
