@@ -26,7 +26,7 @@ still() {
     shift 2
     # an unfinished picture of the scene before a change cannot go on
     [ "$work/$name.exr" -nt "scenes/$scene.yaml" ] || rm -f "$work/$name.exr"
-    "$ramify" render "scenes/$scene.yaml" -o "$work/$name.png" --resume "$@"
+    "$ramify" render "scenes/$scene.yaml" -o "$work/$name.png" --resume --no-preview "$@"
     for quality in 90 84 78; do # at most 900 KB
         oiiotool "$work/$name.png" --ch R,G,B --compression "jpeg:$quality" -o "renders/$name.jpg"
         [ "$(wc -c <"renders/$name.jpg")" -gt 900000 ] || break
@@ -56,7 +56,7 @@ panel() {
     [ "$wanted" != "  " ] || [ ! -e "$file.used.png" ] || mv "$file.used.png" "$file.png"
     [ ! "$file.png" -nt "scenes/$scene.yaml" ] || return 0
     [ "$file.part.exr" -nt "scenes/$scene.yaml" ] || rm -f "$file.part.exr"
-    "$ramify" render "scenes/$scene.yaml" -o "$file.part.png" --resume "$@"
+    "$ramify" render "scenes/$scene.yaml" -o "$file.part.png" --resume --no-preview "$@"
     rm -f "$file.part.exr"
     mv "$file.part.png" "$file.png"
 }
@@ -150,7 +150,7 @@ if is_wanted figure-10; then
 fi
 if is_wanted figure-18; then
     for tree in tree-plain tree-field-crown tree-field-trunk tree-field-dragon; do
-        panel "$tree" --size 800x450 --samples 16
+        panel "$tree" --size 960x540 --samples 12
     done
     sheet figure-18 2x2
 fi
@@ -214,7 +214,7 @@ if is_wanted figure-13; then
 fi
 if is_wanted figure-20; then
     for turn in 0 120 360 720; do
-        panel frost-bubble-turn --size 810x720 --set "objects.frost.frost.turn=$turn"
+        panel frost-bubble-turn --set "objects.frost.frost.turn=$turn"
     done
     sheet figure-20 2x2
 fi
@@ -241,7 +241,7 @@ still coast coast
 still karst karst
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
-        panel terrain-noise --size 800x450 --set objects.noise.terrain.noise.iterations=$iterations
+        panel terrain-noise --set objects.noise.terrain.noise.iterations=$iterations
     done
     sheet figure-16 2x2
 fi
@@ -250,24 +250,24 @@ if is_wanted figure-17; then
     stage() { # MATERIAL [OPTION...]: the massif before it has its own colours
         material=$1
         shift
-        panel terrain-ridges --size 800x450 --set film.exposure=1.1 --set $land.water_level=0 \
-            --set objects.massif.material="$material" "$@"
+        panel terrain-ridges --set $land.water_level=0 --set objects.massif.material="$material" "$@"
     }
     stage relief --set $land.show=tree
     stage altitude --set $land.show=map --set $land.noise.iterations=0
     stage altitude --set $land.noise.iterations=0
     stage relief --set $land.noise.iterations=0
     stage relief
-    panel terrain-ridges --size 800x450
+    panel terrain-ridges
     sheet figure-17 2x3
 fi
 if is_wanted figure-21; then
-    panel terrain-strip --size 800x450 --set seed=8 --set objects.range.terrain.water_level=0.12
-    panel terrain-strip --size 800x450 --set 'objects.range.terrain.rivers.fields=[{kind: vortex, vector: [0, 1, 0], center: [0, 0, 0]}]'
-    panel terrain-strip --size 800x450 --set objects.range.terrain.rivers.count=150 --set objects.range.terrain.relief=950 \
+    panel terrain-strip --set seed=8 --set objects.range.terrain.water_level=0.16 --set camera.position='[0, 1400, 5400]' \
+        --set camera.target='[0, 150, 0]'
+    panel terrain-strip --set 'objects.range.terrain.rivers.fields=[{kind: vortex, vector: [0, 1, 0], center: [0, 0, 0]}]'
+    panel terrain-strip --set objects.range.terrain.rivers.count=150 --set objects.range.terrain.relief=1000 \
         --set objects.range.terrain.erosion.streams=1
-    panel terrain-strip --size 800x450 --set objects.range.material=badlands --set objects.range.terrain.relief=500 \
+    panel terrain-strip --set objects.range.material=badlands --set objects.range.terrain.relief=500 \
         --set objects.range.terrain.terraces.count=7 --set objects.range.terrain.terraces.strength=0.9 \
-        --set objects.range.terrain.rivers.water=0
+        --set objects.range.terrain.rivers.water=0 --set camera.position='[0, 800, 2700]' --set camera.target='[0, 120, 0]'
     sheet figure-21 2x2
 fi
