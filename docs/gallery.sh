@@ -39,7 +39,7 @@ estimate() {
 draw() {
     file=$1 scene=$2
     shift 2
-    "$ramify" render "scenes/$scene.yaml" -o "$file" --json "$@" >"$parts/told"
+    "$ramify" render "scenes/$scene.yaml" -o "$file" --no-preview --json "$@" >"$parts/told"
     noises="$noises $(sed -n 's/.*"noise": \([0-9.]*\),.*/\1/p' "$parts/told")"
     rm -f "$parts/told"
 }
@@ -191,12 +191,12 @@ still venation venation
 
 # ---- vessels ----
 
-still figure-14 vessels-forks --size 1600x900
+still figure-14 vessels-forks
 still vessels-organ vessels-organ
 still vessels-body vessels-body
 if is_wanted figure-15; then
     for share in 0.15 0.6 0.8 1; do
-        panel vessels-body --set grow_to=$share --size 400x720
+        panel vessels-body --set grow_to=$share --size 480x864 --set objects.vessels.vessels.terminals=3000
     done
     sheet figure-15 4x1
 fi
@@ -218,7 +218,7 @@ if is_wanted figure-10; then
 fi
 if is_wanted figure-18; then
     for tree in tree-plain tree-field-crown tree-field-trunk tree-field-dragon; do
-        panel "$tree" --size 800x450 --samples 16
+        panel "$tree" --size 960x540 --samples 12
     done
     sheet figure-18 2x2
 fi
@@ -282,7 +282,7 @@ if is_wanted figure-13; then
 fi
 if is_wanted figure-20; then
     for turn in 0 120 360 720; do
-        panel frost-bubble-turn --size 810x720 --set "objects.frost.frost.turn=$turn"
+        panel frost-bubble-turn --set "objects.frost.frost.turn=$turn"
     done
     sheet figure-20 2x2
 fi
@@ -309,7 +309,7 @@ still coast coast
 still karst karst
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
-        panel terrain-noise --size 800x450 --set objects.noise.terrain.noise.iterations=$iterations
+        panel terrain-noise --set objects.noise.terrain.noise.iterations=$iterations
     done
     sheet figure-16 2x2
 fi
@@ -318,24 +318,24 @@ if is_wanted figure-17; then
     stage() { # MATERIAL [OPTION...]: the massif before it has its own colours
         material=$1
         shift
-        panel terrain-ridges --size 800x450 --set film.exposure=1.1 --set $land.water_level=0 \
-            --set objects.massif.material="$material" "$@"
+        panel terrain-ridges --set $land.water_level=0 --set objects.massif.material="$material" "$@"
     }
     stage relief --set $land.show=tree
     stage altitude --set $land.show=map --set $land.noise.iterations=0
     stage altitude --set $land.noise.iterations=0
     stage relief --set $land.noise.iterations=0
     stage relief
-    panel terrain-ridges --size 800x450
+    panel terrain-ridges
     sheet figure-17 2x3
 fi
 if is_wanted figure-21; then
-    panel terrain-strip --size 800x450 --set seed=8 --set objects.range.terrain.water_level=0.12
-    panel terrain-strip --size 800x450 --set 'objects.range.terrain.rivers.fields=[{kind: vortex, vector: [0, 1, 0], center: [0, 0, 0]}]'
-    panel terrain-strip --size 800x450 --set objects.range.terrain.rivers.count=150 --set objects.range.terrain.relief=950 \
+    panel terrain-strip --set seed=8 --set objects.range.terrain.water_level=0.16 --set camera.position='[0, 1400, 5400]' \
+        --set camera.target='[0, 150, 0]'
+    panel terrain-strip --set 'objects.range.terrain.rivers.fields=[{kind: vortex, vector: [0, 1, 0], center: [0, 0, 0]}]'
+    panel terrain-strip --set objects.range.terrain.rivers.count=150 --set objects.range.terrain.relief=1000 \
         --set objects.range.terrain.erosion.streams=1
-    panel terrain-strip --size 800x450 --set objects.range.material=badlands --set objects.range.terrain.relief=500 \
+    panel terrain-strip --set objects.range.material=badlands --set objects.range.terrain.relief=500 \
         --set objects.range.terrain.terraces.count=7 --set objects.range.terrain.terraces.strength=0.9 \
-        --set objects.range.terrain.rivers.water=0
+        --set objects.range.terrain.rivers.water=0 --set camera.position='[0, 800, 2700]' --set camera.target='[0, 120, 0]'
     sheet figure-21 2x2
 fi
