@@ -5,6 +5,7 @@
 // "Discharge Characteristics of the Free Overfall", Civil Eng. 6, 1936).
 #include "base/exact_math.h"
 #include "base/memory.h"
+#include "base/noise.h"
 #include "base/random.h"
 #include "land/height_mesh.h"
 #include "objects/terrain/internal.h"
@@ -112,13 +113,27 @@ static Vec3 strand_start(const FallMesher *f, float side)
     return p;
 }
 
+static float strand_side(const FallMesher *f, int strand)
+{
+    float jitter = number_of(f, strand, NUMBER_SIDE);
+    return 2.0f * ((float)(strand % ACROSS) + jitter) / ACROSS - 1.0f;
+}
+
+// Rocks at the lip part the water into tongues: its share at a place across, about 1.
+static float tongue(const FallMesher *f, float side)
+{
+    uint64_t seed = random_key(f->terrain->water->id[f->lip], STRANDS);
+    float x = 2.5f * side, broad = noise_plane_fractal(x, 0.3f, 2, seed);
+    float narrow = noise_plane_fractal(6.0f * x, 7.3f, 2, seed);
+    return clampf(1.0f + 1.1f * broad + 0.6f * narrow, 0.05f, 1.9f);
+}
+
 static int strand_path(const FallMesher *f, int strand, Vec3 place[STEPS])
 {
-    int column = strand % ACROSS;
-    float jitter = number_of(f, strand, NUMBER_SIDE);
-    float side = 2.0f * ((float)column + jitter) / ACROSS - 1.0f;
+    float side = strand_side(f, strand);
     float fast = 1.0f - 0.35f * side * side; // banks hold the water back
     fast *= lerpf(0.7f, 1.25f, number_of(f, strand, NUMBER_SPEED));
+    fast *= 0.6f + 0.4f * tongue(f, side);
     float drift = 0.16f * f->speed * (number_of(f, strand, NUMBER_DRIFT) - 0.5f);
     Vec3 velocity = vec3_madd(vec3_scale(f->way, fast * f->speed), drift, f->across);
     velocity.y = 0.25f * f->speed * (number_of(f, strand, NUMBER_LIFT) - 0.5f);
@@ -138,9 +153,10 @@ static float strand_half(const FallMesher *f, int strand, float share)
     float spacing = 2.0f * f->half / ACROSS;
     float from = strand < ACROSS ? 0.0f : 0.75f * number_of(f, strand, NUMBER_START);
     float torn = lerpf(1.3f, lerpf(0.25f, 0.9f, f->cover), smoothstepf(0.0f, 0.5f, share));
-    float own = lerpf(0.5f, 1.2f, number_of(f, strand, NUMBER_WIDTH));
+    float own = lerpf(0.3f, 1.6f, number_of(f, strand, NUMBER_WIDTH));
+    own *= tongue(f, strand_side(f, strand));
     float grown = smoothstepf(from, from + 0.12f, share + (strand < ACROSS ? 0.12f : 0.0f));
-    return 0.5f * spacing * torn * own * grown;
+    return 0.5f * spacing * torn * own * grown; // at most about 1.5 spacings
 }
 
 static void add_strand_row(FallMesher *f, Vec3 p, Vec3 along, float half, float foam)
@@ -241,4 +257,27 @@ bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const P
     }
     free(main);
     return done;
+}
+
+bool terrain_measure_falls(const Terrain *terrain, MeasureList *list, Error *e)
+{
+    const OutTree *water = terrain->water;
+    int64_t highest = -1;
+    double count = 0.0, nan = (double)NAN;
+    for (int64_t i = 0; water && terrain->drop && i < water->count; i++) {
+        count += terrain->drop[i] > 0.0f;
+        bool higher = highest < 0 || terrain->drop[i] > terrain->drop[highest];
+        highest = terrain->drop[i] > 0.0f && higher ? i : highest;
+    }
+    if (highest < 0) {
+        return true;
+    }
+    Vec3 lip = vec3_add(water->position[highest], terrain->params->position);
+    return measures_add(list, "waterfalls", count, "", nan, nan, e) &&
+           measures_add(list, "fall_height", (double)terrain->drop[highest], "m", nan, nan, e) &&
+           measures_add(list, "fall_discharge", (double)terrain->flow[highest].discharge, "m^3/s",
+                        nan, nan, e) &&
+           measures_add(list, "fall_x", (double)lip.x, "m", nan, nan, e) &&
+           measures_add(list, "fall_y", (double)lip.y, "m", nan, nan, e) &&
+           measures_add(list, "fall_z", (double)lip.z, "m", nan, nan, e);
 }

@@ -59,10 +59,24 @@ static float slope_at(const OutTree *water, const int32_t *main, const float *dr
     return run > 0.0f ? fall / run : 0.0f;
 }
 
-// Foam of rapids and falls drifts on and rises out of the water within seconds.
-static void drift(const OutTree *water, const float *drop, RiverFlow *flow)
+// The pool boils where a fall's air rises again: over about half of its height.
+static void boil(const OutTree *water, const float *drop, int64_t lip, RiverFlow *flow)
 {
-    const float lasts = 4.0f, least = 0.02f; // s; less foam is none
+    float left = 0.5f * drop[lip];
+    for (int64_t i = water->parent[lip]; left >= 0.0f; i = water->parent[i]) {
+        flow[i].foam = 1.0f;
+        if (water->parent[i] < 0) {
+            return;
+        }
+        Vec3 step = vec3_sub(water->position[i], water->position[water->parent[i]]);
+        left -= sqrtf(step.x * step.x + step.z * step.z);
+    }
+}
+
+// Foam of rapids and falls drifts on and bursts within seconds.
+static void drift(const OutTree *water, RiverFlow *flow)
+{
+    const float lasts = 8.0f, least = 0.02f; // s; less foam is none
     for (int64_t i = water->count - 1; i >= 0; i--) {
         int32_t below = water->parent[i];
         if (below < 0) {
@@ -72,7 +86,6 @@ static void drift(const OutTree *water, const float *drop, RiverFlow *flow)
         float run = sqrtf(step.x * step.x + step.z * step.z);
         float speed = flow[below].speed > 0.1f ? flow[below].speed : 0.1f;
         float left = flow[i].foam * (float)exact_exp((double)(-run / (speed * lasts)));
-        left = drop[i] > 0.0f ? 1.0f : left;
         if (left > least && left > flow[below].foam) {
             flow[below].foam = left;
         }
@@ -91,7 +104,12 @@ RiverFlow *terrain_find_flow(const TerrainParams *params, const OutTree *water, 
         flow[i].foam = clampf(params->rivers.foam * flow[i].foam, 0.0f, 1.0f);
     }
     if (flow && params->rivers.foam > 0.0f) {
-        drift(water, drop, flow);
+        for (int64_t i = 0; i < water->count; i++) {
+            if (drop[i] > 0.0f) {
+                boil(water, drop, i, flow);
+            }
+        }
+        drift(water, flow);
     }
     free(main);
     return flow;

@@ -227,6 +227,8 @@ int terrain_fall_path(const FallPath *path, Vec3 start, Vec3 velocity, Vec3 *pla
 // The water that falls, a part for each fall. After terrain_lay_rivers.
 bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const Placing *placing,
                        Error *e);
+// Their number, and the height and place of the highest; nothing without falls.
+bool terrain_measure_falls(const Terrain *terrain, MeasureList *list, Error *e);
 
 // bed.c: lays the rivers that the grid resolves on the finished heights: fills terrain->water,
 // ->shore and ->bank and digs the beds.

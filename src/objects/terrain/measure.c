@@ -168,6 +168,9 @@ bool terrain_measure(const void *given, const Grown *grown, const Recipe *recipe
 {
     const Terrain *terrain = grown->state;
     (void)recipe;
+    if (!terrain_measure_falls(terrain, list, e)) {
+        return false;
+    }
     if (terrain->dunes) {
         return measure_dunes(terrain, list, e);
     }
