@@ -33,6 +33,11 @@ static const Key CLOUD_KEYS[] = {
     {KEY_OF(Cloud, extinction, "extinction", KEY_FLOAT), .high = 1, .unit = "1/m",
      .doc = "Extinction where droplets are dense, from a quarter of the thickness up, or at the "
             "base of fog: 0.05 = one sees 60 m far in it; 0.003 for veils of ice."},
+    {KEY_OF(Cloud, softness, "softness", KEY_FLOAT), .kinds = BIT(CLOUD_CUMULUS) | BIT(CLOUD_STORM),
+     .high = 1,
+     .doc = "How far dry air has worn the borders: more with age, down the flanks, and of small "
+            "heaps. 0 = firm as a cauliflower wherever air rises; 0.5 = firm at young tops, torn "
+            "below; 1 = wisps all over but at the youngest tops."},
     {KEY_OF(Cloud, wind, "wind", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
      .doc = "Azimuth the wind blows toward, from +Z toward +X: heaps and anvils are longer along "
             "it."},

@@ -18,7 +18,8 @@ Cloud cloud_default(CloudKind kind)
                        .thickness = 10500.0f,
                        .cover = 1.0f,
                        .size = 5000.0f,
-                       .extinction = 0.03f};
+                       .extinction = 0.03f,
+                       .softness = 0.5f};
     case CLOUD_FOG:
         return (Cloud){.kind = kind,
                        .base = -100.0f,
@@ -34,5 +35,6 @@ Cloud cloud_default(CloudKind kind)
                    .thickness = 1100.0f,
                    .cover = 0.3f,
                    .size = 1500.0f,
-                   .extinction = 0.09f};
+                   .extinction = 0.09f,
+                   .softness = 0.5f};
 }

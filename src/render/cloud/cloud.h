@@ -16,6 +16,7 @@ typedef struct Cloud {
     float cover;      // share of the sky, 0..1; not CLOUD_STORM
     float size;       // m: width of large heaps, of rolls of a sheet or fog, of a storm's towers
     float extinction; // 1/m, where droplets are dense
+    float softness;   // 0..1: how far dry air has worn the borders; heaps and storms
     float wind;       // degrees from +Z toward +X: where the wind blows
     float center_x, center_z; // m; CLOUD_STORM
     int seed;                 // of these clouds beside the scene's

@@ -20,17 +20,18 @@ static int16_t in_softness(float softness)
 
 // ---- balls ----
 
-// How far outside of a ball nodes get a distance, m.
-static float reach_of(const CloudGrid *g, const Puff *puff)
+// How far outside of a ball nodes get a distance, m: as if it were as soft as patches may make it.
+static float reach_of(const CloudGrid *g)
 {
-    return cloud_grid_reach(g, puff->softness) + 2.0f * g->voxel;
+    return fmaxf(cloud_grid_reach(g, 0.0f), cloud_grid_reach(g, 1.0f)) + g->rough.spread +
+           2.0f * g->voxel;
 }
 
 // Unites a ball with the nodes of slice z.
 static void unite(CloudGrid *g, const Puff *puff, int z)
 {
     Vec3 c = vec3_scale(vec3_sub(puff->center, g->low), 1.0f / g->voxel);
-    float reach = reach_of(g, puff), wide = (puff->radius + reach) / g->voxel;
+    float reach = reach_of(g), wide = (puff->radius + reach) / g->voxel;
     float tall = (puff->radius / puff->flatness + reach) / g->voxel;
     int16_t softness = in_softness(puff->softness);
     int y0 = (int)fmaxf(ceilf(c.y - tall), 0.0f);
@@ -58,7 +59,7 @@ static void fill_with_puffs(CloudGrid *g, const Puffs *puffs, const Run *run)
     for (int slice = 0; slice < g->count[2]; slice++) {
         for (int64_t i = 0; i < puffs->count; i++) {
             const Puff *puff = &puffs->puff[i];
-            float wide = (puff->radius + reach_of(g, puff)) / g->voxel;
+            float wide = (puff->radius + reach_of(g)) / g->voxel;
             float c = (puff->center.z - g->low.z) / g->voxel;
             int z = slice; // the slice itself, or where it repeats near the ball
             if (g->repeats) {
@@ -66,6 +67,30 @@ static void fill_with_puffs(CloudGrid *g, const Puffs *puffs, const Run *run)
             }
             if (fabsf((float)z - c) <= wide) {
                 unite(g, puff, z);
+            }
+        }
+    }
+}
+
+// Softer and firmer patches: eddies bring dry air to some places of a border and not to others.
+static void add_patches(CloudGrid *g, const Cloud *cloud, const Run *run)
+{
+    const float often = 8.0f / NODES_ACROSS, most = 0.8f; // periods of the detail a node
+#pragma omp parallel for schedule(dynamic, 8) num_threads(run->threads)
+    for (int z = 0; z < g->count[2]; z++) {
+        for (int x = 0; x < g->count[0]; x++) {
+            CloudNode *column = g->node + cloud_grid_node(g, x, 0, z);
+            for (int y = 0; y < g->count[1]; y++) {
+                if (column[y].distance == FARTHEST) {
+                    continue;
+                }
+                Vec3 p = vec3((float)x, (float)y, (float)z);
+                float wisp = detail_at(g->detail, vec3_scale(p, often)).wisp;
+                float soft = (float)column[y].softness / SOFTEST;
+                soft = puffs_worn(soft, most * cloud->softness * wisp);
+                float inside = (float)column[y].distance * g->voxel / DISTANCE_STEPS;
+                column[y] = (CloudNode){in_steps(g, inside + soft * g->rough.spread),
+                                        in_softness(soft)};
             }
         }
     }
@@ -80,6 +105,7 @@ static bool fill_with_heaps(CloudGrid *g, const Cloud *cloud, uint64_t key, cons
                     : heaps_grow(&puffs, cloud, g->voxel * NODES_ACROSS, key, e);
     if (done) {
         fill_with_puffs(g, &puffs, run);
+        add_patches(g, cloud, run);
     }
     puffs_clear(&puffs);
     return done;

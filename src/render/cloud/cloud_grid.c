@@ -41,18 +41,22 @@ static Roughness roughness_of(const Cloud *cloud)
     float size = cloud->kind == CLOUD_STORM ? 0.5f * cloud->size : cloud->size;
     Roughness r = {.period = {0.62f * size, 0.097f * size},
                    .billow = {0.05f * size, 0.011f * size},
-                   .wisp = {0.07f * size, 0.03f * size},
-                   .edge = {0.008f * size, 0.11f * size},
+                   .wisp = {0.1f * size, 0.05f * size},
+                   .edge = {0.008f * size, 0.09f * size},
+                   .spread = 0.022f * size,
                    .base = 0.02f * size};
     if (cloud->kind == CLOUD_STRATUS) {
         r.billow[0] = 0.02f * size;
-        r.wisp[0] = 0.03f * size;
+        r.wisp[0] = r.wisp[1] = 0.03f * size;
         r.edge[0] = 0.04f * size;
+        r.edge[1] = 0.11f * size;
     }
     if (cloud->kind == CLOUD_FOG) { // lies calm below the inversion
         r.billow[0] = 0.03f * size;
         r.wisp[0] = 0.05f * size;
+        r.wisp[1] = 0.03f * size;
         r.edge[0] = 0.02f * size;
+        r.edge[1] = 0.11f * size;
         r.base = 0.0f;
     }
     return r;

@@ -45,6 +45,7 @@ typedef struct Roughness {
     float billow[2]; // height of billows where the border is crisp
     float wisp[2];   // height of wisps where it is soft
     float edge[2];   // over which the density rises: where crisp, where soft
+    float spread;    // of a soft border outward: it begins farther out than a crisp one
     float base;      // over which it rises from the condensation level; 0 = has none
 } Roughness;
 

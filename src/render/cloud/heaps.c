@@ -10,6 +10,8 @@ typedef struct Heap {
     float width, height; // m
     float length;        // of the ellipse's axis along the wind, and 1 / that across it
     float age;           // 0 = growing, 1 = dissolved
+    float wear;          // of its foot and flanks by dry air
+    float frail;         // the same of all of it: small heaps have no core that it does not reach
     float sine, cosine;  // of the wind's azimuth
 } Heap;
 
@@ -48,7 +50,8 @@ static bool add_towers(Puffs *p, const Heap *h, uint64_t key, Error *e)
                         .height = h->height * dome * lerpf(0.45f, 1.0f, young),
                         .lean_x = lean * h->sine,
                         .lean_z = lean * h->cosine,
-                        .softness = clampf(1.6f * old - 0.5f, 0.0f, 0.9f)};
+                        .softness = puffs_worn(clampf(1.6f * old - 0.5f, 0.0f, 0.9f), h->frail),
+                        .wear = h->wear};
         if (!puffs_add_column(p, &tower, random_key(own, 4), e)) {
             return false;
         }
@@ -69,6 +72,7 @@ static bool add_foot(Puffs *p, const Heap *h, uint64_t key, Error *e)
                      .radius = radius,
                      .flatness = random_range(random_key(own, 3), 1.6f, 3.0f),
                      .softness = random_range(random_key(own, 4), 0.1f, 0.5f)};
+        ball.softness = puffs_worn(ball.softness, 0.6f * h->wear);
         if (!puffs_add(p, ball, e)) {
             return false;
         }
@@ -154,6 +158,8 @@ static Heap draw_heap(const Cloud *cloud, Vec3 middle, uint64_t key)
               .width = cloud->size * share,
               .length = random_range(random_key(key, 1), 1.0f, 1.4f),
               .age = random_unit(random_key(key, 2)),
+              .wear = fminf(1.3f * cloud->softness, 1.0f),
+              .frail = 1.2f * cloud->softness * clampf(1.0f - share / 0.45f, 0.0f, 1.0f),
               .sine = sinf(wind),
               .cosine = cosf(wind)};
     float height = cloud->thickness * fminf(share, 1.0f) *

@@ -7,6 +7,8 @@
 
 enum { FLANK_LEVELS = 3 };
 
+static const float UNDER = 0.35f; // share of the wear by which a bulge's underside is softer
+
 bool puffs_add(Puffs *p, Puff puff, Error *e)
 {
     if (!memory_reserve(&p->puff, &p->capacity, p->count + 1, sizeof *p->puff, e)) {
@@ -17,8 +19,14 @@ bool puffs_add(Puffs *p, Puff puff, Error *e)
     return true;
 }
 
+float puffs_worn(float softness, float share)
+{
+    return share > 0.0f ? lerpf(softness, 1.0f, fminf(share, 1.0f)) : fmaxf(softness + share, 0.0f);
+}
+
 // A ball and the smaller ones on its flanks, more of them above than below: what rises bulges.
-static bool add_bulging(Puffs *p, Puff ball, int levels, uint64_t key, Error *e)
+// Dry air that the bulge pushes aside is mixed in below it, not into its top.
+static bool add_bulging(Puffs *p, Puff ball, float wear, int levels, uint64_t key, Error *e)
 {
     if (!puffs_add(p, ball, e)) {
         return false;
@@ -35,8 +43,9 @@ static bool add_bulging(Puffs *p, Puff ball, int levels, uint64_t key, Error *e)
         Puff child = ball;
         child.center = vec3_madd(ball.center, off, d);
         child.radius = ball.radius * random_range(random_key(own, 1), 0.3f, 0.58f);
+        child.softness = puffs_worn(ball.softness, UNDER * wear * (0.4f - d.y));
         if (child.center.y > p->floor &&
-            !add_bulging(p, child, levels - 1, random_key(own, 3), e)) {
+            !add_bulging(p, child, wear, levels - 1, random_key(own, 3), e)) {
             return false;
         }
     }
@@ -56,8 +65,8 @@ bool puffs_add_column(Puffs *p, const Column *c, uint64_t key, Error *e)
                                     c->foot.z + off.z + c->lean_z * y),
                      .radius = r,
                      .flatness = 1.0f,
-                     .softness = c->softness};
-        if (!add_bulging(p, ball, FLANK_LEVELS, random_key(own, 2), e)) {
+                     .softness = puffs_worn(c->softness, c->wear * (1.0f - share))};
+        if (!add_bulging(p, ball, c->wear, FLANK_LEVELS, random_key(own, 2), e)) {
             return false;
         }
         y += 0.75f * r;
@@ -104,7 +113,8 @@ bool puffs_grow_storm(Puffs *p, const Cloud *cloud, uint64_t key, Error *e)
         Column tower = {.foot = vec3(cloud->center_x + off * sinf(angle), cloud->base,
                                      cloud->center_z + off * cosf(angle)),
                         .radius = cloud->size * (0.34f - 0.17f * share),
-                        .height = cloud->thickness * (0.95f - 0.75f * share)};
+                        .height = cloud->thickness * (0.95f - 0.75f * share),
+                        .wear = cloud->softness};
         if (!puffs_add_column(p, &tower, random_key(own, 1), e)) {
             return false;
         }

@@ -29,10 +29,14 @@ typedef struct Column {
     Vec3 foot;
     float radius, height; // m
     float lean_x, lean_z; // m downwind a metre of height
-    float softness;
+    float softness;       // of its age
+    float wear;           // how much softer dry air makes its foot and its flanks
 } Column;
 
 bool puffs_add(Puffs *puffs, Puff puff, Error *e);
+
+// A softness that dry air has raised by a share 0..1 of what is left, or lowered by -share.
+float puffs_worn(float softness, float share);
 
 // Balls up a column, narrower toward its top.
 bool puffs_add_column(Puffs *puffs, const Column *column, uint64_t key, Error *e);
