@@ -57,11 +57,16 @@ static void turn(Vec3 *v, Vec3 axis, float angle)
     *v = vec3_rotate(*v, axis, c, s);
 }
 
+static Vec3 step_end(const Flower *flower, const Shoot *shoot, float step)
+{
+    return vec3_madd(flower->tree->position[shoot->node], step, shoot->heading);
+}
+
 // Appends a node at the shoot's end after a step along its heading, as child number `place`.
 static bool step_on(Flower *flower, Shoot *shoot, float step, int64_t place, Error *e)
 {
     OutTree *tree = flower->tree;
-    Vec3 p = vec3_madd(tree->position[shoot->node], step, shoot->heading);
+    Vec3 p = step_end(flower, shoot, step);
     uint64_t id = out_tree_child_id(tree->id[shoot->node], place);
     shoot->path += step;
     int32_t birth = (int32_t)(BIRTHS * 2.0f * shoot->path / flower->params->size);
@@ -121,6 +126,14 @@ static bool grow_side(Flower *flower, const Shoot *from, const Plan *bearer, flo
     return grow_branch(flower, shoot, &plan, e);
 }
 
+static void bend_on(Shoot *shoot, const Plan *plan, float share)
+{
+    turn(&shoot->heading, shoot->normal, plan->curl * share);
+    Vec3 across = vec3_normalize(vec3_cross(shoot->normal, shoot->heading));
+    turn(&shoot->heading, across, plan->bend * share);
+    turn(&shoot->normal, across, plan->bend * share);
+}
+
 static bool grow_branch(Flower *flower, Shoot shoot, const Plan *plan, Error *e)
 {
     bool bears = plan->order < flower->params->orders;
@@ -130,10 +143,12 @@ static bool grow_branch(Flower *flower, Shoot shoot, const Plan *plan, Error *e)
     float step = plan->length / (float)count;
     for (int i = 1; i <= count; i++) {
         float t = (float)i / (float)count;
-        turn(&shoot.heading, shoot.normal, plan->curl / (float)count);
-        Vec3 across = vec3_normalize(vec3_cross(shoot.normal, shoot.heading));
-        turn(&shoot.heading, across, plan->bend / (float)count);
-        turn(&shoot.normal, across, plan->bend / (float)count);
+        if (i > 1) { // a side leaves at its angle
+            bend_on(&shoot, plan, 1.0f / (float)count);
+        }
+        if (step_end(flower, &shoot, step).y < 0.0f) {
+            return true; // it has met the ice
+        }
         if (!step_on(flower, &shoot, step, i == 1 ? plan->place : 0, e)) {
             return false;
         }
@@ -156,24 +171,25 @@ static bool grow_feather(Flower *flower, int i, float open, uint64_t seed, Error
         GOLDEN_ANGLE * (float)i + 0.25f * random_normal(random_key(key, STREAM_AZIMUTH));
     float tilt =
         params->spread * exact_pow(u, open) + 7.0f * random_normal(random_key(key, STREAM_TILT));
-    tilt = clampf(tilt, 0.0f, 88.0f) * RADIANS_PER_DEGREE;
+    tilt = clampf(tilt, 0.0f, 88.0f);
     float sa, ca, st, ct;
     exact_sincos(azimuth, &sa, &ca);
-    exact_sincos(tilt, &st, &ct);
+    exact_sincos(tilt * RADIANS_PER_DEGREE, &st, &ct);
     Vec3 out = vec3(ca, 0.0f, sa);
     Shoot shoot = {.heading = vec3(st * ca, ct, st * sa), .colony = i};
     shoot.normal = vec3(-ct * ca, st, -ct * sa); // the feather's upper face
     turn(&shoot.normal, shoot.heading, 0.6f * random_normal(random_key(key, STREAM_ROLL)));
     float bend =
         params->bend * (0.4f + 0.6f * u) + 22.0f * random_normal(random_key(key, STREAM_BEND));
-    bend = clampf(bend, -60.0f, 100.0f);
-    Plan plan = {.length = 0.5f * params->size * lerpf(0.8f, 1.0f, u) *
-                           random_range(random_key(key, STREAM_LENGTH), 0.7f, 1.05f),
-                 .curl = 0.25f * random_normal(random_key(key, STREAM_SWAY)),
-                 .bend = bend * RADIANS_PER_DEGREE,
-                 .cup = random_range(random_key(key, STREAM_CUP), -0.1f, 0.35f),
-                 .width = params->feather_width *
-                          random_range(random_key(key, STREAM_WIDTH), 0.75f, 1.2f)};
+    bend = clampf(bend, -60.0f, 95.0f - tilt); // its tip hangs, but not into the ice
+    float short_by = random_unit(random_key(key, STREAM_LENGTH)); // few are short
+    Plan plan = {
+        .length =
+            0.5f * params->size * lerpf(0.8f, 1.0f, u) * (1.05f - 0.55f * short_by * short_by),
+        .curl = 0.25f * random_normal(random_key(key, STREAM_SWAY)),
+        .bend = bend * RADIANS_PER_DEGREE,
+        .cup = random_range(random_key(key, STREAM_CUP), -0.1f, 0.35f),
+        .width = params->feather_width * random_range(random_key(key, STREAM_WIDTH), 0.75f, 1.2f)};
     Vec3 foot = vec3_scale(out, 0.05f * params->size * u);
     uint64_t id = random_key(random_key(seed, STREAM_ROOTS), (uint64_t)i);
     shoot.node = out_tree_add_node(flower->tree, foot, -1, 0, i, id, e);

@@ -45,7 +45,7 @@ bool frost_flower_finish(const void *params, const Recipe *recipe, const Grown *
 bool frost_flower_geometry(const void *params, const Grown *grown, const Placing *placing,
                            Error *e);
 
-// Appends width and height (m), side_angle (degrees, mean between a side and what bears it),
+// Appends side_angle (degrees, mean between a side and what bears it),
 // orders, sides (number).
 bool frost_flower_measure(const void *params, const Grown *grown, const Recipe *recipe,
                           MeasureList *list, Error *e);

@@ -34,10 +34,7 @@ bool frost_flower_measure(const void *params, const Grown *grown, const Recipe *
     }
     bool done = order != NULL;
     free(order);
-    Aabb box = out_tree_bounds(tree);
-    double width = (double)(box.high.x - box.low.x + box.high.z - box.low.z) / 2.0;
-    return done && measures_add(list, "width", width, "m", NAN, NAN, e) &&
-           measures_add(list, "height", (double)(box.high.y - box.low.y), "m", NAN, NAN, e) &&
+    return done &&
            measures_add(list, "side_angle", sides > 0 ? sum / (double)sides : NAN, "degrees", NAN,
                         NAN, e) &&
            measures_add(list, "orders", (double)highest, "", NAN, NAN, e) &&

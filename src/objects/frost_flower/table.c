@@ -5,9 +5,9 @@
 FrostFlowerParams frost_flower_params_default(void)
 {
     return (FrostFlowerParams){.size = 0.04f,
-                               .feathers = 26,
-                               .spread = 80.0f,
-                               .bend = 30.0f,
+                               .feathers = 34,
+                               .spread = 78.0f,
+                               .bend = 38.0f,
                                .feather_width = 0.42f,
                                .barbs = 24,
                                .orders = 2,
