@@ -4,29 +4,30 @@
 
 #include "objects/kind.h"
 
-#define KINDS(X) \
-    X(tree)      \
-    X(coral)     \
-    X(lsystem)   \
-    X(vessels)   \
-    X(forest)    \
-    X(ground)    \
-    X(frost)     \
-    X(mesh)      \
-    X(shape)     \
-    X(dla)       \
-    X(lightning) \
-    X(sculpture) \
-    X(terrain)   \
-    X(venation)  \
-    X(fracture)  \
-    X(skeleton)  \
-    X(outtree)   \
-    X(climber)   \
-    X(stone)     \
-    X(scatter)   \
-    X(sea)       \
-    X(snow_crystal)
+#define KINDS(X)    \
+    X(tree)         \
+    X(coral)        \
+    X(lsystem)      \
+    X(vessels)      \
+    X(forest)       \
+    X(ground)       \
+    X(frost)        \
+    X(mesh)         \
+    X(shape)        \
+    X(dla)          \
+    X(lightning)    \
+    X(sculpture)    \
+    X(terrain)      \
+    X(venation)     \
+    X(fracture)     \
+    X(skeleton)     \
+    X(outtree)      \
+    X(climber)      \
+    X(stone)        \
+    X(scatter)      \
+    X(sea)          \
+    X(snow_crystal) \
+    X(frost_flower)
 
 #define DECLARE_KIND(NAME) extern const Kind kind_##NAME;
 KINDS(DECLARE_KIND)

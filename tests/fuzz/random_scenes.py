@@ -55,10 +55,11 @@ SMALL = {
     "skeleton": {"file": str(ROOT / "tests/fuzz/corpus/swc/header_types_crlf.swc")},
     "climber": {"climbs": "wall", "starts": [{"position": [0, 0, 0.5]}], "height": 0.8, "spread": 0.5, "spacing": 0.1,
                 "leaves": {"max_count": 60}, "hanging": {"count": 3}},
+    "snow_crystal": {"cells": 12}, "frost_flower": {"feathers": 5, "barbs": 6},
     "scatter": {"count": 12, "radius": 4, "variants": 2},
 }
 # What grows in a fraction of a second on every place of a scatter.
-THINGS = ("tree", "coral", "lsystem", "frost", "shape", "stone", "venation", "sculpture")
+THINGS = ("tree", "coral", "lsystem", "frost", "shape", "stone", "venation", "sculpture", "frost_flower")
 SPECIES = sorted(file.stem for file in (ROOT / "scenes/species").glob("*.yaml"))
 HERBS = ("timothy", "oxeye_daisy", "cow_parsley", "meadow_buttercup", "common_sorrel")  # small at their own height
 

@@ -361,6 +361,9 @@ static const struct {
     {"snow_crystal: {position: @p(1 0 0.5), rotation: [0, @a(20), 0], size: @l(0.5), thickness: "
      "@l(0.01), cells: 30}",
      ALL},
+    {"frost_flower: {position: @p(1 0 0.5), rotation: [0, @a(20), 0], size: @l(0.5), feathers: 8, "
+     "barbs: 8}",
+     ALL},
     {"sea: {spokes: 32, extent: 30}", 0},                            // waves lie in the scene
     {"scatter: {count: 20, things: [{stone: {resolution: 4}}]}", 0}, // patches lie in the scene
     {"ground: {}", 0}, // it stands about the origin, and its bumps are as large as nature's

@@ -47,7 +47,7 @@ typedef struct Spot {
 
 // ---- candidates
 
-static Spot spot_on_land(const Search *s, uint64_t key)
+static bool spot_on_land(const Search *s, uint64_t key, Spot *spot)
 {
     const ScatteringParams *params = s->params;
     float u = random_unit(random_key(key, STREAM_RADIUS)), sine, cosine;
@@ -58,12 +58,33 @@ static Spot spot_on_land(const Search *s, uint64_t key)
     float height = land_height(land, x, z);
     Vec3 normal = vec3(height - land_height(land, x + STEP, z), STEP,
                        height - land_height(land, x, z + STEP));
-    return (Spot){vec3(x, height, z), vec3_normalize(normal), key};
+    *spot = (Spot){vec3(x, height, z), vec3_normalize(normal), key};
+    return true;
 }
 
 static Vec3 corner(const Mesh *mesh, int64_t face, int number)
 {
     return mesh->position[mesh->index[face * mesh->face_size + number]];
+}
+
+// Where the ball about the centre cuts a face's plane.
+typedef struct Disc {
+    Vec3 center, normal;
+    float radius; // m; 0 = it does not
+    bool smaller; // than the face: places are drawn in the disc then, so that a small patch of a
+                  // wide face is found
+} Disc;
+
+static Disc disc_in_face(const ScatteringParams *params, const Vec3 c[3])
+{
+    Vec3 across = vec3_cross(vec3_sub(c[1], c[0]), vec3_sub(c[2], c[0]));
+    Disc disc = {.normal = vec3_normalize(across)};
+    float away = vec3_dot(vec3_sub(params->center, c[0]), disc.normal);
+    float square = params->radius * params->radius - away * away;
+    disc.center = vec3_madd(params->center, -away, disc.normal);
+    disc.radius = params->radius > 0.0f && square > 0.0f ? sqrtf(square) : 0.0f;
+    disc.smaller = disc.radius > 0.0f && PI_F * square < 0.5f * vec3_length(across);
+    return disc;
 }
 
 // May the triangle reach into the shell where copies stand?
@@ -76,19 +97,25 @@ static bool may_be_near(const ScatteringParams *params, const Vec3 corner[3])
         reach = r > reach ? r : reach;
     }
     float distance = vec3_distance(middle, params->center);
+    if (reach > params->radius && params->radius > 0.0f &&
+        !(disc_in_face(params, corner).radius > 0.0f)) {
+        return false; // the sides of a wide slab
+    }
     return distance + reach >= params->inner &&
            (params->radius == 0.0f || distance - reach <= params->radius);
 }
 
-// Sums of the areas of the surface's faces, 0 for those too far away: a patch of a wide land is
-// found, too.
+// Sums of the areas in which places are drawn for the surface's faces, 0 for those too far away.
 static double *sum_areas(const Mesh *mesh, const ScatteringParams *params, Error *e)
 {
     double *area = memory_alloc(mesh->face_count, sizeof *area, e), sum = 0.0;
     for (int64_t i = 0; area && i < mesh->face_count; i++) {
         Vec3 c[3] = {corner(mesh, i, 0), corner(mesh, i, 1), corner(mesh, i, 2)};
         Vec3 across = vec3_cross(vec3_sub(c[1], c[0]), vec3_sub(c[2], c[0]));
-        sum += may_be_near(params, c) ? 0.5 * (double)vec3_length(across) : 0.0;
+        Disc disc = disc_in_face(params, c);
+        double drawn = disc.smaller ? (double)(PI_F * disc.radius * disc.radius)
+                                    : 0.5 * (double)vec3_length(across);
+        sum += may_be_near(params, c) ? drawn : 0.0;
         area[i] = sum;
     }
     return area;
@@ -108,19 +135,45 @@ static int64_t find_face(const double *area, int64_t count, double wanted)
     return low;
 }
 
-static Spot spot_on_surface(const Search *s, uint64_t key)
+static Vec3 point_in_disc(const Disc *disc, float u, float v)
+{
+    float sine, cosine, r = disc->radius * sqrtf(u);
+    exact_sincos(2.0f * PI_F * v, &sine, &cosine);
+    Vec3 x = vec3_perpendicular(disc->normal), z = vec3_cross(disc->normal, x);
+    return vec3_madd(vec3_madd(disc->center, r * cosine, x), r * sine, z);
+}
+
+static bool is_in_face(const Vec3 c[3], Vec3 normal, Vec3 p)
+{
+    for (int k = 0; k < 3; k++) {
+        Vec3 edge = vec3_sub(c[(k + 1) % 3], c[k]);
+        if (vec3_dot(vec3_cross(edge, vec3_sub(p, c[k])), normal) < 0.0f) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// False if the place that was drawn is beside the face.
+static bool spot_on_surface(const Search *s, uint64_t key, Spot *spot)
 {
     const Mesh *mesh = s->surface->mesh;
     double all = s->area[mesh->face_count - 1];
     double wanted = all * (double)random_unit(random_key(key, STREAM_FACE));
     int64_t face = find_face(s->area, mesh->face_count, wanted);
-    float across = sqrtf(random_unit(random_key(key, STREAM_ACROSS)));
-    float along = random_unit(random_key(key, STREAM_ALONG));
-    Vec3 a = corner(mesh, face, 0), b = corner(mesh, face, 1), c = corner(mesh, face, 2);
-    Vec3 p = vec3_add(vec3_scale(a, 1.0f - across),
-                      vec3_lerp(vec3_scale(b, across), vec3_scale(c, across), along));
-    Vec3 normal = vec3_normalize(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
-    return (Spot){p, normal, key};
+    float u = random_unit(random_key(key, STREAM_ACROSS));
+    float v = random_unit(random_key(key, STREAM_ALONG));
+    Vec3 c[3] = {corner(mesh, face, 0), corner(mesh, face, 1), corner(mesh, face, 2)};
+    Disc disc = disc_in_face(s->params, c);
+    *spot = (Spot){.normal = disc.normal, .key = key};
+    if (disc.smaller) {
+        spot->p = point_in_disc(&disc, u, v);
+        return is_in_face(c, disc.normal, spot->p);
+    }
+    float across = sqrtf(u);
+    spot->p = vec3_add(vec3_scale(c[0], 1.0f - across),
+                       vec3_lerp(vec3_scale(c[1], across), vec3_scale(c[2], across), v));
+    return true;
 }
 
 // ---- which are kept
@@ -247,10 +300,11 @@ static bool search(const Search *s, ScatterPlaces *places, const Run *run, Error
             return false;
         }
         uint64_t key = random_key(seed, (uint64_t)i);
-        Spot spot = s->surface ? spot_on_surface(s, key) : spot_on_land(s, key);
+        Spot spot;
+        bool found = s->surface ? spot_on_surface(s, key, &spot) : spot_on_land(s, key, &spot);
         int thing = choose_thing(s, key);
         bool taken = false;
-        if (!is_allowed(s, &spot) || !is_in_patch(s, &spot, thing)) {
+        if (!found || !is_allowed(s, &spot) || !is_in_patch(s, &spot, thing)) {
             continue;
         }
         if (!take(s, &spot, &taken, e)) {

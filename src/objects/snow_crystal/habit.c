@@ -14,7 +14,7 @@ static const SnowfakeRates HABIT[HABITS] = {
 
 bool snow_is_flat(float temperature)
 {
-    return temperature > -3.5f || temperature < -10.0f;
+    return temperature > -3.5f || (temperature < -10.0f && temperature >= -22.0f);
 }
 
 // How readily branches form, 0 .. 1: facets are most unstable at -15 and -2 degrees.

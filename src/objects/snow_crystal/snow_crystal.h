@@ -1,5 +1,5 @@
-// A flat snow crystal: plate, sectored plate, star or dendrite, by the weather that it fell
-// through.
+// A snow crystal, by the weather that it fell through: a plate, sectored plate, star or dendrite,
+// which is flat; a column or needle; or a column that plates cap.
 #ifndef RAMIFY_OBJECTS_SNOW_CRYSTAL_SNOW_CRYSTAL_H
 #define RAMIFY_OBJECTS_SNOW_CRYSTAL_SNOW_CRYSTAL_H
 
@@ -16,8 +16,8 @@ typedef struct SnowWeather {
 typedef struct SnowCrystalParams {
     Vec3 position;   // m, of its middle
     Vec3 rotation;   // degrees
-    float size;      // m, from tip to tip
-    float thickness; // m, mean, in the middle
+    float size;      // m, from tip to tip of a plate, or the length of a column: the largest
+    float thickness; // m, of a plate: mean, in the middle
     float relief;    // height of its ridges, 0 .. 1
     int cells;       // of the lattice from the middle to a tip
     float noise;     // relative variation of the vapour
@@ -35,6 +35,26 @@ SnowCrystalParams snow_crystal_params_default(void);
 // needles.
 bool snow_is_flat(float temperature);
 
+// How many times as fast as its width a column's length grows, on a logarithmic scale: 1 = it stays
+// as it is. 1 .. 2.2, for weather in which crystals are columns.
+float snow_growth_ratio(const SnowWeather *weather);
+
+// Share of the final size up to which the crystal is a column: 0 = it is flat, 1 = nothing caps it.
+float snow_column_until(const SnowCrystalParams *params);
+
+// The column: a hexagonal prism about the axis Y. {0} of a flat crystal.
+typedef struct SnowColumn {
+    float length, width; // m; the width from corner to opposite corner
+    float hollow;        // 0 = solid .. 1 = funnels from both ends meet in the middle
+    float until;         // see snow_column_until
+} SnowColumn;
+
+SnowColumn snow_column(const SnowCrystalParams *params);
+
+// Closed surface of a column of length > 0, with flat faces, about the origin. The caller frees it.
+Mesh *snow_column_mesh(const SnowCrystalParams *params, const SnowColumn *column, uint64_t seed,
+                       Error *e);
+
 // Place of the weather on the way from solid plates (0) over sectored plates (1), stars with plates
 // at their tips (2) and stellar dendrites (3) to fernlike dendrites (4): Nakaya's diagram of
 // habits, after Libbrecht, The physics of snow crystals (2005).
@@ -43,7 +63,8 @@ float snow_habit(const SnowWeather *weather);
 // Rates of growth of a habit, 0 .. 4.
 SnowfakeRates snow_habit_rates(float habit);
 
-// Grows the crystal's cells. Free with snowfake_clear, on success only.
+// Grows the cells of a flat crystal, or of a column's caps. Free with snowfake_clear, on success
+// only.
 bool snow_crystal_grow(const SnowCrystalParams *params, uint64_t seed, const Run *run,
                        Snowfake *fake, Error *e);
 

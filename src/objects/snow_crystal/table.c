@@ -1,7 +1,7 @@
 // The keys of a snow crystal.
 #include "config/load.h"
 #include "objects/common/tables.h"
-#include "objects/snow_crystal/snow_crystal.h"
+#include "objects/snow_crystal/column.h"
 
 #include <stddef.h>
 
@@ -15,54 +15,44 @@ SnowCrystalParams snow_crystal_params_default(void)
                                .weather = {.temperature = -15.0f, .supersaturation = 0.12f}};
 }
 
-#define TEMPERATURE_DOC \
-    "Temperature of the air. Crystals are flat from -3.5 up and from -10 down; between, columns "
+#define TEMPERATURE_DOC                                                                           \
+    "Temperature of the air. Crystals are columns from -3.5 down to -10, needles in much vapour " \
+    "at "                                                                                         \
+    "-5 to -7, and short columns below -22; they are flat between -10 and -22 and above -3.5"
 
 static const Key WEATHER_KEYS[] = {
     {KEY_OF(SnowWeather, at, "at", KEY_FLOAT), .flags = KEY_REQUIRED, .high = 1,
      .doc = "Size of the crystal in this weather, as a share of the final one; weather between two "
             "entries is between theirs."},
-    {KEY_OF(SnowWeather, temperature, "temperature", KEY_FLOAT), .flags = KEY_REQUIRED, .low = -25,
-     .high = -0.5, .unit = "degrees Celsius",
-     .doc = TEMPERATURE_DOC "and needles grow, which are not made."},
+    {KEY_OF(SnowWeather, temperature, "temperature", KEY_FLOAT), .flags = KEY_REQUIRED, .low = -40,
+     .high = -0.5, .unit = "degrees Celsius", .doc = TEMPERATURE_DOC "."},
     {KEY_OF(SnowWeather, supersaturation, "supersaturation", KEY_FLOAT),
      .flags = KEY_REQUIRED | KEY_ABOVE, .high = 0.4, .unit = "g/m³",
      .doc = "Vapour of the air beyond its balance with ice."},
     {0},
 };
 
-static bool check_flat(const Mapping *mapping, float temperature)
-{
-    return snow_is_flat(temperature) ||
-           mapping_fail(
-               mapping, "temperature",
-               " is %g degrees; between -10 and -3.5 crystals are columns and needles, which "
-               "snow_crystal does not make",
-               (double)temperature);
-}
-
-static bool weather_check(const Mapping *mapping, void *given)
-{
-    return check_flat(mapping, ((const SnowWeather *)given)->temperature);
-}
-
 static const Table weather_table = {.name = "snow_weather",
                                     .doc = "The air about a snow crystal at one size.",
                                     .size = sizeof(SnowWeather),
-                                    .keys = WEATHER_KEYS,
-                                    .check = weather_check};
+                                    .keys = WEATHER_KEYS};
 
 static const Key CRYSTAL_KEYS[] = {
     {KEY_OF(SnowCrystalParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Position of its middle."},
     {KEY_OF(SnowCrystalParams, rotation, "rotation", KEY_VECTOR), .count = 3, .unit = "degrees",
-     .doc = "Rotation about x, then y, then z; without it the crystal lies flat, a tip toward +X."},
+     .doc = "Rotation about x, then y, then z; without it a flat crystal lies flat, a tip toward "
+            "+X, and a column stands upright."},
     {KEY_OF(SnowCrystalParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e3,
-     .unit = "m", .doc = "From tip to opposite tip."},
+     .unit = "m",
+     .doc = "From tip to opposite tip of a flat crystal, and length of a column; of a capped one "
+            "the caps' width: the column is as long as its share of the life."},
     {KEY_OF(SnowCrystalParams, thickness, "thickness", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e3,
-     .unit = "m", .doc = "Thickness in the middle, without ridges."},
+     .unit = "m", .doc = "Thickness of a flat crystal or of caps in the middle, without ridges."},
     {KEY_OF(SnowCrystalParams, relief, "relief", KEY_FLOAT), .high = 1,
-     .doc = "How far ridges and ribs stand out, relative to the thickness."},
+     .doc =
+         "How far ridges and ribs stand out, relative to the thickness; of columns, how far their "
+         "edges are worn."},
     {KEY_OF(SnowCrystalParams, cells, "cells", KEY_INT), .low = 10, .high = 1500,
      .doc = "Cells of the lattice from the middle to a tip: finer branches, and time by its third "
             "power."},
@@ -72,9 +62,9 @@ static const Key CRYSTAL_KEYS[] = {
      .doc = "Variation of the supersaturation as it falls, relative; all arms meet the same, so "
             "that they "
             "branch alike."},
-    {KEY_OF(SnowCrystalParams, weather.temperature, "temperature", KEY_FLOAT), .low = -25,
+    {KEY_OF(SnowCrystalParams, weather.temperature, "temperature", KEY_FLOAT), .low = -40,
      .high = -0.5, .unit = "degrees Celsius",
-     .doc = TEMPERATURE_DOC "and needles grow, which are not made. Branches are finest at -15."},
+     .doc = TEMPERATURE_DOC ", with the finest branches at -15."},
     {KEY_OF(SnowCrystalParams, weather.supersaturation, "supersaturation", KEY_FLOAT),
      .flags = KEY_ABOVE, .high = 0.4, .unit = "g/m³",
      .doc =
@@ -84,9 +74,31 @@ static const Key CRYSTAL_KEYS[] = {
     {KEY_OF(SnowCrystalParams, life, "life", KEY_LIST),
      .count_offset = offsetof(SnowCrystalParams, life_count), .count = 64, .table = &weather_table,
      .doc = "Changing weather on its way through the cloud, in the order of `at`, in place of "
-            "temperature and supersaturation."},
+            "temperature and supersaturation. Where a column comes to weather of flat crystals, "
+            "plates "
+            "cap its ends."},
     {0},
 };
+
+// Plates cap columns, but columns that grow on plates are not made.
+static bool check_order(const Mapping *mapping, const SnowCrystalParams *params)
+{
+    enum { LOOKS = 1024 };
+    float flat = 0.0f; // temperature at which it last was
+    for (int i = 0; i <= LOOKS; i++) {
+        SnowWeather weather = snow_weather_at(params, (float)i / LOOKS);
+        if (snow_is_flat(weather.temperature)) {
+            flat = weather.temperature;
+        } else if (flat < 0.0f) {
+            return mapping_fail(mapping, "life",
+                                " comes from %.3g degrees, where crystals are flat, to %.3g, where "
+                                "they are columns; columns on plates are not made, only plates on "
+                                "columns: let columns come first",
+                                (double)flat, (double)weather.temperature);
+        }
+    }
+    return true;
+}
 
 static bool crystal_check(const Mapping *mapping, void *given)
 {
@@ -97,7 +109,7 @@ static bool crystal_check(const Mapping *mapping, void *given)
                                 (double)params->life[i].at, (double)params->life[i - 1].at);
         }
     }
-    return check_flat(mapping, params->weather.temperature);
+    return check_order(mapping, params);
 }
 
 static void crystal_defaults(void *out)
@@ -108,8 +120,11 @@ static void crystal_defaults(void *out)
 const Table snow_crystal_table = {
     .name = "snow_crystal",
     .doc =
-        "A flat snow crystal, grown from vapour (Gravner and Griffeath 2008) in the weather that "
-        "Nakaya's diagram gives each habit. Material: snow_crystal/ice.",
+        "A snow crystal, grown from vapour in the weather that Nakaya's diagram gives each habit: "
+        "flat "
+        "ones on a lattice (Gravner and Griffeath 2008), columns and needles by the ratio in which "
+        "axis and width grow (Chen and Lamb 1994), columns that plates cap. Material: "
+        "snow_crystal/ice.",
     .example = "objects:\n"
                "  - name: flake\n"
                "    snow_crystal:\n"
