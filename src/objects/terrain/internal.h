@@ -233,6 +233,10 @@ bool terrain_measure_falls(const Terrain *terrain, MeasureList *list, Error *e);
 // ->shore and ->bank and digs the beds.
 bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Error *e);
 
+// Fills field->water from the lake and the rivers, if there are any: the level of the water over the
+// land or beside it, the lake's everywhere.
+bool terrain_record_water(const Terrain *terrain, HeightField *field, const Run *run, Error *e);
+
 // The widest child of each node of terrain->water, -1 at the ends; the caller frees the array.
 int32_t *terrain_main_children(const OutTree *water, Error *e);
 
