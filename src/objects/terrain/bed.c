@@ -2,6 +2,7 @@
 // after the rivers' heights are computed, so water levels are fitted to the final land and always
 // fall downstream.
 #include "base/memory.h"
+#include "base/noise.h"
 #include "base/random.h"
 #include "land/height_drainage.h"
 #include "objects/terrain/internal.h"
@@ -169,12 +170,32 @@ static float level_at(const OutTree *water, int32_t node, float x, float z)
     return lerpf(a.y, b.y, clampf(t, 0.0f, 1.0f));
 }
 
+// Walls of falls are uneven: where the level is looked up at a place, moved along the river.
+static float uneven_level_at(const Terrain *terrain, int32_t node, float x, float z, float cell)
+{
+    const OutTree *water = terrain->water;
+    int32_t below = water->parent[node];
+    if (!terrain->flow[node].at_fall || below < 0) {
+        return level_at(water, node, x, z);
+    }
+    Vec3 way = vec3_sub(water->position[below], water->position[node]);
+    way = vec3_normalize(vec3(way.x, 0.0f, way.z));
+    float scale = 0.5f / water->radius[node];
+    uint64_t seed = random_key(terrain->seed, STREAM_LIPS);
+    float moved = 2.5f * cell * clampf(2.0f * noise_plane_fractal(scale * x, scale * z, 4, seed),
+                                       -1.0f, 1.0f);
+    float at_x = x + moved * way.x, at_z = z + moved * way.z;
+    int32_t other;
+    trough_envelope_at(terrain->shore, at_x, at_z, &other);
+    return level_at(water, other, at_x, at_z);
+}
+
 // The height of the bed at a place `away` from the water's edge (negative: in the water). Beside
 // the water the land is as low as at its edge.
-static float bed_at(const OutTree *water, int32_t node, float x, float z, float away)
+static float bed_at(const Terrain *terrain, int32_t node, float x, float z, float away, float cell)
 {
-    float half = water->radius[node];
-    return level_at(water, node, x, z) - terrain_bed_depth(half, half + away);
+    float half = terrain->water->radius[node];
+    return uneven_level_at(terrain, node, x, z, cell) - terrain_bed_depth(half, half + away);
 }
 
 static bool dig_beds(const Terrain *terrain, HeightField *field, const Run *run)
@@ -190,7 +211,7 @@ static bool dig_beds(const Terrain *terrain, HeightField *field, const Run *run)
             float away = trough_envelope_at(terrain->shore, x, z, &node);
             if (away < reach) {
                 terrain->bank[i] = 1;
-                field->height[i] = bed_at(terrain->water, node, x, z, away);
+                field->height[i] = bed_at(terrain, node, x, z, away, field->cell.x);
             }
         }
     }
@@ -218,6 +239,7 @@ bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Er
     if (!terrain->flow) {
         return false;
     }
+    terrain_widen_pools(terrain->water, terrain->drop);
     terrain->shore = make_shore(terrain->water, terrain->params->size, run, e);
     terrain->bank = memory_alloc_zero(height_field_count(field), 1, e);
     return terrain->shore && terrain->bank &&

@@ -39,7 +39,8 @@ enum {
     STREAM_SAND = 81,
     STREAM_PLAIN = 82,
     STREAM_KARST = 83,
-    STREAM_MEANDER = 84
+    STREAM_MEANDER = 84,
+    STREAM_LIPS = 85
 };
 
 // The tree and everything derived from it.
@@ -198,6 +199,7 @@ typedef struct RiverFlow {
     float depth;     // m, and
     float speed;     // m/s, of a channel of this slope and the water's width
     float foam;      // 0..1: share of the surface that is white
+    bool at_fall;    // is it within a few steps of a lip?
 } RiverFlow;
 
 // m^3/s in a river of this half width, m.
@@ -207,6 +209,8 @@ RiverFlow terrain_flow_of(float discharge, float half, float slope);
 // The flow at each node; foam drifts on below rapids and falls. The caller frees the array.
 RiverFlow *terrain_find_flow(const TerrainParams *params, const OutTree *water, const float *drop,
                              Error *e);
+// Widens the river at the feet of falls, where the water has dug a pool.
+void terrain_widen_pools(OutTree *water, const float *drop);
 
 // falls.c: speed of a river's water where it leaves a lip, m/s.
 float terrain_lip_speed(float discharge, float half);
