@@ -110,13 +110,14 @@ bool output_has_ending(const char *file, const char *ending)
 int command_choice(const char *option, const char *word, const char *const known[], int count,
                    RamifyError *e)
 {
-    char list[128];
-    for (int i = 0, used = 0; i < count; i++) {
+    char list[256] = "";
+    size_t used = 0;
+    for (int i = 0; i < count; i++) {
         if (!word || strcmp(word, known[i]) == 0) {
             return i;
         }
-        used +=
-            snprintf(list + used, sizeof list - (size_t)used, "%s%s", i > 0 ? ", " : "", known[i]);
+        snprintf(list + used, sizeof list - used, "%s%s", i > 0 ? ", " : "", known[i]);
+        used = strlen(list);
     }
     fail(e, RAMIFY_BAD_INPUT, "--%s %.60s; it must be one of %s", option, word, list);
     return -1;

@@ -86,7 +86,7 @@ static bool check_map(const Options *options, const RamifyScene *scene, RamifyEr
 {
     static const char *const maps[] = {
         "slope",   "aspect", "curvature", "flow",   "wetness", "river-distance", "deposit", "wear",
-        "bedrock", "snow",   "lava",      "scoria", "age",     "sun-hours"};
+        "bedrock", "snow",   "lava",      "scoria", "age",     "water-depth",    "sun-hours"};
     if (!options->map) {
         return true;
     }
@@ -94,7 +94,7 @@ static bool check_map(const Options *options, const RamifyScene *scene, RamifyEr
     snprintf(name, sizeof name, "%.*s", (int)strcspn(options->map, ":"), options->map);
     const char *file = options->output;
     bool possible = file && is_heights(file) && land_count(scene) > 0;
-    return command_choice("map", name, maps, 11, e) >= 0 &&
+    return command_choice("map", name, maps, (int)(sizeof maps / sizeof *maps), e) >= 0 &&
            (possible || fail(e, RAMIFY_BAD_INPUT,
                              "--map %s; it needs a scene with a terrain and --output .png, .exr, "
                              ".asc or .tif",

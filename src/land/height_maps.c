@@ -271,6 +271,15 @@ static bool fill_age(const HeightField *field, HeightField *out)
     return field->age;
 }
 
+static bool fill_water_depth(const HeightField *field, HeightField *out)
+{
+    for (int64_t i = 0; i < height_field_count(field) && field->water; i++) {
+        float depth = field->water[i] - field->height[i];
+        out->height[i] = isfinite(depth) ? depth : NAN;
+    }
+    return field->water;
+}
+
 static bool fill_lava(const HeightField *field, HeightField *out)
 {
     for (int64_t i = 0; i < height_field_count(field) && field->ground; i++) {
@@ -322,6 +331,10 @@ static const struct {
     [HEIGHT_MAP_LAVA] = {"lava", .record = fill_lava, .needs = "a terrain of form volcano"},
     [HEIGHT_MAP_SCORIA] = {"scoria", .record = fill_scoria, .needs = "a terrain of form volcano"},
     [HEIGHT_MAP_AGE] = {"age", .record = fill_age, .needs = "a terrain of form braided or meander"},
+    [HEIGHT_MAP_WATER_DEPTH] =
+        {"water-depth", .record = fill_water_depth,
+         .needs = "a terrain with water_level, with rivers wider than 1.2 cells, or of form braided "
+                  "or meander"},
     [HEIGHT_MAP_SUN_HOURS] = {"sun-hours"}};
 
 static int find(const char *name, size_t length)

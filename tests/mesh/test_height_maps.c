@@ -186,6 +186,7 @@ static void missing_land_is_missing_in_maps(void **state)
     field->climate = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
     field->ground = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
     field->age = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
+    field->water = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
     char names[] = HEIGHT_MAP_NAMES;
     for (char *name = strtok(names, " "); name; name = strtok(NULL, " ")) {
         HeightField *map = map_of(field, name);
@@ -274,10 +275,10 @@ static void snow_lies_above_its_line(void **state)
 static void land_without_records_has_no_maps_of_them(void **state)
 {
     (void)state;
-    const char *const names[] = {"deposit", "wear", "bedrock", "snow"};
+    const char *const names[] = {"deposit", "wear", "bedrock", "snow", "water-depth"};
     HeightField *field = make(rough);
     Run run = run_default();
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 5; i++) {
         Error e = {0};
         HeightMap map;
         assert_true(height_map_parse(names[i], &map, &e));

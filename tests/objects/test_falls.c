@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "land/height_maps.h"
 #include "land/height_mesh.h"
 #include "mesh/geometry.h"
 
@@ -125,10 +126,17 @@ static void a_stepped_bed_keeps_its_step(void **state)
             assert_true(water->position[water->parent[i]].y <= p.y);
         }
     }
-    // Where the wall is, the dug bed drops within two cells.
-    float above = height_field_at(v.field, 0.0f, water->position[lip].z - cell);
-    float below = height_field_at(v.field, 0.0f, water->position[lip].z + 2.0f * cell);
-    assert_float_equal(above - below, 12.0f, 0.3f);
+    // Where the wall is, the dug bed drops within two cells, at an uneven lip.
+    float most = 0.0f, above = height_field_at(v.field, 0.0f, water->position[lip].z - 4.0f * cell);
+    for (int k = -4; k < 4; k++) {
+        float z = water->position[lip].z + (float)k * cell;
+        float falls = height_field_at(v.field, 0.0f, z) -
+                      height_field_at(v.field, 0.0f, z + 2.0f * cell);
+        most = fmaxf(most, falls);
+    }
+    float below = height_field_at(v.field, 0.0f, water->position[lip].z + 4.0f * cell);
+    assert_float_equal(most, 12.0f, 0.5f);
+    assert_float_equal(above - below, 12.0f, 0.5f);
     drop_valley(&v);
 }
 
@@ -423,6 +431,68 @@ static void falls_have_the_same_bits_for_any_threads(void **state)
     drop_valley(&v);
 }
 
+// ---- water over the land
+
+// The map is the level of the lake, or of the river next to the place, less the ground.
+static void water_depth_is_the_level_less_the_bed(void **state)
+{
+    (void)state;
+    Valley v = make_valley(stepped);
+    lay(&v);
+    Error e = {0};
+    Run run = run_default();
+    assert_true(terrain_record_water(&v.terrain, v.field, &run, &e));
+    HeightField *map = height_map(v.field, &(HeightMap){.kind = HEIGHT_MAP_WATER_DEPTH}, &run, &e);
+    assert_non_null(map);
+    int wet = 0, far = 0;
+    float cell = v.field->cell.x;
+    for (int64_t i = 0; i < height_field_count(map); i++) {
+        float x = v.field->origin.x + cell * (float)(i % (CELLS + 1));
+        float z = v.field->origin.y + cell * (float)(i / (CELLS + 1));
+        if (fabsf(x) > 1.6f * HALF + 4.1f * cell) { // no water near
+            assert_true(isnan(map->height[i]));
+            far++;
+        } else if (fabsf(x) < HALF && (z < -8.0f * cell || z > 8.0f * HALF) &&
+                   fabsf(z) < 0.4f * SIZE) { // off the wall and the pool
+            // The bed is a parabola below the level, which is the valley's floor.
+            float share = fabsf(x) / HALF, bed = HALF * (0.03f + 0.25f * (1.0f - share * share));
+            assert_float_equal(map->height[i], bed, 0.02f);
+            float level = map->height[i] + v.field->height[i];
+            assert_float_equal(level, stepped(z), 0.05f);
+            wet++;
+        }
+    }
+    assert_true(wet > 1000 && far > 1000);
+    height_field_free(map);
+    drop_valley(&v);
+}
+
+static void a_lake_has_one_level(void **state)
+{
+    (void)state;
+    TerrainParams params = terrain_params_default();
+    params.resolution = 128;
+    params.rivers.count = 60;
+    params.rivers.water = 0.0f;
+    params.water_level = 0.1f;
+    Error e = {0};
+    Run run = run_default();
+    HeightField *field = make_heights(&params, 3, 2, NULL, NULL);
+    HeightField *map = height_map(field, &(HeightMap){.kind = HEIGHT_MAP_WATER_DEPTH}, &run, &e);
+    assert_non_null(map);
+    float low, high;
+    height_field_range(field, &low, &high);
+    int wet = 0;
+    for (int64_t i = 0; i < height_field_count(map); i++) {
+        float level = lerpf(low, high, 0.1f);
+        assert_float_equal(map->height[i], level - field->height[i], 1e-3f);
+        wet += map->height[i] > 0.0f;
+    }
+    assert_true(wet > 50);
+    height_field_free(map);
+    height_field_free(field);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -440,6 +510,8 @@ int main(void)
         cmocka_unit_test(a_ledge_throws_water_out_again),
         cmocka_unit_test(strands_fall_into_the_pool),
         cmocka_unit_test(falls_have_the_same_bits_for_any_threads),
+        cmocka_unit_test(water_depth_is_the_level_less_the_bed),
+        cmocka_unit_test(a_lake_has_one_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -233,7 +233,7 @@ static void the_same_bits_for_any_threads(void **state)
     TerrainParams params = small_terrain();
     params.erosion.streams = 0.5f;
     params.erosion.thermal = 0.5f;
-    params.terraces = (TerrainTerraceParams){12, 0.8f};
+    params.terraces = (TerrainTerraceParams){12, 0.8f, 0.0f};
     OutTree *tree = grow(&params, 6, 1), *two = grow(&params, 6, 2), *three = grow(&params, 6, 3);
     assert_true(out_tree_hash(tree) == out_tree_hash(two));
     assert_true(out_tree_hash(tree) == out_tree_hash(three));
@@ -723,7 +723,7 @@ static Geometry water_scene(const WaterCase *c, OutTree **tree)
     params.noise.iterations = c->octaves;
     params.erosion.thermal = c->thermal;
     params.erosion.streams = c->streams;
-    params.terraces = (TerrainTerraceParams){c->terraces > 0.0f ? 8 : 0, c->terraces};
+    params.terraces = (TerrainTerraceParams){c->terraces > 0.0f ? 8 : 0, c->terraces, 0.0f};
     *tree = grow(&params, 4, 2);
     Geometry geometry = {0};
     Error e = {0};

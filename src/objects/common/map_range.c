@@ -20,7 +20,9 @@ static const Key KEYS[] = {
          "lava: 0 to 1, how fresh the lava on the ground is; scoria: 0 to 1, how red it is "
          "(form volcano); age: of the ground of a river's valley, 0 = what water has just "
          "moved, up to 0.6 (braided) or 0.74 (meander) where it has long lain, 0.8 = terraces and "
-         "hills, 1 = slopes (forms braided and meander)."},
+         "hills, 1 = slopes (forms braided and meander); water-depth: m of water over the ground, "
+         "negative by how far the ground is above the lake's level, or above that of a river next "
+         "to it: [-0.4, 0] is a wet rim, [0.05, 0.8] where reeds stand."},
     {KEY_OF(MapRange, range, "range", KEY_VECTOR), .flags = KEY_REQUIRED, .count = 2, .low = -1e9,
      .high = 1e9,
      .doc =

@@ -2,6 +2,7 @@
 // after the rivers' heights are computed, so water levels are fitted to the final land and always
 // fall downstream.
 #include "base/memory.h"
+#include "base/noise.h"
 #include "base/random.h"
 #include "land/height_drainage.h"
 #include "objects/terrain/internal.h"
@@ -159,17 +160,42 @@ float terrain_shore(const Terrain *terrain, float x, float z)
 
 // ---- beds
 
-// The height of the bed at a place `away` from the water's edge (negative: in the water) whose
-// nearest segment is that of `node`. Beside the water the land is as low as at its edge.
-static float bed_at(const OutTree *water, int32_t node, float x, float z, float away)
+// The water's level next to a place whose nearest segment is that of `node`.
+static float level_at(const OutTree *water, int32_t node, float x, float z)
 {
     int32_t below = water->parent[node] >= 0 ? water->parent[node] : node;
     Vec3 a = water->position[below], b = water->position[node];
     float dx = b.x - a.x, dz = b.z - a.z, squared = dx * dx + dz * dz;
     float t = squared > 0.0f ? ((x - a.x) * dx + (z - a.z) * dz) / squared : 0.0f;
-    t = clampf(t, 0.0f, 1.0f);
-    float half = water->radius[node];
-    return lerpf(a.y, b.y, t) - terrain_bed_depth(half, half + away);
+    return lerpf(a.y, b.y, clampf(t, 0.0f, 1.0f));
+}
+
+// Walls of falls are uneven: where the level is looked up at a place, moved along the river.
+static float uneven_level_at(const Terrain *terrain, int32_t node, float x, float z, float cell)
+{
+    const OutTree *water = terrain->water;
+    int32_t below = water->parent[node];
+    if (!terrain->flow[node].at_fall || below < 0) {
+        return level_at(water, node, x, z);
+    }
+    Vec3 way = vec3_sub(water->position[below], water->position[node]);
+    way = vec3_normalize(vec3(way.x, 0.0f, way.z));
+    float scale = 0.5f / water->radius[node];
+    uint64_t seed = random_key(terrain->seed, STREAM_LIPS);
+    float moved = 2.5f * cell * clampf(2.0f * noise_plane_fractal(scale * x, scale * z, 4, seed),
+                                       -1.0f, 1.0f);
+    float at_x = x + moved * way.x, at_z = z + moved * way.z;
+    int32_t other;
+    trough_envelope_at(terrain->shore, at_x, at_z, &other);
+    return level_at(water, other, at_x, at_z);
+}
+
+// The height of the bed at a place `away` from the water's edge (negative: in the water). Beside
+// the water the land is as low as at its edge.
+static float bed_at(const Terrain *terrain, int32_t node, float x, float z, float away, float cell)
+{
+    float half = terrain->water->radius[node];
+    return uneven_level_at(terrain, node, x, z, cell) - terrain_bed_depth(half, half + away);
 }
 
 static bool dig_beds(const Terrain *terrain, HeightField *field, const Run *run)
@@ -185,7 +211,7 @@ static bool dig_beds(const Terrain *terrain, HeightField *field, const Run *run)
             float away = trough_envelope_at(terrain->shore, x, z, &node);
             if (away < reach) {
                 terrain->bank[i] = 1;
-                field->height[i] = bed_at(terrain->water, node, x, z, away);
+                field->height[i] = bed_at(terrain, node, x, z, away, field->cell.x);
             }
         }
     }
@@ -213,9 +239,50 @@ bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Er
     if (!terrain->flow) {
         return false;
     }
+    terrain_widen_pools(terrain->water, terrain->drop);
     terrain->shore = make_shore(terrain->water, terrain->params->size, run, e);
     terrain->bank = memory_alloc_zero(height_field_count(field), 1, e);
     return terrain->shore && terrain->bank &&
            (dig_beds(terrain, field, run) || run_cancel_error(e)) &&
            height_field_fill(field, 0.0f, e);
+}
+
+// ---- the water over the land
+
+// Rivers wet what is this near to them, in cells beyond the water's edge.
+static const float RIVERSIDE = 4.0f;
+
+static float water_over(const Terrain *terrain, const HeightField *field, float lake, float x,
+                        float z)
+{
+    int32_t node;
+    if (!terrain->shore ||
+        trough_envelope_at(terrain->shore, x, z, &node) > RIVERSIDE * field->cell.x) {
+        return lake;
+    }
+    float river = level_at(terrain->water, node, x, z);
+    return river > lake ? river : lake;
+}
+
+bool terrain_record_water(const Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    bool rivers = terrain->shore != NULL, lake = terrain->params->water_level > 0.0f;
+    if (field->water || (!rivers && !lake)) {
+        return true;
+    }
+    field->water = memory_alloc(height_field_count(field), sizeof *field->water, e);
+    if (!field->water) {
+        return false;
+    }
+    float level = lake ? terrain_water_height(terrain->params, field) : -INFINITY;
+#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
+    for (int row = 0; row < field->rows; row++) {
+        for (int column = 0; column < field->columns && !run_is_cancelled(run); column++) {
+            float x = field->origin.x + (float)column * field->cell.x;
+            float z = field->origin.y + (float)row * field->cell.y;
+            field->water[(int64_t)row * field->columns + column] =
+                water_over(terrain, field, level, x, z);
+        }
+    }
+    return !run_is_cancelled(run) || run_cancel_error(e);
 }

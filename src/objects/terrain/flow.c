@@ -92,6 +92,17 @@ static void drift(const OutTree *water, RiverFlow *flow)
     }
 }
 
+static void mark_fall(const OutTree *water, const int32_t *main, int64_t lip, RiverFlow *flow)
+{
+    enum { REACH = 8 };
+    int64_t below = lip, above = lip;
+    for (int k = 0; k < REACH; k++) {
+        flow[below].at_fall = flow[above].at_fall = true;
+        below = water->parent[below] >= 0 ? water->parent[below] : below;
+        above = main[above] >= 0 ? main[above] : above;
+    }
+}
+
 RiverFlow *terrain_find_flow(const TerrainParams *params, const OutTree *water, const float *drop,
                              Error *e)
 {
@@ -102,6 +113,12 @@ RiverFlow *terrain_find_flow(const TerrainParams *params, const OutTree *water, 
         flow[i] = terrain_flow_of(terrain_discharge(params, half), half,
                                   slope_at(water, main, drop, i));
         flow[i].foam = clampf(params->rivers.foam * flow[i].foam, 0.0f, 1.0f);
+        flow[i].at_fall = false;
+    }
+    for (int64_t i = 0; flow && i < water->count; i++) {
+        if (drop[i] > 0.0f) {
+            mark_fall(water, main, i, flow);
+        }
     }
     if (flow && params->rivers.foam > 0.0f) {
         for (int64_t i = 0; i < water->count; i++) {
@@ -113,4 +130,27 @@ RiverFlow *terrain_find_flow(const TerrainParams *params, const OutTree *water, 
     }
     free(main);
     return flow;
+}
+
+// Pools are widest twice the river's half width below the foot. They widen slowly enough that no
+// pool reaches back to its lip.
+void terrain_widen_pools(OutTree *water, const float *drop)
+{
+    const float widest = 0.6f; // more than the river
+    for (int64_t i = 0; i < water->count; i++) {
+        float run = 0.0f, half = water->radius[i];
+        for (int64_t k = i; drop[i] > 0.0f && water->parent[k] >= 0 && run < 6.0f * half;) {
+            int64_t below = water->parent[k];
+            Vec3 step = vec3_sub(water->position[k], water->position[below]);
+            run += sqrtf(step.x * step.x + step.z * step.z);
+            float bulge = smoothstepf(0.0f, 2.0f * half, run) *
+                          smoothstepf(6.0f * half, 2.5f * half, run);
+            float wide = half * (1.0f + widest * bulge);
+            water->radius[below] = wide > water->radius[below] ? wide : water->radius[below];
+            k = below;
+            if (drop[k] > 0.0f) {
+                break; // the next one has a pool of its own
+            }
+        }
+    }
 }

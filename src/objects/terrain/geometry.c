@@ -152,6 +152,9 @@ static void keep_land(HeightField *field, const TerrainParams *params, Part *fir
 {
     for (int64_t i = 0; i < height_field_count(field); i++) {
         field->height[i] += params->position.y;
+        if (field->water) {
+            field->water[i] += params->position.y;
+        }
     }
     field->origin.x += params->position.x;
     field->origin.y += params->position.z;

@@ -40,7 +40,8 @@ enum {
     STREAM_PLAIN = 82,
     STREAM_KARST = 83,
     STREAM_MEANDER = 84,
-    STREAM_SCROLLS = 85
+    STREAM_SCROLLS = 85,
+    STREAM_LIPS = 86
 };
 
 // The tree and everything derived from it.
@@ -199,6 +200,7 @@ typedef struct RiverFlow {
     float depth;     // m, and
     float speed;     // m/s, of a channel of this slope and the water's width
     float foam;      // 0..1: share of the surface that is white
+    bool at_fall;    // is it within a few steps of a lip?
 } RiverFlow;
 
 // m^3/s in a river of this half width, m.
@@ -208,6 +210,8 @@ RiverFlow terrain_flow_of(float discharge, float half, float slope);
 // The flow at each node; foam drifts on below rapids and falls. The caller frees the array.
 RiverFlow *terrain_find_flow(const TerrainParams *params, const OutTree *water, const float *drop,
                              Error *e);
+// Widens the river at the feet of falls, where the water has dug a pool.
+void terrain_widen_pools(OutTree *water, const float *drop);
 
 // falls.c: speed of a river's water where it leaves a lip, m/s.
 float terrain_lip_speed(float discharge, float half);
@@ -233,6 +237,10 @@ bool terrain_measure_falls(const Terrain *terrain, MeasureList *list, Error *e);
 // bed.c: lays the rivers that the grid resolves on the finished heights: fills terrain->water,
 // ->shore and ->bank and digs the beds.
 bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Error *e);
+
+// Fills field->water from the lake and the rivers, if there are any: the level of the water over the
+// land or beside it, the lake's everywhere.
+bool terrain_record_water(const Terrain *terrain, HeightField *field, const Run *run, Error *e);
 
 // The widest child of each node of terrain->water, -1 at the ends; the caller frees the array.
 int32_t *terrain_main_children(const OutTree *water, Error *e);

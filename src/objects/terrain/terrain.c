@@ -173,7 +173,8 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
     }
     uint64_t seed = random_key(terrain->seed, STREAM_TERRACES);
     return make_terraces(field, &params->terraces, seed, e) &&
-           (!form->finish || form->finish(terrain, field, run, e));
+           (!form->finish || form->finish(terrain, field, run, e)) &&
+           terrain_record_water(terrain, field, run, e);
 }
 
 HeightField *terrain_heights(const void *given, const Grown *grown, const Run *run, Error *e)

@@ -84,9 +84,11 @@ typedef struct Ribbons {
 } Ribbons;
 
 // A vertex `side` times half the width from the middle: at the river's level, but in cascades,
-// which the cells resolve poorly, always on the land. Outermost vertices, beyond 1, are below the
+// which the cells resolve poorly, always on the land; in pools, below the wall of a fall, under it.
+// Outermost vertices, beyond 1, are below the
 // shore.
-static Vec3 water_vertex(const Ribbons *r, Vec3 middle, Vec3 across, float half, float side)
+static Vec3 water_vertex(const Ribbons *r, Vec3 middle, Vec3 across, float half, float side,
+                         bool pool)
 {
     const float border = 0.5f * r->terrain->params->size;
     Vec3 p = vec3_madd(middle, side * half, across);
@@ -95,10 +97,12 @@ static Vec3 water_vertex(const Ribbons *r, Vec3 middle, Vec3 across, float half,
     float land = height_mesh_finest_at(r->field, p.x, p.z), film = terrain_bed_depth(half, half);
     if (fabsf(side) > 1.0f) {
         p.y = land - film;
+        p.y = pool && p.y > middle.y ? middle.y : p.y;
         return p;
     }
     float depth = terrain_bed_depth(half, fabsf(side) * half);
-    p.y = clampf(middle.y, land + 0.5f * film, land + depth + film);
+    float least = pool ? fminf(land + 0.5f * film, middle.y) : land + 0.5f * film;
+    p.y = clampf(middle.y, least, land + depth + film);
     return p;
 }
 
@@ -112,7 +116,7 @@ static Vec3 water_normal(Vec3 below, Vec3 above)
 
 // Adds one row of `columns` vertices across the river, which flows from `above` to `below`.
 static void add_row(Ribbons *r, Vec3 middle, Vec3 below, Vec3 above, float half, int columns,
-                    float foam)
+                    const RiverFlow *flow)
 {
     Vec3 across = vec3_normalize(vec3(above.z - below.z, 0.0f, below.x - above.x));
     Vec3 normal = water_normal(below, above);
@@ -120,12 +124,12 @@ static void add_row(Ribbons *r, Vec3 middle, Vec3 below, Vec3 above, float half,
     for (int i = 0; i < columns; i++) {
         float side = 2.0f * (float)(i - 1) / (float)(columns - 3) - 1.0f;
         side = i == 0 ? -under : i == columns - 1 ? under : side;
-        Vec3 p = water_vertex(r, middle, across, half, side);
+        Vec3 p = water_vertex(r, middle, across, half, side, flow->at_fall);
         int64_t v = r->vertices + i;
         r->mesh->position[v] = vec3_add(p, r->terrain->params->position);
         r->mesh->normal[v] = normal;
         r->mesh->uv[v] = (Vec2){r->mesh->position[v].x, r->mesh->position[v].z};
-        r->mesh->foam[v] = foam;
+        r->mesh->foam[v] = flow->foam;
     }
 }
 
@@ -164,8 +168,7 @@ static void add_stem(Ribbons *r, int32_t first)
             Vec3 to = water->position[above >= 0 ? above : here];
             // A brook enters a wider river with its own width.
             float half = below < 0 ? water->radius[first] : water->radius[here];
-            float foam = r->terrain->flow[here].foam;
-            add_row(r, water->position[here], from, to, half, columns, foam);
+            add_row(r, water->position[here], from, to, half, columns, &r->terrain->flow[here]);
             if (shows) {
                 add_faces(r, columns);
             }
