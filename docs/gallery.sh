@@ -219,6 +219,7 @@ movie frost-bubble-turn frost-bubble crop=438:246:21:24 --spin --turns 1 --grow 
     --samples 16 --set "objects.wood.shape.envelope=[$walls]"
 still coast coast
 still karst karst
+still meander meander
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
         panel terrain-noise --size 800x450 --set objects.noise.terrain.noise.iterations=$iterations
