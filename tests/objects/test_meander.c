@@ -1,6 +1,7 @@
 // Meandering rivers: growth of small waves against the closed form, cutoffs, sinuosity.
 #include "land/meander.h"
 #include "making_terrain.h"
+#include "objects/terrain/meander_trace.h"
 #include "testing.h"
 
 #include <math.h>
@@ -66,6 +67,150 @@ static void a_grown_river_winds_and_never_crosses_itself(void **state)
     }
 }
 
+// The curvature that the flow feels of a small sine follows it as a first-order lag: of amplitude
+// a / sqrt(a^2 + k^2) and behind by atan(k / a), a being the decay by the width.
+static void the_flow_feels_bends_late(void **state)
+{
+    (void)state;
+    const double decay = 0.75, wavelength = 11.0, k = 6.283185307179586 / wavelength;
+    Meander *m = meander_new(0.25, 4.0 * wavelength, 0.0, 1, NULL);
+    assert_non_null(m);
+    m->width = 1.0;
+    for (int64_t i = 0; i < m->count; i++) {
+        m->node[i].x = 1e-3 * sin(k * m->node[i].z);
+    }
+    double *bend = malloc((size_t)m->count * sizeof *bend), s = 0.0, c = 0.0;
+    assert_non_null(bend);
+    meander_bends(m, bend);
+    for (int64_t i = 0; i < m->count; i++) {
+        s += 2.0 * bend[i] * sin(k * m->node[i].z) / (double)m->count;
+        c += 2.0 * bend[i] * cos(k * m->node[i].z) / (double)m->count;
+    }
+    double curved = 1e-3 * k * k; // where x is greatest, on the left, is the outer bank
+    double lagged = curved * decay / sqrt(decay * decay + k * k);
+    assert_true(fabs(sqrt(s * s + c * c) - lagged) < 0.01 * curved);
+    assert_true(fabs(atan2(-c, s) - atan2(k, decay)) < 0.02);
+    free(bend);
+    meander_free(m);
+}
+
+// A river on its land, with the traces that the land is made of.
+typedef struct Traced {
+    Grown grown;
+    HeightField *field;
+    MeanderTrace trace;
+    const Meander *m;
+} Traced;
+
+static Traced trace_river(const TerrainParams *params)
+{
+    Traced t = {.field = NULL};
+    t.field = make_heights(params, 5, 0, NULL, &t.grown);
+    t.m = ((const Terrain *)t.grown.state)->meander;
+    assert_true(meander_trace_new(&t.trace, t.field, NULL));
+    assert_true(meander_trace_river(&t.trace, t.m, NULL));
+    return t;
+}
+
+static void free_traced(Traced *t)
+{
+    meander_trace_free(&t->trace);
+    height_field_free(t->field);
+    grown_clear(&t->grown);
+}
+
+// In bends the outer half of the bed is deeper, and the water's edge is farther from the middle.
+static void pools_lie_at_outer_banks(void **state)
+{
+    (void)state;
+    TerrainParams params = terrain_params_default();
+    params.form = TERRAIN_MEANDER;
+    params.size = 4096.0f;
+    params.resolution = 512;
+    params.meander.width = 100.0f;
+    params.meander.slope = 0.0f;
+    params.meander.age = 0.5f;
+    Traced t = trace_river(&params);
+    double depth[2] = {0.0, 0.0};
+    int64_t wet[2] = {0, 0}, all[2] = {0, 0};
+    for (int64_t i = 0; i < height_field_count(t.field); i++) {
+        float aside = t.trace.aside[i], bend = t.trace.bend[i];
+        if (fabsf(aside) < 0.95f && fabsf(bend) > 0.15f) {
+            int outer = aside * bend > 0.0f;
+            depth[outer] += fmax(-(double)t.field->height[i], 0.0);
+            wet[outer] += t.field->height[i] < 0.0f;
+            all[outer]++;
+        }
+    }
+    assert_true(all[0] > 500 && all[1] > 500);
+    print_message("depth %.2f m at outer banks, %.2f m at bars, water on %.0f and %.0f %%\n",
+                  depth[1] / (double)all[1], depth[0] / (double)all[0],
+                  100.0 * (double)wet[1] / (double)all[1], 100.0 * (double)wet[0] / (double)all[0]);
+    assert_true(depth[1] / (double)all[1] > 1.6 * depth[0] / (double)all[0]);
+    assert_true(wet[1] * all[0] > wet[0] * all[1]);
+    free_traced(&t);
+}
+
+typedef struct Lakes {
+    const HeightField *field;
+    uint8_t *seen;
+    int32_t *stack;
+} Lakes;
+
+// Samples of the water at sample i, all that it is joined with.
+static int64_t flood_lake(Lakes *l, int64_t i)
+{
+    int columns = l->field->columns;
+    int64_t count = 0, found = 1;
+    l->stack[0] = (int32_t)i;
+    l->seen[i] = 1;
+    while (count < found) {
+        int64_t at = l->stack[count++];
+        for (int k = 0; k < 9; k++) {
+            int64_t column = at % columns + k % 3 - 1, row = at / columns + k / 3 - 1;
+            int64_t next = row * columns + column;
+            if (column >= 0 && row >= 0 && column < columns && row < l->field->rows &&
+                !l->seen[next] && l->field->height[next] < 0.0f) {
+                l->seen[next] = 1;
+                l->stack[found++] = (int32_t)next;
+            }
+        }
+    }
+    return count;
+}
+
+// An oxbow's water is in one piece: only the river itself, where it comes back, cuts some in two.
+static void oxbows_do_not_break_into_beads(void **state)
+{
+    (void)state;
+    TerrainParams params = terrain_params_default();
+    params.form = TERRAIN_MEANDER;
+    params.size = 4096.0f;
+    params.resolution = 512;
+    params.meander.width = 60.0f;
+    params.meander.slope = 0.0f;
+    Traced t = trace_river(&params);
+    int64_t count = height_field_count(t.field), pieces = 0, beads = 0;
+    Lakes l = {
+        .field = t.field, .seen = calloc((size_t)count, 1), .stack = malloc((size_t)count * 4)};
+    assert_true(l.seen && l.stack);
+    for (int64_t i = 0; i < count; i++) {
+        if (!l.seen[i] && t.field->height[i] < 0.0f) {
+            int64_t samples = flood_lake(&l, i);
+            pieces++;
+            beads += samples < 56; // of a square as wide as the river
+        }
+    }
+    int64_t open = meander_open_oxbows(t.m);
+    print_message("%d oxbows, %d pieces of water, %d of them small\n", (int)open, (int)pieces,
+                  (int)beads);
+    assert_true(pieces >= 4 && pieces <= open + 1); // the river is one
+    assert_true(beads <= open / 4);
+    free(l.seen);
+    free(l.stack);
+    free_traced(&t);
+}
+
 static void threads_do_not_change_the_land(void **state)
 {
     (void)state;
@@ -115,6 +260,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_waves_grow_as_the_closed_form),
+        cmocka_unit_test(the_flow_feels_bends_late),
+        cmocka_unit_test(pools_lie_at_outer_banks),
+        cmocka_unit_test(oxbows_do_not_break_into_beads),
         cmocka_unit_test(a_finer_grid_shows_the_same_land),
         cmocka_unit_test(threads_do_not_change_the_land),
         cmocka_unit_test(a_grown_river_winds_and_never_crosses_itself),

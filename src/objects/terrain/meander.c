@@ -13,10 +13,11 @@
 
 static const double AGE = 75.0;    // time (Meander.time) of age 1
 static const float BARS = 2.5f;    // time in which a point bar grows half way to the floodplain
-static const float SCROLLS = 0.8f; // mean time from one scroll to the next
+static const float SCROLLS = 1.2f; // mean time from one scroll to the next
 static const float BANK = 0.045f;  // of the width: height of the banks above the water
 static const float DEPTH = 0.06f;  // of the width: mean depth of the middle of the bed, below banks
 static const float TOE = 0.011f;   // of the width: how far low water has fallen below the bed's rim
+static const float RAGGED = 0.05f; // how far the channel is wider or narrower here and there
 // Of the depth, by half widths and the curvature times the width: transverse slope of the bed, as
 // Ikeda, Parker and Sawai (1981) take it from data, 2.9 to 5 in other rivers.
 static const float SCOUR = 4.5f;
@@ -114,8 +115,11 @@ static Site site_at(const Plain *plain, int64_t i, float x, float z)
     float ground = left < 0.0f ? BANK * w : bar(plain, left);
     ground += 0.003f * w * rough * fresh;
     Site site = {fmaxf(ground, 0.002f * w), false};
-    if (fabsf(t->aside[i]) < 1.0f) {
-        float height = bed(plain, t->aside[i], t->bend[i]);
+    float ragged = 1.0f + RAGGED * sparse_noise_fractal(1.4f * x / w, 1.4f * z / w, 4, 0.6f, 0.0f,
+                                                        random_key(key, 1));
+    float aside = t->aside[i] * clampf(ragged, 0.75f, 1.25f);
+    if (fabsf(aside) < 1.0f) {
+        float height = bed(plain, aside, t->bend[i]);
         return (Site){height, height < 0.0f};
     }
     return t->old[i] < INFINITY ? oxbow(plain, i, site.height) : site;
