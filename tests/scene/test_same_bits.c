@@ -55,7 +55,7 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"snow_crystal: {cells: 20, noise: 0.1, life: [{at: 0.4, temperature: -6, supersaturation: "
          "0.1}, {at: 0.5, temperature: -15, supersaturation: 0.1}]}",
          0xf298471cb98de047},
-        {"frost_flower: {feathers: 8, barbs: 10}", 0xac0b32a1e6935dd9},
+        {"frost_flower: {feathers: 8, barbs: 10}", 0x83a50496024e9247},
         {"lightning: {height: 10, bolts: 2}", 0xbd6a57f0057ab6b6},
         {"lightning: {points: {place: surface}, envelope: [{shape: sphere, size: 1}]}",
          0xf74b02699ab982c4},
