@@ -152,6 +152,40 @@ static void fills_a_small_patch_of_a_surface(void **state)
     mesh_free(ball);
 }
 
+// A disc of 1/1400 of a slab of two triangles, on its diagonal: all copies are found, evenly spread
+// over the disc on both triangles. Faces of the slab's side stand in the disc's ball, but too far.
+static void fills_a_small_patch_of_a_wide_face(void **state)
+{
+    (void)state;
+    Vec3 corner[8] = {{-50, 0, -50}, {50, 0, -50}, {50, 0, 50}, {-50, 0, 50},
+                      {-50, -9, 50}, {50, -9, 50}, {50, 0, 50}, {-50, 0, 50}};
+    uint32_t index[12] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7};
+    Mesh slab = {
+        .face_size = 3, .vertex_count = 8, .face_count = 4, .index = index, .position = corner};
+    ShapeSurface surface = {.mesh = &slab};
+    Thing thing = {.share = 1.0f};
+    ScatteringParams scatter = of_things(&thing, 1);
+    scatter.count = 4000;
+    scatter.radius = 1.5f;
+    scatter.center = vec3(10.0f, 0.0f, 10.0f);
+    Run run = run_default();
+    Recipe recipe = {.seed = 3, .run = &run, .surface = &surface};
+    ScatterPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    assert_int_equal(places.count, scatter.count);
+    double one_side = 0.0, near = 0.0;
+    Vec3 mean = {0};
+    for (int64_t i = 0; i < places.count; i++) {
+        Vec3 p = vec3_sub(foot(&places.place[i]), scatter.center);
+        assert_true(vec3_length(p) < 1.5001f && p.y == 0.0f);
+        mean = vec3_madd(mean, 1.0f / 4000.0f, p);
+        one_side += p.x > p.z;
+        near += vec3_length(p) < 0.75f; // a quarter of the area
+    }
+    assert_true(fabs(one_side / 4000.0 - 0.5) < 0.03 && fabs(near / 4000.0 - 0.25) < 0.03);
+    assert_true(vec3_length(mean) < 0.05f);
+    scatter_places_free(&places);
+}
+
 // Mean number of neighbours within half a metre.
 static double crowd(const ScatterPlaces *places)
 {
@@ -366,6 +400,7 @@ int main(void)
         cmocka_unit_test(stops_where_there_is_no_room),
         cmocka_unit_test(keeps_to_slopes_and_shares),
         cmocka_unit_test(fills_a_small_patch_of_a_surface),
+        cmocka_unit_test(fills_a_small_patch_of_a_wide_face),
         cmocka_unit_test(clumps),
         cmocka_unit_test(keeps_to_its_side_of_the_shore),
         cmocka_unit_test(land_of_one_slope_meets_its_range_alone),

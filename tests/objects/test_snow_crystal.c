@@ -2,6 +2,8 @@
 // the surface.
 #include "testing.h"
 
+#include "base/random.h"
+#include "objects/kinds.h"
 #include "objects/snow_crystal/snow_crystal.h"
 
 static Snowfake grow(const SnowCrystalParams *params, uint64_t seed, int threads)
@@ -262,6 +264,201 @@ static void the_surface_is_closed_and_has_its_size(void **state)
     snowfake_clear(&fake);
 }
 
+// ---- columns ----
+
+static double volume(const Mesh *mesh)
+{
+    double six = 0.0;
+    for (int64_t i = 0; i < mesh->face_count; i++) {
+        const uint32_t *c = mesh->index + 3 * i;
+        Vec3 a = mesh->position[c[0]], b = mesh->position[c[1]], d = mesh->position[c[2]];
+        six += (double)a.x * ((double)b.y * (double)d.z - (double)b.z * (double)d.y) +
+               (double)a.y * ((double)b.z * (double)d.x - (double)b.x * (double)d.z) +
+               (double)a.z * ((double)b.x * (double)d.y - (double)b.y * (double)d.x);
+    }
+    return six / 6.0;
+}
+
+// Closed, without handles, each vertex joined to one fan of faces, and of positive volume.
+static Mesh *column_of(const SnowCrystalParams *params, uint64_t seed)
+{
+    Error e = {0};
+    SnowColumn column = snow_column(params);
+    Mesh *mesh = snow_column_mesh(params, &column, seed, &e);
+    assert_non_null(mesh);
+    MeshTopology topology;
+    assert_true(mesh_topology(mesh, &topology, &e));
+    assert_int_equal(topology.open_edges, 0);
+    assert_int_equal(topology.overused_edges, 0);
+    assert_int_equal(topology.misoriented_edges, 0);
+    assert_int_equal(topology.degenerate_faces, 0);
+    assert_int_equal(topology.component_count, 1);
+    assert_int_equal(topology.euler_number, 2);
+    uint8_t *closed = calloc(1 + (size_t)mesh->face_count, 1);
+    assert_true(mesh_closed_faces(mesh, closed, &e));
+    for (int64_t i = 0; i < mesh->face_count; i++) {
+        assert_int_equal(closed[i], 1);
+    }
+    free(closed);
+    return mesh;
+}
+
+// Without worn edges a solid column is the hexagonal prism of its length and width.
+static void a_solid_column_is_a_prism(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        SnowCrystalParams params = weather(k < 3 ? -4.5f - (float)k : -28.0f, 0.025f, 40);
+        params.relief = 0.0f;
+        SnowColumn column = snow_column(&params);
+        assert_true(column.hollow == 0.0f && column.length == params.size);
+        Mesh *mesh = column_of(&params, 4);
+        double width = (double)column.width, prism = 0.375 * sqrt(3.0) * width * width;
+        assert_true(fabs(volume(mesh) / (prism * (double)column.length) - 1.0) < 1e-5);
+        mesh_free(mesh);
+        params.relief = 1.0f; // worn edges take a little away
+        mesh = column_of(&params, 4);
+        double worn = volume(mesh) / (prism * (double)column.length);
+        assert_true(worn < 1.0 && worn > 0.97);
+        mesh_free(mesh);
+    }
+}
+
+// Funnels at both ends take the more away the more vapour there was.
+static void columns_are_hollow_in_much_vapour(void **state)
+{
+    (void)state;
+    double last = 2.0;
+    for (int k = 0; k < 6; k++) {
+        SnowCrystalParams params = weather(-7.0f, 0.03f + 0.02f * (float)k, 40);
+        params.gusts = 0.5f;
+        SnowColumn column = snow_column(&params);
+        Mesh *mesh = column_of(&params, 2);
+        double width = (double)column.width;
+        double left = volume(mesh) / (0.375 * sqrt(3.0) * width * width * (double)column.length);
+        print_message("%.2f g/m3: hollow %.2f, %.3f of the prism is left\n",
+                      (double)params.weather.supersaturation, (double)column.hollow, left);
+        assert_true(left < last && left > 0.4);
+        last = left;
+        mesh_free(mesh);
+    }
+}
+
+// Facets stand at 60 degrees to each other, however far each is from the axis.
+static void faces_keep_the_angles_of_ice(void **state)
+{
+    (void)state;
+    SnowCrystalParams params = weather(-6.0f, 0.08f, 40);
+    params.noise = 0.5f;
+    double even = 0.0;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        Mesh *mesh = column_of(&params, seed);
+        for (int64_t i = 0; i < mesh->face_count; i++) {
+            const uint32_t *c = mesh->index + 3 * i;
+            Vec3 n = vec3_cross(vec3_sub(mesh->position[c[1]], mesh->position[c[0]]),
+                                vec3_sub(mesh->position[c[2]], mesh->position[c[0]]));
+            if (fabsf(n.y) < 1e-4f * vec3_length(n)) { // a face along the axis
+                double sixth = atan2((double)n.z, (double)n.x) / (M_PI / 3.0) - 0.5;
+                assert_true(fabs(sixth - round(sixth)) < 2e-3);
+            }
+        }
+        Aabb box = mesh_bounds(mesh);
+        even += fabs((double)(box.high.x + box.low.x)) / (double)(box.high.x - box.low.x) / 20.0;
+        mesh_free(mesh);
+    }
+    assert_true(even > 0.01); // and they are not even
+}
+
+static float aspect_in(float temperature, float supersaturation)
+{
+    SnowCrystalParams params = weather(temperature, supersaturation, 40);
+    SnowColumn column = snow_column(&params);
+    assert_true(column.length > 0.0f && column.width <= column.length);
+    return column.length / column.width;
+}
+
+// Nakaya's diagram: short columns in little vapour, longer ones in more, needles at -6 degrees in
+// much; toward plates' temperatures they are ever shorter, below -22 ever longer.
+static void aspects_are_those_of_the_diagram(void **state)
+{
+    (void)state;
+    for (float temperature = -9.5f; temperature < -3.5f; temperature += 0.5f) {
+        for (float s = 0.01f; s < 0.14f; s += 0.01f) {
+            assert_true(aspect_in(temperature, s) < aspect_in(temperature, s + 0.01f));
+        }
+    }
+    for (float t = -10.0f; t < -6.1f; t += 0.5f) {
+        assert_true(aspect_in(t, 0.1f) < aspect_in(t + 0.5f, 0.1f));
+    }
+    for (float t = -6.0f; t < -3.6f; t += 0.5f) {
+        assert_true(aspect_in(t, 0.1f) > aspect_in(t + 0.5f, 0.1f));
+    }
+    for (float t = -39.0f; t < -22.0f; t += 1.0f) {
+        assert_true(aspect_in(t - 1.0f, 0.1f) > aspect_in(t, 0.1f));
+    }
+    assert_true(aspect_in(-6.0f, 0.15f) > 15.0f);  // needles
+    assert_true(aspect_in(-8.0f, 0.02f) < 2.0f);   // short columns
+    assert_true(aspect_in(-10.0f, 0.15f) < 1.01f); // neither column nor plate
+    for (int k = 0; k < 3; k++) { // log(length) over log(width) is the ratio of growth, from 1/300
+        SnowWeather air = {.temperature = -4.0f - 1.5f * (float)k, .supersaturation = 0.07f};
+        double closed = pow(300.0, 1.0 - 1.0 / (double)snow_growth_ratio(&air));
+        double aspect = (double)aspect_in(air.temperature, air.supersaturation);
+        assert_true(fabs(aspect / closed - 1.0) < 1e-3);
+    }
+    SnowCrystalParams flat = weather(-15.0f, 0.1f, 40);
+    assert_true(snow_column(&flat).length == 0.0f && snow_column_until(&flat) == 0.0f);
+}
+
+static Geometry build(const SnowCrystalParams *params)
+{
+    Error e = {0};
+    Run run = run_default();
+    Recipe recipe = {.seed = 5, .label = "object 'crystal'", .run = &run};
+    Geometry geometry = {0};
+    const int material[1] = {0};
+    Placing placing = {.recipe = &recipe, .geometry = &geometry, .material = material};
+    if (!kind_snow_crystal.geometry(params, NULL, &placing, &e)) {
+        fail_msg("%s", e.message);
+    }
+    return geometry;
+}
+
+// A column up to half the size, then two plates as wide as the size at its ends.
+static void plates_cap_columns(void **state)
+{
+    (void)state;
+    SnowWeather life[] = {{0.0f, -7.0f, 0.05f}, {0.5f, -9.9f, 0.05f}, {0.51f, -14.0f, 0.05f}};
+    SnowCrystalParams params = weather(-15.0f, 0.1f, 60);
+    params.life = life;
+    params.life_count = 3;
+    SnowColumn column = snow_column(&params);
+    assert_true(fabsf(column.until - 0.5f) < 0.005f);
+    assert_true(fabsf(column.length - 0.5f * params.size) < 0.01f * params.size);
+    Geometry geometry = build(&params);
+    assert_int_equal(geometry.count, 3);
+    Error e = {0};
+    float middle[3];
+    for (int p = 0; p < 3; p++) {
+        MeshTopology topology;
+        assert_true(mesh_topology(geometry.part[p].mesh, &topology, &e));
+        assert_int_equal(topology.open_edges + topology.overused_edges, 0);
+        Aabb box = mesh_bounds(geometry.part[p].mesh);
+        float width = box.high.x - box.low.x;
+        float wanted = p == 0 ? column.width : params.size;
+        assert_true(fabsf(width - wanted) < 0.04f * params.size);
+        middle[p] = 0.5f * (box.low.y + box.high.y);
+    }
+    assert_true(fabsf(middle[0]) < 1e-9f);
+    assert_true(fabsf(middle[1] - 0.5f * column.length) < 1e-8f);
+    assert_true(fabsf(middle[2] + 0.5f * column.length) < 1e-8f);
+    geometry_clear(&geometry);
+
+    params.life_count = 1; // weather of columns to the end: nothing caps it
+    geometry = build(&params);
+    assert_int_equal(geometry.count, 1);
+    geometry_clear(&geometry);
+}
+
 static void dry_air_is_an_error(void **state)
 {
     (void)state;
@@ -298,6 +495,11 @@ int main(void)
         cmocka_unit_test(habits_are_those_of_the_diagram),
         cmocka_unit_test(threads_do_not_matter),
         cmocka_unit_test(the_surface_is_closed_and_has_its_size),
+        cmocka_unit_test(a_solid_column_is_a_prism),
+        cmocka_unit_test(columns_are_hollow_in_much_vapour),
+        cmocka_unit_test(faces_keep_the_angles_of_ice),
+        cmocka_unit_test(aspects_are_those_of_the_diagram),
+        cmocka_unit_test(plates_cap_columns),
         cmocka_unit_test(dry_air_is_an_error),
         cmocka_unit_test(a_cancelled_growth_stops),
     };

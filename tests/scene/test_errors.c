@@ -45,6 +45,11 @@ static const Case scenes[] = {
      "aperture, focus_distance, shift"},
     {"objects: [{name: oak, tree: {leaves: {shape: palmate, lobes: 17}}}]\n",
      ":1:62: objects.oak.tree.leaves.lobes is 17; a palmate leaf has at most 15 lobes"},
+    {"objects: [{name: a, snow_crystal: {life: [{at: 0.1, temperature: -15, supersaturation: 0.1}, "
+     "{at: 1, temperature: -6, supersaturation: 0.1}]}}]\n",
+     ":1:42: objects.a.snow_crystal.life comes from -10 degrees, where crystals are flat, to -9.99, "
+     "where they are columns; columns on plates are not made, only plates on columns: let columns "
+     "come first"},
     {"objects: [{name: oak, tree: {leaves: {max_cuont: 5}}}]\n",
      ":1:39: unknown key 'max_cuont' in objects.oak.tree.leaves; did you mean 'max_count'?"},
     {"objects: [{name: oak, tree: {transform: 5}}]\n",

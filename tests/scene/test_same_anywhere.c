@@ -361,6 +361,10 @@ static const struct {
     {"snow_crystal: {position: @p(1 0 0.5), rotation: [0, @a(20), 0], size: @l(0.5), thickness: "
      "@l(0.01), cells: 30}",
      ALL},
+    {"snow_crystal: {position: @p(1 0 0.5), rotation: [0, @a(20), 0], size: @l(0.5), thickness: "
+     "@l(0.01), cells: 20, life: [{at: 0.4, temperature: -6, supersaturation: 0.1}, {at: 0.5, "
+     "temperature: -15, supersaturation: 0.1}]}",
+     ALL},
     {"frost_flower: {position: @p(1 0 0.5), rotation: [0, @a(20), 0], size: @l(0.5), feathers: 8, "
      "barbs: 8}",
      ALL},

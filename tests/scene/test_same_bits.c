@@ -52,7 +52,10 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
          0x93cdeb3e350b295a},
         {"sea: {spokes: 64, extent: 500, time: 3}", 0x19ee0aedc494f2a5},
         {"snow_crystal: {cells: 40, noise: 0.01}", 0x484e898b0f3f885c},
-        {"frost_flower: {feathers: 8, barbs: 10}", 0x1},
+        {"snow_crystal: {cells: 20, noise: 0.1, life: [{at: 0.4, temperature: -6, supersaturation: "
+         "0.1}, {at: 0.5, temperature: -15, supersaturation: 0.1}]}",
+         0xf298471cb98de047},
+        {"frost_flower: {feathers: 8, barbs: 10}", 0x83a50496024e9247},
         {"lightning: {height: 10, bolts: 2}", 0xbd6a57f0057ab6b6},
         {"lightning: {points: {place: surface}, envelope: [{shape: sphere, size: 1}]}",
          0xf74b02699ab982c4},

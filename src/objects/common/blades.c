@@ -111,12 +111,13 @@ static void add_blade(BladeMesh *b, const int32_t *node, int64_t count)
     }
 }
 
-// Is the chain white? Otherwise it is clear, as all spines are.
+// Is the chain white? Otherwise it is clear.
 static bool is_white(const OutTree *tree, const BladeParams *params, const ChainSet *chains,
                      int64_t chain)
 {
     uint64_t id = tree->id[chains->node[chains->first[chain + 1] - 1]];
-    return chains->order[chain] > 0 && random_unit(random_key(id, STREAM_WHITE)) < params->white;
+    float share = chains->order[chain] > 0 ? params->white : params->white_spines;
+    return random_unit(random_key(id, STREAM_WHITE)) < share;
 }
 
 static Mesh *blade_mesh(const OutTree *tree, const BladeParams *params, const ChainSet *chains,

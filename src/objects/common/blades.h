@@ -7,8 +7,9 @@
 #include "outtree/out_tree.h"
 
 typedef struct BladeParams {
-    float relief; // height of the rib over the half-width
-    float white;  // 0..1: share of the side chains that are white; the others are clear
+    float relief;       // height of the rib over the half-width
+    float white;        // 0..1: share of the side chains that are white; the others are clear
+    float white_spines; // the same of the chains that start at a root
 } BladeParams;
 
 // Adds the blades as two triangle meshes, clear and white: closed pieces that overlap where a side

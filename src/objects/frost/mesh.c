@@ -98,7 +98,7 @@ bool frost_geometry(const void *given, const Grown *grown, const Placing *placin
     enum { VARIANTS = 6 };
     const FrostParams *params = given;
     const OutTree *tree = grown->tree;
-    const BladeParams blades = {params->relief, params->rime};
+    const BladeParams blades = {.relief = params->relief, .white = params->rime};
     bool done = blades_add(tree, &blades, placing, (const int[2]){FROST_ICE, FROST_RIME}, e);
     float size = 0.0f; // as wide as the finest blades
     for (int64_t i = 0; i < tree->count; i++) {

@@ -105,14 +105,14 @@ static bool grow_side(Flower *flower, const Shoot *from, const Plan *bearer, flo
         most = most < next ? most : next;
     }
     // both sides met the same air
-    float length = most * random_range(random_key(both, STREAM_REACH), 0.72f, 1.0f) *
+    float length = most * random_range(random_key(both, STREAM_REACH), 0.55f, 1.0f) *
                    random_range(random_key(key, STREAM_REACH), 0.85f, 1.05f);
     if (length < 0.4f * flower->spacing[bearer->order] ||
         random_unit(random_key(key, STREAM_SKIP)) < params->skip) {
         return true;
     }
     Shoot shoot = *from;
-    float noise = 1.5f * random_normal(random_key(key, STREAM_ANGLE));
+    float noise = 2.0f * random_normal(random_key(key, STREAM_ANGLE));
     turn(&shoot.heading, shoot.normal, sign * (params->angle + noise) * RADIANS_PER_DEGREE);
     if (bearer->cup != 0.0f) { // the plane folds along the rib
         turn(&shoot.heading, from->heading, sign * bearer->cup);
@@ -238,7 +238,7 @@ bool frost_flower_finish(const void *given, const Recipe *recipe, const Grown *w
 bool frost_flower_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
     const FrostFlowerParams *params = given;
-    const BladeParams blades = {params->relief, params->rime};
+    const BladeParams blades = {params->relief, params->rime, params->rime};
     return blades_add(grown->tree, &blades, placing,
                       (const int[2]){FROST_FLOWER_ICE, FROST_FLOWER_RIME}, e);
 }

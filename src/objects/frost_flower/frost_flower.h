@@ -24,7 +24,7 @@ typedef struct FrostFlowerParams {
     float skip;          // 0..1: probability that a side does not grow
     float width_share;   // half-width of the finest blades, in distances between the finest sides
     float relief;        // height of a blade's rib over its half-width
-    float rime;          // 0..1: share of the sides that are white; the others are clear
+    float rime;          // 0..1: share of the blades that are white; the others are clear
 } FrostFlowerParams;
 
 enum { FROST_FLOWER_ICE, FROST_FLOWER_RIME }; // roles of materials

@@ -51,7 +51,7 @@ static const Key FLOWER_KEYS[] = {
     {KEY_OF(FrostFlowerParams, relief, "relief", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
      .doc = "Height of a blade's rib, relative to its half-width."},
     {KEY_OF(FrostFlowerParams, rime, "rime", KEY_FLOAT), .high = 1,
-     .doc = "Share of the sides that are white with enclosed air instead of clear."},
+     .doc = "Share of the blades that are white with enclosed air instead of clear."},
     {0},
 };
 
