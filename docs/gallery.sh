@@ -17,9 +17,17 @@ is_wanted() { [ "$wanted" = "  " ] || case $wanted in *" $1 "*) ;; *) false ;; e
 # is_done NAME SCENE: an earlier run without names has made the still from the scene as it is.
 is_done() { [ "$wanted" = "  " ] && [ -n "$(find "$work" -name "$1.done" -newer "scenes/$2.yaml")" ]; }
 
+# lacks NAME SCENE: the scene needs a file that is not ramify's, named in its line "# survey: FILE", and it is not there.
+lacks() {
+    survey=$(sed -n 's/^# survey: //p' "scenes/$2.yaml")
+    [ -n "$survey" ] && [ ! -e "scenes/$survey" ] || return 1
+    echo "$1: skipped, for scenes/$survey is missing: scenes/$2.yaml tells where to get it"
+}
+
 # still NAME SCENE [OPTION...]: renders SCENE to renders/NAME.jpg.
 still() {
     is_wanted "$1" || return 0
+    ! lacks "$1" "$2" || return 0
     ! is_done "$1" "$2" || return 0
     name=$1 scene=$2 began=$(date +%s)
     shift 2
@@ -155,6 +163,7 @@ still cherry-blossom cherry-blossom
 still beech-wood beech-wood --samples 20
 still birch-grove birch-grove
 still spruce-snow spruce-snow
+still forest-fog forest-fog
 still hoar-birch hoar-birch
 still lsystem-fern lsystem-fern
 still figure-19 lsystem-tree --size 1600x900
@@ -204,6 +213,7 @@ still mountains mountains
 still badlands badlands
 still canyon canyon
 still alps alps
+still alpine-valley alpine-valley
 still volcano volcano
 still hills hills
 still braided braided
