@@ -58,9 +58,17 @@ tell() {
 }
 began=$(date +%s)
 
+# lacks NAME SCENE: the scene needs a file that is not ramify's, named in its line "# survey: FILE", and it is not there.
+lacks() {
+    survey=$(sed -n 's/^# survey: //p' "scenes/$2.yaml")
+    [ -n "$survey" ] && [ ! -e "scenes/$survey" ] || return 1
+    echo "$1: skipped, for scenes/$survey is missing: scenes/$2.yaml tells where to get it"
+}
+
 # still NAME SCENE [OPTION...]: renders SCENE to renders/NAME.jpg.
 still() {
     is_wanted "$1" || return 0
+    ! lacks "$1" "$2" || return 0
     if [ -n "$estimates" ]; then
         name=$1
         shift
@@ -243,6 +251,7 @@ still cherry-blossom cherry-blossom
 still beech-wood beech-wood --samples 20
 still birch-grove birch-grove
 still spruce-snow spruce-snow
+still forest-fog forest-fog
 still hoar-birch hoar-birch
 still lsystem-fern lsystem-fern
 still figure-19 lsystem-tree --size 1600x900
@@ -293,6 +302,7 @@ still mountains mountains
 still badlands badlands
 still canyon canyon
 still alps alps
+still alpine-valley alpine-valley
 still volcano volcano
 still hills hills
 still braided braided
