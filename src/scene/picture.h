@@ -35,9 +35,9 @@ Image *picture_compressed(const Scene *scene, const Film *film, Image **excess, 
 // The noise of the developed picture before denoising, as a share of white: the standard error of
 // its display values (0 = black, 1 = white), mean over the three channels and all pixels of the
 // crop with at least two samples; NAN if there are none. A pixel's error is that of its radiance,
-// sqrt(film->variance), as exposure, white balance, vignette and view show it. It is that of
-// independent samples, hence an upper bound for those of the sampler; bloom, which blurs it, is
-// left out.
+// sqrt(film->variance), as exposure, white balance, vignette and view show it, without bloom. It is
+// that of independent samples: those of the sampler spread less, except where few samples have met
+// what is bright and rare, whose variance is not known yet.
 bool picture_noise(const Scene *scene, const Film *film, double *noise, Error *e);
 
 // Display values of a film, as from tone_map; free them. denoise: denoise first, unless a pixel of
