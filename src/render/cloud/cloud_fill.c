@@ -89,8 +89,8 @@ static void add_patches(CloudGrid *g, const Cloud *cloud, const Run *run)
                 float soft = (float)column[y].softness / SOFTEST;
                 soft = puffs_worn(soft, most * cloud->softness * wisp);
                 float inside = (float)column[y].distance * g->voxel / DISTANCE_STEPS;
-                column[y] = (CloudNode){in_steps(g, inside + soft * g->rough.spread),
-                                        in_softness(soft)};
+                column[y] =
+                    (CloudNode){in_steps(g, inside + soft * g->rough.spread), in_softness(soft)};
             }
         }
     }

@@ -39,24 +39,22 @@ static void lay_out(CloudGrid *g, const Cloud *cloud, float margin)
 static Roughness roughness_of(const Cloud *cloud)
 {
     float size = cloud->kind == CLOUD_STORM ? 0.5f * cloud->size : cloud->size;
+    float torn = fminf(2.0f * cloud->softness, 1.0f);
     Roughness r = {.period = {0.62f * size, 0.097f * size},
                    .billow = {0.05f * size, 0.011f * size},
-                   .wisp = {0.1f * size, 0.05f * size},
-                   .edge = {0.008f * size, 0.09f * size},
-                   .spread = 0.022f * size,
+                   .wisp = {lerpf(0.07f, 0.09f, torn) * size, lerpf(0.03f, 0.04f, torn) * size},
+                   .edge = {0.008f * size, lerpf(0.11f, 0.09f, torn) * size},
+                   .spread = 0.022f * torn * size,
                    .base = 0.02f * size};
     if (cloud->kind == CLOUD_STRATUS) {
         r.billow[0] = 0.02f * size;
-        r.wisp[0] = r.wisp[1] = 0.03f * size;
+        r.wisp[0] = 0.03f * size;
         r.edge[0] = 0.04f * size;
-        r.edge[1] = 0.11f * size;
     }
     if (cloud->kind == CLOUD_FOG) { // lies calm below the inversion
         r.billow[0] = 0.03f * size;
         r.wisp[0] = 0.05f * size;
-        r.wisp[1] = 0.03f * size;
         r.edge[0] = 0.02f * size;
-        r.edge[1] = 0.11f * size;
         r.base = 0.0f;
     }
     return r;
