@@ -78,8 +78,8 @@ int terrain_fall_path(const FallPath *path, Vec3 start, Vec3 velocity, Vec3 *pla
 enum {
     ROWS = 40,   // of a strand
     STEPS = 160, // of its path
-    ACROSS = 72, // strands of a layer
-    LAYERS = 4,
+    ACROSS = 90, // strands of a layer
+    LAYERS = 5,
     STRANDS = ACROSS * LAYERS
 };
 enum { NUMBER_SIDE, NUMBER_SPEED, NUMBER_DRIFT, NUMBER_LIFT, NUMBER_WIDTH, NUMBER_START, NUMBERS };
@@ -152,8 +152,9 @@ static float strand_half(const FallMesher *f, int strand, float share)
 {
     float spacing = 2.0f * f->half / ACROSS;
     float from = strand < ACROSS ? 0.0f : 0.75f * number_of(f, strand, NUMBER_START);
-    float torn = lerpf(1.3f, lerpf(0.25f, 0.9f, f->cover), smoothstepf(0.0f, 0.5f, share));
-    float own = lerpf(0.3f, 1.6f, number_of(f, strand, NUMBER_WIDTH));
+    float torn = lerpf(1.8f, lerpf(0.3f, 1.5f, f->cover), smoothstepf(0.0f, 0.6f, share));
+    float wide = number_of(f, strand, NUMBER_WIDTH);
+    float own = lerpf(0.25f, 1.9f, wide * wide);
     own *= tongue(f, strand_side(f, strand));
     float grown = smoothstepf(from, from + 0.12f, share + (strand < ACROSS ? 0.12f : 0.0f));
     return 0.5f * spacing * torn * own * grown; // at most about 1.5 spacings
@@ -220,7 +221,7 @@ static Mesh *fall_mesh(FallMesher *f, const int32_t *main, Error *e)
     f->speed = fmaxf(terrain_lip_speed(flow->discharge, f->half), flow->speed);
     float height = water->position[f->lip].y - f->level;
     float thick = flow->discharge / (2.0f * f->half * sqrtf(2.0f * GRAVITY * height));
-    f->cover = thick / (thick + 0.03f); // sheets of a few centimetres are torn
+    f->cover = thick / (thick + 0.01f); // sheets of a centimetre are torn
     f->vertices = f->faces = 0;
     f->mesh = mesh_new(4, (int64_t)STRANDS * ROWS * 3, (int64_t)STRANDS * (ROWS - 1) * 2,
                        MESH_NORMAL | MESH_UV | MESH_FOAM, e);

@@ -1,6 +1,7 @@
 #include "objects/terrain/terrain.h"
 
 #include "base/memory.h"
+#include "base/noise.h"
 #include "base/random.h"
 #include "objects/terrain/form.h"
 
@@ -121,18 +122,26 @@ static float *find_rises(const HeightField *field, Error *e)
     return rise;
 }
 
-// The share of a bed's height below which 0 and above which 1 is left by a cliff, which is as wide
-// as a sample of this rise, relative to the bed's height, needs.
-static float cliff_of(float share, float rise, float sheer)
+// The share of a bed's height that is left at a place where the land would have this share: a slope,
+// or as far as it is sheer a wall in three tiers, ragged along its length. rise: over a cell, of the
+// land, relative to the bed's height; at: the place, in cells.
+static float cliff_of(float share, float rise, float sheer, Vec2 at, uint64_t seed)
 {
+    enum { TIERS = 3 };
+    const float ledge = 1.4f, ragged = 5.0f, wavelength = 14.0f; // cells
     float slope = share * share * share * (share * (6.0f * share - 15.0f) + 10.0f);
     slope = smoothstepf(0.0f, 1.0f, slope);
     if (sheer <= 0.0f) {
         return slope;
     }
-    float half = rise < 0.5f ? rise : 0.5f;
-    half = half > 1e-4f ? half : 1e-4f;
-    return lerpf(slope, smoothstepf(0.5f - half, 0.5f + half, share), sheer);
+    float half = clampf(rise, 1e-4f, 0.5f), wall = 0.0f;
+    for (int tier = 0; tier < TIERS; tier++) {
+        float own = noise_plane_fractal(at.x / wavelength, at.y / wavelength, 4,
+                                        random_key(seed, (uint64_t)tier / 2));
+        float moved = rise * (ragged * own + ledge * (float)(tier - 1));
+        wall += smoothstepf(0.5f - half, 0.5f + half, share + moved) / TIERS;
+    }
+    return lerpf(slope, wall, sheer);
 }
 
 // Makes hard beds stand out as steps: flat at first, then steep. Heights stay monotonic, so
@@ -155,7 +164,8 @@ static bool make_terraces(HeightField *field, const TerrainTerraceParams *terrac
         int number = (int)t;
         float share = t - (float)number;
         float hard = random_range(random_key(seed, (uint64_t)number), 0.4f, 1.0f);
-        float cliff = cliff_of(share, rise ? rise[i] / bed : 0.0f, terraces->sheer);
+        Vec2 at = {(float)(i % field->columns), (float)(i / field->columns)};
+        float cliff = cliff_of(share, rise ? rise[i] / bed : 0.0f, terraces->sheer, at, seed);
         share = lerpf(share, cliff, 0.92f * hard * terraces->strength);
         field->height[i] = low + bed * ((float)number + share);
     }
