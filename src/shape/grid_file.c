@@ -27,6 +27,12 @@ bool grid_file_add_vectors(GridFile *grids, const char *name, Aabb bounds, float
     return grids->vdb->add_vectors(grids, name, bounds, voxel, vectors, context, run, e);
 }
 
+bool grid_file_add_density(GridFile *grids, const char *name, Aabb bounds, float voxel,
+                           GridDensity density, const void *context, Error *e)
+{
+    return grids->vdb->add_density(grids, name, bounds, voxel, density, context, e);
+}
+
 bool grid_file_move(GridFile *grids, int64_t first, const Transform *motion, Error *e)
 {
     return grids->vdb->move(grids, first, motion, e);

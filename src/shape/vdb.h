@@ -5,6 +5,7 @@
 
 #include "shape/grid_file.h"
 #include "shape/level_set.h"
+#include "shape/sparse_volume.h"
 #include "shape/volume.h"
 
 #include <stddef.h>
@@ -45,6 +46,8 @@ typedef struct VdbGridFiles {
     int64_t (*count)(const GridFile *grids);
     bool (*add_vectors)(GridFile *grids, const char *name, Aabb bounds, float voxel,
                         GridVectors vectors, const void *context, const Run *run, Error *e);
+    bool (*add_density)(GridFile *grids, const char *name, Aabb bounds, float voxel,
+                        GridDensity density, const void *context, Error *e);
     bool (*move)(GridFile *grids, int64_t first, const Transform *motion, Error *e);
     bool (*write)(const GridFile *grids, const char *file, Error *e);
 } VdbGridFiles;
@@ -54,7 +57,7 @@ struct GridFile {
     const VdbGridFiles *vdb;
 };
 
-// Both run in a child process (base/child.h), because files are untrusted; the table is fetched
+// All run in a child process (base/child.h), because files are untrusted; the table is fetched
 // before the fork.
 typedef struct VdbReaders {
     size_t size; // of this struct
@@ -64,6 +67,9 @@ typedef struct VdbReaders {
     // The voxels of the grid with this name (NULL = the first of scalars or vectors), as a dense
     // array of at most VOLUME_MOST samples along each axis.
     Volume *(*volume)(const char *file, const char *name, Error *e);
+    // See sparse_volume_read and sparse_volume_estimate; values are as in the file.
+    SparseVolume *(*sparse)(const char *file, const char *name, Error *e);
+    int64_t (*sparse_bytes)(const char *file, const char *name, Error *e);
 } VdbReaders;
 
 #endif

@@ -158,6 +158,34 @@ bool add_vectors(GridFile *grids, const char *name, Aabb bounds, float voxel, Gr
     });
 }
 
+bool add_density(GridFile *grids, const char *name, Aabb bounds, float voxel, GridDensity density,
+                 const void *context, Error *e)
+{
+    return guarded(e, [&] {
+        auto grid = openvdb::FloatGrid::create();
+        auto transform = openvdb::math::Transform::createLinearTransform(voxel);
+        transform->postTranslate(openvdb::Vec3d(bounds.low.x, bounds.low.y, bounds.low.z));
+        grid->setTransform(transform);
+        grid->setName(name);
+        grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+        Vec3 size = vec3_scale(vec3_sub(bounds.high, bounds.low), 1.0f / voxel);
+        auto accessor = grid->getAccessor();
+        for (int x = 0; x <= static_cast<int>(size.x); x++) {
+            for (int y = 0; y <= static_cast<int>(size.y); y++) {
+                for (int z = 0; z <= static_cast<int>(size.z); z++) {
+                    Vec3 p = vec3_madd(bounds.low, voxel, vec3(float(x), float(y), float(z)));
+                    float value = density(context, p);
+                    if (value > 0.0f) {
+                        accessor.setValueOn(Coord(x, y, z), value);
+                    }
+                }
+            }
+        }
+        own(grids).grids.push_back(grid);
+        return true;
+    });
+}
+
 bool move_grids(GridFile *grids, int64_t first, const Transform *motion, Error *e)
 {
     return guarded(e, [&] {
@@ -198,5 +226,6 @@ bool write_grids(const GridFile *grids, const char *file, Error *e)
 
 } // namespace
 
-extern "C" const VdbGridFiles vdb_grid_files = {
-    sizeof(VdbGridFiles), make, free_grids, count_grids, add_vectors, move_grids, write_grids};
+extern "C" const VdbGridFiles vdb_grid_files = {sizeof(VdbGridFiles), make,        free_grids,
+                                                count_grids,          add_vectors, add_density,
+                                                move_grids,           write_grids};

@@ -234,7 +234,191 @@ Volume *volume_of(const char *file, const char *name, Error *e)
     return volume;
 }
 
+// ---- sparse volumes ----
+
+// Blocks and what is in them, before there is a SparseVolume.
+struct Sparse {
+    Coord first;
+    int blocks[3];
+    std::vector<int32_t> block;
+    std::vector<float> value;
+
+    int32_t add(const float *values)
+    {
+        value.insert(value.end(), values, values + SPARSE_SAMPLES);
+        return static_cast<int32_t>(value.size() / SPARSE_SAMPLES) - 1;
+    }
+
+    void place(const Coord &origin, int32_t number)
+    {
+        int at[3];
+        for (int i = 0; i < 3; i++) {
+            at[i] = (origin[i] - first[i]) / SPARSE_SIDE;
+            if (origin[i] < first[i] || at[i] >= blocks[i]) {
+                return;
+            }
+        }
+        block[(size_t(at[2]) * size_t(blocks[1]) + size_t(at[1])) * size_t(blocks[0]) +
+              size_t(at[0])] = number;
+    }
+};
+
+// Density of a value: of a level set, what lies inside rises to 1 across its band.
+float density_of(float value, float band)
+{
+    return band > 0.0f ? std::min(std::max(-value / band, 0.0f), 1.0f) : value;
+}
+
+void add_leaves(const FloatGrid &grid, float band, Sparse &sparse)
+{
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+        float values[SPARSE_SAMPLES];
+        bool any = false;
+        for (openvdb::Index i = 0; i < SPARSE_SAMPLES; i++) {
+            values[i] = density_of(leaf->getValue(i), band);
+            any = any || values[i] != 0.0f;
+        }
+        if (any) {
+            sparse.place(leaf->origin(), sparse.add(values));
+        }
+    }
+}
+
+// Larger boxes of one value: their blocks share one block's values.
+void add_tiles(const FloatGrid &grid, float band, Sparse &sparse)
+{
+    auto tile = grid.tree().cbeginValueAll();
+    tile.setMaxDepth(FloatGrid::TreeType::ValueAllCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) {
+        float value = density_of(*tile, band);
+        if (!tile.isTileValue() || value == 0.0f || (band <= 0.0f && !tile.isValueOn())) {
+            continue;
+        }
+        CoordBBox box = tile.getBoundingBox();
+        Coord last = sparse.first.offsetBy(sparse.blocks[0] * SPARSE_SIDE - 1,
+                                           sparse.blocks[1] * SPARSE_SIDE - 1,
+                                           sparse.blocks[2] * SPARSE_SIDE - 1);
+        box.intersect(CoordBBox(sparse.first, last));
+        if (box.empty()) {
+            continue;
+        }
+        float values[SPARSE_SAMPLES];
+        std::fill(values, values + SPARSE_SAMPLES, value);
+        int32_t number = sparse.add(values);
+        for (int x = box.min().x(); x <= box.max().x(); x += SPARSE_SIDE) {
+            for (int y = box.min().y(); y <= box.max().y(); y += SPARSE_SIDE) {
+                for (int z = box.min().z(); z <= box.max().z(); z += SPARSE_SIDE) {
+                    sparse.place(Coord(x, y, z), number);
+                }
+            }
+        }
+    }
+}
+
+bool frame(const FloatGrid &grid, const CoordBBox &box, Sparse &sparse, Error *e)
+{
+    if (box.empty()) {
+        return error_set(e, ERROR_INPUT,
+                         "its grid '%s' is empty; a grid with active voxels is needed",
+                         grid.getName().c_str());
+    }
+    int64_t all = 1;
+    for (int i = 0; i < 3; i++) {
+        int low = box.min()[i] & ~(SPARSE_SIDE - 1); // also of negative numbers
+        int64_t count = (int64_t(box.max()[i]) - low) / SPARSE_SIDE + 1;
+        if (count > SPARSE_MOST) {
+            return error_set(e, ERROR_INPUT,
+                             "its grid '%s' is %lld voxels long; at most %d are possible, so "
+                             "resample the grid",
+                             grid.getName().c_str(), (long long)count * SPARSE_SIDE,
+                             SPARSE_MOST * SPARSE_SIDE);
+        }
+        sparse.first[i] = low;
+        sparse.blocks[i] = static_cast<int>(count);
+        all *= count;
+    }
+    if (all > SPARSE_MOST_ALL) {
+        return error_set(e, ERROR_INPUT,
+                         "its grid '%s' spans %lld blocks of 8^3 voxels; at most %d are possible, "
+                         "so resample the grid",
+                         grid.getName().c_str(), (long long)all, SPARSE_MOST_ALL);
+    }
+    double bytes = double(all) * sizeof(int32_t) +
+                   2.0 * double(grid.tree().leafCount()) * SPARSE_SAMPLES * sizeof(float);
+    return memory_check(bytes, e, "its grid '%s'", grid.getName().c_str());
+}
+
+SparseVolume *sparse_from(const FloatGrid &grid, Error *e)
+{
+    Sparse sparse;
+    if (!frame(grid, grid.evalActiveVoxelBoundingBox(), sparse, e)) {
+        return nullptr;
+    }
+    bool level_set = grid.getGridClass() == openvdb::GRID_LEVEL_SET;
+    float band = level_set ? std::max(grid.background(), 1e-30f) : 0.0f;
+    sparse.block.assign(
+        size_t(sparse.blocks[0]) * size_t(sparse.blocks[1]) * size_t(sparse.blocks[2]), -1);
+    add_leaves(grid, band, sparse);
+    add_tiles(grid, band, sparse);
+    auto kept = static_cast<int32_t>(sparse.value.size() / SPARSE_SAMPLES);
+    SparseVolume *volume = sparse_volume_new(sparse.blocks, kept, e);
+    Volume frame = {};
+    if (volume && !set_map(grid.transform(), sparse.first, 1, &frame)) {
+        error_set(e, ERROR_INPUT, "its grid '%s' has a map that is not linear; resample the grid",
+                  grid.getName().c_str());
+        sparse_volume_free(volume);
+        return nullptr;
+    }
+    if (volume) {
+        volume->to_index = frame.to_index;
+        std::copy(sparse.block.begin(), sparse.block.end(), volume->block);
+        std::copy(sparse.value.begin(), sparse.value.end(), volume->value);
+    }
+    return volume;
+}
+
+SparseVolume *sparse_of(const char *file, const char *name, Error *e)
+{
+    SparseVolume *volume = nullptr;
+    guarded(e, [&] {
+        auto base = find_grid(file, name, true, e);
+        volume = base ? sparse_from(*openvdb::gridPtrCast<FloatGrid>(base), e) : nullptr;
+        return volume != nullptr;
+    });
+    return volume;
+}
+
+// Active voxels lie in about half as many again blocks as they would fill.
+int64_t sparse_bytes_of(const char *file, const char *name, Error *e)
+{
+    int64_t bytes = 0;
+    guarded(e, [&] {
+        openvdb::initialize();
+        openvdb::io::File input(file);
+        input.open(false);
+        for (auto at = input.beginName(); at != input.endName() && bytes == 0; ++at) {
+            auto grid = input.readGridMetadata(at.gridName());
+            if (!grid->isType<FloatGrid>() || (name && at.gridName() != name)) {
+                continue;
+            }
+            auto low = grid->metaValue<openvdb::Vec3i>("file_bbox_min");
+            auto high = grid->metaValue<openvdb::Vec3i>("file_bbox_max");
+            double all = 1, active = double(grid->metaValue<openvdb::Int64>("file_voxel_count"));
+            for (int i = 0; i < 3; i++) {
+                all *= std::max(0.0, double(high[i]) - double(low[i])) / SPARSE_SIDE + 1;
+            }
+            double kept = std::min(all, 1.5 * active / SPARSE_SAMPLES);
+            bytes = 1 + static_cast<int64_t>(std::min(
+                            1e15, all * sizeof(int32_t) + kept * SPARSE_SAMPLES * sizeof(float)));
+        }
+        return bytes > 0 ||
+               error_set(e, ERROR_INPUT, "there is no such grid of floats; see its list of grids");
+    });
+    return bytes;
+}
+
 } // namespace
 
 extern "C" const VdbReaders vdb_readers;
-const VdbReaders vdb_readers = {sizeof(VdbReaders), surface_of, volume_of};
+const VdbReaders vdb_readers = {sizeof(VdbReaders), surface_of, volume_of, sparse_of,
+                                sparse_bytes_of};

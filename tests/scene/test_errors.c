@@ -69,6 +69,15 @@ static const Case scenes[] = {
     {TREE "sky: {kind: environment}\n",
      ":2:6: sky has no 'file'; this key is required: Latitude-longitude HDR panorama (.hdr, .exr), "
      "relative to the scene's folder."},
+    {TREE "clouds: [{kind: grid}]\n",
+     ":2:11: clouds.0 has no 'file'; this key is required: VDB file with a grid of floats: a fog "
+     "volume's values, or the inside of a level set."},
+    {TREE "clouds: [{kind: grid, file: c.vdb, cover: 1}]\n",
+     ":2:36: key 'cover' does not apply to clouds.0 of kind 'grid'; known: kind, file, grid, "
+     "position, rotation, scale, extinction"},
+    {TREE "clouds: [{kind: stratus, softness: 1}]\n",
+     ":2:26: key 'softness' does not apply to clouds.0 of kind 'stratus'; known: kind, base, "
+     "thickness, cover, size, extinction, wind, seed"},
     {TREE "sky: {kind: constant, turbidity: 3}\n",
      ":2:23: key 'turbidity' does not apply to sky of kind 'constant'; known: kind, color, "
      "strength, visible, haze_distance"},

@@ -27,6 +27,8 @@ Cloud cloud_default(CloudKind kind)
                        .cover = 1.0f,
                        .size = 600.0f,
                        .extinction = 0.03f};
+    case CLOUD_GRID:
+        return (Cloud){.kind = kind, .extinction = 0.05f, .scale = 1.0f};
     case CLOUD_CUMULUS:
         break;
     }

@@ -207,7 +207,7 @@ static void sweep(CloudGrid *g, bool back)
     }
 }
 
-static void find_gaps(CloudGrid *g)
+void cloud_bounds_find_gaps(CloudGrid *g)
 {
     for (int64_t i = 0; i < cloud_grid_cells(g); i++) {
         g->cell[i].gap = g->cell[i].bounds.most > 0 ? 0 : MOST_GAP;
@@ -266,6 +266,6 @@ bool cloud_bounds_fill(CloudGrid *g, const Run *run, Error *e)
             }
         }
     }
-    find_gaps(g);
+    cloud_bounds_find_gaps(g);
     return true;
 }

@@ -7,4 +7,7 @@
 // Fills grid->cell and makes grid->part from grid->node.
 bool cloud_bounds_fill(CloudGrid *grid, const Run *run, Error *e);
 
+// Finds how far cells without droplets lie from those with some, once the bounds are known.
+void cloud_bounds_find_gaps(CloudGrid *grid);
+
 #endif

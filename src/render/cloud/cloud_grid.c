@@ -3,7 +3,9 @@
 #include "base/memory.h"
 #include "render/cloud/cloud_bounds.h"
 #include "render/cloud/cloud_fill.h"
+#include "render/cloud/cloud_voxels.h"
 #include "render/cloud/profile.h"
+#include "shape/sparse_volume.h"
 
 #include <stdlib.h>
 
@@ -87,6 +89,9 @@ static int64_t node_count(const CloudGrid *g)
 
 int64_t cloud_grid_bytes(const Cloud *cloud)
 {
+    if (cloud->kind == CLOUD_GRID) {
+        return cloud_voxels_bytes(cloud);
+    }
     CloudGrid grid;
     describe(&grid, cloud, NULL);
     return node_count(&grid) * (int64_t)sizeof *grid.node +
@@ -97,6 +102,9 @@ int64_t cloud_grid_bytes(const Cloud *cloud)
 bool cloud_grid_new(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail, uint64_t key,
                     const Run *run, Error *e)
 {
+    if (cloud->kind == CLOUD_GRID) {
+        return cloud_voxels_new(g, cloud, run, e);
+    }
     describe(g, cloud, detail);
     int64_t nodes = node_count(g);
     if (!memory_check((double)cloud_grid_bytes(cloud), e, "clouds of %d x %d x %d voxels",
@@ -119,6 +127,8 @@ void cloud_grid_clear(CloudGrid *g)
     free(g->node);
     free(g->cell);
     free(g->part);
+    sparse_volume_free(g->voxels);
+    g->voxels = NULL;
     g->node = NULL;
     g->cell = NULL;
     g->part = NULL;
@@ -227,6 +237,9 @@ static void look_up_small(const CloudGrid *g, Vec3 q, Lookup *l)
 
 float cloud_grid_extinction(const CloudGrid *g, Vec3 p, bool fine)
 {
+    if (g->voxels) {
+        return cloud_voxels_extinction(g, p);
+    }
     if (p.y <= g->base) {
         return 0.0f;
     }
@@ -256,6 +269,9 @@ static int told(const CloudGrid *g, const Lookup *l, float gain, float level)
 
 bool cloud_grid_exceeds(const CloudGrid *g, Vec3 p, bool fine, float level)
 {
+    if (g->voxels) {
+        return cloud_voxels_extinction(g, p) > level;
+    }
     if (p.y <= g->base) {
         return false;
     }
@@ -276,6 +292,9 @@ bool cloud_grid_exceeds(const CloudGrid *g, Vec3 p, bool fine, float level)
 
 float cloud_grid_smooth(const CloudGrid *g, Vec3 p)
 {
+    if (g->voxels) {
+        return cloud_voxels_extinction(g, p);
+    }
     float above = p.y - g->base;
     Coarse c = coarse_at(g, vec3_scale(vec3_sub(p, g->low), 1.0f / g->voxel));
     float s = c.softness, reach = (1.0f - s) * g->rough.billow[0];

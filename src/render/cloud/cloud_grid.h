@@ -11,6 +11,8 @@
 
 #include <stdint.h>
 
+typedef struct SparseVolume SparseVolume;
+
 enum {
     CELL = 2,         // voxels along its side
     PARTS = 4,        // of a cell where the extinction changes much, along its side
@@ -61,6 +63,9 @@ typedef struct CloudGrid {
     const DetailNoise *detail; // borrowed
     Roughness rough;
     float base, thickness, extinction;
+    SparseVolume *voxels; // CLOUD_GRID: owned, and no nodes, detail or roughness; else NULL
+    Transform to_own;     // from the scene to its own space, where low and cells are
+    float sample;         // m between voxels
 } CloudGrid;
 
 // The cloud's form depends on key alone. Free with cloud_grid_clear, also after a failure.

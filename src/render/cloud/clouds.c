@@ -25,7 +25,8 @@ CloudSet *clouds_new(const Cloud *cloud, int count, uint64_t seed, const Run *ru
     for (int i = 0; done && i < count; i++) {
         clouds->count++;
         uint64_t own = random_key(random_key(key, (uint64_t)i), (uint64_t)cloud[i].seed);
-        done = cloud_grid_new(&clouds->grid[i], &cloud[i], clouds->detail, own, run, e);
+        done = cloud_grid_new(&clouds->grid[i], &cloud[i], clouds->detail, own, run, e) ||
+               error_key(e, "clouds.%d", i);
     }
     if (!done) {
         clouds_free(clouds);

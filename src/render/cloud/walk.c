@@ -133,8 +133,20 @@ static void enter_cell(Walk *w)
     }
 }
 
-bool walk_begin(Walk *w, const CloudGrid *g, const CloudRay *ray, bool whole)
+// In a file's own space, where its direction is about as long.
+static CloudRay ray_in(const CloudGrid *g, const CloudRay *ray)
 {
+    CloudRay own = *ray;
+    if (g->voxels) {
+        own.origin = transform_point(&g->to_own, ray->origin);
+        own.direction = transform_vector(&g->to_own, ray->direction);
+    }
+    return own;
+}
+
+bool walk_begin(Walk *w, const CloudGrid *g, const CloudRay *scene_ray, bool whole)
+{
+    const CloudRay own = ray_in(g, scene_ray), *ray = &own;
     w->grid = g;
     w->whole = whole;
     if (!clip(g, ray, &w->near, &w->end)) {
