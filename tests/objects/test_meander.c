@@ -211,6 +211,23 @@ static void oxbows_do_not_break_into_beads(void **state)
     free_traced(&t);
 }
 
+// The valley goes on beyond its end: the last row is the first, lower by the slope.
+static void the_ends_of_the_valley_meet(void **state)
+{
+    (void)state;
+    TerrainParams params = terrain_params_default();
+    params.form = TERRAIN_MEANDER;
+    params.resolution = 128;
+    params.meander.age = 0.5f;
+    HeightField *field = make_heights(&params, 5, 0, NULL, NULL);
+    int64_t last = (int64_t)(field->rows - 1) * field->columns;
+    float fall = params.meander.slope * params.size;
+    for (int64_t i = 0; i < field->columns; i++) {
+        assert_true(fabsf(field->height[i] - field->height[last + i] - fall) < 2e-3f);
+    }
+    height_field_free(field);
+}
+
 static void threads_do_not_change_the_land(void **state)
 {
     (void)state;
@@ -264,6 +281,7 @@ int main(void)
         cmocka_unit_test(pools_lie_at_outer_banks),
         cmocka_unit_test(oxbows_do_not_break_into_beads),
         cmocka_unit_test(a_finer_grid_shows_the_same_land),
+        cmocka_unit_test(the_ends_of_the_valley_meet),
         cmocka_unit_test(threads_do_not_change_the_land),
         cmocka_unit_test(a_grown_river_winds_and_never_crosses_itself),
     };
