@@ -1,10 +1,12 @@
 // Meandering rivers: growth of small waves against the closed form, cutoffs, sinuosity.
 #include "land/meander.h"
 #include "making_terrain.h"
+#include "objects/terrain/form.h"
 #include "objects/terrain/meander_trace.h"
 #include "testing.h"
 
 #include <math.h>
+#include <string.h>
 
 // The line's part at one wave number: rms of its sine and cosine.
 static double amplitude(const Meander *m, double wavelength)
@@ -211,6 +213,40 @@ static void oxbows_do_not_break_into_beads(void **state)
     free_traced(&t);
 }
 
+// Water that heights record has a material and a roughness of its form's own; rivers that are laid
+// on the land afterwards have neither.
+static void forms_tell_what_their_water_is(void **state)
+{
+    (void)state;
+    TerrainParams params = terrain_params_default();
+    for (int form = 0; form <= TERRAIN_MEANDER; form++) {
+        params.form = (TerrainForm)form;
+        const char *water = kind_terrain.material_for(&params, TERRAIN_WATER);
+        const char *wanted = form == TERRAIN_BRAIDED   ? "terrain/glacial"
+                             : form == TERRAIN_MEANDER ? "terrain/river"
+                                                       : NULL;
+        assert_true(wanted ? water && strcmp(water, wanted) == 0 : !water);
+        assert_true(!water == !terrain_form(&params)->roughness);
+    }
+}
+
+// The valley goes on beyond its end: the last row is the first, lower by the slope.
+static void the_ends_of_the_valley_meet(void **state)
+{
+    (void)state;
+    TerrainParams params = terrain_params_default();
+    params.form = TERRAIN_MEANDER;
+    params.resolution = 128;
+    params.meander.age = 0.5f;
+    HeightField *field = make_heights(&params, 5, 0, NULL, NULL);
+    int64_t last = (int64_t)(field->rows - 1) * field->columns;
+    float fall = params.meander.slope * params.size;
+    for (int64_t i = 0; i < field->columns; i++) {
+        assert_true(fabsf(field->height[i] - field->height[last + i] - fall) < 2e-3f);
+    }
+    height_field_free(field);
+}
+
 static void threads_do_not_change_the_land(void **state)
 {
     (void)state;
@@ -264,6 +300,8 @@ int main(void)
         cmocka_unit_test(pools_lie_at_outer_banks),
         cmocka_unit_test(oxbows_do_not_break_into_beads),
         cmocka_unit_test(a_finer_grid_shows_the_same_land),
+        cmocka_unit_test(forms_tell_what_their_water_is),
+        cmocka_unit_test(the_ends_of_the_valley_meet),
         cmocka_unit_test(threads_do_not_change_the_land),
         cmocka_unit_test(a_grown_river_winds_and_never_crosses_itself),
     };

@@ -36,24 +36,25 @@ typedef struct Site {
     bool wet;
 } Site;
 
-// ---- hills
-
-// Noise that repeats after the size along z: of two copies, which take turns.
-static float repeating_noise(const Plain *plain, float x, float z)
+// Noise of octaves from `wave` m down that repeats after the size along z, as the river does: of
+// two copies, which take turns.
+static float repeating_noise(const Plain *plain, float wave, int octaves, float x, float z,
+                             uint64_t key)
 {
-    const TerrainParams *p = &plain->p;
-    uint64_t key = random_key(plain->terrain->seed, STREAM_PLAIN);
-    float scale = 8.0f / p->size, t = z / p->size + 0.5f;
-    float a = sparse_noise_fractal(scale * x, scale * z, 5, 0.5f, 0.0f, key);
-    float b = sparse_noise_fractal(scale * x, scale * (z - p->size), 5, 0.5f, 0.0f, key);
+    float size = plain->p.size, t = z / size + 0.5f;
+    float a = sparse_noise_fractal(x / wave, z / wave, octaves, 0.5f, 0.0f, key);
+    float b = sparse_noise_fractal(x / wave, (z - size) / wave, octaves, 0.5f, 0.0f, key);
     return ((1.0f - t) * a + t * b) / sqrtf(t * t + (1.0f - t) * (1.0f - t));
 }
+
+// ---- hills
 
 // m above the floodplain of the hills beside it.
 static float hills(const Plain *plain, float x, float z)
 {
     const TerrainParams *p = &plain->p;
-    float half = 0.5f * p->size, n = repeating_noise(plain, x, z);
+    uint64_t key = random_key(plain->terrain->seed, STREAM_PLAIN);
+    float half = 0.5f * p->size, n = repeating_noise(plain, 0.125f * p->size, 5, x, z, key);
     float edge = half * p->meander.plain + 0.02f * p->size * n;
     float t = (fabsf(x) - edge) / (half * (1.15f - p->meander.plain));
     t = clampf(t, 0.0f, 1.0f);
@@ -110,13 +111,12 @@ static Site site_at(const Plain *plain, int64_t i, float x, float z)
     const MeanderTrace *t = &plain->trace;
     float w = plain->width, left = t->left[i];
     uint64_t key = random_key(plain->terrain->seed, STREAM_NOISE);
-    float rough = sparse_noise_fractal(x / w, z / w, 4, 0.5f, 0.0f, key);
+    float rough = repeating_noise(plain, w, 4, x, z, key);
     float fresh = left < 0.0f ? 1.0f : (plain->time - left) / (plain->time - left + 2.0f);
     float ground = left < 0.0f ? BANK * w : bar(plain, left);
     ground += 0.003f * w * rough * fresh;
     Site site = {fmaxf(ground, 0.002f * w), false};
-    float ragged = 1.0f + RAGGED * sparse_noise_fractal(1.4f * x / w, 1.4f * z / w, 4, 0.6f, 0.0f,
-                                                        random_key(key, 1));
+    float ragged = 1.0f + RAGGED * repeating_noise(plain, 0.7f * w, 4, x, z, random_key(key, 1));
     float aside = t->aside[i] * clampf(ragged, 0.75f, 1.25f);
     if (fabsf(aside) < 1.0f) {
         float height = bed(plain, aside, t->bend[i]);

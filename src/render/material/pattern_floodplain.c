@@ -19,38 +19,30 @@ typedef struct Parcel {
     float across; // m, across its furrows
 } Parcel;
 
+// Where the border below a strip lies, in strips: each is moved a little.
+static float strip_border(uint32_t row, float column)
+{
+    return column + 0.3f * (noise_unit(row + (uint32_t)(int32_t)column, 5) - 0.5f);
+}
+
 // Furlongs of one direction each, of strips that are cut to uneven lengths and widths.
 static Parcel parcel_at(Vec3 p)
 {
     const float furlong = 520.0f, length = 210.0f, width = 62.0f;
     CellPoint cell = noise_cells(vec3(p.x / furlong, 0.5f, p.z / furlong), SEED_FIELD);
-    float turn =
-        0.9f * (noise_unit(cell.cell, 1) - 0.5f) + (noise_unit(cell.cell, 2) < 0.4f) * 1.5708f;
+    float across = noise_unit(cell.cell, 2) < 0.4f ? 0.5f * PI_F : 0.0f;
+    float turn = 0.9f * (noise_unit(cell.cell, 1) - 0.5f) + across;
     float c = cosf(turn), s = sinf(turn), u = c * p.x + s * p.z, v = c * p.z - s * p.x;
-    float row = floorf(u / length);
-    uint32_t row_hash = cell.cell ^ (uint32_t)(int32_t)row * 2654435761u;
-    float strip = width * (0.6f + 1.1f * noise_unit(row_hash, 3)); // of this row
-    float column = floorf(v / strip);
-    // Borders of strips are moved; two neighbours of one owner are one parcel.
-    float moved = 0.3f * (noise_unit(row_hash + (uint32_t)(int32_t)column, 5) - 0.5f);
-    float share = v / strip - column;
-    float next =
-        1.0f + 0.3f * (noise_unit(row_hash + (uint32_t)(int32_t)(column + 1.0f), 5) - 0.5f);
-    if (share < moved) {
-        column -= 1.0f;
-        share += 1.0f;
-        next = 1.0f + moved;
-        moved = 0.3f * (noise_unit(row_hash + (uint32_t)(int32_t)column, 5) - 0.5f);
-    } else if (share > next) {
-        column += 1.0f;
-        share -= 1.0f;
-        moved = next - 1.0f;
-        next = 1.0f + 0.3f * (noise_unit(row_hash + (uint32_t)(int32_t)(column + 1.0f), 5) - 0.5f);
-    }
-    float side = fminf(share - moved, next - share) * strip;
-    float end = u - row * length;
+    float row = floorf(u / length), end = u - row * length;
+    uint32_t hash = cell.cell ^ (uint32_t)(int32_t)row * 2654435761u;
+    float strip = width * (0.6f + 1.1f * noise_unit(hash, 3)); // of this row
+    float at = v / strip, column = floorf(at);
+    column -= at < strip_border(hash, column) ? 1.0f : 0.0f;
+    column += at > strip_border(hash, column + 1.0f) ? 1.0f : 0.0f;
+    float below = at - strip_border(hash, column), above = strip_border(hash, column + 1.0f) - at;
+    float side = fminf(below, above) * strip;
     end = fminf(end, length - end);
-    return (Parcel){.hash = row_hash + (uint32_t)(int32_t)column * 40503u,
+    return (Parcel){.hash = hash + (uint32_t)(int32_t)column * 40503u,
                     .edge = fminf(fminf(side, end), cell.border * furlong),
                     .across = v};
 }
