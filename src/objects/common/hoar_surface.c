@@ -38,8 +38,9 @@ typedef struct HoarSurface {
     uint64_t seed;
     Judged *judged; // of each cell, in the order of the walk
     int64_t count, capacity;
-    double tufts; // sum
-    float kept;   // share of the tufts that max_count allows
+    bool unlimited; // the tufts are at most max_count in any case
+    double tufts;   // sum
+    float kept;     // share of the tufts that max_count allows
     HoarTufts out;
 } HoarSurface;
 
@@ -98,6 +99,22 @@ static float open_at(const HoarSurface *on, Vec3 p, Vec3 n, uint64_t key)
     return up > 0 ? (float)open / (float)up : 1.0f;
 }
 
+// At least as many tufts as a cell of this area bears, known without a ray: were it an edge under
+// open sky.
+static float most_tufts(const HoarSurface *on, Vec3 n, float area)
+{
+    const HoarParams *params = on->params;
+    float growth = hoar_wind_share(params, vec3_dot(n, on->against));
+    growth *= hoar_sky_share(params, n.y, 1.0f);
+    return 1.0001f * sqrtf(growth) * area * hoar_tufts_per_area(params, 0.0f);
+}
+
+// The part of a tuft that decides whether there is one more.
+static float chance_of(const Cell *cell)
+{
+    return random_unit(random_key(cell->key, STREAM_NUMBER));
+}
+
 static bool judge(HoarSurface *on, const Cell *cell, Error *e)
 {
     const HoarParams *params = on->params;
@@ -105,6 +122,9 @@ static bool judge(HoarSurface *on, const Cell *cell, Error *e)
     Vec3 p = point_in(cell, cell->key), n = cell->normal;
     Judged judged = {0};
     float growth = hoar_wind_share(params, vec3_dot(n, on->against));
+    if (on->unlimited && most_tufts(on, n, cell->area) + chance_of(cell) < 1.0f) {
+        growth = 0.0f; // a sliver of a wire bears none, and most cells of a wire are slivers
+    }
     if (growth > least && params->sky > 0.0f) {
         growth *= hoar_sky_share(params, n.y, open_at(on, p, n, cell->key));
     }
@@ -137,7 +157,7 @@ static bool grow_tufts(HoarSurface *on, const Cell *cell, Error *e)
     assert(on->judged); // every cell has been
     Judged judged = on->judged[on->count++];
     float wanted = on->kept * judged.number;
-    int64_t number = (int64_t)(wanted + random_unit(random_key(cell->key, STREAM_NUMBER)));
+    int64_t number = (int64_t)(wanted + chance_of(cell));
     bool done = run_goes_on(on->run, on->count, e);
     for (int64_t i = 0; done && i < number; i++) {
         uint64_t key = random_key(cell->key, STREAM_TUFTS + (uint64_t)i);
@@ -221,25 +241,28 @@ static bool visit_all(HoarSurface *on, const Mesh *mesh, Visit *visit, Error *e)
     return done;
 }
 
-// Cells are as long as the needles, or so long that there are about as many as tufts are allowed.
-static float cell_length(const HoarSurface *on, const Mesh *mesh)
+// Returns the length of cells: that of the needles, or so long that there are about as many as
+// tufts are allowed. Tells whether that limit can matter.
+static float measure_mesh(HoarSurface *on, const Mesh *mesh)
 {
-    double area = 0.0, edges = 0.0, most = (double)on->params->max_count;
+    double area = 0.0, edges = 0.0, tufts = 0.0, most = (double)on->params->max_count;
     for (int64_t i = 0; i < triangles_of(mesh); i++) {
         Cell cell;
         int from;
         if (cell_of(on, mesh, i, &cell)) {
             area += (double)cell.area;
             edges += (double)longest_edge(cell.corner, &from);
+            tufts += (double)most_tufts(on, cell.normal, cell.area);
         }
     }
+    on->unlimited = tufts <= most;
     double length = fmax((double)on->params->length, sqrt(2.0 * area / most));
     return (float)fmax(length, 2.0 * edges / most);
 }
 
 static bool place(HoarSurface *on, const Mesh *mesh, Error *e)
 {
-    on->longest = cell_length(on, mesh);
+    on->longest = measure_mesh(on, mesh);
     if (!visit_all(on, mesh, judge, e)) {
         return false;
     }
