@@ -490,6 +490,29 @@ static void fog_in_the_sun_converges_without_specks(void **state)
     assert_in_bounds(error[0] / error[1], 1.6, 2.5);
 }
 
+// Albedo, which guides a denoiser, tells how much fog hides of the land below, in every pixel
+// alike: no chance of the few paths that get there.
+static void guides_see_through_fog_without_chance(void **state)
+{
+    (void)state;
+    World *world = cloudy_world(2);
+    Cloud fog = world->cloud[0] = thick_fog();
+    const float height = 0.12f * fog.thickness; // see fog_is_dense_below
+    world->camera.position = vec3(0, fog.base + height, 0);
+    world->camera.target = vec3(0, fog.base, 0.01f);
+    world->camera.fov = 4;
+    add_mesh(world, quad_mesh(vec3(-50, fog.base, -50), vec3(0, 0, 100), vec3(100, 0, 0)), 0, 0);
+    Film *film = trace(world, 2, NULL);
+    double depth =
+        (double)fog.extinction * (double)(height - height * height / (4.0f * fog.thickness));
+    double wanted = 1.0 - 0.5 * exp(-depth);
+    for (int i = 0; i < film->width * film->height; i++) {
+        assert_in_bounds(film->albedo[i].x, wanted - 0.005, wanted + 0.005);
+    }
+    film_free(film);
+    world_free(world);
+}
+
 // Land in the shade of a closed sheet gets less light than in the open, but some.
 static void clouds_shade_the_land(void **state)
 {
@@ -557,6 +580,7 @@ int main(void)
         cmocka_unit_test(an_even_sky_hides_clouds),
         cmocka_unit_test(an_even_sky_hides_fog),
         cmocka_unit_test(fog_in_the_sun_converges_without_specks),
+        cmocka_unit_test(guides_see_through_fog_without_chance),
         cmocka_unit_test(clouds_shade_the_land),
         cmocka_unit_test(clouds_have_normals_but_no_depth),
         cmocka_unit_test(threads_do_not_change_clouds),
