@@ -108,6 +108,7 @@ static void start_paths(const Tracer *tracer, int x, int y, int sample, int coun
                          .spread = tracer->camera.pixel_angle,
                          .mirrored = true,
                          .straight = true,
+                         .clear = 1.0f,
                          .ray.far = INFINITY};
         result[i] = (PathResult){.albedo = vec3_splat(1.0f), .alpha = 1.0f, .depth = INFINITY};
         sampler_lanes_put(&wave->lanes, i, &sampler[i], SET_CAMERA);
@@ -184,6 +185,9 @@ typedef enum Whereabouts { IN_MEDIUM, AT_SURFACE, OUTSIDE, NOWHERE } Whereabouts
 
 static Whereabouts travel(Path *path, const Hit *hit, bool met)
 {
+    if (met && path->straight && (path->media.now.scatters || path->tracer->clouds)) {
+        path_note_behind(path, hit);
+    }
     float far = met ? hit->t : INFINITY, cloud = path_meet_cloud(path, far);
     if (path->media.now.present) {
         Travel travel = path_travel(path, fminf(far, cloud));

@@ -64,6 +64,9 @@ typedef struct Path {
     bool mirrored;      // only mirror reflections since the camera
     bool gathers;       // left a point, not of open water, where light was gathered through it
     bool straight;      // only films and index-matched interfaces since the camera
+    float clear;        // expected share of the light from behind that passes what scatters before
+                        // it, straight before the camera
+    Vec3 veil_normal;   // of the clouds there, times what they hide
     int64_t rays;
 } Path;
 
@@ -138,6 +141,12 @@ typedef enum Arrival { ARRIVAL_SCATTERS, ARRIVAL_CROSSED, ARRIVAL_ENDED } Arriva
 // through an index-matched interface.
 Arrival path_arrive(Vertex *vertex);
 
+// For a ray straight from the camera that meets a surface behind a medium or clouds: notes albedo
+// and normal of all that the ray sees, whether the path gets there or scatters on the way. Else the
+// share of a pixel's paths that get there, which is chance, would stand in what guides a denoiser,
+// and come back in the picture as specks.
+void path_note_behind(Path *path, const Hit *hit);
+
 // Next-event estimation: samples a light and queues its shadow ray. u: of SET_LIGHT.
 void path_sample_light(Vertex *vertex, const float u[4]);
 
@@ -174,6 +183,10 @@ float path_meet_cloud(Path *path, float far);
 
 // Scatters the path there.
 Travel path_scatter_in_cloud(Path *path, float t);
+
+// Share of light that clouds let pass along a ray from the camera up to `far`, without wisps.
+// *normal: of the clouds, times what they hide.
+float path_see_past_clouds(const Path *path, float far, Vec3 *normal);
 
 // What leaves a surface that diffuse light has reached meets clouds as diffuse light, too.
 void path_leave_diffusely(Path *path);

@@ -45,33 +45,43 @@ float path_pass_clouds(Path *path, const Ray *ray)
                        &path->cloud_key);
 }
 
-// The side from which the clouds along a camera ray get thinner, weighted by how much they hide.
-// The normal depends on the ray alone, not on where a droplet scatters the path, so that it can
-// guide a denoiser.
-static Vec3 cloud_normal(const CloudSet *clouds, const CloudRay *ray)
+// The share of a camera ray that clouds hide. *normal: the side from which they get thinner,
+// weighted by how much they hide. It depends on the ray alone, not on where a droplet scatters the
+// path, so that it can guide a denoiser.
+static float hidden(const CloudSet *clouds, const CloudRay *ray, Vec3 *normal)
 {
     float distance, opacity = clouds_seen(clouds, ray, &distance);
-    if (opacity <= 0.0f) {
-        return vec3_splat(0.0f);
+    *normal = vec3_splat(0.0f);
+    if (opacity > 0.0f) {
+        Vec3 slope = clouds_slope(clouds, vec3_madd(ray->origin, distance, ray->direction));
+        *normal = vec3_scale(slope, -opacity / (1.0f + vec3_length(slope)));
     }
-    Vec3 slope = clouds_slope(clouds, vec3_madd(ray->origin, distance, ray->direction));
-    return vec3_scale(slope, -opacity / (1.0f + vec3_length(slope)));
+    return opacity;
 }
 
-// Notes the clouds before `far`. Like haze they have no place, and white albedo. Where nothing lies
-// behind them, all paths of a pixel share the normal along the ray through its middle.
-static void note_cloud(Path *path, float far)
+float path_see_past_clouds(const Path *path, float far, Vec3 *normal)
+{
+    CloudRay part = {.origin = path->ray.origin, .direction = path->ray.direction, .far = far};
+    float opacity = hidden(path->tracer->clouds, &part, normal);
+    *normal = vec3_scale(*normal, opacity);
+    return 1.0f - opacity;
+}
+
+// Notes the clouds before the sky. Like haze they have no place, and white albedo. All paths of a
+// pixel share the normal along the ray through its middle.
+static void note_cloud(Path *path)
 {
     const CloudSet *clouds = path->tracer->clouds;
-    if (far < INFINITY || path->crossings > 0) {
-        CloudRay part = {.origin = path->ray.origin, .direction = path->ray.direction, .far = far};
-        path->result->normal = cloud_normal(clouds, &part);
+    if (path->crossings > 0) {
+        CloudRay part = {
+            .origin = path->ray.origin, .direction = path->ray.direction, .far = INFINITY};
+        hidden(clouds, &part, &path->result->normal);
         return;
     }
     CloudGuide *guide = path->guide;
     if (!guide->known) {
         CloudRay all = {.origin = guide->origin, .direction = guide->direction, .far = INFINITY};
-        guide->normal = cloud_normal(clouds, &all);
+        hidden(clouds, &all, &guide->normal);
         guide->known = true;
     }
     path->result->normal = guide->normal;
@@ -86,8 +96,8 @@ float path_meet_cloud(Path *path, float far)
     CloudRay part = {path->ray.origin, path->ray.direction, far, path->cloud_order >= ORDERS};
     float t = clouds_collide(clouds, &part, extinction_scale(path->tracer, path->cloud_order),
                              &path->cloud_key);
-    if (path->straight && (t < INFINITY || far == INFINITY)) { // else a surface has a normal
-        note_cloud(path, far);
+    if (path->straight && far == INFINITY) { // else path_note_behind has
+        note_cloud(path);
     }
     return t;
 }

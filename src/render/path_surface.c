@@ -53,16 +53,23 @@ static Vec3 at_most_one(Vec3 v)
     return vec3(fminf(v.x, 1.0f), fminf(v.y, 1.0f), fminf(v.z, 1.0f));
 }
 
-// The AOVs of the first surface. The haze and films before it add a veil, whose albedo is white, as
-// that of lamps and the sky.
+// Of the first surface. The haze and films before it add a veil, whose albedo is white, as that of
+// lamps and the sky.
+static void note_guides(const Path *path, const Bsdf *bsdf)
+{
+    PathResult *result = path->result;
+    float transmittance = path->clear * fminf(luminance(path->throughput), 1.0f);
+    float seen = bsdf_is_emissive(bsdf) ? 0.0f : transmittance;
+    result->albedo = vec3_add(vec3_scale(bsdf->albedo, seen), vec3_splat(1.0f - seen));
+    result->normal = vec3_madd(path->veil_normal, path->clear, bsdf->normal);
+}
+
+// The AOVs of the first surface.
 static void note_first_hit(const Path *path, const SurfacePoint *point, const Bsdf *bsdf)
 {
     PathResult *result = path->result;
-    float transmittance = fminf(luminance(path->throughput), 1.0f);
-    float seen = bsdf_is_emissive(bsdf) ? 0.0f : transmittance;
+    note_guides(path, bsdf);
     result->hit = true;
-    result->albedo = vec3_add(vec3_scale(bsdf->albedo, seen), vec3_splat(1.0f - seen));
-    result->normal = bsdf->normal;
     result->position = point->position;
     result->depth = path->travelled;
     result->object = point->object;
@@ -140,6 +147,32 @@ Arrival path_arrive(Vertex *vertex)
         }
     }
     return shade(vertex) ? ARRIVAL_SCATTERS : ARRIVAL_ENDED;
+}
+
+void path_note_behind(Path *path, const Hit *hit)
+{
+    const Tracer *tracer = path->tracer;
+    const Filling *filling = &path->media.now;
+    MediumLine line;
+    if (filling->present && filling->scatters &&
+        media_line(&path->media, tracer, &path->ray, hit->t, &line)) {
+        path->clear *= luminance(medium_transmittance(filling->extinction, line.length));
+    }
+    if (tracer->clouds && path->media.count == 0) {
+        path->clear *= path_see_past_clouds(path, hit->t, &path->veil_normal);
+    }
+    if (accel_light(tracer->accel, hit) >= 0) {
+        return;
+    }
+    SurfacePoint point;
+    accel_surface(tracer->accel, &path->ray, hit, &point);
+    point.footprint = path->footprint + path->spread * hit->t;
+    if (tracer->has_passable && material_lets_through(&tracer->world->material[point.material])) {
+        return;
+    }
+    Bsdf bsdf;
+    bsdf_fill(tracer->materials, &point, vec3_neg(path->ray.direction), &bsdf);
+    note_guides(path, &bsdf);
 }
 
 // Into open water light is not sampled: what leaves it again is refracted.

@@ -482,6 +482,77 @@ static void an_even_sky_hides_clouds(void **state)
     }
 }
 
+static World *foggy_world(int samples)
+{
+    World *world = cloudy_world(samples);
+    world->cloud[0] = cloud_default(CLOUD_FOG);
+    world->camera.position.y = 0.8f * (world->cloud[0].base + world->cloud[0].thickness);
+    return world;
+}
+
+// Nor can fog, from within.
+static void an_even_sky_hides_fog(void **state)
+{
+    (void)state;
+    World *world = foggy_world(16);
+    world->sky = (Sky){.kind = SKY_CONSTANT, .color = {1, 1, 1}, .strength = 1, .visible = true};
+    Film *film = trace(world, 2, NULL);
+    double mean = mean_luminance(film), error = 4.0 * mean_error(film) + 1e-3;
+    assert_in_bounds(mean, 0.99 - error, 1.0 + error);
+    film_free(film);
+    world_free(world);
+}
+
+// The noise of fog in the sun is that of a bounded estimate: its error halves with four times the
+// samples, and no pixel is far from the others. Rare paths of great weight, which leave bright
+// specks, would do neither.
+static void fog_in_the_sun_converges_without_specks(void **state)
+{
+    (void)state;
+    double error[2];
+    for (int i = 0; i < 2; i++) {
+        World *world = foggy_world(i == 0 ? 32 : 128);
+        world->sky = world_default().sky;
+        world->sky.sun_elevation = 15.0f;
+        world->camera.position.y = world->cloud[0].base + world->cloud[0].thickness + 200.0f;
+        world->camera.target = vec3(0, world->cloud[0].base, 1000);
+        world->camera.fov = 4;
+        Film *film = trace(world, 2, NULL);
+        double mean = mean_luminance(film), most = 0.0;
+        for (int k = 0; k < film->width * film->height; k++) {
+            most = fmax(most, (double)luminance(film->color[k]));
+        }
+        assert_true(most < 2.5 * mean);
+        error[i] = mean_error(film) / mean;
+        film_free(film);
+        world_free(world);
+    }
+    assert_in_bounds(error[0] / error[1], 1.6, 2.5);
+}
+
+// Albedo, which guides a denoiser, tells how much fog hides of the land below, in every pixel
+// alike: no chance of the few paths that get there.
+static void guides_see_through_fog_without_chance(void **state)
+{
+    (void)state;
+    World *world = cloudy_world(2);
+    Cloud fog = world->cloud[0] = thick_fog();
+    const float height = 0.12f * fog.thickness; // see fog_is_dense_below
+    world->camera.position = vec3(0, fog.base + height, 0);
+    world->camera.target = vec3(0, fog.base, 0.01f);
+    world->camera.fov = 4;
+    add_mesh(world, quad_mesh(vec3(-50, fog.base, -50), vec3(0, 0, 100), vec3(100, 0, 0)), 0, 0);
+    Film *film = trace(world, 2, NULL);
+    double depth =
+        (double)fog.extinction * (double)(height - height * height / (4.0f * fog.thickness));
+    double wanted = 1.0 - 0.5 * exp(-depth);
+    for (int i = 0; i < film->width * film->height; i++) {
+        assert_in_bounds(film->albedo[i].x, wanted - 0.005, wanted + 0.005);
+    }
+    film_free(film);
+    world_free(world);
+}
+
 // Land in the shade of a closed sheet gets less light than in the open, but some.
 static void clouds_shade_the_land(void **state)
 {
@@ -548,6 +619,9 @@ int main(void)
         cmocka_unit_test(fog_has_holes_by_its_cover),
         cmocka_unit_test(small_heaps_are_many),
         cmocka_unit_test(an_even_sky_hides_clouds),
+        cmocka_unit_test(an_even_sky_hides_fog),
+        cmocka_unit_test(fog_in_the_sun_converges_without_specks),
+        cmocka_unit_test(guides_see_through_fog_without_chance),
         cmocka_unit_test(clouds_shade_the_land),
         cmocka_unit_test(clouds_have_normals_but_no_depth),
         cmocka_unit_test(threads_do_not_change_clouds),

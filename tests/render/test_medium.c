@@ -269,6 +269,25 @@ static void scattering_keeps_energy(void **state)
     }
 }
 
+// What guides a denoiser knows how much a medium hides, not how many of a pixel's few paths
+// scattered in it: albedo and normal of every pixel are those of the closed form.
+static void guides_see_through_media_without_chance(void **state)
+{
+    (void)state;
+    World *world = tiny_world(8, 8, 2, 0.5f);
+    world->camera.fov = 0.01f;
+    world->medium = everywhere(0.2f, 0.0f, 0.6f, 100.0f);
+    add_mesh(world, quad_mesh(vec3(-2, -2, 0), vec3(4, 0, 0), vec3(0, 4, 0)), 0, 0);
+    Film *film = trace(world, 2, NULL);
+    double clear = exp(-0.2 * 5.0);
+    for (int i = 0; i < 8 * 8; i++) {
+        ASSERT_NEAR(film->albedo[i].x, 1.0 - 0.5 * clear, 1e-4);
+        ASSERT_NEAR(film->normal[i].z, clear, 1e-4);
+    }
+    film_free(film);
+    world_free(world);
+}
+
 // A lamp above a clear, absorbing slab lights the floor under it through the slab.
 static void light_is_sampled_through_clear_bodies(void **state)
 {
@@ -327,6 +346,7 @@ int main(void)
         cmocka_unit_test(single_scattering_equals_the_integral),
         cmocka_unit_test(a_channel_glows_in_fog),
         cmocka_unit_test(scattering_keeps_energy),
+        cmocka_unit_test(guides_see_through_media_without_chance),
         cmocka_unit_test(light_is_sampled_through_clear_bodies),
         cmocka_unit_test(same_bits_for_any_thread_count),
     };
