@@ -233,11 +233,11 @@ fi
 still lightning lightning
 still lightning-surface lightning-surface
 if is_wanted figure-11; then
-    for share in 0.3 0.55 0.8 0.97 1; do panel lightning-growth --set grow_to=$share --size 360x720 --samples 10; done
+    for share in 0.3 0.55 0.8 0.97 1; do panel lightning-growth --set grow_to=$share --size 400x664 --samples 16; done
     sheet figure-11 5x1
 fi
 if is_wanted figure-12; then
-    for share in 0.2 0.45 0.7 1; do panel lightning-surface --set grow_to=$share --size 800x450 --samples 16; done
+    for share in 0.2 0.45 0.7 1; do panel lightning-surface --set grow_to=$share --size 960x540 --samples 16 --set film.exposure=0.5; done
     sheet figure-12 2x2
 fi
 still species species
@@ -342,7 +342,7 @@ if is_wanted figure-17; then
 fi
 if is_wanted figure-21; then
     panel terrain-strip --set seed=8 --set objects.range.terrain.water_level=0.16 --set camera.position='[0, 1400, 5400]' \
-        --set camera.target='[0, 150, 0]'
+        --set camera.target='[0, 252, 0]' --set camera.fov=30
     panel terrain-strip --set 'objects.range.terrain.rivers.fields=[{kind: vortex, vector: [0, 1, 0], center: [0, 0, 0]}]'
     panel terrain-strip --set objects.range.terrain.rivers.count=150 --set objects.range.terrain.relief=1000 \
         --set objects.range.terrain.erosion.streams=1
