@@ -25,7 +25,14 @@ typedef struct Mesh {
 } Mesh;
 
 // Optional arrays for mesh_new.
-enum { MESH_NORMAL = 1, MESH_UV = 2, MESH_RADIUS = 4, MESH_BIRTH = 8, MESH_SITE = 16, MESH_FOAM = 32 };
+enum {
+    MESH_NORMAL = 1,
+    MESH_UV = 2,
+    MESH_RADIUS = 4,
+    MESH_BIRTH = 8,
+    MESH_SITE = 16,
+    MESH_FOAM = 32
+};
 
 // Creates a mesh with arrays of these sizes, zeroed; NULL and e when out of memory. Free with
 // mesh_free.

@@ -85,7 +85,7 @@ static int find_painter(const RamifyScene *scene)
 static bool check_map(const Options *options, const RamifyScene *scene, RamifyError *e)
 {
     static const char *const maps[] = {
-        "slope",   "aspect", "curvature", "flow",   "wetness", "river-distance", "deposit", "wear",
+        "slope",   "aspect", "curvature", "flow",   "wetness", "river-distance", "deposit",  "wear",
         "bedrock", "snow",   "lava",      "scoria", "age",     "water-depth",    "sun-hours"};
     if (!options->map) {
         return true;

@@ -19,7 +19,8 @@
 // lava            0..1: freshness of the lava on the ground: 1 = just laid, 0 = none, and
 // scoria          0..1: how red hot gas has made the scoria there: HeightField.ground
 // age             0..1: age of the ground of a braided river's valley: HeightField.age
-// water-depth     m of water over the ground, negative by how far the ground is above the level next
+// water-depth     m of water over the ground, negative by how far the ground is above the level
+// next
 //                 to it: HeightField.water less the height; missing where no water is near
 // sun-hours       mean hours of direct sun a day (sun_hours.h)
 #define HEIGHT_MAPS(MAP)                  \

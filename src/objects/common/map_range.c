@@ -56,9 +56,14 @@ const Table map_range_table = {
     .doc = "A condition on a map of a surface seen from above: of a terrain's own samples, of 1024 "
            "x 1024 samples over the bounds of another object, or of the land under a scattering's "
            "disc. `ramify grow SCENE --map NAME -o map.png` shows the maps of a terrain.",
-    .example = "objects:\n"
+    .example = "materials:\n"
+               "  - {name: wet, kind: principled, color: [0.07, 0.06, 0.05], roughness: 0.3}\n"
+               "  - name: mountain\n"
+               "    layers: [{material: wet, fray: 0.3, where: [{map: water-depth, range: [-0.4, "
+               "9], fade: 0.3}]}]\n"
+               "objects:\n"
                "  - name: land\n"
-               "    terrain: {size: 400, resolution: 256}\n"
+               "    terrain: {size: 400, resolution: 256, water_level: 0.1}\n"
                "  - name: stones\n"
                "    scatter:\n"
                "      on: land\n"
@@ -67,7 +72,15 @@ const Table map_range_table = {
                "      where:\n"
                "        - {map: slope, range: [25, 60], fade: 5}\n"
                "        - {map: aspect, range: [90, 270]}\n"
-               "      things: [{stone: {size: 2}}]\n",
+               "      things: [{stone: {size: 2}}]\n"
+               "  - name: reeds\n"
+               "    scatter:\n"
+               "      on: land\n"
+               "      radius: 0\n"
+               "      count: 300\n"
+               "      clumping: 0.6\n"
+               "      where: [{map: water-depth, range: [0.05, 0.7], fade: 0.2}]\n"
+               "      things: [{tree: {species: common_reed}}]\n",
     .size = sizeof(MapRange),
     .keys = KEYS,
     .defaults = defaults,

@@ -182,8 +182,9 @@ static float uneven_level_at(const Terrain *terrain, int32_t node, float x, floa
     way = vec3_normalize(vec3(way.x, 0.0f, way.z));
     float scale = 0.5f / water->radius[node];
     uint64_t seed = random_key(terrain->seed, STREAM_LIPS);
-    float moved = 2.5f * cell * clampf(2.0f * noise_plane_fractal(scale * x, scale * z, 4, seed),
-                                       -1.0f, 1.0f);
+    // Downstream alone: strands begin at the lip (falls.c).
+    float noise = noise_plane_fractal(scale * x, scale * z, 4, seed);
+    float moved = -2.0f * cell * clampf(0.4f + 1.3f * noise, 0.0f, 1.0f);
     float at_x = x + moved * way.x, at_z = z + moved * way.z;
     int32_t other;
     trough_envelope_at(terrain->shore, at_x, at_z, &other);

@@ -1,5 +1,6 @@
 // Waterfalls: where a river drops over a step of the land, its water leaves the lip as a jet that
-// gravity alone bends, and breaks up into white strands. Where it meets rock it slides and leaps on.
+// gravity alone bends, and breaks up into white strands. Where it meets rock it slides and leaps
+// on.
 //
 // The speed at the lip is that of a free overfall, whose depth is 0.715 of the critical one (Rouse,
 // "Discharge Characteristics of the Free Overfall", Civil Eng. 6, 1936).
@@ -78,11 +79,19 @@ int terrain_fall_path(const FallPath *path, Vec3 start, Vec3 velocity, Vec3 *pla
 enum {
     ROWS = 40,   // of a strand
     STEPS = 160, // of its path
-    ACROSS = 90, // strands of a layer
-    LAYERS = 5,
+    ACROSS = 72, // strands of a layer
+    LAYERS = 4,
     STRANDS = ACROSS * LAYERS
 };
-enum { NUMBER_SIDE, NUMBER_SPEED, NUMBER_DRIFT, NUMBER_LIFT, NUMBER_WIDTH, NUMBER_START, NUMBERS };
+enum {
+    NUMBER_SIDE,
+    NUMBER_SPEED,
+    NUMBER_DRIFT,
+    NUMBER_LIFT,
+    NUMBER_WIDTH,
+    NUMBER_START,
+    NUMBER_WHITE
+};
 
 typedef struct FallMesher {
     const Terrain *terrain;
@@ -107,9 +116,7 @@ static Vec3 strand_start(const FallMesher *f, float side)
     Vec3 middle = f->terrain->water->position[f->lip];
     Vec3 p = vec3_madd(middle, side * f->half, f->across);
     p = vec3_madd(p, -0.3f * f->field->cell.x, f->way);
-    float least = height_mesh_finest_at(f->field, p.x, p.z) +
-                  0.5f * terrain_bed_depth(f->half, f->half);
-    p.y = middle.y > least ? middle.y : least;
+    p.y = height_mesh_finest_at(f->field, p.x, p.z) + terrain_bed_depth(f->half, f->half);
     return p;
 }
 
@@ -125,7 +132,7 @@ static float tongue(const FallMesher *f, float side)
     uint64_t seed = random_key(f->terrain->water->id[f->lip], STRANDS);
     float x = 2.5f * side, broad = noise_plane_fractal(x, 0.3f, 2, seed);
     float narrow = noise_plane_fractal(6.0f * x, 7.3f, 2, seed);
-    return clampf(1.0f + 1.1f * broad + 0.6f * narrow, 0.05f, 1.9f);
+    return clampf(1.0f + 1.5f * broad + 1.1f * narrow, 0.0f, 2.2f);
 }
 
 static int strand_path(const FallMesher *f, int strand, Vec3 place[STEPS])
@@ -152,7 +159,7 @@ static float strand_half(const FallMesher *f, int strand, float share)
 {
     float spacing = 2.0f * f->half / ACROSS;
     float from = strand < ACROSS ? 0.0f : 0.75f * number_of(f, strand, NUMBER_START);
-    float torn = lerpf(1.8f, lerpf(0.3f, 1.5f, f->cover), smoothstepf(0.0f, 0.6f, share));
+    float torn = lerpf(1.4f, lerpf(0.25f, 0.65f, f->cover), smoothstepf(0.0f, 0.6f, share));
     float wide = number_of(f, strand, NUMBER_WIDTH);
     float own = lerpf(0.25f, 1.9f, wide * wide);
     own *= tongue(f, strand_side(f, strand));
@@ -181,14 +188,15 @@ static void add_strand(FallMesher *f, int strand)
         return;
     }
     float lip = f->terrain->flow[f->lip].foam;
+    float white = lerpf(0.5f, 1.0f, number_of(f, strand, NUMBER_WHITE)); // some are still clear
     for (int row = 0; row < ROWS; row++) {
         float at = (float)row / (ROWS - 1) * (float)(count - 1);
         int k = (int)at < count - 2 ? (int)at : count - 2;
         Vec3 p = vec3_lerp(place[k], place[k + 1], at - (float)k);
         float share = (place[0].y - p.y) / fmaxf(place[0].y - f->level, 1e-6f);
-        float foam = lerpf(fmaxf(lip, 0.35f), 1.0f, smoothstepf(0.0f, 0.12f, share));
-        add_strand_row(f, p, vec3_sub(place[k + 1], place[k]), strand_half(f, strand, share),
-                       foam);
+        float foam = lerpf(fmaxf(lip, 0.35f), white, smoothstepf(0.0f, 0.12f, share));
+        foam = lerpf(foam, 1.0f, smoothstepf(0.6f, 1.0f, share));
+        add_strand_row(f, p, vec3_sub(place[k + 1], place[k]), strand_half(f, strand, share), foam);
         for (int i = 0; i < 2 && row > 0; i++) {
             uint32_t *corner = f->mesh->index + 4 * f->faces++;
             uint32_t v = (uint32_t)(f->vertices + i);
@@ -244,9 +252,8 @@ bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const P
 {
     const OutTree *water = terrain->water;
     int32_t *main = terrain_main_children(water, e);
-    float lake = terrain->params->water_level > 0.0f
-                     ? terrain_water_height(terrain->params, field)
-                     : -INFINITY;
+    float lake = terrain->params->water_level > 0.0f ? terrain_water_height(terrain->params, field)
+                                                     : -INFINITY;
     bool done = main;
     for (int64_t i = 0; done && i < water->count; i++) {
         if (terrain->drop[i] <= 0.0f || water->position[i].y <= lake) {

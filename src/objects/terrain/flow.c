@@ -110,8 +110,8 @@ RiverFlow *terrain_find_flow(const TerrainParams *params, const OutTree *water, 
     RiverFlow *flow = main ? memory_alloc(water->count, sizeof *flow, e) : NULL;
     for (int64_t i = 0; flow && i < water->count; i++) {
         float half = water->radius[i];
-        flow[i] = terrain_flow_of(terrain_discharge(params, half), half,
-                                  slope_at(water, main, drop, i));
+        flow[i] =
+            terrain_flow_of(terrain_discharge(params, half), half, slope_at(water, main, drop, i));
         flow[i].foam = clampf(params->rivers.foam * flow[i].foam, 0.0f, 1.0f);
         flow[i].at_fall = false;
     }
@@ -143,8 +143,8 @@ void terrain_widen_pools(OutTree *water, const float *drop)
             int64_t below = water->parent[k];
             Vec3 step = vec3_sub(water->position[k], water->position[below]);
             run += sqrtf(step.x * step.x + step.z * step.z);
-            float bulge = smoothstepf(0.0f, 2.0f * half, run) *
-                          smoothstepf(6.0f * half, 2.5f * half, run);
+            float bulge =
+                smoothstepf(0.0f, 2.0f * half, run) * smoothstepf(6.0f * half, 2.5f * half, run);
             float wide = half * (1.0f + widest * bulge);
             water->radius[below] = wide > water->radius[below] ? wide : water->radius[below];
             k = below;

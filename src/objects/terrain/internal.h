@@ -69,10 +69,10 @@ typedef struct Terrain {
     // The visible rivers on the finished heights, set by terrain_heights; NULL or without nodes if
     // none is wide enough.
     OutTree *water; // steps of at most half a cell; y = the water's level, radius = half width
-    float *drop;            // m that water falls from each node to its parent; 0 = it flows
+    float *drop;    // m that water falls from each node to its parent; 0 = it flows
     struct RiverFlow *flow; // of each node
     TroughEnvelope *shore;  // m to the water's edge, negative in the water
-    uint8_t *bank;         // of each sample: 1 = in a bed or at its edge
+    uint8_t *bank;          // of each sample: 1 = in a bed or at its edge
 } Terrain;
 
 // grow_plane.c: how a tree grows on the plane.
@@ -238,8 +238,8 @@ bool terrain_measure_falls(const Terrain *terrain, MeasureList *list, Error *e);
 // ->shore and ->bank and digs the beds.
 bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Error *e);
 
-// Fills field->water from the lake and the rivers, if there are any: the level of the water over the
-// land or beside it, the lake's everywhere.
+// Fills field->water from the lake and the rivers, if there are any: the level of the water over
+// the land or beside it, the lake's everywhere.
 bool terrain_record_water(const Terrain *terrain, HeightField *field, const Run *run, Error *e);
 
 // The widest child of each node of terrain->water, -1 at the ends; the caller frees the array.

@@ -190,8 +190,7 @@ float *terrain_find_levels(OutTree *water, const RiverParams *rivers, const Heig
     bool done = drop;
     if (done) {
         find_levels(water, field);
-        done = (rivers->fall_height <= 0.0f ||
-                find_falls(water, rivers, field->cell.x, drop, e)) &&
+        done = (rivers->fall_height <= 0.0f || find_falls(water, rivers, field->cell.x, drop, e)) &&
                smooth_levels(water, drop, e);
     }
     for (int64_t i = 0; done && i < water->count; i++) {

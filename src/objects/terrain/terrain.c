@@ -122,9 +122,9 @@ static float *find_rises(const HeightField *field, Error *e)
     return rise;
 }
 
-// The share of a bed's height that is left at a place where the land would have this share: a slope,
-// or as far as it is sheer a wall in three tiers, ragged along its length. rise: over a cell, of the
-// land, relative to the bed's height; at: the place, in cells.
+// The share of a bed's height that is left at a place where the land would have this share: a
+// slope, or as far as it is sheer a wall in three tiers, ragged along its length. rise: over a
+// cell, of the land, relative to the bed's height; at: the place, in cells.
 static float cliff_of(float share, float rise, float sheer, Vec2 at, uint64_t seed)
 {
     enum { TIERS = 3 };

@@ -83,18 +83,33 @@ typedef struct Ribbons {
     int64_t vertices, faces;
 } Ribbons;
 
+// Share by which the water at a node has sunk toward its bed, since it speeds up to a lip just
+// below.
+static float drawdown(const Ribbons *r, int32_t node)
+{
+    const float shares[] = {1.0f, 0.6f, 0.3f, 0.1f};
+    int32_t at = node;
+    for (int k = 0; k < 4 && at >= 0; k++) {
+        if (r->terrain->drop[at] > 0.0f) {
+            return shares[k];
+        }
+        at = r->water->parent[at];
+    }
+    return 0.0f;
+}
+
 // A vertex `side` times half the width from the middle: at the river's level, but in cascades,
 // which the cells resolve poorly, always on the land; in pools, below the wall of a fall, under it.
-// Outermost vertices, beyond 1, are below the
-// shore.
+// Outermost vertices, beyond 1, are below the shore.
 static Vec3 water_vertex(const Ribbons *r, Vec3 middle, Vec3 across, float half, float side,
-                         bool pool)
+                         int32_t node)
 {
     const float border = 0.5f * r->terrain->params->size;
     Vec3 p = vec3_madd(middle, side * half, across);
     p.x = clampf(p.x, -border, border);
     p.z = clampf(p.z, -border, border);
     float land = height_mesh_finest_at(r->field, p.x, p.z), film = terrain_bed_depth(half, half);
+    bool pool = r->terrain->flow[node].at_fall;
     if (fabsf(side) > 1.0f) {
         p.y = land - film;
         p.y = pool && p.y > middle.y ? middle.y : p.y;
@@ -103,6 +118,8 @@ static Vec3 water_vertex(const Ribbons *r, Vec3 middle, Vec3 across, float half,
     float depth = terrain_bed_depth(half, fabsf(side) * half);
     float least = pool ? fminf(land + 0.5f * film, middle.y) : land + 0.5f * film;
     p.y = clampf(middle.y, least, land + depth + film);
+    float low = fminf(land + film, p.y);
+    p.y = pool ? lerpf(p.y, low, drawdown(r, node)) : p.y;
     return p;
 }
 
@@ -116,7 +133,7 @@ static Vec3 water_normal(Vec3 below, Vec3 above)
 
 // Adds one row of `columns` vertices across the river, which flows from `above` to `below`.
 static void add_row(Ribbons *r, Vec3 middle, Vec3 below, Vec3 above, float half, int columns,
-                    const RiverFlow *flow)
+                    int32_t node)
 {
     Vec3 across = vec3_normalize(vec3(above.z - below.z, 0.0f, below.x - above.x));
     Vec3 normal = water_normal(below, above);
@@ -124,12 +141,12 @@ static void add_row(Ribbons *r, Vec3 middle, Vec3 below, Vec3 above, float half,
     for (int i = 0; i < columns; i++) {
         float side = 2.0f * (float)(i - 1) / (float)(columns - 3) - 1.0f;
         side = i == 0 ? -under : i == columns - 1 ? under : side;
-        Vec3 p = water_vertex(r, middle, across, half, side, flow->at_fall);
+        Vec3 p = water_vertex(r, middle, across, half, side, node);
         int64_t v = r->vertices + i;
         r->mesh->position[v] = vec3_add(p, r->terrain->params->position);
         r->mesh->normal[v] = normal;
         r->mesh->uv[v] = (Vec2){r->mesh->position[v].x, r->mesh->position[v].z};
-        r->mesh->foam[v] = flow->foam;
+        r->mesh->foam[v] = r->terrain->flow[node].foam;
     }
 }
 
@@ -168,7 +185,7 @@ static void add_stem(Ribbons *r, int32_t first)
             Vec3 to = water->position[above >= 0 ? above : here];
             // A brook enters a wider river with its own width.
             float half = below < 0 ? water->radius[first] : water->radius[here];
-            add_row(r, water->position[here], from, to, half, columns, &r->terrain->flow[here]);
+            add_row(r, water->position[here], from, to, half, columns, here);
             if (shows) {
                 add_faces(r, columns);
             }
