@@ -1,4 +1,4 @@
-// OpenVDB files, as they are read in the child process: as a mesh, or as a volume.
+// OpenVDB files, as they are read in the child process: as a mesh, as a volume, or as a cloud.
 #include "fuzz.h"
 #include "shape/vdb.h"
 
@@ -11,7 +11,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     const char *file = fuzz_file(".vdb", data + 1, size - 1);
     Error e = {0};
-    if (data[0] & 1) {
+    if ((data[0] & 3) == 2) {
+        sparse_volume_free(vdb_readers.sparse(file, NULL, &e));
+        vdb_readers.sparse_bytes(file, NULL, &e);
+    } else if (data[0] & 1) {
         volume_free(vdb_readers.volume(file, NULL, &e));
     } else {
         mesh_free(vdb_readers.surface(file, &e));

@@ -171,6 +171,8 @@ def draw_scene(schema, seed):
         scene["lights"] = [drawer.mapping(schema["$defs"]["light"])]
     if draw.random() < 0.2:
         scene["clouds"] = [drawer.mapping(schema["$defs"]["cloud"])]
+        if scene["clouds"][0].get("kind") == "grid":
+            scene["clouds"][0]["kind"] = "storm"  # that needs a file
     names = []
     for i in range(draw.randint(0, 2)):
         material = drawer.mapping(schema["$defs"]["material"])

@@ -70,7 +70,7 @@ static const Case scenes[] = {
      ":2:6: sky has no 'file'; this key is required: Latitude-longitude HDR panorama (.hdr, .exr), "
      "relative to the scene's folder."},
     {TREE "clouds: [{kind: grid}]\n",
-     ":2:11: clouds.0 has no 'file'; this key is required: VDB file with a grid of floats: a fog "
+     ":2:10: clouds.0 has no 'file'; this key is required: VDB file with a grid of floats: a fog "
      "volume's values, or the inside of a level set."},
     {TREE "clouds: [{kind: grid, file: c.vdb, cover: 1}]\n",
      ":2:36: key 'cover' does not apply to clouds.0 of kind 'grid'; known: kind, file, grid, "
