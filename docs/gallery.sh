@@ -172,7 +172,6 @@ still coral-staghorn coral-staghorn
 # ---- frost ----
 still frost-window frost-window
 still frost-bubble frost-bubble
-still frost-flowers frost-flowers
 if is_wanted figure-7; then
     for turn in 0 120 360; do
         for step in 0.25 0.5 1; do
