@@ -156,6 +156,7 @@ still beech-wood beech-wood --samples 20
 still birch-grove birch-grove
 still spruce-snow spruce-snow
 still hoar-birch hoar-birch
+still hoar-fence hoar-fence
 still lsystem-fern lsystem-fern
 still figure-19 lsystem-tree --size 1600x900
 if is_wanted coral-figure-2; then
@@ -172,6 +173,7 @@ still coral-staghorn coral-staghorn
 # ---- frost ----
 still frost-window frost-window
 still frost-bubble frost-bubble
+still frost-flowers frost-flowers
 if is_wanted figure-7; then
     for turn in 0 120 360; do
         for step in 0.25 0.5 1; do
