@@ -253,6 +253,7 @@ still birch-grove birch-grove
 still spruce-snow spruce-snow
 still forest-fog forest-fog
 still hoar-birch hoar-birch
+still hoar-fence hoar-fence
 still lsystem-fern lsystem-fern
 still figure-19 lsystem-tree --size 1600x900
 if is_wanted coral-figure-2; then

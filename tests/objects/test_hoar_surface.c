@@ -216,6 +216,33 @@ static void max_count_bounds_the_tufts(void **state)
 }
 
 // Against all triangles one by one: a box is met where its planes are.
+// If max_count is above what edges everywhere would bear, cells that bear none in any case are left
+// out; below, all are judged, since the sum decides. The frost is the same.
+static void leaving_cells_out_changes_nothing(void **state)
+{
+    (void)state;
+    const Vec3 half = {0.5f, 0.2f, 0.4f};
+    const double area = 3.04, few = 15500.0; // so many cells are as long as the needles still
+    HoarParams params = still_air();
+    params.sky = 0.5f;
+    params.density *= (float)(24000.0 / (area * (double)hoar_tufts_per_area(&params, 0.0f)));
+    params.max_count = 10000000;
+    Geometry some = frost_on(&params, half, 1);
+    params.max_count = (int64_t)few;
+    Geometry all = frost_on(&params, half, 1);
+    assert_int_equal(some.count, all.count);
+    int64_t tufts = 0;
+    for (int64_t i = 0; i < some.count; i++) {
+        assert_int_equal(some.part[i].instance_count, all.part[i].instance_count);
+        size_t size = (size_t)some.part[i].instance_count * sizeof(Transform);
+        assert_memory_equal(some.part[i].instance, all.part[i].instance, size);
+        tufts += some.part[i].instance_count;
+    }
+    assert_true(tufts > 500 && (double)tufts < few);
+    geometry_clear(&some);
+    geometry_clear(&all);
+}
+
 static void rays_meet_the_box(void **state)
 {
     (void)state;
@@ -248,6 +275,7 @@ int main(void)
         cmocka_unit_test(wind_moves_frost_and_makes_none),
         cmocka_unit_test(radiation_leaves_the_lower_side_bare),
         cmocka_unit_test(max_count_bounds_the_tufts),
+        cmocka_unit_test(leaving_cells_out_changes_nothing),
         cmocka_unit_test(rays_meet_the_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -115,7 +115,7 @@ static float chance_of(const Cell *cell)
     return random_unit(random_key(cell->key, STREAM_NUMBER));
 }
 
-static bool judge(HoarSurface *on, const Cell *cell, Error *e)
+static Judged judge_cell(const HoarSurface *on, const Cell *cell)
 {
     const HoarParams *params = on->params;
     const float least = 0.02f; // of the mean growth
@@ -133,6 +133,12 @@ static bool judge(HoarSurface *on, const Cell *cell, Error *e)
         judged.number = half * cell->area * hoar_tufts_per_area(params, radius);
         judged.size = half * params->length * params->thickest / (params->thickest + radius);
     }
+    return judged;
+}
+
+static bool judge(HoarSurface *on, const Cell *cell, Error *e)
+{
+    Judged judged = judge_cell(on, cell);
     on->tufts += (double)judged.number;
     if (!memory_reserve(&on->judged, &on->capacity, on->count + 1, sizeof judged, e)) {
         return false;
@@ -152,13 +158,11 @@ static Vec3 growth_direction(const HoarSurface *on, Vec3 n, uint64_t key)
     return vec3_normalize(d);
 }
 
-static bool grow_tufts(HoarSurface *on, const Cell *cell, Error *e)
+static bool grow_cell(HoarSurface *on, const Cell *cell, Judged judged, Error *e)
 {
-    assert(on->judged); // every cell has been
-    Judged judged = on->judged[on->count++];
     float wanted = on->kept * judged.number;
     int64_t number = (int64_t)(wanted + chance_of(cell));
-    bool done = run_goes_on(on->run, on->count, e);
+    bool done = run_goes_on(on->run, ++on->count, e);
     for (int64_t i = 0; done && i < number; i++) {
         uint64_t key = random_key(cell->key, STREAM_TUFTS + (uint64_t)i);
         Vec3 y = growth_direction(on, cell->normal, key);
@@ -171,6 +175,18 @@ static bool grow_tufts(HoarSurface *on, const Cell *cell, Error *e)
                               random_key(key, STREAM_SHAPE), e);
     }
     return done;
+}
+
+static bool grow_judged(HoarSurface *on, const Cell *cell, Error *e)
+{
+    assert(on->judged); // every cell has been
+    return grow_cell(on, cell, on->judged[on->count], e);
+}
+
+// No sum of all cells' tufts is needed.
+static bool grow_at_once(HoarSurface *on, const Cell *cell, Error *e)
+{
+    return grow_cell(on, cell, judge_cell(on, cell), e);
 }
 
 // ---- cells ----
@@ -263,6 +279,10 @@ static float measure_mesh(HoarSurface *on, const Mesh *mesh)
 static bool place(HoarSurface *on, const Mesh *mesh, Error *e)
 {
     on->longest = measure_mesh(on, mesh);
+    on->kept = 1.0f;
+    if (on->unlimited) {
+        return visit_all(on, mesh, grow_at_once, e);
+    }
     if (!visit_all(on, mesh, judge, e)) {
         return false;
     }
@@ -272,7 +292,7 @@ static bool place(HoarSurface *on, const Mesh *mesh, Error *e)
         run_warn(on->run, "hoar frost of %.0f tufts is thinned out to hoar.max_count, %.0f",
                  on->tufts, most);
     }
-    return visit_all(on, mesh, grow_tufts, e);
+    return visit_all(on, mesh, grow_judged, e);
 }
 
 bool hoar_add_on_mesh(const Mesh *mesh, const HoarParams *params, const Placing *placing, int role,
