@@ -203,7 +203,7 @@ still figure-14 vessels-forks
 still vessels-organ vessels-organ
 still vessels-body vessels-body
 if is_wanted figure-15; then
-    for share in 0.15 0.6 0.8 1; do
+    for share in 0.15 0.6 0.9 1; do
         panel vessels-body --set grow_to=$share --size 480x864 --set objects.vessels.vessels.terminals=3000
     done
     sheet figure-15 4x1
