@@ -20,7 +20,7 @@ static PatternShade shade_at(const Material *m, float season, float u, float var
                           .normal = {0, 0, 1},
                           .tangent_u = {1, 0, 0},
                           .tangent_v = {0, 1, 0}};
-    PatternShade shade = {m->color, m->transmittance, point.normal};
+    PatternShade shade = {m->color, m->transmittance, point.normal, 0.0f};
     pattern_apply(m, &point, &shade);
     return shade;
 }
