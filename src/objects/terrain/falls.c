@@ -79,7 +79,9 @@ int terrain_fall_path(const FallPath *path, Vec3 start, Vec3 velocity, Vec3 *pla
 enum {
     ROWS = 40,   // of a strand
     STEPS = 160, // of its path
-    ACROSS = 72, // strands of a layer
+    ACROSS = 72, // strands of a layer ...
+    MANY = 64,   // ... of at most so many falls; of more falls fewer, but never fewer than
+    FEWEST = 12,
     LAYERS = 4,
     STRANDS = ACROSS * LAYERS
 };
@@ -100,6 +102,7 @@ typedef struct FallMesher {
     float level; // m, of the pool
     Vec3 way, across;
     float half, speed, cover; // cover: how closely strands stand together at the foot, 0..1
+    int columns;              // strands of a layer
     Mesh *mesh;
     int64_t vertices, faces;
 } FallMesher;
@@ -123,7 +126,7 @@ static Vec3 strand_start(const FallMesher *f, float side)
 static float strand_side(const FallMesher *f, int strand)
 {
     float jitter = number_of(f, strand, NUMBER_SIDE);
-    return 2.0f * ((float)(strand % ACROSS) + jitter) / ACROSS - 1.0f;
+    return 2.0f * ((float)(strand % f->columns) + jitter) / (float)f->columns - 1.0f;
 }
 
 // Rocks at the lip part the water into tongues: its share at a place across, about 1.
@@ -157,13 +160,13 @@ static int strand_path(const FallMesher *f, int strand, Vec3 place[STEPS])
 // Half the width of a strand where it has fallen by this share: whole at the lip, torn below.
 static float strand_half(const FallMesher *f, int strand, float share)
 {
-    float spacing = 2.0f * f->half / ACROSS;
-    float from = strand < ACROSS ? 0.0f : 0.75f * number_of(f, strand, NUMBER_START);
+    float spacing = 2.0f * f->half / (float)f->columns;
+    float from = strand < f->columns ? 0.0f : 0.75f * number_of(f, strand, NUMBER_START);
     float torn = lerpf(1.4f, lerpf(0.25f, 0.65f, f->cover), smoothstepf(0.0f, 0.6f, share));
     float wide = number_of(f, strand, NUMBER_WIDTH);
     float own = lerpf(0.25f, 1.9f, wide * wide);
     own *= tongue(f, strand_side(f, strand));
-    float grown = smoothstepf(from, from + 0.12f, share + (strand < ACROSS ? 0.12f : 0.0f));
+    float grown = smoothstepf(from, from + 0.12f, share + (strand < f->columns ? 0.12f : 0.0f));
     return 0.5f * spacing * torn * own * grown; // at most about 1.5 spacings
 }
 
@@ -231,9 +234,10 @@ static Mesh *fall_mesh(FallMesher *f, const int32_t *main, Error *e)
     float thick = flow->discharge / (2.0f * f->half * sqrtf(2.0f * GRAVITY * height));
     f->cover = thick / (thick + 0.01f); // sheets of a centimetre are torn
     f->vertices = f->faces = 0;
-    f->mesh = mesh_new(4, (int64_t)STRANDS * ROWS * 3, (int64_t)STRANDS * (ROWS - 1) * 2,
+    int strands = f->columns * LAYERS;
+    f->mesh = mesh_new(4, (int64_t)strands * ROWS * 3, (int64_t)strands * (ROWS - 1) * 2,
                        MESH_NORMAL | MESH_UV | MESH_FOAM, e);
-    for (int i = 0; f->mesh && i < STRANDS; i++) {
+    for (int i = 0; f->mesh && i < strands; i++) {
         add_strand(f, i);
     }
     if (f->mesh) {
@@ -247,6 +251,17 @@ static Mesh *fall_mesh(FallMesher *f, const int32_t *main, Error *e)
     return f->mesh;
 }
 
+// So many that up to 400 falls take at most about 100 MB together.
+static int strands_across(const Terrain *terrain)
+{
+    int64_t falls = 0;
+    for (int64_t i = 0; i < terrain->water->count; i++) {
+        falls += terrain->drop[i] > 0.0f;
+    }
+    int64_t columns = falls > MANY ? (int64_t)ACROSS * MANY / falls : ACROSS;
+    return columns > FEWEST ? (int)columns : FEWEST;
+}
+
 bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const Placing *placing,
                        Error *e)
 {
@@ -254,12 +269,13 @@ bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const P
     int32_t *main = terrain_main_children(water, e);
     float lake = terrain->params->water_level > 0.0f ? terrain_water_height(terrain->params, field)
                                                      : -INFINITY;
+    int columns = strands_across(terrain);
     bool done = main;
     for (int64_t i = 0; done && i < water->count; i++) {
         if (terrain->drop[i] <= 0.0f || water->position[i].y <= lake) {
             continue;
         }
-        FallMesher f = {.terrain = terrain, .field = field, .lip = (int32_t)i};
+        FallMesher f = {.terrain = terrain, .field = field, .lip = (int32_t)i, .columns = columns};
         f.level = fmaxf(water->position[water->parent[i]].y, lake);
         done = placing_add(placing, (Part){.mesh = fall_mesh(&f, main, e)}, TERRAIN_WATER, e);
     }
