@@ -47,7 +47,8 @@ static const Case scenes[] = {
      ":1:62: objects.oak.tree.leaves.lobes is 17; a palmate leaf has at most 15 lobes"},
     {"objects: [{name: a, snow_crystal: {life: [{at: 0.1, temperature: -15, supersaturation: 0.1}, "
      "{at: 1, temperature: -6, supersaturation: 0.1}]}}]\n",
-     ":1:42: objects.a.snow_crystal.life comes from -10 degrees, where crystals are flat, to -9.99, "
+     ":1:42: objects.a.snow_crystal.life comes from -10 degrees, where crystals are flat, to "
+     "-9.99, "
      "where they are columns; columns on plates are not made, only plates on columns: let columns "
      "come first"},
     {"objects: [{name: oak, tree: {leaves: {max_cuont: 5}}}]\n",
