@@ -115,8 +115,8 @@ static float *find_rises(const HeightField *field, Error *e)
         int64_t north = row > 0 ? i - field->columns : i;
         int64_t south = row + 1 < field->rows ? i + field->columns : i;
         float dx = (field->height[east] - field->height[west]) / (float)(east - west);
-        float dz = (field->height[south] - field->height[north]) /
-                   (float)((south - north) / field->columns);
+        int64_t rows = (south - north) / field->columns;
+        float dz = (field->height[south] - field->height[north]) / (float)rows;
         rise[i] = sqrtf(dx * dx + dz * dz);
     }
     return rise;
@@ -164,7 +164,8 @@ static bool make_terraces(HeightField *field, const TerrainTerraceParams *terrac
         int number = (int)t;
         float share = t - (float)number;
         float hard = random_range(random_key(seed, (uint64_t)number), 0.4f, 1.0f);
-        Vec2 at = {(float)(i % field->columns), (float)(i / field->columns)};
+        int64_t column = i % field->columns, row = i / field->columns;
+        Vec2 at = {(float)column, (float)row};
         float cliff = cliff_of(share, rise ? rise[i] / bed : 0.0f, terraces->sheer, at, seed);
         share = lerpf(share, cliff, 0.92f * hard * terraces->strength);
         field->height[i] = low + bed * ((float)number + share);
