@@ -121,16 +121,23 @@ static void free_traced(Traced *t)
     grown_clear(&t->grown);
 }
 
-// In bends the outer half of the bed is deeper, and the water's edge is farther from the middle.
-static void pools_lie_at_outer_banks(void **state)
+// A river of this width, m, without a fall, in 4 km of plain.
+static TerrainParams level_plain(float width)
 {
-    (void)state;
     TerrainParams params = terrain_params_default();
     params.form = TERRAIN_MEANDER;
     params.size = 4096.0f;
     params.resolution = 512;
-    params.meander.width = 100.0f;
+    params.meander.width = width;
     params.meander.slope = 0.0f;
+    return params;
+}
+
+// In bends the outer half of the bed is deeper, and the water's edge is farther from the middle.
+static void pools_lie_at_outer_banks(void **state)
+{
+    (void)state;
+    TerrainParams params = level_plain(100.0f);
     params.meander.age = 0.5f;
     Traced t = trace_river(&params);
     double depth[2] = {0.0, 0.0};
@@ -185,12 +192,7 @@ static int64_t flood_lake(Lakes *l, int64_t i)
 static void oxbows_do_not_break_into_beads(void **state)
 {
     (void)state;
-    TerrainParams params = terrain_params_default();
-    params.form = TERRAIN_MEANDER;
-    params.size = 4096.0f;
-    params.resolution = 512;
-    params.meander.width = 60.0f;
-    params.meander.slope = 0.0f;
+    TerrainParams params = level_plain(60.0f);
     Traced t = trace_river(&params);
     int64_t count = height_field_count(t.field), pieces = 0, beads = 0;
     Lakes l = {

@@ -115,6 +115,24 @@ static void undisplaced(const DicedMesh *diced, const Corners *c, float side, Su
     }
 }
 
+// What vertices tell beside their place: each mesh has only some of it.
+static void add_attributes(const Mesh *mesh, const Corners *c, SurfacePoint *point)
+{
+    for (int i = 0; i < 3 && mesh->radius; i++) {
+        point->radius += c->weight[i] * mesh->radius[c->vertex[i]];
+    }
+    for (int i = 0; i < 3 && mesh->birth; i++) {
+        point->birth += c->weight[i] * mesh->birth[c->vertex[i]];
+    }
+    for (int i = 0; i < 3 && mesh->site; i++) {
+        point->site.x += c->weight[i] * mesh->site[c->vertex[i]].x;
+        point->site.y += c->weight[i] * mesh->site[c->vertex[i]].y;
+    }
+    for (int i = 0; i < 3 && mesh->foam; i++) {
+        point->foam += c->weight[i] * mesh->foam[c->vertex[i]];
+    }
+}
+
 static void mesh_surface(const PieceHit *at, const Transform *t, Vec3 direction,
                          SurfacePoint *point)
 {
@@ -159,19 +177,7 @@ static void mesh_surface(const PieceHit *at, const Transform *t, Vec3 direction,
         point->tangent_u = transform_vector(t, point->tangent_u);
         point->tangent_v = transform_vector(t, point->tangent_v);
     }
-    for (int i = 0; i < 3 && mesh->radius; i++) {
-        point->radius += c.weight[i] * mesh->radius[c.vertex[i]];
-    }
-    for (int i = 0; i < 3 && mesh->birth; i++) {
-        point->birth += c.weight[i] * mesh->birth[c.vertex[i]];
-    }
-    for (int i = 0; i < 3 && mesh->site; i++) {
-        point->site.x += c.weight[i] * mesh->site[c.vertex[i]].x;
-        point->site.y += c.weight[i] * mesh->site[c.vertex[i]].y;
-    }
-    for (int i = 0; i < 3 && mesh->foam; i++) {
-        point->foam += c.weight[i] * mesh->foam[c.vertex[i]];
-    }
+    add_attributes(mesh, &c, point);
     const Mesh *given = at->own->part->mesh; // NULL of what is skinned around curves
     point->strata = given ? given->strata : NULL;
     point->waves = given ? given->waves : NULL;
