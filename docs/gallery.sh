@@ -277,14 +277,14 @@ still frost-flowers frost-flowers
 if is_wanted figure-7; then
     for turn in 0 120 360; do
         for step in 0.25 0.5 1; do
-            panel guide-field-plane --size 540x540 --set "objects.tree.frost.turn=$turn" --set grow_to="$step"
+            panel guide-field-plane --size 640x640 --set "objects.tree.frost.turn=$turn" --set grow_to="$step"
         done
     done
     sheet figure-7 3x3
 fi
 if is_wanted figure-8; then
     for turn in 0 120 360; do
-        panel guide-field-sphere --set "objects.tree.frost.turn=$turn"
+        panel guide-field-sphere --size 960x960 --set "objects.tree.frost.turn=$turn"
     done
     sheet figure-8 3x1
 fi

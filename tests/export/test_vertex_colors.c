@@ -2,6 +2,7 @@
 #include "render/world.h"
 #include "testing.h"
 
+#include "export/vertex.h"
 #include "export/vertex_colors.h"
 #include "render/accel/accel.h"
 #include "render/material/pattern.h"
@@ -113,6 +114,33 @@ static void vertices_have_the_colours_that_rays_meet(void **state)
     scene_free(scene);
 }
 
+static void white_water_has_the_colour_of_foam(void **state)
+{
+    (void)state;
+    Error e = {0};
+    Vec3 position[3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}};
+    float foam[3] = {0, 1, 0};
+    uint32_t index[3] = {0, 1, 2};
+    const Mesh mesh = {.vertex_count = 3,
+                       .face_count = 1,
+                       .face_size = 3,
+                       .position = position,
+                       .index = index,
+                       .foam = foam};
+    const Material lake = {
+        .pattern = PATTERN_WATER, .color = {0.1f, 0.2f, 0.3f}, .color2 = {1, 1, 1}};
+    ExportSurface surface;
+    ExportVertex vertex[3];
+    assert_true(export_surface_prepare(&surface, &mesh, &lake,
+                                       EXPORT_WANTS_NORMALS | EXPORT_WANTS_COLORS, &e));
+    export_surface_vertices(&surface, NULL, (InstanceLook){0.5f, 0.0f}, 0, 3, 1, vertex);
+    for (int i = 0; i < 3; i++) {
+        Vec3 wanted = foam[i] > 0.0f ? lake.color2 : lake.color;
+        assert_float_equal(vec3_distance(vertex[i].color, wanted), 0.0f, 1e-6f);
+    }
+    export_surface_clear(&surface);
+}
+
 static void a_cancelled_run_makes_no_colours(void **state)
 {
     (void)state;
@@ -135,6 +163,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(vertices_have_the_colours_that_rays_meet),
+        cmocka_unit_test(white_water_has_the_colour_of_foam),
         cmocka_unit_test(a_cancelled_run_makes_no_colours),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
