@@ -7,6 +7,7 @@
 // What the square's copies beyond it are.
 typedef enum Repeat {
     REPEAT_MIRRORED, // their borders meet
+    REPEAT_SHORE,    // mirrored, too, but only along the shore and once inland
     REPEAT_PERIODIC, // itself, which repeats
     REPEAT_ALONG     // mirrored along x; along z itself, on its slope
 } Repeat;

@@ -285,6 +285,7 @@ static const Form FORMS[] = {
                        .finish = finish_hills,
                        .measure = terrain_measure_hills},
     [TERRAIN_COAST] = {.material = "terrain/coast",
+                       .repeat = REPEAT_SHORE,
                        .relief = 0.04f,
                        .wavelength = 0.125f,
                        .shows_beds = true,

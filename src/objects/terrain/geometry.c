@@ -24,7 +24,8 @@ static Transform copied(const TerrainParams *params, int column, int row)
 {
     Repeat repeat = terrain_form(params)->repeat;
     float x = column % 2 == 0 || repeat == REPEAT_PERIODIC ? 1.0f : -1.0f;
-    float z = row % 2 == 0 || repeat != REPEAT_MIRRORED ? 1.0f : -1.0f;
+    bool turned = row % 2 != 0 && repeat != REPEAT_PERIODIC && repeat != REPEAT_ALONG;
+    float z = turned ? -1.0f : 1.0f;
     Vec3 middle = params->position;
     Vec3 place = vec3((float)column * params->size + (1.0f - x) * middle.x, 0.0f,
                       (float)row * params->size + (1.0f - z) * middle.z);
@@ -34,10 +35,10 @@ static Transform copied(const TerrainParams *params, int column, int row)
     return transform_from_axes(vec3(x, 0, 0), vec3(0, 1, 0), vec3(0, 0, z), place);
 }
 
-// Has the square a copy there? A coast goes on along the shore and once inland.
+// Has the square a copy there?
 static bool is_copied(const TerrainParams *params, int column, int row)
 {
-    if (params->form != TERRAIN_COAST) {
+    if (terrain_form(params)->repeat != REPEAT_SHORE) {
         return column != 0 || row != 0;
     }
     TerrainSide sea = params->coast.sea;
