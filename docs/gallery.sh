@@ -214,7 +214,7 @@ fi
 still oak oak --size 1920x1080
 still oak-winter oak-winter --size 1920x1080
 still ash ash
-still figure-9 field-grid --size 1600x900
+still figure-9 field-grid
 still twisted twisted
 still mesh-crown mesh-crown
 still forest forest

@@ -9,28 +9,32 @@
 
 #include <stddef.h>
 
-enum { STALK_SIDES = 3 };
+enum { STALK_SIDES = 3, NEAR_STALK_SIDES = 6 };
 
 static void add_stalk(Quads *quads, const LeafParams *params)
 {
-    // The stalk continues below the blade's base, where the midrib begins.
+    // The stalk continues below the blade's base, where the midrib begins; seen from near, it
+    // tapers.
+    bool fine = params->detail > 2;
     float overlap = params->compound == COMPOUND_NONE && params->nod == 0.0f ? 0.04f : 0.0f;
     float thickness = (params->shape == LEAF_OAK ? 0.006f : 0.009f) * params->length;
     // A frond's stalk is no thicker than its rachis needs.
     thickness = params->compound == COMPOUND_NONE ? thickness : 0.5f * thickness;
+    uint32_t sides = fine ? NEAR_STALK_SIDES : STALK_SIDES;
     uint32_t first = (uint32_t)quads->vertex_count;
     for (int end = 0; end < 2; end++) {
-        for (int k = 0; k < STALK_SIDES; k++) {
+        float radius = end && fine ? 0.3f * thickness : thickness;
+        for (uint32_t k = 0; k < sides; k++) {
             float sine, cosine;
-            exact_sincos(2.0f * PI_F * (float)k / STALK_SIDES, &sine, &cosine);
+            exact_sincos(2.0f * PI_F * (float)k / (float)sides, &sine, &cosine);
             float y = end ? params->petiole + overlap * params->length : 0.0f;
-            quads_vertex(quads, vec3(thickness * cosine, y, thickness * (sine - 0.8f)),
+            quads_vertex(quads, vec3(radius * cosine, y, radius * sine - 0.8f * thickness),
                          (Vec2){0.5f, 0.0f});
         }
     }
-    for (uint32_t k = 0; k < STALK_SIDES; k++) {
-        uint32_t a = first + k, b = first + (k + 1) % STALK_SIDES;
-        quads_face(quads, a, a + STALK_SIDES, b + STALK_SIDES, b);
+    for (uint32_t k = 0; k < sides; k++) {
+        uint32_t a = first + k, b = first + (k + 1) % sides;
+        quads_face(quads, a, a + sides, b + sides, b);
     }
 }
 

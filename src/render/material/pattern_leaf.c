@@ -26,21 +26,24 @@ static float veins_along(Vec2 uv, float blur)
     return fmaxf(0.6f * strong * line(across, 0.006f, blur), 0.5f * midrib);
 }
 
-// Veinlets across from side vein to side vein, seen from near: run counts side veins along the
-// blade, side is the distance from the midrib.
+// Veinlets, seen from near: rungs across from side vein to side vein, and between them a net whose
+// meshes are about as wide as long. run counts side veins along the blade, side is the distance
+// from the midrib.
 static float veinlets(float run, float side, float count, float blur)
 {
+    const float rungs = 3.4f, meshes = 7.0f; // by the distance of two side veins
+    const float width = 0.65f;               // of a blade of the common sort, by its length
     float seen = 1.0f - smoothstepf(0.004f, 0.012f, blur);
     if (seen <= 0.0f) {
         return 0.0f;
     }
-    // They bend and part, by noise; a second family crosses them.
     float bend = noise_fractal(vec3(3.0f * run, 9.0f * side, 0.0f), 2, 47);
-    float ladder = side * 3.4f * count + 0.8f * bend, rung = ladder - floorf(ladder);
-    float net = run * 5.0f + 1.1f * bend, mesh = net - floorf(net);
-    float first = line(fabsf(rung - 0.5f) / (3.4f * count), 0.0035f, blur);
-    float second = line(fabsf(mesh - 0.5f) / (5.0f * count), 0.0025f, blur);
-    return seen * fmaxf(0.4f * first, 0.3f * second);
+    float ladder = side * rungs * count + 0.8f * bend, rung = ladder - floorf(ladder);
+    float first = line(fabsf(rung - 0.5f) / (rungs * count), 0.0035f, blur);
+    Vec3 at = vec3(meshes * run, meshes * width * count * side, 0.5f);
+    float border = noise_cells(at, 53).border;
+    float second = line(border / (meshes * count), 0.0022f, blur);
+    return seen * fmaxf(0.55f * first, 0.5f * second);
 }
 
 // Coverage of uv by a vein; count: side veins on each half.
@@ -84,7 +87,7 @@ void pattern_leaf(const Material *m, const SurfacePoint *point, PatternShade *sh
                      1.4f * shade->color.z + 0.015f);
     shade->color = vec3_lerp(blade, pale, 0.7f * vein);
     // Veins are thick and transmit less; blotches thin or thicken the blade.
-    float clear = (1.0f - 0.55f * vein) * (1.0f + 0.18f * blotch);
+    float clear = (1.0f - 0.7f * vein) * (1.0f + 0.25f * blotch);
     Vec3 filter =
         vec3(blotch_filter(own.x, m->color2.x, spot), blotch_filter(own.y, m->color2.y, spot),
              blotch_filter(own.z, m->color2.z, spot));
