@@ -36,8 +36,11 @@ typedef struct Form {
     // After erosion, before terraces, and after them. NULL = nothing to do.
     bool (*drain)(Terrain *terrain, HeightField *field, const Run *run, Error *e);
     bool (*finish)(Terrain *terrain, HeightField *field, const Run *run, Error *e);
-    // Of water with levels of its own: how rough its flow is at a place, 0..1.
+    // Of water with levels of its own: how rough its flow is at a place, 0..1; of a delta's how
+    // much mud it carries.
     float (*roughness)(const Terrain *terrain, float x, float z);
+    // What lies around the square, instead of its copies. NULL = its copies.
+    bool (*beyond)(const Terrain *terrain, const Placing *placing, Error *e);
     // Beside what all forms that evolve measure. NULL = nothing.
     bool (*measure)(const Terrain *terrain, MeasureList *list, Error *e);
 } Form;

@@ -322,6 +322,15 @@ static const Form FORMS[] = {
                          .sample = terrain_sample_meander,
                          .finish = finish_meander,
                          .roughness = terrain_meander_roughness},
+    [TERRAIN_DELTA] = {.material = "terrain/delta",
+                       .water = "terrain/silt",
+                       .wavelength = 0.125f,
+                       .prepare = terrain_grow_delta,
+                       .record = record_braided,
+                       .sample = terrain_sample_delta,
+                       .finish = terrain_finish_delta,
+                       .roughness = terrain_delta_load,
+                       .beyond = terrain_add_delta_beyond},
 };
 
 const Form *terrain_form(const TerrainParams *params)

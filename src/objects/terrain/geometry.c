@@ -76,6 +76,9 @@ static bool add_beyond(const Terrain *terrain, const HeightField *field, const P
     if (params->beyond <= 0) {
         return true;
     }
+    if (terrain_form(params)->beyond) {
+        return terrain_form(params)->beyond(terrain, placing, e);
+    }
     HeightMeshParams meshing = {.error = 0.25f * params->mesh_error * params->size,
                                 .keep = terrain_form(params)->water ? terrain->bank : NULL};
     Mesh *mesh = height_mesh_new(field, &meshing, e);

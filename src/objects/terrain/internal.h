@@ -41,7 +41,8 @@ enum {
     STREAM_KARST = 83,
     STREAM_MEANDER = 84,
     STREAM_SCROLLS = 85,
-    STREAM_LIPS = 86
+    STREAM_LIPS = 86,
+    STREAM_DELTA = 87
 };
 
 // The tree and everything derived from it.
@@ -62,6 +63,7 @@ typedef struct Terrain {
     Dunes *dunes;         // of TERRAIN_DUNES; set by terrain_heights
     Braid *braid;         // of TERRAIN_BRAIDED, with the two that follow; set by terrain_heights
     BraidLevel *level;
+    struct DeltaLand *delta;  // of TERRAIN_DELTA; set by terrain_heights
     Meander *meander;         // of TERRAIN_MEANDER; set by terrain_heights
     HeightField *plain;       // likewise: its land, sample by sample
     HeightField *sides;       // m by which the slopes beside the valley are above its floor
@@ -325,6 +327,17 @@ void terrain_sample_meander(const Terrain *terrain, HeightField *field, int64_t 
 float terrain_meander_roughness(const Terrain *terrain, float x, float z);
 // After terrain_heights.
 bool terrain_measure_meander(const Terrain *terrain, MeasureList *list, Error *e);
+
+// delta.c: fills terrain->delta.
+bool terrain_grow_delta(Terrain *terrain, const Run *run, Error *e);
+void terrain_sample_delta(const Terrain *terrain, HeightField *field, int64_t i, float x, float z);
+bool terrain_finish_delta(Terrain *terrain, HeightField *field, const Run *run, Error *e);
+// Mud in the water at a place, of that in the river, 0..1.
+float terrain_delta_load(const Terrain *terrain, float x, float z);
+// After terrain_heights.
+bool terrain_measure_delta(const Terrain *terrain, MeasureList *list, Error *e);
+// delta_beyond.c: the sea and the old land around the square, level and bare.
+bool terrain_add_delta_beyond(const Terrain *terrain, const Placing *placing, Error *e);
 
 // The land at a place.
 typedef struct EvolvedPlace {

@@ -1,6 +1,7 @@
 // Terrain as a kind of object.
 #include "objects/kind.h"
 #include "land/height_maps.h"
+#include "objects/terrain/delta.h"
 #include "objects/terrain/form.h"
 #include "render/material/material.h"
 
@@ -50,7 +51,8 @@ static void needs(const void *params, Needs *needs)
         KARST_BYTES = 64,
         DUNE_BYTES = 90,
         SHORE_BYTES = 48,
-        BRAID_BYTES = 110
+        BRAID_BYTES = 110,
+        DELTA_BYTES = 320
     };
     const TerrainParams *terrain = params;
     double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // trees per side
@@ -72,6 +74,10 @@ static void needs(const void *params, Needs *needs)
     if (terrain->form == TERRAIN_BRAIDED) {
         double cells = fmin(terrain->resolution, terrain->evolution.cells);
         needs_add(needs, "evolution.cells", cells * cells, BRAID_BYTES);
+    }
+    if (terrain->form == TERRAIN_DELTA) {
+        double cells = terrain_delta_cells(terrain);
+        needs_add(needs, "delta.width", cells * cells, DELTA_BYTES);
     }
     if (terrain->form == TERRAIN_MEANDER) {
         needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, 60);
@@ -217,6 +223,23 @@ static const Material BUILTIN[] = {
      .ior = 1.33f,
      .pattern = PATTERN_RIVER,
      .pattern_depth = 0.02f},
+    {.name = "terrain/delta",
+     .kind = MATERIAL_DIFFUSE,
+     .color = {0.185f, 0.150f, 0.100f},
+     .color2 = {0.070f, 0.088f, 0.026f},
+     .roughness = 0.8f,
+     .ior = 1.5f,
+     .pattern = PATTERN_DELTA,
+     .pattern_depth = 1.0f},
+    {.name = "terrain/silt",
+     .kind = MATERIAL_PRINCIPLED,
+     .color = {0.020f, 0.055f, 0.060f},
+     .color2 = {0.190f, 0.150f, 0.090f},
+     .roughness = 0.12f,
+     .specular = 0.25f,
+     .ior = 1.33f,
+     .pattern = PATTERN_SILT,
+     .pattern_depth = 0.015f},
     {.name = "terrain/strata",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.40f, 0.29f, 0.19f},

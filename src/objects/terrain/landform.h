@@ -112,6 +112,16 @@ typedef struct MeanderParams {
     float age;   // 1 = many bends have been cut off
 } MeanderParams;
 
+// A river that enters a shallow sea.
+typedef struct DeltaParams {
+    float width; // m, of the river; 0 = a fortieth of the size
+    float depth; // m, of the river and of the sea; 0 = by the river's width
+    float sand;  // share of what it brings
+    float age;   // what it has brought: 1 = the delta reaches the middle of the square and beyond
+    float rise;  // of the sea meanwhile, share of its depth
+    float plain; // width of the old land, share of the size
+} DeltaParams;
+
 // How the land evolves; factors on the landform's own rates.
 typedef struct EvolutionParams {
     float streams;    // incision by tributaries
@@ -124,6 +134,7 @@ typedef struct EvolutionParams {
 } EvolutionParams;
 
 extern const struct Table strata_table, canyon_table, mesa_table, alps_table, volcano_table,
-    dune_table, hill_table, coast_table, braided_table, karst_table, meander_table, evolution_table;
+    dune_table, hill_table, coast_table, braided_table, karst_table, meander_table, delta_table,
+    evolution_table;
 
 #endif

@@ -177,6 +177,9 @@ bool terrain_measure(const void *given, const Grown *grown, const Recipe *recipe
     if (terrain->meander) {
         return terrain_measure_meander(terrain, list, e);
     }
+    if (terrain->delta) {
+        return terrain_measure_delta(terrain, list, e);
+    }
     if (terrain->braid) {
         return terrain_measure_braided(terrain, list, e);
     }

@@ -52,6 +52,7 @@ TerrainParams terrain_params_default(void)
                     .terrace_height = 7.0f},
         .karst = {.stage = 0.75f, .focus = 1.0f},
         .meander = {.plain = 0.7f, .slope = 0.0005f, .age = 1.0f},
+        .delta = {.sand = 0.3f, .age = 1.0f, .plain = 0.14f},
         .dunes = {.kind = DUNE_TRANSVERSE, .wind = 270.0f, .spread = 120.0f, .age = 1.0f},
         .evolution = {.streams = 1.0f,
                       .weathering = 1.0f,
@@ -123,6 +124,14 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         float width = params->meander.width;
         resolved.meander.width = width > 0.0f ? width : params->size / 60.0f;
         resolved.relief = params->relief > 0.0f ? params->relief : params->size * form->relief;
+    }
+    if (params->form == TERRAIN_DELTA) {
+        float width = params->delta.width, depth = params->delta.depth;
+        resolved.delta.width = width > 0.0f ? width : params->size / 40.0f;
+        // Bankfull widths and depths of rivers: Leopold and Maddock 1953.
+        float tenth = sqrtf(0.1f * resolved.delta.width);
+        resolved.delta.depth = depth > 0.0f ? depth : tenth;
+        resolved.relief = params->relief > 0.0f ? params->relief : resolved.delta.depth;
     }
     if (form->evolve) {
         resolved.relief = params->relief > 0.0f ? params->relief : params->size * form->relief;

@@ -1,7 +1,7 @@
 // The terrain: uplift, rivers, ridges, noise, erosion, forest.
 #include "land/tiles.h"
 #include "objects/common/tables.h"
-#include "objects/terrain/terrain.h"
+#include "objects/terrain/delta.h"
 
 #include <stdio.h>
 
@@ -414,7 +414,8 @@ static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS},   {"ridges", T
                                       {"volcano", TERRAIN_VOLCANO}, {"dunes", TERRAIN_DUNES},
                                       {"hills", TERRAIN_HILLS},     {"coast", TERRAIN_COAST},
                                       {"braided", TERRAIN_BRAIDED}, {"karst", TERRAIN_KARST},
-                                      {"meander", TERRAIN_MEANDER}, {0}};
+                                      {"meander", TERRAIN_MEANDER}, {"delta", TERRAIN_DELTA},
+                                      {0}};
 
 static const EnumName SHOW_NAMES[] = {
     {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
@@ -431,7 +432,8 @@ static const Key TERRAIN_KEYS[] = {
          "cliffs, shore platforms, stacks and beaches that waves make; braided: a river in many "
          "threads on its plain of gravel, in a valley; karst: towers and cones of limestone that "
          "water has dissolved; meander: a river that winds in its floodplain, with point "
-         "bars and oxbow lakes."},
+         "bars and oxbow lakes; delta: a river that enters a shallow sea and parts into channels "
+         "between islands of marsh."},
     {KEY_OF(TerrainParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",
      .doc = "Centre of the terrain, at the height of the outlets."},
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
@@ -486,6 +488,8 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Tower karst, of form: karst."},
     {KEY_OF(TerrainParams, meander, "meander", KEY_GROUP), .table = &meander_table,
      .doc = "Meandering river, of form: meander."},
+    {KEY_OF(TerrainParams, delta, "delta", KEY_GROUP), .table = &delta_table,
+     .doc = "River delta, of form: delta."},
     {KEY_OF(TerrainParams, evolution, "evolution", KEY_GROUP), .table = &evolution_table,
      .doc = "Processes that make form: canyon, mesas, alps, volcano, hills, coast and karst."},
     {KEY_OF(TerrainParams, tiles, "tiles", KEY_GROUP), .table = &TILE_TABLE,
@@ -541,6 +545,15 @@ static bool check_terrain(const Mapping *mapping, void *params)
                             " is %g m, less than a cell of the terrain, %g m; a river must be at "
                             "least a cell wide",
                             width, cell);
+    }
+    double river = (double)terrain->delta.width, most = (double)terrain->size * DELTA_INLETS;
+    if (terrain->form == TERRAIN_DELTA && river > 0.0 &&
+        (river < most / DELTA_MOST_CELLS || river > most / DELTA_LEAST_CELLS)) {
+        return mapping_fail(mapping, "delta.width",
+                            " is %g m; in a terrain of %g m a river that builds a delta is %g to "
+                            "%g m wide",
+                            river, (double)terrain->size, most / DELTA_MOST_CELLS,
+                            most / DELTA_LEAST_CELLS);
     }
     int evolved = terrain->evolution.cells;
     if ((evolved & (evolved - 1)) != 0) {

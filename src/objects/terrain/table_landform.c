@@ -419,6 +419,41 @@ const Table meander_table = {
     .size = sizeof(MeanderParams),
     .keys = MEANDER_KEYS};
 
+static const Key DELTA_KEYS[] = {
+    {KEY_OF(DeltaParams, width, "width", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .doc = "Width of the river, a 64th to a 16th of the terrain's size; 0 = a 40th. Channels and "
+            "islands are in proportion to it, so that a narrow river builds many."},
+    {KEY_OF(DeltaParams, depth, "depth", KEY_FLOAT), .high = 1e4, .unit = "m",
+     .doc = "Depth of the river and of the sea that it fills; 0 = by the river's width: 4.5 m for "
+            "200 m."},
+    {KEY_OF(DeltaParams, sand, "sand", KEY_FLOAT), .high = 1,
+     .doc = "Share of sand in what the river brings, the rest is mud. Mud makes few deep channels "
+            "between firm banks and a ragged coast, sand many shallow ones and a smooth coast."},
+    {KEY_OF(DeltaParams, age, "age", KEY_FLOAT), .low = 0.02, .high = 2,
+     .doc = "How long it has built: the delta's area is in proportion. 1 = it fills the middle of "
+            "the square; more reaches its borders, where what comes is lost."},
+    {KEY_OF(DeltaParams, rise, "rise", KEY_FLOAT), .high = 2, .unit = "depths",
+     .doc = "How far the sea rises meanwhile: land drowns between the channels, which leaves bays "
+            "and ponds."},
+    {KEY_OF(DeltaParams, plain, "plain", KEY_FLOAT), .low = 0.08, .high = 0.4, .unit = "sizes",
+     .doc = "Width of the old land in the north (-z), through which the river comes."},
+    {0},
+};
+
+const Table delta_table = {
+    .name = "delta",
+    .doc = "A river that enters a shallow sea in the south (+z). Bars grow before its mouth and "
+           "part it again and again; channels shift, old land turns to marsh. The relief has no "
+           "meaning; beyond is the open sea and level old land.",
+    .example = "objects:\n"
+               "  - name: delta\n"
+               "    terrain:\n"
+               "      form: delta\n"
+               "      size: 8000\n"
+               "      delta: {width: 180, sand: 0.3}\n",
+    .size = sizeof(DeltaParams),
+    .keys = DELTA_KEYS};
+
 static const Key EVOLUTION_KEYS[] = {
     {KEY_OF(EvolutionParams, streams, "streams", KEY_FLOAT), .high = 100,
      .doc = "Factor on the erosion by streams."},

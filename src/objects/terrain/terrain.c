@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/noise.h"
 #include "base/random.h"
+#include "objects/terrain/delta.h"
 #include "objects/terrain/form.h"
 
 #include <stdlib.h>
@@ -41,8 +42,10 @@ static void forget(Terrain *terrain)
     braid_level_free(terrain->level);
     height_field_free(terrain->sides);
     meander_free(terrain->meander);
+    delta_land_free(terrain->delta);
     height_field_free(terrain->plain);
     terrain->meander = NULL;
+    terrain->delta = NULL;
     terrain->plain = NULL;
     terrain->braid = NULL;
     terrain->level = NULL;

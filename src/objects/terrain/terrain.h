@@ -46,7 +46,8 @@ typedef enum TerrainForm {
     TERRAIN_COAST,   // cliffs that waves cut
     TERRAIN_BRAIDED, // a braided river in its valley
     TERRAIN_KARST,   // towers of dissolved limestone
-    TERRAIN_MEANDER  // a winding river in its floodplain
+    TERRAIN_MEANDER, // a winding river in its floodplain
+    TERRAIN_DELTA    // a river that builds land in a shallow sea
 } TerrainForm;
 
 // What is drawn.
@@ -183,6 +184,7 @@ typedef struct TerrainParams {
     BraidedParams braided;
     KarstParams karst;
     MeanderParams meander;
+    DeltaParams delta;
     EvolutionParams evolution;
     TerrainTileParams tiles;
     int beyond;       // rings of mirrored copies around the square

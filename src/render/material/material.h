@@ -63,7 +63,9 @@ typedef enum PatternKind {
     PATTERN_KARST,     // limestone cliffs with streaks of water, bushes, fields on the plain
     PATTERN_MUD,       // the bed of a pond: ooze, darker with depth (color2), litter, a wet rim
     PATTERN_FLOODPLAIN, // point bars, scrolls, meadows, reeds and fields of a meandering river
-    PATTERN_RIVER       // its water: the bed in shoals, murky depth, ripples
+    PATTERN_RIVER,      // its water: the bed in shoals, murky depth, ripples
+    PATTERN_DELTA,      // mud flats, reeds, marsh, willows on levees, fields of a river's delta
+    PATTERN_SILT        // its water: mud and clear sea (color), the bed in shoals
 } PatternKind;
 
 // Is relief displaced near the camera?

@@ -136,7 +136,8 @@ static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShad
     [PATTERN_BRAIDED] = pattern_braided,   [PATTERN_GLACIAL] = pattern_glacial,
     [PATTERN_NOISE] = noise_pattern,       [PATTERN_KARST] = pattern_karst,
     [PATTERN_MUD] = pattern_mud,           [PATTERN_FLOODPLAIN] = pattern_floodplain,
-    [PATTERN_RIVER] = pattern_river,
+    [PATTERN_RIVER] = pattern_river,       [PATTERN_DELTA] = pattern_delta,
+    [PATTERN_SILT] = pattern_silt,
 };
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)

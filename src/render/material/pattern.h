@@ -49,6 +49,8 @@ void pattern_braided(const Material *material, const SurfacePoint *point, Patter
 void pattern_floodplain(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_river(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_karst(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_delta(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_silt(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_glacial(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_sand(const Material *material, const SurfacePoint *point, PatternShade *shade);
 
