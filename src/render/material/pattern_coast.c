@@ -29,6 +29,24 @@ static Vec3 bed_color(const Strata *strata, float level)
     return strata->bed[strata_bed(strata, level)].color;
 }
 
+static CragsRock face_of(const SurfacePoint *point)
+{
+    Vec3 at = point->object_position;
+    float base = point->strata ? strata_base(point->strata, at.x, at.z) : 0.0f;
+    return (CragsRock){.size = COAST_BLOCKS,
+                       .thick = 0.5f,
+                       .scales = CRAGS_MOST,
+                       .up = vec3(0.0f, 1.0f, 0.0f),
+                       .level = at.y - base};
+}
+
+float pattern_coast_height(const Material *m, const SurfacePoint *point)
+{
+    CragsRock face = face_of(point);
+    float steep = smoothstepf(0.9f, 0.7f, fabsf(point->smooth_normal.y));
+    return steep > 0.0f ? m->pattern_depth * steep * pattern_crags(point, &face).height : 0.0f;
+}
+
 // ledges: the share of the place that soil on ledges takes.
 static Ground rock(const Place *p, float *ledges)
 {
@@ -37,16 +55,9 @@ static Ground rock(const Place *p, float *ledges)
     PatternOctaves rough = pattern_octaves(point, 1.6f, 7, 0.6f, 1.0f, SEED_BED);
     Vec3 color = {0.2f, 0.17f, 0.14f};
     float tone = 0.5f;
-    CragsRock face = {.size = 9.0f,
-                      .thick = 0.5f,
-                      .scales = CRAGS_MOST,
-                      .up = vec3(0.0f, 1.0f, 0.0f),
-                      .level = point->object_position.y};
+    CragsRock face = face_of(point);
     if (strata) {
-        Vec3 at = point->object_position;
-        float level = at.y - strata_base(strata, at.x, at.z);
-        face.level = level;
-        level += 0.35f * p->fray + 0.1f * rough.value;
+        float level = face.level + 0.35f * p->fray + 0.1f * rough.value;
         float foot = 0.3f * point->footprint;
         color = vec3_scale(
             vec3_add(bed_color(strata, level - foot), bed_color(strata, level + foot)), 0.5f);
@@ -61,7 +72,7 @@ static Ground rock(const Place *p, float *ledges)
     float light = 1.0f + 0.5f * (tone - 0.5f) + 0.14f * crags.tone + 0.12f * rough.value;
     light *= (1.0f - 0.7f * crags.crevice) * (1.0f - 0.3f * pattern_streaks(point, 7.0f));
     Ground g = {.color = vec3_scale(color, clampf(light, 0.25f, 1.7f))};
-    g.slope = vec3_madd(vec3_scale(rough.slope, 0.05f), 0.8f, crags.slope);
+    g.slope = vec3_madd(vec3_scale(rough.slope, 0.05f), 0.9f, crags.slope);
     g.slope.y += 0.6f * (tone - 0.5f);
     return g;
 }
@@ -169,5 +180,5 @@ void pattern_coast(const Material *m, const SurfacePoint *point, PatternShade *s
     other = turf(&p);
     g = ground_blend(g, &other, green);
     shade->color = g.color;
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
+    shade->normal = crags_normal(point, shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }

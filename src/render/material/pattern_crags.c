@@ -12,8 +12,11 @@ enum { SEED_WARP = 201, SEED_BLOCKS = 251, SEED_STREAKS = 281 };
 // Relative to the size of the blocks.
 #define STANDS_OUT 0.17f // of one block against another, at most
 #define BEVEL 0.035f     // half the width of a step's face
-#define CRACK 0.018f     // half the width of a crack
+#define CRACK 0.018f     // half the width of a crack, which is at most
+#define WIDEST 0.2f      // m
 #define CORNER 0.16f     // reach of the shade in a corner
+
+#define RAISED 0.4f // of displacement: overhangs would fold
 
 enum { BED, JOINT_A, JOINT_B, SETS };
 
@@ -25,7 +28,8 @@ typedef struct Interval {
 
 // One scale of blocks at a place; lengths relative to their size.
 typedef struct Blocks {
-    float thick;
+    float thick, crack;
+    float pixel; // footprint
     float place[SETS];    // coordinates: across the beds and each set of joints
     Interval about[SETS]; // the block there
     uint32_t seed;
@@ -47,20 +51,27 @@ static float cut_at(int number, uint32_t seed)
     return (float)number + 0.8f * (noise_unit(hash_of(seed, number), 1) - 0.5f);
 }
 
+// Every other cut is missing at times, so that blocks differ much in size.
 static Interval interval_at(float x, uint32_t seed)
 {
     int i = (int)floorf(x);
-    float low = cut_at(i, seed), high = cut_at(i + 1, seed);
-    if (x < low) {
-        i--;
-        high = low;
-        low = cut_at(i, seed);
-    } else if (x >= high) {
-        i++;
-        low = high;
-        high = cut_at(i + 1, seed);
+    i -= i & 1;
+    float first = cut_at(i, seed), last = cut_at(i + 2, seed);
+    if (x < first) {
+        i -= 2;
+        last = first;
+        first = cut_at(i, seed);
+    } else if (x >= last) {
+        i += 2;
+        first = last;
+        last = cut_at(i + 2, seed);
     }
-    return (Interval){i, x - low, high - x};
+    if (noise_unit(hash_of(seed, i), 5) < 0.4f) {
+        return (Interval){i, x - first, last - x};
+    }
+    float middle = cut_at(i + 1, seed);
+    return x < middle ? (Interval){i, x - first, middle - x}
+                      : (Interval){i + 1, x - middle, last - x};
 }
 
 // Joints of a bed do not meet those of the next: the seed of the second coordinate's cuts hangs on
@@ -93,7 +104,7 @@ static Plane plane_at(const Blocks *b, const Interval about[SETS])
     float bed = 2.0f * noise_unit(hash_of(b->seed, about[BED].number), 7) - 1.0f;
     plane.height = STANDS_OUT * (0.6f * out * (0.25f + 0.75f * out * out) + 0.4f * bed);
     for (int set = 0; set < SETS; set++) {
-        float tilt = 0.5f * (noise_unit(hash, 2 + (uint32_t)set) - 0.5f);
+        float tilt = 0.7f * (noise_unit(hash, 2 + (uint32_t)set) - 0.5f);
         plane.tilt[set] = tilt;
         float unit = set == BED ? b->thick : 1.0f;
         plane.height += tilt * unit * 0.5f * (about[set].low - about[set].high);
@@ -108,9 +119,11 @@ static Plane neighbour(const Blocks *b, int set, bool up)
     Interval *i = &next.about[set];
     uint32_t seed = cuts_seed(b, set, b->about[BED].number, b->about[JOINT_A].number);
     float x = set == BED ? b->place[BED] / b->thick : b->place[set];
-    i->number += up ? 1 : -1;
-    i->low = x - cut_at(i->number, seed);
-    i->high = cut_at(i->number + 1, seed) - x;
+    const float beyond = 1e-3f;
+    float end = up ? x + i->high + beyond : x - i->low - beyond;
+    *i = interval_at(end, seed);
+    i->low += x - end;
+    i->high -= x - end;
     int bed = next.about[BED].number;
     if (set == BED) {
         next.about[JOINT_A] = interval_at(b->place[JOINT_A], cuts_seed(b, JOINT_A, bed, 0));
@@ -127,23 +140,23 @@ typedef struct Relief {
     float height, slope[SETS], tone, crevice, ledge;
 } Relief;
 
-static void add_border(const Blocks *b, int set, const Plane *own, float pixel, Relief *r)
+static void add_border(const Blocks *b, int set, const Plane *own, Relief *r)
 {
     const Interval *about = &b->about[set];
     float unit = set == BED ? b->thick : 1.0f;
     bool up = about->high < about->low;
     float away = unit * (up ? about->high : about->low);
-    if (away > fmaxf(CORNER, pixel)) {
+    if (away > fmaxf(CORNER, b->pixel)) {
         return;
     }
     Plane next = neighbour(b, set, up);
     float step = next.height - own->height;
-    float bevel = fmaxf(BEVEL, 0.6f * pixel), t = fminf(away / bevel, 1.0f);
+    float bevel = fmaxf(BEVEL, 0.6f * b->pixel), t = fminf(away / bevel, 1.0f);
     float share = 0.5f * (1.0f - t) * (1.0f - t);
     r->height += share * step;
     r->slope[set] += (up ? 1.0f : -1.0f) * step * (1.0f - t) / bevel;
-    float crack = fmaxf(CRACK, 0.6f * pixel), open = noise_unit(own->hash ^ next.hash, 11);
-    float dark = open * open * CRACK / crack * (1.0f - smoothstepf(0.3f, 1.0f, away / crack));
+    float crack = fmaxf(b->crack, 0.6f * b->pixel), open = noise_unit(own->hash ^ next.hash, 11);
+    float dark = open * open * b->crack / crack * (1.0f - smoothstepf(0.3f, 1.0f, away / crack));
     float corner = clampf(4.0f * step, 0.0f, 1.0f) * (1.0f - smoothstepf(0.0f, CORNER, away));
     r->crevice = fmaxf(r->crevice, fmaxf(dark, 0.6f * corner));
     if (set == BED && !up) {
@@ -153,8 +166,7 @@ static void add_border(const Blocks *b, int set, const Plane *own, float pixel, 
     }
 }
 
-// pixel: the footprint, relative to the size of the blocks.
-static Relief relief_of(Blocks *b, float pixel)
+static Relief relief_of(Blocks *b)
 {
     find_block(b);
     Plane own = plane_at(b, b->about);
@@ -163,7 +175,7 @@ static Relief relief_of(Blocks *b, float pixel)
         r.slope[set] = own.tilt[set];
     }
     for (int set = 0; set < SETS; set++) {
-        add_border(b, set, &own, pixel, &r);
+        add_border(b, set, &own, &r);
     }
     return r;
 }
@@ -177,7 +189,7 @@ static Vec3 bent(Vec3 p, uint32_t seed, float *broken)
                  noise_solid(q, seed + 2, NULL)};
     *broken = lerpf(0.25f, 1.0f, smoothstepf(-0.35f, 0.3f,
                                               noise_solid(vec3_scale(p, 0.23f), seed + 3, NULL)));
-    return vec3_scale(bend, 0.22f);
+    return vec3_scale(bend, 0.3f);
 }
 
 // Directions across the sets: the beds, and joints at about 75 degrees to each other that stand on
@@ -210,14 +222,17 @@ Crags pattern_crags(const SurfacePoint *point, const CragsRock *rock)
         Vec3 p = vec3_scale(point->object_position, 1.0f / size);
         Vec3 bend = bent(p, seed, &broken), across[SETS];
         set_directions(rock->up, k, across);
-        Blocks blocks = {.thick = rock->thick, .seed = SEED_BLOCKS + 31u * (uint32_t)k};
-        blocks.place[BED] = rock->level / size + vec3_dot(bend, rock->up) * rock->thick;
+        Blocks blocks = {.thick = rock->thick,
+                         .crack = fminf(CRACK, WIDEST / size),
+                         .pixel = point->footprint / size,
+                         .seed = SEED_BLOCKS + 31u * (uint32_t)k};
+        blocks.place[BED] = rock->level / size + 0.6f * vec3_dot(bend, rock->up) * rock->thick;
         p = vec3_add(p, bend);
         blocks.place[JOINT_A] = vec3_dot(p, across[JOINT_A]);
         blocks.place[JOINT_B] = vec3_dot(p, across[JOINT_B]);
-        Relief r = relief_of(&blocks, point->footprint / size);
+        Relief r = relief_of(&blocks);
         float share = seen * broken;
-        crags.height += share * size * r.height;
+        crags.height += RAISED * share * size * r.height;
         for (int set = 0; set < SETS; set++) {
             crags.slope = vec3_madd(crags.slope, share * r.slope[set], across[set]);
         }
@@ -228,6 +243,11 @@ Crags pattern_crags(const SurfacePoint *point, const CragsRock *rock)
     }
     crags.tone = weight > 0.0f ? crags.tone / sqrtf(weight) : 0.0f;
     return crags;
+}
+
+Vec3 crags_normal(const SurfacePoint *point, Vec3 n, Vec3 slope)
+{
+    return pattern_tilt(vec3_lerp(n, surface_smooth_normal(point), point->displaced), slope);
 }
 
 float pattern_streaks(const SurfacePoint *point, float size)

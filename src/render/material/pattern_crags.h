@@ -14,8 +14,8 @@ typedef struct CragsRock {
 } CragsRock;
 
 typedef struct Crags {
-    float height;  // m: of the relief, about its mean
-    Vec3 slope;    // its gradient, dimensionless, as pattern_tilt takes it
+    float height;  // m: to displace by, about its mean
+    Vec3 slope;    // the gradient of the relief, dimensionless, as pattern_tilt takes it
     float tone;    // about -1..1, one value a block, at every size
     float crevice; // 0..1: in cracks, and in corners below and beside what stands out
     float ledge;   // 0..1: on top of what stands out, where soil and snow lie
@@ -23,8 +23,12 @@ typedef struct Crags {
 
 enum { CRAGS_MOST = 6 };
 
-// The relief of a face, as far as the pixel shows it. Its height is about a fifth of the size.
+// The relief of a face, as far as the pixel shows it. Its height is about a tenth of the size.
 Crags pattern_crags(const SurfacePoint *point, const CragsRock *rock);
+
+// n tilted by a slope of the relief. Faces whose relief is geometry take the gradient of the relief
+// in place of the normal of their mesh, which rounds the blocks' edges.
+Vec3 crags_normal(const SurfacePoint *point, Vec3 n, Vec3 slope);
 
 // The share 0..1 of films that water leaves where it runs down faces, in streaks about `size` m
 // wide and longer.

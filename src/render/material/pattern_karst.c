@@ -20,23 +20,34 @@ static Vec3 stain(const SurfacePoint *point, Vec3 color, float patch)
     return vec3_lerp(color, vec3(0.055f, 0.056f, 0.055f), 0.75f * dark);
 }
 
+static CragsRock face_of(const SurfacePoint *point)
+{
+    Vec3 at = point->object_position;
+    float base = point->strata ? strata_base(point->strata, at.x, at.z) : 0.0f;
+    return (CragsRock){.size = KARST_BLOCKS,
+                       .thick = 1.1f,
+                       .scales = CRAGS_MOST,
+                       .up = vec3(0.0f, 1.0f, 0.0f),
+                       .level = at.y - base};
+}
+
+float pattern_karst_height(const Material *m, const SurfacePoint *point)
+{
+    CragsRock face = face_of(point);
+    float steep = smoothstepf(0.8f, 0.5f, fabsf(point->smooth_normal.y));
+    return steep > 0.0f ? m->pattern_depth * steep * pattern_crags(point, &face).height : 0.0f;
+}
+
 // ledges: the share of the place that soil on ledges takes.
 static Ground rock(const SurfacePoint *point, float patch, float *ledges)
 {
     PatternOctaves rough = pattern_octaves(point, 3.0f, 7, 0.6f, 0.7f, SEED_ROCK);
     PatternOctaves karren = pattern_octaves(point, 1.6f, 5, 0.6f, 0.12f, SEED_ROCK + 9);
-    CragsRock face = {.size = 26.0f,
-                      .thick = 1.1f,
-                      .scales = CRAGS_MOST,
-                      .up = vec3(0.0f, 1.0f, 0.0f),
-                      .level = point->object_position.y};
+    CragsRock face = face_of(point);
     Vec3 color = {0.31f, 0.30f, 0.28f};
     float tone = 0.5f;
     if (point->strata) {
-        Vec3 at = point->object_position;
-        float level = at.y - strata_base(point->strata, at.x, at.z);
-        face.level = level;
-        level += 1.2f * patch;
+        float level = face.level + 1.2f * patch;
         int bed = strata_bed(point->strata, level);
         float thick = fmaxf(point->strata->bed[bed].lamina, 0.4f);
         color = point->strata->bed[bed].color;
@@ -48,7 +59,7 @@ static Ground rock(const SurfacePoint *point, float patch, float *ledges)
     float light = 1.0f + 0.25f * (tone - 0.5f) + 0.15f * crags.tone + 0.12f * rough.value;
     light *= 1.0f - 0.7f * crags.crevice;
     Ground g = {.color = vec3_scale(color, clampf(light, 0.3f, 1.6f))};
-    g.slope = vec3_madd(vec3_scale(rough.slope, 0.1f), 0.8f, crags.slope);
+    g.slope = vec3_madd(vec3_scale(rough.slope, 0.1f), 0.9f, crags.slope);
     g.slope = vec3_madd(g.slope, 0.12f, karren.slope);
     g.slope.y += 0.6f * (tone - 0.5f);
     return g;
@@ -96,5 +107,5 @@ void pattern_karst(const Material *m, const SurfacePoint *point, PatternShade *s
     float loose = smoothstepf(0.2f, 0.6f, point->site.y) * smoothstepf(0.8f, 0.93f, upright);
     g = ground_blend(g, &other, loose);
     shade->color = g.color;
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
+    shade->normal = crags_normal(point, shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }

@@ -70,7 +70,7 @@ static Face rock(const Material *m, const SurfacePoint *point, Vec3 color, float
     float light = (1.0f + 0.13f * crags->tone + 0.12f * clampf(grain.value, -1.2f, 1.2f)) *
                   (1.0f - 0.7f * crags->crevice);
     f.ground.color = vec3_scale(f.ground.color, clampf(light, 0.2f, 1.6f));
-    f.ground.slope = vec3_madd(vec3_scale(crags->slope, 0.8f), 0.012f * size, grain.slope);
+    f.ground.slope = vec3_madd(vec3_scale(crags->slope, 0.9f), 0.012f * size, grain.slope);
     return f;
 }
 
@@ -116,15 +116,42 @@ static Ground snow(const SurfacePoint *point, float scale)
     return g;
 }
 
+static float face_height(const Material *m, const SurfacePoint *point, float size, float thick)
+{
+    CragsRock face = face_of(point, size, thick);
+    float steep = smoothstepf(0.85f, 0.68f, fabsf(point->smooth_normal.y));
+    return steep > 0.0f ? m->pattern_depth * steep * pattern_crags(point, &face).height : 0.0f;
+}
+
+static float mountain_scale(const Material *m)
+{
+    return m->pattern_scale > 0.0f ? m->pattern_scale : 90.0f;
+}
+
+#define MOUNTAIN_BLOCKS 0.22f // relative to the scale
+#define MOUNTAIN_BEDS 0.55f
+#define ALPS_BLOCKS 1.3f
+#define ALPS_BEDS 1.1f
+
+float pattern_mountain_blocks(const Material *m)
+{
+    return MOUNTAIN_BLOCKS * mountain_scale(m);
+}
+
+float pattern_mountain_height(const Material *m, const SurfacePoint *point)
+{
+    return face_height(m, point, pattern_mountain_blocks(m), MOUNTAIN_BEDS);
+}
+
 void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 90.0f;
+    float scale = mountain_scale(m);
     float altitude = point->site.x, wetness = point->site.y;
     float upright = fabsf(point->geometric_normal.y);
     PatternOctaves broad = pattern_octaves(point, 4.0f * scale, 4, 0.55f, 1.0f, 41);
     PatternOctaves fray = pattern_octaves(point, 0.4f * scale, 6, 0.6f, 1.0f, 45);
     float ragged = 0.45f * broad.value + 0.55f * fray.value;
-    Face face = rock(m, point, shade->color, 0.22f * scale, 0.55f);
+    Face face = rock(m, point, shade->color, pattern_mountain_blocks(m), MOUNTAIN_BEDS);
     Ground g = face.ground;
     stain(point, 0.1f * scale, upright, &g.color);
     upright += 0.3f * face.crags.ledge;
@@ -152,22 +179,37 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
         g = ground_blend(g, &other, high * held);
     }
     shade->color = g.color;
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
+    shade->normal = crags_normal(point, shade->normal, vec3_scale(g.slope, m->pattern_depth));
+}
+
+static float alps_scale(const Material *m)
+{
+    return m->pattern_scale > 0.0f ? m->pattern_scale : 70.0f;
+}
+
+float pattern_alps_blocks(const Material *m)
+{
+    return ALPS_BLOCKS * alps_scale(m);
+}
+
+float pattern_alps_height(const Material *m, const SurfacePoint *point)
+{
+    return face_height(m, point, pattern_alps_blocks(m), ALPS_BEDS);
 }
 
 // Mountains worn by ice. site.x is the altitude as snow feels it, higher in hollows and to the lee,
 // lower on crests; site.y the share of loose ground: scree and the fill of valleys.
 void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 70.0f;
+    float scale = alps_scale(m);
     float felt = point->site.x, loose = point->site.y;
     float upright = fabsf(surface_smooth_normal(point).y);
     PatternOctaves broad = pattern_octaves(point, 5.0f * scale, 5, 0.55f, 1.0f, 161);
     PatternOctaves fray = pattern_octaves(point, 0.5f * scale, 8, 0.62f, 1.0f, 167);
     PatternOctaves chutes = pattern_octaves(point, 0.9f * scale, 6, 0.6f, 0.22f, 177);
     float ragged = 0.4f * broad.value + 0.6f * fray.value;
-    Face face = rock(m, point, vec3_scale(shade->color, 1.0f + 0.25f * broad.value), 1.1f * scale,
-                     1.3f);
+    Face face = rock(m, point, vec3_scale(shade->color, 1.0f + 0.25f * broad.value),
+                     pattern_alps_blocks(m), ALPS_BEDS);
     Ground g = face.ground;
     stain(point, 0.3f * scale, upright, &g.color);
     // Water and dust darken faces along the chutes.
@@ -197,7 +239,7 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
         g = ground_blend(g, &other, smoothstepf(-0.015f, 0.02f, cold) * held);
     }
     shade->color = g.color;
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
+    shade->normal = crags_normal(point, shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }
 
 void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade *shade)
