@@ -115,12 +115,45 @@ static float noise_height(const Material *m, const SurfacePoint *point)
 
 float pattern_height(const Material *m, const SurfacePoint *point)
 {
-    return m->pattern == PATTERN_BARK      ? pattern_bark_height(m, point)
-           : m->pattern == PATTERN_MASONRY ? pattern_masonry_height(m, point)
-           : m->pattern == PATTERN_STONE   ? pattern_stone_height(m, point)
-           : m->pattern == PATTERN_STRATA  ? pattern_strata_height(m, point)
-           : m->pattern == PATTERN_NOISE   ? noise_height(m, point)
-                                           : 0.0f;
+    switch (m->pattern) {
+    case PATTERN_BARK:
+        return pattern_bark_height(m, point);
+    case PATTERN_MASONRY:
+        return pattern_masonry_height(m, point);
+    case PATTERN_STONE:
+        return pattern_stone_height(m, point);
+    case PATTERN_STRATA:
+        return pattern_strata_height(m, point);
+    case PATTERN_NOISE:
+        return noise_height(m, point);
+    case PATTERN_MOUNTAIN:
+        return pattern_mountain_height(m, point);
+    case PATTERN_ALPS:
+        return pattern_alps_height(m, point);
+    case PATTERN_COAST:
+        return pattern_coast_height(m, point);
+    case PATTERN_KARST:
+        return pattern_karst_height(m, point);
+    default:
+        return 0.0f;
+    }
+}
+
+float pattern_height_size(const Material *m)
+{
+    const float faces = 0.1f; // of the size of their blocks
+    switch (m->pattern) {
+    case PATTERN_MOUNTAIN:
+        return faces * pattern_mountain_blocks(m) * m->pattern_depth;
+    case PATTERN_ALPS:
+        return faces * pattern_alps_blocks(m) * m->pattern_depth;
+    case PATTERN_COAST:
+        return faces * COAST_BLOCKS * m->pattern_depth;
+    case PATTERN_KARST:
+        return faces * KARST_BLOCKS * m->pattern_depth;
+    default:
+        return m->pattern_depth;
+    }
 }
 
 static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShade *) = {

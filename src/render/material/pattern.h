@@ -17,8 +17,15 @@ typedef struct PatternShade {
 void pattern_apply(const Material *material, const SurfacePoint *point, PatternShade *shade);
 
 // Height of the pattern's relief, m along the normal, about its mean; 0 if the pattern cannot be
-// displaced.
+// displaced. Its size, m, from about the lowest to the highest.
 float pattern_height(const Material *material, const SurfacePoint *point);
+float pattern_height_size(const Material *material);
+
+// Of rock faces, m: the mean distance of joints between the largest blocks.
+float pattern_mountain_blocks(const Material *material);
+float pattern_alps_blocks(const Material *material);
+#define COAST_BLOCKS 9.0f
+#define KARST_BLOCKS 26.0f
 
 // The kinds, one file each.
 void pattern_bark(const Material *material, const SurfacePoint *point, PatternShade *shade);
@@ -29,8 +36,10 @@ void pattern_stone(const Material *material, const SurfacePoint *point, PatternS
 float pattern_stone_height(const Material *material, const SurfacePoint *point); // m
 void pattern_ground(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_mountain(const Material *material, const SurfacePoint *point, PatternShade *shade);
+float pattern_mountain_height(const Material *material, const SurfacePoint *point); // m
 void pattern_badlands(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_alps(const Material *material, const SurfacePoint *point, PatternShade *shade);
+float pattern_alps_height(const Material *material, const SurfacePoint *point); // m
 void pattern_altitude(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_volcano(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_strata(const Material *material, const SurfacePoint *point, PatternShade *shade);
@@ -43,6 +52,7 @@ void pattern_corallite(const Material *material, const SurfacePoint *point, Patt
 void pattern_youth(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_hills(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_coast(const Material *material, const SurfacePoint *point, PatternShade *shade);
+float pattern_coast_height(const Material *material, const SurfacePoint *point); // m
 void pattern_dunes(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_mud(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_braided(const Material *material, const SurfacePoint *point, PatternShade *shade);
@@ -51,6 +61,7 @@ void pattern_river(const Material *material, const SurfacePoint *point, PatternS
 void pattern_karst(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_delta(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_silt(const Material *material, const SurfacePoint *point, PatternShade *shade);
+float pattern_karst_height(const Material *material, const SurfacePoint *point); // m
 void pattern_glacial(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_sand(const Material *material, const SurfacePoint *point, PatternShade *shade);
 

@@ -29,18 +29,35 @@ static Vec3 bed_color(const Strata *strata, float level)
     return strata->bed[strata_bed(strata, level)].color;
 }
 
-static Ground rock(const Place *p)
+static CragsRock face_of(const SurfacePoint *point)
+{
+    Vec3 at = point->object_position;
+    float base = point->strata ? strata_base(point->strata, at.x, at.z) : 0.0f;
+    return (CragsRock){.size = COAST_BLOCKS,
+                       .thick = 0.5f,
+                       .scales = CRAGS_MOST,
+                       .up = vec3(0.0f, 1.0f, 0.0f),
+                       .level = at.y - base};
+}
+
+float pattern_coast_height(const Material *m, const SurfacePoint *point)
+{
+    CragsRock face = face_of(point);
+    float steep = smoothstepf(0.9f, 0.7f, fabsf(point->smooth_normal.y));
+    return steep > 0.0f ? m->pattern_depth * steep * pattern_crags(point, &face).height : 0.0f;
+}
+
+// ledges: the share of the place that soil on ledges takes.
+static Ground rock(const Place *p, float *ledges)
 {
     const SurfacePoint *point = p->point;
     const Strata *strata = point->strata;
-    PatternOctaves rough = pattern_octaves(point, 5.0f, 8, 0.6f, 1.0f, SEED_BED);
-    PatternOctaves stains = pattern_octaves(point, 9.0f, 5, 0.6f, 0.2f, SEED_BED + 20);
-    Crags crags = pattern_crags(point, 5.5f);
+    PatternOctaves rough = pattern_octaves(point, 1.6f, 7, 0.6f, 1.0f, SEED_BED);
     Vec3 color = {0.2f, 0.17f, 0.14f};
     float tone = 0.5f;
+    CragsRock face = face_of(point);
     if (strata) {
-        Vec3 at = point->object_position;
-        float level = at.y - strata_base(strata, at.x, at.z) + 0.35f * p->fray + 0.1f * rough.value;
+        float level = face.level + 0.35f * p->fray + 0.1f * rough.value;
         float foot = 0.3f * point->footprint;
         color = vec3_scale(
             vec3_add(bed_color(strata, level - foot), bed_color(strata, level + foot)), 0.5f);
@@ -50,13 +67,13 @@ static Ground rock(const Place *p)
         tone = 0.6f * pattern_lamina(level, thick, point->footprint, 0.8f, seed) +
                0.4f * pattern_lamina(level, 0.24f * thick, point->footprint, 0.8f, seed + 5);
     }
-    float light = 1.0f + 0.5f * (tone - 0.5f) + 0.16f * crags.tone + 0.14f * rough.value;
-    light *= 1.0f - 0.5f * crags.crevice;
-    light *= 1.0f - 0.22f * smoothstepf(0.1f, 0.7f, stains.value);
-    Ground g = {.color = vec3_scale(color, clampf(light, 0.3f, 1.7f))};
-    g.slope = vec3_scale(rough.slope, 0.16f);
-    g.slope = vec3_madd(g.slope, 0.75f, crags.slope);
-    g.slope.y += 1.3f * (tone - 0.5f);
+    Crags crags = pattern_crags(point, &face);
+    *ledges = crags.ledge;
+    float light = 1.0f + 0.5f * (tone - 0.5f) + 0.14f * crags.tone + 0.12f * rough.value;
+    light *= (1.0f - 0.7f * crags.crevice) * (1.0f - 0.3f * pattern_streaks(point, 7.0f));
+    Ground g = {.color = vec3_scale(color, clampf(light, 0.25f, 1.7f))};
+    g.slope = vec3_madd(vec3_scale(rough.slope, 0.05f), 0.9f, crags.slope);
+    g.slope.y += 0.6f * (tone - 0.5f);
     return g;
 }
 
@@ -145,7 +162,8 @@ void pattern_coast(const Material *m, const SurfacePoint *point, PatternShade *s
                .upright = fabsf(surface_smooth_normal(point).y),
                .fray = pattern_octaves(point, 26.0f, 5, 0.6f, 1.0f, SEED_FRAY).value,
                .fine = pattern_octaves(point, 3.0f, 5, 0.6f, 1.0f, SEED_FRAY + 8).value};
-    Ground g = rock(&p), other;
+    float ledges;
+    Ground g = rock(&p, &ledges), other;
     float loose = point->site.y + 0.08f * p.fine;
     float low = smoothstepf(p.high + 3.5f, p.high + 2.0f, p.above + 0.5f * p.fray);
     other = rubble(&p, &g);
@@ -156,11 +174,11 @@ void pattern_coast(const Material *m, const SurfacePoint *point, PatternShade *s
                      low * smoothstepf(0.04f, 0.22f, loose) *
                          smoothstepf(0.80f, 0.92f, p.upright + 0.03f * p.fine));
     // Turf holds on ledges, too; salt spray keeps it off the foot.
-    float stands = p.upright + 0.09f * p.fine + 0.06f * p.fray;
+    float stands = p.upright + 0.09f * p.fine + 0.06f * p.fray + 0.4f * ledges;
     float green = smoothstepf(0.66f, 0.80f, stands) *
                   smoothstepf(p.high + 4.0f, p.high + 9.0f, p.above + 2.0f * p.fray);
     other = turf(&p);
     g = ground_blend(g, &other, green);
     shade->color = g.color;
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
+    shade->normal = crags_normal(point, shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }

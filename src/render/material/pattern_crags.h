@@ -1,17 +1,37 @@
-// Rock faces: blocks between joints at several scales, as tilted facets.
+// Rock faces: beds cut by two sets of joints into blocks of several sizes. Each block is a plane of
+// its own that stands out or back; borders are steps, cracks and ledges.
 #ifndef RAMIFY_RENDER_MATERIAL_PATTERN_CRAGS_H
 #define RAMIFY_RENDER_MATERIAL_PATTERN_CRAGS_H
 
 #include "render/surface.h"
 
+typedef struct CragsRock {
+    float size;  // m, in the object's space: mean distance of the joints between the largest blocks
+    float thick; // thickness of beds, relative to the distance of joints
+    int scales;  // at most CRAGS_MOST; blocks of each are about a third as large as of the last
+    Vec3 up;     // unit: across the beds
+    float level; // m: of the point within its beds, along up
+} CragsRock;
+
 typedef struct Crags {
-    Vec3 slope;    // tilt of the facets: dimensionless, as pattern_tilt takes it
-    float tone;    // about -1..1, one value a block
-    float crevice; // 0..1: in the joints between blocks
+    float height;  // m: to displace by, about its mean
+    Vec3 slope;    // the gradient of the relief, dimensionless, as pattern_tilt takes it
+    float tone;    // about -1..1, one value a block, at every size
+    float crevice; // 0..1: in cracks, and in corners below and beside what stands out
+    float ledge;   // 0..1: on top of what stands out, where soil and snow lie
 } Crags;
 
-// Blocks from `size` (m, in the object's space) down, as far as the pixel shows them. They are
-// taller than wide, as faces are cut by steep joints.
-Crags pattern_crags(const SurfacePoint *point, float size);
+enum { CRAGS_MOST = 6 };
+
+// The relief of a face, as far as the pixel shows it. Its height is about a tenth of the size.
+Crags pattern_crags(const SurfacePoint *point, const CragsRock *rock);
+
+// n tilted by a slope of the relief. Faces whose relief is geometry take the gradient of the relief
+// in place of the normal of their mesh, which rounds the blocks' edges.
+Vec3 crags_normal(const SurfacePoint *point, Vec3 n, Vec3 slope);
+
+// The share 0..1 of films that water leaves where it runs down faces, in streaks about `size` m
+// wide and longer.
+float pattern_streaks(const SurfacePoint *point, float size);
 
 #endif

@@ -14,36 +14,52 @@ enum { SEED_PATCH = 601, SEED_ROCK = 611, SEED_STREAK = 631, SEED_BUSH = 651, SE
 // Dark films of algae where water runs, pale tufa and rust beside them.
 static Vec3 stain(const SurfacePoint *point, Vec3 color, float patch)
 {
-    float streak = pattern_octaves(point, 9.0f, 5, 0.65f, 0.07f, SEED_STREAK).value;
-    float thin = pattern_octaves(point, 2.2f, 4, 0.65f, 0.05f, SEED_STREAK + 8).value;
-    float broad = pattern_octaves(point, 60.0f, 3, 0.5f, 0.4f, SEED_STREAK + 14).value;
-    float dark = smoothstepf(0.0f, 0.5f, streak + 0.35f * thin + 0.4f * broad);
-    float rust = smoothstepf(0.15f, 0.6f, 0.7f * patch - streak);
+    float dark = pattern_streaks(point, 9.0f);
+    float rust = smoothstepf(0.15f, 0.6f, 0.7f * patch - 0.6f * dark);
     color = vec3_lerp(color, vec3(0.30f, 0.225f, 0.135f), 0.4f * rust);
-    color = vec3_lerp(color, vec3(0.055f, 0.056f, 0.055f), 0.75f * dark);
-    return vec3_scale(color, 1.0f + 0.25f * clampf(thin, -1.0f, 1.0f));
+    return vec3_lerp(color, vec3(0.055f, 0.056f, 0.055f), 0.75f * dark);
 }
 
-static Ground rock(const SurfacePoint *point, float patch)
+static CragsRock face_of(const SurfacePoint *point)
 {
-    PatternOctaves rough = pattern_octaves(point, 7.0f, 8, 0.6f, 0.7f, SEED_ROCK);
+    Vec3 at = point->object_position;
+    float base = point->strata ? strata_base(point->strata, at.x, at.z) : 0.0f;
+    return (CragsRock){.size = KARST_BLOCKS,
+                       .thick = 1.1f,
+                       .scales = CRAGS_MOST,
+                       .up = vec3(0.0f, 1.0f, 0.0f),
+                       .level = at.y - base};
+}
+
+float pattern_karst_height(const Material *m, const SurfacePoint *point)
+{
+    CragsRock face = face_of(point);
+    float steep = smoothstepf(0.8f, 0.5f, fabsf(point->smooth_normal.y));
+    return steep > 0.0f ? m->pattern_depth * steep * pattern_crags(point, &face).height : 0.0f;
+}
+
+// ledges: the share of the place that soil on ledges takes.
+static Ground rock(const SurfacePoint *point, float patch, float *ledges)
+{
+    PatternOctaves rough = pattern_octaves(point, 3.0f, 7, 0.6f, 0.7f, SEED_ROCK);
     PatternOctaves karren = pattern_octaves(point, 1.6f, 5, 0.6f, 0.12f, SEED_ROCK + 9);
-    Crags crags = pattern_crags(point, 9.0f);
+    CragsRock face = face_of(point);
     Vec3 color = {0.31f, 0.30f, 0.28f};
     float tone = 0.5f;
     if (point->strata) {
-        Vec3 at = point->object_position;
-        float level = at.y - strata_base(point->strata, at.x, at.z) + 1.2f * patch;
+        float level = face.level + 1.2f * patch;
         int bed = strata_bed(point->strata, level);
         float thick = fmaxf(point->strata->bed[bed].lamina, 0.4f);
         color = point->strata->bed[bed].color;
         tone = pattern_lamina(level, thick, point->footprint, 0.6f, 7919u * (uint32_t)bed);
     }
+    Crags crags = pattern_crags(point, &face);
+    *ledges = crags.ledge;
     color = stain(point, color, patch);
-    float light = 1.0f + 0.25f * (tone - 0.5f) + 0.18f * crags.tone + 0.12f * rough.value;
-    light *= 1.0f - 0.55f * crags.crevice;
+    float light = 1.0f + 0.25f * (tone - 0.5f) + 0.15f * crags.tone + 0.12f * rough.value;
+    light *= 1.0f - 0.7f * crags.crevice;
     Ground g = {.color = vec3_scale(color, clampf(light, 0.3f, 1.6f))};
-    g.slope = vec3_madd(vec3_scale(rough.slope, 0.3f), 0.8f, crags.slope);
+    g.slope = vec3_madd(vec3_scale(rough.slope, 0.1f), 0.9f, crags.slope);
     g.slope = vec3_madd(g.slope, 0.12f, karren.slope);
     g.slope.y += 0.6f * (tone - 0.5f);
     return g;
@@ -79,16 +95,17 @@ void pattern_karst(const Material *m, const SurfacePoint *point, PatternShade *s
     float fine = pattern_octaves(point, 4.0f, 5, 0.65f, 1.0f, SEED_PATCH + 9).value;
     float upright = fabsf(surface_smooth_normal(point).y);
     float above = 1000.0f * point->site.x;
-    Ground g = rock(point, patch);
+    float ledges;
+    Ground g = rock(point, patch, &ledges);
     // The foot is damp and dark.
     float damp = smoothstepf(9.0f, 2.0f, above + 2.5f * patch);
     g.color = vec3_scale(g.color, 1.0f - 0.45f * damp);
     Ground other = bushes(m, point, patch);
-    float holds = upright + 0.26f * patch + 0.20f * fine;
+    float holds = upright + 0.26f * patch + 0.20f * fine + 0.3f * ledges;
     g = ground_blend(g, &other, smoothstepf(0.22f, 0.36f, holds));
     other = fields(m, point, patch);
     float loose = smoothstepf(0.2f, 0.6f, point->site.y) * smoothstepf(0.8f, 0.93f, upright);
     g = ground_blend(g, &other, loose);
     shade->color = g.color;
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
+    shade->normal = crags_normal(point, shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }

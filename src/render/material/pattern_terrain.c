@@ -1,6 +1,7 @@
 // Mountains and badlands. Altitude and wetness at the point (SurfacePoint.site) and its slope
 // decide the type of ground, with borders frayed by noise of several scales. Each type has its own
 // colours and relief, down to the footprint of the pixel.
+#include "base/strata.h"
 #include "render/material/foam.h"
 #include "render/material/pattern.h"
 #include "render/material/pattern_crags.h"
@@ -32,27 +33,59 @@ static float bed_tone(float level, uint32_t seed)
     return lerpf(noise_unit(bed, 3), noise_unit(bed + 2654435761u, 3), smoothstepf(0.78f, 1.0f, t));
 }
 
-static Ground rock(const Material *m, const SurfacePoint *point, Vec3 color, float scale)
+// The blocks of a face: by the land's beds where it has some, else by beds that dip steeply and are
+// folded.
+static CragsRock face_of(const SurfacePoint *point, float size, float thick)
 {
-    PatternOctaves rough = pattern_octaves(point, 0.5f * scale, 7, 0.52f, 1.6f, 61);
-    PatternOctaves cracks = pattern_octaves(point, 0.13f * scale, 4, 0.6f, 0.45f, 71);
-    // Steeply tilted, folded beds, visible in some places and lost in broken rock in others.
-    float level = bed_level(point, 0.32f * scale, vec3(0.62f, 0.55f, 0.35f));
-    float seen =
-        pattern_detail(0.32f * scale, point->footprint) *
-        smoothstepf(-0.25f, 0.5f, pattern_octaves(point, 7.0f * scale, 3, 0.5f, 1.0f, 57).value);
-    float tone = lerpf(0.5f, bed_tone(level + 0.3f * rough.value, 7), 0.7f * seen);
-    float fine = bed_tone(4.3f * level + 0.6f * rough.value, 9);
-    tone = lerpf(tone, fine, 0.35f * seen * pattern_detail(0.08f * scale, point->footprint));
-    Ground g = {.color = vec3_lerp(color, m->color2, clampf(1.4f * tone - 0.2f, 0.0f, 1.0f))};
-    float shade = 1.0f + 0.22f * clampf(rough.value, -1.2f, 1.2f) -
-                  0.30f * smoothstepf(0.1f, 0.6f, cracks.value);
-    g.color = vec3_scale(g.color, clampf(shade, 0.4f, 1.5f));
-    g.slope = vec3_scale(rough.slope, 0.11f * scale);
-    g.slope = vec3_madd(g.slope, 0.02f * scale, cracks.slope);
-    // Ledges: beds weather back between hard ones.
-    g.slope.y += seen * 0.7f * (tone - 0.5f);
-    return g;
+    CragsRock face = {.size = size, .thick = thick, .scales = CRAGS_MOST};
+    if (point->strata) {
+        Vec3 at = point->object_position;
+        face.up = vec3(0.0f, 1.0f, 0.0f);
+        face.level = at.y - strata_base(point->strata, at.x, at.z);
+    } else {
+        face.up = vec3(0.62f, 0.70f, 0.35f);
+        face.level = bed_level(point, size, face.up) * size;
+    }
+    return face;
+}
+
+typedef struct Face {
+    Ground ground;
+    Crags crags;
+} Face;
+
+// size: m, of the largest blocks.
+static Face rock(const Material *m, const SurfacePoint *point, Vec3 color, float size, float thick)
+{
+    CragsRock face = face_of(point, size, thick);
+    Face f = {.crags = pattern_crags(point, &face)};
+    const Crags *crags = &f.crags;
+    PatternOctaves grain = pattern_octaves(point, 0.3f * size, 8, 0.55f, 1.2f, 61);
+    // Beds of different rock, visible in some places and lost in broken rock in others.
+    float bed = face.level + 0.02f * size * grain.value;
+    float laminae = 0.6f * pattern_lamina(bed, 1.3f * size, point->footprint, 0.9f, 7) +
+                    0.4f * pattern_lamina(bed, 0.21f * size, point->footprint, 0.8f, 9) - 0.5f;
+    float tone = 0.5f + 0.9f * laminae + 0.16f * crags->tone + 0.12f * grain.value;
+    f.ground.color = vec3_lerp(color, m->color2, clampf(tone, 0.0f, 1.0f));
+    float light = (1.0f + 0.13f * crags->tone + 0.12f * clampf(grain.value, -1.2f, 1.2f)) *
+                  (1.0f - 0.7f * crags->crevice);
+    f.ground.color = vec3_scale(f.ground.color, clampf(light, 0.2f, 1.6f));
+    f.ground.slope = vec3_madd(vec3_scale(crags->slope, 0.9f), 0.012f * size, grain.slope);
+    return f;
+}
+
+// Water and what lives in it darken faces in streaks; lichens grow pale where it does not run.
+static void stain(const SurfacePoint *point, float size, float upright, Vec3 *color)
+{
+    float steep = smoothstepf(0.75f, 0.5f, upright);
+    if (steep <= 0.0f) {
+        return;
+    }
+    float streaks = pattern_streaks(point, size);
+    *color = vec3_scale(*color, 1.0f - 0.5f * steep * streaks);
+    float spots = pattern_octaves(point, 0.5f * size, 5, 0.7f, 0.8f, 65).value;
+    float lichen = smoothstepf(0.2f, 0.5f, spots) * (1.0f - streaks);
+    *color = vec3_lerp(*color, vec3(0.21f, 0.21f, 0.18f), 0.28f * lichen);
 }
 
 static Ground scree(const Material *m, const SurfacePoint *point, Vec3 color, float scale)
@@ -83,15 +116,45 @@ static Ground snow(const SurfacePoint *point, float scale)
     return g;
 }
 
+static float face_height(const Material *m, const SurfacePoint *point, float size, float thick)
+{
+    CragsRock face = face_of(point, size, thick);
+    float steep = smoothstepf(0.85f, 0.68f, fabsf(point->smooth_normal.y));
+    return steep > 0.0f ? m->pattern_depth * steep * pattern_crags(point, &face).height : 0.0f;
+}
+
+static float mountain_scale(const Material *m)
+{
+    return m->pattern_scale > 0.0f ? m->pattern_scale : 90.0f;
+}
+
+#define MOUNTAIN_BLOCKS 0.22f // relative to the scale
+#define MOUNTAIN_BEDS 0.55f
+#define ALPS_BLOCKS 1.3f
+#define ALPS_BEDS 1.1f
+
+float pattern_mountain_blocks(const Material *m)
+{
+    return MOUNTAIN_BLOCKS * mountain_scale(m);
+}
+
+float pattern_mountain_height(const Material *m, const SurfacePoint *point)
+{
+    return face_height(m, point, pattern_mountain_blocks(m), MOUNTAIN_BEDS);
+}
+
 void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 90.0f;
+    float scale = mountain_scale(m);
     float altitude = point->site.x, wetness = point->site.y;
     float upright = fabsf(point->geometric_normal.y);
     PatternOctaves broad = pattern_octaves(point, 4.0f * scale, 4, 0.55f, 1.0f, 41);
     PatternOctaves fray = pattern_octaves(point, 0.4f * scale, 6, 0.6f, 1.0f, 45);
     float ragged = 0.45f * broad.value + 0.55f * fray.value;
-    Ground g = rock(m, point, shade->color, scale);
+    Face face = rock(m, point, shade->color, pattern_mountain_blocks(m), MOUNTAIN_BEDS);
+    Ground g = face.ground;
+    stain(point, 0.1f * scale, upright, &g.color);
+    upright += 0.3f * face.crags.ledge;
     float loose = smoothstepf(0.70f, 0.80f, upright + 0.07f * ragged);
     Ground other = scree(m, point, shade->color, scale);
     g = ground_blend(g, &other, loose);
@@ -116,28 +179,43 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
         g = ground_blend(g, &other, high * held);
     }
     shade->color = g.color;
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
+    shade->normal = crags_normal(point, shade->normal, vec3_scale(g.slope, m->pattern_depth));
+}
+
+static float alps_scale(const Material *m)
+{
+    return m->pattern_scale > 0.0f ? m->pattern_scale : 70.0f;
+}
+
+float pattern_alps_blocks(const Material *m)
+{
+    return ALPS_BLOCKS * alps_scale(m);
+}
+
+float pattern_alps_height(const Material *m, const SurfacePoint *point)
+{
+    return face_height(m, point, pattern_alps_blocks(m), ALPS_BEDS);
 }
 
 // Mountains worn by ice. site.x is the altitude as snow feels it, higher in hollows and to the lee,
 // lower on crests; site.y the share of loose ground: scree and the fill of valleys.
 void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 70.0f;
+    float scale = alps_scale(m);
     float felt = point->site.x, loose = point->site.y;
     float upright = fabsf(surface_smooth_normal(point).y);
     PatternOctaves broad = pattern_octaves(point, 5.0f * scale, 5, 0.55f, 1.0f, 161);
     PatternOctaves fray = pattern_octaves(point, 0.5f * scale, 8, 0.62f, 1.0f, 167);
     PatternOctaves chutes = pattern_octaves(point, 0.9f * scale, 6, 0.6f, 0.22f, 177);
     float ragged = 0.4f * broad.value + 0.6f * fray.value;
-    Ground g = rock(m, point, vec3_scale(shade->color, 1.0f + 0.25f * broad.value), scale);
+    Face face = rock(m, point, vec3_scale(shade->color, 1.0f + 0.25f * broad.value),
+                     pattern_alps_blocks(m), ALPS_BEDS);
+    Ground g = face.ground;
+    stain(point, 0.3f * scale, upright, &g.color);
     // Water and dust darken faces along the chutes.
     g.color = vec3_scale(g.color, 1.0f - 0.35f * smoothstepf(0.1f, 0.6f, chutes.value));
     g.slope = vec3_madd(g.slope, 0.04f * scale, chutes.slope);
-    // Buttresses, ribs and ledges of tens of metres that the mesh is too coarse for.
-    Crags crags = pattern_crags(point, 1.1f * scale);
-    g.slope = vec3_madd(g.slope, 0.8f, crags.slope);
-    g.color = vec3_scale(g.color, (1.0f + 0.16f * crags.tone) * (1.0f - 0.55f * crags.crevice));
+    upright += 0.25f * face.crags.ledge;
     float lies = smoothstepf(0.72f, 0.84f, upright + 0.10f * ragged) *
                  smoothstepf(0.12f, 0.4f, loose + 0.25f * ragged);
     Ground other = scree(m, point, shade->color, scale);
@@ -155,13 +233,13 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
         // It slides out of the chutes' ribs and stays in what lies between them.
         float cold = felt - m->snow_line + 0.07f * broad.value + 0.02f * fray.value;
         float least = lerpf(0.80f, 0.46f, smoothstepf(-0.04f, 0.22f, cold));
-        float kept = upright - 0.25f * chutes.value + 0.03f * fray.value - 0.16f * crags.slope.y;
+        float kept = upright - 0.25f * chutes.value + 0.03f * fray.value;
         float held = smoothstepf(least - 0.02f, least + 0.05f, kept);
         other = snow(point, scale);
         g = ground_blend(g, &other, smoothstepf(-0.015f, 0.02f, cold) * held);
     }
     shade->color = g.color;
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
+    shade->normal = crags_normal(point, shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }
 
 void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade *shade)

@@ -2,6 +2,7 @@
 
 #include "base/hash.h"
 #include "render/material/maps.h"
+#include "render/material/pattern.h"
 #include "render/material/pattern_stem.h"
 
 #include <string.h>
@@ -10,7 +11,9 @@ static bool displaces_pattern(const Material *m)
 {
     return m->pattern == PATTERN_BARK || m->pattern == PATTERN_STONE ||
            m->pattern == PATTERN_MASONRY ||
-           ((m->pattern == PATTERN_NOISE || m->pattern == PATTERN_STRATA) &&
+           ((m->pattern == PATTERN_NOISE || m->pattern == PATTERN_STRATA ||
+             m->pattern == PATTERN_MOUNTAIN || m->pattern == PATTERN_ALPS ||
+             m->pattern == PATTERN_COAST || m->pattern == PATTERN_KARST) &&
             m->displacement == DISPLACEMENT_ON);
 }
 
@@ -33,7 +36,7 @@ float relief_size(const Material *m, float radius)
     }
     float map = has_map(m) ? m->displacement_depth : 0.0f;
     float form = m->pattern == PATTERN_BARK ? bark_form_size(m, radius) : 0.0f;
-    return map + (displaces_pattern(m) ? m->pattern_depth + form : 0.0f);
+    return map + (displaces_pattern(m) ? pattern_height_size(m) + form : 0.0f);
 }
 
 float relief_height(const MaterialSet *set, const SurfacePoint *point)
