@@ -211,7 +211,7 @@ fi
 
 # ---- trees, fields, forest ----
 
-still oak oak --size 1920x1080
+still oak oak --size 1920x1080 --samples 32
 still oak-winter oak-winter --size 1920x1080
 still ash ash
 still figure-9 field-grid

@@ -393,6 +393,102 @@ static void many_sprays_keep_their_size(void **state)
     geometry_clear(&geometry);
 }
 
+// Number of places within `reach` of the eye, each counted by itself.
+static int64_t count_within(const Transform *place, int64_t count, Vec3 eye, float reach)
+{
+    int64_t within = 0;
+    for (int64_t i = 0; i < count; i++) {
+        within += vec3_distance(transform_point(&place[i], vec3(0, 0, 0)), eye) < reach;
+    }
+    return within;
+}
+
+// Copies of sprays at 50 places on a line away from the eye at the origin.
+static void copies_in_a_row(int64_t leaves, const Vec3 *eye, Geometry *geometry,
+                            Transform place[50])
+{
+    for (int i = 0; i < 50; i++) {
+        place[i] = transform_from_axes(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1),
+                                       vec3(0, 0, -3.0f * (float)((i * 7) % 50)));
+    }
+    Geometry model = {0};
+    assert_true(geometry_add(&model, sprays(leaves), NULL));
+    Instanced how = {
+        .place = place, .count = 50, .most_leaves = leaves, .most_faces = 20 * leaves, .eye = eye};
+    Run run = run_default();
+    Recipe recipe = {.seed = 9, .run = &run};
+    Placing placing = {.recipe = &recipe, .geometry = geometry};
+    assert_true(instanced_add(&model, &how, &placing, NULL));
+    geometry_clear(&model);
+}
+
+// Near the eye every leaf is an instance of the full mesh at its place; the other copies, and only
+// they, have baked ones. Every leaf's place is that of the copy times that in the model.
+static void near_copies_keep_every_leaf(void **state)
+{
+    (void)state;
+    enum { LEAVES = 40 };
+    Transform place[50];
+    Vec3 eye = vec3(0, 0, 0);
+    Geometry geometry = {0};
+    copies_in_a_row(LEAVES, &eye, &geometry, place);
+    Part model = sprays(LEAVES);
+    float reach = model.coarse[2].error / 4e-4f;
+    int64_t near = count_within(place, 50, eye, reach), full = 0;
+    assert_in_range(near, 5, 45);
+    for (int64_t i = 0; i < geometry.count; i++) {
+        const Part *part = &geometry.part[i];
+        if (!part->coarse[0].mesh) {
+            assert_int_equal(part->instance_count, 50 - near);
+            continue;
+        }
+        full++;
+        assert_int_equal(part->mesh->face_count, model.mesh->face_count);
+        assert_int_equal(part->instance_count, near * LEAVES);
+        assert_int_equal(count_within(part->instance, part->instance_count, eye, reach + 5.0f),
+                         near * LEAVES);
+        double z[2] = {0.0, 0.0}; // sums of the leaves' places, in two ways
+        for (int64_t k = 0; k < part->instance_count; k++) {
+            z[0] += (double)part->instance[k].m[2][3];
+        }
+        for (int p = 0; p < 50; p++) {
+            bool is_near = -place[p].m[2][3] < reach;
+            for (int k = 0; is_near && k < LEAVES; k++) {
+                z[1] += (double)(place[p].m[2][3] + model.instance[k].m[2][3]);
+            }
+        }
+        assert_true(fabs(z[0] - z[1]) < 1e-4 * fabs(z[1]));
+    }
+    assert_int_equal(full, 1);
+    geometry_clear(&geometry);
+    Geometry owner = {0};
+    assert_true(geometry_add(&owner, model, NULL));
+    geometry_clear(&owner);
+}
+
+// Without a camera all copies are baked; of many leaves only the copies next to it stay whole.
+static void near_copies_are_limited(void **state)
+{
+    (void)state;
+    Transform place[50];
+    Geometry alone = {0}, crowd = {0};
+    copies_in_a_row(40, NULL, &alone, place);
+    for (int64_t i = 0; i < alone.count; i++) {
+        assert_int_equal(alone.part[i].instance_count, 50);
+    }
+    Vec3 eye = vec3(0, 0, 0);
+    enum { LEAVES = 70000 };
+    copies_in_a_row(LEAVES, &eye, &crowd, place);
+    for (int64_t i = 0; i < crowd.count; i++) {
+        const Part *part = &crowd.part[i];
+        assert_int_equal(part->instance_count, part->coarse[0].mesh ? 4 * LEAVES : 46);
+        assert_true(!part->coarse[0].mesh || count_within(part->instance, part->instance_count, eye,
+                                                          9.0f + 5.01f) == 4 * LEAVES);
+    }
+    geometry_clear(&alone);
+    geometry_clear(&crowd);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -407,6 +503,8 @@ int main(void)
         cmocka_unit_test(copies_become_fewer_beyond_a_range),
         cmocka_unit_test(copies_every_thing),
         cmocka_unit_test(many_sprays_keep_their_size),
+        cmocka_unit_test(near_copies_keep_every_leaf),
+        cmocka_unit_test(near_copies_are_limited),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

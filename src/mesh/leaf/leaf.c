@@ -168,16 +168,16 @@ static Mesh *coarse_parts_once(const LeafParams *params, uint64_t seed, int leve
 }
 
 // Leaflets and needles are widened each for itself, until the area fits: it grows about in
-// proportion.
-static Mesh *coarse_parts(const LeafParams *params, uint64_t seed, int level, double area, Error *e)
+// proportion. *factor: by how much.
+static Mesh *coarse_parts(const LeafParams *params, uint64_t seed, int level, double area,
+                          float *factor, Error *e)
 {
     enum { ROUNDS = 3 };
-    float factor = 1.0f;
-    Mesh *mesh = coarse_parts_once(params, seed, level, factor, e);
+    Mesh *mesh = coarse_parts_once(params, seed, level, *factor, e);
     for (int i = 0; mesh && i < ROUNDS; i++) {
-        factor *= (float)(area / mesh_area(mesh));
+        *factor *= (float)(area / mesh_area(mesh));
         mesh_free(mesh);
-        mesh = coarse_parts_once(params, seed, level, factor, e);
+        mesh = coarse_parts_once(params, seed, level, *factor, e);
     }
     return mesh;
 }
@@ -191,11 +191,16 @@ Mesh *leaf_mesh_coarse(const LeafParams *params, uint64_t seed, int level, float
 {
     Mesh *fine = leaf_mesh(params, true, seed, e);
     bool parts = leaf_has_needles(params) || params->compound != COMPOUND_NONE;
+    float factor = 1.0f;
     Mesh *mesh = !fine   ? NULL
-                 : parts ? coarse_parts(params, seed, level, mesh_area(fine), e)
+                 : parts ? coarse_parts(params, seed, level, mesh_area(fine), &factor, e)
                          : coarse_blade(params, seed, level, mesh_area(fine), e);
     if (mesh) {
         *error = mesh_distance(fine, mesh);
+    }
+    if (mesh && leaf_has_needles(params)) {
+        // a wide needle closes the gaps of the thin ones, however near they are
+        *error = fmaxf(*error, 0.5f * factor * params->width);
     }
     mesh_free(fine);
     if (mesh && !mesh_compute_normals(mesh, e)) {

@@ -78,7 +78,8 @@ Mesh *leaf_mesh_new(const LeafParams *params, uint64_t seed, Error *e);
 // a smooth outline of 8 quads, one quad for every leaflet, part or palmate lobe, every fourth
 // needle; 1 = one quad folded along the midrib, or every sixteenth needle (Cook et al., "Stochastic
 // Simplification of Aggregate Detail", 2007); 2, of branchlets alone = one quad along every shoot.
-// *error (m): how far the leaf's vertices are from it. The caller frees the mesh with mesh_free.
+// *error (m): how far the leaf's vertices are from it, at least half the width of its needles. The
+// caller frees the mesh with mesh_free.
 enum { LEAF_COARSE_MOST = 3 };
 int leaf_coarse_levels(const LeafParams *params);
 Mesh *leaf_mesh_coarse(const LeafParams *params, uint64_t seed, int level, float *error, Error *e);

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "objects/common/near_copies.h"
 
 #include <stdlib.h>
 
@@ -10,6 +11,10 @@ enum { STREAM_KEPT = 1, STREAM_TONE = 2, STREAM_PLACE_TONE = 3, STREAM_PLACE_SEA
 enum { SEASONS = 4, TONES = 2, GROUPS = SEASONS * TONES };
 #define PLACE_TONE 0.25f   // how far copies differ in colour variation, 0..1
 #define PLACE_SEASON 0.15f // and in the state of their autumn
+
+// A coarse form that is off by more than this angle (radians, about a pixel of a still) shows.
+#define NEAR_ANGLE 4e-4f
+enum { MOST_NEAR_LEAVES = 300000 }; // of all near copies of a model
 
 // Leaves of one season and tone.
 typedef struct Bin {
@@ -60,16 +65,23 @@ static void thin_out(Part *part, float share, uint64_t seed)
     part->instance_count = kept;
 }
 
-// The finest form of the part's mesh with at most so many faces, or the coarsest.
+// The finest form of the part's mesh with at most so many faces, or the coarsest: 0 = the mesh
+// itself, k = its coarse form k - 1.
+static int level_of(const Part *part, int64_t most_faces)
+{
+    int level = 0;
+    int64_t faces = part->mesh->face_count;
+    for (int i = 0; i < PART_COARSE_MOST && faces > most_faces && part->coarse[i].mesh; i++) {
+        level = i + 1;
+        faces = part->coarse[i].mesh->face_count;
+    }
+    return level;
+}
+
 static Mesh *form_of(const Part *part, int64_t most_faces)
 {
-    Mesh *form = part->mesh;
-    for (int i = 0; i < PART_COARSE_MOST; i++) {
-        if (form->face_count > most_faces && part->coarse[i].mesh) {
-            form = part->coarse[i].mesh;
-        }
-    }
-    return form;
+    int level = level_of(part, most_faces);
+    return level > 0 ? part->coarse[level - 1].mesh : part->mesh;
 }
 
 static int bin_of(const Part *part, int64_t i, uint64_t seed)
@@ -174,6 +186,70 @@ static int64_t count_faces(const Geometry *model, int64_t faces_each)
     return faces;
 }
 
+// Distance (m) within which the forms of the leaves would show.
+static float showing_within(const Geometry *model, int64_t faces_each)
+{
+    float reach = 0.0f;
+    for (int64_t i = 0; i < model->count; i++) {
+        const Part *part = &model->part[i];
+        int level = is_foliage(part) ? level_of(part, faces_each) : 0;
+        if (level > 0) {
+            reach = fmaxf(reach, part->coarse[level - 1].error / NEAR_ANGLE);
+        }
+    }
+    return reach;
+}
+
+// Adds foliage: baked at the far places, and at the near ones as instances, which take the part's
+// meshes over. share: of the leaves that are baked.
+static bool add_leaves(Part *part, int64_t faces_each, float share, const NearCopies *copies,
+                       const Instanced *how, uint64_t seed, const Placing *placing, Error *e)
+{
+    Part near = {0};
+    bool some_near = copies->near > 0 && level_of(part, faces_each) > 0;
+    bool done = !some_near || near_copies_leaves(copies, part, &near, placing->recipe->run, e);
+    Instanced far = *how;
+    if (some_near) {
+        far.place = copies->place + copies->near;
+        far.count = copies->count - copies->near;
+    } else {
+        far.place = copies->place;
+    }
+    if (done && share < 1.0f) {
+        thin_out(part, share, seed);
+    }
+    if (done && far.count > 0 && part->instance_count > 0) {
+        done = add_foliage(part, faces_each, &far, placing, e);
+    }
+    if (!near.instance) {
+        return done;
+    }
+    near.object = placing->object;
+    near.mesh = part->mesh;
+    part->mesh = NULL;
+    for (int k = 0; k < PART_COARSE_MOST; k++) {
+        near.coarse[k] = part->coarse[k];
+        part->coarse[k].mesh = NULL;
+    }
+    return geometry_add(placing->geometry, near, e) && done;
+}
+
+// Adds the parts at the places, which are sorted.
+static bool add_sorted(Geometry *model, int64_t faces_each, float share, const NearCopies *copies,
+                       const Instanced *how, const Placing *placing, Error *e)
+{
+    Instanced all = *how;
+    all.place = copies->place;
+    bool done = true;
+    for (int64_t i = 0; done && i < model->count; i++) {
+        Part *part = &model->part[i];
+        done = is_foliage(part) ? add_leaves(part, faces_each, share, copies, how,
+                                             random_key(how->seed, (uint64_t)i), placing, e)
+                                : add_wood(part, &all, placing, e);
+    }
+    return done;
+}
+
 bool instanced_add(Geometry *model, const Instanced *how, const Placing *placing, Error *e)
 {
     if (how->count == 0) {
@@ -185,17 +261,11 @@ bool instanced_add(Geometry *model, const Instanced *how, const Placing *placing
     float share = leaves > 0 ? (float)left / (float)leaves : 1.0f;
     float faces = share * (float)count_faces(model, faces_each), most = (float)how->most_faces;
     share = faces > most ? share * most / faces : share;
-    bool done = true;
-    for (int64_t i = 0; done && i < model->count; i++) {
-        Part *part = &model->part[i];
-        if (!is_foliage(part)) {
-            done = add_wood(part, how, placing, e);
-            continue;
-        }
-        if (share < 1.0f) {
-            thin_out(part, share, random_key(how->seed, (uint64_t)i));
-        }
-        done = part->instance_count == 0 || add_foliage(part, faces_each, how, placing, e);
-    }
+    NearCopies copies;
+    bool done = near_copies_init(&copies, how->place, how->count, how->eye,
+                                 showing_within(model, faces_each),
+                                 leaves > 0 ? MOST_NEAR_LEAVES / leaves : 0, e) &&
+                add_sorted(model, faces_each, share, &copies, how, placing, e);
+    near_copies_free(&copies);
     return done;
 }

@@ -152,6 +152,7 @@ static bool add_individuals(const ForestParams *params, const Individuals *all,
                                     .count = count,
                                     .most_leaves = params->leaves.max_count,
                                     .most_faces = INDIVIDUAL_FACES,
+                                    .eye = placing->around.eye,
                                     .seed = one->seed},
                              .material = placing->further + (int64_t)one->species * TREE_ROLES};
         Grown single = {.tree = count > 0 ? individuals_tree(all, grown, i, e) : NULL};

@@ -51,6 +51,7 @@ static bool add_variant(const ScatteringParams *params, int variant, const Scatt
                      .count = count,
                      .most_leaves = MOST_LEAVES,
                      .most_faces = MOST_FACES,
+                     .eye = placing->around.eye,
                      .seed = recipe.seed};
     bool done = build(&params->things[number], &own, e) && instanced_add(&single, &how, placing, e);
     geometry_clear(&single);
