@@ -29,6 +29,7 @@ typedef struct DeltaWork {
     DeltaStep *path;  // of each parcel of water, `longest` each
     int32_t *count;   // cells of each parcel's path; negative: it has not reached the edge
     int longest;
+    uint8_t *out;     // cells in which parcels end
 } DeltaWork;
 
 // What weighs a parcel's next step.
@@ -46,6 +47,9 @@ double delta_depth(const Delta *d, int64_t i);
 
 // Updates depth and speed of a cell whose bed or level has changed.
 void delta_update(Delta *d, int64_t i);
+
+// Finds where parcels end: at the edge, or SEA cells beyond the farthest shoal.
+void delta_find_out(Delta *d);
 
 // delta_water.c: routes the parcels of water and finds the level.
 void delta_flow(Delta *d, const Run *run);

@@ -78,7 +78,7 @@ static void walk(Delta *d, Parcel parcel, int number, double capacity)
     key = random_key(key, (uint64_t)number);
     int64_t cell = d->inlet[number % d->inlets] + d->columns;
     for (int n = 0; n < d->work->longest && parcel.volume > 0.0; n++) {
-        if (d->kind[cell] == DELTA_EDGE) {
+        if (d->work->out[cell]) {
             d->left += parcel.volume;
             return;
         }

@@ -52,7 +52,7 @@ bool terrain_add_delta_beyond(const Terrain *terrain, const Placing *placing, Er
                  .height = water,
                  .hole = 4,
                  .site = {depth / (1.0f + depth), 0.0f}};
-    float shore = (float)(land->corner + (land->mouth[1] + 0.05 * d->rows) * d->cell);
+    float shore = (float)(land->corner + (d->mouth[1] + 0.05 * d->rows) * d->cell);
     Sheet plain = {.x = {-far, -half, half, far},
                    .z = {-far, -0.5f * (far + half), -half, shore},
                    .height = water + 0.25f * depth,

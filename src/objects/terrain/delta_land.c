@@ -97,7 +97,15 @@ static bool find_levels(DeltaLand *land, uint8_t *known, Error *e)
         land->ground[i] = (float)d->bed[i];
     }
     Spread s = {d, land->level, known, 1.0f};
-    return spread(&s, 40, e);
+    if (!spread(&s, 40, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < delta_count(d); i++) { // old land stands above its river
+        if (d->kind[i] == DELTA_PLAIN) {
+            land->ground[i] += land->level[i];
+        }
+    }
+    return true;
 }
 
 // ---- channels

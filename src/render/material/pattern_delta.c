@@ -67,7 +67,7 @@ void pattern_delta(const Material *m, const SurfacePoint *point, PatternShade *s
     float ragged = damp + 0.06f * patch;
     Ground ground = mud(point, shade->color, damp), over;
     // What has lain bare a while is green.
-    float grown = smoothstepf(0.06f, 0.2f, age + 0.05f * patch);
+    float grown = smoothstepf(0.02f, 0.10f, age + 0.03f * patch);
     over = reeds(point, broad);
     ground = ground_blend(ground, &over, grown * smoothstepf(0.985f, 0.90f, ragged));
     over = marsh(m, point, damp, broad);
