@@ -8,7 +8,7 @@
 #define HALF 0.70710678118654752
 
 const DeltaWay delta_ways[DELTA_WAYS] = {
-    {1, 0, 1, 0, 1},    {1, 1, HALF, HALF, HALF},     {0, 1, 0, 1, 1},   {-1, 1, -HALF, HALF, HALF},
+    {1, 0, 1, 0, 1},   {1, 1, HALF, HALF, HALF},     {0, 1, 0, 1, 1},   {-1, 1, -HALF, HALF, HALF},
     {-1, 0, -1, 0, 1}, {-1, -1, -HALF, -HALF, HALF}, {0, -1, 0, -1, 1}, {1, -1, HALF, -HALF, HALF}};
 
 static const double FASTEST = 2.0; // speed, in that of the river
@@ -162,8 +162,8 @@ bool delta_begin(Delta *d, Error *e)
         bool open = d->kind[i] == DELTA_OPEN || d->kind[i] == DELTA_EDGE;
         double thin = 0.5 * d->inlets / fmax(away, 0.5 * d->inlets);
         d->flow_x[i] = open && away > 0.0 ? thin * x / away : 0.0;
-        d->flow_z[i] = open ? (away > 0.0 ? thin * z / away : thin)
-                            : (d->kind[i] == DELTA_TRUNK ? 1.0 : 0.0);
+        d->flow_z[i] =
+            open ? (away > 0.0 ? thin * z / away : thin) : (d->kind[i] == DELTA_TRUNK ? 1.0 : 0.0);
         double upstream = d->kind[i] == DELTA_TRUNK ? fmax(-z, 0.0) * d->cell : 0.0;
         d->level[i] = d->sea + d->slope * upstream;
         d->bared[i] = 0;

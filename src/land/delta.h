@@ -46,13 +46,13 @@ typedef struct Delta {
     double *flow_x; // discharge a m of width, in that of the river: direction and amount
     double *flow_z;
     double *speed;
-    double *mud;         // mean share of the river's mud that the water carries, of late
-    double *water;       // likewise: parcels that came by
-    int64_t *bared;      // step at which a cell was last under water that could scour it
-    double given, left;  // m^3 of sand and mud so far: from the river, out to sea
-    double mouth[2];     // cells: where the river enters the sea
-    int32_t *inlet;      // cells in which water enters
-    int inlets;          // their number: the river's width
+    double *mud;            // mean share of the river's mud that the water carries, of late
+    double *water;          // likewise: parcels that came by
+    int64_t *bared;         // step at which a cell was last under water that could scour it
+    double given, left;     // m^3 of sand and mud so far: from the river, out to sea
+    double mouth[2];        // cells: where the river enters the sea
+    int32_t *inlet;         // cells in which water enters
+    int inlets;             // their number: the river's width
     struct DeltaWork *work; // scratch
 } Delta;
 

@@ -36,8 +36,8 @@ static Delta *basin(uint64_t seed)
         bool river = column >= (SIDE - WIDE) / 2 && column < (SIDE + WIDE) / 2;
         bool rim = column == 0 || column == SIDE - 1 || row == SIDE - 1;
         double uneven = (double)random_range(random_key(seed, (uint64_t)i), -0.1f, 0.1f);
-        d->kind[i] = row < SHORE ? (river ? DELTA_TRUNK : DELTA_PLAIN)
-                                 : (rim ? DELTA_EDGE : DELTA_OPEN);
+        d->kind[i] =
+            row < SHORE ? (river ? DELTA_TRUNK : DELTA_PLAIN) : (rim ? DELTA_EDGE : DELTA_OPEN);
         d->bed[i] = d->kind[i] == DELTA_PLAIN ? 1.0 : -DEPTH + uneven;
     }
     assert_true(delta_begin(d, &e));
@@ -117,7 +117,8 @@ static void the_surface_falls_to_the_sea(void **state)
     double up = d->level[(int64_t)2 * SIDE + SIDE / 2];
     double mouth = d->level[(int64_t)SHORE * SIDE + SIDE / 2];
     double sea = d->level[(int64_t)(SIDE - 2) * SIDE + SIDE / 2];
-    print_message("level %.2f m in the river, %.2f m at its mouth, %.2f m at sea\n", up, mouth, sea);
+    print_message("level %.2f m in the river, %.2f m at its mouth, %.2f m at sea\n", up, mouth,
+                  sea);
     assert_true(up > mouth && mouth > sea && sea >= d->sea && sea < d->sea + 0.05);
     delta_free(d);
 }

@@ -16,7 +16,7 @@
 static const double BRING = 0.4;   // DeltaRates.bring
 static const double FILLED = 0.26; // of size^2 * depth: what the river has brought at age 1
 static const double SLOPE = 3e-4;  // of the river, by Liang et al.
-static const double CREST = 0.10;  // m above the water of levees and
+static const double CREST = 0.28;  // m above the water of levees and
 static const double CREEK = 0.14;  // m of creeks, of the river's depth
 static const double PLAIN = 0.24;  // likewise of the old land above the sea
 static const double UNEVEN = 0.02; // of the sea's bed, of its depth
@@ -114,8 +114,7 @@ bool terrain_grow_delta(Terrain *terrain, const Run *run, Error *e)
     DeltaRates rates = {.sand = (double)p.delta.sand,
                         .rise = (double)p.delta.rise * d->depth / steps,
                         .bring = BRING};
-    if (!lay_ground(land, &p, terrain->seed, e) ||
-        !delta_run(d, &rates, (int64_t)steps, run, e)) {
+    if (!lay_ground(land, &p, terrain->seed, e) || !delta_run(d, &rates, (int64_t)steps, run, e)) {
         return false;
     }
     return delta_land_finish(land, steps, e);
@@ -211,7 +210,6 @@ bool terrain_finish_delta(Terrain *terrain, HeightField *field, const Run *run, 
     return true;
 }
 
-// Liang et al. 2015, Edmonds et al. 2011 of deltas in nature.
 bool terrain_measure_delta(const Terrain *terrain, MeasureList *list, Error *e)
 {
     DeltaMeasures m;

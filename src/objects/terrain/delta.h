@@ -14,11 +14,11 @@ enum { DELTA_INLETS = 5, DELTA_LEAST_CELLS = 80, DELTA_MOST_CELLS = 320 };
 typedef struct DeltaLand {
     Delta *model;
     double corner; // m: x and z of the grid's corner
-    float *ground;   // m
-    float *level;    // m, of the water, also beneath dry land
-    float *levee;    // 1 in channels, 0 from three cells on
-    float *age;      // HeightField.age
-    float *load;     // mud in the water, of that in the river
+    float *ground; // m
+    float *level;  // m, of the water, also beneath dry land
+    float *levee;  // 1 in channels, 0 from three cells on
+    float *age;    // HeightField.age
+    float *load;   // mud in the water, of that in the river
 } DeltaLand;
 
 void delta_land_free(DeltaLand *land); // NULL is fine

@@ -112,9 +112,8 @@ static bool find_levels(DeltaLand *land, uint8_t *known, Error *e)
 
 static bool is_channel(const Delta *d, int64_t i)
 {
-    return d->kind[i] == DELTA_TRUNK ||
-           (d->kind[i] == DELTA_OPEN && d->speed[i] > 0.3 &&
-            d->level[i] - d->bed[i] > 0.08 * d->depth);
+    return d->kind[i] == DELTA_TRUNK || (d->kind[i] == DELTA_OPEN && d->speed[i] > 0.3 &&
+                                         d->level[i] - d->bed[i] > 0.08 * d->depth);
 }
 
 // Distances over the grid, in two sweeps (Borgefors 1986).
