@@ -323,6 +323,7 @@ movie frost-bubble-turn frost-bubble 60 crop=438:246:21:24 "--spin --turns 1 --g
 still coast coast
 still karst karst
 still meander meander
+still delta delta
 if is_wanted figure-16; then
     for iterations in 1 2 4 8; do
         panel terrain-noise --set objects.noise.terrain.noise.iterations=$iterations

@@ -8,7 +8,7 @@
 #define HALF 0.70710678118654752
 
 const DeltaWay delta_ways[DELTA_WAYS] = {
-    {1, 0, 1, 0, 1},    {1, 1, HALF, HALF, HALF},     {0, 1, 0, 1, 1},   {-1, 1, -HALF, HALF, HALF},
+    {1, 0, 1, 0, 1},   {1, 1, HALF, HALF, HALF},     {0, 1, 0, 1, 1},   {-1, 1, -HALF, HALF, HALF},
     {-1, 0, -1, 0, 1}, {-1, -1, -HALF, -HALF, HALF}, {0, -1, 0, -1, 1}, {1, -1, HALF, -HALF, HALF}};
 
 static const double FASTEST = 2.0; // speed, in that of the river
@@ -22,7 +22,7 @@ static bool alloc_work(Delta *d, Error *e)
     if (!w) {
         return false;
     }
-    w->longest = 3 * (d->columns + d->rows);
+    w->longest = d->columns + d->rows;
     return (w->depth = memory_alloc_zero(count, sizeof *w->depth, e)) &&
            (w->sum = memory_alloc_zero(count, sizeof *w->sum, e)) &&
            (w->x = memory_alloc_zero(count, sizeof *w->x, e)) &&
@@ -30,6 +30,7 @@ static bool alloc_work(Delta *d, Error *e)
            (w->visits = memory_alloc_zero(count, sizeof *w->visits, e)) &&
            (w->sand = memory_alloc_zero(count, sizeof *w->sand, e)) &&
            (w->mud = memory_alloc_zero(count, sizeof *w->mud, e)) &&
+           (w->out = memory_alloc_zero(count, sizeof *w->out, e)) &&
            (w->path = memory_alloc((int64_t)w->longest * DELTA_WATERS, sizeof *w->path, e)) &&
            (w->count = memory_alloc(DELTA_WATERS, sizeof *w->count, e));
 }
@@ -83,6 +84,7 @@ static void free_work(DeltaWork *w)
     free(w->visits);
     free(w->sand);
     free(w->mud);
+    free(w->out);
     free(w->path);
     free(w->count);
     free(w);
@@ -124,8 +126,26 @@ void delta_update(Delta *d, int64_t i)
     d->speed[i] = speed < FASTEST ? speed : FASTEST;
 }
 
-bool delta_begin(Delta *d, double mouth_x, double mouth_z, Error *e)
+void delta_find_out(Delta *d)
 {
+    const double sea = 20.0, shoal = -0.6 * d->depth;
+    double reach = 0.0;
+    for (int pass = 0; pass < 2; pass++) {
+        double far = sqrt(reach) + sea;
+        for (int64_t i = 0; i < delta_count(d); i++) {
+            double x = (double)(i % d->columns) - d->mouth[0];
+            double z = (double)(i / d->columns) - d->mouth[1], square = x * x + z * z;
+            bool bed = d->kind[i] == DELTA_OPEN && d->bed[i] > d->sea + shoal && d->water[i] > 0.0;
+            reach = pass == 0 && bed && square > reach ? square : reach;
+            bool sails = d->kind[i] == DELTA_OPEN && square > far * far;
+            d->work->out[i] = d->kind[i] == DELTA_EDGE || (pass == 1 && sails);
+        }
+    }
+}
+
+bool delta_begin(Delta *d, Error *e)
+{
+    double mouth_x = d->mouth[0], mouth_z = d->mouth[1];
     d->inlets = 0;
     for (int column = 0; column < d->columns; column++) {
         if (d->kind[column] == DELTA_TRUNK) {
@@ -142,8 +162,8 @@ bool delta_begin(Delta *d, double mouth_x, double mouth_z, Error *e)
         bool open = d->kind[i] == DELTA_OPEN || d->kind[i] == DELTA_EDGE;
         double thin = 0.5 * d->inlets / fmax(away, 0.5 * d->inlets);
         d->flow_x[i] = open && away > 0.0 ? thin * x / away : 0.0;
-        d->flow_z[i] = open ? (away > 0.0 ? thin * z / away : thin)
-                            : (d->kind[i] == DELTA_TRUNK ? 1.0 : 0.0);
+        d->flow_z[i] =
+            open ? (away > 0.0 ? thin * z / away : thin) : (d->kind[i] == DELTA_TRUNK ? 1.0 : 0.0);
         double upstream = d->kind[i] == DELTA_TRUNK ? fmax(-z, 0.0) * d->cell : 0.0;
         d->level[i] = d->sea + d->slope * upstream;
         d->bared[i] = 0;
@@ -240,6 +260,7 @@ static void grow_older(Delta *d)
 
 bool delta_run(Delta *d, const DeltaRates *rates, int64_t steps, const Run *run, Error *e)
 {
+    enum { OUT_STEPS = 16 };
     for (int64_t n = 0; n < steps; n++) {
         if (run_is_cancelled(run)) {
             return run_cancel_error(e);
@@ -248,6 +269,9 @@ bool delta_run(Delta *d, const DeltaRates *rates, int64_t steps, const Run *run,
             run_progress(run, "delta", (double)n / (double)steps);
         }
         d->sea += rates->rise;
+        if (n % OUT_STEPS == 0) {
+            delta_find_out(d);
+        }
         delta_flow(d, run);
         delta_carry(d, rates);
         delta_roll(d, rates);

@@ -5,7 +5,8 @@
 // surface. Parcels of sand and mud follow the discharge, settle and scour. Channels build bars at
 // their mouths, part around them, and shift.
 //
-// What the river brings stays or leaves through the borders, to rounding. Random numbers are keyed
+// What the river brings stays or leaves, to rounding: through the borders, or far out from all that
+// has been built so far. Random numbers are keyed
 // by step and parcel, sums have one order: the same bits for any number of threads.
 #ifndef RAMIFY_LAND_DELTA_H
 #define RAMIFY_LAND_DELTA_H
@@ -45,12 +46,13 @@ typedef struct Delta {
     double *flow_x; // discharge a m of width, in that of the river: direction and amount
     double *flow_z;
     double *speed;
-    double *mud;         // mean share of the river's mud that the water carries, of late
-    double *water;       // likewise: parcels that came by
-    int64_t *bared;      // step at which a cell was last under water that could scour it
-    double given, left;  // m^3 of sand and mud so far: from the river, through the borders
-    int32_t *inlet;      // cells in which water enters
-    int inlets;          // their number: the river's width
+    double *mud;            // mean share of the river's mud that the water carries, of late
+    double *water;          // likewise: parcels that came by
+    int64_t *bared;         // step at which a cell was last under water that could scour it
+    double given, left;     // m^3 of sand and mud so far: from the river, out to sea
+    double mouth[2];        // cells: where the river enters the sea
+    int32_t *inlet;         // cells in which water enters
+    int inlets;             // their number: the river's width
     struct DeltaWork *work; // scratch
 } Delta;
 
@@ -58,9 +60,9 @@ typedef struct Delta {
 Delta *delta_new(int columns, int rows, double cell, Error *e);
 void delta_free(Delta *d); // NULL is fine
 
-// After kinds, bed, depth and slope are set: finds the inlets, fills the level and a first flow
-// away from the point, in cells. ERROR_INPUT if no cell of the trunk is in row 0.
-bool delta_begin(Delta *d, double mouth_x, double mouth_z, Error *e);
+// After kinds, bed, depth, slope and mouth are set: finds the inlets, fills the level and a first
+// flow away from the mouth. ERROR_INPUT if no cell of the trunk is in row 0.
+bool delta_begin(Delta *d, Error *e);
 
 bool delta_run(Delta *d, const DeltaRates *rates, int64_t steps, const Run *run, Error *e);
 

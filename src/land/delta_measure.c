@@ -13,7 +13,6 @@ static const double FAST = 0.25, DEEP = 0.1;
 
 typedef struct Survey {
     const Delta *d;
-    const double *mouth;
     double fall;
 } Survey;
 
@@ -42,8 +41,8 @@ static void measure_land(const Survey *s, DeltaMeasures *m)
             continue;
         }
         land++;
-        double x = (double)(i % d->columns) - s->mouth[0];
-        double z = (double)(i / d->columns) - s->mouth[1];
+        double x = (double)(i % d->columns) - s->d->mouth[0];
+        double z = (double)(i / d->columns) - s->d->mouth[1];
         reach = fmax(reach, x * x + z * z);
         const int64_t sides[] = {-1, 1, -d->columns, d->columns};
         for (int k = 0; k < 4; k++) { // open cells are inside of the border
@@ -134,8 +133,8 @@ static int cross_arc(const Survey *s, double radius)
     for (int k = 0; k <= steps; k++) {
         double sine, cosine;
         exact_sincos_double(HALF_TURN * k / steps, &sine, &cosine);
-        int column = (int)floor(s->mouth[0] + radius * cosine + 0.5);
-        int row = (int)floor(s->mouth[1] + radius * sine + 0.5);
+        int column = (int)floor(s->d->mouth[0] + radius * cosine + 0.5);
+        int row = (int)floor(s->d->mouth[1] + radius * sine + 0.5);
         bool inside = column >= 0 && row >= 0 && column < d->columns && row < d->rows;
         bool now = inside && is_channel(s, (int64_t)row * d->columns + column);
         runs += now && !before;
@@ -144,10 +143,10 @@ static int cross_arc(const Survey *s, double radius)
     return runs;
 }
 
-bool delta_measure(const Delta *d, const double mouth[2], double fall, DeltaMeasures *m, Error *e)
+bool delta_measure(const Delta *d, double fall, DeltaMeasures *m, Error *e)
 {
     enum { ARCS = 25 };
-    Survey s = {.d = d, .mouth = mouth, .fall = fall};
+    Survey s = {.d = d, .fall = fall};
     double hull;
     *m = (DeltaMeasures){0};
     measure_land(&s, m);

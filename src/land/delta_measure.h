@@ -14,9 +14,8 @@ typedef struct DeltaMeasures {
     double reach;      // m from the river's mouth to the farthest land
 } DeltaMeasures;
 
-// mouth: the place where the river enters the sea, cells; fall: m by which the water has fallen
+// fall: m by which the water has fallen
 // below the level that built the land.
-bool delta_measure(const Delta *d, const double mouth[2], double fall, DeltaMeasures *measures,
-                   Error *e);
+bool delta_measure(const Delta *d, double fall, DeltaMeasures *measures, Error *e);
 
 #endif

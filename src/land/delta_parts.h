@@ -20,21 +20,22 @@ typedef struct DeltaStep {
 } DeltaStep;
 
 typedef struct DeltaWork {
-    double *depth;    // m, of each cell
-    double *sum;      // of levels that the parcels tell, or of a sweep
-    double *x, *z;    // sum of the ways of parcels of this step
-    int32_t *visits;  // of this step
-    double *sand;     // m^3 of sand that came by in this step
-    double *mud;      // likewise of mud
-    DeltaStep *path;  // of each parcel of water, `longest` each
-    int32_t *count;   // cells of each parcel's path; negative: it has not reached the edge
+    double *depth;   // m, of each cell
+    double *sum;     // of levels that the parcels tell, or of a sweep
+    double *x, *z;   // sum of the ways of parcels of this step
+    int32_t *visits; // of this step
+    double *sand;    // m^3 of sand that came by in this step
+    double *mud;     // likewise of mud
+    DeltaStep *path; // of each parcel of water, `longest` each
+    int32_t *count;  // cells of each parcel's path; negative: it has not reached the edge
     int longest;
+    uint8_t *out; // cells in which parcels end
 } DeltaWork;
 
 // What weighs a parcel's next step.
 typedef struct DeltaPull {
-    double inertia;     // share of the flow's direction; the rest is the slope of the surface
-    bool squared;       // by the depth's square
+    double inertia;      // share of the flow's direction; the rest is the slope of the surface
+    bool squared;        // by the depth's square
     const double *x, *z; // direction of the flow
 } DeltaPull;
 
@@ -46,6 +47,9 @@ double delta_depth(const Delta *d, int64_t i);
 
 // Updates depth and speed of a cell whose bed or level has changed.
 void delta_update(Delta *d, int64_t i);
+
+// Finds where parcels end: at the edge, or SEA cells beyond the farthest shoal.
+void delta_find_out(Delta *d);
 
 // delta_water.c: routes the parcels of water and finds the level.
 void delta_flow(Delta *d, const Run *run);

@@ -11,11 +11,11 @@ enum { STREAM_SEDIMENT = 2 };
 static const double SAND_SCOUR = 1.05;
 static const double MUD_SCOUR = 1.5;
 static const double MUD_SETTLES = 0.3;
-static const double MUD_FALL = 0.25; // of the mud in still water, share that settles in a cell
+static const double MUD_FALL = 0.25;  // of the mud in still water, share that settles in a cell
 static const double MUD_LOADED = 2.0; // of what the river brings: more is not scoured
-static const double MOST = 0.25;     // of the depth: change of a bed by a parcel
-static const double ROLL = 0.1;      // sand across the slopes of the bed, by that which goes by
-static const double NEW_MEAN = 0.02; // of a step in what the water carried of late
+static const double MOST = 0.25;      // of the depth: change of a bed by a parcel
+static const double ROLL = 0.1;       // sand across the slopes of the bed, by that which goes by
+static const double NEW_MEAN = 0.02;  // of a step in what the water carried of late
 
 // m^3.
 typedef struct Parcel {
@@ -72,13 +72,12 @@ static void drop_mud(Delta *d, int64_t i, Parcel *parcel)
 // capacity: m^3 of sand that the river's flow carries through a cell in a step.
 static void walk(Delta *d, Parcel parcel, int number, double capacity)
 {
-    DeltaPull pull = {
-        .inertia = 1.0, .squared = parcel.sand, .x = d->flow_x, .z = d->flow_z};
+    DeltaPull pull = {.inertia = 1.0, .squared = parcel.sand, .x = d->flow_x, .z = d->flow_z};
     uint64_t key = random_key(random_key(d->seed, STREAM_SEDIMENT), (uint64_t)d->step);
     key = random_key(key, (uint64_t)number);
     int64_t cell = d->inlet[number % d->inlets] + d->columns;
     for (int n = 0; n < d->work->longest && parcel.volume > 0.0; n++) {
-        if (d->kind[cell] == DELTA_EDGE) {
+        if (d->work->out[cell]) {
             d->left += parcel.volume;
             return;
         }

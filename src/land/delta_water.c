@@ -27,7 +27,7 @@ static int walk(const Delta *d, int parcel, DeltaStep *path)
     int k = DELTA_SOUTH; // the first step leaves the first row
     for (int n = 0; n < d->work->longest; n++) {
         path[n].cell = (int32_t)cell;
-        if (d->kind[cell] == DELTA_EDGE) {
+        if (d->work->out[cell]) {
             return n + 1;
         }
         if (n > 0) {

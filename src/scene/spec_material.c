@@ -165,7 +165,8 @@ static const Key MATERIAL_KEYS[] = {
          "limestone with dark streaks of water, bushes (color) and fields (color2); mud: a pond's "
          "bed, darker (color2) with depth; floodplain: a meandering river's bars of sand (color), "
          "meadows (color2) on its scrolls, reeds in hollows, fields on old ground; river: its "
-         "water, through which the bed (color2) shows where it is shallow; delta: mud (color), reeds and marsh (color2), "
+         "water, through which the bed (color2) shows where it is shallow; delta: mud (color), "
+         "reeds and marsh (color2), "
          "willows on levees and meadows of a river's delta; silt: its water, from the clear sea "
          "(color) to the river's mud (color2), with the bed in shoals; none: one colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,

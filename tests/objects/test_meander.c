@@ -221,11 +221,12 @@ static void forms_tell_what_their_water_is(void **state)
 {
     (void)state;
     TerrainParams params = terrain_params_default();
-    for (int form = 0; form <= TERRAIN_MEANDER; form++) {
+    for (int form = 0; form <= TERRAIN_DELTA; form++) {
         params.form = (TerrainForm)form;
         const char *water = kind_terrain.material_for(&params, TERRAIN_WATER);
         const char *wanted = form == TERRAIN_BRAIDED   ? "terrain/glacial"
                              : form == TERRAIN_MEANDER ? "terrain/river"
+                             : form == TERRAIN_DELTA   ? "terrain/silt"
                                                        : NULL;
         assert_true(wanted ? water && strcmp(water, wanted) == 0 : !water);
         assert_true(!water == !terrain_form(&params)->roughness);

@@ -187,7 +187,7 @@ static const Case scenes[] = {
     {"objects: [{name: a, terrain: {form: fjord}}]\n",
      ":1:37: objects.a.terrain.form is 'fjord'; known: rivers, ridges, map, "
      "noise, survey, canyon, mesas, alps, volcano, dunes, hills, coast, braided, karst, "
-     "meander"},
+     "meander, delta"},
     {"objects: [{name: a, terrain: {form: canyon, evolution: {cells: 700}}}]\n",
      ":1:64: objects.a.terrain.evolution.cells is 700; it must be a power of two, such as 1024"},
     {"objects: [{name: a, terrain: {form: meander, size: 4096, resolution: 64, meander: {width: "
@@ -195,6 +195,9 @@ static const Case scenes[] = {
      ":1:91: objects.a.terrain.meander.width is 40 m, less than a cell of the terrain, 64 m; a "
      "river "
      "must be at least a cell wide"},
+    {"objects: [{name: a, terrain: {form: delta, size: 8000, delta: {width: 100}}}]\n",
+     ":1:71: objects.a.terrain.delta.width is 100 m; in a terrain of 8000 m a river that builds a "
+     "delta is 125 to 500 m wide"},
     {"objects: [{name: a, terrain: {form: map}}]\n",
      ":1:30: objects.a.terrain.map.image is missing; form: map needs an image"},
     {"objects: [{name: a, terrain: {ridges: {lift: [{distance: 0, height: 1}, {distance: 0, "

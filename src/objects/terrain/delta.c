@@ -16,7 +16,7 @@
 static const double BRING = 0.4;   // DeltaRates.bring
 static const double FILLED = 0.26; // of size^2 * depth: what the river has brought at age 1
 static const double SLOPE = 3e-4;  // of the river, by Liang et al.
-static const double CREST = 0.10;  // m above the water of levees and
+static const double CREST = 0.28;  // m above the water of levees and
 static const double CREEK = 0.14;  // m of creeks, of the river's depth
 static const double PLAIN = 0.24;  // likewise of the old land above the sea
 static const double UNEVEN = 0.02; // of the sea's bed, of its depth
@@ -53,9 +53,10 @@ static double shore(const Ground *g, double column)
 
 static double river(const Ground *g, double row)
 {
-    double n = g->d->columns, up = (double)g->p->delta.plain - row / n;
-    double bend = 0.05 * n * wave(g, 9.0 * up, 1, 3) + 0.1 * n * up * wave(g, 2.0 * up, 2, 1);
-    return 0.5 * n + (up > 0.0 ? bend * fmin(12.0 * up, 1.0) : 0.0);
+    const double straight = 3.0; // rows: each cell in which water enters has one below
+    double n = g->d->columns, up = (double)g->p->delta.plain - fmax(row, straight) / n;
+    double bend = 0.11 * n * wave(g, 11.0 * up, 1, 2);
+    return 0.5 * n + (up > 0.0 ? bend * fmin(14.0 * up, 1.0) : 0.0);
 }
 
 static void lay_cell(const Ground *g, int64_t i)
@@ -83,24 +84,12 @@ static void lay_cell(const Ground *g, int64_t i)
 static bool lay_ground(DeltaLand *land, const TerrainParams *p, uint64_t seed, Error *e)
 {
     Ground g = {land->model, p, seed, DELTA_INLETS};
-    land->mouth[0] = 0.5 * land->model->columns;
-    land->mouth[1] = shore(&g, land->mouth[0]);
+    land->model->mouth[0] = 0.5 * land->model->columns;
+    land->model->mouth[1] = shore(&g, land->model->mouth[0]);
     for (int64_t i = 0; i < delta_count(land->model); i++) {
         lay_cell(&g, i);
     }
-    return delta_begin(land->model, land->mouth[0], land->mouth[1], e);
-}
-
-// Old land follows the river's slope.
-static void tilt_plain(const DeltaLand *land)
-{
-    Delta *d = land->model;
-    for (int64_t i = 0; i < delta_count(d); i++) {
-        double up = (land->mouth[1] - (double)(i / d->columns)) * d->cell;
-        if (d->kind[i] == DELTA_PLAIN) {
-            d->bed[i] += d->sea + d->slope * fmax(up, 0.0);
-        }
-    }
+    return delta_begin(land->model, e);
 }
 
 bool terrain_grow_delta(Terrain *terrain, const Run *run, Error *e)
@@ -125,11 +114,9 @@ bool terrain_grow_delta(Terrain *terrain, const Run *run, Error *e)
     DeltaRates rates = {.sand = (double)p.delta.sand,
                         .rise = (double)p.delta.rise * d->depth / steps,
                         .bring = BRING};
-    if (!lay_ground(land, &p, terrain->seed, e) ||
-        !delta_run(d, &rates, (int64_t)steps, run, e)) {
+    if (!lay_ground(land, &p, terrain->seed, e) || !delta_run(d, &rates, (int64_t)steps, run, e)) {
         return false;
     }
-    tilt_plain(land);
     return delta_land_finish(land, steps, e);
 }
 
@@ -223,13 +210,12 @@ bool terrain_finish_delta(Terrain *terrain, HeightField *field, const Run *run, 
     return true;
 }
 
-// Liang et al. 2015, Edmonds et al. 2011 of deltas in nature.
 bool terrain_measure_delta(const Terrain *terrain, MeasureList *list, Error *e)
 {
     DeltaMeasures m;
     const DeltaLand *land = terrain->delta;
     const double nan = (double)NAN, fall = DELTA_FALL * land->model->depth;
-    return delta_measure(land->model, land->mouth, fall, &m, e) &&
+    return delta_measure(land->model, fall, &m, e) &&
            measures_add(list, "branches", m.branches, "", nan, nan, e) &&
            measures_add(list, "mouths", m.mouths, "", nan, nan, e) &&
            measures_add(list, "land_area", 1e-6 * m.land, "km2", nan, nan, e) &&

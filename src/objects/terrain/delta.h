@@ -13,13 +13,12 @@ enum { DELTA_INLETS = 5, DELTA_LEAST_CELLS = 80, DELTA_MOST_CELLS = 320 };
 // What a place looks up, of each cell of the model.
 typedef struct DeltaLand {
     Delta *model;
-    double mouth[2]; // cells: where the river enters the sea
-    double corner;   // m: x and z of the grid's corner
-    float *ground;   // m
-    float *level;    // m, of the water, also beneath dry land
-    float *levee;    // 1 in channels, 0 from three cells on
-    float *age;      // HeightField.age
-    float *load;     // mud in the water, of that in the river
+    double corner; // m: x and z of the grid's corner
+    float *ground; // m
+    float *level;  // m, of the water, also beneath dry land
+    float *levee;  // 1 in channels, 0 from three cells on
+    float *age;    // HeightField.age
+    float *load;   // mud in the water, of that in the river
 } DeltaLand;
 
 void delta_land_free(DeltaLand *land); // NULL is fine

@@ -17,8 +17,8 @@ typedef struct Sheet {
 static Mesh *sheet_mesh(const Sheet *s, Vec3 move, Error *e)
 {
     enum { CELLS = LINES - 1 };
-    Mesh *mesh = mesh_new(4, LINES * LINES, CELLS * CELLS - 1, MESH_NORMAL | MESH_UV | MESH_SITE,
-                          e);
+    Mesh *mesh =
+        mesh_new(4, LINES * LINES, CELLS * CELLS - 1, MESH_NORMAL | MESH_UV | MESH_SITE, e);
     for (int i = 0; mesh && i < LINES * LINES; i++) {
         Vec3 p = vec3(s->x[i % LINES], s->height, s->z[i / LINES]);
         mesh->position[i] = vec3_add(p, move);
@@ -52,14 +52,14 @@ bool terrain_add_delta_beyond(const Terrain *terrain, const Placing *placing, Er
                  .height = water,
                  .hole = 4,
                  .site = {depth / (1.0f + depth), 0.0f}};
-    float shore = (float)(land->corner + (land->mouth[1] + 0.05 * d->rows) * d->cell);
+    float shore = (float)(land->corner + (d->mouth[1] + 0.05 * d->rows) * d->cell);
     Sheet plain = {.x = {-far, -half, half, far},
                    .z = {-far, -0.5f * (far + half), -half, shore},
                    .height = water + 0.25f * depth,
                    .hole = 7,
                    .site = {1.0f, 0.2f}};
-    return placing_add(placing, (Part){.mesh = sheet_mesh(&sea, p->position, e)},
-                       TERRAIN_WATER, e) &&
-           placing_add(placing, (Part){.mesh = sheet_mesh(&plain, p->position, e)},
-                       TERRAIN_LAND, e);
+    return placing_add(placing, (Part){.mesh = sheet_mesh(&sea, p->position, e)}, TERRAIN_WATER,
+                       e) &&
+           placing_add(placing, (Part){.mesh = sheet_mesh(&plain, p->position, e)}, TERRAIN_LAND,
+                       e);
 }

@@ -97,16 +97,23 @@ static bool find_levels(DeltaLand *land, uint8_t *known, Error *e)
         land->ground[i] = (float)d->bed[i];
     }
     Spread s = {d, land->level, known, 1.0f};
-    return spread(&s, 40, e);
+    if (!spread(&s, 40, e)) {
+        return false;
+    }
+    for (int64_t i = 0; i < delta_count(d); i++) { // old land stands above its river
+        if (d->kind[i] == DELTA_PLAIN) {
+            land->ground[i] += land->level[i];
+        }
+    }
+    return true;
 }
 
 // ---- channels
 
 static bool is_channel(const Delta *d, int64_t i)
 {
-    return d->kind[i] == DELTA_TRUNK ||
-           (d->kind[i] == DELTA_OPEN && d->speed[i] > 0.3 &&
-            d->level[i] - d->bed[i] > 0.08 * d->depth);
+    return d->kind[i] == DELTA_TRUNK || (d->kind[i] == DELTA_OPEN && d->speed[i] > 0.3 &&
+                                         d->level[i] - d->bed[i] > 0.08 * d->depth);
 }
 
 // Distances over the grid, in two sweeps (Borgefors 1986).

@@ -67,7 +67,7 @@ void pattern_delta(const Material *m, const SurfacePoint *point, PatternShade *s
     float ragged = damp + 0.06f * patch;
     Ground ground = mud(point, shade->color, damp), over;
     // What has lain bare a while is green.
-    float grown = smoothstepf(0.06f, 0.2f, age + 0.05f * patch);
+    float grown = smoothstepf(0.02f, 0.10f, age + 0.03f * patch);
     over = reeds(point, broad);
     ground = ground_blend(ground, &over, grown * smoothstepf(0.985f, 0.90f, ragged));
     over = marsh(m, point, damp, broad);
@@ -98,7 +98,8 @@ void pattern_silt(const Material *m, const SurfacePoint *point, PatternShade *sh
     float depth = point->site.x / fmaxf(1.0f - point->site.x, 0.02f), load = point->site.y;
     PatternOctaves drift = pattern_octaves(point, 260.0f, 7, 0.6f, 1.0f, SEED_WATER);
     PatternOctaves fine = pattern_octaves(point, 70.0f, 4, 0.6f, 1.0f, SEED_WATER + 9);
-    load = load * (1.0f + 0.28f * drift.value) + 0.05f * drift.value * smoothstepf(0.0f, 0.1f, load);
+    load =
+        load * (1.0f + 0.28f * drift.value) + 0.05f * drift.value * smoothstepf(0.0f, 0.1f, load);
     load = clampf(load, 0.0f, 1.0f);
     Vec3 body = body_color(shade->color, m->color2, load);
     body = vec3_scale(body, 1.0f + 0.07f * clampf(fine.value, -1.0f, 1.0f));
