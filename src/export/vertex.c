@@ -91,6 +91,7 @@ static SurfacePoint pattern_point(const ExportSurface *surface, const Transform 
                           .radius = vertex->radius,
                           .birth = vertex->birth,
                           .site = mesh->site ? mesh->site[v] : (Vec2){0, 0},
+                          .shore = mesh->shore ? mesh->shore[v] : 0.0f,
                           .strata = mesh->strata};
     Vec3 u, w;
     export_tangents(mesh, (const uint32_t[3]){corner[0], corner[1], corner[mesh->face_size - 1]},

@@ -6,6 +6,7 @@
 #include "render/material/pattern_crags.h"
 #include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
+#include "render/material/pattern_shore.h"
 
 #include <stddef.h>
 
@@ -115,6 +116,7 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
         other = snow(point, scale);
         g = ground_blend(g, &other, high * held);
     }
+    g = pattern_shore(point, vec3_scale(m->color, 1.25f), m->pattern_depth, g);
     shade->color = g.color;
     shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }
@@ -160,6 +162,7 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
         other = snow(point, scale);
         g = ground_blend(g, &other, smoothstepf(-0.015f, 0.02f, cold) * held);
     }
+    g = pattern_shore(point, vec3_scale(m->color, 1.25f), m->pattern_depth, g);
     shade->color = g.color;
     shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }
