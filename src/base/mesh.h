@@ -20,6 +20,8 @@ typedef struct Mesh {
     float *birth;          // growth step, as a fraction of the last one, 0..1; NULL = none
     Vec2 *site;            // land: altitude (x) and wetness (y), 0..1 each; NULL = none
     float *foam;           // water: share of it that is white with air, 0..1; NULL = none
+    float *shore;          // land: m by which it lies lower than MESH_SHORE above the water near
+                           // it, 0 = higher or far from water; NULL = there is no water
     struct Waves *waves;   // of a sea, for what is finer than the mesh; owned; NULL = none
     struct Strata *strata; // land: its beds of rock, in the mesh's space; owned; NULL = none
 } Mesh;
@@ -31,8 +33,11 @@ enum {
     MESH_RADIUS = 4,
     MESH_BIRTH = 8,
     MESH_SITE = 16,
-    MESH_FOAM = 32
+    MESH_FOAM = 32,
+    MESH_SHORE_ARRAY = 64
 };
+
+#define MESH_SHORE 8.0f // m above water: how far up shores reach
 
 // Creates a mesh with arrays of these sizes, zeroed; NULL and e when out of memory. Free with
 // mesh_free.

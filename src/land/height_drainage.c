@@ -79,6 +79,7 @@ typedef struct Flood {
     LowestQueue queue;
     uint8_t *seen;
     float fall;
+    bool level;     // pools are level, to the bit; then fall must be 0
     int32_t *trace; // slopes whose neighbours have yet to be reached; NULL = in order of height
     int64_t traced; // of them; `done` have been dealt with
     int64_t done;
@@ -109,7 +110,8 @@ static bool reach(Flood *flood, int32_t here, int64_t n, int k, Error *e)
 {
     Drainage *out = flood->out;
     float least = out->filled[here] + flood->fall * step_length(flood->field, k);
-    float above = next_above(out->filled[here]), h = flood->field->height[n];
+    float above = flood->level ? out->filled[here] : next_above(out->filled[here]);
+    float h = flood->field->height[n];
     least = least > above ? least : above;
     flood->seen[n] = 1;
     out->filled[n] = h > least ? h : least;
@@ -221,11 +223,12 @@ static Drainage *allocate(const HeightField *field, Error *e)
     return out;
 }
 
-// traced: without an order, but faster; then fall must be 0.
-static Drainage *flood_field(const HeightField *field, const uint8_t *outlet, float fall,
-                             bool traced, Error *e)
+// traced: without an order, but faster; then flood.fall must be 0. The caller sets field, outlet,
+// fall and level.
+static Drainage *flood_field(Flood flood, bool traced, Error *e)
 {
-    Flood flood = {.field = field, .outlet = outlet, .out = allocate(field, e), .fall = fall};
+    const HeightField *field = flood.field;
+    flood.out = allocate(field, e);
     bool done = flood.out != NULL;
     if (done && traced) { // no order
         flood.trace = flood.out->order;
@@ -247,7 +250,7 @@ static Drainage *flood_field(const HeightField *field, const uint8_t *outlet, fl
 
 Drainage *drainage_new(const HeightField *field, Error *e)
 {
-    Drainage *out = flood_field(field, NULL, 0.0f, false, e);
+    Drainage *out = flood_field((Flood){.field = field}, false, e);
     if (out) {
         point_downhill(field, out);
         gather_areas(field, out);
@@ -258,7 +261,12 @@ Drainage *drainage_new(const HeightField *field, Error *e)
 
 Drainage *drainage_flood(const HeightField *field, const uint8_t *outlet, Error *e)
 {
-    return flood_field(field, outlet, 0.0f, true, e);
+    return flood_field((Flood){.field = field, .outlet = outlet}, true, e);
+}
+
+Drainage *drainage_spill(const HeightField *field, Error *e)
+{
+    return flood_field((Flood){.field = field, .level = true}, true, e);
 }
 
 void drainage_free(Drainage *drainage)
@@ -274,7 +282,7 @@ void drainage_free(Drainage *drainage)
 
 bool height_field_fill(HeightField *field, float fall, Error *e)
 {
-    Drainage *flooded = flood_field(field, NULL, fall, false, e);
+    Drainage *flooded = flood_field((Flood){.field = field, .fall = fall}, false, e);
     if (!flooded) {
         return false;
     }

@@ -25,6 +25,10 @@ void drainage_free(Drainage *drainage); // NULL is fine
 // per sample, 1 = water leaves there and nowhere else; NULL = over the rim.
 Drainage *drainage_flood(const HeightField *field, const uint8_t *outlet, Error *e);
 
+// The same over the rim, but with level pools: filled is the height of the lowest way's highest
+// sample, to the bit. The receiver of a pool's first sample is the sample over which it spills.
+Drainage *drainage_spill(const HeightField *field, Error *e);
+
 // Raises samples by the least amount that lets every one drain: each ends up above its receiver by
 // a slope of at least `fall` (0 = by one float step).
 bool height_field_fill(HeightField *field, float fall, Error *e);

@@ -161,8 +161,9 @@ static Vec3 field_normal(const HeightField *field, int column, int row)
 static Mesh *make_mesh(const Mesher *m, Error *e)
 {
     const HeightField *field = m->field;
+    int arrays = MESH_NORMAL | MESH_UV | MESH_SITE | (field->water ? MESH_SHORE_ARRAY : 0);
     Mesh *mesh =
-        mesh_new(3, m->vertex_count, m->index_count / 3, MESH_NORMAL | MESH_UV | MESH_SITE, e);
+        mesh_new(3, m->vertex_count, m->index_count / 3, arrays, e);
     if (!mesh) {
         return NULL;
     }
@@ -179,6 +180,9 @@ static Mesh *make_mesh(const Mesher *m, Error *e)
         float felt = field->climate ? field->climate[m->sample[i]] : (p.y - low) * scale;
         const float *second = field->ground ? field->ground : field->wetness;
         mesh->site[i] = (Vec2){felt, second ? second[m->sample[i]] : 0.0f};
+        if (mesh->shore) {
+            mesh->shore[i] = fmaxf(MESH_SHORE + field->water[m->sample[i]] - p.y, 0.0f);
+        }
         if (field->age) {
             mesh->site[i].x = field->age[m->sample[i]];
         }

@@ -14,6 +14,7 @@ typedef struct DicePoint {
     Vec3 position, normal;
     Vec3 along; // unit: the way in which v of the UVs grows; 0 = unknown
     Vec2 uv, site;
+    float shore;
     float radius, birth;
 } DicePoint;
 

@@ -32,6 +32,7 @@ DicePoint dice_middle(const DicePoint *a, const DicePoint *b)
                        .along = vec3_normalize(vec3_add(a->along, b->along)),
                        .uv = {0.5f * (a->uv.x + b->uv.x), 0.5f * (a->uv.y + b->uv.y)},
                        .site = {0.5f * (a->site.x + b->site.x), 0.5f * (a->site.y + b->site.y)},
+                       .shore = 0.5f * (a->shore + b->shore),
                        .radius = 0.5f * (a->radius + b->radius),
                        .birth = 0.5f * (a->birth + b->birth)};
 }
@@ -67,6 +68,7 @@ void dice_fill_points(const Mesh *mesh, const uint32_t *triangle, int64_t triang
                                .normal = mesh->normal[i],
                                .uv = mesh->uv ? mesh->uv[i] : (Vec2){0, 0},
                                .site = mesh->site ? mesh->site[i] : (Vec2){0, 0},
+                               .shore = mesh->shore ? mesh->shore[i] : 0.0f,
                                .radius = mesh->radius ? mesh->radius[i] : 0.0f,
                                .birth = mesh->birth ? mesh->birth[i] : 0.0f};
     }
@@ -85,7 +87,8 @@ void dice_fill_points(const Mesh *mesh, const uint32_t *triangle, int64_t triang
 static int arrays_of(const Mesh *mesh)
 {
     return MESH_NORMAL | (mesh->uv ? MESH_UV : 0) | (mesh->radius ? MESH_RADIUS : 0) |
-           (mesh->birth ? MESH_BIRTH : 0) | (mesh->site ? MESH_SITE : 0);
+           (mesh->birth ? MESH_BIRTH : 0) | (mesh->site ? MESH_SITE : 0) |
+           (mesh->shore ? MESH_SHORE_ARRAY : 0);
 }
 
 Mesh *dice_mesh_of(const Mesh *like, const DicePoint *point, int64_t point_count,
@@ -97,6 +100,9 @@ Mesh *dice_mesh_of(const Mesh *like, const DicePoint *point, int64_t point_count
         mesh->normal[i] = point[i].normal;
         if (mesh->uv) {
             mesh->uv[i] = point[i].uv;
+        }
+        if (mesh->shore) {
+            mesh->shore[i] = point[i].shore;
         }
         if (mesh->site) {
             mesh->site[i] = point[i].site;

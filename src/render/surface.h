@@ -30,6 +30,7 @@ typedef struct SurfacePoint {
                         // before displacement; else 0
     Vec3 along;         // of diced meshes: unit, world, the way in which v grows; else 0
     Vec2 site;          // of land: altitude and wetness, 0..1 each
+    float shore;        // of land: m by which it lies lower than MESH_SHORE above water near it
     float foam;         // of water: share that is white with air, 0..1
     const struct Strata *strata; // of land: its beds of rock, in the part's space; NULL = none
     const struct Waves *waves;   // of a sea; NULL = none

@@ -99,13 +99,13 @@ static bool wear_by_ice(const Range *r, Landscape *land, const Run *run, Error *
 }
 
 // Fills basins with what streams bring as the ice goes: flat floors. The volume comes from what has
-// left.
-static bool fill_basins(Landscape *land, Error *e)
+// left. Where lakes are wanted, basins keep a share of their depth.
+static bool fill_basins(Landscape *land, double share, Error *e)
 {
     HeightField *field = landscape_heights(land, e);
     Drainage *flooded = field ? drainage_flood(field, land->base, e) : NULL;
     for (int64_t i = 0; flooded && i < landscape_count(land); i++) {
-        double fill = (double)flooded->filled[i] - (land->rock[i] + land->loose[i]);
+        double fill = share * ((double)flooded->filled[i] - (land->rock[i] + land->loose[i]));
         if (!land->base[i] && fill > 0.0) {
             land->loose[i] += fill;
             land->outflow -= fill * land->cell * land->cell;
@@ -177,13 +177,13 @@ Landscape *terrain_evolve_alps(Terrain *terrain, const Run *run, Error *e)
         landscape_free(land);
         return NULL;
     }
-    double share = 1.0;
+    double share = 1.0, filled = r.params.lakes.count > 0 ? (double)r.params.lakes.silt : 1.0;
     for (int cells = RIVER_CELLS; land; cells *= 2) {
         if (land->strata != terrain->strata) {
             land->strata = terrain->strata;
             landscape_lay_stack(land);
         }
-        bool done = cells != ICE_CELLS || (wear_by_ice(&r, land, run, e) && fill_basins(land, e));
+        bool done = cells != ICE_CELLS || (wear_by_ice(&r, land, run, e) && fill_basins(land, filled, e));
         done = done && (cells < ICE_CELLS || weather(&r, land, share, run, e));
         if (done && cells >= last) {
             return land;

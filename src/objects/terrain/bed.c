@@ -5,7 +5,8 @@
 #include "base/noise.h"
 #include "base/random.h"
 #include "land/height_drainage.h"
-#include "objects/terrain/internal.h"
+#include "objects/terrain/form.h"
+#include "objects/terrain/lakes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -219,6 +220,17 @@ static bool dig_beds(const Terrain *terrain, HeightField *field, const Run *run)
     return !run_is_cancelled(run);
 }
 
+// A river that crosses a lake is as high as the lake.
+static void rest_on_lakes(Terrain *terrain, const HeightField *field)
+{
+    OutTree *water = terrain->water;
+    for (int64_t i = 0; i < water->count; i++) {
+        Vec3 *p = &water->position[i];
+        float level = terrain_lake_at(terrain, field, p->x, p->z);
+        p->y = level > -INFINITY ? level : p->y;
+    }
+}
+
 bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
     float water = terrain_evolves(terrain->params) ? terrain->params->canyon.river
@@ -235,6 +247,9 @@ bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Er
     }
     const TerrainParams *params = terrain->params;
     terrain->drop = terrain_find_levels(terrain->water, &params->rivers, field, e);
+    if (terrain->drop) {
+        rest_on_lakes(terrain, field);
+    }
     terrain->flow =
         terrain->drop ? terrain_find_flow(params, terrain->water, terrain->drop, e) : NULL;
     if (!terrain->flow) {
@@ -265,24 +280,32 @@ static float water_over(const Terrain *terrain, const HeightField *field, float 
     return river > lake ? river : lake;
 }
 
+static float *new_levels(const HeightField *field, float level, Error *e)
+{
+    float *water = memory_alloc(height_field_count(field), sizeof *water, e);
+    for (int64_t i = 0; water && i < height_field_count(field); i++) {
+        water[i] = level;
+    }
+    return water;
+}
+
 bool terrain_record_water(const Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
     bool rivers = terrain->shore != NULL, lake = terrain->params->water_level > 0.0f;
-    if (field->water || (!rivers && !lake)) {
+    if (terrain_form(terrain->params)->water || (!rivers && !lake)) {
         return true;
     }
-    field->water = memory_alloc(height_field_count(field), sizeof *field->water, e);
-    if (!field->water) {
+    float level = lake ? terrain_water_height(terrain->params, field) : -INFINITY;
+    if (!field->water && !(field->water = new_levels(field, level, e))) {
         return false;
     }
-    float level = lake ? terrain_water_height(terrain->params, field) : -INFINITY;
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
     for (int row = 0; row < field->rows; row++) {
         for (int column = 0; column < field->columns && !run_is_cancelled(run); column++) {
             float x = field->origin.x + (float)column * field->cell.x;
             float z = field->origin.y + (float)row * field->cell.y;
-            field->water[(int64_t)row * field->columns + column] =
-                water_over(terrain, field, level, x, z);
+            float *water = &field->water[(int64_t)row * field->columns + column];
+            *water = water_over(terrain, field, *water, x, z);
         }
     }
     return !run_is_cancelled(run) || run_cancel_error(e);

@@ -4,6 +4,7 @@
 #include "base/noise.h"
 #include "base/random.h"
 #include "objects/terrain/internal.h"
+#include "objects/terrain/lakes.h"
 
 #include <stdlib.h>
 
@@ -99,6 +100,7 @@ static float tree_size(const Planting *p, float x, float z, uint64_t key)
     float keep = line * lerpf(1.0f, wood, forest->clumping) *
                  smoothstepf(p->least_upright - 0.05f, p->least_upright + 0.05f, upright);
     if (altitude < forest->low || h < p->lake ||
+        terrain_lake_at(p->terrain, p->field, x, z) > -INFINITY ||
         random_unit(random_key(key, STREAM_TREE_CHANCE)) > keep) {
         return 0.0f;
     }

@@ -19,6 +19,7 @@ typedef struct Form {
     float relief;     // m by the metre of the size, if the scene gives none; 0 = by the slopes
     float wavelength; // of the noise's first octave, share of the size, if the scene gives none
     bool shows_beds;  // so does its material
+    bool hollows;     // its hollows are the land's own; `drain` fills those that are no lakes
     bool plateau;     // it was a plateau of beds once
     // The tree, on the plane y = 0; NULL = none. *tree may be set on failure.
     bool (*grow)(OutTree **tree, const TerrainParams *params, const Recipe *recipe, Error *e);

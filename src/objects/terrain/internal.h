@@ -42,7 +42,8 @@ enum {
     STREAM_MEANDER = 84,
     STREAM_SCROLLS = 85,
     STREAM_LIPS = 86,
-    STREAM_DELTA = 87
+    STREAM_DELTA = 87,
+    STREAM_BASINS = 88
 };
 
 // The tree and everything derived from it.
@@ -75,6 +76,8 @@ typedef struct Terrain {
     struct RiverFlow *flow; // of each node
     TroughEnvelope *shore;  // m to the water's edge, negative in the water
     uint8_t *bank;          // of each sample: 1 = in a bed or at its edge
+    struct Lakes *lakes;    // at their spill levels; NULL = none are wanted
+    float *lake_depth;      // m of each sample, 0 = no lake; likewise
 } Terrain;
 
 // grow_plane.c: how a tree grows on the plane.

@@ -79,6 +79,9 @@ static void needs(const void *params, Needs *needs)
         double cells = terrain_delta_cells(terrain);
         needs_add(needs, "delta.width", cells * cells, DELTA_BYTES);
     }
+    if (terrain->lakes.count > 0) {
+        needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, 40);
+    }
     if (terrain->form == TERRAIN_MEANDER) {
         needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, 60);
     }
@@ -106,7 +109,7 @@ static const char *material_for(const void *params, int role)
     const TerrainParams *terrain = params;
     const Form *form = terrain_form(terrain);
     if (role == TERRAIN_WATER) {
-        return form->water;
+        return terrain->lakes.count > 0 ? "terrain/lake" : form->water;
     }
     if (role != TERRAIN_LAND) {
         return NULL;
@@ -248,6 +251,16 @@ static const Material BUILTIN[] = {
      .ior = 1.5f,
      .pattern = PATTERN_STRATA,
      .pattern_depth = 3.0f},
+    {.name = "terrain/lake",
+     .kind = MATERIAL_WATER,
+     .color = {1.0f, 1.0f, 1.0f},
+     .color2 = {0.72f, 0.75f, 0.76f},
+     .absorption = {0.36f, 0.075f, 0.060f},
+     .scattering = {0.014f, 0.020f, 0.020f},
+     .anisotropy = 0.8f,
+     .ior = 1.33f,
+     .pattern = PATTERN_WATER,
+     .pattern_depth = 0.004f},
     {.name = "lake",
      .kind = MATERIAL_PRINCIPLED,
      .color = {0.012f, 0.030f, 0.034f},

@@ -4,6 +4,7 @@
 #include "land/dunes_measure.h"
 #include "land/valley_profile.h"
 #include "objects/terrain/form.h"
+#include "objects/terrain/lakes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -168,7 +169,7 @@ bool terrain_measure(const void *given, const Grown *grown, const Recipe *recipe
 {
     const Terrain *terrain = grown->state;
     (void)recipe;
-    if (!terrain_measure_falls(terrain, list, e)) {
+    if (!terrain_measure_falls(terrain, list, e) || !terrain_measure_lakes(terrain, list, e)) {
         return false;
     }
     if (terrain->dunes) {

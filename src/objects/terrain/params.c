@@ -61,6 +61,7 @@ TerrainParams terrain_params_default(void)
                       .deposition = 1.0f,
                       .soil = 1.0f,
                       .cells = 1024},
+        .lakes = {.silt = 0.5f, .deepness = 1.0f, .altitude = {0.0f, 1.0f}},
         .tiles = {.cells = 512, .detail = 1.0f},
         .mesh_error = 0.0006f};
 }

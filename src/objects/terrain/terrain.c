@@ -5,12 +5,19 @@
 #include "base/random.h"
 #include "objects/terrain/delta.h"
 #include "objects/terrain/form.h"
+#include "objects/terrain/lakes.h"
 
 #include <stdlib.h>
 
 bool terrain_evolves(const TerrainParams *params)
 {
     return terrain_form(params)->evolve;
+}
+
+bool terrain_holds_lakes(const TerrainParams *params)
+{
+    const Form *form = terrain_form(params);
+    return !form->water && form->repeat == REPEAT_MIRRORED && params->form != TERRAIN_COAST;
 }
 
 bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
@@ -35,6 +42,8 @@ static void forget(Terrain *terrain)
     free(terrain->flow);
     trough_envelope_free(terrain->shore);
     free(terrain->bank);
+    lakes_free(terrain->lakes);
+    free(terrain->lake_depth);
     landscape_free(terrain->evolved);
     height_field_free(terrain->ground);
     dunes_free(terrain->dunes);
@@ -60,6 +69,8 @@ static void forget(Terrain *terrain)
     terrain->drop = NULL;
     terrain->flow = NULL;
     terrain->bank = NULL;
+    terrain->lakes = NULL;
+    terrain->lake_depth = NULL;
 }
 
 static void free_terrain(void *state)
@@ -182,12 +193,15 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
     const TerrainParams *params = terrain->params;
     const Form *form = terrain_form(params);
     if (!terrain_erode(field, &params->erosion, run, e) ||
+        (form->hollows && !terrain_cover_hollows(terrain, field, e)) ||
         (form->drain && !form->drain(terrain, field, run, e))) {
         return false;
     }
     uint64_t seed = random_key(terrain->seed, STREAM_TERRACES);
     return make_terraces(field, &params->terraces, seed, e) &&
+           terrain_find_lakes(terrain, field, run, e) &&
            (!form->finish || form->finish(terrain, field, run, e)) &&
+           terrain_uncover_lakes(terrain, field, e) &&
            terrain_record_water(terrain, field, run, e);
 }
 

@@ -148,6 +148,19 @@ typedef struct TerrainForestParams {
     float clumping;  // 0 = even, 1 = in woods with clearings
 } TerrainForestParams;
 
+// Lakes at their spill levels.
+typedef struct TerrainLakeParams {
+    int count;         // at most so many, the largest; 0 = none
+    float area;        // m^2, least; 0 = by the size
+    float depth;       // m, least, of the deepest place; 0 = by the size
+    float beach;       // m: width of a beach on each side of the shoreline; 0 = by the lake's size
+    float silt;        // of TERRAIN_ALPS, 0..1: share of the basins that streams have filled
+    int basins;        // that are dug; 0 = none
+    float basin_area;  // m^2, of the largest; 0 = by the size
+    float deepness;    // factor on the mean depth of mountain lakes of their areas
+    float altitude[2]; // of the sills of dug basins, shares of the relief
+} TerrainLakeParams;
+
 // The world cut into tiles of finer ground (land/tiles.h).
 typedef struct TerrainTileParams {
     int count;    // a side; 0 = none
@@ -173,6 +186,7 @@ typedef struct TerrainParams {
     TerrainErosionParams erosion;
     TerrainTerraceParams terraces;
     TerrainForestParams forest;
+    TerrainLakeParams lakes;
     StrataParams strata; // top: 0 = the plateau's height
     CanyonParams canyon;
     MesaParams mesas;
@@ -217,6 +231,9 @@ HeightField *terrain_heights(const void *params, const Grown *grown, const Run *
 // The map's own scale of colours, also that of the material `altitude`.
 enum { TERRAIN_ALTITUDES = 6 };
 extern ColorStop terrain_altitudes[TERRAIN_ALTITUDES];
+
+// May there be lakes at their spill levels?
+bool terrain_holds_lakes(const TerrainParams *params);
 
 // Does the land come from processes that wear it?
 bool terrain_evolves(const TerrainParams *params);

@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "land/height_mesh.h"
 #include "objects/terrain/form.h"
+#include "objects/terrain/lakes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,13 +11,13 @@
 
 enum { LAKE_BLOCKS = 64 }; // a side
 
-typedef struct Lake {
+typedef struct Sheet {
     const HeightField *field;
     float level, over; // m; land up to this height above the level may be drawn lower
-} Lake;
+} Sheet;
 
 // Is any land in a block of the field under water?
-static bool is_wet(const Lake *lake, int column, int row)
+static bool is_wet(const Sheet *lake, int column, int row)
 {
     const HeightField *field = lake->field;
     int first = column * (field->columns - 1) / LAKE_BLOCKS;
@@ -34,7 +35,7 @@ static bool is_wet(const Lake *lake, int column, int row)
 
 // Level squares over all blocks with land under water, so that no water is visible below mountains
 // cut off at the border.
-static Mesh *lake_mesh(const Lake *lake, Vec3 move, Error *e)
+static Mesh *lake_mesh(const Sheet *lake, Vec3 move, Error *e)
 {
     const HeightField *field = lake->field;
     enum { SIDE = LAKE_BLOCKS + 1 };
@@ -179,7 +180,9 @@ static void add_stem(Ribbons *r, int32_t first)
     while (here >= 0) {
         int32_t above = below < 0 && here != first ? first : r->main[here];
         bool falls = below >= 0 && r->terrain->drop[here] > 0.0f; // see falls.c
-        bool shows = below >= 0 && !falls && water->position[here].y >= r->lake;
+        Vec3 at = water->position[here];
+        bool covered = terrain_lake_at(r->terrain, r->field, at.x, at.z) > -INFINITY;
+        bool shows = below >= 0 && !falls && !covered && at.y >= r->lake;
         if (r->mesh) {
             Vec3 from = water->position[below >= 0 ? below : here];
             Vec3 to = water->position[above >= 0 ? above : here];
@@ -238,7 +241,7 @@ bool terrain_add_water(const Terrain *terrain, const HeightField *field, const P
 {
     const TerrainParams *params = terrain->params;
     if (params->water_level > 0.0f) {
-        Lake lake = {field, terrain_water_height(params, field), params->mesh_error * params->size};
+        Sheet lake = {field, terrain_water_height(params, field), params->mesh_error * params->size};
         Part part = {.mesh = lake_mesh(&lake, params->position, e)};
         if (!placing_add(placing, part, TERRAIN_WATER, e)) {
             return false;
@@ -247,6 +250,7 @@ bool terrain_add_water(const Terrain *terrain, const HeightField *field, const P
     if (terrain_form(params)->water && !terrain_add_flow(terrain, field, placing, e)) {
         return false;
     }
-    return !terrain->water || (add_rivers(terrain, field, placing, e) &&
-                               terrain_add_falls(terrain, field, placing, e));
+    return terrain_add_lakes(terrain, field, placing, e) &&
+           (!terrain->water || (add_rivers(terrain, field, placing, e) &&
+                               terrain_add_falls(terrain, field, placing, e)));
 }

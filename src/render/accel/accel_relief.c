@@ -106,6 +106,7 @@ static float height_at(const void *user, const DicePoint *p, float *share)
                           .radius = p->radius,
                           .birth = p->birth,
                           .site = p->site,
+                          .shore = p->shore,
                           .strata = rule->part->mesh->strata,
                           .footprint = pixel,
                           .material = rule->part->material,

@@ -3,6 +3,7 @@
 // site.y is how wet the place is (HeightField.wetness).
 #include "render/material/pattern.h"
 #include "render/material/pattern_noise.h"
+#include "render/material/pattern_shore.h"
 
 #include <math.h>
 
@@ -51,10 +52,12 @@ void pattern_hills(const Material *m, const SurfacePoint *point, PatternShade *s
                  smoothstepf(0.35f, 0.6f, sward.value - 0.2f * broad.value);
     Vec3 soil = {0.155f, 0.115f, 0.075f};
     float bare = fmaxf(0.75f * scar, 0.45f * steps.riser);
-    shade->color = vec3_lerp(grass, soil, bare);
     float depth = m->pattern_depth;
     Vec3 slope = vec3_scale(sward.slope, 0.15f * depth);
     slope = vec3_madd(slope, 0.06f * depth * (1.0f - bare), tufts.slope);
     slope = vec3_madd(slope, depth, steps.slope);
-    shade->normal = pattern_tilt(shade->normal, slope);
+    Ground g = {vec3_lerp(grass, soil, bare), slope};
+    g = pattern_shore(point, vec3(0.25f, 0.23f, 0.20f), 1.0f, g);
+    shade->color = g.color;
+    shade->normal = pattern_tilt(shade->normal, g.slope);
 }

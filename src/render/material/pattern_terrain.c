@@ -7,6 +7,7 @@
 #include "render/material/pattern_crags.h"
 #include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
+#include "render/material/pattern_shore.h"
 
 #include <stddef.h>
 
@@ -178,6 +179,7 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
         other = snow(point, scale);
         g = ground_blend(g, &other, high * held);
     }
+    g = pattern_shore(point, vec3_scale(m->color, 1.25f), m->pattern_depth, g);
     shade->color = g.color;
     shade->normal = crags_normal(point, shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }
@@ -238,6 +240,7 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
         other = snow(point, scale);
         g = ground_blend(g, &other, smoothstepf(-0.015f, 0.02f, cold) * held);
     }
+    g = pattern_shore(point, vec3_scale(m->color, 1.25f), m->pattern_depth, g);
     shade->color = g.color;
     shade->normal = crags_normal(point, shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }

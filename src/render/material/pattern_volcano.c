@@ -2,6 +2,7 @@
 // (HeightField.ground): positive = lava by its freshness, negative = red scoria, 0 = tephra.
 #include "render/material/pattern.h"
 #include "render/material/pattern_mix.h"
+#include "render/material/pattern_shore.h"
 #include "render/material/pattern_noise.h"
 
 // Noise that several kinds of ground share.
@@ -110,6 +111,7 @@ void pattern_volcano(const Material *m, const SurfacePoint *point, PatternShade 
         other = (Ground){.color = {0.84f, 0.86f, 0.89f}};
         g = ground_blend(g, &other, snow_share(m, point, &f, upright));
     }
+    g = pattern_shore(point, vec3_scale(m->color, 1.2f), m->pattern_depth, g);
     shade->color = g.color;
     shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }
