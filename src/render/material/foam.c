@@ -20,9 +20,11 @@ static float strands(const FoamScale *scale, Vec2 at, float half, float width)
         return mean;
     }
     Vec3 p = {at.x / scale->size, 0.5f, at.y / scale->size}, bend = vec3_scale(p, 1.9f);
-    p.x += 0.3f * noise_solid(bend, scale->seed + 1, NULL);
-    p.z += 0.3f * noise_solid(bend, scale->seed + 2, NULL);
+    p.x += 0.45f * noise_fractal(bend, 3, scale->seed + 1);
+    p.z += 0.45f * noise_fractal(bend, 3, scale->seed + 5);
     float border = noise_cells(p, scale->seed).border;
+    // Strands are torn: here thick, there broken.
+    half *= 1.0f + 0.7f * noise_solid(vec3_scale(p, 0.8f), scale->seed + 9, NULL);
     return lerpf(mean, 1.0f - smoothstepf(half - 0.04f, half + 0.1f, border), seen);
 }
 
