@@ -155,7 +155,8 @@ static const Key MATERIAL_KEYS[] = {
          "a wall of stones in courses; leaf: "
          "veins and blotches; noise: plain noise; corallite: "
          "cups of a coral; youth: color2 where a branch still grows; sand: ripples of a sea "
-         "floor; mountain: rock, scree, grass and snow; badlands: coloured strata; water: "
+         "floor; mountain: rock in blocks between beds and joints, scree, grass and snow; "
+         "badlands: coloured strata; water: "
          "ripples; altitude: a map's scale of colours over a terrain; strata: the colours of a "
          "terrain's beds, with rubble, soil (color) and shrubs (color2); hills: dry grass, fresh "
          "grass (color2) in hollows, terracettes; coast: cliffs of a terrain's beds, a "
@@ -195,7 +196,8 @@ static const Key MATERIAL_KEYS[] = {
      .names = DISPLACEMENTS,
      .doc = "Is the relief true geometry near the camera? auto: of barks, stone, "
             "masonry and "
-            "displacement_texture; on: of pattern noise, too; off: bumps everywhere. Meshes that "
+            "displacement_texture; on: of the patterns noise, strata, mountain, alps, coast and "
+            "karst, too; off: bumps everywhere. Meshes that "
             "are drawn once are diced to about 1.5 pixels (5 x render.detail) where the camera "
             "sees the relief; copies of an object keep bumps."},
     {KEY_OF(Material, moss, "moss", KEY_FLOAT), .kinds = PATTERNED, .high = 1,

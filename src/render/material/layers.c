@@ -69,14 +69,19 @@ static void choose_lobes(const MaterialEntry *entry, const LayerMix *mix, bool c
     }
 }
 
+// Displacement is that of the material below; a layer's own relief is bumps on it.
+static bool has_same_relief(const Material *top, const Material *below)
+{
+    return top->pattern == below->pattern && top->pattern_scale == below->pattern_scale;
+}
+
 bool layers_mix(const MaterialSet *set, const MaterialEntry *entry, const SurfacePoint *point,
                 Bsdf *b, LayerMix *mix)
 {
     const MaskSet *masks = set->masks;
     int first = masks && point->part < masks->part_count ? masks->of_part[point->part] : -1;
     bool mixed = false;
-    SurfacePoint own = *point; // without displacement, which is that of the material below
-    own.displaced = 0.0f;
+    SurfacePoint own = *point;
     *mix = mix_of(entry, b);
     for (int i = 0; first >= 0 && i < entry->material.layer_count; i++) {
         const MaterialEntry *top = &set->entry[entry->layer[i]];
@@ -84,6 +89,7 @@ bool layers_mix(const MaterialSet *set, const MaterialEntry *entry, const Surfac
         if (share <= 0.0f) {
             continue;
         }
+        own.displaced = has_same_relief(&top->material, &entry->material) ? point->displaced : 0.0f;
         Bsdf shade;
         bsdf_shade(top, &own, &shade);
         LayerMix other = mix_of(top, &shade);

@@ -29,7 +29,7 @@ typedef struct Interval {
 // One scale of blocks at a place; lengths relative to their size.
 typedef struct Blocks {
     float thick, crack;
-    float pixel; // footprint
+    float pixel;          // footprint
     float place[SETS];    // coordinates: across the beds and each set of joints
     Interval about[SETS]; // the block there
     uint32_t seed;
@@ -103,10 +103,12 @@ static Plane plane_at(const Blocks *b, const Interval about[SETS])
     float out = 2.0f * noise_unit(hash, 1) - 1.0f;
     float bed = 2.0f * noise_unit(hash_of(b->seed, about[BED].number), 7) - 1.0f;
     plane.height = STANDS_OUT * (0.6f * out * (0.25f + 0.75f * out * out) + 0.4f * bed);
-    for (int set = 0; set < SETS; set++) {
-        float tilt = 0.7f * (noise_unit(hash, 2 + (uint32_t)set) - 0.5f);
-        plane.tilt[set] = tilt;
+    for (int set = 0; set < SETS; set++) { // large blocks are not tilted as far
         float unit = set == BED ? b->thick : 1.0f;
+        float extent = unit * (about[set].low + about[set].high);
+        float tilt =
+            0.7f * (noise_unit(hash, 2 + (uint32_t)set) - 0.5f) * fminf(1.0f, 0.8f / extent);
+        plane.tilt[set] = tilt;
         plane.height += tilt * unit * 0.5f * (about[set].low - about[set].high);
     }
     return plane;
@@ -187,8 +189,8 @@ static Vec3 bent(Vec3 p, uint32_t seed, float *broken)
     Vec3 q = vec3_scale(p, 0.55f);
     Vec3 bend = {noise_solid(q, seed, NULL), noise_solid(q, seed + 1, NULL),
                  noise_solid(q, seed + 2, NULL)};
-    *broken = lerpf(0.25f, 1.0f, smoothstepf(-0.35f, 0.3f,
-                                              noise_solid(vec3_scale(p, 0.23f), seed + 3, NULL)));
+    *broken = lerpf(0.25f, 1.0f,
+                    smoothstepf(-0.35f, 0.3f, noise_solid(vec3_scale(p, 0.23f), seed + 3, NULL)));
     return vec3_scale(bend, 0.3f);
 }
 

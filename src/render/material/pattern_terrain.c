@@ -84,9 +84,10 @@ static void stain(const SurfacePoint *point, float size, float upright, Vec3 *co
     }
     float streaks = pattern_streaks(point, size);
     *color = vec3_scale(*color, 1.0f - 0.5f * steep * streaks);
-    float spots = pattern_octaves(point, 0.5f * size, 5, 0.7f, 0.8f, 65).value;
-    float lichen = smoothstepf(0.2f, 0.5f, spots) * (1.0f - streaks);
-    *color = vec3_lerp(*color, vec3(0.21f, 0.21f, 0.18f), 0.28f * lichen);
+    float spots = pattern_octaves(point, 0.25f * size, 6, 0.75f, 0.8f, 65).value;
+    float lichen = smoothstepf(0.2f, 0.6f, spots) * (1.0f - streaks);
+    Vec3 pale = vec3_add(vec3_scale(*color, 1.25f), vec3(0.035f, 0.036f, 0.028f));
+    *color = vec3_lerp(*color, pale, 0.5f * lichen);
 }
 
 static Ground scree(const Material *m, const SurfacePoint *point, Vec3 color, float scale)
