@@ -310,9 +310,11 @@ still waterfall waterfall
 still alpine-valley alpine-valley
 still volcano volcano
 still hills hills
+still valley-fog valley-fog
 still braided braided
 still dunes dunes
 still rainbow rainbow
+still storm storm
 still sea sea
 still snow-crystal snow-crystal
 movie oak-year oak-year 120 null ""

@@ -41,6 +41,12 @@ typedef struct SceneObject {
     char *material[OBJECT_MOST_MATERIALS];
 } SceneObject;
 
+// How far the heights of a terrain reach, m: the side of its square, and from the lowest to the
+// highest, about.
+typedef struct LandExtent {
+    float side, relief;
+} LandExtent;
+
 typedef struct Kind {
     // The key of an object's mapping in the scene file (also the kind's name), the table of its
     // parameters, and the keys beside it, which all name materials.
@@ -96,8 +102,9 @@ typedef struct Kind {
     // Fills in how the land is cut into tiles, but for the seed; false = it is not. NULL = never.
     bool (*tiles)(const void *params, TileGrid *grid);
 
-    // Number of samples of these heights; NULL likewise.
+    // Number of samples of these heights, and how far they reach; NULL likewise.
     int64_t (*samples)(const void *params);
+    void (*extent)(const void *params, LandExtent *extent);
 
     // Height (m) of the ground that other objects stand on; NULL = the kind is no ground. seed: the
     // object's.

@@ -9,6 +9,7 @@
 #include "render/world.h"
 #include "scene/builtin.h"
 #include "scene/carry.h"
+#include "scene/fog_pools.h"
 #include "scene/making.h"
 #include "scene/masks.h"
 #include "scene/needs.h"
@@ -85,6 +86,7 @@ static bool add_lights(World *world, const Scene *scene, Error *e)
 
 static bool add_clouds(World *world, const Scene *scene, Error *e)
 {
+    cloud_floors_free(world->cloud, world->cloud_count);
     void *list = world->cloud;
     bool done = copy_list(&list, &world->cloud_count, scene->clouds, scene->cloud_count,
                           sizeof *world->cloud, e);
@@ -307,6 +309,11 @@ bool scene_keeps_land(const Scene *scene, int index)
             return true;
         }
     }
+    for (int i = 0; i < scene->cloud_count; i++) {
+        if (scene->clouds[i].over && strcmp(scene->clouds[i].over, name) == 0) {
+            return true;
+        }
+    }
     for (int i = 0; i < scene->object_count; i++) {
         const char *over = scene_object_over(&scene->objects[i]);
         if (over && strcmp(over, name) == 0) {
@@ -414,7 +421,8 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
     }
     bool done = scene_give_settings(scene, world, e) &&
                 scene_place_objects(world, scene, NULL, NULL, false, run, stats, e) &&
-                (scene_make_masks(world, scene, run, e) || scene_fail_at(scene, "", e));
+                ((scene_pool_fog(world, scene, run, e) && scene_make_masks(world, scene, run, e)) ||
+                 scene_fail_at(scene, "", e));
     if (!done) {
         world_free(world);
         return NULL;

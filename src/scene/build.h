@@ -56,8 +56,8 @@ bool scene_give_settings(const Scene *scene, World *world, Error *e);
 bool scene_place_object(World *world, const Scene *scene, int index, Shared shared, const Run *run,
                         BuildStats *stats, Error *e);
 
-// Will maps be drawn of the object, should it be a terrain: for layers of materials or for objects
-// on it?
+// Will maps be drawn of the object, should it be a terrain: for layers of materials, for objects on
+// it or for fog in its valleys?
 bool scene_keeps_land(const Scene *scene, int index);
 
 // Places the objects for which `placed` is false (NULL = all) in an order in which obstacles come

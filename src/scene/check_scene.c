@@ -1,5 +1,6 @@
 // Checks of camera, film, lamps, and of the scene as a whole.
 #include "config/hint.h"
+#include "render/cloud/cloud.h"
 #include "render/film.h"
 #include "render/light/light.h"
 #include "scene/builtin.h"
@@ -444,11 +445,35 @@ static bool check_neighbours(const Mapping *mapping, const Scene *scene)
     return done;
 }
 
+// ---- clouds
+
+// Fog that lies over a terrain needs one.
+static bool check_clouds(const Mapping *mapping, const Scene *scene)
+{
+    const Node *list = node_get(mapping->given, "clouds");
+    const Node *given = list ? list->first : NULL;
+    for (int i = 0; given && i < scene->cloud_count; i++, given = given->next) {
+        const char *over = scene->clouds[i].over;
+        char where[64];
+        snprintf(where, sizeof where, "clouds.%d.over", i);
+        int object = over ? scene_find_object(scene, over) : -1;
+        if (over && object < 0) {
+            return no_object(mapping, scene, node_get(given, "over"), where);
+        }
+        if (over && !scene->objects[object].kind->heights) {
+            return load_fail(mapping->loader, node_get(given, "over"),
+                             "%s: object '%.60s' is of the kind %s; it must be a terrain", where,
+                             over, kind_name(scene->objects[object].kind));
+        }
+    }
+    return true;
+}
+
 bool check_scene(const Mapping *mapping, void *params)
 {
     const Scene *scene = params;
     return check_names(mapping, "materials", "material") &&
            check_names(mapping, "objects", "object") && check_targets(mapping, scene) &&
            check_materials(mapping, scene) && check_layers(mapping, scene) &&
-           check_neighbours(mapping, scene);
+           check_clouds(mapping, scene) && check_neighbours(mapping, scene);
 }

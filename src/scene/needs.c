@@ -2,8 +2,8 @@
 
 #include "base/memory.h"
 #include "config/yaml.h"
-#include "render/cloud/clouds.h"
 #include "render/film.h"
+#include "scene/fog_pools.h"
 #include "scene/masks.h"
 #include "scene/place.h"
 
@@ -37,7 +37,7 @@ double scene_film_memory(const Scene *scene)
 double scene_memory(const Scene *scene)
 {
     return PROGRAM_BYTES + needs_of(scene, -1).bytes + scene_film_memory(scene) +
-           (double)clouds_bytes(scene->clouds, scene->cloud_count) + scene_mask_memory(scene);
+           scene_cloud_memory(scene) + scene_mask_memory(scene);
 }
 
 // ---- a limit ----

@@ -59,6 +59,24 @@ static const Key CLOUD_KEYS[] = {
             "it."},
     {KEY_OF(Cloud, center_x, "center", KEY_VECTOR), .count = 2, .kinds = BIT(CLOUD_STORM),
      .low = -1e6, .high = 1e6, .unit = "m", .doc = "Position x, z of the storm's main tower."},
+    {KEY_OF(Cloud, shelf, "shelf", KEY_FLOAT), .kinds = BIT(CLOUD_STORM), .high = 2,
+     .doc = "Shelf cloud: how far tiers of low cloud overhang the land ahead of the storm, where "
+            "the wind blows to, in shares of its size; 0 = none."},
+    {KEY_OF(Cloud, over, "over", KEY_TEXT), .kinds = BIT(CLOUD_FOG),
+     .doc = "Name of a terrain in whose hollows and valleys the fog lies, in high ones as in low "
+            "ones: its thickness counts from a level that follows the low ground, and base does "
+            "not count. Beyond the terrain's rim it goes on as over the terrain's copies. Default: "
+            "fog of one level."},
+    {KEY_OF(Cloud, pool, "pool", KEY_FLOAT), .kinds = BIT(CLOUD_FOG), .flags = KEY_ABOVE,
+     .high = 20000, .unit = "m",
+     .doc = "With over: distance within which the lowest land is the ground of the fog. About "
+            "that from the floor of a valley to its crests: less lets the fog climb up the slopes, "
+            "more lets valleys of different altitude share one level."},
+    {KEY_OF(Cloud, drift, "drift", KEY_FLOAT), .kinds = BIT(CLOUD_FOG), .high = 1,
+     .doc =
+         "How far the wind moves the fog: 0 = calm air; 1 = swells and holes are drawn out along "
+         "wind to four times their width, and with over the fog banks up before slopes by half "
+         "its thickness and thins behind them."},
     {KEY_OF(Cloud, seed, "seed", KEY_INT), .kinds = GROWN, .high = 1e9,
      .doc = "Changes the form of these clouds alone."},
     {0},

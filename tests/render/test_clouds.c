@@ -177,6 +177,40 @@ static void assert_bounds_hold(const CloudGrid *g, Vec3 p, float extinction)
     assert_in_bounds(extinction, 0.99999f * step * bounds.least, 1.00001f * step * bounds.most);
 }
 
+// A hilly floor: waves, and a slope that the mirror image beyond the rim takes back.
+enum { FLOOR_SIDE = 65 };
+
+static float floor_height(float x, float z)
+{
+    return 60.0f * sinf(0.004f * x) * cosf(0.003f * z) + 0.05f * x;
+}
+
+// height: FLOOR_SIDE^2 samples, which it fills.
+static CloudFloor hilly_floor(float *height)
+{
+    CloudFloor floor = {
+        .side = FLOOR_SIDE, .x = -500.0f, .z = 300.0f, .cell = 40.0f, .height = height};
+    floor.least = INFINITY;
+    floor.most = -INFINITY;
+    for (int i = 0; i < FLOOR_SIDE * FLOOR_SIDE; i++) {
+        height[i] = floor_height(floor.cell * (float)(i % FLOOR_SIDE),
+                                 floor.cell * (float)(i / FLOOR_SIDE));
+        floor.least = fminf(floor.least, height[i]);
+        floor.most = fmaxf(floor.most, height[i]);
+    }
+    return floor;
+}
+
+static Cloud pooled_fog(CloudFloor *floor)
+{
+    Cloud fog = cloud_default(CLOUD_FOG);
+    fog.thickness = 150.0f;
+    fog.size = 200.0f;
+    fog.over = "land";
+    fog.floor = floor;
+    return fog;
+}
+
 // Tracking is right only where bounds bound, and fast only where they are tight.
 static void no_cell_is_thinner_or_denser_than_its_bounds(void **state)
 {
@@ -185,9 +219,16 @@ static void no_cell_is_thinner_or_denser_than_its_bounds(void **state)
     Error e = {.code = ERROR_NONE};
     DetailNoise *detail = detail_new(5, &run, &e);
     assert_non_null(detail);
-    for (int i = CLOUD_CUMULUS; i <= CLOUD_FOG + 2; i++) {
+    static float height[FLOOR_SIDE * FLOOR_SIDE];
+    CloudFloor floor = hilly_floor(height);
+    for (int i = CLOUD_CUMULUS; i <= CLOUD_FOG + 4; i++) {
         Cloud cloud = cloud_default(i <= CLOUD_FOG ? (CloudKind)i : CLOUD_CUMULUS);
         cloud.softness = i == CLOUD_FOG + 1 ? 0.0f : (i == CLOUD_FOG + 2 ? 1.0f : cloud.softness);
+        cloud = i == CLOUD_FOG + 3 ? pooled_fog(&floor) : cloud;
+        if (i == CLOUD_FOG + 4) {
+            cloud = cloud_default(CLOUD_STORM);
+            cloud.shelf = 0.6f;
+        }
         CloudGrid grid = {0};
         assert_true(cloud_grid_new(&grid, &cloud, detail, 6, &run, &e));
         int met = 0;
@@ -425,6 +466,81 @@ static void fog_has_holes_by_its_cover(void **state)
     }
 }
 
+// Fog on a floor fills the air above it up to its thickness, and above its mirror image beyond the
+// rim. In depth it gets denser by half of its extinction over its thickness, evenly, so that the
+// optical depth of a part of a vertical line follows from its ends.
+static void fog_lies_on_its_floor(void **state)
+{
+    (void)state;
+    static float height[FLOOR_SIDE * FLOOR_SIDE];
+    CloudFloor floor = hilly_floor(height);
+    Cloud fog = pooled_fog(&floor);
+    CloudSet *clouds = grow(fog);
+    const float side = floor.cell * (FLOOR_SIDE - 1);
+    for (uint64_t i = 0; i < 300; i++) {
+        float u = side * random_unit(random_key(i, 0)), v = side * random_unit(random_key(i, 1));
+        bool beyond = i % 2;
+        float ground = floor_height(u, v); // between samples about 1 m off
+        Vec3 p = vec3(floor.x + (beyond ? 2.0f * side - u : u), 0,
+                      floor.z + (beyond ? 4.0f * side + v : v));
+        p.y = ground + fog.thickness + 0.09f * fog.size + 2.0f;
+        assert_true(clouds_extinction(clouds, p) <= 0.0f);
+        p.y = ground + 0.02f * fog.thickness;
+        float low = clouds_extinction(clouds, p), rise = 0.08f * fog.thickness;
+        assert_in_bounds(low, 0.7 * (double)fog.extinction, (double)fog.extinction);
+        CloudRay up = {.origin = p, .direction = vec3(0, 1, 0), .far = rise};
+        p.y += rise;
+        float high = clouds_extinction(clouds, p);
+        assert_in_bounds((low - high) / fog.extinction, 0.04 - 2e-3, 0.04 + 2e-3);
+        double wanted = 0.5 * (double)(low + high) * (double)rise, passed = 0.0;
+        assert_in_bounds(depth_along(clouds, &up, (double)rise), 0.999 * wanted, 1.001 * wanted);
+        enum { TRIALS = 400 };
+        uint64_t key = random_key(8, i);
+        for (int k = 0; k < TRIALS; k++) {
+            passed += (double)clouds_pass(clouds, &up, 1.0f, &key) / TRIALS;
+        }
+        double error = 4.5 * 0.5 / sqrt((double)TRIALS);
+        assert_in_bounds(passed, exp(-wanted) - error, exp(-wanted) + error);
+    }
+    clouds_free(clouds);
+}
+
+// Mean square of the change of the fog's top over a number of nodes along x or z.
+static double roughness_along(const CloudGrid *g, int x, int z)
+{
+    double sum = 0.0;
+    int y = g->count[1] / 2;
+    for (int i = 0; i < NODES_ACROSS * NODES_ACROSS; i++) {
+        int a = i % NODES_ACROSS, b = i / NODES_ACROSS, wrap = NODES_ACROSS - 1;
+        double change = g->node[cloud_grid_node(g, a, y, b)].distance -
+                        g->node[cloud_grid_node(g, (a + x) & wrap, y, (b + z) & wrap)].distance;
+        sum += change * change;
+    }
+    return sum / (NODES_ACROSS * NODES_ACROSS);
+}
+
+// Calm swells are alike in all directions; those in wind are longer along it.
+static void wind_draws_fog_out(void **state)
+{
+    (void)state;
+    Run run = run_default();
+    Error e = {.code = ERROR_NONE};
+    DetailNoise *detail = detail_new(5, &run, &e);
+    assert_non_null(detail);
+    for (int i = 0; i < 3; i++) { // calm, toward +x, toward +z
+        Cloud fog = cloud_default(CLOUD_FOG);
+        fog.drift = i == 0 ? 0.0f : 1.0f;
+        fog.wind = i == 1 ? 90.0f : 0.0f;
+        CloudGrid g = {0};
+        assert_true(cloud_grid_new(&g, &fog, detail, 6, &run, &e));
+        double ratio = roughness_along(&g, 4, 0) / roughness_along(&g, 0, 4);
+        assert_in_bounds(ratio, i == 0 ? 0.2 : (i == 1 ? 0.0 : 3.0),
+                         i == 0 ? 1.5 : (i == 1 ? 0.33 : 1e9));
+        cloud_grid_clear(&g);
+    }
+    detail_free(detail);
+}
+
 // The number of heaps wider than w falls off like w^-0.9, as long as none is too wide.
 static void small_heaps_are_many(void **state)
 {
@@ -617,6 +733,8 @@ int main(void)
         cmocka_unit_test(fog_is_dense_below),
         cmocka_unit_test(fog_fills_the_air_up_to_a_wavy_top),
         cmocka_unit_test(fog_has_holes_by_its_cover),
+        cmocka_unit_test(fog_lies_on_its_floor),
+        cmocka_unit_test(wind_draws_fog_out),
         cmocka_unit_test(small_heaps_are_many),
         cmocka_unit_test(an_even_sky_hides_clouds),
         cmocka_unit_test(an_even_sky_hides_fog),

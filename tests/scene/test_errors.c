@@ -79,6 +79,13 @@ static const Case scenes[] = {
     {TREE "clouds: [{kind: stratus, softness: 1}]\n",
      ":2:26: key 'softness' does not apply to clouds.0 of kind 'stratus'; known: kind, base, "
      "thickness, cover, size, extinction, wind, seed"},
+    {TREE "clouds: [{kind: cumulus, shelf: 1}]\n",
+     ":2:26: key 'shelf' does not apply to clouds.0 of kind 'cumulus'; known: kind, base, "
+     "thickness, cover, size, extinction, softness, wind, seed"},
+    {TREE "clouds: [{kind: fog, over: b}]\n",
+     ":2:28: clouds.0.over: there is no object 'b'; known: a"},
+    {TREE "clouds: [{kind: fog, over: a}]\n",
+     ":2:28: clouds.0.over: object 'a' is of the kind tree; it must be a terrain"},
     {TREE "sky: {kind: constant, turbidity: 3}\n",
      ":2:23: key 'turbidity' does not apply to sky of kind 'constant'; known: kind, color, "
      "strength, visible, haze_distance"},

@@ -41,6 +41,14 @@ static int64_t samples(const void *params)
     return (int64_t)(terrain->resolution + 1) * (terrain->resolution + 1);
 }
 
+static void extent(const void *params, LandExtent *extent)
+{
+    const TerrainParams *terrain = params;
+    const float steep = 0.2f; // relief of a survey or a map, of which little is known before
+    float relief = terrain->relief > 0.0f ? terrain->relief : steep * terrain->size;
+    *extent = (LandExtent){.side = terrain->size, .relief = relief};
+}
+
 static void needs(const void *params, Needs *needs)
 {
     enum {
@@ -303,6 +311,7 @@ const Kind kind_terrain = {
     .builtin = BUILTIN,
     .needs = needs,
     .samples = samples,
+    .extent = extent,
     .describe = describe,
     .attractors = attractors,
     .copies = copies,

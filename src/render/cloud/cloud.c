@@ -1,5 +1,7 @@
 #include "render/cloud/cloud.h"
 
+#include <stdlib.h>
+
 // Extinctions: a liquid water content of 0.2 to 0.5 g/m^3 in droplets of 8 to 10 um (Pruppacher and
 // Klett 1997, ch. 2). Fog: 0.1 g/m^3, in which one sees 100 m far.
 Cloud cloud_default(CloudKind kind)
@@ -26,7 +28,8 @@ Cloud cloud_default(CloudKind kind)
                        .thickness = 200.0f,
                        .cover = 1.0f,
                        .size = 600.0f,
-                       .extinction = 0.03f};
+                       .extinction = 0.03f,
+                       .pool = 500.0f};
     case CLOUD_GRID:
         return (Cloud){.kind = kind, .extinction = 0.05f, .scale = 1.0f};
     case CLOUD_CUMULUS:
@@ -39,4 +42,15 @@ Cloud cloud_default(CloudKind kind)
                    .size = 1500.0f,
                    .extinction = 0.09f,
                    .softness = 0.5f};
+}
+
+void cloud_floors_free(Cloud *cloud, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (cloud[i].floor) {
+            free(cloud[i].floor->height);
+            free(cloud[i].floor);
+            cloud[i].floor = NULL;
+        }
+    }
 }

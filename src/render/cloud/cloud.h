@@ -4,6 +4,8 @@
 
 #include "base/vec.h"
 
+#include <stdbool.h>
+
 typedef enum CloudKind {
     CLOUD_CUMULUS, // heaps on one base, over all the land
     CLOUD_STRATUS, // a sheet, closed or torn
@@ -11,6 +13,15 @@ typedef enum CloudKind {
     CLOUD_FOG,     // fills the air from its base up to a wavy top; dense below
     CLOUD_GRID     // a file's voxels
 } CloudKind;
+
+// The level on which the fog of a terrain lies, over a square: samples row by row, x first.
+typedef struct CloudFloor {
+    int side;          // samples along x and z
+    float x, z, cell;  // m: of the first sample, and between samples
+    bool periodic;     // beyond its rim it repeats; else its mirror image follows
+    float least, most; // m: altitudes of the lowest and of the highest sample
+    float *height;     // m; owned; NULL where only memory is estimated
+} CloudFloor;
 
 typedef struct Cloud {
     CloudKind kind;
@@ -22,12 +33,20 @@ typedef struct Cloud {
     float softness;   // 0..1: how far dry air has worn the borders; heaps and storms
     float wind;       // degrees from +Z toward +X: where the wind blows
     float center_x, center_z; // m; CLOUD_STORM
-    int seed;                 // of these clouds beside the scene's
-    const char *file, *grid;  // CLOUD_GRID: .vdb; NULL = its first grid of floats; borrowed
-    Vec3 position, rotation;  // m, degrees: of the file's origin
-    float scale;              // m a unit of the file
+    float shelf;              // CLOUD_STORM: how far one overhangs, in shares of the size; 0 = none
+    const char *over;  // CLOUD_FOG: terrain whose low ground it lies on; NULL = none; borrowed
+    float pool;        // m: with over, radius within which the lowest land is its ground
+    float drift;       // CLOUD_FOG, 0..1: how far the wind has drawn it out
+    CloudFloor *floor; // with over: the level that it lies on; NULL = not known yet
+    int seed;          // of these clouds beside the scene's
+    const char *file, *grid; // CLOUD_GRID: .vdb; NULL = its first grid of floats; borrowed
+    Vec3 position, rotation; // m, degrees: of the file's origin
+    float scale;             // m a unit of the file
 } Cloud;
 
 Cloud cloud_default(CloudKind kind);
+
+// Frees the floors of fog that lies on one.
+void cloud_floors_free(Cloud *cloud, int count);
 
 #endif

@@ -114,10 +114,19 @@ static bool beyond_detail(const CloudGrid *g, const Box *box)
     return !any || box->above <= 0.0f;
 }
 
-// Of the factor that altitude alone decides.
+// Of the factor that altitude decides, or depth.
 static Extremes gain_in(const CloudGrid *g, const Box *box)
 {
-    float below = gain_at(g, box->below), above = gain_at(g, box->above);
+    if (g->pooled) { // which depth decides
+        Extremes deep = {box->corner[0].inside, box->corner[0].inside};
+        for (int i = 1; i < 8; i++) {
+            deep = (Extremes){smaller(deep.low, box->corner[i].inside),
+                              larger(deep.high, box->corner[i].inside)};
+        }
+        return (Extremes){box->below > 0.0f ? gain_at(g, 0.0f, deep.low) : 0.0f,
+                          gain_at(g, 0.0f, deep.high)};
+    }
+    float below = gain_at(g, box->below, 0.0f), above = gain_at(g, box->above, 0.0f);
     if (!g->fog) {
         return (Extremes){below, above};
     }

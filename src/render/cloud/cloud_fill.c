@@ -179,15 +179,57 @@ static float fog_top(const CloudGrid *g, float cut, float x, float z, float *sof
     return bank > 0.0f ? bank * (0.85f + 0.15f * waves) : bank;
 }
 
+// Places of swells and holes from places in shares of the period: by whole numbers, so that the
+// pattern still fits the period. Wind draws it out along its way.
+typedef struct Drawn {
+    float x[2], z[2];
+} Drawn;
+
+static Drawn drawn_out(const CloudGrid *g, const Cloud *cloud)
+{
+    float across = fmaxf(rintf(g->voxel * NODES_ACROSS / (16.0f * cloud->size)), 1.0f);
+    if (cloud->drift <= 0.0f) {
+        float often = g->pooled ? across : 1.0f;
+        return (Drawn){{often, 0.0f}, {0.0f, often}};
+    }
+    float wind = cloud->wind * RADIANS_PER_DEGREE, s = sinf(wind), c = cosf(wind);
+    float narrow = 1.0f + 3.0f * cloud->drift; // how much longer than wide swells become
+    float along = (g->pooled ? across : 1.0f) * (narrow > 2.0f ? 0.5f * narrow : 1.0f);
+    float aside = along * narrow;
+    Drawn d = {{rintf(along * s), rintf(along * c)}, {rintf(aside * c), -rintf(aside * s)}};
+    if (d.x[0] * d.z[1] == d.x[1] * d.z[0]) { // rounded to waves in one direction
+        d.x[fabsf(s) > fabsf(c) ? 0 : 1] += 1.0f;
+    }
+    return d;
+}
+
+// Altitude of the level that the fog lies on, at a node.
+static float floor_at(const CloudFloor *floor, float voxel, int x, int z)
+{
+    float at[2] = {voxel * (float)x / floor->cell, voxel * (float)z / floor->cell};
+    float last = (float)(floor->side - 1);
+    int low[2];
+    for (int i = 0; i < 2; i++) { // the period holds the square, then its mirror image
+        at[i] = at[i] > last ? 2.0f * last - at[i] : at[i];
+        low[i] = (int)clampf(at[i], 0.0f, last - 1.0f);
+        at[i] -= (float)low[i];
+    }
+    const float *near = floor->height + (int64_t)low[1] * floor->side + low[0];
+    const float *far = near + floor->side;
+    return lerpf(lerpf(near[0], near[1], at[0]), lerpf(far[0], far[1], at[0]), at[1]);
+}
+
 static void fill_with_fog(CloudGrid *g, const Cloud *cloud, const Run *run)
 {
     float cut = rolls_cut(g, cloud->cover);
+    Drawn d = drawn_out(g, cloud);
 #pragma omp parallel for schedule(static) num_threads(run->threads)
     for (int z = 0; z < g->count[2]; z++) {
         for (int x = 0; x < g->count[0]; x++) {
-            float soft,
-                share = fog_top(g, cut, (float)x / NODES_ACROSS, (float)z / NODES_ACROSS, &soft);
-            float top = cloud->base + cloud->thickness * share;
+            float u = (float)x / NODES_ACROSS, v = (float)z / NODES_ACROSS, soft;
+            float share = fog_top(g, cut, d.x[0] * u + d.x[1] * v, d.z[0] * u + d.z[1] * v, &soft);
+            float floor = g->pooled ? floor_at(cloud->floor, g->voxel, x, z) : cloud->base;
+            float top = floor + cloud->thickness * share;
             for (int y = 0; y < g->count[1]; y++) {
                 float inside = top - (g->low.y + g->voxel * (float)y);
                 float deep = clampf(2.0f * inside / cloud->thickness, 0.0f, 1.0f);

@@ -16,6 +16,19 @@ static int up_to_cells(float nodes)
     return ((int)nodes / CELL + 1) * CELL;
 }
 
+static void lay_out_on_floor(CloudGrid *g, const Cloud *cloud, float margin)
+{
+    const CloudFloor *floor = cloud->floor;
+    float side = floor->cell * (float)(floor->side - 1);
+    g->repeats = g->fog = g->pooled = true;
+    g->voxel = (floor->periodic ? side : 2.0f * side) / NODES_ACROSS;
+    g->base = floor->least - margin;
+    g->low = vec3(floor->x, g->base, floor->z);
+    g->count[0] = g->count[2] = NODES_ACROSS;
+    float tall = floor->most - floor->least + 1.25f * cloud->thickness + 3.0f * margin;
+    g->count[1] = up_to_cells(tall / g->voxel);
+}
+
 static void lay_out(CloudGrid *g, const Cloud *cloud, float margin)
 {
     float across = clampf(16.0f * cloud->size, 2000.0f, 40000.0f);
@@ -33,9 +46,6 @@ static void lay_out(CloudGrid *g, const Cloud *cloud, float margin)
     }
     g->count[0] = g->count[2] = NODES_ACROSS;
     g->count[1] = up_to_cells((1.25f * cloud->thickness + 2.0f * margin) / g->voxel);
-    for (int i = 0; i < 3; i++) {
-        g->cells[i] = g->count[i] / CELL;
-    }
 }
 
 static Roughness roughness_of(const Cloud *cloud)
@@ -77,7 +87,15 @@ static void describe(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail
     g->base = cloud->base;
     g->thickness = cloud->thickness;
     g->extinction = cloud->extinction;
-    lay_out(g, cloud, cloud_grid_reach(g, 1.0f));
+    g->pooled = false;
+    if (cloud->floor) {
+        lay_out_on_floor(g, cloud, cloud_grid_reach(g, 1.0f));
+    } else {
+        lay_out(g, cloud, cloud_grid_reach(g, 1.0f));
+    }
+    for (int i = 0; i < 3; i++) {
+        g->cells[i] = g->count[i] / CELL;
+    }
 }
 
 // ---- contents ----
@@ -96,7 +114,8 @@ int64_t cloud_grid_bytes(const Cloud *cloud)
     describe(&grid, cloud, NULL);
     return node_count(&grid) * (int64_t)sizeof *grid.node +
            cloud_grid_cells(&grid) * (int64_t)sizeof *grid.cell +
-           cloud_grid_cells(&grid) / 3 * (int64_t)sizeof *grid.part * PARTS * PARTS * PARTS;
+           cloud_grid_cells(&grid) / 3 * (grid.pooled ? 2 : 1) * (int64_t)sizeof *grid.part *
+               PARTS * PARTS * PARTS;
 }
 
 bool cloud_grid_new(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail, uint64_t key,
@@ -182,19 +201,20 @@ Vec3 cloud_grid_turned(Vec3 p)
                 -0.8f * p.y + 0.6f * p.z);
 }
 
-// Extinction where detail has moved the border: inside and ragged (0 .. 2 + 2 RAGGED_SMALL) are
-// what it makes.
-static float profile(const CloudGrid *g, float above, float inside, float softness, float ragged)
+// Extinction deep m inside the coarse form, where detail has moved the border: inside and ragged (0
+// .. 2 + 2 RAGGED_SMALL) are what it makes.
+static float profile(const CloudGrid *g, float above, float deep, float inside, float softness,
+                     float ragged)
 {
     const Roughness *r = &g->rough;
     float share = unit_clamp(inside / edge_at(r, softness));
-    return g->extinction * gain_at(g, above) * raised_at(r, above, ragged) *
+    return g->extinction * gain_at(g, above, deep) * raised_at(r, above, ragged) *
            density_at(share, softness);
 }
 
 // A lookup in stages, each of which leaves less of the detail open.
 typedef struct Lookup {
-    float above;            // m over the base
+    float above, deep;      // m over the base, and inside the coarse form
     float inside, softness; // m: of the border as far as it is known
     float open;             // m: farthest that what is not looked up yet moves it
     float ragged;
@@ -203,7 +223,11 @@ typedef struct Lookup {
 static Lookup lookup_begin(const CloudGrid *g, Vec3 p)
 {
     Coarse c = coarse_at(g, vec3_scale(vec3_sub(p, g->low), 1.0f / g->voxel));
-    return (Lookup){p.y - g->base, c.inside, c.softness, cloud_grid_reach(g, c.softness), 0.0f};
+    return (Lookup){.above = p.y - g->base,
+                    .deep = c.inside,
+                    .inside = c.inside,
+                    .softness = c.softness,
+                    .open = cloud_grid_reach(g, c.softness)};
 }
 
 // Whether the border's detail makes no difference to the extinction.
@@ -251,7 +275,7 @@ float cloud_grid_extinction(const CloudGrid *g, Vec3 p, bool fine)
             look_up_small(g, q, &l);
         }
     }
-    return profile(g, l.above, l.inside, l.softness, l.ragged);
+    return profile(g, l.above, l.deep, l.inside, l.softness, l.ragged);
 }
 
 // 1 or 0 where what is open cannot change it, else -1. gain: greatest extinction at the altitude.
@@ -276,7 +300,7 @@ bool cloud_grid_exceeds(const CloudGrid *g, Vec3 p, bool fine, float level)
         return false;
     }
     Lookup l = lookup_begin(g, p);
-    float gain = g->extinction * gain_at(g, l.above);
+    float gain = g->extinction * gain_at(g, l.above, l.deep);
     int known = told(g, &l, gain, level);
     if (known < 0 && !decided(g, &l)) {
         Vec3 q = cloud_grid_turned(p);
@@ -287,7 +311,7 @@ bool cloud_grid_exceeds(const CloudGrid *g, Vec3 p, bool fine, float level)
             look_up_small(g, q, &l);
         }
     }
-    return known >= 0 ? known : profile(g, l.above, l.inside, l.softness, l.ragged) > level;
+    return known >= 0 ? known : profile(g, l.above, l.deep, l.inside, l.softness, l.ragged) > level;
 }
 
 float cloud_grid_smooth(const CloudGrid *g, Vec3 p)
@@ -303,5 +327,5 @@ float cloud_grid_smooth(const CloudGrid *g, Vec3 p)
     }
     Detail large =
         detail_at(g->detail, vec3_scale(cloud_grid_turned(p), 1.0f / g->rough.period[0]));
-    return profile(g, above, c.inside + reach * large.billow, s, 1.4f);
+    return profile(g, above, c.inside, c.inside + reach * large.billow, s, 1.4f);
 }

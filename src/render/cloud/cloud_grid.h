@@ -57,6 +57,7 @@ typedef struct CloudGrid {
     int count[3], cells[3];    // nodes and cells in x, y, z; multiples of CELL
     bool repeats;              // in x and z without end
     bool fog;                  // densest at its base
+    bool pooled;               // fog on a floor: densest from its thickness below its top down
     CloudNode *node;           // at cloud_grid_node; owned
     CloudCell *cell;           // at cloud_grid_cell; owned
     CloudBounds *part;         // owned
@@ -73,7 +74,8 @@ bool cloud_grid_new(CloudGrid *grid, const Cloud *cloud, const DetailNoise *deta
                     const Run *run, Error *e);
 void cloud_grid_clear(CloudGrid *grid);
 
-int64_t cloud_grid_bytes(const Cloud *cloud); // that it takes, with parts in a third of the cells
+int64_t cloud_grid_bytes(const Cloud *cloud); // that it takes, with parts in a third of the cells,
+                                              // of pooled fog in two thirds
 
 static inline int64_t cloud_grid_node(const CloudGrid *g, int x, int y, int z)
 {

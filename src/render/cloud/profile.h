@@ -57,9 +57,13 @@ static inline float fog_gain_at(float share)
     return 1.0f - FOG_THINNING * unit_clamp(share);
 }
 
-// Share of the greatest extinction `above` m over the base, > 0.
-static inline float gain_at(const CloudGrid *g, float above)
+// Share of the greatest extinction `above` m over the base, > 0, and `deep` m inside the coarse
+// form.
+static inline float gain_at(const CloudGrid *g, float above, float deep)
 {
+    if (g->pooled) {
+        return fog_gain_at(1.0f - deep / g->thickness);
+    }
     float share = above / g->thickness;
     return g->fog ? fog_gain_at(share) : cloud_gain_at(share);
 }

@@ -102,6 +102,33 @@ static bool add_anvil(Puffs *p, const Cloud *cloud, uint64_t key, Error *e)
     return true;
 }
 
+// Cold air that runs out below the storm lifts the air ahead of it: tiers of flat balls in an arc
+// about the side that the wind blows to, the lowest farthest out, and a roof from them to the
+// towers.
+static bool add_shelf(Puffs *p, const Cloud *cloud, uint64_t key, Error *e)
+{
+    enum { TIERS = 4, BALLS = 60 };
+    float wind = cloud->wind * RADIANS_PER_DEGREE;
+    for (uint64_t i = 0; i < (uint64_t)TIERS * BALLS; i++) {
+        uint64_t own = random_key(key, i);
+        float tier = (float)(i / BALLS) / (TIERS - 1); // 0 = the lowest
+        float turn = 2.0f * ((float)(i % BALLS) + random_unit(random_key(own, 0))) / BALLS - 1.0f;
+        float angle = wind + 1.5f * turn;
+        float out = 0.45f + cloud->shelf * (1.0f - 0.75f * tier) * (1.0f - 0.5f * turn * turn);
+        out *= cloud->size * random_range(random_key(own, 1), 0.96f, 1.04f);
+        float y = cloud->size * (0.03f + 0.13f * tier + 0.012f * random_unit(random_key(own, 2)));
+        Puff ball = {.center = vec3(cloud->center_x + out * sinf(angle), cloud->base + y,
+                                    cloud->center_z + out * cosf(angle)),
+                     .radius = cloud->size * random_range(random_key(own, 3), 0.16f, 0.24f),
+                     .flatness = 3.6f - tier,
+                     .softness = 0.1f + 0.5f * random_unit(random_key(own, 4))};
+        if (!puffs_add(p, ball, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool puffs_grow_storm(Puffs *p, const Cloud *cloud, uint64_t key, Error *e)
 {
     enum { TOWERS = 9 };
@@ -119,7 +146,8 @@ bool puffs_grow_storm(Puffs *p, const Cloud *cloud, uint64_t key, Error *e)
             return false;
         }
     }
-    return add_anvil(p, cloud, random_key(key, TOWERS), e);
+    return add_anvil(p, cloud, random_key(key, TOWERS), e) &&
+           (cloud->shelf == 0.0f || add_shelf(p, cloud, random_key(key, TOWERS + 1), e));
 }
 
 void puffs_clear(Puffs *puffs)

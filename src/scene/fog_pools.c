@@ -1,0 +1,91 @@
+#include "scene/fog_pools.h"
+
+#include "base/memory.h"
+#include "land/cold_pool.h"
+#include "render/cloud/clouds.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const HeightField *find_land(const Geometry *geometry, int object)
+{
+    for (int64_t i = 0; i < geometry->count; i++) {
+        if (geometry->part[i].object == object && geometry->part[i].land) {
+            return geometry->part[i].land;
+        }
+    }
+    return NULL;
+}
+
+// A floor from a square level, whose samples it takes.
+static CloudFloor *floor_of(HeightField *level, Error *e)
+{
+    CloudFloor *floor = memory_alloc(1, sizeof *floor, e);
+    if (floor) {
+        *floor = (CloudFloor){.side = level->columns,
+                              .x = level->origin.x,
+                              .z = level->origin.y,
+                              .cell = level->cell.x,
+                              .periodic = level->periodic,
+                              .height = level->height};
+        height_field_range(level, &floor->least, &floor->most);
+        level->height = NULL;
+    }
+    return floor;
+}
+
+static bool pool(Cloud *cloud, const HeightField *land, const Run *run, Error *e)
+{
+    ColdPoolParams params = {.radius = cloud->pool,
+                             .depth = cloud->thickness,
+                             .drift = cloud->drift,
+                             .wind = cloud->wind};
+    HeightField *level = cold_pool_level(land, &params, run, e);
+    cloud->floor = level ? floor_of(level, e) : NULL;
+    height_field_free(level);
+    return cloud->floor;
+}
+
+bool scene_pool_fog(World *world, const Scene *scene, const Run *run, Error *e)
+{
+    for (int i = 0; i < world->cloud_count; i++) {
+        Cloud *cloud = &world->cloud[i];
+        int object = cloud->over ? scene_find_object(scene, cloud->over) : -1;
+        if (object < 0) { // none is asked for, or the scene is a part without the terrain
+            continue;
+        }
+        const HeightField *land = find_land(&world->geometry, object);
+        if (!land) {
+            error_set(e, ERROR_INPUT,
+                      "object '%s' is no terrain that shows its land; fog lies "
+                      "over such ones alone",
+                      cloud->over);
+            return error_key(e, "clouds.%d.over", i);
+        }
+        if (!pool(cloud, land, run, e)) {
+            return error_key(e, "clouds.%d", i);
+        }
+    }
+    return true;
+}
+
+// ---- estimate
+
+double scene_cloud_memory(const Scene *scene)
+{
+    double sum = 0.0;
+    for (int i = 0; i < scene->cloud_count; i++) {
+        Cloud cloud = scene->clouds[i];
+        int object = cloud.over ? scene_find_object(scene, cloud.over) : -1;
+        LandExtent extent;
+        CloudFloor floor;
+        const Kind *kind = object >= 0 ? scene->objects[object].kind : NULL;
+        if (kind && kind->extent) {
+            kind->extent(scene->objects[object].params, &extent);
+            floor = (CloudFloor){.side = 2, .cell = extent.side, .most = extent.relief};
+            cloud.floor = &floor;
+        }
+        sum += (double)clouds_bytes(&cloud, 1);
+    }
+    return sum;
+}
