@@ -17,7 +17,7 @@ bool terrain_evolves(const TerrainParams *params)
 bool terrain_holds_lakes(const TerrainParams *params)
 {
     const Form *form = terrain_form(params);
-    return !form->water && form->repeat == REPEAT_MIRRORED && params->form != TERRAIN_COAST;
+    return !form->water && form->repeat == REPEAT_MIRRORED;
 }
 
 bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
