@@ -23,12 +23,13 @@ static void add_stalk(Quads *quads, const LeafParams *params)
     uint32_t sides = fine ? NEAR_STALK_SIDES : STALK_SIDES;
     uint32_t first = (uint32_t)quads->vertex_count;
     for (int end = 0; end < 2; end++) {
-        float radius = end && fine ? 0.3f * thickness : thickness;
+        float taper = end && fine ? 0.3f : 1.0f;
         for (uint32_t k = 0; k < sides; k++) {
             float sine, cosine;
             exact_sincos(2.0f * PI_F * (float)k / (float)sides, &sine, &cosine);
             float y = end ? params->petiole + overlap * params->length : 0.0f;
-            quads_vertex(quads, vec3(radius * cosine, y, radius * sine - 0.8f * thickness),
+            quads_vertex(quads,
+                         vec3(taper * thickness * cosine, y, thickness * (taper * sine - 0.8f)),
                          (Vec2){0.5f, 0.0f});
         }
     }
