@@ -159,7 +159,8 @@ static float relief(const Terrain *terrain, Vec2 at, float above, float levee)
     uint64_t key = random_key(terrain->seed, STREAM_SCROLLS);
     float low = smoothstepf(-0.45f, -0.05f, above); // not in deep water
     float rough = noise_plane_fractal(at.x / 1.4f, at.y / 1.4f, 5, random_key(key, 1));
-    float height = 0.085f * rough * (0.25f + 0.75f * low);
+    float broad = noise_plane_fractal(at.x / 6.0f, at.y / 6.0f, 3, random_key(key, 3));
+    float height = (0.055f * rough + 0.06f * broad) * (0.25f + 0.75f * low);
     float bank = smoothstepf(-0.08f, 0.02f, above) * levee * levee;
     height += (float)CREST * bank * (1.0f + 0.8f * rough);
     // Creeks wind where two levels of noise meet.

@@ -16,8 +16,8 @@ static Ground mud(const SurfacePoint *point, Vec3 color, float damp)
 {
     PatternOctaves sheets = pattern_octaves(point, 28.0f, 6, 0.62f, 1.0f, SEED_MUD);
     float tone = 1.0f + 0.16f * clampf(sheets.value, -1.3f, 1.3f);
-    float wet = smoothstepf(0.75f, 0.95f, damp + 0.04f * sheets.value);
-    Ground g = {.color = vec3_scale(color, tone * (1.0f - 0.4f * wet))};
+    float wet = smoothstepf(0.55f, 1.0f, damp + 0.04f * sheets.value);
+    Ground g = {.color = vec3_scale(color, tone * (1.0f - 0.22f * wet))};
     g.slope = vec3_scale(sheets.slope, 0.05f);
     return g;
 }
@@ -25,10 +25,10 @@ static Ground mud(const SurfacePoint *point, Vec3 color, float damp)
 // Beds of reeds, rushes and cattail, each of one tone, with last year's straw between them.
 static Ground reeds(const SurfacePoint *point, float broad)
 {
-    PatternOctaves beds = pattern_octaves(point, 42.0f, 6, 0.62f, 1.0f, SEED_SWARD + 30);
+    PatternOctaves beds = pattern_octaves(point, 90.0f, 7, 0.62f, 1.0f, SEED_SWARD + 30);
     PatternOctaves tufts = pattern_octaves(point, 3.0f, 4, 0.7f, 0.8f, SEED_SWARD + 39);
-    Vec3 green = {0.078f, 0.098f, 0.024f}, fresh = {0.118f, 0.132f, 0.034f};
-    Vec3 straw = {0.165f, 0.134f, 0.062f};
+    Vec3 green = {0.062f, 0.076f, 0.026f}, fresh = {0.086f, 0.096f, 0.034f};
+    Vec3 straw = {0.132f, 0.108f, 0.056f};
     Ground g = {.color = vec3_lerp(green, fresh, smoothstepf(-0.3f, 0.3f, beds.value))};
     g.color = vec3_lerp(g.color, straw, 0.8f * smoothstepf(0.15f, 0.6f, beds.value + 0.5f * broad));
     g.color = vec3_scale(g.color, 1.0f + 0.20f * clampf(tufts.value, -1.3f, 1.3f));
@@ -40,8 +40,8 @@ static Ground marsh(const Material *m, const SurfacePoint *point, float damp, fl
 {
     PatternOctaves sward = pattern_octaves(point, 24.0f, 6, 0.66f, 1.0f, SEED_SWARD);
     PatternOctaves tufts = pattern_octaves(point, 2.0f, 4, 0.7f, 0.8f, SEED_SWARD + 9);
-    Vec3 olive = {0.098f, 0.090f, 0.036f}, brown = {0.110f, 0.082f, 0.046f};
-    float t = 0.5f * sward.value + 0.7f * broad;
+    Vec3 olive = {0.108f, 0.096f, 0.038f}, brown = {0.110f, 0.082f, 0.046f};
+    float t = 0.6f * sward.value + 1.1f * broad;
     Ground g = {.color = vec3_lerp(m->color2, olive, smoothstepf(-0.3f, 0.4f, t))};
     g.color = vec3_lerp(g.color, brown, 0.7f * smoothstepf(0.3f, 0.8f, t + 0.5f * damp - 0.25f));
     g.color = vec3_scale(g.color, 1.0f + 0.14f * clampf(sward.value, -1.3f, 1.3f) +
@@ -59,6 +59,13 @@ static Ground willows(const Material *m, const SurfacePoint *point)
     return g;
 }
 
+// Meadows, dry and fresh, and woods between them.
+static Ground old_land(const Material *m, const SurfacePoint *point, float broad, float patch)
+{
+    Ground g = marsh(m, point, 0.2f, 0.8f * broad + 0.2f), wood = willows(m, point);
+    return ground_blend(g, &wood, smoothstepf(0.02f, 0.14f, patch - 0.35f * broad));
+}
+
 void pattern_delta(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     float age = point->site.x, damp = point->site.y;
@@ -67,15 +74,15 @@ void pattern_delta(const Material *m, const SurfacePoint *point, PatternShade *s
     float ragged = damp + 0.06f * patch;
     Ground ground = mud(point, shade->color, damp), over;
     // What has lain bare a while is green.
-    float grown = smoothstepf(0.02f, 0.10f, age + 0.03f * patch);
+    float grown = smoothstepf(0.005f, 0.05f, age + 0.02f * patch);
     over = reeds(point, broad);
     ground = ground_blend(ground, &over, grown * smoothstepf(0.985f, 0.90f, ragged));
     over = marsh(m, point, damp, broad);
     ground = ground_blend(ground, &over, grown * smoothstepf(0.78f, 0.62f, ragged + 0.10f * broad));
     over = willows(m, point);
-    float old = smoothstepf(0.2f, 0.4f, age + 0.1f * broad);
-    ground = ground_blend(ground, &over, old * smoothstepf(0.46f, 0.34f, ragged));
-    over = marsh(m, point, 0.2f, 0.6f * broad + 0.3f);
+    float old = smoothstepf(0.03f, 0.12f, age + 0.05f * broad);
+    ground = ground_blend(ground, &over, old * smoothstepf(0.56f, 0.42f, ragged));
+    over = old_land(m, point, broad, patch);
     ground = ground_blend(ground, &over, smoothstepf(0.85f, 0.97f, age + 0.04f * patch));
     shade->color = ground.color;
     shade->normal = pattern_tilt(shade->normal, vec3_scale(ground.slope, m->pattern_depth));
@@ -104,7 +111,7 @@ void pattern_silt(const Material *m, const SurfacePoint *point, PatternShade *sh
     Vec3 body = body_color(shade->color, m->color2, load);
     body = vec3_scale(body, 1.0f + 0.07f * clampf(fine.value, -1.0f, 1.0f));
     float clear = 0.35f + 1.3f * (1.0f - load) * (1.0f - load); // m: depth that dims the bed to 1/e
-    Vec3 bed = vec3_lerp(vec3(0.150f, 0.122f, 0.074f), vec3(0.080f, 0.082f, 0.036f),
+    Vec3 bed = vec3_lerp(vec3(0.118f, 0.097f, 0.062f), vec3(0.076f, 0.074f, 0.038f),
                          smoothstepf(-0.3f, 0.4f, drift.value + 0.4f * fine.value));
     float seen = expf(-depth / clear);
     shade->color = vec3_lerp(body, bed, 0.8f * seen);
