@@ -306,6 +306,7 @@ still mountains mountains
 still badlands badlands
 still canyon canyon
 still alps alps
+still tarn tarn
 still alpine-valley alpine-valley
 still volcano volcano
 still hills hills
