@@ -196,10 +196,10 @@ static const Case scenes[] = {
      "river "
      "must be at least a cell wide"},
     {"objects: [{name: a, terrain: {lakes: {count: 3}, water_level: 0.1}}]\n",
-     ":1:47: objects.a.terrain.lakes.count is 3, and water_level 0.1; land has lakes at their own "
+     ":1:46: objects.a.terrain.lakes.count is 3, and water_level 0.1; land has lakes at their own "
      "levels or one water level"},
     {"objects: [{name: a, terrain: {form: dunes, lakes: {count: 3}}}]\n",
-     ":1:60: objects.a.terrain.lakes.count is 3; forms braided, meander, dunes and coast have no "
+     ":1:59: objects.a.terrain.lakes.count is 3; forms braided, meander, dunes and coast have no "
      "lakes"},
     {"objects: [{name: a, terrain: {lakes: {altitude: [0.7, 0.4]}}}]\n",
      ":1:49: objects.a.terrain.lakes.altitude is [0.7, 0.4]; the first must not exceed the second"},

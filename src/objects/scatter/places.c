@@ -38,7 +38,7 @@ typedef struct Search {
     Where where;                 // maps that places are chosen by
     const HeightField *wet; // the land that tells where its water is; NULL = unknown, or conditions
                             // on the water's depth decide
-    float shares;                // of all things
+    float shares;           // of all things
     uint64_t seed;
 } Search;
 

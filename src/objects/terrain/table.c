@@ -439,8 +439,7 @@ static bool check_lakes(const Mapping *mapping, void *params)
 {
     const TerrainLakeParams *lakes = params;
     return lakes->altitude[0] <= lakes->altitude[1] ||
-           mapping_fail(mapping, "altitude",
-                        " is [%g, %g]; the first must not exceed the second",
+           mapping_fail(mapping, "altitude", " is [%g, %g]; the first must not exceed the second",
                         (double)lakes->altitude[0], (double)lakes->altitude[1]);
 }
 
