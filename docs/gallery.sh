@@ -307,6 +307,7 @@ still badlands badlands
 still canyon canyon
 still alps alps
 still waterfall waterfall
+still tarn tarn
 still alpine-valley alpine-valley
 still volcano volcano
 still hills hills

@@ -334,7 +334,7 @@ static const struct {
     [HEIGHT_MAP_WATER_DEPTH] =
         {"water-depth", .record = fill_water_depth,
          .needs =
-             "a terrain with water_level, with rivers wider than 1.2 cells, or of form braided "
+             "a terrain with water_level or lakes, with rivers wider than 1.2 cells, or of form braided "
              "or meander"},
     [HEIGHT_MAP_SUN_HOURS] = {"sun-hours"}};
 

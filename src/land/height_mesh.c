@@ -162,8 +162,7 @@ static Mesh *make_mesh(const Mesher *m, Error *e)
 {
     const HeightField *field = m->field;
     int arrays = MESH_NORMAL | MESH_UV | MESH_SITE | (field->water ? MESH_SHORE_ARRAY : 0);
-    Mesh *mesh =
-        mesh_new(3, m->vertex_count, m->index_count / 3, arrays, e);
+    Mesh *mesh = mesh_new(3, m->vertex_count, m->index_count / 3, arrays, e);
     if (!mesh) {
         return NULL;
     }

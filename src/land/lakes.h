@@ -11,7 +11,7 @@ typedef struct Lake {
     int64_t samples;         // under water
     double volume;           // m^3
     int columns[2], rows[2]; // of the samples under water: the first and the last
-    int32_t outlet;          // the sample over which it spills: the highest of the lowest way to the rim
+    int32_t outlet; // the sample over which it spills: the highest of the lowest way to the rim
 } Lake;
 
 typedef struct Lakes {

@@ -1,8 +1,8 @@
 // Lakes of terrains: level to the bit at the height of their outlets, shores that slope, basins of
 // the wanted size, rivers that run through, water that meets the land.
+#include "land/height_drainage.h"
 #include "making_terrain.h"
 #include "objects/terrain/lakes.h"
-#include "land/height_drainage.h"
 
 #include <math.h>
 #include <string.h>
@@ -79,8 +79,7 @@ static bool is_far(const HeightField *field, const Lakes *lakes, int64_t i, int 
     for (int r = row - cells; r <= row + cells; r++) {
         for (int c = column - cells; c <= column + cells; c++) {
             bool within = c >= 0 && r >= 0 && c < field->columns && r < field->rows;
-            if (within &&
-                lakes->label[(int64_t)r * field->columns + c] != lakes->label[i]) {
+            if (within && lakes->label[(int64_t)r * field->columns + c] != lakes->label[i]) {
                 return false;
             }
         }

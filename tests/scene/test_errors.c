@@ -205,6 +205,14 @@ static const Case scenes[] = {
     {"objects: [{name: a, terrain: {form: delta, size: 8000, delta: {width: 100}}}]\n",
      ":1:71: objects.a.terrain.delta.width is 100 m; in a terrain of 8000 m a river that builds a "
      "delta is 125 to 500 m wide"},
+    {"objects: [{name: a, terrain: {lakes: {count: 3}, water_level: 0.1}}]\n",
+     ":1:46: objects.a.terrain.lakes.count is 3, and water_level 0.1; land has lakes at their own "
+     "levels or one water level"},
+    {"objects: [{name: a, terrain: {form: dunes, lakes: {count: 3}}}]\n",
+     ":1:59: objects.a.terrain.lakes.count is 3; forms braided, meander, dunes and coast have no "
+     "lakes"},
+    {"objects: [{name: a, terrain: {lakes: {altitude: [0.7, 0.4]}}}]\n",
+     ":1:49: objects.a.terrain.lakes.altitude is [0.7, 0.4]; the first must not exceed the second"},
     {"objects: [{name: a, terrain: {form: map}}]\n",
      ":1:30: objects.a.terrain.map.image is missing; form: map needs an image"},
     {"objects: [{name: a, terrain: {ridges: {lift: [{distance: 0, height: 1}, {distance: 0, "

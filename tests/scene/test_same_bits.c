@@ -74,6 +74,12 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"terrain: {size: 1500, relief: 400, resolution: 128, rivers: {count: 60, water: 0.02}, "
          "terraces: {count: 6, strength: 1, sheer: 1}}",
          0x2d55af80df3e1305},
+        {"terrain: {resolution: 64, size: 4000, rivers: {count: 100, water: 0.03}, lakes: {count: "
+         "5, "
+         "basins: 3}}",
+         0xae7e0c4976a65708},
+        {"terrain: {resolution: 64, size: 6000, form: alps, lakes: {count: 9, silt: 0.2}}",
+         0x84805e0ad4996c8a},
         {"terrain: {resolution: 64, form: ridges, ridges: {count: 200}}", 0x5986ae362203d199},
         {"terrain: {resolution: 64, form: noise}", 0x3f387f552d79754c},
         {"terrain: {resolution: 64, form: canyon}", 0x0aa8378ce838b12b},

@@ -36,7 +36,9 @@ typedef struct Search {
     double *area;                // m^2, of the surface's faces 0 .. i; NULL with the land
     PointHash *taken;            // NULL = places may be as near as they like
     Where where;                 // maps that places are chosen by
-    float shares;                // of all things
+    const HeightField *wet; // the land that tells where its water is; NULL = unknown, or conditions
+                            // on the water's depth decide
+    float shares;           // of all things
     uint64_t seed;
 } Search;
 
@@ -183,6 +185,19 @@ static bool within(float value, const float range[2])
     return value >= range[0] && value <= range[1];
 }
 
+// Is the place under the water of the land itself, a lake or a river?
+static bool is_under_water(const Search *s, Vec3 p)
+{
+    const HeightField *land = s->wet;
+    if (!land) {
+        return false;
+    }
+    float u = (p.x - land->origin.x) / land->cell.x, v = (p.z - land->origin.y) / land->cell.y;
+    int64_t column = (int64_t)(clampf(u, 0.0f, (float)(land->columns - 1)) + 0.5f);
+    int64_t row = (int64_t)(clampf(v, 0.0f, (float)(land->rows - 1)) + 0.5f);
+    return p.y < land->water[row * land->columns + column];
+}
+
 static bool is_allowed(const Search *s, const Spot *spot)
 {
     const ScatteringParams *params = s->params;
@@ -191,7 +206,8 @@ static bool is_allowed(const Search *s, const Spot *spot)
     bool near = !s->surface || (distance >= params->inner &&
                                 (params->radius == 0.0f || distance <= params->radius));
     return near && within(slope, params->slope) && within(spot->p.y, params->altitude) &&
-           flood_covers(s->around->flood, spot->p) == params->in_water &&
+           (flood_covers(s->around->flood, spot->p) || is_under_water(s, spot->p)) ==
+               params->in_water &&
            random_unit(random_key(spot->key, STREAM_WHERE)) < where_share(&s->where, spot->p);
 }
 
@@ -278,6 +294,17 @@ static bool draw_maps(Search *s, const Recipe *recipe, Error *e)
     return done;
 }
 
+// The land whose water places keep out of, or in.
+static const HeightField *find_wet(const ScatteringParams *params, const HeightField *land)
+{
+    for (int i = 0; i < params->where_count; i++) {
+        if (params->where[i].map == HEIGHT_MAP_WATER_DEPTH) {
+            return NULL;
+        }
+    }
+    return land && land->water ? land : NULL;
+}
+
 // ---- all of them
 
 static bool search_begin(Search *s, const Recipe *recipe, Error *e)
@@ -326,6 +353,7 @@ bool scatter_places_init(ScatterPlaces *places, const ScatteringParams *params,
     *places = (ScatterPlaces){0};
     Search s = {
         .params = params, .around = around, .surface = recipe->surface, .seed = recipe->seed};
+    s.wet = find_wet(params, recipe->land);
     places->place = memory_alloc(params->count, sizeof *places->place, e);
     places->thing = places->place ? memory_alloc(params->count, sizeof *places->thing, e) : NULL;
     bool done = places->thing && search_begin(&s, recipe, e) && search(&s, places, recipe->run, e);

@@ -98,7 +98,8 @@ static const Key SCATTER_KEYS[] = {
     {KEY_OF(ScatteringParams, sink, "sink", KEY_FLOAT), .low = -1000, .high = 1000, .unit = "m",
      .doc = "Depth of the origin below the surface, for a copy of scale 1."},
     {KEY_OF(ScatteringParams, in_water, "in_water", KEY_BOOL),
-     .doc = "Stand in water, as reeds do, instead of outside of it."},
+     .doc = "Stand in water, as reeds do, instead of outside of it; water is that of other objects "
+            "and the lakes and rivers of the land. A condition on water-depth decides alone."},
     {KEY_OF(ScatteringParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
      .doc = "Number of different individuals of each thing; all others are copies of them."},
     {0},

@@ -183,7 +183,8 @@ Landscape *terrain_evolve_alps(Terrain *terrain, const Run *run, Error *e)
             land->strata = terrain->strata;
             landscape_lay_stack(land);
         }
-        bool done = cells != ICE_CELLS || (wear_by_ice(&r, land, run, e) && fill_basins(land, filled, e));
+        bool done =
+            cells != ICE_CELLS || (wear_by_ice(&r, land, run, e) && fill_basins(land, filled, e));
         done = done && (cells < ICE_CELLS || weather(&r, land, share, run, e));
         if (done && cells >= last) {
             return land;

@@ -1,6 +1,6 @@
-// Basins as glaciers leave them: dug into the flattest ground above a sill, the largest first. Areas
-// follow the rank-size rule of lakes (Downing et al. 2006: an area is exceeded by a number of lakes
-// in inverse proportion to it), mean depths that of mountain lakes, 0.104 m (area / m^2)^0.42
+// Basins as glaciers leave them: dug into the flattest ground above a sill, the largest first.
+// Areas follow the rank-size rule of lakes (Downing et al. 2006: an area is exceeded by a number of
+// lakes in inverse proportion to it), mean depths that of mountain lakes, 0.104 m (area / m^2)^0.42
 // (Huggel et al. 2002). Sites are looked for on a coarse grid, so that they do not depend on the
 // resolution.
 #include "base/exact_math.h"
@@ -107,8 +107,8 @@ static bool find_site(Digging *d, int64_t cells, int32_t *best, Error *e)
         if (!gather(d, i, cells, &rise, e)) {
             return false;
         }
-        float cost = rise < INFINITY ? (rise + 0.02f * d->coarse->cell.x) * stretch(d, cells)
-                                     : INFINITY;
+        float cost =
+            rise < INFINITY ? (rise + 0.02f * d->coarse->cell.x) * stretch(d, cells) : INFINITY;
         if (cost < least) {
             least = cost;
             *best = i;
@@ -334,7 +334,8 @@ bool terrain_dig_basins(const Terrain *terrain, HeightField *field, const Run *r
         height_field_range(d.coarse, &d.low, &d.high);
     }
     bool done = d.coarse && height_field_fill(d.coarse, 0.0f, e) &&
-                (d.drainage = drainage_new(d.coarse, e)) && list_donors(&d, e), found = true;
+                (d.drainage = drainage_new(d.coarse, e)) && list_donors(&d, e),
+         found = true;
     for (int i = 0; done && found && i < d.params.basins; i++) {
         run_progress(run, "lakes", (double)i / d.params.basins);
         done = dig_number(&d, i, field, &found, e);

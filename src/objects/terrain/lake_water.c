@@ -1,6 +1,6 @@
 // The water of lakes: cell by cell where a corner is under water, all at one level. No corner of
-// such a cell lies below the level beside the lake, or the water would leave there, so the shoreline
-// is where the land's own mesh rises through the surface.
+// such a cell lies below the level beside the lake, or the water would leave there, so the
+// shoreline is where the land's own mesh rises through the surface.
 #include "base/memory.h"
 #include "objects/terrain/lakes.h"
 
@@ -14,7 +14,8 @@ typedef struct LakeMesher {
     int64_t vertices, faces;
 } LakeMesher;
 
-// The lake of a cell, by its first wet corner; -1 = it is dry. Corners counter-clockwise from above.
+// The lake of a cell, by its first wet corner; -1 = it is dry. Corners counter-clockwise from
+// above.
 static int32_t lake_of(const LakeMesher *m, int64_t cell, int64_t corner[4])
 {
     const HeightField *field = m->field;

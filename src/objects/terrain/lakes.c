@@ -47,8 +47,7 @@ static void forget_lakes(Terrain *terrain)
 static bool find_and_cover(Terrain *terrain, HeightField *field, int count, Error *e)
 {
     TerrainLakeParams own = terrain_lake_params(terrain->params);
-    LakeLimits limits = {
-        .count = count, .area = (double)own.area, .depth = (double)own.depth};
+    LakeLimits limits = {.count = count, .area = (double)own.area, .depth = (double)own.depth};
     terrain->lakes = lakes_find(field, &limits, e);
     terrain->lake_depth = memory_alloc(height_field_count(field), sizeof *terrain->lake_depth, e);
     if (!terrain->lakes || !terrain->lake_depth) {

@@ -201,8 +201,7 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
     return make_terraces(field, &params->terraces, seed, e) &&
            terrain_find_lakes(terrain, field, run, e) &&
            (!form->finish || form->finish(terrain, field, run, e)) &&
-           terrain_uncover_lakes(terrain, field, e) &&
-           terrain_record_water(terrain, field, run, e);
+           terrain_uncover_lakes(terrain, field, e) && terrain_record_water(terrain, field, run, e);
 }
 
 HeightField *terrain_heights(const void *given, const Grown *grown, const Run *run, Error *e)

@@ -241,7 +241,8 @@ bool terrain_add_water(const Terrain *terrain, const HeightField *field, const P
 {
     const TerrainParams *params = terrain->params;
     if (params->water_level > 0.0f) {
-        Sheet lake = {field, terrain_water_height(params, field), params->mesh_error * params->size};
+        Sheet lake = {field, terrain_water_height(params, field),
+                      params->mesh_error * params->size};
         Part part = {.mesh = lake_mesh(&lake, params->position, e)};
         if (!placing_add(placing, part, TERRAIN_WATER, e)) {
             return false;
@@ -252,5 +253,5 @@ bool terrain_add_water(const Terrain *terrain, const HeightField *field, const P
     }
     return terrain_add_lakes(terrain, field, placing, e) &&
            (!terrain->water || (add_rivers(terrain, field, placing, e) &&
-                               terrain_add_falls(terrain, field, placing, e)));
+                                terrain_add_falls(terrain, field, placing, e)));
 }

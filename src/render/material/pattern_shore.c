@@ -45,7 +45,8 @@ static Ground stones(const SurfacePoint *point, Vec3 rock)
 static Ground silt(const SurfacePoint *point, Vec3 rock)
 {
     PatternOctaves drift = pattern_octaves(point, 2.5f, 5, 0.6f, 1.0f, SEED_SILT);
-    Vec3 color = vec3_lerp(vec3_mul(rock, vec3(0.95f, 0.90f, 0.72f)), vec3(0.16f, 0.15f, 0.10f), 0.4f);
+    Vec3 color =
+        vec3_lerp(vec3_mul(rock, vec3(0.95f, 0.90f, 0.72f)), vec3(0.16f, 0.15f, 0.10f), 0.4f);
     return (Ground){vec3_scale(color, 1.0f + 0.22f * clampf(drift.value, -1.3f, 1.3f)),
                     vec3_scale(drift.slope, 0.02f)};
 }

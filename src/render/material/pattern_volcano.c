@@ -2,8 +2,8 @@
 // (HeightField.ground): positive = lava by its freshness, negative = red scoria, 0 = tephra.
 #include "render/material/pattern.h"
 #include "render/material/pattern_mix.h"
-#include "render/material/pattern_shore.h"
 #include "render/material/pattern_noise.h"
+#include "render/material/pattern_shore.h"
 
 // Noise that several kinds of ground share.
 typedef struct Fray {
