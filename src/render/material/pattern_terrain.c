@@ -131,7 +131,7 @@ static float mountain_scale(const Material *m)
 
 #define MOUNTAIN_BLOCKS 0.22f // relative to the scale
 #define MOUNTAIN_BEDS 0.55f
-#define ALPS_BLOCKS 1.3f
+#define ALPS_BLOCKS 0.85f
 #define ALPS_BEDS 1.1f
 
 float pattern_mountain_blocks(const Material *m)
