@@ -20,7 +20,7 @@ enum { SEED_WARP = 201, SEED_BLOCKS = 251, SEED_STREAKS = 281 };
 #define WIDEST_CRACK 0.2f
 #define WIDEST_CORNER 4.0f
 
-#define RAISED 0.4f // of displacement: overhangs would fold
+#define RAISED 0.25f // of displacement: more would fold at the land's edges
 
 enum { BED, JOINT_A, JOINT_B, SETS };
 
@@ -255,7 +255,9 @@ Crags pattern_crags(const SurfacePoint *point, const CragsRock *rock)
 
 Vec3 crags_normal(const SurfacePoint *point, Vec3 n, Vec3 slope)
 {
-    return pattern_tilt(vec3_lerp(n, surface_smooth_normal(point), point->displaced), slope);
+    Vec3 smooth = surface_smooth_normal(point);
+    float alike = smoothstepf(0.3f, 0.7f, vec3_dot(n, smooth)); // not where the mesh is folded
+    return pattern_tilt(vec3_normalize(vec3_lerp(n, smooth, alike * point->displaced)), slope);
 }
 
 float pattern_streaks(const SurfacePoint *point, float size)
