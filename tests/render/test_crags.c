@@ -139,6 +139,9 @@ static void rock_is_displaced_where_asked(void **state)
             high = fmaxf(high, height);
             point.smooth_normal = vec3(0, 1, 0); // scree and soil keep the land's shape
             assert_true(pattern_height(&m, &point) == 0.0f);
+            Vec3 n = vec3_normalize(vec3_sub(random_point(k), random_point(k + PLACES)));
+            point.smooth_normal = n; // what is spared is not displaced
+            assert_true(!relief_spares(&m, n, n) || pattern_height(&m, &point) == 0.0f);
         }
         assert_true(high - low > size && high - low < 3.0f * size);
     }

@@ -69,6 +69,9 @@ static float longest_edge(const void *user, const DicePoint *a, const DicePoint 
 {
     const ReliefRule *rule = user;
     const Views *views = rule->view->views;
+    if (relief_spares(rule->material, a->normal, b->normal)) {
+        return INFINITY;
+    }
     Vec3 middle = vec3_scale(vec3_add(a->position, b->position), 0.5f);
     float size = relief_size(rule->material, fmaxf(a->radius, b->radius));
     float reach = 0.5f * vec3_distance(a->position, b->position);

@@ -141,7 +141,7 @@ float pattern_height(const Material *m, const SurfacePoint *point)
 
 float pattern_height_size(const Material *m)
 {
-    const float faces = 0.15f; // of the size of their blocks
+    const float faces = 0.1f; // of the size of their blocks
     switch (m->pattern) {
     case PATTERN_MOUNTAIN:
         return faces * pattern_mountain_blocks(m) * m->pattern_depth;

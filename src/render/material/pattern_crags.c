@@ -12,11 +12,15 @@ enum { SEED_WARP = 201, SEED_BLOCKS = 251, SEED_STREAKS = 281 };
 // Relative to the size of the blocks.
 #define STANDS_OUT 0.17f // of one block against another, at most
 #define BEVEL 0.035f     // half the width of a step's face
-#define CRACK 0.018f     // half the width of a crack, which is at most
-#define WIDEST 0.2f      // m
+#define CRACK 0.018f     // half the width of a crack
 #define CORNER 0.16f     // reach of the shade in a corner
 
-#define RAISED 0.4f // of displacement: overhangs would fold
+// m: at most, of these
+#define WIDEST_BEVEL 1.2f
+#define WIDEST_CRACK 0.2f
+#define WIDEST_CORNER 4.0f
+
+#define RAISED 0.25f // of displacement: more would fold at the land's edges
 
 enum { BED, JOINT_A, JOINT_B, SETS };
 
@@ -28,7 +32,7 @@ typedef struct Interval {
 
 // One scale of blocks at a place; lengths relative to their size.
 typedef struct Blocks {
-    float thick, crack;
+    float thick, bevel, crack, corner;
     float pixel;          // footprint
     float place[SETS];    // coordinates: across the beds and each set of joints
     Interval about[SETS]; // the block there
@@ -148,21 +152,21 @@ static void add_border(const Blocks *b, int set, const Plane *own, Relief *r)
     float unit = set == BED ? b->thick : 1.0f;
     bool up = about->high < about->low;
     float away = unit * (up ? about->high : about->low);
-    if (away > fmaxf(CORNER, b->pixel)) {
+    if (away > fmaxf(b->corner, b->pixel)) {
         return;
     }
     Plane next = neighbour(b, set, up);
     float step = next.height - own->height;
-    float bevel = fmaxf(BEVEL, 0.6f * b->pixel), t = fminf(away / bevel, 1.0f);
+    float bevel = fmaxf(b->bevel, 0.6f * b->pixel), t = fminf(away / bevel, 1.0f);
     float share = 0.5f * (1.0f - t) * (1.0f - t);
     r->height += share * step;
     r->slope[set] += (up ? 1.0f : -1.0f) * step * (1.0f - t) / bevel;
     float crack = fmaxf(b->crack, 0.6f * b->pixel), open = noise_unit(own->hash ^ next.hash, 11);
     float dark = open * open * b->crack / crack * (1.0f - smoothstepf(0.3f, 1.0f, away / crack));
-    float corner = clampf(4.0f * step, 0.0f, 1.0f) * (1.0f - smoothstepf(0.0f, CORNER, away));
+    float corner = clampf(4.0f * step, 0.0f, 1.0f) * (1.0f - smoothstepf(0.0f, b->corner, away));
     r->crevice = fmaxf(r->crevice, fmaxf(dark, 0.6f * corner));
     if (set == BED && !up) {
-        float reach = fmaxf(fminf(2.0f * step, CORNER), 1e-3f);
+        float reach = fmaxf(fminf(2.0f * step, b->corner), 1e-3f);
         float on = clampf(8.0f * step - 0.3f, 0.0f, 1.0f);
         r->ledge = fmaxf(r->ledge, on * (1.0f - smoothstepf(0.4f, 1.0f, away / reach)));
     }
@@ -225,7 +229,9 @@ Crags pattern_crags(const SurfacePoint *point, const CragsRock *rock)
         Vec3 bend = bent(p, seed, &broken), across[SETS];
         set_directions(rock->up, k, across);
         Blocks blocks = {.thick = rock->thick,
-                         .crack = fminf(CRACK, WIDEST / size),
+                         .bevel = fminf(BEVEL, WIDEST_BEVEL / size),
+                         .crack = fminf(CRACK, WIDEST_CRACK / size),
+                         .corner = fminf(CORNER, WIDEST_CORNER / size),
                          .pixel = point->footprint / size,
                          .seed = SEED_BLOCKS + 31u * (uint32_t)k};
         blocks.place[BED] = rock->level / size + 0.6f * vec3_dot(bend, rock->up) * rock->thick;
@@ -249,7 +255,9 @@ Crags pattern_crags(const SurfacePoint *point, const CragsRock *rock)
 
 Vec3 crags_normal(const SurfacePoint *point, Vec3 n, Vec3 slope)
 {
-    return pattern_tilt(vec3_lerp(n, surface_smooth_normal(point), point->displaced), slope);
+    Vec3 smooth = surface_smooth_normal(point);
+    float alike = smoothstepf(0.3f, 0.7f, vec3_dot(n, smooth)); // not where the mesh is folded
+    return pattern_tilt(vec3_normalize(vec3_lerp(n, smooth, alike * point->displaced)), slope);
 }
 
 float pattern_streaks(const SurfacePoint *point, float size)

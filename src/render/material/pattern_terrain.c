@@ -66,9 +66,9 @@ static Face rock(const Material *m, const SurfacePoint *point, Vec3 color, float
     float bed = face.level + 0.02f * size * grain.value;
     float laminae = 0.6f * pattern_lamina(bed, 1.3f * size, point->footprint, 0.9f, 7) +
                     0.4f * pattern_lamina(bed, 0.21f * size, point->footprint, 0.8f, 9) - 0.5f;
-    float tone = 0.5f + 0.9f * laminae + 0.16f * crags->tone + 0.12f * grain.value;
+    float tone = 0.5f + 0.9f * laminae + 0.22f * crags->tone + 0.12f * grain.value;
     f.ground.color = vec3_lerp(color, m->color2, clampf(tone, 0.0f, 1.0f));
-    float light = (1.0f + 0.13f * crags->tone + 0.12f * clampf(grain.value, -1.2f, 1.2f)) *
+    float light = (1.0f + 0.16f * crags->tone + 0.12f * clampf(grain.value, -1.2f, 1.2f)) *
                   (1.0f - 0.7f * crags->crevice);
     f.ground.color = vec3_scale(f.ground.color, clampf(light, 0.2f, 1.6f));
     f.ground.slope = vec3_madd(vec3_scale(crags->slope, 0.9f), 0.012f * size, grain.slope);
@@ -132,7 +132,7 @@ static float mountain_scale(const Material *m)
 
 #define MOUNTAIN_BLOCKS 0.22f // relative to the scale
 #define MOUNTAIN_BEDS 0.55f
-#define ALPS_BLOCKS 1.3f
+#define ALPS_BLOCKS 0.85f
 #define ALPS_BEDS 1.1f
 
 float pattern_mountain_blocks(const Material *m)

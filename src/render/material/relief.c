@@ -7,13 +7,18 @@
 
 #include <string.h>
 
+// Patterns of land whose steep places are rock.
+static bool shows_faces(const Material *m)
+{
+    return m->pattern == PATTERN_MOUNTAIN || m->pattern == PATTERN_ALPS ||
+           m->pattern == PATTERN_COAST || m->pattern == PATTERN_KARST;
+}
+
 static bool displaces_pattern(const Material *m)
 {
     return m->pattern == PATTERN_BARK || m->pattern == PATTERN_STONE ||
            m->pattern == PATTERN_MASONRY ||
-           ((m->pattern == PATTERN_NOISE || m->pattern == PATTERN_STRATA ||
-             m->pattern == PATTERN_MOUNTAIN || m->pattern == PATTERN_ALPS ||
-             m->pattern == PATTERN_COAST || m->pattern == PATTERN_KARST) &&
+           ((m->pattern == PATTERN_NOISE || m->pattern == PATTERN_STRATA || shows_faces(m)) &&
             m->displacement == DISPLACEMENT_ON);
 }
 
@@ -37,6 +42,12 @@ float relief_size(const Material *m, float radius)
     float map = has_map(m) ? m->displacement_depth : 0.0f;
     float form = m->pattern == PATTERN_BARK ? bark_form_size(m, radius) : 0.0f;
     return map + (displaces_pattern(m) ? pattern_height_size(m) + form : 0.0f);
+}
+
+bool relief_spares(const Material *m, Vec3 a, Vec3 b)
+{
+    const float level = 0.92f; // pattern_height is 0 there
+    return shows_faces(m) && !has_map(m) && fminf(fabsf(a.y), fabsf(b.y)) > level;
 }
 
 float relief_height(const MaterialSet *set, const SurfacePoint *point)

@@ -8,6 +8,9 @@
 // this radius (0 = no stem); 0 = nothing is displaced.
 float relief_size(const Material *material, float radius);
 
+// Is the surface between two points of these normals left as it is, whatever the relief's size?
+bool relief_spares(const Material *material, Vec3 normal_a, Vec3 normal_b);
+
 // m along the normal, at point->object_position with point->footprint.
 float relief_height(const MaterialSet *set, const SurfacePoint *point);
 
