@@ -9,7 +9,7 @@
 // The sample that is found at index i beyond the rim.
 static int folded(const HeightField *field, int i, int count)
 {
-    int cells = count - 1;
+    int cells = count > 1 ? count - 1 : 1;
     if (field->periodic) {
         i %= cells;
         return i < 0 ? i + cells : i;

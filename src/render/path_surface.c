@@ -162,6 +162,7 @@ void path_note_behind(Path *path, const Hit *hit)
         path->clear *= path_see_past_clouds(path, hit->t, &path->veil_normal);
     }
     if (accel_light(tracer->accel, hit) >= 0) {
+        path->result->normal = path->veil_normal; // a lamp in a cloud leaves no mark in it
         return;
     }
     SurfacePoint point;

@@ -83,7 +83,7 @@ static const Case scenes[] = {
      ":2:26: key 'shelf' does not apply to clouds.0 of kind 'cumulus'; known: kind, base, "
      "thickness, cover, size, extinction, softness, wind, seed"},
     {TREE "clouds: [{kind: fog, over: b}]\n",
-     ":2:28: clouds.0.over: there is no object 'b'; known: a"},
+     ":2:28: clouds.0.over: there is no object 'b'; did you mean 'a'?"},
     {TREE "clouds: [{kind: fog, over: a}]\n",
      ":2:28: clouds.0.over: object 'a' is of the kind tree; it must be a terrain"},
     {TREE "sky: {kind: constant, turbidity: 3}\n",
