@@ -126,6 +126,30 @@ static void coarse_forms_keep_the_area_with_fewer_quads(void **state)
     }
 }
 
+// Wide needles close gaps: the error is at least half the distance of a coarse needle's sides,
+// whose quad begins and ends with one.
+static void coarse_needles_are_off_by_half_their_width(void **state)
+{
+    (void)state;
+    LeafParams form[MOST_FORMS];
+    for (int i = 0, n = all_forms(form); i < n; i++) {
+        for (int level = 0; form[i].shape == LEAF_NEEDLES && level < leaf_coarse_levels(&form[i]);
+             level++) {
+            float error = 0.0f, widest = 0.0f;
+            Mesh *mesh = leaf_mesh_coarse(&form[i], 7, level, &error, NULL);
+            assert_non_null(mesh);
+            for (int64_t f = 0; f < mesh->face_count; f++) {
+                const uint32_t *corner = mesh->index + 4 * f;
+                widest = fmaxf(widest,
+                               vec3_distance(mesh->position[corner[0]], mesh->position[corner[2]]));
+            }
+            assert_true(widest > 2.0f * form[i].width); // it is a coarse one
+            assert_true(error > 0.499f * widest);
+            mesh_free(mesh);
+        }
+    }
+}
+
 // A flat blade reaches from 0 to its length, and is as wide as asked for.
 static void blades_have_the_size_asked_for(void **state)
 {
@@ -313,6 +337,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_quad_is_without_area),
         cmocka_unit_test(coarse_forms_keep_the_area_with_fewer_quads),
+        cmocka_unit_test(coarse_needles_are_off_by_half_their_width),
         cmocka_unit_test(blades_have_the_size_asked_for),
         cmocka_unit_test(margins_are_widest_where_they_should_be),
         cmocka_unit_test(an_ovate_blade_has_the_area_of_its_outline),

@@ -91,6 +91,7 @@ static void leaves_drop(Part *leaves)
     free(leaves->instance);
     free(leaves->variation);
     free(leaves->season);
+    *leaves = (Part){0};
 }
 
 bool near_copies_leaves(const NearCopies *copies, const Part *part, Part *leaves, const Run *run,
