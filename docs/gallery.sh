@@ -306,7 +306,6 @@ still mountains mountains
 still badlands badlands
 still canyon canyon
 still alps alps
-still waterfall waterfall
 still tarn tarn
 still alpine-valley alpine-valley
 still volcano volcano

@@ -31,20 +31,13 @@ static Vec3 bed_color(const Strata *strata, float level)
 
 static CragsRock face_of(const SurfacePoint *point)
 {
-    Vec3 at = point->object_position;
-    float base = point->strata ? strata_base(point->strata, at.x, at.z) : 0.0f;
-    return (CragsRock){.size = COAST_BLOCKS,
-                       .thick = 0.5f,
-                       .scales = CRAGS_MOST,
-                       .up = vec3(0.0f, 1.0f, 0.0f),
-                       .level = at.y - base};
+    return crags_level(point, COAST_BLOCKS, 0.5f);
 }
 
 float pattern_coast_height(const Material *m, const SurfacePoint *point)
 {
     CragsRock face = face_of(point);
-    float steep = smoothstepf(0.9f, 0.7f, fabsf(point->smooth_normal.y));
-    return steep > 0.0f ? m->pattern_depth * steep * pattern_crags(point, &face).height : 0.0f;
+    return m->pattern_depth * crags_height(point, &face, 0.9f, 0.7f);
 }
 
 // ledges: the share of the place that soil on ledges takes.

@@ -1,5 +1,6 @@
 #include "render/material/pattern_crags.h"
 
+#include "base/strata.h"
 #include "render/material/pattern.h"
 #include "render/material/pattern_noise.h"
 
@@ -251,6 +252,23 @@ Crags pattern_crags(const SurfacePoint *point, const CragsRock *rock)
     }
     crags.tone = weight > 0.0f ? crags.tone / sqrtf(weight) : 0.0f;
     return crags;
+}
+
+CragsRock crags_level(const SurfacePoint *point, float size, float thick)
+{
+    Vec3 at = point->object_position;
+    float base = point->strata ? strata_base(point->strata, at.x, at.z) : 0.0f;
+    return (CragsRock){.size = size,
+                       .thick = thick,
+                       .scales = CRAGS_MOST,
+                       .up = vec3(0.0f, 1.0f, 0.0f),
+                       .level = at.y - base};
+}
+
+float crags_height(const SurfacePoint *point, const CragsRock *rock, float level, float steep)
+{
+    float share = smoothstepf(level, steep, fabsf(point->smooth_normal.y));
+    return share > 0.0f ? share * pattern_crags(point, rock).height : 0.0f;
 }
 
 Vec3 crags_normal(const SurfacePoint *point, Vec3 n, Vec3 slope)

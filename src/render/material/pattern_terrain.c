@@ -1,7 +1,6 @@
 // Mountains and badlands. Altitude and wetness at the point (SurfacePoint.site) and its slope
 // decide the type of ground, with borders frayed by noise of several scales. Each type has its own
 // colours and relief, down to the footprint of the pixel.
-#include "base/strata.h"
 #include "render/material/foam.h"
 #include "render/material/pattern.h"
 #include "render/material/pattern_crags.h"
@@ -38,12 +37,8 @@ static float bed_tone(float level, uint32_t seed)
 // folded.
 static CragsRock face_of(const SurfacePoint *point, float size, float thick)
 {
-    CragsRock face = {.size = size, .thick = thick, .scales = CRAGS_MOST};
-    if (point->strata) {
-        Vec3 at = point->object_position;
-        face.up = vec3(0.0f, 1.0f, 0.0f);
-        face.level = at.y - strata_base(point->strata, at.x, at.z);
-    } else {
+    CragsRock face = crags_level(point, size, thick);
+    if (!point->strata) {
         face.up = vec3(0.62f, 0.70f, 0.35f);
         face.level = bed_level(point, size, face.up) * size;
     }
@@ -121,8 +116,7 @@ static Ground snow(const SurfacePoint *point, float scale)
 static float face_height(const Material *m, const SurfacePoint *point, float size, float thick)
 {
     CragsRock face = face_of(point, size, thick);
-    float steep = smoothstepf(0.85f, 0.68f, fabsf(point->smooth_normal.y));
-    return steep > 0.0f ? m->pattern_depth * steep * pattern_crags(point, &face).height : 0.0f;
+    return m->pattern_depth * crags_height(point, &face, 0.85f, 0.68f);
 }
 
 static float mountain_scale(const Material *m)
