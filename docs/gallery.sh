@@ -220,7 +220,8 @@ still mesh-crown mesh-crown
 still forest forest
 if is_wanted figure-10; then
     for time in 0.2 0.45 0.62 0.8 0.9 1; do
-        panel oak --size 534x450 --denoise --samples 16 --set camera.fov=44 --set grow_to="$time"
+        panel oak --size 640x540 --denoise --samples 16 --set camera.fov=34 \
+            --set camera.target="[-1, 6, 0]" --set grow_to="$time"
     done
     sheet figure-10 3x2
 fi
