@@ -209,7 +209,8 @@ static const Case scenes[] = {
      ":1:46: objects.a.terrain.lakes.count is 3, and water_level 0.1; land has lakes at their own "
      "levels or one water level"},
     {"objects: [{name: a, terrain: {form: dunes, lakes: {count: 3}}}]\n",
-     ":1:59: objects.a.terrain.lakes.count is 3; forms braided, meander, dunes and coast have no "
+     ":1:59: objects.a.terrain.lakes.count is 3; forms braided, meander, delta, dunes and coast "
+     "have no "
      "lakes"},
     {"objects: [{name: a, terrain: {lakes: {altitude: [0.7, 0.4]}}}]\n",
      ":1:49: objects.a.terrain.lakes.altitude is [0.7, 0.4]; the first must not exceed the second"},
