@@ -133,8 +133,8 @@ void delta_find_out(Delta *d)
     for (int pass = 0; pass < 2; pass++) {
         double far = sqrt(reach) + sea;
         for (int64_t i = 0; i < delta_count(d); i++) {
-            double x = (double)(i % d->columns) - d->mouth[0];
-            double z = (double)(i / d->columns) - d->mouth[1], square = x * x + z * z;
+            double x = (double)delta_column(d, i) - d->mouth[0];
+            double z = (double)delta_row(d, i) - d->mouth[1], square = x * x + z * z;
             bool bed = d->kind[i] == DELTA_OPEN && d->bed[i] > d->sea + shoal && d->water[i] > 0.0;
             reach = pass == 0 && bed && square > reach ? square : reach;
             bool sails = d->kind[i] == DELTA_OPEN && square > far * far;
@@ -157,7 +157,7 @@ bool delta_begin(Delta *d, Error *e)
         return false;
     }
     for (int64_t i = 0; i < delta_count(d); i++) {
-        double x = (double)(i % d->columns) - mouth_x, z = (double)(i / d->columns) - mouth_z;
+        double x = (double)delta_column(d, i) - mouth_x, z = (double)delta_row(d, i) - mouth_z;
         double away = sqrt(x * x + z * z);
         bool open = d->kind[i] == DELTA_OPEN || d->kind[i] == DELTA_EDGE;
         double thin = 0.5 * d->inlets / fmax(away, 0.5 * d->inlets);

@@ -71,6 +71,16 @@ static inline int64_t delta_count(const Delta *d)
     return (int64_t)d->columns * d->rows;
 }
 
+static inline int64_t delta_row(const Delta *d, int64_t i)
+{
+    return i / d->columns;
+}
+
+static inline int64_t delta_column(const Delta *d, int64_t i)
+{
+    return i % d->columns;
+}
+
 // m^3 of ground above the height 0, negative below.
 double delta_volume(const Delta *d);
 

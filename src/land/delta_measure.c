@@ -41,8 +41,8 @@ static void measure_land(const Survey *s, DeltaMeasures *m)
             continue;
         }
         land++;
-        double x = (double)(i % d->columns) - s->d->mouth[0];
-        double z = (double)(i / d->columns) - s->d->mouth[1];
+        double x = (double)delta_column(d, i) - s->d->mouth[0];
+        double z = (double)delta_row(d, i) - s->d->mouth[1];
         reach = fmax(reach, x * x + z * z);
         const int64_t sides[] = {-1, 1, -d->columns, d->columns};
         for (int k = 0; k < 4; k++) { // open cells are inside of the border
@@ -103,14 +103,16 @@ static bool measure_hull(const Survey *s, double *area, Error *e)
     int64_t count = 0;
     double first, last;
     for (int k = 0; k < 2 * rows; k++) { // corners above and below each cell
-        if (row_ends(s, k / 2, &first, &last)) {
-            count = add_corner(hull, count, 0, (Corner){last, k / 2 - 0.5 + k % 2});
+        int row = k / 2;
+        if (row_ends(s, row, &first, &last)) {
+            count = add_corner(hull, count, 0, (Corner){last, row - 0.5 + k % 2});
         }
     }
     int64_t turned = count > 0 ? count - 1 : 0;
     for (int k = 2 * rows - 1; k >= 0; k--) {
-        if (row_ends(s, k / 2, &first, &last)) {
-            count = add_corner(hull, count, turned, (Corner){first, k / 2 - 0.5 + k % 2});
+        int row = k / 2;
+        if (row_ends(s, row, &first, &last)) {
+            count = add_corner(hull, count, turned, (Corner){first, row - 0.5 + k % 2});
         }
     }
     *area = 0.0;

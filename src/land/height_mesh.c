@@ -179,7 +179,7 @@ static Mesh *make_mesh(const Mesher *m, Error *e)
         float felt = field->climate ? field->climate[m->sample[i]] : (p.y - low) * scale;
         const float *second = field->ground ? field->ground : field->wetness;
         mesh->site[i] = (Vec2){felt, second ? second[m->sample[i]] : 0.0f};
-        if (mesh->shore) {
+        if (mesh->shore && field->water) {
             mesh->shore[i] = fmaxf(MESH_SHORE + field->water[m->sample[i]] - p.y, 0.0f);
         }
         if (field->age) {

@@ -62,7 +62,7 @@ static double river(const Ground *g, double row)
 static void lay_cell(const Ground *g, int64_t i)
 {
     Delta *d = g->d;
-    double column = (double)(i % d->columns) + 0.5, row = (double)(i / d->columns) + 0.5;
+    double column = (double)delta_column(d, i) + 0.5, row = (double)delta_row(d, i) + 0.5;
     double out = row - shore(g, column), depth = d->depth;
     double inside = fabs(column - river(g, row));
     bool trunk = inside <= 0.5 * g->wide;
